@@ -1,0 +1,243 @@
+//! Pixels and bins to millimetres and back: the only place where units convert.
+
+use glam::DVec2;
+use serde::Serialize;
+
+use crate::mesh::Bounds;
+
+/// Longest side of a mask in pixels.
+pub const MAX_SIDE: u32 = 1 << 15;
+/// Most pixels of a mask.
+pub const MAX_PIXELS: u64 = 1 << 28;
+/// Most bins of a profile.
+const MAX_BINS: f64 = 50_000_000.0;
+
+/// Lengths closer than this part of a bin are taken as equal, so that 0.05 mm is 25 bins of
+/// 0.002 mm although neither is a binary fraction.
+const BIN_SLACK: f64 = 1e-3;
+
+/// Why pixels or bins cannot be laid out.
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
+#[serde(untagged)]
+#[non_exhaustive]
+pub enum GridError {
+    /// A length that must be positive and finite is not.
+    #[error("{name} must be a positive number of millimetres, not {value_mm}")]
+    BadLength {
+        /// Name of the option.
+        name: &'static str,
+        /// Its value.
+        value_mm: f64,
+    },
+    /// No pixels, or more than masks can have.
+    #[error(
+        "a mask of {width} × {height} pixels is not possible: at least 1 × 1, at most 32768 a \
+         side and 268 million in all"
+    )]
+    BadSize {
+        /// Pixels in x.
+        width: u64,
+        /// Pixels in y.
+        height: u64,
+    },
+    /// The model is wider or deeper than the grid.
+    #[error(
+        "the model is {model_mm_x:.3} × {model_mm_y:.3} mm, but the grid covers only \
+         {grid_mm_x:.3} × {grid_mm_y:.3} mm; a scale of {fitting_scale:.4} fits"
+    )]
+    ModelTooLarge {
+        /// Extent of the model in x, in millimetres.
+        model_mm_x: f64,
+        /// Extent of the model in y, in millimetres.
+        model_mm_y: f64,
+        /// Extent of the grid in x, in millimetres.
+        grid_mm_x: f64,
+        /// Extent of the grid in y, in millimetres.
+        grid_mm_y: f64,
+        /// Factor by which the model can be scaled to fit.
+        fitting_scale: f64,
+    },
+    /// The model is too high for its bins.
+    #[error("{height_mm} mm in bins of {bin_mm} mm are too many; choose a larger bin")]
+    TooManyBins {
+        /// Height of the model.
+        height_mm: f64,
+        /// Height of a bin.
+        bin_mm: f64,
+    },
+}
+
+impl GridError {
+    /// Stable name of the error for programs.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::BadLength { .. } => "bad-length",
+            Self::BadSize { .. } => "grid-bad-size",
+            Self::ModelTooLarge { .. } => "model-too-large",
+            Self::TooManyBins { .. } => "too-many-bins",
+        }
+    }
+}
+
+/// Returns `value_mm` if it is positive and finite.
+///
+/// # Errors
+/// [`GridError::BadLength`] with `name` otherwise.
+pub fn positive(name: &'static str, value_mm: f64) -> Result<f64, GridError> {
+    if value_mm.is_finite() && value_mm > 0.0 {
+        Ok(value_mm)
+    } else {
+        Err(GridError::BadLength { name, value_mm })
+    }
+}
+
+/// The pixels of a mask on the plate; also the rays of an LDI, one through each pixel centre.
+///
+/// Row 0 is the one with the largest y, as in an image; x grows with the column.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grid {
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Side of a pixel in millimetres.
+    pub pitch_mm: f64,
+    /// The corner of pixel (0, 0) with least x and largest y.
+    pub corner_mm: DVec2,
+}
+
+impl Grid {
+    /// A grid that just covers the model, with `rays` pixels along its longer horizontal side.
+    ///
+    /// # Errors
+    /// [`GridError::BadSize`].
+    pub fn around(bounds: &Bounds, rays: u32) -> Result<Self, GridError> {
+        let size = bounds.size();
+        if rays == 0 {
+            return Err(GridError::BadSize { width: 0, height: 0 });
+        }
+        Self::of_pitch(bounds, size.x.max(size.y) / f64::from(rays))
+    }
+
+    /// A grid of given pitch that just covers the model.
+    ///
+    /// # Errors
+    /// [`GridError::BadSize`], [`GridError::BadLength`].
+    pub fn of_pitch(bounds: &Bounds, pitch_mm: f64) -> Result<Self, GridError> {
+        positive("the pitch", pitch_mm)?;
+        let size = bounds.size();
+        let pixels = |length_mm: f64| (length_mm / pitch_mm - BIN_SLACK).ceil().max(1.0) as u64;
+        Self::centred(bounds, pixels(size.x), pixels(size.y), pitch_mm)
+    }
+
+    /// A grid of given pixels and pitch, with the model's bounding box in its middle.
+    ///
+    /// # Errors
+    /// [`GridError::BadSize`], [`GridError::BadLength`], [`GridError::ModelTooLarge`].
+    pub fn plate(bounds: &Bounds, pixels: [u32; 2], pitch_mm: f64) -> Result<Self, GridError> {
+        positive("the pitch", pitch_mm)?;
+        let model = bounds.size();
+        let covered = DVec2::new(f64::from(pixels[0]), f64::from(pixels[1])) * pitch_mm;
+        let slack_mm = pitch_mm * BIN_SLACK;
+        if model.x > covered.x + slack_mm || model.y > covered.y + slack_mm {
+            return Err(GridError::ModelTooLarge {
+                model_mm_x: model.x,
+                model_mm_y: model.y,
+                grid_mm_x: covered.x,
+                grid_mm_y: covered.y,
+                // Rounded down at the fourth decimal, the last that the message shows.
+                fitting_scale: ((covered.x / model.x).min(covered.y / model.y) * 1e4).floor() / 1e4,
+            });
+        }
+        Self::centred(bounds, u64::from(pixels[0]), u64::from(pixels[1]), pitch_mm)
+    }
+
+    fn centred(
+        bounds: &Bounds,
+        width: u64,
+        height: u64,
+        pitch_mm: f64,
+    ) -> Result<Self, GridError> {
+        let side = 1..=u64::from(MAX_SIDE);
+        if !side.contains(&width) || !side.contains(&height) || width * height > MAX_PIXELS {
+            return Err(GridError::BadSize { width, height });
+        }
+        let middle = (bounds.min + bounds.max) * 0.5;
+        Ok(Self {
+            width: width as u32,
+            height: height as u32,
+            pitch_mm,
+            corner_mm: DVec2::new(
+                middle.x - width as f64 * 0.5 * pitch_mm,
+                middle.y + height as f64 * 0.5 * pitch_mm,
+            ),
+        })
+    }
+
+    /// Number of pixels, and of rays.
+    pub fn pixels(&self) -> usize {
+        self.width as usize * self.height as usize
+    }
+
+    /// The point x, y in pixels: columns to the right and rows downward from the corner.
+    pub fn to_pixels(&self, point_mm: DVec2) -> DVec2 {
+        DVec2::new(
+            (point_mm.x - self.corner_mm.x) / self.pitch_mm,
+            (self.corner_mm.y - point_mm.y) / self.pitch_mm,
+        )
+    }
+
+    /// The centre of a pixel, x and y in millimetres.
+    pub fn centre_mm(&self, column: u32, row: u32) -> DVec2 {
+        self.corner_mm
+            + DVec2::new(f64::from(column) + 0.5, -(f64::from(row) + 0.5)) * self.pitch_mm
+    }
+}
+
+/// Equal height ranges from the plate to the top of a model (section 3.2).
+///
+/// Bin i, counted from 0 in code, is the half-open range (i·b, (i+1)·b]; boundary i is at i·b.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bins {
+    /// Number of bins.
+    pub count: usize,
+    /// Height of a bin, b, in millimetres.
+    pub size_mm: f64,
+}
+
+impl Bins {
+    /// The bins of a model of `height_mm`; the last one may rise above it.
+    ///
+    /// # Errors
+    /// [`GridError::BadLength`], [`GridError::TooManyBins`].
+    pub fn of_height(height_mm: f64, bin_mm: f64) -> Result<Self, GridError> {
+        positive("the bin", bin_mm)?;
+        let bins = Self { count: 0, size_mm: bin_mm };
+        let count = bins.ceil(height_mm);
+        if count > MAX_BINS {
+            return Err(GridError::TooManyBins { height_mm, bin_mm });
+        }
+        Ok(Self { count: count.max(1.0) as usize, size_mm: bin_mm })
+    }
+
+    /// The bin, from 0, that holds height `z_mm`; heights outside belong to the first and last bin.
+    pub fn of(&self, z_mm: f64) -> usize {
+        let bin = (z_mm / self.size_mm).ceil() as usize;
+        bin.clamp(1, self.count) - 1
+    }
+
+    /// Height of a boundary in millimetres.
+    pub fn boundary_mm(&self, boundary: u32) -> f64 {
+        f64::from(boundary) * self.size_mm
+    }
+
+    /// Least number of bins at least as long as `length_mm`, ⌈length/b⌉.
+    pub fn ceil(&self, length_mm: f64) -> f64 {
+        (length_mm / self.size_mm - BIN_SLACK).ceil()
+    }
+
+    /// Greatest number of bins at most as long as `length_mm`, ⌊length/b⌋.
+    pub fn floor(&self, length_mm: f64) -> f64 {
+        (length_mm / self.size_mm + BIN_SLACK).floor()
+    }
+}

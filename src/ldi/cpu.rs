@@ -1,0 +1,163 @@
+//! The LDI by scanline on the CPU: count, then fill.
+//!
+//! Rows are taken in bands, each on its own thread natively. Cost is linear in facets, the rows that they
+//! span, and hits; memory is 8 bytes a hit and 4 a ray.
+
+use super::projection::Projection;
+use super::{Hit, Ldi, LdiError, assemble};
+use crate::grid::Grid;
+use crate::mesh::Mesh;
+use crate::parallel::map_in_groups;
+use crate::progress::{Progress, report};
+
+/// Rows of a band: few enough that the cursors of its rays stay in the cache.
+const BAND_ROWS: u32 = 32;
+
+/// Samples `mesh`, which lies inside `grid` and above z = 0.
+///
+/// # Errors
+/// [`LdiError::OutOfMemory`], [`LdiError::TooManyFacets`], [`LdiError::Cancelled`].
+pub fn sample(mesh: &Mesh, grid: &Grid, progress: &mut Progress<'_>) -> Result<Ldi, LdiError> {
+    super::check_facets(mesh)?;
+    report(progress, 0.0)?;
+    let projection = Projection::new(mesh, grid);
+    let facets_of = facets_by_band(&projection, grid);
+    let mut offsets: Vec<u32> = assemble::zeroed(grid.pixels() + 1)?;
+    let band_rays = BAND_ROWS as usize * grid.width as usize;
+
+    map_in_groups(
+        offsets[1..].chunks_mut(band_rays).enumerate(),
+        |(band, counts)| count_band(&projection, grid, band, facets_of.band(band), counts),
+        |()| Ok::<_, LdiError>(()),
+        progress,
+        [0.05, 0.35],
+    )?;
+    assemble::accumulate(&mut offsets)?;
+
+    let mut hits: Vec<Hit> = assemble::zeroed(offsets[grid.pixels()] as usize)?;
+    let mut bands = Vec::new();
+    let mut rest = hits.as_mut_slice();
+    for first in (0..grid.pixels()).step_by(band_rays) {
+        let band_offsets = &offsets[first..=(first + band_rays).min(grid.pixels())];
+        let band_hits = band_offsets[band_offsets.len() - 1] - band_offsets[0];
+        let (band, others) = rest.split_at_mut(band_hits as usize);
+        bands.push((band_offsets, band));
+        rest = others;
+    }
+    map_in_groups(
+        bands.into_iter().enumerate(),
+        |(band, (offsets, hits))| {
+            fill_band(&projection, grid, band, facets_of.band(band), offsets, hits);
+            assemble::sort_rays(offsets, offsets[0], hits);
+        },
+        |()| Ok::<_, LdiError>(()),
+        progress,
+        [0.35, 1.0],
+    )?;
+    Ok(Ldi { grid: *grid, offsets, hits })
+}
+
+/// For every band, the facets that reach into it, in compressed rows.
+struct FacetsByBand {
+    starts: Vec<usize>,
+    facets: Vec<u32>,
+}
+
+impl FacetsByBand {
+    fn band(&self, band: usize) -> &[u32] {
+        &self.facets[self.starts[band]..self.starts[band + 1]]
+    }
+}
+
+fn facets_by_band(projection: &Projection<'_>, grid: &Grid) -> FacetsByBand {
+    let bands = grid.height.div_ceil(BAND_ROWS) as usize;
+    let bands_of = |facet: usize| {
+        let rows = projection.rows(facet);
+        if rows.is_empty() {
+            0..0
+        } else {
+            (rows.start / BAND_ROWS) as usize..rows.end.div_ceil(BAND_ROWS) as usize
+        }
+    };
+    // One slot ahead, so that filling moves the start of each band to its place.
+    let mut starts = vec![0; bands + 2];
+    for facet in 0..projection.facets() {
+        for band in bands_of(facet) {
+            starts[band + 2] += 1;
+        }
+    }
+    for band in 2..starts.len() {
+        starts[band] += starts[band - 1];
+    }
+    let mut facets = vec![0; starts[bands + 1]];
+    for facet in 0..projection.facets() {
+        for band in bands_of(facet) {
+            facets[starts[band + 1]] = facet as u32;
+            starts[band + 1] += 1;
+        }
+    }
+    FacetsByBand { starts, facets }
+}
+
+fn rows_of(band: usize, grid: &Grid) -> std::ops::Range<u32> {
+    let first = band as u32 * BAND_ROWS;
+    first..(first + BAND_ROWS).min(grid.height)
+}
+
+/// Writes the number of hits of every ray of a band: differences at the ends of spans first, then
+/// their running sum along each row.
+fn count_band(
+    projection: &Projection<'_>,
+    grid: &Grid,
+    band: usize,
+    facets: &[u32],
+    counts: &mut [u32],
+) {
+    let rows = rows_of(band, grid);
+    let width = grid.width as usize;
+    for &facet in facets {
+        let Some(facet) = projection.facet(facet as usize) else { continue };
+        facet.for_each_span(rows.clone(), |row, columns| {
+            let start = (row - rows.start) as usize * width;
+            let counts = &mut counts[start..start + width];
+            counts[columns.start as usize] = counts[columns.start as usize].wrapping_add(1);
+            if let Some(after) = counts.get_mut(columns.end as usize) {
+                *after = after.wrapping_sub(1);
+            }
+        });
+    }
+    for row in counts.chunks_mut(width) {
+        let mut open = 0u32;
+        for count in row {
+            open = open.wrapping_add(*count);
+            *count = open;
+        }
+    }
+}
+
+/// Writes the hits of a band, within a ray in the order of facets.
+fn fill_band(
+    projection: &Projection<'_>,
+    grid: &Grid,
+    band: usize,
+    facets: &[u32],
+    offsets: &[u32],
+    hits: &mut [Hit],
+) {
+    let rows = rows_of(band, grid);
+    let width = grid.width as usize;
+    let base = offsets[0];
+    let mut cursors: Vec<u32> = offsets.iter().map(|offset| offset - base).collect();
+    for &index in facets {
+        let Some(facet) = projection.facet(index as usize) else { continue };
+        facet.for_each_span(rows.clone(), |row, columns| {
+            let start = (row - rows.start) as usize * width;
+            let cursors = &mut cursors[start + columns.start as usize..start + columns.end as usize];
+            for (column, cursor) in columns.zip(cursors) {
+                let z_mm = facet.height_at(column, row);
+                hits[*cursor as usize] = Hit::new(z_mm, index, facet.faces_up);
+                *cursor += 1;
+            }
+        });
+    }
+}

@@ -1,0 +1,192 @@
+//! The layered depth image: for every ray parallel to z, the hits with the surface in order
+//! (section 3.2).
+//!
+//! Both backends sample the same mesh, the one that [`projection`] makes by moving every vertex
+//! sideways by at most 1/512 pixel, and return the same [`Ldi`]; nothing downstream can tell which one
+//! ran.
+
+mod assemble;
+pub mod cpu;
+pub mod gpu;
+pub mod layout;
+pub mod projection;
+
+use serde::Serialize;
+
+use crate::grid::Grid;
+use crate::mesh::Mesh;
+use crate::progress::Cancelled;
+
+/// Why no LDI could be made.
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
+#[serde(untagged)]
+#[non_exhaustive]
+pub enum LdiError {
+    /// The progress callback asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    /// The hits do not fit into memory.
+    #[error(
+        "the model needs {needed_bytes} bytes for {hits} surface points at this resolution, more \
+         than there is; choose fewer rays"
+    )]
+    OutOfMemory {
+        /// Hits to be stored.
+        hits: u64,
+        /// Bytes that this takes.
+        needed_bytes: u64,
+    },
+    /// More facets than an index can hold.
+    #[error("{facets} facets are too many; at most {} can be sliced", Hit::MAX_FACETS)]
+    TooManyFacets {
+        /// Facets of the mesh.
+        facets: u64,
+    },
+    /// No GPU adapter, or one that cannot do what is needed.
+    #[error("no usable GPU: {reason}")]
+    NoGpu {
+        /// What is missing.
+        reason: String,
+    },
+    /// The GPU failed while it was used.
+    #[error("the GPU failed: {reason}")]
+    GpuFailed {
+        /// What the driver said.
+        reason: String,
+    },
+}
+
+impl LdiError {
+    /// Stable name of the error for programs.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Cancelled(_) => "cancelled",
+            Self::OutOfMemory { .. } => "out-of-memory",
+            Self::TooManyFacets { .. } => "too-many-facets",
+            Self::NoGpu { .. } => "no-gpu",
+            Self::GpuFailed { .. } => "gpu-failed",
+        }
+    }
+}
+
+/// A point where a ray meets the surface.
+#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Zeroable, bytemuck::Pod)]
+#[repr(C)]
+pub struct Hit {
+    /// Height above the plate in millimetres, never negative.
+    pub z_mm: f32,
+    /// Facet in the upper 31 bits, 1 in the lowest if the ray leaves the solid there.
+    surface: u32,
+}
+
+impl Hit {
+    /// Facets that an LDI can tell apart.
+    pub const MAX_FACETS: u64 = 1 << 31;
+
+    /// A hit at height `z_mm` with `facet`, an exit if the facet faces up.
+    pub fn new(z_mm: f32, facet: u32, is_exit: bool) -> Self {
+        Self { z_mm, surface: facet << 1 | u32::from(is_exit) }
+    }
+
+    /// Index of the facet in the mesh.
+    pub fn facet(self) -> u32 {
+        self.surface >> 1
+    }
+
+    /// Whether the ray, going up, leaves the solid here (the facet faces up).
+    pub fn is_exit(self) -> bool {
+        self.surface & 1 == 1
+    }
+
+    /// What a ray's winding number gains here: 1 at an entry, -1 at an exit.
+    pub fn winding(self) -> i32 {
+        if self.is_exit() { -1 } else { 1 }
+    }
+
+    /// Order along the ray: by height, then facet. Heights are not negative, so that their bits
+    /// are in order too.
+    fn key(self) -> u64 {
+        u64::from(self.z_mm.to_bits()) << 32 | u64::from(self.surface)
+    }
+}
+
+/// A layered depth image: the hits of all rays of a grid in compressed rows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ldi {
+    /// The grid whose pixel centres the rays pass.
+    pub grid: Grid,
+    /// The hits of ray i, which is column i mod width of row i div width, are
+    /// `hits[offsets[i]..offsets[i + 1]]`.
+    pub offsets: Vec<u32>,
+    /// Hits of all rays, within a ray by (height, facet).
+    pub hits: Vec<Hit>,
+}
+
+impl Ldi {
+    /// The hits of a ray, from the plate upward.
+    pub fn ray(&self, ray: usize) -> &[Hit] {
+        &self.hits[self.offsets[ray] as usize..self.offsets[ray + 1] as usize]
+    }
+
+    /// Number of rays.
+    pub fn rays(&self) -> usize {
+        self.offsets.len() - 1
+    }
+
+    /// Rays whose entries and exits do not balance: the mesh has holes there.
+    pub fn unclosed_rays(&self) -> usize {
+        (0..self.rays())
+            .filter(|&ray| winding(self.ray(ray)) != 0)
+            .count()
+    }
+}
+
+fn check_facets(mesh: &Mesh) -> Result<(), LdiError> {
+    let facets = mesh.facets.len() as u64;
+    if facets > Hit::MAX_FACETS {
+        return Err(LdiError::TooManyFacets { facets });
+    }
+    Ok(())
+}
+
+/// Entries less exits of a ray; 0 where the mesh is closed.
+fn winding(hits: &[Hit]) -> i32 {
+    hits.iter().map(|hit| hit.winding()).sum()
+}
+
+/// Calls `emit` with every height range `z_in..z_out` in which a ray is inside the solid, upward.
+///
+/// Inside is a non-zero winding number, so overlapping bodies are a union. Rays that do not close
+/// (holes in the mesh) are repaired: exits without an entry are matched with the plate, as under a
+/// model whose base is missing, and entries without an exit are dropped. A mesh that is inside out
+/// counts like one that is not.
+pub fn for_each_solid_range(hits: &[Hit], mut emit: impl FnMut(f32, f32)) {
+    let total = winding(hits);
+    // Exits to spare: start as deep inside as they will take us out again.
+    let mut inside = (-total).max(0);
+    // Entries to spare: `floor` counts those passed so far that never find their exit.
+    let mut floor = 0;
+    let mut start = 0.0;
+    for (index, hit) in hits.iter().enumerate() {
+        let was_inside = inside != floor;
+        if total > 0 && !hit.is_exit() && never_returns(&hits[index..]) {
+            floor += 1;
+        }
+        inside += hit.winding();
+        let is_inside = inside != floor;
+        if is_inside && !was_inside {
+            start = hit.z_mm;
+        } else if was_inside && !is_inside && start < hit.z_mm {
+            emit(start, hit.z_mm);
+        }
+    }
+}
+
+/// Whether the winding number stays above what it was before the first of `hits`.
+fn never_returns(hits: &[Hit]) -> bool {
+    let mut winding = 0;
+    hits.iter().all(|hit| {
+        winding += hit.winding();
+        winding > 0
+    })
+}

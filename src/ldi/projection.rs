@@ -1,0 +1,199 @@
+//! The mesh as rays see it: corners on a fixed-point lattice of 1/256 pixel, and the rule by which a
+//! facet covers pixel centres.
+//!
+//! Coverage is decided in integers: a pixel centre on an edge or vertex shared by several facets
+//! belongs to exactly one of those that face the same way, whatever their order. The rule is the
+//! top-left rule of rasterisers (a centre on a left edge, or on a horizontal top edge, is covered; on a
+//! right or bottom edge it is not), and 1/256 pixel is the lattice of nearly all GPUs, so that the depth
+//! peeling backend covers the same pixels.
+
+use std::ops::Range;
+
+use glam::DVec2;
+
+use crate::grid::Grid;
+use crate::mesh::Mesh;
+
+/// Lattice steps a pixel.
+pub const STEPS: i64 = 256;
+/// From a pixel's corner to its centre, in lattice steps.
+const HALF: i64 = STEPS / 2;
+
+/// The vertices of a mesh over a grid: columns to the right and rows downward, in lattice steps.
+#[derive(Debug, Clone)]
+pub struct Projection<'a> {
+    mesh: &'a Mesh,
+    /// Position of each vertex, snapped to the nearest lattice point inside the grid.
+    pub positions: Vec<[i32; 2]>,
+    /// The grid's rows; facets cover none outside.
+    rows: u32,
+}
+
+impl<'a> Projection<'a> {
+    /// Snaps the vertices of `mesh`, which lies inside `grid` up to rounding.
+    pub fn new(mesh: &'a Mesh, grid: &Grid) -> Self {
+        let limit = DVec2::new(f64::from(grid.width), f64::from(grid.height)) * STEPS as f64;
+        let positions = mesh
+            .vertices
+            .iter()
+            .map(|vertex| {
+                let position = grid.to_pixels(vertex.as_dvec3().truncate()) * STEPS as f64;
+                let snapped = (position + 0.5).floor().clamp(DVec2::ZERO, limit);
+                [snapped.x as i32, snapped.y as i32]
+            })
+            .collect();
+        Self { mesh, positions, rows: grid.height }
+    }
+
+    /// Number of facets.
+    pub fn facets(&self) -> usize {
+        self.mesh.facets.len()
+    }
+
+    /// A facet seen from above, or `None` if it is edge-on to the rays after snapping.
+    pub fn facet(&self, facet: usize) -> Option<ProjectedFacet> {
+        let vertices = self.mesh.facets[facet];
+        let corners = vertices.map(|vertex| self.positions[vertex as usize].map(i64::from));
+        let [a, b, c] = corners;
+        let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        if area == 0 {
+            return None;
+        }
+        let z = vertices.map(|vertex| self.mesh.vertices[vertex as usize].z);
+        Some(ProjectedFacet::new(corners, z, area))
+    }
+
+    /// The rows whose pixel centres a facet may cover.
+    pub fn rows(&self, facet: usize) -> Range<u32> {
+        let y = self.mesh.facets[facet].map(|vertex| self.positions[vertex as usize][1]);
+        let [low, high] = [y[0].min(y[1]).min(y[2]), y[0].max(y[1]).max(y[2])];
+        first_centre(i64::from(low)) as u32..(first_centre(i64::from(high)) as u32).min(self.rows)
+    }
+}
+
+/// The first pixel whose centre is at or after `position` lattice steps.
+fn first_centre(position: i64) -> i64 {
+    ceil_div(position - HALF, STEPS)
+}
+
+/// ⌈numerator / denominator⌉ for a positive denominator.
+fn ceil_div(numerator: i64, denominator: i64) -> i64 {
+    -(-numerator).div_euclid(denominator)
+}
+
+/// A facet that is not edge-on to the rays.
+#[derive(Debug, Clone, Copy)]
+pub struct ProjectedFacet {
+    /// Corners by row, then column, in lattice steps.
+    corners: [[i64; 2]; 3],
+    /// Height at the first corner, and its change a lattice step to the right and downward.
+    z: f64,
+    z_per_column: f64,
+    z_per_row: f64,
+    z_range: [f64; 2],
+    /// Whether the facet faces up.
+    pub faces_up: bool,
+}
+
+impl ProjectedFacet {
+    fn new(corners: [[i64; 2]; 3], z: [f32; 3], area: i64) -> Self {
+        let [a, b, c] = corners;
+        let heights = z.map(f64::from);
+        let [dzb, dzc] = [heights[1] - heights[0], heights[2] - heights[0]];
+        let [bx, by] = [(b[0] - a[0]) as f64, (b[1] - a[1]) as f64];
+        let [cx, cy] = [(c[0] - a[0]) as f64, (c[1] - a[1]) as f64];
+        let z_per_column = (dzb * cy - dzc * by) / area as f64;
+        let z_per_row = (dzc * bx - dzb * cx) / area as f64;
+        let mut corners = corners;
+        corners.sort_unstable_by_key(|&[x, y]| (y, x));
+        // Height is carried to the first corner in row order; a is where the plane is exact.
+        let first = corners[0];
+        let z_first = heights[0]
+            + (first[0] - a[0]) as f64 * z_per_column
+            + (first[1] - a[1]) as f64 * z_per_row;
+        Self {
+            corners,
+            z: z_first,
+            z_per_column,
+            z_per_row,
+            z_range: [
+                heights[0].min(heights[1]).min(heights[2]),
+                heights[0].max(heights[1]).max(heights[2]),
+            ],
+            // Rows run downward, so counter-clockwise from above has a negative area here.
+            faces_up: area < 0,
+        }
+    }
+
+    /// Calls `emit(row, columns)` for every row of `rows` in which pixel centres are covered.
+    pub fn for_each_span(&self, rows: Range<u32>, mut emit: impl FnMut(u32, Range<u32>)) {
+        let [top, middle, bottom] = self.corners;
+        let cross = (middle[0] - top[0]) * (bottom[1] - top[1])
+            - (middle[1] - top[1]) * (bottom[0] - top[0]);
+        let bend_is_left = cross < 0;
+        for (from, to) in [(top, middle), (middle, bottom)] {
+            let first = first_centre(from[1]).max(i64::from(rows.start));
+            let end = first_centre(to[1]).min(i64::from(rows.end));
+            if first >= end {
+                continue;
+            }
+            let mut short = Edge::new(from, to, first);
+            let mut long = Edge::new(top, bottom, first);
+            for row in first..end {
+                let (left, right) = if bend_is_left { (&short, &long) } else { (&long, &short) };
+                if left.column < right.column {
+                    emit(row as u32, left.column as u32..right.column as u32);
+                }
+                short.step();
+                long.step();
+            }
+        }
+    }
+
+    /// Height of the facet over a pixel centre, in millimetres.
+    pub fn height_at(&self, column: u32, row: u32) -> f32 {
+        let x = i64::from(column) * STEPS + HALF - self.corners[0][0];
+        let y = i64::from(row) * STEPS + HALF - self.corners[0][1];
+        let z = self.z + x as f64 * self.z_per_column + y as f64 * self.z_per_row;
+        z.clamp(self.z_range[0], self.z_range[1]) as f32
+    }
+}
+
+/// Walks down an edge and knows, for each row, the first column whose centre is not left of it:
+/// an exact quotient kept up to date by adding quotient and remainder of the slope.
+struct Edge {
+    column: i64,
+    /// `column` · denominator less the exact crossing: 0 ≤ remainder < denominator.
+    remainder: i64,
+    denominator: i64,
+    step: i64,
+    step_remainder: i64,
+}
+
+impl Edge {
+    fn new(from: [i64; 2], to: [i64; 2], row: i64) -> Self {
+        let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+        let y = row * STEPS + HALF;
+        let numerator = (from[0] - HALF) * dy + (y - from[1]) * dx;
+        let denominator = dy * STEPS;
+        let column = ceil_div(numerator, denominator);
+        let rise = dx * STEPS;
+        let step = ceil_div(rise, denominator);
+        Self {
+            column,
+            remainder: column * denominator - numerator,
+            denominator,
+            step,
+            step_remainder: step * denominator - rise,
+        }
+    }
+
+    fn step(&mut self) {
+        self.column += self.step;
+        self.remainder += self.step_remainder;
+        if self.remainder >= self.denominator {
+            self.remainder -= self.denominator;
+            self.column -= 1;
+        }
+    }
+}

@@ -1,0 +1,251 @@
+//! A triangle mesh in millimetres, with the report of its health that users see first.
+
+use glam::{DVec3, Vec3};
+use rustc_hash::FxHashMap;
+use serde::Serialize;
+
+/// Why triangles do not make a printable mesh.
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
+#[serde(untagged)]
+#[non_exhaustive]
+pub enum MeshError {
+    /// Every facet is degenerate.
+    #[error("none of the {facets} facets has an area; export the model again")]
+    NoArea {
+        /// Facets in the input.
+        facets: usize,
+    },
+    /// The mesh lies in a horizontal plane.
+    #[error("the model has no height; is it flat, or lying in the plane z = constant?")]
+    ZeroHeight,
+    /// The requested height is not a positive number.
+    #[error("the height must be a positive number of millimetres, not {height_mm}")]
+    BadHeight {
+        /// The height asked for.
+        height_mm: f64,
+    },
+    /// Coordinates overflow single precision after scaling.
+    #[error("the model is too large: at this height its coordinates exceed what can be computed")]
+    Overflow,
+}
+
+impl MeshError {
+    /// Stable name of the error for programs.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::NoArea { .. } => "mesh-no-area",
+            Self::ZeroHeight => "mesh-zero-height",
+            Self::BadHeight { .. } => "bad-height",
+            Self::Overflow => "mesh-overflow",
+        }
+    }
+}
+
+/// The axis-aligned box around a mesh, in millimetres.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Bounds {
+    /// Least x, y and z.
+    pub min: DVec3,
+    /// Greatest x, y and z.
+    pub max: DVec3,
+}
+
+impl Bounds {
+    /// Extent along x, y and z, in millimetres.
+    pub fn size(&self) -> DVec3 {
+        self.max - self.min
+    }
+}
+
+/// Facets over shared vertices; counter-clockwise corners seen from outside.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mesh {
+    /// Positions in millimetres, each once.
+    pub vertices: Vec<Vec3>,
+    /// Three vertex indices a facet; no facet is degenerate.
+    pub facets: Vec<[u32; 3]>,
+    /// Facets of the input that had no area and were dropped.
+    pub degenerate_facets: usize,
+    /// Edges that are not used equally often in both directions; 0 for a closed, consistently
+    /// oriented mesh.
+    pub open_edges: usize,
+}
+
+impl Mesh {
+    /// Joins equal corners, drops facets without area and counts open edges.
+    ///
+    /// Vertices are joined when their coordinates are the same numbers (-0 equals 0). Edges are counted
+    /// before flat facets are dropped, so a sliver between two larger facets does not open a closed
+    /// mesh.
+    ///
+    /// # Errors
+    /// [`MeshError::NoArea`] when no facet is left.
+    pub fn from_triangles(triangles: &[[Vec3; 3]]) -> Result<Self, MeshError> {
+        let (vertices, mut facets) = weld(triangles);
+        let open_edges = count_open_edges(vertices.len(), &facets);
+        facets.retain(|corners| has_area(corners.map(|v| vertices[v as usize])));
+        if facets.is_empty() {
+            return Err(MeshError::NoArea {
+                facets: triangles.len(),
+            });
+        }
+        Ok(Self {
+            vertices,
+            degenerate_facets: triangles.len() - facets.len(),
+            facets,
+            open_edges,
+        })
+    }
+
+    /// The corners of a facet in double precision.
+    pub fn corners(&self, facet: usize) -> [DVec3; 3] {
+        self.facets[facet].map(|vertex| self.vertices[vertex as usize].as_dvec3())
+    }
+
+    /// The box around all vertices of facets.
+    pub fn bounds(&self) -> Bounds {
+        let (mut min, mut max) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        for facet in &self.facets {
+            for &vertex in facet {
+                min = min.min(self.vertices[vertex as usize]);
+                max = max.max(self.vertices[vertex as usize]);
+            }
+        }
+        Bounds {
+            min: min.as_dvec3(),
+            max: max.as_dvec3(),
+        }
+    }
+
+    /// Enclosed volume in mm³ by the divergence theorem: negative when the mesh is inside out,
+    /// approximate when it is open.
+    pub fn volume_mm3(&self) -> f64 {
+        let centre = (self.bounds().min + self.bounds().max) * 0.5;
+        let sixfold: f64 = (0..self.facets.len())
+            .map(|facet| {
+                let [a, b, c] = self.corners(facet).map(|corner| corner - centre);
+                a.dot(b.cross(c))
+            })
+            .sum();
+        sixfold / 6.0
+    }
+
+    /// Whether every edge is used equally often in both directions.
+    pub fn is_closed(&self) -> bool {
+        self.open_edges == 0
+    }
+
+    /// |n_z| of every facet's unit normal: 1 for a horizontal facet, 0 for a vertical one.
+    pub fn steepness(&self) -> Vec<f32> {
+        (0..self.facets.len())
+            .map(|facet| {
+                let [a, b, c] = self.corners(facet);
+                let normal = (b - a).cross(c - a);
+                let length = normal.length();
+                let n_z = if length > 0.0 { normal.z.abs() / length } else { 0.0 };
+                n_z.min(1.0) as f32
+            })
+            .collect()
+    }
+
+    /// A copy standing on the plate: lowest point at z = 0, centred on x = y = 0, and scaled evenly
+    /// to `height_mm` if one is given.
+    ///
+    /// # Errors
+    /// [`MeshError::ZeroHeight`], [`MeshError::BadHeight`], [`MeshError::Overflow`].
+    pub fn on_plate(&self, height_mm: Option<f64>) -> Result<Self, MeshError> {
+        let bounds = self.bounds();
+        let size = bounds.size();
+        if size.z <= 0.0 {
+            return Err(MeshError::ZeroHeight);
+        }
+        let scale = match height_mm {
+            Some(height_mm) if height_mm.is_finite() && height_mm > 0.0 => height_mm / size.z,
+            Some(height_mm) => return Err(MeshError::BadHeight { height_mm }),
+            None => 1.0,
+        };
+        let middle = (bounds.min + bounds.max) * 0.5;
+        let foot = DVec3::new(middle.x, middle.y, bounds.min.z);
+        if !((size * scale).as_vec3() * 2.0).is_finite() {
+            return Err(MeshError::Overflow);
+        }
+        Ok(Self {
+            vertices: self
+                .vertices
+                .iter()
+                .map(|vertex| ((vertex.as_dvec3() - foot) * scale).as_vec3())
+                .collect(),
+            facets: self.facets.clone(),
+            degenerate_facets: self.degenerate_facets,
+            open_edges: self.open_edges,
+        })
+    }
+}
+
+/// Gives equal corners one index, in order of first use. Corners of facets with fewer than three
+/// different positions are kept here and dropped by the caller.
+fn weld(triangles: &[[Vec3; 3]]) -> (Vec<Vec3>, Vec<[u32; 3]>) {
+    let mut index_of = FxHashMap::default();
+    index_of.reserve(triangles.len() / 2);
+    let mut vertices = Vec::with_capacity(triangles.len() / 2);
+    let facets = triangles
+        .iter()
+        .map(|corners| {
+            corners.map(|corner| {
+                // Adding zero turns -0 into 0, so that the two are one key.
+                let corner = corner + Vec3::ZERO;
+                *index_of
+                    .entry(corner.to_array().map(f32::to_bits))
+                    .or_insert_with(|| {
+                        vertices.push(corner);
+                        vertices.len() as u32 - 1
+                    })
+            })
+        })
+        .collect();
+    (vertices, facets)
+}
+
+fn has_area([a, b, c]: [Vec3; 3]) -> bool {
+    let (a, b, c) = (a.as_dvec3(), b.as_dvec3(), c.as_dvec3());
+    (b - a).cross(c - a) != DVec3::ZERO
+}
+
+/// Counts undirected edges whose uses in the two directions differ.
+///
+/// Edges are bucketed by their lower vertex with a counting sort: linear, and no hashing.
+fn count_open_edges(vertex_count: usize, facets: &[[u32; 3]]) -> usize {
+    let edges = || {
+        facets
+            .iter()
+            .flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)])
+            .filter(|(from, to)| from != to)
+    };
+    let mut starts = vec![0u32; vertex_count + 2];
+    for (from, to) in edges() {
+        starts[from.min(to) as usize + 2] += 1;
+    }
+    for vertex in 2..starts.len() {
+        starts[vertex] += starts[vertex - 1];
+    }
+    // After the fill, starts[v]..starts[v + 1] is the bucket of vertex v.
+    let mut ends = vec![(0u32, false); *starts.last().unwrap_or(&0) as usize];
+    for (from, to) in edges() {
+        let slot = &mut starts[from.min(to) as usize + 1];
+        ends[*slot as usize] = (from.max(to), from < to);
+        *slot += 1;
+    }
+    (0..vertex_count)
+        .map(|vertex| {
+            let bucket = &mut ends[starts[vertex] as usize..starts[vertex + 1] as usize];
+            bucket.sort_unstable();
+            bucket
+                .chunk_by(|left, right| left.0 == right.0)
+                .filter(|edge| {
+                    let upward = edge.iter().filter(|(_, is_upward)| *is_upward).count();
+                    2 * upward != edge.len()
+                })
+                .count()
+        })
+        .sum()
+}

@@ -1,0 +1,428 @@
+//! The order of stages, and nothing else: the only module that knows it.
+
+use std::io::{Seek, Write};
+use std::ops::ControlFlow;
+
+use serde::{Deserialize, Serialize};
+use web_time::Instant;
+
+use crate::archive::png_zip;
+use crate::error::Error;
+use crate::grid::{Bins, Grid};
+use crate::ldi::{Ldi, LdiError, cpu, gpu};
+use crate::mask::{MaskCursor, Masks};
+use crate::mesh::Mesh;
+use crate::plan::{Limits, Plan, optimal, uniform};
+use crate::profile::{ErrorSum, Metric, Profile, cusp};
+use crate::report::{MaskReport, MeshInfo, Report, Timings, UniformReport, Warning, mesh_warnings};
+use crate::stl;
+
+/// A part of the work, for showing progress.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(rename_all = "lowercase")]
+pub enum Stage {
+    /// Reading the STL.
+    Load,
+    /// Sampling the layered depth image.
+    Ldi,
+    /// Making the profile.
+    Profile,
+    /// Planning.
+    Plan,
+    /// Making and writing the masks.
+    Masks,
+}
+
+impl Stage {
+    /// The name of the stage, as in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Load => "load",
+            Self::Ldi => "ldi",
+            Self::Profile => "profile",
+            Self::Plan => "plan",
+            Self::Masks => "masks",
+        }
+    }
+}
+
+/// Called with the stage at work and the fraction of it that is done; `Break` cancels.
+pub type StageProgress<'a> = dyn FnMut(Stage, f64) -> ControlFlow<()> + 'a;
+
+/// Where the LDI is sampled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(rename_all = "lowercase")]
+pub enum Backend {
+    /// The GPU, unless there is none or it is emulated in software.
+    #[default]
+    Auto,
+    /// The GPU, or an error.
+    Gpu,
+    /// The CPU.
+    Cpu,
+}
+
+/// How layers are chosen.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(rename_all = "lowercase", tag = "kind")]
+pub enum Planner {
+    /// The fewest layers within tolerance.
+    #[default]
+    Optimal,
+    /// Layers of one thickness, whatever their error.
+    Uniform {
+        /// That thickness in millimetres.
+        layer_mm: f64,
+    },
+}
+
+/// What to slice and how. All lengths are in millimetres.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(from_wasm_abi))]
+#[serde(default, deny_unknown_fields)]
+pub struct Options {
+    /// Scale the model evenly to this height; its own height if absent.
+    pub height_mm: Option<f64>,
+    /// Columns and rows of the masks, with the model in the middle; needs `pitch_mm`.
+    pub pixels: Option<[u32; 2]>,
+    /// Side of a pixel; alone, with as many pixels as cover the model.
+    pub pitch_mm: Option<f64>,
+    /// Pixels along the model's longer horizontal side where neither is given.
+    pub rays: u32,
+    /// Least layer thickness.
+    pub layer_min_mm: f64,
+    /// Greatest layer thickness.
+    pub layer_max_mm: f64,
+    /// Greatest error of a layer.
+    pub tolerance_mm: f64,
+    /// Height of a bin of the profile.
+    pub bin_mm: f64,
+    /// What the error measures.
+    pub metric: Metric,
+    /// How layers are chosen.
+    pub planner: Planner,
+    /// Where the LDI is sampled.
+    pub backend: Backend,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            height_mm: None,
+            pixels: None,
+            pitch_mm: None,
+            rays: 2048,
+            layer_min_mm: 0.05,
+            layer_max_mm: 0.15,
+            tolerance_mm: 0.065,
+            bin_mm: 0.002,
+            metric: Metric::Cusp,
+            planner: Planner::Optimal,
+            backend: Backend::Auto,
+        }
+    }
+}
+
+/// A loaded model on its way through the stages. Each keeps its result, so that a change of options
+/// repeats only what depends on it.
+#[derive(Debug)]
+pub struct Slicer {
+    model: Mesh,
+    load_ms: f64,
+    sampled: Option<Sampled>,
+    planned: Option<Planned>,
+}
+
+/// The model on the plate and its LDI, with the options that they depend on.
+#[derive(Debug)]
+struct Sampled {
+    options: SamplingOptions,
+    mesh: Mesh,
+    height_mm: f64,
+    ldi: Ldi,
+    adapter: Option<String>,
+    warnings: Vec<Warning>,
+    profile: Option<(Profile, ErrorSum)>,
+}
+
+type SamplingOptions = (Option<f64>, Option<[u32; 2]>, Option<f64>, u32, Backend);
+
+#[derive(Debug)]
+struct Planned {
+    plan: Plan,
+    report: Report,
+    masks: Option<(Masks, MaskCursor)>,
+}
+
+impl Slicer {
+    /// Reads an STL.
+    ///
+    /// # Errors
+    /// [`Error::Stl`], [`Error::Mesh`].
+    pub fn load(bytes: &[u8]) -> Result<Self, Error> {
+        let clock = Instant::now();
+        let model = Mesh::from_triangles(&stl::read(bytes)?)?;
+        Ok(Self { model, load_ms: ms_since(clock), sampled: None, planned: None })
+    }
+
+    /// Describes the model as it stands in its file.
+    pub fn info(&self) -> MeshInfo {
+        MeshInfo::of(&self.model)
+    }
+
+    /// Samples the model, makes its profile and plans its layers; repeats only what the options
+    /// change. After an error the last plan is gone, the LDI is kept where it still holds.
+    ///
+    /// # Errors
+    /// Any [`Error`] of these stages.
+    pub async fn plan(
+        &mut self,
+        options: &Options,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<&Report, Error> {
+        self.planned = None;
+        let mut timings = Timings { load: std::mem::take(&mut self.load_ms), ..Timings::default() };
+
+        let key = sampling_options(options);
+        let sampled = match self.sampled.take().filter(|sampled| sampled.options == key) {
+            Some(sampled) => sampled,
+            None => self.sample(options, &mut timings, progress).await?,
+        };
+        let sampled = self.sampled.insert(sampled);
+
+        let clock = Instant::now();
+        continue_or_cancel(progress(Stage::Profile, 0.0))?;
+        let bins = Bins::of_height(sampled.height_mm, options.bin_mm)?;
+        if sampled.profile.as_ref().is_none_or(|(profile, _)| profile.bins != bins) {
+            let profile = match options.metric {
+                Metric::Cusp => cusp::sampled(&sampled.mesh, &sampled.ldi, bins),
+            };
+            let errors = profile.error_sum();
+            sampled.profile = Some((profile, errors));
+            timings.profile = ms_since(clock);
+        }
+        let Some((_, errors)) = &sampled.profile else { unreachable!("set above") };
+
+        let clock = Instant::now();
+        continue_or_cancel(progress(Stage::Plan, 0.0))?;
+        let limits = Limits {
+            layer_min_mm: options.layer_min_mm,
+            layer_max_mm: options.layer_max_mm,
+            tolerance_mm: options.tolerance_mm,
+        };
+        let plan = match options.planner {
+            Planner::Optimal => optimal::plan(errors, &limits)?,
+            Planner::Uniform { layer_mm } => uniform::plan(bins, sampled.height_mm, layer_mm)?,
+        };
+        let uniform = uniform_report(errors, &limits, sampled.height_mm)?;
+        timings.plan = ms_since(clock);
+        continue_or_cancel(progress(Stage::Plan, 1.0))?;
+
+        timings.sum_up();
+        let report = report_of(sampled, errors, options, &plan, uniform, timings);
+        Ok(&self.planned.insert(Planned { plan, report, masks: None }).report)
+    }
+
+    async fn sample(
+        &self,
+        options: &Options,
+        timings: &mut Timings,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<Sampled, Error> {
+        let clock = Instant::now();
+        let mesh = self.model.on_plate(options.height_mm)?;
+        let bounds = mesh.bounds();
+        let grid = match (options.pixels, options.pitch_mm) {
+            (Some(pixels), Some(pitch_mm)) => Grid::plate(&bounds, pixels, pitch_mm)?,
+            (None, Some(pitch_mm)) => Grid::of_pitch(&bounds, pitch_mm)?,
+            (None, None) => Grid::around(&bounds, options.rays)?,
+            (Some(_), None) => {
+                let reason = "a grid of given pixels needs a pitch as well".to_owned();
+                return Err(Error::Options { reason });
+            }
+        };
+        timings.load += ms_since(clock);
+
+        let clock = Instant::now();
+        let mut ldi_progress = |fraction| progress(Stage::Ldi, fraction);
+        let mut warnings = mesh_warnings(&mesh);
+        let sampled_on_gpu = match options.backend {
+            Backend::Cpu => None,
+            Backend::Gpu => Some(gpu::sample(&mesh, &grid, gpu::Adapters::Any, &mut ldi_progress).await),
+            Backend::Auto => {
+                Some(gpu::sample(&mesh, &grid, gpu::Adapters::Hardware, &mut ldi_progress).await)
+            }
+        };
+        let (ldi, adapter) = match sampled_on_gpu {
+            Some(Ok((ldi, adapter))) => (ldi, Some(adapter)),
+            Some(Err(error @ LdiError::Cancelled(_))) => return Err(error.into()),
+            Some(Err(error)) if options.backend == Backend::Gpu => return Err(error.into()),
+            failed => {
+                if let Some(Err(LdiError::GpuFailed { reason })) = failed {
+                    let message = format!("the GPU failed, so the CPU did its work: {reason}");
+                    warnings.push(Warning::new("gpu-failed", message));
+                }
+                (cpu::sample(&mesh, &grid, &mut ldi_progress)?, None)
+            }
+        };
+        let unclosed = ldi.unclosed_rays();
+        if unclosed > 0 {
+            let message = format!(
+                "{unclosed} of {} rays did not close, because the mesh has holes; they were repaired",
+                ldi.rays()
+            );
+            warnings.push(Warning::new("unclosed-rays", message));
+        }
+        timings.ldi = ms_since(clock);
+        let options = sampling_options(options);
+        let height_mm = bounds.size().z;
+        Ok(Sampled { options, mesh, height_mm, ldi, adapter, warnings, profile: None })
+    }
+
+    /// The profile of the last plan.
+    ///
+    /// # Errors
+    /// [`Error::NoPlan`].
+    pub fn profile(&self) -> Result<&Profile, Error> {
+        let sampled = self.sampled.as_ref().ok_or(Error::NoPlan)?;
+        Ok(&sampled.profile.as_ref().ok_or(Error::NoPlan)?.0)
+    }
+
+    /// The mask of a layer of the last plan: see [`MaskCursor::bits`].
+    ///
+    /// # Errors
+    /// [`Error::NoPlan`], [`Error::Options`] if there is no such layer.
+    pub fn mask(&mut self, layer: usize) -> Result<&[u8], Error> {
+        let (sampled, planned) = self.sampled_and_planned()?;
+        let layers = planned.plan.layers();
+        if layer >= layers {
+            let reason = format!("there is no layer {layer}; the plan has {layers}, from 0");
+            return Err(Error::Options { reason });
+        }
+        let (masks, cursor) = planned.masks(&sampled.ldi);
+        cursor.seek(masks, layer);
+        Ok(cursor.bits())
+    }
+
+    /// Writes the masks of the last plan as a zip of PNGs with a manifest, and returns the report with
+    /// the time that this took.
+    ///
+    /// # Errors
+    /// [`Error::NoPlan`], [`Error::Archive`].
+    pub fn write_png_zip<W: Write + Seek>(
+        &mut self,
+        writer: W,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<(W, &Report), Error> {
+        let clock = Instant::now();
+        let (sampled, planned) = self.sampled_and_planned()?;
+        planned.masks(&sampled.ldi);
+        let Planned { report, masks: Some((masks, _)), .. } = planned else {
+            unreachable!("made above")
+        };
+        let mut mask_progress = |fraction| progress(Stage::Masks, fraction);
+        let writer = png_zip::write(masks, report, writer, &mut mask_progress)?;
+        report.timings_ms.masks = ms_since(clock);
+        report.timings_ms.sum_up();
+        Ok((writer, report))
+    }
+
+    fn sampled_and_planned(&mut self) -> Result<(&Sampled, &mut Planned), Error> {
+        match (&self.sampled, &mut self.planned) {
+            (Some(sampled), Some(planned)) => Ok((sampled, planned)),
+            _ => Err(Error::NoPlan),
+        }
+    }
+}
+
+impl Planned {
+    fn masks(&mut self, ldi: &Ldi) -> &mut (Masks, MaskCursor) {
+        self.masks.get_or_insert_with(|| {
+            let masks = Masks::new(ldi, &self.plan);
+            let cursor = masks.cursor();
+            (masks, cursor)
+        })
+    }
+}
+
+fn sampling_options(options: &Options) -> SamplingOptions {
+    (options.height_mm, options.pixels, options.pitch_mm, options.rays, options.backend)
+}
+
+fn uniform_report(
+    errors: &ErrorSum,
+    limits: &Limits,
+    height_mm: f64,
+) -> Result<UniformReport, Error> {
+    let bins = errors.bins();
+    let thickness = limits.thickness_in_bins(bins)?;
+    let finest = uniform::plan(bins, height_mm, bins.boundary_mm(*thickness.start()))?;
+    let coarsest = uniform::plan(bins, height_mm, bins.boundary_mm(*thickness.end()))?;
+    Ok(UniformReport {
+        finest_layers: finest.layers(),
+        finest_error_mm: finest.max_error_mm(errors),
+        coarsest_layers: coarsest.layers(),
+        coarsest_error_mm: coarsest.max_error_mm(errors),
+    })
+}
+
+fn report_of(
+    sampled: &Sampled,
+    errors: &ErrorSum,
+    options: &Options,
+    plan: &Plan,
+    uniform: UniformReport,
+    timings_ms: Timings,
+) -> Report {
+    let mut warnings = sampled.warnings.clone();
+    let max_error_mm = plan.max_error_mm(errors);
+    if matches!(options.planner, Planner::Uniform { .. })
+        && errors.to_steps(max_error_mm) > errors.to_steps(options.tolerance_mm)
+    {
+        let message = format!(
+            "uniform layers exceed the tolerance: their largest error is {max_error_mm:.4} mm"
+        );
+        warnings.push(Warning::new("tolerance-exceeded", message));
+    }
+    Report {
+        layers: plan.layers(),
+        height_mm: sampled.height_mm,
+        z_mm: plan.z_mm(),
+        thickness_mm: plan.thickness_mm(),
+        max_error_mm,
+        tolerance_mm: options.tolerance_mm,
+        metric: options.metric,
+        planner: match options.planner {
+            Planner::Optimal => "optimal".to_owned(),
+            Planner::Uniform { .. } => "uniform".to_owned(),
+        },
+        backend: if sampled.adapter.is_some() { "gpu" } else { "cpu" }.to_owned(),
+        adapter: sampled.adapter.clone(),
+        bins: plan.bins.count,
+        bin_mm: plan.bins.size_mm,
+        facets: sampled.mesh.facets.len(),
+        hits: sampled.ldi.hits.len(),
+        uniform,
+        mask: MaskReport {
+            width: sampled.ldi.grid.width,
+            height: sampled.ldi.grid.height,
+            pitch_mm: sampled.ldi.grid.pitch_mm,
+        },
+        warnings,
+        timings_ms,
+    }
+}
+
+fn continue_or_cancel(flow: ControlFlow<()>) -> Result<(), LdiError> {
+    match flow {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(LdiError::Cancelled(crate::progress::Cancelled)),
+    }
+}
+
+fn ms_since(clock: Instant) -> f64 {
+    clock.elapsed().as_secs_f64() * 1e3
+}

@@ -1,0 +1,187 @@
+//! What leaves the library as data: the report of a plan and of a mesh, with units in names.
+
+use serde::Serialize;
+#[cfg(target_arch = "wasm32")]
+use tsify::Tsify;
+
+use crate::mesh::Mesh;
+use crate::profile::Metric;
+
+/// Something that the user should know although the work went on.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(Tsify))]
+pub struct Warning {
+    /// Stable name for programs.
+    pub code: String,
+    /// One sentence for people.
+    pub message: String,
+}
+
+impl Warning {
+    /// A warning from its parts.
+    pub fn new(code: &str, message: impl Into<String>) -> Self {
+        Self { code: code.to_owned(), message: message.into() }
+    }
+}
+
+/// Least and greatest coordinates.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(Tsify))]
+pub struct BoundsReport {
+    /// Least x, y and z in millimetres.
+    pub min: [f64; 3],
+    /// Greatest x, y and z in millimetres.
+    pub max: [f64; 3],
+}
+
+/// A mesh as it stands in its file.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(Tsify), tsify(into_wasm_abi))]
+pub struct MeshInfo {
+    /// Facets with an area.
+    pub facets: usize,
+    /// Facets without one, which were dropped.
+    pub degenerate_facets: usize,
+    /// Different corners.
+    pub vertices: usize,
+    /// The box around the model.
+    pub bounds_mm: BoundsReport,
+    /// Extent in x, y and z.
+    pub size_mm: [f64; 3],
+    /// Enclosed volume, approximate if the mesh is open.
+    pub volume_mm3: f64,
+    /// Whether every edge joins facets that agree about inside and outside.
+    pub closed: bool,
+    /// Edges where that is not so.
+    pub open_edges: usize,
+    /// What the user should know.
+    pub warnings: Vec<Warning>,
+}
+
+impl MeshInfo {
+    /// Describes a mesh.
+    pub fn of(mesh: &Mesh) -> Self {
+        let bounds = mesh.bounds();
+        Self {
+            facets: mesh.facets.len(),
+            degenerate_facets: mesh.degenerate_facets,
+            vertices: mesh.vertices.len(),
+            bounds_mm: BoundsReport { min: bounds.min.to_array(), max: bounds.max.to_array() },
+            size_mm: bounds.size().to_array(),
+            volume_mm3: mesh.volume_mm3(),
+            closed: mesh.is_closed(),
+            open_edges: mesh.open_edges,
+            warnings: mesh_warnings(mesh),
+        }
+    }
+}
+
+/// What the user should know about a mesh.
+pub fn mesh_warnings(mesh: &Mesh) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    if mesh.degenerate_facets > 0 {
+        let message = format!("{} facets without area were dropped", mesh.degenerate_facets);
+        warnings.push(Warning::new("degenerate-facets", message));
+    }
+    if !mesh.is_closed() {
+        let message = format!(
+            "the mesh is not closed: {} edges do not join two facets; it slices, but look at the masks",
+            mesh.open_edges
+        );
+        warnings.push(Warning::new("open-mesh", message));
+    }
+    warnings
+}
+
+/// The masks' pixels.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(Tsify))]
+pub struct MaskReport {
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Side of a pixel.
+    pub pitch_mm: f64,
+}
+
+/// What uniform layers would give within the same range of thicknesses.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(Tsify))]
+pub struct UniformReport {
+    /// Layers of the least thickness.
+    pub finest_layers: usize,
+    /// Their largest error.
+    pub finest_error_mm: f64,
+    /// Layers of the greatest thickness.
+    pub coarsest_layers: usize,
+    /// Their largest error.
+    pub coarsest_error_mm: f64,
+}
+
+/// Wall-clock times of the stages; 0 for a stage whose earlier result still held.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(Tsify))]
+pub struct Timings {
+    /// Reading the STL, mesh and its placement.
+    pub load: f64,
+    /// Sampling the layered depth image.
+    pub ldi: f64,
+    /// Making the profile.
+    pub profile: f64,
+    /// Planning.
+    pub plan: f64,
+    /// Making and writing the masks.
+    pub masks: f64,
+    /// All of these.
+    pub total: f64,
+}
+
+impl Timings {
+    /// Brings `total` up to date.
+    pub fn sum_up(&mut self) {
+        self.total = self.load + self.ldi + self.profile + self.plan + self.masks;
+    }
+}
+
+/// A plan and how it came about: what `--json` prints and the page shows.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(Tsify), tsify(into_wasm_abi))]
+pub struct Report {
+    /// Number of layers.
+    pub layers: usize,
+    /// Height of the model.
+    pub height_mm: f64,
+    /// Boundaries of layers, from 0 upward: one more than there are layers.
+    pub z_mm: Vec<f64>,
+    /// Thickness of each layer.
+    pub thickness_mm: Vec<f64>,
+    /// The largest error of a layer under the profile.
+    pub max_error_mm: f64,
+    /// The tolerance asked for.
+    pub tolerance_mm: f64,
+    /// What the error measures.
+    pub metric: Metric,
+    /// The planner that ran.
+    pub planner: String,
+    /// Where the LDI was sampled, `cpu` or `gpu`.
+    pub backend: String,
+    /// The GPU, if one was used.
+    pub adapter: Option<String>,
+    /// Bins of the profile.
+    pub bins: usize,
+    /// Height of a bin.
+    pub bin_mm: f64,
+    /// Facets that were sampled.
+    pub facets: usize,
+    /// Hits of the LDI.
+    pub hits: usize,
+    /// Uniform layers for comparison.
+    pub uniform: UniformReport,
+    /// The masks' pixels.
+    pub mask: MaskReport,
+    /// What the user should know.
+    pub warnings: Vec<Warning>,
+    /// Milliseconds spent.
+    pub timings_ms: Timings,
+}

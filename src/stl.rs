@@ -1,0 +1,317 @@
+//! STL bytes to triangles, binary and ASCII.
+//!
+//! STL carries no unit; coordinates are taken as millimetres with z up. The normals stored in the
+//! file are ignored, since many exporters write zeros or NaN there: orientation comes from the order of
+//! the corners.
+
+use glam::Vec3;
+use serde::Serialize;
+
+/// Bytes before the first facet of a binary STL: an 80 byte header and the facet count.
+const BINARY_HEADER_BYTES: usize = 84;
+/// Bytes of one facet of a binary STL: normal, three corners, attribute word.
+const BINARY_FACET_BYTES: usize = 50;
+
+/// Why bytes could not be read as an STL.
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
+#[serde(untagged)]
+#[non_exhaustive]
+pub enum StlError {
+    /// The file has no bytes at all.
+    #[error("the file is empty; export the model again as STL")]
+    Empty,
+    /// Neither a binary STL nor text that begins with `solid`.
+    #[error("this is no STL file; export the model as binary or ASCII STL")]
+    NotStl,
+    /// A binary STL that ends before the facets which its header announces.
+    #[error(
+        "the STL is cut short: its header announces {declared_facets} facets, which need \
+         {expected_bytes} bytes, but the file ends at byte {found_bytes}; copy or export it again"
+    )]
+    Truncated {
+        /// Facet count in the header.
+        declared_facets: u64,
+        /// Length that this count needs.
+        expected_bytes: u64,
+        /// Length of the file.
+        found_bytes: u64,
+    },
+    /// A binary STL with more facets than its header announces.
+    #[error(
+        "the facet count is wrong: the header at byte 80 announces {declared_facets} facets, \
+         but {found_facets} follow; export the model again"
+    )]
+    WrongFacetCount {
+        /// Facet count in the header.
+        declared_facets: u64,
+        /// Whole facets in the file.
+        found_facets: u64,
+    },
+    /// A coordinate of a binary STL is NaN or infinite.
+    #[error("the coordinate at byte {byte} (facet {facet}) is not a finite number")]
+    NotFiniteBinary {
+        /// Offset of the coordinate in the file.
+        byte: u64,
+        /// Facet it belongs to, from 0.
+        facet: u64,
+    },
+    /// A coordinate of an ASCII STL is NaN or infinite.
+    #[error("line {line}: `{text}` is not a finite number")]
+    NotFiniteText {
+        /// Line in the file, from 1.
+        line: u64,
+        /// The offending word.
+        text: String,
+    },
+    /// A line of an ASCII STL that does not belong there.
+    #[error("line {line}: expected {expected}, found `{found}`")]
+    Syntax {
+        /// Line in the file, from 1.
+        line: u64,
+        /// What the grammar asks for at this place.
+        expected: &'static str,
+        /// The word that stands there.
+        found: String,
+    },
+    /// An ASCII STL that ends inside a solid.
+    #[error("the STL is cut short: it ends at line {line}, where {expected} should follow")]
+    EndOfText {
+        /// Last line of the file, from 1.
+        line: u64,
+        /// What the grammar asks for at the end.
+        expected: &'static str,
+    },
+    /// A well-formed STL without facets.
+    #[error("the STL holds no facets; export the model again")]
+    NoFacets,
+}
+
+impl StlError {
+    /// Stable name of the error for programs.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Empty => "stl-empty",
+            Self::NotStl => "stl-not-stl",
+            Self::Truncated { .. } | Self::EndOfText { .. } => "stl-truncated",
+            Self::WrongFacetCount { .. } => "stl-wrong-facet-count",
+            Self::NotFiniteBinary { .. } | Self::NotFiniteText { .. } => "stl-not-finite",
+            Self::Syntax { .. } => "stl-syntax",
+            Self::NoFacets => "stl-no-facets",
+        }
+    }
+}
+
+/// Reads the triangles of a binary or ASCII STL, corners in file order.
+///
+/// A file whose length fits the facet count at byte 80 is binary whatever its header says, since
+/// many binary files begin with `solid`. ASCII may hold several solids; keywords are matched without
+/// regard to case.
+///
+/// # Errors
+/// [`StlError`], with the byte offset or the line where reading failed.
+pub fn read(bytes: &[u8]) -> Result<Vec<[Vec3; 3]>, StlError> {
+    if bytes.is_empty() {
+        return Err(StlError::Empty);
+    }
+    let declared = declared_facets(bytes);
+    let fits = declared.is_some_and(|count| {
+        let expected = binary_length(count);
+        (expected..expected + BINARY_FACET_BYTES as u64).contains(&(bytes.len() as u64))
+    });
+    let triangles = if !fits && looks_like_text(bytes) {
+        read_ascii(bytes)?
+    } else {
+        read_binary(bytes, declared.ok_or(StlError::NotStl)?)?
+    };
+    if triangles.is_empty() {
+        return Err(StlError::NoFacets);
+    }
+    Ok(triangles)
+}
+
+fn declared_facets(bytes: &[u8]) -> Option<u64> {
+    let count = bytes.get(80..BINARY_HEADER_BYTES)?;
+    Some(u64::from(u32::from_le_bytes([
+        count[0], count[1], count[2], count[3],
+    ])))
+}
+
+fn binary_length(facets: u64) -> u64 {
+    BINARY_HEADER_BYTES as u64 + facets * BINARY_FACET_BYTES as u64
+}
+
+/// Whether the file begins as an ASCII STL does: `solid`, then no zero byte in the first lines.
+fn looks_like_text(bytes: &[u8]) -> bool {
+    let head = &bytes[..bytes.len().min(1024)];
+    let word = head.trim_ascii_start();
+    let word = word.strip_prefix(b"\xef\xbb\xbf").unwrap_or(word);
+    word.len() >= 5 && word[..5].eq_ignore_ascii_case(b"solid") && !head.contains(&0)
+}
+
+fn read_binary(bytes: &[u8], declared: u64) -> Result<Vec<[Vec3; 3]>, StlError> {
+    let body = &bytes[BINARY_HEADER_BYTES..];
+    let found = (body.len() / BINARY_FACET_BYTES) as u64;
+    let is_text = bytes.iter().take(1024).all(|byte| {
+        byte.is_ascii_graphic() || byte.is_ascii_whitespace() || !byte.is_ascii()
+    });
+    if is_text && declared != found {
+        return Err(StlError::NotStl);
+    }
+    if declared > found {
+        return Err(StlError::Truncated {
+            declared_facets: declared,
+            expected_bytes: binary_length(declared),
+            found_bytes: bytes.len() as u64,
+        });
+    }
+    if declared < found {
+        return Err(StlError::WrongFacetCount {
+            declared_facets: declared,
+            found_facets: found,
+        });
+    }
+    body.chunks_exact(BINARY_FACET_BYTES)
+        .enumerate()
+        .map(|(facet, record)| {
+            let mut corners = [Vec3::ZERO; 3];
+            for (corner, chunk) in corners.iter_mut().zip(record[12..48].chunks_exact(12)) {
+                *corner = bytemuck::pod_read_unaligned(chunk);
+            }
+            if let Some(bad) = corners
+                .iter()
+                .flat_map(|corner| corner.to_array())
+                .position(|coordinate| !coordinate.is_finite())
+            {
+                let start = BINARY_HEADER_BYTES + facet * BINARY_FACET_BYTES + 12;
+                return Err(StlError::NotFiniteBinary {
+                    byte: (start + 4 * bad) as u64,
+                    facet: facet as u64,
+                });
+            }
+            Ok(corners)
+        })
+        .collect()
+}
+
+/// The words of an ASCII STL with the line each stands on.
+struct Words<'a> {
+    lines: std::iter::Enumerate<std::slice::Split<'a, u8, fn(&u8) -> bool>>,
+    rest: &'a [u8],
+    line: u64,
+}
+
+impl<'a> Words<'a> {
+    fn new(bytes: &'a [u8]) -> Self {
+        let is_newline: fn(&u8) -> bool = |byte| *byte == b'\n';
+        Self {
+            lines: bytes.split(is_newline).enumerate(),
+            rest: &[],
+            line: 0,
+        }
+    }
+
+    /// The next word; lines that begin with `solid` or `endsolid` carry free text and are one word.
+    fn next(&mut self) -> Option<&'a [u8]> {
+        loop {
+            self.rest = self.rest.trim_ascii_start();
+            if !self.rest.is_empty() {
+                let end = self
+                    .rest
+                    .iter()
+                    .position(u8::is_ascii_whitespace)
+                    .unwrap_or(self.rest.len());
+                let (word, rest) = self.rest.split_at(end);
+                let has_free_text = is(word, "solid") || is(word, "endsolid");
+                self.rest = if has_free_text { &[] } else { rest };
+                return Some(word);
+            }
+            let (index, line) = self.lines.next()?;
+            if index > 0 || !line.is_empty() {
+                self.line = index as u64 + u64::from(!line.is_empty());
+            }
+            self.rest = line;
+        }
+    }
+
+    fn expect(&mut self, words: &[&str], expected: &'static str) -> Result<(), StlError> {
+        words.iter().try_for_each(|wanted| match self.next() {
+            Some(word) if is(word, wanted) => Ok(()),
+            Some(word) => Err(self.syntax(expected, word)),
+            None => Err(self.end(expected)),
+        })
+    }
+
+    fn number(&mut self, expected: &'static str) -> Result<f32, StlError> {
+        let word = self.next().ok_or_else(|| self.end(expected))?;
+        let text = String::from_utf8_lossy(word);
+        let value: f32 = text.parse().map_err(|_| self.syntax(expected, word))?;
+        if value.is_finite() {
+            Ok(value)
+        } else {
+            Err(StlError::NotFiniteText {
+                line: self.line,
+                text: text.into_owned(),
+            })
+        }
+    }
+
+    fn syntax(&self, expected: &'static str, found: &[u8]) -> StlError {
+        let mut found = String::from_utf8_lossy(found).into_owned();
+        found.truncate(found.floor_char_boundary(40));
+        StlError::Syntax {
+            line: self.line,
+            expected,
+            found,
+        }
+    }
+
+    fn end(&self, expected: &'static str) -> StlError {
+        StlError::EndOfText {
+            line: self.line,
+            expected,
+        }
+    }
+}
+
+fn is(word: &[u8], keyword: &str) -> bool {
+    word.eq_ignore_ascii_case(keyword.as_bytes())
+}
+
+fn read_ascii(bytes: &[u8]) -> Result<Vec<[Vec3; 3]>, StlError> {
+    const FACET: &str = "`facet` or `endsolid`";
+    let mut words = Words::new(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes));
+    let mut triangles = Vec::new();
+    words.expect(&["solid"], "`solid`")?;
+    loop {
+        let word = words.next().ok_or_else(|| words.end(FACET))?;
+        if is(word, "endsolid") {
+            match words.next() {
+                None => return Ok(triangles),
+                Some(word) if is(word, "solid") => {}
+                Some(word) => return Err(words.syntax("`solid` or the end of the file", word)),
+            }
+        } else if is(word, "facet") {
+            triangles.push(read_ascii_facet(&mut words)?);
+        } else {
+            return Err(words.syntax(FACET, word));
+        }
+    }
+}
+
+fn read_ascii_facet(words: &mut Words<'_>) -> Result<[Vec3; 3], StlError> {
+    words.expect(&["normal"], "`normal`")?;
+    for _ in 0..3 {
+        words.next().ok_or_else(|| words.end("a normal"))?;
+    }
+    words.expect(&["outer", "loop"], "`outer loop`")?;
+    let mut corners = [Vec3::ZERO; 3];
+    for corner in &mut corners {
+        words.expect(&["vertex"], "`vertex`")?;
+        for axis in 0..3 {
+            corner[axis] = words.number("a coordinate")?;
+        }
+    }
+    words.expect(&["endloop"], "`endloop`")?;
+    words.expect(&["endfacet"], "`endfacet`")?;
+    Ok(corners)
+}
