@@ -114,7 +114,10 @@ impl Grid {
     pub fn around(bounds: &Bounds, rays: u32) -> Result<Self, GridError> {
         let size = bounds.size();
         if rays == 0 {
-            return Err(GridError::BadSize { width: 0, height: 0 });
+            return Err(GridError::BadSize {
+                width: 0,
+                height: 0,
+            });
         }
         Self::of_pitch(bounds, size.x.max(size.y) / f64::from(rays))
     }
@@ -152,12 +155,7 @@ impl Grid {
         Self::centred(bounds, u64::from(pixels[0]), u64::from(pixels[1]), pitch_mm)
     }
 
-    fn centred(
-        bounds: &Bounds,
-        width: u64,
-        height: u64,
-        pitch_mm: f64,
-    ) -> Result<Self, GridError> {
+    fn centred(bounds: &Bounds, width: u64, height: u64, pitch_mm: f64) -> Result<Self, GridError> {
         let side = 1..=u64::from(MAX_SIDE);
         if !side.contains(&width) || !side.contains(&height) || width * height > MAX_PIXELS {
             return Err(GridError::BadSize { width, height });
@@ -212,12 +210,18 @@ impl Bins {
     /// [`GridError::BadLength`], [`GridError::TooManyBins`].
     pub fn of_height(height_mm: f64, bin_mm: f64) -> Result<Self, GridError> {
         positive("the bin", bin_mm)?;
-        let bins = Self { count: 0, size_mm: bin_mm };
+        let bins = Self {
+            count: 0,
+            size_mm: bin_mm,
+        };
         let count = bins.ceil(height_mm);
         if count > MAX_BINS {
             return Err(GridError::TooManyBins { height_mm, bin_mm });
         }
-        Ok(Self { count: count.max(1.0) as usize, size_mm: bin_mm })
+        Ok(Self {
+            count: count.max(1.0) as usize,
+            size_mm: bin_mm,
+        })
     }
 
     /// The bin, from 0, that holds height `z_mm`; heights outside belong to the first and last bin.

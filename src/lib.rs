@@ -27,21 +27,21 @@
 //! - Row 0 of a mask is at the largest y; a mask is sampled at the middle of its layer.
 //! - Everything that decides uses basic IEEE arithmetic or integers: a plan is the same on every machine.
 
-pub mod progress;
 mod parallel;
+pub mod progress;
 
-pub mod stl;
-pub mod mesh;
+pub mod archive;
 pub mod grid;
 pub mod ldi;
-pub mod profile;
-pub mod plan;
 pub mod mask;
-pub mod archive;
+pub mod mesh;
+pub mod plan;
+pub mod profile;
+pub mod stl;
 
-pub mod report;
 mod error;
 pub mod pipeline;
+pub mod report;
 #[cfg(target_arch = "wasm32")]
 mod wasm;
 

@@ -142,7 +142,11 @@ impl Mesh {
                 let [a, b, c] = self.corners(facet);
                 let normal = (b - a).cross(c - a);
                 let length = normal.length();
-                let n_z = if length > 0.0 { normal.z.abs() / length } else { 0.0 };
+                let n_z = if length > 0.0 {
+                    normal.z.abs() / length
+                } else {
+                    0.0
+                };
                 n_z.min(1.0) as f32
             })
             .collect()

@@ -81,7 +81,7 @@ pub enum Planner {
 
 /// What to slice and how. All lengths are in millimetres.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(from_wasm_abi))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(default, deny_unknown_fields)]
 pub struct Options {
     /// Scale the model evenly to this height; its own height if absent.
@@ -165,7 +165,12 @@ impl Slicer {
     pub fn load(bytes: &[u8]) -> Result<Self, Error> {
         let clock = Instant::now();
         let model = Mesh::from_triangles(&stl::read(bytes)?)?;
-        Ok(Self { model, load_ms: ms_since(clock), sampled: None, planned: None })
+        Ok(Self {
+            model,
+            load_ms: ms_since(clock),
+            sampled: None,
+            planned: None,
+        })
     }
 
     /// Describes the model as it stands in its file.
@@ -184,7 +189,10 @@ impl Slicer {
         progress: &mut StageProgress<'_>,
     ) -> Result<&Report, Error> {
         self.planned = None;
-        let mut timings = Timings { load: std::mem::take(&mut self.load_ms), ..Timings::default() };
+        let mut timings = Timings {
+            load: std::mem::take(&mut self.load_ms),
+            ..Timings::default()
+        };
 
         let key = sampling_options(options);
         let sampled = match self.sampled.take().filter(|sampled| sampled.options == key) {
@@ -196,7 +204,11 @@ impl Slicer {
         let clock = Instant::now();
         continue_or_cancel(progress(Stage::Profile, 0.0))?;
         let bins = Bins::of_height(sampled.height_mm, options.bin_mm)?;
-        if sampled.profile.as_ref().is_none_or(|(profile, _)| profile.bins != bins) {
+        if sampled
+            .profile
+            .as_ref()
+            .is_none_or(|(profile, _)| profile.bins != bins)
+        {
             let profile = match options.metric {
                 Metric::Cusp => cusp::sampled(&sampled.mesh, &sampled.ldi, bins),
             };
@@ -204,7 +216,9 @@ impl Slicer {
             sampled.profile = Some((profile, errors));
             timings.profile = ms_since(clock);
         }
-        let Some((_, errors)) = &sampled.profile else { unreachable!("set above") };
+        let Some((_, errors)) = &sampled.profile else {
+            unreachable!("set above")
+        };
 
         let clock = Instant::now();
         continue_or_cancel(progress(Stage::Plan, 0.0))?;
@@ -223,7 +237,14 @@ impl Slicer {
 
         timings.sum_up();
         let report = report_of(sampled, errors, options, &plan, uniform, timings);
-        Ok(&self.planned.insert(Planned { plan, report, masks: None }).report)
+        Ok(&self
+            .planned
+            .insert(Planned {
+                plan,
+                report,
+                masks: None,
+            })
+            .report)
     }
 
     async fn sample(
@@ -251,7 +272,9 @@ impl Slicer {
         let mut warnings = mesh_warnings(&mesh);
         let sampled_on_gpu = match options.backend {
             Backend::Cpu => None,
-            Backend::Gpu => Some(gpu::sample(&mesh, &grid, gpu::Adapters::Any, &mut ldi_progress).await),
+            Backend::Gpu => {
+                Some(gpu::sample(&mesh, &grid, gpu::Adapters::Any, &mut ldi_progress).await)
+            }
             Backend::Auto => {
                 Some(gpu::sample(&mesh, &grid, gpu::Adapters::Hardware, &mut ldi_progress).await)
             }
@@ -279,7 +302,15 @@ impl Slicer {
         timings.ldi = ms_since(clock);
         let options = sampling_options(options);
         let height_mm = bounds.size().z;
-        Ok(Sampled { options, mesh, height_mm, ldi, adapter, warnings, profile: None })
+        Ok(Sampled {
+            options,
+            mesh,
+            height_mm,
+            ldi,
+            adapter,
+            warnings,
+            profile: None,
+        })
     }
 
     /// The profile of the last plan.
@@ -320,7 +351,12 @@ impl Slicer {
         let clock = Instant::now();
         let (sampled, planned) = self.sampled_and_planned()?;
         planned.masks(&sampled.ldi);
-        let Planned { report, masks: Some((masks, _)), .. } = planned else {
+        let Planned {
+            report,
+            masks: Some((masks, _)),
+            ..
+        } = planned
+        else {
             unreachable!("made above")
         };
         let mut mask_progress = |fraction| progress(Stage::Masks, fraction);
@@ -349,7 +385,13 @@ impl Planned {
 }
 
 fn sampling_options(options: &Options) -> SamplingOptions {
-    (options.height_mm, options.pixels, options.pitch_mm, options.rays, options.backend)
+    (
+        options.height_mm,
+        options.pixels,
+        options.pitch_mm,
+        options.rays,
+        options.backend,
+    )
 }
 
 fn uniform_report(
@@ -399,7 +441,12 @@ fn report_of(
             Planner::Optimal => "optimal".to_owned(),
             Planner::Uniform { .. } => "uniform".to_owned(),
         },
-        backend: if sampled.adapter.is_some() { "gpu" } else { "cpu" }.to_owned(),
+        backend: if sampled.adapter.is_some() {
+            "gpu"
+        } else {
+            "cpu"
+        }
+        .to_owned(),
         adapter: sampled.adapter.clone(),
         bins: plan.bins.count,
         bin_mm: plan.bins.size_mm,

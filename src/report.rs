@@ -20,7 +20,10 @@ pub struct Warning {
 impl Warning {
     /// A warning from its parts.
     pub fn new(code: &str, message: impl Into<String>) -> Self {
-        Self { code: code.to_owned(), message: message.into() }
+        Self {
+            code: code.to_owned(),
+            message: message.into(),
+        }
     }
 }
 
@@ -36,7 +39,7 @@ pub struct BoundsReport {
 
 /// A mesh as it stands in its file.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(Tsify), tsify(into_wasm_abi))]
+#[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 pub struct MeshInfo {
     /// Facets with an area.
     pub facets: usize,
@@ -66,7 +69,10 @@ impl MeshInfo {
             facets: mesh.facets.len(),
             degenerate_facets: mesh.degenerate_facets,
             vertices: mesh.vertices.len(),
-            bounds_mm: BoundsReport { min: bounds.min.to_array(), max: bounds.max.to_array() },
+            bounds_mm: BoundsReport {
+                min: bounds.min.to_array(),
+                max: bounds.max.to_array(),
+            },
             size_mm: bounds.size().to_array(),
             volume_mm3: mesh.volume_mm3(),
             closed: mesh.is_closed(),
@@ -80,7 +86,10 @@ impl MeshInfo {
 pub fn mesh_warnings(mesh: &Mesh) -> Vec<Warning> {
     let mut warnings = Vec::new();
     if mesh.degenerate_facets > 0 {
-        let message = format!("{} facets without area were dropped", mesh.degenerate_facets);
+        let message = format!(
+            "{} facets without area were dropped",
+            mesh.degenerate_facets
+        );
         warnings.push(Warning::new("degenerate-facets", message));
     }
     if !mesh.is_closed() {
@@ -146,7 +155,7 @@ impl Timings {
 
 /// A plan and how it came about: what `--json` prints and the page shows.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(Tsify), tsify(into_wasm_abi))]
+#[cfg_attr(target_arch = "wasm32", derive(Tsify), tsify(missing_as_null))]
 pub struct Report {
     /// Number of layers.
     pub layers: usize,

@@ -151,9 +151,10 @@ fn looks_like_text(bytes: &[u8]) -> bool {
 fn read_binary(bytes: &[u8], declared: u64) -> Result<Vec<[Vec3; 3]>, StlError> {
     let body = &bytes[BINARY_HEADER_BYTES..];
     let found = (body.len() / BINARY_FACET_BYTES) as u64;
-    let is_text = bytes.iter().take(1024).all(|byte| {
-        byte.is_ascii_graphic() || byte.is_ascii_whitespace() || !byte.is_ascii()
-    });
+    let is_text = bytes
+        .iter()
+        .take(1024)
+        .all(|byte| byte.is_ascii_graphic() || byte.is_ascii_whitespace() || !byte.is_ascii());
     if is_text && declared != found {
         return Err(StlError::NotStl);
     }

@@ -32,6 +32,8 @@ impl ArchiveError {
     }
 
     fn write(error: impl std::fmt::Display) -> Self {
-        Self::Write { reason: error.to_string() }
+        Self::Write {
+            reason: error.to_string(),
+        }
     }
 }

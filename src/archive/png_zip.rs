@@ -74,7 +74,8 @@ pub fn write<W: Write + Seek>(
                     thickness_mm: report_of_plan.thickness_mm[layer],
                     lit_pixels: mask.lit_pixels,
                 };
-                zip.start_file(&entry.file, options).map_err(ArchiveError::write)?;
+                zip.start_file(&entry.file, options)
+                    .map_err(ArchiveError::write)?;
                 zip.write_all(&mask.png).map_err(ArchiveError::write)?;
                 layer_files.push(entry);
             }
@@ -84,8 +85,12 @@ pub fn write<W: Write + Seek>(
         [0.0, 1.0],
     )?;
 
-    let manifest = Manifest { report: report_of_plan, layer_files };
-    zip.start_file("manifest.json", options).map_err(ArchiveError::write)?;
+    let manifest = Manifest {
+        report: report_of_plan,
+        layer_files,
+    };
+    zip.start_file("manifest.json", options)
+        .map_err(ArchiveError::write)?;
     serde_json::to_writer(&mut zip, &manifest).map_err(ArchiveError::write)?;
     zip.finish().map_err(ArchiveError::write)
 }
@@ -103,7 +108,10 @@ fn encode_run(
     layers
         .map(|layer| {
             cursor.seek(masks, layer);
-            Ok(Encoded { png: encode(masks, &cursor)?, lit_pixels: cursor.lit_pixels() })
+            Ok(Encoded {
+                png: encode(masks, &cursor)?,
+                lit_pixels: cursor.lit_pixels(),
+            })
         })
         .collect()
 }
@@ -118,7 +126,9 @@ fn encode(masks: &Masks, mask: &MaskCursor) -> Result<Vec<u8>, ArchiveError> {
     encoder.set_compression(png::Compression::Fast);
     encoder.set_filter(png::Filter::Up);
     let mut writer = encoder.write_header().map_err(ArchiveError::write)?;
-    writer.write_image_data(mask.bits()).map_err(ArchiveError::write)?;
+    writer
+        .write_image_data(mask.bits())
+        .map_err(ArchiveError::write)?;
     writer.finish().map_err(ArchiveError::write)?;
     Ok(png)
 }

@@ -189,7 +189,11 @@ fn in_file(path: &Path, error: &dyn std::fmt::Display) -> String {
 
 fn info(model: &Path, json: bool) -> Result<(), String> {
     let info = load(model)?.info();
-    if json { print_json(&info) } else { print(&describe_mesh(&info)) }
+    if json {
+        print_json(&info)
+    } else {
+        print(&describe_mesh(&info))
+    }
 }
 
 fn plan(slicing: &Slicing) -> Result<(), String> {
@@ -211,11 +215,16 @@ fn slice(slicing: &Slicing, output: &Path) -> Result<(), String> {
     };
     let file = tempfile::NamedTempFile::new_in(folder).map_err(|error| in_file(output, &error))?;
     let (writer, report) = slicer
-        .write_png_zip(BufWriter::new(file), &mut |stage, fraction| bar.report(stage, fraction))
+        .write_png_zip(BufWriter::new(file), &mut |stage, fraction| {
+            bar.report(stage, fraction)
+        })
         .map_err(|error| in_file(output, &error))?;
-    let file = writer.into_inner().map_err(|error| in_file(output, &error))?;
+    let file = writer
+        .into_inner()
+        .map_err(|error| in_file(output, &error))?;
     set_usual_permissions(file.as_file());
-    file.persist(output).map_err(|error| in_file(output, &error.error))?;
+    file.persist(output)
+        .map_err(|error| in_file(output, &error.error))?;
     bar.finish();
     show(slicing, report)
 }
@@ -246,7 +255,11 @@ fn show(slicing: &Slicing, report: &Report) -> Result<(), String> {
     for Warning { message, .. } in &report.warnings {
         eprintln!("cusp: warning: {message}");
     }
-    if slicing.json { print_json(report) } else { print(&describe_plan(report)) }
+    if slicing.json {
+        print_json(report)
+    } else {
+        print(&describe_plan(report))
+    }
 }
 
 fn describe_mesh(info: &MeshInfo) -> String {
@@ -269,7 +282,9 @@ fn describe_plan(report: &Report) -> String {
     let (thinnest, thickest) = report
         .thickness_mm
         .iter()
-        .fold((f64::INFINITY, 0f64), |(low, high), &t| (low.min(t), high.max(t)));
+        .fold((f64::INFINITY, 0f64), |(low, high), &t| {
+            (low.min(t), high.max(t))
+        });
     format!(
         "layers    {} of {thinnest:.3} to {thickest:.3} mm, {:.3} mm in all\n\
          uniform   {} at the least thickness (error {:.4} mm), {} at the greatest ({:.4} mm)\n\
@@ -314,11 +329,15 @@ impl Bar {
     fn new() -> Self {
         const STEPS: u64 = 1000;
         if !std::io::stderr().is_terminal() {
-            return Self { bar: ProgressBar::hidden() };
+            return Self {
+                bar: ProgressBar::hidden(),
+            };
         }
         let style = ProgressStyle::with_template("{msg:8} {wide_bar} {percent:>3} %")
             .unwrap_or_else(|_| ProgressStyle::default_bar());
-        Self { bar: ProgressBar::new(STEPS).with_style(style) }
+        Self {
+            bar: ProgressBar::new(STEPS).with_style(style),
+        }
     }
 
     fn report(&self, stage: Stage, fraction: f64) -> ControlFlow<()> {

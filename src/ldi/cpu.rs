@@ -54,7 +54,11 @@ pub fn sample(mesh: &Mesh, grid: &Grid, progress: &mut Progress<'_>) -> Result<L
         progress,
         [0.35, 1.0],
     )?;
-    Ok(Ldi { grid: *grid, offsets, hits })
+    Ok(Ldi {
+        grid: *grid,
+        offsets,
+        hits,
+    })
 }
 
 /// For every band, the facets that reach into it, in compressed rows.
@@ -116,7 +120,9 @@ fn count_band(
     let rows = rows_of(band, grid);
     let width = grid.width as usize;
     for &facet in facets {
-        let Some(facet) = projection.facet(facet as usize) else { continue };
+        let Some(facet) = projection.facet(facet as usize) else {
+            continue;
+        };
         facet.for_each_span(rows.clone(), |row, columns| {
             let start = (row - rows.start) as usize * width;
             let counts = &mut counts[start..start + width];
@@ -149,10 +155,13 @@ fn fill_band(
     let base = offsets[0];
     let mut cursors: Vec<u32> = offsets.iter().map(|offset| offset - base).collect();
     for &index in facets {
-        let Some(facet) = projection.facet(index as usize) else { continue };
+        let Some(facet) = projection.facet(index as usize) else {
+            continue;
+        };
         facet.for_each_span(rows.clone(), |row, columns| {
             let start = (row - rows.start) as usize * width;
-            let cursors = &mut cursors[start + columns.start as usize..start + columns.end as usize];
+            let cursors =
+                &mut cursors[start + columns.start as usize..start + columns.end as usize];
             for (column, cursor) in columns.zip(cursors) {
                 let z_mm = facet.height_at(column, row);
                 hits[*cursor as usize] = Hit::new(z_mm, index, facet.faces_up);

@@ -53,10 +53,15 @@ pub async fn sample(
     let projection = Projection::new(mesh, grid);
     let peeler = Peeler::new(&gpu, mesh, &projection, grid);
     let mut found = Vec::new();
-    let (columns, rows) = (tiles(grid.width, peeler.tile_side), tiles(grid.height, peeler.tile_side));
+    let (columns, rows) = (
+        tiles(grid.width, peeler.tile_side),
+        tiles(grid.height, peeler.tile_side),
+    );
     let tile_count = (columns.len() * rows.len()) as f64;
-    for (index, (row, column)) in
-        rows.iter().flat_map(|&row| columns.iter().map(move |&column| (row, column))).enumerate()
+    for (index, (row, column)) in rows
+        .iter()
+        .flat_map(|&row| columns.iter().map(move |&column| (row, column)))
+        .enumerate()
     {
         let region = Region {
             column: column.0,
@@ -75,7 +80,10 @@ pub async fn sample(
 
 /// First index and length of the parts of `length`.
 fn tiles(length: u32, side: u32) -> Vec<(u32, u32)> {
-    (0..length).step_by(side as usize).map(|first| (first, side.min(length - first))).collect()
+    (0..length)
+        .step_by(side as usize)
+        .map(|first| (first, side.min(length - first)))
+        .collect()
 }
 
 /// A ray and a facet that it meets.
@@ -106,7 +114,11 @@ fn assemble_ldi(
         cursors[ray as usize] += 1;
     }
     assemble::sort_rays(&offsets, 0, &mut hits);
-    Ok(Ldi { grid: *grid, offsets, hits })
+    Ok(Ldi {
+        grid: *grid,
+        offsets,
+        hits,
+    })
 }
 
 /// An open device.
@@ -120,8 +132,15 @@ struct Gpu {
 
 impl Gpu {
     async fn open(adapters: Adapters) -> Result<Self, LdiError> {
-        let no_gpu = |reason: &dyn std::fmt::Display| LdiError::NoGpu { reason: reason.to_string() };
-        let adapter = wgpu::Instance::default()
+        let no_gpu = |reason: &dyn std::fmt::Display| LdiError::NoGpu {
+            reason: reason.to_string(),
+        };
+        // OpenGL is left out: it adds no machine worth having and doubles the time of the search.
+        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+            backends: wgpu::Backends::PRIMARY,
+            ..wgpu::InstanceDescriptor::new_without_display_handle()
+        });
+        let adapter = instance
             .request_adapter(&wgpu::RequestAdapterOptions {
                 power_preference: wgpu::PowerPreference::HighPerformance,
                 ..Default::default()
@@ -146,16 +165,33 @@ impl Gpu {
         let failure = Arc::new(Mutex::new(None));
         let first_failure = Arc::clone(&failure);
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
-            let mut slot = first_failure.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+            let mut slot = first_failure
+                .lock()
+                .unwrap_or_else(std::sync::PoisonError::into_inner);
             slot.get_or_insert_with(|| error.to_string());
         }));
-        let name = if info.name.is_empty() { info.vendor.to_string() } else { info.name };
-        Ok(Self { name, device, queue, failure })
+        let name = if info.name.is_empty() {
+            info.vendor.to_string()
+        } else {
+            info.name
+        };
+        Ok(Self {
+            name,
+            device,
+            queue,
+            failure,
+        })
     }
 
     fn check(&self) -> Result<(), LdiError> {
-        match &*self.failure.lock().unwrap_or_else(std::sync::PoisonError::into_inner) {
-            Some(reason) => Err(LdiError::GpuFailed { reason: reason.clone() }),
+        match &*self
+            .failure
+            .lock()
+            .unwrap_or_else(std::sync::PoisonError::into_inner)
+        {
+            Some(reason) => Err(LdiError::GpuFailed {
+                reason: reason.clone(),
+            }),
             None => Ok(()),
         }
     }
@@ -200,11 +236,13 @@ impl<'a> Peeler<'a> {
                         })
                     })
                     .collect();
-                let buffer = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                    label: Some("corners"),
-                    contents: bytemuck::cast_slice(&corners),
-                    usage: wgpu::BufferUsages::VERTEX,
-                });
+                let buffer = gpu
+                    .device
+                    .create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                        label: Some("corners"),
+                        contents: bytemuck::cast_slice(&corners),
+                        usage: wgpu::BufferUsages::VERTEX,
+                    });
                 (buffer, corners.len() as u32)
             })
             .collect();
@@ -264,7 +302,10 @@ impl<'a> Peeler<'a> {
                 label: None,
                 layout: &self.pipeline.get_bind_group_layout(0),
                 entries: &[
-                    wgpu::BindGroupEntry { binding: 0, resource: tile.as_entire_binding() },
+                    wgpu::BindGroupEntry {
+                        binding: 0,
+                        resource: tile.as_entire_binding(),
+                    },
                     wgpu::BindGroupEntry {
                         binding: 1,
                         resource: wgpu::BindingResource::TextureView(&views[previous]),
@@ -272,7 +313,8 @@ impl<'a> Peeler<'a> {
                 ],
             })
         });
-        let row_bytes = (region.width * PAIR_BYTES).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let row_bytes =
+            (region.width * PAIR_BYTES).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
         let readback = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("readback"),
             size: u64::from(row_bytes) * u64::from(region.height),
@@ -322,7 +364,12 @@ impl<'a> Peeler<'a> {
                 depth_slice: None,
                 resolve_target: None,
                 ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color { r: DONE, g: DONE, b: DONE, a: DONE }),
+                    load: wgpu::LoadOp::Clear(wgpu::Color {
+                        r: DONE,
+                        g: DONE,
+                        b: DONE,
+                        a: DONE,
+                    }),
                     store: wgpu::StoreOp::Store,
                 },
             })],
@@ -352,22 +399,32 @@ impl<'a> Peeler<'a> {
         row_bytes: u32,
         found: &mut Vec<Meeting>,
     ) -> Result<(), LdiError> {
-        let failed = |reason: &dyn std::fmt::Display| LdiError::GpuFailed { reason: reason.to_string() };
+        let failed = |reason: &dyn std::fmt::Display| LdiError::GpuFailed {
+            reason: reason.to_string(),
+        };
         let (sender, receiver) = futures_channel::oneshot::channel();
         readback.map_async(wgpu::MapMode::Read, .., move |result| {
             // The receiver is gone only if the whole job is.
             let _ = sender.send(result);
         });
         // Natively this waits; in the browser the event loop calls back.
-        self.gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| failed(&error))?;
+        self.gpu
+            .device
+            .poll(wgpu::PollType::wait_indefinitely())
+            .map_err(|error| failed(&error))?;
         let mapped = receiver.await;
         self.gpu.check()?;
-        mapped.map_err(|error| failed(&error))?.map_err(|error| failed(&error))?;
+        mapped
+            .map_err(|error| failed(&error))?
+            .map_err(|error| failed(&error))?;
         {
-            let bytes = readback.get_mapped_range(..).map_err(|error| failed(&error))?;
+            let bytes = readback
+                .get_mapped_range(..)
+                .map_err(|error| failed(&error))?;
             let width = region.width as usize;
             for (row, bytes) in bytes.chunks_exact(row_bytes as usize).enumerate() {
-                let pairs: &[[u32; 2]] = bytemuck::cast_slice(&bytes[..width * PAIR_BYTES as usize]);
+                let pairs: &[[u32; 2]] =
+                    bytemuck::cast_slice(&bytes[..width * PAIR_BYTES as usize]);
                 let first_ray = (region.row + row as u32) * self.grid.width + region.column;
                 for (column, &[_, facet]) in pairs.iter().enumerate() {
                     if facet != u32::MAX {

@@ -37,7 +37,10 @@ pub enum LdiError {
         needed_bytes: u64,
     },
     /// More facets than an index can hold.
-    #[error("{facets} facets are too many; at most {} can be sliced", Hit::MAX_FACETS)]
+    #[error(
+        "{facets} facets are too many; at most {} can be sliced",
+        Hit::MAX_FACETS
+    )]
     TooManyFacets {
         /// Facets of the mesh.
         facets: u64,
@@ -85,7 +88,10 @@ impl Hit {
 
     /// A hit at height `z_mm` with `facet`, an exit if the facet faces up.
     pub fn new(z_mm: f32, facet: u32, is_exit: bool) -> Self {
-        Self { z_mm, surface: facet << 1 | u32::from(is_exit) }
+        Self {
+            z_mm,
+            surface: facet << 1 | u32::from(is_exit),
+        }
     }
 
     /// Index of the facet in the mesh.

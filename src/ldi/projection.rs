@@ -42,7 +42,11 @@ impl<'a> Projection<'a> {
                 [snapped.x as i32, snapped.y as i32]
             })
             .collect();
-        Self { mesh, positions, rows: grid.height }
+        Self {
+            mesh,
+            positions,
+            rows: grid.height,
+        }
     }
 
     /// Number of facets.
@@ -140,7 +144,11 @@ impl ProjectedFacet {
             let mut short = Edge::new(from, to, first);
             let mut long = Edge::new(top, bottom, first);
             for row in first..end {
-                let (left, right) = if bend_is_left { (&short, &long) } else { (&long, &short) };
+                let (left, right) = if bend_is_left {
+                    (&short, &long)
+                } else {
+                    (&long, &short)
+                };
                 if left.column < right.column {
                     emit(row as u32, left.column as u32..right.column as u32);
                 }

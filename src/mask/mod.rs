@@ -63,7 +63,11 @@ impl Masks {
             *slot += 1;
         }
         starts.truncate(layers + 1);
-        Self { grid: ldi.grid, starts, toggles }
+        Self {
+            grid: ldi.grid,
+            starts,
+            toggles,
+        }
     }
 
     /// Number of layers.
@@ -159,20 +163,31 @@ impl LayerOf {
             .map(|bin| {
                 // One bin lower than need be, to be safe from rounding in the division below.
                 let floor_mm = (f64::from(bin) - 1.0) * plan.bins.size_mm;
-                while middles_mm.get(layer as usize).is_some_and(|&middle| middle < floor_mm) {
+                while middles_mm
+                    .get(layer as usize)
+                    .is_some_and(|&middle| middle < floor_mm)
+                {
                     layer += 1;
                 }
                 layer
             })
             .collect();
-        Self { middles_mm, first, bin_mm: plan.bins.size_mm }
+        Self {
+            middles_mm,
+            first,
+            bin_mm: plan.bins.size_mm,
+        }
     }
 
     fn first_above(&self, z_mm: f32) -> u32 {
         let z_mm = f64::from(z_mm);
         let bin = ((z_mm / self.bin_mm) as usize).min(self.first.len() - 1);
         let mut layer = self.first[bin];
-        while self.middles_mm.get(layer as usize).is_some_and(|&middle| middle < z_mm) {
+        while self
+            .middles_mm
+            .get(layer as usize)
+            .is_some_and(|&middle| middle < z_mm)
+        {
             layer += 1;
         }
         layer

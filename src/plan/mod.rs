@@ -114,7 +114,10 @@ impl Plan {
 
     /// Height of every boundary in millimetres, one more than there are layers.
     pub fn z_mm(&self) -> Vec<f64> {
-        self.boundaries.iter().map(|&boundary| self.bins.boundary_mm(boundary)).collect()
+        self.boundaries
+            .iter()
+            .map(|&boundary| self.bins.boundary_mm(boundary))
+            .collect()
     }
 
     /// Thickness of every layer in millimetres.
@@ -149,7 +152,10 @@ impl Limits {
     ///
     /// # Errors
     /// [`PlanError::Grid`], [`PlanError::EmptyRange`].
-    pub fn thickness_in_bins(&self, bins: Bins) -> Result<std::ops::RangeInclusive<u32>, PlanError> {
+    pub fn thickness_in_bins(
+        &self,
+        bins: Bins,
+    ) -> Result<std::ops::RangeInclusive<u32>, PlanError> {
         use crate::grid::positive;
         positive("the least layer thickness", self.layer_min_mm)?;
         positive("the greatest layer thickness", self.layer_max_mm)?;

@@ -42,7 +42,10 @@ pub fn plan(errors: &ErrorSum, limits: &Limits) -> Result<Plan, PlanError> {
             }
         });
     }
-    Ok(Plan { bins, boundaries: backtrack(&table) })
+    Ok(Plan {
+        bins,
+        boundaries: backtrack(&table),
+    })
 }
 
 /// Lines 1 to 7 of Procedure 1: for every plane, the least number of layers and the plane below.
@@ -52,13 +55,20 @@ pub fn fill_table(
     tolerance_steps: u64,
 ) -> Table {
     let count = errors.bins().count;
-    let mut table = Table { layers: vec![None; count + 1], below: vec![None; count + 1] };
+    let mut table = Table {
+        layers: vec![None; count + 1],
+        below: vec![None; count + 1],
+    };
     table.layers[0] = Some(0);
     for plane in 1..=count as u32 {
-        let Some(highest) = plane.checked_sub(*thickness.start()) else { continue };
+        let Some(highest) = plane.checked_sub(*thickness.start()) else {
+            continue;
+        };
         let lowest = plane.saturating_sub(*thickness.end());
         for below in lowest..=highest {
-            let Some(layers) = table.layers[below as usize] else { continue };
+            let Some(layers) = table.layers[below as usize] else {
+                continue;
+            };
             let is_better = table.layers[plane as usize].is_none_or(|best| best > layers + 1);
             if is_better && errors.steps_between(below, plane) <= tolerance_steps {
                 table.layers[plane as usize] = Some(layers + 1);

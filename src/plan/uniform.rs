@@ -14,7 +14,10 @@ pub fn plan(bins: Bins, height_mm: f64, layer_mm: f64) -> Result<Plan, PlanError
     positive("the layer thickness", layer_mm)?;
     let thickness = bins.floor(layer_mm);
     if thickness < 1.0 || bins.ceil(layer_mm) > thickness {
-        return Err(PlanError::NotWholeBins { layer_mm, bin_mm: bins.size_mm });
+        return Err(PlanError::NotWholeBins {
+            layer_mm,
+            bin_mm: bins.size_mm,
+        });
     }
     let layers = (height_mm / bins.size_mm / thickness - 0.5).ceil().max(1.0);
     let (thickness, layers) = (thickness as u32, layers as u32);

@@ -40,7 +40,10 @@ impl Profile {
             total += (f64::from(density) * STEPS_PER_BIN).round() as u64;
             sums.push(total);
         }
-        ErrorSum { bins: self.bins, sums }
+        ErrorSum {
+            bins: self.bins,
+            sums,
+        }
     }
 }
 

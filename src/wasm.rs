@@ -1,0 +1,143 @@
+//! The library in the browser: the only file with wasm-bindgen.
+//!
+//! Errors are thrown as `{ code, message, detail }`; see [`crate::Error`].
+
+use std::io::Cursor;
+use std::ops::ControlFlow;
+
+use js_sys::Function;
+use serde::Serialize;
+use tsify::{Ts, Tsify};
+use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
+
+use crate::error::Error;
+use crate::pipeline::{self, Options, Stage};
+use crate::report::{MeshInfo, Report};
+
+/// What every function here throws.
+#[derive(Serialize, Tsify)]
+struct CuspError {
+    /// Stable name for programs.
+    code: &'static str,
+    /// One sentence for people, with what to do.
+    message: String,
+    /// The typed details of the error, if it has any.
+    #[tsify(type = "Record<string, unknown> | null")]
+    detail: JsValueOf,
+}
+
+/// Details that are a JavaScript value already.
+#[derive(Serialize)]
+#[serde(transparent)]
+struct JsValueOf(#[serde(with = "serde_wasm_bindgen::preserve")] JsValue);
+
+fn to_js(value: &impl Serialize) -> JsValue {
+    let serializer = serde_wasm_bindgen::Serializer::json_compatible();
+    // Fails only on maps with keys that are no strings, which no error has.
+    value.serialize(&serializer).unwrap_or(JsValue::NULL)
+}
+
+fn throw(error: impl Into<Error>) -> JsValue {
+    let error = error.into();
+    to_js(&CuspError {
+        code: error.code(),
+        message: error.to_string(),
+        detail: JsValueOf(to_js(&error)),
+    })
+}
+
+/// Values that do not fit their type: options that are none, mostly.
+fn throw_conversion(error: impl std::fmt::Display) -> JsValue {
+    throw(Error::Options {
+        reason: error.to_string(),
+    })
+}
+
+/// Calls a JavaScript function with the stage and the fraction done. There is no return path: a
+/// page cancels by ending the worker.
+fn progress_to(callback: &Function) -> impl FnMut(Stage, f64) -> ControlFlow<()> {
+    move |stage, fraction| {
+        // A failing callback must not fail the job.
+        let _ = callback.call2(&JsValue::NULL, &stage.name().into(), &fraction.into());
+        ControlFlow::Continue(())
+    }
+}
+
+/// A loaded model; a change of options repeats only what depends on it.
+#[wasm_bindgen]
+pub struct Slicer {
+    slicer: pipeline::Slicer,
+}
+
+#[wasm_bindgen]
+impl Slicer {
+    /// Reads an STL, binary or ASCII.
+    ///
+    /// # Errors
+    /// Throws a `CuspError` if the bytes are no usable STL.
+    #[wasm_bindgen(constructor)]
+    pub fn new(stl: &[u8]) -> Result<Slicer, JsValue> {
+        let slicer = pipeline::Slicer::load(stl).map_err(throw)?;
+        Ok(Self { slicer })
+    }
+
+    /// Describes the model as it stands in its file.
+    ///
+    /// # Errors
+    /// None that a valid model causes.
+    pub fn info(&self) -> Result<Ts<MeshInfo>, JsValue> {
+        self.slicer.info().into_ts().map_err(throw_conversion)
+    }
+
+    /// Plans the layers.
+    ///
+    /// # Errors
+    /// Throws a `CuspError`.
+    pub async fn plan(
+        &mut self,
+        options: Ts<Options>,
+        #[wasm_bindgen(unchecked_param_type = "(stage: Stage, fraction: number) => void")]
+        progress: Function,
+    ) -> Result<Ts<Report>, JsValue> {
+        let options = options.to_rust().map_err(throw_conversion)?;
+        let report = self
+            .slicer
+            .plan(&options, &mut progress_to(&progress))
+            .await;
+        report.map_err(throw)?.into_ts().map_err(throw_conversion)
+    }
+
+    /// Error density of every bin of the last plan, from the plate upward.
+    ///
+    /// # Errors
+    /// Throws a `CuspError` if there is no plan.
+    pub fn profile(&self) -> Result<Vec<f32>, JsValue> {
+        Ok(self.slicer.profile().map_err(throw)?.density.clone())
+    }
+
+    /// The mask of a layer, from 0: one bit a pixel, most significant first, rows from the largest y
+    /// downward and padded to whole bytes; 1 is lit.
+    ///
+    /// # Errors
+    /// Throws a `CuspError` if there is no plan or no such layer.
+    pub fn mask(&mut self, layer: usize) -> Result<Vec<u8>, JsValue> {
+        Ok(self.slicer.mask(layer).map_err(throw)?.to_vec())
+    }
+
+    /// The masks of the last plan as a zip of PNGs with a manifest.
+    ///
+    /// # Errors
+    /// Throws a `CuspError`.
+    pub fn archive(
+        &mut self,
+        #[wasm_bindgen(unchecked_param_type = "(stage: Stage, fraction: number) => void")]
+        progress: &Function,
+    ) -> Result<Vec<u8>, JsValue> {
+        let writer = Cursor::new(Vec::new());
+        let (writer, _) = self
+            .slicer
+            .write_png_zip(writer, &mut progress_to(progress))
+            .map_err(throw)?;
+        Ok(writer.into_inner())
+    }
+}
