@@ -25,6 +25,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     /// Slice a model into a zip of layer masks (PNG) with a manifest
+    #[command(allow_negative_numbers = true)]
     Slice {
         #[command(flatten)]
         slicing: Slicing,
@@ -33,6 +34,7 @@ enum Command {
         output: PathBuf,
     },
     /// Plan the layers of a model without writing masks
+    #[command(allow_negative_numbers = true)]
     Plan {
         #[command(flatten)]
         slicing: Slicing,

@@ -1,0 +1,139 @@
+//! The zip of masks, read back with other libraries.
+
+#![cfg(not(target_arch = "wasm32"))]
+
+mod common;
+
+use std::io::{Cursor, Read};
+
+use common::{binary_stl, quiet, solids};
+use cusp_slicer::pipeline::{Backend, Options, Planner, Slicer};
+use serde_json::Value;
+
+fn slice(triangles: &solids::Triangles, options: &Options) -> (Slicer, Vec<u8>, Value) {
+    let mut slicer = Slicer::load(&binary_stl(triangles)).unwrap();
+    pollster::block_on(slicer.plan(options, &mut quiet)).unwrap();
+    let (writer, report) = slicer
+        .write_png_zip(Cursor::new(Vec::new()), &mut quiet)
+        .unwrap();
+    // Through text, as the manifest goes.
+    let report = serde_json::from_str(&serde_json::to_string(report).unwrap()).unwrap();
+    (slicer, writer.into_inner(), report)
+}
+
+fn options() -> Options {
+    Options {
+        rays: 203,
+        backend: Backend::Cpu,
+        ..Options::default()
+    }
+}
+
+fn file(zip: &mut zip::ZipArchive<Cursor<Vec<u8>>>, name: &str) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    zip.by_name(name).unwrap().read_to_end(&mut bytes).unwrap();
+    bytes
+}
+
+#[test]
+fn the_zip_holds_every_mask_as_a_one_bit_png() {
+    let (mut slicer, bytes, report) = slice(&solids::sphere(3.0, 4), &options());
+    let mut zip = zip::ZipArchive::new(Cursor::new(bytes)).unwrap();
+    let manifest: Value = serde_json::from_slice(&file(&mut zip, "manifest.json")).unwrap();
+    let layers = report["layers"].as_u64().unwrap() as usize;
+    assert_eq!(zip.len(), layers + 1);
+    for layer in 0..layers {
+        let entry = &manifest["layer_files"][layer];
+        assert_eq!(entry["file"], format!("layers/{layer:05}.png"));
+        assert_eq!(entry["z_mm"], report["z_mm"][layer + 1]);
+        assert_eq!(entry["thickness_mm"], report["thickness_mm"][layer]);
+        let png = file(&mut zip, entry["file"].as_str().unwrap());
+        let mut reader = png::Decoder::new(Cursor::new(png)).read_info().unwrap();
+        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+        let info = reader.next_frame(&mut pixels).unwrap();
+        assert_eq!((info.width, info.height), (203, 203));
+        assert_eq!(
+            (info.color_type, info.bit_depth),
+            (png::ColorType::Grayscale, png::BitDepth::One)
+        );
+        assert_eq!(pixels, slicer.mask(layer).unwrap());
+        let lit: u32 = pixels.iter().map(|byte| byte.count_ones()).sum();
+        assert_eq!(entry["lit_pixels"], lit);
+    }
+}
+
+#[test]
+fn the_manifest_repeats_the_report() {
+    let (_, bytes, mut report) = slice(&solids::cone(2.0, 3.0, 16), &options());
+    let mut zip = zip::ZipArchive::new(Cursor::new(bytes)).unwrap();
+    let mut manifest: Value = serde_json::from_slice(&file(&mut zip, "manifest.json")).unwrap();
+    // How long the masks took is not known yet while they are written.
+    for value in [&mut manifest, &mut report] {
+        value.as_object_mut().unwrap().remove("timings_ms");
+    }
+    manifest.as_object_mut().unwrap().remove("layer_files");
+    assert_eq!(manifest, report);
+}
+
+#[test]
+fn the_same_plan_gives_the_same_masks_on_one_thread_and_on_many() {
+    let masks = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        let (_, bytes, _) = pool.install(|| slice(&solids::frame(), &options()));
+        let mut zip = zip::ZipArchive::new(Cursor::new(bytes)).unwrap();
+        (0..zip.len() - 1)
+            .map(|layer| file(&mut zip, &format!("layers/{layer:05}.png")))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(masks(1), masks(4));
+}
+
+#[test]
+fn a_change_of_tolerance_keeps_the_ldi_and_changes_the_plan() {
+    let (mut slicer, _, first) = slice(&solids::sphere(3.0, 4), &options());
+    let finer = Options {
+        tolerance_mm: 0.055,
+        ..options()
+    };
+    let report = pollster::block_on(slicer.plan(&finer, &mut quiet)).unwrap();
+    assert!(report.layers > first["layers"].as_u64().unwrap() as usize);
+    assert_eq!(report.timings_ms.ldi, 0.0);
+    let uniform = Options {
+        planner: Planner::Uniform { layer_mm: 0.1 },
+        ..options()
+    };
+    let report = pollster::block_on(slicer.plan(&uniform, &mut quiet)).unwrap();
+    assert_eq!((report.layers, report.planner.as_str()), (60, "uniform"));
+    assert_eq!(report.warnings[0].code, "tolerance-exceeded");
+}
+
+#[test]
+fn after_an_infeasible_request_the_model_can_still_be_planned() {
+    let mut slicer = Slicer::load(&binary_stl(&solids::sphere(3.0, 4))).unwrap();
+    let impossible = Options {
+        tolerance_mm: 0.01,
+        ..options()
+    };
+    let error = pollster::block_on(slicer.plan(&impossible, &mut quiet)).unwrap_err();
+    assert_eq!(error.code(), "infeasible");
+    assert_eq!(serde_json::to_value(&error).unwrap()["height_mm"], 0.0);
+    assert_eq!(slicer.mask(0).unwrap_err().code(), "no-plan");
+    assert!(pollster::block_on(slicer.plan(&options(), &mut quiet)).is_ok());
+}
+
+#[test]
+fn an_open_model_slices_with_a_warning() {
+    let mut open = solids::sphere(3.0, 4);
+    open.truncate(open.len() - 40);
+    let (_, _, report) = slice(&open, &options());
+    let codes: Vec<_> = report["warnings"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|warning| &warning["code"])
+        .collect();
+    assert_eq!(codes, ["open-mesh", "unclosed-rays"]);
+}

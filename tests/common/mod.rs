@@ -1,0 +1,66 @@
+//! Solids with closed forms, naive oracles and small helpers, shared by the suites.
+
+#![allow(dead_code, reason = "every suite uses its own part of this module")]
+
+pub mod oracle;
+pub mod solids;
+
+use std::ops::ControlFlow;
+
+use cusp_slicer::grid::Grid;
+use cusp_slicer::ldi::{Ldi, cpu};
+use cusp_slicer::mesh::Mesh;
+use cusp_slicer::pipeline::Stage;
+use cusp_slicer::progress::silent;
+use glam::Vec3;
+
+/// A mesh on the plate, made from triangles.
+pub fn on_plate(triangles: &[[Vec3; 3]]) -> Mesh {
+    Mesh::from_triangles(triangles)
+        .unwrap()
+        .on_plate(None)
+        .unwrap()
+}
+
+/// A mesh on the plate and its LDI of `rays` along the longer side, sampled on the CPU.
+pub fn sample(triangles: &[[Vec3; 3]], rays: u32) -> (Mesh, Ldi) {
+    let mesh = on_plate(triangles);
+    let grid = Grid::around(&mesh.bounds(), rays).unwrap();
+    let ldi = cpu::sample(&mesh, &grid, &mut silent).unwrap();
+    (mesh, ldi)
+}
+
+/// A binary STL, written by another library.
+pub fn binary_stl(triangles: &[[Vec3; 3]]) -> Vec<u8> {
+    let triangles: Vec<_> = triangles
+        .iter()
+        .map(|corners| stl_io::Triangle {
+            normal: stl_io::Normal::new([0.0; 3]),
+            vertices: corners.map(|corner| stl_io::Vertex::new(corner.to_array())),
+        })
+        .collect();
+    let mut bytes = Vec::new();
+    stl_io::write_stl(&mut bytes, triangles.iter()).unwrap();
+    bytes
+}
+
+/// A progress callback of the pipeline that shows nothing.
+pub fn quiet(_stage: Stage, _fraction: f64) -> ControlFlow<()> {
+    ControlFlow::Continue(())
+}
+
+/// Asserts that two numbers differ by at most `tolerance`.
+#[track_caller]
+pub fn assert_near(actual: f64, expected: f64, tolerance: f64) {
+    assert!(
+        (actual - expected).abs() <= tolerance,
+        "{actual} is not within {tolerance} of {expected}"
+    );
+}
+
+/// A 64-bit FNV-1a hash, for comparing results between machines.
+pub fn fingerprint(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    })
+}

@@ -1,0 +1,205 @@
+//! Closed solids made by code. Only basic arithmetic and square roots, so that every machine makes
+//! the same coordinates.
+
+use glam::{DVec2, DVec3, Vec3};
+
+pub type Triangles = Vec<[Vec3; 3]>;
+
+/// An axis-aligned box from the origin.
+pub fn cuboid(size: Vec3) -> Triangles {
+    let corner =
+        |i: usize| Vec3::new((i & 1) as f32, (i >> 1 & 1) as f32, (i >> 2 & 1) as f32) * size;
+    [
+        [0, 2, 3, 1], // bottom
+        [4, 5, 7, 6], // top
+        [0, 1, 5, 4], // front
+        [2, 6, 7, 3], // back
+        [0, 4, 6, 2], // left
+        [1, 3, 7, 5], // right
+    ]
+    .iter()
+    .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]])
+    .map(|corners| corners.map(corner))
+    .collect()
+}
+
+pub fn cube(side: f32) -> Triangles {
+    cuboid(Vec3::splat(side))
+}
+
+/// A sphere around the origin: an octahedron whose edges are halved `levels` times.
+pub fn sphere(radius: f64, levels: u32) -> Triangles {
+    let (x, y, z) = (DVec3::X, DVec3::Y, DVec3::Z);
+    let mut faces = vec![
+        [x, y, z],
+        [y, -x, z],
+        [-x, -y, z],
+        [-y, x, z],
+        [y, x, -z],
+        [-x, y, -z],
+        [-y, -x, -z],
+        [x, -y, -z],
+    ];
+    for _ in 0..levels {
+        faces = faces
+            .iter()
+            .flat_map(|&[a, b, c]| {
+                let middle = |p: DVec3, q: DVec3| {
+                    let sum = p + q;
+                    sum / sum.dot(sum).sqrt()
+                };
+                let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
+                [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
+            })
+            .collect();
+    }
+    faces
+        .iter()
+        .map(|face| face.map(|corner| (corner * radius).as_vec3()))
+        .collect()
+}
+
+/// Points on the unit circle, counter-clockwise, at multiples of 1/`count` of a quarter of each
+/// quadrant's rational parameter.
+pub fn circle(quarter: u32) -> Vec<DVec2> {
+    let first: Vec<DVec2> = (0..quarter)
+        .map(|i| {
+            let t = f64::from(i) / f64::from(quarter);
+            DVec2::new(1.0 - t * t, 2.0 * t) / (1.0 + t * t)
+        })
+        .collect();
+    let mut points = first;
+    for turn in 1..4 {
+        let start = points.len() - quarter as usize;
+        let turned: Vec<DVec2> = points[start..]
+            .iter()
+            .map(|point| DVec2::new(-point.y, point.x))
+            .collect();
+        assert_eq!(points.len(), (turn * quarter) as usize);
+        points.extend(turned);
+    }
+    points
+}
+
+/// Area of the polygon that `circle` makes.
+pub fn circle_area(quarter: u32) -> f64 {
+    let points = circle(quarter);
+    let next = points.iter().cycle().skip(1);
+    points
+        .iter()
+        .zip(next)
+        .map(|(p, q)| 0.5 * p.perp_dot(*q))
+        .sum()
+}
+
+/// An upright cylinder.
+pub fn cylinder(radius: f64, height: f64, quarter: u32) -> Triangles {
+    let rim: Vec<DVec2> = circle(quarter)
+        .into_iter()
+        .map(|point| point * radius)
+        .collect();
+    let at = |point: DVec2, z: f64| point.extend(z).as_vec3();
+    let mut triangles = Vec::new();
+    for (&p, &q) in rim.iter().zip(rim.iter().cycle().skip(1)) {
+        triangles.push([at(DVec2::ZERO, 0.0), at(q, 0.0), at(p, 0.0)]);
+        triangles.push([at(DVec2::ZERO, height), at(p, height), at(q, height)]);
+        triangles.push([at(p, 0.0), at(q, 0.0), at(q, height)]);
+        triangles.push([at(p, 0.0), at(q, height), at(p, height)]);
+    }
+    triangles
+}
+
+/// An upright cone on its base.
+pub fn cone(radius: f64, height: f64, quarter: u32) -> Triangles {
+    let rim: Vec<DVec2> = circle(quarter)
+        .into_iter()
+        .map(|point| point * radius)
+        .collect();
+    let at = |point: DVec2, z: f64| point.extend(z).as_vec3();
+    let mut triangles = Vec::new();
+    for (&p, &q) in rim.iter().zip(rim.iter().cycle().skip(1)) {
+        triangles.push([at(DVec2::ZERO, 0.0), at(q, 0.0), at(p, 0.0)]);
+        triangles.push([at(p, 0.0), at(q, 0.0), at(DVec2::ZERO, height)]);
+    }
+    triangles
+}
+
+/// A square ring standing upright: rays through its middle have four hits.
+pub fn frame() -> Triangles {
+    let mut triangles = moved(&cuboid(Vec3::new(10.0, 4.0, 2.0)), Vec3::ZERO);
+    triangles.extend(moved(
+        &cuboid(Vec3::new(10.0, 4.0, 2.0)),
+        Vec3::new(0.0, 0.0, 8.0),
+    ));
+    triangles.extend(moved(
+        &cuboid(Vec3::new(2.0, 4.0, 6.0)),
+        Vec3::new(0.0, 0.0, 2.0),
+    ));
+    triangles.extend(moved(
+        &cuboid(Vec3::new(2.0, 4.0, 6.0)),
+        Vec3::new(8.0, 0.0, 2.0),
+    ));
+    triangles
+}
+
+/// Everything shifted.
+pub fn moved(triangles: &[[Vec3; 3]], by: Vec3) -> Triangles {
+    triangles
+        .iter()
+        .map(|corners| corners.map(|corner| corner + by))
+        .collect()
+}
+
+/// Everything inside out.
+pub fn inverted(triangles: &[[Vec3; 3]]) -> Triangles {
+    triangles.iter().map(|&[a, b, c]| [a, c, b]).collect()
+}
+
+/// Mirrored at x = 0, orientation kept.
+pub fn mirrored(triangles: &[[Vec3; 3]]) -> Triangles {
+    let flip = |corner: Vec3| Vec3::new(-corner.x, corner.y, corner.z);
+    triangles
+        .iter()
+        .map(|&[a, b, c]| [flip(a), flip(c), flip(b)])
+        .collect()
+}
+
+/// Turned by a quarter about z.
+pub fn turned(triangles: &[[Vec3; 3]]) -> Triangles {
+    let turn = |corner: Vec3| Vec3::new(-corner.y, corner.x, corner.z);
+    triangles.iter().map(|corners| corners.map(turn)).collect()
+}
+
+/// The same facets in another order.
+pub fn shuffled(triangles: &[[Vec3; 3]]) -> Triangles {
+    let mut shuffled = triangles.to_vec();
+    fastrand::Rng::with_seed(7).shuffle(&mut shuffled);
+    shuffled
+}
+
+/// Every solid by name.
+pub fn all() -> Vec<(&'static str, Triangles)> {
+    vec![
+        ("cube", cube(10.0)),
+        ("sphere", sphere(10.0, 5)),
+        ("cylinder", cylinder(8.0, 12.0, 32)),
+        ("cone", cone(9.0, 14.0, 32)),
+        ("frame", frame()),
+        ("inverted sphere", inverted(&sphere(6.0, 4))),
+        ("overlapping spheres", {
+            let mut triangles = sphere(6.0, 4);
+            triangles.extend(moved(&sphere(5.0, 4), Vec3::new(4.0, 1.0, 2.0)));
+            triangles
+        }),
+        ("stacked cubes", {
+            let mut triangles = cube(5.0);
+            triangles.extend(moved(&cube(5.0), Vec3::new(0.0, 0.0, 5.0)));
+            triangles
+        }),
+        ("doubled sphere", {
+            let mut triangles = sphere(6.0, 4);
+            triangles.extend(sphere(6.0, 4));
+            triangles
+        }),
+    ]
+}

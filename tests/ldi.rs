@@ -1,0 +1,208 @@
+//! The LDI on the CPU: closed forms, a naive intersector, symmetries, and rays that do not close.
+
+#![cfg(not(target_arch = "wasm32"))]
+
+mod common;
+
+use std::ops::ControlFlow;
+
+use common::{assert_near, on_plate, oracle, sample, solids};
+use cusp_slicer::grid::Grid;
+use cusp_slicer::ldi::{Hit, Ldi, LdiError, cpu, for_each_solid_range};
+use cusp_slicer::progress::{Cancelled, silent};
+use glam::Vec3;
+
+fn ranges(hits: &[Hit]) -> Vec<(f32, f32)> {
+    let mut ranges = Vec::new();
+    for_each_solid_range(hits, |z_in, z_out| ranges.push((z_in, z_out)));
+    ranges
+}
+
+#[test]
+fn a_cube_has_one_entry_and_one_exit_on_every_ray() {
+    let (_, ldi) = sample(&solids::cube(10.0), 64);
+    assert_eq!(ldi.hits.len(), 2 * 64 * 64);
+    for ray in 0..ldi.rays() {
+        let [entry, exit] = ldi.ray(ray) else {
+            panic!("ray {ray}: {:?}", ldi.ray(ray))
+        };
+        assert!(!entry.is_exit() && exit.is_exit());
+        assert_eq!((entry.z_mm, exit.z_mm), (0.0, 10.0));
+    }
+}
+
+#[test]
+fn round_solids_have_as_many_hits_as_their_areas() {
+    let area = solids::circle_area(32);
+    for (triangles, area_mm2) in [
+        (solids::cylinder(8.0, 12.0, 32), area * 64.0),
+        (solids::cone(9.0, 14.0, 32), area * 81.0),
+        (solids::sphere(10.0, 6), std::f64::consts::PI * 100.0),
+    ] {
+        let (_, ldi) = sample(&triangles, 1000);
+        let expected = 2.0 * area_mm2 / ldi.grid.pitch_mm.powi(2);
+        assert_near(ldi.hits.len() as f64, expected, 2e-3 * expected);
+        assert_eq!(ldi.unclosed_rays(), 0);
+    }
+}
+
+#[test]
+fn every_solid_agrees_with_a_naive_intersector() {
+    // A vertex moves by at most 1/512 pixel in x and in y.
+    const NEAR: f64 = 0.005;
+    for (name, triangles) in solids::all() {
+        let (mesh, ldi) = sample(&triangles, 48);
+        let steepest = 40.0;
+        let mut compared = 0;
+        for ray in 0..ldi.rays() {
+            let (column, row) = (ray as u32 % ldi.grid.width, ray as u32 / ldi.grid.width);
+            let naive = oracle::cast(&mesh, &ldi.grid, column, row, NEAR);
+            if naive.is_near_edge {
+                continue;
+            }
+            compared += 1;
+            let mut expected: Vec<u32> = naive.hits.iter().map(|hit| hit.0).collect();
+            let mut found: Vec<u32> = ldi.ray(ray).iter().map(|hit| hit.facet()).collect();
+            for (hit, (_, z)) in ldi.ray(ray).iter().zip(&naive.hits) {
+                assert_near(f64::from(hit.z_mm), *z, NEAR * ldi.grid.pitch_mm * steepest);
+            }
+            expected.sort_unstable();
+            found.sort_unstable();
+            assert_eq!(found, expected, "{name}, column {column}, row {row}");
+        }
+        assert!(
+            compared * 3 > ldi.rays(),
+            "{name}: only {compared} rays were compared"
+        );
+    }
+}
+
+#[test]
+fn hits_are_ordered_and_balanced_on_every_ray() {
+    for (name, triangles) in solids::all() {
+        let (_, ldi) = sample(&triangles, 200);
+        assert_eq!(ldi.unclosed_rays(), 0, "{name}");
+        for ray in 0..ldi.rays() {
+            let hits = ldi.ray(ray);
+            assert!(
+                hits.windows(2).all(|pair| {
+                    (pair[0].z_mm, pair[0].facet()) < (pair[1].z_mm, pair[1].facet())
+                }),
+                "{name}, ray {ray}: {hits:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_centre_on_a_shared_edge_or_corner_belongs_to_one_facet() {
+    // Corners at -4 and 4 with pixel centres at whole millimetres: borders and diagonals of the
+    // square all run through centres. The top-left rule keeps two sides of four.
+    let mesh = on_plate(&solids::cube(8.0));
+    let grid = Grid::plate(&mesh.bounds(), [9, 9], 1.0).unwrap();
+    let ldi = cpu::sample(&mesh, &grid, &mut silent).unwrap();
+    for row in 0..9 {
+        for column in 0..9 {
+            let expected = if row < 8 && column < 8 { 2 } else { 0 };
+            assert_eq!(
+                ldi.ray(row * 9 + column).len(),
+                expected,
+                "column {column}, row {row}"
+            );
+        }
+    }
+}
+
+#[test]
+fn facets_in_another_order_give_the_same_heights() {
+    let heights = |ldi: &Ldi| {
+        ldi.hits
+            .iter()
+            .map(|hit| (hit.z_mm, hit.is_exit()))
+            .collect::<Vec<_>>()
+    };
+    for (name, triangles) in solids::all() {
+        if name == "doubled sphere" || name == "stacked cubes" || name == "frame" {
+            // Coincident facets are ordered by index, so that order is not kept.
+            continue;
+        }
+        let (_, ldi) = sample(&triangles, 100);
+        let (_, shuffled) = sample(&solids::shuffled(&triangles), 100);
+        assert_eq!(ldi.offsets, shuffled.offsets, "{name}");
+        assert_eq!(heights(&ldi), heights(&shuffled), "{name}");
+    }
+}
+
+#[test]
+fn mirrored_and_turned_solids_have_mirrored_and_turned_hits() {
+    let triangles = solids::moved(&solids::cone(9.0, 14.0, 8), Vec3::new(0.0, 0.0, 0.0));
+    let (_, ldi) = sample(&triangles, 65);
+    let (_, mirrored) = sample(&solids::mirrored(&triangles), 65);
+    let (_, turned) = sample(&solids::turned(&triangles), 65);
+    let counts = |ldi: &Ldi| ldi.hits.len();
+    // The cone is symmetric itself; only centres on its left and right borders may change sides.
+    assert_near(counts(&mirrored) as f64, counts(&ldi) as f64, 8.0);
+    assert_near(counts(&turned) as f64, counts(&ldi) as f64, 8.0);
+}
+
+#[test]
+fn overlaps_are_a_union_and_inside_out_is_inside() {
+    let hit = |z: f32, is_exit| Hit::new(z, 0, is_exit);
+    let (entry, exit) = (|z| hit(z, false), |z| hit(z, true));
+    assert_eq!(
+        ranges(&[entry(1.0), exit(2.0), entry(3.0), exit(4.0)]),
+        [(1.0, 2.0), (3.0, 4.0)]
+    );
+    assert_eq!(
+        ranges(&[entry(1.0), entry(2.0), exit(3.0), exit(4.0)]),
+        [(1.0, 4.0)]
+    );
+    assert_eq!(
+        ranges(&[entry(1.0), exit(2.0), entry(2.0), exit(4.0)]),
+        [(1.0, 2.0), (2.0, 4.0)]
+    );
+    assert_eq!(ranges(&[exit(1.0), entry(4.0)]), [(1.0, 4.0)]);
+    assert_eq!(ranges(&[entry(1.0), exit(1.0)]), []);
+}
+
+#[test]
+fn rays_that_do_not_close_are_repaired_by_the_stated_rule() {
+    let hit = |z: f32, is_exit| Hit::new(z, 0, is_exit);
+    let (entry, exit) = (|z| hit(z, false), |z| hit(z, true));
+    // Exits to spare begin at the plate.
+    assert_eq!(ranges(&[exit(3.0)]), [(0.0, 3.0)]);
+    assert_eq!(
+        ranges(&[exit(3.0), entry(4.0), exit(5.0)]),
+        [(0.0, 3.0), (4.0, 5.0)]
+    );
+    // Entries to spare are dropped.
+    assert_eq!(ranges(&[entry(3.0)]), []);
+    assert_eq!(ranges(&[entry(1.0), exit(2.0), entry(3.0)]), [(1.0, 2.0)]);
+    assert_eq!(ranges(&[entry(1.0), entry(2.0), exit(3.0)]), [(2.0, 3.0)]);
+}
+
+#[test]
+fn an_open_solid_counts_its_open_rays() {
+    let mut triangles = solids::cube(10.0);
+    triangles.drain(0..2); // the bottom
+    let (_, ldi) = sample(&triangles, 32);
+    assert_eq!(ldi.unclosed_rays(), 32 * 32);
+    assert_eq!(ranges(ldi.ray(100)), [(0.0, 10.0)]);
+}
+
+#[test]
+fn sampling_stops_when_asked() {
+    let mesh = on_plate(&solids::sphere(10.0, 4));
+    let grid = Grid::around(&mesh.bounds(), 500).unwrap();
+    let mut calls = 0;
+    let result = cpu::sample(&mesh, &grid, &mut |_| {
+        calls += 1;
+        if calls == 2 {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    });
+    assert_eq!(result, Err(LdiError::Cancelled(Cancelled)));
+    assert_eq!(calls, 2);
+}

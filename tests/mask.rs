@@ -1,0 +1,127 @@
+//! Masks: areas and volumes of solids in closed form, and every pixel against a naive look along its
+//! ray.
+
+#![cfg(not(target_arch = "wasm32"))]
+
+mod common;
+
+use common::{sample, solids};
+use cusp_slicer::grid::Bins;
+use cusp_slicer::ldi::for_each_solid_range;
+use cusp_slicer::mask::Masks;
+use cusp_slicer::plan::{Plan, uniform};
+
+/// Uniform layers of `layer_mm` over bins a fifth of that.
+fn plan(height_mm: f64, layer_mm: f64) -> Plan {
+    let bins = Bins::of_height(height_mm, layer_mm / 5.0).unwrap();
+    uniform::plan(bins, height_mm, layer_mm).unwrap()
+}
+
+#[test]
+fn areas_have_their_closed_forms() {
+    let area = solids::circle_area(64);
+    let radius_at = |z: f64| (100.0 - (z - 10.0) * (z - 10.0)).sqrt();
+    type Area = Box<dyn Fn(f64) -> f64>;
+    let cases: [(&str, solids::Triangles, Area); 4] = [
+        ("cube", solids::cube(10.0), Box::new(|_| 100.0)),
+        (
+            "cylinder",
+            solids::cylinder(8.0, 12.0, 64),
+            Box::new(move |_| area * 64.0),
+        ),
+        (
+            "cone",
+            solids::cone(9.0, 14.0, 64),
+            Box::new(move |z| area * 81.0 * (1.0 - z / 14.0) * (1.0 - z / 14.0)),
+        ),
+        (
+            "sphere",
+            solids::sphere(10.0, 7),
+            Box::new(move |z| std::f64::consts::PI * radius_at(z) * radius_at(z)),
+        ),
+    ];
+    for (name, triangles, area_at) in cases {
+        let (mesh, ldi) = sample(&triangles, 800);
+        let plan = plan(mesh.bounds().size().z, 0.5);
+        let masks = Masks::new(&ldi, &plan);
+        let mut cursor = masks.cursor();
+        let full = area_at(plan.middle_mm()[plan.layers() / 2]);
+        for (layer, middle_mm) in plan.middle_mm().into_iter().enumerate() {
+            cursor.seek(&masks, layer);
+            let area = cursor.lit_pixels() as f64 * ldi.grid.pitch_mm.powi(2);
+            assert!(
+                (area - area_at(middle_mm)).abs() <= 2e-3 * full,
+                "{name}, layer {layer}: {area} against {}",
+                area_at(middle_mm)
+            );
+        }
+    }
+}
+
+#[test]
+fn the_volume_of_all_masks_is_that_of_the_mesh() {
+    for (name, triangles) in solids::all() {
+        if name == "overlapping spheres" || name == "doubled sphere" || name == "inverted sphere" {
+            continue; // their mesh volume is not that of the union
+        }
+        let (mesh, ldi) = sample(&triangles, 600);
+        let plan = plan(mesh.bounds().size().z, 0.1);
+        let masks = Masks::new(&ldi, &plan);
+        let mut cursor = masks.cursor();
+        let pixel_mm2 = ldi.grid.pitch_mm.powi(2);
+        let volume: f64 = (0..masks.layers())
+            .map(|layer| {
+                cursor.seek(&masks, layer);
+                cursor.lit_pixels() as f64 * pixel_mm2 * 0.1
+            })
+            .sum();
+        let expected = mesh.volume_mm3();
+        assert!(
+            (volume / expected - 1.0).abs() < 1e-3,
+            "{name}: {volume} against {expected}"
+        );
+    }
+}
+
+#[test]
+fn every_pixel_agrees_with_a_look_along_its_ray() {
+    for (name, triangles) in solids::all() {
+        let (mesh, ldi) = sample(&triangles, 61);
+        let plan = plan(mesh.bounds().size().z, 0.37);
+        let masks = Masks::new(&ldi, &plan);
+        let middles = plan.middle_mm();
+        let mut cursor = masks.cursor();
+        // Down, up and across, since a cursor moves both ways.
+        let mut layers: Vec<usize> = (0..masks.layers()).rev().chain(0..masks.layers()).collect();
+        fastrand::Rng::with_seed(5).shuffle(&mut layers[masks.layers()..]);
+        for layer in layers {
+            cursor.seek(&masks, layer);
+            let mut lit_pixels = 0;
+            for ray in 0..ldi.rays() {
+                let (column, row) = (ray % 61, ray / 61);
+                let bit = cursor.bits()[row * cursor.row_bytes() + column / 8] >> (7 - column % 8);
+                let mut is_inside = false;
+                for_each_solid_range(ldi.ray(ray), |z_in, z_out| {
+                    is_inside |= (f64::from(z_in)..f64::from(z_out)).contains(&middles[layer]);
+                });
+                lit_pixels += u64::from(is_inside);
+                assert_eq!(bit & 1 == 1, is_inside, "{name}, layer {layer}, ray {ray}");
+            }
+            assert_eq!(cursor.lit_pixels(), lit_pixels);
+        }
+    }
+}
+
+#[test]
+fn inside_out_and_doubled_bodies_look_like_the_plain_one() {
+    let plain = solids::sphere(6.0, 4);
+    let mut doubled = plain.clone();
+    doubled.extend(plain.clone());
+    let masks_of = |triangles: &solids::Triangles| {
+        let (mesh, ldi) = sample(triangles, 100);
+        Masks::new(&ldi, &plan(mesh.bounds().size().z, 0.25))
+    };
+    let expected = masks_of(&plain);
+    assert_eq!(masks_of(&doubled), expected);
+    assert_eq!(masks_of(&solids::inverted(&plain)), expected);
+}

@@ -1,0 +1,136 @@
+//! The mesh and its report: volumes in closed form, faults planted and found.
+
+#![cfg(not(target_arch = "wasm32"))]
+
+mod common;
+
+use common::{assert_near, on_plate, solids};
+use cusp_slicer::mesh::{Mesh, MeshError};
+use glam::{DVec3, Vec3};
+
+#[test]
+fn volumes_have_their_closed_forms() {
+    let area = solids::circle_area(32);
+    let volume = |triangles: &[[Vec3; 3]]| on_plate(triangles).volume_mm3();
+    assert_near(
+        volume(&solids::cuboid(Vec3::new(2.0, 3.0, 4.0))),
+        24.0,
+        1e-9,
+    );
+    assert_near(
+        volume(&solids::cylinder(8.0, 12.0, 32)),
+        area * 64.0 * 12.0,
+        1e-2,
+    );
+    assert_near(
+        volume(&solids::cone(9.0, 14.0, 32)),
+        area * 81.0 * 14.0 / 3.0,
+        1e-2,
+    );
+    let ball = 4.0 / 3.0 * std::f64::consts::PI * 1000.0;
+    assert_near(volume(&solids::sphere(10.0, 6)), ball, 0.002 * ball);
+    assert_near(volume(&solids::inverted(&solids::cube(2.0))), -8.0, 1e-9);
+}
+
+#[test]
+fn solids_are_closed_and_share_corners() {
+    for (name, triangles) in solids::all() {
+        let mesh = Mesh::from_triangles(&triangles).unwrap();
+        assert!(
+            mesh.is_closed(),
+            "{name} has {} open edges",
+            mesh.open_edges
+        );
+        assert_eq!(mesh.degenerate_facets, 0, "{name}");
+    }
+    assert_eq!(on_plate(&solids::cube(1.0)).vertices.len(), 8);
+}
+
+#[test]
+fn a_missing_facet_opens_three_edges() {
+    let mut triangles = solids::sphere(5.0, 3);
+    triangles.remove(100);
+    assert_eq!(Mesh::from_triangles(&triangles).unwrap().open_edges, 3);
+}
+
+#[test]
+fn a_flipped_facet_opens_three_edges() {
+    let mut triangles = solids::sphere(5.0, 3);
+    triangles[100].swap(0, 1);
+    assert_eq!(Mesh::from_triangles(&triangles).unwrap().open_edges, 3);
+}
+
+#[test]
+fn facets_without_area_are_dropped_and_open_nothing() {
+    let mut triangles = solids::cube(2.0);
+    let [a, b, c] = triangles[0];
+    let middle = (a + b) / 2.0;
+    // The facet's edge a–b is split, and a sliver fills the gap to the neighbour's whole edge.
+    triangles[0] = [a, middle, c];
+    triangles.push([middle, b, c]);
+    triangles.push([a, b, middle]);
+    triangles.push([a, a, b]);
+    let mesh = Mesh::from_triangles(&triangles).unwrap();
+    assert_eq!((mesh.degenerate_facets, mesh.facets.len()), (2, 13));
+    assert!(mesh.is_closed());
+}
+
+#[test]
+fn negative_zero_is_zero() {
+    let mut triangles = solids::cube(2.0);
+    triangles[0][0].x = -0.0;
+    assert!(Mesh::from_triangles(&triangles).unwrap().is_closed());
+}
+
+#[test]
+fn a_mesh_on_the_plate_has_the_height_asked_for() {
+    let model = Mesh::from_triangles(&solids::moved(
+        &solids::sphere(7.0, 3),
+        Vec3::new(1000.0, -50.0, -3.0),
+    ))
+    .unwrap();
+    for height_mm in [None, Some(60.0), Some(0.1), Some(123.4)] {
+        let bounds = model.on_plate(height_mm).unwrap().bounds();
+        assert_eq!(bounds.min.z, 0.0);
+        assert_near(bounds.max.z, height_mm.unwrap_or(14.0), 1e-4);
+        assert_near((bounds.min + bounds.max).truncate().length(), 0.0, 1e-4);
+    }
+}
+
+#[test]
+fn impossible_meshes_have_their_errors() {
+    let flat = [[Vec3::ZERO, Vec3::X, Vec3::Y]];
+    let line = [[Vec3::ZERO, Vec3::X, Vec3::X * 2.0]];
+    let cube = Mesh::from_triangles(&solids::cube(1.0)).unwrap();
+    assert_eq!(
+        Mesh::from_triangles(&line),
+        Err(MeshError::NoArea { facets: 1 })
+    );
+    assert_eq!(
+        Mesh::from_triangles(&flat).unwrap().on_plate(None),
+        Err(MeshError::ZeroHeight)
+    );
+    assert_eq!(
+        cube.on_plate(Some(-1.0)),
+        Err(MeshError::BadHeight { height_mm: -1.0 })
+    );
+    assert_eq!(cube.on_plate(Some(1e39)), Err(MeshError::Overflow));
+}
+
+#[test]
+fn steepness_is_the_vertical_part_of_the_normal() {
+    let mesh = on_plate(&solids::cone(3.0, 4.0, 16));
+    let least = mesh.steepness().into_iter().fold(1.0f32, f32::min);
+    // All sides of the cone lean alike up to the polygon's flattening.
+    assert_near(f64::from(least), 0.6, 2e-3);
+    let cube = on_plate(&solids::cube(1.0)).steepness();
+    assert_eq!(
+        cube.iter().filter(|&&steepness| steepness == 1.0).count(),
+        4
+    );
+    assert_eq!(
+        cube.iter().filter(|&&steepness| steepness == 0.0).count(),
+        8
+    );
+    assert_eq!(on_plate(&solids::cube(1.0)).bounds().size(), DVec3::ONE);
+}

@@ -1,0 +1,149 @@
+//! Reading STL: good files of every kind, and an error with its place for every bad one.
+
+#![cfg(not(target_arch = "wasm32"))]
+
+mod common;
+
+use common::{binary_stl, solids};
+use cusp_slicer::stl::{StlError, read};
+
+const ASCII: &str = "solid part one
+  facet normal 0 0 1
+    outer loop
+      vertex 0 0 1.5
+      vertex 1e1 0 1
+      vertex 0 -10.25 1
+    endloop
+  endfacet
+endsolid part one
+";
+
+#[test]
+fn binary_files_give_the_corners_that_another_library_wrote() {
+    let triangles = solids::sphere(3.0, 2);
+    assert_eq!(read(&binary_stl(&triangles)).unwrap(), triangles);
+}
+
+#[test]
+fn a_binary_header_may_begin_with_solid() {
+    let triangles = solids::cube(2.0);
+    let mut bytes = binary_stl(&triangles);
+    bytes[..12].copy_from_slice(b"solid part  ");
+    bytes[12..80].fill(b' ');
+    assert_eq!(read(&bytes).unwrap(), triangles);
+}
+
+#[test]
+fn ascii_agrees_with_another_reader() {
+    let ours = read(ASCII.as_bytes()).unwrap();
+    let theirs = stl_io::create_stl_reader(&mut std::io::Cursor::new(ASCII))
+        .unwrap()
+        .map(|triangle| {
+            triangle
+                .unwrap()
+                .vertices
+                .map(|v| glam::Vec3::from_array(v.into()))
+        })
+        .collect::<Vec<_>>();
+    assert_eq!(ours, theirs);
+}
+
+#[test]
+fn ascii_may_vary_in_case_line_ends_normals_and_hold_several_solids() {
+    let text = ASCII
+        .to_uppercase()
+        .replace("0 0 1\n", "NaN NaN NaN\n")
+        .replace('\n', "\r\n");
+    let twice = format!("\u{feff}{text}\r\n{ASCII}");
+    assert_eq!(read(twice.as_bytes()).unwrap().len(), 2);
+}
+
+#[test]
+fn bad_binary_files_are_told_apart() {
+    let good = binary_stl(&solids::cube(2.0));
+    assert_eq!(read(&[]), Err(StlError::Empty));
+    assert_eq!(read(&good[..40]), Err(StlError::NotStl));
+    assert_eq!(
+        read(&good[..good.len() - 20]),
+        Err(StlError::Truncated {
+            declared_facets: 12,
+            expected_bytes: 684,
+            found_bytes: 664
+        })
+    );
+    let mut fewer = good.clone();
+    fewer[80] = 11;
+    assert_eq!(
+        read(&fewer),
+        Err(StlError::WrongFacetCount {
+            declared_facets: 11,
+            found_facets: 12
+        })
+    );
+    let mut none = good[..84].to_vec();
+    none[80] = 0;
+    assert_eq!(read(&none), Err(StlError::NoFacets));
+}
+
+#[test]
+fn numbers_that_are_not_finite_are_named_by_byte() {
+    for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        let mut bytes = binary_stl(&solids::cube(2.0));
+        let byte = 84 + 50 * 7 + 12 + 4 * 5;
+        bytes[byte..byte + 4].copy_from_slice(&bad.to_le_bytes());
+        assert_eq!(
+            read(&bytes),
+            Err(StlError::NotFiniteBinary {
+                byte: byte as u64,
+                facet: 7
+            })
+        );
+    }
+}
+
+#[test]
+fn bad_text_is_named_by_line() {
+    let with = |from: &str, to: &str| read(ASCII.replacen(from, to, 1).as_bytes());
+    assert_eq!(
+        with("1e1", "wide"),
+        Err(StlError::Syntax {
+            line: 5,
+            expected: "a coordinate",
+            found: "wide".into()
+        })
+    );
+    assert_eq!(
+        with("1e1", "inf"),
+        Err(StlError::NotFiniteText {
+            line: 5,
+            text: "inf".into()
+        })
+    );
+    assert_eq!(
+        with("endloop", "endfacet"),
+        Err(StlError::Syntax {
+            line: 7,
+            expected: "`endloop`",
+            found: "endfacet".into()
+        })
+    );
+    let cut = &ASCII[..ASCII.find("endloop").unwrap()];
+    assert_eq!(
+        read(cut.as_bytes()),
+        Err(StlError::EndOfText {
+            line: 7,
+            expected: "`endloop`"
+        })
+    );
+    assert_eq!(
+        read(b"solid empty\nendsolid empty\n"),
+        Err(StlError::NoFacets)
+    );
+}
+
+#[test]
+fn other_text_is_no_stl() {
+    let text = "A letter about solids.\n".repeat(20);
+    assert_eq!(read(text.as_bytes()), Err(StlError::NotStl));
+    assert_eq!(read(b"PK\x03\x04"), Err(StlError::NotStl));
+}

@@ -1,0 +1,109 @@
+//! The same results natively and in the browser: one body runs in both, against one recorded
+//! fingerprint.
+
+mod common;
+
+use common::{binary_stl, fingerprint, on_plate, quiet, solids};
+use cusp_slicer::grid::Grid;
+use cusp_slicer::ldi::cpu;
+#[cfg(target_arch = "wasm32")]
+use cusp_slicer::ldi::{LdiError, gpu};
+use cusp_slicer::pipeline::{Backend, Options, Slicer};
+use cusp_slicer::progress::silent;
+use wasm_bindgen_test::wasm_bindgen_test;
+
+#[cfg(target_arch = "wasm32")]
+wasm_bindgen_test::wasm_bindgen_test_configure!(run_in_dedicated_worker);
+
+fn options() -> Options {
+    Options {
+        rays: 257,
+        height_mm: Some(7.3),
+        backend: Backend::Cpu,
+        ..Options::default()
+    }
+}
+
+/// Two overlapping bodies with flats, slopes and an inverted copy.
+fn model() -> solids::Triangles {
+    let mut triangles = solids::sphere(3.0, 5);
+    triangles.extend(solids::moved(
+        &solids::cone(2.0, 5.0, 16),
+        glam::Vec3::new(1.0, 0.5, 0.25),
+    ));
+    triangles.extend(solids::inverted(&solids::cube(1.7)));
+    triangles
+}
+
+#[wasm_bindgen_test(unsupported = test)]
+fn the_ldi_is_the_recorded_one() {
+    let mesh = on_plate(&model());
+    let grid = Grid::around(&mesh.bounds(), 257).unwrap();
+    let ldi = cpu::sample(&mesh, &grid, &mut silent).unwrap();
+    let hits = fingerprint(bytemuck::cast_slice(&ldi.hits));
+    let offsets = fingerprint(bytemuck::cast_slice(&ldi.offsets));
+    assert_eq!(
+        [hits, offsets],
+        [0xf91a_24f3_ddd3_8515, 0x245c_617d_6fc3_e4e1]
+    );
+}
+
+async fn check_plan_and_masks() {
+    let mut slicer = Slicer::load(&binary_stl(&model())).unwrap();
+    let report = slicer.plan(&options(), &mut quiet).await.unwrap().clone();
+    let plan: Vec<u8> = report.z_mm.iter().flat_map(|z| z.to_le_bytes()).collect();
+    let masks: Vec<u8> = (0..report.layers)
+        .flat_map(|layer| slicer.mask(layer).unwrap().to_vec())
+        .collect();
+    let fingerprints = [fingerprint(&plan), fingerprint(&masks)];
+    assert_eq!(
+        (report.layers, fingerprints),
+        (63, [0x0e5e_4917_e8be_2a27, 0xe479_53ad_ee23_8c6d])
+    );
+}
+
+#[cfg(not(target_arch = "wasm32"))]
+#[test]
+fn the_plan_and_the_masks_are_the_recorded_ones() {
+    pollster::block_on(check_plan_and_masks());
+}
+
+#[cfg(target_arch = "wasm32")]
+#[wasm_bindgen_test]
+async fn the_plan_and_the_masks_are_the_recorded_ones() {
+    check_plan_and_masks().await;
+}
+
+/// The browser under test is started with WebGPU on, so that a missing adapter is a failure.
+#[cfg(target_arch = "wasm32")]
+#[wasm_bindgen_test]
+async fn gpu_equals_cpu_in_the_browser() {
+    // SwiftShader rasterises on a coarser lattice, as tests/gpu.rs records.
+    const ALLOWED: f64 = 0.01;
+    for (name, triangles) in solids::all() {
+        let mesh = on_plate(&triangles);
+        let grid = Grid::around(&mesh.bounds(), 200).unwrap();
+        let expected = cpu::sample(&mesh, &grid, &mut silent).unwrap();
+        let (found, adapter) = gpu::sample(&mesh, &grid, gpu::Adapters::Any, &mut silent)
+            .await
+            .unwrap();
+        let differing = (0..expected.rays())
+            .filter(|&ray| expected.ray(ray) != found.ray(ray))
+            .count();
+        let part = differing as f64 / expected.rays() as f64;
+        assert!(
+            part <= ALLOWED,
+            "{name}: {part} of the rays differ on {adapter}"
+        );
+    }
+}
+
+/// `auto` leaves an emulated adapter alone.
+#[cfg(target_arch = "wasm32")]
+#[wasm_bindgen_test]
+async fn an_emulated_adapter_is_no_hardware() {
+    let mesh = on_plate(&solids::cube(1.0));
+    let grid = Grid::around(&mesh.bounds(), 4).unwrap();
+    let found = gpu::sample(&mesh, &grid, gpu::Adapters::Hardware, &mut silent).await;
+    assert!(matches!(found, Err(LdiError::NoGpu { .. })), "{found:?}");
+}
