@@ -135,7 +135,7 @@ impl Mesh {
         self.open_edges == 0
     }
 
-    /// |n_z| of every facet's unit normal: 1 for a horizontal facet, 0 for a vertical one.
+    /// |`n_z`| of every facet's unit normal: 1 for a horizontal facet, 0 for a vertical one.
     pub fn steepness(&self) -> Vec<f32> {
         (0..self.facets.len())
             .map(|facet| {

@@ -180,7 +180,7 @@ fn read_binary(bytes: &[u8], declared: u64) -> Result<Vec<[Vec3; 3]>, StlError> 
             }
             if let Some(bad) = corners
                 .iter()
-                .flat_map(|corner| corner.to_array())
+                .flat_map(glam::Vec3::to_array)
                 .position(|coordinate| !coordinate.is_finite())
             {
                 let start = BINARY_HEADER_BYTES + facet * BINARY_FACET_BYTES + 12;
@@ -194,9 +194,11 @@ fn read_binary(bytes: &[u8], declared: u64) -> Result<Vec<[Vec3; 3]>, StlError> 
         .collect()
 }
 
+type Lines<'a> = std::slice::Split<'a, u8, fn(&u8) -> bool>;
+
 /// The words of an ASCII STL with the line each stands on.
 struct Words<'a> {
-    lines: std::iter::Enumerate<std::slice::Split<'a, u8, fn(&u8) -> bool>>,
+    lines: std::iter::Enumerate<Lines<'a>>,
     rest: &'a [u8],
     line: u64,
 }

@@ -222,7 +222,7 @@ fn bad_input_is_one_clear_sentence_and_exit_code_1() {
     let mut nan = binary_stl(&solids::cube(1.0));
     nan[96..100].copy_from_slice(&f32::NAN.to_le_bytes());
     let good = binary_stl(&solids::cube(1.0));
-    let flat = binary_stl(&solids::cube(1.0)[2..4].to_vec());
+    let flat = binary_stl(&solids::cube(1.0)[2..4]);
     for (bytes, words) in [
         (&b""[..], "empty"),
         (b"a poem about a cube", "no STL"),

@@ -11,6 +11,9 @@ use cusp_slicer::ldi::for_each_solid_range;
 use cusp_slicer::mask::Masks;
 use cusp_slicer::plan::{Plan, uniform};
 
+/// Area of a solid's section at a height.
+type Area = Box<dyn Fn(f64) -> f64>;
+
 /// Uniform layers of `layer_mm` over bins a fifth of that.
 fn plan(height_mm: f64, layer_mm: f64) -> Plan {
     let bins = Bins::of_height(height_mm, layer_mm / 5.0).unwrap();
@@ -21,7 +24,6 @@ fn plan(height_mm: f64, layer_mm: f64) -> Plan {
 fn areas_have_their_closed_forms() {
     let area = solids::circle_area(64);
     let radius_at = |z: f64| (100.0 - (z - 10.0) * (z - 10.0)).sqrt();
-    type Area = Box<dyn Fn(f64) -> f64>;
     let cases: [(&str, solids::Triangles, Area); 4] = [
         ("cube", solids::cube(10.0), Box::new(|_| 100.0)),
         (

@@ -13,9 +13,9 @@ use crate::profile::ErrorSum;
 /// What every plan must keep to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
-    /// Least layer thickness in millimetres, t_min.
+    /// Least layer thickness in millimetres, `t_min`.
     pub layer_min_mm: f64,
-    /// Greatest layer thickness in millimetres, t_max.
+    /// Greatest layer thickness in millimetres, `t_max`.
     pub layer_max_mm: f64,
     /// Greatest error of a layer in millimetres, ε.
     pub tolerance_mm: f64,
@@ -148,7 +148,7 @@ impl Plan {
 }
 
 impl Limits {
-    /// The range of thicknesses in bins, ⌈t_min/b⌉ to ⌊t_max/b⌋.
+    /// The range of thicknesses in bins, ⌈`t_min/b`⌉ to ⌊`t_max/b`⌋.
     ///
     /// # Errors
     /// [`PlanError::Grid`], [`PlanError::EmptyRange`].

@@ -1,11 +1,11 @@
-//! The cusp height profile: the largest |n_z| of the surface in each bin.
+//! The cusp height profile: the largest |`n_z`| of the surface in each bin.
 
 use super::Profile;
 use crate::grid::Bins;
 use crate::ldi::Ldi;
 use crate::mesh::Mesh;
 
-/// The sampled profile of eq. 5: for each bin the maximum of |n_z| over the hits in it, 0 where
+/// The sampled profile of eq. 5: for each bin the maximum of |`n_z`| over the hits in it, 0 where
 /// there are none. `mesh` is the one that `ldi` was sampled from.
 ///
 /// Cost: linear in hits.

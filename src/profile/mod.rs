@@ -61,7 +61,7 @@ impl ErrorSum {
         self.bins
     }
 
-    /// Error of the layer between two boundaries in steps, ε_k of eq. 1. There is none above the
+    /// Error of the layer between two boundaries in steps, `ε_k` of eq. 1. There is none above the
     /// last bin.
     pub fn steps_between(&self, lower: u32, upper: u32) -> u64 {
         let last = self.bins.count;

@@ -1,0 +1,45 @@
+/** What a checker of accessibility finds in each state of the page, light and dark. */
+import axe from "axe-core";
+import type { Page } from "playwright-core";
+import { expect, test } from "vitest";
+import { drop, settled, state } from "./browser.js";
+import { pages } from "./pages.js";
+import { sphere } from "./solids.js";
+
+const start = pages();
+
+/** Rules broken, with the elements that break them. */
+async function broken(page: Page): Promise<string[]> {
+  // Evaluated, not added as a script: the page's policy lets no inline script in.
+  await page.evaluate(axe.source);
+  const { violations } = await page.evaluate(() =>
+    (window as unknown as { axe: { run(): Promise<axe.AxeResults> } }).axe.run(),
+  );
+  return violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html.slice(0, 120)).join(" | ")}`);
+}
+
+test.each(["light", "dark"] as const)("nothing is amiss in any state: %s", async (colorScheme) => {
+  const page = await start("", { colorScheme, reducedMotion: "reduce" });
+  expect(await broken(page)).toEqual([]);
+
+  await drop(page, { name: "notes.txt", bytes: new Uint8Array(1) });
+  await state(page, "error");
+  expect(await broken(page)).toEqual([]);
+
+  await drop(page, { name: "ball.stl", bytes: sphere(10, 96).bytes });
+  await state(page, "done");
+  expect(await broken(page)).toEqual([]);
+
+  await page.getByLabel("Tolerance").fill("0.02");
+  await state(page, "error");
+  expect(await broken(page)).toEqual([]);
+
+  await page.getByLabel("Tolerance").fill("x");
+  await expect.poll(() => page.getByLabel("Tolerance").getAttribute("aria-invalid")).toBe("true");
+  expect(await broken(page)).toEqual([]);
+
+  await page.getByLabel("Tolerance").fill("0.065");
+  await page.getByText("Uniform", { exact: true }).click();
+  await settled(page);
+  expect(await broken(page)).toEqual([]);
+});

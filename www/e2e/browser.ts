@@ -1,0 +1,129 @@
+/** A real headless Chromium, and what a person does on the page with it. */
+import { existsSync } from "node:fs";
+import { delimiter, join } from "node:path";
+import { chromium, type Browser, type BrowserContextOptions, type Download, type Page } from "playwright-core";
+
+/** A software adapter answers to WebGPU, so that the same page works as on a machine with a GPU. */
+const FLAGS = [
+  "--no-sandbox",
+  "--disable-quic",
+  "--no-first-run",
+  "--disable-background-networking",
+  "--disable-component-update",
+  "--disable-sync",
+  "--enable-unsafe-webgpu",
+  "--use-webgpu-adapter=swiftshader",
+];
+
+/** The browser named by CHROMIUM, or the first of its usual names on PATH. */
+function executable(): string {
+  const named = process.env["CHROMIUM"];
+  if (named !== undefined && named !== "") return named;
+  const folders = (process.env["PATH"] ?? "").split(delimiter);
+  for (const name of ["chromium", "chromium-browser", "google-chrome"]) {
+    for (const folder of folders) {
+      if (existsSync(join(folder, name))) return join(folder, name);
+    }
+  }
+  throw new Error("no Chromium on PATH: install one, or name it in the variable CHROMIUM");
+}
+
+export function launch(): Promise<Browser> {
+  return chromium.launch({ executablePath: executable(), headless: true, args: FLAGS });
+}
+
+export interface Opened {
+  page: Page;
+  /** Addresses asked for that are not the page's own. There must be none. */
+  strangers: string[];
+  /** What the page threw or logged as an error. */
+  complaints: string[];
+}
+
+/** A fresh page at `address`, whose foreign requests and errors are noted. */
+export async function open(browser: Browser, address: string, options: BrowserContextOptions = {}): Promise<Opened> {
+  const context = await browser.newContext({ locale: "en-GB", viewport: { width: 1280, height: 900 }, ...options });
+  const page = await context.newPage();
+  const strangers: string[] = [];
+  const complaints: string[] = [];
+  const { origin } = new URL(address);
+  page.on("request", (request) => {
+    const { origin: asked, protocol } = new URL(request.url());
+    if (asked !== origin && protocol !== "blob:" && protocol !== "data:") strangers.push(request.url());
+  });
+  page.on("pageerror", (error) => complaints.push(error.message));
+  page.on("console", (message) => {
+    if (message.type() === "error") complaints.push(message.text());
+  });
+  await page.goto(address);
+  await page.waitForSelector("cusp-app[data-state=empty]");
+  return { page, strangers, complaints };
+}
+
+export interface DroppedFile {
+  name: string;
+  bytes: Uint8Array;
+}
+
+/** Drops files on the page as a file manager would. Gives the page's clock at the drop, in ms. */
+export async function drop(page: Page, ...files: DroppedFile[]): Promise<number> {
+  // Bytes reach the page as a served answer would: as base64 in a message they would take seconds for a large model.
+  const address = new URL("e2e-drop/", page.url()).href;
+  await page.route(`${address}*`, (route) => {
+    const file = files[Number(route.request().url().slice(address.length))];
+    return route.fulfill({ body: Buffer.from(file?.bytes ?? []), contentType: "application/octet-stream" });
+  });
+  const at = await page.evaluate(
+    async ([from, names]) => {
+      const transfer = new DataTransfer();
+      for (const [index, name] of names.entries()) {
+        const answer = await fetch(from + String(index));
+        transfer.items.add(new File([await answer.arrayBuffer()], name));
+      }
+      const target = document.querySelector("cusp-app");
+      if (target === null) throw new Error("there is no page");
+      const start = performance.now();
+      for (const type of ["dragenter", "dragover", "drop"]) {
+        target.dispatchEvent(
+          new DragEvent(type, { dataTransfer: transfer, bubbles: true, cancelable: true, composed: true }),
+        );
+      }
+      return start;
+    },
+    [address, files.map(({ name }) => name)] as const,
+  );
+  await page.unroute(`${address}*`);
+  return at;
+}
+
+export async function state(page: Page, wanted: string, timeout = 30_000): Promise<void> {
+  await page.waitForSelector(`cusp-app[data-state=${wanted}]`, { timeout });
+}
+
+/** Waits until the plan on show answers to the settings, after a change of them. */
+export async function settled(page: Page): Promise<void> {
+  await page.waitForTimeout(350);
+  await state(page, "done");
+}
+
+export async function layers(page: Page): Promise<number> {
+  return Number(await page.locator("[data-layers]").getAttribute("data-layers"));
+}
+
+/** What the main part of the page says, every run of blanks one space: thin and unbreakable ones are for the eye. */
+export async function words(page: Page): Promise<string> {
+  return (await page.locator("main").innerText()).replace(/\s+/g, " ");
+}
+
+/** Waits until the mask on show is that of this layer, counted from 0. */
+export async function maskOf(page: Page, layer: number): Promise<void> {
+  await page.waitForSelector(`canvas[data-layer="${layer}"]`);
+}
+
+export async function download(page: Page): Promise<Download> {
+  const [file] = await Promise.all([
+    page.waitForEvent("download"),
+    page.getByRole("button", { name: /Download masks/ }).click(),
+  ]);
+  return file;
+}

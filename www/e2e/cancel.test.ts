@@ -1,0 +1,113 @@
+/** Cancelling, at every stage, and what is left then. */
+import type { Page } from "playwright-core";
+import { expect, test } from "vitest";
+import { download, drop, layers, maskOf, state, words } from "./browser.js";
+import { pages } from "./pages.js";
+import { sphere } from "./solids.js";
+
+const start = pages();
+
+const ballFile = { name: "ball.stl", bytes: sphere(10, 96).bytes };
+
+// Enough triangles and rays for each stage to be seen.
+const heavy = { name: "heavy.stl", bytes: sphere(10, 700).bytes };
+
+/** Presses Cancel as soon as the progress bar says these words, from within the page so as not to come late. */
+async function cancelWhen(page: Page, stage: string): Promise<void> {
+  await page.evaluate((wanted) => {
+    const root = document.querySelector("cusp-app")?.shadowRoot;
+    if (!root) throw new Error("there is no page");
+    const press = (): void => {
+      const bar = root.querySelector(".progress");
+      if (bar?.querySelector(".words")?.textContent?.trim() !== wanted) return;
+      observer.disconnect();
+      document.documentElement.dataset["cancelled"] = wanted;
+      bar.querySelector("button")?.click();
+    };
+    const observer = new MutationObserver(press);
+    observer.observe(root, { subtree: true, childList: true, characterData: true });
+    press();
+  }, stage);
+}
+
+const cancelled = (page: Page): Promise<string | null> => page.locator("html").getAttribute("data-cancelled");
+
+test("cancelling while the model is read leaves the page empty and usable", async () => {
+  const page = await start();
+  await cancelWhen(page, "Reading the model");
+  await drop(page, heavy);
+  await state(page, "empty");
+  expect(await cancelled(page)).toBe("Reading the model");
+  await drop(page, ballFile);
+  await state(page, "done");
+});
+
+test("cancelling while rays are cast leaves the last good plan, its masks and its download", async () => {
+  const page = await start();
+  await drop(page, heavy);
+  await state(page, "done");
+  const count = await layers(page);
+  await cancelWhen(page, "Casting rays through it");
+  await page.getByLabel("Resolution").selectOption("4096");
+  await expect.poll(() => cancelled(page)).toBe("Casting rays through it");
+  await state(page, "done");
+  expect(await layers(page)).toBe(count);
+  const slider = page.getByRole("slider", { name: "Layer" });
+  await slider.focus();
+  await page.keyboard.press("Home");
+  await maskOf(page, 0);
+  expect((await download(page)).suggestedFilename()).toBe("heavy-cusp.zip");
+  await page.getByRole("button", { name: "Plan again" }).click();
+  await state(page, "busy");
+  await state(page, "done");
+  expect(await words(page)).not.toContain("This is the last plan that worked");
+});
+
+test.each(["Measuring the surface", "Planning the layers"])("a cancel during “%s” leaves a page that plans again", async (stage) => {
+  const page = await start();
+  await cancelWhen(page, stage);
+  await drop(page, heavy);
+  // These stages take milliseconds: the plan may be done before the cancel arrives, which is as good.
+  await page.waitForSelector("cusp-app:is([data-state=ready], [data-state=done])");
+  if (await page.locator("cusp-app[data-state=ready]").count()) {
+    expect(await cancelled(page)).toBe(stage);
+    await page.getByRole("button", { name: "Plan the layers" }).click();
+  }
+  await state(page, "done");
+});
+
+test("cancelling while the masks are drawn gives no file; the next try does", async () => {
+  const page = await start();
+  await drop(page, ballFile);
+  await state(page, "done");
+  await cancelWhen(page, "Drawing the masks");
+  await page.getByRole("button", { name: /Download masks/ }).click();
+  await expect.poll(() => words(page)).toContain("The download was cancelled.");
+  await state(page, "done");
+  expect((await download(page)).suggestedFilename()).toBe("ball-cusp.zip");
+});
+
+test("Escape cancels, and the page does not freeze while rays are cast", async () => {
+  const page = await start();
+  await drop(page, heavy);
+  await state(page, "done");
+  // The longest the page went between two frames while the worker was at it.
+  await page.evaluate(() => {
+    let before = performance.now();
+    const root = document.documentElement;
+    root.dataset["gap"] = "0";
+    const frame = (now: number): void => {
+      root.dataset["gap"] = String(Math.max(Number(root.dataset["gap"]), now - before));
+      before = now;
+      requestAnimationFrame(frame);
+    };
+    requestAnimationFrame(frame);
+  });
+  await page.getByLabel("Resolution").selectOption("4096");
+  await state(page, "busy");
+  await page.waitForTimeout(300);
+  await page.keyboard.press("Escape");
+  await state(page, "done");
+  // Two cores are shared with the worker and the browser's own drawing: a quarter of a second is still no freeze.
+  expect(Number(await page.locator("html").getAttribute("data-gap"))).toBeLessThan(250);
+});

@@ -1,0 +1,235 @@
+/** The page as a person uses it, in a real browser. */
+import { readFile } from "node:fs/promises";
+import { decode } from "fast-png";
+import { unzipSync } from "fflate";
+import { expect, inject, test } from "vitest";
+import { download, drop, launch, layers, maskOf, open, settled, state, words } from "./browser.js";
+import { pages } from "./pages.js";
+import { sphere } from "./solids.js";
+
+/** What the tests read of the manifest. */
+interface Manifest {
+  layers: number;
+  mask: { width: number; height: number; pitch_mm: number };
+  layer_files: { file: string; z_mm: number; thickness_mm: number; lit_pixels: number }[];
+}
+
+const ball = sphere(10, 96);
+const ballFile = { name: "ball.stl", bytes: ball.bytes };
+
+const start = pages();
+
+test("a dropped model is planned, looked through by keyboard, and its masks add up to its volume", async () => {
+  const page = await start();
+  await drop(page, ballFile);
+  await state(page, "done");
+
+  const text = await words(page);
+  expect(text).toContain("ball.stl");
+  expect(text).toContain("20.0 × 20.0 × 20.0 mm");
+  expect(text).toContain("Watertight");
+  expect(text).toMatch(/\d+% fewer than uniform 0.05 mm \(400\), same tolerance/);
+  expect(text).toMatch(/Uniform 0.15 mm 13[34] 0.1[45]\d* mm over tolerance/);
+  const count = await layers(page);
+  expect(count).toBeGreaterThan(134);
+  expect(count).toBeLessThan(400);
+
+  const slider = page.getByRole("slider", { name: "Layer" });
+  const middle = Number(await slider.inputValue());
+  await maskOf(page, middle - 1);
+  await slider.focus();
+  await page.keyboard.press("ArrowUp");
+  await maskOf(page, middle);
+  await page.keyboard.press("Home");
+  await maskOf(page, 0);
+  expect(await slider.getAttribute("aria-valuetext")).toMatch(new RegExp(`^Layer 1 of ${count}, at 0.000\u00a0mm, `));
+  await page.keyboard.press("End");
+  await maskOf(page, count - 1);
+
+  const file = await download(page);
+  expect(file.suggestedFilename()).toBe("ball-cusp.zip");
+  const files = unzipSync(await readFile(await file.path()));
+  const manifest = JSON.parse(new TextDecoder().decode(files["manifest.json"])) as Manifest;
+  expect(manifest.layers).toBe(count);
+  expect(manifest.layer_files).toHaveLength(count);
+  let volume = 0;
+  let top = 0;
+  for (const layer of manifest.layer_files) {
+    const png = decode(files[layer.file] ?? new Uint8Array());
+    expect([png.width, png.height]).toEqual([manifest.mask.width, manifest.mask.height]);
+    const lit = litPixels(png);
+    expect(lit).toBe(layer.lit_pixels);
+    volume += lit * manifest.mask.pitch_mm ** 2 * layer.thickness_mm;
+    top += layer.thickness_mm;
+    expect(layer.z_mm).toBeCloseTo(top, 6);
+  }
+  expect(Math.abs(volume / ball.volume_mm3 - 1)).toBeLessThan(0.01);
+});
+
+/** Lit pixels of a one-bit picture, whose rows are padded to whole bytes with dark ones. */
+function litPixels({ data, depth }: ReturnType<typeof decode>): number {
+  expect(depth).toBe(1);
+  let lit = 0;
+  for (const byte of data) for (let rest = byte; rest > 0; rest >>= 1) lit += rest & 1;
+  return lit;
+}
+
+test("a click in the chart looks at the layer of that height", async () => {
+  const page = await start();
+  await drop(page, ballFile);
+  await state(page, "done");
+  const plot = page.locator(".u-over");
+  const box = await plot.boundingBox();
+  if (box === null) throw new Error("there is no chart");
+  await plot.click({ position: { x: box.width / 2, y: box.height / 4 } });
+  const said = await page.getByRole("slider", { name: "Layer" }).getAttribute("aria-valuetext");
+  expect(Number(/at (\d+\.\d+)/.exec(said ?? "")?.[1])).toBeCloseTo(15, 0);
+});
+
+test("the example opens from the keyboard, and focus goes to the model", async () => {
+  const page = await start();
+  await page.getByRole("button", { name: "Try the example" }).focus();
+  await page.keyboard.press("Enter");
+  await state(page, "done");
+  expect(await layers(page)).toBeGreaterThan(267);
+  expect(await page.evaluate(() => document.querySelector("cusp-app")?.shadowRoot?.activeElement?.textContent)).toBe("goblet.stl");
+  await expect.poll(() => page.getByRole("status").innerText()).toMatch(/layers planned/);
+});
+
+test("a file chosen in the dialogue opens like a dropped one", async () => {
+  const page = await start();
+  await page.getByLabel(/Choose a file/).setInputFiles({ name: "ball.stl", mimeType: "", buffer: Buffer.from(ball.bytes) });
+  await state(page, "done");
+  expect(await page.locator("#model-name").innerText()).toBe("ball.stl");
+});
+
+test("files that will not do are refused in words, and the page goes on", async () => {
+  const page = await start();
+  await drop(page, { name: "notes.txt", bytes: new TextEncoder().encode("hello") });
+  await state(page, "error");
+  expect(await page.getByRole("alert").innerText()).toContain("notes.txt is not an STL file");
+
+  await drop(page, { name: "prose.stl", bytes: new TextEncoder().encode("once upon a time there was no solid at all") });
+  await expect.poll(() => page.getByRole("alert").innerText()).toContain("prose.stl");
+
+  await drop(page, ballFile);
+  await state(page, "done");
+  const count = await layers(page);
+
+  await drop(page, { name: "half.stl", bytes: ball.bytes.slice(0, ball.bytes.length / 2) });
+  await state(page, "error");
+  expect(await page.getByRole("alert").innerText()).toContain("half.stl is cut short");
+  // The model before is still there and still answers.
+  expect(await page.locator("#model-name").innerText()).toBe("ball.stl");
+  expect(await layers(page)).toBe(count);
+  await page.getByRole("button", { name: "Layer below" }).click();
+  await page.getByRole("button", { name: "Close" }).click();
+  await state(page, "done");
+});
+
+test("of several files the first STL is taken, and the page says so", async () => {
+  const page = await start();
+  await drop(page, { name: "notes.txt", bytes: new Uint8Array(3) }, ballFile, { name: "other.stl", bytes: ball.bytes });
+  await state(page, "done");
+  expect(await words(page)).toContain("3 files came at once. Cusp takes one at a time: this is ball.stl.");
+});
+
+test("settings plan again by themselves; nonsense is explained where it stands", async () => {
+  const page = await start();
+  await drop(page, ballFile);
+  await state(page, "done");
+  const count = await layers(page);
+
+  await page.getByLabel("Tolerance").fill("0.055");
+  await settled(page);
+  expect(await layers(page)).toBeGreaterThan(count);
+
+  await page.getByLabel("Tolerance").fill("55");
+  const field = page.getByLabel("Tolerance");
+  await expect.poll(() => field.getAttribute("aria-invalid")).toBe("true");
+  expect(await page.locator("#tolerance-hint").innerText()).toContain("55 µm is 0.055 mm");
+  await field.fill("0.065");
+  await settled(page);
+  expect(await layers(page)).toBe(count);
+
+  await page.getByLabel("Scale to height").fill("40");
+  await settled(page);
+  expect(await words(page)).toContain("40.0 × 40.0 × 40.0 mm");
+
+  await page.getByText("Uniform", { exact: true }).click();
+  await page.getByLabel("Layer thickness").fill("0.1");
+  await settled(page);
+  expect(await layers(page)).toBe(400);
+});
+
+test("infeasible settings name the height and offer a way out; the last plan stays", async () => {
+  const page = await start();
+  await drop(page, ballFile);
+  await state(page, "done");
+  const count = await layers(page);
+  await page.getByLabel("Tolerance").fill("0.02");
+  await state(page, "error");
+  const alert = page.getByRole("alert");
+  expect(await alert.innerText()).toMatch(/No plan keeps 0.02\smm, at a height of \d+\.\d{3}\smm/);
+  expect(await layers(page)).toBe(count);
+  expect(await words(page)).toContain("This is the last plan that worked");
+  await alert.getByRole("button", { name: "Layers from 0.02 mm" }).click();
+  await settled(page);
+  expect(await layers(page)).toBeGreaterThan(400);
+  expect(await page.getByLabel("Thinnest layer").inputValue()).toBe("0.02");
+});
+
+test.each([
+  ["narrow and light", { viewport: { width: 390, height: 844 } }],
+  ["narrow and dark", { viewport: { width: 390, height: 844 }, colorScheme: "dark" as const }],
+  ["very narrow", { viewport: { width: 320, height: 640 } }],
+  ["wide and dark", { viewport: { width: 1280, height: 900 }, colorScheme: "dark" as const }],
+])("nothing sticks out sideways: %s", async (_, options) => {
+  const page = await start("", options);
+  const overflow = (): Promise<number> =>
+    page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+  expect(await overflow()).toBe(0);
+  await drop(page, { name: `${"a-very-long-name-".repeat(8)}.txt`, bytes: new Uint8Array(1) });
+  await state(page, "error");
+  expect(await overflow()).toBe(0);
+  await drop(page, { name: `${"a-very-long-name-".repeat(8)}.stl`, bytes: ball.bytes });
+  await state(page, "done");
+  expect(await overflow()).toBe(0);
+});
+
+test("the page is forbidden to send anything anywhere", async () => {
+  // Not by `start`, which holds complaints of the browser against the page: here they are wanted.
+  const browser = await launch();
+  try {
+    const { page } = await open(browser, inject("address"));
+    const forbidden = await page.evaluate(
+      () =>
+        new Promise<string>((resolve) => {
+          document.addEventListener("securitypolicyviolation", (event) => resolve(event.effectiveDirective), { once: true });
+          fetch("http://localhost:9/").catch(() => undefined);
+        }),
+    );
+    expect(forbidden).toBe("connect-src");
+  } finally {
+    await browser.close();
+  }
+});
+
+test("the GPU gives the plan that the CPU gives", async (context) => {
+  const probe = await start();
+  const adapter = await probe.evaluate(async () => {
+    const gpu = (navigator as { gpu?: { requestAdapter(): Promise<unknown> } }).gpu;
+    return gpu === undefined ? false : (await gpu.requestAdapter()) !== null;
+  });
+  if (!adapter) context.skip("this browser offers no WebGPU adapter");
+  const counts: number[] = [];
+  for (const backend of ["cpu", "gpu"]) {
+    const page = await start(`?backend=${backend}`);
+    await drop(page, ballFile);
+    await state(page, "done", 60_000);
+    expect(await words(page)).toContain(`Computed on the ${backend.toUpperCase()}`);
+    counts.push(await layers(page));
+  }
+  const [cpu = 0, gpu = 0] = counts;
+  expect(Math.abs(cpu - gpu)).toBeLessThanOrEqual(1);
+});

@@ -1,0 +1,35 @@
+/** Pages for a test file: one browser for all, a fresh context for each page, and nothing unseen at the end. */
+import type { Browser, Page } from "playwright-core";
+import { afterAll, afterEach, beforeAll, expect, inject } from "vitest";
+import { launch, open, type Opened } from "./browser.js";
+
+export type Start = (query?: string, options?: Parameters<typeof open>[2]) => Promise<Page>;
+
+/** Call once at the top of a test file; gives what opens a page there. */
+export function pages(): Start {
+  let browser: Browser;
+  let opened: Opened[] = [];
+
+  beforeAll(async () => {
+    browser = await launch();
+  });
+
+  afterAll(async () => {
+    await browser.close();
+  });
+
+  afterEach(async () => {
+    const closing = opened;
+    opened = [];
+    await Promise.all(closing.map(({ page }) => page.context().close()));
+    // Whatever a test was about: nothing left the page, and nothing broke unseen.
+    expect(closing.flatMap(({ strangers }) => strangers)).toEqual([]);
+    expect(closing.flatMap(({ complaints }) => complaints)).toEqual([]);
+  });
+
+  return async (query = "", options = {}) => {
+    const it = await open(browser, inject("address") + query, options);
+    opened.push(it);
+    return it.page;
+  };
+}

@@ -1,0 +1,44 @@
+/** Takes the pictures of the README from the built page: `npm run screenshots`. */
+import { mkdir, stat } from "node:fs/promises";
+import { fileURLToPath } from "node:url";
+import type { BrowserContextOptions } from "playwright-core";
+import { launch, maskOf, open, state } from "./browser.js";
+import { serve } from "./serve.js";
+
+/** A picture in a repository is fetched by everyone who clones it. */
+const LIMIT_BYTES = 200_000;
+
+const SHOTS: readonly (readonly [string, BrowserContextOptions])[] = [
+  ["page-wide", { viewport: { width: 1280, height: 900 } }],
+  ["page-dark", { viewport: { width: 1280, height: 900 }, colorScheme: "dark" }],
+  ["page-narrow", { viewport: { width: 390, height: 844 } }],
+];
+
+export async function main([folder]: string[]): Promise<void> {
+  const into = folder ?? fileURLToPath(new URL("../../docs/", import.meta.url));
+  await mkdir(into, { recursive: true });
+  const served = await serve();
+  const browser = await launch();
+  try {
+    for (const [name, options] of SHOTS) {
+      const { page } = await open(browser, served.address, { reducedMotion: "reduce", ...options });
+      await page.getByRole("button", { name: "Try the example" }).click();
+      await state(page, "done");
+      await page.waitForSelector("canvas[data-layer]");
+      const slider = page.getByRole("slider", { name: "Layer" });
+      const layer = Math.round(0.72 * Number(await slider.getAttribute("max")));
+      await slider.fill(String(layer));
+      await maskOf(page, layer - 1);
+      await page.evaluate(() => document.fonts.ready);
+      const path = `${into}/${name}.png`;
+      await page.screenshot({ path, fullPage: true });
+      const { size } = await stat(path);
+      if (size > LIMIT_BYTES) throw new Error(`${name}.png is ${size} bytes, more than ${LIMIT_BYTES}`);
+      console.log(`${name}.png ${size} bytes`);
+      await page.context().close();
+    }
+  } finally {
+    await browser.close();
+    await served.close();
+  }
+}

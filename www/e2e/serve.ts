@@ -1,0 +1,54 @@
+/** Serves the built page on a free port of this machine, for the tests and for the tools beside them. */
+import { existsSync } from "node:fs";
+import { createServer } from "node:net";
+import { fileURLToPath } from "node:url";
+import { preview } from "vite";
+import type {} from "vitest";
+import type { TestProject } from "vitest/node";
+
+const root = fileURLToPath(new URL("..", import.meta.url));
+
+declare module "vitest" {
+  interface ProvidedContext {
+    address: string;
+  }
+}
+
+export interface Served {
+  address: string;
+  close(): Promise<void>;
+}
+
+export async function serve(): Promise<Served> {
+  if (!existsSync(new URL("../dist/index.html", import.meta.url))) {
+    throw new Error("www/dist is not there: run `npm run build` first");
+  }
+  const port = await freePort();
+  const server = await preview({
+    root,
+    logLevel: "error",
+    preview: { host: "127.0.0.1", port, strictPort: true, open: false },
+  });
+  return { address: `http://127.0.0.1:${port}/`, close: () => server.close() };
+}
+
+/** Vitest's global set-up. */
+export default async function setup(project: TestProject): Promise<() => Promise<void>> {
+  const served = await serve();
+  project.provide("address", served.address);
+  return () => served.close();
+}
+
+function freePort(): Promise<number> {
+  return new Promise((resolve, reject) => {
+    const probe = createServer();
+    probe.on("error", reject);
+    probe.listen(0, "127.0.0.1", () => {
+      const address = probe.address();
+      probe.close(() => {
+        if (address !== null && typeof address === "object") resolve(address.port);
+        else reject(new Error("no port was free"));
+      });
+    });
+  });
+}

@@ -1,0 +1,41 @@
+/** Models whose volume is known. Lengths in mm. */
+import { binaryStl } from "../src/example.js";
+
+export interface Solid {
+  bytes: Uint8Array;
+  /** Of the mesh itself, not of the surface that it stands for. */
+  volume_mm3: number;
+}
+
+/** A sphere of triangles between circles of latitude, each `around` points long, half as many circles. */
+export function sphere(radius: number, around: number): Solid {
+  const circles = around / 2;
+  const at = (circle: number, turn: number): [number, number, number] => {
+    const polar = (Math.PI * circle) / circles;
+    // At the poles every point of the circle is the same, down to the last bit.
+    const out = circle === 0 || circle === circles ? 0 : radius * Math.sin(polar);
+    const angle = (2 * Math.PI * (turn % around)) / around;
+    return [out * Math.cos(angle) + 0, out * Math.sin(angle) + 0, radius - radius * Math.cos(polar)];
+  };
+  const triangles: number[] = [];
+  for (let circle = 0; circle < circles; circle++) {
+    for (let turn = 0; turn < around; turn++) {
+      const [a, b] = [at(circle, turn), at(circle, turn + 1)];
+      const [c, d] = [at(circle + 1, turn), at(circle + 1, turn + 1)];
+      if (circle > 0) triangles.push(...a, ...b, ...c);
+      if (circle < circles - 1) triangles.push(...b, ...d, ...c);
+    }
+  }
+  const packed = Float32Array.from(triangles);
+  return { bytes: binaryStl(packed), volume_mm3: volume(packed) };
+}
+
+/** Signed volume of triangles given as nine coordinates each. */
+export function volume(triangles: Float32Array): number {
+  let six = 0;
+  for (let i = 0; i < triangles.length; i += 9) {
+    const [ax = 0, ay = 0, az = 0, bx = 0, by = 0, bz = 0, cx = 0, cy = 0, cz = 0] = triangles.subarray(i, i + 9);
+    six += ax * (by * cz - bz * cy) - ay * (bx * cz - bz * cx) + az * (bx * cy - by * cx);
+  }
+  return six / 6;
+}

@@ -1,0 +1,1 @@
+import "./cusp-app.js";

@@ -1,0 +1,249 @@
+/** Puts the chart of chart.ts on the page: size, colours, the marker of the layer looked at, clicks. */
+import { css, html, LitElement, unsafeCSS, type PropertyValues, type TemplateResult } from "lit";
+import uPlot from "uplot";
+import uplotStyles from "uplot/dist/uPlot.min.css?inline";
+import { chartData, chartOptions, type ChartData, type ChartTheme } from "./chart.js";
+import { gradient } from "./colour.js";
+import * as format from "./format.js";
+import { layerAt } from "./layers.js";
+import { shared } from "./styles.js";
+
+export class CuspChart extends LitElement {
+  static override properties = {
+    data: { attribute: false },
+    layer: { type: Number },
+    zoomed: { state: true },
+  };
+
+  declare data: ChartData | null;
+  declare layer: number;
+  declare zoomed: boolean;
+
+  #plot: uPlot | null = null;
+  #marker: HTMLElement | null = null;
+  #resized: ResizeObserver | null = null;
+  readonly #dark = matchMedia("(prefers-color-scheme: dark)");
+  readonly #redraw = (): void => this.#build();
+
+  constructor() {
+    super();
+    this.data = null;
+    this.layer = 0;
+    this.zoomed = false;
+  }
+
+  static override styles = [
+    unsafeCSS(uplotStyles),
+    shared,
+    css`
+      :host {
+        display: block;
+        min-width: 0;
+      }
+      .head {
+        display: flex;
+        flex-wrap: wrap;
+        align-items: center;
+        justify-content: space-between;
+        gap: 0.25rem 1rem;
+        min-height: 2.25rem;
+        margin-bottom: 0.75rem;
+      }
+      .legend {
+        display: flex;
+        white-space: nowrap;
+        align-items: center;
+        gap: 0.5rem;
+        font-size: 0.8125rem;
+        color: var(--cusp-quiet);
+      }
+      .scale {
+        width: 5rem;
+        height: 0.625rem;
+        border-radius: 3px;
+      }
+      .plot {
+        height: 30rem;
+        overflow: hidden;
+      }
+      .u-over {
+        cursor: crosshair;
+        border-radius: 2px;
+      }
+      .u-select {
+        background: rgb(16 19 26 / 0.25);
+      }
+      .marker {
+        position: absolute;
+        left: -5px;
+        right: -5px;
+        height: 0;
+        border-top: 2px solid var(--cusp-chart-ink);
+        outline: 1px solid var(--cusp-chart-paper);
+        pointer-events: none;
+      }
+      .marker::before {
+        content: "";
+        position: absolute;
+        left: -3px;
+        top: -6px;
+        border: 5px solid transparent;
+        border-left: 7px solid var(--cusp-text);
+      }
+      .foot {
+        display: flex;
+        flex-wrap: wrap;
+        align-items: center;
+        justify-content: space-between;
+        gap: 0.25rem 1rem;
+        min-height: 2.25rem;
+      }
+      @media (max-width: 640px) {
+        .plot {
+          height: 24rem;
+        }
+      }
+    `,
+  ];
+
+  override render(): TemplateResult {
+    const [min, max] = this.data?.limits ?? [0, 0];
+    return html`
+      <div class="head">
+        <h3>Profile and plan</h3>
+        <div class="legend figures">
+          <span>${format.fine(min)}</span>
+          <span class="scale" style="background:${gradient()}"></span>
+          <span>${format.fine(max)}</span>
+        </div>
+      </div>
+      <div class="plot" role="img" aria-label=${this.#words()}></div>
+      <div class="foot">
+        <p class="quiet">Click to see a layer. Drag to zoom.</p>
+        ${this.zoomed ? html`<button class="small" @click=${this.#build}>Whole model</button>` : ""}
+      </div>
+    `;
+  }
+
+  override connectedCallback(): void {
+    super.connectedCallback();
+    this.#dark.addEventListener("change", this.#redraw);
+  }
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    this.#dark.removeEventListener("change", this.#redraw);
+    this.#resized?.disconnect();
+    this.#resized = null;
+    this.#plot?.destroy();
+    this.#plot = null;
+  }
+
+  override firstUpdated(): void {
+    this.#resized = new ResizeObserver(() => this.#fit());
+    this.#resized.observe(this.#frame);
+  }
+
+  override updated(changed: PropertyValues<this>): void {
+    if (changed.has("data")) this.#build();
+    else if (changed.has("layer")) this.#mark();
+  }
+
+  get #frame(): HTMLElement {
+    const frame = this.renderRoot.querySelector<HTMLElement>(".plot");
+    if (frame === null) throw new Error("the chart is not on the page");
+    return frame;
+  }
+
+  /** The chart for those who cannot see it. */
+  #words(): string {
+    if (this.data === null) return "No plan yet";
+    const { thickness_mm, z_mm } = this.data;
+    const [least, most] = [Math.min(...thickness_mm), Math.max(...thickness_mm)];
+    return (
+      `Chart of the surface’s error density by height, up to ${format.height(z_mm.at(-1) ?? 0)}, ` +
+      `over the ${format.count(thickness_mm.length)} layers of the plan, ${format.fine(least)} to ${format.fine(most)} thick.`
+    );
+  }
+
+  readonly #build = (): void => {
+    this.#plot?.destroy();
+    this.#plot = null;
+    this.zoomed = false;
+    const { data } = this;
+    if (data === null || !this.isConnected) return;
+    const frame = this.#frame;
+    const options = chartOptions(data, this.#theme(), frame.clientWidth, frame.clientHeight);
+    const whole = data.profile.length * data.bin_mm;
+    options.hooks = {
+      ...options.hooks,
+      // Drawing is when the scales are settled, after the first time as after a zoom.
+      draw: [
+        (u) => {
+          const { min, max } = u.scales["x"] ?? {};
+          this.zoomed = min != null && max != null && max - min < 0.99 * whole;
+          this.#mark();
+        },
+      ],
+    };
+    this.#plot = new uPlot(options, chartData(data), frame);
+    this.#marker = document.createElement("div");
+    this.#marker.className = "marker";
+    this.#plot.over.append(this.#marker);
+    this.#plot.over.addEventListener("click", this.#clicked);
+    this.#mark();
+  };
+
+  readonly #clicked = (event: MouseEvent): void => {
+    const plot = this.#plot;
+    if (plot === null || this.data === null) return;
+    const z = plot.posToVal(event.clientY - plot.over.getBoundingClientRect().top, "x");
+    this.dispatchEvent(new CustomEvent<number>("cusp-layer", { detail: layerAt(this.data.z_mm, z) }));
+  };
+
+  #fit(): void {
+    const { clientWidth, clientHeight } = this.#frame;
+    if (this.#plot === null || clientWidth === 0) return;
+    if (this.#plot.width === clientWidth && this.#plot.height === clientHeight) return;
+    this.#plot.setSize({ width: clientWidth, height: clientHeight });
+    this.#mark();
+  }
+
+  #mark(): void {
+    const [plot, marker, data] = [this.#plot, this.#marker, this.data];
+    if (plot === null || marker === null || data === null) return;
+    const middle = ((data.z_mm[this.layer] ?? 0) + (data.z_mm[this.layer + 1] ?? 0)) / 2;
+    const top = plot.valToPos(middle, "x");
+    marker.hidden = !(top >= 0 && top <= plot.over.clientHeight);
+    marker.style.transform = `translateY(${Math.round(top) - 1}px)`;
+  }
+
+  #theme(): ChartTheme {
+    const style = getComputedStyle(this);
+    // A canvas takes no `light-dark()`: let an element work out what a property comes to.
+    const probe = document.createElement("span");
+    this.#frame.append(probe);
+    const colour = (name: string): string => {
+      probe.style.color = `var(--cusp-${name})`;
+      return getComputedStyle(probe).color;
+    };
+    const theme = {
+      ink: colour("chart-ink"),
+      text: colour("text"),
+      grid: colour("field"),
+      paper: colour("chart-paper"),
+      seam: colour("chart-seam"),
+      font: style.fontFamily,
+    };
+    probe.remove();
+    return theme;
+  }
+}
+
+customElements.define("cusp-chart", CuspChart);
+
+declare global {
+  interface HTMLElementTagNameMap {
+    "cusp-chart": CuspChart;
+  }
+}

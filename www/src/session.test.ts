@@ -1,0 +1,217 @@
+import { afterEach, beforeEach, expect, test, vi } from "vitest";
+import { Session } from "./session.js";
+import { SlicerError, type Watch } from "./slicer.js";
+import type { MeshInfo, Options, Plan, Report } from "./wire.js";
+
+const info = { facets: 1, size_mm: [1, 1, 10], warnings: [] } as unknown as MeshInfo;
+
+function planOf(layers: number, height_mm = 10): Plan {
+  const z_mm = Array.from({ length: layers + 1 }, (_, i) => (i * height_mm) / layers);
+  const report = { layers, height_mm, z_mm, mask: { width: 8, height: 1, pitch_mm: 1 } } as unknown as Report;
+  return { report, profile: new Float32Array(1) };
+}
+
+/** A client whose answers the test gives, call by call. */
+class FakeClient {
+  readonly calls: { what: string; options?: Options; resolve(value: unknown): void; reject(error: unknown): void }[] = [];
+  readonly masks: number[] = [];
+
+  readonly warm = (): void => undefined;
+  readonly open = (_file: Blob, watch: Watch): Promise<MeshInfo> => this.#call("open", watch);
+  readonly plan = (options: Options, watch: Watch): Promise<Plan> => this.#call("plan", watch, options);
+  readonly archive = (watch: Watch): Promise<Uint8Array> => this.#call("archive", watch);
+  readonly mask = async (layer: number): Promise<Uint8Array> => {
+    this.masks.push(layer);
+    return Uint8Array.of(255);
+  };
+
+  get last(): (typeof this.calls)[number] {
+    const call = this.calls.at(-1);
+    if (call === undefined) throw new Error("nothing was asked");
+    return call;
+  }
+
+  #call<T>(what: string, watch: Watch, options?: Options): Promise<T> {
+    return new Promise<T>((resolve, reject) => {
+      watch.signal.addEventListener("abort", () => reject(watch.signal.reason));
+      this.calls.push({ what, resolve: resolve as (value: unknown) => void, reject, ...(options && { options }) });
+    });
+  }
+}
+
+let client: FakeClient;
+let session: Session;
+const settle = (): Promise<unknown> => vi.advanceTimersByTimeAsync(300);
+
+beforeEach(() => {
+  vi.useFakeTimers();
+  client = new FakeClient();
+  session = new Session({ requestUpdate: () => undefined }, client);
+});
+
+afterEach(() => {
+  vi.useRealTimers();
+});
+
+async function planned(layers = 10): Promise<void> {
+  void session.open(new Blob(), "a.stl");
+  client.last.resolve(info);
+  await settle();
+  client.last.resolve(planOf(layers));
+  await settle();
+}
+
+test("opening plans at once and looks at the middle", async () => {
+  await planned();
+  expect(client.calls.map(({ what }) => what)).toEqual(["open", "plan"]);
+  expect(session.result?.report.layers).toBe(10);
+  expect(session.layer).toBe(5);
+  expect(session.mask?.layer).toBe(5);
+  expect(session.busy).toBeNull();
+});
+
+test("a new plan keeps the height that is looked at", async () => {
+  await planned();
+  session.look(2);
+  session.change({ tolerance: "0.05" });
+  await settle();
+  client.last.resolve(planOf(20));
+  await settle();
+  expect(session.layer).toBe(4);
+  expect(session.mask?.layer).toBe(4);
+});
+
+test("typing waits for a pause, and nonsense plans nothing and says so", async () => {
+  await planned();
+  session.change({ tolerance: "0.0" });
+  session.change({ tolerance: "0.05" });
+  await settle();
+  expect(client.calls).toHaveLength(3);
+  client.last.resolve(planOf(20));
+  await settle();
+  session.change({ tolerance: "x" });
+  await settle();
+  expect(client.calls).toHaveLength(3);
+  expect(session.faults.tolerance).toBeDefined();
+  expect(session.earlier).toBe(true);
+  expect(session.result?.report.layers).toBe(20);
+});
+
+test("over the same rays the newest settings wait for the plan under way, and those between are skipped", async () => {
+  await planned();
+  session.change({ tolerance: "0.05" });
+  await settle();
+  session.change({ tolerance: "0.06" });
+  await settle();
+  session.change({ tolerance: "0.07" });
+  await settle();
+  expect(client.calls).toHaveLength(3);
+  client.last.resolve(planOf(20));
+  await settle();
+  expect(client.last.options?.tolerance_mm).toBe(0.07);
+  expect(client.calls).toHaveLength(4);
+});
+
+test("new rays end the plan under way", async () => {
+  await planned();
+  session.change({ rays: "4096" });
+  await settle();
+  session.change({ rays: "512" });
+  await settle();
+  expect(client.last.options?.rays).toBe(512);
+  client.last.resolve(planOf(30));
+  await settle();
+  expect(session.result?.report.layers).toBe(30);
+  expect(session.problem).toBeNull();
+});
+
+test("a failed plan keeps the last good one and its masks, and says what happened", async () => {
+  await planned();
+  session.change({ tolerance: "0.02" });
+  await settle();
+  client.last.reject(new SlicerError({ code: "infeasible", message: "", detail: { height_mm: 1 } }));
+  await settle();
+  expect(session.problem?.code).toBe("infeasible");
+  expect(session.earlier).toBe(true);
+  session.look(1);
+  await settle();
+  expect(session.mask?.layer).toBe(1);
+  session.change(session.problem?.offers[0]?.change ?? {});
+  expect(session.problem).toBeNull();
+});
+
+test("a file that cannot be read leaves the open model alone", async () => {
+  await planned();
+  void session.open(new Blob(), "b.stl");
+  client.last.reject(new SlicerError({ code: "stl-truncated", message: "", detail: null }));
+  await settle();
+  expect(session.problem?.title).toBe("b.stl is cut short");
+  expect(session.model?.name).toBe("a.stl");
+  expect(session.result?.report.layers).toBe(10);
+});
+
+test("cancelling the first plan leaves a model that can be planned again", async () => {
+  void session.open(new Blob(), "a.stl");
+  client.last.resolve(info);
+  await settle();
+  session.cancel();
+  await settle();
+  expect(session.busy).toBeNull();
+  expect(session.result).toBeNull();
+  expect(session.problem).toBeNull();
+  session.replan();
+  client.last.resolve(planOf(10));
+  await settle();
+  expect(session.result?.report.layers).toBe(10);
+});
+
+test("settings changed during a download wait for it", async () => {
+  await planned();
+  const download = session.download();
+  session.change({ rays: "4096" });
+  await settle();
+  expect(client.last.what).toBe("archive");
+  client.last.resolve(new Uint8Array(3));
+  expect(await download).not.toBeNull();
+  await settle();
+  expect(client.last.options?.rays).toBe(4096);
+});
+
+test("settings changed while a file is read belong to it, or to the model before if it cannot be read", async () => {
+  await planned();
+  void session.open(new Blob(), "b.stl");
+  session.change({ tolerance: "0.05" });
+  await settle();
+  expect(client.last.what).toBe("open");
+  client.last.reject(new SlicerError({ code: "stl-truncated", message: "", detail: null }));
+  await settle();
+  expect(client.last.options?.tolerance_mm).toBe(0.05);
+});
+
+test("a zip is made once for each plan", async () => {
+  await planned();
+  const first = session.download();
+  client.last.resolve(new Uint8Array(3));
+  await settle();
+  expect(await first).toMatchObject({ name: "a-cusp.zip" });
+  const again = await session.download();
+  expect(again?.blob.size).toBe(3);
+  expect(client.calls.filter(({ what }) => what === "archive")).toHaveLength(1);
+});
+
+test("masks: while one is fetched only the newest layer waits", async () => {
+  await planned();
+  client.masks.length = 0;
+  for (let layer = 0; layer < 9; layer++) session.look(layer);
+  await settle();
+  expect(client.masks).toEqual([0, 8]);
+});
+
+test("of several files it says which one it took; of none it says that none will do", async () => {
+  void session.choose([new File([], "a.stl"), new File([], "b.stl")]);
+  expect(session.notice).toMatch(/2 files/);
+  client.last.resolve(info);
+  await settle();
+  await session.choose([new File([], "notes.txt")]);
+  expect(session.problem?.code).toBe("not-stl");
+});
