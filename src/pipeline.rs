@@ -270,14 +270,17 @@ impl Slicer {
         let clock = Instant::now();
         let mut ldi_progress = |fraction| progress(Stage::Ldi, fraction);
         let mut warnings = mesh_warnings(&mesh);
-        let sampled_on_gpu = match options.backend {
+        let adapters = match options.backend {
             Backend::Cpu => None,
-            Backend::Gpu => {
-                Some(gpu::sample(&mesh, &grid, gpu::Adapters::Any, &mut ldi_progress).await)
+            Backend::Gpu => Some(gpu::Adapters::Any),
+            Backend::Auto => Some(gpu::Adapters::Hardware),
+        };
+        let sampled_on_gpu = match adapters {
+            Some(adapters) => {
+                let tiling = gpu::Tiling::default();
+                Some(gpu::sample(&mesh, &grid, adapters, tiling, &mut ldi_progress).await)
             }
-            Backend::Auto => {
-                Some(gpu::sample(&mesh, &grid, gpu::Adapters::Hardware, &mut ldi_progress).await)
-            }
+            None => None,
         };
         let (ldi, adapter) = match sampled_on_gpu {
             Some(Ok((ldi, adapter))) => (ldi, Some(adapter)),

@@ -1,14 +1,18 @@
-//! The shader's data layouts against the Rust structs that fill them.
+//! The shaders' data layouts and constants against the Rust ones that go with them.
 
 #![cfg(not(target_arch = "wasm32"))]
 
 use std::mem::offset_of;
 
-use cusp_slicer::ldi::layout::{Corner, Tile};
-use naga::{Module, TypeInner};
+use cusp_slicer::ldi::layout::{SCAN_BLOCK, Tile};
+use cusp_slicer::ldi::projection::STEPS;
+use naga::{Expression, Literal, Module, TypeInner};
 
-fn peel_shader() -> Module {
-    naga::front::wgsl::parse_str(include_str!("../shaders/peel.wgsl")).unwrap()
+const SAMPLE: &str = include_str!("../shaders/sample.wgsl");
+const SCAN: &str = include_str!("../shaders/scan.wgsl");
+
+fn parse(source: &str) -> Module {
+    naga::front::wgsl::parse_str(source).unwrap()
 }
 
 /// Names and offsets of the members of a struct, and its size.
@@ -28,15 +32,27 @@ fn layout(module: &Module, name: &str) -> (Vec<(String, usize)>, usize) {
     (members, *span as usize)
 }
 
+/// An integer constant of a shader.
+fn constant(module: &Module, name: &str) -> i64 {
+    let (_, found) = module
+        .constants
+        .iter()
+        .find(|(_, found)| found.name.as_deref() == Some(name))
+        .unwrap();
+    match module.global_expressions[found.init] {
+        Expression::Literal(Literal::I32(value)) => i64::from(value),
+        Expression::Literal(Literal::U32(value)) => i64::from(value),
+        ref other => panic!("{name} is {other:?}"),
+    }
+}
+
 #[test]
 fn tile_is_laid_out_as_the_shader_reads_it() {
-    let (members, size) = layout(&peel_shader(), "Tile");
+    let (members, size) = layout(&parse(SAMPLE), "Tile");
     assert_eq!(size, size_of::<Tile>());
     let expected = [
         ("origin", offset_of!(Tile, origin)),
         ("size", offset_of!(Tile, size)),
-        ("depth_per_mm", offset_of!(Tile, depth_per_mm)),
-        ("steps", offset_of!(Tile, steps)),
     ];
     assert_eq!(
         members,
@@ -45,25 +61,22 @@ fn tile_is_laid_out_as_the_shader_reads_it() {
 }
 
 #[test]
-fn corner_has_the_fields_that_the_shader_reads_in_order() {
-    let (members, size) = layout(&peel_shader(), "Corner");
-    // Vertex attributes are not laid out by WGSL's rules, but here the two agree.
-    assert_eq!(size, size_of::<Corner>());
-    let expected = [
-        ("position", offset_of!(Corner, position)),
-        ("z_mm", offset_of!(Corner, z_mm)),
-        ("facet", offset_of!(Corner, facet)),
-    ];
+fn constants_that_stand_on_both_sides_agree() {
+    assert_eq!(constant(&parse(SAMPLE), "STEPS"), STEPS);
+    let scan = parse(SCAN);
+    assert_eq!(constant(&scan, "BLOCK"), i64::from(SCAN_BLOCK));
     assert_eq!(
-        members,
-        expected.map(|(name, offset)| (name.to_owned(), offset))
+        constant(&scan, "THREADS") * constant(&scan, "RUN"),
+        i64::from(SCAN_BLOCK)
     );
 }
 
 #[test]
-fn the_shader_is_valid() {
-    let flags = naga::valid::ValidationFlags::all();
-    naga::valid::Validator::new(flags, naga::valid::Capabilities::empty())
-        .validate(&peel_shader())
-        .unwrap();
+fn the_shaders_are_valid() {
+    for source in [SAMPLE, SCAN] {
+        let flags = naga::valid::ValidationFlags::all();
+        naga::valid::Validator::new(flags, naga::valid::Capabilities::empty())
+            .validate(&parse(source))
+            .unwrap();
+    }
 }

@@ -1,6 +1,14 @@
-//! What both backends share: compressed rows from counts, and the order of hits within a ray.
+//! What both backends share: compressed rows from counts, hits from facets, and the order of hits within a
+//! ray.
 
+use super::projection::{ProjectedFacet, Projection};
 use super::{Hit, LdiError};
+use crate::grid::Grid;
+use crate::parallel::map_in_groups;
+use crate::progress::Progress;
+
+/// Rays that one thread works on at a time.
+const CHUNK_RAYS: usize = 1 << 16;
 
 /// Turns `offsets`, which holds the number of hits of ray i at i + 1 and 0 at 0, into offsets.
 ///
@@ -38,8 +46,93 @@ fn out_of_memory(hits: u64) -> LdiError {
     }
 }
 
-/// Puts the hits of consecutive rays in order; `offsets` are relative to `base`.
-pub(super) fn sort_rays(offsets: &[u32], base: u32, hits: &mut [Hit]) {
+/// Cuts `hits` into chunks of whole rays, `chunk_rays` each: the offsets of the chunk's rays, one more than
+/// these, with their hits.
+pub(super) fn by_rays<'a>(
+    offsets: &'a [u32],
+    hits: &'a mut [Hit],
+    chunk_rays: usize,
+) -> Vec<(&'a [u32], &'a mut [Hit])> {
+    let rays = offsets.len() - 1;
+    let mut chunks = Vec::with_capacity(rays.div_ceil(chunk_rays));
+    let mut rest = hits;
+    for first in (0..rays).step_by(chunk_rays) {
+        let offsets = &offsets[first..=(first + chunk_rays).min(rays)];
+        let (chunk, others) = rest.split_at_mut((offsets[offsets.len() - 1] - offsets[0]) as usize);
+        chunks.push((offsets, chunk));
+        rest = others;
+    }
+    chunks
+}
+
+/// The hits of all rays with `facets`, which are in compressed rows, in any order within a ray.
+///
+/// # Errors
+/// [`LdiError::OutOfMemory`], [`LdiError::Cancelled`].
+pub(super) fn hits_of_facets(
+    projection: &Projection<'_>,
+    grid: &Grid,
+    offsets: &[u32],
+    facets: &[u32],
+    progress: &mut Progress<'_>,
+    range: [f64; 2],
+) -> Result<Vec<Hit>, LdiError> {
+    let mut hits: Vec<Hit> = zeroed(facets.len())?;
+    map_in_groups(
+        by_rays(offsets, &mut hits, CHUNK_RAYS)
+            .into_iter()
+            .enumerate(),
+        |(chunk, (offsets, hits))| {
+            let mut recent = RecentFacets::new(projection);
+            let base = offsets[0];
+            for (index, ray) in offsets.windows(2).enumerate() {
+                let ray_index = (chunk * CHUNK_RAYS + index) as u32;
+                let (column, row) = (ray_index % grid.width, ray_index / grid.width);
+                let places = (ray[0] - base) as usize..(ray[1] - base) as usize;
+                let facets = &facets[ray[0] as usize..ray[1] as usize];
+                for (hit, &index) in hits[places].iter_mut().zip(facets) {
+                    if let Some(facet) = recent.get(index) {
+                        *hit = Hit::new(facet.height_at(column, row), index, facet.faces_up);
+                    }
+                }
+            }
+            sort_rays(offsets, hits);
+        },
+        |()| Ok::<_, LdiError>(()),
+        progress,
+        range,
+    )?;
+    Ok(hits)
+}
+
+/// Facets that were looked up not long ago: rays beside each other mostly meet the same ones.
+struct RecentFacets<'a> {
+    projection: &'a Projection<'a>,
+    slots: Vec<(u32, Option<ProjectedFacet>)>,
+}
+
+impl<'a> RecentFacets<'a> {
+    const SLOTS: usize = 256;
+
+    fn new(projection: &'a Projection<'a>) -> Self {
+        Self {
+            projection,
+            slots: vec![(u32::MAX, None); Self::SLOTS],
+        }
+    }
+
+    fn get(&mut self, facet: u32) -> Option<&ProjectedFacet> {
+        let slot = &mut self.slots[facet as usize % Self::SLOTS];
+        if slot.0 != facet {
+            *slot = (facet, self.projection.facet(facet as usize));
+        }
+        slot.1.as_ref()
+    }
+}
+
+/// Puts the hits of consecutive rays in order; `offsets` may begin anywhere.
+pub(super) fn sort_rays(offsets: &[u32], hits: &mut [Hit]) {
+    let base = offsets[0];
     for ray in offsets.windows(2) {
         let ray = &mut hits[(ray[0] - base) as usize..(ray[1] - base) as usize];
         match ray {

@@ -35,20 +35,13 @@ pub fn sample(mesh: &Mesh, grid: &Grid, progress: &mut Progress<'_>) -> Result<L
     assemble::accumulate(&mut offsets)?;
 
     let mut hits: Vec<Hit> = assemble::zeroed(offsets[grid.pixels()] as usize)?;
-    let mut bands = Vec::new();
-    let mut rest = hits.as_mut_slice();
-    for first in (0..grid.pixels()).step_by(band_rays) {
-        let band_offsets = &offsets[first..=(first + band_rays).min(grid.pixels())];
-        let band_hits = band_offsets[band_offsets.len() - 1] - band_offsets[0];
-        let (band, others) = rest.split_at_mut(band_hits as usize);
-        bands.push((band_offsets, band));
-        rest = others;
-    }
     map_in_groups(
-        bands.into_iter().enumerate(),
+        assemble::by_rays(&offsets, &mut hits, band_rays)
+            .into_iter()
+            .enumerate(),
         |(band, (offsets, hits))| {
             fill_band(&projection, grid, band, facets_of.band(band), offsets, hits);
-            assemble::sort_rays(offsets, offsets[0], hits);
+            assemble::sort_rays(offsets, hits);
         },
         |()| Ok::<_, LdiError>(()),
         progress,

@@ -1,16 +1,16 @@
-//! The LDI by depth peeling on the GPU; the shader is shaders/peel.wgsl.
+//! The LDI on the GPU: shaders/sample.wgsl finds which facets each ray meets, shaders/scan.wgsl turns counts
+//! into compressed rows, and both are read back once for each tile.
 //!
-//! The GPU decides which facets each ray meets. Heights are then computed by the same function as in the
-//! CPU backend, so that a hit found by both is the same to the last bit. Grids larger than a texture
-//! are sampled in tiles.
+//! Coverage is decided by the same integers as in the CPU backend, and heights are computed by the same
+//! function, so that the two return the same [`Ldi`] to the last bit on every adapter.
 
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use wgpu::util::DeviceExt;
 
-use super::layout::{Corner, Tile};
+use super::layout::{SCAN_BLOCK, Tile};
 use super::projection::{Projection, STEPS};
-use super::{Hit, Ldi, LdiError, assemble};
+use super::{Ldi, LdiError, assemble};
 use crate::grid::Grid;
 use crate::mesh::Mesh;
 use crate::progress::{Progress, report};
@@ -24,96 +24,177 @@ pub enum Adapters {
     Hardware,
 }
 
-/// Longest side of a tile in pixels: bounds the memory of textures and read-back to some 80 MB.
-const MAX_TILE: u32 = 2048;
-/// Bytes of one vertex buffer.
-const MAX_VERTEX_BYTES: usize = 96 << 20;
-/// What a ray's previous and current pair are stored as.
-const PAIR: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Uint;
-const PAIR_BYTES: u32 = 8;
-/// What a pass leaves for a ray without a further hit: greater than every pair, so that all later
-/// passes discard there too.
-const DONE: f64 = u32::MAX as f64;
-const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+/// How large tiles are, and so how much memory sampling takes on the GPU.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Tiling {
+    /// Longest side of a tile in pixels; smaller where the adapter has less.
+    pub side: u32,
+}
+
+impl Default for Tiling {
+    /// Tiles of 4096 pixels a side: counts and offsets take 128 MiB.
+    fn default() -> Self {
+        Self { side: 4096 }
+    }
+}
+
+/// What passes draw on, since they must draw on something; nothing is written to it.
+const CANVAS: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
+/// Bytes of a count, an offset or a facet.
+const WORD: u64 = 4;
 
 /// Samples `mesh`, which lies inside `grid` and above z = 0, and tells which adapter did it.
 ///
 /// # Errors
-/// [`LdiError::NoGpu`] if there is no adapter of the kind asked for, [`LdiError::GpuFailed`] if it fails,
-/// [`LdiError::OutOfMemory`], [`LdiError::TooManyFacets`], [`LdiError::Cancelled`].
+/// [`LdiError::NoGpu`] if there is no adapter of the kind asked for or it is too small for the mesh,
+/// [`LdiError::GpuFailed`] if it fails, [`LdiError::OutOfMemory`], [`LdiError::TooManyFacets`],
+/// [`LdiError::Cancelled`].
 pub async fn sample(
     mesh: &Mesh,
     grid: &Grid,
     adapters: Adapters,
+    tiling: Tiling,
     progress: &mut Progress<'_>,
 ) -> Result<(Ldi, String), LdiError> {
     super::check_facets(mesh)?;
     report(progress, 0.0)?;
     let gpu = Gpu::open(adapters).await?;
     let projection = Projection::new(mesh, grid);
-    let peeler = Peeler::new(&gpu, mesh, &projection, grid);
-    let mut found = Vec::new();
-    let (columns, rows) = (
-        tiles(grid.width, peeler.tile_side),
-        tiles(grid.height, peeler.tile_side),
-    );
-    let tile_count = (columns.len() * rows.len()) as f64;
-    for (index, (row, column)) in rows
-        .iter()
-        .flat_map(|&row| columns.iter().map(move |&column| (row, column)))
-        .enumerate()
-    {
-        let region = Region {
-            column: column.0,
-            row: row.0,
-            width: column.1,
-            height: row.1,
-        };
-        let base = index as f64 / tile_count;
-        let mut tile_progress = |fraction: f64| progress(base + 0.9 * fraction / tile_count);
-        peeler.peel(region, &mut found, &mut tile_progress).await?;
+    let sampler = Sampler::new(&gpu, mesh, &projection)?;
+
+    let side = tiling
+        .side
+        .clamp(1, gpu.device.limits().max_texture_dimension_2d);
+    let mut waiting = tiles(grid, side);
+    waiting.reverse();
+    let mut sampled = Vec::new();
+    while let Some(region) = waiting.pop() {
+        match sampler.sample(region).await? {
+            Some(rays) => sampled.push((region, rays)),
+            // More hits than a buffer can hold: halve the tile.
+            None => waiting.extend(region.halves().ok_or_else(|| LdiError::GpuFailed {
+                reason: "one ray has more hits than the GPU can store".to_owned(),
+            })?),
+        }
+        let done = sampled.len() as f64;
+        report(progress, 0.8 * done / (done + waiting.len() as f64))?;
     }
-    let ldi = assemble_ldi(&projection, grid, &found)?;
-    report(progress, 1.0)?;
+    gpu.device.destroy();
+    let ldi = assemble_ldi(&projection, grid, &sampled, progress)?;
     Ok((ldi, gpu.name))
 }
 
-/// First index and length of the parts of `length`.
-fn tiles(length: u32, side: u32) -> Vec<(u32, u32)> {
-    (0..length)
-        .step_by(side as usize)
-        .map(|first| (first, side.min(length - first)))
+/// Part of the grid, in pixels.
+#[derive(Debug, Clone, Copy)]
+struct Region {
+    column: u32,
+    row: u32,
+    width: u32,
+    height: u32,
+}
+
+impl Region {
+    fn rays(self) -> usize {
+        self.width as usize * self.height as usize
+    }
+
+    /// Two parts of the region, or `None` if it is a single ray.
+    fn halves(self) -> Option<[Self; 2]> {
+        let Self {
+            column,
+            row,
+            width,
+            height,
+        } = self;
+        if height > 1 {
+            let upper = height / 2;
+            let lower = height - upper;
+            Some([
+                Self {
+                    row: row + upper,
+                    height: lower,
+                    ..self
+                },
+                Self {
+                    height: upper,
+                    ..self
+                },
+            ])
+        } else if width > 1 {
+            let left = width / 2;
+            let right = width - left;
+            Some([
+                Self {
+                    column: column + left,
+                    width: right,
+                    ..self
+                },
+                Self {
+                    width: left,
+                    ..self
+                },
+            ])
+        } else {
+            None
+        }
+    }
+}
+
+/// The grid in parts of at most `side` pixels.
+fn tiles(grid: &Grid, side: u32) -> Vec<Region> {
+    let parts = |length: u32| {
+        let firsts = (0..length).step_by(side as usize);
+        firsts.map(move |first| (first, side.min(length - first)))
+    };
+    parts(grid.height)
+        .flat_map(|(row, height)| {
+            parts(grid.width).map(move |(column, width)| Region {
+                column,
+                row,
+                width,
+                height,
+            })
+        })
         .collect()
 }
 
-/// A ray and a facet that it meets.
-type Meeting = [u32; 2];
+/// The facets that the rays of a region meet, in compressed rows.
+struct Meetings {
+    offsets: Vec<u32>,
+    facets: Vec<u32>,
+}
 
-/// Compressed rows from meetings in any order.
+/// Joins the tiles, computes heights and puts hits in order.
 fn assemble_ldi(
     projection: &Projection<'_>,
     grid: &Grid,
-    found: &[Meeting],
+    sampled: &[(Region, Meetings)],
+    progress: &mut Progress<'_>,
 ) -> Result<Ldi, LdiError> {
     let mut offsets: Vec<u32> = assemble::zeroed(grid.pixels() + 1)?;
-    for [ray, _] in found {
-        offsets[*ray as usize + 1] += 1;
+    for (region, meetings) in sampled {
+        for row in 0..region.height {
+            let from = (row * region.width) as usize;
+            let to = ((region.row + row) * grid.width + region.column) as usize;
+            for column in 0..region.width as usize {
+                offsets[to + column + 1] =
+                    meetings.offsets[from + column + 1] - meetings.offsets[from + column];
+            }
+        }
     }
     assemble::accumulate(&mut offsets)?;
-    let mut hits: Vec<Hit> = assemble::zeroed(found.len())?;
-    let mut cursors = offsets.clone();
-    // Neighbouring rays mostly meet the same facet, so it is worth keeping.
-    let mut current = (u32::MAX, None);
-    for &[ray, index] in found {
-        if current.0 != index {
-            current = (index, projection.facet(index as usize));
+    let mut facets: Vec<u32> = assemble::zeroed(offsets[grid.pixels()] as usize)?;
+    for (region, meetings) in sampled {
+        for row in 0..region.height {
+            // A row of a tile is contiguous in both.
+            let from = (row * region.width) as usize;
+            let from = meetings.offsets[from]..meetings.offsets[from + region.width as usize];
+            let to = offsets[((region.row + row) * grid.width + region.column) as usize];
+            let row = &meetings.facets[from.start as usize..from.end as usize];
+            facets[to as usize..to as usize + row.len()].copy_from_slice(row);
         }
-        let Some(facet) = current.1 else { continue };
-        let z_mm = facet.height_at(ray % grid.width, ray / grid.width);
-        hits[cursors[ray as usize] as usize] = Hit::new(z_mm, index, facet.faces_up);
-        cursors[ray as usize] += 1;
     }
-    assemble::sort_rays(&offsets, 0, &mut hits);
+    let hits = assemble::hits_of_facets(projection, grid, &offsets, &facets, progress, [0.8, 1.0])?;
     Ok(Ldi {
         grid: *grid,
         offsets,
@@ -130,11 +211,20 @@ struct Gpu {
     failure: Arc<Mutex<Option<String>>>,
 }
 
+fn no_gpu(reason: impl std::fmt::Display) -> LdiError {
+    LdiError::NoGpu {
+        reason: reason.to_string(),
+    }
+}
+
+fn gpu_failed(reason: impl std::fmt::Display) -> LdiError {
+    LdiError::GpuFailed {
+        reason: reason.to_string(),
+    }
+}
+
 impl Gpu {
     async fn open(adapters: Adapters) -> Result<Self, LdiError> {
-        let no_gpu = |reason: &dyn std::fmt::Display| LdiError::NoGpu {
-            reason: reason.to_string(),
-        };
         // OpenGL is left out: it adds no machine worth having and doubles the time of the search.
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
             backends: wgpu::Backends::PRIMARY,
@@ -146,35 +236,24 @@ impl Gpu {
                 ..Default::default()
             })
             .await
-            .map_err(|error| no_gpu(&error))?;
+            .map_err(no_gpu)?;
         let info = adapter.get_info();
-        if adapters == Adapters::Hardware && info.device_type == wgpu::DeviceType::Cpu {
-            return Err(no_gpu(&format!("{} is emulated in software", info.name)));
-        }
-        let limits = adapter.limits();
-        let (device, queue) = adapter
-            .request_device(&wgpu::DeviceDescriptor {
-                required_limits: wgpu::Limits {
-                    max_texture_dimension_2d: limits.max_texture_dimension_2d.min(MAX_TILE),
-                    ..wgpu::Limits::downlevel_defaults()
-                },
-                ..Default::default()
-            })
-            .await
-            .map_err(|error| no_gpu(&error))?;
-        let failure = Arc::new(Mutex::new(None));
-        let first_failure = Arc::clone(&failure);
-        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
-            let mut slot = first_failure
-                .lock()
-                .unwrap_or_else(std::sync::PoisonError::into_inner);
-            slot.get_or_insert_with(|| error.to_string());
-        }));
         let name = if info.name.is_empty() {
-            info.vendor.to_string()
+            "GPU".to_owned()
         } else {
             info.name
         };
+        if adapters == Adapters::Hardware && info.device_type == wgpu::DeviceType::Cpu {
+            return Err(no_gpu(format!("{name} is emulated in software")));
+        }
+        let descriptor = wgpu::DeviceDescriptor::default();
+        let (device, queue) = adapter.request_device(&descriptor).await.map_err(no_gpu)?;
+        let failure = Arc::new(Mutex::new(None));
+        let first_failure = Arc::clone(&failure);
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+            let mut slot = first_failure.lock().unwrap_or_else(PoisonError::into_inner);
+            slot.get_or_insert_with(|| error.to_string());
+        }));
         Ok(Self {
             name,
             device,
@@ -184,289 +263,271 @@ impl Gpu {
     }
 
     fn check(&self) -> Result<(), LdiError> {
-        match &*self
-            .failure
-            .lock()
-            .unwrap_or_else(std::sync::PoisonError::into_inner)
-        {
-            Some(reason) => Err(LdiError::GpuFailed {
-                reason: reason.clone(),
-            }),
+        match &*self.failure.lock().unwrap_or_else(PoisonError::into_inner) {
+            Some(reason) => Err(gpu_failed(reason)),
             None => Ok(()),
         }
     }
-}
 
-/// Part of the grid, in pixels.
-#[derive(Debug, Clone, Copy)]
-struct Region {
-    column: u32,
-    row: u32,
-    width: u32,
-    height: u32,
-}
-
-/// What stays the same for all tiles and passes.
-struct Peeler<'a> {
-    gpu: &'a Gpu,
-    grid: Grid,
-    tile_side: u32,
-    depth_per_mm: f32,
-    pipeline: wgpu::RenderPipeline,
-    /// Corners of facets with the number of vertices.
-    buffers: Vec<(wgpu::Buffer, u32)>,
-}
-
-impl<'a> Peeler<'a> {
-    fn new(gpu: &'a Gpu, mesh: &Mesh, projection: &Projection<'_>, grid: &Grid) -> Self {
-        let facets_a_buffer = MAX_VERTEX_BYTES / size_of::<[Corner; 3]>();
-        let visible: Vec<u32> = (0..projection.facets() as u32)
-            .filter(|&facet| projection.facet(facet as usize).is_some())
-            .collect();
-        let buffers = visible
-            .chunks(facets_a_buffer)
-            .map(|facets| {
-                let corners: Vec<Corner> = facets
-                    .iter()
-                    .flat_map(|&facet| {
-                        mesh.facets[facet as usize].map(|vertex| Corner {
-                            position: projection.positions[vertex as usize],
-                            z_mm: mesh.vertices[vertex as usize].z,
-                            facet,
-                        })
-                    })
-                    .collect();
-                let buffer = gpu
-                    .device
-                    .create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                        label: Some("corners"),
-                        contents: bytemuck::cast_slice(&corners),
-                        usage: wgpu::BufferUsages::VERTEX,
-                    });
-                (buffer, corners.len() as u32)
-            })
-            .collect();
-        Self {
-            gpu,
-            grid: *grid,
-            tile_side: gpu.device.limits().max_texture_dimension_2d.min(MAX_TILE),
-            // A little below 1 at the top, so that rounding never clips a hit.
-            depth_per_mm: (0.999 / mesh.bounds().max.z) as f32,
-            pipeline: pipeline(&gpu.device),
-            buffers,
-        }
-    }
-
-    /// Appends all meetings of one tile: passes until one finds nothing.
-    async fn peel(
-        &self,
-        region: Region,
-        found: &mut Vec<Meeting>,
-        progress: &mut Progress<'_>,
-    ) -> Result<(), LdiError> {
-        let device = &self.gpu.device;
-        let size = wgpu::Extent3d {
-            width: region.width,
-            height: region.height,
-            depth_or_array_layers: 1,
-        };
-        let texture = |format, usage| {
-            device.create_texture(&wgpu::TextureDescriptor {
-                label: None,
-                size,
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format,
-                usage: wgpu::TextureUsages::RENDER_ATTACHMENT | usage,
-                view_formats: &[],
-            })
-        };
-        let pair_usage = wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC;
-        let pairs = [texture(PAIR, pair_usage), texture(PAIR, pair_usage)];
-        let views = [0, 1].map(|side: usize| pairs[side].create_view(&Default::default()));
-        let depth = texture(DEPTH, wgpu::TextureUsages::empty()).create_view(&Default::default());
-        let tile = Tile {
-            origin: [region.column, region.row].map(|pixel| pixel as i32 * STEPS as i32),
-            size: [region.width, region.height],
-            depth_per_mm: self.depth_per_mm,
-            steps: STEPS as f32,
-        };
-        let tile = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some("tile"),
-            contents: bytemuck::bytes_of(&tile),
-            usage: wgpu::BufferUsages::UNIFORM,
-        });
-        let groups = [0, 1].map(|previous: usize| {
-            device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: None,
-                layout: &self.pipeline.get_bind_group_layout(0),
-                entries: &[
-                    wgpu::BindGroupEntry {
-                        binding: 0,
-                        resource: tile.as_entire_binding(),
-                    },
-                    wgpu::BindGroupEntry {
-                        binding: 1,
-                        resource: wgpu::BindingResource::TextureView(&views[previous]),
-                    },
-                ],
-            })
-        });
-        let row_bytes =
-            (region.width * PAIR_BYTES).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-        let readback = device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("readback"),
-            size: u64::from(row_bytes) * u64::from(region.height),
-            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+    fn buffer(&self, label: &str, words: u64, usage: wgpu::BufferUsages) -> wgpu::Buffer {
+        self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(label),
+            size: words.max(1) * WORD,
+            usage,
             mapped_at_creation: false,
-        });
-
-        for pass in 0.. {
-            let (previous, current) = (pass % 2, (pass + 1) % 2);
-            let mut encoder = device.create_command_encoder(&Default::default());
-            self.draw(&mut encoder, &views[current], &depth, &groups[previous]);
-            encoder.copy_texture_to_buffer(
-                pairs[current].as_image_copy(),
-                wgpu::TexelCopyBufferInfo {
-                    buffer: &readback,
-                    layout: wgpu::TexelCopyBufferLayout {
-                        offset: 0,
-                        bytes_per_row: Some(row_bytes),
-                        rows_per_image: None,
-                    },
-                },
-                size,
-            );
-            self.gpu.queue.submit([encoder.finish()]);
-            let before = found.len();
-            self.read(&readback, region, row_bytes, found).await?;
-            // How many passes there will be is not known; most hits are in the first few.
-            report(progress, 1.0 - 0.8f64.powi(pass as i32 + 1))?;
-            if found.len() == before {
-                break;
-            }
-        }
-        Ok(())
+        })
     }
 
-    fn draw(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        target: &wgpu::TextureView,
-        depth: &wgpu::TextureView,
-        group: &wgpu::BindGroup,
-    ) {
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("peel"),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: target,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color {
-                        r: DONE,
-                        g: DONE,
-                        b: DONE,
-                        a: DONE,
-                    }),
-                    store: wgpu::StoreOp::Store,
-                },
-            })],
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: depth,
-                depth_ops: Some(wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(1.0),
-                    store: wgpu::StoreOp::Discard,
-                }),
-                stencil_ops: None,
-            }),
-            ..Default::default()
-        });
-        pass.set_pipeline(&self.pipeline);
-        pass.set_bind_group(0, group, &[]);
-        for (buffer, vertices) in &self.buffers {
-            pass.set_vertex_buffer(0, buffer.slice(..));
-            pass.draw(0..*vertices, 0..1);
-        }
-    }
-
-    /// Waits for a pass and appends what it found.
+    /// Waits for the queue and copies words out of a buffer.
     async fn read(
         &self,
-        readback: &wgpu::Buffer,
-        region: Region,
-        row_bytes: u32,
-        found: &mut Vec<Meeting>,
-    ) -> Result<(), LdiError> {
-        let failed = |reason: &dyn std::fmt::Display| LdiError::GpuFailed {
-            reason: reason.to_string(),
-        };
+        source: &wgpu::Buffer,
+        first: u64,
+        words: u64,
+    ) -> Result<Vec<u32>, LdiError> {
+        let usage = wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ;
+        let readback = self.buffer("readback", words, usage);
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        encoder.copy_buffer_to_buffer(source, first * WORD, &readback, 0, words * WORD);
+        self.queue.submit([encoder.finish()]);
         let (sender, receiver) = futures_channel::oneshot::channel();
         readback.map_async(wgpu::MapMode::Read, .., move |result| {
             // The receiver is gone only if the whole job is.
             let _ = sender.send(result);
         });
         // Natively this waits; in the browser the event loop calls back.
-        self.gpu
-            .device
+        self.device
             .poll(wgpu::PollType::wait_indefinitely())
-            .map_err(|error| failed(&error))?;
+            .map_err(gpu_failed)?;
         let mapped = receiver.await;
-        self.gpu.check()?;
-        mapped
-            .map_err(|error| failed(&error))?
-            .map_err(|error| failed(&error))?;
-        {
-            let bytes = readback
-                .get_mapped_range(..)
-                .map_err(|error| failed(&error))?;
-            let width = region.width as usize;
-            for (row, bytes) in bytes.chunks_exact(row_bytes as usize).enumerate() {
-                let pairs: &[[u32; 2]] =
-                    bytemuck::cast_slice(&bytes[..width * PAIR_BYTES as usize]);
-                let first_ray = (region.row + row as u32) * self.grid.width + region.column;
-                for (column, &[_, facet]) in pairs.iter().enumerate() {
-                    if facet != u32::MAX {
-                        found.push([first_ray + column as u32, facet - 1]);
-                    }
-                }
-            }
-        }
-        readback.unmap();
-        Ok(())
+        self.check()?;
+        mapped.map_err(gpu_failed)?.map_err(gpu_failed)?;
+        let bytes = readback.get_mapped_range(..).map_err(gpu_failed)?;
+        Ok(bytemuck::cast_slice(&bytes[..(words * WORD) as usize]).to_vec())
     }
 }
 
-fn pipeline(device: &wgpu::Device) -> wgpu::RenderPipeline {
-    let shader = device.create_shader_module(wgpu::include_wgsl!("../../shaders/peel.wgsl"));
+/// What stays the same for all tiles.
+struct Sampler<'a> {
+    gpu: &'a Gpu,
+    vertices: u32,
+    positions: wgpu::Buffer,
+    corners: wgpu::Buffer,
+    count: wgpu::RenderPipeline,
+    fill: wgpu::RenderPipeline,
+    scan: [wgpu::ComputePipeline; 3],
+}
+
+impl<'a> Sampler<'a> {
+    fn new(gpu: &'a Gpu, mesh: &Mesh, projection: &Projection<'_>) -> Result<Self, LdiError> {
+        let largest = gpu.device.limits().max_storage_buffer_binding_size;
+        let corner_bytes = std::mem::size_of_val(mesh.facets.as_slice()) as u64;
+        let position_bytes = std::mem::size_of_val(projection.positions.as_slice()) as u64;
+        if corner_bytes.max(position_bytes) > largest {
+            let facets = mesh.facets.len();
+            return Err(no_gpu(format!(
+                "{facets} facets do not fit into a buffer of {largest} bytes"
+            )));
+        }
+        let storage = |label, contents| {
+            gpu.device
+                .create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                    label: Some(label),
+                    contents,
+                    usage: wgpu::BufferUsages::STORAGE,
+                })
+        };
+        let sample = gpu
+            .device
+            .create_shader_module(wgpu::include_wgsl!("../../shaders/sample.wgsl"));
+        let scan = gpu
+            .device
+            .create_shader_module(wgpu::include_wgsl!("../../shaders/scan.wgsl"));
+        Ok(Self {
+            gpu,
+            vertices: mesh.facets.len() as u32 * 3,
+            positions: storage("positions", bytemuck::cast_slice(&projection.positions)),
+            corners: storage("corners", bytemuck::cast_slice(&mesh.facets)),
+            count: render_pipeline(&gpu.device, &sample, "count"),
+            fill: render_pipeline(&gpu.device, &sample, "fill"),
+            scan: ["scan_blocks", "scan_totals", "add_totals"].map(|step| {
+                gpu.device
+                    .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                        label: Some(step),
+                        layout: None,
+                        module: &scan,
+                        entry_point: Some(step),
+                        compilation_options: Default::default(),
+                        cache: None,
+                    })
+            }),
+        })
+    }
+
+    /// The meetings of one tile, or `None` if they do not fit into a buffer.
+    async fn sample(&self, region: Region) -> Result<Option<Meetings>, LdiError> {
+        let Gpu { device, queue, .. } = self.gpu;
+        let rays = region.rays() as u64;
+        let blocks = rays.div_ceil(u64::from(SCAN_BLOCK));
+        let storage = wgpu::BufferUsages::STORAGE;
+        let readable = storage | wgpu::BufferUsages::COPY_SRC;
+        let counts = self.gpu.buffer("counts", rays, storage);
+        let offsets = self.gpu.buffer("offsets", rays + 1, readable);
+        let totals = self.gpu.buffer("totals", blocks + 1, readable);
+        let tile = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("tile"),
+            contents: bytemuck::bytes_of(&Tile {
+                origin: [region.column, region.row].map(|pixel| pixel as i32 * STEPS as i32),
+                size: [region.width, region.height],
+            }),
+            usage: wgpu::BufferUsages::UNIFORM,
+        });
+        let canvas = device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("canvas"),
+            size: wgpu::Extent3d {
+                width: region.width,
+                height: region.height,
+                depth_or_array_layers: 1,
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: CANVAS,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
+            view_formats: &[],
+        });
+        let canvas = canvas.create_view(&Default::default());
+
+        let mut encoder = device.create_command_encoder(&Default::default());
+        let mesh = [
+            (0, &tile),
+            (1, &self.positions),
+            (2, &self.corners),
+            (3, &counts),
+        ];
+        self.draw(&mut encoder, &canvas, &self.count, &mesh);
+        self.scan(&mut encoder, &counts, &offsets, &totals, blocks as u32);
+        queue.submit([encoder.finish()]);
+        let hits = u64::from(self.gpu.read(&totals, blocks, 1).await?[0]);
+        if hits * WORD > device.limits().max_storage_buffer_binding_size {
+            return Ok(None);
+        }
+
+        let facets = self.gpu.buffer("facets", hits, readable);
+        let mut encoder = device.create_command_encoder(&Default::default());
+        let filled = [&mesh[..], &[(4, &offsets), (5, &facets)]].concat();
+        self.draw(&mut encoder, &canvas, &self.fill, &filled);
+        queue.submit([encoder.finish()]);
+        let meetings = Meetings {
+            offsets: self.gpu.read(&offsets, 0, rays + 1).await?,
+            facets: self.gpu.read(&facets, 0, hits).await?,
+        };
+        // A device that was lost may map zeros.
+        self.gpu.check()?;
+        if u64::from(meetings.offsets[rays as usize]) != hits {
+            return Err(gpu_failed("it returned offsets that do not add up"));
+        }
+        Ok(Some(meetings))
+    }
+
+    fn draw(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        canvas: &wgpu::TextureView,
+        pipeline: &wgpu::RenderPipeline,
+        buffers: &[(u32, &wgpu::Buffer)],
+    ) {
+        let group = self.bind(&pipeline.get_bind_group_layout(0), buffers);
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("sample"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: canvas,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                    store: wgpu::StoreOp::Discard,
+                },
+            })],
+            ..Default::default()
+        });
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        pass.draw(0..self.vertices, 0..1);
+    }
+
+    /// Writes the exclusive prefix sum of `counts` to `offsets`, and its total behind it.
+    fn scan(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        counts: &wgpu::Buffer,
+        offsets: &wgpu::Buffer,
+        totals: &wgpu::Buffer,
+        blocks: u32,
+    ) {
+        let [scan_blocks, scan_totals, add_totals] = &self.scan;
+        let all = [(0, counts), (1, offsets), (2, totals)];
+        for (pipeline, buffers, workgroups) in [
+            (scan_blocks, &all[..], blocks),
+            (scan_totals, &all[2..], 1),
+            (add_totals, &all[..], blocks),
+        ] {
+            let group = self.bind(&pipeline.get_bind_group_layout(0), buffers);
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(0, &group, &[]);
+            pass.dispatch_workgroups(workgroups, 1, 1);
+        }
+    }
+
+    fn bind(
+        &self,
+        layout: &wgpu::BindGroupLayout,
+        buffers: &[(u32, &wgpu::Buffer)],
+    ) -> wgpu::BindGroup {
+        let entries: Vec<_> = buffers
+            .iter()
+            .map(|&(binding, buffer)| wgpu::BindGroupEntry {
+                binding,
+                resource: buffer.as_entire_binding(),
+            })
+            .collect();
+        self.gpu
+            .device
+            .create_bind_group(&wgpu::BindGroupDescriptor {
+                label: None,
+                layout,
+                entries: &entries,
+            })
+    }
+}
+
+fn render_pipeline(
+    device: &wgpu::Device,
+    shader: &wgpu::ShaderModule,
+    fragment: &str,
+) -> wgpu::RenderPipeline {
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("peel"),
+        label: Some(fragment),
         layout: None,
         vertex: wgpu::VertexState {
-            module: &shader,
-            entry_point: Some("project"),
+            module: shader,
+            entry_point: Some("propose"),
             compilation_options: Default::default(),
-            buffers: &[Some(wgpu::VertexBufferLayout {
-                array_stride: size_of::<Corner>() as u64,
-                step_mode: wgpu::VertexStepMode::Vertex,
-                attributes: &wgpu::vertex_attr_array![0 => Sint32x2, 1 => Float32, 2 => Uint32],
-            })],
+            buffers: &[],
         },
         primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: DEPTH,
-            depth_write_enabled: Some(true),
-            depth_compare: Some(wgpu::CompareFunction::Less),
-            stencil: Default::default(),
-            bias: Default::default(),
-        }),
+        depth_stencil: None,
         multisample: Default::default(),
         fragment: Some(wgpu::FragmentState {
-            module: &shader,
-            entry_point: Some("peel"),
+            module: shader,
+            entry_point: Some(fragment),
             compilation_options: Default::default(),
-            targets: &[Some(PAIR.into())],
+            targets: &[Some(wgpu::ColorTargetState {
+                format: CANVAS,
+                blend: None,
+                write_mask: wgpu::ColorWrites::empty(),
+            })],
         }),
         multiview_mask: None,
         cache: None,
