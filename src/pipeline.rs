@@ -294,10 +294,10 @@ impl Slicer {
                 (cpu::sample(&mesh, &grid, &mut ldi_progress)?, None)
             }
         };
-        let unclosed = ldi.unclosed_rays();
+        let unclosed = ldi.rays_through_holes(&mesh);
         if unclosed > 0 {
             let message = format!(
-                "{unclosed} of {} rays did not close, because the mesh has holes; they were repaired",
+                "{unclosed} of {} rays did not close, because they pass holes of the mesh; flat caps close them",
                 ldi.rays()
             );
             warnings.push(Warning::new("unclosed-rays", message));
@@ -453,7 +453,7 @@ fn report_of(
         adapter: sampled.adapter.clone(),
         bins: plan.bins.count,
         bin_mm: plan.bins.size_mm,
-        facets: sampled.mesh.facets.len(),
+        facets: sampled.mesh.surface_facets,
         hits: sampled.ldi.hits.len(),
         uniform,
         mask: MaskReport {

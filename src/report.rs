@@ -45,18 +45,20 @@ pub struct MeshInfo {
     pub facets: usize,
     /// Facets without one, which were dropped.
     pub degenerate_facets: usize,
-    /// Different corners.
+    /// Different corners, and the middles of caps over holes.
     pub vertices: usize,
     /// The box around the model.
     pub bounds_mm: BoundsReport,
     /// Extent in x, y and z.
     pub size_mm: [f64; 3],
-    /// Enclosed volume, approximate if the mesh is open.
+    /// Enclosed volume, holes closed.
     pub volume_mm3: f64,
     /// Whether every edge joins facets that agree about inside and outside.
     pub closed: bool,
     /// Edges where that is not so.
     pub open_edges: usize,
+    /// Holes, which were closed by flat caps.
+    pub holes: usize,
     /// What the user should know.
     pub warnings: Vec<Warning>,
 }
@@ -66,7 +68,7 @@ impl MeshInfo {
     pub fn of(mesh: &Mesh) -> Self {
         let bounds = mesh.bounds();
         Self {
-            facets: mesh.facets.len(),
+            facets: mesh.surface_facets,
             degenerate_facets: mesh.degenerate_facets,
             vertices: mesh.vertices.len(),
             bounds_mm: BoundsReport {
@@ -77,6 +79,7 @@ impl MeshInfo {
             volume_mm3: mesh.volume_mm3(),
             closed: mesh.is_closed(),
             open_edges: mesh.open_edges,
+            holes: mesh.holes,
             warnings: mesh_warnings(mesh),
         }
     }
@@ -92,10 +95,15 @@ pub fn mesh_warnings(mesh: &Mesh) -> Vec<Warning> {
         );
         warnings.push(Warning::new("degenerate-facets", message));
     }
+    if mesh.was_inside_out {
+        let message = "the mesh was inside out, and was turned over";
+        warnings.push(Warning::new("inside-out", message));
+    }
     if !mesh.is_closed() {
         let message = format!(
-            "the mesh is not closed: {} edges do not join two facets; it slices, but look at the masks",
-            mesh.open_edges
+            "the mesh is not closed: {} edges do not join two facets that agree about inside and outside; \
+             {} holes were closed by flat caps, so look at the masks",
+            mesh.open_edges, mesh.holes
         );
         warnings.push(Warning::new("open-mesh", message));
     }

@@ -115,6 +115,34 @@ fn every_pixel_agrees_with_a_look_along_its_ray() {
 }
 
 #[test]
+fn holes_leave_no_streaks() {
+    let whole = solids::sphere(6.0, 4);
+    let masks_of = |triangles: &solids::Triangles| {
+        let (mesh, ldi) = sample(triangles, 300);
+        let plan = plan(mesh.bounds().size().z, 0.25);
+        Masks::new(&ldi, &plan)
+    };
+    let expected = masks_of(&whole);
+    let mut random = fastrand::Rng::with_seed(29);
+    let mut holed = whole;
+    holed.retain(|_| random.f32() > 0.02);
+    let found = masks_of(&holed);
+    let (mut expected_cursor, mut found_cursor) = (expected.cursor(), found.cursor());
+    for layer in 0..expected.layers() {
+        expected_cursor.seek(&expected, layer);
+        found_cursor.seek(&found, layer);
+        let differing: u32 = expected_cursor
+            .bits()
+            .iter()
+            .zip(found_cursor.bits())
+            .map(|(expected, found)| (expected ^ found).count_ones())
+            .sum();
+        // A facet of the sphere is 20 pixels wide and its cap lies at most a tenth of a pixel off.
+        assert!(differing <= 60, "layer {layer}: {differing} pixels");
+    }
+}
+
+#[test]
 fn inside_out_and_doubled_bodies_look_like_the_plain_one() {
     let plain = solids::sphere(6.0, 4);
     let mut doubled = plain.clone();

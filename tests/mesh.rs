@@ -29,7 +29,7 @@ fn volumes_have_their_closed_forms() {
     );
     let ball = 4.0 / 3.0 * std::f64::consts::PI * 1000.0;
     assert_near(volume(&solids::sphere(10.0, 6)), ball, 0.002 * ball);
-    assert_near(volume(&solids::inverted(&solids::cube(2.0))), -8.0, 1e-9);
+    assert_near(volume(&solids::inverted(&solids::cube(2.0))), 8.0, 1e-9);
 }
 
 #[test]
@@ -46,18 +46,97 @@ fn solids_are_closed_and_share_corners() {
     assert_eq!(on_plate(&solids::cube(1.0)).vertices.len(), 8);
 }
 
-#[test]
-fn a_missing_facet_opens_three_edges() {
-    let mut triangles = solids::sphere(5.0, 3);
-    triangles.remove(100);
-    assert_eq!(Mesh::from_triangles(&triangles).unwrap().open_edges, 3);
+/// Edges that are not used equally often in both directions, counted the slow way.
+fn unbalanced_edges(mesh: &Mesh) -> usize {
+    let mut uses = std::collections::HashMap::<[u32; 2], i32>::new();
+    for &[a, b, c] in &mesh.facets {
+        for (start, end) in [(a, b), (b, c), (c, a)] {
+            *uses.entry([start.min(end), start.max(end)]).or_default() +=
+                if start < end { 1 } else { -1 };
+        }
+    }
+    uses.values().filter(|&&uses| uses != 0).count()
 }
 
 #[test]
-fn a_flipped_facet_opens_three_edges() {
+fn a_missing_facet_is_a_hole_that_is_closed_as_it_was() {
     let mut triangles = solids::sphere(5.0, 3);
+    let whole = Mesh::from_triangles(&triangles).unwrap();
+    triangles.remove(100);
+    let mesh = Mesh::from_triangles(&triangles).unwrap();
+    assert_eq!(
+        (
+            mesh.open_edges,
+            mesh.holes,
+            mesh.facets.len() - mesh.first_cap
+        ),
+        (3, 1, 1)
+    );
+    assert_eq!(unbalanced_edges(&mesh), 0);
+    assert_near(mesh.volume_mm3(), whole.volume_mm3(), 1e-9);
+}
+
+#[test]
+fn a_flipped_facet_is_put_right() {
+    let mut triangles = solids::sphere(5.0, 3);
+    let whole = Mesh::from_triangles(&triangles).unwrap();
     triangles[100].swap(0, 1);
-    assert_eq!(Mesh::from_triangles(&triangles).unwrap().open_edges, 3);
+    let mesh = Mesh::from_triangles(&triangles).unwrap();
+    // Each of its three edges is used twice in one direction; two caps take its place.
+    assert_eq!((mesh.open_edges, mesh.holes), (6, 2));
+    assert_eq!(unbalanced_edges(&mesh), 0);
+    assert_near(mesh.volume_mm3(), whole.volume_mm3(), 1e-9);
+}
+
+#[test]
+fn whatever_is_missing_or_flipped_the_mesh_is_closed_in_the_end() {
+    let mut random = fastrand::Rng::with_seed(17);
+    for _ in 0..50 {
+        let mut triangles = solids::sphere(5.0, 3);
+        triangles.extend(solids::moved(&solids::cube(3.0), Vec3::new(4.0, 0.0, 0.0)));
+        let part = random.f32();
+        triangles.retain(|_| random.f32() > part * 0.9);
+        for corners in &mut triangles {
+            if random.f32() < part * 0.5 {
+                corners.swap(0, 2);
+            }
+        }
+        let mesh = Mesh::from_triangles(&triangles).unwrap();
+        assert_eq!(unbalanced_edges(&mesh), 0);
+        assert!(mesh.holes > 0);
+        assert_eq!(mesh.surface_facets, triangles.len());
+    }
+}
+
+#[test]
+fn a_hole_with_a_long_border_is_closed_by_a_fan() {
+    let quarter = 20_000;
+    let mut triangles = solids::cylinder(8.0, 12.0, quarter);
+    // Of every four facets the second is of the top.
+    let mut index = 0;
+    triangles.retain(|_| {
+        index += 1;
+        index % 4 != 2
+    });
+    let mesh = Mesh::from_triangles(&triangles).unwrap();
+    assert_eq!((mesh.open_edges, mesh.holes), (4 * quarter as usize, 1));
+    assert_near(
+        mesh.volume_mm3(),
+        solids::circle_area(quarter) * 64.0 * 12.0,
+        0.01,
+    );
+}
+
+#[test]
+fn a_mesh_that_is_inside_out_is_turned_over() {
+    let mesh = Mesh::from_triangles(&solids::inverted(&solids::sphere(5.0, 3))).unwrap();
+    assert!(mesh.was_inside_out);
+    assert!(
+        !Mesh::from_triangles(&solids::sphere(5.0, 3))
+            .unwrap()
+            .was_inside_out
+    );
+    assert!(mesh.volume_mm3() > 0.0);
 }
 
 #[test]
@@ -71,7 +150,7 @@ fn facets_without_area_are_dropped_and_open_nothing() {
     triangles.push([a, b, middle]);
     triangles.push([a, a, b]);
     let mesh = Mesh::from_triangles(&triangles).unwrap();
-    assert_eq!((mesh.degenerate_facets, mesh.facets.len()), (2, 13));
+    assert_eq!((mesh.degenerate_facets, mesh.surface_facets), (2, 13));
     assert!(mesh.is_closed());
 }
 

@@ -139,10 +139,15 @@ impl Ldi {
         self.offsets.len() - 1
     }
 
-    /// Rays whose entries and exits do not balance: the mesh has holes there.
-    pub fn unclosed_rays(&self) -> usize {
+    /// Rays that pass a hole of `mesh`, the one that was sampled: without its caps they would not
+    /// close.
+    pub fn rays_through_holes(&self, mesh: &Mesh) -> usize {
+        if mesh.first_cap == mesh.facets.len() {
+            return 0;
+        }
+        let is_cap = |hit: &Hit| hit.facet() as usize >= mesh.first_cap;
         (0..self.rays())
-            .filter(|&ray| winding(self.ray(ray)) != 0)
+            .filter(|&ray| self.ray(ray).iter().any(is_cap))
             .count()
     }
 }
@@ -155,44 +160,20 @@ fn check_facets(mesh: &Mesh) -> Result<(), LdiError> {
     Ok(())
 }
 
-/// Entries less exits of a ray; 0 where the mesh is closed.
-fn winding(hits: &[Hit]) -> i32 {
-    hits.iter().map(|hit| hit.winding()).sum()
-}
-
 /// Calls `emit` with every height range `z_in..z_out` in which a ray is inside the solid, upward.
 ///
-/// Inside is a non-zero winding number, so overlapping bodies are a union. Rays that do not close
-/// (holes in the mesh) are repaired: exits without an entry are matched with the plate, as under a
-/// model whose base is missing, and entries without an exit are dropped. A mesh that is inside out
-/// counts like one that is not.
+/// Inside is a non-zero winding number, so overlapping bodies are a union, a cavity is what its facets say,
+/// and a body that is inside out counts like one that is not.
 pub fn for_each_solid_range(hits: &[Hit], mut emit: impl FnMut(f32, f32)) {
-    let total = winding(hits);
-    // Exits to spare: start as deep inside as they will take us out again.
-    let mut inside = (-total).max(0);
-    // Entries to spare: `floor` counts those passed so far that never find their exit.
-    let mut floor = 0;
-    let mut start = 0.0;
-    for (index, hit) in hits.iter().enumerate() {
-        let was_inside = inside != floor;
-        if total > 0 && !hit.is_exit() && never_returns(&hits[index..]) {
-            floor += 1;
-        }
-        inside += hit.winding();
-        let is_inside = inside != floor;
-        if is_inside && !was_inside {
-            start = hit.z_mm;
-        } else if was_inside && !is_inside && start < hit.z_mm {
-            emit(start, hit.z_mm);
+    let mut winding = 0;
+    let mut z_in = 0.0;
+    for hit in hits {
+        let was_inside = winding != 0;
+        winding += hit.winding();
+        if !was_inside {
+            z_in = hit.z_mm;
+        } else if winding == 0 && z_in < hit.z_mm {
+            emit(z_in, hit.z_mm);
         }
     }
-}
-
-/// Whether the winding number stays above what it was before the first of `hits`.
-fn never_returns(hits: &[Hit]) -> bool {
-    let mut winding = 0;
-    hits.iter().all(|hit| {
-        winding += hit.winding();
-        winding > 0
-    })
 }

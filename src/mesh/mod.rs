@@ -1,5 +1,7 @@
 //! A triangle mesh in millimetres, with the report of its health that users see first.
 
+mod holes;
+
 use glam::{DVec3, Vec3};
 use rustc_hash::FxHashMap;
 use serde::Serialize;
@@ -58,43 +60,77 @@ impl Bounds {
 }
 
 /// Facets over shared vertices; counter-clockwise corners seen from outside.
+///
+/// The facets together are always closed: every edge is used equally often in both directions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mesh {
     /// Positions in millimetres, each once.
     pub vertices: Vec<Vec3>,
-    /// Three vertex indices a facet; no facet is degenerate.
+    /// Three vertex indices a facet: first the surface, then what only closes it, which is slivers
+    /// without area and, from `first_cap` on, caps over holes.
     pub facets: Vec<[u32; 3]>,
-    /// Facets of the input that had no area and were dropped.
+    /// Number of facets of the surface, all with an area.
+    pub surface_facets: usize,
+    /// The first facet that was added to close a hole.
+    pub first_cap: usize,
+    /// Facets of the input that had no area.
     pub degenerate_facets: usize,
-    /// Edges that are not used equally often in both directions; 0 for a closed, consistently
-    /// oriented mesh.
+    /// Edges of the input that were not used equally often in both directions; 0 for a closed,
+    /// consistently oriented mesh.
     pub open_edges: usize,
+    /// Holes that were closed: loops of open edges.
+    pub holes: usize,
+    /// Whether all facets of the input faced inward, and were turned over.
+    pub was_inside_out: bool,
 }
 
 impl Mesh {
-    /// Joins equal corners, drops facets without area and counts open edges.
+    /// Joins equal corners, sorts out facets without area, closes holes, and turns the mesh over if
+    /// it is inside out as a whole.
     ///
-    /// Vertices are joined when their coordinates are the same numbers (-0 equals 0). Edges are counted
-    /// before flat facets are dropped, so a sliver between two larger facets does not open a closed
-    /// mesh.
+    /// Vertices are joined when their coordinates are the same numbers (-0 equals 0). A hole is closed by
+    /// a fan around the centroid of its loop.
     ///
     /// # Errors
-    /// [`MeshError::NoArea`] when no facet is left.
+    /// [`MeshError::NoArea`] when no facet has an area.
     pub fn from_triangles(triangles: &[[Vec3; 3]]) -> Result<Self, MeshError> {
-        let (vertices, mut facets) = weld(triangles);
-        let open_edges = count_open_edges(vertices.len(), &facets);
-        facets.retain(|corners| has_area(corners.map(|v| vertices[v as usize])));
-        if facets.is_empty() {
+        let (mut vertices, welded) = weld(triangles);
+        let open_edges = holes::open_edges(vertices.len(), &welded);
+        let (mut facets, flat): (Vec<_>, Vec<_>) = welded
+            .into_iter()
+            .partition(|corners| has_area(corners.map(|v| vertices[v as usize])));
+        let surface_facets = facets.len();
+        if surface_facets == 0 {
             return Err(MeshError::NoArea {
                 facets: triangles.len(),
             });
         }
-        Ok(Self {
+        // A sliver between two larger facets keeps them joined when vertices are snapped.
+        let is_sliver = |[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
+        facets.extend(flat.into_iter().filter(is_sliver));
+        let first_cap = facets.len();
+        let open_edge_count = open_edges.len();
+        let loops = holes::loops(open_edges);
+        for hole in &loops {
+            holes::cap(hole, &mut vertices, &mut facets);
+        }
+        let mut mesh = Self {
             vertices,
-            degenerate_facets: triangles.len() - facets.len(),
             facets,
-            open_edges,
-        })
+            surface_facets,
+            first_cap,
+            degenerate_facets: triangles.len() - surface_facets,
+            open_edges: open_edge_count,
+            holes: loops.len(),
+            was_inside_out: false,
+        };
+        if mesh.volume_mm3() < 0.0 {
+            mesh.facets
+                .iter_mut()
+                .for_each(|corners| corners.swap(1, 2));
+            mesh.was_inside_out = true;
+        }
+        Ok(mesh)
     }
 
     /// The corners of a facet in double precision.
@@ -117,8 +153,8 @@ impl Mesh {
         }
     }
 
-    /// Enclosed volume in mm³ by the divergence theorem: negative when the mesh is inside out,
-    /// approximate when it is open.
+    /// Enclosed volume in mm³ by the divergence theorem, holes closed. Where bodies overlap, it counts
+    /// as often as they do.
     pub fn volume_mm3(&self) -> f64 {
         let centre = (self.bounds().min + self.bounds().max) * 0.5;
         let sixfold: f64 = (0..self.facets.len())
@@ -130,7 +166,7 @@ impl Mesh {
         sixfold / 6.0
     }
 
-    /// Whether every edge is used equally often in both directions.
+    /// Whether the input was closed and consistently oriented.
     pub fn is_closed(&self) -> bool {
         self.open_edges == 0
     }
@@ -180,8 +216,7 @@ impl Mesh {
                 .map(|vertex| ((vertex.as_dvec3() - foot) * scale).as_vec3())
                 .collect(),
             facets: self.facets.clone(),
-            degenerate_facets: self.degenerate_facets,
-            open_edges: self.open_edges,
+            ..*self
         })
     }
 }
@@ -213,43 +248,4 @@ fn weld(triangles: &[[Vec3; 3]]) -> (Vec<Vec3>, Vec<[u32; 3]>) {
 fn has_area([a, b, c]: [Vec3; 3]) -> bool {
     let (a, b, c) = (a.as_dvec3(), b.as_dvec3(), c.as_dvec3());
     (b - a).cross(c - a) != DVec3::ZERO
-}
-
-/// Counts undirected edges whose uses in the two directions differ.
-///
-/// Edges are bucketed by their lower vertex with a counting sort: linear, and no hashing.
-fn count_open_edges(vertex_count: usize, facets: &[[u32; 3]]) -> usize {
-    let edges = || {
-        facets
-            .iter()
-            .flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)])
-            .filter(|(from, to)| from != to)
-    };
-    let mut starts = vec![0u32; vertex_count + 2];
-    for (from, to) in edges() {
-        starts[from.min(to) as usize + 2] += 1;
-    }
-    for vertex in 2..starts.len() {
-        starts[vertex] += starts[vertex - 1];
-    }
-    // After the fill, starts[v]..starts[v + 1] is the bucket of vertex v.
-    let mut ends = vec![(0u32, false); *starts.last().unwrap_or(&0) as usize];
-    for (from, to) in edges() {
-        let slot = &mut starts[from.min(to) as usize + 1];
-        ends[*slot as usize] = (from.max(to), from < to);
-        *slot += 1;
-    }
-    (0..vertex_count)
-        .map(|vertex| {
-            let bucket = &mut ends[starts[vertex] as usize..starts[vertex + 1] as usize];
-            bucket.sort_unstable();
-            bucket
-                .chunk_by(|left, right| left.0 == right.0)
-                .filter(|edge| {
-                    let upward = edge.iter().filter(|(_, is_upward)| *is_upward).count();
-                    2 * upward != edge.len()
-                })
-                .count()
-        })
-        .sum()
 }

@@ -1,0 +1,110 @@
+//! Finding the holes of a mesh and closing them.
+//!
+//! The edges that facets use more often in one direction than in the other form closed loops, whatever
+//! the mesh: each facet's own edges do. Closing every loop therefore balances every edge, and then
+//! every ray enters as often as it leaves. Where facets disagree about inside and outside, loops
+//! run twice around the patch that is turned over, and closing them puts it right.
+
+use glam::Vec3;
+use rustc_hash::FxHashMap;
+
+/// An edge that facets leave open, in the direction in which a cap must use it.
+type OpenEdge = (u32, u32);
+
+/// Every edge whose uses in the two directions differ, as often as they differ, by vertex.
+///
+/// Edges are bucketed by their lower vertex with a counting sort: linear, and no hashing.
+pub(super) fn open_edges(vertex_count: usize, facets: &[[u32; 3]]) -> Vec<OpenEdge> {
+    let edges = || {
+        facets
+            .iter()
+            .flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)])
+            .filter(|(start, end)| start != end)
+    };
+    // One slot ahead, so that filling moves the start of each bucket to its place.
+    let mut starts = vec![0usize; vertex_count + 2];
+    for (start, end) in edges() {
+        starts[start.min(end) as usize + 2] += 1;
+    }
+    for vertex in 2..starts.len() {
+        starts[vertex] += starts[vertex - 1];
+    }
+    let mut uses = vec![(0u32, false); starts[vertex_count + 1]];
+    for (start, end) in edges() {
+        let slot = &mut starts[start.min(end) as usize + 1];
+        uses[*slot] = (start.max(end), start < end);
+        *slot += 1;
+    }
+    let mut open = Vec::new();
+    for low in 0..vertex_count {
+        let bucket = &mut uses[starts[low]..starts[low + 1]];
+        bucket.sort_unstable();
+        for edge in bucket.chunk_by(|left, right| left.0 == right.0) {
+            let upward = edge.iter().filter(|(_, is_upward)| *is_upward).count();
+            let downward = edge.len() - upward;
+            let (low, high) = (low as u32, edge[0].0);
+            let missing = if upward > downward {
+                (high, low)
+            } else {
+                (low, high)
+            };
+            open.extend(std::iter::repeat_n(missing, upward.abs_diff(downward)));
+        }
+    }
+    open
+}
+
+/// The loops that open edges form; no loop passes a vertex twice.
+pub(super) fn loops(mut open: Vec<OpenEdge>) -> Vec<Vec<u32>> {
+    open.sort_unstable();
+    let leaving = |vertex: u32| open.partition_point(|edge| edge.0 < vertex);
+    // How many of the edges that leave a vertex are spent, at the first of them.
+    let mut spent = vec![0usize; open.len()];
+    let mut loops = Vec::new();
+    let mut path: Vec<u32> = Vec::new();
+    let mut place_on_path = FxHashMap::default();
+    for &(first, _) in &open {
+        let mut vertex = first;
+        loop {
+            let leaving = leaving(vertex);
+            let Some(&(_, next)) = open
+                .get(leaving..)
+                .and_then(|edges| edges.get(*spent.get(leaving)?))
+                .filter(|(start, _)| *start == vertex)
+            else {
+                break;
+            };
+            spent[leaving] += 1;
+            place_on_path.insert(vertex, path.len());
+            path.push(vertex);
+            vertex = next;
+            if let Some(&start) = place_on_path.get(&vertex) {
+                let hole = path.split_off(start);
+                for passed in &hole {
+                    place_on_path.remove(passed);
+                }
+                loops.push(hole);
+            }
+        }
+    }
+    loops
+}
+
+/// Facets that close a loop: a fan around its centroid, which is added to `vertices`.
+pub(super) fn cap(hole: &[u32], vertices: &mut Vec<Vec3>, facets: &mut Vec<[u32; 3]>) {
+    if let &[a, b, c] = hole {
+        facets.push([a, b, c]);
+        return;
+    }
+    if hole.len() < 3 {
+        return;
+    }
+    let sum: glam::DVec3 = hole
+        .iter()
+        .map(|&vertex| vertices[vertex as usize].as_dvec3())
+        .sum();
+    let centre = vertices.len() as u32;
+    vertices.push((sum / hole.len() as f64).as_vec3());
+    let next = hole.iter().cycle().skip(1);
+    facets.extend(hole.iter().zip(next).map(|(&a, &b)| [a, b, centre]));
+}
