@@ -25,6 +25,14 @@ fn upright_walls_have_no_density_and_flats_have_all() {
 }
 
 #[test]
+fn caps_over_holes_have_no_part_in_the_profile() {
+    let mut triangles = solids::cube(10.0);
+    triangles.drain(0..2); // the bottom
+    let profile = profile_of(&triangles, 0.1);
+    assert_eq!((profile.density[0], profile.density[99]), (0.0, 1.0));
+}
+
+#[test]
 fn a_cone_has_the_density_of_its_slope_everywhere() {
     let profile = profile_of(&solids::cone(6.0, 8.0, 64), 0.1);
     assert_eq!(profile.density[0], 1.0);

@@ -171,10 +171,14 @@ impl Mesh {
         self.open_edges == 0
     }
 
-    /// |`n_z`| of every facet's unit normal: 1 for a horizontal facet, 0 for a vertical one.
+    /// `|n_z|` of every facet's unit normal: 1 for a horizontal facet, 0 for a vertical one and for
+    /// what is not surface.
     pub fn steepness(&self) -> Vec<f32> {
         (0..self.facets.len())
             .map(|facet| {
+                if facet >= self.surface_facets {
+                    return 0.0;
+                }
                 let [a, b, c] = self.corners(facet);
                 let normal = (b - a).cross(c - a);
                 let length = normal.length();

@@ -53,7 +53,7 @@ pub enum PlanError {
         /// Bin size.
         bin_mm: f64,
     },
-    /// The paper's infeasible case: K[N] = ∞.
+    /// The paper's infeasible case: K\[N\] = ∞.
     #[error(
         "no plan keeps every layer's error within {tolerance_mm} mm: at z = {height_mm:.3} mm \
          even the layers of least thickness, {layer_min_mm} mm, exceed it; raise the tolerance or \
