@@ -1,0 +1,130 @@
+//! How long sampling takes, by facets, rays and backend: `cargo xtask bench ldi`.
+//!
+//! Prints a table in Markdown. Times are the least of several runs; the growth exponent is that of time against
+//! facets + hits, fitted over all sizes of at least a million of both together.
+
+#[path = "../tests/common/solids.rs"]
+#[expect(dead_code, reason = "the tests use the other solids")]
+mod solids;
+
+use std::time::Instant;
+
+use cusp_slicer::grid::Grid;
+use cusp_slicer::ldi::{Hit, Ldi, cpu, gpu};
+use cusp_slicer::mesh::Mesh;
+use cusp_slicer::progress::silent;
+use glam::Vec3;
+
+/// Time spent on one cell of the table at most, but for its first run.
+const BUDGET_S: f64 = 1.0;
+
+/// Balls side by side and on top of each other, of `levels` each.
+fn balls(columns: usize, layers: usize, levels: u32) -> solids::Triangles {
+    let ball = solids::sphere(5.0, levels);
+    let place = |i: usize| {
+        let (x, y, z) = (i % columns, i / columns % columns, i / columns / columns);
+        Vec3::new(x as f32, y as f32, z as f32) * 9.0
+    };
+    (0..columns * columns * layers)
+        .flat_map(|i| solids::moved(&ball, place(i)))
+        .collect()
+}
+
+/// The least time of several runs in seconds, and the last result.
+fn time<T>(mut work: impl FnMut() -> T) -> (f64, T) {
+    let all = Instant::now();
+    let mut least = f64::INFINITY;
+    loop {
+        let clock = Instant::now();
+        let result = work();
+        least = least.min(clock.elapsed().as_secs_f64());
+        if all.elapsed().as_secs_f64() > BUDGET_S {
+            return (least, result);
+        }
+    }
+}
+
+fn bytes(ldi: &Ldi) -> usize {
+    ldi.hits.len() * size_of::<Hit>() + ldi.offsets.len() * size_of::<u32>()
+}
+
+/// The slope of the line through points of (ln work, ln time).
+fn slope(points: &[(f64, f64)]) -> f64 {
+    let count = points.len() as f64;
+    let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / count;
+    let (x, y) = (mean(|point| point.0), mean(|point| point.1));
+    let covariance: f64 = points
+        .iter()
+        .map(|point| (point.0 - x) * (point.1 - y))
+        .sum();
+    covariance
+        / points
+            .iter()
+            .map(|point| (point.0 - x).powi(2))
+            .sum::<f64>()
+}
+
+fn main() {
+    let gpu = |mesh: &Mesh, grid: &Grid| {
+        let mut progress = silent;
+        let job = gpu::sample(
+            mesh,
+            grid,
+            gpu::Adapters::Any,
+            gpu::Tiling::default(),
+            &mut progress,
+        );
+        pollster::block_on(job)
+    };
+    let cube = Mesh::from_triangles(&solids::cube(1.0))
+        .unwrap()
+        .on_plate(None)
+        .unwrap();
+    let adapter = gpu(&cube, &Grid::around(&cube.bounds(), 8).unwrap()).map(|(_, adapter)| adapter);
+    match &adapter {
+        Ok(adapter) => println!("GPU: {adapter}, with start-up and read-back\n"),
+        Err(error) => println!("{error}\n"),
+    }
+    println!("| facets | rays | hits | CPU ms | hits/µs | bytes/hit | GPU ms |");
+    println!("|---:|---:|---:|---:|---:|---:|---:|");
+    let mut points = Vec::new();
+    for (columns, layers, levels) in [(1, 1, 5), (1, 1, 7), (2, 2, 7), (2, 10, 7)] {
+        let triangles = balls(columns, layers, levels);
+        let mesh = Mesh::from_triangles(&triangles)
+            .unwrap()
+            .on_plate(None)
+            .unwrap();
+        for side in [512, 2048, 8192] {
+            let grid = Grid::around(&mesh.bounds(), side).unwrap();
+            let (seconds, ldi) = time(|| cpu::sample(&mesh, &grid, &mut silent).unwrap());
+            let work = (mesh.facets.len() + ldi.hits.len()) as f64;
+            if work >= 1e6 {
+                points.push((work.ln(), seconds.ln()));
+            }
+            // An emulated GPU takes minutes for the largest.
+            let on_gpu = if adapter.is_ok() && work < 2e7 {
+                let (seconds, result) = time(|| gpu(&mesh, &grid));
+                assert!(
+                    result.is_ok_and(|(found, _)| found == ldi),
+                    "the backends differ"
+                );
+                format!("{:.0}", seconds * 1e3)
+            } else {
+                "–".to_owned()
+            };
+            println!(
+                "| {} | {} | {} | {:.1} | {:.0} | {:.1} | {on_gpu} |",
+                mesh.facets.len(),
+                ldi.rays(),
+                ldi.hits.len(),
+                seconds * 1e3,
+                ldi.hits.len() as f64 / seconds / 1e6,
+                bytes(&ldi) as f64 / ldi.hits.len() as f64,
+            );
+        }
+    }
+    println!(
+        "\ngrowth exponent of the CPU's time over facets + hits: {:.2}",
+        slope(&points)
+    );
+}

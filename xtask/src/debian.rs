@@ -1,0 +1,71 @@
+//! Debian's packages, where there are any and we may install them.
+
+use std::{
+    path::Path,
+    sync::atomic::{AtomicBool, Ordering},
+};
+
+use anyhow::{Context, Result, bail};
+
+use crate::process::{self, command};
+
+/// Installs those of `packages` that are missing. Does nothing, quickly, when
+/// none is.
+///
+/// # Errors
+///
+/// Fails where this is no Debian, where we are not root, or where a package
+/// cannot be had; the error says what to type.
+pub fn ensure(packages: &[&str]) -> Result<()> {
+    static LISTS_ARE_FRESH: AtomicBool = AtomicBool::new(false);
+
+    if !is_debian() {
+        bail!(
+            "this is no Debian: its packages {} cannot be had",
+            packages.join(" ")
+        );
+    }
+    let missing: Vec<&str> = packages
+        .iter()
+        .copied()
+        .filter(|name| !is_installed(name))
+        .collect();
+    if missing.is_empty() {
+        return Ok(());
+    }
+    let list = missing.join(" ");
+    if !is_root() {
+        bail!(
+            "missing packages; install them with: sudo apt-get install --no-install-recommends {list}"
+        );
+    }
+    if !LISTS_ARE_FRESH.swap(true, Ordering::Relaxed) {
+        process::run(command("apt-get").args(["update", "--quiet"]))?;
+    }
+    process::run(
+        command("apt-get")
+            .args(["install", "--quiet", "--yes", "--no-install-recommends"])
+            .args(missing)
+            .env("DEBIAN_FRONTEND", "noninteractive"),
+    )
+    .with_context(|| format!("cannot install {list}"))
+}
+
+/// Whether Debian's package manager is here.
+pub fn is_debian() -> bool {
+    Path::new("/etc/debian_version").exists() && which::which("apt-get").is_ok()
+}
+
+/// Whether packages can be installed without asking for rights.
+pub fn is_root() -> bool {
+    process::output(command("id").arg("-u")).is_ok_and(|id| id == "0")
+}
+
+fn is_installed(package: &str) -> bool {
+    process::output(command("dpkg-query").args([
+        "--show",
+        "--showformat=${db:Status-Status}",
+        package,
+    ]))
+    .is_ok_and(|status| status == "installed")
+}

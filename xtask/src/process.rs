@@ -1,0 +1,154 @@
+//! Running other programs: with their output shown, taken, or both.
+
+use std::{
+    env,
+    ffi::OsStr,
+    io::{self, BufRead, BufReader, Write},
+    path::Path,
+    process::{Command, ExitStatus, Stdio},
+};
+
+use anyhow::{Context, Result, bail};
+
+use crate::project::Project;
+
+/// A call of `program` without standard input: nothing here asks questions, and
+/// a tool that would ask must fail rather than wait.
+pub fn command(program: impl AsRef<OsStr>) -> Command {
+    let mut command = Command::new(program);
+    command.stdin(Stdio::null());
+    command
+}
+
+/// The cargo that started xtask, in the project's root, with the same target
+/// folder.
+pub fn cargo(project: &Project) -> Command {
+    let mut command = command(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    command
+        .current_dir(&project.root)
+        .env("CARGO_TARGET_DIR", &project.target);
+    command
+}
+
+/// Runs to the end with all output shown on standard error: standard output is
+/// for what xtask itself was asked for.
+///
+/// # Errors
+///
+/// Fails when the program cannot be started or reports failure.
+pub fn run(command: &mut Command) -> Result<()> {
+    show(command.stdout(io::stderr()))
+}
+
+/// Runs to the end with the output shown where the program wants it.
+///
+/// # Errors
+///
+/// As [`run`].
+pub fn show(command: &mut Command) -> Result<()> {
+    announce(command);
+    let status = command.status().with_context(|| not_started(command))?;
+    check(command, status)
+}
+
+/// Runs to the end and returns standard output, trimmed; nothing is shown.
+///
+/// # Errors
+///
+/// Fails when the program cannot be started or reports failure; the error then
+/// carries what it wrote to standard error.
+pub fn output(command: &mut Command) -> Result<String> {
+    let output = command.output().with_context(|| not_started(command))?;
+    if !output.status.success() {
+        let words = String::from_utf8_lossy(&output.stderr);
+        bail!("{} failed: {}", describe(command), words.trim());
+    }
+    Ok(String::from_utf8_lossy(&output.stdout).trim().to_owned())
+}
+
+/// Runs to the end with the output shown, and returns a copy of it: standard
+/// output and standard error in one stream, in the order they were written.
+///
+/// # Errors
+///
+/// Fails when the program cannot be started; its own failure is in the status.
+pub fn tee(command: &mut Command) -> Result<(ExitStatus, String)> {
+    announce(command);
+    let (reader, writer) = io::pipe()?;
+    let mut child = command
+        .stdout(writer.try_clone()?)
+        .stderr(writer)
+        .spawn()
+        .with_context(|| not_started(command))?;
+    // The command holds the pipe's writing ends: while they are open in this
+    // process, the reader never sees an end.
+    command.stdout(Stdio::null()).stderr(Stdio::null());
+
+    let mut text = String::new();
+    let mut line = Vec::new();
+    let mut reader = BufReader::new(reader);
+    while reader.read_until(b'\n', &mut line)? > 0 {
+        let mut out = io::stdout().lock();
+        out.write_all(&line)?;
+        out.flush()?;
+        text.push_str(&String::from_utf8_lossy(&line));
+        line.clear();
+    }
+    Ok((child.wait()?, text))
+}
+
+/// `PATH` with some folders before it.
+///
+/// # Errors
+///
+/// Fails when a folder's name cannot be part of `PATH`.
+pub fn path_with<'a>(
+    first: impl IntoIterator<Item = &'a Path>,
+) -> Result<std::ffi::OsString, env::JoinPathsError> {
+    let path = env::var_os("PATH").unwrap_or_default();
+    env::join_paths(
+        first
+            .into_iter()
+            .map(Path::to_path_buf)
+            .chain(env::split_paths(&path)),
+    )
+}
+
+/// Says on standard error what is about to run, as one would type it.
+fn announce(command: &Command) {
+    eprintln!("$ {}", describe(command));
+}
+
+fn check(command: &Command, status: ExitStatus) -> Result<()> {
+    if !status.success() {
+        bail!("{} failed ({status})", describe(command));
+    }
+    Ok(())
+}
+
+fn not_started(command: &Command) -> String {
+    format!("cannot start {}", describe(command))
+}
+
+/// The program's bare name and its arguments.
+fn describe(command: &Command) -> String {
+    let program = Path::new(command.get_program());
+    let mut words = program.file_name().unwrap_or_default().to_os_string();
+    for argument in command.get_args() {
+        words.push(" ");
+        words.push(argument);
+    }
+    words.to_string_lossy().into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn describe_leaves_the_folder_out() {
+        let mut command = command("/usr/bin/cargo");
+        command.args(["test", "--doc"]);
+        assert_eq!(describe(&command), "cargo test --doc");
+    }
+}

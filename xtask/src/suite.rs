@@ -1,0 +1,168 @@
+//! `cargo xtask test`: every test that there is, step by step.
+
+use std::{fs, path::Path, process::Command, time::Instant};
+
+use anyhow::{Context, Result};
+use clap::ValueEnum;
+use tempfile::TempDir;
+
+use crate::{
+    browser, debian, node, process,
+    project::Project,
+    report::{self, Record, Verdict, judge},
+    runner_output::{self, Tally},
+    wasm,
+};
+
+/// A driver for machines without a GPU, and the loader that finds it.
+const VULKAN_PACKAGES: [&str; 2] = ["mesa-vulkan-drivers", "libvulkan1"];
+
+/// The steps, in the order in which they run.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Step {
+    /// Unit, integration and documentation tests, natively
+    Native,
+    /// The GPU tests once more, on the Vulkan driver that Chromium ships
+    Gpu,
+    /// Build the wasm package and the page
+    Build,
+    /// tests/web.rs in a headless browser, WebGPU included
+    Wasm,
+    /// The page's types
+    Check,
+    /// The page's unit tests
+    Unit,
+    /// The built page in a headless browser
+    E2e,
+}
+
+/// Runs the steps asked for, or all, each whatever became of those before it,
+/// and prints the summary; `false` when anything failed.
+///
+/// # Errors
+///
+/// Fails when no folder for temporary files can be made.
+pub fn run(project: &Project, steps: &[Step]) -> Result<bool> {
+    let scratch = TempDir::with_prefix("cusp-test-")?;
+    let mut records: Vec<Record> = Vec::new();
+    let mut build_failed = false;
+    for &step in Step::value_variants() {
+        if !steps.is_empty() && !steps.contains(&step) {
+            continue;
+        }
+        let name = step
+            .to_possible_value()
+            .context("a step is hidden")?
+            .get_name()
+            .to_owned();
+        println!("\n=== {name} ===");
+        let started = Instant::now();
+        let needs_build = matches!(step, Step::Check | Step::E2e);
+        let (verdict, tally) = if needs_build && build_failed {
+            (
+                Verdict::Failed("not run: the build failed".into()),
+                Tally::default(),
+            )
+        } else {
+            step.run(project, scratch.path())
+                .unwrap_or_else(|error| (Verdict::Failed(format!("{error:#}")), Tally::default()))
+        };
+        if let Verdict::Failed(why) = &verdict {
+            eprintln!("{name} failed: {why}");
+            build_failed |= step == Step::Build;
+        }
+        records.push(Record {
+            step: name,
+            verdict,
+            tally,
+            elapsed: started.elapsed(),
+        });
+    }
+    print!("{}", report::summary(&records));
+    Ok(report::is_good(&records))
+}
+
+impl Step {
+    fn run(self, project: &Project, scratch: &Path) -> Result<(Verdict, Tally)> {
+        match self {
+            Self::Native => {
+                ensure_vulkan();
+                cargo_test(
+                    process::cargo(project).args(["test", "--workspace", "--no-fail-fast"]),
+                    scratch,
+                )
+            }
+            Self::Gpu => gpu_on_swiftshader(project, scratch),
+            Self::Build => {
+                wasm::build(project)?;
+                node::build_page(project)?;
+                Ok((Verdict::Passed, Tally::default()))
+            }
+            Self::Wasm => cargo_test(&mut wasm::test_command(project)?, scratch),
+            Self::Check => {
+                process::run(node::npm(project)?.args(["run", "check"]))?;
+                Ok((Verdict::Passed, Tally::default()))
+            }
+            Self::Unit => vitest(&mut node::npm(project)?, "test", scratch),
+            Self::E2e => {
+                let chromium = browser::chromium()?;
+                vitest(
+                    node::npm(project)?.env("CHROMIUM", chromium),
+                    "e2e",
+                    scratch,
+                )
+            }
+        }
+    }
+}
+
+/// Runs a cargo test command and counts.
+fn cargo_test(command: &mut Command, scratch: &Path) -> Result<(Verdict, Tally)> {
+    // Vulkan drivers want a private folder and complain at length without one.
+    let (status, text) = process::tee(command.env("XDG_RUNTIME_DIR", scratch))?;
+    Ok(judge(status, runner_output::libtest(&text)))
+}
+
+/// Runs one of npm's scripts that is a call of vitest, and counts.
+fn vitest(npm: &mut Command, script: &str, scratch: &Path) -> Result<(Verdict, Tally)> {
+    let file = scratch.join(format!("{script}.json"));
+    let mut to_file = std::ffi::OsString::from("--outputFile.json=");
+    to_file.push(&file);
+    npm.args(["run", script, "--", "--reporter=default", "--reporter=json"])
+        .arg(to_file);
+    let (status, _) = process::tee(npm)?;
+    let tally = fs::read_to_string(&file)
+        .context("vitest left no report")
+        .and_then(|json| runner_output::vitest(&json));
+    Ok(judge(status, tally))
+}
+
+/// A second, independent driver: what passes on both owes nothing to the quirks
+/// of one.
+fn gpu_on_swiftshader(project: &Project, scratch: &Path) -> Result<(Verdict, Tally)> {
+    let Some(driver) = browser::chromium()
+        .ok()
+        .and_then(|path| browser::swiftshader(&path))
+    else {
+        let why = "no browser that ships the SwiftShader Vulkan driver";
+        return Ok((Verdict::Skipped(why.into()), Tally::default()));
+    };
+    cargo_test(
+        process::cargo(project)
+            .args(["test", "--workspace", "--test", "gpu"])
+            // The loader's older and newer name for the same thing.
+            .env("VK_ICD_FILENAMES", &driver)
+            .env("VK_DRIVER_FILES", &driver),
+        scratch,
+    )
+}
+
+/// Gives a Debian machine a Vulkan driver. Elsewhere the machine's own must do;
+/// where there is none, the GPU tests show as ignored.
+fn ensure_vulkan() {
+    if debian::is_debian()
+        && let Err(error) = debian::ensure(&VULKAN_PACKAGES)
+    {
+        eprintln!("{error:#}");
+    }
+}

@@ -1,0 +1,195 @@
+//! The wasm package: built, tested in a browser, linted, weighed.
+
+use std::{
+    fs,
+    io::Write,
+    path::{Path, PathBuf},
+    process::Command,
+};
+
+use anyhow::{Context, Result, bail};
+use flate2::{Compression, write::GzEncoder};
+
+use crate::{
+    browser, node,
+    process::{self, path_with},
+    project::Project,
+    toolchain::{self, Toolchain, WASM_TARGET},
+    tools::Tools,
+};
+
+/// What the page's visitors are asked to load, gzipped, in bytes.
+const BUDGET: usize = 300_000;
+/// Relative to the page's folder.
+const MODULE: &str = "pkg/cusp_slicer_bg.wasm";
+/// The command line is a default feature, and has no place in a browser. Without
+/// this, cargo would compile it for wasm along with the tests.
+const NO_COMMAND_LINE: &str = "--no-default-features";
+/// Software GPUs are slow; the runner's own limit is 20 seconds for all tests.
+const BROWSER_TEST_SECONDS: &str = "900";
+
+/// Builds `www/pkg`.
+///
+/// # Errors
+///
+/// Fails when a tool is missing and cannot be installed, or the build fails.
+pub fn build(project: &Project) -> Result<()> {
+    let toolchain = Toolchain::ensure(project)?;
+    let tools = Tools::ensure(project)?;
+    node::ensure_packages(project)?;
+    process::run(
+        toolchain
+            .cargo(project, [])?
+            .args(["build", "--release", "--target", WASM_TARGET])
+            .args(["--lib", NO_COMMAND_LINE]),
+    )?;
+    // Cargo knows when there is nothing to do; wasm-pack would spend seconds on
+    // optimising the same module again.
+    if is_packed(project) {
+        return Ok(());
+    }
+    // Without wasm-opt on PATH wasm-pack would quietly leave that step out.
+    let npm_bin = node::bin(project);
+    which::which_in(
+        "wasm-opt",
+        Some(path_with([npm_bin.as_path()])?),
+        &project.root,
+    )
+    .context("no wasm-opt: the page's npm package \"binaryen\" has it")?;
+    process::run(
+        toolchain
+            .command(
+                project,
+                &tools.wasm_pack,
+                [tools.bin.as_path(), npm_bin.as_path()],
+            )?
+            .args(["build", "--release", "--target", "web"])
+            // It is to use what was just found, and download nothing.
+            .args(["--mode", "no-install", "--no-pack", "--out-dir"])
+            .arg(project.www.join("pkg"))
+            .args(["--", NO_COMMAND_LINE]),
+    )
+}
+
+/// Whether the package is newer than all that it is made of.
+fn is_packed(project: &Project) -> bool {
+    let modified = |path: PathBuf| fs::metadata(path).and_then(|data| data.modified()).ok();
+    let compiled = toolchain::wasm_target_folder(project)
+        .join(WASM_TARGET)
+        .join("release/cusp_slicer.wasm");
+    // The manifest has wasm-opt's flags, the lock file wasm-bindgen's version.
+    let made_of = [
+        compiled,
+        project.root.join("Cargo.toml"),
+        project.root.join("Cargo.lock"),
+    ];
+    let times: Option<Vec<_>> = made_of.map(modified).into_iter().collect();
+    let Some(newest) = times.into_iter().flatten().max() else {
+        return false;
+    };
+    ["js", "d.ts"]
+        .map(|extension| {
+            project
+                .www
+                .join("pkg/cusp_slicer")
+                .with_extension(extension)
+        })
+        .into_iter()
+        .chain([project.www.join(MODULE)])
+        .all(|file| modified(file).is_some_and(|time| time > newest))
+}
+
+/// The tests of tests/web.rs, to be run in a browser.
+///
+/// Not `wasm-pack test`: that compiles every test of the package for wasm before
+/// it runs the one asked for, and most are native only.
+///
+/// # Errors
+///
+/// Fails when a tool or the browser is missing and cannot be installed.
+pub fn test_command(project: &Project) -> Result<Command> {
+    let toolchain = Toolchain::ensure(project)?;
+    let tools = Tools::ensure(project)?;
+    let chromium = browser::chromium()?;
+    let mut cargo = toolchain.cargo(project, [tools.bin.as_path()])?;
+    cargo
+        .args(["test", "--release", "--target", WASM_TARGET])
+        .args(["--test", "web", NO_COMMAND_LINE])
+        .env(
+            "CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUNNER",
+            &tools.test_runner,
+        )
+        .env("CHROMEDRIVER", browser::chromedriver(&chromium)?)
+        .env("WASM_BINDGEN_TEST_ONLY_WEB", "1")
+        .env("WASM_BINDGEN_TEST_TIMEOUT", BROWSER_TEST_SECONDS)
+        .env("WASM_BINDGEN_TEST_DRIVER_TIMEOUT", "60")
+        .env(
+            "WASM_BINDGEN_TEST_WEBDRIVER_JSON",
+            browser::webdriver_settings(project, &chromium)?,
+        );
+    // The runner would rather take another browser's driver than ours.
+    for name in ["GECKODRIVER", "SAFARIDRIVER"] {
+        cargo.env_remove(name).env_remove(format!("{name}_REMOTE"));
+    }
+    Ok(cargo)
+}
+
+/// Lints what is compiled for wasm only.
+///
+/// # Errors
+///
+/// Fails when clippy is missing and cannot be installed, or finds something.
+pub fn clippy(project: &Project) -> Result<()> {
+    let toolchain = Toolchain::ensure(project)?;
+    toolchain.ensure_clippy()?;
+    process::run(
+        toolchain
+            .cargo(project, [])?
+            // In release, to share the macros and build scripts with the build.
+            .args(["clippy", "--release", "--target", WASM_TARGET])
+            .args(["--lib", "--test", "web", NO_COMMAND_LINE])
+            .args(["--", "-D", "warnings"]),
+    )
+}
+
+/// Weighs the built module; `false` when it is over the budget.
+///
+/// # Errors
+///
+/// Fails when there is no module.
+pub fn check_size(project: &Project) -> Result<bool> {
+    let file = project.www.join(MODULE);
+    let module = fs::read(&file).with_context(|| format!("cannot read {}", file.display()))?;
+    let gzipped = gzipped_size(&module)?;
+    println!(
+        "{}: {} bytes, {gzipped} gzipped, budget {BUDGET}",
+        Path::new("www").join(MODULE).display(),
+        module.len(),
+    );
+    if gzipped > BUDGET {
+        eprintln!("error: over the budget by {} bytes", gzipped - BUDGET);
+    }
+    Ok(gzipped <= BUDGET)
+}
+
+fn gzipped_size(bytes: &[u8]) -> Result<usize> {
+    if !bytes.starts_with(b"\0asm") {
+        bail!("this is no wasm module");
+    }
+    let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
+    encoder.write_all(bytes)?;
+    Ok(encoder.finish()?.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_modules_are_weighed() {
+        let mut module = b"\0asm\x01\0\0\0".to_vec();
+        module.resize(100_000, 0);
+        assert!((20..1_000).contains(&gzipped_size(&module).unwrap()));
+        assert!(gzipped_size(b"<!doctype html>").is_err());
+    }
+}
