@@ -10,11 +10,13 @@ pub const MAX_SIDE: u32 = 1 << 15;
 /// Most pixels of a mask.
 pub const MAX_PIXELS: u64 = 1 << 28;
 /// Most bins of a profile.
-const MAX_BINS: f64 = 50_000_000.0;
+const MAX_BINS: f64 = 10_000_000.0;
 
 /// Lengths closer than this part of a bin are taken as equal, so that 0.05 mm is 25 bins of
 /// 0.002 mm although neither is a binary fraction.
 const BIN_SLACK: f64 = 1e-3;
+/// Heights come from single precision: they are off by up to this part of themselves.
+const HEIGHT_SLACK: f64 = 1.0 / (1 << 23) as f64;
 
 /// Why pixels or bins cannot be laid out.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
@@ -214,7 +216,7 @@ impl Bins {
             count: 0,
             size_mm: bin_mm,
         };
-        let count = bins.ceil(height_mm);
+        let count = bins.ceil(height_mm - height_slack(height_mm, bin_mm) * bin_mm);
         if count > MAX_BINS {
             return Err(GridError::TooManyBins { height_mm, bin_mm });
         }
@@ -226,7 +228,7 @@ impl Bins {
 
     /// The bin, from 0, that holds height `z_mm`; heights outside belong to the first and last bin.
     pub fn of(&self, z_mm: f64) -> usize {
-        let bin = (z_mm / self.size_mm).ceil() as usize;
+        let bin = (z_mm / self.size_mm - height_slack(z_mm, self.size_mm)).ceil() as usize;
         bin.clamp(1, self.count) - 1
     }
 
@@ -245,4 +247,9 @@ impl Bins {
     pub fn floor(&self, length_mm: f64) -> f64 {
         (length_mm / self.size_mm + BIN_SLACK).floor()
     }
+}
+
+/// By how many bins a height may be off and still be at a boundary.
+fn height_slack(z_mm: f64, bin_mm: f64) -> f64 {
+    z_mm / bin_mm * HEIGHT_SLACK + 1e-9
 }

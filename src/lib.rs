@@ -7,8 +7,6 @@
 //! use std::ops::ControlFlow;
 //!
 //! # fn main() -> Result<(), cusp_slicer::Error> {
-//! # let bytes = b"solid a facet normal 0 0 0 outer loop vertex 0 0 0 vertex 9 0 0 vertex 0 0 9
-//! #   endloop endfacet endsolid";
 //! # let bytes = b"solid a\nfacet normal 0 0 0 outer loop vertex 0 0 0 vertex 9 0 0 vertex 0 9 9
 //! #   endloop endfacet\nendsolid".as_slice();
 //! let mut slicer = Slicer::load(bytes)?;

@@ -12,7 +12,7 @@ use crate::grid::{Bins, Grid};
 use crate::ldi::{Ldi, LdiError, cpu, gpu};
 use crate::mask::{MaskCursor, Masks};
 use crate::mesh::Mesh;
-use crate::plan::{Limits, Plan, optimal, uniform};
+use crate::plan::{Limits, Plan, PlanError, optimal, uniform};
 use crate::profile::{ErrorSum, Metric, Profile, cusp};
 use crate::report::{MaskReport, MeshInfo, Report, Timings, UniformReport, Warning, mesh_warnings};
 use crate::stl;
@@ -189,8 +189,9 @@ impl Slicer {
         progress: &mut StageProgress<'_>,
     ) -> Result<&Report, Error> {
         self.planned = None;
+        check_options(options)?;
         let mut timings = Timings {
-            load: std::mem::take(&mut self.load_ms),
+            load: self.load_ms,
             ..Timings::default()
         };
 
@@ -222,20 +223,17 @@ impl Slicer {
 
         let clock = Instant::now();
         continue_or_cancel(progress(Stage::Plan, 0.0))?;
-        let limits = Limits {
-            layer_min_mm: options.layer_min_mm,
-            layer_max_mm: options.layer_max_mm,
-            tolerance_mm: options.tolerance_mm,
-        };
+        let limits = limits_of(options);
         let plan = match options.planner {
             Planner::Optimal => optimal::plan(errors, &limits)?,
             Planner::Uniform { layer_mm } => uniform::plan(bins, sampled.height_mm, layer_mm)?,
         };
-        let uniform = uniform_report(errors, &limits, sampled.height_mm)?;
+        let uniform = uniform_report(errors, options, sampled.height_mm)?;
         timings.plan = ms_since(clock);
         continue_or_cancel(progress(Stage::Plan, 1.0))?;
 
         timings.sum_up();
+        self.load_ms = 0.0;
         let report = report_of(sampled, errors, options, &plan, uniform, timings);
         Ok(&self
             .planned
@@ -294,6 +292,12 @@ impl Slicer {
                 (cpu::sample(&mesh, &grid, &mut ldi_progress)?, None)
             }
         };
+        if ldi.hits.is_empty() {
+            return Err(LdiError::NoHits {
+                pitch_mm: grid.pitch_mm,
+            }
+            .into());
+        }
         let unclosed = ldi.rays_through_holes(&mesh);
         if unclosed > 0 {
             let message = format!(
@@ -303,8 +307,11 @@ impl Slicer {
             warnings.push(Warning::new("unclosed-rays", message));
         }
         timings.ldi = ms_since(clock);
+        // The height as asked for, or as the file has it but for the noise of single precision.
+        let height_mm = options
+            .height_mm
+            .unwrap_or_else(|| (bounds.size().z * 1e6).round() / 1e6);
         let options = sampling_options(options);
-        let height_mm = bounds.size().z;
         Ok(Sampled {
             options,
             mesh,
@@ -397,15 +404,57 @@ fn sampling_options(options: &Options) -> SamplingOptions {
     )
 }
 
+fn limits_of(options: &Options) -> Limits {
+    Limits {
+        layer_min_mm: options.layer_min_mm,
+        layer_max_mm: options.layer_max_mm,
+        tolerance_mm: options.tolerance_mm,
+    }
+}
+
+/// Finds what no model could make good, before any time is spent on sampling.
+fn check_options(options: &Options) -> Result<(), Error> {
+    let bins = Bins {
+        count: 1,
+        size_mm: options.bin_mm,
+    };
+    match options.planner {
+        Planner::Optimal => {
+            limits_of(options).thickness_in_bins(bins)?;
+        }
+        Planner::Uniform { layer_mm } => {
+            uniform::thickness_in_bins(bins, layer_mm)?;
+        }
+    }
+    Ok(())
+}
+
+/// What uniform layers at both ends of the range would give. Uniform layers may be planned with no valid range;
+/// they then stand for both ends.
 fn uniform_report(
     errors: &ErrorSum,
-    limits: &Limits,
+    options: &Options,
     height_mm: f64,
 ) -> Result<UniformReport, Error> {
     let bins = errors.bins();
-    let thickness = limits.thickness_in_bins(bins)?;
-    let finest = uniform::plan(bins, height_mm, bins.boundary_mm(*thickness.start()))?;
-    let coarsest = uniform::plan(bins, height_mm, bins.boundary_mm(*thickness.end()))?;
+    let (finest_mm, coarsest_mm) =
+        match (limits_of(options).thickness_in_bins(bins), options.planner) {
+            (Ok(thickness), _) => (
+                bins.boundary_mm(*thickness.start()),
+                bins.boundary_mm(*thickness.end()),
+            ),
+            (Err(_), Planner::Uniform { layer_mm }) => (layer_mm, layer_mm),
+            (Err(error), Planner::Optimal) => return Err(error.into()),
+        };
+    let uniform = |layer_mm| match uniform::plan(bins, height_mm, layer_mm) {
+        // A model lower than half a layer is one layer here, as it is for the optimal planner.
+        Err(PlanError::LayerTooThick { .. }) => Ok(Plan {
+            bins,
+            boundaries: vec![0, bins.count as u32],
+        }),
+        plan => plan,
+    };
+    let (finest, coarsest) = (uniform(finest_mm)?, uniform(coarsest_mm)?);
     Ok(UniformReport {
         finest_layers: finest.layers(),
         finest_error_mm: finest.max_error_mm(errors),

@@ -85,13 +85,18 @@ impl MeshInfo {
     }
 }
 
+/// A number with its noun: "1 hole", "2 holes".
+pub(crate) fn counted(number: usize, noun: &str) -> String {
+    format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
+}
+
 /// What the user should know about a mesh.
 pub fn mesh_warnings(mesh: &Mesh) -> Vec<Warning> {
     let mut warnings = Vec::new();
     if mesh.degenerate_facets > 0 {
         let message = format!(
-            "{} facets without area were dropped",
-            mesh.degenerate_facets
+            "{} without area left out",
+            counted(mesh.degenerate_facets, "facet")
         );
         warnings.push(Warning::new("degenerate-facets", message));
     }
@@ -101,9 +106,9 @@ pub fn mesh_warnings(mesh: &Mesh) -> Vec<Warning> {
     }
     if !mesh.is_closed() {
         let message = format!(
-            "the mesh is not closed: {} edges do not join two facets that agree about inside and outside; \
-             {} holes were closed by flat caps, so look at the masks",
-            mesh.open_edges, mesh.holes
+            "the mesh is not closed: {} without a partner, {} closed by flat caps; look at the masks",
+            counted(mesh.open_edges, "edge"),
+            counted(mesh.holes, "hole"),
         );
         warnings.push(Warning::new("open-mesh", message));
     }

@@ -7,7 +7,7 @@ use common::{on_plate, solids};
 use cusp_slicer::grid::Grid;
 use cusp_slicer::ldi::{Ldi, LdiError, cpu, gpu};
 use cusp_slicer::progress::silent;
-use libtest_mimic::{Arguments, Failed, Trial};
+use libtest_mimic::{Arguments, Completion, Failed, Trial};
 
 fn sample_both(
     triangles: &solids::Triangles,
@@ -37,39 +37,50 @@ fn compare(triangles: &solids::Triangles, rays: u32, tiling: gpu::Tiling) -> Res
     }
 }
 
-fn trials() -> Vec<Trial> {
+type Test = Box<dyn Fn() -> Result<(), Failed> + Send>;
+
+fn tests() -> Vec<(String, Test)> {
     let whole = gpu::Tiling::default();
-    let mut trials = Vec::new();
+    let small = gpu::Tiling { side: 77 };
+    let mut tests: Vec<(String, Test)> = Vec::new();
     for (name, triangles) in solids::all() {
         let same = triangles.clone();
         let title = format!("gpu equals cpu on the {name}");
-        trials.push(Trial::test(title, move || compare(&triangles, 300, whole)));
+        tests.push((title, Box::new(move || compare(&triangles, 300, whole))));
         let title = format!("tiles have no seams on the {name}");
-        let small = gpu::Tiling { side: 77 };
-        trials.push(Trial::test(title, move || compare(&same, 200, small)));
+        tests.push((title, Box::new(move || compare(&same, 200, small))));
     }
-    trials.push(Trial::test("gpu equals cpu on large facets", move || {
-        compare(&solids::cone(9.0, 14.0, 4), 2500, whole)
-    }));
-    trials.push(Trial::test("gpu equals cpu on needles", move || {
-        compare(&solids::cylinder(9.0, 1.0, 400), 1200, whole)
-    }));
-    trials.push(Trial::test("tiles have no seams on large facets", || {
-        compare(&solids::cone(9.0, 14.0, 4), 2500, gpu::Tiling { side: 640 })
-    }));
-    trials
+    tests.push((
+        "gpu equals cpu on large facets".to_owned(),
+        Box::new(move || compare(&solids::cone(9.0, 14.0, 4), 2500, whole)),
+    ));
+    tests.push((
+        "gpu equals cpu on needles".to_owned(),
+        Box::new(move || compare(&solids::cylinder(9.0, 1.0, 400), 1200, whole)),
+    ));
+    tests.push((
+        "tiles have no seams on large facets".to_owned(),
+        Box::new(|| compare(&solids::cone(9.0, 14.0, 4), 2500, gpu::Tiling { side: 640 })),
+    ));
+    tests
 }
 
 fn main() {
     let arguments = Arguments::from_args();
     let probe = sample_both(&solids::cube(1.0), 4, gpu::Tiling::default());
-    let missing = matches!(probe, Err(LdiError::NoGpu { .. }));
-    if let Err(error) = &probe {
-        println!("probing the GPU: {error}");
-    }
-    let trials = trials()
+    let missing = match probe {
+        Err(LdiError::NoGpu { reason }) => Some(reason),
+        _ => None,
+    };
+    let trials = tests()
         .into_iter()
-        .map(|trial| trial.with_ignored_flag(missing))
+        .map(|(title, test)| {
+            let missing = missing.clone();
+            Trial::ignorable_test(title, move || match missing {
+                Some(reason) => Ok(Completion::ignored_with(reason)),
+                None => test().map(|()| Completion::Completed),
+            })
+        })
         .collect();
     libtest_mimic::run(&arguments, trials).exit();
 }

@@ -32,6 +32,23 @@ fn a_bin_is_open_below_and_closed_above() {
 }
 
 #[test]
+fn heights_of_single_precision_stay_in_their_bins() {
+    for bin_mm in [0.001, 0.002, 0.01] {
+        for step in (1..30_000).step_by(7) {
+            let z_mm = f64::from((f64::from(step) * 0.01) as f32);
+            let bins = Bins::of_height(z_mm, bin_mm).unwrap();
+            let expected = (f64::from(step) * 0.01 / bin_mm).round() as usize;
+            assert_eq!(bins.count, expected, "{z_mm} mm in bins of {bin_mm} mm");
+            let above = Bins {
+                count: expected + 10,
+                size_mm: bin_mm,
+            };
+            assert_eq!(above.of(z_mm), expected - 1);
+        }
+    }
+}
+
+#[test]
 fn the_default_grid_fits_the_longer_side() {
     let bounds = on_plate(&solids::cuboid(Vec3::new(10.0, 4.99, 3.0))).bounds();
     let grid = Grid::around(&bounds, 100).unwrap();

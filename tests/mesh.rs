@@ -155,6 +155,16 @@ fn facets_without_area_are_dropped_and_open_nothing() {
 }
 
 #[test]
+fn a_stray_facet_without_area_moves_nothing() {
+    let mut triangles = solids::cube(2.0);
+    let whole = Mesh::from_triangles(&triangles).unwrap();
+    triangles.push([Vec3::splat(-300.0), Vec3::splat(-200.0), Vec3::splat(500.0)]);
+    let mesh = Mesh::from_triangles(&triangles).unwrap();
+    assert_eq!((mesh.bounds(), mesh.degenerate_facets), (whole.bounds(), 1));
+    assert!(mesh.is_closed());
+}
+
+#[test]
 fn negative_zero_is_zero() {
     let mut triangles = solids::cube(2.0);
     triangles[0][0].x = -0.0;

@@ -120,6 +120,37 @@ fn no_set_of_planes_has_fewer_layers() {
 }
 
 #[test]
+fn the_linear_planner_equals_procedure_1_written_literally() {
+    let mut random = fastrand::Rng::with_seed(41);
+    for _ in 0..3000 {
+        let count = random.usize(1..=80);
+        let is_flat = random.bool();
+        let density: Vec<u64> = (0..count)
+            .map(|_| {
+                if is_flat && random.bool() {
+                    0
+                } else {
+                    random.u64(0..=10)
+                }
+            })
+            .collect();
+        let least = random.usize(1..=6);
+        let greatest = least + random.usize(0..=20);
+        let tolerance = random.u64(0..=60);
+        let in_bins: Vec<f32> = density.iter().map(|&tenths| tenths as f32 / 10.0).collect();
+        let errors = profile(&in_bins).error_sum();
+        let steps = errors.to_steps(tolerance as f64 / 10.0);
+        let table = optimal::fill_table(&errors, least as u32..=greatest as u32, steps);
+        let expected = oracle::procedure_1(&density, (least, greatest), tolerance);
+        assert_eq!(
+            (table.layers, table.below),
+            expected,
+            "{density:?} {least} {greatest} {tolerance}"
+        );
+    }
+}
+
+#[test]
 fn a_planted_plan_is_found_again() {
     // Each layer's bins add up to just the tolerance, so that no plane can move.
     let mut random = fastrand::Rng::with_seed(11);
@@ -158,6 +189,45 @@ fn heights_that_layers_do_not_add_up_to_are_told_apart() {
 }
 
 #[test]
+fn a_tolerance_that_fails_near_the_top_is_no_remainder() {
+    let mut density = [0.1; 30];
+    density[29] = 1.0;
+    let result = plan(&density, &limits(2.0, 5.0, 0.8));
+    assert!(
+        matches!(result, Err(PlanError::Infeasible { .. })),
+        "{result:?}"
+    );
+}
+
+#[test]
+fn limits_far_beyond_the_model_are_no_trouble() {
+    let wide = limits(1.0, 1e12, 1e12);
+    assert_eq!(plan(&[0.1; 10], &wide).unwrap().boundaries, [0, 10]);
+    let thick = plan(&[0.1; 10], &limits(1e9, 1e12, 1e12));
+    assert!(
+        matches!(thick, Err(PlanError::Remainder { .. })),
+        "{thick:?}"
+    );
+    let bins = Bins {
+        count: 10,
+        size_mm: 1.0,
+    };
+    let too_thick = uniform::plan(bins, 10.0, 1e9);
+    assert!(
+        matches!(too_thick, Err(PlanError::LayerTooThick { .. })),
+        "{too_thick:?}"
+    );
+}
+
+#[test]
+fn a_million_bins_and_thicknesses_of_any_number_of_them_take_one_pass() {
+    // Procedure 1 written literally would look at 10^12 pairs of planes.
+    let density = vec![1e-4; 1_000_000];
+    let plan = plan(&density, &limits(1.0, 1e6, 10.0)).unwrap();
+    assert_eq!(plan.layers(), 10);
+}
+
+#[test]
 fn limits_are_checked() {
     let density = [0.1; 10];
     assert!(matches!(
@@ -184,7 +254,7 @@ fn limits_are_checked() {
 
 #[test]
 fn uniform_layers_end_within_half_a_layer_of_the_top() {
-    for (height_mm, layers) in [(10.0, 5), (10.9, 5), (11.1, 6), (0.4, 1)] {
+    for (height_mm, layers) in [(10.0, 5), (10.9, 5), (11.1, 6), (1.2, 1)] {
         let bins = Bins::of_height(height_mm, 0.1).unwrap();
         let plan = uniform::plan(bins, height_mm, 2.0).unwrap();
         assert_eq!(plan.layers(), layers, "{height_mm} mm");
@@ -194,6 +264,8 @@ fn uniform_layers_end_within_half_a_layer_of_the_top() {
                 .all(|thickness| (thickness - 2.0).abs() < 1e-12)
         );
     }
+    let too_thick = uniform::plan(Bins::of_height(0.4, 0.1).unwrap(), 0.4, 2.0);
+    assert!(matches!(too_thick, Err(PlanError::LayerTooThick { .. })));
     let bins = Bins::of_height(10.0, 0.1).unwrap();
     assert!(matches!(
         uniform::plan(bins, 10.0, 0.25),

@@ -14,6 +14,12 @@ pub enum ArchiveError {
     /// The progress callback asked to stop.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
+    /// No pixel of any mask is lit.
+    #[error(
+        "all masks are black: the model encloses nothing that the middle of a layer meets; check \
+         the model, or choose thinner layers"
+    )]
+    AllBlack,
     /// Bytes could not be written: the disk is full, say.
     #[error("the print file could not be written: {reason}")]
     Write {
@@ -27,6 +33,7 @@ impl ArchiveError {
     pub fn code(&self) -> &'static str {
         match self {
             Self::Cancelled(_) => "cancelled",
+            Self::AllBlack => "all-black",
             Self::Write { .. } => "archive-write",
         }
     }

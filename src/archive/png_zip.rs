@@ -14,7 +14,7 @@ use super::ArchiveError;
 use crate::mask::{MaskCursor, Masks};
 use crate::parallel::map_in_groups;
 use crate::progress::{Progress, report};
-use crate::report::Report;
+use crate::report::{Report, Warning, counted};
 
 /// Layers that one thread encodes in a row; the mask is copied once for each such run.
 const RUN: usize = 4;
@@ -39,7 +39,8 @@ struct Manifest<'a> {
     layer_files: Vec<LayerEntry>,
 }
 
-/// Writes the masks of all layers and the manifest, and returns the writer.
+/// Writes the masks of all layers and the manifest, and returns the writer. Layers whose masks are black
+/// add a warning to the report.
 ///
 /// The bytes of the masks depend on `masks` alone, not on threads or machine.
 ///
@@ -47,7 +48,7 @@ struct Manifest<'a> {
 /// [`ArchiveError`].
 pub fn write<W: Write + Seek>(
     masks: &Masks,
-    report_of_plan: &Report,
+    report_of_plan: &mut Report,
     writer: W,
     progress: &mut Progress<'_>,
 ) -> Result<W, ArchiveError> {
@@ -85,6 +86,19 @@ pub fn write<W: Write + Seek>(
         [0.0, 1.0],
     )?;
 
+    let black = layer_files
+        .iter()
+        .filter(|entry| entry.lit_pixels == 0)
+        .count();
+    if black == layer_files.len() {
+        return Err(ArchiveError::AllBlack);
+    }
+    if black > 0 {
+        let message = format!("{} of the plan are black", counted(black, "layer"));
+        report_of_plan
+            .warnings
+            .push(Warning::new("black-layers", message));
+    }
     let manifest = Manifest {
         report: report_of_plan,
         layer_files,

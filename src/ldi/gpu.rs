@@ -27,17 +27,18 @@ pub enum Adapters {
 /// How large tiles are, and so how much memory sampling takes on the GPU.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Tiling {
-    /// Longest side of a tile in pixels; smaller where the adapter has less.
+    /// Longest side of a tile in pixels, at most 4096: what the least that WebGPU promises can hold.
     pub side: u32,
 }
 
 impl Default for Tiling {
     /// Tiles of 4096 pixels a side: counts and offsets take 128 MiB.
     fn default() -> Self {
-        Self { side: 4096 }
+        Self { side: MAX_SIDE }
     }
 }
 
+const MAX_SIDE: u32 = 4096;
 /// What passes draw on, since they must draw on something; nothing is written to it.
 const CANVAS: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
 /// Bytes of a count, an offset or a facet.
@@ -177,8 +178,11 @@ fn assemble_ldi(
             let from = (row * region.width) as usize;
             let to = ((region.row + row) * grid.width + region.column) as usize;
             for column in 0..region.width as usize {
-                offsets[to + column + 1] =
-                    meetings.offsets[from + column + 1] - meetings.offsets[from + column];
+                let [first, end] = [0, 1].map(|next| meetings.offsets[from + column + next]);
+                // More hits than 32 bits count would make offsets shrink.
+                offsets[to + column + 1] = end
+                    .checked_sub(first)
+                    .ok_or_else(|| gpu_failed("a tile has more hits than it can count"))?;
             }
         }
     }

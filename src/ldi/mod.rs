@@ -45,6 +45,15 @@ pub enum LdiError {
         /// Facets of the mesh.
         facets: u64,
     },
+    /// No ray meets the model.
+    #[error(
+        "no pixel of {pitch_mm} mm meets the model, which is too small or too thin for them; \
+         choose smaller pixels"
+    )]
+    NoHits {
+        /// Side of a pixel.
+        pitch_mm: f64,
+    },
     /// No GPU adapter, or one that cannot do what is needed.
     #[error("no usable GPU: {reason}")]
     NoGpu {
@@ -66,6 +75,7 @@ impl LdiError {
             Self::Cancelled(_) => "cancelled",
             Self::OutOfMemory { .. } => "out-of-memory",
             Self::TooManyFacets { .. } => "too-many-facets",
+            Self::NoHits { .. } => "no-hits",
             Self::NoGpu { .. } => "no-gpu",
             Self::GpuFailed { .. } => "gpu-failed",
         }

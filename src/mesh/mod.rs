@@ -95,7 +95,6 @@ impl Mesh {
     /// [`MeshError::NoArea`] when no facet has an area.
     pub fn from_triangles(triangles: &[[Vec3; 3]]) -> Result<Self, MeshError> {
         let (mut vertices, welded) = weld(triangles);
-        let open_edges = holes::open_edges(vertices.len(), &welded);
         let (mut facets, flat): (Vec<_>, Vec<_>) = welded
             .into_iter()
             .partition(|corners| has_area(corners.map(|v| vertices[v as usize])));
@@ -105,10 +104,9 @@ impl Mesh {
                 facets: triangles.len(),
             });
         }
-        // A sliver between two larger facets keeps them joined when vertices are snapped.
-        let is_sliver = |[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
-        facets.extend(flat.into_iter().filter(is_sliver));
+        keep_joining_slivers(&mut facets, flat, vertices.len());
         let first_cap = facets.len();
+        let open_edges = holes::open_edges(vertices.len(), &facets);
         let open_edge_count = open_edges.len();
         let loops = holes::loops(open_edges);
         for hole in &loops {
@@ -138,10 +136,10 @@ impl Mesh {
         self.facets[facet].map(|vertex| self.vertices[vertex as usize].as_dvec3())
     }
 
-    /// The box around all vertices of facets.
+    /// The box around the surface.
     pub fn bounds(&self) -> Bounds {
         let (mut min, mut max) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-        for facet in &self.facets {
+        for facet in &self.facets[..self.surface_facets] {
             for &vertex in facet {
                 min = min.min(self.vertices[vertex as usize]);
                 max = max.max(self.vertices[vertex as usize]);
@@ -247,6 +245,22 @@ fn weld(triangles: &[[Vec3; 3]]) -> (Vec<Vec3>, Vec<[u32; 3]>) {
         })
         .collect();
     (vertices, facets)
+}
+
+/// Adds those of the facets without area that lie between facets of the surface: they keep these
+/// joined when vertices are snapped. The others are strays.
+fn keep_joining_slivers(facets: &mut Vec<[u32; 3]>, flat: Vec<[u32; 3]>, vertex_count: usize) {
+    let mut is_on_surface = vec![false; vertex_count];
+    for &vertex in facets.iter().flatten() {
+        is_on_surface[vertex as usize] = true;
+    }
+    facets.extend(flat.into_iter().filter(|&[a, b, c]| {
+        let is_sliver = a != b && b != c && c != a;
+        is_sliver
+            && [a, b, c]
+                .iter()
+                .all(|&vertex| is_on_surface[vertex as usize])
+    }));
 }
 
 fn has_area([a, b, c]: [Vec3; 3]) -> bool {

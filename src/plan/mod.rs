@@ -5,9 +5,11 @@
 pub mod optimal;
 pub mod uniform;
 
+use std::ops::RangeInclusive;
+
 use serde::Serialize;
 
-use crate::grid::{Bins, GridError};
+use crate::grid::{Bins, GridError, positive};
 use crate::profile::ErrorSum;
 
 /// What every plan must keep to.
@@ -53,6 +55,14 @@ pub enum PlanError {
         /// Bin size.
         bin_mm: f64,
     },
+    /// A uniform layer whose middle, where its mask is sampled, lies above the model.
+    #[error("layers of {layer_mm} mm are too thick for a model that is {height_mm} mm high")]
+    LayerTooThick {
+        /// Layer thickness asked for.
+        layer_mm: f64,
+        /// Height of the model.
+        height_mm: f64,
+    },
     /// The paper's infeasible case: K\[N\] = ∞.
     #[error(
         "no plan keeps every layer's error within {tolerance_mm} mm: at z = {height_mm:.3} mm \
@@ -91,6 +101,7 @@ impl PlanError {
             Self::Grid(error) => error.code(),
             Self::EmptyRange { .. } => "layer-range-empty",
             Self::NotWholeBins { .. } => "layer-not-whole-bins",
+            Self::LayerTooThick { .. } => "layer-too-thick",
             Self::Infeasible { .. } => "infeasible",
             Self::Remainder { .. } => "infeasible-remainder",
         }
@@ -148,15 +159,12 @@ impl Plan {
 }
 
 impl Limits {
-    /// The range of thicknesses in bins, ⌈`t_min/b`⌉ to ⌊`t_max/b`⌋.
+    /// The range of thicknesses in bins of `bin_mm`, ⌈`t_min`/b⌉ to ⌊`t_max`/b⌋.
     ///
     /// # Errors
     /// [`PlanError::Grid`], [`PlanError::EmptyRange`].
-    pub fn thickness_in_bins(
-        &self,
-        bins: Bins,
-    ) -> Result<std::ops::RangeInclusive<u32>, PlanError> {
-        use crate::grid::positive;
+    pub fn thickness_in_bins(&self, bins: Bins) -> Result<RangeInclusive<u32>, PlanError> {
+        positive("the bin", bins.size_mm)?;
         positive("the least layer thickness", self.layer_min_mm)?;
         positive("the greatest layer thickness", self.layer_max_mm)?;
         positive("the tolerance", self.tolerance_mm)?;
@@ -169,6 +177,8 @@ impl Limits {
                 bin_mm: bins.size_mm,
             });
         }
-        Ok(least as u32..=greatest as u32)
+        // A layer thicker than the model is as good as one just thicker.
+        let limit = bins.count as f64 + 1.0;
+        Ok(least.min(limit) as u32..=greatest.min(limit) as u32)
     }
 }

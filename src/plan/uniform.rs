@@ -9,14 +9,13 @@ use crate::grid::{Bins, positive};
 /// the printed height differs from the model's by at most half a layer.
 ///
 /// # Errors
-/// [`PlanError::Grid`], [`PlanError::NotWholeBins`].
+/// [`PlanError::Grid`], [`PlanError::NotWholeBins`], [`PlanError::LayerTooThick`].
 pub fn plan(bins: Bins, height_mm: f64, layer_mm: f64) -> Result<Plan, PlanError> {
-    positive("the layer thickness", layer_mm)?;
-    let thickness = bins.floor(layer_mm);
-    if thickness < 1.0 || bins.ceil(layer_mm) > thickness {
-        return Err(PlanError::NotWholeBins {
+    let thickness = thickness_in_bins(bins, layer_mm)?;
+    if 0.5 * thickness * bins.size_mm >= height_mm {
+        return Err(PlanError::LayerTooThick {
             layer_mm,
-            bin_mm: bins.size_mm,
+            height_mm,
         });
     }
     let layers = (height_mm / bins.size_mm / thickness - 0.5).ceil().max(1.0);
@@ -25,4 +24,21 @@ pub fn plan(bins: Bins, height_mm: f64, layer_mm: f64) -> Result<Plan, PlanError
         bins,
         boundaries: (0..=layers).map(|layer| layer * thickness).collect(),
     })
+}
+
+/// A thickness as a whole number of bins.
+///
+/// # Errors
+/// [`PlanError::Grid`], [`PlanError::NotWholeBins`].
+pub fn thickness_in_bins(bins: Bins, layer_mm: f64) -> Result<f64, PlanError> {
+    positive("the bin", bins.size_mm)?;
+    positive("the layer thickness", layer_mm)?;
+    let thickness = bins.floor(layer_mm);
+    if thickness < 1.0 || bins.ceil(layer_mm) > thickness {
+        return Err(PlanError::NotWholeBins {
+            layer_mm,
+            bin_mm: bins.size_mm,
+        });
+    }
+    Ok(thickness)
 }

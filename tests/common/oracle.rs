@@ -66,3 +66,28 @@ pub fn fewest_layers(density: &[f32], thickness: (usize, usize), tolerance: f64)
         })
         .min()
 }
+
+/// Lines 1 to 7 of Procedure 1 as the paper has them, sums and all.
+pub fn procedure_1(
+    density: &[u64],
+    thickness: (usize, usize),
+    tolerance: u64,
+) -> (Vec<Option<u32>>, Vec<Option<u32>>) {
+    let count = density.len();
+    let (mut k, mut d) = (vec![None; count + 1], vec![None; count + 1]);
+    k[0] = Some(0u32);
+    for i in 1..=count {
+        for l in i.saturating_sub(thickness.1)..=i.saturating_sub(thickness.0) {
+            if i - l < thickness.0 || density[l..i].iter().sum::<u64>() > tolerance {
+                continue;
+            }
+            if let Some(layers) = k[l]
+                && k[i].is_none_or(|best| best > layers + 1)
+            {
+                k[i] = Some(layers + 1);
+                d[i] = Some(l as u32);
+            }
+        }
+    }
+    (k, d)
+}
