@@ -38,6 +38,9 @@ export function explain(error: CuspError, name: string, settings: Settings): Pro
   if (code === "out-of-memory" || code.startsWith("grid-")) {
     return problem("This resolution is too much for this computer", detail, fewerRays(settings));
   }
+  if (code === "no-hits") return problem(`${name} is too thin for these pixels`, detail);
+  if (code === "all-black") return problem("Every mask would be black", detail);
+  if (code === "layer-too-thick") return problem("The layers are too thick for this model", detail);
   if (code === "no-gpu" || code === "gpu-failed") return problem("The GPU could not be used", detail);
   if (code === "start-failed") {
     return problem(

@@ -75,6 +75,14 @@ test("the core's message becomes a sentence under our heading", () => {
   expect(problem.text).toBe("The file ends at byte 90.");
 });
 
+test.each([
+  ["no-hits", "a.stl is too thin for these pixels"],
+  ["all-black", "Every mask would be black"],
+  ["layer-too-thick", "The layers are too thick for this model"],
+])("%s has a heading of its own", (code, title) => {
+  expect(explain({ code, message: "x", detail: null }, "a.stl", DEFAULT_SETTINGS).title).toBe(title);
+});
+
 test("out of memory offers half the rays, down to the least there is", () => {
   const error = { code: "out-of-memory", message: "too much", detail: null };
   expect(explain(error, "a.stl", DEFAULT_SETTINGS).offers[0]?.change).toEqual({ rays: "1024" });
