@@ -20,7 +20,7 @@ pub enum StlError {
     /// The file has no bytes at all.
     #[error("the file is empty; export the model again as STL")]
     Empty,
-    /// Neither a binary STL nor text that begins with `solid`.
+    /// Neither a binary STL nor text in ASCII or UTF-8 that begins with `solid`.
     #[error("this is no STL file; export the model as binary or ASCII STL")]
     NotStl,
     /// A binary STL that ends before the facets which its header announces.
@@ -105,7 +105,8 @@ impl StlError {
 ///
 /// A file whose length fits the facet count at byte 80 is binary whatever its header says, since
 /// many binary files begin with `solid`. ASCII may hold several solids; keywords are matched without
-/// regard to case.
+/// regard to case, lines end with LF, CR or both, and a whole file may stand on one line: the name of a
+/// solid ends with its line or before `facet normal`.
 ///
 /// # Errors
 /// [`StlError`], with the byte offset or the line where reading failed.
@@ -151,11 +152,12 @@ fn looks_like_text(bytes: &[u8]) -> bool {
 fn read_binary(bytes: &[u8], declared: u64) -> Result<Vec<[Vec3; 3]>, StlError> {
     let body = &bytes[BINARY_HEADER_BYTES..];
     let found = (body.len() / BINARY_FACET_BYTES) as u64;
+    let is_utf16 = bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff");
     let is_text = bytes
         .iter()
         .take(1024)
         .all(|byte| byte.is_ascii_graphic() || byte.is_ascii_whitespace() || !byte.is_ascii());
-    if is_text && declared != found {
+    if (is_text || is_utf16) && declared != found {
         return Err(StlError::NotStl);
     }
     if declared > found {
@@ -194,45 +196,67 @@ fn read_binary(bytes: &[u8], declared: u64) -> Result<Vec<[Vec3; 3]>, StlError> 
         .collect()
 }
 
-type Lines<'a> = std::slice::Split<'a, u8, fn(&u8) -> bool>;
-
 /// The words of an ASCII STL with the line each stands on.
 struct Words<'a> {
-    lines: std::iter::Enumerate<Lines<'a>>,
     rest: &'a [u8],
     line: u64,
+    /// Whether the last `solid` shared its line with what follows its name.
+    is_run_on: bool,
 }
 
 impl<'a> Words<'a> {
     fn new(bytes: &'a [u8]) -> Self {
-        let is_newline: fn(&u8) -> bool = |byte| *byte == b'\n';
         Self {
-            lines: bytes.split(is_newline).enumerate(),
-            rest: &[],
-            line: 0,
+            rest: bytes,
+            line: 1,
+            is_run_on: false,
         }
     }
 
-    /// The next word; lines that begin with `solid` or `endsolid` carry free text and are one word.
     fn next(&mut self) -> Option<&'a [u8]> {
+        while let Some(byte) = self.rest.first().filter(|byte| byte.is_ascii_whitespace()) {
+            let is_line_end = *byte == b'\n' || *byte == b'\r';
+            let length = 1 + usize::from(self.rest.starts_with(b"\r\n"));
+            self.rest = &self.rest[length..];
+            // The end of the last line begins no other.
+            self.line += u64::from(is_line_end && !self.rest.is_empty());
+        }
+        let (word, rest) = split_word(self.rest);
+        self.rest = rest;
+        (!word.is_empty()).then_some(word)
+    }
+
+    /// Skips the name after `solid`, which is free text: it ends with its line, or before `facet
+    /// normal` or `endsolid` where a file has no line ends to speak of.
+    fn skip_name(&mut self) {
+        self.is_run_on = self.skip_free_text(|word, after| {
+            is(word, "endsolid") || is(word, "facet") && is(split_word(after).0, "normal")
+        });
+    }
+
+    /// Skips the name after `endsolid`: it ends with its line, or before `solid` in a file whose
+    /// names do not end with their lines. Elsewhere `solid` is a name like any other.
+    fn skip_closing_name(&mut self) {
+        if self.is_run_on {
+            self.skip_free_text(|word, _| is(word, "solid"));
+        } else {
+            self.skip_free_text(|_, _| false);
+        }
+    }
+
+    /// Skips words up to one that `is_end`, given what follows it on its line, and returns whether
+    /// there was one before the line end.
+    fn skip_free_text(&mut self, is_end: impl Fn(&[u8], &[u8]) -> bool) -> bool {
         loop {
-            self.rest = self.rest.trim_ascii_start();
-            if !self.rest.is_empty() {
-                let end = self
-                    .rest
-                    .iter()
-                    .position(u8::is_ascii_whitespace)
-                    .unwrap_or(self.rest.len());
-                let (word, rest) = self.rest.split_at(end);
-                let has_free_text = is(word, "solid") || is(word, "endsolid");
-                self.rest = if has_free_text { &[] } else { rest };
-                return Some(word);
+            self.rest = trim_blanks(self.rest);
+            let (word, after) = split_word(self.rest);
+            if word.is_empty() {
+                return false;
             }
-            let (index, line) = self.lines.next()?;
-            if index > 0 || !line.is_empty() {
-                self.line = index as u64 + u64::from(!line.is_empty());
+            if is_end(word, trim_blanks(after)) {
+                return true;
             }
-            self.rest = line;
+            self.rest = after;
         }
     }
 
@@ -253,18 +277,16 @@ impl<'a> Words<'a> {
         } else {
             Err(StlError::NotFiniteText {
                 line: self.line,
-                text: text.into_owned(),
+                text: quoted(word),
             })
         }
     }
 
     fn syntax(&self, expected: &'static str, found: &[u8]) -> StlError {
-        let mut found = String::from_utf8_lossy(found).into_owned();
-        found.truncate(found.floor_char_boundary(40));
         StlError::Syntax {
             line: self.line,
             expected,
-            found,
+            found: quoted(found),
         }
     }
 
@@ -276,6 +298,34 @@ impl<'a> Words<'a> {
     }
 }
 
+/// Splits at the first white space, if need be after no byte at all.
+fn split_word(bytes: &[u8]) -> (&[u8], &[u8]) {
+    let end = bytes.iter().position(u8::is_ascii_whitespace);
+    bytes.split_at(end.unwrap_or(bytes.len()))
+}
+
+/// Without the white space at the start that ends no line.
+fn trim_blanks(bytes: &[u8]) -> &[u8] {
+    let is_blank = |byte: &u8| byte.is_ascii_whitespace() && !matches!(byte, b'\n' | b'\r');
+    let start = bytes.iter().position(|byte| !is_blank(byte));
+    &bytes[start.unwrap_or(bytes.len())..]
+}
+
+/// A word as errors show it: its first 40 characters, those that do not print escaped, since bytes
+/// of a file must not steer a terminal.
+fn quoted(word: &[u8]) -> String {
+    // No character takes more than four bytes.
+    let text = String::from_utf8_lossy(&word[..word.len().min(160)]);
+    let mut quoted = String::new();
+    for character in text.chars().take(40) {
+        match character {
+            '\'' | '"' | '\\' => quoted.push(character),
+            _ => quoted.extend(character.escape_debug()),
+        }
+    }
+    quoted
+}
+
 fn is(word: &[u8], keyword: &str) -> bool {
     word.eq_ignore_ascii_case(keyword.as_bytes())
 }
@@ -285,12 +335,14 @@ fn read_ascii(bytes: &[u8]) -> Result<Vec<[Vec3; 3]>, StlError> {
     let mut words = Words::new(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes));
     let mut triangles = Vec::new();
     words.expect(&["solid"], "`solid`")?;
+    words.skip_name();
     loop {
         let word = words.next().ok_or_else(|| words.end(FACET))?;
         if is(word, "endsolid") {
+            words.skip_closing_name();
             match words.next() {
                 None => return Ok(triangles),
-                Some(word) if is(word, "solid") => {}
+                Some(word) if is(word, "solid") => words.skip_name(),
                 Some(word) => return Err(words.syntax("`solid` or the end of the file", word)),
             }
         } else if is(word, "facet") {

@@ -18,6 +18,20 @@ fn cusp(arguments: &[&str]) -> Output {
         .unwrap()
 }
 
+/// Without a GPU, since some drivers write to stderr themselves.
+fn on_cpu(arguments: &[&str]) -> Output {
+    cusp(&[arguments, &["--backend", "cpu"]].concat())
+}
+
+fn names(folder: &TempDir) -> Vec<String> {
+    let mut names: Vec<_> = std::fs::read_dir(folder.path())
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
 fn sphere(folder: &TempDir) -> String {
     model(folder, "ball.stl", &binary_stl(&solids::sphere(3.0, 4)))
 }
@@ -54,7 +68,7 @@ fn help_names_every_command_and_option() {
     let help = cusp(&["--help"]);
     let text = String::from_utf8(help.stdout).unwrap();
     assert!(help.status.success());
-    for word in ["slice", "plan", "info"] {
+    for word in ["slice", "plan", "info", "130 interrupted"] {
         assert!(text.contains(word), "{word}");
     }
     let text = String::from_utf8(cusp(&["slice", "--help"]).stdout).unwrap();
@@ -80,13 +94,7 @@ fn help_names_every_command_and_option() {
 #[test]
 fn plan_prints_one_json_object_with_every_key() {
     let folder = TempDir::new().unwrap();
-    let report = json(&cusp(&[
-        "plan",
-        &sphere(&folder),
-        "--json",
-        "--backend",
-        "cpu",
-    ]));
+    let report = json(&on_cpu(&["plan", &sphere(&folder), "--json"]));
     for key in [
         "layers",
         "height_mm",
@@ -138,7 +146,7 @@ fn plan_prints_one_json_object_with_every_key() {
 fn slice_writes_a_whole_zip_and_nothing_else() {
     let folder = TempDir::new().unwrap();
     let (model, zip) = (sphere(&folder), folder.path().join("out.zip"));
-    let output = cusp(&[
+    let output = on_cpu(&[
         "slice",
         &model,
         "-o",
@@ -156,19 +164,16 @@ fn slice_writes_a_whole_zip_and_nothing_else() {
     assert_near(report["height_mm"].as_f64().unwrap(), 3.0, 1e-6);
     let archive = zip::ZipArchive::new(std::fs::File::open(&zip).unwrap()).unwrap();
     assert_eq!(archive.len() as u64, report["layers"].as_u64().unwrap() + 1);
-    let mut names: Vec<_> = std::fs::read_dir(folder.path())
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
-    names.sort();
-    assert_eq!(names, ["ball.stl", "out.zip"]);
+    assert_eq!(names(&folder), ["ball.stl", "out.zip"]);
+    // A closed model gives no warning, and a pipe is no place for a progress bar.
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "");
 }
 
 #[test]
 fn a_failed_slice_leaves_the_old_file() {
     let folder = TempDir::new().unwrap();
     let zip = model(&folder, "out.zip", b"precious");
-    let output = cusp(&["slice", &sphere(&folder), "-o", &zip, "--tolerance", "0.01"]);
+    let output = on_cpu(&["slice", &sphere(&folder), "-o", &zip, "--tolerance", "0.01"]);
     assert_fails(&output, 1, "raise the tolerance");
     assert_eq!(std::fs::read(&zip).unwrap(), b"precious");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2);
@@ -178,7 +183,7 @@ fn a_failed_slice_leaves_the_old_file() {
 fn uniform_takes_a_layer_thickness() {
     let folder = TempDir::new().unwrap();
     let model = sphere(&folder);
-    let report = json(&cusp(&[
+    let report = json(&on_cpu(&[
         "plan",
         &model,
         "--planner",
@@ -195,6 +200,25 @@ fn uniform_takes_a_layer_thickness() {
         &cusp(&["plan", &model, "--planner", "uniform"]),
         2,
         "--layer",
+    );
+    assert_fails(
+        &cusp(&["plan", &model, "--layer", "0.1"]),
+        2,
+        "--planner uniform",
+    );
+    assert_fails(
+        &cusp(&[
+            "slice",
+            &model,
+            "-o",
+            "x.zip",
+            "--planner",
+            "optimal",
+            "--layer",
+            "0.1",
+        ]),
+        2,
+        "Usage: cusp slice",
     );
 }
 
@@ -235,10 +259,10 @@ fn bad_input_is_one_clear_sentence_and_exit_code_1() {
     ] {
         let path = model(&folder, "bad.stl", bytes);
         assert_fails(&cusp(&["info", &path]), 1, words);
-        assert_fails(&cusp(&["plan", &path]), 1, words);
+        assert_fails(&on_cpu(&["plan", &path]), 1, words);
     }
     assert_fails(
-        &cusp(&["plan", &model(&folder, "flat.stl", &flat)]),
+        &on_cpu(&["plan", &model(&folder, "flat.stl", &flat)]),
         1,
         "no height",
     );
@@ -248,15 +272,15 @@ fn bad_input_is_one_clear_sentence_and_exit_code_1() {
         "/nowhere/at all.stl",
     );
     let ball = sphere(&folder);
-    let too_small = cusp(&["plan", &ball, "--pixels", "100x100", "--pitch", "0.05"]);
+    let too_small = on_cpu(&["plan", &ball, "--pixels", "100x100", "--pitch", "0.05"]);
     assert_fails(&too_small, 1, "a scale of 0.8333 fits");
     assert_fails(
-        &cusp(&["plan", &ball, "--tolerance", "0.01"]),
+        &on_cpu(&["plan", &ball, "--tolerance", "0.01"]),
         1,
         "at z = 0.000 mm",
     );
     assert_fails(
-        &cusp(&["plan", &ball, "--layer-min", "0.2"]),
+        &on_cpu(&["plan", &ball, "--layer-min", "0.2"]),
         1,
         "widen the range",
     );
@@ -277,4 +301,172 @@ fn bad_usage_is_exit_code_2() {
     assert_fails(&cusp(&["plan", &ball, "--height", "-4"]), 2, "--height");
     assert_fails(&cusp(&["plan", &ball, "--tolerance", "NaN"]), 2, "positive");
     assert_fails(&cusp(&["plan", &ball, "--metric", "beauty"]), 2, "cusp");
+}
+
+#[test]
+fn an_output_that_cannot_be_is_refused_before_the_model_is_read() {
+    let folder = TempDir::new().unwrap();
+    let poem = model(&folder, "poem.stl", b"a poem about a cube");
+    let inside = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    std::fs::create_dir(inside("folder")).unwrap();
+    for (output, words) in [
+        (poem.clone(), "is the model itself"),
+        (inside("folder/../poem.stl"), "is the model itself"),
+        (inside("folder"), "is a folder"),
+        (inside("nowhere/out.zip"), "there is no folder"),
+        (inside("nowhere/"), "there is no folder"),
+    ] {
+        assert_fails(&on_cpu(&["slice", &poem, "-o", &output]), 1, words);
+    }
+    assert_eq!(std::fs::read(&poem).unwrap(), b"a poem about a cube");
+    assert_eq!(names(&folder), ["folder", "poem.stl"]);
+}
+
+#[test]
+fn a_closed_stderr_changes_no_exit_code() {
+    let folder = TempDir::new().unwrap();
+    let mut open = solids::cube(10.0);
+    open.pop();
+    let open = model(&folder, "open.stl", &binary_stl(&open));
+    for (arguments, code) in [
+        (&["plan", &open, "--backend", "cpu"][..], 0), // with a warning
+        (&["info", "/nowhere.stl"], 1),
+    ] {
+        let (reader, writer) = std::io::pipe().unwrap();
+        drop(reader);
+        let output = Command::new(env!("CARGO_BIN_EXE_cusp"))
+            .args(arguments)
+            .stderr(writer)
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(code), "{arguments:?}");
+    }
+}
+
+#[cfg(unix)]
+mod unix {
+    use std::os::unix::fs::{PermissionsExt, symlink};
+    use std::path::Path;
+    use std::process::Stdio;
+    use std::time::{Duration, Instant};
+
+    use super::*;
+
+    const QUICK: [&str; 4] = ["--pitch", "0.1", "--backend", "cpu"];
+
+    fn mode(path: impl AsRef<Path>) -> u32 {
+        std::fs::metadata(path).unwrap().permissions().mode() & 0o777
+    }
+
+    #[test]
+    fn a_link_stays_and_its_file_is_written() {
+        let folder = TempDir::new().unwrap();
+        let ball = sphere(&folder);
+        let inside = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+        std::fs::create_dir(inside("prints")).unwrap();
+        std::fs::write(inside("prints/old.zip"), b"old").unwrap();
+        symlink("prints/old.zip", inside("link.zip")).unwrap();
+        let output = cusp(&[&["slice", &ball, "-o", &inside("link.zip")], &QUICK[..]].concat());
+        assert!(output.status.success());
+        assert!(Path::new(&inside("link.zip")).is_symlink());
+        assert!(
+            std::fs::read(inside("prints/old.zip"))
+                .unwrap()
+                .starts_with(b"PK")
+        );
+
+        symlink("ball.stl", inside("model.zip")).unwrap();
+        let output = cusp(&["slice", &ball, "-o", &inside("model.zip")]);
+        assert_fails(&output, 1, "is the model itself");
+        symlink("nothing.zip", inside("dangling.zip")).unwrap();
+        let output = cusp(&["slice", &ball, "-o", &inside("dangling.zip")]);
+        assert_fails(&output, 1, "a link to a file that does not exist");
+    }
+
+    #[test]
+    fn devices_and_pipes_are_refused() {
+        let folder = TempDir::new().unwrap();
+        let ball = sphere(&folder);
+        let pipe = folder.path().join("pipe");
+        assert!(
+            Command::new("mkfifo")
+                .arg(&pipe)
+                .status()
+                .unwrap()
+                .success()
+        );
+        for output in ["/dev/null", pipe.to_str().unwrap()] {
+            let output = cusp(&["slice", &ball, "-o", output]);
+            assert_fails(&output, 1, "a device or a pipe");
+        }
+        assert_eq!(names(&folder), ["ball.stl", "pipe"]);
+    }
+
+    #[test]
+    fn a_new_file_obeys_the_umask_and_a_replaced_one_keeps_its_mode() {
+        let folder = TempDir::new().unwrap();
+        let ball = sphere(&folder);
+        let zip = folder.path().join("out.zip");
+        let slice_with_umask_027 = || {
+            let status = Command::new("sh")
+                .args(["-c", "umask 027; exec \"$@\"", "sh"])
+                .args([env!("CARGO_BIN_EXE_cusp"), "slice", &ball, "-o"])
+                .arg(&zip)
+                .args(QUICK)
+                .stdout(Stdio::null())
+                .status();
+            assert!(status.unwrap().success());
+        };
+        slice_with_umask_027();
+        assert_eq!(mode(&zip), 0o640);
+        for kept in [0o600, 0o666] {
+            std::fs::set_permissions(&zip, PermissionsExt::from_mode(kept)).unwrap();
+            slice_with_umask_027();
+            assert_eq!(mode(&zip), kept);
+        }
+    }
+
+    #[test]
+    fn an_interrupt_leaves_the_old_file_and_no_other() {
+        let folder = TempDir::new().unwrap();
+        let ball = model(&folder, "ball.stl", &binary_stl(&solids::sphere(10.0, 4)));
+        let zip = model(&folder, "out.zip", b"precious");
+        // Tens of thousands of layers: writing them all takes many seconds.
+        let mut child = Command::new(env!("CARGO_BIN_EXE_cusp"))
+            .args(["slice", &ball, "-o", &zip, "--backend", "cpu"])
+            .args([
+                "--planner",
+                "uniform",
+                "--layer",
+                "0.0005",
+                "--bin",
+                "0.0005",
+            ])
+            .args(["--layer-min", "0.0005"])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let is_writing = || {
+            std::fs::read_dir(folder.path()).unwrap().any(|entry| {
+                let entry = entry.unwrap();
+                let is_new = entry.path() != Path::new(&ball) && entry.path() != Path::new(&zip);
+                is_new && entry.metadata().is_ok_and(|file| file.len() > 0)
+            })
+        };
+        let clock = Instant::now();
+        while !is_writing() {
+            assert!(clock.elapsed() < Duration::from_mins(2), "never wrote");
+            assert_eq!(child.try_wait().unwrap(), None, "ended before it wrote");
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        let process = child.id().to_string();
+        let kill = Command::new("kill").args(["-INT", &process]).status();
+        assert!(kill.unwrap().success());
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(String::from_utf8_lossy(&output.stderr), "cusp: cancelled\n");
+        assert_eq!(output.status.code(), Some(130));
+        assert_eq!(names(&folder), ["ball.stl", "out.zip"]);
+        assert_eq!(std::fs::read(&zip).unwrap(), b"precious");
+    }
 }

@@ -139,16 +139,73 @@ fn facets_in_another_order_give_the_same_heights() {
     }
 }
 
+/// A solid without any symmetry, whose corners are on no lattice: two tilted tetrahedra that overlap.
+fn crooked() -> solids::Triangles {
+    let tetrahedron = |[a, b, c, d]: [[f32; 3]; 4]| {
+        let [a, b, c, d] = [a, b, c, d].map(Vec3::from);
+        [[a, c, b], [a, b, d], [b, c, d], [c, a, d]]
+    };
+    [
+        tetrahedron([
+            [0.137, 0.291, 0.083],
+            [9.713, 1.377, 1.919],
+            [2.617, 6.841, 0.757],
+            [3.331, 2.173, 8.273],
+        ]),
+        tetrahedron([
+            [1.171, 2.939, 0.613],
+            [6.367, 0.571, 2.459],
+            [4.793, 5.231, 3.187],
+            [7.879, 3.637, 6.029],
+        ]),
+    ]
+    .concat()
+}
+
+/// Asserts that ray (column, row) of `one` meets what ray `place(column, row)` of `other` meets.
+#[track_caller]
+fn assert_same_rays(one: &Ldi, other: &Ldi, place: impl Fn(u32, u32) -> (u32, u32)) {
+    assert_eq!(one.hits.len(), other.hits.len());
+    for row in 0..one.grid.height {
+        for column in 0..one.grid.width {
+            let (to_column, to_row) = place(column, row);
+            let hits = one.ray((row * one.grid.width + column) as usize);
+            let others = other.ray((to_row * other.grid.width + to_column) as usize);
+            assert_eq!(hits.len(), others.len(), "column {column}, row {row}");
+            for (hit, other) in hits.iter().zip(others) {
+                assert_eq!(hit.is_exit(), other.is_exit(), "column {column}, row {row}");
+                assert_near(f64::from(hit.z_mm), f64::from(other.z_mm), 1e-5);
+            }
+        }
+    }
+}
+
 #[test]
-fn mirrored_and_turned_solids_have_mirrored_and_turned_hits() {
-    let triangles = solids::moved(&solids::cone(9.0, 14.0, 8), Vec3::new(0.0, 0.0, 0.0));
-    let (_, ldi) = sample(&triangles, 65);
-    let (_, mirrored) = sample(&solids::mirrored(&triangles), 65);
-    let (_, turned) = sample(&solids::turned(&triangles), 65);
-    let counts = |ldi: &Ldi| ldi.hits.len();
-    // The cone is symmetric itself; only centres on its left and right borders may change sides.
-    assert_near(counts(&mirrored) as f64, counts(&ldi) as f64, 8.0);
-    assert_near(counts(&turned) as f64, counts(&ldi) as f64, 8.0);
+fn a_mirrored_or_turned_solid_has_mirrored_or_turned_hits() {
+    let (_, ldi) = sample(&crooked(), 131);
+    let (width, height) = (ldi.grid.width, ldi.grid.height);
+    assert!(width > height && ldi.hits.len() > 10_000);
+
+    let (_, mirrored) = sample(&solids::mirrored(&crooked()), 131);
+    assert_same_rays(&ldi, &mirrored, |column, row| (width - 1 - column, row));
+
+    // Counter-clockwise from above: +x becomes +y, which is up in an image, and +y becomes -x.
+    let (_, turned) = sample(&solids::turned(&crooked()), 131);
+    assert_eq!((turned.grid.width, turned.grid.height), (height, width));
+    assert_same_rays(&ldi, &turned, |column, row| (row, width - 1 - column));
+}
+
+#[test]
+fn a_grid_shifted_by_whole_pixels_has_shifted_hits() {
+    let (mesh, ldi) = sample(&crooked(), 131);
+    let grid = Grid {
+        width: ldi.grid.width + 7,
+        height: ldi.grid.height + 4,
+        corner_mm: ldi.grid.corner_mm + glam::DVec2::new(-5.0, 3.0) * ldi.grid.pitch_mm,
+        ..ldi.grid
+    };
+    let shifted = cpu::sample(&mesh, &grid, &mut silent).unwrap();
+    assert_same_rays(&ldi, &shifted, |column, row| (column + 5, row + 3));
 }
 
 #[test]

@@ -5,11 +5,15 @@
 
 mod common;
 
-use common::{sample, solids};
+use std::io::{Cursor, Read};
+
+use common::{binary_stl, quiet, sample, solids};
 use cusp_slicer::grid::Bins;
-use cusp_slicer::ldi::for_each_solid_range;
+use cusp_slicer::ldi::Hit;
 use cusp_slicer::mask::Masks;
+use cusp_slicer::pipeline::{Backend, Options, Slicer};
 use cusp_slicer::plan::{Plan, uniform};
+use glam::Vec3;
 
 /// Area of a solid's section at a height.
 type Area = Box<dyn Fn(f64) -> f64>;
@@ -86,6 +90,88 @@ fn the_volume_of_all_masks_is_that_of_the_mesh() {
 }
 
 #[test]
+fn overlapping_spheres_have_the_volume_of_their_union() {
+    let (r, s) = (6.0f64, 5.0f64);
+    let offset = Vec3::new(4.0, 1.0, 2.0);
+    let mut triangles = solids::sphere(r, 6);
+    triangles.extend(solids::moved(&solids::sphere(s, 6), offset));
+    let (mesh, ldi) = sample(&triangles, 500);
+    let plan = plan(mesh.bounds().size().z, 0.1);
+    let masks = Masks::new(&ldi, &plan);
+    let mut cursor = masks.cursor();
+    let volume: f64 = plan
+        .thickness_mm()
+        .into_iter()
+        .enumerate()
+        .map(|(layer, thickness_mm)| {
+            cursor.seek(&masks, layer);
+            cursor.lit_pixels() as f64 * ldi.grid.pitch_mm.powi(2) * thickness_mm
+        })
+        .sum();
+    let d = f64::from(offset.length());
+    let lens = std::f64::consts::PI
+        * (r + s - d).powi(2)
+        * (d * d + 2.0 * d * (r + s) + 6.0 * r * s - 3.0 * (r * r + s * s))
+        / (12.0 * d);
+    let ball = |radius: f64| 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3);
+    let expected = ball(r) + ball(s) - lens;
+    assert!(
+        (volume / expected - 1.0).abs() < 5e-3,
+        "{volume} against {expected}"
+    );
+}
+
+#[test]
+fn a_png_shows_the_plate_from_above_with_y_upward() {
+    // An L: a long arm along +x at the least y, a short one from its left end along +y.
+    let mut triangles = solids::cuboid(Vec3::new(10.0, 3.0, 1.0));
+    triangles.extend(solids::moved(
+        &solids::cuboid(Vec3::new(3.0, 5.0, 1.0)),
+        Vec3::new(0.0, 3.0, 0.0),
+    ));
+    let options = Options {
+        pitch_mm: Some(0.25),
+        backend: Backend::Cpu,
+        ..Options::default()
+    };
+    let mut slicer = Slicer::load(&binary_stl(&triangles)).unwrap();
+    pollster::block_on(slicer.plan(&options, &mut quiet)).unwrap();
+    let (writer, _) = slicer
+        .write_png_zip(Cursor::new(Vec::new()), &mut quiet)
+        .unwrap();
+    let mut archive = zip::ZipArchive::new(writer).unwrap();
+    let mut file = Vec::new();
+    let mut entry = archive.by_name("layers/00000.png").unwrap();
+    entry.read_to_end(&mut file).unwrap();
+
+    let mut decoder = png::Decoder::new(Cursor::new(file));
+    decoder.set_transformations(png::Transformations::EXPAND);
+    let mut reader = decoder.read_info().unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut pixels).unwrap();
+    assert_eq!((info.width, info.height), (40, 32));
+    let is_lit = |row: usize, column: usize| pixels[row * 40 + column] == 255;
+    let (top, bottom, left, right) = (0, 31, 0, 39);
+    assert!(
+        is_lit(top, left),
+        "end of the short arm: least x, largest y"
+    );
+    assert!(!is_lit(top, right), "beside the short arm: nothing");
+    assert!(is_lit(bottom, left), "corner of the L: least x, least y");
+    assert!(
+        is_lit(bottom, right),
+        "end of the long arm: largest x, least y"
+    );
+    for row in 0..32 {
+        for column in 0..40 {
+            // Rows 20 to 31 are the long arm, columns 0 to 11 the short one.
+            let expected = row >= 20 || column < 12;
+            assert_eq!(is_lit(row, column), expected, "row {row}, column {column}");
+        }
+    }
+}
+
+#[test]
 fn every_pixel_agrees_with_a_look_along_its_ray() {
     for (name, triangles) in solids::all() {
         let (mesh, ldi) = sample(&triangles, 61);
@@ -102,10 +188,9 @@ fn every_pixel_agrees_with_a_look_along_its_ray() {
             for ray in 0..ldi.rays() {
                 let (column, row) = (ray % 61, ray / 61);
                 let bit = cursor.bits()[row * cursor.row_bytes() + column / 8] >> (7 - column % 8);
-                let mut is_inside = false;
-                for_each_solid_range(ldi.ray(ray), |z_in, z_out| {
-                    is_inside |= (f64::from(z_in)..f64::from(z_out)).contains(&middles[layer]);
-                });
+                let below = |hit: &&Hit| f64::from(hit.z_mm) <= middles[layer];
+                let winding: i32 = ldi.ray(ray).iter().filter(below).map(|h| h.winding()).sum();
+                let is_inside = winding != 0;
                 lit_pixels += u64::from(is_inside);
                 assert_eq!(bit & 1 == 1, is_inside, "{name}, layer {layer}, ray {ray}");
             }

@@ -59,6 +59,67 @@ fn ascii_may_vary_in_case_line_ends_normals_and_hold_several_solids() {
 }
 
 #[test]
+fn any_line_end_ends_a_line() {
+    let expected = read(ASCII.as_bytes()).unwrap();
+    for end in ["\n", "\r", "\r\n", "\n\n", "\r\r"] {
+        let text = ASCII.replace('\n', end);
+        assert_eq!(read(text.as_bytes()).unwrap(), expected, "{end:?}");
+    }
+    for end in ["\n", "\r", "\r\n"] {
+        let with = |from: &str, to: &str| {
+            let text = ASCII.replacen(from, to, 1).replace('\n', end);
+            read(text.as_bytes()).unwrap_err()
+        };
+        assert_eq!(
+            with("1e1", "wide"),
+            StlError::Syntax {
+                line: 5,
+                expected: "a coordinate",
+                found: "wide".into()
+            },
+            "{end:?}"
+        );
+        assert_eq!(
+            with("endsolid part one\n", ""),
+            StlError::EndOfText {
+                line: 8,
+                expected: "`facet` or `endsolid`"
+            },
+            "{end:?}"
+        );
+    }
+}
+
+#[test]
+fn a_whole_file_may_stand_on_one_line() {
+    let expected = read(ASCII.as_bytes()).unwrap();
+    let line = ASCII.replace('\n', " ");
+    for name in ["part one", "", "facet of a part", "\tpart"] {
+        let line = line.replace("part one", name);
+        assert_eq!(read(line.as_bytes()).unwrap(), expected, "{name:?}");
+        let twice = [&expected[..], &expected[..]].concat();
+        assert_eq!(read(line.repeat(2).as_bytes()).unwrap(), twice, "{name:?}");
+    }
+    assert_eq!(
+        read(line.replacen("1e1", "wide", 1).as_bytes()),
+        Err(StlError::Syntax {
+            line: 1,
+            expected: "a coordinate",
+            found: "wide".into()
+        })
+    );
+    assert_eq!(read(b"solid x endsolid x"), Err(StlError::NoFacets));
+}
+
+#[test]
+fn names_may_be_words_of_the_grammar() {
+    for name in ["solid", "my solid part", "facet", "outer loop"] {
+        let text = ASCII.replace("part one", name).repeat(2);
+        assert_eq!(read(text.as_bytes()).unwrap().len(), 2, "{name}");
+    }
+}
+
+#[test]
 fn bad_binary_files_are_told_apart() {
     let good = binary_stl(&solids::cube(2.0));
     assert_eq!(read(&[]), Err(StlError::Empty));
@@ -139,6 +200,41 @@ fn bad_text_is_named_by_line() {
         read(b"solid empty\nendsolid empty\n"),
         Err(StlError::NoFacets)
     );
+}
+
+#[test]
+fn words_of_a_file_are_quoted_short_and_harmless() {
+    let long = "1".repeat(500);
+    let cases = [
+        (
+            "\u{1b}[31m\u{202e}\u{7}it's",
+            r"\u{1b}[31m\u{202e}\u{7}it's".to_owned(),
+        ),
+        ("é\u{1}é", r"é\u{1}é".to_owned()),
+        (&*"é".repeat(100), "é".repeat(40)),
+    ];
+    for (word, expected) in cases {
+        match read(ASCII.replacen("1e1", word, 1).as_bytes()) {
+            Err(StlError::Syntax { line: 5, found, .. }) => assert_eq!(found, expected),
+            other => panic!("{other:?}"),
+        }
+    }
+    assert_eq!(
+        read(ASCII.replacen("1e1", &long, 1).as_bytes()),
+        Err(StlError::NotFiniteText {
+            line: 5,
+            text: "1".repeat(40)
+        })
+    );
+}
+
+#[test]
+fn text_in_utf_16_is_no_stl() {
+    for to_bytes in [u16::to_le_bytes, u16::to_be_bytes] {
+        let text = format!("\u{feff}{ASCII}");
+        let bytes: Vec<u8> = text.encode_utf16().flat_map(to_bytes).collect();
+        assert_eq!(read(&bytes), Err(StlError::NotStl));
+    }
 }
 
 #[test]

@@ -1,20 +1,28 @@
 //! The command line: the only file with a file system, arguments and a terminal.
 
-use std::io::{BufWriter, IsTerminal, Write as _};
+use std::fs;
+use std::io::{self, BufWriter, IsTerminal, Write as _};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::error::ErrorKind;
+use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use cusp_slicer::pipeline::{self, Options, Slicer, Stage};
 use cusp_slicer::profile::Metric;
 use cusp_slicer::report::{MeshInfo, Report, Warning};
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use serde::Serialize;
+use tempfile::NamedTempFile;
+
+/// Set once by Ctrl-C; stages look at it whenever they report progress.
+static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
 /// Adaptive slicer for resin printers: the fewest layers that keep the error within a tolerance.
 ///
-/// Lengths are in millimetres; z is up. Exit codes: 0 done, 1 bad input or no feasible plan, 2 usage.
+/// Lengths are in millimetres; z is up. Exit codes: 0 done, 1 bad input or no feasible plan, 2 usage,
+/// 130 interrupted.
 #[derive(Parser)]
 #[command(name = "cusp", version)]
 struct Cli {
@@ -29,7 +37,7 @@ enum Command {
     Slice {
         #[command(flatten)]
         slicing: Slicing,
-        /// Where to write the zip
+        /// Where to write the zip; a file there is replaced once the new one is whole
         #[arg(short, long, value_name = "OUT.zip")]
         output: PathBuf,
     },
@@ -84,7 +92,7 @@ struct Slicing {
     /// How layers are chosen
     #[arg(long, value_enum, default_value = "optimal", help_heading = "Layers")]
     planner: PlannerArg,
-    /// Layer thickness of the uniform planner
+    /// Layer thickness of the uniform planner, and of no other
     #[arg(
         long,
         value_name = "MM",
@@ -123,6 +131,22 @@ enum BackendArg {
 }
 
 impl Slicing {
+    /// Ends the program where options of this `command` contradict each other in a way that clap's
+    /// attributes cannot say.
+    fn check(&self, command: &str) {
+        if self.layer.is_some() && self.planner != PlannerArg::Uniform {
+            let message = "--layer is for --planner uniform only; elsewhere --layer-min and \
+                           --layer-max bound the layers";
+            let mut cli = Cli::command();
+            cli.build();
+            let command = cli.find_subcommand_mut(command);
+            command
+                .expect("the command that was parsed")
+                .error(ErrorKind::ArgumentConflict, message)
+                .exit();
+        }
+    }
+
     fn options(&self) -> Options {
         Options {
             height_mm: self.height,
@@ -165,6 +189,35 @@ fn pixels(text: &str) -> Result<[u32; 2], String> {
         .ok_or_else(|| "columns and rows are needed, such as 3840x2400".to_owned())
 }
 
+/// Why a command stops.
+struct Failure {
+    exit_code: u8,
+    message: String,
+}
+
+impl From<String> for Failure {
+    fn from(message: String) -> Self {
+        Self {
+            exit_code: 1,
+            message,
+        }
+    }
+}
+
+impl Failure {
+    /// A failure of the library about a file; being interrupted is about none.
+    fn in_file(path: &Path, error: &cusp_slicer::Error) -> Self {
+        if error.code() == "cancelled" {
+            Self {
+                exit_code: 130,
+                message: error.to_string(),
+            }
+        } else {
+            in_file(path, error).into()
+        }
+    }
+}
+
 fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Slice { slicing, output } => slice(&slicing, &output),
@@ -173,95 +226,162 @@ fn main() -> ExitCode {
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
-        Err(message) => {
-            eprintln!("cusp: {message}");
-            ExitCode::from(1)
+        Err(failure) => {
+            say(&failure.message);
+            ExitCode::from(failure.exit_code)
         }
     }
 }
 
-fn load(model: &Path) -> Result<Slicer, String> {
-    let bytes = std::fs::read(model).map_err(|error| in_file(model, &error))?;
-    Slicer::load(&bytes).map_err(|error| in_file(model, &error))
+/// Tells the user something on stderr; that nobody listens there is no reason to stop.
+fn say(message: &str) {
+    let _ = writeln!(io::stderr(), "cusp: {message}");
+}
+
+fn load(model: &Path) -> Result<Slicer, Failure> {
+    let bytes = fs::read(model).map_err(|error| in_file(model, &error))?;
+    Slicer::load(&bytes).map_err(|error| Failure::in_file(model, &error))
 }
 
 fn in_file(path: &Path, error: &dyn std::fmt::Display) -> String {
     format!("{}: {error}", path.display())
 }
 
-fn info(model: &Path, json: bool) -> Result<(), String> {
+fn info(model: &Path, json: bool) -> Result<(), Failure> {
     let info = load(model)?.info();
     if json {
-        print_json(&info)
+        print_json(&info)?;
     } else {
-        print(&describe_mesh(&info))
+        print(&describe_mesh(&info))?;
     }
+    Ok(())
 }
 
-fn plan(slicing: &Slicing) -> Result<(), String> {
+fn plan(slicing: &Slicing) -> Result<(), Failure> {
+    slicing.check("plan");
     let mut slicer = load(&slicing.model)?;
-    let mut bar = Bar::new();
-    let report = make_plan(&mut slicer, slicing, &mut bar)?;
-    bar.finish();
+    stop_on_interrupt();
+    let bar = Bar::new();
+    let report = make_plan(&mut slicer, slicing, &bar)?;
+    drop(bar);
     show(slicing, report)
 }
 
-fn slice(slicing: &Slicing, output: &Path) -> Result<(), String> {
+fn slice(slicing: &Slicing, output: &Path) -> Result<(), Failure> {
+    slicing.check("slice");
+    let place = place_for(output, &slicing.model).map_err(|reason| in_file(output, &reason))?;
     let mut slicer = load(&slicing.model)?;
-    let mut bar = Bar::new();
-    make_plan(&mut slicer, slicing, &mut bar)?;
-    // Written beside its place and then renamed: a file of that name is always whole.
-    let folder = match output.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    let file = tempfile::NamedTempFile::new_in(folder).map_err(|error| in_file(output, &error))?;
+    stop_on_interrupt();
+    // Made before the work, so that a folder which cannot be written to is met at once.
+    let file = file_beside(&place).map_err(|error| in_file(output, &error))?;
+    let bar = Bar::new();
+    make_plan(&mut slicer, slicing, &bar)?;
     let (writer, report) = slicer
         .write_png_zip(BufWriter::new(file), &mut |stage, fraction| {
             bar.report(stage, fraction)
         })
-        .map_err(|error| in_file(output, &error))?;
+        .map_err(|error| Failure::in_file(output, &error))?;
     let file = writer
         .into_inner()
         .map_err(|error| in_file(output, &error))?;
-    set_usual_permissions(file.as_file());
-    file.persist(output)
+    file.persist(&place)
         .map_err(|error| in_file(output, &error.error))?;
-    bar.finish();
+    drop(bar);
     show(slicing, report)
 }
 
-/// Temporary files are private; a print file is not.
-#[cfg(unix)]
-fn set_usual_permissions(file: &std::fs::File) {
-    use std::os::unix::fs::PermissionsExt;
-    // Failing leaves a file that only its owner can read: no reason to lose it.
-    let _ = file.set_permissions(std::fs::Permissions::from_mode(0o644));
+/// The file to write for `output`: itself, or what it links to, so that links stay links.
+///
+/// Fails with a sentence where no zip can be, which is cheaper to learn before the work.
+fn place_for(output: &Path, model: &Path) -> Result<PathBuf, String> {
+    match fs::metadata(output) {
+        Ok(found) if found.is_dir() => Err("is a folder; name a file in it".to_owned()),
+        Ok(found) if !found.is_file() => {
+            Err("is a device or a pipe; a zip can only be written to a file".to_owned())
+        }
+        Ok(_) => {
+            let place = output.canonicalize().map_err(|error| error.to_string())?;
+            if model.canonicalize().is_ok_and(|model| model == place) {
+                return Err("is the model itself; name another file".to_owned());
+            }
+            Ok(place)
+        }
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error.to_string()),
+        Err(_) if output.is_symlink() => {
+            Err("is a link to a file that does not exist; name that file instead".to_owned())
+        }
+        Err(_) => {
+            let names_folder = output.to_string_lossy().ends_with(std::path::is_separator);
+            let folder = if names_folder { output } else { parent(output) };
+            if folder.is_dir() {
+                Ok(output.to_owned())
+            } else {
+                Err(format!(
+                    "there is no folder {}; make it first",
+                    folder.display()
+                ))
+            }
+        }
+    }
 }
 
-#[cfg(not(unix))]
-fn set_usual_permissions(_file: &std::fs::File) {}
+fn parent(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+/// A file beside `place`, to be renamed to it once whole. It has the permissions of the file that it
+/// replaces, or those that the umask leaves a new one.
+fn file_beside(place: &Path) -> io::Result<NamedTempFile> {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        let mut builder = tempfile::Builder::new();
+        let old = fs::metadata(place).ok().map(|old| old.permissions());
+        let usual = fs::Permissions::from_mode(0o666);
+        builder.permissions(old.clone().unwrap_or(usual));
+        let file = builder.tempfile_in(parent(place))?;
+        if let Some(old) = old {
+            // The umask may have taken some away.
+            file.as_file().set_permissions(old)?;
+        }
+        Ok(file)
+    }
+    #[cfg(not(unix))]
+    NamedTempFile::new_in(parent(place))
+}
+
+/// From here on Ctrl-C is noted rather than deadly, so that temporary files go away.
+///
+/// Where an interrupt or hang-up is ignored already, as under `nohup`, it stays so: hence `try`, and
+/// hence failing does no harm.
+fn stop_on_interrupt() {
+    let _ = ctrlc::try_set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed));
+}
 
 fn make_plan<'a>(
     slicer: &'a mut Slicer,
     slicing: &Slicing,
-    bar: &mut Bar,
-) -> Result<&'a Report, String> {
+    bar: &Bar,
+) -> Result<&'a Report, Failure> {
     let options = slicing.options();
     let mut progress = |stage, fraction| bar.report(stage, fraction);
     pollster::block_on(slicer.plan(&options, &mut progress))
-        .map_err(|error| in_file(&slicing.model, &error))
+        .map_err(|error| Failure::in_file(&slicing.model, &error))
 }
 
-fn show(slicing: &Slicing, report: &Report) -> Result<(), String> {
+fn show(slicing: &Slicing, report: &Report) -> Result<(), Failure> {
     for Warning { message, .. } in &report.warnings {
-        eprintln!("cusp: warning: {message}");
+        say(&format!("warning: {message}"));
     }
     if slicing.json {
-        print_json(report)
+        print_json(report)?;
     } else {
-        print(&describe_plan(report))
+        print(&describe_plan(report))?;
     }
+    Ok(())
 }
 
 fn describe_mesh(info: &MeshInfo) -> String {
@@ -316,13 +436,13 @@ fn print_json(value: &impl Serialize) -> Result<(), String> {
 
 /// Prints a line; a reader that has gone away, such as `head`, is no error.
 fn print(text: &str) -> Result<(), String> {
-    match writeln!(std::io::stdout(), "{text}") {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(error.to_string()),
+    match writeln!(io::stdout(), "{text}") {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error.to_string()),
         _ => Ok(()),
     }
 }
 
-/// A progress bar on a terminal, nothing elsewhere.
+/// A progress bar on a terminal, nothing elsewhere; it clears its line when dropped.
 struct Bar {
     bar: ProgressBar,
 }
@@ -330,7 +450,7 @@ struct Bar {
 impl Bar {
     fn new() -> Self {
         const STEPS: u64 = 1000;
-        if !std::io::stderr().is_terminal() {
+        if !io::stderr().is_terminal() {
             return Self {
                 bar: ProgressBar::hidden(),
             };
@@ -338,7 +458,9 @@ impl Bar {
         let style = ProgressStyle::with_template("{msg:8} {wide_bar} {percent:>3} %")
             .unwrap_or_else(|_| ProgressStyle::default_bar());
         Self {
-            bar: ProgressBar::new(STEPS).with_style(style),
+            bar: ProgressBar::new(STEPS)
+                .with_style(style)
+                .with_finish(ProgressFinish::AndClear),
         }
     }
 
@@ -346,10 +468,10 @@ impl Bar {
         self.bar.set_message(stage.name());
         let steps = self.bar.length().unwrap_or_default() as f64;
         self.bar.set_position((fraction * steps) as u64);
-        ControlFlow::Continue(())
-    }
-
-    fn finish(&self) {
-        self.bar.finish_and_clear();
+        if INTERRUPTED.load(Ordering::Relaxed) {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
     }
 }
