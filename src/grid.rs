@@ -17,6 +17,8 @@ const MAX_BINS: f64 = 10_000_000.0;
 const BIN_SLACK: f64 = 1e-3;
 /// Heights come from single precision: they are off by up to this part of themselves.
 const HEIGHT_SLACK: f64 = 1.0 / (1 << 23) as f64;
+/// Bins by which a quotient of lengths may be off.
+const ROUNDING_SLACK: f64 = 1e-9;
 
 /// Why pixels or bins cannot be laid out.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
@@ -228,7 +230,11 @@ impl Bins {
 
     /// The bin, from 0, that holds height `z_mm`; heights outside belong to the first and last bin.
     pub fn of(&self, z_mm: f64) -> usize {
-        let bin = (z_mm / self.size_mm - height_slack(z_mm, self.size_mm)).ceil() as usize;
+        let bins = z_mm / self.size_mm;
+        let position = bins - (bins * HEIGHT_SLACK + ROUNDING_SLACK);
+        // Rounded up by hand: `ceil` is a library call on processors of the oldest kind.
+        let below = position as usize;
+        let bin = below + usize::from(position > below as f64);
         bin.clamp(1, self.count) - 1
     }
 
@@ -251,5 +257,5 @@ impl Bins {
 
 /// By how many bins a height may be off and still be at a boundary.
 fn height_slack(z_mm: f64, bin_mm: f64) -> f64 {
-    z_mm / bin_mm * HEIGHT_SLACK + 1e-9
+    z_mm / bin_mm * HEIGHT_SLACK + ROUNDING_SLACK
 }

@@ -50,6 +50,18 @@ fn tests() -> Vec<(String, Test)> {
         let title = format!("tiles have no seams on the {name}");
         tests.push((title, Box::new(move || compare(&same, 200, small))));
     }
+    for (name, triangles, rays) in solids::torture() {
+        let variants = [
+            ("", triangles.clone()),
+            (", mirrored", solids::mirrored(&triangles)),
+            (", turned", solids::turned(&triangles)),
+            (", shuffled", solids::shuffled(&triangles)),
+        ];
+        for (variant, triangles) in variants {
+            let title = format!("gpu equals cpu on {name}{variant}");
+            tests.push((title, Box::new(move || compare(&triangles, rays, whole))));
+        }
+    }
     tests.push((
         "gpu equals cpu on large facets".to_owned(),
         Box::new(move || compare(&solids::cone(9.0, 14.0, 4), 2500, whole)),

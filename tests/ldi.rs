@@ -9,6 +9,7 @@ use std::ops::ControlFlow;
 use common::{assert_near, on_plate, oracle, sample, solids};
 use cusp_slicer::grid::Grid;
 use cusp_slicer::ldi::{Hit, Ldi, LdiError, cpu, for_each_solid_range};
+use cusp_slicer::mesh::Mesh;
 use cusp_slicer::progress::{Cancelled, silent};
 use glam::Vec3;
 
@@ -81,6 +82,55 @@ fn every_solid_agrees_with_a_naive_intersector() {
             "{name}: only {compared} rays were compared"
         );
     }
+}
+
+/// Facets met by the rays of `chosen`, against the naive intersector; returns how many were compared.
+fn compare_facets(
+    name: &str,
+    mesh: &Mesh,
+    ldi: &Ldi,
+    chosen: impl Iterator<Item = usize>,
+) -> usize {
+    let mut compared = 0;
+    for ray in chosen {
+        let (column, row) = (ray as u32 % ldi.grid.width, ray as u32 / ldi.grid.width);
+        let naive = oracle::cast(mesh, &ldi.grid, column, row, 0.005);
+        if naive.is_near_edge {
+            continue;
+        }
+        compared += 1;
+        let mut expected: Vec<u32> = naive.hits.iter().map(|hit| hit.0).collect();
+        let mut found: Vec<u32> = ldi.ray(ray).iter().map(|hit| hit.facet()).collect();
+        expected.sort_unstable();
+        found.sort_unstable();
+        assert_eq!(found, expected, "{name}, column {column}, row {row}");
+    }
+    compared
+}
+
+#[test]
+fn torture_agrees_with_a_naive_intersector_and_closes() {
+    for (name, triangles, rays) in solids::torture() {
+        let (mesh, ldi) = sample(&triangles, rays);
+        assert!(mesh.is_closed(), "{name}");
+        assert_eq!(unclosed_rays(&ldi), 0, "{name}");
+        let step = (ldi.rays() / 1500).max(1);
+        compare_facets(name, &mesh, &ldi, (0..ldi.rays()).step_by(step));
+        if name == "a hundred surfaces on a ray" {
+            assert_eq!(ldi.ray(820).len(), 100);
+            assert_eq!(ranges(ldi.ray(820)).len(), 50);
+        }
+    }
+}
+
+#[test]
+fn two_million_facets_agree_with_a_naive_intersector() {
+    let (mesh, ldi) = sample(&solids::sphere(10.0, 9), 400);
+    assert_eq!(mesh.facets.len(), 2_097_152);
+    assert_eq!(unclosed_rays(&ldi), 0);
+    let mut random = fastrand::Rng::with_seed(31);
+    let chosen: Vec<usize> = (0..40).map(|_| random.usize(0..ldi.rays())).collect();
+    assert!(compare_facets("ball", &mesh, &ldi, chosen.into_iter()) > 10);
 }
 
 #[test]

@@ -30,13 +30,9 @@ pub(super) fn accumulate(offsets: &mut [u32]) -> Result<(), LdiError> {
 ///
 /// # Errors
 /// [`LdiError::OutOfMemory`].
-pub(super) fn zeroed<T: bytemuck::Zeroable + Clone>(count: usize) -> Result<Vec<T>, LdiError> {
-    let mut values = Vec::new();
-    values
-        .try_reserve_exact(count)
-        .map_err(|_| out_of_memory(count as u64))?;
-    values.resize(count, T::zeroed());
-    Ok(values)
+pub(super) fn zeroed<T: bytemuck::Zeroable>(count: usize) -> Result<Vec<T>, LdiError> {
+    // The system's zero pages: they are first touched by the threads that fill them.
+    bytemuck::allocation::try_zeroed_vec(count).map_err(|()| out_of_memory(count as u64))
 }
 
 fn out_of_memory(hits: u64) -> LdiError {

@@ -203,3 +203,148 @@ pub fn all() -> Vec<(&'static str, Triangles)> {
         }),
     ]
 }
+
+/// What sampling finds hard, by name, with the rays along the longer side that make it so.
+pub fn torture() -> Vec<(&'static str, Triangles, u32)> {
+    let stack = |count: usize| {
+        let slab = cuboid(Vec3::new(8.0, 8.0, 0.1));
+        let at = |i: usize| Vec3::new(0.0, 0.0, 0.2 * i as f32);
+        (0..count).flat_map(|i| moved(&slab, at(i))).collect()
+    };
+    vec![
+        ("a hundred surfaces on a ray", stack(50), 40),
+        ("gyroid", gyroid(3, 36), 97),
+        (
+            "knife edge",
+            prism(&[(0.0, 0.0), (9.0, 1e-4), (9.0, 2e-4)], 7.0),
+            300,
+        ),
+        (
+            "needle standing up",
+            prism(&[(0.0, 0.0), (1e-3, 0.0), (0.0, 1e-3)], 50.0),
+            3,
+        ),
+        ("walls that lean by a hair", leaning(1e-6), 100),
+        ("facets smaller than a pixel", sphere(5.0, 6), 23),
+        (
+            "one facet over all pixels",
+            prism(&[(0.0, 0.0), (40.0, 0.0), (0.0, 40.0)], 1.0),
+            1400,
+        ),
+        (
+            "nested shells",
+            {
+                let mut triangles = sphere(9.0, 4);
+                triangles.extend(inverted(&sphere(7.0, 4)));
+                triangles.extend(sphere(5.0, 4));
+                triangles.extend(inverted(&sphere(3.0, 4)));
+                triangles
+            },
+            120,
+        ),
+        (
+            "coincident cubes",
+            {
+                let mut triangles = cube(5.0);
+                triangles.extend(cube(5.0));
+                triangles.extend(moved(&cube(5.0), Vec3::new(5.0, 0.0, 0.0)));
+                triangles.extend(moved(&cube(5.0), Vec3::new(0.0, 5.0, 5.0)));
+                triangles
+            },
+            64,
+        ),
+    ]
+}
+
+/// A triangle of (x, y) in counter-clockwise order, pulled up.
+fn prism(base: &[(f32, f32); 3], height: f32) -> Triangles {
+    let [a, b, c] = base.map(|(x, y)| Vec3::new(x, y, 0.0));
+    let up = Vec3::Z * height;
+    let mut triangles = vec![[a, c, b], [a + up, b + up, c + up]];
+    for (p, q) in [(a, b), (b, c), (c, a)] {
+        triangles.extend([[p, q, q + up], [p, q + up, p + up]]);
+    }
+    triangles
+}
+
+/// A cube whose top is shifted by `lean` of its side.
+fn leaning(lean: f32) -> Triangles {
+    cube(10.0)
+        .iter()
+        .map(|corners| corners.map(|c| Vec3::new(c.x + c.z * lean, c.y, c.z)))
+        .collect()
+}
+
+/// A thick gyroid of `cells` periods a side inside a box, by marching tetrahedra on `steps` cubes a
+/// side. The coordinates depend on the machine's sine: for comparisons within one run.
+pub fn gyroid(cells: u32, steps: usize) -> Triangles {
+    let scale = std::f64::consts::TAU * f64::from(cells) / steps as f64;
+    let value = |p: [usize; 3]| {
+        let [x, y, z] = p.map(|i| i as f64 * scale);
+        let wall = (x.sin() * y.cos() + y.sin() * z.cos() + z.sin() * x.cos()).abs() - 0.4;
+        let is_border = p.iter().any(|&i| i == 0 || i == steps);
+        if is_border { wall.max(0.5) } else { wall }
+    };
+    // A corner of the surface on the edge between a point inside and one outside.
+    let crossing = |inside: [usize; 3], outside: [usize; 3]| {
+        let (p, q) = if inside < outside {
+            (inside, outside)
+        } else {
+            (outside, inside)
+        };
+        let (f, g) = (value(p), value(q));
+        let [p, q] = [p, q].map(|p| DVec3::from_array(p.map(|i| i as f64)));
+        (p + (q - p) * (f / (f - g))).as_vec3()
+    };
+    // The six tetrahedra of a cube around its diagonal, each a path along the three axes.
+    let paths = [
+        [0, 1, 2],
+        [0, 2, 1],
+        [1, 0, 2],
+        [1, 2, 0],
+        [2, 0, 1],
+        [2, 1, 0],
+    ];
+    let mut triangles = Vec::new();
+    for index in 0..steps * steps * steps {
+        let base = [index % steps, index / steps % steps, index / steps / steps];
+        for path in paths {
+            let mut corners = [base; 4];
+            for (step, axis) in path.into_iter().enumerate() {
+                for corner in &mut corners[step + 1..] {
+                    corner[axis] += 1;
+                }
+            }
+            let (inside, outside): (Vec<_>, Vec<_>) =
+                corners.into_iter().partition(|&corner| value(corner) < 0.0);
+            let edges: Vec<Vec3> = inside
+                .iter()
+                .flat_map(|&p| outside.iter().map(move |&q| (p, q)))
+                .map(|(p, q)| crossing(p, q))
+                .collect();
+            let faces: &[[usize; 3]] = match (inside.len(), outside.len()) {
+                (1, 3) | (3, 1) => &[[0, 1, 2]],
+                (2, 2) => &[[0, 1, 3], [0, 3, 2]],
+                _ => &[],
+            };
+            let middle = |points: &[[usize; 3]]| {
+                let sum: DVec3 = points
+                    .iter()
+                    .map(|p| DVec3::from_array(p.map(|i| i as f64)))
+                    .sum();
+                sum / points.len().max(1) as f64
+            };
+            let outward = middle(&outside) - middle(&inside);
+            for face in faces {
+                let [a, b, c] = face.map(|i| edges[i]);
+                let normal = (b - a).cross(c - a).as_dvec3();
+                triangles.push(if normal.dot(outward) < 0.0 {
+                    [a, c, b]
+                } else {
+                    [a, b, c]
+                });
+            }
+        }
+    }
+    triangles
+}
