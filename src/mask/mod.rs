@@ -4,19 +4,29 @@
 //! heights. All masks together are therefore a list of toggles, sorted by layer, as long as the list of
 //! hits; no mask is ever computed from scratch.
 
+use std::ops::Range;
+
 use crate::grid::Grid;
 use crate::ldi::{Ldi, for_each_solid_range};
 use crate::parallel;
 use crate::plan::Plan;
 
-/// Rays sorted together; bounds the memory of intermediate lists.
-const CHUNK_ROWS: usize = 128;
+/// Rows whose toggles are sorted together, by one thread.
+const BAND_ROWS: usize = 128;
 
 /// The masks of all layers of a plan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Masks {
     /// The pixels.
     pub grid: Grid,
+    layers: usize,
+    /// Toggles from the topmost rows down.
+    bands: Vec<Band>,
+}
+
+/// What changes between layers in some rows.
+#[derive(Debug, Clone, PartialEq)]
+struct Band {
     /// The toggles of layer k are `toggles[starts[k]..starts[k + 1]]`.
     starts: Vec<u32>,
     /// Pixels that change from the layer below, as bits of the padded mask.
@@ -26,53 +36,31 @@ pub struct Masks {
 impl Masks {
     /// The masks of `plan`: a pixel is lit where the middle of the layer lies inside the solid, from
     /// an entry (included) to an exit (excluded).
+    ///
+    /// Cost: linear in hits; memory is 4 bytes a toggle, of which there are at most as many as hits.
     pub fn new(ldi: &Ldi, plan: &Plan) -> Self {
         let layer_of = LayerOf::new(plan);
         let layers = plan.layers();
-        let width = ldi.grid.width as usize;
-        let row_bits = 8 * row_bytes(&ldi.grid) as u32;
-        let chunks: Vec<_> = (0..ldi.rays()).step_by(width * CHUNK_ROWS).collect();
-        // Layer and bit of each toggle, chunk by chunk.
-        let lists = parallel::map(chunks, |first| {
-            let mut list = Vec::new();
-            for ray in first..(first + width * CHUNK_ROWS).min(ldi.rays()) {
-                let bit = (ray / width) as u32 * row_bits + (ray % width) as u32;
-                for_each_solid_range(ldi.ray(ray), |z_in, z_out| {
-                    let (on, off) = (layer_of.first_above(z_in), layer_of.first_above(z_out));
-                    if on < off {
-                        list.push((on, bit));
-                        if (off as usize) < layers {
-                            list.push((off, bit));
-                        }
-                    }
-                });
-            }
-            list
+        let band_rays = ldi.grid.width as usize * BAND_ROWS;
+        let firsts = (0..ldi.rays()).step_by(band_rays).collect();
+        let bands = parallel::map(firsts, |first| {
+            Band::new(
+                ldi,
+                &layer_of,
+                layers,
+                first..(first + band_rays).min(ldi.rays()),
+            )
         });
-        let mut starts = vec![0u32; layers + 2];
-        for &(layer, _) in lists.iter().flatten() {
-            starts[layer as usize + 2] += 1;
-        }
-        for layer in 2..starts.len() {
-            starts[layer] += starts[layer - 1];
-        }
-        let mut toggles = vec![0u32; starts[layers + 1] as usize];
-        for (layer, bit) in lists.into_iter().flatten() {
-            let slot = &mut starts[layer as usize + 1];
-            toggles[*slot as usize] = bit;
-            *slot += 1;
-        }
-        starts.truncate(layers + 1);
         Self {
             grid: ldi.grid,
-            starts,
-            toggles,
+            layers,
+            bands,
         }
     }
 
     /// Number of layers.
     pub fn layers(&self) -> usize {
-        self.starts.len() - 1
+        self.layers
     }
 
     /// A cursor at the first layer.
@@ -85,6 +73,46 @@ impl Masks {
         };
         cursor.toggle(self, 0);
         cursor
+    }
+}
+
+impl Band {
+    /// Counts the toggles of each layer, then puts them in their places.
+    fn new(ldi: &Ldi, layer_of: &LayerOf, layers: usize, rays: Range<usize>) -> Self {
+        let for_each_toggle = |emit: &mut dyn FnMut(u32, usize)| {
+            for ray in rays.clone() {
+                for_each_solid_range(ldi.ray(ray), |z_in, z_out| {
+                    let (on, off) = (layer_of.first_above(z_in), layer_of.first_above(z_out));
+                    if on < off {
+                        emit(on, ray);
+                        emit(off, ray);
+                    }
+                });
+            }
+        };
+        // One slot ahead, so that filling moves the start of each layer to its place. What goes dark above
+        // the last layer has a slot behind it, which is cut off.
+        let mut starts = vec![0u32; layers + 3];
+        for_each_toggle(&mut |layer, _| starts[layer as usize + 2] += 1);
+        for layer in 2..starts.len() {
+            starts[layer] += starts[layer - 1];
+        }
+        let mut toggles = vec![0u32; starts[layers + 1] as usize];
+        let width = ldi.grid.width as usize;
+        let row_bits = 8 * row_bytes(&ldi.grid);
+        for_each_toggle(&mut |layer, ray| {
+            let slot = &mut starts[layer as usize + 1];
+            if let Some(toggle) = toggles.get_mut(*slot as usize) {
+                *toggle = (ray / width * row_bits + ray % width) as u32;
+                *slot += 1;
+            }
+        });
+        starts.truncate(layers + 1);
+        Self { starts, toggles }
+    }
+
+    fn of_layer(&self, layer: usize) -> &[u32] {
+        &self.toggles[self.starts[layer] as usize..self.starts[layer + 1] as usize]
     }
 }
 
@@ -127,8 +155,7 @@ impl MaskCursor {
     }
 
     fn toggle(&mut self, masks: &Masks, layer: usize) {
-        let toggles = masks.starts[layer] as usize..masks.starts[layer + 1] as usize;
-        for &toggle in &masks.toggles[toggles] {
+        for &toggle in masks.bands.iter().flat_map(|band| band.of_layer(layer)) {
             let byte = &mut self.bits[toggle as usize / 8];
             let bit = 0x80 >> (toggle % 8);
             *byte ^= bit;
