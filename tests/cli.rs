@@ -426,13 +426,26 @@ mod unix {
         }
     }
 
+    /// The command with signals as a terminal gives them: whatever runs the tests in the background may
+    /// have the interrupt ignored, and a child inherits that.
+    fn with_usual_signals() -> Command {
+        let cusp = env!("CARGO_BIN_EXE_cusp");
+        if cfg!(target_os = "linux") {
+            let mut command = Command::new("env");
+            command.args(["--default-signal", cusp]);
+            command
+        } else {
+            Command::new(cusp)
+        }
+    }
+
     #[test]
     fn an_interrupt_leaves_the_old_file_and_no_other() {
         let folder = TempDir::new().unwrap();
         let ball = model(&folder, "ball.stl", &binary_stl(&solids::sphere(10.0, 4)));
         let zip = model(&folder, "out.zip", b"precious");
         // Tens of thousands of layers: writing them all takes many seconds.
-        let mut child = Command::new(env!("CARGO_BIN_EXE_cusp"))
+        let mut child = with_usual_signals()
             .args(["slice", &ball, "-o", &zip, "--backend", "cpu"])
             .args([
                 "--planner",
