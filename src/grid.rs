@@ -218,7 +218,7 @@ impl Bins {
             count: 0,
             size_mm: bin_mm,
         };
-        let count = bins.ceil(height_mm - height_slack(height_mm, bin_mm) * bin_mm);
+        let count = bins.ceil(height_mm - height_slack(height_mm / bin_mm) * bin_mm);
         if count > MAX_BINS {
             return Err(GridError::TooManyBins { height_mm, bin_mm });
         }
@@ -231,7 +231,7 @@ impl Bins {
     /// The bin, from 0, that holds height `z_mm`; heights outside belong to the first and last bin.
     pub fn of(&self, z_mm: f64) -> usize {
         let bins = z_mm / self.size_mm;
-        let position = bins - (bins * HEIGHT_SLACK + ROUNDING_SLACK);
+        let position = bins - height_slack(bins);
         // Rounded up by hand: `ceil` is a library call on processors of the oldest kind.
         let below = position as usize;
         let bin = below + usize::from(position > below as f64);
@@ -255,7 +255,7 @@ impl Bins {
     }
 }
 
-/// By how many bins a height may be off and still be at a boundary.
-fn height_slack(z_mm: f64, bin_mm: f64) -> f64 {
-    z_mm / bin_mm * HEIGHT_SLACK + ROUNDING_SLACK
+/// By how many bins a height, itself in bins, may be off and still be at a boundary.
+fn height_slack(bins: f64) -> f64 {
+    bins * HEIGHT_SLACK + ROUNDING_SLACK
 }

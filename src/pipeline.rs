@@ -323,7 +323,7 @@ impl Slicer {
         })
     }
 
-    /// The profile of the last plan.
+    /// The profile that the last plan was made from, or was tried on if there is none.
     ///
     /// # Errors
     /// [`Error::NoPlan`].

@@ -179,6 +179,30 @@ fn output_that_would_be_black_is_an_error() {
 }
 
 #[test]
+fn black_layers_are_warned_of_once_however_often_the_plan_is_written() {
+    // A cone on its base: the tip is thinner than a pixel.
+    let mut slicer = load(&solids::cone(3.0, 4.0, 16));
+    plan(
+        &mut slicer,
+        &Options {
+            rays: 8,
+            ..options()
+        },
+    )
+    .unwrap();
+    for _ in 0..2 {
+        let (_, report) = slicer
+            .write_png_zip(Cursor::new(Vec::new()), &mut quiet)
+            .unwrap();
+        let black = report
+            .warnings
+            .iter()
+            .filter(|warning| warning.code == "black-layers");
+        assert_eq!(black.count(), 1);
+    }
+}
+
+#[test]
 fn auto_does_its_work_whatever_the_machine_has() {
     let mut slicer = load(&solids::cone(3.0, 4.0, 16));
     let on_cpu = plan(&mut slicer, &options()).unwrap();

@@ -95,9 +95,11 @@ pub fn write<W: Write + Seek>(
     }
     if black > 0 {
         let message = format!("{} of the plan are black", counted(black, "layer"));
-        report_of_plan
-            .warnings
-            .push(Warning::new("black-layers", message));
+        let warning = Warning::new("black-layers", message);
+        // The same plan may be written again.
+        if !report_of_plan.warnings.contains(&warning) {
+            report_of_plan.warnings.push(warning);
+        }
     }
     let manifest = Manifest {
         report: report_of_plan,

@@ -92,12 +92,16 @@ pub fn circle_area(quarter: u32) -> f64 {
         .sum()
 }
 
-/// An upright cylinder.
-pub fn cylinder(radius: f64, height: f64, quarter: u32) -> Triangles {
-    let rim: Vec<DVec2> = circle(quarter)
+fn rim(radius: f64, quarter: u32) -> Vec<DVec2> {
+    circle(quarter)
         .into_iter()
         .map(|point| point * radius)
-        .collect();
+        .collect()
+}
+
+/// An upright cylinder.
+pub fn cylinder(radius: f64, height: f64, quarter: u32) -> Triangles {
+    let rim = rim(radius, quarter);
     let at = |point: DVec2, z: f64| point.extend(z).as_vec3();
     let mut triangles = Vec::new();
     for (&p, &q) in rim.iter().zip(rim.iter().cycle().skip(1)) {
@@ -111,10 +115,7 @@ pub fn cylinder(radius: f64, height: f64, quarter: u32) -> Triangles {
 
 /// An upright cone on its base.
 pub fn cone(radius: f64, height: f64, quarter: u32) -> Triangles {
-    let rim: Vec<DVec2> = circle(quarter)
-        .into_iter()
-        .map(|point| point * radius)
-        .collect();
+    let rim = rim(radius, quarter);
     let at = |point: DVec2, z: f64| point.extend(z).as_vec3();
     let mut triangles = Vec::new();
     for (&p, &q) in rim.iter().zip(rim.iter().cycle().skip(1)) {
