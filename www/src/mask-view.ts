@@ -41,15 +41,6 @@ export class CuspMask extends LitElement {
         min-width: 0;
         height: 100%;
       }
-      .head {
-        display: flex;
-        flex-wrap: wrap;
-        align-items: center;
-        justify-content: space-between;
-        gap: 0.25rem 1rem;
-        min-height: 2.25rem;
-        margin-bottom: 0.75rem;
-      }
       .well {
         flex: 1;
         display: grid;

@@ -40,15 +40,6 @@ export class CuspChart extends LitElement {
         display: block;
         min-width: 0;
       }
-      .head {
-        display: flex;
-        flex-wrap: wrap;
-        align-items: center;
-        justify-content: space-between;
-        gap: 0.25rem 1rem;
-        min-height: 2.25rem;
-        margin-bottom: 0.75rem;
-      }
       .legend {
         display: flex;
         white-space: nowrap;
@@ -89,14 +80,6 @@ export class CuspChart extends LitElement {
         top: -6px;
         border: 5px solid transparent;
         border-left: 7px solid var(--cusp-text);
-      }
-      .foot {
-        display: flex;
-        flex-wrap: wrap;
-        align-items: center;
-        justify-content: space-between;
-        gap: 0.25rem 1rem;
-        min-height: 2.25rem;
       }
       @media (max-width: 640px) {
         .plot {

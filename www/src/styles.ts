@@ -90,6 +90,18 @@ export const shared = css`
     text-decoration: underline;
     text-underline-offset: 0.2em;
   }
+  .head,
+  .foot {
+    display: flex;
+    flex-wrap: wrap;
+    align-items: center;
+    justify-content: space-between;
+    gap: 0.25rem 1rem;
+    min-height: 2.25rem;
+  }
+  .head {
+    margin-bottom: 0.75rem;
+  }
   :focus-visible {
     outline: 3px solid var(--cusp-focus);
     outline-offset: 2px;
