@@ -2,13 +2,10 @@
 //! ray.
 
 use super::projection::{ProjectedFacet, Projection};
-use super::{Hit, LdiError};
+use super::{CHUNK_RAYS, Hit, LdiError};
 use crate::grid::Grid;
 use crate::parallel::map_in_groups;
 use crate::progress::Progress;
-
-/// Rays that one thread works on at a time.
-const CHUNK_RAYS: usize = 1 << 16;
 
 /// Turns `offsets`, which holds the number of hits of ray i at i + 1 and 0 at 0, into offsets.
 ///
@@ -88,7 +85,7 @@ pub(super) fn hits_of_facets(
                 let facets = &facets[ray[0] as usize..ray[1] as usize];
                 for (hit, &index) in hits[places].iter_mut().zip(facets) {
                     if let Some(facet) = recent.get(index) {
-                        *hit = Hit::new(facet.height_at(column, row), index, facet.faces_up);
+                        *hit = Hit::new(facet.heights(row).at(column), index, facet.faces_up);
                     }
                 }
             }

@@ -113,10 +113,10 @@ fn count_band(
     let rows = rows_of(band, grid);
     let width = grid.width as usize;
     for &facet in facets {
-        let Some(facet) = projection.facet(facet as usize) else {
+        let Some(outline) = projection.outline(facet as usize) else {
             continue;
         };
-        facet.for_each_span(rows.clone(), |row, columns| {
+        outline.for_each_span(rows.clone(), |row, columns| {
             let start = (row - rows.start) as usize * width;
             let counts = &mut counts[start..start + width];
             counts[columns.start as usize] = counts[columns.start as usize].wrapping_add(1);
@@ -151,13 +151,13 @@ fn fill_band(
         let Some(facet) = projection.facet(index as usize) else {
             continue;
         };
-        facet.for_each_span(rows.clone(), |row, columns| {
+        facet.outline.for_each_span(rows.clone(), |row, columns| {
+            let heights = facet.heights(row);
             let start = (row - rows.start) as usize * width;
             let cursors =
                 &mut cursors[start + columns.start as usize..start + columns.end as usize];
             for (column, cursor) in columns.zip(cursors) {
-                let z_mm = facet.height_at(column, row);
-                hits[*cursor as usize] = Hit::new(z_mm, index, facet.faces_up);
+                hits[*cursor as usize] = Hit::new(heights.at(column), index, facet.faces_up);
                 *cursor += 1;
             }
         });

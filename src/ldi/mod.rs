@@ -15,7 +15,11 @@ use serde::Serialize;
 
 use crate::grid::Grid;
 use crate::mesh::Mesh;
+use crate::parallel;
 use crate::progress::Cancelled;
+
+/// Rays that one thread works on at a time.
+const CHUNK_RAYS: usize = 1 << 16;
 
 /// Why no LDI could be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
@@ -155,10 +159,20 @@ impl Ldi {
         if mesh.first_cap == mesh.facets.len() {
             return 0;
         }
-        let is_cap = |hit: &Hit| hit.facet() as usize >= mesh.first_cap;
-        (0..self.rays())
-            .filter(|&ray| self.ray(ray).iter().any(is_cap))
-            .count()
+        let first_cap = mesh.first_cap as u32;
+        let passes_cap = |ray: &[u32]| {
+            let hits = &self.hits[ray[0] as usize..ray[1] as usize];
+            hits.iter().any(|hit| hit.facet() >= first_cap)
+        };
+        let chunks = (0..self.rays()).step_by(CHUNK_RAYS).map(|first| {
+            let last = (first + CHUNK_RAYS).min(self.rays());
+            &self.offsets[first..=last]
+        });
+        parallel::map(chunks.collect(), |offsets: &[u32]| {
+            offsets.windows(2).filter(|ray| passes_cap(ray)).count()
+        })
+        .into_iter()
+        .sum()
     }
 }
 

@@ -58,13 +58,15 @@ impl<'a> Projection<'a> {
     pub fn facet(&self, facet: usize) -> Option<ProjectedFacet> {
         let vertices = self.mesh.facets[facet];
         let corners = vertices.map(|vertex| self.positions[vertex as usize].map(i64::from));
-        let [a, b, c] = corners;
-        let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-        if area == 0 {
-            return None;
-        }
+        let outline = Outline::of(corners)?;
         let z = vertices.map(|vertex| self.mesh.vertices[vertex as usize].z);
-        Some(ProjectedFacet::new(corners, z, area))
+        Some(ProjectedFacet::new(outline, corners, z))
+    }
+
+    /// What a facet covers, or `None` if it is edge-on to the rays after snapping.
+    pub fn outline(&self, facet: usize) -> Option<Outline> {
+        let vertices = self.mesh.facets[facet];
+        Outline::of(vertices.map(|vertex| self.positions[vertex as usize].map(i64::from)))
     }
 
     /// The rows whose pixel centres a facet may cover.
@@ -77,19 +79,96 @@ impl<'a> Projection<'a> {
 
 /// The first pixel whose centre is at or after `position` lattice steps.
 fn first_centre(position: i64) -> i64 {
-    ceil_div(position - HALF, STEPS)
+    -(HALF - position).div_euclid(STEPS)
 }
 
-/// ⌈numerator / denominator⌉ for a positive denominator.
-fn ceil_div(numerator: i64, denominator: i64) -> i64 {
-    -(-numerator).div_euclid(denominator)
+/// ⌈numerator / denominator⌉ for a positive denominator, with what it is above the exact quotient:
+/// 0 ≤ remainder < denominator. Both are below 2⁵¹, so that the estimate in double precision, several
+/// times quicker than a division of integers, is at most one off.
+fn ceil_div_rem(numerator: i64, denominator: i64) -> (i64, i64) {
+    let mut quotient = (numerator as f64 / denominator as f64) as i64;
+    let mut remainder = quotient * denominator - numerator;
+    if remainder < 0 {
+        quotient += 1;
+        remainder += denominator;
+    } else if remainder >= denominator {
+        quotient -= 1;
+        remainder -= denominator;
+    }
+    (quotient, remainder)
 }
 
-/// A facet that is not edge-on to the rays.
+/// The outline of a facet that is not edge-on to the rays: which pixel centres it covers.
 #[derive(Debug, Clone, Copy)]
-pub struct ProjectedFacet {
+pub struct Outline {
     /// Corners by row, then column, in lattice steps.
     corners: [[i64; 2]; 3],
+    /// Twice the area with the sign of the facet's winding, in lattice steps squared.
+    area: i64,
+    /// Whether the middle corner is left of the edge between the others.
+    bend_is_left: bool,
+}
+
+impl Outline {
+    fn of(corners: [[i64; 2]; 3]) -> Option<Self> {
+        let [a, b, c] = corners;
+        let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        if area == 0 {
+            return None;
+        }
+        let mut corners = corners;
+        for (upper, lower) in [(0, 1), (1, 2), (0, 1)] {
+            let [p, q] = [corners[upper], corners[lower]];
+            if (p[1], p[0]) > (q[1], q[0]) {
+                corners.swap(upper, lower);
+            }
+        }
+        let [top, middle, bottom] = corners;
+        let turn = (middle[0] - top[0]) * (bottom[1] - top[1])
+            - (middle[1] - top[1]) * (bottom[0] - top[0]);
+        Some(Self {
+            corners,
+            area,
+            bend_is_left: turn < 0,
+        })
+    }
+
+    /// Calls `emit(row, columns)` for every row of `rows` in which pixel centres are covered.
+    pub fn for_each_span(&self, rows: Range<u32>, mut emit: impl FnMut(u32, Range<u32>)) {
+        let [top, middle, bottom] = self.corners;
+        let first = first_centre(top[1]).max(i64::from(rows.start));
+        let end = first_centre(bottom[1]).min(i64::from(rows.end));
+        if first >= end {
+            return;
+        }
+        let bend = first_centre(middle[1]).clamp(first, end);
+        let mut long = Edge::new(top, bottom, first);
+        for (from, to, first, end) in [(top, middle, first, bend), (middle, bottom, bend, end)] {
+            if first == end {
+                continue;
+            }
+            let mut short = Edge::new(from, to, first);
+            for row in first..end {
+                let columns = if self.bend_is_left {
+                    short.column..long.column
+                } else {
+                    long.column..short.column
+                };
+                if columns.start < columns.end {
+                    emit(row as u32, columns.start as u32..columns.end as u32);
+                }
+                short.step();
+                long.step();
+            }
+        }
+    }
+}
+
+/// A facet that is not edge-on to the rays, with its heights.
+#[derive(Debug, Clone, Copy)]
+pub struct ProjectedFacet {
+    /// Which pixel centres it covers.
+    pub outline: Outline,
     /// Height at the first corner, and its change a lattice step to the right and downward.
     z: f64,
     z_per_column: f64,
@@ -100,23 +179,22 @@ pub struct ProjectedFacet {
 }
 
 impl ProjectedFacet {
-    fn new(corners: [[i64; 2]; 3], z: [f32; 3], area: i64) -> Self {
+    fn new(outline: Outline, corners: [[i64; 2]; 3], z: [f32; 3]) -> Self {
         let [a, b, c] = corners;
+        let area = outline.area;
         let heights = z.map(f64::from);
         let [dzb, dzc] = [heights[1] - heights[0], heights[2] - heights[0]];
         let [bx, by] = [(b[0] - a[0]) as f64, (b[1] - a[1]) as f64];
         let [cx, cy] = [(c[0] - a[0]) as f64, (c[1] - a[1]) as f64];
         let z_per_column = (dzb * cy - dzc * by) / area as f64;
         let z_per_row = (dzc * bx - dzb * cx) / area as f64;
-        let mut corners = corners;
-        corners.sort_unstable_by_key(|&[x, y]| (y, x));
         // Height is carried to the first corner in row order; a is where the plane is exact.
-        let first = corners[0];
+        let first = outline.corners[0];
         let z_first = heights[0]
             + (first[0] - a[0]) as f64 * z_per_column
             + (first[1] - a[1]) as f64 * z_per_row;
         Self {
-            corners,
+            outline,
             z: z_first,
             z_per_column,
             z_per_row,
@@ -129,41 +207,37 @@ impl ProjectedFacet {
         }
     }
 
-    /// Calls `emit(row, columns)` for every row of `rows` in which pixel centres are covered.
-    pub fn for_each_span(&self, rows: Range<u32>, mut emit: impl FnMut(u32, Range<u32>)) {
-        let [top, middle, bottom] = self.corners;
-        let cross = (middle[0] - top[0]) * (bottom[1] - top[1])
-            - (middle[1] - top[1]) * (bottom[0] - top[0]);
-        let bend_is_left = cross < 0;
-        for (from, to) in [(top, middle), (middle, bottom)] {
-            let first = first_centre(from[1]).max(i64::from(rows.start));
-            let end = first_centre(to[1]).min(i64::from(rows.end));
-            if first >= end {
-                continue;
-            }
-            let mut short = Edge::new(from, to, first);
-            let mut long = Edge::new(top, bottom, first);
-            for row in first..end {
-                let (left, right) = if bend_is_left {
-                    (&short, &long)
-                } else {
-                    (&long, &short)
-                };
-                if left.column < right.column {
-                    emit(row as u32, left.column as u32..right.column as u32);
-                }
-                short.step();
-                long.step();
-            }
+    /// The heights of the facet over the pixel centres of a row.
+    pub fn heights(&self, row: u32) -> RowHeights {
+        let [x, y] = self.outline.corners[0];
+        let rows = i64::from(row) * STEPS + HALF - y;
+        RowHeights {
+            z: self.z + rows as f64 * self.z_per_row,
+            z_per_step: self.z_per_column,
+            z_range: self.z_range,
+            origin: HALF - x,
         }
     }
+}
 
-    /// Height of the facet over a pixel centre, in millimetres.
-    pub fn height_at(&self, column: u32, row: u32) -> f32 {
-        let x = i64::from(column) * STEPS + HALF - self.corners[0][0];
-        let y = i64::from(row) * STEPS + HALF - self.corners[0][1];
-        let z = self.z + x as f64 * self.z_per_column + y as f64 * self.z_per_row;
-        z.clamp(self.z_range[0], self.z_range[1]) as f32
+/// The heights of a facet along a row of pixels.
+#[derive(Debug, Clone, Copy)]
+pub struct RowHeights {
+    /// Height at the column of the facet's first corner, and its change a lattice step.
+    z: f64,
+    z_per_step: f64,
+    z_range: [f64; 2],
+    /// The first pixel's centre as seen from that corner, in lattice steps.
+    origin: i64,
+}
+
+impl RowHeights {
+    /// Height over the pixel centre of a column, in millimetres.
+    pub fn at(&self, column: u32) -> f32 {
+        // At most 2²³ lattice steps either way.
+        let steps = (i64::from(column) * STEPS + self.origin) as i32;
+        let z = self.z + f64::from(steps) * self.z_per_step;
+        z.max(self.z_range[0]).min(self.z_range[1]) as f32
     }
 }
 
@@ -184,15 +258,14 @@ impl Edge {
         let y = row * STEPS + HALF;
         let numerator = (from[0] - HALF) * dy + (y - from[1]) * dx;
         let denominator = dy * STEPS;
-        let column = ceil_div(numerator, denominator);
-        let rise = dx * STEPS;
-        let step = ceil_div(rise, denominator);
+        let (column, remainder) = ceil_div_rem(numerator, denominator);
+        let (step, step_remainder) = ceil_div_rem(dx * STEPS, denominator);
         Self {
             column,
-            remainder: column * denominator - numerator,
+            remainder,
             denominator,
             step,
-            step_remainder: step * denominator - rise,
+            step_remainder,
         }
     }
 
