@@ -1,4 +1,4 @@
-//! How long sampling takes, by facets, rays and backend: `cargo xtask bench ldi`.
+//! How long sampling takes, by facets, rays and backend: `cargo xtask bench ldi [MODEL.stl …]`.
 //!
 //! Prints a table in Markdown. Times are the least of several runs; the growth exponent is that of time against
 //! facets + hits, fitted over all sizes of at least a million of both together.
@@ -10,9 +10,11 @@ mod solids;
 use std::time::Instant;
 
 use cusp_slicer::grid::Grid;
-use cusp_slicer::ldi::{Hit, Ldi, cpu, gpu};
+use cusp_slicer::ldi::gpu::{self, Gpu};
+use cusp_slicer::ldi::{Hit, Ldi, cpu};
 use cusp_slicer::mesh::Mesh;
 use cusp_slicer::progress::silent;
+use cusp_slicer::stl;
 use glam::Vec3;
 
 /// Time spent on one cell of the table at most, but for its first run.
@@ -65,35 +67,35 @@ fn slope(points: &[(f64, f64)]) -> f64 {
 }
 
 fn main() {
+    let device = pollster::block_on(Gpu::open(gpu::Adapters::Any));
     let gpu = |mesh: &Mesh, grid: &Grid| {
+        let device = device.as_ref().ok()?;
         let mut progress = silent;
-        let job = gpu::sample(
-            mesh,
-            grid,
-            gpu::Adapters::Any,
-            gpu::Tiling::default(),
-            &mut progress,
-        );
-        pollster::block_on(job)
+        let job = gpu::sample(mesh, grid, device, gpu::Tiling::default(), &mut progress);
+        pollster::block_on(job).ok()
     };
-    let cube = Mesh::from_triangles(&solids::cube(1.0))
-        .unwrap()
-        .on_plate(None)
-        .unwrap();
-    let adapter = gpu(&cube, &Grid::around(&cube.bounds(), 8).unwrap()).map(|(_, adapter)| adapter);
-    match &adapter {
-        Ok(adapter) => println!("GPU: {adapter}, with start-up and read-back\n"),
+    match &device {
+        Ok(device) => println!("GPU: {}, with read-back\n", device.name()),
         Err(error) => println!("{error}\n"),
     }
     println!("| facets | rays | hits | CPU ms | hits/µs | bytes/hit | GPU ms |");
     println!("|---:|---:|---:|---:|---:|---:|---:|");
     let mut points = Vec::new();
-    for (columns, layers, levels) in [(1, 1, 5), (1, 1, 7), (2, 2, 7), (2, 10, 7)] {
-        let triangles = balls(columns, layers, levels);
-        let mesh = Mesh::from_triangles(&triangles)
-            .unwrap()
-            .on_plate(None)
-            .unwrap();
+    let generated = [(1, 1, 5), (1, 1, 7), (2, 2, 7), (2, 10, 7)]
+        .map(|(columns, layers, levels)| Mesh::from_triangles(&balls(columns, layers, levels)));
+    // Models named on the command line, 60 mm high, come first.
+    let named = std::env::args()
+        .skip(1)
+        .filter(|argument| !argument.starts_with('-'));
+    let named =
+        named.map(|path| Mesh::from_triangles(&stl::read(&std::fs::read(path).unwrap()).unwrap()));
+    let models = named.map(|mesh| mesh.unwrap().on_plate(Some(60.0)));
+    for mesh in models.chain(
+        generated
+            .into_iter()
+            .map(|mesh| mesh.unwrap().on_plate(None)),
+    ) {
+        let mesh = mesh.unwrap();
         for side in [512, 2048, 8192] {
             let grid = Grid::around(&mesh.bounds(), side).unwrap();
             let (seconds, ldi) = time(|| cpu::sample(&mesh, &grid, &mut silent).unwrap());
@@ -102,10 +104,10 @@ fn main() {
                 points.push((work.ln(), seconds.ln()));
             }
             // An emulated GPU takes minutes for the largest.
-            let on_gpu = if adapter.is_ok() && work < 2e7 {
+            let on_gpu = if device.is_ok() && work < 2e7 {
                 let (seconds, result) = time(|| gpu(&mesh, &grid));
                 assert!(
-                    result.is_ok_and(|(found, _)| found == ldi),
+                    result.is_some_and(|found| found == ldi),
                     "the backends differ"
                 );
                 format!("{:.0}", seconds * 1e3)

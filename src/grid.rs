@@ -176,6 +176,32 @@ impl Grid {
         })
     }
 
+    /// The part of the grid that covers the model, with a margin for rounding: only there can rays meet it.
+    #[must_use]
+    pub fn around_model(&self, bounds: &Bounds) -> Self {
+        let first = self.to_pixels(DVec2::new(bounds.min.x, bounds.max.y));
+        let last = self.to_pixels(DVec2::new(bounds.max.x, bounds.min.y));
+        let within = |first: f64, last: f64, side: u32| {
+            let first = (first - 1.0).floor().clamp(0.0, f64::from(side - 1));
+            let last = (last + 1.0).ceil().clamp(first + 1.0, f64::from(side));
+            (first, (last - first) as u32)
+        };
+        let (column, width) = within(first.x, last.x, self.width);
+        let (row, height) = within(first.y, last.y, self.height);
+        Self {
+            width,
+            height,
+            pitch_mm: self.pitch_mm,
+            corner_mm: self.corner_mm + DVec2::new(column, -row) * self.pitch_mm,
+        }
+    }
+
+    /// Column and row of the first pixel of `part`, which [`Self::around_model`] made.
+    pub fn offset_of(&self, part: &Self) -> [u32; 2] {
+        let offset = self.to_pixels(part.corner_mm).round();
+        [offset.x as u32, offset.y as u32]
+    }
+
     /// Number of pixels, and of rays.
     pub fn pixels(&self) -> usize {
         self.width as usize * self.height as usize

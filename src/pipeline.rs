@@ -9,11 +9,13 @@ use web_time::Instant;
 use crate::archive::png_zip;
 use crate::error::Error;
 use crate::grid::{Bins, Grid};
-use crate::ldi::{Ldi, LdiError, cpu, gpu};
+use crate::ldi::gpu::{self, Gpu};
+use crate::ldi::{Ldi, LdiError, cpu};
 use crate::mask::{MaskCursor, Masks};
 use crate::mesh::Mesh;
 use crate::plan::{Limits, Plan, PlanError, optimal, uniform};
 use crate::profile::{ErrorSum, Metric, Profile, cusp};
+use crate::progress::Progress;
 use crate::report::{MaskReport, MeshInfo, Report, Timings, UniformReport, Warning, mesh_warnings};
 use crate::stl;
 
@@ -132,6 +134,7 @@ impl Default for Options {
 pub struct Slicer {
     model: Mesh,
     load_ms: f64,
+    gpu: Option<Gpu>,
     sampled: Option<Sampled>,
     planned: Option<Planned>,
 }
@@ -142,6 +145,8 @@ struct Sampled {
     options: SamplingOptions,
     mesh: Mesh,
     height_mm: f64,
+    /// The masks' pixels; the LDI has rays only where the model is.
+    grid: Grid,
     ldi: Ldi,
     adapter: Option<String>,
     warnings: Vec<Warning>,
@@ -168,9 +173,17 @@ impl Slicer {
         Ok(Self {
             model,
             load_ms: ms_since(clock),
+            gpu: None,
             sampled: None,
             planned: None,
         })
+    }
+
+    /// Samples on `gpu` from now on, where the options do not ask for the CPU.
+    #[must_use]
+    pub fn with_gpu(mut self, gpu: Gpu) -> Self {
+        self.gpu = Some(gpu);
+        self
     }
 
     /// Describes the model as it stands in its file.
@@ -246,7 +259,7 @@ impl Slicer {
     }
 
     async fn sample(
-        &self,
+        &mut self,
         options: &Options,
         timings: &mut Timings,
         progress: &mut StageProgress<'_>,
@@ -268,28 +281,18 @@ impl Slicer {
         let clock = Instant::now();
         let mut ldi_progress = |fraction| progress(Stage::Ldi, fraction);
         let mut warnings = mesh_warnings(&mesh);
-        let adapters = match options.backend {
-            Backend::Cpu => None,
-            Backend::Gpu => Some(gpu::Adapters::Any),
-            Backend::Auto => Some(gpu::Adapters::Hardware),
-        };
-        let sampled_on_gpu = match adapters {
-            Some(adapters) => {
-                let tiling = gpu::Tiling::default();
-                Some(gpu::sample(&mesh, &grid, adapters, tiling, &mut ldi_progress).await)
-            }
-            None => None,
-        };
-        let (ldi, adapter) = match sampled_on_gpu {
-            Some(Ok((ldi, adapter))) => (ldi, Some(adapter)),
-            Some(Err(error @ LdiError::Cancelled(_))) => return Err(error.into()),
-            Some(Err(error)) if options.backend == Backend::Gpu => return Err(error.into()),
-            failed => {
-                if let Some(Err(LdiError::GpuFailed { reason })) = failed {
-                    let message = format!("the GPU failed, so the CPU did its work: {reason}");
-                    warnings.push(Warning::new("gpu-failed", message));
+        let rays = grid.around_model(&bounds);
+        let on_gpu = self.sample_on_gpu(&mesh, &rays, options, &mut ldi_progress);
+        let (ldi, adapter) = match on_gpu.await {
+            Ok((ldi, adapter)) => (ldi, Some(adapter)),
+            Err(error @ LdiError::Cancelled(_)) => return Err(error.into()),
+            Err(error) if options.backend == Backend::Gpu => return Err(error.into()),
+            Err(error) => {
+                if !matches!(error, LdiError::NoGpu { .. }) {
+                    let message = format!("the CPU did the work of the GPU: {error}");
+                    warnings.push(Warning::new(error.code(), message));
                 }
-                (cpu::sample(&mesh, &grid, &mut ldi_progress)?, None)
+                (cpu::sample(&mesh, &rays, &mut ldi_progress)?, None)
             }
         };
         if ldi.hits.is_empty() {
@@ -316,11 +319,38 @@ impl Slicer {
             options,
             mesh,
             height_mm,
+            grid,
             ldi,
             adapter,
             warnings,
             profile: None,
         })
+    }
+
+    /// The LDI by the GPU, and its name. A GPU that failed is not tried again.
+    async fn sample_on_gpu(
+        &mut self,
+        mesh: &Mesh,
+        rays: &Grid,
+        options: &Options,
+        progress: &mut Progress<'_>,
+    ) -> Result<(Ldi, String), LdiError> {
+        let adapters = match options.backend {
+            Backend::Cpu => {
+                let reason = "the CPU was asked for".to_owned();
+                return Err(LdiError::NoGpu { reason });
+            }
+            Backend::Gpu => gpu::Adapters::Any,
+            Backend::Auto => gpu::Adapters::Hardware,
+        };
+        let gpu = match self.gpu.take() {
+            Some(gpu) => gpu,
+            None => Gpu::open(adapters).await?,
+        };
+        let ldi = gpu::sample(mesh, rays, &gpu, gpu::Tiling::default(), progress).await?;
+        let name = gpu.name().to_owned();
+        self.gpu = Some(gpu);
+        Ok((ldi, name))
     }
 
     /// The profile that the last plan was made from, or was tried on if there is none.
@@ -343,7 +373,7 @@ impl Slicer {
             let reason = format!("there is no layer {layer}; the plan has {layers}, from 0");
             return Err(Error::Options { reason });
         }
-        let (masks, cursor) = planned.masks(&sampled.ldi);
+        let (masks, cursor) = planned.masks(sampled);
         cursor.seek(masks, layer);
         Ok(cursor.bits())
     }
@@ -360,7 +390,7 @@ impl Slicer {
     ) -> Result<(W, &Report), Error> {
         let clock = Instant::now();
         let (sampled, planned) = self.sampled_and_planned()?;
-        planned.masks(&sampled.ldi);
+        planned.masks(sampled);
         let Planned {
             report,
             masks: Some((masks, _)),
@@ -385,9 +415,9 @@ impl Slicer {
 }
 
 impl Planned {
-    fn masks(&mut self, ldi: &Ldi) -> &mut (Masks, MaskCursor) {
+    fn masks(&mut self, sampled: &Sampled) -> &mut (Masks, MaskCursor) {
         self.masks.get_or_insert_with(|| {
-            let masks = Masks::new(ldi, &self.plan);
+            let masks = Masks::new(&sampled.ldi, &self.plan, &sampled.grid);
             let cursor = masks.cursor();
             (masks, cursor)
         })
@@ -506,9 +536,9 @@ fn report_of(
         hits: sampled.ldi.hits.len(),
         uniform,
         mask: MaskReport {
-            width: sampled.ldi.grid.width,
-            height: sampled.ldi.grid.height,
-            pitch_mm: sampled.ldi.grid.pitch_mm,
+            width: sampled.grid.width,
+            height: sampled.grid.height,
+            pitch_mm: sampled.grid.pitch_mm,
         },
         warnings,
         timings_ms,

@@ -3,32 +3,33 @@
 
 mod common;
 
-use common::{on_plate, solids};
+use std::ops::ControlFlow;
+
+use common::{binary_stl, on_plate, quiet, shifted_grid, solids};
 use cusp_slicer::grid::Grid;
-use cusp_slicer::ldi::{Ldi, LdiError, cpu, gpu};
+use cusp_slicer::ldi::gpu::{self, Gpu};
+use cusp_slicer::ldi::{LdiError, cpu};
+use cusp_slicer::pipeline::{Backend, Options, Slicer, Stage, StageProgress};
 use cusp_slicer::progress::silent;
 use libtest_mimic::{Arguments, Completion, Failed, Trial};
 
-fn sample_both(
+/// Samples on both backends; the pixels lie `shift` pixels off those that just cover the model.
+fn compare(
     triangles: &solids::Triangles,
     rays: u32,
+    shift: [f64; 2],
     tiling: gpu::Tiling,
-) -> Result<(Ldi, Ldi, String), LdiError> {
+) -> Result<(), Failed> {
     let mesh = on_plate(triangles);
-    let grid = Grid::around(&mesh.bounds(), rays).unwrap();
+    let grid = shifted_grid(&mesh, rays, shift);
     let expected = cpu::sample(&mesh, &grid, &mut silent)?;
-    let mut progress = silent;
-    let job = gpu::sample(&mesh, &grid, gpu::Adapters::Any, tiling, &mut progress);
-    let (found, adapter) = pollster::block_on(job)?;
-    Ok((expected, found, adapter))
-}
-
-fn compare(triangles: &solids::Triangles, rays: u32, tiling: gpu::Tiling) -> Result<(), Failed> {
-    let (expected, found, adapter) = sample_both(triangles, rays, tiling)?;
+    let gpu = pollster::block_on(Gpu::open(gpu::Adapters::Any))?;
+    let found = pollster::block_on(gpu::sample(&mesh, &grid, &gpu, tiling, &mut silent))?;
     let differing = (0..expected.rays()).find(|&ray| expected.ray(ray) != found.ray(ray));
     match differing {
         Some(ray) => Err(format!(
-            "ray {ray} differs on {adapter}: {:?} against {:?}",
+            "ray {ray} differs on {}: {:?} against {:?}",
+            gpu.name(),
             found.ray(ray),
             expected.ray(ray)
         )
@@ -44,43 +45,161 @@ fn tests() -> Vec<(String, Test)> {
     let small = gpu::Tiling { side: 77 };
     let mut tests: Vec<(String, Test)> = Vec::new();
     for (name, triangles) in solids::all() {
-        let same = triangles.clone();
-        let title = format!("gpu equals cpu on the {name}");
-        tests.push((title, Box::new(move || compare(&triangles, 300, whole))));
+        let tiled = triangles.clone();
         let title = format!("tiles have no seams on the {name}");
-        tests.push((title, Box::new(move || compare(&same, 200, small))));
+        tests.push((
+            title,
+            Box::new(move || compare(&tiled, 200, [0.0; 2], small)),
+        ));
+        add_variants(&mut tests, &format!("the {name}"), &triangles, 300);
     }
     for (name, triangles, rays) in solids::torture() {
-        let variants = [
-            ("", triangles.clone()),
-            (", mirrored", solids::mirrored(&triangles)),
-            (", turned", solids::turned(&triangles)),
-            (", shuffled", solids::shuffled(&triangles)),
-        ];
-        for (variant, triangles) in variants {
-            let title = format!("gpu equals cpu on {name}{variant}");
-            tests.push((title, Box::new(move || compare(&triangles, rays, whole))));
-        }
+        add_variants(&mut tests, name, &triangles, rays);
     }
     tests.push((
         "gpu equals cpu on large facets".to_owned(),
-        Box::new(move || compare(&solids::cone(9.0, 14.0, 4), 2500, whole)),
+        Box::new(move || compare(&solids::cone(9.0, 14.0, 4), 2500, [0.0; 2], whole)),
     ));
     tests.push((
         "gpu equals cpu on needles".to_owned(),
-        Box::new(move || compare(&solids::cylinder(9.0, 1.0, 400), 1200, whole)),
+        Box::new(move || compare(&solids::cylinder(9.0, 1.0, 400), 1200, [0.0; 2], whole)),
     ));
     tests.push((
         "tiles have no seams on large facets".to_owned(),
-        Box::new(|| compare(&solids::cone(9.0, 14.0, 4), 2500, gpu::Tiling { side: 640 })),
+        Box::new(|| {
+            let tiling = gpu::Tiling { side: 640 };
+            compare(&solids::cone(9.0, 14.0, 4), 2500, [0.0; 2], tiling)
+        }),
+    ));
+    tests.push((
+        "a lost device hands its work to the cpu".to_owned(),
+        Box::new(|| lose(pollster::block_on(Gpu::open(gpu::Adapters::Any))?)),
+    ));
+    tests.push((
+        // As it does where there is not enough memory for a buffer.
+        "a gpu that reports an error hands its work to the cpu".to_owned(),
+        Box::new(|| upset(pollster::block_on(Gpu::open(gpu::Adapters::Any))?)),
+    ));
+    tests.push((
+        "a gpu with small buffers hands its work to the cpu".to_owned(),
+        Box::new(|| plans_with_warning(with_buffers_of(1 << 10)?, "gpu-too-small", &mut quiet)),
+    ));
+    tests.push((
+        "small buffers make small tiles".to_owned(),
+        Box::new(|| {
+            let mesh = on_plate(&solids::sphere(5.0, 4));
+            let grid = Grid::around(&mesh.bounds(), 200)?;
+            let gpu = with_buffers_of(1 << 15)?;
+            let mut progress = silent;
+            let job = gpu::sample(&mesh, &grid, &gpu, gpu::Tiling::default(), &mut progress);
+            let same = pollster::block_on(job)? == cpu::sample(&mesh, &grid, &mut silent)?;
+            same.then_some(()).ok_or("the backends differ".into())
+        }),
     ));
     tests
 }
 
+/// The same solid as it stands, mirrored, turned, with its facets in another order, and between pixels.
+fn add_variants(
+    tests: &mut Vec<(String, Test)>,
+    name: &str,
+    triangles: &solids::Triangles,
+    rays: u32,
+) {
+    let none = [0.0; 2];
+    for (variant, triangles, shift) in [
+        ("", triangles.clone(), none),
+        (", mirrored", solids::mirrored(triangles), none),
+        (", turned", solids::turned(triangles), none),
+        (", shuffled", solids::shuffled(triangles), none),
+        (", shifted", triangles.clone(), [0.371, -0.618]),
+    ] {
+        let title = format!("gpu equals cpu on {name}{variant}");
+        let whole = gpu::Tiling::default();
+        tests.push((
+            title,
+            Box::new(move || compare(&triangles, rays, shift, whole)),
+        ));
+    }
+}
+
+fn with_buffers_of(bytes: u64) -> Result<Gpu, Failed> {
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+    let adapter = pollster::block_on(instance.request_adapter(&Default::default()))?;
+    let device = adapter.request_device(&wgpu::DeviceDescriptor {
+        required_limits: wgpu::Limits {
+            max_storage_buffer_binding_size: bytes,
+            ..Default::default()
+        },
+        ..Default::default()
+    });
+    let (device, queue) = pollster::block_on(device)?;
+    Ok(Gpu::with_device(adapter.get_info().name, device, queue))
+}
+
+/// Makes the device report an error that no call returns, in the middle of the job.
+fn upset(gpu: Gpu) -> Result<(), Failed> {
+    let device = gpu.device().clone();
+    let mut progress = move |stage: Stage, _: f64| {
+        if stage == Stage::Ldi {
+            let _ = device.create_buffer(&wgpu::BufferDescriptor {
+                label: None,
+                size: u64::MAX,
+                usage: wgpu::BufferUsages::STORAGE,
+                mapped_at_creation: false,
+            });
+        }
+        ControlFlow::Continue(())
+    };
+    plans_with_warning(gpu, "gpu-failed", &mut progress)
+}
+
+/// Takes the device away in the middle of the job.
+fn lose(gpu: Gpu) -> Result<(), Failed> {
+    let device = gpu.device().clone();
+    let mut progress = move |stage: Stage, _: f64| {
+        if stage == Stage::Ldi {
+            device.destroy();
+        }
+        ControlFlow::Continue(())
+    };
+    plans_with_warning(gpu, "gpu-failed", &mut progress)
+}
+
+/// The plan must be the CPU's, with a warning of that code, once: the GPU is not tried again.
+fn plans_with_warning(
+    gpu: Gpu,
+    code: &str,
+    progress: &mut StageProgress<'_>,
+) -> Result<(), Failed> {
+    let stl = binary_stl(&solids::sphere(5.0, 5));
+    let options = |backend| Options {
+        rays: 300,
+        backend,
+        ..Options::default()
+    };
+    let mut on_cpu = Slicer::load(&stl)?;
+    let expected = pollster::block_on(on_cpu.plan(&options(Backend::Cpu), &mut quiet))?.clone();
+    let mut slicer = Slicer::load(&stl)?.with_gpu(gpu);
+    let found = pollster::block_on(slicer.plan(&options(Backend::Auto), progress))?;
+    if found
+        .warnings
+        .iter()
+        .filter(|warning| warning.code == code)
+        .count()
+        != 1
+    {
+        return Err(format!("no warning {code}: {:?}", found.warnings).into());
+    }
+    if (found.backend.as_str(), &found.z_mm, found.hits) != ("cpu", &expected.z_mm, expected.hits) {
+        return Err("the plan is not the CPU's".into());
+    }
+    Ok(())
+}
+
 fn main() {
     let arguments = Arguments::from_args();
-    let probe = sample_both(&solids::cube(1.0), 4, gpu::Tiling::default());
-    let missing = match probe {
+    let missing = match pollster::block_on(Gpu::open(gpu::Adapters::Any)) {
         Err(LdiError::NoGpu { reason }) => Some(reason),
         _ => None,
     };

@@ -3,11 +3,18 @@
 
 mod common;
 
+#[cfg(target_arch = "wasm32")]
+use common::shifted_grid;
 use common::{binary_stl, fingerprint, on_plate, quiet, solids};
 use cusp_slicer::grid::Grid;
 use cusp_slicer::ldi::cpu;
 #[cfg(target_arch = "wasm32")]
-use cusp_slicer::ldi::{LdiError, gpu};
+use cusp_slicer::ldi::{
+    LdiError,
+    gpu::{self, Gpu},
+};
+#[cfg(target_arch = "wasm32")]
+use cusp_slicer::pipeline::Stage;
 use cusp_slicer::pipeline::{Backend, Options, Slicer};
 use cusp_slicer::progress::silent;
 use wasm_bindgen_test::wasm_bindgen_test;
@@ -78,36 +85,56 @@ async fn the_plan_and_the_masks_are_the_recorded_ones() {
 #[cfg(target_arch = "wasm32")]
 #[wasm_bindgen_test]
 async fn gpu_equals_cpu_in_the_browser() {
-    for (name, triangles) in solids::all() {
+    let gpu = Gpu::open(gpu::Adapters::Any).await.unwrap();
+    let all = solids::all().into_iter();
+    let all = all.map(|(name, triangles)| (name, triangles, 200));
+    for (name, triangles, rays) in all.chain(solids::torture()) {
         let mesh = on_plate(&triangles);
-        let grid = Grid::around(&mesh.bounds(), 200).unwrap();
-        let expected = cpu::sample(&mesh, &grid, &mut silent).unwrap();
-        let (found, adapter) = gpu::sample(
-            &mesh,
-            &grid,
-            gpu::Adapters::Any,
-            Default::default(),
-            &mut silent,
-        )
-        .await
-        .unwrap();
-        assert!(found == expected, "{name} differs on {adapter}");
+        for shift in [[0.0; 2], [0.371, -0.618]] {
+            let grid = shifted_grid(&mesh, rays, shift);
+            let expected = cpu::sample(&mesh, &grid, &mut silent).unwrap();
+            let found = gpu::sample(&mesh, &grid, &gpu, Default::default(), &mut silent).await;
+            let same = found.unwrap() == expected;
+            assert!(
+                same,
+                "{name}, shifted by {shift:?}, differs on {}",
+                gpu.name()
+            );
+        }
     }
+}
+
+/// A device that is lost in the middle of a job hands the work to the CPU; nothing hangs.
+#[cfg(target_arch = "wasm32")]
+#[wasm_bindgen_test]
+async fn a_lost_device_hands_its_work_to_the_cpu() {
+    let gpu = Gpu::open(gpu::Adapters::Any).await.unwrap();
+    let device = gpu.device().clone();
+    let mut lose_it = move |stage: Stage, _: f64| {
+        if stage == Stage::Ldi {
+            device.destroy();
+        }
+        std::ops::ControlFlow::Continue(())
+    };
+    let mut slicer = Slicer::load(&binary_stl(&model())).unwrap().with_gpu(gpu);
+    let options = Options {
+        backend: Backend::Auto,
+        ..options()
+    };
+    let report = slicer.plan(&options, &mut lose_it).await.unwrap();
+    let codes: Vec<&str> = report
+        .warnings
+        .iter()
+        .map(|warning| warning.code.as_str())
+        .collect();
+    assert!(codes.contains(&"gpu-failed"), "{codes:?}");
+    assert_eq!(report.backend, "cpu");
 }
 
 /// `auto` leaves an emulated adapter alone.
 #[cfg(target_arch = "wasm32")]
 #[wasm_bindgen_test]
 async fn an_emulated_adapter_is_no_hardware() {
-    let mesh = on_plate(&solids::cube(1.0));
-    let grid = Grid::around(&mesh.bounds(), 4).unwrap();
-    let found = gpu::sample(
-        &mesh,
-        &grid,
-        gpu::Adapters::Hardware,
-        Default::default(),
-        &mut silent,
-    )
-    .await;
+    let found = Gpu::open(gpu::Adapters::Hardware).await;
     assert!(matches!(found, Err(LdiError::NoGpu { .. })), "{found:?}");
 }

@@ -6,8 +6,6 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use wgpu::util::DeviceExt;
-
 use super::layout::{SCAN_BLOCK, Tile};
 use super::projection::{Projection, STEPS};
 use super::{Ldi, LdiError, assemble};
@@ -44,24 +42,22 @@ const CANVAS: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
 /// Bytes of a count, an offset or a facet.
 const WORD: u64 = 4;
 
-/// Samples `mesh`, which lies inside `grid` and above z = 0, and tells which adapter did it.
+/// Samples `mesh`, which lies inside `grid` and above z = 0.
 ///
 /// # Errors
-/// [`LdiError::NoGpu`] if there is no adapter of the kind asked for or it is too small for the mesh,
-/// [`LdiError::GpuFailed`] if it fails, [`LdiError::OutOfMemory`], [`LdiError::TooManyFacets`],
+/// [`LdiError::GpuTooSmall`], [`LdiError::GpuFailed`], [`LdiError::OutOfMemory`], [`LdiError::TooManyFacets`],
 /// [`LdiError::Cancelled`].
 pub async fn sample(
     mesh: &Mesh,
     grid: &Grid,
-    adapters: Adapters,
+    gpu: &Gpu,
     tiling: Tiling,
     progress: &mut Progress<'_>,
-) -> Result<(Ldi, String), LdiError> {
+) -> Result<Ldi, LdiError> {
     super::check_facets(mesh)?;
     report(progress, 0.0)?;
-    let gpu = Gpu::open(adapters).await?;
     let projection = Projection::new(mesh, grid);
-    let sampler = Sampler::new(&gpu, mesh, &projection)?;
+    let sampler = Sampler::new(gpu, mesh, &projection)?;
 
     let side = tiling
         .side
@@ -72,7 +68,7 @@ pub async fn sample(
     while let Some(region) = waiting.pop() {
         match sampler.sample(region).await? {
             Some(rays) => sampled.push((region, rays)),
-            // More hits than a buffer can hold: halve the tile.
+            // More rays or hits than a buffer can hold: halve the tile.
             None => waiting.extend(region.halves().ok_or_else(|| LdiError::GpuFailed {
                 reason: "one ray has more hits than the GPU can store".to_owned(),
             })?),
@@ -80,9 +76,7 @@ pub async fn sample(
         let done = sampled.len() as f64;
         report(progress, 0.8 * done / (done + waiting.len() as f64))?;
     }
-    gpu.device.destroy();
-    let ldi = assemble_ldi(&projection, grid, &sampled, progress)?;
-    Ok((ldi, gpu.name))
+    assemble_ldi(&projection, grid, &sampled, progress)
 }
 
 /// Part of the grid, in pixels.
@@ -206,13 +200,29 @@ fn assemble_ldi(
     })
 }
 
-/// An open device.
-struct Gpu {
+/// An open GPU, which any number of meshes may be sampled on.
+#[derive(Debug)]
+pub struct Gpu {
     name: String,
     device: wgpu::Device,
     queue: wgpu::Queue,
-    /// The first error that no call returned.
-    failure: Arc<Mutex<Option<String>>>,
+    failure: Failure,
+}
+
+/// The first error of a device that no call returned.
+#[derive(Debug, Clone, Default)]
+struct Failure(Arc<Mutex<Option<String>>>);
+
+impl Failure {
+    fn note(&self, reason: &str) {
+        let mut slot = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        slot.get_or_insert_with(|| reason.to_owned());
+    }
+
+    fn get(&self) -> Option<String> {
+        let slot = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        slot.clone()
+    }
 }
 
 fn no_gpu(reason: impl std::fmt::Display) -> LdiError {
@@ -228,7 +238,11 @@ fn gpu_failed(reason: impl std::fmt::Display) -> LdiError {
 }
 
 impl Gpu {
-    async fn open(adapters: Adapters) -> Result<Self, LdiError> {
+    /// Opens the adapter that the system prefers for speed.
+    ///
+    /// # Errors
+    /// [`LdiError::NoGpu`] if there is none of the kind asked for.
+    pub async fn open(adapters: Adapters) -> Result<Self, LdiError> {
         // OpenGL is left out: it adds no machine worth having and doubles the time of the search.
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
             backends: wgpu::Backends::PRIMARY,
@@ -252,22 +266,41 @@ impl Gpu {
         }
         let descriptor = wgpu::DeviceDescriptor::default();
         let (device, queue) = adapter.request_device(&descriptor).await.map_err(no_gpu)?;
-        let failure = Arc::new(Mutex::new(None));
-        let first_failure = Arc::clone(&failure);
+        Ok(Self::with_device(name, device, queue))
+    }
+
+    /// Uses a device that is open already and whose errors nobody else listens to; `name` is what reports
+    /// call it.
+    pub fn with_device(name: String, device: wgpu::Device, queue: wgpu::Queue) -> Self {
+        let failure = Failure::default();
+        let of_device = failure.clone();
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
-            let mut slot = first_failure.lock().unwrap_or_else(PoisonError::into_inner);
-            slot.get_or_insert_with(|| error.to_string());
+            of_device.note(&error.to_string());
         }));
-        Ok(Self {
+        let of_device = failure.clone();
+        device.set_device_lost_callback(move |reason, message| {
+            of_device.note(&format!("the device was lost ({reason:?}): {message}"));
+        });
+        Self {
             name,
             device,
             queue,
             failure,
-        })
+        }
+    }
+
+    /// What reports call it.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The device, for instance to destroy it.
+    pub fn device(&self) -> &wgpu::Device {
+        &self.device
     }
 
     fn check(&self) -> Result<(), LdiError> {
-        match &*self.failure.lock().unwrap_or_else(PoisonError::into_inner) {
+        match self.failure.get() {
             Some(reason) => Err(gpu_failed(reason)),
             None => Ok(()),
         }
@@ -280,6 +313,20 @@ impl Gpu {
             usage,
             mapped_at_creation: false,
         })
+    }
+
+    /// A buffer with contents. They are written rather than mapped: mapping a buffer that there was no memory
+    /// for would panic.
+    fn filled_buffer(
+        &self,
+        label: &str,
+        contents: &[u8],
+        usage: wgpu::BufferUsages,
+    ) -> wgpu::Buffer {
+        let words = (contents.len() as u64).div_ceil(WORD);
+        let buffer = self.buffer(label, words, usage | wgpu::BufferUsages::COPY_DST);
+        self.queue.write_buffer(&buffer, 0, contents);
+        buffer
     }
 
     /// Waits for the queue and copies words out of a buffer.
@@ -324,23 +371,19 @@ struct Sampler<'a> {
 
 impl<'a> Sampler<'a> {
     fn new(gpu: &'a Gpu, mesh: &Mesh, projection: &Projection<'_>) -> Result<Self, LdiError> {
-        let largest = gpu.device.limits().max_storage_buffer_binding_size;
+        let limit_bytes = gpu.device.limits().max_storage_buffer_binding_size;
         let corner_bytes = std::mem::size_of_val(mesh.facets.as_slice()) as u64;
         let position_bytes = std::mem::size_of_val(projection.positions.as_slice()) as u64;
-        if corner_bytes.max(position_bytes) > largest {
-            let facets = mesh.facets.len();
-            return Err(no_gpu(format!(
-                "{facets} facets do not fit into a buffer of {largest} bytes"
-            )));
+        let needed_bytes = corner_bytes.max(position_bytes);
+        if needed_bytes > limit_bytes {
+            return Err(LdiError::GpuTooSmall {
+                facets: mesh.facets.len() as u64,
+                needed_bytes,
+                limit_bytes,
+            });
         }
-        let storage = |label, contents| {
-            gpu.device
-                .create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                    label: Some(label),
-                    contents,
-                    usage: wgpu::BufferUsages::STORAGE,
-                })
-        };
+        let storage =
+            |label, contents| gpu.filled_buffer(label, contents, wgpu::BufferUsages::STORAGE);
         let sample = gpu
             .device
             .create_shader_module(wgpu::include_wgsl!("../../shaders/sample.wgsl"));
@@ -372,20 +415,24 @@ impl<'a> Sampler<'a> {
     async fn sample(&self, region: Region) -> Result<Option<Meetings>, LdiError> {
         let Gpu { device, queue, .. } = self.gpu;
         let rays = region.rays() as u64;
+        let limit_bytes = device.limits().max_storage_buffer_binding_size;
+        if (rays + 1) * WORD > limit_bytes {
+            return Ok(None);
+        }
         let blocks = rays.div_ceil(u64::from(SCAN_BLOCK));
         let storage = wgpu::BufferUsages::STORAGE;
         let readable = storage | wgpu::BufferUsages::COPY_SRC;
         let counts = self.gpu.buffer("counts", rays, storage);
         let offsets = self.gpu.buffer("offsets", rays + 1, readable);
         let totals = self.gpu.buffer("totals", blocks + 1, readable);
-        let tile = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some("tile"),
-            contents: bytemuck::bytes_of(&Tile {
-                origin: [region.column, region.row].map(|pixel| pixel as i32 * STEPS as i32),
-                size: [region.width, region.height],
-            }),
-            usage: wgpu::BufferUsages::UNIFORM,
-        });
+        let tile = Tile {
+            origin: [region.column, region.row].map(|pixel| pixel as i32 * STEPS as i32),
+            size: [region.width, region.height],
+        };
+        let tile = bytemuck::bytes_of(&tile);
+        let tile = self
+            .gpu
+            .filled_buffer("tile", tile, wgpu::BufferUsages::UNIFORM);
         let canvas = device.create_texture(&wgpu::TextureDescriptor {
             label: Some("canvas"),
             size: wgpu::Extent3d {
@@ -413,7 +460,7 @@ impl<'a> Sampler<'a> {
         self.scan(&mut encoder, &counts, &offsets, &totals, blocks as u32);
         queue.submit([encoder.finish()]);
         let hits = u64::from(self.gpu.read(&totals, blocks, 1).await?[0]);
-        if hits * WORD > device.limits().max_storage_buffer_binding_size {
+        if hits * WORD > limit_bytes {
             return Ok(None);
         }
 

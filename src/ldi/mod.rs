@@ -58,11 +58,23 @@ pub enum LdiError {
         /// Side of a pixel.
         pitch_mm: f64,
     },
-    /// No GPU adapter, or one that cannot do what is needed.
+    /// No GPU adapter, or none of the kind asked for.
     #[error("no usable GPU: {reason}")]
     NoGpu {
         /// What is missing.
         reason: String,
+    },
+    /// The mesh does not fit into the buffers that the GPU offers.
+    #[error(
+        "{facets} facets need a GPU buffer of {needed_bytes} bytes, and this GPU offers {limit_bytes}; use the CPU"
+    )]
+    GpuTooSmall {
+        /// Facets of the mesh.
+        facets: u64,
+        /// Bytes that they take.
+        needed_bytes: u64,
+        /// The largest buffer.
+        limit_bytes: u64,
     },
     /// The GPU failed while it was used.
     #[error("the GPU failed: {reason}")]
@@ -81,6 +93,7 @@ impl LdiError {
             Self::TooManyFacets { .. } => "too-many-facets",
             Self::NoHits { .. } => "no-hits",
             Self::NoGpu { .. } => "no-gpu",
+            Self::GpuTooSmall { .. } => "gpu-too-small",
             Self::GpuFailed { .. } => "gpu-failed",
         }
     }

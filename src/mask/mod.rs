@@ -34,25 +34,21 @@ struct Band {
 }
 
 impl Masks {
-    /// The masks of `plan`: a pixel is lit where the middle of the layer lies inside the solid, from
-    /// an entry (included) to an exit (excluded).
+    /// The masks of `plan` on `grid`, of which the rays of `ldi` are all or a part: a pixel is lit where the
+    /// middle of the layer lies inside the solid, from an entry (included) to an exit (excluded).
     ///
-    /// Cost: linear in hits; memory is 4 bytes a toggle, of which there are at most as many as hits.
-    pub fn new(ldi: &Ldi, plan: &Plan) -> Self {
+    /// Cost: linear in rays and hits; memory is 4 bytes a toggle, of which there are at most as many as hits.
+    pub fn new(ldi: &Ldi, plan: &Plan, grid: &Grid) -> Self {
         let layer_of = LayerOf::new(plan);
         let layers = plan.layers();
         let band_rays = ldi.grid.width as usize * BAND_ROWS;
         let firsts = (0..ldi.rays()).step_by(band_rays).collect();
         let bands = parallel::map(firsts, |first| {
-            Band::new(
-                ldi,
-                &layer_of,
-                layers,
-                first..(first + band_rays).min(ldi.rays()),
-            )
+            let rays = first..(first + band_rays).min(ldi.rays());
+            Band::new(ldi, &layer_of, layers, grid, rays)
         });
         Self {
-            grid: ldi.grid,
+            grid: *grid,
             layers,
             bands,
         }
@@ -78,7 +74,7 @@ impl Masks {
 
 impl Band {
     /// Counts the toggles of each layer, then puts them in their places.
-    fn new(ldi: &Ldi, layer_of: &LayerOf, layers: usize, rays: Range<usize>) -> Self {
+    fn new(ldi: &Ldi, layer_of: &LayerOf, layers: usize, grid: &Grid, rays: Range<usize>) -> Self {
         let for_each_toggle = |emit: &mut dyn FnMut(u32, usize)| {
             for ray in rays.clone() {
                 for_each_solid_range(ldi.ray(ray), |z_in, z_out| {
@@ -99,11 +95,13 @@ impl Band {
         }
         let mut toggles = vec![0u32; starts[layers + 1] as usize];
         let width = ldi.grid.width as usize;
-        let row_bits = 8 * row_bytes(&ldi.grid);
+        let row_bits = 8 * row_bytes(grid);
+        let [first_column, first_row] = grid.offset_of(&ldi.grid).map(|first| first as usize);
         for_each_toggle(&mut |layer, ray| {
             let slot = &mut starts[layer as usize + 1];
             if let Some(toggle) = toggles.get_mut(*slot as usize) {
-                *toggle = (ray / width * row_bits + ray % width) as u32;
+                let (column, row) = (first_column + ray % width, first_row + ray / width);
+                *toggle = (row * row_bits + column) as u32;
                 *slot += 1;
             }
         });

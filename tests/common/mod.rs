@@ -30,6 +30,18 @@ pub fn sample(triangles: &[[Vec3; 3]], rays: u32) -> (Mesh, Ldi) {
     (mesh, ldi)
 }
 
+/// A grid around the model whose pixels lie `shift` pixels off those that just cover it.
+pub fn shifted_grid(mesh: &Mesh, rays: u32, shift: [f64; 2]) -> Grid {
+    let grid = Grid::around(&mesh.bounds(), rays).unwrap();
+    Grid {
+        width: grid.width + 2,
+        height: grid.height + 2,
+        corner_mm: grid.corner_mm
+            + glam::DVec2::new(shift[0] - 1.0, shift[1] + 1.0) * grid.pitch_mm,
+        ..grid
+    }
+}
+
 /// A binary STL, written by another library.
 pub fn binary_stl(triangles: &[[Vec3; 3]]) -> Vec<u8> {
     let triangles: Vec<_> = triangles

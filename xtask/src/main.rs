@@ -63,6 +63,9 @@ enum Command {
     Bench {
         /// A file of benches/ without its extension
         name: Option<String>,
+        /// Handed on to the benchmark: its head says what it takes
+        #[arg(requires = "name")]
+        arguments: Vec<String>,
     },
 }
 
@@ -105,11 +108,11 @@ fn run(command: Command) -> Result<bool> {
             let mut npm = node::npm(&project)?;
             process::run(npm.args(["run", "screenshots"]).env("CHROMIUM", chromium))?;
         }
-        Command::Bench { name } => {
+        Command::Bench { name, arguments } => {
             let mut cargo = process::cargo(&project);
             cargo.arg("bench");
             match name {
-                Some(name) => cargo.args(["--bench", &name]),
+                Some(name) => cargo.args(["--bench", &name, "--"]).args(arguments),
                 None => cargo.arg("--benches"),
             };
             process::show(&mut cargo)?;
