@@ -237,7 +237,15 @@ impl RowHeights {
         // At most 2²³ lattice steps either way.
         let steps = (i64::from(column) * STEPS + self.origin) as i32;
         let z = self.z + f64::from(steps) * self.z_per_step;
-        z.max(self.z_range[0]).min(self.z_range[1]) as f32
+        // By hand: `max` and `min` are library calls in wasm, `clamp` may panic.
+        let [least, greatest] = self.z_range;
+        if z < least {
+            least as f32
+        } else if z > greatest {
+            greatest as f32
+        } else {
+            z as f32
+        }
     }
 }
 
