@@ -1,0 +1,72 @@
+/**
+ * How long the core takes in a browser, and how much memory, without the page around it:
+ * `npm run measure-core -- FILE.stl [HEIGHT_MM [RAYS | WIDTHxHEIGHT@PITCH_MM]]`.
+ *
+ * The same model several times in one tab, as when a person turns it; then a print file. The figures are the
+ * core's own, of the CPU backend.
+ */
+import { readFile } from "node:fs/promises";
+import { basename } from "node:path";
+import type { JSHandle } from "playwright-core";
+import type { InitOutput, Options } from "../pkg/cusp_slicer.js";
+import { launch, open } from "./browser.js";
+import { serve } from "./serve.js";
+
+const ROUNDS = 5;
+
+type Core = typeof import("../pkg/cusp_slicer.js");
+
+export async function main([file, height = "60", grid = "2048"]: string[]): Promise<void> {
+  if (file === undefined) {
+    throw new Error("usage: npm run measure-core -- FILE.stl [HEIGHT_MM [RAYS | WIDTHxHEIGHT@PITCH_MM]]");
+  }
+  const stl = await readFile(file);
+  const options: Options = { height_mm: Number(height), backend: "cpu", ...pixels(grid) };
+  const served = await serve();
+  const browser = await launch();
+  try {
+    const { page } = await open(browser, served.address);
+    await page.route(`${served.address}core/*`, async (route) => {
+      const name = new URL(route.request().url()).pathname.slice("/core/".length);
+      const body = name === "model" ? stl : await readFile(new URL(`../pkg/${name}`, import.meta.url));
+      const types: Record<string, string> = { js: "text/javascript", wasm: "application/wasm" };
+      await route.fulfill({ body, contentType: types[name.split(".").at(-1) ?? ""] ?? "application/octet-stream" });
+    });
+    // As text, because import() in a function would be rewritten for this side.
+    const module: JSHandle<Core> = await page.evaluateHandle(`import("${served.address}core/cusp_slicer.js")`);
+    const measured = await page.evaluate(
+      async ([core, address, options, rounds]) => {
+        const { memory }: InitOutput = await core.default();
+        const stl = new Uint8Array(await (await fetch(`${address}core/model`)).arrayBuffer());
+        const timings: string[] = [];
+        const quiet = (): void => undefined;
+        let zip = "";
+        for (let round = 0; round < rounds; round++) {
+          const slicer = new core.Slicer(stl);
+          const { layers, hits, timings_ms } = await slicer.plan(options, quiet);
+          timings.push(`${layers} layers, ${hits} hits: ${Object.entries(timings_ms).map(([stage, ms]) => `${stage} ${Math.round(ms)}`).join(", ")} ms`);
+          if (round === rounds - 1) {
+            const start = performance.now();
+            const bytes = slicer.archive(quiet).length;
+            zip = `print file of ${bytes} bytes in ${Math.round(performance.now() - start)} ms`;
+          }
+          slicer.free();
+        }
+        return { timings, zip, megabytes: Math.round(memory.buffer.byteLength / 1e6) };
+      },
+      [module, served.address, options, ROUNDS] as const,
+    );
+    console.log(`${basename(file)}, ${height} mm high, ${grid}, wasm on the CPU`);
+    for (const line of [...measured.timings, measured.zip]) console.log(line);
+    console.log(`${measured.megabytes} MB of wasm memory at most`);
+  } finally {
+    await browser.close();
+    await served.close();
+  }
+}
+
+function pixels(grid: string): Options {
+  const match = /^(\d+)x(\d+)@([\d.]+)$/.exec(grid);
+  if (match === null) return { rays: Number(grid) };
+  return { pixels: [Number(match[1]), Number(match[2])], pitch_mm: Number(match[3]) };
+}
