@@ -10,7 +10,7 @@ pub const MAX_SIDE: u32 = 1 << 15;
 /// Most pixels of a mask.
 pub const MAX_PIXELS: u64 = 1 << 28;
 /// Most bins of a profile.
-const MAX_BINS: f64 = 10_000_000.0;
+const MAX_BINS: f64 = 2_000_000.0;
 
 /// Lengths closer than this part of a bin are taken as equal, so that 0.05 mm is 25 bins of
 /// 0.002 mm although neither is a binary fraction.
@@ -32,6 +32,14 @@ pub enum GridError {
         name: &'static str,
         /// Its value.
         value_mm: f64,
+    },
+    /// A time that must be a number of seconds is none.
+    #[error("the {name} must be a number of seconds from 0, not {value_s}")]
+    BadTime {
+        /// Name of the option.
+        name: &'static str,
+        /// Its value.
+        value_s: f64,
     },
     /// No pixels, or more than masks can have.
     #[error(
@@ -76,6 +84,7 @@ impl GridError {
     pub fn code(&self) -> &'static str {
         match self {
             Self::BadLength { .. } => "bad-length",
+            Self::BadTime { .. } => "bad-time",
             Self::BadSize { .. } => "grid-bad-size",
             Self::ModelTooLarge { .. } => "model-too-large",
             Self::TooManyBins { .. } => "too-many-bins",
@@ -262,6 +271,23 @@ impl Bins {
         let below = position as usize;
         let bin = below + usize::from(position > below as f64);
         bin.clamp(1, self.count) - 1
+    }
+
+    /// The boundary nearest to height `z_mm`.
+    pub fn nearest_boundary(&self, z_mm: f64) -> u32 {
+        (z_mm / self.size_mm + 0.5) as u32
+    }
+
+    /// Number of bins whose middle lies below height `z_mm`.
+    pub fn middles_below(&self, z_mm: f64) -> usize {
+        let position = z_mm / self.size_mm - 0.5;
+        let below = position as usize;
+        (below + usize::from(position > below as f64)).min(self.count)
+    }
+
+    /// Height of the middle of a bin in millimetres.
+    pub fn middle_mm(&self, bin: usize) -> f64 {
+        (bin as f64 + 0.5) * self.size_mm
     }
 
     /// Height of a boundary in millimetres, to the nearest millionth of a micrometre, so that 51

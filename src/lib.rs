@@ -3,7 +3,8 @@
 //! within a tolerance.
 //!
 //! ```
-//! use cusp_slicer::pipeline::{Options, Slicer, Stage};
+//! use cusp_slicer::options::Options;
+//! use cusp_slicer::pipeline::{Slicer, Stage};
 //! use std::ops::ControlFlow;
 //!
 //! # fn main() -> Result<(), cusp_slicer::Error> {
@@ -29,6 +30,7 @@ mod parallel;
 pub mod progress;
 
 pub mod archive;
+pub mod exposure;
 pub mod grid;
 pub mod ldi;
 pub mod mask;
@@ -38,7 +40,9 @@ pub mod profile;
 pub mod stl;
 
 mod error;
+pub mod options;
 pub mod pipeline;
+mod planning;
 pub mod report;
 #[cfg(target_arch = "wasm32")]
 mod wasm;

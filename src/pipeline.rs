@@ -3,7 +3,7 @@
 use std::io::{Seek, Write};
 use std::ops::ControlFlow;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use web_time::Instant;
 
 use crate::archive::png_zip;
@@ -13,10 +13,14 @@ use crate::ldi::gpu::{self, Gpu};
 use crate::ldi::{Ldi, LdiError, cpu};
 use crate::mask::{MaskCursor, Masks};
 use crate::mesh::Mesh;
-use crate::plan::{Limits, Plan, PlanError, optimal, uniform};
-use crate::profile::{ErrorSum, Metric, Profile, cusp};
+use crate::options::{Backend, Options};
+use crate::plan::Plan;
+use crate::planning::{PlanReport, Planning, Shapes};
+use crate::profile::{Metric, Profile, Source};
 use crate::progress::Progress;
-use crate::report::{MaskReport, MeshInfo, Report, Timings, UniformReport, Warning, mesh_warnings};
+use crate::report::{
+    Comparison, MaskReport, MeshInfo, Report, Timings, Tradeoff, Warning, mesh_warnings,
+};
 use crate::stl;
 
 /// A part of the work, for showing progress.
@@ -52,82 +56,6 @@ impl Stage {
 /// Called with the stage at work and the fraction of it that is done; `Break` cancels.
 pub type StageProgress<'a> = dyn FnMut(Stage, f64) -> ControlFlow<()> + 'a;
 
-/// Where the LDI is sampled.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
-#[serde(rename_all = "lowercase")]
-pub enum Backend {
-    /// The GPU, unless there is none or it is emulated in software.
-    #[default]
-    Auto,
-    /// The GPU, or an error.
-    Gpu,
-    /// The CPU.
-    Cpu,
-}
-
-/// How layers are chosen.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
-#[serde(rename_all = "lowercase", tag = "kind")]
-pub enum Planner {
-    /// The fewest layers within tolerance.
-    #[default]
-    Optimal,
-    /// Layers of one thickness, whatever their error.
-    Uniform {
-        /// That thickness in millimetres.
-        layer_mm: f64,
-    },
-}
-
-/// What to slice and how. All lengths are in millimetres.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
-#[serde(default, deny_unknown_fields)]
-pub struct Options {
-    /// Scale the model evenly to this height; its own height if absent.
-    pub height_mm: Option<f64>,
-    /// Columns and rows of the masks, with the model in the middle; needs `pitch_mm`.
-    pub pixels: Option<[u32; 2]>,
-    /// Side of a pixel; alone, with as many pixels as cover the model.
-    pub pitch_mm: Option<f64>,
-    /// Pixels along the model's longer horizontal side where neither is given.
-    pub rays: u32,
-    /// Least layer thickness.
-    pub layer_min_mm: f64,
-    /// Greatest layer thickness.
-    pub layer_max_mm: f64,
-    /// Greatest error of a layer.
-    pub tolerance_mm: f64,
-    /// Height of a bin of the profile.
-    pub bin_mm: f64,
-    /// What the error measures.
-    pub metric: Metric,
-    /// How layers are chosen.
-    pub planner: Planner,
-    /// Where the LDI is sampled.
-    pub backend: Backend,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self {
-            height_mm: None,
-            pixels: None,
-            pitch_mm: None,
-            rays: 2048,
-            layer_min_mm: 0.05,
-            layer_max_mm: 0.15,
-            tolerance_mm: 0.065,
-            bin_mm: 0.002,
-            metric: Metric::Cusp,
-            planner: Planner::Optimal,
-            backend: Backend::Auto,
-        }
-    }
-}
-
 /// A loaded model on its way through the stages. Each keeps its result, so that a change of options
 /// repeats only what depends on it.
 #[derive(Debug)]
@@ -150,7 +78,7 @@ struct Sampled {
     ldi: Ldi,
     adapter: Option<String>,
     warnings: Vec<Warning>,
-    profile: Option<(Profile, ErrorSum)>,
+    shapes: Option<Shapes>,
 }
 
 type SamplingOptions = (Option<f64>, Option<[u32; 2]>, Option<f64>, u32, Backend);
@@ -202,52 +130,25 @@ impl Slicer {
         progress: &mut StageProgress<'_>,
     ) -> Result<&Report, Error> {
         self.planned = None;
-        check_options(options)?;
+        options.check()?;
         let mut timings = Timings {
             load: self.load_ms,
             ..Timings::default()
         };
-
-        let key = sampling_options(options);
-        let sampled = match self.sampled.take().filter(|sampled| sampled.options == key) {
-            Some(sampled) => sampled,
-            None => self.sample(options, &mut timings, progress).await?,
-        };
-        let sampled = self.sampled.insert(sampled);
-
-        let clock = Instant::now();
-        continue_or_cancel(progress(Stage::Profile, 0.0))?;
-        let bins = Bins::of_height(sampled.height_mm, options.bin_mm)?;
-        if sampled
-            .profile
-            .as_ref()
-            .is_none_or(|(profile, _)| profile.bins != bins)
-        {
-            let profile = match options.metric {
-                Metric::Cusp => cusp::sampled(&sampled.mesh, &sampled.ldi, bins),
-            };
-            let errors = profile.error_sum();
-            sampled.profile = Some((profile, errors));
-            timings.profile = ms_since(clock);
-        }
-        let Some((_, errors)) = &sampled.profile else {
-            unreachable!("set above")
-        };
+        self.measure(options, &mut timings, progress).await?;
+        let sampled = self.sampled.as_mut().ok_or(Error::NoPlan)?;
 
         let clock = Instant::now();
         continue_or_cancel(progress(Stage::Plan, 0.0))?;
-        let limits = limits_of(options);
-        let plan = match options.planner {
-            Planner::Optimal => optimal::plan(errors, &limits)?,
-            Planner::Uniform { layer_mm } => uniform::plan(bins, sampled.height_mm, layer_mm)?,
-        };
-        let uniform = uniform_report(errors, options, sampled.height_mm)?;
+        let planning = sampled.planning(options)?;
+        let plan = planning.plan(options)?;
+        let report = planning.report(options, &plan)?;
         timings.plan = ms_since(clock);
         continue_or_cancel(progress(Stage::Plan, 1.0))?;
 
         timings.sum_up();
         self.load_ms = 0.0;
-        let report = report_of(sampled, errors, options, &plan, uniform, timings);
+        let report = sampled.report(options, &plan, report, timings);
         Ok(&self
             .planned
             .insert(Planned {
@@ -256,6 +157,87 @@ impl Slicer {
                 masks: None,
             })
             .report)
+    }
+
+    /// Best plans for `points` tolerances, from the tightest that can be held to the loosest that saves a layer. Makes
+    /// no plan, and leaves the last one.
+    ///
+    /// # Errors
+    /// Any [`Error`] of sampling and planning.
+    pub async fn tradeoff(
+        &mut self,
+        options: &Options,
+        points: usize,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<Tradeoff, Error> {
+        options.check()?;
+        self.measure(options, &mut Timings::default(), progress)
+            .await?;
+        let sampled = self.sampled.as_mut().ok_or(Error::NoPlan)?;
+        continue_or_cancel(progress(Stage::Plan, 0.0))?;
+        let points = sampled.planning(options)?.tradeoff(options, points)?;
+        continue_or_cancel(progress(Stage::Plan, 1.0))?;
+        Ok(Tradeoff { points })
+    }
+
+    /// The plans of all planners side by side (table 3). Makes no plan, and leaves the last one.
+    ///
+    /// # Errors
+    /// Any [`Error`] of sampling and planning.
+    pub async fn compare(
+        &mut self,
+        options: &Options,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<Comparison, Error> {
+        options.check()?;
+        self.measure(options, &mut Timings::default(), progress)
+            .await?;
+        let sampled = self.sampled.as_mut().ok_or(Error::NoPlan)?;
+        continue_or_cancel(progress(Stage::Plan, 0.0))?;
+        let rows = sampled.planning(options)?.compare(options)?;
+        continue_or_cancel(progress(Stage::Plan, 1.0))?;
+        Ok(Comparison {
+            facets: sampled.mesh.surface_facets,
+            height_mm: sampled.height_mm,
+            metric: options.metric,
+            unit: options.metric.unit().to_owned(),
+            rows,
+        })
+    }
+
+    /// Samples the model and measures its shape, unless what is there still holds.
+    async fn measure(
+        &mut self,
+        options: &Options,
+        timings: &mut Timings,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<(), Error> {
+        let key = sampling_options(options);
+        let sampled = match self.sampled.take().filter(|sampled| sampled.options == key) {
+            Some(sampled) => sampled,
+            None => self.sample(options, timings, progress).await?,
+        };
+        let sampled = self.sampled.insert(sampled);
+
+        let clock = Instant::now();
+        continue_or_cancel(progress(Stage::Profile, 0.0))?;
+        let bins = Bins::of_height(sampled.height_mm, options.bin_mm)?;
+        let kept = sampled.shapes.take();
+        let mut is_new = false;
+        let mut shapes = kept
+            .filter(|shapes| shapes.exact.bins == bins)
+            .unwrap_or_else(|| {
+                is_new = true;
+                Shapes::new(&sampled.mesh, &sampled.ldi, bins)
+            });
+        if options.metric.needs_areas() {
+            is_new |= shapes.add_areas(&sampled.mesh, &sampled.ldi);
+        }
+        sampled.shapes = Some(shapes);
+        if is_new {
+            timings.profile = ms_since(clock);
+        }
+        Ok(())
     }
 
     async fn sample(
@@ -323,7 +305,7 @@ impl Slicer {
             ldi,
             adapter,
             warnings,
-            profile: None,
+            shapes: None,
         })
     }
 
@@ -353,13 +335,18 @@ impl Slicer {
         Ok((ldi, name))
     }
 
-    /// The profile that the last plan was made from, or was tried on if there is none.
+    /// The profile of a metric in the bins that the last plan was made from, or was tried on if there is none.
     ///
     /// # Errors
-    /// [`Error::NoPlan`].
-    pub fn profile(&self) -> Result<&Profile, Error> {
+    /// [`Error::NoPlan`], also for a metric of areas if no plan has needed them.
+    pub fn profile(&self, metric: Metric, source: Source) -> Result<Profile, Error> {
         let sampled = self.sampled.as_ref().ok_or(Error::NoPlan)?;
-        Ok(&sampled.profile.as_ref().ok_or(Error::NoPlan)?.0)
+        let shapes = sampled.shapes.as_ref().ok_or(Error::NoPlan)?;
+        let shape = shapes.of(source);
+        if metric.needs_areas() && shape.areas_mm2.is_empty() {
+            return Err(Error::NoPlan);
+        }
+        Ok(shape.profile(metric))
     }
 
     /// The mask of a layer of the last plan: see [`MaskCursor::bits`].
@@ -434,114 +421,52 @@ fn sampling_options(options: &Options) -> SamplingOptions {
     )
 }
 
-fn limits_of(options: &Options) -> Limits {
-    Limits {
-        layer_min_mm: options.layer_min_mm,
-        layer_max_mm: options.layer_max_mm,
-        tolerance_mm: options.tolerance_mm,
+impl Sampled {
+    /// All that planning needs.
+    fn planning(&self, options: &Options) -> Result<Planning<'_>, Error> {
+        let shapes = self.shapes.as_ref().ok_or(Error::NoPlan)?;
+        Ok(Planning::new(&self.mesh, self.height_mm, shapes, options))
     }
-}
 
-/// Finds what no model could make good, before any time is spent on sampling.
-fn check_options(options: &Options) -> Result<(), Error> {
-    let bins = Bins {
-        count: 1,
-        size_mm: options.bin_mm,
-    };
-    match options.planner {
-        Planner::Optimal => {
-            limits_of(options).thickness_in_bins(bins)?;
+    fn report(
+        &self,
+        options: &Options,
+        plan: &Plan,
+        planned: PlanReport,
+        timings_ms: Timings,
+    ) -> Report {
+        let mut warnings = self.warnings.clone();
+        warnings.extend(planned.warnings);
+        Report {
+            layers: plan.layers(),
+            height_mm: self.height_mm,
+            z_mm: plan.z_mm(),
+            thickness_mm: plan.thickness_mm(),
+            snapped_mm: planned.snapped_mm,
+            metric: options.metric,
+            unit: options.metric.unit().to_owned(),
+            source: options.source,
+            planner: options.planner.name().to_owned(),
+            tolerance: planned.tolerance,
+            max_error: planned.max_error,
+            sampled_error: planned.sampled_error,
+            max_error_mm: planned.max_error_mm,
+            print_time_s: planned.print_time_s,
+            backend: if self.adapter.is_some() { "gpu" } else { "cpu" }.to_owned(),
+            adapter: self.adapter.clone(),
+            bins: plan.bins.count,
+            bin_mm: plan.bins.size_mm,
+            facets: self.mesh.surface_facets,
+            hits: self.ldi.hits.len(),
+            uniform: planned.uniform,
+            mask: MaskReport {
+                width: self.grid.width,
+                height: self.grid.height,
+                pitch_mm: self.grid.pitch_mm,
+            },
+            warnings,
+            timings_ms,
         }
-        Planner::Uniform { layer_mm } => {
-            uniform::thickness_in_bins(bins, layer_mm)?;
-        }
-    }
-    Ok(())
-}
-
-/// What uniform layers at both ends of the range would give. Uniform layers may be planned with no valid range;
-/// they then stand for both ends.
-fn uniform_report(
-    errors: &ErrorSum,
-    options: &Options,
-    height_mm: f64,
-) -> Result<UniformReport, Error> {
-    let bins = errors.bins();
-    let (finest_mm, coarsest_mm) =
-        match (limits_of(options).thickness_in_bins(bins), options.planner) {
-            (Ok(thickness), _) => (
-                bins.boundary_mm(*thickness.start()),
-                bins.boundary_mm(*thickness.end()),
-            ),
-            (Err(_), Planner::Uniform { layer_mm }) => (layer_mm, layer_mm),
-            (Err(error), Planner::Optimal) => return Err(error.into()),
-        };
-    let uniform = |layer_mm| match uniform::plan(bins, height_mm, layer_mm) {
-        // A model lower than half a layer is one layer here, as it is for the optimal planner.
-        Err(PlanError::LayerTooThick { .. }) => Ok(Plan {
-            bins,
-            boundaries: vec![0, bins.count as u32],
-        }),
-        plan => plan,
-    };
-    let (finest, coarsest) = (uniform(finest_mm)?, uniform(coarsest_mm)?);
-    Ok(UniformReport {
-        finest_layers: finest.layers(),
-        finest_error_mm: finest.max_error_mm(errors),
-        coarsest_layers: coarsest.layers(),
-        coarsest_error_mm: coarsest.max_error_mm(errors),
-    })
-}
-
-fn report_of(
-    sampled: &Sampled,
-    errors: &ErrorSum,
-    options: &Options,
-    plan: &Plan,
-    uniform: UniformReport,
-    timings_ms: Timings,
-) -> Report {
-    let mut warnings = sampled.warnings.clone();
-    let max_error_mm = plan.max_error_mm(errors);
-    if matches!(options.planner, Planner::Uniform { .. })
-        && errors.to_steps(max_error_mm) > errors.to_steps(options.tolerance_mm)
-    {
-        let message = format!(
-            "uniform layers exceed the tolerance: their largest error is {max_error_mm:.4} mm"
-        );
-        warnings.push(Warning::new("tolerance-exceeded", message));
-    }
-    Report {
-        layers: plan.layers(),
-        height_mm: sampled.height_mm,
-        z_mm: plan.z_mm(),
-        thickness_mm: plan.thickness_mm(),
-        max_error_mm,
-        tolerance_mm: options.tolerance_mm,
-        metric: options.metric,
-        planner: match options.planner {
-            Planner::Optimal => "optimal".to_owned(),
-            Planner::Uniform { .. } => "uniform".to_owned(),
-        },
-        backend: if sampled.adapter.is_some() {
-            "gpu"
-        } else {
-            "cpu"
-        }
-        .to_owned(),
-        adapter: sampled.adapter.clone(),
-        bins: plan.bins.count,
-        bin_mm: plan.bins.size_mm,
-        facets: sampled.mesh.surface_facets,
-        hits: sampled.ldi.hits.len(),
-        uniform,
-        mask: MaskReport {
-            width: sampled.grid.width,
-            height: sampled.grid.height,
-            pitch_mm: sampled.grid.pitch_mm,
-        },
-        warnings,
-        timings_ms,
     }
 }
 

@@ -5,7 +5,8 @@ use serde::Serialize;
 use tsify::Tsify;
 
 use crate::mesh::Mesh;
-use crate::profile::Metric;
+use crate::plan::tradeoff::TradeoffPoint;
+use crate::profile::{Metric, Source};
 
 /// Something that the user should know although the work went on.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -132,13 +133,47 @@ pub struct MaskReport {
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 pub struct UniformReport {
     /// Layers of the least thickness.
-    pub finest_layers: usize,
-    /// Their largest error.
-    pub finest_error_mm: f64,
+    pub finest: PlannerReport,
     /// Layers of the greatest thickness.
-    pub coarsest_layers: usize,
-    /// Their largest error.
-    pub coarsest_error_mm: f64,
+    pub coarsest: PlannerReport,
+}
+
+/// What a planner makes of a model.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(Tsify))]
+pub struct PlannerReport {
+    /// Name of the planner.
+    pub planner: String,
+    /// Number of layers.
+    pub layers: usize,
+    /// The largest exact error of a layer, in the metric's unit.
+    pub max_error: f64,
+    /// Time that the layers take.
+    pub print_time_s: f64,
+}
+
+/// Planners side by side, as in table 3.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(Tsify))]
+pub struct Comparison {
+    /// Facets of the model.
+    pub facets: usize,
+    /// Its height.
+    pub height_mm: f64,
+    /// What errors measure.
+    pub metric: Metric,
+    /// Their unit.
+    pub unit: String,
+    /// One row a planner, from the coarsest to the finest.
+    pub rows: Vec<PlannerReport>,
+}
+
+/// The trade-off curve.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(Tsify))]
+pub struct Tradeoff {
+    /// Its points, from the tightest tolerance to the loosest.
+    pub points: Vec<TradeoffPoint>,
 }
 
 /// Wall-clock times of the stages; 0 for a stage whose earlier result still held.
@@ -178,14 +213,26 @@ pub struct Report {
     pub z_mm: Vec<f64>,
     /// Thickness of each layer.
     pub thickness_mm: Vec<f64>,
-    /// The largest error of a layer under the profile.
-    pub max_error_mm: f64,
-    /// The tolerance asked for.
-    pub tolerance_mm: f64,
+    /// Heights of the planes that are at flats and sharp changes.
+    pub snapped_mm: Vec<f64>,
     /// What the error measures.
     pub metric: Metric,
+    /// The unit of tolerance and errors: `mm`, `mm³`, or empty for a fraction.
+    pub unit: String,
+    /// What the plan was made from.
+    pub source: Source,
     /// The planner that ran.
     pub planner: String,
+    /// The tolerance asked for or found, in the metric's unit.
+    pub tolerance: f64,
+    /// The largest error of a layer under the exact profile, in the metric's unit.
+    pub max_error: f64,
+    /// The largest error of a layer under the sampled profile, in the metric's unit.
+    pub sampled_error: f64,
+    /// The largest cusp height of a layer under the exact profile, whatever the metric.
+    pub max_error_mm: f64,
+    /// Time that the layers take.
+    pub print_time_s: f64,
     /// Where the LDI was sampled, `cpu` or `gpu`.
     pub backend: String,
     /// The GPU, if one was used.

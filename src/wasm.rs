@@ -11,8 +11,10 @@ use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use crate::error::Error;
-use crate::pipeline::{self, Options, Stage};
-use crate::report::{MeshInfo, Report};
+use crate::options::Options;
+use crate::pipeline::{self, Stage};
+use crate::profile::{Metric, Source};
+use crate::report::{Comparison, MeshInfo, Report, Tradeoff};
 
 /// What every function here throws.
 #[derive(Serialize, Tsify)]
@@ -107,12 +109,55 @@ impl Slicer {
         report.map_err(throw)?.into_ts().map_err(throw_conversion)
     }
 
-    /// Error density of every bin of the last plan, from the plate upward.
+    /// Best plans for `points` tolerances, from the tightest that can be held to the loosest that saves a layer.
+    ///
+    /// # Errors
+    /// Throws a `CuspError`.
+    pub async fn tradeoff(
+        &mut self,
+        options: Ts<Options>,
+        points: usize,
+        #[wasm_bindgen(unchecked_param_type = "(stage: Stage, fraction: number) => void")]
+        progress: Function,
+    ) -> Result<Ts<Tradeoff>, JsValue> {
+        let options = options.to_rust().map_err(throw_conversion)?;
+        let mut progress = progress_to(&progress);
+        let curve = self.slicer.tradeoff(&options, points, &mut progress).await;
+        curve.map_err(throw)?.into_ts().map_err(throw_conversion)
+    }
+
+    /// The plans of all planners side by side.
+    ///
+    /// # Errors
+    /// Throws a `CuspError`.
+    pub async fn compare(
+        &mut self,
+        options: Ts<Options>,
+        #[wasm_bindgen(unchecked_param_type = "(stage: Stage, fraction: number) => void")]
+        progress: Function,
+    ) -> Result<Ts<Comparison>, JsValue> {
+        let options = options.to_rust().map_err(throw_conversion)?;
+        let mut progress = progress_to(&progress);
+        let comparison = self.slicer.compare(&options, &mut progress).await;
+        comparison
+            .map_err(throw)?
+            .into_ts()
+            .map_err(throw_conversion)
+    }
+
+    /// The profile of a metric at the last plan's bins, from the plate upward: error density, or areas in mm² for the
+    /// volume deviation.
     ///
     /// # Errors
     /// Throws a `CuspError` if there is no plan.
-    pub fn profile(&self) -> Result<Vec<f32>, JsValue> {
-        Ok(self.slicer.profile().map_err(throw)?.density.clone())
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "values from JavaScript come by value"
+    )]
+    pub fn profile(&self, metric: Ts<Metric>, source: Ts<Source>) -> Result<Vec<f32>, JsValue> {
+        let metric = metric.to_rust().map_err(throw_conversion)?;
+        let source = source.to_rust().map_err(throw_conversion)?;
+        Ok(self.slicer.profile(metric, source).map_err(throw)?.density)
     }
 
     /// The mask of a layer, from 0: one bit a pixel, most significant first, rows from the largest y

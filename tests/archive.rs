@@ -7,7 +7,8 @@ mod common;
 use std::io::{Cursor, Read};
 
 use common::{binary_stl, quiet, solids};
-use cusp_slicer::pipeline::{Backend, Options, Planner, Slicer};
+use cusp_slicer::options::{Backend, Options, Planner};
+use cusp_slicer::pipeline::Slicer;
 use serde_json::Value;
 
 fn slice(triangles: &solids::Triangles, options: &Options) -> (Slicer, Vec<u8>, Value) {
@@ -95,7 +96,7 @@ fn the_same_plan_gives_the_same_masks_on_one_thread_and_on_many() {
 fn a_change_of_tolerance_keeps_the_ldi_and_changes_the_plan() {
     let (mut slicer, _, first) = slice(&solids::sphere(3.0, 4), &options());
     let finer = Options {
-        tolerance_mm: 0.055,
+        tolerance: Some(0.055),
         ..options()
     };
     let report = pollster::block_on(slicer.plan(&finer, &mut quiet)).unwrap();
@@ -114,12 +115,12 @@ fn a_change_of_tolerance_keeps_the_ldi_and_changes_the_plan() {
 fn after_an_infeasible_request_the_model_can_still_be_planned() {
     let mut slicer = Slicer::load(&binary_stl(&solids::sphere(3.0, 4))).unwrap();
     let impossible = Options {
-        tolerance_mm: 0.01,
+        tolerance: Some(0.01),
         ..options()
     };
     let error = pollster::block_on(slicer.plan(&impossible, &mut quiet)).unwrap_err();
     assert_eq!(error.code(), "infeasible");
-    assert_eq!(serde_json::to_value(&error).unwrap()["height_mm"], 0.0);
+    assert_eq!(serde_json::to_value(&error).unwrap()["from_mm"], 0.0);
     assert_eq!(slicer.mask(0).unwrap_err().code(), "no-plan");
     assert!(pollster::block_on(slicer.plan(&options(), &mut quiet)).is_ok());
 }

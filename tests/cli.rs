@@ -81,10 +81,19 @@ fn help_names_every_command_and_option() {
         "--layer-min",
         "--layer-max",
         "--tolerance",
+        "--max-layers",
+        "--max-time",
         "--bin",
         "--metric",
+        "--source",
         "--planner",
+        "--minimize",
         "--layer",
+        "--range",
+        "--plane",
+        "--step",
+        "--snap",
+        "--exposure",
         "--backend",
     ] {
         assert!(text.contains(option), "{option}");
@@ -100,10 +109,17 @@ fn plan_prints_one_json_object_with_every_key() {
         "height_mm",
         "z_mm",
         "thickness_mm",
+        "tolerance",
+        "max_error",
+        "sampled_error",
         "max_error_mm",
-        "tolerance_mm",
+        "unit",
         "metric",
+        "source",
         "planner",
+        "print_time_s",
+        "snapped_mm",
+        "uniform",
         "backend",
         "adapter",
         "bins",
@@ -143,6 +159,134 @@ fn plan_prints_one_json_object_with_every_key() {
 }
 
 #[test]
+fn every_metric_and_planner_can_be_asked_for() {
+    let folder = TempDir::new().unwrap();
+    let ball = sphere(&folder);
+    let plan = |more: &[&str]| {
+        let fixed = [
+            "plan", &ball, "--json", "--pixels", "200x200", "--pitch", "0.04",
+        ];
+        json(&on_cpu(&[&fixed[..], more].concat()))
+    };
+    for (metric, unit) in [
+        ("cusp", "mm"),
+        ("roughness", "mm"),
+        ("area", ""),
+        ("volume", "mm³"),
+    ] {
+        for source in ["exact", "sampled"] {
+            let report = plan(&["--metric", metric, "--source", source]);
+            assert_eq!(
+                (&report["metric"], &report["unit"]),
+                (&metric.into(), &unit.into())
+            );
+            let error = if source == "exact" {
+                "max_error"
+            } else {
+                "sampled_error"
+            };
+            let [error, tolerance] = [error, "tolerance"].map(|key| report[key].as_f64().unwrap());
+            assert!(
+                error <= tolerance * (1.0 + 1e-6),
+                "{metric}, {source}: {error} {tolerance}"
+            );
+        }
+    }
+    for planner in ["optimal", "greedy", "local"] {
+        assert_eq!(plan(&["--planner", planner])["planner"], planner);
+    }
+    for (layer, layers) in [("finest", 120), ("coarsest", 40), ("0.1", 60)] {
+        let report = plan(&["--planner", "uniform", "--layer", layer]);
+        assert_eq!(report["layers"], layers, "{layer}");
+    }
+    let fast_growing = [
+        "--exposure",
+        "20",
+        "--overhead",
+        "1",
+        "--penetration",
+        "0.05",
+    ];
+    let quick = plan(&[&fast_growing[..], &["--minimize", "time"]].concat());
+    let few = plan(&fast_growing);
+    assert!(quick["layers"].as_u64() > few["layers"].as_u64());
+    assert!(quick["print_time_s"].as_f64() < few["print_time_s"].as_f64());
+}
+
+#[test]
+fn planes_ranges_and_steps_are_kept() {
+    let folder = TempDir::new().unwrap();
+    let ball = sphere(&folder);
+    let constraints = "--range 0:1=0.1:0.1 --plane 2.34 --step 0.02 --tolerance 0.11";
+    let mut arguments = vec!["plan", &ball, "--json"];
+    arguments.extend(constraints.split(' '));
+    let report = json(&on_cpu(&arguments));
+    let z_mm: Vec<f64> = report["z_mm"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|z| z.as_f64().unwrap())
+        .collect();
+    assert_eq!(
+        z_mm[..11],
+        [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0]
+    );
+    assert!(z_mm.contains(&2.34));
+    assert!(
+        z_mm.iter()
+            .all(|z| ((z / 0.02).round() * 0.02 - z).abs() < 1e-9)
+    );
+}
+
+#[test]
+fn the_trade_off_and_the_comparison_are_shown_and_agree_with_plans() {
+    let folder = TempDir::new().unwrap();
+    let ball = sphere(&folder);
+    let curve = json(&on_cpu(&["tradeoff", &ball, "--json", "--points", "20"]));
+    let points = curve["points"].as_array().unwrap();
+    assert_eq!(points.len(), 20);
+    let text = |value: &serde_json::Value| value.to_string();
+    let same = json(&on_cpu(&[
+        "plan",
+        &ball,
+        "--json",
+        "--max-layers",
+        &text(&points[7]["layers"]),
+    ]));
+    assert_eq!(same["layers"], points[7]["layers"]);
+    assert!(same["tolerance"].as_f64() <= points[7]["tolerance"].as_f64());
+    let soon = json(&on_cpu(&["plan", &ball, "--json", "--max-time", "600"]));
+    assert!(soon["print_time_s"].as_f64().unwrap() <= 600.0);
+    assert_fails(
+        &on_cpu(&["plan", &ball, "--max-layers", "39"]),
+        1,
+        "at the least it takes 40 layers",
+    );
+
+    let comparison = json(&on_cpu(&["compare", &ball, "--json"]));
+    let rows = comparison["rows"].as_array().unwrap();
+    let planners: Vec<&str> = rows
+        .iter()
+        .map(|row| row["planner"].as_str().unwrap())
+        .collect();
+    assert_eq!(
+        planners,
+        ["coarsest", "optimal", "greedy", "local", "finest"]
+    );
+    let plan = json(&on_cpu(&["plan", &ball, "--json"]));
+    assert_eq!(rows[1]["layers"], plan["layers"]);
+    assert_eq!(rows[0], plan["uniform"]["coarsest"]);
+    for command in ["tradeoff", "compare"] {
+        let output = on_cpu(&[command, &ball]);
+        let shown = String::from_utf8(output.stdout).unwrap();
+        assert!(
+            shown.contains(" min") && shown.contains("largest error"),
+            "{shown}"
+        );
+    }
+}
+
+#[test]
 fn slice_writes_a_whole_zip_and_nothing_else() {
     let folder = TempDir::new().unwrap();
     let (model, zip) = (sphere(&folder), folder.path().join("out.zip"));
@@ -174,7 +318,7 @@ fn a_failed_slice_leaves_the_old_file() {
     let folder = TempDir::new().unwrap();
     let zip = model(&folder, "out.zip", b"precious");
     let output = on_cpu(&["slice", &sphere(&folder), "-o", &zip, "--tolerance", "0.01"]);
-    assert_fails(&output, 1, "raise the tolerance");
+    assert_fails(&output, 1, "raise the tolerance to 0.0");
     assert_eq!(std::fs::read(&zip).unwrap(), b"precious");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2);
 }
@@ -277,7 +421,7 @@ fn bad_input_is_one_clear_sentence_and_exit_code_1() {
     assert_fails(
         &on_cpu(&["plan", &ball, "--tolerance", "0.01"]),
         1,
-        "at z = 0.000 mm",
+        "from z = 0 to 0.05 mm",
     );
     assert_fails(
         &on_cpu(&["plan", &ball, "--layer-min", "0.2"]),
@@ -301,6 +445,12 @@ fn bad_usage_is_exit_code_2() {
     assert_fails(&cusp(&["plan", &ball, "--height", "-4"]), 2, "--height");
     assert_fails(&cusp(&["plan", &ball, "--tolerance", "NaN"]), 2, "positive");
     assert_fails(&cusp(&["plan", &ball, "--metric", "beauty"]), 2, "cusp");
+    assert_fails(&cusp(&["plan", &ball, "--range", "0:5"]), 2, "0:5=0.1:0.1");
+    let two = ["plan", &ball, "--tolerance", "1", "--max-layers", "9"];
+    assert_fails(&cusp(&two), 2, "cannot be used with");
+    assert_fails(&cusp(&["tradeoff", &ball, "--points", "1"]), 2, "--points");
+    let layer = ["plan", &ball, "--planner", "uniform", "--layer", "thin"];
+    assert_fails(&cusp(&layer), 2, "finest");
 }
 
 #[test]

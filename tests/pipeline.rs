@@ -10,7 +10,9 @@ use std::ops::ControlFlow;
 
 use common::{binary_stl, quiet, solids};
 use cusp_slicer::Error;
-use cusp_slicer::pipeline::{Backend, Options, Planner, Slicer, Stage};
+use cusp_slicer::options::{Backend, Minimize, Options, Planner, Snap};
+use cusp_slicer::pipeline::{Slicer, Stage};
+use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::report::Report;
 use glam::Vec3;
 
@@ -95,7 +97,7 @@ fn options_that_no_model_could_make_good_are_refused_before_sampling() {
         ),
         (
             Options {
-                tolerance_mm: f64::NAN,
+                tolerance: Some(f64::NAN),
                 ..options()
             },
             "bad-length",
@@ -112,7 +114,7 @@ fn options_that_no_model_could_make_good_are_refused_before_sampling() {
                 planner: Planner::Uniform { layer_mm: 0.0501 },
                 ..options()
             },
-            "layer-not-whole-bins",
+            "not-whole-bins",
         ),
     ] {
         let mut calls = 0;
@@ -139,7 +141,7 @@ fn uniform_layers_need_no_range() {
         },
     )
     .unwrap();
-    assert_eq!((report.layers, report.uniform.finest_layers), (50, 50));
+    assert_eq!((report.layers, report.uniform.finest.layers), (50, 50));
 }
 
 #[test]
@@ -170,7 +172,7 @@ fn output_that_would_be_black_is_an_error() {
         bin_mm: 1.0,
         layer_min_mm: 1.0,
         layer_max_mm: 1.0,
-        tolerance_mm: 10.0,
+        tolerance: Some(10.0),
         ..options()
     };
     plan(&mut low, &coarse).unwrap();
@@ -215,4 +217,124 @@ fn auto_does_its_work_whatever_the_machine_has() {
     )
     .unwrap();
     assert_eq!((auto.z_mm, auto.hits), (on_cpu.z_mm, on_cpu.hits));
+}
+
+#[test]
+fn the_tolerance_holds_on_every_solid_under_every_metric() {
+    for (name, triangles) in solids::all() {
+        let mut slicer = load(&triangles);
+        for metric in [
+            Metric::Cusp,
+            Metric::Roughness,
+            Metric::Area,
+            Metric::Volume,
+        ] {
+            for minimize in [Minimize::Layers, Minimize::Time] {
+                let options = Options {
+                    metric,
+                    minimize,
+                    ..options()
+                };
+                let report = match plan(&mut slicer, &options) {
+                    Ok(report) => report,
+                    Err(error) => panic!("{name}, {metric:?}: {error}"),
+                };
+                let room = 1.0 + 1e-6;
+                assert!(
+                    report.max_error <= report.tolerance * room,
+                    "{name}, {metric:?}"
+                );
+                if metric == Metric::Cusp {
+                    assert_eq!(report.max_error, report.max_error_mm);
+                    assert!(report.sampled_error <= report.max_error * room, "{name}");
+                }
+                assert!(
+                    report.layers <= report.uniform.finest.layers,
+                    "{name}, {metric:?}"
+                );
+                assert!(
+                    report.layers >= report.uniform.coarsest.layers,
+                    "{name}, {metric:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_sampled_plan_that_fails_on_the_mesh_says_so() {
+    // A thin upright slab under a steep roof, between the rays: they never see the roof.
+    let mut triangles = solids::cube(10.0);
+    let spike = solids::cone(0.02, 0.03, 8);
+    triangles.extend(solids::moved(&spike, Vec3::new(5.04, 5.04, 10.0)));
+    triangles.extend(solids::moved(
+        &solids::cuboid(Vec3::new(1.0, 1.0, 3.0)),
+        Vec3::new(1.0, 1.0, 10.0),
+    ));
+    let mut slicer = load(&triangles);
+    let sampled = Options {
+        source: Source::Sampled,
+        tolerance: Some(0.02),
+        layer_min_mm: 0.1,
+        bin_mm: 0.01,
+        snap: Snap::Off,
+        ..options()
+    };
+    let report = plan(&mut slicer, &sampled).unwrap();
+    assert!(report.sampled_error <= 0.02 + 1e-9);
+    assert!(report.max_error > 0.02);
+    assert!(
+        report
+            .warnings
+            .iter()
+            .any(|warning| warning.code == "tolerance-exceeded-on-mesh")
+    );
+}
+
+#[test]
+fn flats_print_at_their_true_height() {
+    // A step at a height that the fewest layers would not meet.
+    let mut stairs = solids::cuboid(Vec3::new(10.0, 10.0, 3.334));
+    stairs.extend(solids::moved(
+        &solids::cuboid(Vec3::new(4.0, 4.0, 6.0)),
+        Vec3::new(3.0, 3.0, 0.0),
+    ));
+    let mut slicer = load(&stairs);
+    let snapped = plan(&mut slicer, &options()).unwrap();
+    assert_eq!(snapped.snapped_mm, [3.334]);
+    assert!(snapped.z_mm.contains(&3.334));
+    let off = Options {
+        snap: Snap::Off,
+        ..options()
+    };
+    assert_eq!(plan(&mut slicer, &off).unwrap().snapped_mm, [0.0; 0]);
+    let large = Options {
+        flat_area_mm2: 90.0,
+        ..options()
+    };
+    // The flat is 84 mm², but the profile still changes sharply there.
+    assert_eq!(plan(&mut slicer, &large).unwrap().snapped_mm.len(), 1);
+}
+
+#[test]
+fn a_goal_is_met_with_the_least_tolerance() {
+    let mut slicer = load(&solids::sphere(3.0, 5));
+    let usual = plan(&mut slicer, &options()).unwrap();
+    let few = Options {
+        max_layers: Some(usual.layers - 5),
+        ..options()
+    };
+    let report = plan(&mut slicer, &few).unwrap();
+    assert!(report.layers <= usual.layers - 5 && report.tolerance > 0.065);
+    let quick = Options {
+        max_time_s: Some(usual.print_time_s * 0.9),
+        ..options()
+    };
+    let report = plan(&mut slicer, &quick).unwrap();
+    assert!(report.print_time_s <= usual.print_time_s * 0.9);
+    let both = Options {
+        tolerance: Some(0.1),
+        ..few
+    };
+    assert_eq!(code(plan(&mut slicer, &both)), "bad-options");
 }

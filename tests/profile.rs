@@ -1,69 +1,302 @@
-//! The sampled cusp height profile of solids against their closed forms.
+//! Profiles of solids, sampled and exact, against closed forms and naive oracles.
 
 #![cfg(not(target_arch = "wasm32"))]
 
 mod common;
 
-use common::{assert_near, sample, solids};
-use cusp_slicer::grid::Bins;
-use cusp_slicer::profile::{Profile, cusp};
+use common::{assert_near, on_plate, oracle, sample, solids};
+use cusp_slicer::grid::{Bins, Grid};
+use cusp_slicer::ldi::cpu;
+use cusp_slicer::ldi::visibility::{Visibility, visibility};
+use cusp_slicer::mesh::Mesh;
+use cusp_slicer::profile::wishes::wishes;
+use cusp_slicer::profile::{Metric, Profile, Shape, area, cusp, roughness, section, steepest};
+use cusp_slicer::progress::silent;
+use glam::Vec3;
 
-fn profile_of(triangles: &solids::Triangles, bin_mm: f64) -> Profile {
+fn bins_of(mesh: &Mesh, bin_mm: f64) -> Bins {
+    Bins::of_height(mesh.bounds().size().z, bin_mm).unwrap()
+}
+
+/// Exact and sampled.
+fn shapes(triangles: &solids::Triangles, bin_mm: f64) -> [Shape; 2] {
     let (mesh, ldi) = sample(triangles, 500);
-    let bins = Bins::of_height(mesh.bounds().size().z, bin_mm).unwrap();
-    cusp::sampled(&mesh, &ldi, bins)
+    let bins = bins_of(&mesh, bin_mm);
+    let seen = visibility(&mesh, &ldi);
+    [
+        Shape {
+            bins,
+            steepest: steepest::exact(&mesh, &seen.hidden, bins),
+            areas_mm2: section::exact(&mesh, &seen.hidden, bins),
+        },
+        Shape {
+            bins,
+            steepest: steepest::sampled(&mesh, &ldi, &seen.hidden, bins),
+            areas_mm2: section::sampled(&ldi, bins),
+        },
+    ]
+}
+
+fn densities(triangles: &solids::Triangles, bin_mm: f64, metric: Metric) -> [Vec<f32>; 2] {
+    shapes(triangles, bin_mm).map(|shape| shape.profile(metric).density)
+}
+
+fn seen(mesh: &Mesh, rays: u32) -> Visibility {
+    let grid = Grid::around(&mesh.bounds(), rays).unwrap();
+    visibility(mesh, &cpu::sample(mesh, &grid, &mut silent).unwrap())
 }
 
 #[test]
-fn upright_walls_have_no_density_and_flats_have_all() {
+fn upright_walls_have_no_cusps_and_flats_have_all() {
     for triangles in [solids::cube(10.0), solids::cylinder(8.0, 10.0, 32)] {
-        let profile = profile_of(&triangles, 0.1);
-        assert_eq!(profile.density.len(), 100);
-        assert_eq!((profile.density[0], profile.density[99]), (1.0, 1.0));
-        assert!(profile.density[1..99].iter().all(|&density| density == 0.0));
+        for density in densities(&triangles, 0.1, Metric::Cusp) {
+            assert_eq!(density.len(), 100);
+            assert_eq!((density[0], density[99]), (1.0, 1.0));
+            assert!(density[1..99].iter().all(|&density| density == 0.0));
+        }
     }
 }
 
 #[test]
-fn caps_over_holes_have_no_part_in_the_profile() {
+fn upright_walls_are_as_rough_as_layers_are_thick_and_flats_are_capped() {
+    let [exact, sampled] = densities(&solids::cylinder(8.0, 10.0, 32), 0.1, Metric::Roughness);
+    assert_eq!((exact[0], exact[99]), (roughness::CAP, roughness::CAP));
+    assert!(exact[1..99].iter().all(|&density| density == 1.0));
+    // Rays never meet upright walls.
+    assert!(sampled[1..99].iter().all(|&density| density == 0.0));
+}
+
+#[test]
+fn caps_over_holes_have_no_part_in_cusps() {
     let mut triangles = solids::cube(10.0);
     triangles.drain(0..2); // the bottom
-    let profile = profile_of(&triangles, 0.1);
-    assert_eq!((profile.density[0], profile.density[99]), (0.0, 1.0));
+    for density in densities(&triangles, 0.1, Metric::Cusp) {
+        assert_eq!((density[0], density[99]), (0.0, 1.0));
+    }
 }
 
 #[test]
-fn a_cone_has_the_density_of_its_slope_everywhere() {
-    let profile = profile_of(&solids::cone(6.0, 8.0, 64), 0.1);
-    assert_eq!(profile.density[0], 1.0);
-    for &density in &profile.density[1..] {
-        assert_near(f64::from(density), 0.6, 1e-3);
+fn a_cone_has_the_densities_of_its_slope_everywhere() {
+    let cone = solids::cone(6.0, 8.0, 64);
+    for (metric, expected) in [(Metric::Cusp, 0.6), (Metric::Roughness, 1.25)] {
+        for density in densities(&cone, 0.1, metric) {
+            for &density in &density[1..] {
+                assert_near(f64::from(density), expected, 2e-3);
+            }
+        }
     }
+    // A is proportional to the square of the distance from the tip, s, so that |A'| / A is 2 / s.
+    let [exact, _] = densities(&cone, 0.01, Metric::Area);
+    for bin in (0..780).step_by(39) {
+        let below_tip = 8.0 - (bin as f64 + 1.0) * 0.01;
+        let expected = (2.0 / below_tip).min(f64::from(area::CAP));
+        assert_near(f64::from(exact[bin]), expected, 0.01 * expected);
+    }
+    assert_eq!(exact[799], area::CAP);
 }
 
 #[test]
 fn a_sphere_has_the_density_of_its_height() {
-    let profile = profile_of(&solids::sphere(10.0, 7), 0.2);
-    for (bin, &density) in profile.density.iter().enumerate() {
-        // The largest |n_z| in a bin is at its end away from the middle.
-        let ends = [bin as f64, bin as f64 + 1.0].map(|end| (end * 0.2 - 10.0).abs() / 10.0);
-        assert_near(f64::from(density), ends[0].max(ends[1]), 0.012);
+    for density in densities(&solids::sphere(10.0, 7), 0.2, Metric::Cusp) {
+        for (bin, &density) in density.iter().enumerate() {
+            // The largest |n_z| in a bin is at its end away from the middle.
+            let ends = [bin as f64, bin as f64 + 1.0].map(|end| (end * 0.2 - 10.0).abs() / 10.0);
+            assert_near(f64::from(density), ends[0].max(ends[1]), 0.012);
+        }
     }
+}
+
+#[test]
+fn a_symmetric_solid_has_a_symmetric_profile() {
+    // Bins of a number that no vertex of the sphere lies on.
+    let [exact, _] = shapes(&solids::sphere(10.0, 6), 20.0 / 777.0);
+    for metric in [Metric::Cusp, Metric::Roughness, Metric::Volume] {
+        let density = exact.profile(metric).density;
+        let most = density.iter().copied().fold(0.0, f32::max);
+        for (upward, downward) in density.iter().zip(density.iter().rev()) {
+            assert_near(
+                f64::from(*upward),
+                f64::from(*downward),
+                2e-5 * f64::from(most),
+            );
+        }
+    }
+}
+
+#[test]
+fn the_exact_profile_is_that_of_a_loop_over_facets_and_bins() {
+    for (name, triangles) in solids::all() {
+        let mesh = on_plate(&triangles);
+        let bins = bins_of(&mesh, mesh.bounds().size().z / 173.0);
+        let expected = oracle::steepest(&mesh, bins, |_| true);
+        let found = steepest::exact(&mesh, &[], bins);
+        for (bin, (&found, &expected)) in found.iter().zip(&expected).enumerate() {
+            let found = f64::from(found);
+            let found = if found < 0.0 { found } else { found.sqrt() };
+            assert!(
+                (found - expected).abs() < 1e-6,
+                "{name}, bin {bin}: {found} {expected}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_sampled_profile_is_never_above_the_exact_one() {
+    let mut lower = 0;
+    for (name, triangles) in solids::all() {
+        let [exact, sampled] = shapes(&triangles, 0.03);
+        let bins = exact.bins.count;
+        for bin in 0..bins {
+            assert!(
+                sampled.steepest[bin] <= exact.steepest[bin],
+                "{name}, bin {bin}"
+            );
+            lower += usize::from(sampled.steepest[bin] + 0.02 < exact.steepest[bin]);
+        }
+    }
+    assert!(lower > 20, "rays miss something: {lower}");
+}
+
+#[test]
+fn exact_areas_are_those_of_every_section() {
+    for (name, triangles) in solids::all() {
+        let mesh = on_plate(&triangles);
+        // A number of bins that is no power of two, and one bin.
+        for count in [1.0, 357.0] {
+            let bins = bins_of(&mesh, mesh.bounds().size().z / count);
+            let areas_mm2 = section::exact(&mesh, &[], bins);
+            let most = areas_mm2.iter().copied().fold(0.0, f64::max);
+            for (bin, &found) in areas_mm2.iter().enumerate() {
+                // Half a bin's rounding off a level facet there may be none or all.
+                let expected = oracle::section_mm2(&mesh, bins.middle_mm(bin));
+                assert!(
+                    (found - expected).abs() < 1e-9 * most,
+                    "{name}, bin {bin}: {found} {expected}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn areas_have_their_closed_forms() {
+    let [exact, sampled] = shapes(&solids::cone(6.0, 8.0, 64), 0.02).map(|shape| shape.areas_mm2);
+    let cylinder = shapes(&solids::cylinder(8.0, 10.0, 32), 0.02).map(|shape| shape.areas_mm2);
+    for bin in 0..400 {
+        let radius = 6.0 * (1.0 - (bin as f64 + 0.5) * 0.02 / 8.0);
+        let expected = solids::circle_area(64) * radius * radius;
+        assert_near(exact[bin], expected, 1e-5);
+        assert_near(sampled[bin], expected, 0.15);
+        assert_near(cylinder[0][bin], solids::circle_area(32) * 64.0, 1e-4);
+        assert_near(cylinder[1][bin], solids::circle_area(32) * 64.0, 0.3);
+    }
+}
+
+#[test]
+fn what_lies_wholly_inside_has_no_part() {
+    let outer = solids::cube(10.0);
+    let ball = solids::moved(&solids::sphere(2.0, 4), Vec3::splat(5.0));
+    let mut both = outer.clone();
+    both.extend(ball);
+    let mesh = on_plate(&both);
+    let found = seen(&mesh, 400);
+    assert!(!found.overlaps);
+    let ball = outer.len()..mesh.surface_facets;
+    assert!(!found.hidden[..ball.start].contains(&true));
+    // The poles' facets are met, some of the equator's are not: they follow their body.
+    assert!(!found.hidden[ball].contains(&false));
+
+    let bins = bins_of(&mesh, 0.1);
+    let areas_mm2 = section::exact(&mesh, &found.hidden, bins);
+    assert!(areas_mm2.iter().all(|area| (area - 100.0).abs() < 1e-9));
+    let density = steepest::exact(&mesh, &found.hidden, bins);
+    assert_eq!(density, steepest::exact(&on_plate(&outer), &[], bins));
+}
+
+#[test]
+fn where_bodies_touch_there_is_no_surface() {
+    let mut stacked = solids::cube(10.0);
+    stacked.extend(solids::moved(
+        &solids::cube(10.0),
+        Vec3::new(0.0, 0.0, 10.0),
+    ));
+    for shuffled in [stacked.clone(), solids::shuffled(&stacked)] {
+        let [exact, _] = shapes(&shuffled, 0.1);
+        let density = exact.profile(Metric::Cusp).density;
+        assert!(density[1..199].iter().all(|&density| density == 0.0));
+        assert!(
+            exact
+                .areas_mm2
+                .iter()
+                .all(|area| (area - 100.0).abs() < 1e-9)
+        );
+    }
+}
+
+#[test]
+fn bodies_that_cross_are_left_to_the_rays() {
+    let mut crossing = solids::cube(10.0);
+    crossing.extend(solids::moved(&solids::cube(10.0), Vec3::splat(4.0)));
+    let found = seen(&on_plate(&crossing), 100);
+    assert!(found.overlaps);
+    assert!(!seen(&on_plate(&solids::cube(3.0)), 20).overlaps);
+}
+
+#[test]
+fn flats_come_before_sharp_changes_and_larger_before_smaller() {
+    // Steps of two sizes, and a cone on top.
+    let step = |side: f32, z: f32| solids::moved(&solids::cube(side), Vec3::new(0.0, 0.0, z));
+    let mut stairs = step(10.0, 0.0);
+    stairs.extend(step(6.0, 6.0));
+    stairs.extend(step(3.0, 11.0));
+    let mesh = on_plate(&stairs);
+    let bins = bins_of(&mesh, 0.1);
+    let hidden = seen(&mesh, 300).hidden;
+    let density = cusp::density(&steepest::exact(&mesh, &hidden, bins));
+    let found = wishes(&mesh, &hidden, &density, bins, 1.0);
+    assert_eq!(found[..2], [100, 120]);
+    // Around each flat the density changes sharply.
+    for sharp in [99, 100, 119, 120, 1, 139] {
+        assert!(found[2..].contains(&sharp), "{sharp}: {found:?}");
+    }
+    let large = wishes(&mesh, &hidden, &[], bins, 50.0);
+    assert_eq!(large, [100]);
 }
 
 #[test]
 fn errors_of_layers_are_sums_of_densities() {
     let bins = Bins::of_height(0.5, 0.1).unwrap();
-    let errors = Profile {
+    let shape = Shape {
         bins,
-        density: vec![0.2, 0.4, 0.0, 1.0, 0.3],
-    }
-    .error_sum();
-    let error_mm = |lower, upper| errors.to_mm(errors.steps_between(lower, upper));
-    assert_near(error_mm(0, 5), 0.19, 1e-9);
-    assert_near(error_mm(1, 4), 0.14, 1e-9);
-    assert_near(error_mm(2, 3), 0.0, 0.0);
+        steepest: [0.2f32, 0.4, 0.0, 1.0, 0.3]
+            .map(|density| density * density)
+            .to_vec(),
+        areas_mm2: vec![5.0, 4.0, 4.0, 7.0, 1.0],
+    };
+    let errors = shape.errors(Metric::Cusp);
+    let error = |lower, upper| errors.to_value(errors.steps_between(lower, upper));
+    assert_near(error(0, 5), 0.19, 1e-7);
+    assert_near(error(1, 4), 0.14, 1e-7);
+    assert_near(error(2, 3), 0.0, 0.0);
     // Nothing lies above the last bin.
-    assert_near(error_mm(4, 9), 0.03, 1e-9);
-    assert_eq!(errors.to_steps(errors.to_mm(1234)), 1234);
+    assert_near(error(4, 9), 0.03, 1e-7);
+    assert_eq!(errors.to_steps(errors.to_value(1234)), 1234);
+
+    let errors = shape.errors(Metric::Volume);
+    let error = |lower, upper| errors.to_value(errors.steps_between(lower, upper));
+    assert_near(error(0, 3), 0.2, 1e-9);
+    assert_near(error(1, 5), 0.6, 1e-9);
+    // Above the model there is nothing to print: all of the layer is too much.
+    assert_near(error(4, 6), 0.1, 1e-9);
+
+    let area = shape.profile(Metric::Area);
+    assert_eq!(area.density, [2.0, 0.0, area::CAP, area::CAP, area::CAP]);
+    assert_eq!(
+        Profile {
+            bins,
+            density: shape.areas_mm2.iter().map(|&it| it as f32).collect()
+        },
+        shape.profile(Metric::Volume)
+    );
 }

@@ -13,9 +13,11 @@ use cusp_slicer::ldi::{
     LdiError,
     gpu::{self, Gpu},
 };
+use cusp_slicer::options::{Backend, Minimize, Options};
+use cusp_slicer::pipeline::Slicer;
 #[cfg(target_arch = "wasm32")]
 use cusp_slicer::pipeline::Stage;
-use cusp_slicer::pipeline::{Backend, Options, Slicer};
+use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::progress::silent;
 use wasm_bindgen_test::wasm_bindgen_test;
 
@@ -58,15 +60,44 @@ fn the_ldi_is_the_recorded_one() {
 async fn check_plan_and_masks() {
     let mut slicer = Slicer::load(&binary_stl(&model())).unwrap();
     let report = slicer.plan(&options(), &mut quiet).await.unwrap().clone();
-    let plan: Vec<u8> = report.z_mm.iter().flat_map(|z| z.to_le_bytes()).collect();
     let masks: Vec<u8> = (0..report.layers)
         .flat_map(|layer| slicer.mask(layer).unwrap().to_vec())
         .collect();
-    let fingerprints = [fingerprint(&plan), fingerprint(&masks)];
     assert_eq!(
-        (report.layers, fingerprints),
-        (63, [0x0e5e_4917_e8be_2a27, 0xe479_53ad_ee23_8c6d])
+        (report.layers, fingerprint(&masks)),
+        (66, 0xc6b7_c4d0_730d_43ed)
     );
+    // Every metric, source and objective.
+    let mut plans = Vec::new();
+    for metric in [
+        Metric::Cusp,
+        Metric::Roughness,
+        Metric::Area,
+        Metric::Volume,
+    ] {
+        for (source, minimize) in [
+            (Source::Exact, Minimize::Layers),
+            (Source::Exact, Minimize::Time),
+            (Source::Sampled, Minimize::Layers),
+        ] {
+            let options = Options {
+                metric,
+                source,
+                minimize,
+                ..options()
+            };
+            let report = slicer.plan(&options, &mut quiet).await.unwrap();
+            let figures = [report.max_error, report.sampled_error, report.print_time_s];
+            let numbers = report.z_mm.iter().chain(&figures);
+            plans.extend(numbers.flat_map(|number| number.to_le_bytes()));
+        }
+    }
+    let curve = slicer.tradeoff(&options(), 25, &mut quiet).await.unwrap();
+    for point in &curve.points {
+        plans.extend(point.tolerance.to_le_bytes());
+        plans.extend(point.layers.to_le_bytes().iter().take(4));
+    }
+    assert_eq!(fingerprint(&plans), 0xcfee_8d7c_e389_3f29);
 }
 
 #[cfg(not(target_arch = "wasm32"))]

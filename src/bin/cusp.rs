@@ -1,5 +1,6 @@
 //! The command line: the only file with a file system, arguments and a terminal.
 
+use std::fmt::Write as _;
 use std::fs;
 use std::io::{self, BufWriter, IsTerminal, Write as _};
 use std::ops::ControlFlow;
@@ -9,8 +10,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
-use cusp_slicer::pipeline::{self, Options, Slicer, Stage};
-use cusp_slicer::profile::Metric;
+use cusp_slicer::exposure::Resin;
+use cusp_slicer::options::{Backend, Minimize, Options, Planner, Snap};
+use cusp_slicer::pipeline::{Slicer, Stage};
+use cusp_slicer::plan::HeightRange;
+use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::report::{MeshInfo, Report, Warning};
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use serde::Serialize;
@@ -47,6 +51,21 @@ enum Command {
         #[command(flatten)]
         slicing: Slicing,
     },
+    /// Show how layers, time and error depend on each other
+    #[command(allow_negative_numbers = true)]
+    Tradeoff {
+        #[command(flatten)]
+        slicing: Slicing,
+        /// Plans on the curve
+        #[arg(long, default_value_t = 100, value_parser = clap::value_parser!(u32).range(2..=1000))]
+        points: u32,
+    },
+    /// Compare planners: coarsest, optimal, greedy and finest
+    #[command(allow_negative_numbers = true)]
+    Compare {
+        #[command(flatten)]
+        slicing: Slicing,
+    },
     /// Describe a model: size, facets, volume, faults
     Info {
         /// STL file, binary or ASCII
@@ -80,54 +99,81 @@ struct Slicing {
     /// Greatest layer thickness
     #[arg(long, value_name = "MM", default_value = "0.15", value_parser = length, help_heading = "Layers")]
     layer_max: f64,
-    /// Greatest error of a layer
-    #[arg(long, value_name = "MM", default_value = "0.065", value_parser = length, help_heading = "Layers")]
-    tolerance: f64,
-    /// Height of a bin of the profile, to which layers are rounded
-    #[arg(long, value_name = "MM", default_value = "0.002", value_parser = length, help_heading = "Layers")]
-    bin: f64,
+    /// Greatest error of a layer, in the metric's unit [default: 0.065 mm of cusp height, 0.1 mm of roughness, 0.1 of the
+    /// area, 1 mm³ of volume and as much more as the model needs]
+    #[arg(long, value_name = "ERROR", value_parser = positive, help_heading = "Layers")]
+    tolerance: Option<f64>,
+    /// Find the least tolerance that needs at most so many layers
+    #[arg(
+        long,
+        value_name = "K",
+        conflicts_with = "tolerance",
+        help_heading = "Layers"
+    )]
+    max_layers: Option<usize>,
+    /// Find the least tolerance that takes at most so many seconds
+    #[arg(long, value_name = "S", value_parser = positive, conflicts_with_all = ["tolerance", "max_layers"], help_heading = "Layers")]
+    max_time: Option<f64>,
     /// What the error measures
     #[arg(long, value_enum, default_value = "cusp", help_heading = "Layers")]
-    metric: MetricArg,
+    metric: Metric,
+    /// What errors are measured on
+    #[arg(long, value_enum, default_value = "exact", help_heading = "Layers")]
+    source: Source,
     /// How layers are chosen
     #[arg(long, value_enum, default_value = "optimal", help_heading = "Layers")]
     planner: PlannerArg,
-    /// Layer thickness of the uniform planner, and of no other
+    /// What the optimal plan has least of
+    #[arg(long, value_enum, default_value = "layers", help_heading = "Layers")]
+    minimize: Minimize,
+    /// Layer thickness of the uniform planner, and of no other: a length, `finest` or `coarsest`
     #[arg(
         long,
         value_name = "MM",
-        value_parser = length,
+        value_parser = uniform_layer,
         required_if_eq("planner", "uniform"),
         help_heading = "Layers"
     )]
-    layer: Option<f64>,
+    layer: Option<Planner>,
+    /// Layers from Z0 to Z1 of MIN to MAX mm; may be given again for other heights
+    #[arg(long = "range", value_name = "Z0:Z1=MIN:MAX", value_parser = height_range, help_heading = "Layers")]
+    ranges: Vec<HeightRange>,
+    /// Put a plane at this height; may be given again
+    #[arg(long = "plane", value_name = "MM", value_parser = length, help_heading = "Layers")]
+    planes: Vec<f64>,
+    /// What heights are multiples of: the printer's motor step
+    #[arg(long, value_name = "MM", value_parser = length, help_heading = "Layers")]
+    step: Option<f64>,
+    /// Whether planes go where flats and sharp changes are
+    #[arg(long, value_enum, default_value = "auto", help_heading = "Layers")]
+    snap: Snap,
+    /// Height of a bin of the profile, to which layers are rounded
+    #[arg(long, value_name = "MM", default_value = "0.002", value_parser = length, help_heading = "Layers")]
+    bin: f64,
+    /// Seconds of exposure of a layer of 0.05 mm; others follow from the penetration depth
+    #[arg(long, value_name = "S", default_value = "3", value_parser = positive, help_heading = "Time")]
+    exposure: f64,
+    /// Penetration depth of the light into the resin
+    #[arg(long, value_name = "MM", default_value = "0.15", value_parser = length, help_heading = "Time")]
+    penetration: f64,
+    /// Seconds between layers, to lift and return
+    #[arg(long, value_name = "S", default_value = "8", value_parser = positive, help_heading = "Time")]
+    overhead: f64,
     /// Where surfaces are sampled
     #[arg(long, value_enum, default_value = "auto", help_heading = "Machine")]
-    backend: BackendArg,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum MetricArg {
-    /// Cusp height in millimetres
-    Cusp,
+    backend: Backend,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum PlannerArg {
-    /// The fewest layers within tolerance
+    /// The fewest layers within tolerance, or the shortest time
     Optimal,
+    /// Layer by layer, as thick as the profile allows
+    Greedy,
+    /// Layer by layer, as thick as the surface at the plane suggests
+    Local,
     /// Layers of one thickness, given by --layer
     Uniform,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum BackendArg {
-    /// The GPU, unless there is none or it is emulated
-    Auto,
-    /// The GPU
-    Gpu,
-    /// The CPU
-    Cpu,
 }
 
 impl Slicing {
@@ -154,20 +200,30 @@ impl Slicing {
             pitch_mm: self.pitch,
             layer_min_mm: self.layer_min,
             layer_max_mm: self.layer_max,
-            tolerance_mm: self.tolerance,
+            tolerance: self.tolerance,
+            max_layers: self.max_layers,
+            max_time_s: self.max_time,
             bin_mm: self.bin,
-            metric: match self.metric {
-                MetricArg::Cusp => Metric::Cusp,
-            },
+            step_mm: self.step,
+            ranges: self.ranges.clone(),
+            planes_mm: self.planes.clone(),
+            snap: self.snap,
+            metric: self.metric,
+            source: self.source,
             planner: match (self.planner, self.layer) {
-                (PlannerArg::Uniform, Some(layer_mm)) => pipeline::Planner::Uniform { layer_mm },
-                _ => pipeline::Planner::Optimal,
+                (PlannerArg::Optimal, _) => Planner::Optimal,
+                (PlannerArg::Greedy, _) => Planner::Greedy,
+                (PlannerArg::Local, _) => Planner::Local,
+                (PlannerArg::Uniform, layer) => layer.unwrap_or(Planner::Finest),
             },
-            backend: match self.backend {
-                BackendArg::Auto => pipeline::Backend::Auto,
-                BackendArg::Gpu => pipeline::Backend::Gpu,
-                BackendArg::Cpu => pipeline::Backend::Cpu,
+            minimize: self.minimize,
+            resin: Resin {
+                exposure_s: self.exposure,
+                penetration_mm: self.penetration,
+                overhead_s: self.overhead,
+                ..Resin::default()
             },
+            backend: self.backend,
             ..Options::default()
         }
     }
@@ -179,6 +235,42 @@ fn length(text: &str) -> Result<f64, String> {
         Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
         _ => Err("a positive number of millimetres is needed".to_owned()),
     }
+}
+
+/// Parses a positive number.
+fn positive(text: &str) -> Result<f64, String> {
+    length(text).map_err(|_| "a positive number is needed".to_owned())
+}
+
+/// Parses a thickness of uniform layers.
+fn uniform_layer(text: &str) -> Result<Planner, String> {
+    match text {
+        "finest" => Ok(Planner::Finest),
+        "coarsest" => Ok(Planner::Coarsest),
+        _ => Ok(Planner::Uniform {
+            layer_mm: length(text)
+                .map_err(|reason| format!("{reason}, or `finest` or `coarsest`"))?,
+        }),
+    }
+}
+
+/// Parses `Z0:Z1=MIN:MAX`.
+fn height_range(text: &str) -> Result<HeightRange, String> {
+    let pair = |text: &str| {
+        let (first, second) = text.split_once(':')?;
+        Some((first.trim().parse().ok()?, second.trim().parse().ok()?))
+    };
+    text.split_once('=')
+        .and_then(|(heights, layers)| {
+            let ((from_mm, to_mm), (layer_min_mm, layer_max_mm)) = (pair(heights)?, pair(layers)?);
+            Some(HeightRange {
+                from_mm,
+                to_mm,
+                layer_min_mm,
+                layer_max_mm,
+            })
+        })
+        .ok_or_else(|| "heights and thicknesses in mm are needed, such as 0:5=0.1:0.1".to_owned())
 }
 
 /// Parses `WxH`.
@@ -222,6 +314,8 @@ fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Slice { slicing, output } => slice(&slicing, &output),
         Command::Plan { slicing } => plan(&slicing),
+        Command::Tradeoff { slicing, points } => tradeoff(&slicing, points as usize),
+        Command::Compare { slicing } => compare(&slicing),
         Command::Info { model, json } => info(&model, json),
     };
     match result {
@@ -265,6 +359,75 @@ fn plan(slicing: &Slicing) -> Result<(), Failure> {
     let report = make_plan(&mut slicer, slicing, &bar)?;
     drop(bar);
     show(slicing, report)
+}
+
+fn tradeoff(slicing: &Slicing, points: usize) -> Result<(), Failure> {
+    slicing.check("tradeoff");
+    let mut slicer = load(&slicing.model)?;
+    stop_on_interrupt();
+    let bar = Bar::new();
+    let mut progress = |stage, fraction| bar.report(stage, fraction);
+    let options = slicing.options();
+    let curve = pollster::block_on(slicer.tradeoff(&options, points, &mut progress))
+        .map_err(|error| Failure::in_file(&slicing.model, &error))?;
+    drop(bar);
+    if slicing.json {
+        return Ok(print_json(&curve)?);
+    }
+    let mut text = format!(
+        "tolerance     layers  largest error  time\n{:>9}",
+        options.metric.unit()
+    );
+    for point in &curve.points {
+        let _ = write!(
+            text,
+            "\n{:<12.5} {:>7}  {:<13.5}  {}",
+            point.tolerance,
+            point.layers,
+            point.max_error,
+            duration(point.print_time_s)
+        );
+    }
+    Ok(print(&text)?)
+}
+
+fn compare(slicing: &Slicing) -> Result<(), Failure> {
+    slicing.check("compare");
+    let mut slicer = load(&slicing.model)?;
+    stop_on_interrupt();
+    let bar = Bar::new();
+    let mut progress = |stage, fraction| bar.report(stage, fraction);
+    let comparison = pollster::block_on(slicer.compare(&slicing.options(), &mut progress))
+        .map_err(|error| Failure::in_file(&slicing.model, &error))?;
+    drop(bar);
+    if slicing.json {
+        return Ok(print_json(&comparison)?);
+    }
+    let mut text = format!(
+        "{} facets, {} mm high\nplanner    layers  largest error  time",
+        comparison.facets, comparison.height_mm
+    );
+    for row in &comparison.rows {
+        let _ = write!(
+            text,
+            "\n{:<9} {:>7}  {:<13}  {}",
+            row.planner,
+            row.layers,
+            comparison.metric.words(row.max_error),
+            duration(row.print_time_s)
+        );
+    }
+    Ok(print(&text)?)
+}
+
+/// A time as people say it.
+fn duration(seconds: f64) -> String {
+    let minutes = (seconds / 60.0).round() as u64;
+    if minutes == 0 {
+        format!("{seconds:.0} s")
+    } else {
+        format!("{} h {:02} min", minutes / 60, minutes % 60)
+    }
 }
 
 fn slice(slicing: &Slicing, output: &Path) -> Result<(), Failure> {
@@ -407,20 +570,27 @@ fn describe_plan(report: &Report) -> String {
         .fold((f64::INFINITY, 0f64), |(low, high), &t| {
             (low.min(t), high.max(t))
         });
+    let words = |error| report.metric.words(error);
+    let (finest, coarsest) = (&report.uniform.finest, &report.uniform.coarsest);
     format!(
         "layers    {} of {thinnest:.3} to {thickest:.3} mm, {:.3} mm in all\n\
-         uniform   {} at the least thickness (error {:.4} mm), {} at the greatest ({:.4} mm)\n\
-         error     {:.4} mm, tolerance {} mm\n\
+         time      {}\n\
+         uniform   {} at the least thickness (error {}), {} at the greatest ({})\n\
+         error     {} on the mesh, {} as sampled, tolerance {}\n\
+         planes    {} at flats and sharp changes\n\
          masks     {} × {} pixels of {:.4} mm\n\
          sampled   {} hits on {}, {:.0} ms in all",
         report.layers,
         report.height_mm,
-        report.uniform.finest_layers,
-        report.uniform.finest_error_mm,
-        report.uniform.coarsest_layers,
-        report.uniform.coarsest_error_mm,
-        report.max_error_mm,
-        report.tolerance_mm,
+        duration(report.print_time_s),
+        finest.layers,
+        words(finest.max_error),
+        coarsest.layers,
+        words(coarsest.max_error),
+        words(report.max_error),
+        words(report.sampled_error),
+        words(report.tolerance),
+        report.snapped_mm.len(),
         report.mask.width,
         report.mask.height,
         report.mask.pitch_mm,

@@ -10,6 +10,7 @@ pub mod cpu;
 pub mod gpu;
 pub mod layout;
 pub mod projection;
+pub mod visibility;
 
 use serde::Serialize;
 
@@ -161,6 +162,14 @@ impl Ldi {
         &self.hits[self.offsets[ray] as usize..self.offsets[ray + 1] as usize]
     }
 
+    /// The offsets of rays in chunks that are worth a thread each, with the one behind the last ray of each.
+    fn chunks(&self) -> Vec<&[u32]> {
+        (0..self.rays())
+            .step_by(CHUNK_RAYS)
+            .map(|first| &self.offsets[first..=(first + CHUNK_RAYS).min(self.rays())])
+            .collect()
+    }
+
     /// Number of rays.
     pub fn rays(&self) -> usize {
         self.offsets.len() - 1
@@ -177,11 +186,7 @@ impl Ldi {
             let hits = &self.hits[ray[0] as usize..ray[1] as usize];
             hits.iter().any(|hit| hit.facet() >= first_cap)
         };
-        let chunks = (0..self.rays()).step_by(CHUNK_RAYS).map(|first| {
-            let last = (first + CHUNK_RAYS).min(self.rays());
-            &self.offsets[first..=last]
-        });
-        parallel::map(chunks.collect(), |offsets: &[u32]| {
+        parallel::map(self.chunks(), |offsets: &[u32]| {
             offsets.windows(2).filter(|ray| passes_cap(ray)).count()
         })
         .into_iter()

@@ -169,25 +169,17 @@ impl Mesh {
         self.open_edges == 0
     }
 
-    /// `|n_z|` of every facet's unit normal: 1 for a horizontal facet, 0 for a vertical one and for
-    /// what is not surface.
-    pub fn steepness(&self) -> Vec<f32> {
-        (0..self.facets.len())
-            .map(|facet| {
-                if facet >= self.surface_facets {
-                    return 0.0;
-                }
-                let [a, b, c] = self.corners(facet);
-                let normal = (b - a).cross(c - a);
-                let length = normal.length();
-                let n_z = if length > 0.0 {
-                    normal.z.abs() / length
-                } else {
-                    0.0
-                };
-                n_z.min(1.0) as f32
-            })
-            .collect()
+    /// `n_z²` of a facet's unit normal: 1 for a horizontal facet, 0 for a vertical one and for one without area.
+    pub fn n_z_squared(&self, facet: usize) -> f32 {
+        let [a, b, c] = self.corners(facet);
+        let normal = (b - a).cross(c - a);
+        let vertical = normal.z * normal.z;
+        let all = normal.x * normal.x + normal.y * normal.y + vertical;
+        if all > 0.0 {
+            (vertical / all) as f32
+        } else {
+            0.0
+        }
     }
 
     /// A copy standing on the plate: lowest point at z = 0, centred on x = y = 0, and scaled evenly

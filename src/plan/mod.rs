@@ -1,26 +1,51 @@
 //! Layer plans: where the planes between layers lie (section 3.3).
 //!
-//! A planner sees a profile and limits, and nothing else of the model.
+//! A planner sees the errors of layers and limits, and nothing else of the model.
 
+pub mod greedy;
 pub mod optimal;
+pub mod segment;
+pub mod tradeoff;
 pub mod uniform;
 
 use std::ops::RangeInclusive;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
+use crate::exposure::Resin;
 use crate::grid::{Bins, GridError, positive};
-use crate::profile::ErrorSum;
+use crate::profile::LayerErrors;
 
 /// What every plan must keep to.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Limits {
     /// Least layer thickness in millimetres, `t_min`.
     pub layer_min_mm: f64,
     /// Greatest layer thickness in millimetres, `t_max`.
     pub layer_max_mm: f64,
-    /// Greatest error of a layer in millimetres, ε.
-    pub tolerance_mm: f64,
+    /// Greatest error of a layer in the metric's unit, ε.
+    pub tolerance: f64,
+    /// Height ranges with a thickness of their own, which must not overlap. Their ends are planes.
+    pub ranges: Vec<HeightRange>,
+    /// Heights at which there must be a plane, in millimetres above the plate.
+    pub planes_mm: Vec<f64>,
+    /// What every height is a multiple of, in millimetres: the printer's motor step. A bin if absent.
+    pub step_mm: Option<f64>,
+}
+
+/// A thickness of its own between two heights.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(deny_unknown_fields)]
+pub struct HeightRange {
+    /// Where it begins, in millimetres above the plate.
+    pub from_mm: f64,
+    /// Where it ends.
+    pub to_mm: f64,
+    /// Least layer thickness in it.
+    pub layer_min_mm: f64,
+    /// Greatest layer thickness in it.
+    pub layer_max_mm: f64,
 }
 
 /// Why there is no plan.
@@ -28,32 +53,51 @@ pub struct Limits {
 #[serde(untagged)]
 #[non_exhaustive]
 pub enum PlanError {
-    /// A limit is no positive length.
+    /// A limit is no positive number.
     #[error(transparent)]
     Grid(#[from] GridError),
-    /// The layer range holds no whole number of bins.
+    /// The layer range holds no whole number of steps.
     #[error(
-        "no whole number of bins of {bin_mm} mm lies between the layer thicknesses \
-         {layer_min_mm} and {layer_max_mm} mm; widen the range or choose a smaller bin"
+        "no whole number of steps of {step_mm} mm lies between the layer thicknesses \
+         {layer_min_mm} and {layer_max_mm} mm; widen the range or choose a smaller step"
     )]
     EmptyRange {
         /// Least layer thickness.
         layer_min_mm: f64,
         /// Greatest layer thickness.
         layer_max_mm: f64,
+        /// Step of heights: a bin, or the motor step.
+        step_mm: f64,
+    },
+    /// A length that is no whole number of bins.
+    #[error(
+        "{name} {length_mm} mm is no whole number of bins of {bin_mm} mm; choose a bin that divides it"
+    )]
+    NotWholeBins {
+        /// Which length.
+        name: &'static str,
+        /// The length asked for.
+        length_mm: f64,
         /// Bin size.
         bin_mm: f64,
     },
-    /// A uniform layer thickness that is no whole number of bins.
+    /// A height range that is empty or upside down, or overlaps another.
     #[error(
-        "the layer thickness {layer_mm} mm is no whole number of bins of {bin_mm} mm; choose a \
-         bin that divides it"
+        "the height range from {from_mm} to {to_mm} mm is empty or overlaps another; give ranges upward and apart"
     )]
-    NotWholeBins {
-        /// Layer thickness asked for.
-        layer_mm: f64,
-        /// Bin size.
-        bin_mm: f64,
+    BadRange {
+        /// Where it begins.
+        from_mm: f64,
+        /// Where it ends.
+        to_mm: f64,
+    },
+    /// A plane that does not lie within the model.
+    #[error("there can be no plane at {z_mm} mm in a model that is {height_mm} mm high")]
+    BadPlane {
+        /// Its height.
+        z_mm: f64,
+        /// Height of the model.
+        height_mm: f64,
     },
     /// A uniform layer whose middle, where its mask is sampled, lies above the model.
     #[error("layers of {layer_mm} mm are too thick for a model that is {height_mm} mm high")]
@@ -64,34 +108,72 @@ pub enum PlanError {
         height_mm: f64,
     },
     /// The paper's infeasible case: K\[N\] = ∞.
-    #[error(
-        "no plan keeps every layer's error within {tolerance_mm} mm: at z = {height_mm:.3} mm \
-         even the layers of least thickness, {layer_min_mm} mm, exceed it; raise the tolerance or \
-         lower the least thickness"
-    )]
+    #[error("{}", infeasible_message(self))]
     Infeasible {
-        /// The highest plane that layers can reach from the plate; the next one fails.
-        height_mm: f64,
-        /// The tolerance asked for.
-        tolerance_mm: f64,
-        /// The least layer thickness asked for.
+        /// The highest plane that layers within tolerance can reach.
+        from_mm: f64,
+        /// The top of the layer of least thickness above it, which exceeds the tolerance.
+        to_mm: f64,
+        /// The tolerance asked for, in the metric's unit.
+        tolerance: f64,
+        /// The least layer thickness there.
         layer_min_mm: f64,
+        /// The least tolerance for which there is a plan, rounded up to six digits.
+        least_tolerance: Option<f64>,
+        /// The largest least thickness for which there is one; absent if even the thinnest would not do.
+        largest_layer_min_mm: Option<f64>,
     },
-    /// The rest of the height below the top fits no layer of the range.
+    /// Layers of the range do not add up to the height between two planes.
     #[error(
-        "layers of {layer_min_mm} to {layer_max_mm} mm do not add up to the model's height: \
-         {rest_mm:.3} mm are left above z = {height_mm:.3} mm; widen the range of thicknesses"
+        "layers of {layer_min_mm} to {layer_max_mm} mm do not add up to the height from {from_mm} to \
+         {to_mm} mm; widen the range of thicknesses or move the planes"
     )]
-    Remainder {
-        /// The highest plane that layers can reach from the plate.
-        height_mm: f64,
-        /// From there to the top.
-        rest_mm: f64,
-        /// The least layer thickness asked for.
+    LayersDoNotFit {
+        /// The plane below.
+        from_mm: f64,
+        /// The plane above.
+        to_mm: f64,
+        /// The least layer thickness there.
         layer_min_mm: f64,
-        /// The greatest layer thickness asked for.
+        /// The greatest layer thickness there.
         layer_max_mm: f64,
     },
+    /// No tolerance gives a plan with so few layers or so short a print.
+    #[error("no plan has {wanted}; at the least it takes {least}")]
+    OutOfReach {
+        /// What was asked for, in words.
+        wanted: String,
+        /// What the thickest layers take, in words.
+        least: String,
+    },
+}
+
+fn infeasible_message(error: &PlanError) -> String {
+    let PlanError::Infeasible {
+        from_mm,
+        to_mm,
+        tolerance,
+        layer_min_mm,
+        least_tolerance,
+        largest_layer_min_mm,
+    } = error
+    else {
+        return String::new();
+    };
+    let ways = [
+        least_tolerance.map(|tolerance| format!("raise the tolerance to {tolerance}")),
+        largest_layer_min_mm.map(|layer_mm| format!("lower the least thickness to {layer_mm} mm")),
+    ];
+    let ways: Vec<String> = ways.into_iter().flatten().collect();
+    let ways = if ways.is_empty() {
+        "change the planes or ranges".to_owned()
+    } else {
+        ways.join(" or ")
+    };
+    format!(
+        "no plan keeps every layer's error within {tolerance}: from z = {from_mm} to {to_mm} mm even a layer of \
+         {layer_min_mm} mm exceeds it; {ways}"
+    )
 }
 
 impl PlanError {
@@ -100,10 +182,13 @@ impl PlanError {
         match self {
             Self::Grid(error) => error.code(),
             Self::EmptyRange { .. } => "layer-range-empty",
-            Self::NotWholeBins { .. } => "layer-not-whole-bins",
+            Self::NotWholeBins { .. } => "not-whole-bins",
+            Self::BadRange { .. } => "bad-range",
+            Self::BadPlane { .. } => "bad-plane",
             Self::LayerTooThick { .. } => "layer-too-thick",
             Self::Infeasible { .. } => "infeasible",
-            Self::Remainder { .. } => "infeasible-remainder",
+            Self::LayersDoNotFit { .. } => "layers-do-not-fit",
+            Self::OutOfReach { .. } => "out-of-reach",
         }
     }
 }
@@ -115,6 +200,8 @@ pub struct Plan {
     pub bins: Bins,
     /// Boundaries of layers in bins: 0, then the top of each layer.
     pub boundaries: Vec<u32>,
+    /// Those of them that are where the caller wished for a plane.
+    pub wishes: Vec<u32>,
 }
 
 impl Plan {
@@ -147,38 +234,99 @@ impl Plan {
             .collect()
     }
 
-    /// The largest error of a layer in millimetres.
-    pub fn max_error_mm(&self, errors: &ErrorSum) -> f64 {
-        let steps = self
-            .boundaries
-            .windows(2)
-            .map(|layer| errors.steps_between(layer[0], layer[1]))
-            .max();
-        errors.to_mm(steps.unwrap_or(0))
+    /// The largest error of a layer, in steps of `errors`.
+    pub fn max_error_steps(&self, errors: &LayerErrors) -> u64 {
+        let layers = self.boundaries.windows(2);
+        let steps = layers.map(|layer| errors.steps_between(layer[0], layer[1]));
+        steps.max().unwrap_or(0)
+    }
+
+    /// The largest error of a layer, in the metric's unit.
+    pub fn max_error(&self, errors: &LayerErrors) -> f64 {
+        errors.to_value(self.max_error_steps(errors))
+    }
+
+    /// The time that the layers take together, in seconds.
+    pub fn print_time_s(&self, resin: &Resin) -> f64 {
+        let thickness_mm = self.thickness_mm();
+        let times_us = thickness_mm
+            .iter()
+            .map(|&thickness_mm| resin.layer_us(thickness_mm));
+        times_us.sum::<u64>() as f64 / 1e6
     }
 }
 
 impl Limits {
-    /// The range of thicknesses in bins of `bin_mm`, ⌈`t_min`/b⌉ to ⌊`t_max`/b⌋.
+    /// Bins a unit of thickness: the motor step, or one.
     ///
     /// # Errors
-    /// [`PlanError::Grid`], [`PlanError::EmptyRange`].
-    pub fn thickness_in_bins(&self, bins: Bins) -> Result<RangeInclusive<u32>, PlanError> {
+    /// [`PlanError::Grid`], [`PlanError::NotWholeBins`].
+    pub fn unit(&self, bins: Bins) -> Result<u32, PlanError> {
         positive("the bin", bins.size_mm)?;
-        positive("the least layer thickness", self.layer_min_mm)?;
-        positive("the greatest layer thickness", self.layer_max_mm)?;
-        positive("the tolerance", self.tolerance_mm)?;
-        let least = bins.ceil(self.layer_min_mm).max(1.0);
-        let greatest = bins.floor(self.layer_max_mm);
+        match self.step_mm {
+            None => Ok(1),
+            Some(step_mm) => Ok(whole_bins(bins, "the step", step_mm)?.min(MAX_UNIT) as u32),
+        }
+    }
+
+    /// A range of thicknesses in units, ⌈`t_min`/unit⌉ to ⌊`t_max`/unit⌋.
+    ///
+    /// # Errors
+    /// [`PlanError::Grid`], [`PlanError::NotWholeBins`], [`PlanError::EmptyRange`].
+    pub fn thickness(
+        &self,
+        bins: Bins,
+        layer_min_mm: f64,
+        layer_max_mm: f64,
+    ) -> Result<RangeInclusive<u32>, PlanError> {
+        positive("the least layer thickness", layer_min_mm)?;
+        positive("the greatest layer thickness", layer_max_mm)?;
+        let units = Bins {
+            count: bins.count,
+            size_mm: f64::from(self.unit(bins)?) * bins.size_mm,
+        };
+        let least = units.ceil(layer_min_mm).max(1.0);
+        let greatest = units.floor(layer_max_mm);
         if least > greatest {
             return Err(PlanError::EmptyRange {
-                layer_min_mm: self.layer_min_mm,
-                layer_max_mm: self.layer_max_mm,
-                bin_mm: bins.size_mm,
+                layer_min_mm,
+                layer_max_mm,
+                step_mm: units.boundary_mm(1),
             });
         }
-        // A layer thicker than the model is as good as one just thicker.
-        let limit = bins.count as f64 + 1.0;
+        // The middle of a layer that is more than twice as thick as the model lies above it: no plan has such a layer.
+        let limit = 2.0 * bins.count as f64 + 1.0;
         Ok(least.min(limit) as u32..=greatest.min(limit) as u32)
     }
+
+    /// Finds what no model could make good.
+    ///
+    /// # Errors
+    /// [`PlanError`].
+    pub fn check(&self, bins: Bins) -> Result<(), PlanError> {
+        positive("the tolerance", self.tolerance)?;
+        self.thickness(bins, self.layer_min_mm, self.layer_max_mm)?;
+        for range in &self.ranges {
+            self.thickness(bins, range.layer_min_mm, range.layer_max_mm)?;
+        }
+        Ok(())
+    }
+}
+
+/// More bins than a motor step can have.
+const MAX_UNIT: f64 = (1 << 20) as f64;
+
+/// A length as a whole number of bins.
+fn whole_bins(bins: Bins, name: &'static str, length_mm: f64) -> Result<f64, PlanError> {
+    positive("the bin", bins.size_mm)?;
+    positive(name, length_mm)?;
+    let whole = bins.floor(length_mm);
+    if whole < 1.0 || bins.ceil(length_mm) > whole {
+        return Err(PlanError::NotWholeBins {
+            name,
+            length_mm,
+            bin_mm: bins.size_mm,
+        });
+    }
+    Ok(whole)
 }

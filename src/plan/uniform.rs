@@ -1,7 +1,7 @@
 //! Layers of one thickness, the plan that slicers make by default.
 
-use super::{Plan, PlanError};
-use crate::grid::{Bins, positive};
+use super::{Plan, PlanError, whole_bins};
+use crate::grid::Bins;
 
 /// Layers of `layer_mm` each, from the plate to the top.
 ///
@@ -23,6 +23,7 @@ pub fn plan(bins: Bins, height_mm: f64, layer_mm: f64) -> Result<Plan, PlanError
     Ok(Plan {
         bins,
         boundaries: (0..=layers).map(|layer| layer * thickness).collect(),
+        wishes: Vec::new(),
     })
 }
 
@@ -31,14 +32,5 @@ pub fn plan(bins: Bins, height_mm: f64, layer_mm: f64) -> Result<Plan, PlanError
 /// # Errors
 /// [`PlanError::Grid`], [`PlanError::NotWholeBins`].
 pub fn thickness_in_bins(bins: Bins, layer_mm: f64) -> Result<f64, PlanError> {
-    positive("the bin", bins.size_mm)?;
-    positive("the layer thickness", layer_mm)?;
-    let thickness = bins.floor(layer_mm);
-    if thickness < 1.0 || bins.ceil(layer_mm) > thickness {
-        return Err(PlanError::NotWholeBins {
-            layer_mm,
-            bin_mm: bins.size_mm,
-        });
-    }
-    Ok(thickness)
+    whole_bins(bins, "the layer thickness", layer_mm)
 }

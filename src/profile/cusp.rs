@@ -1,37 +1,21 @@
-//! The cusp height profile: the largest |`n_z`| of the surface in each bin.
+//! The cusp height (eq. 3 to 6): the density is the largest |`n_z`| of the surface in each bin, and the error of a
+//! layer the height in millimetres of the steps that its edge leaves.
 
-use super::Profile;
-use crate::grid::Bins;
-use crate::ldi::{Hit, Ldi};
-use crate::mesh::Mesh;
-use crate::parallel;
+use super::steepest::NO_SURFACE;
 
-/// Hits that are worth a thread of their own.
-const CHUNK_HITS: usize = 1 << 18;
+/// The error that a layer may have where nobody says, in millimetres: the paper's.
+pub const DEFAULT_TOLERANCE_MM: f64 = 0.065;
 
-/// The sampled profile of eq. 5: for each bin the maximum of |`n_z`| over the hits in it, 0 where
-/// there are none. `mesh` is the one that `ldi` was sampled from.
-///
-/// Cost: linear in hits.
-pub fn sampled(mesh: &Mesh, ldi: &Ldi, bins: Bins) -> Profile {
-    let steepness = mesh.steepness();
-    let chunks = ldi
-        .hits
-        .chunks(CHUNK_HITS.max(ldi.hits.len() / 16))
-        .collect();
-    let parts = parallel::map(chunks, |hits: &[Hit]| {
-        let mut density = vec![0f32; bins.count];
-        for hit in hits {
-            let value = &mut density[bins.of(f64::from(hit.z_mm))];
-            *value = value.max(steepness[hit.facet() as usize]);
-        }
-        density
-    });
-    let mut density = vec![0f32; bins.count];
-    for part in parts {
-        for (value, other) in density.iter_mut().zip(part) {
-            *value = value.max(other);
-        }
-    }
-    Profile { bins, density }
+/// The densities of bins from the largest `n_z²` of each; 0 where there is no surface. Bounded by 1.
+pub fn density(steepest: &[f32]) -> Vec<f32> {
+    steepest
+        .iter()
+        .map(|&square| {
+            if square == NO_SURFACE {
+                0.0
+            } else {
+                square.sqrt()
+            }
+        })
+        .collect()
 }

@@ -1,29 +1,143 @@
-//! Metric profiles: error density along z, one value a bin (section 3.1).
+//! Metric profiles: error density along z, one value a bin (section 3.1), from two sources and for four metrics.
 
+pub mod area;
 pub mod cusp;
+pub mod roughness;
+pub mod section;
+pub mod steepest;
+pub mod volume;
+pub mod wishes;
 
 use serde::{Deserialize, Serialize};
 
 use crate::grid::Bins;
+use volume::VolumeError;
 
 /// What a profile measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "lowercase")]
 pub enum Metric {
     /// Cusp height, in millimetres (eq. 3 to 6).
     #[default]
     Cusp,
+    /// Surface roughness Ra, in millimetres (eq. 7 to 10).
+    Roughness,
+    /// Area deviation, a fraction (eq. 11 to 14).
+    Area,
+    /// Volume deviation, in mm³ (eq. 15 to 20).
+    Volume,
+}
+
+impl Metric {
+    /// The name of the metric, as in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Cusp => "cusp",
+            Self::Roughness => "roughness",
+            Self::Area => "area",
+            Self::Volume => "volume",
+        }
+    }
+
+    /// Whether it is made of the areas of sections.
+    pub fn needs_areas(self) -> bool {
+        matches!(self, Self::Area | Self::Volume)
+    }
+
+    /// The unit of its errors and tolerances; empty for a fraction.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Cusp | Self::Roughness => "mm",
+            Self::Area => "",
+            Self::Volume => "mm³",
+        }
+    }
+
+    /// An error or tolerance for people: to four digits with its unit, a fraction as a percentage.
+    pub fn words(self, error: f64) -> String {
+        let (number, unit) = match self {
+            Self::Area => (error * 100.0, "%"),
+            metric => (error, metric.unit()),
+        };
+        let decimals = match number {
+            number if number >= 10.0 => 1,
+            number if number >= 1.0 => 2,
+            _ => 4,
+        };
+        format!("{number:.decimals$} {unit}")
+    }
+
+    /// The error that a layer may have where nobody says.
+    pub fn default_tolerance(self) -> f64 {
+        match self {
+            Self::Cusp => cusp::DEFAULT_TOLERANCE_MM,
+            Self::Roughness => roughness::DEFAULT_TOLERANCE_MM,
+            Self::Area => area::DEFAULT_TOLERANCE,
+            Self::Volume => volume::DEFAULT_TOLERANCE_MM3,
+        }
+    }
+}
+
+/// What a profile is made from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(rename_all = "lowercase")]
+pub enum Source {
+    /// Every facet: the tolerance holds on the mesh.
+    #[default]
+    Exact,
+    /// The hits of the LDI, as in section 3.2: what rays miss is not seen.
+    Sampled,
+}
+
+/// The shape of a model along z, which all metrics are made from.
+#[derive(Debug, Clone)]
+pub struct Shape {
+    /// The height ranges that the values speak of.
+    pub bins: Bins,
+    /// The largest `n_z²` of each bin: see [`steepest`].
+    pub steepest: Vec<f32>,
+    /// The area of the section at the middle of each bin in mm²: see [`section`]. Empty where neither the area nor the
+    /// volume deviation is asked for.
+    pub areas_mm2: Vec<f64>,
+}
+
+impl Shape {
+    /// The profile of a metric, for which areas must be there if it is made of them.
+    pub fn profile(&self, metric: Metric) -> Profile {
+        let density = match metric {
+            Metric::Cusp => cusp::density(&self.steepest),
+            Metric::Roughness => roughness::density(&self.steepest),
+            Metric::Area => area::density(&self.areas_mm2, self.bins),
+            Metric::Volume => self.areas_mm2.iter().map(|&area| area as f32).collect(),
+        };
+        Profile {
+            bins: self.bins,
+            density,
+        }
+    }
+
+    /// The errors of layers under a metric.
+    pub fn errors(&self, metric: Metric) -> LayerErrors {
+        match metric {
+            Metric::Volume => LayerErrors::Volume(VolumeError::new(&self.areas_mm2, self.bins)),
+            metric => LayerErrors::Sum(self.profile(metric).error_sum()),
+        }
+    }
 }
 
 /// The density of deviation errors along the height of a model, φ̃ (section 3.1).
 ///
-/// The error of a layer is the sum of the densities of its bins times the bin size (eq. 1).
+/// The error of a layer is the sum of the densities of its bins times the bin size (eq. 1), but for the volume deviation,
+/// whose profile is the area of sections (eq. 17).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
     /// The height ranges that `density` speaks of.
     pub bins: Bins,
-    /// φ̃, one value a bin from the plate upward: millimetres of error a millimetre of thickness.
+    /// φ̃, one value a bin from the plate upward: error a millimetre of thickness, or mm² for the volume deviation.
     pub density: Vec<f32>,
 }
 
@@ -37,7 +151,7 @@ impl Profile {
         let mut sums = Vec::with_capacity(self.density.len() + 1);
         sums.push(0);
         for &density in &self.density {
-            total += (f64::from(density) * STEPS_PER_BIN).round() as u64;
+            total += (f64::from(density) * STEPS_PER_BIN + 0.5) as u64;
             sums.push(total);
         }
         ErrorSum {
@@ -47,8 +161,7 @@ impl Profile {
     }
 }
 
-/// Errors below each bin boundary, counted in whole ten-millionths of a bin: sums are exact, so that
-/// every planner on every machine agrees whether a layer is within tolerance.
+/// Errors below each bin boundary, counted in whole ten-millionths of a bin: sums are exact.
 #[derive(Debug, Clone)]
 pub struct ErrorSum {
     bins: Bins,
@@ -56,25 +169,63 @@ pub struct ErrorSum {
 }
 
 impl ErrorSum {
-    /// The bins that were summed.
-    pub fn bins(&self) -> Bins {
-        self.bins
-    }
-
     /// Error of the layer between two boundaries in steps, `ε_k` of eq. 1. There is none above the
     /// last bin.
     pub fn steps_between(&self, lower: u32, upper: u32) -> u64 {
         let last = self.bins.count;
         self.sums[(upper as usize).min(last)] - self.sums[(lower as usize).min(last)]
     }
+}
 
-    /// A number of steps in millimetres.
-    pub fn to_mm(&self, steps: u64) -> f64 {
-        steps as f64 / STEPS_PER_BIN * self.bins.size_mm
+/// The errors of layers as planners see them: in whole steps, so that every planner on every machine agrees whether a
+/// layer is within tolerance.
+#[derive(Debug, Clone)]
+pub enum LayerErrors {
+    /// A sum over the bins of the layer.
+    Sum(ErrorSum),
+    /// The volume deviation, which depends on where the layer begins.
+    Volume(VolumeError),
+}
+
+impl LayerErrors {
+    /// The bins that layers are made of.
+    pub fn bins(&self) -> Bins {
+        match self {
+            Self::Sum(errors) => errors.bins,
+            Self::Volume(errors) => errors.bins,
+        }
     }
 
-    /// The number of steps nearest to an error in millimetres.
-    pub fn to_steps(&self, error_mm: f64) -> u64 {
-        (error_mm / self.bins.size_mm * STEPS_PER_BIN).round() as u64
+    /// Error of the layer between two boundaries in steps. There is none above the last bin.
+    pub fn steps_between(&self, lower: u32, upper: u32) -> u64 {
+        match self {
+            Self::Sum(errors) => errors.steps_between(lower, upper),
+            Self::Volume(errors) => (lower..upper).map(|bin| errors.steps_of(lower, bin)).sum(),
+        }
+    }
+
+    /// What the bins from `from` to `to` add to the error of a layer from `lower` on.
+    pub fn steps_added(&self, lower: u32, from: u32, to: u32) -> u64 {
+        match self {
+            Self::Sum(errors) => errors.steps_between(from, to),
+            Self::Volume(errors) => (from..to).map(|bin| errors.steps_of(lower, bin)).sum(),
+        }
+    }
+
+    fn steps_per_unit(&self) -> f64 {
+        match self {
+            Self::Sum(errors) => STEPS_PER_BIN / errors.bins.size_mm,
+            Self::Volume(errors) => errors.steps_per_mm3(),
+        }
+    }
+
+    /// A number of steps in the metric's unit.
+    pub fn to_value(&self, steps: u64) -> f64 {
+        steps as f64 / self.steps_per_unit()
+    }
+
+    /// The number of steps nearest to an error in the metric's unit.
+    pub fn to_steps(&self, error: f64) -> u64 {
+        (error * self.steps_per_unit() + 0.5) as u64
     }
 }

@@ -1,6 +1,6 @@
 //! Naive implementations that are obviously right, to hold the real ones against.
 
-use cusp_slicer::grid::Grid;
+use cusp_slicer::grid::{Bins, Grid};
 use cusp_slicer::mesh::Mesh;
 
 /// What a ray meets, found by looking at every facet in double precision.
@@ -44,50 +44,127 @@ pub fn cast(mesh: &Mesh, grid: &Grid, column: u32, row: u32, near: f64) -> Naive
     ray
 }
 
-/// The least number of layers and whether there is a plan, by trying every set of planes.
-pub fn fewest_layers(density: &[f32], thickness: (usize, usize), tolerance: f64) -> Option<usize> {
-    let count = density.len();
-    (0..1u32 << (count - 1))
-        .filter_map(|planes| {
-            let mut below = 0;
-            let mut layers = 0;
-            for plane in 1..=count {
-                if plane == count || planes >> (plane - 1) & 1 == 1 {
-                    let error: f64 = density[below..plane].iter().map(|&d| f64::from(d)).sum();
-                    let bins = plane - below;
-                    if bins < thickness.0 || bins > thickness.1 || error > tolerance + 1e-6 {
-                        return None;
-                    }
-                    layers += 1;
-                    below = plane;
-                }
-            }
-            Some(layers)
-        })
-        .min()
+/// What a plan may look like, by bins.
+#[derive(Debug, Clone)]
+pub struct Rules {
+    /// Thickness of layers, least and greatest, for the layer above each boundary.
+    pub thickness: Vec<(usize, usize)>,
+    /// Boundaries at which there must be a plane.
+    pub planes: Vec<usize>,
+    /// What every boundary is a multiple of.
+    pub step: usize,
 }
 
-/// Lines 1 to 7 of Procedure 1 as the paper has them, sums and all.
+impl Rules {
+    /// The same thickness everywhere and nothing else.
+    pub fn plain(bins: usize, thickness: (usize, usize)) -> Self {
+        Self {
+            thickness: vec![thickness; bins],
+            planes: Vec::new(),
+            step: 1,
+        }
+    }
+}
+
+/// The least (cost, largest error) of all plans, by trying every set of planes. `error` and `cost` are those of the
+/// layer between two boundaries.
+pub fn best_plan<E: PartialOrd + Copy + Default>(
+    bins: usize,
+    rules: &Rules,
+    tolerance: E,
+    error: impl Fn(usize, usize) -> E,
+    cost: impl Fn(usize) -> u64,
+) -> Option<(u64, E)> {
+    let mut best: Option<(u64, E)> = None;
+    'plans: for planes in 0..1u32 << (bins - 1) {
+        let is_plane = |plane: usize| plane == bins || planes >> (plane - 1) & 1 == 1;
+        if rules.planes.iter().any(|&plane| !is_plane(plane)) {
+            continue;
+        }
+        let (mut below, mut sum, mut worst) = (0, 0, E::default());
+        for plane in (1..=bins).filter(|&plane| is_plane(plane)) {
+            let (least, greatest) = rules.thickness[below];
+            let of_layer = error(below, plane);
+            let is_thick = (least..=greatest).contains(&(plane - below));
+            if !is_thick || plane % rules.step != 0 || of_layer > tolerance {
+                continue 'plans;
+            }
+            sum += cost(plane - below);
+            if of_layer > worst {
+                worst = of_layer;
+            }
+            below = plane;
+        }
+        let is_better = |best: &(u64, E)| sum < best.0 || sum == best.0 && worst < best.1;
+        if best.as_ref().is_none_or(is_better) {
+            best = Some((sum, worst));
+        }
+    }
+    best
+}
+
+/// K and D by lines 1 to 7 of Procedure 1 as the paper has them, sums and all; `u64::MAX` is ∞ and D of such a plane 0.
 pub fn procedure_1(
     density: &[u64],
     thickness: (usize, usize),
     tolerance: u64,
-) -> (Vec<Option<u32>>, Vec<Option<u32>>) {
+) -> (Vec<u64>, Vec<u32>) {
     let count = density.len();
-    let (mut k, mut d) = (vec![None; count + 1], vec![None; count + 1]);
-    k[0] = Some(0u32);
+    let (mut k, mut d) = (vec![u64::MAX; count + 1], vec![0; count + 1]);
+    k[0] = 0;
     for i in 1..=count {
         for l in i.saturating_sub(thickness.1)..=i.saturating_sub(thickness.0) {
             if i - l < thickness.0 || density[l..i].iter().sum::<u64>() > tolerance {
                 continue;
             }
-            if let Some(layers) = k[l]
-                && k[i].is_none_or(|best| best > layers + 1)
-            {
-                k[i] = Some(layers + 1);
-                d[i] = Some(l as u32);
+            if k[l] != u64::MAX && k[i] > k[l] + 1 {
+                k[i] = k[l] + 1;
+                d[i] = l as u32;
             }
         }
     }
     (k, d)
+}
+
+/// The largest |`n_z`| of the facets whose height range meets each bin, by looking at every facet for every bin; -1
+/// where there are none.
+pub fn steepest(mesh: &Mesh, bins: Bins, counts: impl Fn(usize) -> bool) -> Vec<f64> {
+    (0..bins.count)
+        .map(|bin| {
+            (0..mesh.surface_facets)
+                .filter(|&facet| counts(facet))
+                .filter(|&facet| {
+                    let heights = mesh.corners(facet).map(|corner| bins.of(corner.z));
+                    (*heights.iter().min().unwrap()..=*heights.iter().max().unwrap()).contains(&bin)
+                })
+                .map(|facet| {
+                    let [a, b, c] = mesh.corners(facet);
+                    (b - a).cross(c - a).normalize().z.abs()
+                })
+                .fold(-1.0, f64::max)
+        })
+        .collect()
+}
+
+/// Area of the section at a height in mm²: the facets' lines of section, summed up by Green's theorem.
+pub fn section_mm2(mesh: &Mesh, z_mm: f64) -> f64 {
+    let mut twice = 0.0;
+    for facet in 0..mesh.facets.len() {
+        let corners = mesh.corners(facet);
+        let is_above = corners.map(|corner| corner.z > z_mm);
+        let ends: Vec<_> = (0..3)
+            .filter(|&i| is_above[i] != is_above[(i + 1) % 3])
+            .map(|i| {
+                let (a, b) = (corners[i], corners[(i + 1) % 3]);
+                // Where the edge goes up the section leaves the facet, for counter-clockwise corners.
+                let point = a + (b - a) * ((z_mm - a.z) / (b.z - a.z));
+                (is_above[i], point.truncate())
+            })
+            .collect();
+        if let [p, q] = ends[..] {
+            let (from, to) = if p.0 { (p.1, q.1) } else { (q.1, p.1) };
+            twice += from.perp_dot(to);
+        }
+    }
+    twice.abs() / 2.0
 }

@@ -42,4 +42,11 @@ test.each(["light", "dark"] as const)("nothing is amiss in any state: %s", async
   await page.getByText("Uniform", { exact: true }).click();
   await settled(page);
   expect(await broken(page)).toEqual([]);
+
+  await page.getByText("Adaptive", { exact: true }).click();
+  await page.getByLabel("Measure errors by").selectOption("volume");
+  await page.getByText("More settings").click();
+  await page.locator("details.figures summary").click();
+  await settled(page);
+  expect(await broken(page)).toEqual([]);
 });

@@ -29,7 +29,8 @@ test("a dropped model is planned, looked through by keyboard, and its masks add 
   expect(text).toContain("20.0 × 20.0 × 20.0 mm");
   expect(text).toContain("Watertight");
   expect(text).toMatch(/\d+% fewer than uniform 0.05 mm \(400\), same tolerance/);
-  expect(text).toMatch(/Uniform 0.15 mm 13[34] 0.1[45]\d* mm over tolerance/);
+  expect(text).toMatch(/Uniform 0.15 mm 13[34] \d+ min 0.1[45]\d* mm over tolerance/);
+  expect(text).toMatch(/\d+ layers about (\d+ h )?\d+ min to print/);
   const count = await layers(page);
   expect(count).toBeGreaterThan(134);
   expect(count).toBeLessThan(400);
@@ -170,13 +171,130 @@ test("infeasible settings name the height and offer a way out; the last plan sta
   await page.getByLabel("Tolerance").fill("0.02");
   await state(page, "error");
   const alert = page.getByRole("alert");
-  expect(await alert.innerText()).toMatch(/No plan keeps 0.02\smm, at a height of \d+\.\d{3}\smm/);
+  expect(await alert.innerText()).toMatch(/No plan keeps 0.02\smm all the way up/);
+  expect(await alert.innerText()).toMatch(/From \d+\.\d{3} to \d+\.\d{3}\smm even a layer of 0.05\smm/);
   expect(await layers(page)).toBe(count);
   expect(await words(page)).toContain("This is the last plan that worked");
   await alert.getByRole("button", { name: "Layers from 0.02 mm" }).click();
   await settled(page);
   expect(await layers(page)).toBeGreaterThan(400);
   expect(await page.getByLabel("Thinnest layer").inputValue()).toBe("0.02");
+});
+
+test.each([
+  ["cusp", "Cusp height", "mm", "0.065"],
+  ["roughness", "Surface roughness", "mm", "0.1"],
+  ["area", "Area deviation", "%", "10"],
+  ["volume", "Volume deviation", "mm³", null],
+])("by %s: a plan within its tolerance, in its unit", async (_, name, unit, usual) => {
+  const page = await start();
+  await page.getByRole("button", { name: "Try the example" }).click();
+  await state(page, "done");
+  await page.getByLabel("Measure errors by").selectOption(name);
+  await settled(page);
+
+  // What the field shows is what the core took, whether it is the usual tolerance or had to be more.
+  const field = page.getByLabel("Tolerance");
+  const tolerance = await field.inputValue();
+  if (usual === null) expect(Number(tolerance)).toBeGreaterThan(1);
+  else expect(tolerance).toBe(usual);
+  expect(await page.locator(".field", { has: field }).locator(".unit").innerText()).toBe(unit);
+
+  const own = (await page.locator("tr.own").innerText()).replace(/\s+/g, " ");
+  const found = /^This plan (\d+) (?:\d+ h )?\d+ min ([\d.]+) ?(mm³|mm|%) within tolerance$/.exec(own);
+  expect(found, own).not.toBeNull();
+  expect(found?.[3]).toBe(unit);
+  expect(Number(found?.[2])).toBeLessThanOrEqual(Number(tolerance));
+  expect(Number(found?.[1])).toBe(await layers(page));
+  expect(await page.getByRole("img", { name: /^Chart of the profile/ }).count()).toBe(1);
+});
+
+test("a tolerance is kept for the metric that it was typed for", async () => {
+  const page = await start("?metric=area&tolerance=12");
+  await drop(page, ballFile);
+  await state(page, "done");
+  const field = page.getByLabel("Tolerance");
+  const metric = page.getByLabel("Measure errors by");
+  expect(await field.inputValue()).toBe("12");
+  await metric.selectOption("cusp");
+  await settled(page);
+  expect(await field.inputValue()).toBe("0.065");
+  await metric.selectOption("area");
+  await settled(page);
+  expect(await field.inputValue()).toBe("12");
+  // An empty field leaves it to the core, and stays empty so that another number can be typed.
+  await field.fill("");
+  await settled(page);
+  expect(await field.inputValue()).toBe("");
+  expect(await field.getAttribute("placeholder")).toBe("10");
+  expect(await field.getAttribute("aria-invalid")).toBe("false");
+});
+
+test.each([
+  ["cusp", "?metric=cusp&tolerance=0.02"],
+  ["roughness", "?metric=roughness&tolerance=0.06"],
+  ["area", "?metric=area&tolerance=5"],
+  ["volume", "?metric=volume&tolerance=0.06"],
+  ["cusp over bins of 1 µm", "?metric=cusp&tolerance=0.0521&layerMin=0.055"],
+  ["cusp in motor steps", "?metric=cusp&tolerance=0.04&step=0.0025"],
+  ["area in the least time", "?metric=area&tolerance=7&minimize=time"],
+])("where no plan holds, by %s, either offer leads to one that does", async (_, query) => {
+  const page = await start(query);
+  await drop(page, ballFile);
+  await state(page, "error");
+  const offers = page.getByRole("alert").getByRole("button", { name: /^(Tolerance|Layers from)/ });
+  const names = await offers.allInnerTexts();
+  expect(names.map((name) => name.replace(/ [\d.]+\s?(mm³|mm|%)$/, ""))).toEqual(["Tolerance", "Layers from"]);
+  const typed = await page.getByLabel("Tolerance").inputValue();
+  const thinnest = await page.getByLabel("Thinnest layer").inputValue();
+  for (const name of names) {
+    await page.getByRole("alert").getByRole("button", { name }).click();
+    await settled(page);
+    expect(await page.locator("tr.own").innerText(), name).toContain("within tolerance");
+    // Back to what does not hold, for the other offer.
+    await page.getByLabel("Tolerance").fill(typed);
+    await page.getByLabel("Thinnest layer").fill(thinnest);
+    await state(page, "error");
+  }
+});
+
+test("more settings: the least time, planes at flats, the motor step", async () => {
+  const page = await start();
+  await page.getByRole("button", { name: "Try the example" }).click();
+  await state(page, "done");
+  const planes = async (): Promise<number> => {
+    const figures = await page.locator("details.figures").evaluate((it) => it.textContent);
+    return Number(/Planes at flats\s*(\d+)/.exec(figures)?.[1]);
+  };
+  expect(await planes()).toBeGreaterThan(0);
+  await page.getByText("More settings").click();
+
+  await page.getByText("Off", { exact: true }).click();
+  await settled(page);
+  expect(await planes()).toBe(0);
+
+  await page.getByText("Print time", { exact: true }).click();
+  await settled(page);
+  expect(await words(page)).toMatch(/less time than uniform/);
+
+  await page.getByLabel("Motor step").fill("0.02");
+  await settled(page);
+  expect(await words(page)).toContain("Uniform 0.06 mm");
+  await page.getByLabel("Motor step").fill("0");
+  await expect.poll(() => page.getByLabel("Motor step").getAttribute("aria-invalid")).toBe("true");
+});
+
+test("the pointer over the chart reads the profile", async () => {
+  const page = await start("?metric=volume");
+  await drop(page, ballFile);
+  await state(page, "done");
+  const plot = page.locator(".u-over");
+  await plot.hover();
+  // The middle of a ball of 10 mm radius.
+  const said = page.locator("cusp-chart .foot");
+  await expect.poll(() => said.innerText()).toMatch(/At (9\.9|10\.0)\d\d\smm: a section of 31\d(\.\d)?\smm²/);
+  await page.mouse.move(0, 0);
+  await expect.poll(() => said.innerText()).toContain("Click to see a layer.");
 });
 
 test.each([

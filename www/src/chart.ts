@@ -1,5 +1,5 @@
 /**
- * The profile and the plan as a uPlot chart: height upwards, error density to the right, the layers as bands of colour.
+ * The profile and the plan as a uPlot chart: height upwards, the metric's density to the right, the layers as bands of colour.
  *
  * uPlot's x is the axis that the data is sorted by, which here is the height: turning that scale upright (`ori: 1`) and
  * the density level (`ori: 0`) gives the paper's figure with uPlot's own decimation, zoom and cursor still working.
@@ -8,9 +8,12 @@ import type uPlot from "uplot";
 import { css, ofThickness } from "./colour.js";
 import * as format from "./format.js";
 import { layerAt } from "./layers.js";
+import { METRICS } from "./metric.js";
+import type { Metric } from "./wire.js";
 
 export interface ChartData {
-  /** Density of each bin, 0 to 1. */
+  metric: Metric;
+  /** Value of each bin: see `Plan`. */
   profile: Float32Array;
   bin_mm: number;
   /** Layer boundaries from 0 to the height of the model. */
@@ -47,6 +50,17 @@ const EDGE = 1e-6;
 
 /** How much of its colour a band keeps beyond the profile. */
 const FADED = 0.45;
+
+/** Room beyond the greatest value, so that its line is seen. */
+const MARGIN = 1.01;
+
+const QUARTERS = [0, 0.25, 0.5, 0.75, 1];
+
+/** Where the axis of the densities ends. */
+export function densityEnd({ metric, profile }: ChartData): number {
+  const end = METRICS[metric].bound ?? profile.reduce((most, value) => Math.max(most, value), 0);
+  return end > 0 ? end * MARGIN : 1;
+}
 
 /** The bin centres as heights, and the densities, as uPlot wants them. */
 export function chartData({ profile, bin_mm }: ChartData): uPlot.AlignedData {
@@ -116,6 +130,8 @@ function drawFaded(u: uPlot, pattern: CanvasPattern | string, theme: ChartTheme)
 /** Everything uPlot needs for a chart of this size in CSS pixels. */
 export function chartOptions(data: ChartData, theme: ChartTheme, width: number, height: number): uPlot.Options {
   const total = data.profile.length * data.bin_mm;
+  const { axis: label, bound, tick } = METRICS[data.metric];
+  const end = densityEnd(data);
   let pattern: CanvasPattern | string = "transparent";
   const axis: uPlot.Axis = {
     stroke: theme.text,
@@ -139,7 +155,7 @@ export function chartOptions(data: ChartData, theme: ChartTheme, width: number, 
         dir: 1,
         range: (_u, min, max) => [min <= data.bin_mm ? 0 : min, max >= total - data.bin_mm ? total : max],
       },
-      density: { ori: 0, dir: 1, range: [0, 1.01] },
+      density: { ori: 0, dir: 1, range: [0, end] },
     },
     axes: [
       { ...axis, scale: "x", side: 3, label: "Height (mm)", size: 44, values: (_u, ticks) => ticks.map(format.tick) },
@@ -147,10 +163,11 @@ export function chartOptions(data: ChartData, theme: ChartTheme, width: number, 
         ...axis,
         scale: "density",
         side: 2,
-        label: "Error density: 0 upright, 1 level",
+        label,
         size: 30,
-        splits: [0, 0.25, 0.5, 0.75, 1],
-        values: (_u, ticks) => ticks.map(format.tick),
+        // Where the end is known, quarters of it; else uPlot finds round numbers.
+        ...(bound !== null && { splits: QUARTERS.map((part) => part * bound) }),
+        values: (_u, ticks) => ticks.map((value) => tick(value)),
       },
     ],
     series: [{}, { scale: "density", stroke: theme.ink, width: 1, fill: () => pattern, points: { show: false } }],

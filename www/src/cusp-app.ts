@@ -130,6 +130,7 @@ export class CuspApp extends LitElement {
           .settings=${settings}
           .faults=${session.faults}
           .info=${model.info}
+          .taken=${session.taken}
           @cusp-settings=${(event: CustomEvent<Partial<Settings>>) => session.change(event.detail)}
         ></cusp-settings>
       </details>
@@ -217,13 +218,14 @@ export class CuspApp extends LitElement {
     if (busy !== null) return busy.task === "open" ? `Opening ${busy.name}` : standing(busy).words;
     if (notice !== null) return notice;
     if (result === null || earlier) return "";
-    return `${format.count(result.report.layers)} layers planned. ${sentence(result.report, result.limits)}`;
+    const { layers, print_time_s } = result.report;
+    return `${format.count(layers)} layers planned, about ${format.time(print_time_s)} to print. ${sentence(result)}`;
   }
 
   #chartData(result: Result): ChartData {
     if (this.#chart?.of !== result) {
-      const { z_mm, thickness_mm, bin_mm } = result.report;
-      const data = { profile: result.profile, bin_mm, z_mm, thickness_mm, limits: result.limits };
+      const { metric, z_mm, thickness_mm, bin_mm } = result.report;
+      const data = { metric, profile: result.profile, bin_mm, z_mm, thickness_mm, limits: result.limits };
       this.#chart = { of: result, data };
     }
     return this.#chart.data;

@@ -23,8 +23,27 @@ export const fine = (value: number): string => `${number(value, { maximumFractio
 export const height = (value: number): string =>
   `${number(value, { minimumFractionDigits: 3, maximumFractionDigits: 3 })}\u00a0mm`;
 
-/** A part of one: `34 %` or `34%`, as the language has it. */
-export const percent = (value: number): string => number(value, { style: "percent", maximumFractionDigits: 0 });
+/** Where something lies on the model: `12.340 to 12.390 mm`. */
+export const interval = (from: number, to: number): string =>
+  `${number(from, { minimumFractionDigits: 3, maximumFractionDigits: 3 })} to ${height(to)}`;
+
+/** A part of one: `34 %` or `34%`, as the language has it, with so many decimals at most. */
+export const percent = (value: number, decimals = 0): string =>
+  number(value, { style: "percent", maximumFractionDigits: decimals });
+
+/** A volume: `11.26 mm³`. */
+export const volume = (mm3: number): string => `${number(mm3, { maximumSignificantDigits: 4 })}\u00a0mm³`;
+
+/** The area of a section: `123.5 mm²`. */
+export const area = (mm2: number): string => `${number(mm2, { maximumFractionDigits: 1 })}\u00a0mm²`;
+
+/** The time of a print, which is known to the minute at best: `2 h 14 min`. */
+export function time(seconds: number): string {
+  const minutes = Math.round(seconds / 60);
+  if (minutes < 1) return "<\u00a01\u00a0min";
+  const [hours, rest] = [Math.floor(minutes / 60), `${minutes % 60}\u00a0min`];
+  return hours === 0 ? rest : `${count(hours)}\u00a0h\u00a0${rest}`;
+}
 
 /** A duration given in ms: `412 ms`, `1.3 s`. */
 export function duration(ms: number): string {

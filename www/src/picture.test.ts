@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import { coverage, factorFor } from "./bitmap.js";
-import { bands, type ChartData } from "./chart.js";
+import { bands, densityEnd, type ChartData } from "./chart.js";
 import * as colour from "./colour.js";
 import { layerAt } from "./layers.js";
 
@@ -51,6 +51,7 @@ test("the layer at a height, ends included", () => {
 });
 
 const data: ChartData = {
+  metric: "cusp",
   profile: new Float32Array(40),
   bin_mm: 0.01,
   z_mm: [0, 0.1, 0.2, 0.4],
@@ -70,4 +71,14 @@ test("a row over several layers has their mean, and rows off the model have none
   expect(others).toEqual([]);
   expect(only?.row).toBe(1);
   expect(only?.thickness_mm).toBeCloseTo(0.4 / 3);
+});
+
+test("the axis ends where the metric's densities do, or at the largest area of this model", () => {
+  const end = (metric: ChartData["metric"], ...profile: number[]): number =>
+    densityEnd({ ...data, metric, profile: Float32Array.from(profile) });
+  expect(end("cusp", 0.5)).toBeCloseTo(1, 1);
+  expect(end("roughness", 0.5)).toBeCloseTo(2, 1);
+  expect(end("area", 0.5)).toBeCloseTo(2, 1);
+  expect(end("volume", 0, 300, 200)).toBeCloseTo(303);
+  expect(end("volume", 0)).toBe(1);
 });

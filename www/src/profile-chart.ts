@@ -6,6 +6,7 @@ import { chartData, chartOptions, type ChartData, type ChartTheme } from "./char
 import { gradient } from "./colour.js";
 import * as format from "./format.js";
 import { layerAt } from "./layers.js";
+import { METRICS } from "./metric.js";
 import { shared } from "./styles.js";
 
 export class CuspChart extends LitElement {
@@ -13,11 +14,14 @@ export class CuspChart extends LitElement {
     data: { attribute: false },
     layer: { type: Number },
     zoomed: { state: true },
+    hovered: { state: true },
   };
 
   declare data: ChartData | null;
   declare layer: number;
   declare zoomed: boolean;
+  /** The bin under the pointer. */
+  declare hovered: number | null;
 
   #plot: uPlot | null = null;
   #marker: HTMLElement | null = null;
@@ -30,6 +34,7 @@ export class CuspChart extends LitElement {
     this.data = null;
     this.layer = 0;
     this.zoomed = false;
+    this.hovered = null;
   }
 
   static override styles = [
@@ -102,7 +107,7 @@ export class CuspChart extends LitElement {
       </div>
       <div class="plot" role="img" aria-label=${this.#words()}></div>
       <div class="foot">
-        <p class="quiet">Click to see a layer. Drag to zoom.</p>
+        <p class="quiet figures">${this.#hint()}</p>
         ${this.zoomed ? html`<button class="small" @click=${this.#build}>Whole model</button>` : ""}
       </div>
     `;
@@ -138,13 +143,21 @@ export class CuspChart extends LitElement {
     return frame;
   }
 
+  /** What is under the pointer, or what can be done with it. */
+  #hint(): string {
+    const { data, hovered } = this;
+    const density = hovered === null ? undefined : data?.profile[hovered];
+    if (data === null || hovered === null || density === undefined) return "Click to see a layer. Drag to zoom.";
+    return `At ${format.height((hovered + 0.5) * data.bin_mm)}: ${METRICS[data.metric].density(density)}`;
+  }
+
   /** The chart for those who cannot see it. */
   #words(): string {
     if (this.data === null) return "No plan yet";
-    const { thickness_mm, z_mm } = this.data;
+    const { metric, thickness_mm, z_mm } = this.data;
     const [least, most] = [Math.min(...thickness_mm), Math.max(...thickness_mm)];
     return (
-      `Chart of the surface’s error density by height, up to ${format.height(z_mm.at(-1) ?? 0)}, ` +
+      `Chart of the profile by height (${METRICS[metric].axis}), up to ${format.height(z_mm.at(-1) ?? 0)}, ` +
       `over the ${format.count(thickness_mm.length)} layers of the plan, ${format.fine(least)} to ${format.fine(most)} thick.`
     );
   }
@@ -153,6 +166,7 @@ export class CuspChart extends LitElement {
     this.#plot?.destroy();
     this.#plot = null;
     this.zoomed = false;
+    this.hovered = null;
     const { data } = this;
     if (data === null || !this.isConnected) return;
     const frame = this.#frame;
@@ -166,6 +180,11 @@ export class CuspChart extends LitElement {
           const { min, max } = u.scales["x"] ?? {};
           this.zoomed = min != null && max != null && max - min < 0.99 * whole;
           this.#mark();
+        },
+      ],
+      setCursor: [
+        (u) => {
+          this.hovered = u.cursor.idx ?? null;
         },
       ],
     };

@@ -1,5 +1,6 @@
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import { Session } from "./session.js";
+import { DEFAULT_SETTINGS } from "./settings.js";
 import { SlicerError, type Watch } from "./slicer.js";
 import type { MeshInfo, Options, Plan, Report } from "./wire.js";
 
@@ -7,7 +8,8 @@ const info = { facets: 1, size_mm: [1, 1, 10], warnings: [] } as unknown as Mesh
 
 function planOf(layers: number, height_mm = 10): Plan {
   const z_mm = Array.from({ length: layers + 1 }, (_, i) => (i * height_mm) / layers);
-  const report = { layers, height_mm, z_mm, mask: { width: 8, height: 1, pitch_mm: 1 } } as unknown as Report;
+  const mask = { width: 8, height: 1, pitch_mm: 1 };
+  const report = { layers, height_mm, z_mm, mask, metric: "volume", tolerance: 12.5 } as unknown as Report;
   return { report, profile: new Float32Array(1) };
 }
 
@@ -73,7 +75,7 @@ test("opening plans at once and looks at the middle", async () => {
 test("a new plan keeps the height that is looked at", async () => {
   await planned();
   session.look(2);
-  session.change({ tolerance: "0.05" });
+  session.change({ tolerances: { cusp: "0.05" } });
   await settle();
   client.last.resolve(planOf(20));
   await settle();
@@ -83,13 +85,13 @@ test("a new plan keeps the height that is looked at", async () => {
 
 test("typing waits for a pause, and nonsense plans nothing and says so", async () => {
   await planned();
-  session.change({ tolerance: "0.0" });
-  session.change({ tolerance: "0.05" });
+  session.change({ tolerances: { cusp: "0.0" } });
+  session.change({ tolerances: { cusp: "0.05" } });
   await settle();
   expect(client.calls).toHaveLength(3);
   client.last.resolve(planOf(20));
   await settle();
-  session.change({ tolerance: "x" });
+  session.change({ tolerances: { cusp: "x" } });
   await settle();
   expect(client.calls).toHaveLength(3);
   expect(session.faults.tolerance).toBeDefined();
@@ -99,16 +101,16 @@ test("typing waits for a pause, and nonsense plans nothing and says so", async (
 
 test("over the same rays the newest settings wait for the plan under way, and those between are skipped", async () => {
   await planned();
-  session.change({ tolerance: "0.05" });
+  session.change({ tolerances: { cusp: "0.05" } });
   await settle();
-  session.change({ tolerance: "0.06" });
+  session.change({ tolerances: { cusp: "0.06" } });
   await settle();
-  session.change({ tolerance: "0.07" });
+  session.change({ tolerances: { cusp: "0.07" } });
   await settle();
   expect(client.calls).toHaveLength(3);
   client.last.resolve(planOf(20));
   await settle();
-  expect(client.last.options?.tolerance_mm).toBe(0.07);
+  expect(client.last.options?.tolerance).toBe(0.07);
   expect(client.calls).toHaveLength(4);
 });
 
@@ -127,9 +129,9 @@ test("new rays end the plan under way", async () => {
 
 test("a failed plan keeps the last good one and its masks, and says what happened", async () => {
   await planned();
-  session.change({ tolerance: "0.02" });
+  session.change({ tolerances: { cusp: "0.02" } });
   await settle();
-  client.last.reject(new SlicerError({ code: "infeasible", message: "", detail: { height_mm: 1 } }));
+  client.last.reject(new SlicerError({ code: "infeasible", message: "", detail: { least_tolerance: 0.05 } }));
   await settle();
   expect(session.problem?.code).toBe("infeasible");
   expect(session.earlier).toBe(true);
@@ -180,12 +182,12 @@ test("settings changed during a download wait for it", async () => {
 test("settings changed while a file is read belong to it, or to the model before if it cannot be read", async () => {
   await planned();
   void session.open(new Blob(), "b.stl");
-  session.change({ tolerance: "0.05" });
+  session.change({ tolerances: { cusp: "0.05" } });
   await settle();
   expect(client.last.what).toBe("open");
   client.last.reject(new SlicerError({ code: "stl-truncated", message: "", detail: null }));
   await settle();
-  expect(client.last.options?.tolerance_mm).toBe(0.05);
+  expect(client.last.options?.tolerance).toBe(0.05);
 });
 
 test("a zip is made once for each plan", async () => {
@@ -205,6 +207,22 @@ test("masks: while one is fetched only the newest layer waits", async () => {
   for (let layer = 0; layer < 9; layer++) session.look(layer);
   await settle();
   expect(client.masks).toEqual([0, 8]);
+});
+
+test("the tolerance that the core took is known where none is typed for that metric", async () => {
+  session = new Session({ requestUpdate: () => undefined }, client, { ...DEFAULT_SETTINGS, metric: "volume" });
+  expect(session.taken).toBeNull();
+  await planned();
+  expect(client.last.options).not.toHaveProperty("tolerance");
+  expect(session.taken).toBe(12.5);
+  session.change({ metric: "area" });
+  expect(session.taken).toBeNull();
+  session.change({ metric: "volume", tolerances: { volume: "20" } });
+  await settle();
+  client.last.resolve(planOf(10));
+  await settle();
+  expect(client.last.options?.tolerance).toBe(20);
+  expect(session.taken).toBeNull();
 });
 
 test("of several files it says which one it took; of none it says that none will do", async () => {

@@ -6,7 +6,7 @@
 import { archiveName, choose } from "./choice.js";
 import { layerAt } from "./layers.js";
 import { explain, notAnStl, type Problem } from "./problem.js";
-import { check, DEFAULT_SETTINGS, sameRays, type Faults, type Settings } from "./settings.js";
+import { check, DEFAULT_SETTINGS, layerRange, sameRays, type Faults, type Settings } from "./settings.js";
 import { isAbort, SlicerError, type SlicerClient, type Watch } from "./slicer.js";
 import type { Backend, MeshInfo, Options, Plan, Stage } from "./wire.js";
 
@@ -89,6 +89,12 @@ export class Session {
   /** Whether the result on show is of earlier settings, because those on show give none. */
   get earlier(): boolean {
     return this.result !== null && this.busy === null && (Object.keys(this.faults).length > 0 || this.#failed);
+  }
+
+  /** The tolerance that the core took because none was typed for the metric on show; null if it is not known. */
+  get taken(): number | null {
+    const { result, settings } = this;
+    return result?.report.metric === settings.metric && result.options.tolerance === undefined ? result.report.tolerance : null;
   }
 
   /** Takes the first STL of a drop or a dialogue. */
@@ -206,7 +212,7 @@ export class Session {
     this.#failed = false;
     const before = this.result?.report;
     const z = before?.z_mm[this.layer];
-    this.result = { ...plan, options, limits: [options.layer_min_mm ?? 0, options.layer_max_mm ?? 0] };
+    this.result = { ...plan, options, limits: layerRange(options) };
     // Keep looking at the same height, or at the middle of a new model.
     this.layer = layerAt(report.z_mm, z === undefined ? report.height_mm / 2 : (z * report.height_mm) / (before?.height_mm ?? 1));
     if (before === undefined) this.notice = this.notice?.includes("Cancelled") ? null : this.notice;

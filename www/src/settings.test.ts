@@ -1,5 +1,16 @@
 import { expect, test } from "vitest";
-import { check, DEFAULT_SETTINGS, fromAddress, parse, sameRays, type Faults, type Settings } from "./settings.js";
+import {
+  check,
+  DEFAULT_SETTINGS,
+  fromAddress,
+  layerRange,
+  parse,
+  sameRays,
+  type Faults,
+  type Settings,
+  usualTolerance,
+  withTolerance,
+} from "./settings.js";
 
 function faults(patch: Partial<Settings>): Faults {
   const checked = check({ ...DEFAULT_SETTINGS, ...patch });
@@ -16,9 +27,39 @@ test("the settings as they come are the core's defaults", () => {
     rays: 2048,
     layer_min_mm: 0.05,
     layer_max_mm: 0.15,
-    tolerance_mm: 0.065,
+    metric: "cusp",
+    minimize: "layers",
+    snap: "auto",
     planner: { kind: "optimal" },
   });
+});
+
+test.each([
+  ["cusp", "0.065", "0.05", 0.05],
+  ["roughness", "0.1", "0,2", 0.2],
+  ["area", "10", "5", 0.05],
+  ["volume", "1", "20", 20],
+] as const)("the tolerance of %s is %s until one is typed, and is sent in the core's unit", (metric, usual, typed, sent) => {
+  const settings = { ...DEFAULT_SETTINGS, metric };
+  expect(usualTolerance(metric, null)).toBe(usual);
+  expect(options(settings)).not.toHaveProperty("tolerance");
+  const changed = { ...settings, ...withTolerance(settings, typed) };
+  expect(options(changed)).toMatchObject({ metric, tolerance: sent });
+  expect(options({ ...changed, ...withTolerance(changed, " ") })).not.toHaveProperty("tolerance");
+});
+
+test("a tolerance belongs to the metric that it was typed for", () => {
+  const cusp = { ...DEFAULT_SETTINGS, ...withTolerance(DEFAULT_SETTINGS, "0.05") };
+  const area = { ...cusp, metric: "area" as const };
+  expect(options(area)).not.toHaveProperty("tolerance");
+  const both = { ...area, ...withTolerance(area, "x") };
+  expect(faults(both).tolerance).toMatch(/0.1 to 200 %/);
+  expect(options({ ...both, metric: "cusp" })).toMatchObject({ tolerance: 0.05 });
+});
+
+test("a tolerance that the core took is shown short, and never below it", () => {
+  expect(usualTolerance("volume", 11.2631)).toBe("11.3");
+  expect(usualTolerance("area", 0.07)).toBe("7");
 });
 
 test.each([
@@ -50,7 +91,10 @@ test("a range that is upside down is a fault of its upper end", () => {
 });
 
 test("micrometres typed for millimetres are recognised", () => {
-  expect(faults({ tolerance: "65" }).tolerance).toMatch(/65 µm is 0.065 mm/);
+  expect(faults({ tolerances: { cusp: "65" } }).tolerance).toMatch(/65 µm is 0.065 mm/);
+  expect(faults({ step: "10" }).step).toMatch(/10 µm is 0.01 mm/);
+  expect(faults({ height: "6000" }).height).toBe("Must be 0.1 to 1000 mm.");
+  expect(faults({ metric: "area", tolerances: { area: "1000" } }).tolerance).toBe("Must be 0.1 to 200 %.");
 });
 
 test("the uniform thickness counts only for the uniform planner", () => {
@@ -66,6 +110,32 @@ test("bins are halved where a thickness is no whole number of them, and no furth
   expect(faults({ layerMax: "0.1005" }).layerMax).toMatch(/0.001 mm/);
 });
 
+test.each([
+  ["0.01", undefined],
+  ["0.0025", 0.00125],
+  ["0.00125", 0.00125],
+  ["0.003", 0.0015],
+])("with a motor step of %s mm the bin divides it", (step, bin_mm) => {
+  const found = options({ step }) as { step_mm: number; bin_mm?: number };
+  expect(found.step_mm).toBe(Number(step));
+  expect(found.bin_mm).toBe(bin_mm);
+});
+
+test("with a motor step the range need not be whole bins: layers are whole steps within it", () => {
+  expect(faults({ step: "0.0025", layerMin: "0.0525" })).toEqual({});
+  const [least, most] = layerRange({ layer_min_mm: 0.05, layer_max_mm: 0.15, step_mm: 0.02 });
+  expect(least).toBeCloseTo(0.06);
+  expect(most).toBeCloseTo(0.14);
+  expect(layerRange({ layer_min_mm: 0.05, layer_max_mm: 0.15, step_mm: 0.01 })[0]).toBeCloseTo(0.05);
+});
+
+test("what only adaptive plans have is neither judged nor sent for uniform ones", () => {
+  const uniform = options({ planner: "uniform", step: "x", minimize: "time", snap: "off" });
+  for (const key of ["step_mm", "minimize", "snap"]) expect(uniform).not.toHaveProperty(key);
+  expect(options({ step: "0.01", minimize: "time", snap: "off" })).toMatchObject({ step_mm: 0.01, minimize: "time", snap: "off" });
+  expect(faults({ step: "x" }).step).toMatch(/number/);
+});
+
 test("an address may name settings, and what it cannot name is ignored", () => {
   expect(fromAddress("?height=60&rays=4096&planner=uniform&uniform=0.1&backend=gpu")).toEqual({
     ...DEFAULT_SETTINGS,
@@ -74,11 +144,19 @@ test("an address may name settings, and what it cannot name is ignored", () => {
     planner: "uniform",
     uniform: "0.1",
   });
-  expect(fromAddress("?rays=7&planner=best&constructor=1")).toEqual(DEFAULT_SETTINGS);
+  expect(fromAddress("?tolerance=5&metric=area&minimize=time&snap=off&step=0.01")).toEqual({
+    ...DEFAULT_SETTINGS,
+    metric: "area",
+    tolerances: { area: "5" },
+    minimize: "time",
+    snap: "off",
+    step: "0.01",
+  });
+  expect(fromAddress("?rays=7&planner=best&metric=beauty&minimize=cost&snap=on&constructor=1")).toEqual(DEFAULT_SETTINGS);
 });
 
 test("only what moves the rays makes a difference to sameRays", () => {
-  expect(sameRays({ rays: 1024, tolerance_mm: 0.05 }, { rays: 1024, tolerance_mm: 0.1 })).toBe(true);
+  expect(sameRays({ rays: 1024, tolerance: 0.05 }, { rays: 1024, metric: "area" })).toBe(true);
   expect(sameRays({ rays: 1024 }, { rays: 2048 })).toBe(false);
   expect(sameRays({ height_mm: 60 }, {})).toBe(false);
   expect(sameRays({ pixels: [1, 2] }, { pixels: [1, 2] })).toBe(true);

@@ -28,12 +28,12 @@ class FakeWorker implements Engine {
     },
     plan: async (options, progress) => {
       progress("ldi", 0.5);
-      await this.#work(`plan ${options.tolerance_mm} of ${this.opened}`);
+      await this.#work(`plan ${options.tolerance} of ${this.opened}`);
       this.planned = options;
       return {} as Plan;
     },
     mask: (layer) => {
-      this.#say(`mask ${layer} of ${this.planned.tolerance_mm}`);
+      this.#say(`mask ${layer} of ${this.planned.tolerance}`);
       return new Uint8Array(1);
     },
     archive: () => {
@@ -91,7 +91,7 @@ async function hung(call: (watch: Watch) => Promise<unknown>): Promise<void> {
 test("a warm worker is the one that works, and it is started once", async () => {
   client.warm();
   await client.open(new Blob(["a"]), watch());
-  await client.plan({ tolerance_mm: 1 }, watch());
+  await client.plan({ tolerance: 1 }, watch());
   await client.mask(3);
   expect(log).toEqual(["1: boot, compiling", "1: open a", "1: plan 1 of a", "1: mask 3 of 1"]);
 });
@@ -105,9 +105,9 @@ test("progress comes through", async () => {
 
 test("cancelling a plan ends the worker; the next one is given module, file and the last good plan", async () => {
   await client.open(new Blob(["a"]), watch());
-  await client.plan({ tolerance_mm: 1 }, watch());
+  await client.plan({ tolerance: 1 }, watch());
   worker(1).hang = true;
-  await hung((watch) => client.plan({ tolerance_mm: 2 }, watch));
+  await hung((watch) => client.plan({ tolerance: 2 }, watch));
   expect(worker(1).terminated).toBe(true);
   log = [];
   await client.mask(0);
@@ -119,15 +119,15 @@ test("cancelling while a file is read keeps the one before", async () => {
   worker(1).hang = true;
   await hung((watch) => client.open(new Blob(["b"]), watch));
   log = [];
-  await client.plan({ tolerance_mm: 1 }, watch());
+  await client.plan({ tolerance: 1 }, watch());
   expect(log).toEqual(["2: boot", "2: open a", "2: plan 1 of a"]);
 });
 
 test("a call that has not begun can be cancelled without ending the worker", async () => {
   await client.open(new Blob(["a"]), watch());
   const abort = new AbortController();
-  const first = client.plan({ tolerance_mm: 1 }, watch());
-  const second = client.plan({ tolerance_mm: 2 }, watch(abort.signal));
+  const first = client.plan({ tolerance: 1 }, watch());
+  const second = client.plan({ tolerance: 2 }, watch(abort.signal));
   abort.abort();
   await expect(second).rejects.toMatchObject({ name: "AbortError" });
   await first;
@@ -137,10 +137,10 @@ test("a call that has not begun can be cancelled without ending the worker", asy
 
 test("an error of the core keeps its code and details, and the worker; masks go back to the last good plan", async () => {
   await client.open(new Blob(["a"]), watch());
-  await client.plan({ tolerance_mm: 1 }, watch());
-  const failure: CuspError = { code: "infeasible", message: "no", detail: { height_mm: 2 } };
+  await client.plan({ tolerance: 1 }, watch());
+  const failure: CuspError = { code: "infeasible", message: "no", detail: { from_mm: 2 } };
   worker(1).failure = failure;
-  const running = client.plan({ tolerance_mm: 2 }, watch());
+  const running = client.plan({ tolerance: 2 }, watch());
   await expect(running).rejects.toBeInstanceOf(SlicerError);
   await expect(running).rejects.toMatchObject(failure);
   worker(1).failure = null;
@@ -155,7 +155,7 @@ test("a core that breaks is replaced", async () => {
   await expect(client.plan({}, watch())).rejects.toMatchObject({ code: "crash", message: "unreachable" });
   expect(worker(1).terminated).toBe(true);
   log = [];
-  await client.plan({ tolerance_mm: 1 }, watch());
+  await client.plan({ tolerance: 1 }, watch());
   expect(log).toEqual(["2: boot", "2: open a", "2: plan 1 of a"]);
 });
 

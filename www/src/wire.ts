@@ -3,15 +3,18 @@
  *
  * The types of the core are re-exported from the generated package, never copied: a change there is a type error here.
  */
-import type { CuspError, MeshInfo, Options, Report, Stage } from "../pkg/cusp_slicer.js";
+import type { CuspError, MeshInfo, Metric, Options, Report, Stage } from "../pkg/cusp_slicer.js";
 
-export type { CuspError, MeshInfo, Options, Report, Stage };
-export type { Backend, Planner, Warning } from "../pkg/cusp_slicer.js";
+export type { CuspError, MeshInfo, Metric, Options, Report, Stage };
+export type { Backend, Minimize, Planner, PlannerReport, Snap, Warning } from "../pkg/cusp_slicer.js";
 
 /** Told as a stage advances; `fraction` is 0 to 1 within the stage. */
 export type OnProgress = (stage: Stage, fraction: number) => void;
 
-/** A finished plan: the report, and the density of each bin (bin i covers (i·bin, (i+1)·bin] mm, values 0 to 1). */
+/**
+ * A finished plan: the report, and the profile of its metric and source. Bin i covers (i·bin, (i+1)·bin] mm; its value is
+ * an error density, or for the volume deviation the area of the section in mm².
+ */
 export interface Plan {
   report: Report;
   profile: Float32Array;
@@ -30,11 +33,17 @@ export interface SlicerWorker {
   archive(progress: OnProgress): Uint8Array;
 }
 
-/** The core's own defaults, which the form shows before anything is changed. Lengths in mm. */
+/** The core's own defaults, which the form shows before anything is changed. */
 export const DEFAULTS = {
   rays: 2048,
   layer_min_mm: 0.05,
   layer_max_mm: 0.15,
-  tolerance_mm: 0.065,
+  /** In the metric's unit: mm, mm, a part of one, mm³. The core allows more for volume where a model needs more. */
+  tolerance: { cusp: 0.065, roughness: 0.1, area: 0.1, volume: 1 } satisfies Record<Metric, number>,
   bin_mm: 0.002,
+  metric: "cusp",
+  minimize: "layers",
+  snap: "auto",
+  /** What print times are reckoned with: seconds of exposure of such a layer, and seconds every layer takes besides. */
+  resin: { layer_mm: 0.05, exposure_s: 3, overhead_s: 8 },
 } as const;

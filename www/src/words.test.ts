@@ -1,13 +1,21 @@
 import { expect, test } from "vitest";
 import { archiveName, choose } from "./choice.js";
-import { rows, sentence } from "./comparison.js";
+import { rows, sentence, type Compared } from "./comparison.js";
 import * as format from "./format.js";
 import { explain } from "./problem.js";
 import { standing } from "./progress.js";
-import { DEFAULT_SETTINGS } from "./settings.js";
-import type { Report } from "./wire.js";
+import * as round from "./round.js";
+import { check, DEFAULT_SETTINGS, type Settings } from "./settings.js";
+import type { CuspError, Options, PlannerReport, Report } from "./wire.js";
 
 const limits = [0.05, 0.15] as const;
+
+const uniform = (layers: number, max_error: number, print_time_s: number): PlannerReport => ({
+  planner: "uniform",
+  layers,
+  max_error,
+  print_time_s,
+});
 
 function report(patch: Partial<Report>): Report {
   return {
@@ -15,9 +23,15 @@ function report(patch: Partial<Report>): Report {
     height_mm: 60,
     z_mm: [],
     thickness_mm: [],
-    max_error_mm: 0.065,
-    tolerance_mm: 0.065,
+    snapped_mm: [],
     metric: "cusp",
+    unit: "mm",
+    source: "exact",
+    tolerance: 0.065,
+    max_error: 0.065,
+    sampled_error: 0.065,
+    max_error_mm: 0.065,
+    print_time_s: 9000,
     planner: "optimal",
     backend: "cpu",
     adapter: null,
@@ -25,7 +39,7 @@ function report(patch: Partial<Report>): Report {
     bin_mm: 0.002,
     facets: 69_451,
     hits: 5_218_540,
-    uniform: { finest_layers: 1200, finest_error_mm: 0.05, coarsest_layers: 400, coarsest_error_mm: 0.15 },
+    uniform: { finest: uniform(1200, 0.05, 13_200), coarsest: uniform(400, 0.15, 5_538) },
     mask: { width: 2048, height: 1588, pitch_mm: 0.0293 },
     warnings: [],
     timings_ms: { load: 0, ldi: 0, profile: 0, plan: 0, masks: 0, total: 0 },
@@ -33,40 +47,108 @@ function report(patch: Partial<Report>): Report {
   };
 }
 
-test("the gain over the finest uniform plan", () => {
-  expect(sentence(report({}), limits)).toBe("34% fewer than uniform 0.05\u00a0mm (1,200), same tolerance.");
+const compared = (patch: Partial<Report>, options: Options = {}): Compared => ({ report: report(patch), limits, options });
+
+test("the gain over the finest uniform plan, in layers or in time", () => {
+  expect(sentence(compared({}))).toBe("34% fewer than uniform 0.05\u00a0mm (1,200), same tolerance.");
+  expect(sentence(compared({}, { minimize: "time" }))).toBe(
+    "32% less time than uniform 0.05\u00a0mm (3\u00a0h\u00a040\u00a0min), same tolerance.",
+  );
 });
 
 test("a plan that gains nothing says so", () => {
-  expect(sentence(report({ layers: 1200 }), limits)).toMatch(/^As many as uniform 0.05/);
+  expect(sentence(compared({ layers: 1200 }))).toMatch(/^As many as uniform 0.05/);
+  expect(sentence(compared({ print_time_s: 13_200 }, { minimize: "time" }))).toMatch(/^As slow as uniform 0.05/);
 });
 
 test("a plan as short as the coarsest, where that holds", () => {
-  const uniform = { finest_layers: 1200, finest_error_mm: 0.01, coarsest_layers: 400, coarsest_error_mm: 0.03 };
-  expect(sentence(report({ layers: 400, uniform }), limits)).toMatch(/^As few as uniform 0.15/);
+  const both = { finest: uniform(1200, 0.01, 13_200), coarsest: uniform(400, 0.03, 5_538) };
+  expect(sentence(compared({ layers: 400, uniform: both }))).toMatch(/^As few as uniform 0.15/);
+  expect(sentence(compared({ print_time_s: 5_538, uniform: both }, { minimize: "time" }))).toMatch(/^As quick as uniform 0.15/);
 });
 
-test("a uniform plan over the tolerance says by how much", () => {
-  expect(sentence(report({ planner: "uniform", max_error_mm: 0.1 }), limits)).toMatch(/reaches 0.1\u00a0mm, more than the 0.065/);
+test("a plan that is longer than the coarsest, which holds too, does not hide that", () => {
+  const both = { finest: uniform(1200, 0.01, 13_200), coarsest: uniform(792, 0.03, 5_538) };
+  expect(sentence(compared({ uniform: both }))).toMatch(/^34% fewer than .*, but uniform 0.15\u00a0mm keeps the tolerance as well\.$/);
+});
+
+test("a uniform plan over the tolerance says by how much, in the unit of its metric", () => {
+  const over = { planner: "uniform", max_error: 0.1 };
+  expect(sentence(compared(over))).toMatch(/reaches 0.1\u00a0mm, more than the 0.065/);
+  expect(sentence(compared({ ...over, metric: "area" }))).toBe("The error reaches 10%, more than the 6.5% allowed.");
+  expect(sentence(compared({ ...over, metric: "volume", max_error: 11.26 }))).toMatch(/reaches 11.26\u00a0mm³/);
 });
 
 test("the coarsest row says that it breaks the tolerance; rounding of sums does not count", () => {
-  expect(rows(report({ max_error_mm: 0.0650000001 }), limits).map(({ holds }) => holds)).toEqual([true, true, false]);
+  expect(rows(compared({ max_error: 0.0650000001 })).map(({ holds }) => holds)).toEqual([true, true, false]);
 });
 
-test("infeasible: where, and two ways out that differ from what is set", () => {
-  const problem = explain(
-    { code: "infeasible", message: "no plan", detail: { height_mm: 12.34 } },
-    "bunny.stl",
-    { ...DEFAULT_SETTINGS, tolerance: "0.02" },
+function infeasible(detail: Record<string, number | null>): CuspError {
+  const where = { from_mm: 12.34, to_mm: 12.39, tolerance: 0.02, layer_min_mm: 0.05 };
+  return { code: "infeasible", message: "no plan", detail: { ...where, ...detail } };
+}
+
+const infeasibleAt = (patch: Partial<Settings>, detail: Record<string, number | null>): ReturnType<typeof explain> =>
+  explain(infeasible(detail), "bunny.stl", { ...DEFAULT_SETTINGS, ...patch });
+
+test("infeasible: where, and the two ways out that the core knows, rounded so that they are ones", () => {
+  const problem = infeasibleAt({}, { least_tolerance: 0.0498731, largest_layer_min_mm: 0.02 });
+  expect(problem.title).toBe("No plan keeps 0.02\u00a0mm all the way up");
+  expect(problem.text).toBe(
+    "From 12.340 to 12.390\u00a0mm even a layer of 0.05\u00a0mm, the thinnest allowed, leaves a larger error. " +
+      "Allow a larger error, or thinner layers if your printer can make them.",
   );
-  expect(problem.title).toBe("No plan keeps 0.02\u00a0mm, at a height of 12.340\u00a0mm");
-  expect(problem.offers.map(({ change }) => change)).toEqual([{ tolerance: "0.05" }, { layerMin: "0.02" }]);
+  expect(problem.offers).toEqual([
+    { label: "Tolerance 0.05\u00a0mm", change: { tolerances: { cusp: "0.05" } } },
+    { label: "Layers from 0.02\u00a0mm", change: { layerMin: "0.02" } },
+  ]);
 });
 
-test("infeasible although the tolerance is the thinnest layer: more room all the same", () => {
-  const problem = explain({ code: "infeasible", message: "", detail: null }, "a.stl", { ...DEFAULT_SETTINGS, tolerance: "0.05" });
-  expect(problem.offers.map(({ change }) => change)).toEqual([{ tolerance: "0.063" }, { layerMin: "0.025" }]);
+test("infeasible: only what the core knows is offered", () => {
+  const tolerance = infeasibleAt({}, { least_tolerance: 0.05, largest_layer_min_mm: null });
+  expect(tolerance.offers.map(({ change }) => change)).toEqual([{ tolerances: { cusp: "0.05" } }]);
+  expect(tolerance.text).toMatch(/Allow a larger error\.$/);
+  expect(infeasibleAt({}, { least_tolerance: null, largest_layer_min_mm: null }).offers).toEqual([]);
+});
+
+test.each([
+  ["roughness", 0.0999271, "0.1", "Tolerance 0.1\u00a0mm"],
+  ["area", 0.0712345, "7.13", "Tolerance 7.13%"],
+  ["volume", 137.234, "138", "Tolerance 138\u00a0mm³"],
+] as const)("infeasible by %s: the least tolerance in its unit, for that metric alone", (metric, least, text, label) => {
+  const problem = infeasibleAt(
+    { metric, tolerances: { cusp: "0.05" } },
+    { least_tolerance: least, largest_layer_min_mm: null },
+  );
+  expect(problem.offers).toEqual([{ label, change: { tolerances: { cusp: "0.05", [metric]: text } } }]);
+});
+
+test.each([
+  [{}, 0.024, "0.024"],
+  // With bins of 1 µm the core found 52 µm: at 2 µm that could fail, at 51 µm the bins stay.
+  [{ layerMin: "0.055" }, 0.052, "0.051"],
+  [{ layerMin: "0.055", layerMax: "0.155" }, 0.052, "0.052"],
+  [{ step: "0.0025" }, 0.0475, "0.047"],
+])("thinner layers are offered only where the core looks at the same bins: %j", (patch, largest, layerMin) => {
+  const [offer] = infeasibleAt(patch, { least_tolerance: null, largest_layer_min_mm: largest }).offers;
+  expect(offer?.change).toEqual({ layerMin });
+  const bin = (settings: Partial<Settings>): unknown => {
+    const checked = check({ ...DEFAULT_SETTINGS, ...settings });
+    return checked.ok ? checked.options.bin_mm : checked.faults;
+  };
+  expect(bin({ ...patch, ...offer?.change })).toEqual(bin(patch));
+});
+
+test("rounding up is short and never below; rounding down gives whole micrometres", () => {
+  expect([0.0500001, 0.05, 0.07, 0.0655, 11.2631, 137.234, 1234.5].map(round.up)).toEqual([
+    0.051, 0.05, 0.07, 0.066, 11.3, 138, 1235,
+  ]);
+  expect([0.0475, 0.048, 0.057].map(round.micrometreBelow)).toEqual([0.047, 0.048, 0.057]);
+});
+
+test("layers that do not add up: thinner ones may", () => {
+  const problem = explain({ code: "layers-do-not-fit", message: "no", detail: null }, "a.stl", DEFAULT_SETTINGS);
+  expect(problem.offers.map(({ change }) => change)).toEqual([{ layerMin: "0.025" }]);
 });
 
 test("the core's message becomes a sentence under our heading", () => {
@@ -79,6 +161,9 @@ test.each([
   ["no-hits", "a.stl is too thin for these pixels"],
   ["all-black", "Every mask would be black"],
   ["layer-too-thick", "The layers are too thick for this model"],
+  ["layer-range-empty", "No layer of whole motor steps lies in this range"],
+  ["gpu-too-small", "The GPU is too small for this model"],
+  ["out-of-reach", "No plan is as short as that"],
 ])("%s has a heading of its own", (code, title) => {
   expect(explain({ code, message: "x", detail: null }, "a.stl", DEFAULT_SETTINGS).title).toBe(title);
 });
@@ -116,6 +201,16 @@ test("numbers as people read them", () => {
   expect(format.duration(0.2)).toBe("< 1\u00a0ms");
   expect(format.duration(412.4)).toBe("412\u00a0ms");
   expect(format.duration(1340)).toBe("1.3\u00a0s");
+  expect([20, 59, 3_570, 3_599, 48_000, 9_000_000].map(format.time)).toEqual([
+    "<\u00a01\u00a0min",
+    "1\u00a0min",
+    "1\u00a0h\u00a00\u00a0min",
+    "1\u00a0h\u00a00\u00a0min",
+    "13\u00a0h\u00a020\u00a0min",
+    "2,500\u00a0h\u00a00\u00a0min",
+  ]);
+  expect(format.percent(0.07125, 2)).toBe("7.13%");
+  expect(format.volume(11.2631)).toBe("11.26\u00a0mm³");
   expect(format.dimensions([60, 46.52, 59.4])).toBe("60.0 × 46.5 × 59.4\u00a0mm");
 });
 

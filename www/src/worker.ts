@@ -55,7 +55,7 @@ const api: SlicerWorker = {
   },
   async plan(options, progress) {
     const report = await current().plan(options, plain(progress));
-    const profile = current().profile();
+    const profile = current().profile(report.metric, report.source);
     return Comlink.transfer({ report, profile }, [profile.buffer]);
   },
   mask(layer) {

@@ -1,0 +1,126 @@
+//! Which facets lie wholly inside the solid, where bodies overlap: they are no part of what is printed.
+
+use super::{Hit, Ldi};
+use crate::mesh::Mesh;
+use crate::parallel;
+
+/// What an LDI shows about the facets of its mesh.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Visibility {
+    /// For each facet whether it is shown to be wholly inside: rays met it, and all of them inside the solid; or it
+    /// belongs to a body of which that is true. Empty if there is no such facet.
+    pub hidden: Vec<bool>,
+    /// Whether bodies overlap without hiding whole facets, or one is inside out: the areas of sections are then not the
+    /// sum of what facets enclose.
+    pub overlaps: bool,
+}
+
+const MET: u8 = 1;
+const ON_SURFACE: u8 = 2;
+
+/// Looks along all rays of `ldi`, which was sampled from `mesh`. A facet that no ray met counts as visible.
+///
+/// Cost: linear in hits, and in facets where bodies overlap.
+pub fn visibility(mesh: &Mesh, ldi: &Ldi) -> Visibility {
+    let is_simple = |offsets: &[u32]| all_rays(ldi, offsets, |hits| is_in_turn(hits, |_| true));
+    let chunks = ldi.chunks();
+    if parallel::map(chunks.clone(), is_simple)
+        .into_iter()
+        .all(|simple| simple)
+    {
+        return Visibility {
+            hidden: Vec::new(),
+            overlaps: false,
+        };
+    }
+    let mut seen = vec![0u8; mesh.facets.len()];
+    for ray in 0..ldi.rays() {
+        look_along(ldi.ray(ray), &mut seen);
+    }
+    let bodies = bodies(mesh);
+    let mut body_seen = vec![0u8; mesh.vertices.len()];
+    for (&seen, &body) in seen.iter().zip(&bodies) {
+        body_seen[body as usize] |= seen;
+    }
+    let is_hidden_body = |facet: usize| body_seen[bodies[facet] as usize] == MET;
+    let hidden: Vec<bool> = (0..seen.len())
+        .map(|facet| seen[facet] == MET || is_hidden_body(facet))
+        .collect();
+    // Without a part of its walls a body encloses nothing that could be measured.
+    let is_open = (0..seen.len())
+        .any(|facet| hidden[facet] && !is_hidden_body(facet) && mesh.n_z_squared(facet) < 1.0);
+    // Without the hidden facets, does every ray enter and leave one body after the other?
+    let is_union = |offsets: &[u32]| {
+        all_rays(ldi, offsets, |hits| {
+            is_in_turn(hits, |hit| !hidden[hit.facet() as usize])
+        })
+    };
+    let overlaps = is_open
+        || !parallel::map(chunks, is_union)
+            .into_iter()
+            .all(|union| union);
+    Visibility { hidden, overlaps }
+}
+
+/// Whether `holds` is true of every ray that the offsets bound.
+fn all_rays(ldi: &Ldi, offsets: &[u32], holds: impl Fn(&[Hit]) -> bool) -> bool {
+    offsets
+        .windows(2)
+        .all(|ray| holds(&ldi.hits[ray[0] as usize..ray[1] as usize]))
+}
+
+/// Whether the hits of a ray that count enter and leave one body after the other, with none touching the next.
+fn is_in_turn(hits: &[Hit], counts: impl Fn(&Hit) -> bool) -> bool {
+    let mut winding = 0;
+    let mut last_z_mm = -1.0;
+    hits.iter().filter(|hit| counts(hit)).all(|hit| {
+        winding += hit.winding();
+        let rises = hit.z_mm > last_z_mm;
+        last_z_mm = hit.z_mm;
+        rises && (winding == 0 || winding == 1)
+    })
+}
+
+/// Notes which facets of a ray are met, and which part inside from outside. Hits at one height count together: where
+/// bodies touch, neither of the two facets is on the surface.
+fn look_along(hits: &[Hit], seen: &mut [u8]) {
+    let mut winding = 0;
+    for group in hits.chunk_by(|a, b| a.z_mm == b.z_mm) {
+        let was_inside = winding != 0;
+        winding += group.iter().map(|hit| hit.winding()).sum::<i32>();
+        let note = if was_inside == (winding != 0) && was_inside {
+            MET
+        } else {
+            MET | ON_SURFACE
+        };
+        for hit in group {
+            seen[hit.facet() as usize] |= note;
+        }
+    }
+}
+
+/// For each facet the number of its body: facets that share corners, directly or through others. The number is that of
+/// one of its vertices.
+fn bodies(mesh: &Mesh) -> Vec<u32> {
+    let mut parents: Vec<u32> = (0..mesh.vertices.len() as u32).collect();
+    let root = |parents: &mut Vec<u32>, mut vertex: u32| {
+        while parents[vertex as usize] != vertex {
+            // Halving the way for those who come after.
+            let above = parents[parents[vertex as usize] as usize];
+            parents[vertex as usize] = above;
+            vertex = above;
+        }
+        vertex
+    };
+    for &[a, b, c] in &mesh.facets {
+        let of_a = root(&mut parents, a);
+        for other in [b, c] {
+            let of_other = root(&mut parents, other);
+            parents[of_other as usize] = of_a;
+        }
+    }
+    let facets = mesh.facets.iter();
+    facets
+        .map(|corners| root(&mut parents, corners[0]))
+        .collect()
+}

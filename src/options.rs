@@ -1,0 +1,221 @@
+//! What to slice and how, as users say it.
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::exposure::Resin;
+use crate::grid::Bins;
+use crate::plan::optimal::Objective;
+use crate::plan::{HeightRange, Limits, uniform};
+use crate::profile::{Metric, Source};
+
+/// Where the LDI is sampled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(rename_all = "lowercase")]
+pub enum Backend {
+    /// The GPU, unless there is none or it is emulated in software.
+    #[default]
+    Auto,
+    /// The GPU, or an error.
+    Gpu,
+    /// The CPU.
+    Cpu,
+}
+
+/// How layers are chosen.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(rename_all = "lowercase", tag = "kind")]
+pub enum Planner {
+    /// The fewest layers within tolerance, or the shortest time.
+    #[default]
+    Optimal,
+    /// Layer by layer, as thick as the profile allows; may exceed the tolerance.
+    Greedy,
+    /// Layer by layer, as thick as the surface at the plane suggests; may exceed the tolerance.
+    Local,
+    /// Layers of one thickness, whatever their error.
+    Uniform {
+        /// That thickness in millimetres.
+        layer_mm: f64,
+    },
+    /// Uniform layers of the least thickness.
+    Finest,
+    /// Uniform layers of the greatest thickness.
+    Coarsest,
+}
+
+impl Planner {
+    /// The name of the planner, as in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Optimal => "optimal",
+            Self::Greedy => "greedy",
+            Self::Local => "local",
+            Self::Uniform { .. } => "uniform",
+            Self::Finest => "finest",
+            Self::Coarsest => "coarsest",
+        }
+    }
+}
+
+/// What the optimal plan has least of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(rename_all = "lowercase")]
+pub enum Minimize {
+    /// Layers.
+    #[default]
+    Layers,
+    /// Time: exposures and what comes with each layer.
+    Time,
+}
+
+/// Whether planes go where flats and sharp changes are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(rename_all = "lowercase")]
+pub enum Snap {
+    /// Wherever layers add up and stay within tolerance beside them.
+    #[default]
+    Auto,
+    /// Only where that is best.
+    Off,
+}
+
+/// What to slice and how. All lengths are in millimetres.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(default, deny_unknown_fields)]
+pub struct Options {
+    /// Scale the model evenly to this height; its own height if absent.
+    pub height_mm: Option<f64>,
+    /// Columns and rows of the masks, with the model in the middle; needs `pitch_mm`.
+    pub pixels: Option<[u32; 2]>,
+    /// Side of a pixel; alone, with as many pixels as cover the model.
+    pub pitch_mm: Option<f64>,
+    /// Pixels along the model's longer horizontal side where neither is given.
+    pub rays: u32,
+    /// Least layer thickness.
+    pub layer_min_mm: f64,
+    /// Greatest layer thickness.
+    pub layer_max_mm: f64,
+    /// Greatest error of a layer in the metric's unit: mm, mm, a fraction or mm³. If absent 0.065 mm of cusp height,
+    /// 0.1 mm of roughness, 0.1 of the area, or 1 mm³ and as much more as the model needs.
+    pub tolerance: Option<f64>,
+    /// Find the least tolerance that needs at most so many layers.
+    pub max_layers: Option<usize>,
+    /// Find the least tolerance that takes at most so many seconds.
+    pub max_time_s: Option<f64>,
+    /// Height of a bin of the profile.
+    pub bin_mm: f64,
+    /// What every height is a multiple of: the printer's motor step; a bin if absent.
+    pub step_mm: Option<f64>,
+    /// Height ranges with a layer thickness of their own.
+    pub ranges: Vec<HeightRange>,
+    /// Heights at which there must be a plane.
+    pub planes_mm: Vec<f64>,
+    /// Whether planes go where flats and sharp changes are.
+    pub snap: Snap,
+    /// Area in mm² from which on a flat is worth a plane.
+    pub flat_area_mm2: f64,
+    /// What the error measures.
+    pub metric: Metric,
+    /// What errors are measured on.
+    pub source: Source,
+    /// How layers are chosen.
+    pub planner: Planner,
+    /// What the optimal plan has least of.
+    pub minimize: Minimize,
+    /// How long layers take.
+    pub resin: Resin,
+    /// Where the LDI is sampled.
+    pub backend: Backend,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            height_mm: None,
+            pixels: None,
+            pitch_mm: None,
+            rays: 2048,
+            layer_min_mm: 0.05,
+            layer_max_mm: 0.15,
+            tolerance: None,
+            max_layers: None,
+            max_time_s: None,
+            bin_mm: 0.002,
+            step_mm: None,
+            ranges: Vec::new(),
+            planes_mm: Vec::new(),
+            snap: Snap::Auto,
+            flat_area_mm2: 1.0,
+            metric: Metric::Cusp,
+            source: Source::Exact,
+            planner: Planner::Optimal,
+            minimize: Minimize::Layers,
+            resin: Resin::default(),
+            backend: Backend::Auto,
+        }
+    }
+}
+
+impl Options {
+    /// What plans must keep to within `tolerance`.
+    pub(crate) fn limits(&self, tolerance: f64) -> Limits {
+        Limits {
+            layer_min_mm: self.layer_min_mm,
+            layer_max_mm: self.layer_max_mm,
+            tolerance,
+            ranges: self.ranges.clone(),
+            planes_mm: self.planes_mm.clone(),
+            step_mm: self.step_mm,
+        }
+    }
+
+    /// What plans have least of.
+    pub(crate) fn objective(&self) -> Objective<'_> {
+        match self.minimize {
+            Minimize::Layers => Objective::Layers,
+            Minimize::Time => Objective::Time(&self.resin),
+        }
+    }
+
+    /// Finds what no model could make good, before any time is spent on sampling.
+    ///
+    /// # Errors
+    /// [`Error::Plan`], [`Error::Options`].
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        let bins = Bins {
+            count: 1,
+            size_mm: self.bin_mm,
+        };
+        self.resin.check().map_err(crate::plan::PlanError::from)?;
+        let given = [
+            self.tolerance.is_some(),
+            self.max_layers.is_some(),
+            self.max_time_s.is_some(),
+        ];
+        if given.into_iter().filter(|&given| given).count() > 1 {
+            let reason =
+                "give a tolerance, the most layers or the longest time, but not two of them";
+            return Err(Error::Options {
+                reason: reason.to_owned(),
+            });
+        }
+        match self.planner {
+            Planner::Uniform { layer_mm } => {
+                uniform::thickness_in_bins(bins, layer_mm)?;
+            }
+            _ => self
+                .limits(self.tolerance.unwrap_or(self.metric.default_tolerance()))
+                .check(bins)?,
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,232 @@
+//! Where planes must be, and the segments between them, which planners fill one by one (section 3.3).
+
+use std::ops::RangeInclusive;
+
+use super::{Limits, PlanError};
+use crate::grid::Bins;
+
+/// A height range between two planes that every plan has, to be filled with layers.
+///
+/// Layers are counted in units of `unit` bins: plane p of the segment is at boundary `lower + p · unit`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Segment {
+    /// The plane below, a boundary of bins.
+    pub lower: u32,
+    /// Height in units.
+    pub units: u32,
+    /// Bins a unit.
+    pub unit: u32,
+    /// Thickness of layers in units, least to greatest.
+    pub thickness: RangeInclusive<u32>,
+}
+
+impl Segment {
+    /// The boundary of plane `p`, from 0 to [`Self::units`].
+    pub fn boundary(&self, p: u32) -> u32 {
+        self.lower + p * self.unit
+    }
+
+    /// The plane above, a boundary of bins.
+    pub fn upper(&self) -> u32 {
+        self.boundary(self.units)
+    }
+
+    /// Whether layers of the range can add up to `units`.
+    pub fn can_fill(&self, units: u32) -> bool {
+        let fewest = units.div_ceil(*self.thickness.end());
+        u64::from(fewest) * u64::from(*self.thickness.start()) <= u64::from(units)
+    }
+}
+
+/// The segments of a plan, upward, and what became of the wishes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Segments {
+    /// Segments from the plate upward.
+    pub segments: Vec<Segment>,
+    /// The wished planes that are kept: boundaries of bins, upward.
+    pub wishes: Vec<u32>,
+}
+
+impl Segments {
+    /// Lays out the segments of a model of so many bins.
+    ///
+    /// Planes are at the plate, at the ends of the height ranges and where the user asks for one; then at each of
+    /// `wishes`, in this order, as long as the layers still add up between them. The top is moved to the nearest height
+    /// that layers add up to, by at most half the least thickness, of equal ones to the lower; wishes do not move it.
+    ///
+    /// # Errors
+    /// [`PlanError`]: limits out of order, or planes between which no layers fit.
+    pub fn new(bins: Bins, limits: &Limits, wishes: &[u32]) -> Result<Self, PlanError> {
+        let layout = Layout::new(bins, limits)?;
+        let mut planes = layout.demanded_planes(limits)?;
+        let top = layout.top(planes[planes.len() - 1])?;
+        // Fails here if the demanded planes alone leave a gap that no layers fill.
+        for segment in &layout.segments(&planes, top) {
+            if !segment.can_fill(segment.units) {
+                return Err(layout.do_not_fit(segment));
+            }
+        }
+        let mut kept = Vec::new();
+        for &wish in wishes {
+            let plane = layout.round(wish);
+            let Err(place) = planes.binary_search(&plane) else {
+                continue;
+            };
+            if plane >= top {
+                continue;
+            }
+            // Only the two segments beside the new plane can become too small.
+            let above = planes.get(place).copied().unwrap_or(top);
+            let beside = layout.segments(&[planes[place - 1], plane], above);
+            if beside.iter().all(|segment| segment.can_fill(segment.units)) {
+                planes.insert(place, plane);
+                kept.push(plane);
+            }
+        }
+        kept.sort_unstable();
+        Ok(Self {
+            segments: layout.segments(&planes, top),
+            wishes: kept,
+        })
+    }
+}
+
+/// What the limits say in bins.
+struct Layout {
+    bins: Bins,
+    unit: u32,
+    /// Thickness in units everywhere but in the ranges.
+    thickness: RangeInclusive<u32>,
+    /// Height ranges in boundaries, with their thickness in units, upward.
+    ranges: Vec<(u32, u32, RangeInclusive<u32>)>,
+}
+
+impl Layout {
+    fn new(bins: Bins, limits: &Limits) -> Result<Self, PlanError> {
+        let unit = limits.unit(bins)?;
+        let thickness = limits.thickness(bins, limits.layer_min_mm, limits.layer_max_mm)?;
+        let mut layout = Self {
+            bins,
+            unit,
+            thickness,
+            ranges: Vec::new(),
+        };
+        let mut ranges = limits.ranges.clone();
+        ranges.sort_by(|a, b| a.from_mm.total_cmp(&b.from_mm));
+        for range in ranges {
+            let (from_mm, to_mm) = (range.from_mm, range.to_mm);
+            let is_ordered = from_mm >= 0.0 && to_mm > from_mm;
+            let ends = [from_mm, to_mm].map(|z_mm| layout.plane_at(z_mm));
+            let is_free = layout.ranges.last().is_none_or(|below| below.1 <= ends[0]);
+            if !is_ordered || !is_free || ends[0] == ends[1] {
+                return Err(PlanError::BadRange { from_mm, to_mm });
+            }
+            let thickness = limits.thickness(bins, range.layer_min_mm, range.layer_max_mm)?;
+            layout.ranges.push((ends[0], ends[1], thickness));
+        }
+        Ok(layout)
+    }
+
+    /// The nearest boundary that is a whole number of units up.
+    fn round(&self, boundary: u32) -> u32 {
+        (boundary + self.unit / 2) / self.unit * self.unit
+    }
+
+    fn plane_at(&self, z_mm: f64) -> u32 {
+        // Far above any model is as good as infinite.
+        let units = z_mm / self.bins.size_mm / f64::from(self.unit) + 0.5;
+        units.clamp(0.0, f64::from(u32::MAX / 2 / self.unit)) as u32 * self.unit
+    }
+
+    /// The plate, the ends of ranges below the top and the planes that the user asks for, upward.
+    fn demanded_planes(&self, limits: &Limits) -> Result<Vec<u32>, PlanError> {
+        let top = self.bins.count as u32;
+        let mut planes = vec![0];
+        for &(from, to, _) in &self.ranges {
+            planes.extend([from, to]);
+        }
+        planes.retain(|&plane| plane < top);
+        for &z_mm in &limits.planes_mm {
+            let plane = self.plane_at(z_mm);
+            // No number is at the plate as well.
+            if z_mm <= 0.0 || plane == 0 || plane > top {
+                let height_mm = self.bins.boundary_mm(top);
+                return Err(PlanError::BadPlane { z_mm, height_mm });
+            }
+            if plane < top {
+                planes.push(plane);
+            }
+        }
+        planes.sort_unstable();
+        planes.dedup();
+        Ok(planes)
+    }
+
+    fn thickness_above(&self, plane: u32) -> RangeInclusive<u32> {
+        let inside = |range: &&(u32, u32, _)| (range.0..range.1).contains(&plane);
+        let range = self.ranges.iter().find(inside);
+        range.map_or(&self.thickness, |range| &range.2).clone()
+    }
+
+    /// The top of a plan whose last plane but the top is `below`.
+    fn top(&self, below: u32) -> Result<u32, PlanError> {
+        let thickness = self.thickness_above(below);
+        let (least, greatest) = (u64::from(*thickness.start()), u64::from(*thickness.end()));
+        let unit = f64::from(self.unit);
+        let rest = f64::from(self.bins.count as u32 - below) / unit;
+        let exact = rest.ceil();
+        // Without a motor step the top is a boundary and mostly in reach; with one, the nearest unit is.
+        let layers = (exact / greatest as f64).ceil();
+        if rest == exact && layers * least as f64 <= exact {
+            return Ok(below + exact as u32 * self.unit);
+        }
+        let best = [layers - 1.0, layers, layers + 1.0]
+            .into_iter()
+            .filter(|&layers| layers >= 1.0)
+            .map(|layers| {
+                let units = (rest - 1e-9)
+                    .round()
+                    .clamp(layers * least as f64, layers * greatest as f64);
+                ((units - rest).abs(), units)
+            })
+            .min_by(|a, b| a.0.total_cmp(&b.0));
+        match best {
+            Some((moved, units)) if moved * 2.0 < least as f64 => {
+                Ok(below + units as u32 * self.unit)
+            }
+            _ => Err(self.do_not_fit(&Segment {
+                lower: below,
+                units: exact as u32,
+                unit: self.unit,
+                thickness,
+            })),
+        }
+    }
+
+    fn segments(&self, planes: &[u32], top: u32) -> Vec<Segment> {
+        let uppers = planes.iter().skip(1).copied().chain([top]);
+        planes
+            .iter()
+            .zip(uppers)
+            .map(|(&lower, upper)| Segment {
+                lower,
+                units: (upper - lower) / self.unit,
+                unit: self.unit,
+                thickness: self.thickness_above(lower),
+            })
+            .collect()
+    }
+
+    fn do_not_fit(&self, segment: &Segment) -> PlanError {
+        let (least, greatest) = (segment.thickness.start(), segment.thickness.end());
+        let mm = |units: u32| self.bins.boundary_mm(units.saturating_mul(self.unit));
+        PlanError::LayersDoNotFit {
+            from_mm: self.bins.boundary_mm(segment.lower),
+            to_mm: self
+                .bins
+                .boundary_mm(segment.upper().min(self.bins.count as u32)),
+            layer_min_mm: mm(*least),
+            layer_max_mm: mm(*greatest),
+        }
+    }
+}

@@ -1,0 +1,296 @@
+//! From the shape of a model to a plan and its figures: which errors a planner sees, at which tolerance, with which
+//! wishes.
+
+use crate::grid::Bins;
+use crate::ldi::Ldi;
+use crate::ldi::visibility::{Visibility, visibility};
+use crate::mesh::Mesh;
+use crate::options::{Options, Planner, Snap};
+use crate::plan::optimal::Objective;
+use crate::plan::tradeoff::{self, Goal, TradeoffPoint};
+use crate::plan::{Limits, Plan, PlanError, greedy, optimal, uniform};
+use crate::profile::wishes::wishes;
+use crate::profile::{LayerErrors, Metric, Shape, Source, section, steepest};
+use crate::report::{PlannerReport, UniformReport, Warning};
+
+/// The shape of a model from both sources.
+#[derive(Debug)]
+pub(crate) struct Shapes {
+    pub exact: Shape,
+    pub sampled: Shape,
+    /// Facets wholly inside the solid.
+    hidden: Vec<bool>,
+    /// Whether bodies overlap in a way that only rays can sort out.
+    overlaps: bool,
+}
+
+impl Shapes {
+    pub fn new(mesh: &Mesh, ldi: &Ldi, bins: Bins) -> Self {
+        let Visibility { hidden, overlaps } = visibility(mesh, ldi);
+        let shape = |steepest| Shape {
+            bins,
+            steepest,
+            areas_mm2: Vec::new(),
+        };
+        Self {
+            exact: shape(steepest::exact(mesh, &hidden, bins)),
+            sampled: shape(steepest::sampled(mesh, ldi, &hidden, bins)),
+            hidden,
+            overlaps,
+        }
+    }
+
+    /// Measures the areas of sections as well, unless that was done; returns whether it was not.
+    pub fn add_areas(&mut self, mesh: &Mesh, ldi: &Ldi) -> bool {
+        if !self.sampled.areas_mm2.is_empty() {
+            return false;
+        }
+        let bins = self.exact.bins;
+        self.sampled.areas_mm2 = section::sampled(ldi, bins);
+        self.exact.areas_mm2 = if self.overlaps {
+            self.sampled.areas_mm2.clone()
+        } else {
+            section::exact(mesh, &self.hidden, bins)
+        };
+        true
+    }
+
+    pub fn of(&self, source: Source) -> &Shape {
+        match source {
+            Source::Exact => &self.exact,
+            Source::Sampled => &self.sampled,
+        }
+    }
+}
+
+/// All that planners need to know about a model.
+pub(crate) struct Planning<'a> {
+    shapes: &'a Shapes,
+    height_mm: f64,
+    /// Errors under the metric, of the source that plans are made from.
+    errors: LayerErrors,
+    /// The same of the exact shape, for reports.
+    exact: LayerErrors,
+    wishes: Vec<u32>,
+    /// The tolerance that the options give or ask to find, or why there is none.
+    tolerance: Result<f64, PlanError>,
+}
+
+/// A plan's figures.
+pub(crate) struct PlanReport {
+    pub snapped_mm: Vec<f64>,
+    pub tolerance: f64,
+    pub max_error: f64,
+    pub sampled_error: f64,
+    pub max_error_mm: f64,
+    pub print_time_s: f64,
+    pub uniform: UniformReport,
+    pub warnings: Vec<Warning>,
+}
+
+impl<'a> Planning<'a> {
+    pub fn new(mesh: &Mesh, height_mm: f64, shapes: &'a Shapes, options: &Options) -> Self {
+        let exact = shapes.exact.errors(options.metric);
+        let errors = match options.source {
+            Source::Exact => exact.clone(),
+            Source::Sampled => shapes.sampled.errors(options.metric),
+        };
+        let wishes = match options.snap {
+            Snap::Off => Vec::new(),
+            Snap::Auto => {
+                let cusp = shapes.of(options.source).profile(Metric::Cusp);
+                let area_mm2 = options.flat_area_mm2;
+                wishes(mesh, &shapes.hidden, &cusp.density, cusp.bins, area_mm2)
+            }
+        };
+        Self {
+            shapes,
+            height_mm,
+            tolerance: tolerance(&errors, &wishes, options),
+            errors,
+            exact,
+            wishes,
+        }
+    }
+
+    fn limits(&self, options: &Options) -> Result<Limits, PlanError> {
+        Ok(options.limits(self.tolerance.clone()?))
+    }
+
+    pub fn plan(&self, options: &Options) -> Result<Plan, PlanError> {
+        self.plan_by(options.planner, options)
+    }
+
+    fn plan_by(&self, planner: Planner, options: &Options) -> Result<Plan, PlanError> {
+        let (errors, wishes) = (&self.errors, &self.wishes);
+        let bins = errors.bins();
+        let greedily = |sight| greedy::plan(errors, &self.limits(options)?, wishes, sight);
+        match planner {
+            Planner::Optimal => {
+                // The time is what a longest time is about.
+                let objective = match options.max_time_s {
+                    Some(_) => Objective::Time(&options.resin),
+                    None => options.objective(),
+                };
+                optimal::plan(errors, &self.limits(options)?, wishes, objective)
+            }
+            Planner::Greedy => greedily(greedy::Sight::Profile),
+            Planner::Local => greedily(greedy::Sight::Plane),
+            Planner::Uniform { layer_mm } => uniform::plan(bins, self.height_mm, layer_mm),
+            Planner::Finest | Planner::Coarsest => {
+                let limits = options.limits(0.0);
+                let thickness = limits.thickness(bins, limits.layer_min_mm, limits.layer_max_mm)?;
+                let units = match planner {
+                    Planner::Finest => *thickness.start(),
+                    _ => *thickness.end(),
+                };
+                let layer_mm = bins.boundary_mm(units * limits.unit(bins)?);
+                match uniform::plan(bins, self.height_mm, layer_mm) {
+                    // A model lower than half a layer is one layer here, as it is for the optimal planner.
+                    Err(PlanError::LayerTooThick { .. }) => Ok(Plan {
+                        bins,
+                        boundaries: vec![0, bins.count as u32],
+                        wishes: Vec::new(),
+                    }),
+                    plan => plan,
+                }
+            }
+        }
+    }
+
+    fn row(&self, planner: Planner, options: &Options) -> Result<PlannerReport, PlanError> {
+        let plan = self.plan_by(planner, options)?;
+        Ok(PlannerReport {
+            planner: planner.name().to_owned(),
+            layers: plan.layers(),
+            max_error: plan.max_error(&self.exact),
+            print_time_s: plan.print_time_s(&options.resin),
+        })
+    }
+
+    pub fn report(&self, options: &Options, plan: &Plan) -> Result<PlanReport, PlanError> {
+        let (finest, coarsest) = match options.planner {
+            // They may be planned with no valid range; they then stand for both ends.
+            Planner::Uniform { .. } if options.limits(1.0).check(plan.bins).is_err() => {
+                (options.planner, options.planner)
+            }
+            _ => (Planner::Finest, Planner::Coarsest),
+        };
+        let bins = plan.bins;
+        let is_adaptive = matches!(
+            options.planner,
+            Planner::Optimal | Planner::Greedy | Planner::Local
+        );
+        let tolerance = match self.tolerance.clone() {
+            Ok(tolerance) => tolerance,
+            Err(error) if is_adaptive => return Err(error),
+            Err(_) => options.metric.default_tolerance(),
+        };
+        let max_error = plan.max_error(&self.exact);
+        let mut warnings = Vec::new();
+        let planned_steps = plan.max_error_steps(&self.errors);
+        if planned_steps > self.errors.to_steps(tolerance) {
+            let planned = self.errors.to_value(planned_steps);
+            let message = format!(
+                "{} layers exceed the tolerance of {}: their largest error is {}",
+                options.planner.name(),
+                options.metric.words(tolerance),
+                options.metric.words(planned)
+            );
+            warnings.push(Warning::new("tolerance-exceeded", message));
+        } else if plan.max_error_steps(&self.exact) > self.exact.to_steps(tolerance) {
+            let message = format!(
+                "on the mesh itself the error reaches {}, more than the tolerance: rays miss a part of the surface",
+                options.metric.words(max_error)
+            );
+            warnings.push(Warning::new("tolerance-exceeded-on-mesh", message));
+        }
+        if self.shapes.overlaps && options.metric.needs_areas() {
+            let message =
+                "the surface crosses itself, so that areas of sections are counted along rays";
+            warnings.push(Warning::new("sampled-sections", message));
+        }
+        let top_mm = bins.boundary_mm(plan.boundaries[plan.layers()]);
+        if (top_mm - self.height_mm).abs() > bins.size_mm && is_adaptive {
+            let message = format!(
+                "the print ends at {top_mm} mm, since layers do not add up to {} mm",
+                self.height_mm
+            );
+            warnings.push(Warning::new("top-moved", message));
+        }
+        let cusp = self.shapes.exact.errors(Metric::Cusp);
+        Ok(PlanReport {
+            snapped_mm: plan
+                .wishes
+                .iter()
+                .map(|&wish| bins.boundary_mm(wish))
+                .collect(),
+            tolerance,
+            max_error,
+            sampled_error: plan.max_error(&self.shapes.sampled.errors(options.metric)),
+            max_error_mm: plan.max_error(&cusp),
+            print_time_s: plan.print_time_s(&options.resin),
+            uniform: UniformReport {
+                finest: self.row(finest, options)?,
+                coarsest: self.row(coarsest, options)?,
+            },
+            warnings,
+        })
+    }
+
+    pub fn tradeoff(
+        &self,
+        options: &Options,
+        points: usize,
+    ) -> Result<Vec<TradeoffPoint>, PlanError> {
+        tradeoff::curve(
+            &self.errors,
+            &options.limits(0.0),
+            &self.wishes,
+            options.objective(),
+            &options.resin,
+            points,
+        )
+    }
+
+    pub fn compare(&self, options: &Options) -> Result<Vec<PlannerReport>, PlanError> {
+        [
+            Planner::Coarsest,
+            Planner::Optimal,
+            Planner::Greedy,
+            Planner::Local,
+            Planner::Finest,
+        ]
+        .into_iter()
+        .map(|planner| self.row(planner, options))
+        .collect()
+    }
+}
+
+/// The tolerance that the options give, or ask to find.
+fn tolerance(errors: &LayerErrors, wishes: &[u32], options: &Options) -> Result<f64, PlanError> {
+    let goal = match (options.max_layers, options.max_time_s) {
+        (Some(layers), _) => Some(Goal::Layers(layers)),
+        (None, Some(time_s)) => Some(Goal::Time(time_s)),
+        (None, None) => None,
+    };
+    if let Some(goal) = goal {
+        let limits = options.limits(0.0);
+        return tradeoff::tolerance_for(errors, &limits, wishes, &options.resin, goal);
+    }
+    if let Some(tolerance) = options.tolerance {
+        return Ok(tolerance);
+    }
+    let usual = options.metric.default_tolerance();
+    if options.metric != Metric::Volume {
+        return Ok(usual);
+    }
+    // No volume suits all models: as much more as this one needs.
+    let limits = options.limits(usual);
+    let steps = errors.to_steps(usual);
+    if optimal::within(errors, &limits, &[], Objective::Layers, steps)?.is_ok() {
+        return Ok(usual);
+    }
+    let least = tradeoff::least_tolerance(errors, &limits, Objective::Layers);
+    Ok(least.unwrap_or(usual))
+}

@@ -1,0 +1,183 @@
+//! Areas of horizontal sections at the middle of each bin, sampled (eq. 13) or in closed form: what the area and the
+//! volume deviation are made of.
+
+use glam::DVec2;
+
+use crate::grid::Bins;
+use crate::ldi::{Ldi, for_each_solid_range};
+use crate::mesh::Mesh;
+use crate::parallel;
+
+/// Rays that are worth a thread of their own.
+const CHUNK_RAYS: usize = 1 << 18;
+
+/// The area of the section at the middle of each bin in mm²: lit pixels times the area of one (eq. 13).
+///
+/// Cost: linear in rays, hits and bins.
+pub fn sampled(ldi: &Ldi, bins: Bins) -> Vec<f64> {
+    let step = CHUNK_RAYS.max(ldi.rays() / 16);
+    let firsts = (0..ldi.rays()).step_by(step).collect();
+    let parts = parallel::map(firsts, |first: usize| {
+        // How many rays enter less how many leave before the middle of each bin.
+        let mut gains = vec![0i64; bins.count + 1];
+        for ray in first..(first + step).min(ldi.rays()) {
+            for_each_solid_range(ldi.ray(ray), |z_in, z_out| {
+                gains[bins.middles_below(f64::from(z_in))] += 1;
+                gains[bins.middles_below(f64::from(z_out))] -= 1;
+            });
+        }
+        gains
+    });
+    let pixel_mm2 = ldi.grid.pitch_mm * ldi.grid.pitch_mm;
+    let mut lit = 0;
+    (0..bins.count)
+        .map(|bin| {
+            lit += parts.iter().map(|gains| gains[bin]).sum::<i64>();
+            lit as f64 * pixel_mm2
+        })
+        .collect()
+}
+
+/// The area of the section at the middle of each bin in mm², from the facets: each adds a quadratic of height
+/// between its corners (Green's theorem). Facets that `hidden` names have no part; it may be empty. Where bodies
+/// overlap without hiding whole facets, areas count as often as there are bodies.
+///
+/// Cost: linear in facets times the logarithm of bins, and in bins.
+pub fn exact(mesh: &Mesh, hidden: &[bool], bins: Bins) -> Vec<f64> {
+    let mut sums = QuadraticSums::new(bins.count);
+    for facet in 0..mesh.facets.len() {
+        if hidden.get(facet) == Some(&true) {
+            continue;
+        }
+        let [a, b, c] = mesh.corners(facet);
+        // Which way along the section the facet has the solid on its left.
+        let normal = (b - a).cross(c - a);
+        let mut corners = [a, b, c];
+        corners.sort_unstable_by(|p, q| p.z.total_cmp(&q.z));
+        let [low, middle, high] = corners;
+        let first = bins.middles_below(low.z);
+        let end = bins.middles_below(high.z);
+        if first == end {
+            continue;
+        }
+        let bend = bins.middles_below(middle.z);
+        let long = Edge::new(low, high);
+        let side = middle.truncate() - long.at(middle.z);
+        let left = DVec2::new(-normal.y, normal.x);
+        let sign = if side.dot(left) >= 0.0 { 0.5 } else { -0.5 };
+        for (from, to, range) in [(low, middle, first..bend), (middle, high, bend..end)] {
+            if range.is_empty() {
+                continue;
+            }
+            let short = Edge::new(from, to);
+            sums.add(range, |bin| {
+                let z = bins.middle_mm(bin);
+                let (p, q) = (long.at(z), short.at(z));
+                let (dp, dq) = (long.slope * bins.size_mm, short.slope * bins.size_mm);
+                [
+                    sign * p.perp_dot(q),
+                    sign * (p.perp_dot(dq) + dp.perp_dot(q)),
+                    sign * dp.perp_dot(dq),
+                ]
+            });
+        }
+    }
+    let mut areas = sums.into_values();
+    for area in &mut areas {
+        // What rounding leaves of nothing.
+        if *area < 0.0 {
+            *area = 0.0;
+        }
+    }
+    areas
+}
+
+/// Where an edge is at a height.
+struct Edge {
+    from: glam::DVec3,
+    slope: DVec2,
+}
+
+impl Edge {
+    fn new(from: glam::DVec3, to: glam::DVec3) -> Self {
+        let rise = to.z - from.z;
+        let run = to.truncate() - from.truncate();
+        let slope = if rise > 0.0 { run / rise } else { DVec2::ZERO };
+        Self { from, slope }
+    }
+
+    fn at(&self, z: f64) -> DVec2 {
+        self.from.truncate() + self.slope * (z - self.from.z)
+    }
+}
+
+/// Sums of quadratics that were given to ranges of places.
+///
+/// A range is cut into blocks of 2^k places, at most two of a size. Each block keeps its sum as a quadratic of the
+/// distance from its first place, and hands it down to its halves in the end. So nothing is ever taken away again, and
+/// sums are as exact as their terms.
+struct QuadraticSums {
+    count: usize,
+    /// Blocks as a binary tree: block 1 is all, blocks 2i and 2i + 1 are the halves of i.
+    blocks: Vec<[f64; 3]>,
+}
+
+impl QuadraticSums {
+    fn new(count: usize) -> Self {
+        Self {
+            count,
+            blocks: vec![[0.0; 3]; 2 * count.next_power_of_two()],
+        }
+    }
+
+    /// Adds to the places of a range what `quadratic` gives for the first place of each block: value, slope and
+    /// curve a place.
+    fn add(&mut self, range: std::ops::Range<usize>, quadratic: impl Fn(usize) -> [f64; 3]) {
+        let leaves = self.blocks.len() / 2;
+        let (mut low, mut high) = (range.start + leaves, range.end + leaves);
+        let mut size = 1;
+        while low < high {
+            for block in [
+                (low & 1 == 1).then_some(low),
+                (high & 1 == 1).then(|| high - 1),
+            ]
+            .into_iter()
+            .flatten()
+            {
+                let terms = quadratic(block * size - leaves);
+                for (sum, term) in self.blocks[block].iter_mut().zip(terms) {
+                    *sum += term;
+                }
+            }
+            low = low.div_ceil(2);
+            high /= 2;
+            size *= 2;
+        }
+    }
+
+    fn into_values(mut self) -> Vec<f64> {
+        let leaves = self.blocks.len() / 2;
+        let mut half = leaves / 2;
+        for block in 1..leaves {
+            if block.is_power_of_two() && block > 1 {
+                half /= 2;
+            }
+            let [value, slope, curve] = self.blocks[block];
+            let step = half as f64;
+            let moved = [
+                value + step * (slope + step * curve),
+                slope + 2.0 * step * curve,
+                curve,
+            ];
+            for (child, terms) in [(2 * block, [value, slope, curve]), (2 * block + 1, moved)] {
+                for (sum, term) in self.blocks[child].iter_mut().zip(terms) {
+                    *sum += term;
+                }
+            }
+        }
+        self.blocks[leaves..leaves + self.count]
+            .iter()
+            .map(|block| block[0])
+            .collect()
+    }
+}

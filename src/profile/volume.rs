@@ -1,0 +1,48 @@
+//! The volume deviation (eq. 15 to 20): what lies between the model and a layer that has the model's section at its
+//! lowest bin throughout, in mm³.
+//!
+//! The error of a layer depends on where the layer begins, so that there is no density to add up: planners measure
+//! each layer. It is bounded by the layer's volume and the model's, and needs no cap.
+
+use crate::grid::Bins;
+
+/// The error that a layer may have where nobody says, in mm³, unless the model needs more: see
+/// [`crate::options::Options::tolerance`].
+pub const DEFAULT_TOLERANCE_MM3: f64 = 1.0;
+
+/// Steps a mm² of the areas: sums are of whole numbers, so that all machines agree.
+const STEPS_PER_MM2: f64 = 1e6;
+
+/// The areas of sections, φ of eq. 17, from which the error of any layer follows.
+#[derive(Debug, Clone)]
+pub struct VolumeError {
+    pub(super) bins: Bins,
+    /// Area of each bin in millionths of a mm².
+    areas: Vec<i64>,
+}
+
+impl VolumeError {
+    /// Errors of the layers of a model whose sections have these areas.
+    pub fn new(areas_mm2: &[f64], bins: Bins) -> Self {
+        let steps = |area: &f64| (area * STEPS_PER_MM2 + 0.5) as i64;
+        Self {
+            bins,
+            areas: areas_mm2.iter().map(steps).collect(),
+        }
+    }
+
+    /// Area of a bin in steps; nothing lies above the last one.
+    fn area(&self, bin: u32) -> i64 {
+        self.areas.get(bin as usize).copied().unwrap_or(0)
+    }
+
+    /// What the bin from `bin` to `bin + 1` adds to the error of a layer from `lower` on (eq. 20).
+    pub(super) fn steps_of(&self, lower: u32, bin: u32) -> u64 {
+        self.area(bin).abs_diff(self.area(lower))
+    }
+
+    /// Steps a mm³.
+    pub(super) fn steps_per_mm3(&self) -> f64 {
+        STEPS_PER_MM2 / self.bins.size_mm
+    }
+}
