@@ -69,6 +69,19 @@ pub enum GridError {
         /// Factor by which the model can be scaled to fit.
         fitting_scale: f64,
     },
+    /// The model is higher than the printer's volume.
+    #[error(
+        "the model is {model_mm_z:.3} mm high, but the printer only prints {printer_mm_z} mm; a scale of \
+         {fitting_scale:.4} fits"
+    )]
+    ModelTooHigh {
+        /// Height of the model.
+        model_mm_z: f64,
+        /// Height that the printer prints.
+        printer_mm_z: f64,
+        /// Factor by which the model can be scaled to fit.
+        fitting_scale: f64,
+    },
     /// The model is too high for its bins.
     #[error("{height_mm} mm in bins of {bin_mm} mm are too many; choose a larger bin")]
     TooManyBins {
@@ -87,6 +100,7 @@ impl GridError {
             Self::BadTime { .. } => "bad-time",
             Self::BadSize { .. } => "grid-bad-size",
             Self::ModelTooLarge { .. } => "model-too-large",
+            Self::ModelTooHigh { .. } => "model-too-high",
             Self::TooManyBins { .. } => "too-many-bins",
         }
     }
@@ -113,8 +127,10 @@ pub struct Grid {
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// Side of a pixel in millimetres.
+    /// Side of a pixel in x, in millimetres.
     pub pitch_mm: f64,
+    /// Side of a pixel in y, in millimetres.
+    pub pitch_y_mm: f64,
     /// The corner of pixel (0, 0) with least x and largest y.
     pub corner_mm: DVec2,
 }
@@ -143,19 +159,23 @@ impl Grid {
         positive("the pitch", pitch_mm)?;
         let size = bounds.size();
         let pixels = |length_mm: f64| (length_mm / pitch_mm - BIN_SLACK).ceil().max(1.0) as u64;
+        let pitch_mm = DVec2::splat(pitch_mm);
         Self::centred(bounds, pixels(size.x), pixels(size.y), pitch_mm)
     }
 
-    /// A grid of given pixels and pitch, with the model's bounding box in its middle.
+    /// A grid of given pixels and pitch in x and y, with the model's bounding box in its middle.
     ///
     /// # Errors
     /// [`GridError::BadSize`], [`GridError::BadLength`], [`GridError::ModelTooLarge`].
-    pub fn plate(bounds: &Bounds, pixels: [u32; 2], pitch_mm: f64) -> Result<Self, GridError> {
-        positive("the pitch", pitch_mm)?;
+    pub fn plate(bounds: &Bounds, pixels: [u32; 2], pitch_mm: [f64; 2]) -> Result<Self, GridError> {
+        for side_mm in pitch_mm {
+            positive("the pitch", side_mm)?;
+        }
+        let pitch_mm = DVec2::from_array(pitch_mm);
         let model = bounds.size();
         let covered = DVec2::new(f64::from(pixels[0]), f64::from(pixels[1])) * pitch_mm;
-        let slack_mm = pitch_mm * BIN_SLACK;
-        if model.x > covered.x + slack_mm || model.y > covered.y + slack_mm {
+        let slack = pitch_mm * BIN_SLACK;
+        if model.x > covered.x + slack.x || model.y > covered.y + slack.y {
             return Err(GridError::ModelTooLarge {
                 model_mm_x: model.x,
                 model_mm_y: model.y,
@@ -168,7 +188,12 @@ impl Grid {
         Self::centred(bounds, u64::from(pixels[0]), u64::from(pixels[1]), pitch_mm)
     }
 
-    fn centred(bounds: &Bounds, width: u64, height: u64, pitch_mm: f64) -> Result<Self, GridError> {
+    fn centred(
+        bounds: &Bounds,
+        width: u64,
+        height: u64,
+        pitch_mm: DVec2,
+    ) -> Result<Self, GridError> {
         let side = 1..=u64::from(MAX_SIDE);
         if !side.contains(&width) || !side.contains(&height) || width * height > MAX_PIXELS {
             return Err(GridError::BadSize { width, height });
@@ -177,12 +202,23 @@ impl Grid {
         Ok(Self {
             width: width as u32,
             height: height as u32,
-            pitch_mm,
+            pitch_mm: pitch_mm.x,
+            pitch_y_mm: pitch_mm.y,
             corner_mm: DVec2::new(
-                middle.x - width as f64 * 0.5 * pitch_mm,
-                middle.y + height as f64 * 0.5 * pitch_mm,
+                middle.x - width as f64 * 0.5 * pitch_mm.x,
+                middle.y + height as f64 * 0.5 * pitch_mm.y,
             ),
         })
+    }
+
+    /// Area of a pixel in mm².
+    pub fn pixel_mm2(&self) -> f64 {
+        self.pitch_mm * self.pitch_y_mm
+    }
+
+    /// Sides of a pixel.
+    fn pitch(&self) -> DVec2 {
+        DVec2::new(self.pitch_mm, self.pitch_y_mm)
     }
 
     /// The part of the grid that covers the model, with a margin for rounding: only there can rays meet it.
@@ -200,8 +236,8 @@ impl Grid {
         Self {
             width,
             height,
-            pitch_mm: self.pitch_mm,
-            corner_mm: self.corner_mm + DVec2::new(column, -row) * self.pitch_mm,
+            corner_mm: self.corner_mm + DVec2::new(column, -row) * self.pitch(),
+            ..*self
         }
     }
 
@@ -220,14 +256,13 @@ impl Grid {
     pub fn to_pixels(&self, point_mm: DVec2) -> DVec2 {
         DVec2::new(
             (point_mm.x - self.corner_mm.x) / self.pitch_mm,
-            (self.corner_mm.y - point_mm.y) / self.pitch_mm,
+            (self.corner_mm.y - point_mm.y) / self.pitch_y_mm,
         )
     }
 
     /// The centre of a pixel, x and y in millimetres.
     pub fn centre_mm(&self, column: u32, row: u32) -> DVec2 {
-        self.corner_mm
-            + DVec2::new(f64::from(column) + 0.5, -(f64::from(row) + 0.5)) * self.pitch_mm
+        self.corner_mm + DVec2::new(f64::from(column) + 0.5, -(f64::from(row) + 0.5)) * self.pitch()
     }
 }
 

@@ -36,6 +36,7 @@ pub mod ldi;
 pub mod mask;
 pub mod mesh;
 pub mod plan;
+pub mod printer;
 pub mod profile;
 pub mod stl;
 

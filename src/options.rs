@@ -2,11 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::archive::Format;
 use crate::error::Error;
 use crate::exposure::Resin;
 use crate::grid::Bins;
 use crate::plan::optimal::Objective;
 use crate::plan::{HeightRange, Limits, uniform};
+use crate::printer::{self, Printer};
 use crate::profile::{Metric, Source};
 
 /// Where the LDI is sampled.
@@ -94,10 +96,18 @@ pub enum Snap {
 pub struct Options {
     /// Scale the model evenly to this height; its own height if absent.
     pub height_mm: Option<f64>,
+    /// A printer known by name: see [`crate::printer::PRINTERS`]. It gives all that is absent below.
+    pub printer: Option<String>,
     /// Columns and rows of the masks, with the model in the middle; needs `pitch_mm`.
     pub pixels: Option<[u32; 2]>,
-    /// Side of a pixel; alone, with as many pixels as cover the model.
+    /// Side of a pixel in x; alone, with as many pixels as cover the model.
     pub pitch_mm: Option<f64>,
+    /// Side of a pixel in y; that in x if absent.
+    pub pitch_y_mm: Option<f64>,
+    /// Whether print files have their masks mirrored left to right, as printers want them whose screen lights from below.
+    pub mirror: Option<bool>,
+    /// The print file.
+    pub format: Option<Format>,
     /// Pixels along the model's longer horizontal side where neither is given.
     pub rays: u32,
     /// Least layer thickness.
@@ -131,7 +141,7 @@ pub struct Options {
     pub planner: Planner,
     /// What the optimal plan has least of.
     pub minimize: Minimize,
-    /// How long layers take.
+    /// How layers are exposed and how long that takes.
     pub resin: Resin,
     /// Where the LDI is sampled.
     pub backend: Backend,
@@ -141,8 +151,12 @@ impl Default for Options {
     fn default() -> Self {
         Self {
             height_mm: None,
+            printer: None,
             pixels: None,
             pitch_mm: None,
+            pitch_y_mm: None,
+            mirror: None,
+            format: None,
             rays: 2048,
             layer_min_mm: 0.05,
             layer_max_mm: 0.15,
@@ -166,6 +180,66 @@ impl Default for Options {
 }
 
 impl Options {
+    /// The printer, if one is named.
+    ///
+    /// # Errors
+    /// [`Error::Options`] if nobody knows it.
+    pub(crate) fn printer(&self) -> Result<Option<&'static Printer>, Error> {
+        let Some(name) = &self.printer else {
+            return Ok(None);
+        };
+        let known = || {
+            let names: Vec<&str> = printer::PRINTERS
+                .iter()
+                .map(|printer| printer.name)
+                .collect();
+            Error::Options {
+                reason: format!("there is no printer {name}; known are {}", names.join(", ")),
+            }
+        };
+        printer::named(name).map(Some).ok_or_else(known)
+    }
+
+    /// Pixels of masks if they are given.
+    ///
+    /// # Errors
+    /// [`Error::Options`].
+    pub(crate) fn plate_pixels(&self) -> Result<Option<[u32; 2]>, Error> {
+        let preset = self.printer()?.map(|printer| printer.pixels);
+        Ok(self.pixels.or(preset))
+    }
+
+    /// Sides of a pixel in x and y, if they are given.
+    ///
+    /// # Errors
+    /// [`Error::Options`].
+    pub(crate) fn plate_pitch_mm(&self) -> Result<Option<[f64; 2]>, Error> {
+        let printer = self.printer()?;
+        let preset = printer.map(|printer| printer.pitch_um.map(|pitch_um| pitch_um / 1e3));
+        let given = self
+            .pitch_mm
+            .map(|x_mm| [x_mm, self.pitch_y_mm.unwrap_or(x_mm)]);
+        Ok(given.or(preset))
+    }
+
+    /// The print file that is asked for, or that the printer takes.
+    ///
+    /// # Errors
+    /// [`Error::Options`].
+    pub(crate) fn format(&self) -> Result<Format, Error> {
+        let preset = self.printer()?.map(|printer| printer.format);
+        Ok(self.format.or(preset).unwrap_or_default())
+    }
+
+    /// Whether print files have their masks mirrored.
+    ///
+    /// # Errors
+    /// [`Error::Options`].
+    pub(crate) fn is_mirrored(&self) -> Result<bool, Error> {
+        let preset = self.printer()?.map(|printer| printer.is_mirrored);
+        Ok(self.mirror.or(preset).unwrap_or(false))
+    }
+
     /// What plans must keep to within `tolerance`.
     pub(crate) fn limits(&self, tolerance: f64) -> Limits {
         Limits {
@@ -176,6 +250,23 @@ impl Options {
             planes_mm: self.planes_mm.clone(),
             step_mm: self.step_mm,
         }
+    }
+
+    /// Finds thicknesses that the printer cannot make.
+    fn check_printer(&self) -> Result<(), Error> {
+        let Some(printer) = self.printer()? else {
+            return Ok(());
+        };
+        let [least_mm, greatest_mm] = printer.layer_mm;
+        if self.layer_min_mm < least_mm || self.layer_max_mm > greatest_mm {
+            return Err(Error::Options {
+                reason: format!(
+                    "the {} makes layers of {least_mm} to {greatest_mm} mm, not {} to {} mm",
+                    printer.model, self.layer_min_mm, self.layer_max_mm
+                ),
+            });
+        }
+        Ok(())
     }
 
     /// What plans have least of.
@@ -195,6 +286,7 @@ impl Options {
             count: 1,
             size_mm: self.bin_mm,
         };
+        self.check_printer()?;
         self.resin.check().map_err(crate::plan::PlanError::from)?;
         let given = [
             self.tolerance.is_some(),

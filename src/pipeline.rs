@@ -6,12 +6,12 @@ use std::ops::ControlFlow;
 use serde::Serialize;
 use web_time::Instant;
 
-use crate::archive::png_zip;
+use crate::archive::{self, Job, Look};
 use crate::error::Error;
-use crate::grid::{Bins, Grid};
+use crate::grid::{Bins, Grid, GridError};
 use crate::ldi::gpu::{self, Gpu};
 use crate::ldi::{Ldi, LdiError, cpu};
-use crate::mask::{MaskCursor, Masks};
+use crate::mask::{MaskCursor, Masks, Side};
 use crate::mesh::Mesh;
 use crate::options::{Backend, Options};
 use crate::plan::Plan;
@@ -76,15 +76,24 @@ struct Sampled {
     /// The masks' pixels; the LDI has rays only where the model is.
     grid: Grid,
     ldi: Ldi,
+    solid_mm3: f64,
     adapter: Option<String>,
     warnings: Vec<Warning>,
     shapes: Option<Shapes>,
 }
 
-type SamplingOptions = (Option<f64>, Option<[u32; 2]>, Option<f64>, u32, Backend);
+type SamplingOptions = (
+    Option<f64>,
+    Option<String>,
+    Option<[u32; 2]>,
+    [Option<f64>; 2],
+    u32,
+    Backend,
+);
 
 #[derive(Debug)]
 struct Planned {
+    options: Options,
     plan: Plan,
     report: Report,
     masks: Option<(Masks, MaskCursor)>,
@@ -148,10 +157,11 @@ impl Slicer {
 
         timings.sum_up();
         self.load_ms = 0.0;
-        let report = sampled.report(options, &plan, report, timings);
+        let report = sampled.report(options, &plan, report, timings)?;
         Ok(&self
             .planned
             .insert(Planned {
+                options: options.clone(),
                 plan,
                 report,
                 masks: None,
@@ -249,15 +259,27 @@ impl Slicer {
         let clock = Instant::now();
         let mesh = self.model.on_plate(options.height_mm)?;
         let bounds = mesh.bounds();
-        let grid = match (options.pixels, options.pitch_mm) {
+        let grid = match (options.plate_pixels()?, options.plate_pitch_mm()?) {
             (Some(pixels), Some(pitch_mm)) => Grid::plate(&bounds, pixels, pitch_mm)?,
-            (None, Some(pitch_mm)) => Grid::of_pitch(&bounds, pitch_mm)?,
+            (None, Some(pitch_mm)) if pitch_mm[0] == pitch_mm[1] => {
+                Grid::of_pitch(&bounds, pitch_mm[0])?
+            }
             (None, None) => Grid::around(&bounds, options.rays)?,
-            (Some(_), None) => {
-                let reason = "a grid of given pixels needs a pitch as well".to_owned();
+            (Some(_), None) | (None, Some(_)) => {
+                let reason = "pixels and their pitch in x and y belong together".to_owned();
                 return Err(Error::Options { reason });
             }
         };
+        if let Some(printer) = options.printer()?
+            && bounds.size().z > printer.volume_mm[2]
+        {
+            return Err(GridError::ModelTooHigh {
+                model_mm_z: bounds.size().z,
+                printer_mm_z: printer.volume_mm[2],
+                fitting_scale: (printer.volume_mm[2] / bounds.size().z * 1e4).floor() / 1e4,
+            }
+            .into());
+        }
         timings.load += ms_since(clock);
 
         let clock = Instant::now();
@@ -302,6 +324,7 @@ impl Slicer {
             mesh,
             height_mm,
             grid,
+            solid_mm3: ldi.solid_mm3(),
             ldi,
             adapter,
             warnings,
@@ -349,11 +372,11 @@ impl Slicer {
         Ok(shape.profile(metric))
     }
 
-    /// The mask of a layer of the last plan: see [`MaskCursor::bits`].
+    /// The mask of a layer of the last plan: see [`MaskCursor::whole`].
     ///
     /// # Errors
     /// [`Error::NoPlan`], [`Error::Options`] if there is no such layer.
-    pub fn mask(&mut self, layer: usize) -> Result<&[u8], Error> {
+    pub fn mask(&mut self, layer: usize) -> Result<Vec<u8>, Error> {
         let (sampled, planned) = self.sampled_and_planned()?;
         let layers = planned.plan.layers();
         if layer >= layers {
@@ -362,32 +385,46 @@ impl Slicer {
         }
         let (masks, cursor) = planned.masks(sampled);
         cursor.seek(masks, layer);
-        Ok(cursor.bits())
+        Ok(cursor.whole(masks))
     }
 
-    /// Writes the masks of the last plan as a zip of PNGs with a manifest, and returns the report with
-    /// the time that this took.
+    /// Writes the print file of the last plan in the format that its options ask for, and returns the report with the
+    /// time that this took.
     ///
     /// # Errors
     /// [`Error::NoPlan`], [`Error::Archive`].
-    pub fn write_png_zip<W: Write + Seek>(
+    pub fn write_archive<W: Write + Seek>(
         &mut self,
         writer: W,
         progress: &mut StageProgress<'_>,
     ) -> Result<(W, &Report), Error> {
         let clock = Instant::now();
         let (sampled, planned) = self.sampled_and_planned()?;
-        planned.masks(sampled);
-        let Planned {
-            report,
-            masks: Some((masks, _)),
-            ..
-        } = planned
-        else {
-            unreachable!("made above")
-        };
         let mut mask_progress = |fraction| progress(Stage::Masks, fraction);
-        let writer = png_zip::write(masks, report, writer, &mut mask_progress)?;
+        let options = planned.options.clone();
+        let mirrored;
+        let masks = if options.is_mirrored()? {
+            mirrored = Masks::new(&sampled.ldi, &planned.plan, &sampled.grid, Side::Below);
+            &mirrored
+        } else {
+            planned.masks(sampled);
+            planned
+                .masks
+                .as_ref()
+                .map(|(masks, _)| masks)
+                .ok_or(Error::NoPlan)?
+        };
+        let job = Job {
+            masks,
+            report: &planned.report,
+            printer: options.printer()?,
+            resin: &options.resin,
+            look: &Look::new(&sampled.mesh, &sampled.ldi),
+        };
+        let written = archive::write(options.format()?, &job, writer, &mut mask_progress);
+        let (writer, warning) = written?;
+        let report = &mut planned.report;
+        report.add_warning(warning);
         report.timings_ms.masks = ms_since(clock);
         report.timings_ms.sum_up();
         Ok((writer, report))
@@ -404,7 +441,7 @@ impl Slicer {
 impl Planned {
     fn masks(&mut self, sampled: &Sampled) -> &mut (Masks, MaskCursor) {
         self.masks.get_or_insert_with(|| {
-            let masks = Masks::new(&sampled.ldi, &self.plan, &sampled.grid);
+            let masks = Masks::new(&sampled.ldi, &self.plan, &sampled.grid, Side::Above);
             let cursor = masks.cursor();
             (masks, cursor)
         })
@@ -414,8 +451,9 @@ impl Planned {
 fn sampling_options(options: &Options) -> SamplingOptions {
     (
         options.height_mm,
+        options.printer.clone(),
         options.pixels,
-        options.pitch_mm,
+        [options.pitch_mm, options.pitch_y_mm],
         options.rays,
         options.backend,
     )
@@ -434,14 +472,20 @@ impl Sampled {
         plan: &Plan,
         planned: PlanReport,
         timings_ms: Timings,
-    ) -> Report {
+    ) -> Result<Report, Error> {
         let mut warnings = self.warnings.clone();
         warnings.extend(planned.warnings);
-        Report {
+        let thickness_mm = plan.thickness_mm();
+        Ok(Report {
             layers: plan.layers(),
             height_mm: self.height_mm,
             z_mm: plan.z_mm(),
-            thickness_mm: plan.thickness_mm(),
+            exposure_s: options.resin.exposures_s(&thickness_mm),
+            overhead_s: options.resin.overhead_s(),
+            resin: options.resin.clone(),
+            thickness_mm,
+            resin_ml: self.solid_mm3 / 1e3,
+            printer: options.printer.clone(),
             snapped_mm: planned.snapped_mm,
             metric: options.metric,
             unit: options.metric.unit().to_owned(),
@@ -463,10 +507,12 @@ impl Sampled {
                 width: self.grid.width,
                 height: self.grid.height,
                 pitch_mm: self.grid.pitch_mm,
+                pitch_y_mm: self.grid.pitch_y_mm,
+                is_mirrored: options.is_mirrored()?,
             },
             warnings,
             timings_ms,
-        }
+        })
     }
 }
 

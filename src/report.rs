@@ -4,6 +4,7 @@ use serde::Serialize;
 #[cfg(target_arch = "wasm32")]
 use tsify::Tsify;
 
+use crate::exposure::Resin;
 use crate::mesh::Mesh;
 use crate::plan::tradeoff::TradeoffPoint;
 use crate::profile::{Metric, Source};
@@ -124,8 +125,12 @@ pub struct MaskReport {
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// Side of a pixel.
+    /// Side of a pixel in x.
     pub pitch_mm: f64,
+    /// Side of a pixel in y.
+    pub pitch_y_mm: f64,
+    /// Whether print files have them mirrored left to right.
+    pub is_mirrored: bool,
 }
 
 /// What uniform layers would give within the same range of thicknesses.
@@ -213,6 +218,16 @@ pub struct Report {
     pub z_mm: Vec<f64>,
     /// Thickness of each layer.
     pub thickness_mm: Vec<f64>,
+    /// Seconds of exposure of each layer.
+    pub exposure_s: Vec<f64>,
+    /// Seconds between the exposures of two layers.
+    pub overhead_s: f64,
+    /// The resin that both follow from.
+    pub resin: Resin,
+    /// Resin that the model takes.
+    pub resin_ml: f64,
+    /// The printer, if one was named.
+    pub printer: Option<String>,
     /// Heights of the planes that are at flats and sharp changes.
     pub snapped_mm: Vec<f64>,
     /// What the error measures.
@@ -253,4 +268,12 @@ pub struct Report {
     pub warnings: Vec<Warning>,
     /// Milliseconds spent.
     pub timings_ms: Timings,
+}
+
+impl Report {
+    /// Adds a warning, unless it is there: the same plan may be written again.
+    pub(crate) fn add_warning(&mut self, warning: Option<Warning>) {
+        let new = warning.filter(|warning| !self.warnings.contains(warning));
+        self.warnings.extend(new);
+    }
 }

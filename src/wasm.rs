@@ -166,10 +166,10 @@ impl Slicer {
     /// # Errors
     /// Throws a `CuspError` if there is no plan or no such layer.
     pub fn mask(&mut self, layer: usize) -> Result<Vec<u8>, JsValue> {
-        Ok(self.slicer.mask(layer).map_err(throw)?.to_vec())
+        self.slicer.mask(layer).map_err(throw)
     }
 
-    /// The masks of the last plan as a zip of PNGs with a manifest.
+    /// The print file of the last plan, in the format that its options ask for.
     ///
     /// # Errors
     /// Throws a `CuspError`.
@@ -181,7 +181,7 @@ impl Slicer {
         let writer = Cursor::new(Vec::new());
         let (writer, _) = self
             .slicer
-            .write_png_zip(writer, &mut progress_to(progress))
+            .write_archive(writer, &mut progress_to(progress))
             .map_err(throw)?;
         Ok(writer.into_inner())
     }

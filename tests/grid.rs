@@ -58,12 +58,13 @@ fn the_default_grid_fits_the_longer_side() {
 #[test]
 fn a_model_beyond_the_plate_is_refused_with_a_scale_that_fits() {
     let bounds = on_plate(&solids::cuboid(Vec3::new(10.0, 20.0, 3.0))).bounds();
-    let Err(GridError::ModelTooLarge { fitting_scale, .. }) = Grid::plate(&bounds, [100, 160], 0.1)
+    let Err(GridError::ModelTooLarge { fitting_scale, .. }) =
+        Grid::plate(&bounds, [100, 160], [0.1; 2])
     else {
         panic!("a model that is too large was accepted");
     };
     assert_eq!(fitting_scale, 0.8);
-    assert!(Grid::plate(&bounds, [100, 200], 0.1).is_ok());
+    assert!(Grid::plate(&bounds, [100, 200], [0.1; 2]).is_ok());
 }
 
 #[test]
@@ -79,7 +80,7 @@ fn sizes_and_lengths_are_checked() {
     ));
     for pitch_mm in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(matches!(
-            Grid::plate(&bounds, [10, 10], pitch_mm),
+            Grid::plate(&bounds, [10, 10], [pitch_mm; 2]),
             Err(GridError::BadLength { .. })
         ));
     }

@@ -155,7 +155,7 @@ fn a_centre_on_a_shared_edge_or_corner_belongs_to_one_facet() {
     // Corners at -4 and 4 with pixel centres at whole millimetres: borders and diagonals of the
     // square all run through centres. The top-left rule keeps two sides of four.
     let mesh = on_plate(&solids::cube(8.0));
-    let grid = Grid::plate(&mesh.bounds(), [9, 9], 1.0).unwrap();
+    let grid = Grid::plate(&mesh.bounds(), [9, 9], [1.0; 2]).unwrap();
     let ldi = cpu::sample(&mesh, &grid, &mut silent).unwrap();
     for row in 0..9 {
         for column in 0..9 {

@@ -10,7 +10,7 @@ use std::io::{Cursor, Read};
 use common::{binary_stl, on_plate, quiet, sample, solids};
 use cusp_slicer::grid::{Bins, Grid};
 use cusp_slicer::ldi::{Hit, cpu};
-use cusp_slicer::mask::Masks;
+use cusp_slicer::mask::{Masks, Side};
 use cusp_slicer::options::{Backend, Options};
 use cusp_slicer::pipeline::Slicer;
 use cusp_slicer::plan::{Plan, uniform};
@@ -51,7 +51,7 @@ fn areas_have_their_closed_forms() {
     for (name, triangles, area_at) in cases {
         let (mesh, ldi) = sample(&triangles, 800);
         let plan = plan(mesh.bounds().size().z, 0.5);
-        let masks = Masks::new(&ldi, &plan, &ldi.grid);
+        let masks = Masks::new(&ldi, &plan, &ldi.grid, Side::Above);
         let mut cursor = masks.cursor();
         let full = area_at(plan.middle_mm()[plan.layers() / 2]);
         for (layer, middle_mm) in plan.middle_mm().into_iter().enumerate() {
@@ -74,7 +74,7 @@ fn the_volume_of_all_masks_is_that_of_the_mesh() {
         }
         let (mesh, ldi) = sample(&triangles, 600);
         let plan = plan(mesh.bounds().size().z, 0.1);
-        let masks = Masks::new(&ldi, &plan, &ldi.grid);
+        let masks = Masks::new(&ldi, &plan, &ldi.grid, Side::Above);
         let mut cursor = masks.cursor();
         let pixel_mm2 = ldi.grid.pitch_mm.powi(2);
         let volume: f64 = (0..masks.layers())
@@ -99,7 +99,7 @@ fn overlapping_spheres_have_the_volume_of_their_union() {
     triangles.extend(solids::moved(&solids::sphere(s, 6), offset));
     let (mesh, ldi) = sample(&triangles, 500);
     let plan = plan(mesh.bounds().size().z, 0.1);
-    let masks = Masks::new(&ldi, &plan, &ldi.grid);
+    let masks = Masks::new(&ldi, &plan, &ldi.grid, Side::Above);
     let mut cursor = masks.cursor();
     let volume: f64 = plan
         .thickness_mm()
@@ -139,7 +139,7 @@ fn a_png_shows_the_plate_from_above_with_y_upward() {
     let mut slicer = Slicer::load(&binary_stl(&triangles)).unwrap();
     pollster::block_on(slicer.plan(&options, &mut quiet)).unwrap();
     let (writer, _) = slicer
-        .write_png_zip(Cursor::new(Vec::new()), &mut quiet)
+        .write_archive(Cursor::new(Vec::new()), &mut quiet)
         .unwrap();
     let mut archive = zip::ZipArchive::new(writer).unwrap();
     let mut file = Vec::new();
@@ -178,7 +178,7 @@ fn every_pixel_agrees_with_a_look_along_its_ray() {
     for (name, triangles) in solids::all() {
         let (mesh, ldi) = sample(&triangles, 61);
         let plan = plan(mesh.bounds().size().z, 0.37);
-        let masks = Masks::new(&ldi, &plan, &ldi.grid);
+        let masks = Masks::new(&ldi, &plan, &ldi.grid, Side::Above);
         let middles = plan.middle_mm();
         let mut cursor = masks.cursor();
         // Down, up and across, since a cursor moves both ways.
@@ -189,7 +189,8 @@ fn every_pixel_agrees_with_a_look_along_its_ray() {
             let mut lit_pixels = 0;
             for ray in 0..ldi.rays() {
                 let (column, row) = (ray % 61, ray / 61);
-                let bit = cursor.bits()[row * cursor.row_bytes() + column / 8] >> (7 - column % 8);
+                let bit =
+                    cursor.bits()[row * masks.window.row_bytes + column / 8] >> (7 - column % 8);
                 let below = |hit: &&Hit| f64::from(hit.z_mm) <= middles[layer];
                 let winding: i32 = ldi.ray(ray).iter().filter(below).map(|h| h.winding()).sum();
                 let is_inside = winding != 0;
@@ -207,7 +208,7 @@ fn holes_leave_no_streaks() {
     let masks_of = |triangles: &solids::Triangles| {
         let (mesh, ldi) = sample(triangles, 300);
         let plan = plan(mesh.bounds().size().z, 0.25);
-        Masks::new(&ldi, &plan, &ldi.grid)
+        Masks::new(&ldi, &plan, &ldi.grid, Side::Above)
     };
     let expected = masks_of(&whole);
     let mut random = fastrand::Rng::with_seed(29);
@@ -236,7 +237,12 @@ fn inside_out_and_doubled_bodies_look_like_the_plain_one() {
     doubled.extend(plain.clone());
     let masks_of = |triangles: &solids::Triangles| {
         let (mesh, ldi) = sample(triangles, 100);
-        Masks::new(&ldi, &plan(mesh.bounds().size().z, 0.25), &ldi.grid)
+        Masks::new(
+            &ldi,
+            &plan(mesh.bounds().size().z, 0.25),
+            &ldi.grid,
+            Side::Above,
+        )
     };
     let expected = masks_of(&plain);
     assert_eq!(masks_of(&doubled), expected);
@@ -246,18 +252,18 @@ fn inside_out_and_doubled_bodies_look_like_the_plain_one() {
 #[test]
 fn rays_around_the_model_give_the_masks_of_the_whole_plate() {
     let mesh = on_plate(&solids::sphere(5.0, 4));
-    let grid = Grid::plate(&mesh.bounds(), [133, 97], 0.125).unwrap();
+    let grid = Grid::plate(&mesh.bounds(), [133, 97], [0.125; 2]).unwrap();
     let part = grid.around_model(&mesh.bounds());
     assert!(part.width < 84 && part.height < 84, "{part:?}");
     let plan = plan(mesh.bounds().size().z, 0.25);
     let masks = |rays: &Grid| {
         let ldi = cpu::sample(&mesh, rays, &mut silent).unwrap();
-        let masks = Masks::new(&ldi, &plan, &grid);
+        let masks = Masks::new(&ldi, &plan, &grid, Side::Above);
         let mut cursor = masks.cursor();
         let mut bits = Vec::new();
         for layer in 0..masks.layers() {
             cursor.seek(&masks, layer);
-            bits.push(cursor.bits().to_vec());
+            bits.push(cursor.whole(&masks));
         }
         bits
     };

@@ -52,11 +52,11 @@ fn every_stage_can_be_cancelled_and_the_model_planned_again() {
     }
     plan(&mut slicer, &options()).unwrap();
     let mut stop = |_, _| ControlFlow::Break(());
-    let result = slicer.write_png_zip(Cursor::new(Vec::new()), &mut stop);
+    let result = slicer.write_archive(Cursor::new(Vec::new()), &mut stop);
     assert_eq!(code(result.map(|_| ())), "cancelled");
     assert!(
         slicer
-            .write_png_zip(Cursor::new(Vec::new()), &mut quiet)
+            .write_archive(Cursor::new(Vec::new()), &mut quiet)
             .is_ok()
     );
 }
@@ -75,7 +75,7 @@ fn progress_grows_within_a_stage() {
     };
     pollster::block_on(slicer.plan(&many, &mut watch)).unwrap();
     slicer
-        .write_png_zip(Cursor::new(Vec::new()), &mut watch)
+        .write_archive(Cursor::new(Vec::new()), &mut watch)
         .unwrap();
     assert!(seen.len() > 10);
     for pair in seen.windows(2) {
@@ -176,7 +176,7 @@ fn output_that_would_be_black_is_an_error() {
         ..options()
     };
     plan(&mut low, &coarse).unwrap();
-    let result = low.write_png_zip(Cursor::new(Vec::new()), &mut quiet);
+    let result = low.write_archive(Cursor::new(Vec::new()), &mut quiet);
     assert_eq!(code(result.map(|_| ())), "all-black");
 }
 
@@ -194,7 +194,7 @@ fn black_layers_are_warned_of_once_however_often_the_plan_is_written() {
     .unwrap();
     for _ in 0..2 {
         let (_, report) = slicer
-            .write_png_zip(Cursor::new(Vec::new()), &mut quiet)
+            .write_archive(Cursor::new(Vec::new()), &mut quiet)
             .unwrap();
         let black = report
             .warnings

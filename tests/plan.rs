@@ -49,6 +49,19 @@ fn limits(layer_min_mm: f64, layer_max_mm: f64, tolerance: f64) -> Limits {
     }
 }
 
+/// A resin without bottom layers, and with `overhead_s` between layers.
+fn resin(layer_mm: f64, exposure_s: f64, penetration_mm: f64, overhead_s: f64) -> Resin {
+    Resin {
+        layer_mm,
+        exposure_s,
+        penetration_mm,
+        wait_s: overhead_s,
+        lift_mm: 0.0,
+        bottom_layers: 0,
+        ..Resin::default()
+    }
+}
+
 fn segment(units: usize, thickness: (u32, u32)) -> Segment {
     Segment {
         lower: 0,
@@ -164,12 +177,7 @@ fn random_errors(random: &mut fastrand::Rng, count: usize) -> (LayerErrors, Stri
 
 #[test]
 fn no_set_of_planes_is_better() {
-    let resin = Resin {
-        layer_mm: 1.0,
-        exposure_s: 1.0,
-        penetration_mm: 2.0,
-        overhead_s: 3.0,
-    };
+    let resin = resin(1.0, 1.0, 2.0, 3.0);
     let mut random = fastrand::Rng::with_seed(3);
     let (mut feasible, mut infeasible) = (0, 0);
     for _ in 0..6000 {
@@ -669,12 +677,7 @@ fn the_trade_off_curve_falls_from_the_least_tolerance_to_the_fewest_layers() {
 #[test]
 fn the_least_tolerance_for_a_time_is_found_or_out_of_reach() {
     let errors = sum(&[0.5; 100]);
-    let resin = Resin {
-        layer_mm: 1.0,
-        exposure_s: 2.0,
-        penetration_mm: 10.0,
-        overhead_s: 8.0,
-    };
+    let resin = resin(1.0, 2.0, 10.0, 8.0);
     let limits = limits(1.0, 10.0, 0.0);
     let coarsest_s = 10.0 * (8.0 + resin.exposure_s(10.0));
     let tolerance = tolerance_for(&errors, &limits, &[], &resin, Goal::Time(coarsest_s + 0.01));
@@ -694,12 +697,7 @@ fn the_least_tolerance_for_a_time_is_found_or_out_of_reach() {
 #[test]
 fn the_shortest_time_is_not_the_fewest_layers_where_exposures_grow_fast() {
     let errors = sum(&[0.1; 60]);
-    let resin = Resin {
-        layer_mm: 1.0,
-        exposure_s: 1.0,
-        penetration_mm: 1.5,
-        overhead_s: 2.0,
-    };
+    let resin = resin(1.0, 1.0, 1.5, 2.0);
     let all = limits(1.0, 6.0, 100.0);
     let fewest = optimal::plan(&errors, &all, &[], Objective::Layers).unwrap();
     let quickest = optimal::plan(&errors, &all, &[], Objective::Time(&resin)).unwrap();

@@ -3,6 +3,8 @@
 
 mod common;
 
+use std::io::Cursor;
+
 #[cfg(target_arch = "wasm32")]
 use common::shifted_grid;
 use common::{binary_stl, fingerprint, on_plate, quiet, solids};
@@ -61,12 +63,16 @@ async fn check_plan_and_masks() {
     let mut slicer = Slicer::load(&binary_stl(&model())).unwrap();
     let report = slicer.plan(&options(), &mut quiet).await.unwrap().clone();
     let masks: Vec<u8> = (0..report.layers)
-        .flat_map(|layer| slicer.mask(layer).unwrap().to_vec())
+        .flat_map(|layer| slicer.mask(layer).unwrap())
         .collect();
     assert_eq!(
         (report.layers, fingerprint(&masks)),
         (66, 0xc6b7_c4d0_730d_43ed)
     );
+    let (archive, _) = slicer
+        .write_archive(Cursor::new(Vec::new()), &mut quiet)
+        .unwrap();
+    assert_eq!(fingerprint(&archive.into_inner()), 0xd661_bd5e_8cd0_8ac9);
     // Every metric, source and objective.
     let mut plans = Vec::new();
     for metric in [
@@ -97,7 +103,7 @@ async fn check_plan_and_masks() {
         plans.extend(point.tolerance.to_le_bytes());
         plans.extend(point.layers.to_le_bytes().iter().take(4));
     }
-    assert_eq!(fingerprint(&plans), 0xcfee_8d7c_e389_3f29);
+    assert_eq!(fingerprint(&plans), 0x90f9_8397_80f2_1b07);
 }
 
 #[cfg(not(target_arch = "wasm32"))]

@@ -1,10 +1,67 @@
-//! Print files: one file a container format.
+//! Print files: zips of masks, one file a format.
+//!
+//! A format says how masks are named and stored and which other files there are; this module encodes the masks on all
+//! cores and writes the zip.
 
-pub mod png_zip;
+mod chitubox;
+mod plain;
+pub mod png;
+mod preview;
+pub mod runs;
+mod sl1;
+mod uvj;
 
-use serde::Serialize;
+use std::io::{Cursor, Seek, Write};
+use std::ops::Range;
 
-use crate::progress::Cancelled;
+use serde::{Deserialize, Serialize};
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipArchive, ZipWriter};
+
+use crate::exposure::Resin;
+use crate::mask::{MaskCursor, Masks};
+use crate::parallel::map_in_groups;
+use crate::printer::Printer;
+use crate::progress::{Cancelled, Progress, report};
+use crate::report::{Report, Warning, counted};
+pub use preview::Look;
+
+/// A file that printers or other programs take.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+#[serde(rename_all = "lowercase")]
+pub enum Format {
+    /// One-bit PNGs and a manifest.json.
+    #[default]
+    Png,
+    /// The zip of `ChiTuBox`: run.gcode with a height and an exposure for every layer.
+    Chitubox,
+    /// UVJ: config.json with a height and an exposure for every layer.
+    Uvj,
+    /// Prusa's SL1 and SL1S, for layers of one thickness.
+    Sl1,
+}
+
+impl Format {
+    /// The usual ending of file names.
+    pub fn extension(self) -> &'static str {
+        match self {
+            Self::Png | Self::Chitubox => "zip",
+            Self::Uvj => "uvj",
+            Self::Sl1 => "sl1",
+        }
+    }
+
+    fn container(self) -> &'static dyn Container {
+        match self {
+            Self::Png => &plain::Plain,
+            Self::Chitubox => &chitubox::Chitubox,
+            Self::Uvj => &uvj::Uvj,
+            Self::Sl1 => &sl1::Sl1,
+        }
+    }
+}
 
 /// Why a print file could not be written.
 #[derive(Debug, thiserror::Error, Serialize)]
@@ -20,6 +77,15 @@ pub enum ArchiveError {
          the model, or choose thinner layers"
     )]
     AllBlack,
+    /// The format has one thickness for all layers, and the plan has several.
+    #[error(
+        "{format} files have one thickness for all layers, and this plan has several; choose the format chitubox, uvj or \
+         png, or the uniform planner"
+    )]
+    UniformOnly {
+        /// The format asked for.
+        format: &'static str,
+    },
     /// Bytes could not be written: the disk is full, say.
     #[error("the print file could not be written: {reason}")]
     Write {
@@ -34,6 +100,7 @@ impl ArchiveError {
         match self {
             Self::Cancelled(_) => "cancelled",
             Self::AllBlack => "all-black",
+            Self::UniformOnly { .. } => "uniform-only",
             Self::Write { .. } => "archive-write",
         }
     }
@@ -42,5 +109,175 @@ impl ArchiveError {
         Self::Write {
             reason: error.to_string(),
         }
+    }
+}
+
+/// What a print file is made from.
+#[derive(Clone, Copy)]
+pub struct Job<'a> {
+    /// The masks, seen from the side that the printer lights from.
+    pub masks: &'a Masks,
+    /// The plan.
+    pub report: &'a Report,
+    /// The printer, if it is one that is known by name.
+    pub printer: Option<&'a Printer>,
+    /// The resin.
+    pub resin: &'a Resin,
+    /// The model as previews show it.
+    pub look: &'a Look,
+}
+
+/// A layer of a print file.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LayerEntry {
+    /// Name of the mask in the zip.
+    pub file: String,
+    /// Top of the layer, in millimetres above the plate.
+    pub z_mm: f64,
+    /// Thickness of the layer in millimetres.
+    pub thickness_mm: f64,
+    /// Seconds of exposure.
+    pub exposure_s: f64,
+    /// White pixels of the mask.
+    pub lit_pixels: u64,
+}
+
+/// Name and contents of a file in a zip.
+type File = (String, Vec<u8>);
+
+/// What tells formats apart.
+trait Container: Sync {
+    /// Refuses a plan that the format cannot express.
+    fn check(&self, _job: &Job<'_>) -> Result<(), ArchiveError> {
+        Ok(())
+    }
+
+    /// How masks are stored.
+    fn depth(&self) -> png::Depth {
+        png::Depth::Grey
+    }
+
+    /// The name of a layer's mask.
+    fn mask_name(&self, layer: usize) -> String;
+
+    /// The files beside the masks.
+    fn files(&self, job: &Job<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError>;
+}
+
+/// Layers that one thread encodes in a row; the mask is copied once for each such run.
+const RUN: usize = 4;
+
+/// Writes a print file, and returns the writer with a warning if some layers are black.
+///
+/// The bytes depend on the job alone, not on threads or machine.
+///
+/// # Errors
+/// [`ArchiveError`].
+pub fn write<W: Write + Seek>(
+    format: Format,
+    job: &Job<'_>,
+    writer: W,
+    progress: &mut Progress<'_>,
+) -> Result<(W, Option<Warning>), ArchiveError> {
+    report(progress, 0.0)?;
+    let container = format.container();
+    container.check(job)?;
+    let Job { masks, report, .. } = *job;
+    let mut zip = ZipWriter::new(writer);
+    let mut layers: Vec<LayerEntry> = Vec::with_capacity(masks.layers());
+
+    let mut ahead = masks.cursor();
+    let runs = (0..masks.layers()).step_by(RUN).map(|first| {
+        ahead.seek(masks, first);
+        (ahead.clone(), first..(first + RUN).min(masks.layers()))
+    });
+    map_in_groups(
+        runs,
+        |(cursor, layers)| encode_run(container, masks, cursor, layers),
+        |encoded: Result<Run, ArchiveError>| {
+            let Run { zipped, lit_pixels } = encoded?;
+            for lit_pixels in lit_pixels {
+                let layer = layers.len();
+                layers.push(LayerEntry {
+                    file: container.mask_name(layer),
+                    z_mm: report.z_mm[layer + 1],
+                    thickness_mm: report.thickness_mm[layer],
+                    exposure_s: report.exposure_s[layer],
+                    lit_pixels,
+                });
+            }
+            let zipped = ZipArchive::new(Cursor::new(zipped)).map_err(ArchiveError::write)?;
+            zip.merge_archive(zipped).map_err(ArchiveError::write)
+        },
+        progress,
+        [0.0, 1.0],
+    )?;
+
+    let black = layers.iter().filter(|layer| layer.lit_pixels == 0).count();
+    if black == layers.len() {
+        return Err(ArchiveError::AllBlack);
+    }
+    let warning = (black > 0).then(|| {
+        let message = format!("{} of the plan are black", counted(black, "layer"));
+        Warning::new("black-layers", message)
+    });
+    let mut report = report.clone();
+    report.add_warning(warning.clone());
+    let job = Job {
+        report: &report,
+        ..*job
+    };
+    for (name, bytes) in container.files(&job, &layers)? {
+        add(&mut zip, &name, &bytes)?;
+    }
+    Ok((zip.finish().map_err(ArchiveError::write)?, warning))
+}
+
+/// Adds a file. Streams of runs are repetitive themselves, so that deflating them once more halves them; the fixed
+/// default date keeps archives reproducible.
+fn add<W: Write + Seek>(
+    zip: &mut ZipWriter<W>,
+    name: &str,
+    bytes: &[u8],
+) -> Result<(), ArchiveError> {
+    let options = SimpleFileOptions::default()
+        .compression_method(CompressionMethod::Deflated)
+        .compression_level(Some(1));
+    zip.start_file(name, options).map_err(ArchiveError::write)?;
+    zip.write_all(bytes).map_err(ArchiveError::write)
+}
+
+/// Some layers in a zip of their own, which is joined to the others as it is.
+struct Run {
+    zipped: Vec<u8>,
+    lit_pixels: Vec<u64>,
+}
+
+fn encode_run(
+    container: &dyn Container,
+    masks: &Masks,
+    mut cursor: MaskCursor,
+    layers: Range<usize>,
+) -> Result<Run, ArchiveError> {
+    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+    let mut lit_pixels = Vec::with_capacity(layers.len());
+    for layer in layers {
+        cursor.seek(masks, layer);
+        let png = png::encode(masks, &cursor, container.depth())?;
+        add(&mut zip, &container.mask_name(layer), &png)?;
+        lit_pixels.push(cursor.lit_pixels());
+    }
+    let zipped = zip.finish().map_err(ArchiveError::write)?.into_inner();
+    Ok(Run { zipped, lit_pixels })
+}
+
+/// Text of numbers without idle digits: to a thousandth of the unit.
+fn thousandths(value: f64) -> String {
+    let text = format!("{value:.3}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text.is_empty() || text == "-0" {
+        "0".to_owned()
+    } else {
+        text.to_owned()
     }
 }

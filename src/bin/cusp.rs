@@ -10,10 +10,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
+use cusp_slicer::archive::Format;
 use cusp_slicer::exposure::Resin;
 use cusp_slicer::options::{Backend, Minimize, Options, Planner, Snap};
 use cusp_slicer::pipeline::{Slicer, Stage};
 use cusp_slicer::plan::HeightRange;
+use cusp_slicer::printer::PRINTERS;
 use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::report::{MeshInfo, Report, Warning};
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
@@ -36,13 +38,13 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Slice a model into a zip of layer masks (PNG) with a manifest
+    /// Slice a model into a print file: masks with a manifest, or what a printer takes
     #[command(allow_negative_numbers = true)]
     Slice {
         #[command(flatten)]
         slicing: Slicing,
-        /// Where to write the zip; a file there is replaced once the new one is whole
-        #[arg(short, long, value_name = "OUT.zip")]
+        /// Where to write the print file; one that is there is replaced once the new one is whole
+        #[arg(short, long, value_name = "FILE")]
         output: PathBuf,
     },
     /// Plan the layers of a model without writing masks
@@ -66,6 +68,12 @@ enum Command {
         #[command(flatten)]
         slicing: Slicing,
     },
+    /// List the printers that are known by name
+    Printers {
+        /// Print one JSON array
+        #[arg(long)]
+        json: bool,
+    },
     /// Describe a model: size, facets, volume, faults
     Info {
         /// STL file, binary or ASCII
@@ -86,13 +94,25 @@ struct Slicing {
     /// Scale the model evenly to this height
     #[arg(long, value_name = "MM", value_parser = length, help_heading = "Model")]
     height: Option<f64>,
+    /// A printer by name, which gives pixels, pitch, mirroring and format: see `cusp printers`
+    #[arg(long, value_name = "NAME", help_heading = "Printer")]
+    printer: Option<String>,
     /// Columns and rows of the masks, with the model in their middle [default: the model's bounding
     /// box at 2048 pixels along its longer side]
-    #[arg(long, value_name = "WxH", value_parser = pixels, requires = "pitch", help_heading = "Masks")]
+    #[arg(long, value_name = "WxH", value_parser = pixels, requires = "pitch", help_heading = "Printer")]
     pixels: Option<[u32; 2]>,
-    /// Side of a pixel
-    #[arg(long, value_name = "MM", value_parser = length, help_heading = "Masks")]
-    pitch: Option<f64>,
+    /// Side of a pixel, or its sides in x and y: 0.019 or 0.019x0.024
+    #[arg(long, value_name = "MM", value_parser = pitch, help_heading = "Printer")]
+    pitch: Option<[f64; 2]>,
+    /// Mirror the masks of print files left to right
+    #[arg(long, value_name = "YES", help_heading = "Printer")]
+    mirror: Option<bool>,
+    /// The print file [default: what the printer takes, or png]
+    #[arg(long, value_enum, help_heading = "Printer")]
+    format: Option<Format>,
+    /// Resin as a JSON file: exposures, bottom layers, lift
+    #[arg(long, value_name = "FILE", help_heading = "Printer")]
+    resin: Option<PathBuf>,
     /// Least layer thickness
     #[arg(long, value_name = "MM", default_value = "0.05", value_parser = length, help_heading = "Layers")]
     layer_min: f64,
@@ -150,15 +170,6 @@ struct Slicing {
     /// Height of a bin of the profile, to which layers are rounded
     #[arg(long, value_name = "MM", default_value = "0.002", value_parser = length, help_heading = "Layers")]
     bin: f64,
-    /// Seconds of exposure of a layer of 0.05 mm; others follow from the penetration depth
-    #[arg(long, value_name = "S", default_value = "3", value_parser = positive, help_heading = "Time")]
-    exposure: f64,
-    /// Penetration depth of the light into the resin
-    #[arg(long, value_name = "MM", default_value = "0.15", value_parser = length, help_heading = "Time")]
-    penetration: f64,
-    /// Seconds between layers, to lift and return
-    #[arg(long, value_name = "S", default_value = "8", value_parser = positive, help_heading = "Time")]
-    overhead: f64,
     /// Where surfaces are sampled
     #[arg(long, value_enum, default_value = "auto", help_heading = "Machine")]
     backend: Backend,
@@ -193,11 +204,22 @@ impl Slicing {
         }
     }
 
-    fn options(&self) -> Options {
-        Options {
+    fn options(&self) -> Result<Options, Failure> {
+        let resin = match &self.resin {
+            None => Resin::default(),
+            Some(path) => {
+                let text = fs::read_to_string(path).map_err(|error| in_file(path, &error))?;
+                serde_json::from_str(&text).map_err(|error| in_file(path, &error))?
+            }
+        };
+        Ok(Options {
             height_mm: self.height,
+            printer: self.printer.clone(),
             pixels: self.pixels,
-            pitch_mm: self.pitch,
+            pitch_mm: self.pitch.map(|pitch| pitch[0]),
+            pitch_y_mm: self.pitch.map(|pitch| pitch[1]),
+            mirror: self.mirror,
+            format: self.format,
             layer_min_mm: self.layer_min,
             layer_max_mm: self.layer_max,
             tolerance: self.tolerance,
@@ -217,15 +239,10 @@ impl Slicing {
                 (PlannerArg::Uniform, layer) => layer.unwrap_or(Planner::Finest),
             },
             minimize: self.minimize,
-            resin: Resin {
-                exposure_s: self.exposure,
-                penetration_mm: self.penetration,
-                overhead_s: self.overhead,
-                ..Resin::default()
-            },
+            resin,
             backend: self.backend,
             ..Options::default()
-        }
+        })
     }
 }
 
@@ -234,6 +251,14 @@ fn length(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
         _ => Err("a positive number of millimetres is needed".to_owned()),
+    }
+}
+
+/// Parses `P` or `PxQ`.
+fn pitch(text: &str) -> Result<[f64; 2], String> {
+    match text.split_once(['x', 'X', '×']) {
+        Some((x, y)) => Ok([length(x)?, length(y)?]),
+        None => Ok([length(text)?; 2]),
     }
 }
 
@@ -316,6 +341,7 @@ fn main() -> ExitCode {
         Command::Plan { slicing } => plan(&slicing),
         Command::Tradeoff { slicing, points } => tradeoff(&slicing, points as usize),
         Command::Compare { slicing } => compare(&slicing),
+        Command::Printers { json } => printers(json),
         Command::Info { model, json } => info(&model, json),
     };
     match result {
@@ -339,6 +365,37 @@ fn load(model: &Path) -> Result<Slicer, Failure> {
 
 fn in_file(path: &Path, error: &dyn std::fmt::Display) -> String {
     format!("{}: {error}", path.display())
+}
+
+fn printers(json: bool) -> Result<(), Failure> {
+    if json {
+        return Ok(print_json(&PRINTERS)?);
+    }
+    let mut text = format!(
+        "{:<20} {:<28} {:>12}  {:<13} {:<20} format",
+        "name", "printer", "pixels", "pitch (µm)", "volume (mm)"
+    );
+    for printer in PRINTERS {
+        let by = |sides: &[f64]| {
+            sides
+                .iter()
+                .map(f64::to_string)
+                .collect::<Vec<_>>()
+                .join(" × ")
+        };
+        let format = printer.format.to_possible_value();
+        let _ = write!(
+            text,
+            "\n{:<20} {:<28} {:>12}  {:<13} {:<20} {}",
+            printer.name,
+            printer.model,
+            format!("{} × {}", printer.pixels[0], printer.pixels[1]),
+            by(&printer.pitch_um),
+            by(&printer.volume_mm),
+            format.as_ref().map_or("", |format| format.get_name())
+        );
+    }
+    Ok(print(&text)?)
 }
 
 fn info(model: &Path, json: bool) -> Result<(), Failure> {
@@ -367,7 +424,7 @@ fn tradeoff(slicing: &Slicing, points: usize) -> Result<(), Failure> {
     stop_on_interrupt();
     let bar = Bar::new();
     let mut progress = |stage, fraction| bar.report(stage, fraction);
-    let options = slicing.options();
+    let options = slicing.options()?;
     let curve = pollster::block_on(slicer.tradeoff(&options, points, &mut progress))
         .map_err(|error| Failure::in_file(&slicing.model, &error))?;
     drop(bar);
@@ -397,7 +454,7 @@ fn compare(slicing: &Slicing) -> Result<(), Failure> {
     stop_on_interrupt();
     let bar = Bar::new();
     let mut progress = |stage, fraction| bar.report(stage, fraction);
-    let comparison = pollster::block_on(slicer.compare(&slicing.options(), &mut progress))
+    let comparison = pollster::block_on(slicer.compare(&slicing.options()?, &mut progress))
         .map_err(|error| Failure::in_file(&slicing.model, &error))?;
     drop(bar);
     if slicing.json {
@@ -440,7 +497,7 @@ fn slice(slicing: &Slicing, output: &Path) -> Result<(), Failure> {
     let bar = Bar::new();
     make_plan(&mut slicer, slicing, &bar)?;
     let (writer, report) = slicer
-        .write_png_zip(BufWriter::new(file), &mut |stage, fraction| {
+        .write_archive(BufWriter::new(file), &mut |stage, fraction| {
             bar.report(stage, fraction)
         })
         .map_err(|error| Failure::in_file(output, &error))?;
@@ -529,7 +586,7 @@ fn make_plan<'a>(
     slicing: &Slicing,
     bar: &Bar,
 ) -> Result<&'a Report, Failure> {
-    let options = slicing.options();
+    let options = slicing.options()?;
     let mut progress = |stage, fraction| bar.report(stage, fraction);
     pollster::block_on(slicer.plan(&options, &mut progress))
         .map_err(|error| Failure::in_file(&slicing.model, &error))
@@ -574,7 +631,7 @@ fn describe_plan(report: &Report) -> String {
     let (finest, coarsest) = (&report.uniform.finest, &report.uniform.coarsest);
     format!(
         "layers    {} of {thinnest:.3} to {thickest:.3} mm, {:.3} mm in all\n\
-         time      {}\n\
+         time      {}, {:.1} ml of resin\n\
          uniform   {} at the least thickness (error {}), {} at the greatest ({})\n\
          error     {} on the mesh, {} as sampled, tolerance {}\n\
          planes    {} at flats and sharp changes\n\
@@ -583,6 +640,7 @@ fn describe_plan(report: &Report) -> String {
         report.layers,
         report.height_mm,
         duration(report.print_time_s),
+        report.resin_ml,
         finest.layers,
         words(finest.max_error),
         coarsest.layers,

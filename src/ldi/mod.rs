@@ -162,6 +162,21 @@ impl Ldi {
         &self.hits[self.offsets[ray] as usize..self.offsets[ray + 1] as usize]
     }
 
+    /// Volume of the solid in mm³: the length of rays inside it times the area of a pixel.
+    pub fn solid_mm3(&self) -> f64 {
+        let lengths = parallel::map(self.chunks(), |offsets: &[u32]| {
+            let mut length_mm = 0.0;
+            for ray in offsets.windows(2) {
+                let hits = &self.hits[ray[0] as usize..ray[1] as usize];
+                for_each_solid_range(hits, |z_in, z_out| {
+                    length_mm += f64::from(z_out) - f64::from(z_in);
+                });
+            }
+            length_mm
+        });
+        lengths.into_iter().sum::<f64>() * self.grid.pixel_mm2()
+    }
+
     /// The offsets of rays in chunks that are worth a thread each, with the one behind the last ray of each.
     fn chunks(&self) -> Vec<&[u32]> {
         (0..self.rays())

@@ -19,9 +19,33 @@ const BAND_ROWS: usize = 128;
 pub struct Masks {
     /// The pixels.
     pub grid: Grid,
+    /// The part of them that the model is in; all others are dark in every layer.
+    pub window: Window,
     layers: usize,
     /// Toggles from the topmost rows down.
     bands: Vec<Band>,
+}
+
+/// A part of a mask, in whole bytes of its rows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Window {
+    /// Bytes of a row left of the part.
+    pub first_byte: usize,
+    /// Rows above the part.
+    pub first_row: usize,
+    /// Bytes of a row of the part.
+    pub row_bytes: usize,
+    /// Rows of the part.
+    pub rows: usize,
+}
+
+/// Which way masks are seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// From above: x grows to the right.
+    Above,
+    /// Left and right exchanged, as screens that light the resin from below want it.
+    Below,
 }
 
 /// What changes between layers in some rows.
@@ -29,7 +53,7 @@ pub struct Masks {
 struct Band {
     /// The toggles of layer k are `toggles[starts[k]..starts[k + 1]]`.
     starts: Vec<u32>,
-    /// Pixels that change from the layer below, as bits of the padded mask.
+    /// Pixels that change from the layer below, as bits of the window.
     toggles: Vec<u32>,
 }
 
@@ -38,17 +62,19 @@ impl Masks {
     /// middle of the layer lies inside the solid, from an entry (included) to an exit (excluded).
     ///
     /// Cost: linear in rays and hits; memory is 4 bytes a toggle, of which there are at most as many as hits.
-    pub fn new(ldi: &Ldi, plan: &Plan, grid: &Grid) -> Self {
+    pub fn new(ldi: &Ldi, plan: &Plan, grid: &Grid, side: Side) -> Self {
         let layer_of = LayerOf::new(plan);
         let layers = plan.layers();
+        let place = Place::new(ldi, grid, side);
         let band_rays = ldi.grid.width as usize * BAND_ROWS;
         let firsts = (0..ldi.rays()).step_by(band_rays).collect();
         let bands = parallel::map(firsts, |first| {
             let rays = first..(first + band_rays).min(ldi.rays());
-            Band::new(ldi, &layer_of, layers, grid, rays)
+            Band::new(ldi, &layer_of, layers, &place, rays)
         });
         Self {
             grid: *grid,
+            window: place.window,
             layers,
             bands,
         }
@@ -62,8 +88,7 @@ impl Masks {
     /// A cursor at the first layer.
     pub fn cursor(&self) -> MaskCursor {
         let mut cursor = MaskCursor {
-            row_bytes: row_bytes(&self.grid),
-            bits: vec![0; row_bytes(&self.grid) * self.grid.height as usize],
+            bits: vec![0; self.window.row_bytes * self.window.rows],
             lit_pixels: 0,
             layer: 0,
         };
@@ -74,7 +99,13 @@ impl Masks {
 
 impl Band {
     /// Counts the toggles of each layer, then puts them in their places.
-    fn new(ldi: &Ldi, layer_of: &LayerOf, layers: usize, grid: &Grid, rays: Range<usize>) -> Self {
+    fn new(
+        ldi: &Ldi,
+        layer_of: &LayerOf,
+        layers: usize,
+        place: &Place,
+        rays: Range<usize>,
+    ) -> Self {
         let for_each_toggle = |emit: &mut dyn FnMut(u32, usize)| {
             for ray in rays.clone() {
                 for_each_solid_range(ldi.ray(ray), |z_in, z_out| {
@@ -94,14 +125,10 @@ impl Band {
             starts[layer] += starts[layer - 1];
         }
         let mut toggles = vec![0u32; starts[layers + 1] as usize];
-        let width = ldi.grid.width as usize;
-        let row_bits = 8 * row_bytes(grid);
-        let [first_column, first_row] = grid.offset_of(&ldi.grid).map(|first| first as usize);
         for_each_toggle(&mut |layer, ray| {
             let slot = &mut starts[layer as usize + 1];
             if let Some(toggle) = toggles.get_mut(*slot as usize) {
-                let (column, row) = (first_column + ray % width, first_row + ray / width);
-                *toggle = (row * row_bits + column) as u32;
+                *toggle = place.bit_of(ray) as u32;
                 *slot += 1;
             }
         });
@@ -117,7 +144,6 @@ impl Band {
 /// The mask of one layer, movable to any other: toggles work both ways.
 #[derive(Debug, Clone)]
 pub struct MaskCursor {
-    row_bytes: usize,
     bits: Vec<u8>,
     lit_pixels: u64,
     layer: usize,
@@ -137,14 +163,22 @@ impl MaskCursor {
         }
     }
 
-    /// One bit a pixel, most significant first, rows padded to whole bytes; 1 is lit.
+    /// The window of the mask: one bit a pixel, most significant first; 1 is lit.
     pub fn bits(&self) -> &[u8] {
         &self.bits
     }
 
-    /// Bytes of a row of [`Self::bits`].
-    pub fn row_bytes(&self) -> usize {
-        self.row_bytes
+    /// The whole mask: one bit a pixel, most significant first, rows padded to whole bytes; 1 is lit.
+    pub fn whole(&self, masks: &Masks) -> Vec<u8> {
+        let Masks { grid, window, .. } = masks;
+        let row_bytes = row_bytes(grid);
+        let mut whole = vec![0; row_bytes * grid.height as usize];
+        let first = window.first_row * row_bytes + window.first_byte;
+        let rows = whole[first..].chunks_mut(row_bytes);
+        for (row, bits) in rows.zip(self.bits.chunks(window.row_bytes)) {
+            row[..bits.len()].copy_from_slice(bits);
+        }
+        whole
     }
 
     /// Number of lit pixels.
@@ -167,8 +201,55 @@ impl MaskCursor {
 }
 
 /// Bytes of a row of a one-bit mask.
-fn row_bytes(grid: &Grid) -> usize {
+pub fn row_bytes(grid: &Grid) -> usize {
     grid.width.div_ceil(8) as usize
+}
+
+/// Where rays are in the window.
+struct Place {
+    window: Window,
+    /// Columns of rays.
+    width: usize,
+    /// The bit of the first ray in its row of the window.
+    first_bit: usize,
+    side: Side,
+}
+
+impl Place {
+    fn new(ldi: &Ldi, grid: &Grid, side: Side) -> Self {
+        let [column, row] = grid.offset_of(&ldi.grid).map(|first| first as usize);
+        let width = ldi.grid.width as usize;
+        let first = match side {
+            Side::Above => column,
+            Side::Below => grid.width as usize - column - width,
+        };
+        let (first_byte, end_byte) = (first / 8, (first + width).div_ceil(8));
+        let offset = first % 8;
+        Self {
+            window: Window {
+                first_byte,
+                first_row: row,
+                row_bytes: end_byte - first_byte,
+                rows: ldi.grid.height as usize,
+            },
+            width,
+            first_bit: match side {
+                Side::Above => offset,
+                Side::Below => offset + width - 1,
+            },
+            side,
+        }
+    }
+
+    /// The bit of a ray in the window.
+    fn bit_of(&self, ray: usize) -> usize {
+        let (row, column) = (ray / self.width, ray % self.width);
+        let row_start = row * self.window.row_bytes * 8 + self.first_bit;
+        match self.side {
+            Side::Above => row_start + column,
+            Side::Below => row_start - column,
+        }
+    }
 }
 
 /// Finds the first layer whose middle is at or above a height.

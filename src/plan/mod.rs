@@ -248,11 +248,7 @@ impl Plan {
 
     /// The time that the layers take together, in seconds.
     pub fn print_time_s(&self, resin: &Resin) -> f64 {
-        let thickness_mm = self.thickness_mm();
-        let times_us = thickness_mm
-            .iter()
-            .map(|&thickness_mm| resin.layer_us(thickness_mm));
-        times_us.sum::<u64>() as f64 / 1e6
+        resin.print_time_s(&self.thickness_mm())
     }
 }
 

@@ -28,7 +28,7 @@ pub fn sampled(ldi: &Ldi, bins: Bins) -> Vec<f64> {
         }
         gains
     });
-    let pixel_mm2 = ldi.grid.pitch_mm * ldi.grid.pitch_mm;
+    let pixel_mm2 = ldi.grid.pixel_mm2();
     let mut lit = 0;
     (0..bins.count)
         .map(|bin| {

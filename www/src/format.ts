@@ -34,6 +34,12 @@ export const percent = (value: number, decimals = 0): string =>
 /** A volume: `11.26 mm³`. */
 export const volume = (mm3: number): string => `${number(mm3, { maximumSignificantDigits: 4 })}\u00a0mm³`;
 
+/** An amount of resin: `44.4 ml`. */
+export const millilitres = (ml: number): string => `${number(ml, { maximumSignificantDigits: 3 })}\u00a0ml`;
+
+/** A time of a machine: `7.6 s`. */
+export const seconds = (value: number): string => `${number(value, { maximumFractionDigits: 1 })}\u00a0s`;
+
 /** The area of a section: `123.5 mm²`. */
 export const area = (mm2: number): string => `${number(mm2, { maximumFractionDigits: 1 })}\u00a0mm²`;
 

@@ -4,7 +4,6 @@ import { rows, sentence } from "./comparison.js";
 import * as format from "./format.js";
 import { METRICS } from "./metric.js";
 import type { Result } from "./session.js";
-import { DEFAULTS } from "./wire.js";
 
 export const summaryStyles = css`
   .answer {
@@ -188,7 +187,6 @@ const STAGES = [
 export function details({ report }: Result): TemplateResult {
   const { mask, metric, timings_ms } = report;
   const { error } = METRICS[metric];
-  const { resin } = DEFAULTS;
   const ran = report.backend === "gpu" ? `the GPU${report.adapter === null ? "" : ` (${report.adapter})`}` : "the CPU";
   return html`<details class="quiet figures">
     <summary>Computed on ${ran} in ${format.duration(timings_ms.total)}</summary>
@@ -205,13 +203,8 @@ export function details({ report }: Result): TemplateResult {
         : html`<div><dt>Largest cusp height</dt><dd>${format.fine(report.max_error_mm)}</dd></div>`}
       <div><dt>Planes at flats</dt><dd>${format.count(report.snapped_mm.length)}</dd></div>
       <div><dt>Planned from</dt><dd>${report.source === "exact" ? "Every facet" : "What rays see"}</dd></div>
-      <div>
-        <dt>Time to print, reckoned with</dt>
-        <dd>
-          ${format.count(resin.exposure_s)} s for ${format.fine(resin.layer_mm)}, and ${format.count(resin.overhead_s)} s
-          between layers
-        </dd>
-      </div>
+      <div><dt>Time between exposures</dt><dd>${format.seconds(report.overhead_s)}</dd></div>
+      <div><dt>Resin</dt><dd>${format.millilitres(report.resin_ml)}</dd></div>
       <div><dt>Masks</dt><dd>${format.count(mask.width)} × ${format.count(mask.height)} pixels of ${format.fine(mask.pitch_mm)}</dd></div>
       <div><dt>Profile</dt><dd>${format.count(report.bins)} intervals of ${format.fine(report.bin_mm)}</dd></div>
       <div><dt>Surface hits</dt><dd>${format.count(report.hits)}</dd></div>

@@ -44,6 +44,4 @@ export const DEFAULTS = {
   metric: "cusp",
   minimize: "layers",
   snap: "auto",
-  /** What print times are reckoned with: seconds of exposure of such a layer, and seconds every layer takes besides. */
-  resin: { layer_mm: 0.05, exposure_s: 3, overhead_s: 8 },
 } as const;

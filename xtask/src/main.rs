@@ -64,7 +64,7 @@ enum Command {
         /// A file of benches/ without its extension
         name: Option<String>,
         /// Handed on to the benchmark: its head says what it takes
-        #[arg(requires = "name")]
+        #[arg(requires = "name", trailing_var_arg = true, allow_hyphen_values = true)]
         arguments: Vec<String>,
     },
 }

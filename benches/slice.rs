@@ -1,0 +1,237 @@
+//! How long `cusp slice` takes as a whole process, STL to finished file: `cargo xtask bench slice [--peer] [MODEL.stl …]`.
+//!
+//! A ball of 40 mm and 80,000 facets on a 12K screen in every format; then each model named, 60 mm high, at 2048 pixels along
+//! its longer side in uniform layers of 0.05 mm. With `--peer` `prusa-slicer`, which must be on PATH, does the same in turn.
+
+use std::f64::consts::{PI, TAU};
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::Instant;
+
+use cusp_slicer::mesh::Mesh;
+use cusp_slicer::stl;
+
+const ROUNDS: usize = 5;
+const HEIGHT_MM: f64 = 60.0;
+const RAYS: f64 = 2048.0;
+
+/// A ball of `rings` rings of `columns` facets' pairs, as a binary STL.
+fn ball(radius: f64, rings: u32, columns: u32) -> Vec<u8> {
+    let point = |ring: u32, column: u32| -> [f32; 3] {
+        let polar = PI * f64::from(ring) / f64::from(rings);
+        let angle = TAU * f64::from(column % columns) / f64::from(columns);
+        let across = if ring == 0 || ring == rings {
+            0.0
+        } else {
+            radius * polar.sin()
+        };
+        let position = [
+            across * angle.cos(),
+            across * angle.sin(),
+            radius * polar.cos(),
+        ];
+        position.map(|coordinate| coordinate as f32)
+    };
+    let mut triangles = Vec::new();
+    for ring in 0..rings {
+        for column in 0..columns {
+            let [a, b] = [point(ring, column), point(ring, column + 1)];
+            let [c, d] = [point(ring + 1, column), point(ring + 1, column + 1)];
+            if ring > 0 {
+                triangles.push([a, c, b]);
+            }
+            if ring + 1 < rings {
+                triangles.push([b, c, d]);
+            }
+        }
+    }
+    binary_stl(&triangles)
+}
+
+fn binary_stl(triangles: &[[[f32; 3]; 3]]) -> Vec<u8> {
+    let mut bytes = vec![0; 80];
+    bytes.extend((triangles.len() as u32).to_le_bytes());
+    for corners in triangles {
+        bytes.extend([0; 12]);
+        bytes.extend(
+            corners
+                .iter()
+                .flatten()
+                .flat_map(|coordinate| coordinate.to_le_bytes()),
+        );
+        bytes.extend([0; 2]);
+    }
+    bytes
+}
+
+/// Seconds that a command takes.
+fn time(command: &mut Command) -> f64 {
+    let clock = Instant::now();
+    let status = command.stdout(Stdio::null()).stderr(Stdio::null()).status();
+    assert!(
+        status.is_ok_and(|status| status.success()),
+        "{command:?} failed"
+    );
+    clock.elapsed().as_secs_f64()
+}
+
+fn cusp(model: &Path, output: &Path, options: &str) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_cusp"));
+    command.arg("slice").arg(model).arg("-o").arg(output);
+    command.args([
+        "--backend",
+        "cpu",
+        "--planner",
+        "uniform",
+        "--layer",
+        "0.05",
+    ]);
+    command.args(options.split_whitespace());
+    command
+}
+
+fn median(mut times: Vec<f64>) -> f64 {
+    times.sort_by(f64::total_cmp);
+    times[times.len() / 2]
+}
+
+fn megabytes(file: &Path) -> f64 {
+    fs::metadata(file).expect("a file").len() as f64 / 1e6
+}
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let folder = tempfile::tempdir().expect("a folder");
+    let output = folder.path().join("out.zip");
+
+    println!(
+        "A ball of 40 mm on 11520 × 5120 pixels of 19 µm, 800 layers of 0.05 mm; medians of {ROUNDS}\n"
+    );
+    println!("| format | s | MB |\n|---|---:|---:|");
+    let model = folder.path().join("ball.stl");
+    fs::write(&model, ball(20.0, 199, 202)).expect("the ball");
+    for format in ["png", "chitubox", "uvj", "sl1"] {
+        let options = format!("--pixels 11520x5120 --pitch 0.019 --format {format}");
+        let times = (0..ROUNDS).map(|_| time(&mut cusp(&model, &output, &options)));
+        println!(
+            "| {format} | {:.2} | {:.2} |",
+            median(times.collect()),
+            megabytes(&output)
+        );
+    }
+
+    let models = arguments
+        .iter()
+        .filter(|argument| !argument.starts_with('-'));
+    let with_peer = arguments.iter().any(|argument| argument == "--peer");
+    for path in models {
+        compare(Path::new(path), folder.path(), with_peer);
+    }
+}
+
+/// A model in uniform layers by us and, if asked for, by `prusa-slicer`, one after the other in each round.
+fn compare(path: &Path, folder: &Path, with_peer: bool) {
+    let bytes = fs::read(path).expect("a model to read");
+    let mesh = Mesh::from_triangles(&stl::read(&bytes).expect("an STL"))
+        .and_then(|mesh| mesh.on_plate(Some(HEIGHT_MM)))
+        .expect("a mesh");
+    let size = mesh.bounds().size();
+    // With a margin, without which the peer finds that the model does not fit.
+    let pitch_mm = size.x.max(size.y) / (RAYS - 8.0);
+    // Written out at its size, so that both read the same.
+    let scaled: Vec<[[f32; 3]; 3]> = mesh.facets[..mesh.surface_facets]
+        .iter()
+        .map(|facet| facet.map(|vertex| mesh.vertices[vertex as usize].to_array()))
+        .collect();
+    let model = folder.join("model.stl");
+    fs::write(&model, binary_stl(&scaled)).expect("the model");
+    let (ours, peers) = (folder.join("ours.sl1"), folder.join("peers.sl1"));
+    let side_mm = pitch_mm * RAYS;
+    let settings = folder.join("sla.ini");
+    let lines = [
+        "printer_technology = SLA".to_owned(),
+        format!("display_width = {side_mm}\ndisplay_height = {side_mm}"),
+        format!("display_pixels_x = {RAYS}\ndisplay_pixels_y = {RAYS}"),
+        "display_orientation = landscape\nsupports_enable = 0\npad_enable = 0".to_owned(),
+        format!(
+            "bed_shape = 0x0,{side_mm}x0,{side_mm}x{side_mm},0x{side_mm}\ndisplay_mirror_x = 0"
+        ),
+        "layer_height = 0.05\ninitial_layer_height = 0.05\ngamma_correction = 0".to_owned(),
+    ];
+    fs::write(&settings, lines.join("\n")).expect("the settings");
+    let options = format!("--pixels {RAYS}x{RAYS} --pitch {pitch_mm} --format sl1");
+    let mut times = [Vec::new(), Vec::new()];
+    for _ in 0..ROUNDS {
+        times[0].push(time(&mut cusp(&model, &ours, &options)));
+        if with_peer {
+            let mut peer = Command::new("prusa-slicer");
+            let middle = format!("{0},{0}", side_mm / 2.0);
+            peer.args(["--export-sla", "--center", &middle])
+                .arg("--load")
+                .arg(&settings)
+                .arg("-o")
+                .arg(&peers)
+                .arg(&model);
+            times[1].push(time(&mut peer));
+        }
+    }
+    println!(
+        "\n{}, {HEIGHT_MM} mm high, {RAYS} × {RAYS} pixels, layers of 0.05 mm, SL1\n",
+        path.display()
+    );
+    println!("| slicer | s | MB |\n|---|---:|---:|");
+    let [own, peer] = times;
+    let own_s = median(own);
+    println!("| cusp | {own_s:.2} | {:.2} |", megabytes(&ours));
+    if with_peer {
+        let peer_s = median(peer);
+        println!("| PrusaSlicer | {peer_s:.2} | {:.2} |", megabytes(&peers));
+        println!("\n{:.1} times faster", peer_s / own_s);
+        compare_masks(&ours, &peers);
+    }
+}
+
+/// How many lit pixels differ between two SL1 files.
+fn compare_masks(ours: &Path, peers: &Path) {
+    let masks = |path: &Path| -> Vec<Vec<u8>> {
+        let mut zip = zip::ZipArchive::new(fs::File::open(path).expect("a file")).expect("a zip");
+        let mut names: Vec<String> = (0..zip.len())
+            .map(|index| {
+                zip.by_index(index)
+                    .expect("an entry")
+                    .name()
+                    .expect("a name")
+                    .into_owned()
+            })
+            .filter(|name| !name.contains("thumbnail") && !name.contains("ini"))
+            .collect();
+        names.sort();
+        let decode = |name: &String| {
+            let mut bytes = Vec::new();
+            std::io::copy(&mut zip.by_name(name).expect("a mask"), &mut bytes).expect("a mask");
+            let mut reader = png::Decoder::new(std::io::Cursor::new(bytes))
+                .read_info()
+                .expect("a PNG");
+            let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];
+            reader.next_frame(&mut pixels).expect("pixels");
+            pixels
+        };
+        names.iter().map(decode).collect()
+    };
+    let (ours, peers) = (masks(ours), masks(peers));
+    let mut lit = 0u64;
+    let mut differing = 0u64;
+    for (own, peer) in ours.iter().zip(&peers) {
+        let is_lit = |pixel: &u8| *pixel > 127;
+        let pairs = own.iter().zip(peer);
+        differing += pairs.filter(|(a, b)| is_lit(a) != is_lit(b)).count() as u64;
+        lit += own.iter().filter(|pixel| is_lit(pixel)).count() as u64;
+    }
+    println!(
+        "masks: {} and {}; {:.3} % of the lit pixels differ",
+        ours.len(),
+        peers.len(),
+        100.0 * differing as f64 / lit as f64
+    );
+}

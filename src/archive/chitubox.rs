@@ -1,0 +1,124 @@
+//! The zip of `ChiTuBox`: `1.png` upward and run.gcode, in which every layer has its own height and exposure. A dozen printers
+//! take it, and other programs convert it.
+
+use std::fmt::Write as _;
+
+use super::{ArchiveError, Container, File, Job, LayerEntry, thousandths};
+
+pub(super) struct Chitubox;
+
+impl Container for Chitubox {
+    fn mask_name(&self, layer: usize) -> String {
+        format!("{}.png", layer + 1)
+    }
+
+    fn files(&self, job: &Job<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
+        Ok(vec![
+            ("run.gcode".to_owned(), run_gcode(job, layers).into_bytes()),
+            ("preview.png".to_owned(), job.look.png(954, 850)?),
+            ("preview_cropping.png".to_owned(), job.look.png(168, 150)?),
+        ])
+    }
+}
+
+fn run_gcode(job: &Job<'_>, layers: &[LayerEntry]) -> String {
+    let Job {
+        report,
+        printer,
+        resin,
+        ..
+    } = *job;
+    let mask = &report.mask;
+    let volume_mm = printer.map_or(
+        [
+            f64::from(mask.width) * mask.pitch_mm,
+            f64::from(mask.height) * mask.pitch_y_mm,
+            report.height_mm.ceil(),
+        ],
+        |printer| printer.volume_mm,
+    );
+    let mm = thousandths;
+    // The thickness of most layers stands for all where a program asks for one.
+    let usual_mm = report
+        .thickness_mm
+        .get(layers.len() / 2)
+        .copied()
+        .unwrap_or(resin.layer_mm);
+    let head = [
+        ("fileName", "model".to_owned()),
+        (
+            "machineType",
+            printer.map_or("custom", |printer| printer.model).to_owned(),
+        ),
+        ("estimatedPrintTime", mm(report.print_time_s)),
+        ("volume", mm(report.resin_ml)),
+        ("resin", resin.name.replace(['\n', '\r'], " ")),
+        ("weight", mm(report.resin_ml * resin.density_g_ml)),
+        ("price", "0".to_owned()),
+        ("layerHeight", mm(usual_mm)),
+        ("resolutionX", mask.width.to_string()),
+        ("resolutionY", mask.height.to_string()),
+        ("machineX", mm(volume_mm[0])),
+        ("machineY", mm(volume_mm[1])),
+        ("machineZ", mm(volume_mm[2])),
+        (
+            "projectType",
+            if mask.is_mirrored {
+                "LCD_mirror"
+            } else {
+                "Normal"
+            }
+            .to_owned(),
+        ),
+        ("normalExposureTime", mm(resin.exposure_s(usual_mm))),
+        // The misspelt twin is what some readers look for.
+        ("bottomLayExposureTime", mm(resin.bottom_exposure_s)),
+        ("bottomLayerExposureTime", mm(resin.bottom_exposure_s)),
+        ("normalDropSpeed", mm(resin.return_mm_min)),
+        ("normalLayerLiftHeight", mm(resin.lift_mm)),
+        ("normalLayerLiftSpeed", mm(resin.lift_mm_min)),
+        ("bottomLayerLiftHeight", mm(resin.lift_mm)),
+        ("bottomLayerLiftSpeed", mm(resin.lift_mm_min)),
+        ("lightOffTime", mm(resin.wait_s)),
+        ("bottomLightOffTime", mm(resin.wait_s)),
+        ("bottomPWMLight", "255".to_owned()),
+        ("PWMLight", "255".to_owned()),
+        ("antiAliasLevel", "1".to_owned()),
+        ("bottomLayCount", resin.bottom_layers.to_string()),
+        ("bottomLayerCount", resin.bottom_layers.to_string()),
+        ("totalLayer", layers.len().to_string()),
+        ("mirror", u8::from(mask.is_mirrored).to_string()),
+    ];
+    let mut text = String::new();
+    for (key, value) in head {
+        let _ = writeln!(text, ";{key}:{value}");
+    }
+    text.push_str("\n;START_GCODE_BEGIN\nG21;\nG90;\nM106 S0;\nM17;\nG28 Z0;\n;START_GCODE_END\n");
+    // Readers take a layer without a lift for a wait.
+    let lift_mm = resin.lift_mm.max(0.1);
+    for (index, layer) in layers.iter().enumerate() {
+        let _ = write!(
+            text,
+            "\n;LAYER_START:{index}\nM6054 \"{}\";\nG0 Z{} F{};\nG0 Z{} F{};\nG4 P{};\nM106 S255;\nG4 P{};\nM106 S0;\n;LAYER_END\n",
+            layer.file,
+            mm(layer.z_mm + lift_mm),
+            mm(resin.lift_mm_min),
+            mm(layer.z_mm),
+            mm(resin.return_mm_min),
+            milliseconds(resin.wait_s),
+            milliseconds(layer.exposure_s),
+        );
+    }
+    let top_mm = layers.last().map_or(0.0, |layer| layer.z_mm);
+    let _ = write!(
+        text,
+        "\n;END_GCODE_BEGIN\nM106 S0;\nG1 Z{} F{};\nM18;\n;END_GCODE_END\n",
+        mm((top_mm + lift_mm).max(volume_mm[2])),
+        mm(resin.lift_mm_min)
+    );
+    text
+}
+
+fn milliseconds(seconds: f64) -> u64 {
+    (seconds * 1e3).round() as u64
+}

@@ -1,0 +1,34 @@
+//! A zip of one-bit PNG masks with a manifest: the default download.
+//!
+//! `layers/00000.png` upward from the plate, white where the resin is cured, row 0 at the largest y;
+//! `manifest.json` is the report with an entry for every layer, but for what differs from machine to machine: times, and
+//! where rays were cast. So the same plan gives the same bytes everywhere.
+
+use serde_json::json;
+
+use super::png::Depth;
+use super::{ArchiveError, Container, File, Job, LayerEntry};
+
+pub(super) struct Plain;
+
+impl Container for Plain {
+    fn depth(&self) -> Depth {
+        Depth::Bit
+    }
+
+    fn mask_name(&self, layer: usize) -> String {
+        format!("layers/{layer:05}.png")
+    }
+
+    fn files(&self, job: &Job<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
+        let mut manifest = serde_json::to_value(job.report).map_err(ArchiveError::write)?;
+        if let Some(manifest) = manifest.as_object_mut() {
+            for key in ["timings_ms", "backend", "adapter"] {
+                manifest.remove(key);
+            }
+            manifest.insert("layer_files".to_owned(), json!(layers));
+        }
+        let json = serde_json::to_vec(&manifest).map_err(ArchiveError::write)?;
+        Ok(vec![("manifest.json".to_owned(), json)])
+    }
+}

@@ -1,0 +1,128 @@
+//! Prusa's SL1 and SL1S: config.ini and prusaslicer.ini with one thickness for all layers.
+
+use std::fmt::Write as _;
+
+use super::{ArchiveError, Container, File, Job, LayerEntry, thousandths};
+
+pub(super) struct Sl1;
+
+/// What masks are named after.
+const JOB: &str = "cusp";
+
+impl Container for Sl1 {
+    fn check(&self, job: &Job<'_>) -> Result<(), ArchiveError> {
+        // The first layer may differ.
+        let mut later = job.report.thickness_mm.iter().skip(1);
+        let second = later.next();
+        if later.any(|thickness_mm| Some(thickness_mm) != second) {
+            return Err(ArchiveError::UniformOnly { format: "sl1" });
+        }
+        Ok(())
+    }
+
+    fn mask_name(&self, layer: usize) -> String {
+        format!("{JOB}{layer:05}.png")
+    }
+
+    fn files(&self, job: &Job<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
+        Ok(vec![
+            ("config.ini".to_owned(), config(job, layers).into_bytes()),
+            ("prusaslicer.ini".to_owned(), prusaslicer(job).into_bytes()),
+            (
+                "thumbnail/thumbnail400x400.png".to_owned(),
+                job.look.png(400, 400)?,
+            ),
+            (
+                "thumbnail/thumbnail800x480.png".to_owned(),
+                job.look.png(800, 480)?,
+            ),
+        ])
+    }
+}
+
+fn ini(pairs: &[(&str, String)]) -> String {
+    let mut text = String::new();
+    for (key, value) in pairs {
+        let _ = writeln!(text, "{key} = {value}");
+    }
+    text
+}
+
+fn layer_mm(job: &Job<'_>) -> f64 {
+    let thickness_mm = &job.report.thickness_mm;
+    *thickness_mm.get(1).unwrap_or(&thickness_mm[0])
+}
+
+fn config(job: &Job<'_>, layers: &[LayerEntry]) -> String {
+    let Job { report, resin, .. } = *job;
+    let layer_mm = layer_mm(job);
+    let slow = resin.bottom_layers.min(layers.len());
+    let name = resin.name.replace(['\n', '\r'], " ");
+    ini(&[
+        ("action", "print".to_owned()),
+        ("expTime", thousandths(resin.exposure_s(layer_mm))),
+        ("expTimeFirst", thousandths(resin.bottom_exposure_s)),
+        (
+            "fileCreationTimestamp",
+            "1980-01-01 at 00:00:00 UTC".to_owned(),
+        ),
+        ("hollow", "0".to_owned()),
+        ("jobDir", JOB.to_owned()),
+        ("layerHeight", thousandths(layer_mm)),
+        ("materialName", name),
+        // No layers between slow and fast: bottom layers are exposed alike.
+        ("numFade", "0".to_owned()),
+        ("numFast", (layers.len() - slow).to_string()),
+        ("numSlow", slow.to_string()),
+        ("printProfile", format!("{} mm", thousandths(layer_mm))),
+        ("printTime", thousandths(report.print_time_s)),
+        ("printerModel", "SL1S".to_owned()),
+        ("printerProfile", "Original Prusa SL1S SPEED".to_owned()),
+        ("printerVariant", "default".to_owned()),
+        (
+            "prusaSlicerVersion",
+            concat!("Cusp-", env!("CARGO_PKG_VERSION")).to_owned(),
+        ),
+        ("usedMaterial", thousandths(report.resin_ml)),
+    ])
+}
+
+fn prusaslicer(job: &Job<'_>) -> String {
+    let mask = &job.report.mask;
+    // The screen is named by its sides as it lies; masks stand upright.
+    let is_portrait = mask.height > mask.width;
+    let (long, short) = if is_portrait {
+        ((mask.height, mask.pitch_y_mm), (mask.width, mask.pitch_mm))
+    } else {
+        ((mask.width, mask.pitch_mm), (mask.height, mask.pitch_y_mm))
+    };
+    let mm = |side: (u32, f64)| thousandths(f64::from(side.0) * side.1);
+    ini(&[
+        ("printer_technology", "SLA".to_owned()),
+        ("display_width", mm(long)),
+        ("display_height", mm(short)),
+        ("display_pixels_x", long.0.to_string()),
+        ("display_pixels_y", short.0.to_string()),
+        ("display_mirror_x", u8::from(mask.is_mirrored).to_string()),
+        ("display_mirror_y", "0".to_owned()),
+        (
+            "display_orientation",
+            if is_portrait { "portrait" } else { "landscape" }.to_owned(),
+        ),
+        ("layer_height", thousandths(layer_mm(job))),
+        (
+            "initial_layer_height",
+            thousandths(job.report.thickness_mm[0]),
+        ),
+        (
+            "exposure_time",
+            thousandths(job.resin.exposure_s(layer_mm(job))),
+        ),
+        (
+            "initial_exposure_time",
+            thousandths(job.resin.bottom_exposure_s),
+        ),
+        ("faded_layers", "0".to_owned()),
+        ("gamma_correction", "1".to_owned()),
+    ])
+}

@@ -1,0 +1,71 @@
+//! UVJ: config.json with a height and an exposure for every layer, masks in `slice/`.
+
+use serde_json::{Value, json};
+
+use super::{ArchiveError, Container, File, Job, LayerEntry};
+
+pub(super) struct Uvj;
+
+/// By how much a step may exceed the nominal layer height for a reader that checks it.
+const STEP_ROOM: f64 = 1.5;
+
+impl Container for Uvj {
+    fn mask_name(&self, layer: usize) -> String {
+        format!("slice/{layer:08}.png")
+    }
+
+    fn files(&self, job: &Job<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
+        let config = serde_json::to_vec(&config(job, layers)).map_err(ArchiveError::write)?;
+        Ok(vec![
+            ("config.json".to_owned(), config),
+            ("preview/huge.png".to_owned(), job.look.png(800, 480)?),
+            ("preview/tiny.png".to_owned(), job.look.png(400, 300)?),
+        ])
+    }
+}
+
+fn config(job: &Job<'_>, layers: &[LayerEntry]) -> Value {
+    let Job { report, resin, .. } = *job;
+    let mask = &report.mask;
+    let exposure = |exposure_s: f64| {
+        json!({
+            "LightOnTime": exposure_s,
+            "LightOffTime": resin.wait_s,
+            "LightPWM": 255,
+            "LiftHeight": resin.lift_mm,
+            "LiftSpeed": resin.lift_mm_min,
+            "RetractHeight": 0.0,
+            "RetractSpeed": resin.return_mm_min,
+        })
+    };
+    let thickest_mm = report.thickness_mm.iter().copied().fold(0.0, f64::max);
+    let usual_mm = report
+        .thickness_mm
+        .get(layers.len() / 2)
+        .copied()
+        .unwrap_or(thickest_mm);
+    let mut bottom = exposure(resin.bottom_exposure_s);
+    bottom["Count"] = json!(resin.bottom_layers);
+    let layers: Vec<Value> = layers
+        .iter()
+        .map(|layer| json!({ "Z": layer.z_mm, "Exposure": exposure(layer.exposure_s) }))
+        .collect();
+    json!({
+        "Properties": {
+            "Size": {
+                "X": mask.width,
+                "Y": mask.height,
+                "Millimeter": {
+                    "X": f64::from(mask.width) * mask.pitch_mm,
+                    "Y": f64::from(mask.height) * mask.pitch_y_mm,
+                },
+                "Layers": layers.len(),
+                "LayerHeight": usual_mm.max((thickest_mm / STEP_ROOM * 1e3).ceil() / 1e3),
+            },
+            "Exposure": exposure(resin.exposure_s(usual_mm)),
+            "Bottom": bottom,
+            "AntiAliasLevel": 1,
+        },
+        "Layers": layers,
+    })
+}

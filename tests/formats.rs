@@ -1,0 +1,485 @@
+//! Print files of every format: masks decoded by another library, a strict reader of run.gcode written from what its
+//! readers are known to trip over, and plans that a format cannot express.
+
+#![cfg(not(target_arch = "wasm32"))]
+
+mod common;
+
+use std::io::{Cursor, Read};
+
+use common::{assert_near, binary_stl, quiet, solids};
+use cusp_slicer::Error;
+use cusp_slicer::archive::Format;
+use cusp_slicer::archive::runs::RunWriter;
+use cusp_slicer::exposure::Resin;
+use cusp_slicer::options::{Backend, Options, Planner};
+use cusp_slicer::pipeline::Slicer;
+use cusp_slicer::printer::{PRINTERS, named};
+use cusp_slicer::report::Report;
+use serde_json::Value;
+
+type Zip = zip::ZipArchive<Cursor<Vec<u8>>>;
+
+fn options(format: Format) -> Options {
+    Options {
+        // No whole number of bytes, and more than the model needs.
+        pixels: Some([301, 150]),
+        pitch_mm: Some(0.03),
+        pitch_y_mm: Some(0.05),
+        format: Some(format),
+        backend: Backend::Cpu,
+        ..Options::default()
+    }
+}
+
+fn slice(triangles: &solids::Triangles, options: &Options) -> Result<(Slicer, Report, Zip), Error> {
+    let mut slicer = Slicer::load(&binary_stl(triangles))?;
+    pollster::block_on(slicer.plan(options, &mut quiet))?;
+    let (writer, report) = slicer.write_archive(Cursor::new(Vec::new()), &mut quiet)?;
+    let (zip, report) = (zip::ZipArchive::new(writer).unwrap(), report.clone());
+    Ok((slicer, report, zip))
+}
+
+fn file(zip: &mut Zip, name: &str) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    zip.by_name(name)
+        .unwrap_or_else(|_| panic!("{name}"))
+        .read_to_end(&mut bytes)
+        .unwrap();
+    bytes
+}
+
+fn text(zip: &mut Zip, name: &str) -> String {
+    String::from_utf8(file(zip, name)).unwrap()
+}
+
+/// Width, height and a brightness a pixel.
+fn decode(png: &[u8]) -> (u32, u32, Vec<u8>) {
+    let mut decoder = png::Decoder::new(Cursor::new(png));
+    decoder.set_transformations(png::Transformations::EXPAND);
+    let mut reader = decoder.read_info().unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut pixels).unwrap();
+    assert_eq!(
+        (info.color_type, info.bit_depth),
+        (png::ColorType::Grayscale, png::BitDepth::Eight)
+    );
+    (info.width, info.height, pixels)
+}
+
+fn mask_name(format: Format, layer: usize) -> String {
+    match format {
+        Format::Png => format!("layers/{layer:05}.png"),
+        Format::Chitubox => format!("{}.png", layer + 1),
+        Format::Uvj => format!("slice/{layer:08}.png"),
+        Format::Sl1 => format!("cusp{layer:05}.png"),
+    }
+}
+
+#[test]
+fn every_format_has_every_mask_as_it_is_or_mirrored() {
+    // A ball and a small cone beside it, so that left and right differ.
+    let mut model = solids::sphere(2.0, 4);
+    let cone = solids::cone(0.7, 2.0, 12);
+    model.extend(solids::moved(&cone, glam::Vec3::new(3.0, 1.0, -1.0)));
+    for format in [Format::Png, Format::Chitubox, Format::Uvj, Format::Sl1] {
+        for mirror in [false, true] {
+            let options = Options {
+                mirror: Some(mirror),
+                planner: Planner::Uniform { layer_mm: 0.1 },
+                ..options(format)
+            };
+            let (mut slicer, report, mut zip) = slice(&model, &options).unwrap();
+            assert_eq!(report.mask.is_mirrored, mirror);
+            for layer in 0..report.layers {
+                let png = file(&mut zip, &mask_name(format, layer));
+                let (width, height, pixels) = decode(&png);
+                assert_eq!((width, height), (301, 150));
+                let mask = slicer.mask(layer).unwrap();
+                for (place, &pixel) in pixels.iter().enumerate() {
+                    let (row, column) = (place / 301, place % 301);
+                    let column = if mirror { 300 - column } else { column };
+                    let is_lit = mask[row * 38 + column / 8] >> (7 - column % 8) & 1 == 1;
+                    assert_eq!(
+                        pixel,
+                        if is_lit { 255 } else { 0 },
+                        "{format:?}, {layer}, {place}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn masks_are_right_on_every_solid() {
+    for (name, triangles) in solids::all() {
+        for format in [Format::Png, Format::Uvj] {
+            let options = Options {
+                pixels: None,
+                pitch_mm: None,
+                pitch_y_mm: None,
+                rays: 203,
+                ..options(format)
+            };
+            let (mut slicer, report, mut zip) = slice(&triangles, &options).unwrap();
+            let width = report.mask.width as usize;
+            for layer in 0..report.layers {
+                let (_, _, pixels) = decode(&file(&mut zip, &mask_name(format, layer)));
+                let mask = slicer.mask(layer).unwrap();
+                let same = pixels.iter().enumerate().all(|(place, &pixel)| {
+                    let (row, column) = (place / width, place % width);
+                    let bit = mask[row * width.div_ceil(8) + column / 8] >> (7 - column % 8) & 1;
+                    pixel == bit * 255
+                });
+                assert!(same, "{name}, {format:?}, layer {layer}");
+            }
+        }
+    }
+}
+
+/// A layer as a reader of run.gcode sees it.
+struct GcodeLayer {
+    mask: String,
+    z_mm: f64,
+    exposure_ms: f64,
+}
+
+/// Reads run.gcode as strictly as the strictest of its readers, and gives its header and layers.
+fn read_gcode(text: &str) -> (std::collections::HashMap<String, String>, Vec<GcodeLayer>) {
+    let mut header = std::collections::HashMap::new();
+    let mut lines = text.lines().filter(|line| !line.is_empty()).peekable();
+    while let Some(line) = lines.next_if(|line| !line.starts_with(";START_GCODE")) {
+        let (key, value) = line.strip_prefix(';').unwrap().split_once(':').unwrap();
+        assert!(
+            header.insert(key.to_owned(), value.to_owned()).is_none(),
+            "{key} twice"
+        );
+    }
+    assert_eq!(lines.next(), Some(";START_GCODE_BEGIN"));
+    for command in ["G21;", "G90;", "M106 S0;", "M17;", "G28 Z0;"] {
+        assert_eq!(lines.next(), Some(command));
+    }
+    assert_eq!(lines.next(), Some(";START_GCODE_END"));
+    // Z, then F, in millimetres and millimetres a minute.
+    let read_move = |line: &str| -> f64 {
+        let words = line
+            .strip_prefix("G0 Z")
+            .unwrap()
+            .strip_suffix(';')
+            .unwrap();
+        let (z_mm, speed) = words.split_once(" F").unwrap();
+        assert!(speed.parse::<f64>().unwrap() > 0.0, "{line}");
+        z_mm.parse().unwrap()
+    };
+    let read_wait = |line: &str| -> f64 {
+        let digits = line
+            .strip_prefix("G4 P")
+            .unwrap()
+            .strip_suffix(';')
+            .unwrap();
+        assert!(digits == "0" || !digits.starts_with('0'), "{line}");
+        digits.parse::<u64>().unwrap() as f64
+    };
+    let mut layers = Vec::new();
+    while let Some(line) = lines.next_if(|line| !line.starts_with(";END_GCODE")) {
+        let index = layers.len();
+        assert_eq!(line, format!(";LAYER_START:{index}"));
+        let mask = lines.next().unwrap().strip_prefix("M6054 \"").unwrap();
+        let mask = mask.strip_suffix("\";").unwrap().to_owned();
+        assert_eq!(mask, format!("{}.png", index + 1));
+        let lifted_mm = read_move(lines.next().unwrap());
+        let z_mm = read_move(lines.next().unwrap());
+        assert!(lifted_mm > z_mm, "no lift in layer {index}");
+        read_wait(lines.next().unwrap());
+        assert_eq!(lines.next(), Some("M106 S255;"));
+        let exposure_ms = read_wait(lines.next().unwrap());
+        assert_eq!(lines.next(), Some("M106 S0;"));
+        assert_eq!(lines.next(), Some(";LAYER_END"));
+        layers.push(GcodeLayer {
+            mask,
+            z_mm,
+            exposure_ms,
+        });
+    }
+    assert_eq!(lines.next(), Some(";END_GCODE_BEGIN"));
+    assert_eq!(lines.next(), Some("M106 S0;"));
+    assert!(lines.next().unwrap().starts_with("G1 Z"));
+    assert_eq!(lines.collect::<Vec<_>>(), ["M18;", ";END_GCODE_END"]);
+    (header, layers)
+}
+
+#[test]
+fn run_gcode_has_a_height_and_an_exposure_for_every_layer() {
+    let mut options = options(Format::Chitubox);
+    options.resin.bottom_layers = 3;
+    options.resin.wait_s = 0.0;
+    let (_, report, mut zip) = slice(&solids::sphere(2.0, 5), &options).unwrap();
+    let (header, layers) = read_gcode(&text(&mut zip, "run.gcode"));
+    assert_eq!(layers.len(), report.layers);
+    assert!(
+        report
+            .thickness_mm
+            .windows(2)
+            .any(|pair| pair[0] != pair[1])
+    );
+    let mut last_mm = 0.0;
+    for (index, layer) in layers.iter().enumerate() {
+        // Readers round heights to a micrometre and refuse any that does not rise.
+        assert!((layer.z_mm * 1e3).round() > (last_mm * 1e3f64).round());
+        last_mm = layer.z_mm;
+        assert_near(layer.z_mm, report.z_mm[index + 1], 1e-9);
+        assert_near(layer.exposure_ms, report.exposure_s[index] * 1e3, 0.5);
+        assert!(!file(&mut zip, &layer.mask).is_empty());
+    }
+    assert_eq!(layers[2].exposure_ms, 30_000.0);
+    let number = |key: &str| header[key].parse::<f64>().unwrap();
+    assert_eq!(
+        (number("resolutionX"), number("resolutionY")),
+        (301.0, 150.0)
+    );
+    assert_eq!(number("totalLayer") as usize, report.layers);
+    assert_eq!(
+        (number("bottomLayerCount"), number("bottomLayCount")),
+        (3.0, 3.0)
+    );
+    assert_eq!(
+        header["bottomLayExposureTime"],
+        header["bottomLayerExposureTime"]
+    );
+    assert_near(number("volume"), report.resin_ml, 1e-3);
+    assert_near(number("estimatedPrintTime"), report.print_time_s, 1e-3);
+    assert_eq!(
+        (header["mirror"].as_str(), header["projectType"].as_str()),
+        ("0", "Normal")
+    );
+    for (name, size) in [
+        ("preview.png", (954, 850)),
+        ("preview_cropping.png", (168, 150)),
+    ] {
+        let (width, height, pixels) = decode(&file(&mut zip, name));
+        assert_eq!((width, height), size);
+        assert!(pixels.iter().filter(|&&pixel| pixel > 60).count() > pixels.len() / 4);
+    }
+}
+
+#[test]
+fn uvj_has_a_height_and_an_exposure_for_every_layer() {
+    let (_, report, mut zip) = slice(&solids::sphere(2.0, 5), &options(Format::Uvj)).unwrap();
+    let config: Value = serde_json::from_slice(&file(&mut zip, "config.json")).unwrap();
+    let size = &config["Properties"]["Size"];
+    assert_eq!((&size["X"], &size["Y"]), (&301.into(), &150.into()));
+    assert_near(size["Millimeter"]["X"].as_f64().unwrap(), 9.03, 1e-9);
+    assert_near(size["Millimeter"]["Y"].as_f64().unwrap(), 7.5, 1e-9);
+    assert_eq!(size["Layers"], report.layers);
+    let layers = config["Layers"].as_array().unwrap();
+    assert_eq!(layers.len(), report.layers);
+    let nominal_mm = size["LayerHeight"].as_f64().unwrap();
+    for (index, layer) in layers.iter().enumerate() {
+        assert_near(layer["Z"].as_f64().unwrap(), report.z_mm[index + 1], 1e-9);
+        let exposure_s = layer["Exposure"]["LightOnTime"].as_f64().unwrap();
+        assert_near(exposure_s, report.exposure_s[index], 1e-9);
+        assert!(report.thickness_mm[index] <= 1.5 * nominal_mm + 1e-9);
+    }
+    for name in ["preview/huge.png", "preview/tiny.png"] {
+        decode(&file(&mut zip, name));
+    }
+}
+
+#[test]
+fn sl1_takes_uniform_layers_alone() {
+    let ball = solids::sphere(2.0, 5);
+    let Err(error) = slice(&ball, &options(Format::Sl1)) else {
+        panic!("a variable plan was written");
+    };
+    assert_eq!(error.code(), "uniform-only");
+    let said = error.to_string();
+    assert!(
+        ["chitubox", "uvj", "png", "uniform"]
+            .iter()
+            .all(|it| said.contains(it)),
+        "{said}"
+    );
+
+    let uniform = Options {
+        planner: Planner::Uniform { layer_mm: 0.05 },
+        ..options(Format::Sl1)
+    };
+    let (_, report, mut zip) = slice(&ball, &uniform).unwrap();
+    let pairs = |text: String| -> std::collections::HashMap<String, String> {
+        let pairs = text.lines().map(|line| line.split_once(" = ").unwrap());
+        pairs
+            .map(|(key, value)| (key.to_owned(), value.to_owned()))
+            .collect()
+    };
+    let config = pairs(text(&mut zip, "config.ini"));
+    let number = |key: &str| config[key].parse::<f64>().unwrap();
+    assert_eq!(
+        (number("numSlow") + number("numFast")) as usize,
+        report.layers
+    );
+    assert_eq!(
+        (
+            number("layerHeight"),
+            number("expTime"),
+            number("expTimeFirst")
+        ),
+        (0.05, 3.0, 30.0)
+    );
+    assert_near(number("usedMaterial"), report.resin_ml, 1e-3);
+    let profile = pairs(text(&mut zip, "prusaslicer.ini"));
+    assert_eq!(profile["display_pixels_x"], "301");
+    assert_eq!(profile["display_orientation"], "landscape");
+    let masks = zip
+        .file_names()
+        .filter(|name| {
+            name.as_ref()
+                .is_ok_and(|name| name.starts_with(&config["jobDir"]))
+        })
+        .count();
+    assert_eq!(masks, report.layers);
+}
+
+#[test]
+fn exposures_follow_the_curve_or_the_table() {
+    let resin = Resin::default();
+    assert_eq!(resin.exposure_s(0.05), 3.0);
+    // Jacobs: as much longer as exp(thickness / penetration) says.
+    assert_near(resin.exposure_s(0.1), 3.0 * (0.05f64 / 0.15).exp(), 1e-3);
+    assert_near(
+        resin.overhead_s(),
+        1.0 + 60.0 * (5.0 / 65.0 + 5.0 / 150.0),
+        1e-9,
+    );
+    let measured = Resin {
+        exposures: vec![[0.05, 2.0], [0.1, 3.0]],
+        ..resin.clone()
+    };
+    let exposures =
+        [0.02, 0.05, 0.075, 0.1, 0.2].map(|thickness_mm| measured.exposure_s(thickness_mm));
+    assert_eq!(exposures, [2.0, 2.0, 2.5, 3.0, 3.0]);
+    assert_eq!(
+        resin.exposures_s(&[0.05; 6]),
+        [30.0, 30.0, 30.0, 30.0, 3.0, 3.0]
+    );
+    assert_near(
+        resin.print_time_s(&[0.05; 6]),
+        126.0 + 6.0 * resin.overhead_s(),
+        1e-4,
+    );
+    for wrong in [
+        Resin {
+            exposure_s: f64::NAN,
+            ..resin.clone()
+        },
+        Resin {
+            penetration_mm: 0.0,
+            ..resin.clone()
+        },
+        Resin {
+            exposures: vec![[0.1, 2.0], [0.1, 3.0]],
+            ..resin.clone()
+        },
+        Resin {
+            exposures: vec![[0.1, -2.0]],
+            ..resin
+        },
+    ] {
+        assert!(wrong.check().is_err(), "{wrong:?}");
+    }
+}
+
+#[test]
+fn printers_are_what_their_data_says() {
+    for printer in PRINTERS {
+        assert_eq!(named(printer.name), Some(printer));
+        for axis in 0..2 {
+            let side_mm = f64::from(printer.pixels[axis]) * printer.pitch_um[axis] / 1e3;
+            assert_near(side_mm, printer.volume_mm[axis], 0.005);
+        }
+    }
+    let on = |name: &str, triangles: &solids::Triangles| {
+        let mut slicer = Slicer::load(&binary_stl(triangles)).unwrap();
+        let options = Options {
+            printer: Some(name.to_owned()),
+            backend: Backend::Cpu,
+            ..Options::default()
+        };
+        pollster::block_on(slicer.plan(&options, &mut quiet)).cloned()
+    };
+    let cube = solids::cube(2.0);
+    let report = on("saturn-3-ultra", &cube).unwrap();
+    let mask = &report.mask;
+    assert_eq!((mask.width, mask.height), (11520, 5120));
+    assert_eq!(
+        (mask.pitch_mm, mask.pitch_y_mm, mask.is_mirrored),
+        (0.019, 0.024, true)
+    );
+    // Rays only where the model is: 105 columns and 83 rows, two hits each.
+    assert!(
+        (2 * 100 * 80..2 * 110 * 90).contains(&report.hits),
+        "{}",
+        report.hits
+    );
+    assert_near(report.resin_ml, 0.008, 2e-4);
+    let code = |result: Result<Report, Error>| result.unwrap_err().code();
+    assert_eq!(code(on("no-such-printer", &cube)), "bad-options");
+    assert_eq!(
+        code(on(
+            "shuffle",
+            &solids::cuboid(glam::Vec3::new(70.0, 5.0, 5.0))
+        )),
+        "model-too-large"
+    );
+    assert_eq!(
+        code(on(
+            "shuffle",
+            &solids::cuboid(glam::Vec3::new(5.0, 5.0, 201.0))
+        )),
+        "model-too-high"
+    );
+}
+
+#[test]
+fn a_stream_of_runs_is_what_another_library_inflates() {
+    let mut random = fastrand::Rng::with_seed(29);
+    for round in 0..300 {
+        let mut stream = RunWriter::default();
+        let mut expected = Vec::new();
+        for _ in 0..random.usize(0..200) {
+            let byte = if random.bool() { 0 } else { random.u8(..) };
+            let count = match random.u8(0..10) {
+                0 => random.usize(250..270),
+                1 => random.usize(0..100_000),
+                _ => random.usize(0..12),
+            };
+            stream.run(byte, count as u64);
+            expected.extend(std::iter::repeat_n(byte, count));
+        }
+        // Many literals of very different frequency make long codes.
+        if round % 10 == 0 {
+            for byte in 0..=255u8 {
+                for _ in 0..1u32 << (byte % 13) {
+                    stream.run(byte, 1);
+                    stream.run(255 - byte, 1);
+                    expected.extend([byte, 255 - byte]);
+                }
+            }
+        }
+        let bytes = stream.finish();
+        let mut found = Vec::new();
+        flate2::read::ZlibDecoder::new(bytes.as_slice())
+            .read_to_end(&mut found)
+            .unwrap();
+        assert!(found == expected, "round {round}");
+    }
+}
+
+#[test]
+fn dark_pixels_cost_next_to_nothing() {
+    let mut stream = RunWriter::default();
+    stream.run(0, 11_520 * 5_120);
+    // Two bits for 258 bytes.
+    let bytes = stream.finish().len();
+    assert!((57_000..58_500).contains(&bytes), "{bytes}");
+}
