@@ -11,12 +11,12 @@ pub mod runs;
 mod sl1;
 mod uvj;
 
-use std::io::{Cursor, Seek, Write};
+use std::io::{Seek, Write};
 use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 use zip::write::SimpleFileOptions;
-use zip::{CompressionMethod, ZipArchive, ZipWriter};
+use zip::{CompressionMethod, ZipWriter};
 
 use crate::exposure::Resin;
 use crate::mask::{MaskCursor, Masks};
@@ -194,20 +194,20 @@ pub fn write<W: Write + Seek>(
     map_in_groups(
         runs,
         |(cursor, layers)| encode_run(container, masks, cursor, layers),
-        |encoded: Result<Run, ArchiveError>| {
-            let Run { zipped, lit_pixels } = encoded?;
-            for lit_pixels in lit_pixels {
+        |encoded: Result<Vec<Mask>, ArchiveError>| {
+            for Mask { png, lit_pixels } in encoded? {
                 let layer = layers.len();
+                let file = container.mask_name(layer);
+                add(&mut zip, &file, &png)?;
                 layers.push(LayerEntry {
-                    file: container.mask_name(layer),
+                    file,
                     z_mm: report.z_mm[layer + 1],
                     thickness_mm: report.thickness_mm[layer],
                     exposure_s: report.exposure_s[layer],
                     lit_pixels,
                 });
             }
-            let zipped = ZipArchive::new(Cursor::new(zipped)).map_err(ArchiveError::write)?;
-            zip.merge_archive(zipped).map_err(ArchiveError::write)
+            Ok::<_, ArchiveError>(())
         },
         progress,
         [0.0, 1.0],
@@ -247,10 +247,9 @@ fn add<W: Write + Seek>(
     zip.write_all(bytes).map_err(ArchiveError::write)
 }
 
-/// Some layers in a zip of their own, which is joined to the others as it is.
-struct Run {
-    zipped: Vec<u8>,
-    lit_pixels: Vec<u64>,
+struct Mask {
+    png: Vec<u8>,
+    lit_pixels: u64,
 }
 
 fn encode_run(
@@ -258,17 +257,16 @@ fn encode_run(
     masks: &Masks,
     mut cursor: MaskCursor,
     layers: Range<usize>,
-) -> Result<Run, ArchiveError> {
-    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
-    let mut lit_pixels = Vec::with_capacity(layers.len());
-    for layer in layers {
-        cursor.seek(masks, layer);
-        let png = png::encode(masks, &cursor, container.depth())?;
-        add(&mut zip, &container.mask_name(layer), &png)?;
-        lit_pixels.push(cursor.lit_pixels());
-    }
-    let zipped = zip.finish().map_err(ArchiveError::write)?.into_inner();
-    Ok(Run { zipped, lit_pixels })
+) -> Result<Vec<Mask>, ArchiveError> {
+    layers
+        .map(|layer| {
+            cursor.seek(masks, layer);
+            Ok(Mask {
+                png: png::encode(masks, &cursor, container.depth())?,
+                lit_pixels: cursor.lit_pixels(),
+            })
+        })
+        .collect()
 }
 
 /// Text of numbers without idle digits: to a thousandth of the unit.

@@ -69,11 +69,8 @@ pub fn encode(masks: &Masks, mask: &MaskCursor, depth: Depth) -> Result<Vec<u8>,
     }
     let rows_below = masks.grid.height as usize - window.first_row - window.rows;
     stream.run(0, dark_row * rows_below as u64);
-    let depth = match depth {
-        Depth::Bit => png::BitDepth::One,
-        Depth::Grey => png::BitDepth::Eight,
-    };
-    wrap(masks, depth, &stream.finish())
+    let size = [masks.grid.width, masks.grid.height];
+    wrap(size, depth, &stream.finish())
 }
 
 /// Whether a row has fewer runs than its difference from the one above.
@@ -171,12 +168,19 @@ fn for_each_run(bytes: &[u8], mut emit: impl FnMut(u8, usize, usize)) {
     }
 }
 
-/// The chunks around a zlib stream.
-fn wrap(masks: &Masks, depth: png::BitDepth, stream: &[u8]) -> Result<Vec<u8>, ArchiveError> {
+/// The chunks around a zlib stream of so many columns and rows.
+pub(super) fn wrap(
+    [width, height]: [u32; 2],
+    depth: Depth,
+    stream: &[u8],
+) -> Result<Vec<u8>, ArchiveError> {
     let mut bytes = Vec::with_capacity(stream.len() + 64);
-    let mut encoder = png::Encoder::new(&mut bytes, masks.grid.width, masks.grid.height);
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Grayscale);
-    encoder.set_depth(depth);
+    encoder.set_depth(match depth {
+        Depth::Bit => png::BitDepth::One,
+        Depth::Grey => png::BitDepth::Eight,
+    });
     let mut writer = encoder.write_header().map_err(ArchiveError::write)?;
     let data = png::chunk::IDAT;
     writer

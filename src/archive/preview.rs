@@ -1,6 +1,8 @@
 //! The model seen from above, for the previews that printers show.
 
 use super::ArchiveError;
+use super::png::{self, Depth};
+use super::runs::RunWriter;
 use crate::ldi::Ldi;
 use crate::mesh::Mesh;
 
@@ -13,6 +15,8 @@ pub struct Look {
     brightness: Vec<u8>,
 }
 
+/// Filter of a row that is written as the differences from pixel to pixel.
+const LEFT: u8 = 1;
 /// Pixels of the longer side at most: more than any preview has.
 const LONGEST: u32 = 1024;
 
@@ -56,23 +60,19 @@ impl Look {
                 .contains(&position)
                 .then_some(position as usize)
         };
-        let mut pixels = Vec::with_capacity((width * height) as usize);
+        let mut stream = RunWriter::default();
         for row in 0..height {
+            stream.run(LEFT, 1);
+            let mut last = 0;
             for column in 0..width {
                 let place = source(row, height, self.height).zip(source(column, width, self.width));
-                pixels.push(place.map_or(0, |(row, column)| {
+                let pixel = place.map_or(0, |(row, column)| {
                     self.brightness[row * self.width + column]
-                }));
+                });
+                stream.run(pixel.wrapping_sub(last), 1);
+                last = pixel;
             }
         }
-        let mut bytes = Vec::new();
-        let mut encoder = png::Encoder::new(&mut bytes, width, height);
-        encoder.set_color(png::ColorType::Grayscale);
-        let mut writer = encoder.write_header().map_err(ArchiveError::write)?;
-        writer
-            .write_image_data(&pixels)
-            .map_err(ArchiveError::write)?;
-        writer.finish().map_err(ArchiveError::write)?;
-        Ok(bytes)
+        png::wrap([width, height], Depth::Grey, &stream.finish())
     }
 }
