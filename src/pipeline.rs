@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use serde::Serialize;
 use web_time::Instant;
 
-use crate::archive::{self, Job, Look};
+use crate::archive::{self, Job};
 use crate::error::Error;
 use crate::grid::{Bins, Grid, GridError};
 use crate::ldi::gpu::{self, Gpu};
@@ -419,7 +419,8 @@ impl Slicer {
             report: &planned.report,
             printer: options.printer()?,
             resin: &options.resin,
-            look: &Look::new(&sampled.mesh, &sampled.ldi),
+            mesh: &sampled.mesh,
+            ldi: &sampled.ldi,
         };
         let written = archive::write(options.format()?, &job, writer, &mut mask_progress);
         let (writer, warning) = written?;

@@ -3,6 +3,7 @@
 
 use std::fmt::Write as _;
 
+use super::preview::Look;
 use super::{ArchiveError, Container, File, Job, LayerEntry, thousandths};
 
 pub(super) struct Chitubox;
@@ -13,10 +14,11 @@ impl Container for Chitubox {
     }
 
     fn files(&self, job: &Job<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
+        let look = Look::new(job.mesh, job.ldi);
         Ok(vec![
             ("run.gcode".to_owned(), run_gcode(job, layers).into_bytes()),
-            ("preview.png".to_owned(), job.look.png(954, 850)?),
-            ("preview_cropping.png".to_owned(), job.look.png(168, 150)?),
+            ("preview.png".to_owned(), look.png(954, 850)?),
+            ("preview_cropping.png".to_owned(), look.png(168, 150)?),
         ])
     }
 }

@@ -19,12 +19,13 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use crate::exposure::Resin;
+use crate::ldi::Ldi;
 use crate::mask::{MaskCursor, Masks};
+use crate::mesh::Mesh;
 use crate::parallel::map_in_groups;
 use crate::printer::Printer;
 use crate::progress::{Cancelled, Progress, report};
 use crate::report::{Report, Warning, counted};
-pub use preview::Look;
 
 /// A file that printers or other programs take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -44,15 +45,6 @@ pub enum Format {
 }
 
 impl Format {
-    /// The usual ending of file names.
-    pub fn extension(self) -> &'static str {
-        match self {
-            Self::Png | Self::Chitubox => "zip",
-            Self::Uvj => "uvj",
-            Self::Sl1 => "sl1",
-        }
-    }
-
     fn container(self) -> &'static dyn Container {
         match self {
             Self::Png => &plain::Plain,
@@ -123,8 +115,10 @@ pub struct Job<'a> {
     pub printer: Option<&'a Printer>,
     /// The resin.
     pub resin: &'a Resin,
-    /// The model as previews show it.
-    pub look: &'a Look,
+    /// The model, for previews.
+    pub mesh: &'a Mesh,
+    /// The rays that it was sampled along.
+    pub ldi: &'a Ldi,
 }
 
 /// A layer of a print file.

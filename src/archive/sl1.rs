@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use super::preview::Look;
 use super::{ArchiveError, Container, File, Job, LayerEntry, thousandths};
 
 pub(super) struct Sl1;
@@ -25,16 +26,17 @@ impl Container for Sl1 {
     }
 
     fn files(&self, job: &Job<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
+        let look = Look::new(job.mesh, job.ldi);
         Ok(vec![
             ("config.ini".to_owned(), config(job, layers).into_bytes()),
             ("prusaslicer.ini".to_owned(), prusaslicer(job).into_bytes()),
             (
                 "thumbnail/thumbnail400x400.png".to_owned(),
-                job.look.png(400, 400)?,
+                look.png(400, 400)?,
             ),
             (
                 "thumbnail/thumbnail800x480.png".to_owned(),
-                job.look.png(800, 480)?,
+                look.png(800, 480)?,
             ),
         ])
     }

@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 
+use super::preview::Look;
 use super::{ArchiveError, Container, File, Job, LayerEntry};
 
 pub(super) struct Uvj;
@@ -15,11 +16,12 @@ impl Container for Uvj {
     }
 
     fn files(&self, job: &Job<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
+        let look = Look::new(job.mesh, job.ldi);
         let config = serde_json::to_vec(&config(job, layers)).map_err(ArchiveError::write)?;
         Ok(vec![
             ("config.json".to_owned(), config),
-            ("preview/huge.png".to_owned(), job.look.png(800, 480)?),
-            ("preview/tiny.png".to_owned(), job.look.png(400, 300)?),
+            ("preview/huge.png".to_owned(), look.png(800, 480)?),
+            ("preview/tiny.png".to_owned(), look.png(400, 300)?),
         ])
     }
 }

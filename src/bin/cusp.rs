@@ -13,7 +13,7 @@ use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use cusp_slicer::archive::Format;
 use cusp_slicer::exposure::Resin;
 use cusp_slicer::options::{Backend, Minimize, Options, Planner, Snap};
-use cusp_slicer::pipeline::{Slicer, Stage};
+use cusp_slicer::pipeline::{Slicer, Stage, StageProgress};
 use cusp_slicer::plan::HeightRange;
 use cusp_slicer::printer::PRINTERS;
 use cusp_slicer::profile::{Metric, Source};
@@ -418,16 +418,25 @@ fn plan(slicing: &Slicing) -> Result<(), Failure> {
     show(slicing, report)
 }
 
-fn tradeoff(slicing: &Slicing, points: usize) -> Result<(), Failure> {
-    slicing.check("tradeoff");
+/// Loads the model and asks something of it that makes no plan, with a progress bar.
+fn study<T>(
+    slicing: &Slicing,
+    ask: impl AsyncFnOnce(&mut Slicer, &mut StageProgress<'_>) -> Result<T, cusp_slicer::Error>,
+) -> Result<T, Failure> {
     let mut slicer = load(&slicing.model)?;
     stop_on_interrupt();
     let bar = Bar::new();
     let mut progress = |stage, fraction| bar.report(stage, fraction);
+    pollster::block_on(ask(&mut slicer, &mut progress))
+        .map_err(|error| Failure::in_file(&slicing.model, &error))
+}
+
+fn tradeoff(slicing: &Slicing, points: usize) -> Result<(), Failure> {
+    slicing.check("tradeoff");
     let options = slicing.options()?;
-    let curve = pollster::block_on(slicer.tradeoff(&options, points, &mut progress))
-        .map_err(|error| Failure::in_file(&slicing.model, &error))?;
-    drop(bar);
+    let curve = study(slicing, async |slicer, progress| {
+        slicer.tradeoff(&options, points, progress).await
+    })?;
     if slicing.json {
         return Ok(print_json(&curve)?);
     }
@@ -450,13 +459,10 @@ fn tradeoff(slicing: &Slicing, points: usize) -> Result<(), Failure> {
 
 fn compare(slicing: &Slicing) -> Result<(), Failure> {
     slicing.check("compare");
-    let mut slicer = load(&slicing.model)?;
-    stop_on_interrupt();
-    let bar = Bar::new();
-    let mut progress = |stage, fraction| bar.report(stage, fraction);
-    let comparison = pollster::block_on(slicer.compare(&slicing.options()?, &mut progress))
-        .map_err(|error| Failure::in_file(&slicing.model, &error))?;
-    drop(bar);
+    let options = slicing.options()?;
+    let comparison = study(slicing, async |slicer, progress| {
+        slicer.compare(&options, progress).await
+    })?;
     if slicing.json {
         return Ok(print_json(&comparison)?);
     }

@@ -198,10 +198,7 @@ impl LayerErrors {
 
     /// Error of the layer between two boundaries in steps. There is none above the last bin.
     pub fn steps_between(&self, lower: u32, upper: u32) -> u64 {
-        match self {
-            Self::Sum(errors) => errors.steps_between(lower, upper),
-            Self::Volume(errors) => (lower..upper).map(|bin| errors.steps_of(lower, bin)).sum(),
-        }
+        self.steps_added(lower, lower, upper)
     }
 
     /// What the bins from `from` to `to` add to the error of a layer from `lower` on.
