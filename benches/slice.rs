@@ -3,6 +3,9 @@
 //! A ball of 40 mm and 80,000 facets on a 12K screen in every format; then each model named, 60 mm high, at 2048 pixels along
 //! its longer side in uniform layers of 0.05 mm. With `--peer` `prusa-slicer`, which must be on PATH, does the same in turn.
 
+#[path = "../tests/common/peer.rs"]
+mod peer;
+
 use std::f64::consts::{PI, TAU};
 use std::fs;
 use std::path::Path;
@@ -148,31 +151,12 @@ fn compare(path: &Path, folder: &Path, with_peer: bool) {
     fs::write(&model, binary_stl(&scaled)).expect("the model");
     let (ours, peers) = (folder.join("ours.sl1"), folder.join("peers.sl1"));
     let side_mm = pitch_mm * RAYS;
-    let settings = folder.join("sla.ini");
-    let lines = [
-        "printer_technology = SLA".to_owned(),
-        format!("display_width = {side_mm}\ndisplay_height = {side_mm}"),
-        format!("display_pixels_x = {RAYS}\ndisplay_pixels_y = {RAYS}"),
-        "display_orientation = landscape\nsupports_enable = 0\npad_enable = 0".to_owned(),
-        format!(
-            "bed_shape = 0x0,{side_mm}x0,{side_mm}x{side_mm},0x{side_mm}\ndisplay_mirror_x = 0"
-        ),
-        "layer_height = 0.05\ninitial_layer_height = 0.05\ngamma_correction = 0".to_owned(),
-    ];
-    fs::write(&settings, lines.join("\n")).expect("the settings");
     let options = format!("--pixels {RAYS}x{RAYS} --pitch {pitch_mm} --format sl1");
     let mut times = [Vec::new(), Vec::new()];
     for _ in 0..ROUNDS {
         times[0].push(time(&mut cusp(&model, &ours, &options)));
         if with_peer {
-            let mut peer = Command::new("prusa-slicer");
-            let middle = format!("{0},{0}", side_mm / 2.0);
-            peer.args(["--export-sla", "--center", &middle])
-                .arg("--load")
-                .arg(&settings)
-                .arg("-o")
-                .arg(&peers)
-                .arg(&model);
+            let mut peer = peer::prusa_slicer(&model, &peers, folder, side_mm, RAYS as u32);
             times[1].push(time(&mut peer));
         }
     }
@@ -194,32 +178,7 @@ fn compare(path: &Path, folder: &Path, with_peer: bool) {
 
 /// How many lit pixels differ between two SL1 files.
 fn compare_masks(ours: &Path, peers: &Path) {
-    let masks = |path: &Path| -> Vec<Vec<u8>> {
-        let mut zip = zip::ZipArchive::new(fs::File::open(path).expect("a file")).expect("a zip");
-        let mut names: Vec<String> = (0..zip.len())
-            .map(|index| {
-                zip.by_index(index)
-                    .expect("an entry")
-                    .name()
-                    .expect("a name")
-                    .into_owned()
-            })
-            .filter(|name| !name.contains("thumbnail") && !name.contains("ini"))
-            .collect();
-        names.sort();
-        let decode = |name: &String| {
-            let mut bytes = Vec::new();
-            std::io::copy(&mut zip.by_name(name).expect("a mask"), &mut bytes).expect("a mask");
-            let mut reader = png::Decoder::new(std::io::Cursor::new(bytes))
-                .read_info()
-                .expect("a PNG");
-            let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];
-            reader.next_frame(&mut pixels).expect("pixels");
-            pixels
-        };
-        names.iter().map(decode).collect()
-    };
-    let (ours, peers) = (masks(ours), masks(peers));
+    let (ours, peers) = (peer::sl1_masks(ours), peer::sl1_masks(peers));
     let mut lit = 0u64;
     let mut differing = 0u64;
     for (own, peer) in ours.iter().zip(&peers) {

@@ -52,6 +52,17 @@ pub enum GridError {
         /// Pixels in y.
         height: u64,
     },
+    /// More rays than there can be, several to a pixel.
+    #[error(
+        "anti-aliasing asks for {width} × {height} rays, and there can be 32768 a side and 268 million in all; choose a \
+         lower level"
+    )]
+    TooFine {
+        /// Rays in x.
+        width: u32,
+        /// Rays in y.
+        height: u32,
+    },
     /// The model is wider or deeper than the grid.
     #[error(
         "the model is {model_mm_x:.3} × {model_mm_y:.3} mm, but the grid covers only \
@@ -99,6 +110,7 @@ impl GridError {
             Self::BadLength { .. } => "bad-length",
             Self::BadTime { .. } => "bad-time",
             Self::BadSize { .. } => "grid-bad-size",
+            Self::TooFine { .. } => "grid-too-fine",
             Self::ModelTooLarge { .. } => "model-too-large",
             Self::ModelTooHigh { .. } => "model-too-high",
             Self::TooManyBins { .. } => "too-many-bins",
@@ -221,6 +233,18 @@ impl Grid {
         DVec2::new(self.pitch_mm, self.pitch_y_mm)
     }
 
+    /// Whether there can be so many rays.
+    ///
+    /// # Errors
+    /// [`GridError::TooFine`].
+    pub fn check_rays(&self) -> Result<(), GridError> {
+        let (width, height) = (self.width, self.height);
+        if width.max(height) > MAX_SIDE || self.pixels() as u64 > MAX_PIXELS {
+            return Err(GridError::TooFine { width, height });
+        }
+        Ok(())
+    }
+
     /// The part of the grid that covers the model, with a margin for rounding: only there can rays meet it.
     #[must_use]
     pub fn around_model(&self, bounds: &Bounds) -> Self {
@@ -245,6 +269,18 @@ impl Grid {
     pub fn offset_of(&self, part: &Self) -> [u32; 2] {
         let offset = self.to_pixels(part.corner_mm).round();
         [offset.x as u32, offset.y as u32]
+    }
+
+    /// The grid with each pixel cut into so many in x and y.
+    #[must_use]
+    pub fn refined(&self, [columns, rows]: [u32; 2]) -> Self {
+        Self {
+            width: self.width * columns,
+            height: self.height * rows,
+            pitch_mm: self.pitch_mm / f64::from(columns),
+            pitch_y_mm: self.pitch_y_mm / f64::from(rows),
+            corner_mm: self.corner_mm,
+        }
     }
 
     /// Number of pixels, and of rays.

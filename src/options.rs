@@ -6,6 +6,7 @@ use crate::archive::Format;
 use crate::error::Error;
 use crate::exposure::Resin;
 use crate::grid::Bins;
+use crate::mask::Samples;
 use crate::plan::optimal::Objective;
 use crate::plan::{HeightRange, Limits, uniform};
 use crate::printer::{self, Printer};
@@ -110,6 +111,8 @@ pub struct Options {
     pub format: Option<Format>,
     /// Pixels along the model's longer horizontal side where neither is given.
     pub rays: u32,
+    /// Rays of a pixel, and parts of a layer, that its grey is averaged over: 1, 2, 4 or 8. With 1 pixels are lit or dark.
+    pub antialias: u32,
     /// Least layer thickness.
     pub layer_min_mm: f64,
     /// Greatest layer thickness.
@@ -123,7 +126,7 @@ pub struct Options {
     pub max_time_s: Option<f64>,
     /// Height of a bin of the profile.
     pub bin_mm: f64,
-    /// What every height is a multiple of: the printer's motor step; a bin if absent.
+    /// What every height is a multiple of: the printer's motor step, or a bin if absent and no printer is named.
     pub step_mm: Option<f64>,
     /// Height ranges with a layer thickness of their own.
     pub ranges: Vec<HeightRange>,
@@ -158,6 +161,7 @@ impl Default for Options {
             mirror: None,
             format: None,
             rays: 2048,
+            antialias: 1,
             layer_min_mm: 0.05,
             layer_max_mm: 0.15,
             tolerance: None,
@@ -240,6 +244,19 @@ impl Options {
         Ok(self.mirror.or(preset).unwrap_or(false))
     }
 
+    /// What the light of a pixel is averaged over.
+    ///
+    /// # Errors
+    /// [`Error::Options`].
+    pub(crate) fn samples(&self) -> Result<Samples, Error> {
+        Samples::of_level(self.antialias).ok_or_else(|| Error::Options {
+            reason: format!(
+                "there are anti-aliasing levels 1, 2, 4 and 8, but no {}",
+                self.antialias
+            ),
+        })
+    }
+
     /// What plans must keep to within `tolerance`.
     pub(crate) fn limits(&self, tolerance: f64) -> Limits {
         Limits {
@@ -248,7 +265,10 @@ impl Options {
             tolerance,
             ranges: self.ranges.clone(),
             planes_mm: self.planes_mm.clone(),
-            step_mm: self.step_mm,
+            step_mm: self.step_mm.or_else(|| {
+                let printer = self.printer().ok().flatten();
+                printer.map(|printer| printer.step_mm)
+            }),
         }
     }
 
@@ -287,6 +307,7 @@ impl Options {
             size_mm: self.bin_mm,
         };
         self.check_printer()?;
+        self.samples()?;
         self.resin.check().map_err(crate::plan::PlanError::from)?;
         let given = [
             self.tolerance.is_some(),

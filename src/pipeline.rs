@@ -1,6 +1,6 @@
 //! The order of stages, and nothing else: the only module that knows it.
 
-use std::io::{Seek, Write};
+use std::io::Write;
 use std::ops::ControlFlow;
 
 use serde::Serialize;
@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::grid::{Bins, Grid, GridError};
 use crate::ldi::gpu::{self, Gpu};
 use crate::ldi::{Ldi, LdiError, cpu};
-use crate::mask::{MaskCursor, Masks, Side};
+use crate::mask::{MaskCursor, Masks, Samples, Side};
 use crate::mesh::Mesh;
 use crate::options::{Backend, Options};
 use crate::plan::Plan;
@@ -88,6 +88,7 @@ type SamplingOptions = (
     Option<[u32; 2]>,
     [Option<f64>; 2],
     u32,
+    u32,
     Backend,
 );
 
@@ -95,6 +96,7 @@ type SamplingOptions = (
 struct Planned {
     options: Options,
     plan: Plan,
+    samples: Samples,
     report: Report,
     masks: Option<(Masks, MaskCursor)>,
 }
@@ -163,6 +165,7 @@ impl Slicer {
             .insert(Planned {
                 options: options.clone(),
                 plan,
+                samples: options.samples()?,
                 report,
                 masks: None,
             })
@@ -285,7 +288,10 @@ impl Slicer {
         let clock = Instant::now();
         let mut ldi_progress = |fraction| progress(Stage::Ldi, fraction);
         let mut warnings = mesh_warnings(&mesh);
-        let rays = grid.around_model(&bounds);
+        let rays = grid
+            .refined(options.samples()?.rays())
+            .around_model(&bounds);
+        rays.check_rays()?;
         let on_gpu = self.sample_on_gpu(&mesh, &rays, options, &mut ldi_progress);
         let (ldi, adapter) = match on_gpu.await {
             Ok((ldi, adapter)) => (ldi, Some(adapter)),
@@ -393,7 +399,7 @@ impl Slicer {
     ///
     /// # Errors
     /// [`Error::NoPlan`], [`Error::Archive`].
-    pub fn write_archive<W: Write + Seek>(
+    pub fn write_archive<W: Write>(
         &mut self,
         writer: W,
         progress: &mut StageProgress<'_>,
@@ -404,7 +410,7 @@ impl Slicer {
         let options = planned.options.clone();
         let mirrored;
         let masks = if options.is_mirrored()? {
-            mirrored = Masks::new(&sampled.ldi, &planned.plan, &sampled.grid, Side::Below);
+            mirrored = planned.new_masks(sampled, Side::Below);
             &mirrored
         } else {
             planned.masks(sampled);
@@ -441,11 +447,17 @@ impl Slicer {
 
 impl Planned {
     fn masks(&mut self, sampled: &Sampled) -> &mut (Masks, MaskCursor) {
-        self.masks.get_or_insert_with(|| {
-            let masks = Masks::new(&sampled.ldi, &self.plan, &sampled.grid, Side::Above);
+        let masks = self.masks.take().unwrap_or_else(|| {
+            let masks = self.new_masks(sampled, Side::Above);
             let cursor = masks.cursor();
             (masks, cursor)
-        })
+        });
+        self.masks.insert(masks)
+    }
+
+    fn new_masks(&self, sampled: &Sampled, side: Side) -> Masks {
+        let Sampled { ldi, grid, .. } = sampled;
+        Masks::new(ldi, &self.plan, grid, self.samples, side)
     }
 }
 
@@ -456,6 +468,7 @@ fn sampling_options(options: &Options) -> SamplingOptions {
         options.pixels,
         [options.pitch_mm, options.pitch_y_mm],
         options.rays,
+        options.antialias,
         options.backend,
     )
 }
@@ -509,6 +522,7 @@ impl Sampled {
                 height: self.grid.height,
                 pitch_mm: self.grid.pitch_mm,
                 pitch_y_mm: self.grid.pitch_y_mm,
+                antialias: options.antialias,
                 is_mirrored: options.is_mirrored()?,
             },
             warnings,

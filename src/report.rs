@@ -129,6 +129,8 @@ pub struct MaskReport {
     pub pitch_mm: f64,
     /// Side of a pixel in y.
     pub pitch_y_mm: f64,
+    /// Level of anti-aliasing; 1 is none.
+    pub antialias: u32,
     /// Whether print files have them mirrored left to right.
     pub is_mirrored: bool,
 }

@@ -2,10 +2,10 @@
 //!
 //! Errors are thrown as `{ code, message, detail }`; see [`crate::Error`].
 
-use std::io::Cursor;
+use std::io::{self, BufWriter, Write};
 use std::ops::ControlFlow;
 
-use js_sys::Function;
+use js_sys::{Function, Uint8Array};
 use serde::Serialize;
 use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
@@ -169,20 +169,56 @@ impl Slicer {
         self.slicer.mask(layer).map_err(throw)
     }
 
-    /// The print file of the last plan, in the format that its options ask for.
+    /// Writes the print file of the last plan, in the format that its options ask for: `take` is called with one chunk
+    /// after another.
     ///
     /// # Errors
-    /// Throws a `CuspError`.
+    /// Throws a `CuspError`, or what `take` throws.
     pub fn archive(
         &mut self,
+        #[wasm_bindgen(unchecked_param_type = "(chunk: Uint8Array) => void")] take: &Function,
         #[wasm_bindgen(unchecked_param_type = "(stage: Stage, fraction: number) => void")]
         progress: &Function,
-    ) -> Result<Vec<u8>, JsValue> {
-        let writer = Cursor::new(Vec::new());
-        let (writer, _) = self
+    ) -> Result<(), JsValue> {
+        let chunks = Chunks { take, thrown: None };
+        let mut writer = BufWriter::with_capacity(CHUNK_BYTES, chunks);
+        let written = self
             .slicer
-            .write_archive(writer, &mut progress_to(progress))
-            .map_err(throw)?;
-        Ok(writer.into_inner())
+            .write_archive(&mut writer, &mut progress_to(progress))
+            .map(|_| ());
+        let flushed = writer.flush();
+        let (chunks, _) = writer.into_parts();
+        if let Some(thrown) = chunks.thrown {
+            return Err(thrown);
+        }
+        written.map_err(throw)?;
+        flushed.map_err(|error| throw(crate::archive::ArchiveError::from(error)))
+    }
+}
+
+/// Bytes that a print file is handed out by.
+const CHUNK_BYTES: usize = 1 << 18;
+
+/// A writer that calls a JavaScript function.
+struct Chunks<'a> {
+    take: &'a Function,
+    /// What that function has thrown.
+    thrown: Option<JsValue>,
+}
+
+impl Write for Chunks<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let chunk = Uint8Array::from(bytes);
+        match self.take.call1(&JsValue::NULL, &chunk) {
+            Ok(_) => Ok(bytes.len()),
+            Err(thrown) => {
+                self.thrown = Some(thrown);
+                Err(io::ErrorKind::Other.into())
+            }
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
     }
 }

@@ -4,7 +4,7 @@
 
 mod common;
 
-use std::io::{Cursor, Read};
+use std::io::{Cursor, Read, Seek, SeekFrom, Write};
 
 use common::{binary_stl, quiet, solids};
 use cusp_slicer::archive::Format;
@@ -142,4 +142,46 @@ fn an_open_model_slices_with_a_warning() {
         .map(|warning| &warning["code"])
         .collect();
     assert_eq!(codes, ["open-mesh", "unclosed-rays"]);
+}
+
+/// Offsets beyond 4 GiB, by the same calls as print files are written with, in a file that is a hole up to there.
+#[test]
+fn zips_beyond_four_gibibytes_are_read_by_another_library() {
+    const OFFSET: u64 = 5 << 30;
+    let mut file = tempfile::tempfile().unwrap();
+    file.seek(SeekFrom::Start(OFFSET)).unwrap();
+    let mut zip = rawzip::ZipArchiveWriter::builder()
+        .with_offset(OFFSET)
+        .build(&mut file);
+    for name in ["a.png", "b.png"] {
+        let (mut entry, _) = zip.new_file(name).start().unwrap();
+        entry.write_all(name.as_bytes()).unwrap();
+        let crc = rawzip::crc32(name.as_bytes());
+        let sum = rawzip::DataDescriptorOutput::new(crc, name.len() as u64);
+        entry.finish(sum).unwrap();
+    }
+    zip.finish().unwrap();
+    let mut zip = zip::ZipArchive::new(file).unwrap();
+    assert_eq!(zip.len(), 2);
+    for name in ["a.png", "b.png"] {
+        let mut text = String::new();
+        let mut entry = zip.by_name(name).unwrap();
+        assert!(entry.header_start() >= OFFSET);
+        entry.read_to_string(&mut text).unwrap();
+        assert_eq!(text, name);
+    }
+}
+
+#[test]
+fn more_files_than_a_plain_zip_counts_are_all_there() {
+    let options = Options {
+        rays: 3,
+        bin_mm: 0.001,
+        planner: Planner::Uniform { layer_mm: 0.001 },
+        ..options()
+    };
+    let tower = solids::cuboid(glam::Vec3::new(3.0, 3.0, 66.0));
+    let (_, bytes, report) = slice(&tower, &options);
+    let zip = zip::ZipArchive::new(Cursor::new(bytes)).unwrap();
+    assert_eq!((zip.len(), &report["layers"]), (66_001, &66_000.into()));
 }

@@ -10,7 +10,7 @@ use std::io::{Cursor, Read};
 use common::{binary_stl, on_plate, quiet, sample, solids};
 use cusp_slicer::grid::{Bins, Grid};
 use cusp_slicer::ldi::{Hit, cpu};
-use cusp_slicer::mask::{Masks, Side};
+use cusp_slicer::mask::{LEVELS, Light, MaskCursor, Masks, Samples, Side};
 use cusp_slicer::options::{Backend, Options};
 use cusp_slicer::pipeline::Slicer;
 use cusp_slicer::plan::{Plan, uniform};
@@ -24,6 +24,13 @@ type Area = Box<dyn Fn(f64) -> f64>;
 fn plan(height_mm: f64, layer_mm: f64) -> Plan {
     let bins = Bins::of_height(height_mm, layer_mm / 5.0).unwrap();
     uniform::plan(bins, height_mm, layer_mm).unwrap()
+}
+
+fn bits(cursor: &MaskCursor) -> &[u8] {
+    match cursor.light() {
+        Light::Bits(bits) => bits,
+        Light::Samples(_) => panic!("pixels are grey"),
+    }
 }
 
 #[test]
@@ -51,7 +58,7 @@ fn areas_have_their_closed_forms() {
     for (name, triangles, area_at) in cases {
         let (mesh, ldi) = sample(&triangles, 800);
         let plan = plan(mesh.bounds().size().z, 0.5);
-        let masks = Masks::new(&ldi, &plan, &ldi.grid, Side::Above);
+        let masks = Masks::new(&ldi, &plan, &ldi.grid, Samples::ONE, Side::Above);
         let mut cursor = masks.cursor();
         let full = area_at(plan.middle_mm()[plan.layers() / 2]);
         for (layer, middle_mm) in plan.middle_mm().into_iter().enumerate() {
@@ -74,7 +81,7 @@ fn the_volume_of_all_masks_is_that_of_the_mesh() {
         }
         let (mesh, ldi) = sample(&triangles, 600);
         let plan = plan(mesh.bounds().size().z, 0.1);
-        let masks = Masks::new(&ldi, &plan, &ldi.grid, Side::Above);
+        let masks = Masks::new(&ldi, &plan, &ldi.grid, Samples::ONE, Side::Above);
         let mut cursor = masks.cursor();
         let pixel_mm2 = ldi.grid.pitch_mm.powi(2);
         let volume: f64 = (0..masks.layers())
@@ -99,7 +106,7 @@ fn overlapping_spheres_have_the_volume_of_their_union() {
     triangles.extend(solids::moved(&solids::sphere(s, 6), offset));
     let (mesh, ldi) = sample(&triangles, 500);
     let plan = plan(mesh.bounds().size().z, 0.1);
-    let masks = Masks::new(&ldi, &plan, &ldi.grid, Side::Above);
+    let masks = Masks::new(&ldi, &plan, &ldi.grid, Samples::ONE, Side::Above);
     let mut cursor = masks.cursor();
     let volume: f64 = plan
         .thickness_mm()
@@ -178,7 +185,7 @@ fn every_pixel_agrees_with_a_look_along_its_ray() {
     for (name, triangles) in solids::all() {
         let (mesh, ldi) = sample(&triangles, 61);
         let plan = plan(mesh.bounds().size().z, 0.37);
-        let masks = Masks::new(&ldi, &plan, &ldi.grid, Side::Above);
+        let masks = Masks::new(&ldi, &plan, &ldi.grid, Samples::ONE, Side::Above);
         let middles = plan.middle_mm();
         let mut cursor = masks.cursor();
         // Down, up and across, since a cursor moves both ways.
@@ -190,7 +197,7 @@ fn every_pixel_agrees_with_a_look_along_its_ray() {
             for ray in 0..ldi.rays() {
                 let (column, row) = (ray % 61, ray / 61);
                 let bit =
-                    cursor.bits()[row * masks.window.row_bytes + column / 8] >> (7 - column % 8);
+                    bits(&cursor)[row * masks.window.row_bytes + column / 8] >> (7 - column % 8);
                 let below = |hit: &&Hit| f64::from(hit.z_mm) <= middles[layer];
                 let winding: i32 = ldi.ray(ray).iter().filter(below).map(|h| h.winding()).sum();
                 let is_inside = winding != 0;
@@ -208,7 +215,7 @@ fn holes_leave_no_streaks() {
     let masks_of = |triangles: &solids::Triangles| {
         let (mesh, ldi) = sample(triangles, 300);
         let plan = plan(mesh.bounds().size().z, 0.25);
-        Masks::new(&ldi, &plan, &ldi.grid, Side::Above)
+        Masks::new(&ldi, &plan, &ldi.grid, Samples::ONE, Side::Above)
     };
     let expected = masks_of(&whole);
     let mut random = fastrand::Rng::with_seed(29);
@@ -219,10 +226,9 @@ fn holes_leave_no_streaks() {
     for layer in 0..expected.layers() {
         expected_cursor.seek(&expected, layer);
         found_cursor.seek(&found, layer);
-        let differing: u32 = expected_cursor
-            .bits()
+        let differing: u32 = bits(&expected_cursor)
             .iter()
-            .zip(found_cursor.bits())
+            .zip(bits(&found_cursor))
             .map(|(expected, found)| (expected ^ found).count_ones())
             .sum();
         // A facet of the sphere is 20 pixels wide and its cap lies at most a tenth of a pixel off.
@@ -241,6 +247,7 @@ fn inside_out_and_doubled_bodies_look_like_the_plain_one() {
             &ldi,
             &plan(mesh.bounds().size().z, 0.25),
             &ldi.grid,
+            Samples::ONE,
             Side::Above,
         )
     };
@@ -258,7 +265,7 @@ fn rays_around_the_model_give_the_masks_of_the_whole_plate() {
     let plan = plan(mesh.bounds().size().z, 0.25);
     let masks = |rays: &Grid| {
         let ldi = cpu::sample(&mesh, rays, &mut silent).unwrap();
-        let masks = Masks::new(&ldi, &plan, &grid, Side::Above);
+        let masks = Masks::new(&ldi, &plan, &grid, Samples::ONE, Side::Above);
         let mut cursor = masks.cursor();
         let mut bits = Vec::new();
         for layer in 0..masks.layers() {
@@ -268,4 +275,120 @@ fn rays_around_the_model_give_the_masks_of_the_whole_plate() {
         bits
     };
     assert!(masks(&grid) == masks(&part));
+}
+
+/// Grey by its definition: every ray of a pixel looked along at the middle of every part of a layer.
+#[test]
+fn grey_is_the_part_of_samples_inside() {
+    for (name, triangles) in solids::all() {
+        let mesh = on_plate(&triangles);
+        let size = mesh.bounds().size();
+        let pitch_mm = size.x.max(size.y) / 23.0;
+        // Off the middle by a part of a pixel, so that pixels at both ends have but some of their rays over the model.
+        let grid = Grid::plate(&mesh.bounds(), [45, 38], [pitch_mm, pitch_mm * 0.9]).unwrap();
+        let plan = plan(size.z, size.z / 7.0);
+        for level in LEVELS {
+            let samples = Samples::of_level(level).unwrap();
+            let fine = grid.refined(samples.rays());
+            let ldi = cpu::sample(&mesh, &fine.around_model(&mesh.bounds()), &mut silent).unwrap();
+            let whole = cpu::sample(&mesh, &fine, &mut silent).unwrap();
+            let expected = |layer: usize, row: u32, column: u32| {
+                let [bottom, top] = [0, 1].map(|end| f64::from(plan.boundaries[layer + end]));
+                let mut lit = 0;
+                for part in 0..samples.sublayers {
+                    let height = (f64::from(part) + 0.5) / f64::from(samples.sublayers);
+                    let middle_mm = (bottom + (top - bottom) * height) * plan.bins.size_mm;
+                    for y in 0..samples.rows {
+                        for x in 0..samples.columns {
+                            let (row, column) =
+                                (row * samples.rows + y, column * samples.columns + x);
+                            let hits = whole.ray((row * fine.width + column) as usize);
+                            let below = hits.iter().filter(|hit| f64::from(hit.z_mm) <= middle_mm);
+                            lit += u8::from(below.map(|hit| hit.winding()).sum::<i32>() != 0);
+                        }
+                    }
+                }
+                lit
+            };
+            for side in [Side::Above, Side::Below] {
+                let masks = Masks::new(&ldi, &plan, &grid, samples, side);
+                let window = masks.window;
+                let mut cursor = masks.cursor();
+                let mut any = 0;
+                for layer in (0..masks.layers()).rev().chain(0..masks.layers()) {
+                    cursor.seek(&masks, layer);
+                    let mut lit_pixels = 0;
+                    for row in 0..grid.height {
+                        for column in 0..grid.width {
+                            let expected = expected(layer, row, column);
+                            let seen = match side {
+                                Side::Above => column,
+                                Side::Below => grid.width - 1 - column,
+                            };
+                            let in_window = (row as usize)
+                                .checked_sub(window.first_row)
+                                .filter(|&row| row < window.rows)
+                                .zip((seen as usize).checked_sub(window.first_byte * 8))
+                                .filter(|&(_, column)| column < window.row_pixels());
+                            let found = in_window.map_or(0, |(row, column)| {
+                                let pixel = row * window.row_pixels() + column;
+                                match cursor.light() {
+                                    Light::Bits(bits) => bits[pixel / 8] >> (7 - pixel % 8) & 1,
+                                    Light::Samples(lit) => lit[pixel],
+                                }
+                            });
+                            assert_eq!(
+                                found, expected,
+                                "{name}, level {level}, {side:?}, layer {layer}, {column} {row}"
+                            );
+                            lit_pixels += u64::from(expected > 0);
+                            any += u32::from(expected);
+                        }
+                    }
+                    assert_eq!(cursor.lit_pixels(), lit_pixels);
+                }
+                assert!(any > 0, "{name} has no light");
+            }
+        }
+    }
+}
+
+/// Light is volume: within a thousandth of the mesh's own at 2048 pixels, and with grey at far fewer.
+#[test]
+fn light_adds_up_to_the_volume_of_closed_models() {
+    let cases = [
+        ("sphere", solids::sphere(9.7, 6)),
+        ("cone", solids::cone(7.3, 11.0, 90)),
+        ("cylinder", solids::cylinder(4.3, 7.0, 40)),
+        ("gyroid", solids::gyroid(2, 40)),
+    ];
+    for (name, triangles) in cases {
+        for (pixels, level) in [(2048, 1), (256, 8)] {
+            let mesh = on_plate(&triangles);
+            let grid = Grid::around(&mesh.bounds(), pixels).unwrap();
+            let samples = Samples::of_level(level).unwrap();
+            let fine = grid.refined(samples.rays());
+            let ldi = cpu::sample(&mesh, &fine, &mut silent).unwrap();
+            let plan = plan(mesh.bounds().size().z, 0.05);
+            let masks = Masks::new(&ldi, &plan, &grid, samples, Side::Above);
+            let mut cursor = masks.cursor();
+            let mut volume_mm3 = 0.0;
+            for (layer, thickness_mm) in plan.thickness_mm().into_iter().enumerate() {
+                cursor.seek(&masks, layer);
+                let lit = match cursor.light() {
+                    Light::Bits(_) => cursor.lit_pixels() as f64,
+                    Light::Samples(lit) => {
+                        let lit: u64 = lit.iter().map(|&lit| u64::from(lit)).sum();
+                        lit as f64 / f64::from(samples.total())
+                    }
+                };
+                volume_mm3 += lit * grid.pixel_mm2() * thickness_mm;
+            }
+            let expected = mesh.volume_mm3();
+            assert!(
+                (volume_mm3 / expected - 1.0).abs() <= 1e-3,
+                "{name} at {pixels}: {volume_mm3} mm³, not {expected}"
+            );
+        }
+    }
 }

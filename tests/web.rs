@@ -3,11 +3,10 @@
 
 mod common;
 
-use std::io::Cursor;
-
 #[cfg(target_arch = "wasm32")]
 use common::shifted_grid;
 use common::{binary_stl, fingerprint, on_plate, quiet, solids};
+use cusp_slicer::archive::Format;
 use cusp_slicer::grid::Grid;
 use cusp_slicer::ldi::cpu;
 #[cfg(target_arch = "wasm32")]
@@ -69,10 +68,19 @@ async fn check_plan_and_masks() {
         (report.layers, fingerprint(&masks)),
         (66, 0xc6b7_c4d0_730d_43ed)
     );
-    let (archive, _) = slicer
-        .write_archive(Cursor::new(Vec::new()), &mut quiet)
-        .unwrap();
-    assert_eq!(fingerprint(&archive.into_inner()), 0x2dc5_89ed_63f7_83ff);
+    let archive = |slicer: &mut Slicer| {
+        let (bytes, _) = slicer.write_archive(Vec::new(), &mut quiet).unwrap();
+        fingerprint(&bytes)
+    };
+    assert_eq!(archive(&mut slicer), 0x08f5_84b2_53a0_41c1);
+    let grey = Options {
+        antialias: 4,
+        printer: Some("sl1s".to_owned()),
+        format: Some(Format::Chitubox),
+        ..options()
+    };
+    slicer.plan(&grey, &mut quiet).await.unwrap();
+    assert_eq!(archive(&mut slicer), 0x1df1_a66a_51cc_b1ce);
     // Every metric, source and objective.
     let mut plans = Vec::new();
     for metric in [

@@ -85,7 +85,7 @@ fn run_gcode(job: &Job<'_>, layers: &[LayerEntry]) -> String {
         ("bottomLightOffTime", mm(resin.wait_s)),
         ("bottomPWMLight", "255".to_owned()),
         ("PWMLight", "255".to_owned()),
-        ("antiAliasLevel", "1".to_owned()),
+        ("antiAliasLevel", mask.antialias.to_string()),
         ("bottomLayCount", resin.bottom_layers.to_string()),
         ("bottomLayerCount", resin.bottom_layers.to_string()),
         ("totalLayer", layers.len().to_string()),

@@ -66,7 +66,7 @@ fn config(job: &Job<'_>, layers: &[LayerEntry]) -> Value {
             },
             "Exposure": exposure(resin.exposure_s(usual_mm)),
             "Bottom": bottom,
-            "AntiAliasLevel": 1,
+            "AntiAliasLevel": mask.antialias,
         },
         "Layers": layers,
     })

@@ -12,6 +12,7 @@ use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use cusp_slicer::archive::Format;
 use cusp_slicer::exposure::Resin;
+use cusp_slicer::mask::LEVELS;
 use cusp_slicer::options::{Backend, Minimize, Options, Planner, Snap};
 use cusp_slicer::pipeline::{Slicer, Stage, StageProgress};
 use cusp_slicer::plan::HeightRange;
@@ -104,6 +105,9 @@ struct Slicing {
     /// Side of a pixel, or its sides in x and y: 0.019 or 0.019x0.024
     #[arg(long, value_name = "MM", value_parser = pitch, help_heading = "Printer")]
     pitch: Option<[f64; 2]>,
+    /// Smooth edges by grey: average each pixel over so many rays, and as many parts of its layer
+    #[arg(long, value_name = "LEVEL", default_value = "1", value_parser = antialias, help_heading = "Printer")]
+    aa: u32,
     /// Mirror the masks of print files left to right
     #[arg(long, value_name = "YES", help_heading = "Printer")]
     mirror: Option<bool>,
@@ -218,6 +222,7 @@ impl Slicing {
             pixels: self.pixels,
             pitch_mm: self.pitch.map(|pitch| pitch[0]),
             pitch_y_mm: self.pitch.map(|pitch| pitch[1]),
+            antialias: self.aa,
             mirror: self.mirror,
             format: self.format,
             layer_min_mm: self.layer_min,
@@ -260,6 +265,12 @@ fn pitch(text: &str) -> Result<[f64; 2], String> {
         Some((x, y)) => Ok([length(x)?, length(y)?]),
         None => Ok([length(text)?; 2]),
     }
+}
+
+/// Parses a level of anti-aliasing.
+fn antialias(text: &str) -> Result<u32, String> {
+    let level = text.parse().ok().filter(|level| LEVELS.contains(level));
+    level.ok_or_else(|| format!("there are levels {LEVELS:?}"))
 }
 
 /// Parses a positive number.

@@ -228,9 +228,21 @@ impl Plan {
 
     /// Height of the middle of every layer in millimetres, where its mask is sampled.
     pub fn middle_mm(&self) -> Vec<f64> {
-        self.boundaries
-            .windows(2)
-            .map(|layer| f64::from(layer[0] + layer[1]) * 0.5 * self.bins.size_mm)
+        self.middles_of_parts_mm(1)
+    }
+
+    /// Heights of the middles of so many equal parts of every layer, in millimetres.
+    pub fn middles_of_parts_mm(&self, parts: u32) -> Vec<f64> {
+        let halves = 2 * u64::from(parts);
+        let layers = self.boundaries.windows(2);
+        layers
+            .flat_map(|layer| {
+                let [bottom, top] = [layer[0], layer[1]].map(u64::from);
+                (0..u64::from(parts)).map(move |part| {
+                    let bins = bottom * halves + (top - bottom) * (2 * part + 1);
+                    bins as f64 / halves as f64 * self.bins.size_mm
+                })
+            })
             .collect()
     }
 

@@ -21,7 +21,7 @@ class FakeClient {
   readonly warm = (): void => undefined;
   readonly open = (_file: Blob, watch: Watch): Promise<MeshInfo> => this.#call("open", watch);
   readonly plan = (options: Options, watch: Watch): Promise<Plan> => this.#call("plan", watch, options);
-  readonly archive = (watch: Watch): Promise<Uint8Array> => this.#call("archive", watch);
+  readonly archive = (watch: Watch): Promise<Blob> => this.#call("archive", watch);
   readonly mask = async (layer: number): Promise<Uint8Array> => {
     this.masks.push(layer);
     return Uint8Array.of(255);
@@ -173,7 +173,7 @@ test("settings changed during a download wait for it", async () => {
   session.change({ rays: "4096" });
   await settle();
   expect(client.last.what).toBe("archive");
-  client.last.resolve(new Uint8Array(3));
+  client.last.resolve(new Blob(["zip"]));
   expect(await download).not.toBeNull();
   await settle();
   expect(client.last.options?.rays).toBe(4096);
@@ -193,7 +193,7 @@ test("settings changed while a file is read belong to it, or to the model before
 test("a zip is made once for each plan", async () => {
   await planned();
   const first = session.download();
-  client.last.resolve(new Uint8Array(3));
+  client.last.resolve(new Blob(["zip"]));
   await settle();
   expect(await first).toMatchObject({ name: "a-cusp.zip" });
   const again = await session.download();

@@ -158,11 +158,9 @@ export class Session {
     const name = archiveName(model.name);
     if (this.#archive?.of === result) return { name, blob: this.#archive.blob };
     this.problem = null;
-    const zip = await this.#run("archive", model.name, null, (watch) => this.#client.archive(watch));
+    const blob = await this.#run("archive", model.name, null, (watch) => this.#client.archive(watch));
     void this.#resume();
-    if (zip === null) return null;
-    // The bytes come from a transfer, so they are never shared memory.
-    const blob = new Blob([zip as Uint8Array<ArrayBuffer>], { type: "application/zip" });
+    if (blob === null) return null;
     this.#archive = { of: result, blob };
     return { name, blob };
   }

@@ -38,7 +38,7 @@ class FakeWorker implements Engine {
     },
     archive: () => {
       this.#say("archive");
-      return new Uint8Array(1);
+      return new Blob();
     },
   };
 

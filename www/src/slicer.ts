@@ -110,7 +110,7 @@ export class SlicerClient {
   }
 
   /** The zip of the last good plan. */
-  archive(watch: Watch): Promise<Uint8Array> {
+  archive(watch: Watch): Promise<Blob> {
     return this.#run(watch.signal, async (life) => {
       await this.#restorePlan(life, watch.progress);
       return life.engine.remote.archive(Comlink.proxy(watch.progress));

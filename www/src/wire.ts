@@ -30,7 +30,7 @@ export interface SlicerWorker {
   /** One bit a pixel, rows from the top, most significant bit first, ⌈width / 8⌉ bytes a row. */
   mask(layer: number): Uint8Array;
   /** A finished zip. */
-  archive(progress: OnProgress): Uint8Array;
+  archive(progress: OnProgress): Blob;
 }
 
 /** The core's own defaults, which the form shows before anything is changed. */

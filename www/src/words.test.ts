@@ -45,7 +45,7 @@ function report(patch: Partial<Report>): Report {
     resin: {},
     resin_ml: 44.4,
     printer: null,
-    mask: { width: 2048, height: 1588, pitch_mm: 0.0293, pitch_y_mm: 0.0293, is_mirrored: false },
+    mask: { width: 2048, height: 1588, pitch_mm: 0.0293, pitch_y_mm: 0.0293, antialias: 1, is_mirrored: false },
     warnings: [],
     timings_ms: { load: 0, ldi: 0, profile: 0, plan: 0, masks: 0, total: 0 },
     ...patch,

@@ -63,8 +63,10 @@ const api: SlicerWorker = {
     return Comlink.transfer(bits, [bits.buffer]);
   },
   archive(progress) {
-    const zip = current().archive(plain(progress));
-    return Comlink.transfer(zip, [zip.buffer]);
+    const chunks: BlobPart[] = [];
+    // The core's memory is never shared, so that chunks are plain arrays.
+    current().archive((chunk) => chunks.push(chunk as Uint8Array<ArrayBuffer>), plain(progress));
+    return new Blob(chunks, { type: "application/zip" });
   },
 };
 

@@ -1,0 +1,100 @@
+//! What the light of a pixel is averaged over: rays beside each other, and parts of a layer above each other.
+
+use crate::plan::Plan;
+
+/// Levels of anti-aliasing.
+pub const LEVELS: [u32; 4] = [1, 2, 4, 8];
+
+/// Samples of each pixel of a layer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Samples {
+    /// Rays of a pixel beside each other in x.
+    pub columns: u32,
+    /// Rays of a pixel beside each other in y.
+    pub rows: u32,
+    /// Parts of a layer, each sampled in its middle.
+    pub sublayers: u32,
+}
+
+impl Samples {
+    /// A ray through the centre of each pixel, sampled in the middle of a layer.
+    pub const ONE: Self = Self {
+        columns: 1,
+        rows: 1,
+        sublayers: 1,
+    };
+
+    /// As many rays, and as many parts of a layer, as the level says; `None` for one that is not in [`LEVELS`].
+    pub fn of_level(level: u32) -> Option<Self> {
+        let [columns, rows] = match level {
+            1 => [1, 1],
+            2 => [2, 1],
+            4 => [2, 2],
+            8 => [4, 2],
+            _ => return None,
+        };
+        Some(Self {
+            columns,
+            rows,
+            sublayers: level,
+        })
+    }
+
+    /// Rays of a pixel in x and y.
+    pub fn rays(self) -> [u32; 2] {
+        [self.columns, self.rows]
+    }
+
+    /// Samples of a pixel in all: 1 to 64.
+    pub fn total(self) -> u32 {
+        self.columns * self.rows * self.sublayers
+    }
+}
+
+/// Finds the first part of a layer whose middle is at or above a height.
+pub(super) struct SublayerOf {
+    middles_mm: Vec<f64>,
+    /// For every bin, a lower bound of the answer for heights in it.
+    first: Vec<u32>,
+    bin_mm: f64,
+}
+
+impl SublayerOf {
+    pub fn new(plan: &Plan, sublayers: u32) -> Self {
+        let middles_mm = plan.middles_of_parts_mm(sublayers);
+        let top = plan.boundaries[plan.layers()];
+        let mut sublayer = 0;
+        let first = (0..=top)
+            .map(|bin| {
+                // One bin lower than need be, to be safe from rounding in the division below.
+                let floor_mm = (f64::from(bin) - 1.0) * plan.bins.size_mm;
+                while middles_mm
+                    .get(sublayer as usize)
+                    .is_some_and(|&middle| middle < floor_mm)
+                {
+                    sublayer += 1;
+                }
+                sublayer
+            })
+            .collect();
+        Self {
+            middles_mm,
+            first,
+            bin_mm: plan.bins.size_mm,
+        }
+    }
+
+    pub fn first_above(&self, z_mm: f32) -> u32 {
+        let z_mm = f64::from(z_mm);
+        let bin = ((z_mm / self.bin_mm) as usize).min(self.first.len() - 1);
+        let mut sublayer = self.first[bin];
+        while self
+            .middles_mm
+            .get(sublayer as usize)
+            .is_some_and(|&middle| middle < z_mm)
+        {
+            sublayer += 1;
+        }
+        sublayer
+    }
+}
