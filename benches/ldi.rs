@@ -12,7 +12,7 @@ use std::time::Instant;
 use cusp_slicer::grid::Grid;
 use cusp_slicer::ldi::gpu::{self, Gpu};
 use cusp_slicer::ldi::{Hit, Ldi, cpu};
-use cusp_slicer::mesh::Mesh;
+use cusp_slicer::mesh::{Mesh, Pose};
 use cusp_slicer::progress::silent;
 use cusp_slicer::stl;
 use glam::Vec3;
@@ -89,11 +89,11 @@ fn main() {
         .filter(|argument| !argument.starts_with('-'));
     let named =
         named.map(|path| Mesh::from_triangles(&stl::read(&std::fs::read(path).unwrap()).unwrap()));
-    let models = named.map(|mesh| mesh.unwrap().on_plate(Some(60.0)));
+    let models = named.map(|mesh| mesh.unwrap().on_plate(&Pose::of_height(60.0)));
     for mesh in models.chain(
         generated
             .into_iter()
-            .map(|mesh| mesh.unwrap().on_plate(None)),
+            .map(|mesh| mesh.unwrap().on_plate(&Pose::default())),
     ) {
         let mesh = mesh.unwrap();
         for side in [512, 2048, 8192] {

@@ -11,7 +11,7 @@ use std::time::Instant;
 
 use cusp_slicer::exposure::Resin;
 use cusp_slicer::grid::Bins;
-use cusp_slicer::mesh::Mesh;
+use cusp_slicer::mesh::{Mesh, Pose};
 use cusp_slicer::plan::optimal::{self, Objective};
 use cusp_slicer::plan::tradeoff;
 use cusp_slicer::plan::{Limits, Plan, greedy};
@@ -84,7 +84,7 @@ fn balls(levels: u32, count: usize) -> Mesh {
         .collect();
     Mesh::from_triangles(&triangles)
         .unwrap()
-        .on_plate(Some(60.0))
+        .on_plate(&Pose::of_height(60.0))
         .unwrap()
 }
 
@@ -101,7 +101,7 @@ fn planners() {
         count: 23_771,
         size_mm: 0.001,
     };
-    let mesh = balls(6, 3).on_plate(Some(23.771)).unwrap();
+    let mesh = balls(6, 3).on_plate(&Pose::of_height(23.771)).unwrap();
     let shape = Shape {
         bins,
         steepest: steepest::exact(&mesh, &[], bins),

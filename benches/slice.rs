@@ -12,7 +12,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use cusp_slicer::mesh::Mesh;
+use cusp_slicer::mesh::{Mesh, Pose};
 use cusp_slicer::stl;
 
 const ROUNDS: usize = 5;
@@ -137,7 +137,7 @@ fn main() {
 fn compare(path: &Path, folder: &Path, with_peer: bool) {
     let bytes = fs::read(path).expect("a model to read");
     let mesh = Mesh::from_triangles(&stl::read(&bytes).expect("an STL"))
-        .and_then(|mesh| mesh.on_plate(Some(HEIGHT_MM)))
+        .and_then(|mesh| mesh.on_plate(&Pose::of_height(HEIGHT_MM)))
         .expect("a mesh");
     let size = mesh.bounds().size();
     // With a margin, without which the peer finds that the model does not fit.

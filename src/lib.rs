@@ -45,6 +45,7 @@ pub mod options;
 pub mod pipeline;
 mod planning;
 pub mod report;
+pub mod verify;
 #[cfg(target_arch = "wasm32")]
 mod wasm;
 

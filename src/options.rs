@@ -7,6 +7,7 @@ use crate::error::Error;
 use crate::exposure::Resin;
 use crate::grid::Bins;
 use crate::mask::Samples;
+use crate::mesh::Pose;
 use crate::plan::optimal::Objective;
 use crate::plan::{HeightRange, Limits, uniform};
 use crate::printer::{self, Printer};
@@ -95,6 +96,8 @@ pub enum Snap {
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(default, deny_unknown_fields)]
 pub struct Options {
+    /// Turn the model from how it stands in its file: a quaternion x, y, z, w of any length but 0.
+    pub rotation: Option<[f64; 4]>,
     /// Scale the model evenly to this height; its own height if absent.
     pub height_mm: Option<f64>,
     /// A printer known by name: see [`crate::printer::PRINTERS`]. It gives all that is absent below.
@@ -153,6 +156,7 @@ pub struct Options {
 impl Default for Options {
     fn default() -> Self {
         Self {
+            rotation: None,
             height_mm: None,
             printer: None,
             pixels: None,
@@ -242,6 +246,14 @@ impl Options {
     pub(crate) fn is_mirrored(&self) -> Result<bool, Error> {
         let preset = self.printer()?.map(|printer| printer.is_mirrored);
         Ok(self.mirror.or(preset).unwrap_or(false))
+    }
+
+    /// How the model stands on the plate.
+    pub(crate) fn pose(&self) -> Pose {
+        Pose {
+            rotation: self.rotation,
+            height_mm: self.height_mm,
+        }
     }
 
     /// What the light of a pixel is averaged over.

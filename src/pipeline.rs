@@ -12,14 +12,15 @@ use crate::grid::{Bins, Grid, GridError};
 use crate::ldi::gpu::{self, Gpu};
 use crate::ldi::{Ldi, LdiError, cpu};
 use crate::mask::{MaskCursor, Masks, Samples, Side};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, Pose};
 use crate::options::{Backend, Options};
 use crate::plan::Plan;
 use crate::planning::{PlanReport, Planning, Shapes};
 use crate::profile::{Metric, Profile, Source};
 use crate::progress::Progress;
 use crate::report::{
-    Comparison, MaskReport, MeshInfo, Report, Timings, Tradeoff, Warning, mesh_warnings,
+    Comparison, Glance, MaskReport, MeshInfo, Report, SCHEMA, StlReport, Timings, Tradeoff,
+    Warning, mesh_warnings,
 };
 use crate::stl;
 
@@ -61,6 +62,7 @@ pub type StageProgress<'a> = dyn FnMut(Stage, f64) -> ControlFlow<()> + 'a;
 #[derive(Debug)]
 pub struct Slicer {
     model: Mesh,
+    stl: StlReport,
     load_ms: f64,
     gpu: Option<Gpu>,
     sampled: Option<Sampled>,
@@ -83,7 +85,7 @@ struct Sampled {
 }
 
 type SamplingOptions = (
-    Option<f64>,
+    Pose,
     Option<String>,
     Option<[u32; 2]>,
     [Option<f64>; 2],
@@ -111,6 +113,10 @@ impl Slicer {
         let model = Mesh::from_triangles(&stl::read(bytes)?)?;
         Ok(Self {
             model,
+            stl: StlReport {
+                bytes: bytes.len(),
+                crc32: rawzip::crc32(bytes),
+            },
             load_ms: ms_since(clock),
             gpu: None,
             sampled: None,
@@ -128,6 +134,46 @@ impl Slicer {
     /// Describes the model as it stands in its file.
     pub fn info(&self) -> MeshInfo {
         MeshInfo::of(&self.model)
+    }
+
+    /// What the model's file is known by.
+    pub fn stl(&self) -> &StlReport {
+        &self.stl
+    }
+
+    /// Corners of the facets of the surface, nine numbers a facet, in millimetres as they stand in the file.
+    pub fn positions(&self) -> Vec<f32> {
+        let facets = self.model.facets[..self.model.surface_facets].iter();
+        let corners = facets
+            .flatten()
+            .map(|&vertex| self.model.vertices[vertex as usize]);
+        corners.flat_map(|corner| corner.to_array()).collect()
+    }
+
+    /// The plan of the model in a pose and its profile, from the facets alone: no rays, so that facets inside the solid
+    /// count as well. Makes no plan, and leaves the last one.
+    ///
+    /// # Errors
+    /// [`Error::Mesh`], [`Error::Grid`], [`Error::Plan`], [`Error::Options`].
+    pub fn glance(&self, options: &Options) -> Result<(Glance, Profile), Error> {
+        options.check()?;
+        let mesh = self.model.on_plate(&options.pose())?;
+        let size = mesh.bounds().size();
+        let height_mm = height_mm(size.z, options);
+        let bins = Bins::of_height(height_mm, options.bin_mm)?;
+        let shapes = Shapes::of_mesh(&mesh, bins, options.metric.needs_areas());
+        let plan = Planning::new(&mesh, height_mm, &shapes, options).plan(options)?;
+        let glance = Glance {
+            layers: plan.layers(),
+            size_mm: size.to_array(),
+            z_mm: plan.z_mm(),
+            thickness_mm: plan.thickness_mm(),
+            metric: options.metric,
+            max_error: plan.max_error(&shapes.exact.errors(options.metric)),
+            print_time_s: plan.print_time_s(&options.resin),
+            bin_mm: bins.size_mm,
+        };
+        Ok((glance, shapes.exact.profile(options.metric)))
     }
 
     /// Samples the model, makes its profile and plans its layers; repeats only what the options
@@ -159,7 +205,7 @@ impl Slicer {
 
         timings.sum_up();
         self.load_ms = 0.0;
-        let report = sampled.report(options, &plan, report, timings)?;
+        let report = sampled.report(&self.stl, options, &plan, report, timings)?;
         Ok(&self
             .planned
             .insert(Planned {
@@ -260,7 +306,7 @@ impl Slicer {
         progress: &mut StageProgress<'_>,
     ) -> Result<Sampled, Error> {
         let clock = Instant::now();
-        let mesh = self.model.on_plate(options.height_mm)?;
+        let mesh = self.model.on_plate(&options.pose())?;
         let bounds = mesh.bounds();
         let grid = match (options.plate_pixels()?, options.plate_pitch_mm()?) {
             (Some(pixels), Some(pitch_mm)) => Grid::plate(&bounds, pixels, pitch_mm)?,
@@ -320,10 +366,7 @@ impl Slicer {
             warnings.push(Warning::new("unclosed-rays", message));
         }
         timings.ldi = ms_since(clock);
-        // The height as asked for, or as the file has it but for the noise of single precision.
-        let height_mm = options
-            .height_mm
-            .unwrap_or_else(|| (bounds.size().z * 1e6).round() / 1e6);
+        let height_mm = height_mm(bounds.size().z, options);
         let options = sampling_options(options);
         Ok(Sampled {
             options,
@@ -461,9 +504,16 @@ impl Planned {
     }
 }
 
+/// The height as asked for, or as the file has it but for the noise of single precision.
+fn height_mm(size_mm: f64, options: &Options) -> f64 {
+    options
+        .height_mm
+        .unwrap_or_else(|| (size_mm * 1e6).round() / 1e6)
+}
+
 fn sampling_options(options: &Options) -> SamplingOptions {
     (
-        options.height_mm,
+        options.pose(),
         options.printer.clone(),
         options.pixels,
         [options.pitch_mm, options.pitch_y_mm],
@@ -482,6 +532,7 @@ impl Sampled {
 
     fn report(
         &self,
+        stl: &StlReport,
         options: &Options,
         plan: &Plan,
         planned: PlanReport,
@@ -491,6 +542,13 @@ impl Sampled {
         warnings.extend(planned.warnings);
         let thickness_mm = plan.thickness_mm();
         Ok(Report {
+            schema: SCHEMA,
+            stl: stl.clone(),
+            // Where rays are cast decides nothing.
+            options: Options {
+                backend: Backend::default(),
+                ..options.clone()
+            },
             layers: plan.layers(),
             height_mm: self.height_mm,
             z_mm: plan.z_mm(),

@@ -40,6 +40,25 @@ impl Shapes {
         }
     }
 
+    /// The shape of the mesh alone, where there are no rays: it stands for both sources, and no facet is known to be hidden.
+    pub fn of_mesh(mesh: &Mesh, bins: Bins, with_areas: bool) -> Self {
+        let exact = Shape {
+            bins,
+            steepest: steepest::exact(mesh, &[], bins),
+            areas_mm2: if with_areas {
+                section::exact(mesh, &[], bins)
+            } else {
+                Vec::new()
+            },
+        };
+        Self {
+            sampled: exact.clone(),
+            exact,
+            hidden: Vec::new(),
+            overlaps: false,
+        }
+    }
+
     /// Measures the areas of sections as well, unless that was done; returns whether it was not.
     pub fn add_areas(&mut self, mesh: &Mesh, ldi: &Ldi) -> bool {
         if !self.sampled.areas_mm2.is_empty() {

@@ -6,6 +6,7 @@ use crate::archive::Format;
 
 /// A resin printer: its screen, its volume and the file that it takes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct Printer {
     /// What users call it, for `--printer`.
     pub name: &'static str,

@@ -1,11 +1,12 @@
 //! What leaves the library as data: the report of a plan and of a mesh, with units in names.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 #[cfg(target_arch = "wasm32")]
 use tsify::Tsify;
 
 use crate::exposure::Resin;
 use crate::mesh::Mesh;
+use crate::options::Options;
 use crate::plan::tradeoff::TradeoffPoint;
 use crate::profile::{Metric, Source};
 
@@ -117,6 +118,19 @@ pub fn mesh_warnings(mesh: &Mesh) -> Vec<Warning> {
     warnings
 }
 
+/// The version of reports: it grows when a name or a meaning changes, not when something is added.
+pub const SCHEMA: u32 = 1;
+
+/// What a model's file is known by.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(target_arch = "wasm32", derive(Tsify))]
+pub struct StlReport {
+    /// Its length.
+    pub bytes: usize,
+    /// Its CRC-32, as zips have it.
+    pub crc32: u32,
+}
+
 /// The masks' pixels.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
@@ -208,10 +222,38 @@ impl Timings {
     }
 }
 
+/// What a model gives in a pose without being sampled: for following live while it is turned.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(Tsify))]
+pub struct Glance {
+    /// Number of layers.
+    pub layers: usize,
+    /// Extent of the model in x, y and z.
+    pub size_mm: [f64; 3],
+    /// Boundaries of layers, from 0 upward: one more than there are layers.
+    pub z_mm: Vec<f64>,
+    /// Thickness of each layer.
+    pub thickness_mm: Vec<f64>,
+    /// What the error measures.
+    pub metric: Metric,
+    /// The largest error of a layer, in the metric's unit.
+    pub max_error: f64,
+    /// Time that the layers take.
+    pub print_time_s: f64,
+    /// Height of a bin of the profile.
+    pub bin_mm: f64,
+}
+
 /// A plan and how it came about: what `--json` prints and the page shows.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify), tsify(missing_as_null))]
 pub struct Report {
+    /// The version of this object: [`SCHEMA`].
+    pub schema: u32,
+    /// The file that the model was read from.
+    pub stl: StlReport,
+    /// What was asked for, with which the same file gives the same plan again.
+    pub options: Options,
     /// Number of layers.
     pub layers: usize,
     /// Height of the model.

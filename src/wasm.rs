@@ -13,8 +13,9 @@ use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 use crate::error::Error;
 use crate::options::Options;
 use crate::pipeline::{self, Stage};
+use crate::printer::PRINTERS;
 use crate::profile::{Metric, Source};
-use crate::report::{Comparison, MeshInfo, Report, Tradeoff};
+use crate::report::{Comparison, Glance, MeshInfo, Report, Tradeoff};
 
 /// What every function here throws.
 #[derive(Serialize, Tsify)]
@@ -69,6 +70,19 @@ fn progress_to(callback: &Function) -> impl FnMut(Stage, f64) -> ControlFlow<()>
 #[wasm_bindgen]
 pub struct Slicer {
     slicer: pipeline::Slicer,
+    glanced: Vec<f32>,
+}
+
+/// The printers that are known by name.
+#[wasm_bindgen(unchecked_return_type = "Printer[]")]
+pub fn printers() -> JsValue {
+    to_js(&PRINTERS)
+}
+
+/// Options as they are where nothing is said.
+#[wasm_bindgen(unchecked_return_type = "Required<Options>")]
+pub fn defaults() -> JsValue {
+    to_js(&Options::default())
 }
 
 #[wasm_bindgen]
@@ -80,7 +94,36 @@ impl Slicer {
     #[wasm_bindgen(constructor)]
     pub fn new(stl: &[u8]) -> Result<Slicer, JsValue> {
         let slicer = pipeline::Slicer::load(stl).map_err(throw)?;
-        Ok(Self { slicer })
+        Ok(Self {
+            slicer,
+            glanced: Vec::new(),
+        })
+    }
+
+    /// Corners of the facets, nine numbers a facet, in millimetres as they stand in the file.
+    pub fn positions(&self) -> Vec<f32> {
+        self.slicer.positions()
+    }
+
+    /// The plan of the model in a pose, from the facets alone, in a few milliseconds: for following live while it is
+    /// turned. Leaves the last plan.
+    ///
+    /// # Errors
+    /// Throws a `CuspError`.
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "values from JavaScript come by value"
+    )]
+    pub fn glance(&mut self, options: Ts<Options>) -> Result<Ts<Glance>, JsValue> {
+        let options = options.to_rust().map_err(throw_conversion)?;
+        let (glance, profile) = self.slicer.glance(&options).map_err(throw)?;
+        self.glanced = profile.density;
+        glance.into_ts().map_err(throw_conversion)
+    }
+
+    /// The profile of the last glance, as that of a plan.
+    pub fn glance_profile(&self) -> Vec<f32> {
+        self.glanced.clone()
     }
 
     /// Describes the model as it stands in its file.

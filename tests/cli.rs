@@ -315,6 +315,41 @@ fn slice_writes_a_whole_zip_and_nothing_else() {
 }
 
 #[test]
+fn verify_accepts_what_plan_and_slice_made_and_nothing_else() {
+    let folder = TempDir::new().unwrap();
+    let model = sphere(&folder);
+    let options = [
+        "--rotation",
+        "0.1,0,-0.2,1",
+        "--format",
+        "chitubox",
+        "--aa",
+        "2",
+    ];
+    let plan = folder.path().join("plan.json").display().to_string();
+    let print = folder.path().join("print.zip").display().to_string();
+    let sliced = on_cpu(&[&["slice", &model, "-o", &print, "--json"], &options[..]].concat());
+    std::fs::write(&plan, &sliced.stdout).unwrap();
+    let output = cusp(&["verify", &plan, &model, "--print", &print, "--json"]);
+    let verified = json(&output);
+    assert_eq!(verified["layers"], json(&sliced)["layers"]);
+    assert_eq!(verified["print_is_same"], true);
+    assert!(cusp(&["verify", &plan, &model]).status.success());
+
+    let mut bytes = std::fs::read(&print).unwrap();
+    *bytes.last_mut().unwrap() ^= 1;
+    std::fs::write(&print, bytes).unwrap();
+    let output = cusp(&["verify", &plan, &model, "--print", &print]);
+    assert_fails(&output, 1, "not the print file that this plan gives");
+
+    let cheaper = String::from_utf8(sliced.stdout).unwrap();
+    let cheaper = cheaper.replace("\"resin_ml\":", "\"resin_ml\":0.5e-9,\"was\":");
+    std::fs::write(&plan, cheaper).unwrap();
+    assert_fails(&cusp(&["verify", &plan, &model]), 1, "resin_ml is 5e-10");
+    assert_fails(&cusp(&["verify", &model, &model]), 1, "UTF-8");
+}
+
+#[test]
 fn a_failed_slice_leaves_the_old_file() {
     let folder = TempDir::new().unwrap();
     let zip = model(&folder, "out.zip", b"precious");

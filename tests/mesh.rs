@@ -5,7 +5,7 @@
 mod common;
 
 use common::{assert_near, on_plate, solids};
-use cusp_slicer::mesh::{Mesh, MeshError};
+use cusp_slicer::mesh::{Mesh, MeshError, Pose};
 use glam::{DVec3, Vec3};
 
 #[test]
@@ -179,7 +179,13 @@ fn a_mesh_on_the_plate_has_the_height_asked_for() {
     ))
     .unwrap();
     for height_mm in [None, Some(60.0), Some(0.1), Some(123.4)] {
-        let bounds = model.on_plate(height_mm).unwrap().bounds();
+        let bounds = model
+            .on_plate(&Pose {
+                rotation: None,
+                height_mm,
+            })
+            .unwrap()
+            .bounds();
         assert_eq!(bounds.min.z, 0.0);
         assert_near(bounds.max.z, height_mm.unwrap_or(14.0), 1e-4);
         assert_near((bounds.min + bounds.max).truncate().length(), 0.0, 1e-4);
@@ -196,14 +202,19 @@ fn impossible_meshes_have_their_errors() {
         Err(MeshError::NoArea { facets: 1 })
     );
     assert_eq!(
-        Mesh::from_triangles(&flat).unwrap().on_plate(None),
+        Mesh::from_triangles(&flat)
+            .unwrap()
+            .on_plate(&Pose::default()),
         Err(MeshError::ZeroHeight)
     );
     assert_eq!(
-        cube.on_plate(Some(-1.0)),
+        cube.on_plate(&Pose::of_height(-1.0)),
         Err(MeshError::BadHeight { height_mm: -1.0 })
     );
-    assert_eq!(cube.on_plate(Some(1e39)), Err(MeshError::Overflow));
+    assert_eq!(
+        cube.on_plate(&Pose::of_height(1e39)),
+        Err(MeshError::Overflow)
+    );
 }
 
 #[test]

@@ -17,7 +17,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use cusp_slicer::grid::Bins;
-use cusp_slicer::mesh::Mesh;
+use cusp_slicer::mesh::{Mesh, Pose};
 use cusp_slicer::options::{Backend, Options};
 use cusp_slicer::pipeline::{Slicer, Stage};
 use cusp_slicer::plan::Limits;
@@ -159,7 +159,7 @@ fn table_2(models: &[Model], text: &mut String) {
                 .layers;
         });
         let mesh = Mesh::from_triangles(&stl::read(&model.bytes).expect("an STL"))
-            .and_then(|mesh| mesh.on_plate(Some(model.height_mm)))
+            .and_then(|mesh| mesh.on_plate(&Pose::of_height(model.height_mm)))
             .expect("a mesh");
         let plan = seconds(|| {
             let bins = Bins::of_height(model.height_mm, 0.002).expect("bins");

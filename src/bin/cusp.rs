@@ -19,6 +19,7 @@ use cusp_slicer::plan::HeightRange;
 use cusp_slicer::printer::PRINTERS;
 use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::report::{MeshInfo, Report, Warning};
+use cusp_slicer::verify::Claim;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use serde::Serialize;
 use tempfile::NamedTempFile;
@@ -69,6 +70,19 @@ enum Command {
         #[command(flatten)]
         slicing: Slicing,
     },
+    /// Make a plan anew that somebody sent, and say whether it is the same and keeps its tolerance
+    Verify {
+        /// The plan as `cusp plan --json` or the page gives it, or the manifest of a zip of masks
+        plan: PathBuf,
+        /// STL file that it was made from
+        model: PathBuf,
+        /// Make this print file anew as well, and compare every byte
+        #[arg(long, value_name = "FILE")]
+        print: Option<PathBuf>,
+        /// Print one JSON object
+        #[arg(long)]
+        json: bool,
+    },
     /// List the printers that are known by name
     Printers {
         /// Print one JSON array
@@ -92,6 +106,9 @@ struct Slicing {
     /// Print one JSON object
     #[arg(long)]
     json: bool,
+    /// Turn the model by a quaternion
+    #[arg(long, value_name = "X,Y,Z,W", value_parser = rotation, allow_hyphen_values = true, help_heading = "Model")]
+    rotation: Option<[f64; 4]>,
     /// Scale the model evenly to this height
     #[arg(long, value_name = "MM", value_parser = length, help_heading = "Model")]
     height: Option<f64>,
@@ -217,6 +234,7 @@ impl Slicing {
             }
         };
         Ok(Options {
+            rotation: self.rotation,
             height_mm: self.height,
             printer: self.printer.clone(),
             pixels: self.pixels,
@@ -265,6 +283,14 @@ fn pitch(text: &str) -> Result<[f64; 2], String> {
         Some((x, y)) => Ok([length(x)?, length(y)?]),
         None => Ok([length(text)?; 2]),
     }
+}
+
+/// Parses `X,Y,Z,W`.
+fn rotation(text: &str) -> Result<[f64; 4], String> {
+    let parts = text.split(',').map(|part| part.trim().parse::<f64>());
+    let parts: Result<Vec<f64>, _> = parts.collect();
+    let parts = parts.ok().and_then(|parts| parts.try_into().ok());
+    parts.ok_or_else(|| "a quaternion has four numbers: X,Y,Z,W".to_owned())
 }
 
 /// Parses a level of anti-aliasing.
@@ -352,6 +378,12 @@ fn main() -> ExitCode {
         Command::Plan { slicing } => plan(&slicing),
         Command::Tradeoff { slicing, points } => tradeoff(&slicing, points as usize),
         Command::Compare { slicing } => compare(&slicing),
+        Command::Verify {
+            plan,
+            model,
+            print,
+            json,
+        } => verify(&plan, &model, print.as_deref(), json),
         Command::Printers { json } => printers(json),
         Command::Info { model, json } => info(&model, json),
     };
@@ -502,6 +534,61 @@ fn duration(seconds: f64) -> String {
     } else {
         format!("{} h {:02} min", minutes / 60, minutes % 60)
     }
+}
+
+/// Says that a plan, and a print file, are right.
+#[derive(Serialize)]
+struct Verified {
+    layers: usize,
+    max_error: f64,
+    tolerance: f64,
+    print_time_s: f64,
+    resin_ml: f64,
+    print_is_same: bool,
+}
+
+fn verify(plan: &Path, model: &Path, print_file: Option<&Path>, json: bool) -> Result<(), Failure> {
+    let text = fs::read_to_string(plan).map_err(|error| in_file(plan, &error))?;
+    let mut slicer = load(model)?;
+    let claim = Claim::read(&text, slicer.stl()).map_err(|error| in_file(plan, &error))?;
+    stop_on_interrupt();
+    let bar = Bar::new();
+    let mut progress = |stage, fraction| bar.report(stage, fraction);
+    let made = pollster::block_on(slicer.plan(claim.options(), &mut progress))
+        .map_err(|error| Failure::in_file(model, &error))?;
+    claim.check(made).map_err(|error| in_file(plan, &error))?;
+    let verified = Verified {
+        layers: made.layers,
+        max_error: made.max_error,
+        tolerance: made.tolerance,
+        print_time_s: made.print_time_s,
+        resin_ml: made.resin_ml,
+        print_is_same: print_file.is_some(),
+    };
+    let words = made.metric.words(made.max_error);
+    if let Some(path) = print_file {
+        let sent = fs::read(path).map_err(|error| in_file(path, &error))?;
+        let (bytes, _) = slicer
+            .write_archive(Vec::with_capacity(sent.len()), &mut progress)
+            .map_err(|error| Failure::in_file(model, &error))?;
+        if sent != bytes {
+            let reason = "it is not the print file that this plan gives";
+            return Err(in_file(path, &reason).into());
+        }
+    }
+    drop(bar);
+    if json {
+        return Ok(print_json(&verified)?);
+    }
+    Ok(print(&format!(
+        "the plan is right: {} layers, largest error {words} within its tolerance{}",
+        verified.layers,
+        if verified.print_is_same {
+            "; the print file is the one that it gives"
+        } else {
+            ""
+        }
+    ))?)
 }
 
 fn slice(slicing: &Slicing, output: &Path) -> Result<(), Failure> {

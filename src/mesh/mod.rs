@@ -2,7 +2,7 @@
 
 mod holes;
 
-use glam::{DVec3, Vec3};
+use glam::{DMat3, DQuat, DVec3, Vec3};
 use rustc_hash::FxHashMap;
 use serde::Serialize;
 
@@ -26,6 +26,9 @@ pub enum MeshError {
         /// The height asked for.
         height_mm: f64,
     },
+    /// The rotation is no quaternion of a length.
+    #[error("the rotation must be a quaternion x, y, z, w whose length is not zero")]
+    BadRotation,
     /// Coordinates overflow single precision after scaling.
     #[error("the model is too large: at this height its coordinates exceed what can be computed")]
     Overflow,
@@ -38,6 +41,7 @@ impl MeshError {
             Self::NoArea { .. } => "mesh-no-area",
             Self::ZeroHeight => "mesh-zero-height",
             Self::BadHeight { .. } => "bad-height",
+            Self::BadRotation => "bad-rotation",
             Self::Overflow => "mesh-overflow",
         }
     }
@@ -182,37 +186,79 @@ impl Mesh {
         }
     }
 
-    /// A copy standing on the plate: lowest point at z = 0, centred on x = y = 0, and scaled evenly
-    /// to `height_mm` if one is given.
+    /// A copy standing on the plate in this pose: lowest point at z = 0, centred on x = y = 0.
     ///
     /// # Errors
-    /// [`MeshError::ZeroHeight`], [`MeshError::BadHeight`], [`MeshError::Overflow`].
-    pub fn on_plate(&self, height_mm: Option<f64>) -> Result<Self, MeshError> {
-        let bounds = self.bounds();
-        let size = bounds.size();
+    /// [`MeshError::ZeroHeight`], [`MeshError::BadHeight`], [`MeshError::BadRotation`], [`MeshError::Overflow`].
+    pub fn on_plate(&self, pose: &Pose) -> Result<Self, MeshError> {
+        let turned: Vec<DVec3> = match pose.rotation {
+            None => self
+                .vertices
+                .iter()
+                .map(|vertex| vertex.as_dvec3())
+                .collect(),
+            Some(rotation) => {
+                let rotation = rotation_matrix(rotation)?;
+                let turn = |vertex: &Vec3| rotation * vertex.as_dvec3();
+                self.vertices.iter().map(turn).collect()
+            }
+        };
+        let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for &vertex in self.facets[..self.surface_facets].iter().flatten() {
+            min = min.min(turned[vertex as usize]);
+            max = max.max(turned[vertex as usize]);
+        }
+        let size = max - min;
         if size.z <= 0.0 {
             return Err(MeshError::ZeroHeight);
         }
-        let scale = match height_mm {
+        let scale = match pose.height_mm {
             Some(height_mm) if height_mm.is_finite() && height_mm > 0.0 => height_mm / size.z,
             Some(height_mm) => return Err(MeshError::BadHeight { height_mm }),
             None => 1.0,
         };
-        let middle = (bounds.min + bounds.max) * 0.5;
-        let foot = DVec3::new(middle.x, middle.y, bounds.min.z);
+        let middle = (min + max) * 0.5;
+        let foot = DVec3::new(middle.x, middle.y, min.z);
         if !((size * scale).as_vec3() * 2.0).is_finite() {
             return Err(MeshError::Overflow);
         }
         Ok(Self {
-            vertices: self
-                .vertices
-                .iter()
-                .map(|vertex| ((vertex.as_dvec3() - foot) * scale).as_vec3())
+            vertices: turned
+                .into_iter()
+                .map(|vertex| ((vertex - foot) * scale).as_vec3())
                 .collect(),
             facets: self.facets.clone(),
             ..*self
         })
     }
+}
+
+/// How a model stands on the plate.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Pose {
+    /// A quaternion x, y, z, w that turns it from how it stands in its file, of any length but 0.
+    pub rotation: Option<[f64; 4]>,
+    /// The height to which it is then scaled evenly.
+    pub height_mm: Option<f64>,
+}
+
+impl Pose {
+    /// As in the file, scaled evenly to a height.
+    pub fn of_height(height_mm: f64) -> Self {
+        Self {
+            rotation: None,
+            height_mm: Some(height_mm),
+        }
+    }
+}
+
+fn rotation_matrix(rotation: [f64; 4]) -> Result<DMat3, MeshError> {
+    let quaternion = DQuat::from_array(rotation);
+    let length = quaternion.length();
+    if !length.is_normal() {
+        return Err(MeshError::BadRotation);
+    }
+    Ok(DMat3::from_quat(quaternion / length))
 }
 
 /// Gives equal corners one index, in order of first use. Corners of facets with fewer than three

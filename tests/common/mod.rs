@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 
 use cusp_slicer::grid::Grid;
 use cusp_slicer::ldi::{Ldi, cpu};
-use cusp_slicer::mesh::Mesh;
+use cusp_slicer::mesh::{Mesh, Pose};
 use cusp_slicer::pipeline::Stage;
 use cusp_slicer::progress::silent;
 use glam::Vec3;
@@ -18,7 +18,7 @@ use glam::Vec3;
 pub fn on_plate(triangles: &[[Vec3; 3]]) -> Mesh {
     Mesh::from_triangles(triangles)
         .unwrap()
-        .on_plate(None)
+        .on_plate(&Pose::default())
         .unwrap()
 }
 

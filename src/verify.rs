@@ -1,0 +1,176 @@
+//! Whether a plan that somebody sent is the one that its model and options give: what a shop asks before it accepts the
+//! work of a customer's browser.
+
+use serde::Deserialize;
+use serde_json::Value;
+
+use crate::options::Options;
+use crate::report::{Report, SCHEMA, StlReport};
+
+/// Keys of a report that tell how a plan came about, not what it is.
+const OF_THE_MACHINE: [&str; 4] = ["timings_ms", "backend", "adapter", "warnings"];
+
+/// Why a plan is not accepted.
+#[derive(Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum VerifyError {
+    /// The file is no report of a plan.
+    #[error("it is no plan as `cusp plan --json` prints it: {reason}")]
+    NotAPlan {
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// The report is of a version with other names or meanings.
+    #[error("it has schema {found}, and this program knows {SCHEMA}; use the version that made it")]
+    OtherSchema {
+        /// Its version.
+        found: u64,
+    },
+    /// The plan was made from another file.
+    #[error("it was made from another model: one of {bytes} bytes with the CRC-32 {crc32:08x}")]
+    OtherModel {
+        /// Length of that model's file.
+        bytes: usize,
+        /// Its CRC-32.
+        crc32: u32,
+    },
+    /// The model and the options give something else.
+    #[error(
+        "it is not what the model and its options give: {key} is {claimed}, but should be {found}"
+    )]
+    Differs {
+        /// The first place that differs.
+        key: String,
+        /// What the plan says there.
+        claimed: String,
+        /// What it should say.
+        found: String,
+    },
+    /// The plan is right, but its layers leave larger errors than the tolerance.
+    #[error("its largest error is {max_error}, more than the tolerance of {tolerance}")]
+    ToleranceExceeded {
+        /// The largest error, in the metric's unit.
+        max_error: f64,
+        /// The tolerance.
+        tolerance: f64,
+    },
+}
+
+/// A plan as somebody sent it.
+#[derive(Debug, Clone)]
+pub struct Claim {
+    report: Value,
+    options: Options,
+}
+
+#[derive(Deserialize)]
+struct Head {
+    stl: StlReport,
+    options: Options,
+}
+
+impl Claim {
+    /// Reads the JSON of a report, or the manifest of a print file, and makes sure that it is about this model.
+    ///
+    /// # Errors
+    /// [`VerifyError::NotAPlan`], [`VerifyError::OtherSchema`], [`VerifyError::OtherModel`].
+    pub fn read(json: &str, model: &StlReport) -> Result<Self, VerifyError> {
+        let not_a_plan = |error: serde_json::Error| VerifyError::NotAPlan {
+            reason: error.to_string(),
+        };
+        let report: Value = serde_json::from_str(json).map_err(not_a_plan)?;
+        let found = report["schema"].as_u64().unwrap_or(u64::from(SCHEMA));
+        if found != u64::from(SCHEMA) {
+            return Err(VerifyError::OtherSchema { found });
+        }
+        let Head { stl, options } = Head::deserialize(&report).map_err(not_a_plan)?;
+        if stl != *model {
+            return Err(VerifyError::OtherModel {
+                bytes: stl.bytes,
+                crc32: stl.crc32,
+            });
+        }
+        Ok(Self { report, options })
+    }
+
+    /// The options that the plan claims to be made with.
+    pub fn options(&self) -> &Options {
+        &self.options
+    }
+
+    /// Compares the plan with the one that was made anew with [`Self::options`]; then asks whether the tolerance
+    /// holds on the mesh.
+    ///
+    /// # Errors
+    /// [`VerifyError::Differs`], [`VerifyError::ToleranceExceeded`].
+    pub fn check(&self, made: &Report) -> Result<(), VerifyError> {
+        // Through text, as the claim went, so that both had their numbers read alike.
+        let text = serde_json::to_string(made);
+        let value = text.and_then(|text| serde_json::from_str(&text));
+        let expected: Value = value.map_err(|error| VerifyError::NotAPlan {
+            reason: error.to_string(),
+        })?;
+        for (key, expected) in expected.as_object().into_iter().flatten() {
+            if !OF_THE_MACHINE.contains(&key.as_str()) {
+                compare(key, &self.report[key], expected)?;
+            }
+        }
+        let is_exceeded = |code: &str| code.starts_with("tolerance-exceeded");
+        if made
+            .warnings
+            .iter()
+            .any(|warning| is_exceeded(&warning.code))
+        {
+            return Err(VerifyError::ToleranceExceeded {
+                max_error: made.max_error,
+                tolerance: made.tolerance,
+            });
+        }
+        Ok(())
+    }
+}
+
+/// Finds the first place where two values differ. 5 and 5.0 are the same number, and what is absent is null.
+fn compare(key: &str, claimed: &Value, expected: &Value) -> Result<(), VerifyError> {
+    match (claimed, expected) {
+        (Value::Object(claimed), Value::Object(expected)) => {
+            let keys = claimed.keys().chain(expected.keys());
+            for inner in keys {
+                let [claimed, expected] = [claimed, expected].map(|it| it.get(inner));
+                let null = &Value::Null;
+                compare(
+                    &format!("{key}.{inner}"),
+                    claimed.unwrap_or(null),
+                    expected.unwrap_or(null),
+                )?;
+            }
+            Ok(())
+        }
+        (Value::Array(claimed), Value::Array(expected)) if claimed.len() == expected.len() => {
+            for (index, (claimed, expected)) in claimed.iter().zip(expected).enumerate() {
+                compare(&format!("{key}[{index}]"), claimed, expected)?;
+            }
+            Ok(())
+        }
+        (Value::Number(claimed), Value::Number(expected))
+            if claimed.as_f64() == expected.as_f64() =>
+        {
+            Ok(())
+        }
+        _ if claimed == expected => Ok(()),
+        _ => Err(VerifyError::Differs {
+            key: key.to_owned(),
+            claimed: in_short(claimed),
+            found: in_short(expected),
+        }),
+    }
+}
+
+fn in_short(value: &Value) -> String {
+    match value {
+        Value::Array(items) => format!("a list of {}", items.len()),
+        Value::Object(_) => "an object".to_owned(),
+        Value::Null => "absent".to_owned(),
+        other => other.to_string(),
+    }
+}
