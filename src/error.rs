@@ -8,6 +8,7 @@ use crate::ldi::LdiError;
 use crate::mesh::MeshError;
 use crate::plan::PlanError;
 use crate::stl::StlError;
+use crate::weights::WeightsError;
 
 /// Any error of the library. Its text is one sentence that says what to do; serialised, it is the
 /// object of its typed details.
@@ -24,6 +25,9 @@ pub enum Error {
     /// Pixels or bins cannot be laid out.
     #[error(transparent)]
     Grid(#[from] GridError),
+    /// The weights are none, or those of another mesh.
+    #[error(transparent)]
+    Weights(#[from] WeightsError),
     /// Sampling failed.
     #[error(transparent)]
     Ldi(#[from] LdiError),
@@ -51,6 +55,7 @@ impl Error {
             Self::Stl(error) => error.code(),
             Self::Mesh(error) => error.code(),
             Self::Grid(error) => error.code(),
+            Self::Weights(error) => error.code(),
             Self::Ldi(error) => error.code(),
             Self::Plan(error) => error.code(),
             Self::Archive(error) => error.code(),

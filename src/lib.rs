@@ -38,7 +38,9 @@ pub mod mesh;
 pub mod plan;
 pub mod printer;
 pub mod profile;
+pub mod saliency;
 pub mod stl;
+pub mod weights;
 
 mod error;
 pub mod options;

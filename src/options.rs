@@ -143,6 +143,11 @@ pub struct Options {
     pub metric: Metric,
     /// What errors are measured on.
     pub source: Source,
+    /// Whether facets count by how much they stand out: see [`crate::saliency`].
+    pub saliency: bool,
+    /// What facets count for at least, 0 to 1, where some count for less than others. The error of a facet may be as many
+    /// times the tolerance as its weight goes into 1.
+    pub weight_min: f64,
     /// How layers are chosen.
     pub planner: Planner,
     /// What the optimal plan has least of.
@@ -179,6 +184,8 @@ impl Default for Options {
             flat_area_mm2: 1.0,
             metric: Metric::Cusp,
             source: Source::Exact,
+            saliency: false,
+            weight_min: 0.25,
             planner: Planner::Optimal,
             minimize: Minimize::Layers,
             resin: Resin::default(),
@@ -320,6 +327,13 @@ impl Options {
         };
         self.check_printer()?;
         self.samples()?;
+        if !(0.0..=1.0).contains(&self.weight_min) {
+            let reason = format!(
+                "the least weight must be from 0 to 1, not {}",
+                self.weight_min
+            );
+            return Err(Error::Options { reason });
+        }
         self.resin.check().map_err(crate::plan::PlanError::from)?;
         let given = [
             self.tolerance.is_some(),

@@ -22,7 +22,7 @@ use crate::report::{
     Comparison, Glance, MaskReport, MeshInfo, Report, SCHEMA, StlReport, Timings, Tradeoff,
     Warning, mesh_warnings,
 };
-use crate::stl;
+use crate::{saliency, stl, weights};
 
 /// A part of the work, for showing progress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -31,6 +31,8 @@ use crate::stl;
 pub enum Stage {
     /// Reading the STL.
     Load,
+    /// Finding what stands out.
+    Saliency,
     /// Sampling the layered depth image.
     Ldi,
     /// Making the profile.
@@ -46,6 +48,7 @@ impl Stage {
     pub fn name(self) -> &'static str {
         match self {
             Self::Load => "load",
+            Self::Saliency => "saliency",
             Self::Ldi => "ldi",
             Self::Profile => "profile",
             Self::Plan => "plan",
@@ -63,6 +66,10 @@ pub type StageProgress<'a> = dyn FnMut(Stage, f64) -> ControlFlow<()> + 'a;
 pub struct Slicer {
     model: Mesh,
     stl: StlReport,
+    /// How much each facet of the surface stands out, once that was asked for.
+    saliency: Option<Vec<f32>>,
+    /// How much each facet of the surface matters to the user.
+    paint: Option<Vec<f32>>,
     load_ms: f64,
     gpu: Option<Gpu>,
     sampled: Option<Sampled>,
@@ -117,6 +124,8 @@ impl Slicer {
                 bytes: bytes.len(),
                 crc32: rawzip::crc32(bytes),
             },
+            saliency: None,
+            paint: None,
             load_ms: ms_since(clock),
             gpu: None,
             sampled: None,
@@ -150,6 +159,64 @@ impl Slicer {
         corners.flat_map(|corner| corner.to_array()).collect()
     }
 
+    /// Says how much each facet of the surface matters, from 0 to 1; all alike if that is absent. Later plans follow it.
+    ///
+    /// # Errors
+    /// [`Error::Weights`].
+    pub fn paint(&mut self, weights: Option<Vec<f32>>) -> Result<(), Error> {
+        if let Some(weights) = &weights {
+            weights::check(weights, self.model.surface_facets)?;
+        }
+        self.paint = weights;
+        Ok(())
+    }
+
+    /// How much each facet of the surface stands out, from 0 to 1; the same in every pose.
+    ///
+    /// # Errors
+    /// [`Error::Ldi`] if `progress` cancels.
+    pub fn saliency(&mut self, progress: &mut StageProgress<'_>) -> Result<&[f32], Error> {
+        let saliency = match self.saliency.take() {
+            Some(saliency) => saliency,
+            None => saliency::saliency(&self.model, &mut |fraction| {
+                progress(Stage::Saliency, fraction)
+            })
+            .map_err(LdiError::from)?,
+        };
+        Ok(self.saliency.insert(saliency))
+    }
+
+    /// What each facet of the surface counts for: the product of paint and saliency (section 4.2), at least the least weight.
+    /// `None` if all count alike.
+    ///
+    /// # Errors
+    /// Those of [`Self::saliency`].
+    pub fn weights(
+        &mut self,
+        options: &Options,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<Option<Vec<f32>>, Error> {
+        if options.saliency {
+            self.saliency(progress)?;
+        }
+        Ok(self.known_weights(options))
+    }
+
+    /// The same without computing any saliency that is not there yet.
+    fn known_weights(&self, options: &Options) -> Option<Vec<f32>> {
+        let saliency = self.saliency.as_ref().filter(|_| options.saliency);
+        if saliency.is_none() && self.paint.is_none() {
+            return None;
+        }
+        let least = options.weight_min as f32;
+        let of = |weights: Option<&Vec<f32>>, facet: usize| weights.map_or(1.0, |it| it[facet]);
+        let weight = |facet| {
+            let product = of(saliency, facet) * of(self.paint.as_ref(), facet);
+            if product < least { least } else { product }
+        };
+        Some((0..self.model.surface_facets).map(weight).collect())
+    }
+
     /// The plan of the model in a pose and its profile, from the facets alone: no rays, so that facets inside the solid
     /// count as well. Makes no plan, and leaves the last one.
     ///
@@ -161,7 +228,8 @@ impl Slicer {
         let size = mesh.bounds().size();
         let height_mm = height_mm(size.z, options);
         let bins = Bins::of_height(height_mm, options.bin_mm)?;
-        let shapes = Shapes::of_mesh(&mesh, bins, options.metric.needs_areas());
+        let mut shapes = Shapes::of_mesh(&mesh, bins, options.metric.needs_areas());
+        shapes.weigh(&mesh, None, options.metric, self.known_weights(options));
         let plan = Planning::new(&mesh, height_mm, &shapes, options).plan(options)?;
         let glance = Glance {
             layers: plan.layers(),
@@ -169,11 +237,11 @@ impl Slicer {
             z_mm: plan.z_mm(),
             thickness_mm: plan.thickness_mm(),
             metric: options.metric,
-            max_error: plan.max_error(&shapes.exact.errors(options.metric)),
+            max_error: plan.max_error(&shapes.errors(options.metric, Source::Exact)),
             print_time_s: plan.print_time_s(&options.resin),
             bin_mm: bins.size_mm,
         };
-        Ok((glance, shapes.exact.profile(options.metric)))
+        Ok((glance, shapes.profile(options.metric, Source::Exact)))
     }
 
     /// Samples the model, makes its profile and plans its layers; repeats only what the options
@@ -205,7 +273,8 @@ impl Slicer {
 
         timings.sum_up();
         self.load_ms = 0.0;
-        let report = sampled.report(&self.stl, options, &plan, report, timings)?;
+        let mut report = sampled.report(&self.stl, options, &plan, report, timings)?;
+        report.weights_crc32 = self.paint.as_deref().map(weights::crc_of);
         Ok(&self
             .planned
             .insert(Planned {
@@ -271,6 +340,7 @@ impl Slicer {
         timings: &mut Timings,
         progress: &mut StageProgress<'_>,
     ) -> Result<(), Error> {
+        let weights = self.weights(options, progress)?;
         let key = sampling_options(options);
         let sampled = match self.sampled.take().filter(|sampled| sampled.options == key) {
             Some(sampled) => sampled,
@@ -292,6 +362,7 @@ impl Slicer {
         if options.metric.needs_areas() {
             is_new |= shapes.add_areas(&sampled.mesh, &sampled.ldi);
         }
+        is_new |= shapes.weigh(&sampled.mesh, Some(&sampled.ldi), options.metric, weights);
         sampled.shapes = Some(shapes);
         if is_new {
             timings.profile = ms_since(clock);
@@ -414,11 +485,10 @@ impl Slicer {
     pub fn profile(&self, metric: Metric, source: Source) -> Result<Profile, Error> {
         let sampled = self.sampled.as_ref().ok_or(Error::NoPlan)?;
         let shapes = sampled.shapes.as_ref().ok_or(Error::NoPlan)?;
-        let shape = shapes.of(source);
-        if metric.needs_areas() && shape.areas_mm2.is_empty() {
+        if metric.needs_areas() && shapes.of(source).areas_mm2.is_empty() {
             return Err(Error::NoPlan);
         }
-        Ok(shape.profile(metric))
+        Ok(shapes.profile(metric, source))
     }
 
     /// The mask of a layer of the last plan: see [`MaskCursor::whole`].
@@ -549,6 +619,7 @@ impl Sampled {
                 backend: Backend::default(),
                 ..options.clone()
             },
+            weights_crc32: None,
             layers: plan.layers(),
             height_mm: self.height_mm,
             z_mm: plan.z_mm(),

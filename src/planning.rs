@@ -9,8 +9,9 @@ use crate::options::{Options, Planner, Snap};
 use crate::plan::optimal::Objective;
 use crate::plan::tradeoff::{self, Goal, TradeoffPoint};
 use crate::plan::{Limits, Plan, PlanError, greedy, optimal, uniform};
+use crate::profile::weighted::Weighted;
 use crate::profile::wishes::wishes;
-use crate::profile::{LayerErrors, Metric, Shape, Source, section, steepest};
+use crate::profile::{LayerErrors, Metric, Profile, Shape, Source, section, steepest};
 use crate::report::{PlannerReport, UniformReport, Warning};
 
 /// The shape of a model from both sources.
@@ -22,6 +23,16 @@ pub(crate) struct Shapes {
     hidden: Vec<bool>,
     /// Whether bodies overlap in a way that only rays can sort out.
     overlaps: bool,
+    weighing: Option<Weighing>,
+}
+
+/// The shapes under weights.
+#[derive(Debug)]
+struct Weighing {
+    metric: Metric,
+    weights: Vec<f32>,
+    exact: Weighted,
+    sampled: Weighted,
 }
 
 impl Shapes {
@@ -37,6 +48,7 @@ impl Shapes {
             sampled: shape(steepest::sampled(mesh, ldi, &hidden, bins)),
             hidden,
             overlaps,
+            weighing: None,
         }
     }
 
@@ -56,7 +68,68 @@ impl Shapes {
             exact,
             hidden: Vec::new(),
             overlaps: false,
+            weighing: None,
         }
+    }
+
+    /// Weighs the facets of the surface for a metric, or all alike; returns whether anything was measured for it. Without an
+    /// LDI what is exact stands for both sources.
+    pub fn weigh(
+        &mut self,
+        mesh: &Mesh,
+        ldi: Option<&Ldi>,
+        metric: Metric,
+        weights: Option<Vec<f32>>,
+    ) -> bool {
+        let Some(weights) = weights else {
+            self.weighing = None;
+            return false;
+        };
+        let kept = self.weighing.as_ref();
+        if kept.is_some_and(|kept| kept.metric == metric && kept.weights == weights) {
+            return false;
+        }
+        let exact = Weighted::exact(mesh, &self.exact, &self.hidden, metric, &weights);
+        let sampled = match ldi {
+            None => exact.clone(),
+            Some(ldi) => {
+                Weighted::sampled(mesh, ldi, &self.sampled, &self.hidden, metric, &weights)
+            }
+        };
+        self.weighing = Some(Weighing {
+            metric,
+            weights,
+            exact,
+            sampled,
+        });
+        true
+    }
+
+    /// The profile of a metric, weighted if facets were weighed for it.
+    pub fn profile(&self, metric: Metric, source: Source) -> Profile {
+        let shape = self.of(source);
+        match self.weighted(metric, source) {
+            Some(weighted) => weighted.profile(shape),
+            None => shape.profile(metric),
+        }
+    }
+
+    /// The errors of layers, weighted if facets were weighed for the metric.
+    pub fn errors(&self, metric: Metric, source: Source) -> LayerErrors {
+        let shape = self.of(source);
+        match self.weighted(metric, source) {
+            Some(weighted) => weighted.errors(shape),
+            None => shape.errors(metric),
+        }
+    }
+
+    fn weighted(&self, metric: Metric, source: Source) -> Option<&Weighted> {
+        let weighing = self.weighing.as_ref();
+        let weighing = weighing.filter(|weighing| weighing.metric == metric)?;
+        Some(match source {
+            Source::Exact => &weighing.exact,
+            Source::Sampled => &weighing.sampled,
+        })
     }
 
     /// Measures the areas of sections as well, unless that was done; returns whether it was not.
@@ -109,10 +182,10 @@ pub(crate) struct PlanReport {
 
 impl<'a> Planning<'a> {
     pub fn new(mesh: &Mesh, height_mm: f64, shapes: &'a Shapes, options: &Options) -> Self {
-        let exact = shapes.exact.errors(options.metric);
+        let exact = shapes.errors(options.metric, Source::Exact);
         let errors = match options.source {
             Source::Exact => exact.clone(),
-            Source::Sampled => shapes.sampled.errors(options.metric),
+            Source::Sampled => shapes.errors(options.metric, Source::Sampled),
         };
         let wishes = match options.snap {
             Snap::Off => Vec::new(),
@@ -246,7 +319,7 @@ impl<'a> Planning<'a> {
                 .collect(),
             tolerance,
             max_error,
-            sampled_error: plan.max_error(&self.shapes.sampled.errors(options.metric)),
+            sampled_error: plan.max_error(&self.shapes.errors(options.metric, Source::Sampled)),
             max_error_mm: plan.max_error(&cusp),
             print_time_s: plan.print_time_s(&options.resin),
             uniform: UniformReport {

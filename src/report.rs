@@ -254,6 +254,8 @@ pub struct Report {
     pub stl: StlReport,
     /// What was asked for, with which the same file gives the same plan again.
     pub options: Options,
+    /// CRC-32 of the weights that the user gave to facets, as little-endian single precision numbers, if any.
+    pub weights_crc32: Option<u32>,
     /// Number of layers.
     pub layers: usize,
     /// Height of the model.
@@ -284,7 +286,7 @@ pub struct Report {
     pub planner: String,
     /// The tolerance asked for or found, in the metric's unit.
     pub tolerance: f64,
-    /// The largest error of a layer under the exact profile, in the metric's unit.
+    /// The largest error of a layer under the exact profile, in the metric's unit; of a facet's error its weight counts.
     pub max_error: f64,
     /// The largest error of a layer under the sampled profile, in the metric's unit.
     pub sampled_error: f64,

@@ -16,6 +16,7 @@ use crate::pipeline::{self, Stage};
 use crate::printer::PRINTERS;
 use crate::profile::{Metric, Source};
 use crate::report::{Comparison, Glance, MeshInfo, Report, Tradeoff};
+use crate::weights;
 
 /// What every function here throws.
 #[derive(Serialize, Tsify)]
@@ -103,6 +104,44 @@ impl Slicer {
     /// Corners of the facets, nine numbers a facet, in millimetres as they stand in the file.
     pub fn positions(&self) -> Vec<f32> {
         self.slicer.positions()
+    }
+
+    /// How much each facet stands out, from 0 to 1.
+    ///
+    /// # Errors
+    /// None that a valid model causes.
+    pub fn saliency(
+        &mut self,
+        #[wasm_bindgen(unchecked_param_type = "(stage: Stage, fraction: number) => void")]
+        progress: &Function,
+    ) -> Result<Vec<f32>, JsValue> {
+        let saliency = self.slicer.saliency(&mut progress_to(progress));
+        Ok(saliency.map_err(throw)?.to_vec())
+    }
+
+    /// Says how much each facet matters, from 0 to 1; all alike if that is absent. Later plans and glances follow it.
+    ///
+    /// # Errors
+    /// Throws a `CuspError`.
+    pub fn paint(&mut self, weights: Option<Vec<f32>>) -> Result<(), JsValue> {
+        self.slicer.paint(weights).map_err(throw)
+    }
+
+    /// A file of weights of this model.
+    ///
+    /// # Errors
+    /// Throws a `CuspError` if there is not one from 0 to 1 for every facet.
+    pub fn weights_file(&self, weights: &[f32]) -> Result<Vec<u8>, JsValue> {
+        weights::check(weights, self.slicer.info().facets).map_err(throw)?;
+        Ok(weights::to_bytes(weights, &self.slicer.positions()))
+    }
+
+    /// The weights in a file, which must be one of this model.
+    ///
+    /// # Errors
+    /// Throws a `CuspError`.
+    pub fn read_weights(&self, file: &[u8]) -> Result<Vec<f32>, JsValue> {
+        weights::from_bytes(file, &self.slicer.positions()).map_err(throw)
     }
 
     /// The plan of the model in a pose, from the facets alone, in a few milliseconds: for following live while it is

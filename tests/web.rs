@@ -72,7 +72,7 @@ async fn check_plan_and_masks() {
         let (bytes, _) = slicer.write_archive(Vec::new(), &mut quiet).unwrap();
         fingerprint(&bytes)
     };
-    assert_eq!(archive(&mut slicer), 0xa5c5_f643_6f02_0d25);
+    assert_eq!(archive(&mut slicer), 0x6c81_16e9_3631_7474);
     let grey = Options {
         antialias: 4,
         printer: Some("sl1s".to_owned()),

@@ -17,8 +17,8 @@ impl Container for Chitubox {
         let look = Look::new(job.mesh, job.ldi);
         Ok(vec![
             ("run.gcode".to_owned(), run_gcode(job, layers).into_bytes()),
-            ("preview.png".to_owned(), look.png(954, 850)?),
-            ("preview_cropping.png".to_owned(), look.png(168, 150)?),
+            ("preview.png".to_owned(), look.png(954, 850)),
+            ("preview_cropping.png".to_owned(), look.png(168, 150)),
         ])
     }
 }

@@ -309,7 +309,7 @@ fn encode_run(
         .map(|layer| {
             cursor.seek(masks, layer);
             Ok(Mask {
-                png: deflater.deflate(&png::encode(masks, &cursor, depth)?)?,
+                png: deflater.deflate(&png::encode(masks, &cursor, depth))?,
                 lit_pixels: cursor.lit_pixels(),
             })
         })

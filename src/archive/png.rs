@@ -1,6 +1,5 @@
 //! A mask as a PNG, at a cost of the pixels where it changes.
 
-use super::ArchiveError;
 use super::runs::RunWriter;
 use crate::mask::{Light, MaskCursor, Masks, row_bytes};
 
@@ -17,10 +16,7 @@ pub enum Depth {
 ///
 /// Rows are written as they are: filters that look at other pixels make more runs, not fewer, and with none the dark
 /// pixels around a model are one run from row to row.
-///
-/// # Errors
-/// [`ArchiveError::Write`] if there is no memory.
-pub fn encode(masks: &Masks, mask: &MaskCursor, depth: Depth) -> Result<Vec<u8>, ArchiveError> {
+pub fn encode(masks: &Masks, mask: &MaskCursor, depth: Depth) -> Vec<u8> {
     let Masks {
         grid,
         window,
@@ -112,24 +108,27 @@ fn for_each_run(bytes: &[u8], mut emit: impl FnMut(u8, u64)) {
     }
 }
 
-/// The chunks around a zlib stream of so many columns and rows.
-pub(super) fn wrap(
-    [width, height]: [u32; 2],
-    depth: Depth,
-    stream: &[u8],
-) -> Result<Vec<u8>, ArchiveError> {
+/// The file around a zlib stream of so many columns and rows.
+pub(super) fn wrap([width, height]: [u32; 2], depth: Depth, stream: &[u8]) -> Vec<u8> {
+    const GREYSCALE: u8 = 0;
+    let bits = match depth {
+        Depth::Bit => 1,
+        Depth::Grey => 8,
+    };
+    let mut header = [0; 13];
+    header[..4].copy_from_slice(&width.to_be_bytes());
+    header[4..8].copy_from_slice(&height.to_be_bytes());
+    // The usual compression, the usual filters, no interlacing.
+    header[8..].copy_from_slice(&[bits, GREYSCALE, 0, 0, 0]);
     let mut bytes = Vec::with_capacity(stream.len() + 64);
-    let mut encoder = png::Encoder::new(&mut bytes, width, height);
-    encoder.set_color(png::ColorType::Grayscale);
-    encoder.set_depth(match depth {
-        Depth::Bit => png::BitDepth::One,
-        Depth::Grey => png::BitDepth::Eight,
-    });
-    let mut writer = encoder.write_header().map_err(ArchiveError::write)?;
-    let data = png::chunk::IDAT;
-    writer
-        .write_chunk(data, stream)
-        .map_err(ArchiveError::write)?;
-    writer.finish().map_err(ArchiveError::write)?;
-    Ok(bytes)
+    bytes.extend(b"\x89PNG\r\n\x1a\n");
+    for (kind, data) in [(b"IHDR", &header[..]), (b"IDAT", stream), (b"IEND", &[])] {
+        bytes.extend((data.len() as u32).to_be_bytes());
+        let first = bytes.len();
+        bytes.extend(kind);
+        bytes.extend(data);
+        let crc = rawzip::crc32(&bytes[first..]);
+        bytes.extend(crc.to_be_bytes());
+    }
+    bytes
 }

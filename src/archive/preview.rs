@@ -1,6 +1,5 @@
 //! The model seen from above, for the previews that printers show.
 
-use super::ArchiveError;
 use super::png::{self, Depth};
 use super::runs::RunWriter;
 use crate::ldi::Ldi;
@@ -47,10 +46,7 @@ impl Look {
     }
 
     /// A greyscale PNG of this size with the model in its middle, as large as fits.
-    ///
-    /// # Errors
-    /// [`ArchiveError::Write`] if there is no memory.
-    pub fn png(&self, width: u32, height: u32) -> Result<Vec<u8>, ArchiveError> {
+    pub fn png(&self, width: u32, height: u32) -> Vec<u8> {
         let scale =
             (self.width as f64 / f64::from(width)).max(self.height as f64 / f64::from(height));
         let source = |place: u32, side: u32, source_side: usize| {

@@ -32,11 +32,11 @@ impl Container for Sl1 {
             ("prusaslicer.ini".to_owned(), prusaslicer(job).into_bytes()),
             (
                 "thumbnail/thumbnail400x400.png".to_owned(),
-                look.png(400, 400)?,
+                look.png(400, 400),
             ),
             (
                 "thumbnail/thumbnail800x480.png".to_owned(),
-                look.png(800, 480)?,
+                look.png(800, 480),
             ),
         ])
     }

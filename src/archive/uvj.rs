@@ -20,8 +20,8 @@ impl Container for Uvj {
         let config = serde_json::to_vec(&config(job, layers)).map_err(ArchiveError::write)?;
         Ok(vec![
             ("config.json".to_owned(), config),
-            ("preview/huge.png".to_owned(), look.png(800, 480)?),
-            ("preview/tiny.png".to_owned(), look.png(400, 300)?),
+            ("preview/huge.png".to_owned(), look.png(800, 480)),
+            ("preview/tiny.png".to_owned(), look.png(400, 300)),
         ])
     }
 }

@@ -20,6 +20,7 @@ use cusp_slicer::printer::PRINTERS;
 use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::report::{MeshInfo, Report, Warning};
 use cusp_slicer::verify::Claim;
+use cusp_slicer::weights;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use serde::Serialize;
 use tempfile::NamedTempFile;
@@ -79,9 +80,20 @@ enum Command {
         /// Make this print file anew as well, and compare every byte
         #[arg(long, value_name = "FILE")]
         print: Option<PathBuf>,
+        /// The weights of facets that the plan was made with
+        #[arg(long, value_name = "FILE")]
+        weights: Option<PathBuf>,
         /// Print one JSON object
         #[arg(long)]
         json: bool,
+    },
+    /// Find how much each facet stands out, and write that as weights
+    Saliency {
+        /// STL file, binary or ASCII
+        model: PathBuf,
+        /// Where to write the weights
+        #[arg(short, long, value_name = "FILE")]
+        output: PathBuf,
     },
     /// List the printers that are known by name
     Printers {
@@ -134,6 +146,20 @@ struct Slicing {
     /// Resin as a JSON file: exposures, bottom layers, lift
     #[arg(long, value_name = "FILE", help_heading = "Printer")]
     resin: Option<PathBuf>,
+    /// Facets count by how much they stand out
+    #[arg(long, help_heading = "Weights")]
+    saliency: bool,
+    /// Facets count by this file of weights; with --saliency by the product
+    #[arg(long, value_name = "FILE", help_heading = "Weights")]
+    weights: Option<PathBuf>,
+    /// What facets count for at least: the error of one may be as many times the tolerance as this goes into 1
+    #[arg(
+        long,
+        value_name = "WEIGHT",
+        default_value_t = 0.25,
+        help_heading = "Weights"
+    )]
+    weight_min: f64,
     /// Least layer thickness
     #[arg(long, value_name = "MM", default_value = "0.05", value_parser = length, help_heading = "Layers")]
     layer_min: f64,
@@ -255,6 +281,8 @@ impl Slicing {
             snap: self.snap,
             metric: self.metric,
             source: self.source,
+            saliency: self.saliency,
+            weight_min: self.weight_min,
             planner: match (self.planner, self.layer) {
                 (PlannerArg::Optimal, _) => Planner::Optimal,
                 (PlannerArg::Greedy, _) => Planner::Greedy,
@@ -382,8 +410,10 @@ fn main() -> ExitCode {
             plan,
             model,
             print,
+            weights,
             json,
-        } => verify(&plan, &model, print.as_deref(), json),
+        } => verify(&plan, &model, print.as_deref(), weights.as_deref(), json),
+        Command::Saliency { model, output } => saliency(&model, &output),
         Command::Printers { json } => printers(json),
         Command::Info { model, json } => info(&model, json),
     };
@@ -453,7 +483,7 @@ fn info(model: &Path, json: bool) -> Result<(), Failure> {
 
 fn plan(slicing: &Slicing) -> Result<(), Failure> {
     slicing.check("plan");
-    let mut slicer = load(&slicing.model)?;
+    let mut slicer = load_weighted(slicing)?;
     stop_on_interrupt();
     let bar = Bar::new();
     let report = make_plan(&mut slicer, slicing, &bar)?;
@@ -466,7 +496,7 @@ fn study<T>(
     slicing: &Slicing,
     ask: impl AsyncFnOnce(&mut Slicer, &mut StageProgress<'_>) -> Result<T, cusp_slicer::Error>,
 ) -> Result<T, Failure> {
-    let mut slicer = load(&slicing.model)?;
+    let mut slicer = load_weighted(slicing)?;
     stop_on_interrupt();
     let bar = Bar::new();
     let mut progress = |stage, fraction| bar.report(stage, fraction);
@@ -536,6 +566,44 @@ fn duration(seconds: f64) -> String {
     }
 }
 
+/// Has facets count by a file of weights, if there is one.
+fn paint(slicer: &mut Slicer, weights: Option<&Path>) -> Result<(), Failure> {
+    let Some(path) = weights else { return Ok(()) };
+    let bytes = fs::read(path).map_err(|error| in_file(path, &error))?;
+    let weights =
+        weights::from_bytes(&bytes, &slicer.positions()).map_err(|error| in_file(path, &error))?;
+    slicer
+        .paint(Some(weights))
+        .map_err(|error| Failure::in_file(path, &error))
+}
+
+/// Loads a model, and the weights of its facets if there are any.
+fn load_weighted(slicing: &Slicing) -> Result<Slicer, Failure> {
+    let mut slicer = load(&slicing.model)?;
+    paint(&mut slicer, slicing.weights.as_deref())?;
+    Ok(slicer)
+}
+
+fn saliency(model: &Path, output: &Path) -> Result<(), Failure> {
+    let place = place_for(output, model).map_err(|reason| in_file(output, &reason))?;
+    let mut slicer = load(model)?;
+    stop_on_interrupt();
+    let mut file = file_beside(&place).map_err(|error| in_file(output, &error))?;
+    let bar = Bar::new();
+    let mut progress = |stage, fraction| bar.report(stage, fraction);
+    let saliency = slicer
+        .saliency(&mut progress)
+        .map_err(|error| Failure::in_file(model, &error))?
+        .to_vec();
+    drop(bar);
+    let bytes = weights::to_bytes(&saliency, &slicer.positions());
+    file.write_all(&bytes)
+        .map_err(|error| in_file(output, &error))?;
+    file.persist(&place)
+        .map_err(|error| in_file(output, &error.error))?;
+    Ok(())
+}
+
 /// Says that a plan, and a print file, are right.
 #[derive(Serialize)]
 struct Verified {
@@ -547,9 +615,16 @@ struct Verified {
     print_is_same: bool,
 }
 
-fn verify(plan: &Path, model: &Path, print_file: Option<&Path>, json: bool) -> Result<(), Failure> {
+fn verify(
+    plan: &Path,
+    model: &Path,
+    print_file: Option<&Path>,
+    weights: Option<&Path>,
+    json: bool,
+) -> Result<(), Failure> {
     let text = fs::read_to_string(plan).map_err(|error| in_file(plan, &error))?;
     let mut slicer = load(model)?;
+    paint(&mut slicer, weights)?;
     let claim = Claim::read(&text, slicer.stl()).map_err(|error| in_file(plan, &error))?;
     stop_on_interrupt();
     let bar = Bar::new();
@@ -594,7 +669,7 @@ fn verify(plan: &Path, model: &Path, print_file: Option<&Path>, json: bool) -> R
 fn slice(slicing: &Slicing, output: &Path) -> Result<(), Failure> {
     slicing.check("slice");
     let place = place_for(output, &slicing.model).map_err(|reason| in_file(output, &reason))?;
-    let mut slicer = load(&slicing.model)?;
+    let mut slicer = load_weighted(slicing)?;
     stop_on_interrupt();
     // Made before the work, so that a folder which cannot be written to is met at once.
     let file = file_beside(&place).map_err(|error| in_file(output, &error))?;

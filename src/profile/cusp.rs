@@ -8,14 +8,17 @@ pub const DEFAULT_TOLERANCE_MM: f64 = 0.065;
 
 /// The densities of bins from the largest `n_z²` of each; 0 where there is no surface. Bounded by 1.
 pub fn density(steepest: &[f32]) -> Vec<f32> {
-    steepest
-        .iter()
-        .map(|&square| {
-            if square == NO_SURFACE {
-                0.0
-            } else {
-                square.sqrt()
-            }
-        })
-        .collect()
+    let of = |&square: &f32| {
+        if square == NO_SURFACE {
+            0.0
+        } else {
+            density_of(square)
+        }
+    };
+    steepest.iter().map(of).collect()
+}
+
+/// The density of a surface by its `n_z²`.
+pub(super) fn density_of(square: f32) -> f32 {
+    square.sqrt()
 }

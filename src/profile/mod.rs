@@ -6,6 +6,7 @@ pub mod roughness;
 pub mod section;
 pub mod steepest;
 pub mod volume;
+pub mod weighted;
 pub mod wishes;
 
 use serde::{Deserialize, Serialize};

@@ -14,18 +14,22 @@ pub const CAP: f32 = 2.0;
 
 /// The densities of bins from the largest `n_z²` of each; 0 where there is no surface.
 pub fn density(steepest: &[f32]) -> Vec<f32> {
-    let cap_square = CAP * CAP;
-    steepest
-        .iter()
-        .map(|&square| {
-            let sine_square = 1.0 - square;
-            if square == NO_SURFACE {
-                0.0
-            } else if sine_square * cap_square <= 1.0 {
-                CAP
-            } else {
-                1.0 / sine_square.sqrt()
-            }
-        })
-        .collect()
+    let of = |&square: &f32| {
+        if square == NO_SURFACE {
+            0.0
+        } else {
+            density_of(square)
+        }
+    };
+    steepest.iter().map(of).collect()
+}
+
+/// The density of a surface by its `n_z²`.
+pub(super) fn density_of(square: f32) -> f32 {
+    let sine_square = 1.0 - square;
+    if sine_square * (CAP * CAP) <= 1.0 {
+        CAP
+    } else {
+        1.0 / sine_square.sqrt()
+    }
 }

@@ -19,10 +19,21 @@ const CHUNK_HITS: usize = 1 << 18;
 ///
 /// Cost: linear in hits.
 pub fn sampled(mesh: &Mesh, ldi: &Ldi, hidden: &[bool], bins: Bins) -> Vec<f32> {
-    let squares: Vec<f32> = (0..mesh.facets.len())
+    sampled_maxima(mesh, ldi, hidden, bins, |facet| mesh.n_z_squared(facet))
+}
+
+/// The same of any value of facets that is not negative.
+pub(super) fn sampled_maxima(
+    mesh: &Mesh,
+    ldi: &Ldi,
+    hidden: &[bool],
+    bins: Bins,
+    value: impl Fn(usize) -> f32,
+) -> Vec<f32> {
+    let values: Vec<f32> = (0..mesh.facets.len())
         .map(|facet| {
             if facet < mesh.surface_facets && hidden.get(facet) != Some(&true) {
-                mesh.n_z_squared(facet)
+                value(facet)
             } else {
                 NO_SURFACE
             }
@@ -33,20 +44,20 @@ pub fn sampled(mesh: &Mesh, ldi: &Ldi, hidden: &[bool], bins: Bins) -> Vec<f32> 
         .chunks(CHUNK_HITS.max(ldi.hits.len() / 16))
         .collect();
     let parts = parallel::map(chunks, |hits: &[Hit]| {
-        let mut steepest = vec![NO_SURFACE; bins.count];
+        let mut maxima = vec![NO_SURFACE; bins.count];
         for hit in hits {
-            let square = squares[hit.facet() as usize];
-            raise(&mut steepest[bins.of(f64::from(hit.z_mm))], square);
+            let value = values[hit.facet() as usize];
+            raise(&mut maxima[bins.of(f64::from(hit.z_mm))], value);
         }
-        steepest
+        maxima
     });
-    let mut steepest = vec![NO_SURFACE; bins.count];
+    let mut maxima = vec![NO_SURFACE; bins.count];
     for part in parts {
-        for (value, other) in steepest.iter_mut().zip(part) {
+        for (value, other) in maxima.iter_mut().zip(part) {
             raise(value, other);
         }
     }
-    steepest
+    maxima
 }
 
 /// For each bin the largest `n_z²` over all facets whose height range meets it, [`NO_SURFACE`] where there are none.
@@ -54,6 +65,16 @@ pub fn sampled(mesh: &Mesh, ldi: &Ldi, hidden: &[bool], bins: Bins) -> Vec<f32> 
 ///
 /// Cost: linear in facets and bins, times the logarithm of the bins that the longest facet spans.
 pub fn exact(mesh: &Mesh, hidden: &[bool], bins: Bins) -> Vec<f32> {
+    exact_maxima(mesh, hidden, bins, |facet| mesh.n_z_squared(facet))
+}
+
+/// The same of any value of facets that is not negative.
+pub(super) fn exact_maxima(
+    mesh: &Mesh,
+    hidden: &[bool],
+    bins: Bins,
+    value: impl Fn(usize) -> f32,
+) -> Vec<f32> {
     let bin_of: Vec<u32> = mesh
         .vertices
         .iter()
@@ -66,8 +87,7 @@ pub fn exact(mesh: &Mesh, hidden: &[bool], bins: Bins) -> Vec<f32> {
         }
         let [a, b, c] = corners.map(|vertex| bin_of[vertex as usize]);
         let (lowest, highest) = (a.min(b).min(c), a.max(b).max(c));
-        let square = mesh.n_z_squared(facet);
-        maxima.raise(lowest as usize, highest as usize, square);
+        maxima.raise(lowest as usize, highest as usize, value(facet));
     }
     maxima.into_values()
 }

@@ -19,7 +19,12 @@ pub struct VolumeError {
     pub(super) bins: Bins,
     /// Area of each bin in millionths of a mm².
     areas: Vec<i64>,
+    /// Weight of each bin in parts of [`WEIGHT_ONE`]; empty where all are 1.
+    weights: Vec<u64>,
 }
+
+/// A weight of 1.
+const WEIGHT_ONE: f64 = 65_536.0;
 
 impl VolumeError {
     /// Errors of the layers of a model whose sections have these areas.
@@ -28,6 +33,16 @@ impl VolumeError {
         Self {
             bins,
             areas: areas_mm2.iter().map(steps).collect(),
+            weights: Vec::new(),
+        }
+    }
+
+    /// The same with deviations multiplied by the weight of the bin that they are in, 0 to 1.
+    pub fn weighted(areas_mm2: &[f64], weights: Vec<f32>, bins: Bins) -> Self {
+        let parts = |weight| (f64::from(weight) * WEIGHT_ONE + 0.5) as u64;
+        Self {
+            weights: weights.into_iter().map(parts).collect(),
+            ..Self::new(areas_mm2, bins)
         }
     }
 
@@ -38,7 +53,11 @@ impl VolumeError {
 
     /// What the bin from `bin` to `bin + 1` adds to the error of a layer from `lower` on (eq. 20).
     pub(super) fn steps_of(&self, lower: u32, bin: u32) -> u64 {
-        self.area(bin).abs_diff(self.area(lower))
+        let steps = self.area(bin).abs_diff(self.area(lower));
+        match self.weights.get(bin as usize) {
+            None => steps,
+            Some(weight) => (steps * weight + WEIGHT_ONE as u64 / 2) / WEIGHT_ONE as u64,
+        }
     }
 
     /// Steps a mm³.

@@ -1,0 +1,105 @@
+//! Profiles of models whose facets matter differently (section 4.2): the densities of a facet are multiplied by its weight, 0
+//! to 1, so that the tolerance holds where the weight is 1 and is loosened elsewhere.
+
+use super::steepest::{self, NO_SURFACE};
+use super::volume::VolumeError;
+use super::{LayerErrors, Metric, Profile, Shape, area, cusp, roughness};
+use crate::ldi::Ldi;
+use crate::mesh::Mesh;
+
+/// The largest weighted density of each bin (eq. 21, 22), or for metrics of areas, which belong to no facet, the largest
+/// weight (eq. 23, 24); negative where there is no surface.
+#[derive(Debug, Clone)]
+pub struct Weighted {
+    metric: Metric,
+    values: Vec<f32>,
+}
+
+/// What a facet counts for under a metric.
+fn value_of(mesh: &Mesh, metric: Metric, weights: &[f32]) -> impl Fn(usize) -> f32 {
+    move |facet| {
+        let weight = weights[facet];
+        match metric {
+            Metric::Cusp => weight * cusp::density_of(mesh.n_z_squared(facet)),
+            Metric::Roughness => weight * roughness::density_of(mesh.n_z_squared(facet)),
+            Metric::Area | Metric::Volume => weight,
+        }
+    }
+}
+
+impl Weighted {
+    /// Over all facets whose height range meets a bin. `weights` has one for each facet of the surface.
+    pub fn exact(
+        mesh: &Mesh,
+        shape: &Shape,
+        hidden: &[bool],
+        metric: Metric,
+        weights: &[f32],
+    ) -> Self {
+        let value = value_of(mesh, metric, weights);
+        Self {
+            metric,
+            values: steepest::exact_maxima(mesh, hidden, shape.bins, value),
+        }
+    }
+
+    /// Over the hits in a bin.
+    pub fn sampled(
+        mesh: &Mesh,
+        ldi: &Ldi,
+        shape: &Shape,
+        hidden: &[bool],
+        metric: Metric,
+        weights: &[f32],
+    ) -> Self {
+        let value = value_of(mesh, metric, weights);
+        Self {
+            metric,
+            values: steepest::sampled_maxima(mesh, ldi, hidden, shape.bins, value),
+        }
+    }
+
+    /// The weighted profile of the metric. Of the volume deviation it is the areas: weights come in where a layer deviates
+    /// from its base. Multiplying the areas themselves, as eq. 24 has it, would find errors on an upright prism wherever its
+    /// weight changes.
+    pub fn profile(&self, shape: &Shape) -> Profile {
+        let density = match self.metric {
+            Metric::Cusp | Metric::Roughness => {
+                let values = self.values.iter();
+                values
+                    .map(|&value| if value == NO_SURFACE { 0.0 } else { value })
+                    .collect()
+            }
+            Metric::Area => {
+                let densities = area::density(&shape.areas_mm2, shape.bins);
+                densities
+                    .iter()
+                    .zip(self.weights())
+                    .map(|(density, weight)| density * weight)
+                    .collect()
+            }
+            Metric::Volume => return shape.profile(Metric::Volume),
+        };
+        Profile {
+            bins: shape.bins,
+            density,
+        }
+    }
+
+    /// The weighted errors of layers.
+    pub fn errors(&self, shape: &Shape) -> LayerErrors {
+        match self.metric {
+            Metric::Volume => {
+                let weights = self.weights().collect();
+                LayerErrors::Volume(VolumeError::weighted(&shape.areas_mm2, weights, shape.bins))
+            }
+            _ => LayerErrors::Sum(self.profile(shape).error_sum()),
+        }
+    }
+
+    /// The largest weight of each bin; where no surface says, 1.
+    fn weights(&self) -> impl Iterator<Item = f32> {
+        let values = self.values.iter();
+        values.map(|&value| if value == NO_SURFACE { 1.0 } else { value })
+    }
+}

@@ -1,0 +1,417 @@
+//! Saliency against its definition and its invariances; weights in profiles, plans and files.
+
+#![cfg(not(target_arch = "wasm32"))]
+
+mod common;
+
+use std::ops::ControlFlow;
+
+use common::{assert_near, binary_stl, quiet, solids};
+use cusp_slicer::mesh::Mesh;
+use cusp_slicer::options::{Backend, Options, Snap};
+use cusp_slicer::pipeline::Slicer;
+use cusp_slicer::profile::{Metric, Source};
+use cusp_slicer::progress::silent;
+use cusp_slicer::report::Report;
+use cusp_slicer::saliency::saliency;
+use cusp_slicer::weights::{self, WeightsError};
+use glam::{DVec3, Quat, Vec3};
+
+const METRICS: [Metric; 4] = [
+    Metric::Cusp,
+    Metric::Roughness,
+    Metric::Area,
+    Metric::Volume,
+];
+
+/// A ball whose surface bulges out and in around the direction x, within about a third of it.
+fn bumpy_ball(levels: u32) -> solids::Triangles {
+    let mut ball = solids::sphere(10.0, levels);
+    for corner in ball.iter_mut().flatten() {
+        let toward = corner.normalize().x;
+        if toward > 0.8 {
+            let [y, z] = [corner.y, corner.z];
+            let fade = (toward - 0.8) / 0.2;
+            *corner *= 1.0 + 0.04 * fade * (1.6 * y).sin() * (1.6 * z).sin();
+        }
+    }
+    ball
+}
+
+fn facets(triangles: &solids::Triangles) -> Vec<f32> {
+    let mesh = Mesh::from_triangles(triangles).unwrap();
+    saliency(&mesh, &mut silent).unwrap()
+}
+
+fn mean(values: impl Iterator<Item = f32>) -> f32 {
+    let values: Vec<f32> = values.collect();
+    values.iter().sum::<f32>() / values.len() as f32
+}
+
+fn middle([a, b, c]: &[Vec3; 3]) -> Vec3 {
+    (*a + *b + *c) / 3.0
+}
+
+#[test]
+fn a_bumpy_ball_stands_out_at_its_bumps() {
+    let ball = bumpy_ball(6);
+    let found = facets(&ball);
+    let side = |is_front: bool| {
+        let facets = ball.iter().zip(&found);
+        mean(
+            facets
+                .filter(|(facet, _)| (middle(facet).normalize().x > 0.85) == is_front)
+                .map(|(_, &saliency)| saliency),
+        )
+    };
+    let (front, back) = (side(true), side(false));
+    assert!(front > 0.2, "{front}");
+    assert!(front > 8.0 * back, "{front} at the bumps, {back} elsewhere");
+    let most = found.iter().copied().fold(0.0, f32::max);
+    assert_eq!(most, 1.0);
+    assert!(found.iter().all(|value| (0.0..=1.0).contains(value)));
+}
+
+#[test]
+fn size_and_pose_do_not_matter() {
+    let ball = bumpy_ball(5);
+    let expected = facets(&ball);
+    let turn = Quat::from_xyzw(0.3, -0.5, 0.2, 0.8).normalize();
+    for (name, change) in [
+        (
+            "scaled",
+            &(|corner: Vec3| corner * 7.3) as &dyn Fn(Vec3) -> Vec3,
+        ),
+        ("turned", &|corner: Vec3| turn * corner),
+        ("moved", &|corner: Vec3| corner + Vec3::new(13.0, -5.0, 2.0)),
+    ] {
+        let changed: solids::Triangles = ball.iter().map(|facet| facet.map(change)).collect();
+        let found = facets(&changed);
+        // A turned box has another diagonal, which is the unit of scales; a ball's hardly has.
+        let off = expected.iter().zip(&found).map(|(a, b)| (a - b).abs());
+        let off: Vec<f32> = off.collect();
+        let worst = off.iter().copied().fold(0.0, f32::max);
+        let usual = mean(off.into_iter());
+        let (most, mean) = if name == "turned" {
+            (0.15, 0.01)
+        } else {
+            (0.02, 5e-4)
+        };
+        assert!(
+            worst < most && usual < mean,
+            "{name}: {worst} at worst, {usual} in the mean"
+        );
+    }
+}
+
+/// The article's steps one after the other, each as it is written: all pairs of vertices, exp of the library.
+fn naive(mesh: &Mesh) -> Vec<f64> {
+    let points: Vec<DVec3> = mesh
+        .vertices
+        .iter()
+        .map(|vertex| vertex.as_dvec3())
+        .collect();
+    let surface = &mesh.facets[..mesh.surface_facets];
+    let cross = |[a, b, c]: [u32; 3]| {
+        let [a, b, c] = [a, b, c].map(|vertex| points[vertex as usize]);
+        (b - a).cross(c - a)
+    };
+    let around = |vertex: usize| {
+        surface
+            .iter()
+            .filter(move |facet| facet.contains(&(vertex as u32)))
+    };
+    let count = points.len();
+    let area: Vec<f64> = (0..count)
+        .map(|vertex| {
+            around(vertex)
+                .map(|&facet| cross(facet).length() / 6.0)
+                .sum()
+        })
+        .collect();
+    let curvature: Vec<f64> = (0..count)
+        .map(|vertex| {
+            let normal: DVec3 = around(vertex).map(|&facet| cross(facet)).sum();
+            let normal = normal.normalize();
+            let (mut sum, mut weights) = (0.0, 0.0);
+            for facet in around(vertex) {
+                for &other in facet.iter().filter(|&&other| other as usize != vertex) {
+                    let edge = points[vertex] - points[other as usize];
+                    sum += cross(*facet).length() * 2.0 * normal.dot(edge) / edge.length_squared();
+                    weights += cross(*facet).length();
+                }
+            }
+            sum / weights
+        })
+        .collect();
+    let unit = 0.003 * mesh.bounds().size().length();
+    let average = |vertex: usize, sigma: f64| {
+        let (mut sum, mut weights) = (0.0, 0.0);
+        for other in 0..count {
+            let square = points[vertex].distance_squared(points[other]);
+            if square < 4.0 * sigma * sigma && area[other] > 0.0 {
+                let weight = area[other] * (-square / (2.0 * sigma * sigma)).exp();
+                sum += weight * curvature[other];
+                weights += weight;
+            }
+        }
+        sum / weights
+    };
+    let mut total = vec![0.0; count];
+    for scale in 2..=6 {
+        let sigma = f64::from(scale) * unit;
+        let values: Vec<f64> = (0..count)
+            .map(|vertex| (average(vertex, sigma) - average(vertex, 2.0 * sigma)).abs())
+            .collect();
+        let most = values.iter().copied().fold(0.0, f64::max);
+        if most == 0.0 {
+            continue;
+        }
+        let is_peak = |vertex: usize| {
+            let corners = around(vertex).flatten();
+            corners
+                .filter(|&&other| other as usize != vertex)
+                .all(|&other| values[vertex] > values[other as usize])
+        };
+        let peaks: Vec<f64> = (0..count)
+            .filter(|&vertex| is_peak(vertex) && values[vertex] < most)
+            .map(|vertex| values[vertex] / most)
+            .collect();
+        let mean = peaks.iter().sum::<f64>() / peaks.len().max(1) as f64;
+        for (total, value) in total.iter_mut().zip(&values) {
+            *total += value / most * (1.0 - mean).powi(2);
+        }
+    }
+    let of_facets = surface
+        .iter()
+        .map(|facet| facet.iter().map(|&vertex| total[vertex as usize]).sum());
+    let of_facets: Vec<f64> = of_facets.collect();
+    let most = of_facets.iter().copied().fold(0.0, f64::max);
+    of_facets.into_iter().map(|value| value / most).collect()
+}
+
+#[test]
+fn saliency_is_what_the_article_says() {
+    let mut holed = bumpy_ball(4);
+    holed.truncate(holed.len() - 30);
+    for (name, triangles) in [
+        ("ball", bumpy_ball(4)),
+        ("open ball", holed),
+        ("gyroid", solids::gyroid(1, 16)),
+    ] {
+        let mesh = Mesh::from_triangles(&triangles).unwrap();
+        let found = saliency(&mesh, &mut silent).unwrap();
+        for (facet, (found, expected)) in found.iter().zip(naive(&mesh)).enumerate() {
+            assert!(
+                (f64::from(*found) - expected).abs() < 5e-3,
+                "{name}, facet {facet}: {found}, not {expected}"
+            );
+        }
+    }
+}
+
+#[test]
+fn any_mesh_has_a_saliency_and_any_moment_can_be_the_last() {
+    for (name, triangles) in solids::all() {
+        let found = facets(&triangles);
+        assert!(
+            found.iter().all(|value| (0.0..=1.0).contains(value)),
+            "{name}"
+        );
+    }
+    let mesh = Mesh::from_triangles(&bumpy_ball(6)).unwrap();
+    let mut calls = 0;
+    let mut stop = |_| {
+        calls += 1;
+        if calls == 3 {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    };
+    assert!(saliency(&mesh, &mut stop).is_err());
+}
+
+fn options(metric: Metric) -> Options {
+    Options {
+        rays: 203,
+        metric,
+        // Wishes depend on heights alone, and would hide what weights do.
+        snap: Snap::Off,
+        backend: Backend::Cpu,
+        ..Options::default()
+    }
+}
+
+fn plan(slicer: &mut Slicer, options: &Options) -> Report {
+    pollster::block_on(slicer.plan(options, &mut quiet))
+        .unwrap()
+        .clone()
+}
+
+#[test]
+fn weight_1_changes_nothing_and_weight_one_half_doubles_the_tolerance() {
+    let model = binary_stl(&solids::sphere(4.0, 5));
+    let mut slicer = Slicer::load(&model).unwrap();
+    let facets = slicer.info().facets;
+    for metric in METRICS {
+        for source in [Source::Exact, Source::Sampled] {
+            let options = Options {
+                source,
+                ..options(metric)
+            };
+            slicer.paint(None).unwrap();
+            let plain = plan(&mut slicer, &options);
+            let profile = slicer.profile(metric, source).unwrap();
+            let tight = options.tolerance.unwrap_or(plain.tolerance);
+            let doubled = Options {
+                tolerance: Some(2.0 * tight),
+                ..options.clone()
+            };
+            let doubled = plan(&mut slicer, &doubled);
+
+            slicer.paint(Some(vec![1.0; facets])).unwrap();
+            let same = plan(&mut slicer, &options);
+            assert_eq!(same.z_mm, plain.z_mm, "{metric:?}, {source:?}");
+            assert_eq!(same.max_error, plain.max_error);
+            assert_eq!(slicer.profile(metric, source).unwrap(), profile);
+
+            slicer.paint(Some(vec![0.5; facets])).unwrap();
+            let half = Options {
+                tolerance: Some(tight),
+                ..options.clone()
+            };
+            let half = plan(&mut slicer, &half);
+            assert_eq!(half.layers, doubled.layers, "{metric:?}, {source:?}");
+            assert!(source == Source::Sampled || half.max_error <= tight);
+            if source == Source::Exact {
+                let slack = 1e-3 * doubled.max_error;
+                assert_near(2.0 * half.max_error, doubled.max_error, slack);
+                // The true cusp height is told whatever the weights.
+                assert_near(half.max_error_mm, doubled.max_error_mm, 2e-3);
+            }
+            let is_fewer = half.layers < plain.layers;
+            assert!(is_fewer || metric != Metric::Cusp);
+        }
+    }
+}
+
+#[test]
+fn the_plan_changes_where_weights_do_and_nowhere_else() {
+    let triangles = solids::sphere(8.0, 6);
+    let mut slicer = Slicer::load(&binary_stl(&triangles)).unwrap();
+    let options = Options {
+        // Planned on its own on either side, so that layers below do not give way to those above.
+        planes_mm: vec![10.5],
+        ..options(Metric::Cusp)
+    };
+    let plain = plan(&mut slicer, &options);
+    // The file is stood on the plate: heights in it are 8 mm less.
+    let paint = |facet: &[Vec3; 3]| if middle(facet).z > 3.0 { 0.4 } else { 1.0 };
+    slicer
+        .paint(Some(triangles.iter().map(paint).collect()))
+        .unwrap();
+    let painted = plan(&mut slicer, &options);
+    assert!(painted.layers < plain.layers);
+    let unchanged = |report: &Report| -> Vec<f64> {
+        report.z_mm.iter().copied().filter(|&z| z <= 10.5).collect()
+    };
+    assert_eq!(unchanged(&painted), unchanged(&plain));
+    // On a facet of weight 0.4 the error is at most 2.5 times the tolerance.
+    assert!(painted.max_error_mm > 0.065 && painted.max_error_mm <= 0.065 / 0.4);
+    assert!(painted.max_error <= 0.065);
+    // A glance agrees, and the least weight bounds what is loosened.
+    assert_eq!(slicer.glance(&options).unwrap().0.z_mm, painted.z_mm);
+    let bounded = Options {
+        weight_min: 0.9,
+        ..options.clone()
+    };
+    assert!(plan(&mut slicer, &bounded).layers > painted.layers);
+    let all = Options {
+        weight_min: 1.0,
+        ..options
+    };
+    assert_eq!(plan(&mut slicer, &all).z_mm, plain.z_mm);
+}
+
+#[test]
+fn weights_are_the_product_of_paint_and_saliency() {
+    let triangles = bumpy_ball(5);
+    let mut slicer = Slicer::load(&binary_stl(&triangles)).unwrap();
+    let options = Options {
+        saliency: true,
+        weight_min: 0.1,
+        ..options(Metric::Cusp)
+    };
+    let saliency = slicer.saliency(&mut quiet).unwrap().to_vec();
+    let paint: Vec<f32> = (0..triangles.len())
+        .map(|facet| (facet % 11) as f32 / 10.0)
+        .collect();
+    slicer.paint(Some(paint.clone())).unwrap();
+    let found = slicer.weights(&options, &mut quiet).unwrap().unwrap();
+    for (facet, weight) in found.into_iter().enumerate() {
+        assert_eq!(weight, (saliency[facet] * paint[facet]).max(0.1));
+    }
+    // More layers at the bumps than a ball without weights on its tolerance has; fewer in all.
+    slicer.paint(None).unwrap();
+    let salient = plan(&mut slicer, &options);
+    let plain = plan(&mut slicer, &self::options(Metric::Cusp));
+    assert!(
+        salient.layers < plain.layers,
+        "{} and {}",
+        salient.layers,
+        plain.layers
+    );
+}
+
+#[test]
+fn weights_in_a_file_are_bound_to_their_mesh() {
+    let triangles = solids::sphere(4.0, 4);
+    let slicer = Slicer::load(&binary_stl(&triangles)).unwrap();
+    let corners = slicer.positions();
+    assert_eq!(corners.len(), 9 * triangles.len());
+    assert_eq!(corners[..3], triangles[0][0].to_array());
+    let mut random = fastrand::Rng::with_seed(3);
+    let expected: Vec<f32> = triangles.iter().map(|_| random.f32()).collect();
+    let bytes = weights::to_bytes(&expected, &corners);
+    assert_eq!(bytes.len(), 16 + 4 * expected.len());
+    assert_eq!(weights::from_bytes(&bytes, &corners), Ok(expected));
+
+    let other = Slicer::load(&binary_stl(&solids::sphere(4.1, 4)))
+        .unwrap()
+        .positions();
+    let error = weights::from_bytes(&bytes, &other).unwrap_err();
+    assert!(matches!(error, WeightsError::OtherMesh { .. }), "{error}");
+    let fewer = Slicer::load(&binary_stl(&solids::cube(1.0)))
+        .unwrap()
+        .positions();
+    let error = weights::from_bytes(&bytes, &fewer).unwrap_err();
+    assert_eq!(
+        error,
+        WeightsError::OtherMesh {
+            weights_facets: triangles.len(),
+            mesh_facets: 12
+        }
+    );
+    for cut in [0, 7, 15, 16, bytes.len() - 1] {
+        assert_eq!(
+            weights::from_bytes(&bytes[..cut], &corners),
+            Err(WeightsError::NotWeights)
+        );
+    }
+    let mut bad = bytes;
+    bad[16..20].copy_from_slice(&1.5f32.to_le_bytes());
+    let error = weights::from_bytes(&bad, &corners).unwrap_err();
+    assert_eq!(
+        error,
+        WeightsError::OutOfRange {
+            facet: 0,
+            weight: 1.5
+        }
+    );
+    let mut slicer = slicer;
+    assert_eq!(
+        slicer.paint(Some(vec![1.0; 3])).unwrap_err().code(),
+        "weights-other-mesh"
+    );
+}
