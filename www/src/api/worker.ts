@@ -1,7 +1,7 @@
 /** The worker: the only file that imports the WebAssembly package. One model is open at a time. */
 import * as Comlink from "comlink";
-import init, { Slicer } from "../pkg/cusp_slicer.js";
-import wasmUrl from "../pkg/cusp_slicer_bg.wasm?url";
+import init, { Slicer } from "../../pkg/cusp_slicer.js";
+import wasmUrl from "../../pkg/cusp_slicer_bg.wasm?url";
 import type { CuspError, OnProgress, SlicerWorker } from "./wire.js";
 
 let slicer: Slicer | null = null;

@@ -1,6 +1,6 @@
 /** What is known of the model that is open. */
 import { html, nothing, type TemplateResult } from "lit";
-import * as format from "./format.js";
+import * as format from "../texts/format.js";
 import { sentence } from "./problem.js";
 import type { Model, Result } from "./session.js";
 

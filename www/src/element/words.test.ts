@@ -1,12 +1,12 @@
 import { expect, test } from "vitest";
 import { archiveName, choose } from "./choice.js";
 import { rows, sentence, type Compared } from "./comparison.js";
-import * as format from "./format.js";
+import * as format from "../texts/format.js";
 import { explain } from "./problem.js";
 import { standing } from "./progress.js";
 import * as round from "./round.js";
 import { check, DEFAULT_SETTINGS, type Settings } from "./settings.js";
-import type { CuspError, Options, PlannerReport, Report } from "./wire.js";
+import type { CuspError, Options, PlannerReport, Report } from "../api/wire.js";
 
 const limits = [0.05, 0.15] as const;
 

@@ -1,8 +1,8 @@
 /** The plan against the two uniform plans it competes with, as rows and as one sentence. */
-import * as format from "./format.js";
+import * as format from "../texts/format.js";
 import { METRICS } from "./metric.js";
 import type { Result } from "./session.js";
-import type { Report } from "./wire.js";
+import type { Report } from "../api/wire.js";
 
 /** What is compared: a result without its profile. */
 export type Compared = Pick<Result, "report" | "limits" | "options">;

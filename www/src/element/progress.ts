@@ -1,7 +1,7 @@
 /** The stages in words, and the bar that shows them. */
 import { css, html, type TemplateResult } from "lit";
 import type { Busy } from "./session.js";
-import type { Stage } from "./wire.js";
+import type { Stage } from "../api/wire.js";
 
 const WORDS: Record<Stage, string> = {
   load: "Reading the model",

@@ -1,6 +1,6 @@
 /** The measures of error: their names, their units, and what is said of their profiles. */
-import * as format from "./format.js";
-import type { Metric } from "./wire.js";
+import * as format from "../texts/format.js";
+import type { Metric } from "../api/wire.js";
 
 export interface Measure {
   name: string;

@@ -1,7 +1,7 @@
 /** The form's settings: what was typed or chosen, whether it makes sense, and the options it stands for. */
 import { METRIC_NAMES, METRICS } from "./metric.js";
 import * as round from "./round.js";
-import { DEFAULTS, type Metric, type Minimize, type Options, type Snap } from "./wire.js";
+import { DEFAULTS, type Metric, type Minimize, type Options, type Snap } from "../api/wire.js";
 
 /** Lengths in mm as typed, so that a half-typed number stays on the screen. */
 interface Lengths {

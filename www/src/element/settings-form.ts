@@ -1,11 +1,11 @@
 /** The settings as a form. It holds nothing: it shows what it is given and says what was typed. */
 import { css, html, LitElement, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
-import * as format from "./format.js";
+import * as format from "../texts/format.js";
 import { METRIC_NAMES, METRICS } from "./metric.js";
 import { DEFAULT_SETTINGS, RAYS, usualTolerance, withTolerance, type Faults, type Field, type Settings } from "./settings.js";
 import { shared } from "./styles.js";
-import { DEFAULTS, type MeshInfo } from "./wire.js";
+import { DEFAULTS, type MeshInfo } from "../api/wire.js";
 
 export class CuspSettings extends LitElement {
   static override properties = {

@@ -1,7 +1,7 @@
 /** The result in one look: the number of layers, the time they take, what that saves, and the two uniform plans beside it. */
 import { css, html, nothing, type TemplateResult } from "lit";
 import { rows, sentence } from "./comparison.js";
-import * as format from "./format.js";
+import * as format from "../texts/format.js";
 import { METRICS } from "./metric.js";
 import type { Result } from "./session.js";
 

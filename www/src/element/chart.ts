@@ -6,10 +6,10 @@
  */
 import type uPlot from "uplot";
 import { css, ofThickness } from "./colour.js";
-import * as format from "./format.js";
+import * as format from "../texts/format.js";
 import { layerAt } from "./layers.js";
 import { METRICS } from "./metric.js";
-import type { Metric } from "./wire.js";
+import type { Metric } from "../api/wire.js";
 
 export interface ChartData {
   metric: Metric;

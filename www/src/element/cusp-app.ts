@@ -3,9 +3,9 @@ import { html, LitElement, nothing, type PropertyValues, type TemplateResult } f
 import { appStyles } from "./app-styles.js";
 import type { ChartData } from "./chart.js";
 import { sentence } from "./comparison.js";
-import { EXAMPLE_NAME, binaryStl, exampleTriangles } from "./example.js";
-import * as format from "./format.js";
-import icon from "./icon.svg";
+import { EXAMPLE_NAME, binaryStl, exampleTriangles } from "../page/example.js";
+import * as format from "../texts/format.js";
+import icon from "../page/icon.svg";
 import { modelCard } from "./model-card.js";
 import "./mask-view.js";
 import "./profile-chart.js";
@@ -13,10 +13,10 @@ import { progressBar, progressStyles, standing } from "./progress.js";
 import { Session, type Result } from "./session.js";
 import "./settings-form.js";
 import { fromAddress, type Settings } from "./settings.js";
-import { SlicerClient } from "./slicer.js";
+import { SlicerClient } from "../api/slicer.js";
 import { shared } from "./styles.js";
 import { details, summary, summaryStyles } from "./summary.js";
-import type { Backend } from "./wire.js";
+import type { Backend } from "../api/wire.js";
 
 /** For developers: `?backend=cpu` or `?backend=gpu` asks the core for one of them. */
 function backendFromAddress(): Backend | null {

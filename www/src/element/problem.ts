@@ -1,9 +1,9 @@
 /** Failures in words: what happened, and what to do about it. */
-import * as format from "./format.js";
+import * as format from "../texts/format.js";
 import { METRICS } from "./metric.js";
 import * as round from "./round.js";
 import { binOf, parse, withTolerance, type Settings } from "./settings.js";
-import type { CuspError } from "./wire.js";
+import type { CuspError } from "../api/wire.js";
 
 /** A change of settings that may well help, offered as a button. */
 export interface Offer {

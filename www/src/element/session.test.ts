@@ -1,8 +1,8 @@
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import { Session } from "./session.js";
 import { DEFAULT_SETTINGS } from "./settings.js";
-import { SlicerError, type Watch } from "./slicer.js";
-import type { MeshInfo, Options, Plan, Report } from "./wire.js";
+import { SlicerError, type Watch } from "../api/slicer.js";
+import type { MeshInfo, Options, Plan, Report } from "../api/wire.js";
 
 const info = { facets: 1, size_mm: [1, 1, 10], warnings: [] } as unknown as MeshInfo;
 

@@ -4,7 +4,7 @@ import uPlot from "uplot";
 import uplotStyles from "uplot/dist/uPlot.min.css?inline";
 import { chartData, chartOptions, type ChartData, type ChartTheme } from "./chart.js";
 import { gradient } from "./colour.js";
-import * as format from "./format.js";
+import * as format from "../texts/format.js";
 import { layerAt } from "./layers.js";
 import { METRICS } from "./metric.js";
 import { shared } from "./styles.js";

@@ -7,8 +7,8 @@ import { archiveName, choose } from "./choice.js";
 import { layerAt } from "./layers.js";
 import { explain, notAnStl, type Problem } from "./problem.js";
 import { check, DEFAULT_SETTINGS, layerRange, sameRays, type Faults, type Settings } from "./settings.js";
-import { isAbort, SlicerError, type SlicerClient, type Watch } from "./slicer.js";
-import type { Backend, MeshInfo, Options, Plan, Stage } from "./wire.js";
+import { isAbort, SlicerError, type SlicerClient, type Watch } from "../api/slicer.js";
+import type { Backend, MeshInfo, Options, Plan, Stage } from "../api/wire.js";
 
 export interface Model {
   name: string;

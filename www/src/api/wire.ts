@@ -3,10 +3,10 @@
  *
  * The types of the core are re-exported from the generated package, never copied: a change there is a type error here.
  */
-import type { CuspError, MeshInfo, Metric, Options, Report, Stage } from "../pkg/cusp_slicer.js";
+import type { CuspError, MeshInfo, Metric, Options, Report, Stage } from "../../pkg/cusp_slicer.js";
 
 export type { CuspError, MeshInfo, Metric, Options, Report, Stage };
-export type { Backend, Minimize, Planner, PlannerReport, Snap, Warning } from "../pkg/cusp_slicer.js";
+export type { Backend, Minimize, Planner, PlannerReport, Snap, Warning } from "../../pkg/cusp_slicer.js";
 
 /** Told as a stage advances; `fraction` is 0 to 1 within the stage. */
 export type OnProgress = (stage: Stage, fraction: number) => void;

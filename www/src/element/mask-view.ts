@@ -3,10 +3,10 @@ import { css, html, LitElement, type PropertyValues, type TemplateResult } from 
 import { live } from "lit/directives/live.js";
 import { coverage, factorFor } from "./bitmap.js";
 import { css as cssColour, ofThickness } from "./colour.js";
-import * as format from "./format.js";
+import * as format from "../texts/format.js";
 import type { Mask } from "./session.js";
 import { shared } from "./styles.js";
-import type { Report } from "./wire.js";
+import type { Report } from "../api/wire.js";
 
 /** A canvas larger than this costs memory and shows nothing more. */
 const CANVAS_LIMIT = 1024;

@@ -1,0 +1,1 @@
+import "../element/cusp-app.js";
