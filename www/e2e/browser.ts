@@ -28,8 +28,9 @@ function executable(): string {
   throw new Error("no Chromium on PATH: install one, or name it in the variable CHROMIUM");
 }
 
-export function launch(): Promise<Browser> {
-  return chromium.launch({ executablePath: executable(), headless: true, args: FLAGS });
+/** @param flags for the browser, beside those that all tests need */
+export function launch(flags: readonly string[] = []): Promise<Browser> {
+  return chromium.launch({ executablePath: executable(), headless: true, args: [...FLAGS, ...flags] });
 }
 
 export interface Opened {
