@@ -43,7 +43,13 @@ export interface Opened {
 
 /** A fresh page at `address`, whose foreign requests and errors are noted. */
 export async function open(browser: Browser, address: string, options: BrowserContextOptions = {}): Promise<Opened> {
-  const context = await browser.newContext({ locale: "en-GB", viewport: { width: 1280, height: 900 }, ...options });
+  const context = await browser.newContext({
+    locale: "en-GB",
+    viewport: { width: 1280, height: 900 },
+    // It would answer where the tests themselves want to.
+    serviceWorkers: "block",
+    ...options,
+  });
   const page = await context.newPage();
   const strangers: string[] = [];
   const complaints: string[] = [];
@@ -57,7 +63,7 @@ export async function open(browser: Browser, address: string, options: BrowserCo
     if (message.type() === "error") complaints.push(message.text());
   });
   await page.goto(address);
-  await page.waitForSelector("cusp-app[data-state=empty]");
+  await page.waitForSelector("cusp-slicer[state=empty]");
   return { page, strangers, complaints };
 }
 
@@ -81,7 +87,7 @@ export async function drop(page: Page, ...files: DroppedFile[]): Promise<number>
         const answer = await fetch(from + String(index));
         transfer.items.add(new File([await answer.arrayBuffer()], name));
       }
-      const target = document.querySelector("cusp-app");
+      const target = document.querySelector("cusp-slicer");
       if (target === null) throw new Error("there is no page");
       const start = performance.now();
       for (const type of ["dragenter", "dragover", "drop"]) {
@@ -98,7 +104,7 @@ export async function drop(page: Page, ...files: DroppedFile[]): Promise<number>
 }
 
 export async function state(page: Page, wanted: string, timeout = 30_000): Promise<void> {
-  await page.waitForSelector(`cusp-app[data-state=${wanted}]`, { timeout });
+  await page.waitForSelector(`cusp-slicer[state=${wanted}]`, { timeout });
 }
 
 /** Waits until the plan on show answers to the settings, after a change of them. */
@@ -124,7 +130,7 @@ export async function maskOf(page: Page, layer: number): Promise<void> {
 export async function download(page: Page): Promise<Download> {
   const [file] = await Promise.all([
     page.waitForEvent("download"),
-    page.getByRole("button", { name: /Download masks/ }).click(),
+    page.getByRole("button", { name: /Download print file/ }).click(),
   ]);
   return file;
 }

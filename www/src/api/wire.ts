@@ -1,22 +1,35 @@
 /**
- * What crosses between the page and the worker, and the defaults both sides assume.
+ * What crosses between a page and the worker, and the defaults both sides assume.
  *
  * The types of the core are re-exported from the generated package, never copied: a change there is a type error here.
  */
-import type { CuspError, MeshInfo, Metric, Options, Report, Stage } from "../../pkg/cusp_slicer.js";
+import type { Comparison, Format, MeshInfo, Metric, Report, Stage, Tradeoff } from "../../pkg/cusp_slicer.js";
+import type { Glance, Options, PrinterInfo } from "./contract.js";
 
-export type { CuspError, MeshInfo, Metric, Options, Report, Stage };
-export type { Backend, Minimize, Planner, PlannerReport, Snap, Warning } from "../../pkg/cusp_slicer.js";
+export type { Comparison, Format, Glance, MeshInfo, Metric, Options, PrinterInfo, Report, Stage, Tradeoff };
+export type {
+  Backend,
+  CuspError,
+  HeightRange,
+  Minimize,
+  Planner,
+  PlannerReport,
+  Resin,
+  Snap,
+  TradeoffPoint,
+  Warning,
+} from "../../pkg/cusp_slicer.js";
 
 /** Told as a stage advances; `fraction` is 0 to 1 within the stage. */
 export type OnProgress = (stage: Stage, fraction: number) => void;
 
-/**
- * A finished plan: the report, and the profile of its metric and source. Bin i covers (i·bin, (i+1)·bin] mm; its value is
- * an error density, or for the volume deviation the area of the section in mm².
- */
-export interface Plan {
-  report: Report;
+/** A report, and the profile that it was planned by. */
+export interface Profiled<R> {
+  report: R;
+  /**
+   * Bin i covers (i·bin, (i+1)·bin] mm; its value is an error density, or for the volume deviation the area of the
+   * section in mm².
+   */
   profile: Float32Array;
 }
 
@@ -26,14 +39,19 @@ export interface SlicerWorker {
   boot(module: WebAssembly.Module | null): Promise<WebAssembly.Module>;
   /** Reads a model. The one that was open stays open if this fails. */
   open(file: Blob, progress: OnProgress): Promise<MeshInfo>;
-  plan(options: Options, progress: OnProgress): Promise<Plan>;
+  plan(options: Options, progress: OnProgress): Promise<Profiled<Report>>;
+  tradeoff(options: Options, points: number, progress: OnProgress): Promise<Tradeoff>;
+  compare(options: Options, progress: OnProgress): Promise<Comparison>;
   /** One bit a pixel, rows from the top, most significant bit first, ⌈width / 8⌉ bytes a row. */
   mask(layer: number): Uint8Array;
-  /** A finished zip. */
-  archive(progress: OnProgress): Uint8Array;
+  /** The print file of the last plan: as a Blob, or if there is a port in chunks through that, and null at its end. */
+  archive(progress: OnProgress, port: MessagePort | null): Blob | null;
+  positions(): Float32Array;
+  glance(options: Options): Profiled<Glance>;
+  printers(): PrinterInfo[];
 }
 
-/** The core's own defaults, which the form shows before anything is changed. */
+/** The core's own defaults, which a form shows before the worker is there. A test holds them against the core. */
 export const DEFAULTS = {
   rays: 2048,
   layer_min_mm: 0.05,
@@ -45,3 +63,20 @@ export const DEFAULTS = {
   minimize: "layers",
   snap: "auto",
 } as const;
+
+/**
+ * Whether two sets of options look at the model through the same rays: then going from one to the other is a matter of
+ * milliseconds and not worth interrupting.
+ */
+export function sameRays(a: Options, b: Options): boolean {
+  return (
+    a.height_mm === b.height_mm &&
+    a.rays === b.rays &&
+    a.printer === b.printer &&
+    a.pitch_mm === b.pitch_mm &&
+    a.pitch_y_mm === b.pitch_y_mm &&
+    a.backend === b.backend &&
+    String(a.pixels) === String(b.pixels) &&
+    String(a.rotation) === String(b.rotation)
+  );
+}

@@ -1,19 +1,24 @@
 /** The worker: the only file that imports the WebAssembly package. One model is open at a time. */
 import * as Comlink from "comlink";
 import init, { Slicer } from "../../pkg/cusp_slicer.js";
-import wasmUrl from "../../pkg/cusp_slicer_bg.wasm?url";
+import { archive, type Contract } from "./contract.js";
 import type { CuspError, OnProgress, SlicerWorker } from "./wire.js";
 
-let slicer: Slicer | null = null;
+/** Parts of a print file beyond this many bytes are handed to the browser, which may keep them on disk. */
+const BLOB_PART_BYTES = 8 << 20;
 
-/** The open model. Asking before `open` is a fault of the page, not of its user. */
+let slicer: Slicer | null = null;
+let memory: WebAssembly.Memory | null = null;
+
+/** The open model. The other side opens one before it asks for anything of it. */
 function current(): Slicer {
   if (slicer === null) throw new Error("no model is open");
   return slicer;
 }
 
 async function compile(): Promise<WebAssembly.Module> {
-  const response = await fetch(wasmUrl);
+  // Spelled out like this, bundlers find the file and give it a place of its own.
+  const response = await fetch(new URL("../../pkg/cusp_slicer_bg.wasm", import.meta.url));
   if (!response.ok) throw new Error(`the slicer could not be loaded (HTTP ${response.status})`);
   // Streaming needs the right content type, which plain file hosts do not always send.
   const typed = response.headers.get("content-type")?.startsWith("application/wasm") ?? false;
@@ -40,10 +45,40 @@ function plain(progress: OnProgress): OnProgress {
   };
 }
 
+/** Bytes that may be transferred: those that lie in the core's own memory are copied out of it. */
+function own(bytes: Uint8Array): Uint8Array<ArrayBuffer> {
+  const isShared = bytes.buffer === memory?.buffer || bytes.byteLength !== bytes.buffer.byteLength;
+  return isShared ? bytes.slice() : (bytes as Uint8Array<ArrayBuffer>);
+}
+
+/** Takes chunks and makes a Blob of them without ever having them in one array. */
+class BlobSink {
+  #done = new Blob([]);
+  #parts: Uint8Array<ArrayBuffer>[] = [];
+  #bytes = 0;
+
+  readonly take = (chunk: Uint8Array): void => {
+    this.#parts.push(own(chunk));
+    this.#bytes += chunk.byteLength;
+    if (this.#bytes >= BLOB_PART_BYTES) this.#fold();
+  };
+
+  finish(): Blob {
+    this.#fold();
+    return this.#done;
+  }
+
+  #fold(): void {
+    this.#done = new Blob([this.#done, ...this.#parts]);
+    this.#parts = [];
+    this.#bytes = 0;
+  }
+}
+
 const api: SlicerWorker = {
   async boot(module) {
     const compiled = module ?? (await compile());
-    await init({ module_or_path: compiled });
+    ({ memory } = await init({ module_or_path: compiled }));
     return compiled;
   },
   async open(file, progress) {
@@ -58,13 +93,43 @@ const api: SlicerWorker = {
     const profile = current().profile(report.metric, report.source);
     return Comlink.transfer({ report, profile }, [profile.buffer]);
   },
+  tradeoff(options, points, progress) {
+    return current().tradeoff(options, points, plain(progress));
+  },
+  compare(options, progress) {
+    return current().compare(options, plain(progress));
+  },
   mask(layer) {
     const bits = current().mask(layer);
     return Comlink.transfer(bits, [bits.buffer]);
   },
-  archive(progress) {
-    const zip = current().archive(plain(progress));
-    return Comlink.transfer(zip, [zip.buffer]);
+  archive(progress, port) {
+    if (port === null) {
+      const sink = new BlobSink();
+      archive(current(), sink.take, plain(progress));
+      return sink.finish();
+    }
+    const take = (chunk: Uint8Array): void => {
+      const bytes = own(chunk);
+      port.postMessage(bytes, [bytes.buffer]);
+    };
+    archive(current(), take, plain(progress));
+    port.postMessage(null);
+    return null;
+  },
+  positions() {
+    const positions = (current() as Slicer & Contract).positions?.() ?? new Float32Array();
+    return Comlink.transfer(positions, [positions.buffer]);
+  },
+  glance(options) {
+    const slicer: Slicer & Contract = current();
+    const glance = slicer.glance?.(options);
+    if (glance === undefined) throw new Error("the core cannot glance yet");
+    const profile = slicer.glance_profile?.() ?? new Float32Array();
+    return Comlink.transfer({ report: glance.report, profile }, [profile.buffer]);
+  },
+  printers() {
+    return [];
   },
 };
 

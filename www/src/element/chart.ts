@@ -6,7 +6,7 @@
  */
 import type uPlot from "uplot";
 import { css, ofThickness } from "./colour.js";
-import * as format from "../texts/format.js";
+import type { Language } from "../texts/index.js";
 import { layerAt } from "./layers.js";
 import { METRICS } from "./metric.js";
 import type { Metric } from "../api/wire.js";
@@ -128,9 +128,14 @@ function drawFaded(u: uPlot, pattern: CanvasPattern | string, theme: ChartTheme)
 }
 
 /** Everything uPlot needs for a chart of this size in CSS pixels. */
-export function chartOptions(data: ChartData, theme: ChartTheme, width: number, height: number): uPlot.Options {
+export function chartOptions(
+  data: ChartData,
+  theme: ChartTheme,
+  { texts, format }: Language,
+  [width, height]: readonly [number, number],
+): uPlot.Options {
   const total = data.profile.length * data.bin_mm;
-  const { axis: label, bound, tick } = METRICS[data.metric];
+  const { bound, tick } = METRICS[data.metric];
   const end = densityEnd(data);
   let pattern: CanvasPattern | string = "transparent";
   const axis: uPlot.Axis = {
@@ -158,16 +163,16 @@ export function chartOptions(data: ChartData, theme: ChartTheme, width: number, 
       density: { ori: 0, dir: 1, range: [0, end] },
     },
     axes: [
-      { ...axis, scale: "x", side: 3, label: "Height (mm)", size: 44, values: (_u, ticks) => ticks.map(format.tick) },
+      { ...axis, scale: "x", side: 3, label: texts.chart.heights, size: 44, values: (_u, ticks) => ticks.map((value) => format.tick(value)) },
       {
         ...axis,
         scale: "density",
         side: 2,
-        label,
+        label: texts.metrics[data.metric].axis,
         size: 30,
         // Where the end is known, quarters of it; else uPlot finds round numbers.
         ...(bound !== null && { splits: QUARTERS.map((part) => part * bound) }),
-        values: (_u, ticks) => ticks.map((value) => tick(value)),
+        values: (_u, ticks) => ticks.map((value) => tick(value, format)),
       },
     ],
     series: [{}, { scale: "density", stroke: theme.ink, width: 1, fill: () => pattern, points: { show: false } }],

@@ -1,9 +1,9 @@
-/** Failures in words: what happened, and what to do about it. */
-import * as format from "../texts/format.js";
+/** Failures in words: what happened, where it belongs, and what would mend it. */
+import { SlicerError, type ErrorCode } from "../api/error.js";
+import type { Language, Texts } from "../texts/index.js";
 import { METRICS } from "./metric.js";
 import * as round from "./round.js";
-import { binOf, parse, withTolerance, type Settings } from "./settings.js";
-import type { CuspError } from "../api/wire.js";
+import { binOf, parse, withTolerance, type Field, type Settings } from "./settings.js";
 
 /** A change of settings that may well help, offered as a button. */
 export interface Offer {
@@ -12,110 +12,151 @@ export interface Offer {
 }
 
 export interface Problem {
-  code: string;
+  /** Of the error; `not-stl` for a file that was not even read. */
+  code: ErrorCode | "not-stl";
   title: string;
   text: string;
   offers: Offer[];
+  /** The setting that caused it; null where none did. */
+  field: Field | Choice | null;
 }
 
-/** Headings over the core's own words, which say what happened, where (byte or line), and mostly what to do. */
-const HEADINGS: Readonly<Record<string, (name: string) => string>> = {
-  "stl-empty": (name) => `${name} is empty`,
-  "stl-no-facets": (name) => `${name} is empty`,
-  "stl-truncated": (name) => `${name} is cut short`,
-  "stl-not-stl": (name) => `${name} is not an STL file`,
-  "no-hits": (name) => `${name} is too thin for these pixels`,
-  "all-black": () => "Every mask would be black",
-  "layer-too-thick": () => "The layers are too thick for this model",
-  "layer-range-empty": () => "No layer of whole motor steps lies in this range",
-  "not-whole-bins": () => "These lengths do not go together",
-  "bad-range": () => "These height ranges do not go together",
-  "bad-plane": () => "There can be no plane at this height",
-  "bad-time": () => "These times make no sense",
-  "out-of-reach": () => "No plan is as short as that",
-  "no-gpu": () => "The GPU could not be used",
-  "gpu-failed": () => "The GPU could not be used",
-  "gpu-too-small": () => "The GPU is too small for this model",
+/** A setting that is chosen from a list. */
+export type Choice = "metric" | "rays" | "printer" | "format" | "resin";
+
+/** What failed, and what was known then. */
+export interface Failure {
+  error: SlicerError | "not-stl";
+  /** The file's name. */
+  name: string;
+  /** Those that were in force. */
+  settings: Settings;
+  /** Height of the model as it was to be printed, in mm; null if none was open. */
+  height_mm: number | null;
+}
+
+type Kind = keyof Texts["problems"];
+
+const KINDS: Readonly<Record<Exclude<ErrorCode, "infeasible">, Kind>> = {
+  "stl-empty": "empty",
+  "stl-no-facets": "empty",
+  "stl-truncated": "cutShort",
+  "stl-not-stl": "notStl",
+  "stl-wrong-facet-count": "damaged",
+  "stl-not-finite": "damaged",
+  "stl-syntax": "damaged",
+  "mesh-no-area": "unusable",
+  "mesh-zero-height": "unusable",
+  "mesh-overflow": "unusable",
+  "bad-height": "badOptions",
+  "bad-length": "badOptions",
+  "bad-time": "badTime",
+  "bad-options": "badOptions",
+  "grid-bad-size": "tooFine",
+  "too-many-bins": "tooFine",
+  "too-many-facets": "tooFine",
+  "out-of-memory": "tooFine",
+  "model-too-large": "tooLarge",
+  "model-too-high": "tooHigh",
+  "not-whole-bins": "notWhole",
+  "layer-range-empty": "rangeEmpty",
+  "layer-too-thick": "layerTooThick",
+  "layers-do-not-fit": "doNotFit",
+  "bad-range": "badRange",
+  "bad-plane": "badPlane",
+  "out-of-reach": "outOfReach",
+  "no-hits": "noHits",
+  "all-black": "allBlack",
+  "no-gpu": "gpu",
+  "gpu-failed": "gpu",
+  "gpu-too-small": "gpuTooSmall",
+  "uniform-only": "uniformOnly",
+  "file-unreadable": "unreadable",
+  "fetch-failed": "notFetched",
+  "start-failed": "startFailed",
+  crash: "crash",
+  "no-plan": "other",
+  "no-model": "other",
+  "archive-write": "other",
+  cancelled: "other",
 };
 
-/** Words for an error of the core or the client. `name` is the file's, `settings` those that were in force. */
-export function explain(error: CuspError, name: string, settings: Settings): Problem {
-  const { code, message } = error;
-  const problem = (title: string, text: string, offers: Offer[] = []): Problem => ({ code, title, text, offers });
-  const detail = sentence(message);
+/** The setting that a kind of failure is about. */
+const FIELDS: Partial<Record<Kind, Problem["field"]>> = {
+  tooLarge: "printer",
+  tooHigh: "printer",
+  tooFine: "rays",
+  noHits: "rays",
+  rangeEmpty: "layerMax",
+  doNotFit: "layerMin",
+  layerTooThick: "layerMax",
+  uniformOnly: "format",
+};
 
-  if (code === "infeasible") return infeasible(error, settings);
-  if (code === "layers-do-not-fit") {
-    return problem("These layers do not add up to the model’s height", detail, halfAsThin(settings));
+/** A failure in words. */
+export function explain(failure: Failure, language: Language): Problem {
+  const { error, name } = failure;
+  const { texts } = language;
+  if (error === "not-stl") {
+    const [title, text] = texts.problems.notStl(name);
+    return { code: error, title, text, offers: [], field: null };
   }
-  const heading = HEADINGS[code];
-  if (heading !== undefined) return problem(heading(name), detail);
-  if (code.startsWith("stl-")) {
-    return problem(`${name} is damaged`, `${detail} Export the model again as STL and drop the new file.`);
-  }
-  if (code.startsWith("mesh-")) return problem(`${name} cannot be sliced`, detail);
-  if (code === "file-unreadable") {
-    return problem(`${name} could not be opened`, "It may have been moved, changed or locked. Choose it again.");
-  }
-  if (code === "out-of-memory" || code.startsWith("grid-")) {
-    return problem("This resolution is too much for this computer", detail, fewerRays(settings));
-  }
-  if (code === "start-failed") {
-    return problem(
-      "The slicer could not be started",
-      `Reload the page. If that does not help, this browser may be too old for WebAssembly. (${message})`,
-    );
-  }
-  if (code === "crash") {
-    return problem(
-      "The slicer stopped",
-      `It may have run out of memory. It has been started afresh: try again, with fewer rays if the model is large. (${message})`,
-      fewerRays(settings),
-    );
-  }
-  return problem("That did not work", detail);
+  const { code } = error;
+  if (code === "infeasible") return infeasible(error, failure.settings, language);
+  const kind = KINDS[code];
+  const [title, text] = texts.problems[kind](name, sentence(error.message));
+  return { code, title, text, offers: offersFor(kind, error, failure, language), field: FIELDS[kind] ?? null };
 }
 
-/** For a drop that holds no STL at all. */
-export function notAnStl(name: string): Problem {
-  return {
-    code: "not-stl",
-    title: `${name} is not an STL file`,
-    text: "Cusp reads binary and text STL files: export your model as STL and drop that.",
-    offers: [],
-  };
+function offersFor(kind: Kind, error: SlicerError, failure: Failure, language: Language): Offer[] {
+  switch (kind) {
+    case "doNotFit":
+      return halfAsThin(failure.settings, language);
+    case "tooFine":
+    case "crash":
+      return fewerRays(failure.settings, language);
+    case "tooLarge":
+    case "tooHigh":
+      return [...smaller(error, failure, language), { label: language.texts.offers.noPrinter, change: { printer: "" } }];
+    case "uniformOnly":
+      return uniformOr(failure.settings, language);
+    default:
+      return [];
+  }
 }
 
-/** The core knows where it fails and what would do: the page puts that in words. */
-function infeasible({ code, detail }: CuspError, settings: Settings): Problem {
-  const figure = (key: string): number | null => {
-    const value = detail?.[key];
-    return typeof value === "number" ? value : null;
-  };
-  const { error, scale } = METRICS[settings.metric];
+function figure(error: SlicerError, key: string): number | null {
+  const value = error.detail?.[key];
+  return typeof value === "number" ? value : null;
+}
+
+/** The core knows where it fails and what would do: here that is put in words. */
+function infeasible(error: SlicerError, settings: Settings, language: Language): Problem {
+  const { texts, format } = language;
+  const { scale, error: written } = METRICS[settings.metric];
   const offers: Offer[] = [];
-  const ways: string[] = [];
 
-  const least = figure("least_tolerance");
+  const least = figure(error, "least_tolerance");
   if (least !== null) {
     const short = round.up(least * scale);
-    offers.push({ label: `Tolerance ${error(short / scale)}`, change: withTolerance(settings, String(short)) });
-    ways.push("a larger error");
+    const label = texts.offers.tolerance(written(short / scale, format));
+    offers.push({ label, change: withTolerance(settings, String(short)) });
   }
-  const largest = figure("largest_layer_min_mm");
-  if (largest !== null) {
-    offers.push(layersFrom(thinEnough(largest, settings)));
-    ways.push("thinner layers if your printer can make them");
-  }
-  const place = format.interval(figure("from_mm") ?? 0, figure("to_mm") ?? 0);
-  const thinnest = format.fine(figure("layer_min_mm") ?? 0);
+  const largest = figure(error, "largest_layer_min_mm");
+  if (largest !== null) offers.push(layersFrom(thinEnough(largest, settings), language));
+
+  const place = texts.infeasible.where(
+    format.bareHeight(figure(error, "from_mm") ?? 0),
+    format.height(figure(error, "to_mm") ?? 0),
+    format.fine(figure(error, "layer_min_mm") ?? 0),
+  );
+  const way = least === null ? (largest === null ? "neither" : "thinner") : largest === null ? "larger" : "either";
   return {
-    code,
-    title: `No plan keeps ${error(figure("tolerance") ?? 0)} all the way up`,
-    text:
-      `From ${place} even a layer of ${thinnest}, the thinnest allowed, leaves a larger error. ` +
-      (ways.length === 0 ? "Change the range of layers." : `Allow ${ways.join(", or ")}.`),
+    code: error.code,
+    title: texts.infeasible.title(written(figure(error, "tolerance") ?? 0, format)),
+    text: `${place} ${texts.infeasible[way]}`,
     offers,
+    field: "tolerance",
   };
 }
 
@@ -129,19 +170,36 @@ function thinEnough(largest_mm: number, settings: Settings): number {
   return sameBins ? below : round.micrometreBelow(below - 0.001);
 }
 
-const layersFrom = (mm: number): Offer => ({
-  label: `Layers from ${format.fine(mm)}`,
+const layersFrom = (mm: number, { texts, format }: Language): Offer => ({
+  label: texts.offers.layersFrom(format.fine(mm)),
   change: { layerMin: String(mm) },
 });
 
-function halfAsThin(settings: Settings): Offer[] {
+function halfAsThin(settings: Settings, language: Language): Offer[] {
   const half = round.micrometreBelow((parse(settings.layerMin) ?? 0) / 2);
-  return half > 0 ? [layersFrom(half)] : [];
+  return half > 0 ? [layersFrom(half, language)] : [];
 }
 
-function fewerRays(settings: Settings): Offer[] {
+function fewerRays(settings: Settings, { texts, format }: Language): Offer[] {
   const half = Number(settings.rays) / 2;
-  return half >= 512 ? [{ label: `${format.count(half)} rays`, change: { rays: String(half) } }] : [];
+  return half >= 512 ? [{ label: texts.offers.rays(format.count(half)), change: { rays: String(half) } }] : [];
+}
+
+/** The height at which the model fits, to a tenth of a millimetre below. */
+function smaller(error: SlicerError, { height_mm }: Failure, { texts, format }: Language): Offer[] {
+  const scale = figure(error, "fitting_scale");
+  if (scale === null || height_mm === null) return [];
+  const fitting = Math.floor(10 * height_mm * scale) / 10;
+  return fitting > 0 ? [{ label: texts.offers.scale(format.fine(fitting)), change: { height: String(fitting) } }] : [];
+}
+
+function uniformOr(settings: Settings, { texts, format }: Language): Offer[] {
+  const thickness = parse(settings.uniform) ?? 0;
+  const change = { planner: "uniform" } as const;
+  return [
+    { label: texts.offers.uniform(format.fine(thickness)), change },
+    { label: texts.offers.images, change: { format: "png" } },
+  ];
 }
 
 /** Makes a message of the core, which is lower case and without a full stop, a sentence. */
@@ -149,4 +207,10 @@ export function sentence(message: string): string {
   const tidy = message.trim();
   if (tidy === "") return "";
   return tidy.charAt(0).toUpperCase() + tidy.slice(1) + (/[.!?]$/.test(tidy) ? "" : ".");
+}
+
+/** A warning of the core: its own words in English, the catalogue's in other languages. */
+export function warning({ code, message }: { code: string; message: string }, { texts }: Language): string {
+  const known = Object.hasOwn(texts.warnings, code) ? texts.warnings[code as keyof Texts["warnings"]] : null;
+  return known === null ? sentence(message) : known(sentence(message));
 }

@@ -4,7 +4,7 @@ import uPlot from "uplot";
 import uplotStyles from "uplot/dist/uPlot.min.css?inline";
 import { chartData, chartOptions, type ChartData, type ChartTheme } from "./chart.js";
 import { gradient } from "./colour.js";
-import * as format from "../texts/format.js";
+import { languageOf, type Language } from "../texts/index.js";
 import { layerAt } from "./layers.js";
 import { METRICS } from "./metric.js";
 import { shared } from "./styles.js";
@@ -13,12 +13,14 @@ export class CuspChart extends LitElement {
   static override properties = {
     data: { attribute: false },
     layer: { type: Number },
+    language: { attribute: false },
     zoomed: { state: true },
     hovered: { state: true },
   };
 
   declare data: ChartData | null;
   declare layer: number;
+  declare language: Language;
   declare zoomed: boolean;
   /** The bin under the pointer. */
   declare hovered: number | null;
@@ -33,6 +35,7 @@ export class CuspChart extends LitElement {
     super();
     this.data = null;
     this.layer = 0;
+    this.language = languageOf();
     this.zoomed = false;
     this.hovered = null;
   }
@@ -54,11 +57,13 @@ export class CuspChart extends LitElement {
         color: var(--cusp-quiet);
       }
       .scale {
+        background: ${unsafeCSS(gradient())};
         width: 5rem;
         height: 0.625rem;
         border-radius: 3px;
       }
       .plot {
+        direction: ltr;
         height: 30rem;
         overflow: hidden;
       }
@@ -96,19 +101,20 @@ export class CuspChart extends LitElement {
 
   override render(): TemplateResult {
     const [min, max] = this.data?.limits ?? [0, 0];
+    const { texts, format } = this.language;
     return html`
       <div class="head">
-        <h3>Profile and plan</h3>
+        <h3>${texts.chart.title}</h3>
         <div class="legend figures">
           <span>${format.fine(min)}</span>
-          <span class="scale" style="background:${gradient()}"></span>
+          <span class="scale"></span>
           <span>${format.fine(max)}</span>
         </div>
       </div>
       <div class="plot" role="img" aria-label=${this.#words()}></div>
       <div class="foot">
         <p class="quiet figures">${this.#hint()}</p>
-        ${this.zoomed ? html`<button class="small" @click=${this.#build}>Whole model</button>` : ""}
+        ${this.zoomed ? html`<button class="small" @click=${this.#build}>${texts.chart.whole}</button>` : ""}
       </div>
     `;
   }
@@ -133,7 +139,7 @@ export class CuspChart extends LitElement {
   }
 
   override updated(changed: PropertyValues<this>): void {
-    if (changed.has("data")) this.#build();
+    if (changed.has("data") || changed.has("language")) this.#build();
     else if (changed.has("layer")) this.#mark();
   }
 
@@ -147,19 +153,20 @@ export class CuspChart extends LitElement {
   #hint(): string {
     const { data, hovered } = this;
     const density = hovered === null ? undefined : data?.profile[hovered];
-    if (data === null || hovered === null || density === undefined) return "Click to see a layer. Drag to zoom.";
-    return `At ${format.height((hovered + 0.5) * data.bin_mm)}: ${METRICS[data.metric].density(density)}`;
+    const { texts, format } = this.language;
+    if (data === null || hovered === null || density === undefined) return texts.chart.hint;
+    const value = METRICS[data.metric].density(density, format);
+    return texts.chart.at(format.height((hovered + 0.5) * data.bin_mm), texts.metrics[data.metric].density(value));
   }
 
   /** The chart for those who cannot see it. */
   #words(): string {
-    if (this.data === null) return "No plan yet";
+    const { texts, format } = this.language;
+    if (this.data === null) return texts.chart.none;
     const { metric, thickness_mm, z_mm } = this.data;
-    const [least, most] = [Math.min(...thickness_mm), Math.max(...thickness_mm)];
-    return (
-      `Chart of the profile by height (${METRICS[metric].axis}), up to ${format.height(z_mm.at(-1) ?? 0)}, ` +
-      `over the ${format.count(thickness_mm.length)} layers of the plan, ${format.fine(least)} to ${format.fine(most)} thick.`
-    );
+    const [least, most] = [Math.min(...thickness_mm), Math.max(...thickness_mm)].map((mm) => format.fine(mm)) as [string, string];
+    const height = format.height(z_mm.at(-1) ?? 0);
+    return texts.chart.said(texts.metrics[metric].axis, height, thickness_mm.length, least, most);
   }
 
   readonly #build = (): void => {
@@ -170,7 +177,7 @@ export class CuspChart extends LitElement {
     const { data } = this;
     if (data === null || !this.isConnected) return;
     const frame = this.#frame;
-    const options = chartOptions(data, this.#theme(), frame.clientWidth, frame.clientHeight);
+    const options = chartOptions(data, this.#theme(), this.language, [frame.clientWidth, frame.clientHeight]);
     const whole = data.profile.length * data.bin_mm;
     options.hooks = {
       ...options.hooks,
@@ -242,10 +249,3 @@ export class CuspChart extends LitElement {
   }
 }
 
-customElements.define("cusp-chart", CuspChart);
-
-declare global {
-  interface HTMLElementTagNameMap {
-    "cusp-chart": CuspChart;
-  }
-}

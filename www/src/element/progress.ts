@@ -1,29 +1,49 @@
-/** The stages in words, and the bar that shows them. */
-import { css, html, type TemplateResult } from "lit";
-import type { Busy } from "./session.js";
+/** How far a task is, how long it will yet take, and the bar that shows both. */
+import { css, html, nothing, type TemplateResult } from "lit";
 import type { Stage } from "../api/wire.js";
+import type { Language } from "../texts/index.js";
 
-const WORDS: Record<Stage, string> = {
-  load: "Reading the model",
-  ldi: "Casting rays through it",
-  profile: "Measuring the surface",
-  plan: "Planning the layers",
-  masks: "Drawing the masks",
-};
+export interface Busy {
+  task: "open" | "plan" | "export";
+  /** The model's name. */
+  name: string;
+  stage: Stage;
+  /** 0 to 1 within the stage. */
+  fraction: number;
+  started_ms: number;
+}
 
 const ORDER: Record<Busy["task"], readonly Stage[]> = {
-  open: ["load", "ldi", "profile", "plan"],
+  open: ["load"],
   plan: ["load", "ldi", "profile", "plan"],
-  archive: ["masks"],
+  export: ["masks"],
 };
 
-/** Where a task stands: its words, and how far it is, 0 to 1, its stages counted alike. */
-export function standing({ task, stage, fraction }: Busy): { words: string; done: number } {
+/** What part of a plan its stages take: rays are most of it, on any model and machine. */
+const SHARE: Record<Stage, number> = { load: 0.05, ldi: 0.75, profile: 0.1, plan: 0.1, masks: 1 };
+
+/** Before this much time, and this part, a guess of the rest would jump about. */
+const GUESS_FROM_MS = 1500;
+const GUESS_FROM = 0.05;
+
+export interface Standing {
+  /** How far the task is, 0 to 1. */
+  done: number;
+  /** Seconds that it will yet take; null where nobody can know. */
+  left_s: number | null;
+}
+
+export function standing({ task, stage, fraction, started_ms }: Busy, now_ms: number): Standing {
   const order = ORDER[task];
+  const total = order.reduce((sum, stage) => sum + SHARE[stage], 0);
   const place = order.indexOf(stage);
-  // A download may first have to bring back a plan; then its own stages have yet to begin.
-  const done = place < 0 ? 0 : (place + Math.min(1, Math.max(0, fraction))) / order.length;
-  return { words: WORDS[stage], done };
+  // An export may first have to bring back a plan; then its own stages have yet to begin.
+  if (place < 0) return { done: 0, left_s: null };
+  const before = order.slice(0, place).reduce((sum, stage) => sum + SHARE[stage], 0);
+  const done = (before + SHARE[stage] * Math.min(1, Math.max(0, fraction))) / total;
+  const elapsed_ms = now_ms - started_ms;
+  const isKnown = elapsed_ms >= GUESS_FROM_MS && done >= GUESS_FROM;
+  return { done, left_s: isKnown ? ((elapsed_ms / 1000) * (1 - done)) / done : null };
 }
 
 export const progressStyles = css`
@@ -32,6 +52,11 @@ export const progressStyles = css`
     grid-template-columns: 1fr auto;
     align-items: center;
     gap: 0.5rem 1rem;
+  }
+  .progress .line {
+    display: flex;
+    justify-content: space-between;
+    gap: 1rem;
   }
   .progress .words {
     min-width: 0;
@@ -63,13 +88,19 @@ export const progressStyles = css`
   }
 `;
 
-export function progressBar(busy: Busy, cancel: () => void): TemplateResult {
-  const { words, done } = standing(busy);
-  return html`<div class="progress">
+export function progressBar(busy: Busy, { texts, format }: Language, cancel: () => void): TemplateResult {
+  const { done, left_s } = standing(busy, performance.now());
+  const words = texts.progress[busy.stage];
+  return html`<div class="progress" part="progress">
     <div>
-      <p class="words">${words}</p>
+      <div class="line">
+        <p class="words">${words}</p>
+        ${left_s === null
+          ? nothing
+          : html`<p class="quiet figures left">${texts.progress.left(format.duration(1000 * Math.max(1, left_s)))}</p>`}
+      </div>
       <progress max="1" .value=${done} aria-label=${words}></progress>
     </div>
-    <button @click=${cancel}>Cancel</button>
+    <button @click=${cancel}>${texts.progress.cancel}</button>
   </div>`;
 }

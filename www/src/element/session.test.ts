@@ -1,16 +1,18 @@
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import { Session } from "./session.js";
 import { DEFAULT_SETTINGS } from "./settings.js";
-import { SlicerError, type Watch } from "../api/slicer.js";
-import type { MeshInfo, Options, Plan, Report } from "../api/wire.js";
+import { SlicerError } from "../api/error.js";
+import { SCHEMA, type LoadCall, type Mask, type Model, type Plan, type Watch } from "../api/index.js";
+import type { MeshInfo, Options, Report, Tradeoff } from "../api/wire.js";
 
 const info = { facets: 1, size_mm: [1, 1, 10], warnings: [] } as unknown as MeshInfo;
+const model: Model = { schema: SCHEMA, name: "a.stl", info };
 
 function planOf(layers: number, height_mm = 10): Plan {
   const z_mm = Array.from({ length: layers + 1 }, (_, i) => (i * height_mm) / layers);
   const mask = { width: 8, height: 1, pitch_mm: 1 };
-  const report = { layers, height_mm, z_mm, mask, metric: "volume", tolerance: 12.5 } as unknown as Report;
-  return { report, profile: new Float32Array(1) };
+  const report = { layers, height_mm, z_mm, mask, metric: "volume", tolerance: 12.5, planner: "optimal" } as unknown as Report;
+  return { schema: SCHEMA, report, profile: new Float32Array(1) };
 }
 
 /** A client whose answers the test gives, call by call. */
@@ -19,12 +21,19 @@ class FakeClient {
   readonly masks: number[] = [];
 
   readonly warm = (): void => undefined;
-  readonly open = (_file: Blob, watch: Watch): Promise<MeshInfo> => this.#call("open", watch);
-  readonly plan = (options: Options, watch: Watch): Promise<Plan> => this.#call("plan", watch, options);
-  readonly archive = (watch: Watch): Promise<Uint8Array> => this.#call("archive", watch);
-  readonly mask = async (layer: number): Promise<Uint8Array> => {
+  readonly printers = async (): Promise<[]> => [];
+  readonly load = (_source: unknown, call: LoadCall = {}): Promise<Model> => this.#call("open", call);
+  readonly plan = (options: Options = {}, call: Watch = {}): Promise<Plan> => this.#call("plan", call, options);
+  readonly export = (_options?: Options, call: Watch = {}): Promise<Blob> => this.#call("export", call);
+  readonly mask = async (layer: number): Promise<Mask> => {
     this.masks.push(layer);
-    return Uint8Array.of(255);
+    return { layer, width: 8, height: 1, bits: Uint8Array.of(255) };
+  };
+  readonly curves: Options[] = [];
+  readonly tradeoff = async (options: Options = {}): Promise<Tradeoff & { schema: 1 }> => {
+    this.curves.push(options);
+    const points = [0.05, 0.1, 0.15].map((tolerance) => ({ tolerance, layers: 1, max_error: tolerance, print_time_s: 1 }));
+    return { schema: SCHEMA, points };
   };
 
   get last(): (typeof this.calls)[number] {
@@ -35,7 +44,7 @@ class FakeClient {
 
   #call<T>(what: string, watch: Watch, options?: Options): Promise<T> {
     return new Promise<T>((resolve, reject) => {
-      watch.signal.addEventListener("abort", () => reject(watch.signal.reason));
+      watch.signal?.addEventListener("abort", () => reject(watch.signal?.reason));
       this.calls.push({ what, resolve: resolve as (value: unknown) => void, reject, ...(options && { options }) });
     });
   }
@@ -57,7 +66,7 @@ afterEach(() => {
 
 async function planned(layers = 10): Promise<void> {
   void session.open(new Blob(), "a.stl");
-  client.last.resolve(info);
+  client.last.resolve(model);
   await settle();
   client.last.resolve(planOf(layers));
   await settle();
@@ -124,43 +133,43 @@ test("new rays end the plan under way", async () => {
   client.last.resolve(planOf(30));
   await settle();
   expect(session.result?.report.layers).toBe(30);
-  expect(session.problem).toBeNull();
+  expect(session.failure).toBeNull();
 });
 
 test("a failed plan keeps the last good one and its masks, and says what happened", async () => {
   await planned();
   session.change({ tolerances: { cusp: "0.02" } });
   await settle();
-  client.last.reject(new SlicerError({ code: "infeasible", message: "", detail: { least_tolerance: 0.05 } }));
+  client.last.reject(new SlicerError("infeasible", "", { least_tolerance: 0.05 }));
   await settle();
-  expect(session.problem?.code).toBe("infeasible");
+  expect(session.failure?.error).toMatchObject({ code: "infeasible" });
   expect(session.earlier).toBe(true);
   session.look(1);
   await settle();
   expect(session.mask?.layer).toBe(1);
-  session.change(session.problem?.offers[0]?.change ?? {});
-  expect(session.problem).toBeNull();
+  session.change({ tolerances: { cusp: "0.05" } });
+  expect(session.failure).toBeNull();
 });
 
 test("a file that cannot be read leaves the open model alone", async () => {
   await planned();
   void session.open(new Blob(), "b.stl");
-  client.last.reject(new SlicerError({ code: "stl-truncated", message: "", detail: null }));
+  client.last.reject(new SlicerError("stl-truncated", ""));
   await settle();
-  expect(session.problem?.title).toBe("b.stl is cut short");
+  expect(session.failure).toMatchObject({ error: { code: "stl-truncated" }, name: "b.stl" });
   expect(session.model?.name).toBe("a.stl");
   expect(session.result?.report.layers).toBe(10);
 });
 
 test("cancelling the first plan leaves a model that can be planned again", async () => {
   void session.open(new Blob(), "a.stl");
-  client.last.resolve(info);
+  client.last.resolve(model);
   await settle();
   session.cancel();
   await settle();
   expect(session.busy).toBeNull();
   expect(session.result).toBeNull();
-  expect(session.problem).toBeNull();
+  expect(session.failure).toBeNull();
   session.replan();
   client.last.resolve(planOf(10));
   await settle();
@@ -169,11 +178,11 @@ test("cancelling the first plan leaves a model that can be planned again", async
 
 test("settings changed during a download wait for it", async () => {
   await planned();
-  const download = session.download();
+  const download = session.export();
   session.change({ rays: "4096" });
   await settle();
-  expect(client.last.what).toBe("archive");
-  client.last.resolve(new Uint8Array(3));
+  expect(client.last.what).toBe("export");
+  client.last.resolve(new Blob(["zip"]));
   expect(await download).not.toBeNull();
   await settle();
   expect(client.last.options?.rays).toBe(4096);
@@ -185,20 +194,20 @@ test("settings changed while a file is read belong to it, or to the model before
   session.change({ tolerances: { cusp: "0.05" } });
   await settle();
   expect(client.last.what).toBe("open");
-  client.last.reject(new SlicerError({ code: "stl-truncated", message: "", detail: null }));
+  client.last.reject(new SlicerError("stl-truncated", ""));
   await settle();
   expect(client.last.options?.tolerance).toBe(0.05);
 });
 
 test("a zip is made once for each plan", async () => {
   await planned();
-  const first = session.download();
-  client.last.resolve(new Uint8Array(3));
+  const first = session.export();
+  client.last.resolve(new Blob(["zip"]));
   await settle();
   expect(await first).toMatchObject({ name: "a-cusp.zip" });
-  const again = await session.download();
+  const again = await session.export();
   expect(again?.blob.size).toBe(3);
-  expect(client.calls.filter(({ what }) => what === "archive")).toHaveLength(1);
+  expect(client.calls.filter(({ what }) => what === "export")).toHaveLength(1);
 });
 
 test("masks: while one is fetched only the newest layer waits", async () => {
@@ -210,7 +219,7 @@ test("masks: while one is fetched only the newest layer waits", async () => {
 });
 
 test("the tolerance that the core took is known where none is typed for that metric", async () => {
-  session = new Session({ requestUpdate: () => undefined }, client, { ...DEFAULT_SETTINGS, metric: "volume" });
+  session = new Session({ requestUpdate: () => undefined }, client, { settings: { ...DEFAULT_SETTINGS, metric: "volume" } });
   expect(session.taken).toBeNull();
   await planned();
   expect(client.last.options).not.toHaveProperty("tolerance");
@@ -225,11 +234,59 @@ test("the tolerance that the core took is known where none is typed for that met
   expect(session.taken).toBeNull();
 });
 
-test("of several files it says which one it took; of none it says that none will do", async () => {
-  void session.choose([new File([], "a.stl"), new File([], "b.stl")]);
-  expect(session.notice).toMatch(/2 files/);
-  client.last.resolve(info);
+test("of several files the first is opened and the others wait; of none it says that none will do", async () => {
+  void session.choose([new File([], "notes.txt"), new File([], "a.stl"), new File([], "b.stl")]);
+  client.last.resolve(model);
   await settle();
+  expect(session.files.map(({ name }) => name)).toEqual(["a.stl", "b.stl"]);
+  void session.turnTo(1);
+  client.last.resolve({ ...model, name: "b.stl" });
+  await settle();
+  expect([session.model?.name, session.place]).toEqual(["b.stl", 1]);
   await session.choose([new File([], "notes.txt")]);
-  expect(session.problem?.code).toBe("not-stl");
+  expect(session.failure).toMatchObject({ error: "not-stl", name: "notes.txt" });
+});
+
+test("the curve is asked for once, as long as nothing but the tolerance changes", async () => {
+  await planned();
+  expect(session.curve).toHaveLength(3);
+  session.change({ tolerances: { cusp: "0.05" } });
+  await settle();
+  client.last.resolve(planOf(20));
+  await settle();
+  expect(client.curves).toHaveLength(1);
+  session.change({ layerMax: "0.2" });
+  await settle();
+  client.last.resolve(planOf(15));
+  await settle();
+  expect(client.curves.map(({ layer_max_mm }) => layer_max_mm)).toEqual([0.15, 0.2]);
+  expect(client.curves.every((options) => !("tolerance" in options))).toBe(true);
+});
+
+test("a quality is a place on the curve, taken when that is known", async () => {
+  session.quality = 1;
+  await planned();
+  expect(session.settings.tolerances.cusp).toBe("0.05");
+  await settle();
+  expect(client.last.options?.tolerance).toBe(0.05);
+  client.last.resolve(planOf(20));
+  session.takePoint(2);
+  await settle();
+  expect(client.last.options?.tolerance).toBe(0.15);
+});
+
+test("settings go back and forth, and are planned each time", async () => {
+  await planned();
+  session.change({ height: "20" });
+  await settle();
+  client.last.resolve(planOf(20));
+  await settle();
+  session.undo();
+  await settle();
+  expect(client.last.options).not.toHaveProperty("height_mm");
+  client.last.resolve(planOf(10));
+  await settle();
+  session.redo();
+  expect(client.last.options?.height_mm).toBe(20);
+  expect([session.canUndo, session.canRedo]).toEqual([true, false]);
 });

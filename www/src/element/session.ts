@@ -1,26 +1,22 @@
 /**
- * What the page is doing: one model, its settings, the last good result, and at most one task at a time.
+ * What an element is doing: one model, its settings, the last good result, and at most one task at a time.
  *
  * No DOM here: an element (or a test) hosts it, is told when something changed, and draws what it finds.
  */
+import { isAbort, SlicerError } from "../api/error.js";
+import type { Model, Plan, Mask, Slicer, Watch } from "../api/index.js";
+import type { Backend, Options, PrinterInfo, Resin, TradeoffPoint } from "../api/wire.js";
+import { sameRays } from "../api/wire.js";
+import type { Source } from "../api/source.js";
 import { archiveName, choose } from "./choice.js";
+import { notchOf } from "./curve.js";
+import { History } from "./history.js";
 import { layerAt } from "./layers.js";
-import { explain, notAnStl, type Problem } from "./problem.js";
-import { check, DEFAULT_SETTINGS, layerRange, sameRays, type Faults, type Settings } from "./settings.js";
-import { isAbort, SlicerError, type SlicerClient, type Watch } from "../api/slicer.js";
-import type { Backend, MeshInfo, Options, Plan, Stage } from "../api/wire.js";
-
-export interface Model {
-  name: string;
-  info: MeshInfo;
-}
-
-export interface Busy {
-  task: "open" | "plan" | "archive";
-  name: string;
-  stage: Stage;
-  fraction: number;
-}
+import { METRICS } from "./metric.js";
+import type { Failure } from "./problem.js";
+import type { Busy } from "./progress.js";
+import * as round from "./round.js";
+import { check, DEFAULT_SETTINGS, layerRange, withTolerance, type Faults, type Settings } from "./settings.js";
 
 /** A plan with the options it was made for. */
 export interface Result extends Plan {
@@ -29,61 +25,95 @@ export interface Result extends Plan {
   limits: readonly [number, number];
 }
 
-export interface Mask {
-  layer: number;
-  width: number;
-  height: number;
-  bits: Uint8Array;
-}
-
 export interface Download {
   name: string;
   blob: Blob;
 }
 
+/** What a session tells its host, besides that something changed. */
 export interface Host {
   requestUpdate(): void;
+  loaded?(model: Model): void;
+  planned?(result: Result): void;
+  failed?(error: SlicerError): void;
+  cancelled?(): void;
+  progressed?(busy: Busy): void;
+  settingsChanged?(settings: Settings): void;
 }
 
-type Client = Pick<SlicerClient, "open" | "plan" | "mask" | "archive" | "warm">;
+export interface Setup {
+  settings?: Settings;
+  backend?: Backend | null;
+}
+
+type Client = Pick<Slicer, "load" | "plan" | "mask" | "export" | "tradeoff" | "printers" | "warm">;
 
 /** Pause after the last keystroke before planning anew. */
 const DEBOUNCE_MS = 250;
+/** Points of the trade-off curve: one a notch of the quality slider. */
+const CURVE_POINTS = 24;
 
 export class Session {
   model: Model | null = null;
   settings: Settings;
-  faults: Faults = {};
   result: Result | null = null;
   busy: Busy | null = null;
-  problem: Problem | null = null;
+  failure: Failure | null = null;
   /** Something worth saying that is no failure. */
-  notice: string | null = null;
+  notice: "cancelled" | "exportCancelled" | null = null;
   /** The layer looked at, from 0. */
   layer = 0;
   mask: Mask | null = null;
+  /** The best plans of the model, from the tightest tolerance to the loosest; null until they are known. */
+  curve: readonly TradeoffPoint[] | null = null;
+  /** Asked for in every plan; null leaves the choice to the core. */
+  backend: Backend | null;
+  printers: readonly PrinterInfo[] = [];
+  resins: readonly Resin[] = [];
+  /** Files that came together, and which of them is open. */
+  files: readonly File[] = [];
+  place = 0;
 
   readonly #host: Host;
   readonly #client: Client;
-  readonly #backend: Backend | null;
+  readonly #history = new History<Settings>();
   /** What runs. `options` are those of a plan, and null for anything else. */
   #task: { abort: AbortController; options: Options | null } | null = null;
   #timer: ReturnType<typeof setTimeout> | undefined;
   /** Options to plan with when the task under way has ended. */
   #next: Options | null = null;
-  #maskRunning = false;
+  #idling = false;
   #maskOf: Result | null = null;
+  #curveOf: string | null = null;
+  /** A quality that is wanted as soon as the curve is known. */
+  #quality: number | null = null;
   /** Whether the newest plan asked for has not come about. */
   #failed = false;
   #archive: { of: Result; blob: Blob } | null = null;
 
-  /** `backend` is asked for in every plan; null leaves the choice to the core. */
-  constructor(host: Host, client: Client, settings: Settings = DEFAULT_SETTINGS, backend: Backend | null = null) {
+  constructor(host: Host, client: Client, { settings = DEFAULT_SETTINGS, backend = null }: Setup = {}) {
     this.settings = { ...settings };
     this.#host = host;
     this.#client = client;
-    this.#backend = backend;
-    client.warm();
+    this.backend = backend;
+  }
+
+  /** Starts the worker and asks what there is to choose from. */
+  start(): void {
+    this.#client.warm();
+    // A worker that does not start says so when it is asked for more than a list.
+    void this.#client.printers().then(
+      (printers) => {
+        this.printers = printers;
+        this.#changed();
+      },
+      () => undefined,
+    );
+  }
+
+  get faults(): Faults {
+    const checked = check(this.settings, this);
+    return checked.ok ? {} : checked.faults;
   }
 
   /** Whether the result on show is of earlier settings, because those on show give none. */
@@ -97,46 +127,88 @@ export class Session {
     return result?.report.metric === settings.metric && result.options.tolerance === undefined ? result.report.tolerance : null;
   }
 
-  /** Takes the first STL of a drop or a dialogue. */
-  async choose(files: readonly File[]): Promise<void> {
-    const choice = choose(files);
-    if (choice.kind === "none") return;
-    if (choice.kind === "not-stl") {
-      this.problem = notAnStl(choice.name);
-      this.#changed();
-      return;
-    }
-    await this.open(choice.file, choice.file.name, choice.notice);
+  get canUndo(): boolean {
+    return this.#history.canUndo;
   }
 
-  async open(file: Blob, name: string, notice: string | null = null): Promise<void> {
-    this.#drop();
-    this.notice = notice;
-    this.problem = null;
-    const info = await this.#run("open", name, null, (watch) => this.#client.open(file, watch));
-    if (info === null) return this.#resume();
-    this.#next = null;
-    this.model = { name, info };
-    this.result = null;
-    this.mask = null;
-    this.replan();
+  get canRedo(): boolean {
+    return this.#history.canRedo;
+  }
+
+  /** Takes the STLs of a drop or a dialogue: the first is opened, the others wait. */
+  async choose(files: readonly File[]): Promise<Model | null> {
+    const choice = choose(files);
+    if (choice.kind === "none") return null;
+    if (choice.kind === "not-stl") {
+      this.failure = { error: "not-stl", name: choice.name, settings: this.settings, height_mm: null };
+      this.#changed();
+      return null;
+    }
+    this.files = choice.files;
+    return this.turnTo(0);
+  }
+
+  /** Opens another of the files that came together. */
+  async turnTo(place: number): Promise<Model | null> {
+    const file = this.files[place];
+    if (file === undefined) return null;
+    this.place = place;
+    return this.#open(file, file.name);
+  }
+
+  /** Opens a model that stands alone; null if that failed or was cancelled. */
+  async open(source: Source, name?: string): Promise<Model | null> {
+    this.files = [];
+    return this.#open(source, name);
+  }
+
+  /** Takes settings that nobody typed: there is no step back from them. */
+  preset(patch: Partial<Settings>): void {
+    this.#set({ ...this.settings, ...patch }, DEBOUNCE_MS);
   }
 
   /** Changes settings and plans again, soon if they make sense. */
   change(patch: Partial<Settings>): void {
-    this.settings = { ...this.settings, ...patch };
-    this.problem = null;
-    this.notice = null;
-    this.replan(DEBOUNCE_MS);
+    this.#history.note(this.settings, Object.keys(patch).join(), performance.now());
+    this.#set({ ...this.settings, ...patch }, DEBOUNCE_MS);
+  }
+
+  undo(): void {
+    const before = this.#history.undo(this.settings);
+    if (before !== null) this.#set(before, 0);
+  }
+
+  redo(): void {
+    const after = this.#history.redo(this.settings);
+    if (after !== null) this.#set(after, 0);
+  }
+
+  /** Takes the tolerance of a point of the curve, as if it had been typed. */
+  takePoint(index: number): void {
+    const point = this.curve?.[index];
+    if (point === undefined) return;
+    const { scale } = METRICS[this.settings.metric];
+    this.change(withTolerance(this.settings, String(round.up(point.tolerance * scale))));
+  }
+
+  /** From 0, the quickest print worth having, to 1, the finest; at once or as soon as the curve is known. */
+  set quality(quality: number | null) {
+    this.#quality = quality === null ? null : Math.min(1, Math.max(0, quality));
+    this.#takeQuality();
+  }
+
+  get quality(): number | null {
+    const { curve, result } = this;
+    if (this.#quality !== null || curve === null || result === null) return this.#quality;
+    return curve.length < 2 ? 1 : notchOf(curve, result.report.tolerance) / (curve.length - 1);
   }
 
   replan(delay_ms = 0): void {
     clearTimeout(this.#timer);
-    const checked = check(this.settings);
-    this.faults = checked.ok ? {} : checked.faults;
     this.#changed();
+    const checked = check(this.settings, this);
     if (!checked.ok || this.model === null) return;
-    const options = this.#backend === null ? checked.options : { ...checked.options, backend: this.#backend };
+    const options = this.backend === null ? checked.options : { ...checked.options, backend: this.backend };
     if (delay_ms === 0) void this.#plan(options);
     else this.#timer = setTimeout(() => void this.#plan(options), delay_ms);
   }
@@ -146,23 +218,24 @@ export class Session {
     if (this.busy === null) return;
     const { task } = this.busy;
     this.#drop();
-    this.notice = task === "archive" ? "The download was cancelled." : "Cancelled.";
+    this.notice = task === "export" ? "exportCancelled" : "cancelled";
+    this.#host.cancelled?.();
     this.#changed();
-    void this.#refreshMask();
+    void this.#idle();
   }
 
-  /** Makes the zip of the result on show; null if cancelled or failed. */
-  async download(): Promise<Download | null> {
+  /** Makes the print file of the result on show; null if cancelled or failed. */
+  async export(): Promise<Download | null> {
     const { result, model } = this;
     if (result === null || model === null || this.busy !== null) return null;
-    const name = archiveName(model.name);
+    const { printer } = result.report;
+    const format = result.options.format ?? this.printers.find(({ name }) => name === printer)?.format ?? "png";
+    const name = archiveName(model.name, format);
     if (this.#archive?.of === result) return { name, blob: this.#archive.blob };
-    this.problem = null;
-    const zip = await this.#run("archive", model.name, null, (watch) => this.#client.archive(watch));
+    this.failure = null;
+    const blob = await this.#run("export", model.name, null, (watch) => this.#client.export(undefined, watch));
     void this.#resume();
-    if (zip === null) return null;
-    // The bytes come from a transfer, so they are never shared memory.
-    const blob = new Blob([zip as Uint8Array<ArrayBuffer>], { type: "application/zip" });
+    if (blob === null) return null;
     this.#archive = { of: result, blob };
     return { name, blob };
   }
@@ -171,13 +244,44 @@ export class Session {
     if (this.result === null) return;
     this.layer = Math.min(Math.max(0, Math.round(layer)), this.result.report.layers - 1);
     this.#changed();
-    void this.#refreshMask();
+    void this.#idle();
   }
 
   dismiss(): void {
-    this.problem = null;
+    this.failure = null;
     this.notice = null;
     this.#changed();
+  }
+
+  async #open(source: Source, name?: string): Promise<Model | null> {
+    this.#drop();
+    this.notice = null;
+    this.failure = null;
+    const shown = name ?? (source instanceof URL || typeof source === "string" ? String(source).split("/").at(-1) ?? "" : "");
+    const model = await this.#run("open", shown, null, (watch) =>
+      this.#client.load(source, name === undefined ? watch : { ...watch, name }),
+    );
+    if (model === null) {
+      await this.#resume();
+      return null;
+    }
+    this.#next = null;
+    this.model = model;
+    this.result = null;
+    this.mask = null;
+    this.curve = null;
+    this.#curveOf = null;
+    this.#host.loaded?.(model);
+    this.replan();
+    return model;
+  }
+
+  #set(settings: Settings, delay_ms: number): void {
+    this.settings = settings;
+    this.failure = null;
+    this.notice = null;
+    this.#host.settingsChanged?.(settings);
+    this.replan(delay_ms);
   }
 
   async #plan(options: Options): Promise<void> {
@@ -192,17 +296,18 @@ export class Session {
       }
       this.#drop();
     }
-    this.problem = null;
+    this.failure = null;
     this.#failed = true;
     const plan = await this.#run("plan", model.name, options, (watch) => this.#client.plan(options, watch));
     if (plan !== null) this.#show(plan, options);
     await this.#resume();
   }
 
-  /** Plans with the settings that came while something else was under way. */
+  /** Plans with the settings that came while something else was under way; else sees to what can wait. */
   async #resume(): Promise<void> {
     const next = this.#next;
-    if (next === null || this.#task !== null) return;
+    if (this.#task !== null) return;
+    if (next === null) return this.#idle();
     this.#next = null;
     await this.#plan(next);
   }
@@ -212,13 +317,15 @@ export class Session {
     this.#failed = false;
     const before = this.result?.report;
     const z = before?.z_mm[this.layer];
-    this.result = { ...plan, options, limits: layerRange(options) };
+    const result = { ...plan, options, limits: layerRange(options) };
+    this.result = result;
     // Keep looking at the same height, or at the middle of a new model.
     this.layer = layerAt(report.z_mm, z === undefined ? report.height_mm / 2 : (z * report.height_mm) / (before?.height_mm ?? 1));
-    if (before === undefined) this.notice = this.notice?.includes("Cancelled") ? null : this.notice;
+    if (before === undefined && this.notice === "cancelled") this.notice = null;
     this.mask = before === undefined ? null : this.mask;
+    if (this.#curveKey() !== this.#curveOf) this.curve = null;
+    this.#host.planned?.(result);
     this.#changed();
-    void this.#refreshMask();
   }
 
   /** Runs one task, with progress shown. Null if it was cancelled or failed; a failure is shown. */
@@ -226,19 +333,21 @@ export class Session {
     const mine = { abort: new AbortController(), options };
     const { settings } = this;
     this.#task = mine;
-    this.busy = { task, name, stage: task === "archive" ? "masks" : "load", fraction: 0 };
+    const busy: Busy = { task, name, stage: task === "export" ? "masks" : "load", fraction: 0, started_ms: performance.now() };
+    this.busy = busy;
     this.#changed();
-    const progress: Watch["progress"] = (stage, fraction) => {
+    const onProgress: Watch["onProgress"] = (stage, fraction) => {
       if (this.#task !== mine) return;
-      this.busy = { task, name, stage, fraction };
+      this.busy = { ...busy, stage, fraction };
+      this.#host.progressed?.(this.busy);
       this.#changed();
     };
     try {
-      const value = await call({ signal: mine.abort.signal, progress });
+      const value = await call({ signal: mine.abort.signal, onProgress });
       // Something else may have begun while the answer was on its way.
       return this.#task === mine ? value : null;
     } catch (error) {
-      if (this.#task === mine && !isAbort(error)) this.problem = explain(asSlicerError(error), name, settings);
+      if (this.#task === mine && !isAbort(error)) this.#fail(error, name, settings);
       return null;
     } finally {
       if (this.#task === mine) {
@@ -247,6 +356,14 @@ export class Session {
         this.#changed();
       }
     }
+  }
+
+  #fail(thrown: unknown, name: string, settings: Settings): void {
+    const error = asSlicerError(thrown);
+    const own_mm = this.model?.info.size_mm[2] ?? null;
+    const asked_mm = Number(settings.height.replace(",", "."));
+    this.failure = { error, name, settings, height_mm: own_mm === null ? null : asked_mm > 0 ? asked_mm : own_mm };
+    this.#host.failed?.(error);
   }
 
   /** Abandons whatever is under way or waiting. */
@@ -259,33 +376,72 @@ export class Session {
     task?.abort.abort();
   }
 
-  /** Fetches the mask of the layer looked at. One call at a time; the newest layer wins. */
-  async #refreshMask(): Promise<void> {
-    if (this.#maskRunning) return;
-    this.#maskRunning = true;
+  /**
+   * Fetches what is shown beside a plan: the mask of the layer looked at, and when that is there the curve. One call at
+   * a time, and none while a task runs: the worker would not answer, and when it ends this is called again.
+   */
+  async #idle(): Promise<void> {
+    if (this.#idling) return;
+    this.#idling = true;
     try {
-      // While a task runs the worker would not answer, and when it ends this is called again.
-      while (this.result !== null && this.#task === null && !this.#hasMask()) {
-        const { result, layer } = this;
-        const bits = await this.#client.mask(layer);
-        if (this.result !== result) continue;
-        const { width, height } = result.report.mask;
-        this.mask = { layer, width, height, bits };
-        this.#maskOf = result;
-        this.#changed();
+      while (this.result !== null && this.#task === null) {
+        const fetched = (await this.#fetchMask(this.result)) || (await this.#fetchCurve(this.result));
+        if (!fetched) break;
       }
     } catch (error) {
       if (this.#task === null && this.model !== null && !isAbort(error)) {
-        this.problem = explain(asSlicerError(error), this.model.name, this.settings);
+        this.#fail(error, this.model.name, this.settings);
         this.#changed();
       }
     } finally {
-      this.#maskRunning = false;
+      this.#idling = false;
     }
   }
 
-  #hasMask(): boolean {
-    return this.mask?.layer === this.layer && this.#maskOf === this.result;
+  /** Whether there was a mask to fetch. The newest layer wins. */
+  async #fetchMask(result: Result): Promise<boolean> {
+    const { layer } = this;
+    if (this.mask?.layer === layer && this.#maskOf === result) return false;
+    const mask = await this.#client.mask(layer);
+    if (this.result === result) {
+      this.mask = mask;
+      this.#maskOf = result;
+      this.#changed();
+    }
+    return true;
+  }
+
+  /** Whether there was a curve to fetch. Uniform plans have none. */
+  async #fetchCurve(result: Result): Promise<boolean> {
+    const key = this.#curveKey();
+    if (result.report.planner === "uniform" || key === this.#curveOf) return false;
+    this.#curveOf = key;
+    const { tolerance: _, ...options } = result.options;
+    const { points } = await this.#client.tradeoff(options, CURVE_POINTS).catch((error: unknown) => {
+      // A plan may hold where no curve does; only a broken worker is news.
+      if (asSlicerError(error).code === "crash" || isAbort(error)) throw error;
+      return { points: null };
+    });
+    if (this.#curveOf === key && this.result !== null) {
+      this.curve = points;
+      this.#changed();
+      this.#takeQuality();
+    }
+    return true;
+  }
+
+  /** What the curve depends on: all but the tolerance. */
+  #curveKey(): string | null {
+    if (this.result === null) return null;
+    const { tolerance: _, ...options } = this.result.options;
+    return JSON.stringify(options);
+  }
+
+  #takeQuality(): void {
+    if (this.#quality === null || this.curve === null) return;
+    const index = Math.round((1 - this.#quality) * (this.curve.length - 1));
+    this.#quality = null;
+    this.takePoint(index);
   }
 
   #changed(): void {
@@ -295,5 +451,5 @@ export class Session {
 
 function asSlicerError(error: unknown): SlicerError {
   if (error instanceof SlicerError) return error;
-  return new SlicerError({ code: "crash", message: error instanceof Error ? error.message : String(error), detail: null });
+  return new SlicerError("crash", error instanceof Error ? error.message : String(error));
 }

@@ -1,11 +1,24 @@
 /** The settings as a form. It holds nothing: it shows what it is given and says what was typed. */
 import { css, html, LitElement, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
-import * as format from "../texts/format.js";
-import { METRIC_NAMES, METRICS } from "./metric.js";
-import { DEFAULT_SETTINGS, RAYS, usualTolerance, withTolerance, type Faults, type Field, type Settings } from "./settings.js";
-import { shared } from "./styles.js";
 import { DEFAULTS, type MeshInfo } from "../api/wire.js";
+import { languageOf, type Language } from "../texts/index.js";
+import { METRIC_NAMES, METRICS } from "./metric.js";
+import type { Choice, Problem } from "./problem.js";
+import { problemBox, problemStyles } from "./problem-box.js";
+import { DEFAULT_SETTINGS, faultWords, FORMATS, RAYS, usualTolerance, withTolerance } from "./settings.js";
+import type { Faults, Field, Offered, Settings } from "./settings.js";
+import { shared } from "./styles.js";
+
+/** Settings that are out of sight at first, unless they are changed. */
+const MORE = ["minimize", "snap", "step", "exposure", "bottomExposure", "bottomLayers"] as const;
+
+/** Whether the form has a place beside which a failure can be shown. */
+export function hasPlace({ field }: Problem, { printer }: Settings, { printers }: Offered): boolean {
+  if (field === null) return false;
+  if (field === "printer") return printers.length > 0;
+  return field !== "rays" || printer === "";
+}
 
 export class CuspSettings extends LitElement {
   static override properties = {
@@ -13,6 +26,9 @@ export class CuspSettings extends LitElement {
     faults: { attribute: false },
     info: { attribute: false },
     taken: { attribute: false },
+    offered: { attribute: false },
+    problem: { attribute: false },
+    language: { attribute: false },
   };
 
   declare settings: Settings;
@@ -20,18 +36,27 @@ export class CuspSettings extends LitElement {
   declare info: MeshInfo | null;
   /** The tolerance that the core took where none is typed; null if it is not known. */
   declare taken: number | null;
+  declare offered: Offered;
+  /** A failure that one of these settings caused; it is shown beside that. */
+  declare problem: Problem | null;
+  declare language: Language;
   /** Whether more settings are open at first; null before there are any settings. */
   #moreAtFirst: boolean | null = null;
 
   constructor() {
     super();
+    this.settings = DEFAULT_SETTINGS;
     this.faults = {};
     this.info = null;
     this.taken = null;
+    this.offered = { printers: [], resins: [] };
+    this.problem = null;
+    this.language = languageOf();
   }
 
   static override styles = [
     shared,
+    problemStyles,
     css`
       form,
       .more {
@@ -97,7 +122,7 @@ export class CuspSettings extends LitElement {
         color: var(--cusp-text);
       }
       .unit {
-        padding-right: 0.625rem;
+        padding-inline-end: 0.625rem;
         color: var(--cusp-quiet);
         font-size: 0.875rem;
       }
@@ -136,96 +161,129 @@ export class CuspSettings extends LitElement {
         background: var(--cusp-accent);
         color: var(--cusp-on-accent);
       }
+      .problem {
+        margin: 0.5rem 0 0;
+      }
     `,
   ];
 
   override willUpdate(changed: PropertyValues<this>): void {
     // What the address changes must be seen; afterwards it is the reader who opens and closes.
     if (!changed.has("settings") || this.#moreAtFirst !== null) return;
-    const { minimize, snap, step } = this.settings;
-    this.#moreAtFirst =
-      minimize !== DEFAULT_SETTINGS.minimize || snap !== DEFAULT_SETTINGS.snap || step !== DEFAULT_SETTINGS.step;
+    this.#moreAtFirst = MORE.some((key) => this.settings[key] !== DEFAULT_SETTINGS[key]);
   }
 
   override render(): TemplateResult {
-    const { settings, info } = this;
-    const uniform = settings.planner === "uniform";
+    const { settings, info, offered } = this;
+    const { texts, format } = this.language;
+    const words = texts.settings;
+    const isUniform = settings.planner === "uniform";
+    const own = info === null ? "" : format.size(info.size_mm[2]);
     return html`
       <form novalidate @submit=${(event: Event) => event.preventDefault()}>
-        ${this.#radios("planner", "Layers", [["optimal", "Adaptive"], ["uniform", "Uniform"]], this.#plannerHint())}
-        ${uniform ? this.#length("uniform", "Layer thickness") : nothing}
+        ${this.#radios("planner", words.layers, [["optimal", words.adaptive], ["uniform", words.uniform]], this.#plannerHint())}
+        ${isUniform ? this.#length("uniform", words.thickness) : nothing}
         ${this.#select(
           "metric",
-          "Measure errors by",
-          METRIC_NAMES.map((metric) => [metric, METRICS[metric].name]),
-          METRICS[settings.metric].help,
+          words.metric,
+          METRIC_NAMES.map((metric) => [metric, texts.metrics[metric].name]),
+          texts.metrics[settings.metric].help,
         )}
         ${this.#tolerance()}
-        <div class="pair">
-          ${this.#length("layerMin", "Thinnest layer")} ${this.#length("layerMax", "Thickest layer")}
-        </div>
-        ${uniform ? html`<p class="hint">The range is what the uniform plan is compared with.</p>` : nothing}
-        ${this.#length(
-          "height",
-          "Scale to height",
-          info === null ? "Leave empty to keep the size." : `Leave empty for the file’s own ${format.size(info.size_mm[2])}\u00a0mm.`,
-          info === null ? "" : format.size(info.size_mm[2]),
-        )}
+        <div class="pair">${this.#length("layerMin", words.thinnest)} ${this.#length("layerMax", words.thickest)}</div>
+        ${isUniform ? html`<p class="hint">${words.rangeHint}</p>` : nothing}
+        ${this.#length("height", words.height, info === null ? words.heightHint : words.heightOwn(`${own}\u00a0mm`), own)}
+        ${offered.printers.length === 0 ? nothing : this.#printer()}
+        ${settings.printer === ""
+          ? this.#select(
+              "rays",
+              words.resolution,
+              RAYS.map((rays) => [String(rays), words.pixels(format.count(rays))]),
+              words.resolutionHint,
+            )
+          : nothing}
         ${this.#select(
-          "rays",
-          "Resolution",
-          RAYS.map((rays) => [String(rays), `${format.count(rays)} pixels`]),
-          "Along the longer side of the masks.",
+          "format",
+          words.format,
+          [
+            ...(settings.printer === "" ? [] : [["", words.formatUsual] as const]),
+            ...FORMATS.map((format) => [format, words.formats[format]] as const),
+          ],
+          settings.format === "sl1" && !isUniform ? words.formatUniform : "",
+          settings.format === "" && settings.printer === "" ? "png" : settings.format,
         )}
-        ${uniform ? nothing : this.#more()}
+        ${offered.resins.length === 0
+          ? nothing
+          : this.#select(
+              "resin",
+              words.resin,
+              [["", words.resinUsual], ...offered.resins.map(({ name = "" }) => [name, name] as const)],
+            )}
+        ${this.#more(isUniform)}
       </form>
     `;
   }
 
   #plannerHint(): string {
     const { planner, minimize } = this.settings;
-    if (planner === "uniform") return "The same thickness all the way up.";
-    return minimize === "time"
-      ? "The shortest print that keeps the tolerance everywhere."
-      : "The fewest layers that keep the tolerance everywhere.";
+    const words = this.language.texts.settings;
+    if (planner === "uniform") return words.uniformHint;
+    return minimize === "time" ? words.quickestHint : words.fewestHint;
   }
 
-  /** What only an adaptive plan has, and few people need. */
-  #more(): TemplateResult {
+  #printer(): TemplateResult {
+    const { settings, offered, language } = this;
+    const { texts, format } = language;
+    const chosen = offered.printers.find(({ name }) => name === settings.printer);
+    const hint =
+      chosen === undefined
+        ? ""
+        : texts.settings.printerHint(
+            chosen.pixels.map(format.count).join(" × "),
+            `${[...new Set(chosen.pitch_um)].map(format.tick).join(" × ")}\u00a0µm`,
+            format.dimensions(chosen.volume_mm),
+          );
+    const models = offered.printers.map(({ name, model }) => [name, model] as const);
+    return this.#select("printer", texts.settings.printer, [["", texts.settings.noPrinter], ...models], hint);
+  }
+
+  /** What few people need. */
+  #more(isUniform: boolean): TemplateResult {
+    const words = this.language.texts.settings;
     return html`<details ?open=${this.#moreAtFirst}>
-      <summary>More settings</summary>
+      <summary>${words.more}</summary>
       <div class="more">
-        ${this.#radios(
-          "minimize",
-          "Least",
-          [["layers", "Layers"], ["time", "Print time"]],
-          "Thick layers take longer to cure, so the fewest are not always the quickest.",
-        )}
-        ${this.#radios(
-          "snap",
-          "Planes at flats",
-          [["auto", "On"], ["off", "Off"]],
-          "Layers end where the model is flat, so that it prints at its true height.",
-        )}
-        ${this.#length("step", "Motor step", "Every height becomes a whole number of these. Leave empty if it is not known.")}
+        ${isUniform
+          ? nothing
+          : html`${this.#radios("minimize", words.least, [["layers", words.leastLayers], ["time", words.leastTime]], words.leastHint)}
+            ${this.#radios("snap", words.flats, [["auto", words.on], ["off", words.off]], words.flatsHint)}
+            ${this.#length("step", words.step, words.stepHint)}`}
+        ${this.#typed("exposure", words.exposure, "s", words.exposureHint)}
+        <div class="pair">
+          ${this.#typed("bottomLayers", words.bottomLayers, "")} ${this.#typed("bottomExposure", words.bottomExposure, "s")}
+        </div>
       </div>
     </details>`;
   }
 
   #tolerance(): TemplateResult {
     const { settings, taken } = this;
+    const { texts, format } = this.language;
     const { metric, tolerances } = settings;
     const { unit, error } = METRICS[metric];
     const least = DEFAULTS.tolerance[metric];
-    const hint =
-      taken !== null && taken > least ? `The least that this model allows: ${error(least)} is not enough for it.` : "";
+    const hint = taken !== null && taken > least ? texts.settings.toleranceTaken(error(least, format)) : "";
     const usual = usualTolerance(metric, taken);
     const change = (text: string): Partial<Settings> => withTolerance(settings, text);
-    return this.#field("tolerance", "Tolerance", tolerances[metric] ?? usual, unit, hint, change, usual);
+    return this.#field("tolerance", texts.settings.tolerance, tolerances[metric] ?? usual, unit, hint, change, usual);
   }
 
   #length(field: Exclude<Field, "tolerance">, label: string, hint = "", placeholder = ""): TemplateResult {
-    return this.#field(field, label, this.settings[field], "mm", hint, (text) => ({ [field]: text }), placeholder);
+    return this.#typed(field, label, "mm", hint, placeholder);
+  }
+
+  #typed(field: Exclude<Field, "tolerance">, label: string, unit: string, hint = "", placeholder = ""): TemplateResult {
+    return this.#field(field, label, this.settings[field], unit, hint, (text) => ({ [field]: text }), placeholder);
   }
 
   #field(
@@ -238,7 +296,7 @@ export class CuspSettings extends LitElement {
     placeholder = "",
   ): TemplateResult {
     const fault = this.faults[field];
-    const described = fault !== undefined || hint !== "";
+    const isDescribed = fault !== undefined || hint !== "";
     return html`<div class="field">
       <label for=${field}>${label}</label>
       <div class="box ${fault === undefined ? "" : "wrong"}">
@@ -249,37 +307,40 @@ export class CuspSettings extends LitElement {
           id=${field}
           placeholder=${placeholder}
           aria-invalid=${fault === undefined ? "false" : "true"}
-          aria-describedby=${described ? `${field}-hint` : nothing}
+          aria-describedby=${isDescribed ? `${field}-hint` : nothing}
           .value=${live(value)}
           @input=${(event: Event) => this.#say(change((event.target as HTMLInputElement).value))}
-        /><span class="unit">${unit}</span>
+        />${unit === "" ? nothing : html`<span class="unit">${unit}</span>`}
       </div>
-      ${described
-        ? html`<p class=${fault === undefined ? "hint" : "fault"} id="${field}-hint">${fault ?? hint}</p>`
+      ${isDescribed
+        ? html`<p class=${fault === undefined ? "hint" : "fault"} id="${field}-hint">
+            ${fault === undefined ? hint : faultWords(fault, this.language)}
+          </p>`
         : nothing}
+      ${this.#beside(field)}
     </div>`;
   }
 
-  #select<Key extends "metric" | "rays">(
+  #select<Key extends Choice>(
     key: Key,
     label: string,
     choices: readonly (readonly [Settings[Key], string])[],
-    hint: string,
+    hint = "",
+    chosen: Settings[Key] = this.settings[key],
   ): TemplateResult {
-    const chosen = this.settings[key];
     return html`<div class="field">
       <label for=${key}>${label}</label>
       <div class="box">
         <select
           id=${key}
-          aria-describedby="${key}-hint"
+          aria-describedby=${hint === "" ? nothing : `${key}-hint`}
           .value=${live(chosen)}
           @change=${(event: Event) => this.#say({ [key]: (event.target as HTMLSelectElement).value })}
         >
           ${choices.map(([value, name]) => html`<option value=${value} ?selected=${value === chosen}>${name}</option>`)}
         </select>
       </div>
-      <p class="hint" id="${key}-hint">${hint}</p>
+      ${hint === "" ? nothing : html`<p class="hint" id="${key}-hint">${hint}</p>`} ${this.#beside(key)}
     </div>`;
   }
 
@@ -309,15 +370,15 @@ export class CuspSettings extends LitElement {
     </fieldset>`;
   }
 
+  /** What went wrong because of this field, with what would mend it. */
+  #beside(field: Problem["field"]): TemplateResult | typeof nothing {
+    const { problem, language } = this;
+    if (problem === null || problem.field !== field) return nothing;
+    const close = (): void => void this.dispatchEvent(new CustomEvent("cusp-dismiss"));
+    return problemBox(problem, language, (change) => this.#say(change), close);
+  }
+
   #say(patch: Partial<Settings>): void {
     this.dispatchEvent(new CustomEvent<Partial<Settings>>("cusp-settings", { detail: patch }));
-  }
-}
-
-customElements.define("cusp-settings", CuspSettings);
-
-declare global {
-  interface HTMLElementTagNameMap {
-    "cusp-settings": CuspSettings;
   }
 }

@@ -1,20 +1,27 @@
 import { expect, test } from "vitest";
+import { sameRays } from "../api/wire.js";
+import { languageOf } from "../texts/index.js";
 import {
   check,
   DEFAULT_SETTINGS,
+  faultWords,
   fromAddress,
   layerRange,
   parse,
-  sameRays,
-  type Faults,
+  quaternion,
+  toAddress,
+  type Field,
+  type Offered,
   type Settings,
   usualTolerance,
   withTolerance,
 } from "./settings.js";
 
-function faults(patch: Partial<Settings>): Faults {
-  const checked = check({ ...DEFAULT_SETTINGS, ...patch });
-  return checked.ok ? {} : checked.faults;
+/** What is wrong, in English. */
+function faults(patch: Partial<Settings>, offered: Offered = { printers: [], resins: [] }): Partial<Record<Field, string>> {
+  const checked = check({ ...DEFAULT_SETTINGS, ...patch }, offered);
+  if (checked.ok) return {};
+  return Object.fromEntries(Object.entries(checked.faults).map(([field, fault]) => [field, faultWords(fault, languageOf("en"))]));
 }
 
 function options(patch: Partial<Settings>): unknown {
@@ -81,7 +88,7 @@ test("a height is optional, and judged only when given", () => {
   expect(options({ height: "60" })).toMatchObject({ height_mm: 60 });
   expect(faults({ height: " " })).toEqual({});
   expect(faults({ height: "tall" }).height).toMatch(/number/);
-  expect(faults({ height: "0" }).height).toMatch(/0.1 to 1000/);
+  expect(faults({ height: "0" }).height).toMatch(/0.1 to 1,000/);
 });
 
 test("a range that is upside down is a fault of its upper end", () => {
@@ -93,7 +100,7 @@ test("a range that is upside down is a fault of its upper end", () => {
 test("micrometres typed for millimetres are recognised", () => {
   expect(faults({ tolerances: { cusp: "65" } }).tolerance).toMatch(/65 µm is 0.065 mm/);
   expect(faults({ step: "10" }).step).toMatch(/10 µm is 0.01 mm/);
-  expect(faults({ height: "6000" }).height).toBe("Must be 0.1 to 1000 mm.");
+  expect(faults({ height: "6000" }).height).toBe("Must be 0.1 to 1,000 mm.");
   expect(faults({ metric: "area", tolerances: { area: "1000" } }).tolerance).toBe("Must be 0.1 to 200 %.");
 });
 
@@ -160,4 +167,53 @@ test("only what moves the rays makes a difference to sameRays", () => {
   expect(sameRays({ rays: 1024 }, { rays: 2048 })).toBe(false);
   expect(sameRays({ height_mm: 60 }, {})).toBe(false);
   expect(sameRays({ pixels: [1, 2] }, { pixels: [1, 2] })).toBe(true);
+});
+
+test("an address is made of what is not as usual, and gives the settings again", () => {
+  expect(toAddress(DEFAULT_SETTINGS)).toBe("");
+  const settings: Settings = {
+    ...DEFAULT_SETTINGS,
+    metric: "area",
+    tolerances: { area: "5" },
+    height: "60",
+    printer: "sl1s",
+    format: "uvj",
+    bottomLayers: "6",
+    rotation: "0,0,1,0",
+  };
+  expect(toAddress(settings)).toBe("metric=area&format=uvj&height=60&bottomLayers=6&printer=sl1s&rotation=0%2C0%2C1%2C0&tolerance=5");
+  expect(fromAddress(toAddress(settings))).toEqual(settings);
+});
+
+const PRINTER = {
+  name: "p",
+  model: "P",
+  pixels: [100, 100],
+  pitch_um: [50, 50],
+  volume_mm: [5, 5, 5],
+  layer_mm: [0.02, 0.2],
+  is_mirrored: true,
+  format: "chitubox",
+} satisfies Offered["printers"][number];
+
+test("a printer gives the pixels and the limits of layers", () => {
+  const offered: Offered = { printers: [PRINTER], resins: [] };
+  expect(options({ printer: "p" })).toMatchObject({ printer: "p" });
+  expect(options({ printer: "p" })).not.toHaveProperty("rays");
+  expect(faults({ printer: "p", layerMax: "0.3" }, offered).layerMax).toBe("Must be 0.02 to 0.2 mm.");
+  expect(faults({ layerMax: "0.3" }, offered)).toEqual({});
+});
+
+test("a resin is the host's, with what is typed over it", () => {
+  const resins = [{ name: "tough", exposure_s: 4, wait_s: 2 }];
+  const checked = check({ ...DEFAULT_SETTINGS, resin: "tough", exposure: "3,5", bottomLayers: "6" }, { printers: [], resins });
+  expect(checked).toMatchObject({ ok: true, options: { resin: { name: "tough", exposure_s: 3.5, wait_s: 2, bottom_layers: 6 } } });
+  expect(options({})).not.toHaveProperty("resin");
+  expect(faults({ bottomLayers: "2.5" }).bottomLayers).toMatch(/whole number/);
+  expect(faults({ exposure: "0" }).exposure).toBe("Must be 0.1 to 600 s.");
+});
+
+test("a rotation is four numbers, made a unit; anything else is none", () => {
+  expect(quaternion("0,0,2,0")).toEqual([0, 0, 1, 0]);
+  expect(["", "1,2", "0,0,0,0", "a,b,c,d", "1,2,3,4,5"].map(quaternion)).toEqual([null, null, null, null, null]);
 });

@@ -25,7 +25,7 @@ export const shared = css`
   .card {
     background: var(--cusp-card);
     border: 1px solid var(--cusp-line);
-    border-radius: 12px;
+    border-radius: var(--cusp-radius);
     padding: 1.25rem;
   }
   .quiet {

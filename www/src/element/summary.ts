@@ -1,7 +1,8 @@
 /** The result in one look: the number of layers, the time they take, what that saves, and the two uniform plans beside it. */
 import { css, html, nothing, type TemplateResult } from "lit";
+import { styleMap } from "lit/directives/style-map.js";
+import type { Language } from "../texts/index.js";
 import { rows, sentence } from "./comparison.js";
-import * as format from "../texts/format.js";
 import { METRICS } from "./metric.js";
 import type { Result } from "./session.js";
 
@@ -49,9 +50,10 @@ export const summaryStyles = css`
   }
   th,
   td {
-    padding: 0.4375rem 0.75rem 0.4375rem 0;
+    padding-block: 0.4375rem;
+    padding-inline: 0 0.75rem;
     border-top: 1px solid var(--cusp-line);
-    text-align: left;
+    text-align: start;
     font-weight: 400;
     white-space: nowrap;
   }
@@ -62,10 +64,10 @@ export const summaryStyles = css`
     font-size: 0.8125rem;
   }
   td.number {
-    text-align: right;
+    text-align: end;
   }
   thead th.number {
-    text-align: right;
+    text-align: end;
   }
   td.bar {
     width: 45%;
@@ -121,7 +123,7 @@ export const summaryStyles = css`
     thead th.number {
       padding: 0;
       border: 0;
-      text-align: left;
+      text-align: start;
     }
     thead th:first-child {
       display: none;
@@ -130,43 +132,52 @@ export const summaryStyles = css`
 `;
 
 /** `note` comes first, if there is one; `action` stands beside the number: the download. */
-export function summary(result: Result, note: TemplateResult | typeof nothing, action: TemplateResult): TemplateResult {
+export function summary(
+  result: Result,
+  language: Language,
+  note: TemplateResult | typeof nothing,
+  action: TemplateResult | typeof nothing,
+): TemplateResult {
   const { report } = result;
-  const { error } = METRICS[report.metric];
+  const { texts, format } = language;
   const compared = rows(result);
   const most = Math.max(...compared.map(({ layers }) => layers));
+  const { columns } = texts.plan;
   return html`
     ${note}
     <div class="answer">
       <div>
         <div class="figure">
-          <p class="count" data-layers=${report.layers}>${format.count(report.layers)}<span>layers</span></p>
-          <p class="time">about ${format.time(report.print_time_s)} to print</p>
+          <p class="count" data-layers=${report.layers}>
+            ${format.count(report.layers)}<span>${texts.plan.layers(report.layers)}</span>
+          </p>
+          <p class="time">${texts.plan.time(format.time(report.print_time_s))}</p>
+          <p class="time resin">${texts.plan.resin(format.millilitres(report.resin_ml))}</p>
         </div>
-        <p class="gain">${sentence(result)}</p>
+        <p class="gain">${sentence(result, language)}</p>
       </div>
       ${action}
     </div>
     <table>
       <thead>
         <tr>
-          <th scope="col">Plan</th>
-          <th scope="col" class="number">Layers</th>
+          <th scope="col">${columns.plan}</th>
+          <th scope="col" class="number">${columns.layers}</th>
           <th class="bar" aria-hidden="true"></th>
-          <th scope="col" class="number">Time</th>
-          <th scope="col">Largest error</th>
+          <th scope="col" class="number">${columns.time}</th>
+          <th scope="col">${columns.error}</th>
         </tr>
       </thead>
       <tbody>
         ${compared.map(
-          ({ name, layers, print_time_s, max_error, holds, own }) => html`<tr class=${own ? "own" : ""}>
-            <th scope="row">${name}</th>
+          ({ uniform_mm, layers, print_time_s, max_error, holds }) => html`<tr class=${uniform_mm === null ? "own" : ""}>
+            <th scope="row">${uniform_mm === null ? texts.plan.own : texts.plan.uniform(format.fine(uniform_mm))}</th>
             <td class="number">${format.count(layers)}</td>
-            <td class="bar" aria-hidden="true"><div style="width:${(100 * layers) / most}%"></div></td>
+            <td class="bar" aria-hidden="true"><div style=${styleMap({ width: `${(100 * layers) / most}%` })}></div></td>
             <td class="number">${format.time(print_time_s)}</td>
             <td>
-              ${error(max_error)}
-              <span class="holds ${holds ? "within" : "over"}">${holds ? "within tolerance" : "over tolerance"}</span>
+              ${METRICS[report.metric].error(max_error, format)}
+              <span class="holds ${holds ? "within" : "over"}">${holds ? texts.plan.within : texts.plan.over}</span>
             </td>
           </tr>`,
         )}
@@ -175,39 +186,26 @@ export function summary(result: Result, note: TemplateResult | typeof nothing, a
   `;
 }
 
-const STAGES = [
-  ["load", "Reading"],
-  ["ldi", "Casting rays"],
-  ["profile", "Measuring the surface"],
-  ["plan", "Planning"],
-  ["masks", "Masks"],
-] as const;
+const STAGES = ["load", "ldi", "profile", "plan", "masks"] as const;
 
 /** How the result came about, for those who want to know. */
-export function details({ report }: Result): TemplateResult {
+export function details({ report }: Result, { texts: { details: words }, format }: Language): TemplateResult {
   const { mask, metric, timings_ms } = report;
-  const { error } = METRICS[metric];
-  const ran = report.backend === "gpu" ? `the GPU${report.adapter === null ? "" : ` (${report.adapter})`}` : "the CPU";
+  const error = (value: number): string => METRICS[metric].error(value, format);
+  const fact = (name: string, value: string): TemplateResult => html`<div><dt>${name}</dt><dd>${value}</dd></div>`;
+  const ran = report.backend === "gpu" ? words.gpu(report.adapter) : words.cpu;
   return html`<details class="quiet figures">
-    <summary>Computed on ${ran} in ${format.duration(timings_ms.total)}</summary>
+    <summary>${words.ran(ran, format.duration(timings_ms.total))}</summary>
     <dl class="facts">
-      ${STAGES.map(([key, name]) =>
-        timings_ms[key] > 0
-          ? html`<div><dt>${name}</dt><dd>${format.duration(timings_ms[key])}</dd></div>`
-          : nothing,
-      )}
-      <div><dt>Largest error on the mesh</dt><dd>${error(report.max_error)}</dd></div>
-      <div><dt>The same as rays see it</dt><dd>${error(report.sampled_error)}</dd></div>
-      ${metric === "cusp"
-        ? nothing
-        : html`<div><dt>Largest cusp height</dt><dd>${format.fine(report.max_error_mm)}</dd></div>`}
-      <div><dt>Planes at flats</dt><dd>${format.count(report.snapped_mm.length)}</dd></div>
-      <div><dt>Planned from</dt><dd>${report.source === "exact" ? "Every facet" : "What rays see"}</dd></div>
-      <div><dt>Time between exposures</dt><dd>${format.seconds(report.overhead_s)}</dd></div>
-      <div><dt>Resin</dt><dd>${format.millilitres(report.resin_ml)}</dd></div>
-      <div><dt>Masks</dt><dd>${format.count(mask.width)} × ${format.count(mask.height)} pixels of ${format.fine(mask.pitch_mm)}</dd></div>
-      <div><dt>Profile</dt><dd>${format.count(report.bins)} intervals of ${format.fine(report.bin_mm)}</dd></div>
-      <div><dt>Surface hits</dt><dd>${format.count(report.hits)}</dd></div>
+      ${STAGES.map((stage) => (timings_ms[stage] > 0 ? fact(words[stage], format.duration(timings_ms[stage])) : nothing))}
+      ${fact(words.meshError, error(report.max_error))} ${fact(words.rayError, error(report.sampled_error))}
+      ${metric === "cusp" ? nothing : fact(words.cuspError, format.fine(report.max_error_mm))}
+      ${fact(words.flats, format.count(report.snapped_mm.length))}
+      ${fact(words.source, report.source === "exact" ? words.exact : words.sampled)}
+      ${fact(words.overhead, format.seconds(report.overhead_s))}
+      ${fact(words.mask, words.maskSize(format.count(mask.width), format.count(mask.height), format.fine(mask.pitch_mm)))}
+      ${fact(words.bins, words.binSize(format.count(report.bins), format.fine(report.bin_mm)))}
+      ${fact(words.hits, format.count(report.hits))}
     </dl>
   </details>`;
 }

@@ -1,12 +1,23 @@
 import { expect, test } from "vitest";
 import { archiveName, choose } from "./choice.js";
-import { rows, sentence, type Compared } from "./comparison.js";
-import * as format from "../texts/format.js";
-import { explain } from "./problem.js";
+import { rows, sentence as sentenceIn, type Compared } from "./comparison.js";
+import { SlicerError, ERROR_CODES, type ErrorCode } from "../api/error.js";
+import { languageOf, LANGUAGES } from "../texts/index.js";
+import { explain as explainIn } from "./problem.js";
+import { notchOf } from "./curve.js";
 import { standing } from "./progress.js";
+import { gainWords, pictureOf } from "./quality.js";
 import * as round from "./round.js";
 import { check, DEFAULT_SETTINGS, type Settings } from "./settings.js";
-import type { CuspError, Options, PlannerReport, Report } from "../api/wire.js";
+import type { Options, PlannerReport, Report, Stage } from "../api/wire.js";
+
+const english = languageOf("en");
+const { format } = english;
+const sentence = (compared: Compared): string => sentenceIn(compared, english);
+
+function explain(error: SlicerError, name: string, settings: Settings): ReturnType<typeof explainIn> {
+  return explainIn({ error, name, settings, height_mm: 60 }, english);
+}
 
 const limits = [0.05, 0.15] as const;
 
@@ -88,9 +99,9 @@ test("the coarsest row says that it breaks the tolerance; rounding of sums does 
   expect(rows(compared({ max_error: 0.0650000001 })).map(({ holds }) => holds)).toEqual([true, true, false]);
 });
 
-function infeasible(detail: Record<string, number | null>): CuspError {
+function infeasible(detail: Record<string, number | null>): SlicerError {
   const where = { from_mm: 12.34, to_mm: 12.39, tolerance: 0.02, layer_min_mm: 0.05 };
-  return { code: "infeasible", message: "no plan", detail: { ...where, ...detail } };
+  return new SlicerError("infeasible", "no plan", { ...where, ...detail });
 }
 
 const infeasibleAt = (patch: Partial<Settings>, detail: Record<string, number | null>): ReturnType<typeof explain> =>
@@ -152,12 +163,12 @@ test("rounding up is short and never below; rounding down gives whole micrometre
 });
 
 test("layers that do not add up: thinner ones may", () => {
-  const problem = explain({ code: "layers-do-not-fit", message: "no", detail: null }, "a.stl", DEFAULT_SETTINGS);
+  const problem = explain(new SlicerError("layers-do-not-fit", "no"), "a.stl", DEFAULT_SETTINGS);
   expect(problem.offers.map(({ change }) => change)).toEqual([{ layerMin: "0.025" }]);
 });
 
 test("the core's message becomes a sentence under our heading", () => {
-  const problem = explain({ code: "stl-truncated", message: "the file ends at byte 90", detail: null }, "a.stl", DEFAULT_SETTINGS);
+  const problem = explain(new SlicerError("stl-truncated", "the file ends at byte 90"), "a.stl", DEFAULT_SETTINGS);
   expect(problem.title).toBe("a.stl is cut short");
   expect(problem.text).toBe("The file ends at byte 90.");
 });
@@ -169,37 +180,56 @@ test.each([
   ["layer-range-empty", "No layer of whole motor steps lies in this range"],
   ["gpu-too-small", "The GPU is too small for this model"],
   ["out-of-reach", "No plan is as short as that"],
-])("%s has a heading of its own", (code, title) => {
-  expect(explain({ code, message: "x", detail: null }, "a.stl", DEFAULT_SETTINGS).title).toBe(title);
+] as const)("%s has a heading of its own", (code, title) => {
+  expect(explain(new SlicerError(code, "x"), "a.stl", DEFAULT_SETTINGS).title).toBe(title);
 });
 
 test("out of memory offers half the rays, down to the least there is", () => {
-  const error = { code: "out-of-memory", message: "too much", detail: null };
+  const error = new SlicerError("out-of-memory", "too much");
   expect(explain(error, "a.stl", DEFAULT_SETTINGS).offers[0]?.change).toEqual({ rays: "1024" });
   expect(explain(error, "a.stl", { ...DEFAULT_SETTINGS, rays: "512" }).offers).toEqual([]);
 });
 
-test("a code that the page has never heard of still shows the core's words", () => {
-  expect(explain({ code: "new", message: "odd", detail: null }, "a.stl", DEFAULT_SETTINGS).text).toBe("Odd.");
+test("a model that is too large may be scaled to fit, or the printer left out", () => {
+  const error = new SlicerError("model-too-large", "too large", { fitting_scale: 0.5012 });
+  const problem = explain(error, "a.stl", { ...DEFAULT_SETTINGS, printer: "p" });
+  expect(problem.field).toBe("printer");
+  expect(problem.offers).toEqual([
+    { label: "Scale to 30\u00a0mm", change: { height: "30" } },
+    { label: "Without a printer", change: { printer: "" } },
+  ]);
+});
+
+test("a file for uniform layers offers these, or another file", () => {
+  const { field, offers } = explain(new SlicerError("uniform-only", ""), "a.stl", { ...DEFAULT_SETTINGS, format: "sl1" });
+  expect(field).toBe("format");
+  expect(offers.map(({ change }) => change)).toEqual([{ planner: "uniform" }, { format: "png" }]);
+});
+
+test.each(LANGUAGES)("every code has a heading and a sentence: %s", (locale) => {
+  const language = languageOf(locale);
+  for (const code of Object.keys(ERROR_CODES) as ErrorCode[]) {
+    const failure = { error: new SlicerError(code, "why"), name: "a.stl", settings: DEFAULT_SETTINGS, height_mm: 1 };
+    const { title, text } = explainIn(failure, language);
+    expect(title.length, code).toBeGreaterThan(3);
+    expect(text.length, code).toBeGreaterThan(2);
+  }
 });
 
 test.each([
   [[], { kind: "none" }],
   [["a.txt"], { kind: "not-stl", name: "a.txt" }],
-  [["A.STL"], { kind: "file", file: { name: "A.STL" }, notice: null }],
-  [["model"], { kind: "file", file: { name: "model" }, notice: null }],
-  [
-    ["notes.txt", "b.stl", "c.stl"],
-    { kind: "file", file: { name: "b.stl" }, notice: "3 files came at once. Cusp takes one at a time: this is b.stl." },
-  ],
-])("of %j the first STL is taken", (names, choice) => {
+  [["A.STL"], { kind: "files", files: [{ name: "A.STL" }] }],
+  [["model"], { kind: "files", files: [{ name: "model" }] }],
+  [["notes.txt", "b.stl", "c.stl"], { kind: "files", files: [{ name: "b.stl" }, { name: "c.stl" }] }],
+])("of %j the STLs are taken", (names, choice) => {
   expect(choose(names.map((name) => ({ name })))).toEqual(choice);
 });
 
-test("the zip is named after the model", () => {
-  expect(archiveName("bunny.stl")).toBe("bunny-cusp.zip");
-  expect(archiveName("part.v2.STL")).toBe("part.v2-cusp.zip");
-  expect(archiveName(".stl")).toBe("model-cusp.zip");
+test("the print file is named after the model and its kind", () => {
+  expect(archiveName("bunny.stl", "png")).toBe("bunny-cusp.zip");
+  expect(archiveName("part.v2.STL", "sl1")).toBe("part.v2-cusp.sl1");
+  expect(archiveName(".stl", "chitubox")).toBe("model-cusp.zip");
 });
 
 test("numbers as people read them", () => {
@@ -219,10 +249,53 @@ test("numbers as people read them", () => {
   expect(format.dimensions([60, 46.52, 59.4])).toBe("60.0 × 46.5 × 59.4\u00a0mm");
 });
 
-test("progress never runs backwards over the stages of a plan, and a download counts its own", () => {
-  const at = (stage: "load" | "ldi" | "profile" | "plan" | "masks", task: "plan" | "archive"): number =>
-    standing({ task, name: "", stage, fraction: 0.5 }).done;
-  expect([at("load", "plan"), at("ldi", "plan"), at("profile", "plan"), at("plan", "plan")]).toEqual([0.125, 0.375, 0.625, 0.875]);
-  expect(at("masks", "archive")).toBe(0.5);
-  expect(at("ldi", "archive")).toBe(0);
+test("progress never runs backwards over the stages of a plan, and an export counts its own", () => {
+  const at = (stage: Stage, task: "plan" | "export"): number =>
+    standing({ task, name: "", stage, fraction: 0.5, started_ms: 0 }, 0).done;
+  const stages = (["load", "ldi", "profile", "plan"] as const).map((stage) => at(stage, "plan"));
+  expect(stages).toEqual([...stages].sort((a, b) => a - b));
+  expect(new Set(stages).size).toBe(4);
+  expect(at("masks", "export")).toBe(0.5);
+  expect(at("ldi", "export")).toBe(0);
+});
+
+test("the time left is guessed from what is done, not before there is something to go by", () => {
+  const at = (fraction: number, now_ms: number): number | null =>
+    standing({ task: "export", name: "", stage: "masks", fraction, started_ms: 0 }, now_ms).left_s;
+  expect(at(0.25, 5000)).toBe(15);
+  expect(at(0.25, 500)).toBeNull();
+  expect(at(0.01, 5000)).toBeNull();
+});
+
+test("a language is the first that there is a catalogue for, with the numbers of its country", () => {
+  expect(languageOf("tlh", "de-CH").locale).toBe("de-CH");
+  expect(languageOf("not a locale").locale).toBe("en");
+  expect(languageOf("de").format.size(1234.5)).toBe("1.234,5");
+  expect(languageOf("fr").texts.plan.layers(1)).toBe("couche");
+  expect(languageOf("fr").texts.plan.layers(2)).toBe("couches");
+  expect(languageOf("zh").format.time(3600)).toBe("1\u00a0小时\u00a00\u00a0分钟");
+});
+
+const curve = [0.05, 0.1, 0.2].map((max_error, i) => ({ tolerance: max_error, max_error, layers: 1, print_time_s: 300 - 100 * i }));
+
+test("quality in words: the same for less time, or less for a larger deviation", () => {
+  const words = (patch: Partial<Report>): string => gainWords({ report: report(patch), limits }, english);
+  expect(words({ max_error: 0.05 })).toBe("Same quality as uniform 0.05\u00a0mm, 32% less time.");
+  expect(words({})).toBe("32% less time than uniform 0.05\u00a0mm; the deviation is 0.065\u00a0mm instead of 0.05\u00a0mm.");
+  expect(words({ print_time_s: 13_200 })).toMatch(/^As slow as uniform/);
+});
+
+test("the picture of the curve: finer to the right, longer upwards, each point over its notch", () => {
+  const own = report({ max_error: 0.075, print_time_s: 250, uniform: { finest: uniform(9, 0.05, 400), coarsest: uniform(1, 0.3, 90) } });
+  const picture = pictureOf(curve, { report: own });
+  const xs = picture.dots.map(({ x }) => x);
+  expect(xs).toEqual([...xs].sort((a, b) => a - b));
+  expect(picture.own.x).toBeCloseTo(((xs[1] ?? 0) + (xs[2] ?? 0)) / 2);
+  expect([picture.finest.x, picture.coarsest.x]).toEqual([xs[2], xs[0]]);
+  expect(picture.finest.y).toBeLessThan(picture.own.y);
+  expect(picture.coarsest.y).toBeGreaterThan(picture.own.y);
+});
+
+test("the slider stands at the point whose tolerance is nearest", () => {
+  expect([0.01, 0.06, 0.11, 9].map((tolerance) => notchOf(curve, tolerance))).toEqual([2, 2, 1, 0]);
 });

@@ -1,34 +1,36 @@
-/** The layout of the page. */
+/** The colours of the element, which its host may set, and how its panels are laid out. */
 import { css } from "lit";
 
-export const appStyles = css`
+export const layoutStyles = css`
   :host {
+    --cusp-font: system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", "Noto Sans", Arial, sans-serif;
+    --cusp-page: light-dark(#f4f5f7, #13151a);
+    --cusp-card: light-dark(#ffffff, #1b1e25);
+    --cusp-line: light-dark(#dfe3e8, #2e333d);
+    --cusp-field: light-dark(#868f9c, #6b7480);
+    --cusp-text: light-dark(#171b22, #e8eaee);
+    --cusp-quiet: light-dark(#566070, #a2abb8);
+    --cusp-accent: light-dark(#1f4f96, #8fb8f0);
+    --cusp-accent-hover: light-dark(#173f7c, #aacbf7);
+    --cusp-on-accent: light-dark(#ffffff, #10203a);
+    --cusp-good: light-dark(#1a6e3c, #7fd0a0);
+    --cusp-bad: light-dark(#a8212c, #ff9a9a);
+    --cusp-bad-wash: light-dark(#fdf1f1, #2d1b1f);
+    --cusp-note-wash: light-dark(#eef3fa, #1a2434);
+    --cusp-focus: light-dark(#2f74d6, #9ac4ff);
+    --cusp-chart-ink: light-dark(#171b22, #f4f6fa);
+    --cusp-chart-paper: light-dark(#ffffff, #1b1e25);
+    --cusp-chart-seam: rgb(16 19 26 / 0.22);
+    --cusp-radius: 12px;
+
     display: block;
-    max-width: 80rem;
-    margin: 0 auto;
-    padding: 1.25rem clamp(1rem, 3vw, 2rem) 3rem;
+    container-type: inline-size;
     color: var(--cusp-text);
-    font-family: var(--cusp-font);
+    font: 16px/1.5 var(--cusp-font);
+    text-align: start;
   }
-  header {
-    display: flex;
-    flex-wrap: wrap;
-    align-items: center;
-    gap: 0.25rem 1.25rem;
-    margin-bottom: 1.25rem;
-  }
-  .brand {
-    display: flex;
-    align-items: center;
-    gap: 0.625rem;
-  }
-  .brand img {
-    display: block;
-  }
-  h1 {
-    font-size: 1.5rem;
-    font-weight: 650;
-    letter-spacing: -0.01em;
+  :host([hidden]) {
+    display: none;
   }
   h2 {
     font-size: 1.125rem;
@@ -38,15 +40,6 @@ export const appStyles = css`
   h2:focus:not(:focus-visible) {
     outline: none;
   }
-  .tagline {
-    flex: 1 1 20rem;
-  }
-  .private {
-    color: var(--cusp-good);
-    font-size: 0.875rem;
-    font-weight: 550;
-  }
-
   .start {
     display: grid;
     justify-items: center;
@@ -80,22 +73,10 @@ export const appStyles = css`
     font-size: 1.375rem;
     font-weight: 600;
   }
-  .points {
-    display: grid;
-    grid-template-columns: repeat(auto-fit, minmax(min(12rem, 100%), 1fr));
-    gap: 1rem 2rem;
+  slot[name="empty"] {
+    display: block;
     width: 100%;
     max-width: 44rem;
-    margin: 1.5rem 0 0;
-    padding: 0;
-    list-style: none;
-    color: var(--cusp-quiet);
-    font-size: 0.9375rem;
-  }
-  .points strong {
-    display: block;
-    color: var(--cusp-text);
-    font-weight: 600;
   }
   .waiting {
     display: grid;
@@ -108,42 +89,6 @@ export const appStyles = css`
   }
   .waiting .progress {
     width: 100%;
-  }
-
-  .message {
-    display: flex;
-    flex-wrap: wrap;
-    align-items: start;
-    justify-content: space-between;
-    gap: 1rem;
-    margin-bottom: 1rem;
-    padding: 0.875rem 1.25rem;
-    border: 1px solid var(--cusp-line);
-    border-left-width: 4px;
-    border-radius: 8px;
-  }
-  .message > :first-child {
-    flex: 1 1 18rem;
-    min-width: 0;
-    overflow-wrap: anywhere;
-  }
-  .message h2 {
-    font-size: 1rem;
-  }
-  .problem {
-    border-color: var(--cusp-bad);
-    background: var(--cusp-bad-wash);
-  }
-  .notice {
-    align-items: center;
-    border-color: var(--cusp-accent);
-    background: var(--cusp-note-wash);
-  }
-  .offers {
-    display: flex;
-    flex-wrap: wrap;
-    gap: 0.5rem;
-    margin-top: 0.625rem;
   }
 
   .work {
@@ -170,9 +115,23 @@ export const appStyles = css`
   }
   .warning {
     margin-top: 0.75rem;
-    padding-left: 0.75rem;
-    border-left: 3px solid #e0a030;
+    padding-inline-start: 0.75rem;
+    border-inline-start: 3px solid #e0a030;
     font-size: 0.875rem;
+  }
+  .files {
+    display: flex;
+    align-items: center;
+    gap: 0.5rem;
+    margin-top: 1rem;
+  }
+  .files button {
+    min-width: 2.25rem;
+    padding: 0;
+    font-size: 1.25rem;
+  }
+  .flip:dir(rtl) {
+    scale: -1 1;
   }
   .open-other {
     display: flex;
@@ -191,6 +150,24 @@ export const appStyles = css`
   }
   .settings[open] summary {
     margin-bottom: 1rem;
+  }
+  .settings .steps {
+    float: inline-end;
+    display: flex;
+    gap: 0.25rem;
+  }
+  .settings .steps button {
+    min-width: 2.25rem;
+    padding: 0;
+  }
+  .steps svg {
+    width: 1.125rem;
+    height: 1.125rem;
+    fill: none;
+    stroke: currentColor;
+    stroke-width: 1.75;
+    stroke-linecap: round;
+    stroke-linejoin: round;
   }
   .results {
     display: grid;
@@ -230,10 +207,10 @@ export const appStyles = css`
   .toast {
     position: fixed;
     z-index: 2;
-    left: 50%;
+    inset-inline: 1rem;
     bottom: 1rem;
-    width: min(32rem, calc(100vw - 2rem));
-    transform: translateX(-50%);
+    max-width: 32rem;
+    margin-inline: auto;
     box-shadow: 0 8px 30px rgb(0 0 0 / 0.25);
     animation: appear 150ms 250ms both;
   }
@@ -242,21 +219,16 @@ export const appStyles = css`
       opacity: 0;
     }
   }
-  .drop-veil {
-    position: fixed;
-    z-index: 3;
-    inset: 0.5rem;
-    display: grid;
-    place-items: center;
-    border: 3px dashed var(--cusp-accent);
+  .dragging {
+    outline: 3px dashed var(--cusp-accent);
+    outline-offset: 0.25rem;
     border-radius: 16px;
-    background: color-mix(in srgb, var(--cusp-page) 85%, transparent);
-    font-size: 1.5rem;
-    font-weight: 600;
-    pointer-events: none;
+  }
+  .span {
+    grid-column: 1 / -1;
   }
 
-  @media (min-width: 60rem) {
+  @container (min-width: 56rem) {
     .work {
       grid-template-columns: 19rem minmax(0, 1fr);
       grid-template-rows: auto 1fr;
@@ -272,22 +244,25 @@ export const appStyles = css`
       grid-area: 1 / 2 / 3 / 3;
       grid-template-columns: minmax(0, 1.15fr) minmax(0, 1fr);
     }
-    .results > :first-child {
-      grid-column: 1 / -1;
+    .work.plain {
+      grid-template-columns: minmax(0, 1fr);
+    }
+    .plain .results {
+      grid-area: auto;
     }
   }
   /* On a phone the answer comes before the settings, which fold away. */
-  @media (max-width: 59.99rem) {
+  @container (max-width: 55.99rem) {
     .results {
       display: contents;
     }
-    .results > :nth-child(n + 2) {
+    .results > * {
       order: 1;
     }
     .settings {
       order: 0;
     }
-    .results > :first-child {
+    .results > .first {
       order: -1;
     }
     .model {

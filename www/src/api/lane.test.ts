@@ -1,6 +1,7 @@
 import { beforeEach, expect, test } from "vitest";
-import { SlicerClient, SlicerError, type Engine, type Watch } from "./slicer.js";
-import type { CuspError, MeshInfo, OnProgress, Options, Plan, SlicerWorker } from "./wire.js";
+import { SlicerError } from "./error.js";
+import { Lane, type Engine, type Watch } from "./lane.js";
+import type { CuspError, Glance, MeshInfo, OnProgress, Options, Profiled, Report, SlicerWorker } from "./wire.js";
 
 /** What the fake workers were asked, in order: `worker number: call`. */
 let log: string[];
@@ -30,16 +31,26 @@ class FakeWorker implements Engine {
       progress("ldi", 0.5);
       await this.#work(`plan ${options.tolerance} of ${this.opened}`);
       this.planned = options;
-      return {} as Plan;
+      return {} as Profiled<Report>;
     },
     mask: (layer) => {
       this.#say(`mask ${layer} of ${this.planned.tolerance}`);
       return new Uint8Array(1);
     },
-    archive: () => {
-      this.#say("archive");
-      return new Uint8Array(1);
+    tradeoff: async (options) => {
+      await this.#work(`tradeoff of ${options.rays} rays`);
+      return { points: [] };
     },
+    compare: () => Promise.reject(new Error("not faked")),
+    archive: (_progress, port) => {
+      this.#say("archive");
+      if (port === null) return new Blob(["zip"]);
+      for (const chunk of ["z", "ip", null]) port.postMessage(chunk === null ? null : new TextEncoder().encode(chunk));
+      return null;
+    },
+    positions: () => new Float32Array(9),
+    glance: () => ({}) as Profiled<Glance>,
+    printers: () => [],
   };
 
   terminate(): void {
@@ -61,16 +72,16 @@ class FakeWorker implements Engine {
   }
 }
 
-let client: SlicerClient;
+let client: Lane;
 
 beforeEach(() => {
   log = [];
   workers = [];
-  client = new SlicerClient(() => new FakeWorker());
+  client = new Lane(() => new FakeWorker());
 });
 
-function watch(signal = new AbortController().signal, progress: OnProgress = () => undefined): Watch {
-  return { signal, progress };
+function watch(signal = new AbortController().signal, onProgress: OnProgress = () => undefined): Watch {
+  return { signal, onProgress };
 }
 
 const worker = (number: number): FakeWorker => {
@@ -161,7 +172,7 @@ test("a core that breaks is replaced", async () => {
 
 test("a core that does not start says so, and the next call tries again", async () => {
   const starts: Engine[] = [];
-  const failing = new SlicerClient(() => {
+  const failing = new Lane(() => {
     const engine = new FakeWorker();
     if (starts.push(engine) === 1) engine.remote.boot = () => Promise.reject(new Error("HTTP 404"));
     return engine;
@@ -179,4 +190,51 @@ test("a worker that breaks by itself fails the call that waits for it", async ()
   await new Promise((resolve) => setTimeout(resolve));
   worker(1).broken("no script");
   await expect(running).rejects.toMatchObject({ code: "crash", message: "no script" });
+});
+
+test("a call that waits for another is cancelled at once, not when its turn comes", async () => {
+  await client.open(new Blob(["a"]), watch());
+  worker(1).hang = true;
+  const first = client.plan({}, watch());
+  first.catch(() => undefined);
+  const abort = new AbortController();
+  const second = client.plan({}, watch(abort.signal));
+  abort.abort();
+  await expect(second).rejects.toMatchObject({ name: "AbortError" });
+  expect(worker(1).terminated).toBe(false);
+});
+
+test("a study over the same rays leaves the plan with the core; over others the plan is made again", async () => {
+  await client.open(new Blob(["a"]), watch());
+  await client.plan({ tolerance: 1, rays: 512 }, watch());
+  log = [];
+  await client.tradeoff({ tolerance: 2, rays: 512 }, 9, watch());
+  await client.mask(0);
+  await client.tradeoff({ rays: 1024 }, 9, watch());
+  await client.mask(0);
+  expect(log).toEqual([
+    "1: tradeoff of 512 rays",
+    "1: mask 0 of 1",
+    "1: tradeoff of 1024 rays",
+    "1: plan 1 of a",
+    "1: mask 0 of 1",
+  ]);
+});
+
+test("a print file comes whole, or chunk by chunk in order", async () => {
+  await client.open(new Blob(["a"]), watch());
+  await client.plan({}, watch());
+  expect(await (await client.archive(watch())).text()).toBe("zip");
+  const chunks: string[] = [];
+  await client.archiveTo((chunk) => chunks.push(new TextDecoder().decode(chunk)), watch());
+  expect(chunks).toEqual(["z", "ip"]);
+});
+
+test("asked too early, it says what is missing; disposed of, it works no more", async () => {
+  await expect(client.plan({}, watch())).rejects.toMatchObject({ code: "no-model" });
+  await client.open(new Blob(["a"]), watch());
+  await expect(client.mask(0)).rejects.toMatchObject({ code: "no-plan" });
+  client.dispose();
+  await expect(client.mask(0)).rejects.toMatchObject({ name: "AbortError" });
+  expect(workers).toHaveLength(1);
 });
