@@ -16,7 +16,7 @@ export async function main([model = "fandisk", scheme = "light", extra = "{}", w
     await page.waitForFunction(() => "harness" in window);
     const told = await page.evaluate(async (more) => {
       const { harness } = window;
-      harness.show();
+      harness.show(); if (innerWidth < 500) harness.view.style.height = '24rem';
       const stl = await (await fetch("model.stl")).arrayBuffer();
       let positions = harness.facetsOf(stl);
       const properties = JSON.parse(more);
@@ -44,6 +44,7 @@ export async function main([model = "fandisk", scheme = "light", extra = "{}", w
     console.log(told);
     const t = Date.now();
     if (extra.includes("printed")) { await page.waitForTimeout(400); await page.waitForFunction(() => window.harness.view.building === null, null, { timeout: 60000 }); console.log("steps", Date.now() - t); await page.evaluate(() => window.harness.drawn()); }
+    if (extra.includes("flat")) { const b = (await page.locator("cusp-view").boundingBox())!; await page.mouse.move(b.x + b.width / 2, b.y + b.height * 0.45); await page.waitForTimeout(1500); }
     await page.waitForTimeout(300);
     console.log(await page.evaluate(() => JSON.stringify(window.harness.heard)));
     await page.screenshot({ path: `${out}.png` });

@@ -39,7 +39,7 @@ export function face(facts: Facts): TemplateResult {
   const isBeside = problem !== null && model !== null && panels.has("settings") && hasPlace(problem, settings, session);
   const drawn = { ...facts, problem, isBeside };
   return html`
-    <div class=${isDragging ? "dragging" : ""} aria-busy=${session.busy !== null}>
+    <div class="face ${isDragging ? "dragging" : ""}" aria-busy=${session.busy !== null}>
       ${problem === null || isBeside
         ? nothing
         : problemBox(problem, language, (change) => session.change(change), () => session.dismiss())}

@@ -1,12 +1,12 @@
 /** A layer's mask on a canvas at any zoom, with the range input that goes through the layers, and play. */
 import { css, html, LitElement, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
-import { styleMap } from "lit/directives/style-map.js";
 import type { Mask } from "../api/index.js";
 import type { Report } from "../api/wire.js";
 import { languageOf, type Language } from "../texts/index.js";
 import { coverage, factorFor, wholeBytes } from "./bitmap.js";
 import { css as cssColour, ofThickness } from "./colour.js";
+import { styled } from "./styled.js";
 import { shared } from "./styles.js";
 import { moved, WHOLE, windowOf, zoomed, type Place } from "./window.js";
 
@@ -232,7 +232,7 @@ export class CuspMask extends LitElement {
         <div>
           <dt>${words.thickness}</dt>
           <dd>
-            <span class="swatch" style=${styleMap({ background: cssColour(ofThickness(thickness_mm, this.limits)) })}></span
+            <span class="swatch" ${styled({ background: cssColour(ofThickness(thickness_mm, this.limits)) })}></span
             >${thickness}
           </dd>
         </div>

@@ -1,10 +1,10 @@
 /** The result in one look: the number of layers, the time they take, what that saves, and the two uniform plans beside it. */
 import { css, html, nothing, type TemplateResult } from "lit";
-import { styleMap } from "lit/directives/style-map.js";
 import type { Language } from "../texts/index.js";
 import { rows, sentence } from "./comparison.js";
 import { METRICS } from "./metric.js";
 import type { Result } from "./session.js";
+import { styled } from "./styled.js";
 
 export const summaryStyles = css`
   .answer {
@@ -173,7 +173,7 @@ export function summary(
           ({ uniform_mm, layers, print_time_s, max_error, holds }) => html`<tr class=${uniform_mm === null ? "own" : ""}>
             <th scope="row">${uniform_mm === null ? texts.plan.own : texts.plan.uniform(format.fine(uniform_mm))}</th>
             <td class="number">${format.count(layers)}</td>
-            <td class="bar" aria-hidden="true"><div style=${styleMap({ width: `${(100 * layers) / most}%` })}></div></td>
+            <td class="bar" aria-hidden="true"><div ${styled({ width: `${(100 * layers) / most}%` })}></div></td>
             <td class="number">${format.time(print_time_s)}</td>
             <td>
               ${METRICS[report.metric].error(max_error, format)}
