@@ -26,7 +26,7 @@ const FIELD_OF_VIEW_DEG = 26;
 const FIRST_LOOK = new Vector3(0.55, -1, 0.5).normalize();
 
 /** Room around the model in the free view. */
-const ROOM = 1.12;
+const ROOM = 1.14;
 
 /** How far one may come near or go away, in distances of the whole model. */
 const NEAREST = 0.05;
@@ -89,7 +89,7 @@ export class Cameras {
       return;
     }
     this.controls.target.copy(target);
-    this.#free.position.copy(target).addScaledVector(FIRST_LOOK, this.#distance());
+    this.#free.position.copy(target).addScaledVector(FIRST_LOOK, this.#distance(FIRST_LOOK));
     this.#limit();
     this.controls.update();
   }
@@ -167,16 +167,23 @@ export class Cameras {
     this.controls.dispose();
   }
 
-  /** Distance from which all of the model is seen. */
-  #distance(): number {
-    const radius = Math.max(Math.hypot(...this.#size_mm) / 2, 1e-3);
-    const half = MathUtils.degToRad(FIELD_OF_VIEW_DEG / 2);
-    const narrow = Math.atan(Math.tan(half) * Math.min(1, this.#free.aspect));
-    return (ROOM * radius) / Math.sin(narrow);
+  /** Distance from the model's middle, along a look from it, at which all corners of its bounds are just seen. */
+  #distance(look: Vector3): number {
+    const right = new Vector3(0, 0, 1).cross(look).normalize();
+    const up = look.clone().cross(right);
+    const slope = Math.tan(MathUtils.degToRad(FIELD_OF_VIEW_DEG / 2));
+    let distance = 1e-3;
+    for (let corner = 0; corner < 8; corner++) {
+      const at = new Vector3(...this.#size_mm.map((side, axis) => (corner & (1 << axis) ? side / 2 : -side / 2)));
+      const across = (ROOM * Math.abs(at.dot(right))) / (slope * this.#free.aspect);
+      const high = (ROOM * Math.abs(at.dot(up))) / slope;
+      distance = Math.max(distance, at.dot(look) + Math.max(across, high));
+    }
+    return distance;
   }
 
   #limit(): void {
-    const distance = this.#distance();
+    const distance = this.#distance(FIRST_LOOK);
     this.controls.minDistance = NEAREST * distance;
     this.controls.maxDistance = FARTHEST * distance;
   }

@@ -9,14 +9,16 @@ import type { Frame, Heights, Inset } from "./cameras.js";
 import type { HeightDetail, RotateDetail, ViewErrorDetail } from "./events.js";
 import { pressed } from "./keys.js";
 import { legend, legendStyles } from "./legend.js";
-import { layerAt } from "./lookup.js";
 import type { Look } from "./model.js";
 import type { PaletteName } from "./palette.js";
 import type { BuildVolume } from "./plate.js";
-import { watchPointer, type Point } from "./pointer.js";
+
+import { watchPointer } from "./pointer.js";
+import { Pointing, type Shown } from "./pointing.js";
 import { layFlat, turned, UPRIGHT, type Rotation } from "./pose.js";
-import { Printing } from "./printing.js";
+import { Derived } from "./derived.js";
 import { Stage, type Tool } from "./stage.js";
+import { contextOf, place } from "./surface.js";
 import { ENGLISH, type ViewTexts } from "./texts.js";
 import { themeOf } from "./theme.js";
 import { viewStyles } from "./view-styles.js";
@@ -79,14 +81,13 @@ export class CuspView extends LitElement {
   declare broken: boolean;
 
   #stage: Stage | null = null;
-  #printing: Printing | null = null;
+  #derived: Derived | null = null;
   #life = new AbortController();
   #frame: Frame | null = null;
   #isHeld = false;
-  #isPicking = false;
+  #pointing: Pointing | null = null;
   #unsaid: RotateDetail | null = null;
   #settling = 0;
-  #marked: readonly number[] | null = null;
   readonly #reducedMotion = matchMedia("(prefers-reduced-motion: reduce)");
 
   static override styles = [viewStyles, legendStyles];
@@ -168,7 +169,8 @@ export class CuspView extends LitElement {
     this.#start();
   }
 
-  override updated(changed: PropertyValues<this>): void {
+  /** Before rendering, since what is rendered tells the size that the stage finds. */
+  override willUpdate(changed: PropertyValues<this>): void {
     if (this.#stage !== null) this.#show(this.#stage, (name) => changed.has(name));
   }
 
@@ -182,7 +184,7 @@ export class CuspView extends LitElement {
     this.#life = life;
     const canvas = document.createElement("canvas");
     const holder = this.renderRoot.querySelector<HTMLElement>(".stage");
-    const context = canvas.getContext("webgl2", { alpha: true, antialias: true, depth: true, stencil: false });
+    const context = contextOf(canvas);
     if (holder === null || context === null) {
       this.broken = true;
       const { unavailable: message } = this.texts;
@@ -201,9 +203,15 @@ export class CuspView extends LitElement {
       (frame) => this.#drawn(frame),
     );
     this.#stage = stage;
+    const pointing = new Pointing(stage, () => this.#shown(), {
+      height: (detail) => this.#tell<HeightDetail>("cusp-height", detail),
+      layer: (layer) => this.#tell<number>("cusp-layer", layer),
+      lay: (normal) => this.#rotate(layFlat(this.rotation, normal), true),
+    });
+    this.#pointing = pointing;
     watchPointer(
       canvas,
-      { clicked: (at) => void this.#clicked(at), hovered: (at) => void this.#hovered(at) },
+      { clicked: (at) => void pointing.clicked(at), hovered: (at) => void pointing.hovered(at) },
       life.signal,
     );
     // The wheel scrolls the page until the view has been chosen by a click or by keyboard.
@@ -217,15 +225,18 @@ export class CuspView extends LitElement {
     this.#recolour();
     this.#show(stage, () => true);
     stage.setSize(holder.clientWidth, holder.clientHeight);
+    // The size and the grid were not known when the view was rendered.
+    this.requestUpdate();
   }
 
   #stop(): void {
     this.#life.abort();
     clearTimeout(this.#settling);
-    this.#printing?.dispose();
-    this.#printing = null;
+    this.#derived?.dispose();
+    this.#derived = null;
     this.#stage?.dispose();
     this.#stage = null;
+    this.#pointing = null;
     this.renderRoot.querySelector("canvas")?.remove();
     this.building = null;
     this.#frame = null;
@@ -237,8 +248,8 @@ export class CuspView extends LitElement {
     const { model } = stage;
     if (has("plate")) stage.setVolume(this.plate);
     if (has("positions")) {
-      this.#printing?.dispose();
-      this.#printing = this.positions === null ? null : new Printing(this.positions);
+      this.#derived?.dispose();
+      this.#derived = this.positions === null ? null : new Derived(this.positions);
       stage.setPositions(this.positions ?? new Float32Array(0), this.rotation, this.scale);
     } else if (has("rotation") || has("scale")) stage.setPose(this.rotation, this.scale, !this.#isHeld);
     if (has("z_mm")) model.setPlan(this.z_mm);
@@ -250,10 +261,29 @@ export class CuspView extends LitElement {
       stage.setAligned(this.aligned, this.heights_mm, this.inset);
     }
     if (has("tool")) stage.setTool(this.tool);
+    if ((has("tool") || has("positions")) && this.tool !== "turn") void this.#prepare();
     if ((["positions", "rotation", "scale", "z_mm", "look"] as const).some(has)) this.#settle();
-    // Size and grid come from the stage and are only known now.
-    if (has("positions") || has("rotation") || has("scale")) this.requestUpdate();
     stage.invalidate();
+  }
+
+  /** What turning wants is worked out before the first turn. */
+  async #prepare(): Promise<void> {
+    const derived = this.#derived;
+    const points = await derived?.points();
+    if (points != null && derived === this.#derived) this.#stage?.model.setPoints(points);
+  }
+
+  #shown(): Shown {
+    const { tool, z_mm } = this;
+    const derived = this.#derived;
+    return {
+      tool,
+      z_mm,
+      face: async (facet) => {
+        const face = (await derived?.face(facet)) ?? null;
+        return derived === this.#derived ? face : null;
+      },
+    };
   }
 
   #band(): readonly [number, number] | null {
@@ -272,7 +302,7 @@ export class CuspView extends LitElement {
   /** Works out the stair steps once nothing changes any more. Those of an earlier pose are wrong at once. */
   #settle(): void {
     clearTimeout(this.#settling);
-    this.#printing?.cancel();
+    this.#derived?.cancel();
     this.#stage?.model.setSteps(null);
     this.building = null;
     if (this.look !== "printed" || this.z_mm.length < 2) return;
@@ -282,10 +312,14 @@ export class CuspView extends LitElement {
   }
 
   async #build(): Promise<void> {
-    const printing = this.#printing;
+    const derived = this.#derived;
     this.building = 0;
-    const steps = await printing?.steps(this.rotation, this.scale, this.z_mm, (progress) => (this.building = progress));
-    if (steps == null || printing !== this.#printing) return;
+    const tell = (progress: number): void => {
+      this.building = progress;
+    };
+    const steps = await derived?.steps(this.rotation, this.scale, this.z_mm, tell);
+    // None: another pose or plan has been asked for meanwhile, and is shown in its turn.
+    if (steps == null || derived !== this.#derived) return;
     this.building = null;
     this.#stage?.model.setSteps(steps);
     this.#stage?.invalidate();
@@ -309,42 +343,6 @@ export class CuspView extends LitElement {
     this.#unsaid = { rotation, final };
   }
 
-  async #clicked(at: Point): Promise<void> {
-    const stage = this.#stage;
-    if (stage === null || stage.isHot) return;
-    const hit = await stage.pick(...at);
-    if (hit === null || stage !== this.#stage) return;
-    if (this.tool === "flat") await this.#lay(hit.facet);
-    else if (this.z_mm.length >= 2) this.#tell<number>("cusp-layer", layerAt(this.z_mm, hit.z_mm));
-  }
-
-  async #lay(facet: number): Promise<void> {
-    const printing = this.#printing;
-    const face = await printing?.face(facet);
-    if (face == null || printing !== this.#printing) return;
-    this.#mark(null);
-    this.#rotate(layFlat(this.rotation, face.normal), true);
-  }
-
-  async #hovered(at: Point | null): Promise<void> {
-    const stage = this.#stage;
-    if (stage === null || this.#isPicking || this.#isHeld) return;
-    this.#isPicking = true;
-    const hit = at === null ? null : await stage.pick(...at).finally(() => (this.#isPicking = false));
-    this.#isPicking = false;
-    if (stage !== this.#stage) return;
-    const layer = hit === null || this.z_mm.length < 2 ? null : layerAt(this.z_mm, hit.z_mm);
-    this.#tell<HeightDetail>("cusp-height", { z_mm: hit?.z_mm ?? null, layer });
-    if (this.tool !== "flat" || (hit !== null && this.#marked?.includes(hit.facet) === true)) return;
-    const face = hit === null ? null : await this.#printing?.face(hit.facet);
-    if (stage === this.#stage && this.tool === "flat") this.#mark(face?.facets ?? null);
-  }
-
-  #mark(facets: readonly number[] | null): void {
-    this.#marked = facets;
-    this.#stage?.setFace(facets);
-  }
-
   readonly #key = (event: KeyboardEvent): void => {
     const action = pressed(event, this.tool);
     if (action === null || this.#stage === null) return;
@@ -354,7 +352,7 @@ export class CuspView extends LitElement {
     else if (action.do === "zoom") cameras.zoom(action.factor);
     else if (action.do === "reset") cameras.reset();
     else if (action.do === "turn-model") this.#rotate(turned(this.rotation, action.axis, action.degrees), true);
-    else void this.#clicked([this.clientWidth / 2, this.clientHeight / 2]);
+    else void this.#pointing?.clicked([this.clientWidth / 2, this.clientHeight / 2]);
   };
 
   readonly #wheel = (event: WheelEvent): void => {
@@ -378,14 +376,9 @@ export class CuspView extends LitElement {
   /** What follows the picture: the label of the layer, and where heights are. */
   #drawn(frame: Frame | null): void {
     const label = this.renderRoot.querySelector<HTMLElement>(".label");
-    const band = this.#band();
+    const band = this.positions === null ? null : this.#band();
     if (label !== null && this.#stage !== null) {
-      label.hidden = band === null || this.positions === null;
-      if (band !== null) {
-        const [x, y] = this.#stage.edgeAt((band[0] + band[1]) / 2);
-        const left = Math.max(4, Math.min(x + 12, this.clientWidth - label.offsetWidth - 4));
-        label.style.transform = `translate(${Math.round(left)}px, calc(${Math.round(y)}px - 50%))`;
-      }
+      place(label, band === null ? null : this.#stage.edgeAt((band[0] + band[1]) / 2), this.clientWidth);
     }
     if (frame?.top_px === this.#frame?.top_px && frame?.bottom_px === this.#frame?.bottom_px) return;
     this.#frame = frame;

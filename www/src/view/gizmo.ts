@@ -6,6 +6,12 @@ import type { Rotation } from "./pose.js";
 /** With Shift held the model turns in steps. */
 const SNAP = Math.PI / 12;
 
+/** Of the rings, so that the outermost stays inside a square view; the controls' own unit. */
+const SIZE = 2.5;
+
+/** The axes x, y and z, and the ring under the pointer: as bright on light as on dark. */
+const COLOURS = ["#d9534f", "#4f9d5d", "#4a80d4", "#e6a117"] as const;
+
 export interface GizmoReports {
   /** The rings hold the pointer, or have let it go. */
   held(on: boolean): void;
@@ -32,7 +38,7 @@ export class Gizmo {
     this.#controls = controls;
     controls.setMode("rotate");
     controls.setSpace("world");
-    controls.setSize(0.9);
+    controls.setColors(...COLOURS);
     scene.add(controls.getHelper());
     const rotation = (): Rotation | null => {
       if (controls.object === undefined) return null;
@@ -56,6 +62,11 @@ export class Gizmo {
   /** Whether the pointer is on a ring or holds one. */
   get isHot(): boolean {
     return this.#controls.axis !== null || this.#controls.dragging;
+  }
+
+  /** @param aspect width of the view over its height */
+  fit(aspect: number): void {
+    this.#controls.setSize(SIZE * Math.min(1, aspect));
   }
 
   show(object: Object3D | null, camera: Camera): void {

@@ -10,7 +10,7 @@ const TICKS = 3;
 const STEPS = [1, 2, 2.5, 5, 10];
 
 /** How near a tick may come to an end of the scale, as a part of it, before its label touches the end's. */
-const CLEAR = 0.14;
+const CLEAR = 0.2;
 
 /** Thicknesses in whole numbers of µm between the limits, no more than a few, clear of the ends. */
 export function ticks([least, greatest]: readonly [number, number]): number[] {
@@ -41,7 +41,7 @@ const across = (place: number): string => `${(100 * place).toFixed(2)}%`;
 /** Styles are set as properties: a strict policy takes no style attributes. */
 export function legend({ palette, limits, marked_mm, texts }: LegendData): TemplateResult {
   const [least, greatest] = limits;
-  const isOne = !(greatest > least);
+  const marks = greatest > least ? [least, ...ticks(limits), greatest] : [least];
   return html`
     <div class="legend" part="legend">
       <span class="heading">${texts.legend}</span>
@@ -51,13 +51,7 @@ export function legend({ palette, limits, marked_mm, texts }: LegendData): Templ
           : html`<i class="mark" .style=${`left: ${across(placeOf(marked_mm, limits))}`}></i>`}
       </div>
       <div class="ticks">
-        ${isOne
-          ? html`<span class="one">${texts.thickness(least)}</span>`
-          : html`<span class="least">${texts.thickness(least)}</span>
-              ${ticks(limits).map(
-                (tick) => html`<i .style=${`left: ${across(placeOf(tick, limits))}`}></i>`,
-              )}
-              <span class="greatest">${texts.thickness(greatest)}</span>`}
+        ${marks.map((mm) => html`<span .style=${`left: ${across(placeOf(mm, limits))}`}>${texts.tick(mm)}</span>`)}
       </div>
     </div>
   `;
@@ -85,7 +79,7 @@ export const legendStyles = css`
   .scale {
     position: relative;
     height: 0.625rem;
-    margin-block: 0.375rem 0.25rem;
+    margin-block: 0.375rem 0.125rem;
     border-radius: 3px;
   }
   .mark {
@@ -100,19 +94,27 @@ export const legendStyles = css`
   .ticks {
     direction: ltr;
     position: relative;
-    display: flex;
-    justify-content: space-between;
+    height: 1.6em;
+    margin-inline: 0.5rem;
+  }
+  .scale {
+    margin-inline: 0.5rem;
+  }
+  .ticks span {
+    position: absolute;
+    inset-block-start: 0;
+    padding-block-start: 0.25rem;
+    transform: translateX(-50%);
     white-space: nowrap;
   }
-  .ticks i {
+  .ticks span::before {
+    content: "";
     position: absolute;
-    inset-block-start: -0.25rem;
+    inset-block-start: -0.0625rem;
+    left: 50%;
     width: 1px;
     height: 0.25rem;
     background: currentColor;
     opacity: 0.5;
-  }
-  .one {
-    margin-inline: auto;
   }
 `;

@@ -51,7 +51,8 @@ export class Model {
   /** Turns about the middle of the model; what the gizmo holds. */
   readonly pivot = new Group();
   readonly facets: Mesh<BufferGeometry, RawShaderMaterial>;
-  readonly steps: Mesh<BufferGeometry, RawShaderMaterial>;
+  /** The stair steps, already in their pose. */
+  readonly steps = new Group();
   /** Of the model as it stands, mm. */
   size_mm: Triple = [0, 0, 0];
   #positions: Float32Array = new Float32Array(0);
@@ -81,8 +82,6 @@ export class Model {
       },
     });
     this.facets = new Mesh(new BufferGeometry(), this.#material);
-    this.steps = new Mesh(new BufferGeometry(), this.#material);
-    this.steps.visible = false;
     this.pivot.add(this.facets);
   }
 
@@ -164,11 +163,12 @@ export class Model {
   }
 
   setSteps(steps: Steps | null): void {
-    this.steps.geometry.dispose();
-    this.steps.geometry = bounded(new BufferGeometry());
-    if (steps !== null) {
-      this.steps.geometry.setAttribute("position", new BufferAttribute(steps.positions, 3));
-      this.steps.geometry.setIndex(new BufferAttribute(steps.index, 1));
+    this.#clearSteps();
+    for (const { positions, index } of steps?.parts ?? []) {
+      const geometry = bounded(new BufferGeometry());
+      geometry.setAttribute("position", new BufferAttribute(positions, 3));
+      geometry.setIndex(new BufferAttribute(index, 1));
+      this.steps.add(new Mesh(geometry, this.#material));
     }
     this.#hasSteps = steps !== null;
     this.#show();
@@ -176,10 +176,15 @@ export class Model {
 
   dispose(): void {
     this.facets.geometry.dispose();
-    this.steps.geometry.dispose();
+    this.#clearSteps();
     this.#material.dispose();
     this.#boundaries.dispose();
     this.#palette.dispose();
+  }
+
+  #clearSteps(): void {
+    for (const part of this.steps.children) if (part instanceof Mesh) part.geometry.dispose();
+    this.steps.clear();
   }
 
   #set(uniform: string, value: unknown): void {

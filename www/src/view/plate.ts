@@ -20,7 +20,7 @@ import {
 } from "three";
 import type { Rgb } from "./palette.js";
 import type { Triple } from "./pose.js";
-import { PLATE_FRAGMENT, PLATE_VERTEX, SHADOW_FRAGMENT, SHADOW_VERTEX } from "./shaders.js";
+import { BLUR_FRAGMENT, BLUR_VERTEX, PLATE_FRAGMENT, PLATE_VERTEX, SHADOW_FRAGMENT, SHADOW_VERTEX } from "./shaders.js";
 
 /** What a printer can build, mm. */
 export interface BuildVolume {
@@ -56,6 +56,17 @@ export class Plate {
     minFilter: LinearMipmapLinearFilter,
     magFilter: LinearFilter,
   });
+  /** The same, softened. */
+  readonly #soft = new WebGLRenderTarget(SHADOW_PIXELS / 2, SHADOW_PIXELS / 2, { depthBuffer: false });
+  readonly #blur = new Mesh(
+    new PlaneGeometry(1, 1),
+    new RawShaderMaterial({
+      glslVersion: GLSL3,
+      vertexShader: BLUR_VERTEX,
+      fragmentShader: BLUR_FRAGMENT,
+      uniforms: { sharp: { value: this.#target.texture } },
+    }),
+  );
   readonly #below = new OrthographicCamera();
   readonly #scene = new Scene();
   readonly #caster: Mesh;
@@ -87,12 +98,13 @@ export class Plate {
           step_mm: { value: 10 },
           half_mm: { value: new Vector2(1, 1) },
           hasEdge: { value: false },
-          shadow: { value: this.#target.texture },
+          shadow: { value: this.#soft.texture },
           shadowHalf_mm: { value: 1 },
           shadowStrength: { value: 0.5 },
         },
       }),
     );
+    this.#blur.frustumCulled = false;
     // Drawn after the model, which hides what is behind it.
     this.#ground.renderOrder = 1;
     this.#edges = new LineSegments(
@@ -152,6 +164,8 @@ export class Plate {
     this.#caster.matrixWorld.copy(model.matrixWorld);
     renderer.setRenderTarget(this.#target);
     renderer.render(this.#scene, this.#below);
+    renderer.setRenderTarget(this.#soft);
+    renderer.render(this.#blur, this.#below);
     renderer.setRenderTarget(null);
   }
 
@@ -162,6 +176,9 @@ export class Plate {
 
   dispose(): void {
     this.#target.dispose();
+    this.#soft.dispose();
+    this.#blur.geometry.dispose();
+    this.#blur.material.dispose();
     this.#shade.dispose();
     this.#ground.geometry.dispose();
     this.#ground.material.dispose();

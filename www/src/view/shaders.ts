@@ -54,41 +54,53 @@ vec3 encoded(vec3 light) {
 }
 
 /** Key light from the upper left, fill from the right, a rim from behind; sky above and the plate's glow below. */
-vec3 lit(vec3 base) {
-  vec3 normal = normalize(cross(dFdx(eye), dFdy(eye)));
+vec3 lit(vec3 base, vec3 normal) {
   float sky = 0.5 + 0.5 * dot(normal, viewMatrix[2].xyz);
   float key = 0.5 + 0.5 * dot(normal, normalize(vec3(-0.45, 0.6, 0.66)));
   float fill = max(dot(normal, normalize(vec3(0.75, 0.05, 0.66))), 0.0);
   float rim = pow(1.0 - clamp(normal.z, 0.0, 1.0), 3.0);
-  float light = 0.2 + 0.26 * sky + 0.5 * key * key + 0.14 * fill;
+  float light = 0.16 + 0.24 * sky + 0.58 * key * key + 0.14 * fill;
   return base * light + vec3(0.1) * rim * sky;
 }
 
-vec3 ofPlan(float width) {
-  int first = layerAt(world.z - 0.5 * width);
-  int last = layerAt(world.z + 0.5 * width);
+// A level face on a boundary belongs to the layer that ends there: the one inside the model. Half a micrometre inwards
+// is less than any plan resolves.
+const float INWARDS = 0.0005;
+
+vec3 ofPlan(float width, float upwards) {
+  float z = world.z - INWARDS * upwards;
+  int first = layerAt(z - 0.5 * width);
   float bottom = boundary(first);
-  float top = boundary(last + 1);
+  float top = boundary(first + 1);
+  int last = first;
+  if (z + 0.5 * width >= top) {
+    last = layerAt(z + 0.5 * width);
+    top = boundary(last + 1);
+  }
   float thickness = (top - bottom) / float(last - first + 1);
   float span = limits.y - limits.x;
   float place = span > 0.0 ? clamp((thickness - limits.x) / span, 0.0, 1.0) : 0.5;
   vec3 base = texelFetch(palette, ivec2(int(place * ${(PALETTE_SIZE - 1).toFixed(1)} + 0.5), 0), 0).rgb;
-  // A seam between layers that are tall enough to tell apart.
+  // A seam between layers that are tall enough to tell apart, but none over a whole level face.
   float pixels = thickness / max(width, 1e-9);
-  float nearest = min(world.z - bottom, top - world.z) / max(width, 1e-9);
+  float nearest = min(z - bottom, top - z) / max(width, 1e-9);
   float seam = (1.0 - smoothstep(0.2, 1.0, nearest)) * smoothstep(5.0, 10.0, pixels);
+  seam *= 1.0 - smoothstep(0.99, 0.999, abs(upwards));
   return linear(base) * (1.0 - (first == last ? 0.45 : 0.0) * seam);
 }
 
 void main() {
   // The part of the height that this pixel covers.
   float width = fwidth(world.z);
-  vec3 light = lit(byThickness ? ofPlan(width) : linear(resin));
+  vec3 normal = normalize(cross(dFdx(eye), dFdy(eye)));
+  float upwards = dot(normal, viewMatrix[2].xyz);
+  vec3 light = lit(byThickness ? ofPlan(width, upwards) : linear(resin), normal);
   vec3 shown = encoded(light);
   if (band.y > band.x) {
     // The layer looked at: never lower than three pixels, dark with a light edge, whatever is around it.
     float grown = max(0.0, 1.5 * width - 0.5 * (band.y - band.x));
-    float inside = min(world.z - band.x, band.y - world.z) + grown;
+    float z = world.z - INWARDS * upwards;
+    float inside = min(z - band.x, band.y - z) + grown;
     float edge = inside / max(width, 1e-9);
     float tall = smoothstep(6.0, 12.0, (band.y - band.x) / max(width, 1e-9));
     if (edge > 0.0) shown = mix(shown, vec3(0.06, 0.07, 0.1), mix(0.94, edge < 2.0 ? 0.94 : 0.3, tall));
@@ -134,6 +146,32 @@ void main() {
 }
 `;
 
+export const BLUR_VERTEX = /* glsl */ `${HEAD}
+in vec3 position;
+out vec2 place;
+void main() {
+  place = position.xy + 0.5;
+  gl_Position = vec4(2.0 * position.xy, 0.0, 1.0);
+}
+`;
+
+/** Softens the shadow's picture: rings of samples from its smaller copies. */
+export const BLUR_FRAGMENT = /* glsl */ `${HEAD}
+uniform sampler2D sharp;
+in vec2 place;
+out vec4 colour;
+void main() {
+  float sum = 0.0;
+  for (int ring = 1; ring <= 3; ring++) {
+    for (int i = 0; i < 12; i++) {
+      float angle = (float(i) + 0.33 * float(ring)) * 0.5235988;
+      sum += textureLod(sharp, place + 0.014 * float(ring) * vec2(cos(angle), sin(angle)), 2.0).a;
+    }
+  }
+  colour = vec4(sum / 36.0);
+}
+`;
+
 export const PLATE_VERTEX = /* glsl */ `${HEAD}${MATRICES}
 out vec2 at;
 void main() {
@@ -166,14 +204,9 @@ float lines(float pitch) {
 
 float shade() {
   vec2 place = at / (2.0 * shadowHalf_mm) + 0.5;
-  float sum = 0.0;
-  for (int ring = 1; ring <= 2; ring++) {
-    for (int i = 0; i < 8; i++) {
-      float angle = (float(i) + 0.5 * float(ring)) * 0.7853982;
-      sum += textureLod(shadow, place + 0.022 * float(ring) * vec2(cos(angle), sin(angle)), 2.5).a;
-    }
-  }
-  return sum / 16.0;
+  // Outside the picture its edge would go on for ever.
+  vec2 inner = step(abs(place - 0.5), vec2(0.5));
+  return inner.x * inner.y * texture(shadow, place).a;
 }
 
 void main() {

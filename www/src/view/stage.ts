@@ -63,6 +63,7 @@ export class Stage {
   #inset: Inset = { top_px: 0, bottom_px: 0 };
   #size: readonly [number, number] = [0, 0];
   #asked = 0;
+  #isGone = false;
   #tool: Tool = "turn";
   #volume: BuildVolume | null = null;
 
@@ -95,7 +96,7 @@ export class Stage {
 
   /** Asks for a frame; any number of asks before it is drawn come to one. */
   readonly invalidate = (): void => {
-    if (this.#asked === 0) this.#asked = requestAnimationFrame(this.#frame);
+    if (this.#asked === 0 && !this.#isGone) this.#asked = requestAnimationFrame(this.#frame);
   };
 
   get isHot(): boolean {
@@ -108,6 +109,7 @@ export class Stage {
     this.#renderer.setPixelRatio(Math.min(devicePixelRatio, DENSITY_LIMIT));
     this.#renderer.setSize(width_px, height_px, false);
     this.cameras.setView(width_px, height_px);
+    this.#gizmo.fit(width_px / height_px);
     // What was on the canvas is gone with its size: a frame later would be a flash.
     this.#draw();
   }
@@ -175,11 +177,14 @@ export class Stage {
   }
 
   /** What is under a point of the view, CSS pixels. */
-  pick(x_px: number, y_px: number): Promise<Hit | null> {
+  async pick(x_px: number, y_px: number): Promise<Hit | null> {
     const [width, height] = this.#size;
+    if (this.#isGone || width === 0 || this.#renderer.getContext().isContextLost()) return null;
     this.#scene.updateMatrixWorld();
     this.cameras.current.updateMatrixWorld();
-    return this.#picker.pick(this.#renderer, this.cameras.current, this.model.facets, [x_px, y_px], [width, height]);
+    const { current } = this.cameras;
+    const hit = await this.#picker.pick(this.#renderer, current, this.model.facets, [x_px, y_px], [width, height]);
+    return this.#isGone ? null : hit;
   }
 
   /** Where the right edge of the model is at a height, as far as its bounds tell: for a label. */
@@ -192,8 +197,8 @@ export class Stage {
   }
 
   dispose(): void {
+    this.#isGone = true;
     cancelAnimationFrame(this.#asked);
-    this.#asked = -1;
     this.#renderer.domElement.removeEventListener("webglcontextrestored", this.#restored);
     this.#gizmo.dispose();
     this.cameras.dispose();

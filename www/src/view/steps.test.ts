@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import { cutsOf, signedArea, simplified, tracer, type Contour, type Solid } from "./contours.js";
 import { ball, box, cone, insideOut, together } from "./fixtures.js";
 import { posed, turned, UPRIGHT } from "./pose.js";
-import { middles, polygons, stairSteps, type Steps } from "./steps.js";
+import { middles, polygons, stairSteps, type Steps, type StepsPart } from "./steps.js";
 import { topologyOf } from "./topology.js";
 
 function finished<Result>(work: Generator<unknown, Result>): Result {
@@ -35,7 +35,11 @@ function perimeter(contour: Contour): number {
 }
 
 /** Signed volume of triangles, mm³. */
-function volume({ positions, index }: Steps): number {
+function volume({ parts }: Steps): number {
+  return parts.reduce((sum, part) => sum + partVolume(part), 0);
+}
+
+function partVolume({ positions, index }: StepsPart): number {
   let six = 0;
   for (let i = 0; i < index.length; i += 3) {
     const [a, b, c] = [0, 1, 2].map((k) => positions.subarray(3 * (index[i + k] ?? 0))) as [Float32Array, Float32Array, Float32Array];
@@ -152,7 +156,9 @@ describe("stair steps", () => {
     const steps = finished(stairSteps(of, z_mm));
     expect(wanted).toBeGreaterThan(1);
     expect(volume(steps) / wanted).toBeCloseTo(1, 3);
-    for (const corner of steps.index) expect(corner).toBeLessThan(steps.positions.length / 3);
+    for (const { positions: corners, index } of steps.parts) {
+      for (const corner of index) expect(corner).toBeLessThan(corners.length / 3);
+    }
   });
 
   it("of a cone in two layers are two prisms", () => {
@@ -169,6 +175,16 @@ describe("stair steps", () => {
     );
     expect(right).toBeCloseTo(24, 5);
     expect(wrong).toBeCloseTo(24, 5);
+  });
+
+  it("come in parts of whole layers where there are many points", () => {
+    const of = solid(ball(5, 256));
+    const z_mm = layers(10, 0.01);
+    const { parts } = finished(stairSteps(of, z_mm));
+    expect(parts.length).toBeGreaterThan(1);
+    const tops = parts.map(({ positions: corners }) => corners.reduce((most, z, i) => (i % 3 === 2 ? Math.max(most, z) : most), 0));
+    for (const top of tops) expect(z_mm.map(Math.fround)).toContain(top);
+    expect(tops.toSorted((a, b) => a - b)).toEqual(tops);
   });
 
   it("tell how far they are, layer by layer", () => {

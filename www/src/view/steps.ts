@@ -5,11 +5,17 @@
 import { Earcut } from "three/src/extras/Earcut.js";
 import { cutsOf, signedArea, tracer, type Contour, type Solid } from "./contours.js";
 
-export interface Steps {
+/** Some layers on end. */
+export interface StepsPart {
   /** Corners, three numbers each, mm: of each contour point one at the bottom of its layer and one at the top. */
   readonly positions: Float32Array;
   /** Triangles, outside counter-clockwise. */
   readonly index: Uint32Array;
+}
+
+/** In parts, so that no buffer is too large to be copied in passing. */
+export interface Steps {
+  readonly parts: readonly StepsPart[];
   /** How far the contours may be from the cross-sections, mm. */
   readonly tolerance_mm: number;
 }
@@ -21,6 +27,9 @@ const TOLERANCE_MM = 0.001;
 const POINTS_LIMIT = 3_000_000;
 
 const COARSER = 4;
+
+/** A part is done once it has this many contour points: a few megabytes. */
+const PART_POINTS = 50_000;
 
 /** Contours with area are cut into polygons of an outline and the holes in it. */
 interface Polygon {
@@ -84,9 +93,15 @@ class Growing<T extends Float32Array | Uint32Array> {
   }
 }
 
+/** The part under way. */
 class Pile {
   readonly positions = new Growing((length) => new Float32Array(length));
   readonly index = new Growing((length) => new Uint32Array(length));
+
+  /** Of contours: each stands at the bottom and at the top of its layer. */
+  get points(): number {
+    return this.positions.length / 6;
+  }
 
   /** The corners of a contour, bottom and top in turn; gives the number of the first. */
   #corners(contour: Contour, bottom: number, top: number): number {
@@ -155,16 +170,21 @@ export function* stairSteps(solid: Solid, z_mm: readonly number[]): Generator<nu
   const cuts = found.value;
   for (let tolerance_mm = TOLERANCE_MM; ; tolerance_mm *= COARSER) {
     const trace = tracer(solid, tolerance_mm);
-    const pile = new Pile();
+    const parts: StepsPart[] = [];
+    let pile = new Pile();
+    let points = 0;
     let layer = 0;
-    for (; layer < planes.length && pile.positions.length < 6 * POINTS_LIMIT; layer++) {
+    for (; layer < planes.length && points <= POINTS_LIMIT; layer++) {
       const facets = cuts.facets.subarray(cuts.start[layer] ?? 0, cuts.start[layer + 1] ?? 0);
       const contours = outwards(trace(planes[layer] ?? 0, facets));
       pile.layer(contours, z_mm[layer] ?? 0, z_mm[layer + 1] ?? 0);
+      if (pile.points >= PART_POINTS || layer === planes.length - 1) {
+        points += pile.points;
+        parts.push({ positions: pile.positions.done(), index: pile.index.done() });
+        pile = new Pile();
+      }
       yield (layer + 1) / planes.length;
     }
-    if (layer === planes.length) {
-      return { positions: pile.positions.done(), index: pile.index.done(), tolerance_mm };
-    }
+    if (points <= POINTS_LIMIT) return { parts, tolerance_mm };
   }
 }

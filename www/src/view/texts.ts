@@ -11,10 +11,10 @@ export interface ViewTexts {
   readonly state: (size_mm: readonly [number, number, number], layers: number) => string;
   /** Nothing on show. */
   readonly empty: string;
-  /** Heading of the colour scale. */
+  /** Heading of the colour scale, with its unit. */
   readonly legend: string;
-  /** A thickness on the colour scale, with its unit. */
-  readonly thickness: (thickness_mm: number) => string;
+  /** A thickness on the colour scale, without its unit. */
+  readonly tick: (thickness_mm: number) => string;
   /** The layer looked at, counted from 0. */
   readonly layer: (layer: number, z_mm: number, thickness_mm: number) => string;
   /** Spacing of the plate's grid. */
@@ -32,9 +32,16 @@ const english = (digits: number): ((value: number) => string) => {
   return (value) => format.format(value);
 };
 
+/** From here on a tenth of a µm is more than anybody wants to read. */
+const WHOLE_FROM_UM = 100;
+
 const whole = english(0);
 const tenths = english(1);
 const hundredths = english(2);
+const micrometres = (mm: number): string => {
+  const um = mm * MICROMETRES;
+  return (um < WHOLE_FROM_UM ? tenths : whole)(um);
+};
 const exact = new Intl.NumberFormat("en", { maximumSignificantDigits: 1 });
 
 export const ENGLISH: ViewTexts = {
@@ -48,10 +55,10 @@ export const ENGLISH: ViewTexts = {
   state: ([x, y, z], layers) =>
     `${tenths(x)} × ${tenths(y)} × ${tenths(z)} mm` + (layers > 0 ? `, ${whole(layers)} layers` : ""),
   empty: "No model yet",
-  legend: "Layer thickness",
-  thickness: (mm) => `${tenths(mm * MICROMETRES)} µm`,
+  legend: "Layer thickness (µm)",
+  tick: micrometres,
   layer: (layer, z_mm, thickness_mm) =>
-    `Layer ${whole(layer + 1)} · ${hundredths(z_mm)} mm · ${tenths(thickness_mm * MICROMETRES)} µm`,
+    `Layer ${whole(layer + 1)} · ${hundredths(z_mm)} mm · ${micrometres(thickness_mm)} µm`,
   grid: (step_mm) => `Grid ${exact.format(step_mm)} mm`,
   building: (progress) => `Working out the steps: ${whole(100 * progress)} %`,
   unavailable: "This browser shows no 3-D view: WebGL 2 is switched off or missing.",

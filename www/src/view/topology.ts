@@ -13,7 +13,7 @@ export interface Topology {
 }
 
 /** Facets between two yields. */
-const BLOCK = 4096;
+const BLOCK = 2048;
 
 export const after = (halfEdge: number): number => (halfEdge % 3 === 2 ? halfEdge - 2 : halfEdge + 1);
 
@@ -62,11 +62,17 @@ function* weld(positions: Float32Array): Generator<number, Pick<Topology, "point
  */
 function* pair(corner: Uint32Array, points: number): Generator<number, Int32Array> {
   const start = new Uint32Array(points + 1);
-  for (const point of corner) start[point + 1] = (start[point + 1] ?? 0) + 1;
+  for (let c = 0; c < corner.length; c++) {
+    if (c % (3 * BLOCK) === 0) yield c / (4 * corner.length);
+    const point = corner[c] ?? 0;
+    start[point + 1] = (start[point + 1] ?? 0) + 1;
+  }
   for (let point = 0; point < points; point++) start[point + 1] = (start[point + 1] ?? 0) + (start[point] ?? 0);
+  yield 0.25;
   const next = start.slice();
   const around = new Uint32Array(corner.length);
   for (let c = 0; c < corner.length; c++) {
+    if (c % (3 * BLOCK) === 0) yield 0.25 + c / (4 * corner.length);
     const point = corner[c] ?? 0;
     const at = next[point] ?? 0;
     around[at] = c;
@@ -75,7 +81,7 @@ function* pair(corner: Uint32Array, points: number): Generator<number, Int32Arra
   const degree = (point: number): number => (start[point + 1] ?? 0) - (start[point] ?? 0);
   const twin = new Int32Array(corner.length).fill(-1);
   for (let c = 0; c < corner.length; c++) {
-    if (c % (3 * BLOCK) === 0) yield c / corner.length;
+    if (c % (3 * BLOCK) === 0) yield 0.5 + c / (2 * corner.length);
     if ((twin[c] ?? -1) >= 0) continue;
     const [from, to] = [corner[c] ?? 0, corner[after(c)] ?? 0];
     if (from === to) continue;

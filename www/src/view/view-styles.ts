@@ -77,8 +77,8 @@ export const viewStyles = css`
   }
   .label {
     position: absolute;
-    top: 0;
-    left: 0;
+    inset-block-end: 0.5rem;
+    inset-inline-end: 0.5rem;
     padding: 0.125rem 0.5rem;
     border-radius: 6px;
     background: var(--cusp-text, CanvasText);
@@ -88,6 +88,9 @@ export const viewStyles = css`
     font-variant-numeric: tabular-nums;
     white-space: nowrap;
     pointer-events: none;
+  }
+  .label.beside {
+    inset: 0 auto auto 0;
   }
   .grid {
     position: absolute;

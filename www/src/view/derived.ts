@@ -1,4 +1,4 @@
-/** Works out the stair steps and the flat faces of one model, off the path of whatever is on show. */
+/** What is worked out from the facets of one model when it is first asked for, without holding up what is on show. */
 import { flatFace, type FlatFace } from "./flat.js";
 import { posed, type Rotation } from "./pose.js";
 import { stairSteps, type Steps } from "./steps.js";
@@ -8,7 +8,7 @@ import { inParts } from "./work.js";
 /** Part of the progress bar that finding the topology takes, when it has not been found yet. */
 const TOPOLOGY_PART = 0.3;
 
-export class Printing {
+export class Derived {
   readonly #positions: Float32Array;
   readonly #stop = new AbortController();
   #topology: Promise<Topology> | null = null;
@@ -19,14 +19,15 @@ export class Printing {
     this.#positions = positions;
   }
 
-  /** Found once, when first asked for. */
-  topology(tell?: (progress: number) => void): Promise<Topology> {
-    this.#topology ??= inParts(topologyOf(this.#positions), this.#stop.signal, tell);
-    return this.#topology;
+  /** The distinct points of the model; `null` once this is disposed of. */
+  async points(): Promise<Float32Array | null> {
+    return (await this.#whileAlive(this.#found()))?.points ?? null;
   }
 
+  /** The flat face of a facet; `null` if it has none, or once this is disposed of. */
   async face(facet: number): Promise<FlatFace | null> {
-    return flatFace(this.#positions, await this.topology(), facet);
+    const topology = await this.#whileAlive(this.#found());
+    return topology === null ? null : flatFace(this.#positions, topology, facet);
   }
 
   /** The stair steps in this pose; `null` if another pose or plan has been asked for meanwhile. */
@@ -38,15 +39,15 @@ export class Printing {
   ): Promise<Steps | null> {
     this.cancel();
     const { signal } = this.#steps;
+    const topology = await this.#whileAlive(this.#found((progress) => tell(TOPOLOGY_PART * progress)));
+    if (topology === null || signal.aborted) return null;
+    const points = posed(topology.points, rotation, scale);
     try {
-      const topology = await this.topology((progress) => tell(TOPOLOGY_PART * progress));
-      signal.throwIfAborted();
-      const points = posed(topology.points, rotation, scale);
       return await inParts(stairSteps({ points, topology }, z_mm), signal, (progress) =>
         tell(TOPOLOGY_PART + (1 - TOPOLOGY_PART) * progress),
       );
     } catch (error) {
-      if (signal.aborted || this.#stop.signal.aborted) return null;
+      if (signal.aborted) return null;
       throw error;
     }
   }
@@ -60,7 +61,20 @@ export class Printing {
   dispose(): void {
     this.#steps.abort();
     this.#stop.abort();
-    // Nobody may be waiting for it any more.
-    this.#topology?.catch(() => undefined);
+  }
+
+  /** Found once, when first asked for. */
+  #found(tell?: (progress: number) => void): Promise<Topology> {
+    this.#topology ??= inParts(topologyOf(this.#positions), this.#stop.signal, tell);
+    return this.#topology;
+  }
+
+  async #whileAlive<Result>(work: Promise<Result>): Promise<Result | null> {
+    try {
+      return await work;
+    } catch (error) {
+      if (this.#stop.signal.aborted) return null;
+      throw error;
+    }
   }
 }
