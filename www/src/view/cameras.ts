@@ -153,7 +153,8 @@ export class Cameras {
       far: 20 * reach,
     });
     this.#side.updateProjectionMatrix();
-    const rowOf = (z_mm: number): number => height - (z_mm - lowest) / perPixel;
+    // In hundredths, so that rounding does not pass for a change.
+    const rowOf = (z_mm: number): number => Math.round(100 * (height - (z_mm - lowest) / perPixel)) / 100;
     return { top_px: rowOf(this.#size_mm[2]), bottom_px: rowOf(0) };
   }
 

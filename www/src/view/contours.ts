@@ -48,8 +48,9 @@ export function* cutsOf({ points, topology }: Solid, planes_mm: readonly number[
   const range = new Uint32Array(2 * count);
   for (let facet = 0; facet < count; facet++) {
     if (facet % BLOCK === 0) yield facet / count;
-    const h = (i: number): number => points[3 * (corner[3 * facet + i] ?? 0) + 2] ?? 0;
-    const [a, b, c] = [h(0), h(1), h(2)];
+    const a = points[3 * (corner[3 * facet] ?? 0) + 2] ?? 0;
+    const b = points[3 * (corner[3 * facet + 1] ?? 0) + 2] ?? 0;
+    const c = points[3 * (corner[3 * facet + 2] ?? 0) + 2] ?? 0;
     const lowest = a < b ? (a < c ? a : c) : b < c ? b : c;
     const highest = a > b ? (a > c ? a : c) : b > c ? b : c;
     const first = countBelow(planes_mm, lowest);
@@ -90,7 +91,8 @@ export function tracer({ points, topology }: Solid, tolerance_mm: number): Trace
   /** The half-edge of the facet that crosses the plane, upwards or downwards. */
   const crossing = (facet: number, z: number, upwards: boolean): number => {
     for (let edge = 3 * facet; edge < 3 * facet + 3; edge++) {
-      const [from, to] = [height(edge) > z, height(after(edge)) > z];
+      const from = height(edge) > z;
+      const to = height(after(edge)) > z;
       if (from !== to && to === upwards) return edge;
     }
     return -1;
@@ -98,8 +100,11 @@ export function tracer({ points, topology }: Solid, tolerance_mm: number): Trace
 
   /** Appends where a half-edge meets the plane, reckoned from its lower end so that both facets get the same. */
   const meet = (edge: number, z: number, into: number[]): void => {
-    let [low, high] = [3 * (corner[edge] ?? 0), 3 * (corner[after(edge)] ?? 0)];
-    if ((points[low + 2] ?? 0) > (points[high + 2] ?? 0)) [low, high] = [high, low];
+    const one = 3 * (corner[edge] ?? 0);
+    const other = 3 * (corner[after(edge)] ?? 0);
+    const isUpwards = (points[one + 2] ?? 0) < (points[other + 2] ?? 0);
+    const low = isUpwards ? one : other;
+    const high = isUpwards ? other : one;
     const bottom = points[low + 2] ?? 0;
     const part = (z - bottom) / ((points[high + 2] ?? 0) - bottom);
     for (let axis = 0; axis < 2; axis++) {
@@ -180,7 +185,8 @@ export function simplified(contour: Contour, tolerance_mm: number): Contour {
     const length = Math.hypot(dx, dy);
     if (!(length > 0)) return false;
     for (let i = from + 1; i < to; i++) {
-      const [px, py] = [x(i) - x(from), y(i) - y(from)];
+      const px = x(i) - x(from);
+      const py = y(i) - y(from);
       const along = (px * dx + py * dy) / length;
       if (Math.abs(px * dy - py * dx) > tolerance_mm * length || along < -tolerance_mm || along > length + tolerance_mm) {
         return false;

@@ -360,8 +360,9 @@ export class CuspView extends LitElement {
     if (!chosen && !event.ctrlKey) event.stopPropagation();
   };
 
+  /** Where frames take long, gliding on would last for seconds. */
   readonly #damp = (): void => {
-    this.#stage?.cameras.setDamping(!this.#reducedMotion.matches);
+    this.#stage?.cameras.setDamping(this.#stage.isSmooth && !this.#reducedMotion.matches);
   };
 
   readonly #recolour = (): void => {

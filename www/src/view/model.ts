@@ -19,7 +19,7 @@ import {
 } from "three";
 import { packBoundaries, ROW, rowsFor } from "./lookup.js";
 import { PALETTE_SIZE, table, type PaletteName, type Rgb } from "./palette.js";
-import { extentOf, matrixOf, sizeOf, standing, type Extent, type Rotation, type Triple } from "./pose.js";
+import { extentOf, sizeOf, standing, type Extent, type Rotation, type Triple } from "./pose.js";
 import { MODEL_FRAGMENT, MODEL_VERTEX } from "./shaders.js";
 import type { Steps } from "./steps.js";
 
@@ -90,16 +90,22 @@ export class Model {
   }
 
   /** @param positions nine numbers a facet, mm, in the file's pose */
-  setPositions(positions: Float32Array): void {
+  setPositions(positions: Float32Array, rotation: Rotation, scale: number): void {
     this.#positions = positions;
     this.#points = positions;
     this.facets.geometry.dispose();
     this.facets.geometry = bounded(new BufferGeometry());
     this.facets.geometry.setAttribute("position", new BufferAttribute(positions, 3));
     this.setSteps(null);
-    const { least, greatest } = extentOf(positions, [0, 0, 0, 1], 1);
-    this.#middle.set(...least).add(new Vector3(...greatest)).multiplyScalar(0.5);
+    const { least, greatest } = this.setPose(rotation, scale);
+    // The middle of the bounds as it stands now is what it turns about from now on.
+    this.#middle
+      .set(...least)
+      .add(new Vector3(...greatest))
+      .divideScalar(2 * (scale || 1))
+      .applyQuaternion(this.pivot.quaternion.clone().invert());
     this.facets.position.copy(this.#middle).negate();
+    this.pivot.position.set(0, 0, this.size_mm[2] / 2);
   }
 
   /** The same points without repeats, which are quicker to go through. */
@@ -107,18 +113,16 @@ export class Model {
     this.#points = points;
   }
 
+  /** Gives the bounds before the model is put on the plate. Cost: its points. */
   setPose(rotation: Rotation, scale: number): Extent {
     const extent = extentOf(this.#points, rotation, scale);
-    const offset = standing(extent);
-    const [a = 0, b = 0, c = 0, d = 0, e = 0, f = 0, g = 0, h = 0, i = 0] = matrixOf(rotation, scale);
-    const { x, y, z } = this.#middle;
     this.pivot.quaternion.set(...rotation);
     this.pivot.scale.setScalar(scale);
-    this.pivot.position.set(
-      a * x + b * y + c * z + offset[0],
-      d * x + e * y + f * z + offset[1],
-      g * x + h * y + i * z + offset[2],
-    );
+    this.pivot.position
+      .copy(this.#middle)
+      .multiplyScalar(scale)
+      .applyQuaternion(this.pivot.quaternion)
+      .add(new Vector3(...standing(extent)));
     this.size_mm = sizeOf(extent);
     return extent;
   }

@@ -15,7 +15,7 @@ export interface Extent {
 }
 
 /** The nine entries of the turning matrix times `scale`, row by row. */
-export function matrixOf([x, y, z, w]: Rotation, scale: number): readonly number[] {
+function matrixOf([x, y, z, w]: Rotation, scale: number): readonly number[] {
   return [
     1 - 2 * (y * y + z * z),
     2 * (x * y - z * w),
@@ -35,8 +35,11 @@ export function extentOf(points: Float32Array, rotation: Rotation, scale: number
   const [a = 0, b = 0, c = 0, d = 0, e = 0, f = 0, g = 0, h = 0, i = 0] = matrixOf(rotation, scale);
   let [x0, y0, z0] = [Infinity, Infinity, Infinity];
   let [x1, y1, z1] = [-Infinity, -Infinity, -Infinity];
+  // Millions of times: no arrays taken apart in here.
   for (let at = 0; at + 2 < points.length; at += 3) {
-    const [x, y, z] = [points[at] ?? 0, points[at + 1] ?? 0, points[at + 2] ?? 0];
+    const x = points[at] ?? 0;
+    const y = points[at + 1] ?? 0;
+    const z = points[at + 2] ?? 0;
     const px = a * x + b * y + c * z;
     const py = d * x + e * y + f * z;
     const pz = g * x + h * y + i * z;
@@ -67,7 +70,9 @@ export function posed(points: Float32Array, rotation: Rotation, scale: number): 
   const [ox, oy, oz] = standing(extentOf(points, rotation, scale));
   const out = new Float32Array(points.length);
   for (let at = 0; at + 2 < points.length; at += 3) {
-    const [x, y, z] = [points[at] ?? 0, points[at + 1] ?? 0, points[at + 2] ?? 0];
+    const x = points[at] ?? 0;
+    const y = points[at + 1] ?? 0;
+    const z = points[at + 2] ?? 0;
     out[at] = a * x + b * y + c * z + ox;
     out[at + 1] = d * x + e * y + f * z + oy;
     out[at + 2] = g * x + h * y + i * z + oz;

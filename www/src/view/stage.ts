@@ -99,6 +99,11 @@ export class Stage {
     if (this.#asked === 0 && !this.#isGone) this.#asked = requestAnimationFrame(this.#frame);
   };
 
+  /** Whether a GPU draws: see `contextOf`. */
+  get isSmooth(): boolean {
+    return this.#renderer.getContext().getContextAttributes()?.antialias === true;
+  }
+
   get isHot(): boolean {
     return this.#gizmo.isHot;
   }
@@ -116,9 +121,8 @@ export class Stage {
 
   /** A new model, seen whole. */
   setPositions(positions: Float32Array, rotation: Rotation, scale: number): void {
-    this.model.setPositions(positions);
+    this.model.setPositions(positions, rotation, scale);
     this.setFace(null);
-    this.model.setPose(rotation, scale);
     this.plate.fit(this.model.size_mm, this.#volume);
     this.cameras.reset(this.model.size_mm);
     this.invalidate();

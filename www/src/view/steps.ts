@@ -42,7 +42,10 @@ interface Polygon {
 function isInside(outline: Contour, x: number, y: number): boolean {
   let inside = false;
   for (let i = 0, j = outline.length - 2; i < outline.length; j = i, i += 2) {
-    const [ax = 0, ay = 0, bx = 0, by = 0] = [outline[i], outline[i + 1], outline[j], outline[j + 1]];
+    const ax = outline[i] ?? 0;
+    const ay = outline[i + 1] ?? 0;
+    const bx = outline[j] ?? 0;
+    const by = outline[j + 1] ?? 0;
     if (ay > y !== by > y && x < ((bx - ax) * (y - ay)) / (by - ay) + ax) inside = !inside;
   }
   return inside;
@@ -107,7 +110,8 @@ class Pile {
   #corners(contour: Contour, bottom: number, top: number): number {
     const first = this.positions.length / 3;
     for (let i = 0; i < contour.length; i += 2) {
-      const [x, y] = [contour[i] ?? 0, contour[i + 1] ?? 0];
+      const x = contour[i] ?? 0;
+      const y = contour[i + 1] ?? 0;
       this.positions.push(x, y, bottom);
       this.positions.push(x, y, top);
     }
@@ -134,7 +138,9 @@ class Pile {
       }
       const cap = Earcut.triangulate(rings.flat(), starts, 2);
       for (let i = 0; i < cap.length; i += 3) {
-        const [a, b, c] = [0, 1, 2].map((k) => first + 2 * (cap[i + k] ?? 0)) as [number, number, number];
+        const a = first + 2 * (cap[i] ?? 0);
+        const b = first + 2 * (cap[i + 1] ?? 0);
+        const c = first + 2 * (cap[i + 2] ?? 0);
         this.index.push(a + 1, b + 1, c + 1);
         this.index.push(a, c, b);
       }

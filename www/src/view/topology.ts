@@ -41,7 +41,7 @@ function* weld(positions: Float32Array): Generator<number, Pick<Topology, "point
       const known = first[slot] ?? -1;
       if (known < 0) {
         first[slot] = count;
-        points.set(positions.subarray(at, at + 3), 3 * count);
+        for (let axis = 0; axis < 3; axis++) points[3 * count + axis] = positions[at + axis] ?? 0;
         corner[c] = count++;
         break;
       }
@@ -83,14 +83,15 @@ function* pair(corner: Uint32Array, points: number): Generator<number, Int32Arra
   for (let c = 0; c < corner.length; c++) {
     if (c % (3 * BLOCK) === 0) yield 0.5 + c / (2 * corner.length);
     if ((twin[c] ?? -1) >= 0) continue;
-    const [from, to] = [corner[c] ?? 0, corner[after(c)] ?? 0];
+    const from = corner[c] ?? 0;
+    const to = corner[after(c)] ?? 0;
     if (from === to) continue;
     // The twin leaves `to` and arrives at `from`: look around whichever has fewer facets.
     const leaving = degree(to) <= degree(from);
     const at = leaving ? to : from;
     for (let i = start[at] ?? 0; i < (start[at + 1] ?? 0); i++) {
-      const around_at = around[i] ?? 0;
-      const other = leaving ? around_at : before(around_at);
+      const candidate = around[i] ?? 0;
+      const other = leaving ? candidate : before(candidate);
       if ((twin[other] ?? -1) >= 0 || corner[other] !== to || corner[after(other)] !== from) continue;
       twin[c] = other;
       twin[other] = c;
