@@ -9,9 +9,16 @@ import { isAbort, ofCore, SlicerError } from "./error.js";
 import { sameRays, type Comparison, type Glance, type MeshInfo, type OnProgress, type Options } from "./wire.js";
 import type { PrinterInfo, Profiled, Report, SlicerWorker, Tradeoff } from "./wire.js";
 
+/** A worker as it is seen from this side: what it answers at once there takes its time here. */
+type Remote = {
+  [Name in keyof SlicerWorker]: (
+    ...given: Parameters<SlicerWorker[Name]>
+  ) => ReturnType<SlicerWorker[Name]> | Promise<Awaited<ReturnType<SlicerWorker[Name]>>>;
+};
+
 /** What a {@link Lane} needs of a worker; the tests give a fake. */
 export interface Engine {
-  remote: Comlink.Remote<SlicerWorker> | SlicerWorker;
+  remote: Remote;
   /** Ends the worker at once, whatever it is doing. */
   terminate(): void;
   /** Calls back if the worker breaks outside of any call, such as when its script cannot be loaded. */
@@ -185,7 +192,7 @@ export class Lane {
   #study<T>(
     options: Options,
     watch: Watch,
-    ask: (remote: Engine["remote"], progress: OnProgress) => Promise<T>,
+    ask: (remote: Remote, progress: OnProgress) => Promise<T>,
   ): Promise<T> {
     return this.#run(watch, async (life, progress) => {
       await this.#restoreFile(life);

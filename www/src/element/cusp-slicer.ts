@@ -13,7 +13,8 @@ import type { CuspSlicerEvents, ExportDetail } from "./events.js";
 import { face } from "./face.js";
 import { layoutStyles } from "./layout.js";
 import { METRICS } from "./metric.js";
-import { definePanels, panelsOf, type Panel } from "./panels.js";
+import { panelsOf } from "./panel-names.js";
+import { definePanels } from "./panels.js";
 import { problemStyles } from "./problem-box.js";
 import { progressStyles, standing } from "./progress.js";
 import { Session, type Download, type Host, type Result } from "./session.js";
@@ -280,7 +281,7 @@ export class CuspSlicer extends LitElement implements Host {
     return face({
       session: this.#session,
       language: this.#language(),
-      panels: panelsOf(this.panels) as ReadonlySet<Panel>,
+      panels: panelsOf(this.panels),
       slicer: this.slicer,
       isWide: this.clientWidth >= WIDE_PX,
       isDragging: this.dragging,

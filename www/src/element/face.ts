@@ -5,7 +5,7 @@ import type { Language } from "../texts/index.js";
 import type { ChartData } from "./chart.js";
 import { sentence } from "./comparison.js";
 import { modelCard } from "./model-card.js";
-import type { Panel } from "./panels.js";
+import type { Panel } from "./panel-names.js";
 import { explain, type Problem } from "./problem.js";
 import { problemBox } from "./problem-box.js";
 import { progressBar } from "./progress.js";

@@ -151,8 +151,13 @@ export const layoutStyles = css`
   .settings[open] summary {
     margin-bottom: 1rem;
   }
+  .settings {
+    position: relative;
+  }
   .settings .steps {
-    float: inline-end;
+    position: absolute;
+    inset-block-start: 0.9375rem;
+    inset-inline-end: 1.25rem;
     display: flex;
     gap: 0.25rem;
   }

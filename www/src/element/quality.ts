@@ -1,5 +1,5 @@
 /** The trade-off curve as a picture and a slider: one notch is one best plan, the quicker ones first. */
-import { css, html, LitElement, nothing, svg, type TemplateResult } from "lit";
+import { css, html, LitElement, nothing, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
 import type { TradeoffPoint } from "../api/wire.js";
 import { languageOf, type Language } from "../texts/index.js";
@@ -8,7 +8,7 @@ import { METRICS } from "./metric.js";
 import type { Result } from "./session.js";
 import { shared } from "./styles.js";
 
-/** The picture's own units. */
+/** The picture's own units; it is stretched to its place. */
 const WIDTH = 400;
 const HEIGHT = 120;
 const MARGIN = 12;
@@ -32,16 +32,16 @@ export interface Picture {
 type Plotted = Pick<TradeoffPoint, "max_error" | "print_time_s">;
 
 /**
- * Where everything stands: each point over its notch, finer to the right, longer upwards from no time at all; what is no
- * point between those that its error lies between.
+ * Where everything stands: each point over its notch, finer to the right, longer upwards; what is no point between those that its error lies between.
  */
 export function pictureOf(points: readonly Plotted[], { report }: Pick<Result, "report">): Picture {
   const { finest, coarsest } = report.uniform;
   const loosest = [...points].reverse();
-  const longest = Math.max(...[...points, report, finest, coarsest].map(({ print_time_s }) => print_time_s));
+  const times = [...points, report, finest, coarsest].map(({ print_time_s }) => print_time_s);
+  const [shortest, longest] = [Math.min(...times), Math.max(...times)];
   const mark = (notch: number, { print_time_s }: Plotted): Mark => ({
     x: MARGIN + (points.length < 2 ? 0.5 : notch / (points.length - 1)) * (WIDTH - 2 * MARGIN),
-    y: HEIGHT - MARGIN - (longest === 0 ? 0 : print_time_s / longest) * (HEIGHT - 2 * MARGIN),
+    y: HEIGHT - MARGIN - (longest === shortest ? 0.5 : (print_time_s - shortest) / (longest - shortest)) * (HEIGHT - 2 * MARGIN),
   });
   const between = (it: Plotted): Mark => mark(notchAt(loosest, it.max_error), it);
   return { dots: loosest.map((it, notch) => mark(notch, it)), own: between(report), finest: between(finest), coarsest: between(coarsest) };
@@ -97,28 +97,43 @@ export class CuspQuality extends LitElement {
       svg {
         display: block;
         width: 100%;
-        height: auto;
+        height: 7rem;
         overflow: visible;
         direction: ltr;
       }
-      polyline {
+      /* Dots are strokes without a length: the picture is stretched, and they are not. */
+      path {
         fill: none;
         stroke: var(--cusp-accent);
-        stroke-width: 1.5;
+        stroke-linecap: round;
+        stroke-linejoin: round;
+        vector-effect: non-scaling-stroke;
+      }
+      .curve {
+        stroke-width: 2px;
       }
       .dot {
-        fill: var(--cusp-accent);
+        stroke-width: 6px;
       }
       .own {
-        fill: var(--cusp-card);
-        stroke: var(--cusp-accent);
-        stroke-width: 3;
+        stroke-width: 18px;
+      }
+      .own.inside {
+        stroke: var(--cusp-card);
+        stroke-width: 10px;
       }
       .uniform {
-        fill: var(--cusp-quiet);
+        stroke: var(--cusp-quiet);
+        stroke-linecap: square;
+        stroke-width: 11px;
+      }
+      .uniform.inside {
+        stroke: var(--cusp-card);
+        stroke-width: 6px;
       }
       .base {
         stroke: var(--cusp-line);
+        stroke-width: 1px;
       }
       input {
         direction: ltr;
@@ -146,14 +161,14 @@ export class CuspQuality extends LitElement {
       }
       .key i {
         display: inline-block;
-        width: 0.6rem;
-        height: 0.6rem;
+        box-sizing: border-box;
+        width: 0.6875rem;
+        height: 0.6875rem;
         margin-inline-end: 0.375rem;
-        background: var(--cusp-quiet);
-        rotate: 45deg;
+        border: 0.3125rem solid var(--cusp-quiet);
       }
       .key i.coarse {
-        rotate: none;
+        border-width: 2px;
       }
       .waiting {
         min-height: 7.5rem;
@@ -184,12 +199,19 @@ export class CuspQuality extends LitElement {
         <h3>${words.title}</h3>
         <span class="quiet figures">${said}</span>
       </div>
-      <svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" aria-label=${words.axis(texts.metrics[report.metric].name)}>
-        <line class="base" x1="0" x2=${WIDTH} y1=${HEIGHT - 1} y2=${HEIGHT - 1} />
-        <polyline points=${dots.map(({ x, y }) => `${x},${y}`).join(" ")} />
-        ${svg`<path class="uniform" d=${rhombus(finest)} /><path class="uniform" d=${square(coarsest)} />`}
-        ${dots.map(({ x, y }) => svg`<circle class="dot" cx=${x} cy=${y} r="1.75" />`)}
-        ${svg`<circle class="own" cx=${own.x} cy=${own.y} r="5" />`}
+      <svg
+        viewBox="0 0 ${WIDTH} ${HEIGHT}"
+        preserveAspectRatio="none"
+        role="img"
+        aria-label=${words.axis(texts.metrics[report.metric].name)}
+      >
+        <path class="base" d="M0 ${HEIGHT}h${WIDTH}" />
+        <path class="curve" d=${`M${dots.map(({ x, y }) => `${x} ${y}`).join("L")}`} />
+        <path class="dot" d=${dots.map(dot).join("")} />
+        <path class="uniform" d=${dot(finest) + dot(coarsest)} />
+        <path class="uniform inside" d=${dot(coarsest)} />
+        <path class="own" d=${dot(own)} />
+        <path class="own inside" d=${dot(own)} />
       </svg>
       <input
         type="range"
@@ -204,8 +226,8 @@ export class CuspQuality extends LitElement {
       <div class="ends quiet"><span>${words.quick}</span><span>${words.fine}</span></div>
       <p class="gain">${gainWords(result, language)}</p>
       <p class="key quiet">
-        <span><i class="coarse"></i>${words.coarsest(format.fine(limits[1]))}</span>
-        <span><i></i>${words.finest(format.fine(limits[0]))}</span>
+        <span><i class="coarse"></i>${words.coarsest(format.fine(limits[1]), format.time(report.uniform.coarsest.print_time_s))}</span>
+        <span><i></i>${words.finest(format.fine(limits[0]), format.time(report.uniform.finest.print_time_s))}</span>
       </p>
     `;
   }
@@ -217,5 +239,4 @@ export class CuspQuality extends LitElement {
   };
 }
 
-const rhombus = ({ x, y }: Mark): string => `M${x} ${y - 5}l5 5l-5 5l-5 -5z`;
-const square = ({ x, y }: Mark): string => `M${x - 4} ${y - 4}h8v8h-8z`;
+const dot = ({ x, y }: Mark): string => `M${x} ${y}h0`;

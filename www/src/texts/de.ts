@@ -176,8 +176,8 @@ export const de = ({ counted, plural }: Format): Texts => ({
     waiting: "Die besten Pläne werden gesucht",
     said: (error, time, layers) => `Abweichung ${error}, ${time}, ${counted(layers, LAYERS)}`,
     axis: (metric) => `Druckzeit über der Abweichung (${metric})`,
-    finest: (uniform) => `Gleichmäßig ${uniform}, am feinsten`,
-    coarsest: (uniform) => `Gleichmäßig ${uniform}, am gröbsten`,
+    finest: (uniform, time) => `Gleichmäßig ${uniform}, am feinsten: ${time}`,
+    coarsest: (uniform, time) => `Gleichmäßig ${uniform}, am gröbsten: ${time}`,
     same: (part, uniform) => `Dieselbe Qualität wie gleichmäßig ${uniform}, ${part} weniger Zeit.`,
     near: (part, uniform, error, finest) =>
       `${part} weniger Zeit als gleichmäßig ${uniform}; die Abweichung ist ${error} statt ${finest}.`,

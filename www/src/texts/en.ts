@@ -182,8 +182,8 @@ export const en = ({ counted, plural }: Format) => ({
     said: (error: string, time: string, layers: number) =>
       `Deviation ${error}, ${time}, ${counted(layers, LAYERS)}`,
     axis: (metric: string) => `Print time over deviation (${metric})`,
-    finest: (uniform: string) => `Uniform ${uniform}, the finest`,
-    coarsest: (uniform: string) => `Uniform ${uniform}, the coarsest`,
+    finest: (uniform: string, time: string) => `Uniform ${uniform}, the finest: ${time}`,
+    coarsest: (uniform: string, time: string) => `Uniform ${uniform}, the coarsest: ${time}`,
     same: (part: string, uniform: string) => `Same quality as uniform ${uniform}, ${part} less time.`,
     near: (part: string, uniform: string, error: string, finest: string) =>
       `${part} less time than uniform ${uniform}; the deviation is ${error} instead of ${finest}.`,

@@ -176,8 +176,8 @@ export const es = ({ counted, plural }: Format): Texts => ({
     waiting: "Buscando los mejores planes",
     said: (error, time, layers) => `Desviación ${error}, ${time}, ${counted(layers, LAYERS)}`,
     axis: (metric) => `Tiempo de impresión según la desviación (${metric})`,
-    finest: (uniform) => `Uniforme ${uniform}, el más fino`,
-    coarsest: (uniform) => `Uniforme ${uniform}, el más grueso`,
+    finest: (uniform, time) => `Uniforme ${uniform}, el más fino: ${time}`,
+    coarsest: (uniform, time) => `Uniforme ${uniform}, el más grueso: ${time}`,
     same: (part, uniform) => `La misma calidad que uniforme ${uniform}, ${part} menos de tiempo.`,
     near: (part, uniform, error, finest) =>
       `${part} menos de tiempo que uniforme ${uniform}; la desviación es ${error} en vez de ${finest}.`,

@@ -176,8 +176,8 @@ export const fr = ({ counted, plural }: Format): Texts => ({
     waiting: "Recherche des meilleurs plans",
     said: (error, time, layers) => `Écart ${error}, ${time}, ${counted(layers, LAYERS)}`,
     axis: (metric) => `Durée d’impression selon l’écart (${metric})`,
-    finest: (uniform) => `Uniforme ${uniform}, le plus fin`,
-    coarsest: (uniform) => `Uniforme ${uniform}, le plus grossier`,
+    finest: (uniform, time) => `Uniforme ${uniform}, le plus fin : ${time}`,
+    coarsest: (uniform, time) => `Uniforme ${uniform}, le plus grossier : ${time}`,
     same: (part, uniform) => `La même qualité qu’uniforme ${uniform}, ${part} de temps en moins.`,
     near: (part, uniform, error, finest) =>
       `${part} de temps en moins qu’uniforme ${uniform} ; l’écart est de ${error} au lieu de ${finest}.`,
