@@ -35,6 +35,10 @@ describe("a person", () => {
       const { harness } = window;
       harness.show();
       await harness.set({ positions: harness.solids.ball(10, 32), tool: "rotate" });
+      // A host that answers late, with what was so before.
+      harness.view.addEventListener("cusp-rotate", (event) => {
+        if (!event.detail.final) harness.view.rotation = [0, 0, 0, 1];
+      });
     });
     await forget(page);
     const box = await page.locator("cusp-view").boundingBox();

@@ -167,6 +167,48 @@ describe("drawing", () => {
     expect(likeness(at(304, 330), colourAt("classic", 1))).toBeGreaterThan(SAME);
   });
 
+  it("holds no more on the GPU after ten models than after two", async () => {
+    const page = await start({
+      before: () => {
+        const live = { count: 0 };
+        Object.assign(window, { live });
+        const context = WebGL2RenderingContext.prototype as unknown as Record<string, (...given: unknown[]) => unknown>;
+        for (const thing of ["Buffer", "Texture", "Framebuffer", "VertexArray"]) {
+          for (const [name, by] of [[`create${thing}`, 1], [`delete${thing}`, -1]] as const) {
+            const before = context[name];
+            if (before === undefined) continue;
+            context[name] = function (this: unknown, ...given) {
+              live.count += by;
+              return before.apply(this, given);
+            };
+          }
+        }
+      },
+    });
+    const after = (models: number, from: number): Promise<number> =>
+      page.evaluate(
+        async ([count, first]) => {
+          const { harness } = window;
+          for (let i = 0; i < count; i++) {
+            const height = 2 * (first + i + 5);
+            const z_mm = Array.from({ length: height + 1 }, (_, layer) => layer);
+            const thickness_mm = z_mm.slice(1).map(() => 1);
+            await harness.set({ positions: harness.solids.ball(height / 2, 32), z_mm, thickness_mm, look: "printed" });
+            await new Promise((resolve) => setTimeout(resolve, 200));
+            while (harness.view.building !== null) await new Promise((resolve) => setTimeout(resolve, 5));
+            await harness.set({ tool: "rotate" });
+            await harness.set({ tool: "turn", palette: i % 2 === 0 ? "safe" : "classic" });
+          }
+          return (window as unknown as { live: { count: number } }).live.count;
+        },
+        [models, from] as const,
+      );
+    await page.evaluate(() => window.harness.show());
+    const few = await after(2, 0);
+    expect(few).toBeGreaterThan(5);
+    expect(await after(8, 2)).toBe(few);
+  });
+
   it("follows the page's theme", async () => {
     const page = await start();
     await page.evaluate(async () => {

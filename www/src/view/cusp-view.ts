@@ -6,25 +6,22 @@
  */
 import { html, LitElement, nothing, type PropertyValues, type TemplateResult } from "lit";
 import type { Frame, Heights, Inset } from "./cameras.js";
-import type { HeightDetail, RotateDetail, ViewErrorDetail } from "./events.js";
+import { Derived } from "./derived.js";
+import type { HeightDetail, RotateDetail, ViewErrorDetail, ViewEvents } from "./events.js";
 import { pressed } from "./keys.js";
 import { legend, legendStyles } from "./legend.js";
 import type { Look } from "./model.js";
 import type { PaletteName } from "./palette.js";
 import type { BuildVolume } from "./plate.js";
-
 import { watchPointer } from "./pointer.js";
 import { Pointing, type Shown } from "./pointing.js";
 import { layFlat, turned, UPRIGHT, type Rotation } from "./pose.js";
-import { Derived } from "./derived.js";
+import { Printed } from "./printed.js";
 import { Stage, type Tool } from "./stage.js";
 import { contextOf, place } from "./surface.js";
 import { ENGLISH, type ViewTexts } from "./texts.js";
 import { themeOf } from "./theme.js";
 import { viewStyles } from "./view-styles.js";
-
-/** How long pose and plan must have been still before the stair steps are worked out, ms. */
-const SETTLED_MS = 150;
 
 export class CuspView extends LitElement {
   static override properties = {
@@ -86,8 +83,16 @@ export class CuspView extends LitElement {
   #frame: Frame | null = null;
   #isHeld = false;
   #pointing: Pointing | null = null;
+  /** Where the rings have turned the model to while they are held. */
+  #turned: Rotation | null = null;
   #unsaid: RotateDetail | null = null;
-  #settling = 0;
+  readonly #printed = new Printed({
+    progress: (progress) => (this.building = progress),
+    steps: (steps) => {
+      this.#stage?.model.setSteps(steps);
+      this.#stage?.invalidate();
+    },
+  });
   readonly #reducedMotion = matchMedia("(prefers-reduced-motion: reduce)");
 
   static override styles = [viewStyles, legendStyles];
@@ -171,6 +176,8 @@ export class CuspView extends LitElement {
 
   /** Before rendering, since what is rendered tells the size that the stage finds. */
   override willUpdate(changed: PropertyValues<this>): void {
+    // While the rings are held the pointer alone turns the model, not an answer to where it was before.
+    if (this.#isHeld && this.#turned !== null) this.rotation = this.#turned;
     if (this.#stage !== null) this.#show(this.#stage, (name) => changed.has(name));
   }
 
@@ -231,16 +238,16 @@ export class CuspView extends LitElement {
 
   #stop(): void {
     this.#life.abort();
-    clearTimeout(this.#settling);
+    this.#printed.want(null);
     this.#derived?.dispose();
     this.#derived = null;
     this.#stage?.dispose();
     this.#stage = null;
     this.#pointing = null;
     this.renderRoot.querySelector("canvas")?.remove();
-    this.building = null;
     this.#frame = null;
     this.#isHeld = false;
+    this.#turned = null;
   }
 
   /** Puts the properties that have changed on the stage. */
@@ -262,7 +269,7 @@ export class CuspView extends LitElement {
     }
     if (has("tool")) stage.setTool(this.tool);
     if ((has("tool") || has("positions")) && this.tool !== "turn") void this.#prepare();
-    if ((["positions", "rotation", "scale", "z_mm", "look"] as const).some(has)) this.#settle();
+    if ((["positions", "rotation", "scale", "z_mm", "look"] as const).some(has)) this.#print();
     stage.invalidate();
   }
 
@@ -299,38 +306,19 @@ export class CuspView extends LitElement {
     return this.texts.layer(layer, band[0], this.thickness_mm[layer] ?? band[1] - band[0]);
   }
 
-  /** Works out the stair steps once nothing changes any more. Those of an earlier pose are wrong at once. */
-  #settle(): void {
-    clearTimeout(this.#settling);
-    this.#derived?.cancel();
-    this.#stage?.model.setSteps(null);
-    this.building = null;
-    if (this.look !== "printed" || this.z_mm.length < 2) return;
-    this.#settling = window.setTimeout(() => {
-      if (!this.#isHeld) void this.#build();
-    }, SETTLED_MS);
-  }
-
-  async #build(): Promise<void> {
+  /** Has the stair steps worked out anew where they are to be shown; not while the model is being turned. */
+  #print(): void {
+    const { rotation, scale, z_mm } = this;
     const derived = this.#derived;
-    this.building = 0;
-    const tell = (progress: number): void => {
-      this.building = progress;
-    };
-    const steps = await derived?.steps(this.rotation, this.scale, this.z_mm, tell);
-    // None: another pose or plan has been asked for meanwhile, and is shown in its turn.
-    if (steps == null || derived !== this.#derived) return;
-    this.building = null;
-    this.#stage?.model.setSteps(steps);
-    this.#stage?.invalidate();
+    const isWanted = this.look === "printed" && z_mm.length >= 2 && !this.#isHeld;
+    this.#printed.want(derived !== null && isWanted ? { derived, rotation, scale, z_mm } : null);
   }
 
   #rotate(rotation: Rotation, final: boolean): void {
     this.rotation = rotation;
+    this.#turned = final ? null : rotation;
     if (final) {
       this.#unsaid = null;
-      this.#settle();
-      this.#stage?.setPose(rotation, this.scale, true);
       this.#tell<RotateDetail>("cusp-rotate", { rotation, final });
       return;
     }
@@ -392,6 +380,20 @@ export class CuspView extends LitElement {
 }
 
 customElements.define("cusp-view", CuspView);
+
+/** Typed listeners for the view's own events. */
+export interface CuspView {
+  addEventListener<Type extends keyof ViewEvents>(
+    type: Type,
+    listener: (this: CuspView, event: ViewEvents[Type]) => void,
+    options?: boolean | AddEventListenerOptions,
+  ): void;
+  addEventListener(
+    type: string,
+    listener: EventListenerOrEventListenerObject,
+    options?: boolean | AddEventListenerOptions,
+  ): void;
+}
 
 declare global {
   interface HTMLElementTagNameMap {

@@ -39,7 +39,11 @@ export class Derived {
   ): Promise<Steps | null> {
     this.cancel();
     const { signal } = this.#steps;
-    const topology = await this.#whileAlive(this.#found((progress) => tell(TOPOLOGY_PART * progress)));
+    // The topology goes on when the steps are no longer wanted.
+    const found = this.#found((progress) => {
+      if (!signal.aborted) tell(TOPOLOGY_PART * progress);
+    });
+    const topology = await this.#whileAlive(found);
     if (topology === null || signal.aborted) return null;
     const points = posed(topology.points, rotation, scale);
     try {
