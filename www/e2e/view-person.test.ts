@@ -155,6 +155,44 @@ describe("a person", () => {
     expect((await page.locator("canvas").screenshot()).equals(before)).toBe(false);
   });
 
+  it("turns and zooms with fingers, and scrolls the page with one that goes upwards", async () => {
+    const page = await start({ hasTouch: true, viewport: { width: 390, height: 400 } });
+    await page.evaluate(async () => {
+      const { harness } = window;
+      harness.show();
+      await harness.set({ positions: harness.solids.box([0, 0, 0], [10, 20, 30]) });
+    });
+    const session = await page.context().newCDPSession(page);
+    type Finger = readonly [x: number, y: number];
+    const touch = async (type: "touchStart" | "touchMove" | "touchEnd", ...fingers: Finger[]): Promise<void> => {
+      const touchPoints = fingers.map(([x, y], id) => ({ x, y, id }));
+      await session.send("Input.dispatchTouchEvent", { type, touchPoints });
+    };
+    const gesture = async (...stages: Finger[][]): Promise<void> => {
+      const [first = [], ...rest] = stages;
+      await touch("touchStart", ...first);
+      for (const fingers of rest) await touch("touchMove", ...fingers);
+      await touch("touchEnd");
+      await drawn(page);
+    };
+    const shown = (): Promise<Buffer> => page.locator("canvas").screenshot();
+    const before = await shown();
+    await gesture([[100, 200]], [[120, 201]], [[160, 202]], [[220, 202]]);
+    const turned = await shown();
+    expect(turned.equals(before)).toBe(false);
+    await gesture(
+      [[150, 200], [240, 200]],
+      [[130, 200], [260, 200]],
+      [[100, 200], [290, 200]],
+    );
+    const nearer = await shown();
+    expect(nearer.equals(turned)).toBe(false);
+    expect(await page.evaluate(() => visualViewport?.scale)).toBe(1);
+    await page.evaluate(() => scrollTo(0, 0));
+    await gesture([[200, 300]], [[200, 280]], [[200, 230]], [[200, 180]]);
+    await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(20);
+  });
+
   it("comes back from the chart's side to where it was", async () => {
     const page = await start();
     await page.evaluate(async () => {
