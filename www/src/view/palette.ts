@@ -8,8 +8,8 @@ export type Rgb = readonly [number, number, number];
 
 /**
  * `classic`: red (thinnest) through yellow to blue (thickest), as in the paper.
- * `safe`: viridis turned round, yellow (thinnest) to violet (thickest): lightness falls steadily, so that it reads with
- * every kind of colour blindness and in grey.
+ * `safe`: viridis turned round, yellow (thinnest) to violet (thickest), without its darkest end, which a dark page swallows.
+ * Lightness falls steadily, so that it reads with every kind of colour blindness and in grey.
  */
 export type PaletteName = "classic" | "safe";
 
@@ -38,7 +38,6 @@ const STOPS: Readonly<Record<PaletteName, readonly Rgb[]>> = {
     [56, 89, 140],
     [67, 62, 133],
     [72, 33, 115],
-    [68, 1, 84],
   ],
 };
 
