@@ -47,7 +47,8 @@ export async function main([file, height = "60", grid = "2048"]: string[]): Prom
           timings.push(`${layers} layers, ${hits} hits: ${Object.entries(timings_ms).map(([stage, ms]) => `${stage} ${Math.round(ms)}`).join(", ")} ms`);
           if (round === rounds - 1) {
             const start = performance.now();
-            const bytes = slicer.archive(quiet).length;
+            let bytes = 0;
+            slicer.archive((chunk) => void (bytes += chunk.length), quiet);
             zip = `print file of ${bytes} bytes in ${Math.round(performance.now() - start)} ms`;
           }
           slicer.free();

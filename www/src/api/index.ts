@@ -14,7 +14,7 @@
 import { Lane, spawnWorker, type Compiled, type Engine, type Watch } from "./lane.js";
 import { resolve, type Source } from "./source.js";
 import { SlicerError } from "./error.js";
-import type { Comparison, Glance, MeshInfo, Options, PrinterInfo, Profiled, Report, Tradeoff } from "./wire.js";
+import type { Comparison, Glance, MeshInfo, Options, Printer, Profiled, Report, Tradeoff } from "./wire.js";
 
 export { ERROR_CODES, isAbort, SlicerError, type ErrorCode } from "./error.js";
 export type { Source } from "./source.js";
@@ -77,7 +77,7 @@ export interface Slicer {
   /** A plan by the facets alone: milliseconds, and never behind another call but one of these two. */
   glance(options?: Options, call?: Watch): Promise<GlancedPlan>;
   /** Printers known by name, for `options.printer`. */
-  printers(): Promise<PrinterInfo[]>;
+  printers(): Promise<Printer[]>;
   /** Starts the worker before it is needed. */
   warm(): void;
   /** Ends the workers until the next call, which brings model and plan back; calls under way reject with an `AbortError`. */

@@ -7,7 +7,7 @@
 import * as Comlink from "comlink";
 import { isAbort, ofCore, SlicerError } from "./error.js";
 import { sameRays, type Comparison, type Glance, type MeshInfo, type OnProgress, type Options } from "./wire.js";
-import type { PrinterInfo, Profiled, Report, SlicerWorker, Tradeoff } from "./wire.js";
+import type { Printer, Profiled, Report, SlicerWorker, Tradeoff } from "./wire.js";
 
 /** A worker as it is seen from this side: what it answers at once there takes its time here. */
 type Remote = {
@@ -173,7 +173,7 @@ export class Lane {
     });
   }
 
-  printers(): Promise<PrinterInfo[]> {
+  printers(): Promise<Printer[]> {
     return this.#run({}, (life) => Promise.resolve(life.engine.remote.printers()));
   }
 

@@ -3,13 +3,13 @@
  *
  * The types of the core are re-exported from the generated package, never copied: a change there is a type error here.
  */
-import type { Comparison, Format, MeshInfo, Metric, Report, Stage, Tradeoff } from "../../pkg/cusp_slicer.js";
-import type { Glance, Options, PrinterInfo } from "./contract.js";
+import type { Comparison, Glance, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff } from "../../pkg/cusp_slicer.js";
 
-export type { Comparison, Format, Glance, MeshInfo, Metric, Options, PrinterInfo, Report, Stage, Tradeoff };
+export type { Comparison, Glance, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff };
 export type {
   Backend,
   CuspError,
+  Format,
   HeightRange,
   Minimize,
   Planner,
@@ -48,7 +48,7 @@ export interface SlicerWorker {
   archive(progress: OnProgress, port: MessagePort | null): Blob | null;
   positions(): Float32Array;
   glance(options: Options): Profiled<Glance>;
-  printers(): PrinterInfo[];
+  printers(): Printer[];
 }
 
 /** The core's own defaults, which a form shows before the worker is there. A test holds them against the core. */

@@ -1,7 +1,6 @@
 /** The worker: the only file that imports the WebAssembly package. One model is open at a time. */
 import * as Comlink from "comlink";
-import init, { Slicer } from "../../pkg/cusp_slicer.js";
-import { archive, type Contract } from "./contract.js";
+import init, { printers, Slicer } from "../../pkg/cusp_slicer.js";
 import type { CuspError, OnProgress, SlicerWorker } from "./wire.js";
 
 /** Parts of a print file beyond this many bytes are handed to the browser, which may keep them on disk. */
@@ -106,31 +105,27 @@ const api: SlicerWorker = {
   archive(progress, port) {
     if (port === null) {
       const sink = new BlobSink();
-      archive(current(), sink.take, plain(progress));
+      current().archive(sink.take, plain(progress));
       return sink.finish();
     }
     const take = (chunk: Uint8Array): void => {
       const bytes = own(chunk);
       port.postMessage(bytes, [bytes.buffer]);
     };
-    archive(current(), take, plain(progress));
+    current().archive(take, plain(progress));
     port.postMessage(null);
     return null;
   },
   positions() {
-    const positions = (current() as Slicer & Contract).positions?.() ?? new Float32Array();
+    const positions = current().positions();
     return Comlink.transfer(positions, [positions.buffer]);
   },
   glance(options) {
-    const slicer: Slicer & Contract = current();
-    const glance = slicer.glance?.(options);
-    if (glance === undefined) throw new Error("the core cannot glance yet");
-    const profile = slicer.glance_profile?.() ?? new Float32Array();
-    return Comlink.transfer({ report: glance.report, profile }, [profile.buffer]);
+    const report = current().glance(options);
+    const profile = current().glance_profile();
+    return Comlink.transfer({ report, profile }, [profile.buffer]);
   },
-  printers() {
-    return [];
-  },
+  printers,
 };
 
 Comlink.expose(api);

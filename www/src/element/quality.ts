@@ -13,9 +13,6 @@ const WIDTH = 400;
 const HEIGHT = 120;
 const MARGIN = 12;
 
-/** Room for the rounding of sums. */
-const SLACK = 1e-6;
-
 export interface Mark {
   x: number;
   y: number;
@@ -63,8 +60,10 @@ export function gainWords({ report, limits }: Pick<Result, "report" | "limits">,
   const saved = 1 - report.print_time_s / finest.print_time_s;
   if (saved < 0.005) return texts.quality.none(uniform);
   const part = format.percent(saved);
-  if (report.max_error <= finest.max_error * (1 + SLACK)) return texts.quality.same(part, uniform);
   const error = (value: number): string => METRICS[report.metric].error(value, format);
+  // What reads the same is the same.
+  const isSame = report.max_error <= finest.max_error || error(report.max_error) === error(finest.max_error);
+  if (isSame) return texts.quality.same(part, uniform);
   return texts.quality.near(part, uniform, error(report.max_error), error(finest.max_error));
 }
 

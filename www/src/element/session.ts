@@ -5,7 +5,7 @@
  */
 import { isAbort, SlicerError } from "../api/error.js";
 import type { Model, Plan, Mask, Slicer, Watch } from "../api/index.js";
-import type { Backend, Options, PrinterInfo, Resin, TradeoffPoint } from "../api/wire.js";
+import type { Backend, Options, Printer, Resin, TradeoffPoint } from "../api/wire.js";
 import { sameRays } from "../api/wire.js";
 import type { Source } from "../api/source.js";
 import { archiveName, choose } from "./choice.js";
@@ -68,7 +68,7 @@ export class Session {
   curve: readonly TradeoffPoint[] | null = null;
   /** Asked for in every plan; null leaves the choice to the core. */
   backend: Backend | null;
-  printers: readonly PrinterInfo[] = [];
+  printers: readonly Printer[] = [];
   resins: readonly Resin[] = [];
   /** Files that came together, and which of them is open. */
   files: readonly File[] = [];

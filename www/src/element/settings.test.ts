@@ -193,6 +193,7 @@ const PRINTER = {
   volume_mm: [5, 5, 5],
   layer_mm: [0.02, 0.2],
   is_mirrored: true,
+  step_mm: 0.002,
   format: "chitubox",
 } satisfies Offered["printers"][number];
 

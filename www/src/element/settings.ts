@@ -1,6 +1,6 @@
 /** The form's settings: what was typed or chosen, whether it makes sense, and the options it stands for. */
 import { DEFAULTS } from "../api/wire.js";
-import type { Format as FileFormat, Metric, Minimize, Options, PrinterInfo, Resin, Snap } from "../api/wire.js";
+import type { Format as FileFormat, Metric, Minimize, Options, Printer, Resin, Snap } from "../api/wire.js";
 import type { Language } from "../texts/index.js";
 import { METRIC_NAMES, METRICS } from "./metric.js";
 import * as round from "./round.js";
@@ -59,7 +59,7 @@ export type Faults = Partial<Record<Field, Fault>>;
 
 /** What there is to choose from. */
 export interface Offered {
-  printers: readonly PrinterInfo[];
+  printers: readonly Printer[];
   resins: readonly Resin[];
 }
 

@@ -30,6 +30,9 @@ const uniform = (layers: number, max_error: number, print_time_s: number): Plann
 
 function report(patch: Partial<Report>): Report {
   return {
+    schema: 1,
+    stl: { bytes: 0, crc32: 0 },
+    options: {},
     layers: 793,
     height_mm: 60,
     z_mm: [],
@@ -56,7 +59,7 @@ function report(patch: Partial<Report>): Report {
     resin: {},
     resin_ml: 44.4,
     printer: null,
-    mask: { width: 2048, height: 1588, pitch_mm: 0.0293, pitch_y_mm: 0.0293, is_mirrored: false },
+    mask: { width: 2048, height: 1588, pitch_mm: 0.0293, pitch_y_mm: 0.0293, antialias: 1, is_mirrored: false },
     warnings: [],
     timings_ms: { load: 0, ldi: 0, profile: 0, plan: 0, masks: 0, total: 0 },
     ...patch,
