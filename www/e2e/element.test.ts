@@ -112,6 +112,7 @@ test("methods: load, plan, export, cancel", async () => {
     element.layerMin = 7;
     const fault = await element.plan().catch(name);
     element.layerMin = 0.05;
+    element.tolerance = 0.06;
     const cancelled = element.plan().catch(name);
     element.cancel();
     return {

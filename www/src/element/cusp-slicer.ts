@@ -219,14 +219,17 @@ export class CuspSlicer extends LitElement implements Host {
       return Promise.reject(new SlicerError("bad-options", "a setting is out of range"));
     }
     if (this.model === null) return Promise.reject(new SlicerError("no-model", "load a model first"));
+    const { result } = this;
+    if (result !== null && this.#session.isCurrent && this.state === "done") return Promise.resolve(result);
     return new Promise((resolve, reject) => {
       this.#waiting.push({ resolve, reject });
       this.#session.replan();
     });
   }
 
-  /** The print file of the plan on show; nothing is saved. */
+  /** The print file of the plan that the settings give; nothing is saved. */
   async export(): Promise<ExportDetail> {
+    if (this.model !== null) await this.plan();
     const download = await this.#session.export();
     if (download !== null) return download;
     throw this.result === null ? new SlicerError("no-plan", "plan the layers first") : this.#reason();
@@ -251,7 +254,7 @@ export class CuspSlicer extends LitElement implements Host {
   }
   /** @internal */
   planned(result: Result): void {
-    this.#settle(({ resolve }) => resolve(result));
+    if (this.#session.isCurrent) this.#settle(({ resolve }) => resolve(result));
     this.#tell("cusp-plan", result);
   }
   /** @internal */

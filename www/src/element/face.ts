@@ -2,8 +2,9 @@
 import { html, nothing, type TemplateResult } from "lit";
 import type { Slicer } from "../api/index.js";
 import type { Language } from "../texts/index.js";
-import type { ChartData } from "./chart.js";
 import { sentence } from "./comparison.js";
+import type { RotateDetail } from "../view/events.js";
+import type { Rotation } from "../view/pose.js";
 import { modelCard } from "./model-card.js";
 import type { Panel } from "./panel-names.js";
 import { explain, type Problem } from "./problem.js";
@@ -11,6 +12,7 @@ import { problemBox } from "./problem-box.js";
 import { progressBar } from "./progress.js";
 import type { Result, Session } from "./session.js";
 import { hasPlace } from "./settings-form.js";
+import { quaternion } from "./settings.js";
 import type { Settings } from "./settings.js";
 import { details, summary } from "./summary.js";
 
@@ -140,8 +142,8 @@ function waiting({ session, language }: Drawn): TemplateResult {
 }
 
 function results(drawn: Drawn, result: Result): TemplateResult {
-  const { session, language, panels, save } = drawn;
-  const { layer, mask, busy, curve } = session;
+  const { session, language, panels, slicer, save } = drawn;
+  const { layer, mask, busy, curve, shown, turning, settings } = session;
   const { texts } = language;
   const look = (event: CustomEvent<number>): void => session.look(event.detail);
   const download = html`<button class="primary download" ?disabled=${busy !== null} @click=${save}>
@@ -150,22 +152,38 @@ function results(drawn: Drawn, result: Result): TemplateResult {
   return html`
     ${panels.has("plan")
       ? html`<section class="card span first" part="plan" aria-label=${texts.plan.region}>
-          ${summary(result, language, earlier(drawn), download)} ${details(result, language)}
+          ${summary(result, shown ?? result.report, language, earlier(drawn), download)} ${details(result, language)}
+        </section>`
+      : nothing}
+    ${panels.has("view")
+      ? html`<section class="card" part="view" aria-label=${texts.view.region}>
+          <cusp-model
+            .slicer=${slicer}
+            .model=${session.model}
+            .shown=${shown}
+            .layer=${layer}
+            .rotation=${turning ?? rotationOf(settings.rotation)}
+            .scale=${scaleOf(session)}
+            .printer=${session.printers.find(({ name }) => name === settings.printer) ?? null}
+            .language=${language}
+            @cusp-rotate=${(event: CustomEvent<RotateDetail>) => session.turn(event.detail.rotation, event.detail.final)}
+            @cusp-layer=${look}
+          ></cusp-model>
+        </section>`
+      : nothing}
+    ${panels.has("profile")
+      ? html`<section class="card" part="profile" aria-label=${texts.chart.region}>
+          <cusp-chart .data=${shown} .layer=${layer} .language=${language} @cusp-layer=${look}></cusp-chart>
         </section>`
       : nothing}
     ${panels.has("quality") && result.report.planner !== "uniform"
-      ? html`<section class="card span" part="quality" aria-label=${texts.quality.title}>
+      ? html`<section class="card" part="quality" aria-label=${texts.quality.title}>
           <cusp-quality
             .points=${curve}
             .result=${result}
             .language=${language}
             @cusp-point=${(event: CustomEvent<number>) => session.takePoint(event.detail)}
           ></cusp-quality>
-        </section>`
-      : nothing}
-    ${panels.has("profile")
-      ? html`<section class="card" part="profile" aria-label=${texts.chart.region}>
-          <cusp-chart .data=${chartData(result)} .layer=${layer} .language=${language} @cusp-layer=${look}></cusp-chart>
         </section>`
       : nothing}
     ${panels.has("layers")
@@ -181,6 +199,21 @@ function results(drawn: Drawn, result: Result): TemplateResult {
         </section>`
       : nothing}
   `;
+}
+
+const rotations = new Map<string, Rotation>();
+
+/** Made once, since another array would be another rotation. */
+function rotationOf(text: string): Rotation {
+  let rotation = rotations.get(text);
+  if (rotation === undefined) rotations.set(text, (rotation = quaternion(text) ?? [0, 0, 0, 1]));
+  return rotation;
+}
+
+/** What the file's lengths are multiplied by: a height is that of the model as it stands. */
+function scaleOf({ result, model, settings }: Session): number {
+  const height_mm = settings.rotation === "" ? model?.info.size_mm[2] : undefined;
+  return result === null || height_mm === undefined || height_mm === 0 ? 1 : result.report.height_mm / height_mm;
 }
 
 /** Said of a result that the settings on show did not give. */
@@ -203,19 +236,6 @@ function announcement({ session, language }: Drawn): string {
   if (result === null || earlier) return "";
   const { layers, print_time_s } = result.report;
   return `${texts.plan.said(layers, format.time(print_time_s))} ${sentence(result, language)}`;
-}
-
-/** Made once a result, so that the chart is rebuilt only for a new one. */
-const charts = new WeakMap<Result, ChartData>();
-
-function chartData(result: Result): ChartData {
-  let data = charts.get(result);
-  if (data === undefined) {
-    const { metric, z_mm, thickness_mm, bin_mm } = result.report;
-    data = { metric, profile: result.profile, bin_mm, z_mm, thickness_mm, limits: result.limits };
-    charts.set(result, data);
-  }
-  return data;
 }
 
 /** A vase cut into layers, the sign over the drop zone. */

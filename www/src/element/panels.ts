@@ -1,4 +1,5 @@
 /** The elements that an element is made of. */
+import { CuspModel } from "./model-view.js";
 import { CuspMask } from "./mask-view.js";
 import { CuspChart } from "./profile-chart.js";
 import { CuspQuality } from "./quality.js";
@@ -9,6 +10,7 @@ const PARTS = {
   "cusp-chart": CuspChart,
   "cusp-mask": CuspMask,
   "cusp-quality": CuspQuality,
+  "cusp-model": CuspModel,
 } as const;
 
 /** Makes the parts known to the browser, once, and not before an element is made. */
@@ -24,5 +26,6 @@ declare global {
     "cusp-chart": CuspChart;
     "cusp-mask": CuspMask;
     "cusp-quality": CuspQuality;
+    "cusp-model": CuspModel;
   }
 }

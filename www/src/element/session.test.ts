@@ -2,8 +2,8 @@ import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import { Session } from "./session.js";
 import { DEFAULT_SETTINGS } from "./settings.js";
 import { SlicerError } from "../api/error.js";
-import { SCHEMA, type LoadCall, type Mask, type Model, type Plan, type Watch } from "../api/index.js";
-import type { MeshInfo, Options, Report, Tradeoff } from "../api/wire.js";
+import { SCHEMA, type GlancedPlan, type LoadCall, type Mask, type Model, type Plan, type Watch } from "../api/index.js";
+import type { Glance, MeshInfo, Options, Report, Tradeoff } from "../api/wire.js";
 
 const info = { facets: 1, size_mm: [1, 1, 10], warnings: [] } as unknown as MeshInfo;
 const model: Model = { schema: SCHEMA, name: "a.stl", info };
@@ -28,6 +28,11 @@ class FakeClient {
   readonly mask = async (layer: number): Promise<Mask> => {
     this.masks.push(layer);
     return { layer, width: 8, height: 1, bits: Uint8Array.of(255) };
+  };
+  readonly glances: Options[] = [];
+  readonly glance = async (options: Options = {}): Promise<GlancedPlan> => {
+    this.glances.push(options);
+    return { schema: SCHEMA, report: { layers: 99, z_mm: [0], thickness_mm: [] } as unknown as Glance, profile: new Float32Array() };
   };
   readonly curves: Options[] = [];
   readonly tradeoff = async (options: Options = {}): Promise<Tradeoff & { schema: 1 }> => {
@@ -289,4 +294,20 @@ test("settings go back and forth, and are planned each time", async () => {
   session.redo();
   expect(client.last.options?.height_mm).toBe(20);
   expect([session.canUndo, session.canRedo]).toEqual([true, false]);
+});
+
+test("while the model is turned glances are shown, the newest turn last; let go, it is planned", async () => {
+  await planned();
+  for (let i = 1; i < 5; i++) session.turn([0, 0, i / 10, 1], false);
+  await settle();
+  expect(client.glances.map(({ rotation }) => rotation?.[2])).toEqual([0.1, 0.4]);
+  expect(session.shown?.layers).toBe(99);
+  session.turn([0, 0, 1, 0], true);
+  await settle();
+  expect(client.last.options?.rotation).toEqual([0, 0, 1, 0]);
+  client.last.resolve(planOf(20));
+  await settle();
+  expect(session.shown?.layers).toBe(20);
+  session.undo();
+  expect(session.settings.rotation).toBe("");
 });

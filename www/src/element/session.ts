@@ -5,7 +5,7 @@
  */
 import { isAbort, SlicerError } from "../api/error.js";
 import type { Model, Plan, Mask, Slicer, Watch } from "../api/index.js";
-import type { Backend, Options, Printer, Resin, TradeoffPoint } from "../api/wire.js";
+import type { Backend, Metric, Options, Printer, Resin, TradeoffPoint } from "../api/wire.js";
 import { sameRays } from "../api/wire.js";
 import type { Source } from "../api/source.js";
 import { archiveName, choose } from "./choice.js";
@@ -16,13 +16,25 @@ import { METRICS } from "./metric.js";
 import type { Failure } from "./problem.js";
 import type { Busy } from "./progress.js";
 import * as round from "./round.js";
-import { check, DEFAULT_SETTINGS, layerRange, withTolerance, type Faults, type Settings } from "./settings.js";
+import { check, DEFAULT_SETTINGS, layerRange, rotationText, withTolerance, type Faults, type Settings } from "./settings.js";
 
 /** A plan with the options it was made for. */
 export interface Result extends Plan {
   options: Options;
   /** Thinnest and thickest layer allowed, mm: the ends of the colour scale. */
   limits: readonly [number, number];
+}
+
+/** What charts and the view draw: of the last plan, or of a glance while the model is turned. */
+export interface Shown {
+  metric: Metric;
+  profile: Float32Array;
+  bin_mm: number;
+  z_mm: readonly number[];
+  thickness_mm: readonly number[];
+  limits: readonly [number, number];
+  layers: number;
+  print_time_s: number;
 }
 
 export interface Download {
@@ -46,7 +58,7 @@ export interface Setup {
   backend?: Backend | null;
 }
 
-type Client = Pick<Slicer, "load" | "plan" | "mask" | "export" | "tradeoff" | "printers" | "warm">;
+type Client = Pick<Slicer, "load" | "plan" | "mask" | "export" | "tradeoff" | "glance" | "printers" | "warm">;
 
 /** Pause after the last keystroke before planning anew. */
 const DEBOUNCE_MS = 250;
@@ -70,6 +82,10 @@ export class Session {
   backend: Backend | null;
   printers: readonly Printer[] = [];
   resins: readonly Resin[] = [];
+  /** What charts and the view draw; null before there is a plan. */
+  shown: Shown | null = null;
+  /** How the model is turned while it is held; null while it is not. */
+  turning: readonly [number, number, number, number] | null = null;
   /** Files that came together, and which of them is open. */
   files: readonly File[] = [];
   place = 0;
@@ -83,6 +99,7 @@ export class Session {
   /** Options to plan with when the task under way has ended. */
   #next: Options | null = null;
   #idling = false;
+  #glancing = false;
   #maskOf: Result | null = null;
   #curveOf: string | null = null;
   /** A quality that is wanted as soon as the curve is known. */
@@ -183,6 +200,13 @@ export class Session {
     if (after !== null) this.#set(after, 0);
   }
 
+  /** Follows a model that is turned: by glances while it is held, by a plan when it is let go. */
+  turn(rotation: readonly [number, number, number, number], isFinal: boolean): void {
+    this.turning = isFinal ? null : rotation;
+    if (isFinal) this.change({ rotation: rotationText(rotation) });
+    else void this.#glance();
+  }
+
   /** Takes the tolerance of a point of the curve, as if it had been typed. */
   takePoint(index: number): void {
     const point = this.curve?.[index];
@@ -203,12 +227,23 @@ export class Session {
     return curve.length < 2 ? 1 : notchOf(curve, result.report.tolerance) / (curve.length - 1);
   }
 
+  /** What the settings ask for; null where they make no sense. */
+  get options(): Options | null {
+    const checked = check(this.settings, this);
+    if (!checked.ok) return null;
+    return this.backend === null ? checked.options : { ...checked.options, backend: this.backend };
+  }
+
+  /** Whether the result on show is what the settings ask for. */
+  get isCurrent(): boolean {
+    return this.result !== null && areSame(this.result.options, this.options);
+  }
+
   replan(delay_ms = 0): void {
     clearTimeout(this.#timer);
     this.#changed();
-    const checked = check(this.settings, this);
-    if (!checked.ok || this.model === null) return;
-    const options = this.backend === null ? checked.options : { ...checked.options, backend: this.backend };
+    const { options } = this;
+    if (options === null || this.model === null) return;
     if (delay_ms === 0) void this.#plan(options);
     else this.#timer = setTimeout(() => void this.#plan(options), delay_ms);
   }
@@ -268,6 +303,8 @@ export class Session {
     this.#next = null;
     this.model = model;
     this.result = null;
+    this.shown = null;
+    this.turning = null;
     this.mask = null;
     this.curve = null;
     this.#curveOf = null;
@@ -288,6 +325,10 @@ export class Session {
     const { model } = this;
     if (model === null) return;
     if (this.#task !== null) {
+      if (areSame(this.#task.options, options)) {
+        this.#next = null;
+        return;
+      }
       // A plan through other rays is not worth its time any more. Anything else may end first: a plan over the same
       // rays is nearly there, and what it has sampled serves the next one.
       if (this.#task.options === null || sameRays(this.#task.options, options)) {
@@ -319,6 +360,7 @@ export class Session {
     const z = before?.z_mm[this.layer];
     const result = { ...plan, options, limits: layerRange(options) };
     this.result = result;
+    this.shown = shownOf(report, plan.profile, result.limits);
     // Keep looking at the same height, or at the middle of a new model.
     this.layer = layerAt(report.z_mm, z === undefined ? report.height_mm / 2 : (z * report.height_mm) / (before?.height_mm ?? 1));
     if (before === undefined && this.notice === "cancelled") this.notice = null;
@@ -430,6 +472,25 @@ export class Session {
     return true;
   }
 
+  /** Glances at the newest turn, one at a time; the side worker answers in milliseconds. */
+  async #glance(): Promise<void> {
+    if (this.#glancing) return;
+    this.#glancing = true;
+    try {
+      for (let at = this.turning; at !== null && this.options !== null; at = this.turning === at ? null : this.turning) {
+        const options = { ...this.options, rotation: [...at] as [number, number, number, number] };
+        const { report, profile } = await this.#client.glance(options);
+        if (this.turning === null) break;
+        this.shown = shownOf(report, profile, layerRange(options));
+        this.#changed();
+      }
+    } catch {
+      // Where no plan holds there is nothing to follow; the plan will say so when the model is let go.
+    } finally {
+      this.#glancing = false;
+    }
+  }
+
   /** What the curve depends on: all but the tolerance. */
   #curveKey(): string | null {
     if (this.result === null) return null;
@@ -447,6 +508,18 @@ export class Session {
   #changed(): void {
     this.#host.requestUpdate();
   }
+}
+
+function shownOf(
+  { metric, bin_mm, z_mm, thickness_mm, layers, print_time_s }: Omit<Shown, "profile" | "limits">,
+  profile: Float32Array,
+  limits: Shown["limits"],
+): Shown {
+  return { metric, bin_mm, z_mm, thickness_mm, layers, print_time_s, profile, limits };
+}
+
+function areSame(a: Options | null, b: Options | null): boolean {
+  return JSON.stringify(a) === JSON.stringify(b);
 }
 
 function asSlicerError(error: unknown): SlicerError {

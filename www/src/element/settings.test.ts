@@ -9,6 +9,7 @@ import {
   layerRange,
   parse,
   quaternion,
+  rotationText,
   toAddress,
   type Field,
   type Offered,
@@ -212,6 +213,11 @@ test("a resin is the host's, with what is typed over it", () => {
   expect(options({})).not.toHaveProperty("resin");
   expect(faults({ bottomLayers: "2.5" }).bottomLayers).toMatch(/whole number/);
   expect(faults({ exposure: "0" }).exposure).toBe("Must be 0.1 to 600 s.");
+});
+
+test("a rotation is written short, and none is empty", () => {
+  expect(rotationText([0, 0, 0, 1])).toBe("");
+  expect(rotationText([0, -0, Math.SQRT1_2, Math.SQRT1_2])).toBe("0,0,0.707107,0.707107");
 });
 
 test("a rotation is four numbers, made a unit; anything else is none", () => {

@@ -285,6 +285,12 @@ export function quaternion(text: string): [number, number, number, number] | nul
   return more.length === 0 && length > 0 ? [x / length, y / length, z / length, w / length] : null;
 }
 
+/** A rotation as it stands in the settings: to a part in a million, and empty for none. */
+export function rotationText(rotation: readonly number[]): string {
+  const text = rotation.map((part) => String(Number(part.toFixed(6)) + 0)).join();
+  return text === "0,0,0,1" ? "" : text;
+}
+
 /** What a quotient of decimals may be off by. */
 const ROUNDING = 1e-6;
 

@@ -3,7 +3,7 @@ import { css, html, nothing, type TemplateResult } from "lit";
 import type { Language } from "../texts/index.js";
 import { rows, sentence } from "./comparison.js";
 import { METRICS } from "./metric.js";
-import type { Result } from "./session.js";
+import type { Result, Shown } from "./session.js";
 import { styled } from "./styled.js";
 
 export const summaryStyles = css`
@@ -131,9 +131,10 @@ export const summaryStyles = css`
   }
 `;
 
-/** `note` comes first, if there is one; `action` stands beside the number: the download. */
+/** `shown` is what is being looked at: a glance, while the model is turned. `note` comes first, if there is one; `action` stands beside the number: the download. */
 export function summary(
   result: Result,
+  shown: Pick<Shown, "layers" | "print_time_s">,
   language: Language,
   note: TemplateResult | typeof nothing,
   action: TemplateResult | typeof nothing,
@@ -148,10 +149,10 @@ export function summary(
     <div class="answer">
       <div>
         <div class="figure">
-          <p class="count" data-layers=${report.layers}>
-            ${format.count(report.layers)}<span>${texts.plan.layers(report.layers)}</span>
+          <p class="count" data-layers=${shown.layers}>
+            ${format.count(shown.layers)}<span>${texts.plan.layers(shown.layers)}</span>
           </p>
-          <p class="time">${texts.plan.time(format.time(report.print_time_s))}</p>
+          <p class="time">${texts.plan.time(format.time(shown.print_time_s))}</p>
           <p class="time resin">${texts.plan.resin(format.millilitres(report.resin_ml))}</p>
         </div>
         <p class="gain">${sentence(result, language)}</p>

@@ -218,6 +218,28 @@ export const de = ({ counted, plural }: Format): Texts => ({
       `Profil über der Höhe (${axis}), bis ${height}, über den ${counted(layers, LAYERS)} des Plans, ` +
       `${least} bis ${most} dick.`,
   },
+  view: {
+    region: "Das Modell in drei Dimensionen",
+    title: "Modell",
+    kind: "3-D-Ansicht",
+    keys: {
+      turn: "Pfeiltasten drehen die Ansicht, Plus und Minus vergrößern und verkleinern, 0 zeigt das ganze Modell.",
+      rotate: "Pfeiltasten, Bild auf und Bild ab drehen das Modell um 5°, mit der Umschalttaste um 1°.",
+      flat: "Eingabe legt die Fläche in der Mitte auf die Platte. Pfeiltasten drehen die Ansicht.",
+    },
+    empty: "Noch kein Modell",
+    legend: "Schichtdicke (µm)",
+    layers: (count) => counted(count, LAYERS),
+    layer: (layer, height, thickness) => `Schicht ${layer} · ${height} · ${thickness}`,
+    grid: (step) => `Raster ${step}`,
+    building: (part) => `Stufen werden berechnet: ${part}`,
+    unavailable: "Dieser Browser zeigt keine 3-D-Ansicht: WebGL 2 ist abgeschaltet oder fehlt.",
+    tools: { turn: "Umsehen", rotate: "Modell drehen", flat: "Fläche hinlegen" },
+    printed: "Wie gedruckt",
+    safe: "Für Farbenblinde",
+    aligned: "Neben dem Profil",
+    upright: "Wie in der Datei",
+  },
   mask: {
     region: "Schichten",
     title: "Maske einer Schicht",

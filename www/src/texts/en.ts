@@ -224,6 +224,28 @@ export const en = ({ counted, plural }: Format) => ({
       `Chart of the profile by height (${axis}), up to ${height}, over the ` +
       `${counted(layers, LAYERS)} of the plan, ${least} to ${most} thick.`,
   },
+  view: {
+    region: "The model in three dimensions",
+    title: "Model",
+    kind: "3-D view",
+    keys: {
+      turn: "Arrow keys turn the view, plus and minus zoom, 0 shows the whole model.",
+      rotate: "Arrow keys and Page Up and Page Down turn the model by 5°, with Shift by 1°.",
+      flat: "Enter lays the face in the middle of the view on the plate. Arrow keys turn the view.",
+    },
+    empty: "No model yet",
+    legend: "Layer thickness (µm)",
+    layers: (count: number) => counted(count, LAYERS),
+    layer: (layer: string, height: string, thickness: string) => `Layer ${layer} · ${height} · ${thickness}`,
+    grid: (step: string) => `Grid ${step}`,
+    building: (part: string) => `Working out the steps: ${part}`,
+    unavailable: "This browser shows no 3-D view: WebGL 2 is switched off or missing.",
+    tools: { turn: "Look around", rotate: "Turn the model", flat: "Lay a face flat" },
+    printed: "As printed",
+    safe: "Colour-blind safe",
+    aligned: "Beside the profile",
+    upright: "As in the file",
+  },
   mask: {
     region: "Layers",
     title: "Mask of a layer",

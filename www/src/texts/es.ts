@@ -218,6 +218,28 @@ export const es = ({ counted, plural }: Format): Texts => ({
       `Gráfico del perfil por altura (${axis}), hasta ${height}, sobre las ${counted(layers, LAYERS)} del plan, ` +
       `de ${least} a ${most} de espesor.`,
   },
+  view: {
+    region: "El modelo en tres dimensiones",
+    title: "Modelo",
+    kind: "Vista 3D",
+    keys: {
+      turn: "Las flechas giran la vista, más y menos acercan y alejan, 0 muestra todo el modelo.",
+      rotate: "Las flechas, Re Pág y Av Pág giran el modelo 5°, con Mayús 1°.",
+      flat: "Intro apoya en la base la cara del centro. Las flechas giran la vista.",
+    },
+    empty: "Aún no hay modelo",
+    legend: "Espesor de capa (µm)",
+    layers: (count) => counted(count, LAYERS),
+    layer: (layer, height, thickness) => `Capa ${layer} · ${height} · ${thickness}`,
+    grid: (step) => `Cuadrícula ${step}`,
+    building: (part) => `Calculando los escalones: ${part}`,
+    unavailable: "Este navegador no muestra la vista 3D: WebGL 2 está desactivado o falta.",
+    tools: { turn: "Mirar alrededor", rotate: "Girar el modelo", flat: "Apoyar una cara" },
+    printed: "Como impreso",
+    safe: "Para daltónicos",
+    aligned: "Junto al perfil",
+    upright: "Como en el archivo",
+  },
   mask: {
     region: "Capas",
     title: "Máscara de una capa",

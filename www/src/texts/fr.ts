@@ -218,6 +218,28 @@ export const fr = ({ counted, plural }: Format): Texts => ({
       `Graphique du profil selon la hauteur (${axis}), jusqu’à ${height}, sur les ${counted(layers, LAYERS)} du plan, ` +
       `épaisses de ${least} à ${most}.`,
   },
+  view: {
+    region: "Le modèle en trois dimensions",
+    title: "Modèle",
+    kind: "Vue 3D",
+    keys: {
+      turn: "Les flèches tournent la vue, plus et moins zooment, 0 montre tout le modèle.",
+      rotate: "Les flèches, Page préc. et Page suiv. tournent le modèle de 5°, avec Maj de 1°.",
+      flat: "Entrée pose sur le plateau la face du milieu. Les flèches tournent la vue.",
+    },
+    empty: "Pas encore de modèle",
+    legend: "Épaisseur de couche (µm)",
+    layers: (count) => counted(count, LAYERS),
+    layer: (layer, height, thickness) => `Couche ${layer} · ${height} · ${thickness}`,
+    grid: (step) => `Grille ${step}`,
+    building: (part) => `Calcul des marches : ${part}`,
+    unavailable: "Ce navigateur n’affiche pas la vue 3D : WebGL 2 est désactivé ou absent.",
+    tools: { turn: "Regarder autour", rotate: "Tourner le modèle", flat: "Poser une face" },
+    printed: "Comme imprimé",
+    safe: "Pour daltoniens",
+    aligned: "À côté du profil",
+    upright: "Comme dans le fichier",
+  },
   mask: {
     region: "Couches",
     title: "Masque d’une couche",

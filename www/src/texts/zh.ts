@@ -212,6 +212,28 @@ export const zh = ({ count: number }: Format): Texts => ({
     said: (axis, height, layers, least, most) =>
       `随高度变化的轮廓图（${axis}），至 ${height}，方案共 ${number(layers)} 层，厚 ${least} 到 ${most}。`,
   },
+  view: {
+    region: "三维模型",
+    title: "模型",
+    kind: "三维视图",
+    keys: {
+      turn: "方向键转动视图，加号和减号缩放，0 显示整个模型。",
+      rotate: "方向键和上下翻页键将模型转动 5°，按住 Shift 为 1°。",
+      flat: "回车键将视图中央的面放平到底板上。方向键转动视图。",
+    },
+    empty: "尚无模型",
+    legend: "层厚（µm）",
+    layers: (count) => `${number(count)} 层`,
+    layer: (layer, height, thickness) => `第 ${layer} 层 · ${height} · ${thickness}`,
+    grid: (step) => `网格 ${step}`,
+    building: (part) => `正在计算台阶：${part}`,
+    unavailable: "此浏览器无法显示三维视图：WebGL 2 已关闭或缺失。",
+    tools: { turn: "查看", rotate: "转动模型", flat: "放平一个面" },
+    printed: "打印效果",
+    safe: "色盲友好",
+    aligned: "与轮廓对齐",
+    upright: "恢复文件中的方向",
+  },
   mask: {
     region: "各层",
     title: "单层掩膜",
