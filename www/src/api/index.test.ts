@@ -46,8 +46,10 @@ function faked(): { slicer: Slicer; log: string[] } {
 
 test("results carry the version of their schema", async () => {
   const { slicer } = faked();
-  const model = await slicer.load(new Blob(["a"]), { name: "a.stl" });
+  const file = new Blob(["a"]);
+  const model = await slicer.load(file, { name: "a.stl" });
   expect(model).toMatchObject({ schema: SCHEMA, name: "a.stl", info: { facets: 1 } });
+  expect(model.file).toBe(file);
   expect((await slicer.plan()).schema).toBe(SCHEMA);
   expect((await slicer.tradeoff()).schema).toBe(SCHEMA);
   expect((await slicer.glance()).schema).toBe(SCHEMA);

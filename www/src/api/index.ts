@@ -32,6 +32,8 @@ interface Versioned {
 /** A model as it stands in its file. */
 export interface Model extends Versioned {
   name: string;
+  /** What it was read from, for a page that sends a model along with its plan. */
+  file: Blob;
   info: MeshInfo;
 }
 
@@ -117,7 +119,7 @@ export function createSlicer({ spawn = spawnWorker }: Setup = {}): Slicer {
       const info = await main.open(named.file, call);
       side.take(named.file);
       last = null;
-      return { schema: SCHEMA, name: name ?? named.name, info };
+      return { schema: SCHEMA, name: name ?? named.name, file: named.file, info };
     },
     plan,
     async mask(layer, call = {}) {

@@ -6,7 +6,7 @@ import { SCHEMA, type GlancedPlan, type LoadCall, type Mask, type Model, type Pl
 import type { Glance, MeshInfo, Options, Report, Tradeoff } from "../api/wire.js";
 
 const info = { facets: 1, size_mm: [1, 1, 10], warnings: [] } as unknown as MeshInfo;
-const model: Model = { schema: SCHEMA, name: "a.stl", info };
+const model: Model = { schema: SCHEMA, name: "a.stl", file: new Blob(), info };
 
 function planOf(layers: number, height_mm = 10): Plan {
   const z_mm = Array.from({ length: layers + 1 }, (_, i) => (i * height_mm) / layers);
