@@ -81,3 +81,9 @@ export function ofCore(value: unknown): SlicerError | null {
   if (typeof code !== "string" || typeof message !== "string") return null;
   return new SlicerError(isErrorCode(code) ? code : "crash", message, detail ?? null);
 }
+
+/** Anything that was thrown as one of these errors; what nobody described means that something broke. */
+export function asSlicerError(error: unknown): SlicerError {
+  if (error instanceof SlicerError) return error;
+  return new SlicerError("crash", error instanceof Error ? error.message : String(error));
+}

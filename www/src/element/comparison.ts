@@ -2,7 +2,7 @@
 import type { Report } from "../api/wire.js";
 import type { Language } from "../texts/index.js";
 import { METRICS } from "./metric.js";
-import type { Result } from "./session.js";
+import type { Result } from "./result.js";
 
 /** What is compared: a result without its profile. */
 export type Compared = Pick<Result, "report" | "limits" | "options">;

@@ -10,7 +10,7 @@ import type { Rotation } from "../view/pose.js";
 import type { RotateDetail } from "../view/events.js";
 import type { Tool } from "../view/stage.js";
 import type { ViewTexts } from "../view/texts.js";
-import type { Shown } from "./session.js";
+import type { Shown } from "./result.js";
 import { shared } from "./styles.js";
 
 const MICROMETRES = 1000;

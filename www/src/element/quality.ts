@@ -5,7 +5,7 @@ import type { TradeoffPoint } from "../api/wire.js";
 import { languageOf, type Language } from "../texts/index.js";
 import { notchOf } from "./curve.js";
 import { METRICS } from "./metric.js";
-import type { Result } from "./session.js";
+import type { Result } from "./result.js";
 import { shared } from "./styles.js";
 
 /** The picture's own units; it is stretched to its place. */
@@ -90,13 +90,17 @@ export class CuspQuality extends LitElement {
     shared,
     css`
       :host {
-        display: block;
+        display: flex;
+        flex-direction: column;
+        height: 100%;
         min-width: 0;
       }
       svg {
         display: block;
+        flex: 1 1 7rem;
         width: 100%;
         height: 7rem;
+        max-height: 14rem;
         overflow: visible;
         direction: ltr;
       }

@@ -3,39 +3,22 @@
  *
  * No DOM here: an element (or a test) hosts it, is told when something changed, and draws what it finds.
  */
-import { isAbort, SlicerError } from "../api/error.js";
+import { asSlicerError, isAbort, type SlicerError } from "../api/error.js";
 import type { Model, Plan, Mask, Slicer, Watch } from "../api/index.js";
-import type { Backend, Metric, Options, Printer, Resin, TradeoffPoint } from "../api/wire.js";
+import type { Backend, Options, Printer, Resin, TradeoffPoint } from "../api/wire.js";
 import { sameRays } from "../api/wire.js";
 import type { Source } from "../api/source.js";
 import { archiveName, choose } from "./choice.js";
-import { notchOf } from "./curve.js";
+import { Curve } from "./curve.js";
+import { Follower, type Rotation } from "./follow.js";
 import { History } from "./history.js";
 import { layerAt } from "./layers.js";
 import { METRICS } from "./metric.js";
 import type { Failure } from "./problem.js";
 import type { Busy } from "./progress.js";
+import { areSame, shownOf, type Result, type Shown } from "./result.js";
 import * as round from "./round.js";
 import { check, DEFAULT_SETTINGS, layerRange, rotationText, withTolerance, type Faults, type Settings } from "./settings.js";
-
-/** A plan with the options it was made for. */
-export interface Result extends Plan {
-  options: Options;
-  /** Thinnest and thickest layer allowed, mm: the ends of the colour scale. */
-  limits: readonly [number, number];
-}
-
-/** What charts and the view draw: of the last plan, or of a glance while the model is turned. */
-export interface Shown {
-  metric: Metric;
-  profile: Float32Array;
-  bin_mm: number;
-  z_mm: readonly number[];
-  thickness_mm: readonly number[];
-  limits: readonly [number, number];
-  layers: number;
-  print_time_s: number;
-}
 
 export interface Download {
   name: string;
@@ -62,8 +45,6 @@ type Client = Pick<Slicer, "load" | "plan" | "mask" | "export" | "tradeoff" | "g
 
 /** Pause after the last keystroke before planning anew. */
 const DEBOUNCE_MS = 250;
-/** Points of the trade-off curve: one a notch of the quality slider. */
-const CURVE_POINTS = 24;
 
 export class Session {
   model: Model | null = null;
@@ -76,16 +57,12 @@ export class Session {
   /** The layer looked at, from 0. */
   layer = 0;
   mask: Mask | null = null;
-  /** The best plans of the model, from the tightest tolerance to the loosest; null until they are known. */
-  curve: readonly TradeoffPoint[] | null = null;
   /** Asked for in every plan; null leaves the choice to the core. */
   backend: Backend | null;
   printers: readonly Printer[] = [];
   resins: readonly Resin[] = [];
   /** What charts and the view draw; null before there is a plan. */
   shown: Shown | null = null;
-  /** How the model is turned while it is held; null while it is not. */
-  turning: readonly [number, number, number, number] | null = null;
   /** Files that came together, and which of them is open. */
   files: readonly File[] = [];
   place = 0;
@@ -93,17 +70,15 @@ export class Session {
   readonly #host: Host;
   readonly #client: Client;
   readonly #history = new History<Settings>();
+  readonly #curve = new Curve();
+  readonly #follower: Follower;
   /** What runs. `options` are those of a plan, and null for anything else. */
   #task: { abort: AbortController; options: Options | null } | null = null;
   #timer: ReturnType<typeof setTimeout> | undefined;
   /** Options to plan with when the task under way has ended. */
   #next: Options | null = null;
   #idling = false;
-  #glancing = false;
   #maskOf: Result | null = null;
-  #curveOf: string | null = null;
-  /** A quality that is wanted as soon as the curve is known. */
-  #quality: number | null = null;
   /** Whether the newest plan asked for has not come about. */
   #failed = false;
   #archive: { of: Result; blob: Blob } | null = null;
@@ -113,6 +88,20 @@ export class Session {
     this.#host = host;
     this.#client = client;
     this.backend = backend;
+    this.#follower = new Follower(client, (shown) => {
+      this.shown = shown;
+      this.#changed();
+    });
+  }
+
+  /** The best plans of the model, from the tightest tolerance to the loosest; null until they are known. */
+  get curve(): readonly TradeoffPoint[] | null {
+    return this.#curve.points;
+  }
+
+  /** How the model is turned while it is held; null while it is not. */
+  get turning(): Rotation | null {
+    return this.#follower.turning;
   }
 
   /** Starts the worker and asks what there is to choose from. */
@@ -201,10 +190,10 @@ export class Session {
   }
 
   /** Follows a model that is turned: by glances while it is held, by a plan when it is let go. */
-  turn(rotation: readonly [number, number, number, number], isFinal: boolean): void {
-    this.turning = isFinal ? null : rotation;
-    if (isFinal) this.change({ rotation: rotationText(rotation) });
-    else void this.#glance();
+  turn(rotation: Rotation, isFinal: boolean): void {
+    if (!isFinal) return void this.#follower.follow(rotation, this.options);
+    this.#follower.turning = null;
+    this.change({ rotation: rotationText(rotation) });
   }
 
   /** Takes the tolerance of a point of the curve, as if it had been typed. */
@@ -217,14 +206,13 @@ export class Session {
 
   /** From 0, the quickest print worth having, to 1, the finest; at once or as soon as the curve is known. */
   set quality(quality: number | null) {
-    this.#quality = quality === null ? null : Math.min(1, Math.max(0, quality));
+    this.#curve.wanted = quality === null ? null : Math.min(1, Math.max(0, quality));
     this.#takeQuality();
   }
 
   get quality(): number | null {
-    const { curve, result } = this;
-    if (this.#quality !== null || curve === null || result === null) return this.#quality;
-    return curve.length < 2 ? 1 : notchOf(curve, result.report.tolerance) / (curve.length - 1);
+    const { wanted } = this.#curve;
+    return wanted ?? (this.result === null ? null : this.#curve.placeOf(this.result.report.tolerance));
   }
 
   /** What the settings ask for; null where they make no sense. */
@@ -304,10 +292,9 @@ export class Session {
     this.model = model;
     this.result = null;
     this.shown = null;
-    this.turning = null;
+    this.#follower.turning = null;
     this.mask = null;
-    this.curve = null;
-    this.#curveOf = null;
+    this.#curve.forget();
     this.#host.loaded?.(model);
     this.replan();
     return model;
@@ -365,7 +352,7 @@ export class Session {
     this.layer = layerAt(report.z_mm, z === undefined ? report.height_mm / 2 : (z * report.height_mm) / (before?.height_mm ?? 1));
     if (before === undefined && this.notice === "cancelled") this.notice = null;
     this.mask = before === undefined ? null : this.mask;
-    if (this.#curveKey() !== this.#curveOf) this.curve = null;
+    this.#curve.fit(result);
     this.#host.planned?.(result);
     this.#changed();
   }
@@ -453,76 +440,20 @@ export class Session {
     return true;
   }
 
-  /** Whether there was a curve to fetch. Uniform plans have none. */
+  /** Whether there was a curve to fetch. */
   async #fetchCurve(result: Result): Promise<boolean> {
-    const key = this.#curveKey();
-    if (result.report.planner === "uniform" || key === this.#curveOf) return false;
-    this.#curveOf = key;
-    const { tolerance: _, ...options } = result.options;
-    const { points } = await this.#client.tradeoff(options, CURVE_POINTS).catch((error: unknown) => {
-      // A plan may hold where no curve does; only a broken worker is news.
-      if (asSlicerError(error).code === "crash" || isAbort(error)) throw error;
-      return { points: null };
-    });
-    if (this.#curveOf === key && this.result !== null) {
-      this.curve = points;
-      this.#changed();
-      this.#takeQuality();
-    }
+    if (!(await this.#curve.fetch(this.#client, result))) return false;
+    this.#changed();
+    this.#takeQuality();
     return true;
   }
 
-  /** Glances at the newest turn, one at a time; the side worker answers in milliseconds. */
-  async #glance(): Promise<void> {
-    if (this.#glancing) return;
-    this.#glancing = true;
-    try {
-      for (let at = this.turning; at !== null && this.options !== null; at = this.turning === at ? null : this.turning) {
-        const options = { ...this.options, rotation: [...at] as [number, number, number, number] };
-        const { report, profile } = await this.#client.glance(options);
-        if (this.turning === null) break;
-        this.shown = shownOf(report, profile, layerRange(options));
-        this.#changed();
-      }
-    } catch {
-      // Where no plan holds there is nothing to follow; the plan will say so when the model is let go.
-    } finally {
-      this.#glancing = false;
-    }
-  }
-
-  /** What the curve depends on: all but the tolerance. */
-  #curveKey(): string | null {
-    if (this.result === null) return null;
-    const { tolerance: _, ...options } = this.result.options;
-    return JSON.stringify(options);
-  }
-
   #takeQuality(): void {
-    if (this.#quality === null || this.curve === null) return;
-    const index = Math.round((1 - this.#quality) * (this.curve.length - 1));
-    this.#quality = null;
-    this.takePoint(index);
+    const index = this.#curve.takeWanted();
+    if (index !== null) this.takePoint(index);
   }
 
   #changed(): void {
     this.#host.requestUpdate();
   }
-}
-
-function shownOf(
-  { metric, bin_mm, z_mm, thickness_mm, layers, print_time_s }: Omit<Shown, "profile" | "limits">,
-  profile: Float32Array,
-  limits: Shown["limits"],
-): Shown {
-  return { metric, bin_mm, z_mm, thickness_mm, layers, print_time_s, profile, limits };
-}
-
-function areSame(a: Options | null, b: Options | null): boolean {
-  return JSON.stringify(a) === JSON.stringify(b);
-}
-
-function asSlicerError(error: unknown): SlicerError {
-  if (error instanceof SlicerError) return error;
-  return new SlicerError("crash", error instanceof Error ? error.message : String(error));
 }

@@ -3,7 +3,7 @@ import { css, html, nothing, type TemplateResult } from "lit";
 import type { Language } from "../texts/index.js";
 import { rows, sentence } from "./comparison.js";
 import { METRICS } from "./metric.js";
-import type { Result, Shown } from "./session.js";
+import type { Result, Shown } from "./result.js";
 import { styled } from "./styled.js";
 
 export const summaryStyles = css`
