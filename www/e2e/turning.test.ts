@@ -1,0 +1,81 @@
+/** The 3-D view within the element: fetched late, and profile, plan and numbers follow the model while it is turned. */
+import type { Page } from "playwright-core";
+import { expect, test } from "vitest";
+import { drop, layers, settled, state } from "./browser.js";
+import { pages } from "./pages.js";
+import { sphere } from "./solids.js";
+import { SOFTWARE_GL } from "./view-pages.js";
+
+const start = pages(SOFTWARE_GL);
+
+const said = (page: Page): Promise<string> =>
+  page.locator("cusp-view #state").evaluate((it) => (it.textContent ?? "").replace(/\s+/g, " ").trim());
+
+async function example(): Promise<Page> {
+  const page = await start("?backend=cpu&rays=512");
+  await page.getByRole("button", { name: "Try the example" }).click();
+  await state(page, "done");
+  await page.waitForSelector("cusp-view");
+  return page;
+}
+
+test("the view is fetched when a model is first shown, not before", async () => {
+  const page = await start();
+  const fetched = (): Promise<string[]> =>
+    page.evaluate(() => performance.getEntriesByType("resource").map(({ name }) => name).filter((name) => name.includes("cusp-view")));
+  expect(await fetched()).toEqual([]);
+  await drop(page, { name: "ball.stl", bytes: sphere(10, 96).bytes });
+  await state(page, "done");
+  await page.waitForSelector("cusp-view");
+  expect(await fetched()).toHaveLength(1);
+  await expect.poll(() => said(page)).toMatch(/^20\.0 × 20\.0 × 20\.0 mm, \d+ layers/);
+});
+
+test("turned by keyboard, the model is planned anew as it stands; undo and a button turn it back", async () => {
+  const page = await example();
+  const upright = await layers(page);
+  await page.getByRole("button", { name: "Turn the model" }).click();
+  await page.locator("cusp-view .stage").focus();
+  for (let i = 0; i < 18; i++) await page.keyboard.press("ArrowUp");
+  await settled(page);
+  await expect.poll(() => layers(page)).not.toBe(upright);
+  const lying = await layers(page);
+  const { searchParams } = new URL(page.url());
+  const rotation = (searchParams.get("rotation") ?? "").split(",").map(Number);
+  expect(Math.hypot(...rotation)).toBeCloseTo(1, 4);
+  // A quarter turn about one axis.
+  expect(Math.abs(rotation[3] ?? 0)).toBeCloseTo(Math.SQRT1_2, 3);
+  await expect.poll(() => said(page)).toMatch(/ × 26\.\d mm, /);
+
+  await page.getByRole("button", { name: "As in the file" }).click();
+  await settled(page);
+  expect(await layers(page)).toBe(upright);
+  expect(new URL(page.url()).searchParams.has("rotation")).toBe(false);
+  await page.getByRole("button", { name: "Undo" }).click();
+  await settled(page);
+  expect(await layers(page)).toBe(lying);
+});
+
+test("while the model is held, numbers and profile follow by glances; let go, it is planned", async () => {
+  const page = await example();
+  const upright = await layers(page);
+  const tell = (rotation: number[], final: boolean): Promise<void> =>
+    page.evaluate(
+      ([rotation, final]) => {
+        const root = document.querySelector("cusp-slicer")?.shadowRoot?.querySelector("cusp-model")?.shadowRoot;
+        root?.querySelector("cusp-view")?.dispatchEvent(new CustomEvent("cusp-rotate", { detail: { rotation, final } }));
+      },
+      [rotation, final] as const,
+    );
+  await tell([Math.SQRT1_2, 0, 0, Math.SQRT1_2], false);
+  await expect.poll(() => layers(page)).not.toBe(upright);
+  // A glance is no task: nothing is busy, and no plan was made.
+  await state(page, "done");
+  expect(new URL(page.url()).searchParams.has("rotation")).toBe(false);
+  const glanced = await layers(page);
+  await tell([Math.SQRT1_2, 0, 0, Math.SQRT1_2], true);
+  await settled(page);
+  expect(new URL(page.url()).searchParams.has("rotation")).toBe(true);
+  // Planned by the same facets; rays only leave out those that lie inside.
+  expect(Math.abs((await layers(page)) - glanced)).toBeLessThan(0.02 * glanced);
+});
