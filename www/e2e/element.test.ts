@@ -100,7 +100,8 @@ test("methods: load, plan, export, cancel", async () => {
   const found = await page.evaluate(async () => {
     const element = document.querySelector<CuspSlicer>("#a");
     if (element === null) throw new Error("there is no element");
-    const name = (error: Error & { code?: string }): string => error.code ?? error.name;
+    // A `DOMException` has a code of its own, which is a number.
+    const name = (error: Error & { code?: unknown }): string => (typeof error.code === "string" ? error.code : error.name);
     const early = await element.plan().catch(name);
     const none = await element.export().catch(name);
     const bad = await element.load("bad.stl").catch(name);

@@ -1,7 +1,7 @@
 /** Settings as a person goes through them: quality, undo, the address, languages, pasting; and the look at masks. */
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
-import { drop, layers, maskOf, settled, state, words } from "./browser.js";
+import { download, drop, layers, maskOf, settled, state, words } from "./browser.js";
 import { pages } from "./pages.js";
 import { sphere } from "./solids.js";
 
@@ -136,4 +136,31 @@ test("a mask is zoomed into, to its very pixels, and moved by keyboard", async (
   expect((await row()).grey).toBe(0);
   await page.keyboard.press("-");
   expect(await page.locator("cusp-mask .tools").innerText()).toContain("16 ×");
+});
+
+test("a printer gives pixels and file; a model too large for it is scaled to fit by a button beside it", async () => {
+  const page = await opened("?backend=cpu");
+  await page.getByLabel("Printer").selectOption("Prusa SL1S SPEED");
+  await settled(page);
+  expect(await page.locator("details.figures").evaluate((it) => it.textContent)).toMatch(/1,620 × 2,560 pixels of 0\.05/);
+  expect(await page.getByLabel("Resolution").count()).toBe(0);
+
+  await page.getByLabel("Scale to height").fill("120");
+  await state(page, "error");
+  const problem = page.locator("cusp-settings .field", { has: page.getByLabel("Printer") }).getByRole("alert");
+  expect(await problem.innerText()).toContain("The model is too large for this printer");
+  await problem.getByRole("button", { name: /^Scale to 80\.\d mm$|^Scale to 81 mm$/ }).click();
+  await settled(page);
+  expect(Number(await page.getByLabel("Scale to height").inputValue())).toBeLessThanOrEqual(81);
+
+  // Its own file has one thickness for all layers, which an adaptive plan has not.
+  await page.getByLabel("Scale to height").fill("10");
+  await settled(page);
+  await page.getByRole("button", { name: /Download print file/ }).click();
+  await state(page, "error");
+  const file = page.locator("cusp-settings .field", { has: page.getByLabel("Print file") }).getByRole("alert");
+  await file.getByRole("button", { name: "Uniform layers of 0.05 mm" }).click();
+  await settled(page);
+  const saved = await download(page);
+  expect(saved.suggestedFilename()).toBe("ball-cusp.sl1");
 });
