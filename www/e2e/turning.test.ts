@@ -79,3 +79,36 @@ test("while the model is held, numbers and profile follow by glances; let go, it
   // Planned by the same facets; rays only leave out those that lie inside.
   expect(Math.abs((await layers(page)) - glanced)).toBeLessThan(0.02 * glanced);
 });
+
+test("beside the chart, heights are where the chart has them", async () => {
+  const page = await example();
+  const button = page.getByRole("button", { name: "Beside the profile" });
+  await expect.poll(() => button.getAttribute("aria-pressed")).toBe("true");
+  /** Upper edge and plate of the model on the screen, and those of the chart's plot. */
+  const edges = (): Promise<number[]> =>
+    page.evaluate(async () => {
+      const root = document.querySelector("cusp-slicer")?.shadowRoot;
+      const panel = root?.querySelector("cusp-model")?.shadowRoot;
+      const view = panel?.querySelector("cusp-view");
+      const over = root?.querySelector("cusp-chart")?.shadowRoot?.querySelector(".u-over")?.getBoundingClientRect();
+      const pressed = panel?.querySelector<HTMLElement>(".tools button[aria-pressed=true]:last-of-type");
+      if (!view || !over || !pressed) throw new Error("there is no view beside a chart");
+      const frame = new Promise<{ top_px: number; bottom_px: number }>((resolve) => {
+        const hear = (event: Event): void => {
+          const { detail } = event as CustomEvent<{ top_px: number; bottom_px: number } | null>;
+          if (detail === null) return;
+          view.removeEventListener("cusp-frame", hear);
+          resolve(detail);
+        };
+        view.addEventListener("cusp-frame", hear);
+      });
+      // It tells where heights are when it is aligned anew.
+      pressed.click();
+      await new Promise((resolve) => setTimeout(resolve, 300));
+      pressed.click();
+      const { top } = view.getBoundingClientRect();
+      const { top_px, bottom_px } = await frame;
+      return [top + top_px - over.top, top + bottom_px - over.bottom];
+    });
+  for (const distance of await edges()) expect(Math.abs(distance)).toBeLessThan(1);
+});

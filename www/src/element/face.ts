@@ -9,6 +9,7 @@ import { modelCard } from "./model-card.js";
 import type { Panel } from "./panel-names.js";
 import { explain, type Problem } from "./problem.js";
 import { problemBox } from "./problem-box.js";
+import type { PlotPlace } from "./profile-chart.js";
 import { progressBar } from "./progress.js";
 import type { Result } from "./result.js";
 import type { Session } from "./session.js";
@@ -174,7 +175,13 @@ function results(drawn: Drawn, result: Result): TemplateResult {
       : nothing}
     ${panels.has("profile")
       ? html`<section class="card" part="profile" aria-label=${texts.chart.region}>
-          <cusp-chart .data=${shown} .layer=${layer} .language=${language} @cusp-layer=${look}></cusp-chart>
+          <cusp-chart
+            .data=${shown}
+            .layer=${layer}
+            .language=${language}
+            @cusp-layer=${look}
+            @cusp-plot=${placed}
+          ></cusp-chart>
         </section>`
       : nothing}
     ${panels.has("quality") && result.report.planner !== "uniform"
@@ -200,6 +207,13 @@ function results(drawn: Drawn, result: Result): TemplateResult {
         </section>`
       : nothing}
   `;
+}
+
+/** Tells the view where the chart beside it shows which heights. */
+function placed({ target, detail }: CustomEvent<PlotPlace>): void {
+  const root = (target as Element).getRootNode() as ShadowRoot;
+  const view = root.querySelector("cusp-model");
+  if (view !== null) view.plot = detail;
 }
 
 const rotations = new Map<string, Rotation>();

@@ -3,6 +3,7 @@ import { css, html, LitElement, nothing, type PropertyValues, type TemplateResul
 import type { Slicer } from "../api/index.js";
 import type { Printer } from "../api/wire.js";
 import { languageOf, type Language } from "../texts/index.js";
+import type { Inset } from "../view/cameras.js";
 import type { Look } from "../view/model.js";
 import type { PaletteName } from "../view/palette.js";
 import type { BuildVolume } from "../view/plate.js";
@@ -10,10 +11,13 @@ import type { Rotation } from "../view/pose.js";
 import type { RotateDetail } from "../view/events.js";
 import type { Tool } from "../view/stage.js";
 import type { ViewTexts } from "../view/texts.js";
+import type { PlotPlace } from "./profile-chart.js";
 import type { Shown } from "./result.js";
 import { shared } from "./styles.js";
 
 const MICROMETRES = 1000;
+/** Room around the model where there is no chart beside it. */
+const ALONE: Inset = { top_px: 12, bottom_px: 12 };
 const TOOLS: readonly Tool[] = ["turn", "rotate", "flat"];
 
 /** What the view says, from the catalogue. */
@@ -45,6 +49,8 @@ export class CuspModel extends LitElement {
     scale: { type: Number },
     printer: { attribute: false },
     language: { attribute: false },
+    plot: { attribute: false },
+    inset: { state: true },
     positions: { state: true },
     isThere: { state: true },
     tool: { state: true },
@@ -62,15 +68,20 @@ export class CuspModel extends LitElement {
   declare scale: number;
   declare printer: Printer | null;
   declare language: Language;
+  /** Where the chart beside it shows which heights; null without a chart. */
+  declare plot: PlotPlace | null;
+  declare inset: Inset;
   declare positions: Float32Array | null;
   declare isThere: boolean;
   declare tool: Tool;
   declare look: Look;
   declare palette: PaletteName;
+  /** Whether heights are to be where the chart has them, if it stands beside. */
   declare aligned: boolean;
 
   #texts: { of: Language; words: ViewTexts } | null = null;
   #asked: unknown = null;
+  readonly #resized = new ResizeObserver(() => this.requestUpdate());
 
   constructor() {
     super();
@@ -82,12 +93,14 @@ export class CuspModel extends LitElement {
     this.scale = 1;
     this.printer = null;
     this.language = languageOf();
+    this.plot = null;
+    this.inset = ALONE;
     this.positions = null;
     this.isThere = false;
     this.tool = "turn";
     this.look = "thickness";
     this.palette = "classic";
-    this.aligned = false;
+    this.aligned = true;
   }
 
   static override styles = [
@@ -102,7 +115,7 @@ export class CuspModel extends LitElement {
       .view {
         flex: 1;
         display: grid;
-        min-height: 24rem;
+        min-height: 28rem;
       }
       .tools {
         display: flex;
@@ -121,6 +134,16 @@ export class CuspModel extends LitElement {
     `,
   ];
 
+  override connectedCallback(): void {
+    super.connectedCallback();
+    this.#resized.observe(this);
+  }
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    this.#resized.disconnect();
+  }
+
   override firstUpdated(): void {
     void import("../view/cusp-view.js").then(() => (this.isThere = true));
   }
@@ -129,8 +152,17 @@ export class CuspModel extends LitElement {
     if (changed.has("model") && this.model !== this.#asked) void this.#fetch();
   }
 
+  override updated(): void {
+    // Where the view lies is known when it is laid out.
+    const inset = this.#beside();
+    const { top_px, bottom_px } = this.inset;
+    if (inset.top_px !== top_px || inset.bottom_px !== bottom_px) this.inset = inset;
+  }
+
   override render(): TemplateResult {
     const { shown, language, tool } = this;
+    const canAlign = this.inset !== ALONE;
+    const isBeside = canAlign && this.aligned;
     const { texts } = language;
     const words = texts.view;
     const isTurned = this.rotation.some((part, i) => part !== (i === 3 ? 1 : 0));
@@ -152,7 +184,10 @@ export class CuspModel extends LitElement {
               .look=${this.look}
               .palette=${this.palette}
               .tool=${tool}
-              .aligned=${this.aligned}
+              .aligned=${isBeside}
+              .showsLegend=${!isBeside}
+              .heights_mm=${isBeside ? (this.plot?.heights_mm ?? null) : null}
+              .inset=${isBeside ? this.inset : ALONE}
               .texts=${this.#words()}
               @cusp-rotate=${(event: CustomEvent<RotateDetail>) => this.#tell(event)}
               @cusp-layer=${(event: CustomEvent<number>) => this.#tell(event)}
@@ -163,10 +198,19 @@ export class CuspModel extends LitElement {
         ${TOOLS.map((it) => toggle(words.tools[it], tool === it, () => (this.tool = it)))}
         ${toggle(words.printed, this.look === "printed", () => (this.look = this.look === "printed" ? "thickness" : "printed"))}
         ${toggle(words.safe, this.palette === "safe", () => (this.palette = this.palette === "safe" ? "classic" : "safe"))}
-        ${toggle(words.aligned, this.aligned, () => (this.aligned = !this.aligned))}
+        ${!canAlign ? nothing : toggle(words.aligned, this.aligned, () => (this.aligned = !this.aligned))}
         ${isTurned ? html`<button class="small" @click=${this.#upright}>${words.upright}</button>` : nothing}
       </div>
     `;
+  }
+
+  /** Room that puts heights where the chart has them, if it stands beside and not above or below. */
+  #beside(): Inset {
+    const view = this.renderRoot.querySelector("cusp-view")?.getBoundingClientRect();
+    const plot = this.plot?.over.getBoundingClientRect();
+    if (view === undefined || plot === undefined) return ALONE;
+    const isBeside = plot.top >= view.top && plot.bottom <= view.bottom && plot.height > 0;
+    return isBeside ? { top_px: plot.top - view.top, bottom_px: view.bottom - plot.bottom } : ALONE;
   }
 
   /** Made once a language: another object would be another language to the view. */

@@ -9,6 +9,14 @@ import { layerAt } from "./layers.js";
 import { METRICS } from "./metric.js";
 import { shared } from "./styles.js";
 
+/** Where the chart shows which heights. */
+export interface PlotPlace {
+  /** Its upper and lower edge are those of the heights. */
+  over: HTMLElement;
+  /** Lowest and highest, mm. */
+  heights_mm: readonly [number, number];
+}
+
 export class CuspChart extends LitElement {
   static override properties = {
     data: { attribute: false },
@@ -187,6 +195,7 @@ export class CuspChart extends LitElement {
           const { min, max } = u.scales["x"] ?? {};
           this.zoomed = min != null && max != null && max - min < 0.99 * whole;
           this.#mark();
+          if (min != null && max != null) this.#place([min, max]);
         },
       ],
       setCursor: [
@@ -196,12 +205,20 @@ export class CuspChart extends LitElement {
       ],
     };
     this.#plot = new uPlot(options, chartData(data), frame);
+    this.#place([0, whole]);
     this.#marker = document.createElement("div");
     this.#marker.className = "marker";
     this.#plot.over.append(this.#marker);
     this.#plot.over.addEventListener("click", this.#clicked);
     this.#mark();
   };
+
+  /** Says where which heights are, for what stands beside the chart at the same scale. */
+  #place(heights_mm: readonly [number, number]): void {
+    if (this.#plot === null) return;
+    const detail: PlotPlace = { over: this.#plot.over, heights_mm };
+    this.dispatchEvent(new CustomEvent<PlotPlace>("cusp-plot", { detail }));
+  }
 
   readonly #clicked = (event: MouseEvent): void => {
     const plot = this.#plot;
