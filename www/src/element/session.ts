@@ -5,20 +5,20 @@
  */
 import { asSlicerError, isAbort, type SlicerError } from "../api/error.js";
 import type { Model, Plan, Mask, Slicer, Watch } from "../api/index.js";
-import type { Backend, Options, Printer, Resin, TradeoffPoint } from "../api/wire.js";
+import type { Backend, Options, TradeoffPoint } from "../api/wire.js";
 import { sameRays } from "../api/wire.js";
 import type { Source } from "../api/source.js";
 import { archiveName, choose } from "./choice.js";
 import { Curve } from "./curve.js";
 import { Follower, type Rotation } from "./follow.js";
-import { History } from "./history.js";
 import { layerAt } from "./layers.js";
 import { METRICS } from "./metric.js";
 import type { Failure } from "./problem.js";
 import type { Busy } from "./progress.js";
 import { areSame, shownOf, type Result, type Shown } from "./result.js";
 import * as round from "./round.js";
-import { check, DEFAULT_SETTINGS, layerRange, rotationText, withTolerance, type Faults, type Settings } from "./settings.js";
+import { DEFAULT_SETTINGS, layerRange, rotationText, withTolerance, type Settings } from "./settings.js";
+import { Preferences } from "./preferences.js";
 
 export interface Download {
   name: string;
@@ -43,12 +43,8 @@ export interface Setup {
 
 type Client = Pick<Slicer, "load" | "plan" | "mask" | "export" | "tradeoff" | "glance" | "printers" | "warm">;
 
-/** Pause after the last keystroke before planning anew. */
-const DEBOUNCE_MS = 250;
-
-export class Session {
+export class Session extends Preferences {
   model: Model | null = null;
-  settings: Settings;
   result: Result | null = null;
   busy: Busy | null = null;
   failure: Failure | null = null;
@@ -57,10 +53,6 @@ export class Session {
   /** The layer looked at, from 0. */
   layer = 0;
   mask: Mask | null = null;
-  /** Asked for in every plan; null leaves the choice to the core. */
-  backend: Backend | null;
-  printers: readonly Printer[] = [];
-  resins: readonly Resin[] = [];
   /** What charts and the view draw; null before there is a plan. */
   shown: Shown | null = null;
   /** Files that came together, and which of them is open. */
@@ -69,7 +61,6 @@ export class Session {
 
   readonly #host: Host;
   readonly #client: Client;
-  readonly #history = new History<Settings>();
   readonly #curve = new Curve();
   readonly #follower: Follower;
   /** What runs. `options` are those of a plan, and null for anything else. */
@@ -84,10 +75,9 @@ export class Session {
   #archive: { of: Result; blob: Blob } | null = null;
 
   constructor(host: Host, client: Client, { settings = DEFAULT_SETTINGS, backend = null }: Setup = {}) {
-    this.settings = { ...settings };
+    super(settings, backend);
     this.#host = host;
     this.#client = client;
-    this.backend = backend;
     this.#follower = new Follower(client, (shown) => {
       this.shown = shown;
       this.#changed();
@@ -117,11 +107,6 @@ export class Session {
     );
   }
 
-  get faults(): Faults {
-    const checked = check(this.settings, this);
-    return checked.ok ? {} : checked.faults;
-  }
-
   /** Whether the result on show is of earlier settings, because those on show give none. */
   get earlier(): boolean {
     return this.result !== null && this.busy === null && (Object.keys(this.faults).length > 0 || this.#failed);
@@ -131,14 +116,6 @@ export class Session {
   get taken(): number | null {
     const { result, settings } = this;
     return result?.report.metric === settings.metric && result.options.tolerance === undefined ? result.report.tolerance : null;
-  }
-
-  get canUndo(): boolean {
-    return this.#history.canUndo;
-  }
-
-  get canRedo(): boolean {
-    return this.#history.canRedo;
   }
 
   /** Takes the STLs of a drop or a dialogue: the first is opened, the others wait. */
@@ -168,27 +145,6 @@ export class Session {
     return this.#open(source, name);
   }
 
-  /** Takes settings that nobody typed: there is no step back from them. */
-  preset(patch: Partial<Settings>): void {
-    this.#set({ ...this.settings, ...patch }, DEBOUNCE_MS);
-  }
-
-  /** Changes settings and plans again, soon if they make sense. */
-  change(patch: Partial<Settings>): void {
-    this.#history.note(this.settings, Object.keys(patch).join(), performance.now());
-    this.#set({ ...this.settings, ...patch }, DEBOUNCE_MS);
-  }
-
-  undo(): void {
-    const before = this.#history.undo(this.settings);
-    if (before !== null) this.#set(before, 0);
-  }
-
-  redo(): void {
-    const after = this.#history.redo(this.settings);
-    if (after !== null) this.#set(after, 0);
-  }
-
   /** Follows a model that is turned: by glances while it is held, by a plan when it is let go. */
   turn(rotation: Rotation, isFinal: boolean): void {
     if (!isFinal) return void this.#follower.follow(rotation, this.options);
@@ -213,13 +169,6 @@ export class Session {
   get quality(): number | null {
     const { wanted } = this.#curve;
     return wanted ?? (this.result === null ? null : this.#curve.placeOf(this.result.report.tolerance));
-  }
-
-  /** What the settings ask for; null where they make no sense. */
-  get options(): Options | null {
-    const checked = check(this.settings, this);
-    if (!checked.ok) return null;
-    return this.backend === null ? checked.options : { ...checked.options, backend: this.backend };
   }
 
   /** Whether the result on show is what the settings ask for. */
@@ -300,11 +249,10 @@ export class Session {
     return model;
   }
 
-  #set(settings: Settings, delay_ms: number): void {
-    this.settings = settings;
+  protected override preferred(delay_ms: number): void {
     this.failure = null;
     this.notice = null;
-    this.#host.settingsChanged?.(settings);
+    this.#host.settingsChanged?.(this.settings);
     this.replan(delay_ms);
   }
 
