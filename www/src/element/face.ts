@@ -96,7 +96,7 @@ function work(drawn: Drawn): TemplateResult {
       ${result === null ? waiting(drawn) : results(drawn, result)}
     </div>
     ${busy !== null && result !== null
-      ? html`<div class="card toast">${progressBar(busy, language, () => session.cancel())}</div>`
+      ? html`<div class="card toast" part="toast">${progressBar(busy, language, () => session.cancel())}</div>`
       : nothing}
   </div>`;
 }
