@@ -10,9 +10,10 @@ import { afterAll, afterEach, beforeAll, expect, test, type TestContext } from "
 import { buildPage } from "../examples/shop/build.js";
 import { FIXED, PRINTERS, RESINS, type ShopPrinter, type ShopResin } from "../examples/shop/catalogue.js";
 import { findCusp } from "../examples/shop/cusp.js";
-import { priceOf } from "../examples/shop/price.js";
+import { priceOf, type Print } from "../examples/shop/price.js";
 import { createShop, type Limits, type Shop } from "../examples/shop/server/shop.js";
 import type { Order } from "../examples/shop/server/store.js";
+import type { Options } from "../src/api/index.js";
 import { binaryStl, exampleTriangles } from "../src/page/example.js";
 import { launch, state } from "./browser.js";
 import { freePort } from "./serve.js";
@@ -124,13 +125,20 @@ withCusp("a customer sees look, time, resin and price, chooses, and orders", asy
   await page.getByRole("slider", { name: "Quality" }).press("ArrowRight");
   await expect.poll(() => price.innerText()).not.toBe(first);
   await page.getByText(resin.name).click();
+  await page.getByLabel("Copies").fill("99");
+  expect(await page.locator("#order").isDisabled()).toBe(true);
+  expect(await page.locator("#price-note").innerText()).toBe("From 1 to 20 copies, please.");
   await page.getByLabel("Copies").fill("2");
-  const shown = (): Promise<{ print_time_s: number; resin_ml: number; resin: string | undefined }> =>
+  await page.evaluate(() => {
+    const slicer = document.querySelector("cusp-slicer");
+    if (slicer !== null) slicer.query = `${slicer.query}&rotation=0.1,-0.2,0.05,1`;
+  });
+  const shown = (): Promise<Print & { made: unknown[] }> =>
     page.evaluate(() => {
-      const { print_time_s, resin_ml, resin } = document.querySelector("cusp-slicer")?.result?.report ?? {};
-      return { print_time_s: print_time_s ?? 0, resin_ml: resin_ml ?? 0, resin: resin?.name };
+      const { print_time_s, resin_ml, resin, options } = document.querySelector("cusp-slicer")?.result?.report ?? {};
+      return { print_time_s: print_time_s ?? 0, resin_ml: resin_ml ?? 0, made: [resin?.name, options?.rotation?.length] };
     });
-  await expect.poll(async () => (await shown()).resin).toBe(resin.name);
+  await expect.poll(async () => (await shown()).made).toEqual([resin.name, 4]);
   const { total_cents } = priceOf(await shown(), printer, resin, 2);
   await expect.poll(() => price.innerText()).toBe(`€${(total_cents / 100).toFixed(2)}`);
 
@@ -145,14 +153,15 @@ withCusp("a customer sees look, time, resin and price, chooses, and orders", asy
 
   // What lies there is what the native program makes of the same model.
   expect(await readFile(join(folder, "model.stl"))).toEqual(Buffer.from(binaryStl(exampleTriangles())));
-  const { options } = JSON.parse(await readFile(join(folder, "plan.json"), "utf8")) as { options: { tolerance: number; resin: object } };
+  const { options } = JSON.parse(await readFile(join(folder, "plan.json"), "utf8")) as { options: Required<Options> };
   await writeFile(join(root, "resin.json"), JSON.stringify(options.resin));
   const own = join(root, "own.zip");
   const call = ["slice", "--printer", printer.name, "--tolerance", String(options.tolerance), "--resin", join(root, "resin.json")];
+  call.push("--rotation", String(options.rotation));
   execFileSync(cusp, [...call, "-o", own, join(folder, "model.stl")], { stdio: "ignore" });
   expect((await readFile(own)).equals(await readFile(join(folder, "print.zip")))).toBe(true);
   expect(complaints).toEqual([]);
-});
+}, 120_000);
 
 withCusp("figures that were lowered on the way are refused, with the reason beside the button", async () => {
   const open = await start();
@@ -219,14 +228,18 @@ test("an upload that is too large is refused, and the page says so", async () =>
 });
 
 test("an order that is cancelled leaves nothing behind", async () => {
-  const slow = await program("setInterval(() => {}, 1000);");
+  const noted = join(root, "pid");
+  const slow = await program(`require("node:fs").writeFileSync(${JSON.stringify(noted)}, String(process.pid)); setInterval(() => {}, 1000);`);
   const open = await start({}, slow);
   const page = await visit(open.address);
   await loadSample(page);
   await press(page);
-  await expect.poll(async () => (await readdir(join(open.folder, "incoming"))).length).toBe(1);
+  await expect.poll(() => readFile(noted, "utf8").catch(() => "")).toMatch(/^\d+$/);
+  const pid = Number(await readFile(noted, "utf8"));
+  expect(isRunning(pid)).toBe(true);
   await page.locator("#cancel").click();
   expect(await page.locator("#standing:not(:empty)").innerText()).toBe("Cancelled. Nothing was ordered.");
+  await expect.poll(() => isRunning(pid)).toBe(false);
   await expectNoLeftovers(open);
   expect(await orders(open)).toEqual([]);
 });
@@ -257,6 +270,14 @@ test("every answer comes under the policy that the guide names", async () => {
   }
   expect((await fetch(`${address}..%2fserver%2fshop.ts`)).status).toBe(404);
 });
+
+function isRunning(pid: number): boolean {
+  try {
+    return process.kill(pid, 0);
+  } catch {
+    return false;
+  }
+}
 
 /** A stand-in for the native program. */
 async function program(script: string): Promise<string> {

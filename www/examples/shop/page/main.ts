@@ -48,7 +48,8 @@ function draw(): void {
   if (now !== null) fill(now);
   find("#figures").hidden = find("#parts").hidden = now === null;
   find("#price").textContent = now === null ? "" : money(now.price.total_cents);
-  find("#price-note").textContent = now === null ? "The price comes with your model." : "incl. VAT";
+  const missing = slicer.result === null ? "The price comes with your model." : `From 1 to ${MOST_COPIES} copies, please.`;
+  find("#price-note").textContent = now === null ? missing : "incl. VAT";
   const isPlanning = slicer.state === "busy" && ordering === null;
   find(".choices").classList.toggle("replanning", isPlanning && now !== null);
   button.disabled = now === null || isPlanning || ordering !== null;
