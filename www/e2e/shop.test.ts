@@ -1,55 +1,38 @@
-/** The order-site example: what a customer does on its page, and what its server takes and refuses. */
+/** The order-site example as a customer meets it, in a real browser. */
 import { execFileSync, spawn, type ChildProcess } from "node:child_process";
-import { cp, mkdir, mkdtemp, readdir, readFile, rm, writeFile } from "node:fs/promises";
-import { tmpdir } from "node:os";
+import { cp, mkdir, readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import axe from "axe-core";
 import type { Browser, BrowserContextOptions, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect, test, type TestContext } from "vitest";
-import { buildPage } from "../examples/shop/build.js";
-import { FIXED, PRINTERS, RESINS, type ShopPrinter, type ShopResin } from "../examples/shop/catalogue.js";
 import { findCusp } from "../examples/shop/cusp.js";
 import { priceOf, type Print } from "../examples/shop/price.js";
-import { createShop, type Limits, type Shop } from "../examples/shop/server/shop.js";
 import type { Order } from "../examples/shop/server/store.js";
 import type { Options } from "../src/api/index.js";
 import { binaryStl, exampleTriangles } from "../src/page/example.js";
 import { launch, state } from "./browser.js";
 import { freePort } from "./serve.js";
-import { ELEMENT_POLICY } from "./static.js";
+import { expectNoLeftovers, orders, printer, resin, shops } from "./shop-open.js";
 
 const cusp = findCusp();
 const www = fileURLToPath(new URL("..", import.meta.url));
-const [resin, printer] = [RESINS[1], PRINTERS[0]].map((it) => {
-  if (it === undefined) throw new Error("the shop has nothing to sell");
-  return it;
-}) as [ShopResin, ShopPrinter];
+const { folder: newFolder, open: start, program } = shops();
 
-let built: string;
-let root: string;
 let browser: Browser;
-let shop: Shop | null = null;
 const pages: Page[] = [];
 const children: ChildProcess[] = [];
 
 beforeAll(async () => {
-  built = await buildPage();
-  root = await mkdtemp(join(tmpdir(), "cusp-shop-test-"));
   browser = await launch();
-}, 120_000);
+});
 
 afterEach(async () => {
   await Promise.all(pages.splice(0).map((page) => page.context().close()));
-  await shop?.close();
-  shop = null;
   for (const child of children.splice(0)) child.kill("SIGKILL");
 });
 
-afterAll(async () => {
-  await browser.close();
-  await rm(root, { recursive: true, force: true });
-});
+afterAll(() => browser.close());
 
 /** A test of what only the native program can tell; where there is none it is skipped and says so. */
 function withCusp(name: string, body: (cusp: string) => Promise<void>, timeout_ms?: number): void {
@@ -58,17 +41,6 @@ function withCusp(name: string, body: (cusp: string) => Promise<void>, timeout_m
     await body(cusp);
   };
   test(name, run, timeout_ms);
-}
-
-interface Open {
-  address: string;
-  folder: string;
-}
-
-async function start(limits: Partial<Limits> = {}, program = cusp ?? "cusp"): Promise<Open> {
-  const folder = await mkdtemp(join(root, "orders-"));
-  shop = await createShop({ folder, pages: built, cusp: program, ...limits });
-  return { address: await shop.listen(0), folder };
 }
 
 async function visit(address: string, options: BrowserContextOptions = {}): Promise<Page> {
@@ -100,17 +72,16 @@ async function cheat(page: Page, change: (form: FormData) => Promise<void> | voi
   })()`);
 }
 
-async function orders({ folder }: Open): Promise<string[]> {
-  return readdir(join(folder, "orders"));
-}
-
-/** Nothing of those that were refused, or went away, stays behind. */
-async function expectNoLeftovers({ folder }: Open): Promise<void> {
-  await expect.poll(() => readdir(join(folder, "incoming"))).toEqual([]);
+function isRunning(pid: number): boolean {
+  try {
+    return process.kill(pid, 0);
+  } catch {
+    return false;
+  }
 }
 
 withCusp("a customer sees look, time, resin and price, chooses, and orders", async (cusp) => {
-  const open = await start();
+  const open = await start(cusp);
   const page = await visit(open.address);
   const complaints: string[] = [];
   page.on("pageerror", (error) => complaints.push(error.message));
@@ -154,17 +125,18 @@ withCusp("a customer sees look, time, resin and price, chooses, and orders", asy
   // What lies there is what the native program makes of the same model.
   expect(await readFile(join(folder, "model.stl"))).toEqual(Buffer.from(binaryStl(exampleTriangles())));
   const { options } = JSON.parse(await readFile(join(folder, "plan.json"), "utf8")) as { options: Required<Options> };
-  await writeFile(join(root, "resin.json"), JSON.stringify(options.resin));
-  const own = join(root, "own.zip");
-  const call = ["slice", "--printer", printer.name, "--tolerance", String(options.tolerance), "--resin", join(root, "resin.json")];
+  const scratch = await newFolder("scratch");
+  await writeFile(join(scratch, "resin.json"), JSON.stringify(options.resin));
+  const own = join(scratch, "own.zip");
+  const call = ["slice", "--printer", printer.name, "--tolerance", String(options.tolerance), "--resin", join(scratch, "resin.json")];
   call.push("--rotation", String(options.rotation));
   execFileSync(cusp, [...call, "-o", own, join(folder, "model.stl")], { stdio: "ignore" });
   expect((await readFile(own)).equals(await readFile(join(folder, "print.zip")))).toBe(true);
   expect(complaints).toEqual([]);
 }, 120_000);
 
-withCusp("figures that were lowered on the way are refused, with the reason beside the button", async () => {
-  const open = await start();
+withCusp("figures that were lowered on the way are refused, with the reason beside the button", async (cusp) => {
+  const open = await start(cusp);
   const page = await visit(open.address);
   await loadSample(page);
   await cheat(page, async (form) => {
@@ -181,8 +153,8 @@ withCusp("figures that were lowered on the way are refused, with the reason besi
   await expectNoLeftovers(open);
 });
 
-withCusp("a print file that is not the plan's is refused", async () => {
-  const open = await start();
+withCusp("a print file that is not the plan's is refused", async (cusp) => {
+  const open = await start(cusp);
   const page = await visit(open.address);
   await loadSample(page);
   await cheat(page, async (form) => {
@@ -197,8 +169,8 @@ withCusp("a print file that is not the plan's is refused", async () => {
   await expectNoLeftovers(open);
 });
 
-withCusp("a price of the customer's own is refused, and the honest one is taken afterwards", async () => {
-  const open = await start();
+withCusp("a price of the customer's own is refused, and the honest one is taken afterwards", async (cusp) => {
+  const open = await start(cusp);
   const page = await visit(open.address);
   await loadSample(page);
   await cheat(page, (form) => {
@@ -215,22 +187,19 @@ withCusp("a price of the customer's own is refused, and the honest one is taken 
 
 test("an upload that is too large is refused, and the page says so", async () => {
   const most = { plan: 1e6, model: 1e6, print: 1e7 };
-  const open = await start({ most_bytes: most }, "never called");
+  const open = await start("never called", { most_bytes: most });
   const page = await visit(open.address);
   await loadSample(page);
   await press(page);
   expect(await alert(page)).toBe("The model is larger than the 1 MB that this shop takes.");
   expect(await orders(open)).toEqual([]);
   await expectNoLeftovers(open);
-  // Whoever announces more than all three together is not even listened to.
-  const answer = await post(open, { print: new Blob([new Uint8Array(13e6)]) });
-  expect(answer).toMatchObject({ status: 413, code: "too-large" });
 });
 
 test("an order that is cancelled leaves nothing behind", async () => {
-  const noted = join(root, "pid");
+  const noted = join(await newFolder("noted"), "pid");
   const slow = await program(`require("node:fs").writeFileSync(${JSON.stringify(noted)}, String(process.pid)); setInterval(() => {}, 1000);`);
-  const open = await start({}, slow);
+  const open = await start(slow);
   const page = await visit(open.address);
   await loadSample(page);
   await press(page);
@@ -248,7 +217,7 @@ test.each([
   ["light", 1280],
   ["dark", 390],
 ] as const)("nothing is amiss for who cannot see it, and nothing sticks out: %s, %i px", async (colorScheme, width) => {
-  const open = await start();
+  const open = await start("never called");
   const page = await visit(open.address, { colorScheme, viewport: { width, height: 844 }, reducedMotion: "reduce" });
   for (const step of [() => Promise.resolve(), () => loadSample(page)]) {
     await step();
@@ -259,153 +228,8 @@ test.each([
   }
 });
 
-test("every answer comes under the policy that the guide names", async () => {
-  const { address } = await start();
-  const guide = await readFile(new URL("../../docs/embed.md", import.meta.url), "utf8");
-  expect(guide).toContain(ELEMENT_POLICY);
-  for (const path of ["", "goblet.stl", "nowhere", "..%2fserver%2fshop.ts"]) {
-    const { headers } = await fetch(address + path);
-    expect(headers.get("content-security-policy")).toMatch(new RegExp(`^${ELEMENT_POLICY.replaceAll(/[.*+?^${}()|[\]\\]/g, "\\$&")};`));
-    expect(headers.get("x-content-type-options")).toBe("nosniff");
-  }
-  expect((await fetch(`${address}..%2fserver%2fshop.ts`)).status).toBe(404);
-});
-
-function isRunning(pid: number): boolean {
-  try {
-    return process.kill(pid, 0);
-  } catch {
-    return false;
-  }
-}
-
-/** A stand-in for the native program. */
-async function program(script: string): Promise<string> {
-  const path = join(await mkdtemp(join(root, "program-")), "cusp");
-  await writeFile(path, `#!${process.execPath}\n${script}\n`, { mode: 0o755 });
-  return path;
-}
-
-const VERDICT = { layers: 3, max_error: 0.05, tolerance: 0.06, print_time_s: 3600, resin_ml: 10, print_is_same: true };
-const HONEST = `console.log(${JSON.stringify(JSON.stringify(VERDICT))});`;
-const { note: _note, swatch: _swatch, ml_cents: _cents, ...cured } = resin;
-const OPTIONS = { ...FIXED, printer: printer.name, resin: cured, tolerance: 0.06 };
-
-interface Sent {
-  options?: object;
-  print?: Blob;
-  fields?: Readonly<Record<string, string | Blob>>;
-  headers?: Readonly<Record<string, string>>;
-  signal?: AbortSignal;
-}
-
-/** An order without a browser, honest where nothing else is said. */
-async function post({ address }: Open, sent: Sent = {}): Promise<{ status: number; code?: string; message?: string }> {
-  const form = new FormData();
-  const plan = new Blob([JSON.stringify({ ...VERDICT, options: { ...OPTIONS, ...sent.options } })], { type: "application/json" });
-  const file = new Blob(["solid"], { type: "model/stl" });
-  const price_cents = String(priceOf(VERDICT, printer, resin, 1).total_cents);
-  const parts = { copies: "1", price_cents, plan, model: file, print: sent.print ?? file, ...sent.fields };
-  for (const [name, part] of Object.entries(parts)) form.set(name, part);
-  const { headers = {}, signal = null } = sent;
-  const response = await fetch(`${address}orders`, { method: "POST", body: form, headers, signal });
-  return { status: response.status, ...((await response.json()) as object) };
-}
-
-test("options that the shop does not offer are refused before anything is run", async () => {
-  const open = await start({}, "never called");
-  const refused = { status: 422, code: "option-refused" };
-  for (const options of [
-    { rays: 8192 },
-    { antialias: 8 },
-    { bin_mm: 0.0001 },
-    { pixels: [60000, 60000], pitch_mm: 0.001 },
-    { printer: "somebody-elses" },
-    { printer: null },
-    { resin: { ...cured, exposure_s: 0.1 } },
-    { resin: { ...cured, exposures: [[0.05, 0.1]] } },
-    { resin: null },
-    { tolerance: 5 },
-    { tolerance: "0.06" },
-    { height_mm: 1e6 },
-    { rotation: [0, 0, 0] },
-    { layer_max_mm: 0.2 },
-    { planner: { kind: "uniform", layer_mm: 0.15 } },
-    { format: "png" },
-    { backend: "gpu" },
-    { ranges: [{ from_mm: 0, to_mm: 1, layer_min_mm: 0.2, layer_max_mm: 0.2 }] },
-    { no_such_option: 1 },
-  ]) {
-    const answer = await post(open, { options });
-    expect(answer, JSON.stringify(options)).toMatchObject(refused);
-    expect(answer.message).toContain(Object.keys(options).at(0));
-  }
-  for (const plan of ["no JSON", "[]", "{}", `{"options": []}`]) {
-    expect(await post(open, { fields: { plan: new Blob([plan], { type: "application/json" }) } })).toMatchObject({ status: 422, code: "not-a-plan" });
-  }
-  await expectNoLeftovers(open);
-});
-
-test("what is no order is refused", async () => {
-  const open = await start({}, await program(HONEST));
-  expect(await post(open)).toMatchObject({ status: 201 });
-  const file = new Blob(["x"], { type: "model/stl" });
-  const fields: readonly Readonly<Record<string, string | Blob>>[] = [
-    { copies: "0" },
-    { copies: "1.5" },
-    { copies: "1e9" },
-    { price_cents: "-1" },
-    { "../../evil": file },
-    { model: "text" },
-  ];
-  for (const field of fields) expect(await post(open, { fields: field }), JSON.stringify(field)).toMatchObject({ status: 400, code: "bad-order" });
-  const body = (type: string, text: string): Promise<Response> =>
-    fetch(`${open.address}orders`, { method: "POST", body: text, headers: { "content-type": type } });
-  for (const [type, text] of [
-    ["application/json", "{}"],
-    ["multipart/form-data", ""],
-    ["multipart/form-data; boundary=x", "--x\r\ncontent-disposition: form-data; name=model; filename=a\r\n\r\nbytes"],
-  ] as const) {
-    const answer = await body(type, text);
-    expect([answer.status, ((await answer.json()) as { code: string }).code]).toEqual([400, "not-a-form"]);
-  }
-  expect((await fetch(`${open.address}orders`)).status).toBe(405);
-  expect(await post(open, { headers: { "sec-fetch-site": "cross-site" } })).toMatchObject({ status: 403, code: "foreign-page" });
-  expect(await orders(open)).toHaveLength(1);
-  await expectNoLeftovers(open);
-});
-
-test("a verification that takes too long is ended", async () => {
-  const open = await start({ verify_ms: 200 }, await program("setInterval(() => {}, 1000);"));
-  expect(await post(open)).toMatchObject({ status: 503, code: "took-too-long" });
-  await expectNoLeftovers(open);
-});
-
-test("one verification runs at a time, a few wait, and more are asked to come back", async () => {
-  const log = join(root, "turns.log");
-  // Holds its turn until the test lets go of it.
-  const gate = join(root, "gate");
-  const script = `const fs = require("node:fs");
-fs.appendFileSync(${JSON.stringify(log)}, "in ");
-const wait = setInterval(() => {
-  if (!fs.existsSync(${JSON.stringify(gate)})) return;
-  clearInterval(wait);
-  fs.appendFileSync(${JSON.stringify(log)}, "out ");
-  ${HONEST}
-}, 10);`;
-  const open = await start({ places: 2 }, await program(script));
-  const taken = [post(open), post(open)];
-  await expect.poll(async () => (await readdir(join(open.folder, "incoming"))).length).toBe(2);
-  expect(await post(open)).toMatchObject({ status: 503, code: "busy" });
-  await writeFile(gate, "");
-  expect((await Promise.all(taken)).map(({ status }) => status)).toEqual([201, 201]);
-  expect(await readFile(log, "utf8")).toBe("in out in out ");
-  expect(await post(open)).toMatchObject({ status: 201 });
-  await expectNoLeftovers(open);
-});
-
 withCusp("stopped and started again it has its orders, nothing else, and works", async (cusp) => {
-  const folder = await mkdtemp(join(root, "restart-"));
+  const folder = await newFolder("restart");
   const port = await freePort();
   const run = async (): Promise<ChildProcess> => {
     const env = { ...process.env, CUSP: cusp, PORT: String(port) };

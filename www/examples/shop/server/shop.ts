@@ -92,8 +92,8 @@ export async function createShop({ folder, pages: built, cusp, ...given }: Setup
 
   const refuse = async (error: unknown, request: IncomingMessage, response: ServerResponse): Promise<void> => {
     // A browser reads an answer only when its upload is through, so that the rest is taken in and thrown away; but no
-    // more than an honest customer could have sent.
-    const most = Object.values(limits.most_bytes).reduce((sum, bytes) => sum + bytes, 0);
+    // more than twice what an honest customer could have sent.
+    const most = 2 * Object.values(limits.most_bytes).reduce((sum, bytes) => sum + bytes, 0);
     if (!(await drain(request, most, closing.signal))) response.setHeader("connection", "close");
     if (response.destroyed) return;
     const { code, message } = closing.signal.aborted ? CLOSING : asRefusal(error);
