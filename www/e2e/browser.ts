@@ -109,7 +109,8 @@ export async function state(page: Page, wanted: string, timeout = 30_000): Promi
 
 /** Waits until the plan on show answers to the settings, after a change of them. */
 export async function settled(page: Page): Promise<void> {
-  await page.waitForTimeout(350);
+  // A change makes the element busy before the next frame.
+  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(resolve)));
   await state(page, "done");
 }
 

@@ -94,18 +94,16 @@ test("beside the chart, heights are where the chart has them", async () => {
       const pressed = panel?.querySelector<HTMLElement>(".tools button[aria-pressed=true]:last-of-type");
       if (!view || !over || !pressed) throw new Error("there is no view beside a chart");
       const frame = new Promise<{ top_px: number; bottom_px: number }>((resolve) => {
+        // It tells where heights are when it is aligned anew.
         const hear = (event: Event): void => {
           const { detail } = event as CustomEvent<{ top_px: number; bottom_px: number } | null>;
-          if (detail === null) return;
+          if (detail === null) return pressed.click();
           view.removeEventListener("cusp-frame", hear);
           resolve(detail);
         };
         view.addEventListener("cusp-frame", hear);
+        pressed.click();
       });
-      // It tells where heights are when it is aligned anew.
-      pressed.click();
-      await new Promise((resolve) => setTimeout(resolve, 300));
-      pressed.click();
       const { top } = view.getBoundingClientRect();
       const { top_px, bottom_px } = await frame;
       return [top + top_px - over.top, top + bottom_px - over.bottom];

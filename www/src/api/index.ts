@@ -146,7 +146,11 @@ export function createSlicer({ spawn = spawnWorker }: Setup = {}): Slicer {
         async start(controller) {
           try {
             await ensure(options, watch);
-            await main.archiveTo((chunk) => controller.enqueue(chunk), watch);
+            // Chunks that were on their way when nobody wanted them any more go nowhere.
+            const take = (chunk: Uint8Array): void => {
+              if (!signal.aborted) controller.enqueue(chunk);
+            };
+            await main.archiveTo(take, watch);
             controller.close();
           } catch (error) {
             if (!gone.signal.aborted) controller.error(error);

@@ -97,8 +97,8 @@ export class CuspSlicer extends LitElement implements Host {
 
   /** empty, busy, ready (a model without a plan), done, or error; reflected in the attribute `state`. */
   get state(): State {
-    const { busy, failure, result, model } = this.#session;
-    if (busy !== null) return "busy";
+    const { busy, isPending, failure, result, model } = this.#session;
+    if (busy !== null || isPending) return "busy";
     if (failure !== null) return "error";
     return result !== null ? "done" : model !== null ? "ready" : "empty";
   }

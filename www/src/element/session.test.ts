@@ -311,3 +311,13 @@ test("while the model is turned glances are shown, the newest turn last; let go,
   session.undo();
   expect(session.settings.rotation).toBe("");
 });
+
+test("another model stands as in its file; the first one as the settings say", async () => {
+  session = new Session({ requestUpdate: () => undefined }, client, { settings: { ...DEFAULT_SETTINGS, rotation: "0,0,1,0" } });
+  await planned();
+  expect(client.last.options?.rotation).toEqual([0, 0, 1, 0]);
+  void session.open(new Blob(), "b.stl");
+  client.last.resolve({ ...model, name: "b.stl" });
+  await settle();
+  expect(client.last.options).not.toHaveProperty("rotation");
+});

@@ -107,6 +107,11 @@ export class Session extends Preferences {
     );
   }
 
+  /** Whether settings were changed that will be planned by after a pause. */
+  get isPending(): boolean {
+    return this.#timer !== undefined;
+  }
+
   /** Whether the result on show is of earlier settings, because those on show give none. */
   get earlier(): boolean {
     return this.result !== null && this.busy === null && (Object.keys(this.faults).length > 0 || this.#failed);
@@ -177,12 +182,15 @@ export class Session extends Preferences {
   }
 
   replan(delay_ms = 0): void {
-    clearTimeout(this.#timer);
+    this.#forgetTimer();
     this.#changed();
     const { options } = this;
     if (options === null || this.model === null) return;
-    if (delay_ms === 0) void this.#plan(options);
-    else this.#timer = setTimeout(() => void this.#plan(options), delay_ms);
+    if (delay_ms === 0) return void this.#plan(options);
+    this.#timer = setTimeout(() => {
+      this.#timer = undefined;
+      void this.#plan(options);
+    }, delay_ms);
   }
 
   /** Stops the task under way, whatever stage it is in. The last good result stays. */
@@ -238,6 +246,8 @@ export class Session extends Preferences {
       return null;
     }
     this.#next = null;
+    // How the model before was turned says nothing about this one.
+    if (this.model !== null && this.settings.rotation !== "") this.preset({ rotation: "" });
     this.model = model;
     this.result = null;
     this.shown = null;
@@ -343,9 +353,14 @@ export class Session extends Preferences {
     this.#host.failed?.(error);
   }
 
+  #forgetTimer(): void {
+    clearTimeout(this.#timer);
+    this.#timer = undefined;
+  }
+
   /** Abandons whatever is under way or waiting. */
   #drop(): void {
-    clearTimeout(this.#timer);
+    this.#forgetTimer();
     this.#next = null;
     const task = this.#task;
     this.#task = null;
