@@ -87,7 +87,8 @@ withCusp("a customer sees look, time, resin and price, chooses, and orders", asy
   page.on("pageerror", (error) => complaints.push(error.message));
   page.on("console", (message) => void (message.type() === "error" && complaints.push(message.text())));
   await loadSample(page);
-  expect(await page.locator("cusp-view canvas").first().isVisible()).toBe(true);
+  // The view comes a little later, since its library is loaded when it is first needed.
+  await page.locator("cusp-view canvas").first().waitFor();
   expect(await page.locator("#figures").innerText()).toMatch(/^\d+ h \d+ min · \d+\.\d ml$/);
   const price = page.locator("#price");
   const first = await price.innerText();
