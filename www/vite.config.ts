@@ -3,15 +3,14 @@ import { defineConfig, type Plugin } from "vite";
 /**
  * The policy that makes "your model never leaves this computer" a promise the browser keeps: scripts, workers and
  * requests only from where the page itself came from. Built pages only, since the development server injects scripts.
- * Inline styles are let through because lit and uPlot set them on elements.
  */
 const POLICY = [
   "default-src 'none'",
   "script-src 'self' 'wasm-unsafe-eval'",
   "worker-src 'self'",
   "connect-src 'self'",
-  "style-src 'self' 'unsafe-inline'",
-  "img-src 'self' data: blob:",
+  "style-src 'self'",
+  "img-src 'self'",
   "form-action 'none'",
   "base-uri 'none'",
 ].join("; ");
@@ -26,10 +25,40 @@ function contentSecurityPolicy(): Plugin {
   };
 }
 
+const SERVICE_WORKER = "service-worker";
+
+/** Tells the service worker which files the page is made of. */
+function offlineFiles(): Plugin {
+  return {
+    name: "cusp:offline-files",
+    apply: "build",
+    // After the page itself is among them.
+    enforce: "post",
+    generateBundle(_options, bundle) {
+      const files = Object.keys(bundle).filter((name) => name !== `${SERVICE_WORKER}.js`).sort();
+      for (const chunk of Object.values(bundle)) {
+        if (chunk.type === "chunk" && chunk.name === SERVICE_WORKER) {
+          chunk.code = chunk.code.replaceAll("__FILES__", JSON.stringify(files));
+        }
+      }
+    },
+  };
+}
+
 export default defineConfig({
   // Relative addresses, so that the folder works under any path of any host.
   base: "./",
-  plugins: [contentSecurityPolicy()],
+  plugins: [contentSecurityPolicy(), offlineFiles()],
   worker: { format: "es" },
-  build: { target: "es2022", assetsInlineLimit: 0, reportCompressedSize: true },
+  build: {
+    target: "es2022",
+    assetsInlineLimit: 0,
+    reportCompressedSize: true,
+    rollupOptions: {
+      input: { index: "index.html", [SERVICE_WORKER]: "src/page/service-worker.ts" },
+      output: {
+        entryFileNames: ({ name }) => (name === SERVICE_WORKER ? "[name].js" : "assets/[name]-[hash].js"),
+      },
+    },
+  },
 });

@@ -30,15 +30,15 @@ test.each(["light", "dark"] as const)("nothing is amiss in any state: %s", async
   await state(page, "done");
   expect(await broken(page)).toEqual([]);
 
-  await page.getByLabel("Tolerance").fill("0.02");
+  await page.getByLabel("Tolerance", { exact: true }).fill("0.02");
   await state(page, "error");
   expect(await broken(page)).toEqual([]);
 
-  await page.getByLabel("Tolerance").fill("x");
-  await expect.poll(() => page.getByLabel("Tolerance").getAttribute("aria-invalid")).toBe("true");
+  await page.getByLabel("Tolerance", { exact: true }).fill("x");
+  await expect.poll(() => page.getByLabel("Tolerance", { exact: true }).getAttribute("aria-invalid")).toBe("true");
   expect(await broken(page)).toEqual([]);
 
-  await page.getByLabel("Tolerance").fill("0.065");
+  await page.getByLabel("Tolerance", { exact: true }).fill("0.065");
   await page.getByText("Uniform", { exact: true }).click();
   await settled(page);
   expect(await broken(page)).toEqual([]);

@@ -28,8 +28,9 @@ function executable(): string {
   throw new Error("no Chromium on PATH: install one, or name it in the variable CHROMIUM");
 }
 
-export function launch(): Promise<Browser> {
-  return chromium.launch({ executablePath: executable(), headless: true, args: FLAGS });
+/** @param flags for the browser, beside those that all tests need */
+export function launch(flags: readonly string[] = []): Promise<Browser> {
+  return chromium.launch({ executablePath: executable(), headless: true, args: [...FLAGS, ...flags] });
 }
 
 export interface Opened {
@@ -42,7 +43,13 @@ export interface Opened {
 
 /** A fresh page at `address`, whose foreign requests and errors are noted. */
 export async function open(browser: Browser, address: string, options: BrowserContextOptions = {}): Promise<Opened> {
-  const context = await browser.newContext({ locale: "en-GB", viewport: { width: 1280, height: 900 }, ...options });
+  const context = await browser.newContext({
+    locale: "en-GB",
+    viewport: { width: 1280, height: 900 },
+    // It would answer where the tests themselves want to.
+    serviceWorkers: "block",
+    ...options,
+  });
   const page = await context.newPage();
   const strangers: string[] = [];
   const complaints: string[] = [];
@@ -56,7 +63,7 @@ export async function open(browser: Browser, address: string, options: BrowserCo
     if (message.type() === "error") complaints.push(message.text());
   });
   await page.goto(address);
-  await page.waitForSelector("cusp-app[data-state=empty]");
+  await page.waitForSelector("cusp-slicer[state=empty]");
   return { page, strangers, complaints };
 }
 
@@ -80,7 +87,7 @@ export async function drop(page: Page, ...files: DroppedFile[]): Promise<number>
         const answer = await fetch(from + String(index));
         transfer.items.add(new File([await answer.arrayBuffer()], name));
       }
-      const target = document.querySelector("cusp-app");
+      const target = document.querySelector("cusp-slicer");
       if (target === null) throw new Error("there is no page");
       const start = performance.now();
       for (const type of ["dragenter", "dragover", "drop"]) {
@@ -97,12 +104,13 @@ export async function drop(page: Page, ...files: DroppedFile[]): Promise<number>
 }
 
 export async function state(page: Page, wanted: string, timeout = 30_000): Promise<void> {
-  await page.waitForSelector(`cusp-app[data-state=${wanted}]`, { timeout });
+  await page.waitForSelector(`cusp-slicer[state=${wanted}]`, { timeout });
 }
 
 /** Waits until the plan on show answers to the settings, after a change of them. */
 export async function settled(page: Page): Promise<void> {
-  await page.waitForTimeout(350);
+  // A change makes the element busy before the next frame.
+  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(resolve)));
   await state(page, "done");
 }
 
@@ -110,9 +118,9 @@ export async function layers(page: Page): Promise<number> {
   return Number(await page.locator("[data-layers]").getAttribute("data-layers"));
 }
 
-/** What the main part of the page says, every run of blanks one space: thin and unbreakable ones are for the eye. */
+/** What the element says, every run of blanks one space: thin and unbreakable ones are for the eye. */
 export async function words(page: Page): Promise<string> {
-  return (await page.locator("main").innerText()).replace(/\s+/g, " ");
+  return (await page.locator("cusp-slicer .face").innerText()).replace(/\s+/g, " ");
 }
 
 /** Waits until the mask on show is that of this layer, counted from 0. */
@@ -123,7 +131,7 @@ export async function maskOf(page: Page, layer: number): Promise<void> {
 export async function download(page: Page): Promise<Download> {
   const [file] = await Promise.all([
     page.waitForEvent("download"),
-    page.getByRole("button", { name: /Download masks/ }).click(),
+    page.getByRole("button", { name: /Download print file/ }).click(),
   ]);
   return file;
 }

@@ -15,7 +15,7 @@ const heavy = { name: "heavy.stl", bytes: sphere(10, 700).bytes };
 /** Presses Cancel as soon as the progress bar says these words, from within the page so as not to come late. */
 async function cancelWhen(page: Page, stage: string): Promise<void> {
   await page.evaluate((wanted) => {
-    const root = document.querySelector("cusp-app")?.shadowRoot;
+    const root = document.querySelector("cusp-slicer")?.shadowRoot;
     if (!root) throw new Error("there is no page");
     const press = (): void => {
       const bar = root.querySelector(".progress");
@@ -52,7 +52,7 @@ test("cancelling while rays are cast leaves the last good plan, its masks and it
   await expect.poll(() => cancelled(page)).toBe("Casting rays through it");
   await state(page, "done");
   expect(await layers(page)).toBe(count);
-  const slider = page.getByRole("slider", { name: "Layer" });
+  const slider = page.getByRole("slider", { name: "Layer", exact: true });
   await slider.focus();
   await page.keyboard.press("Home");
   await maskOf(page, 0);
@@ -68,8 +68,8 @@ test.each(["Measuring the surface", "Planning the layers"])("a cancel during “
   await cancelWhen(page, stage);
   await drop(page, heavy);
   // These stages take milliseconds: the plan may be done before the cancel arrives, which is as good.
-  await page.waitForSelector("cusp-app:is([data-state=ready], [data-state=done])");
-  if (await page.locator("cusp-app[data-state=ready]").count()) {
+  await page.waitForSelector("cusp-slicer:is([state=ready], [state=done])");
+  if (await page.locator("cusp-slicer[state=ready]").count()) {
     expect(await cancelled(page)).toBe(stage);
     await page.getByRole("button", { name: "Plan the layers" }).click();
   }
@@ -81,7 +81,7 @@ test("cancelling while the masks are drawn gives no file; the next try does", as
   await drop(page, ballFile);
   await state(page, "done");
   await cancelWhen(page, "Drawing the masks");
-  await page.getByRole("button", { name: /Download masks/ }).click();
+  await page.getByRole("button", { name: /Download print file/ }).click();
   await expect.poll(() => words(page)).toContain("The download was cancelled.");
   await state(page, "done");
   expect((await download(page)).suggestedFilename()).toBe("ball-cusp.zip");

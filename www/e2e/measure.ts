@@ -44,18 +44,18 @@ async function round(browser: Browser, address: string, file: { name: string; by
   try {
     // The page's own clock: the moments at which it says that it is done, seen from inside.
     await page.evaluate(() => {
-      const app = document.querySelector<HTMLElement>("cusp-app");
+      const app = document.querySelector("cusp-slicer");
       const root = document.documentElement;
       if (app === null) throw new Error("there is no page");
       new MutationObserver(() => {
-        if (app.dataset["state"] !== "done") return;
+        if (app.getAttribute("state") !== "done") return;
         if (root.dataset["plan"] === undefined) {
           root.dataset["plan"] = String(performance.now());
           app.shadowRoot?.querySelector<HTMLButtonElement>(".download")?.click();
         } else {
           root.dataset["zip"] ??= String(performance.now());
         }
-      }).observe(app, { attributeFilter: ["data-state"] });
+      }).observe(app, { attributeFilter: ["state"] });
     });
     const saved = page.waitForEvent("download");
     const dropped = await drop(page, file);

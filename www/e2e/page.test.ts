@@ -35,7 +35,7 @@ test("a dropped model is planned, looked through by keyboard, and its masks add 
   expect(count).toBeGreaterThan(134);
   expect(count).toBeLessThan(400);
 
-  const slider = page.getByRole("slider", { name: "Layer" });
+  const slider = page.getByRole("slider", { name: "Layer", exact: true });
   const middle = Number(await slider.inputValue());
   await maskOf(page, middle - 1);
   await slider.focus();
@@ -83,7 +83,7 @@ test("a click in the chart looks at the layer of that height", async () => {
   const box = await plot.boundingBox();
   if (box === null) throw new Error("there is no chart");
   await plot.click({ position: { x: box.width / 2, y: box.height / 4 } });
-  const said = await page.getByRole("slider", { name: "Layer" }).getAttribute("aria-valuetext");
+  const said = await page.getByRole("slider", { name: "Layer", exact: true }).getAttribute("aria-valuetext");
   expect(Number(/at (\d+\.\d+)/.exec(said ?? "")?.[1])).toBeCloseTo(15, 0);
 });
 
@@ -93,7 +93,7 @@ test("the example opens from the keyboard, and focus goes to the model", async (
   await page.keyboard.press("Enter");
   await state(page, "done");
   expect(await layers(page)).toBeGreaterThan(267);
-  expect(await page.evaluate(() => document.querySelector("cusp-app")?.shadowRoot?.activeElement?.textContent)).toBe("goblet.stl");
+  expect(await page.evaluate(() => document.querySelector("cusp-slicer")?.shadowRoot?.activeElement?.textContent)).toBe("goblet.stl");
   await expect.poll(() => page.getByRole("status").innerText()).toMatch(/layers planned/);
 });
 
@@ -128,11 +128,15 @@ test("files that will not do are refused in words, and the page goes on", async 
   await state(page, "done");
 });
 
-test("of several files the first STL is taken, and the page says so", async () => {
+test("of several files the first STL is opened, and the others are a button away", async () => {
   const page = await start();
   await drop(page, { name: "notes.txt", bytes: new Uint8Array(3) }, ballFile, { name: "other.stl", bytes: ball.bytes });
   await state(page, "done");
-  expect(await words(page)).toContain("3 files came at once. Cusp takes one at a time: this is ball.stl.");
+  expect(await words(page)).toContain("Model 1 of 2");
+  await page.getByRole("button", { name: "Next model" }).click();
+  await expect.poll(() => page.locator("#model-name").innerText()).toBe("other.stl");
+  await state(page, "done");
+  expect(await page.getByRole("button", { name: "Next model" }).isDisabled()).toBe(true);
 });
 
 test("settings plan again by themselves; nonsense is explained where it stands", async () => {
@@ -141,12 +145,12 @@ test("settings plan again by themselves; nonsense is explained where it stands",
   await state(page, "done");
   const count = await layers(page);
 
-  await page.getByLabel("Tolerance").fill("0.055");
+  await page.getByLabel("Tolerance", { exact: true }).fill("0.055");
   await settled(page);
   expect(await layers(page)).toBeGreaterThan(count);
 
-  await page.getByLabel("Tolerance").fill("55");
-  const field = page.getByLabel("Tolerance");
+  await page.getByLabel("Tolerance", { exact: true }).fill("55");
+  const field = page.getByLabel("Tolerance", { exact: true });
   await expect.poll(() => field.getAttribute("aria-invalid")).toBe("true");
   expect(await page.locator("#tolerance-hint").innerText()).toContain("55 µm is 0.055 mm");
   await field.fill("0.065");
@@ -168,7 +172,7 @@ test("infeasible settings name the height and offer a way out; the last plan sta
   await drop(page, ballFile);
   await state(page, "done");
   const count = await layers(page);
-  await page.getByLabel("Tolerance").fill("0.02");
+  await page.getByLabel("Tolerance", { exact: true }).fill("0.02");
   await state(page, "error");
   const alert = page.getByRole("alert");
   expect(await alert.innerText()).toMatch(/No plan keeps 0.02\smm all the way up/);
@@ -194,7 +198,7 @@ test.each([
   await settled(page);
 
   // What the field shows is what the core took, whether it is the usual tolerance or had to be more.
-  const field = page.getByLabel("Tolerance");
+  const field = page.getByLabel("Tolerance", { exact: true });
   const tolerance = await field.inputValue();
   if (usual === null) expect(Number(tolerance)).toBeGreaterThan(1);
   else expect(tolerance).toBe(usual);
@@ -213,7 +217,7 @@ test("a tolerance is kept for the metric that it was typed for", async () => {
   const page = await start("?metric=area&tolerance=12");
   await drop(page, ballFile);
   await state(page, "done");
-  const field = page.getByLabel("Tolerance");
+  const field = page.getByLabel("Tolerance", { exact: true });
   const metric = page.getByLabel("Measure errors by");
   expect(await field.inputValue()).toBe("12");
   await metric.selectOption("cusp");
@@ -245,14 +249,14 @@ test.each([
   const offers = page.getByRole("alert").getByRole("button", { name: /^(Tolerance|Layers from)/ });
   const names = await offers.allInnerTexts();
   expect(names.map((name) => name.replace(/ [\d.]+\s?(mm³|mm|%)$/, ""))).toEqual(["Tolerance", "Layers from"]);
-  const typed = await page.getByLabel("Tolerance").inputValue();
+  const typed = await page.getByLabel("Tolerance", { exact: true }).inputValue();
   const thinnest = await page.getByLabel("Thinnest layer").inputValue();
   for (const name of names) {
     await page.getByRole("alert").getByRole("button", { name }).click();
     await settled(page);
     expect(await page.locator("tr.own").innerText(), name).toContain("within tolerance");
     // Back to what does not hold, for the other offer.
-    await page.getByLabel("Tolerance").fill(typed);
+    await page.getByLabel("Tolerance", { exact: true }).fill(typed);
     await page.getByLabel("Thinnest layer").fill(thinnest);
     await state(page, "error");
   }

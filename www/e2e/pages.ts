@@ -6,12 +6,12 @@ import { launch, open, type Opened } from "./browser.js";
 export type Start = (query?: string, options?: Parameters<typeof open>[2]) => Promise<Page>;
 
 /** Call once at the top of a test file; gives what opens a page there. */
-export function pages(): Start {
+export function pages(flags: readonly string[] = []): Start {
   let browser: Browser;
   let opened: Opened[] = [];
 
   beforeAll(async () => {
-    browser = await launch();
+    browser = await launch(flags);
   });
 
   afterAll(async () => {

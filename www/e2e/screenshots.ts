@@ -25,7 +25,7 @@ export async function main([folder]: string[]): Promise<void> {
       await page.getByRole("button", { name: "Try the example" }).click();
       await state(page, "done");
       await page.waitForSelector("canvas[data-layer]");
-      const slider = page.getByRole("slider", { name: "Layer" });
+      const slider = page.getByRole("slider", { name: "Layer", exact: true });
       const layer = Math.round(0.72 * Number(await slider.getAttribute("max")));
       await slider.fill(String(layer));
       await maskOf(page, layer - 1);

@@ -39,7 +39,7 @@ export default async function setup(project: TestProject): Promise<() => Promise
   return () => served.close();
 }
 
-function freePort(): Promise<number> {
+export function freePort(): Promise<number> {
   return new Promise((resolve, reject) => {
     const probe = createServer();
     probe.on("error", reject);

@@ -1,5 +1,5 @@
 /** Models whose volume is known. Lengths in mm. */
-import { binaryStl } from "../src/example.js";
+import { binaryStl } from "../src/page/example.js";
 
 export interface Solid {
   bytes: Uint8Array;

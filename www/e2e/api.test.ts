@@ -1,0 +1,183 @@
+/** The headless slicer in a real browser, from the package as it is published. */
+import type { Browser, Page } from "playwright-core";
+import { afterAll, afterEach, beforeAll, beforeEach, expect, test } from "vitest";
+import type * as Api from "../src/api/index.js";
+import { launch } from "./browser.js";
+import { servePacked } from "./packed.js";
+import type { Served } from "./serve.js";
+import { sphere } from "./solids.js";
+
+declare global {
+  interface Window {
+    api: typeof Api;
+  }
+}
+
+const ball = sphere(10, 96).bytes;
+// Enough facets and rays for each stage to be seen.
+const heavy = sphere(10, 700).bytes;
+
+let served: Served;
+let browser: Browser;
+let page: Page;
+const complaints: string[] = [];
+
+beforeAll(async () => {
+  const html = `<!doctype html><meta charset="utf-8" /><script type="module" src="main.js"></script>`;
+  const main = `window.api = await import("./cusp-slicer/index.js");`;
+  served = await servePacked({ "index.html": html, "main.js": main, "ball.stl": ball, "heavy.stl": heavy, "bad.stl": "no" });
+  browser = await launch();
+}, 120_000);
+
+afterAll(async () => {
+  await browser.close();
+  await served.close();
+});
+
+beforeEach(async () => {
+  page = await browser.newPage();
+  page.on("pageerror", (error) => complaints.push(error.message));
+  await page.goto(served.address);
+  await page.waitForFunction(() => "api" in window);
+});
+
+afterEach(async () => {
+  await page.close();
+  expect(complaints.splice(0)).toEqual([]);
+});
+
+test("from a file to a print file: by address, bytes, Blob; whole and in chunks the same bytes", async () => {
+  const found = await page.evaluate(async () => {
+    const slicer = window.api.createSlicer();
+    const model = await slicer.load("ball.stl");
+    const { schema, report, profile } = await slicer.plan({ rays: 512 });
+    const mask = await slicer.mask(Math.floor(report.layers / 2));
+    const curve = await slicer.tradeoff({ rays: 512 }, 5);
+    const comparison = await slicer.compare({ rays: 512 });
+    const whole = new Uint8Array(await (await slicer.export()).arrayBuffer());
+    const streamed = new Uint8Array(await new Response(slicer.exportStream()).arrayBuffer());
+    const bytes = await (await fetch("ball.stl")).arrayBuffer();
+    const again = await slicer.load(bytes);
+    const plan = await slicer.plan({ rays: 512 });
+    slicer.dispose();
+    return {
+      schema,
+      names: [model.name, again.name],
+      facets: model.info.facets,
+      layers: [report.layers, plan.report.layers],
+      backend: report.backend,
+      bins: [report.bins, profile.length],
+      mask: [mask.width, mask.height, mask.bits.length, mask.bits.some((byte) => byte !== 0)],
+      points: curve.points.length,
+      rows: comparison.rows.length,
+      same: whole.length === streamed.length && whole.every((byte, i) => byte === streamed[i]),
+      zip: String.fromCharCode(...whole.slice(0, 2)),
+    };
+  });
+  expect(found).toMatchObject({ schema: 1, names: ["ball.stl", "model.stl"], facets: (ball.length - 84) / 50, same: true, zip: "PK", points: 5 });
+  expect(found.layers[0]).toBe(found.layers[1]);
+  expect(found.bins[0]).toBe(found.bins[1]);
+  expect(["cpu", "gpu"]).toContain(found.backend);
+  const [width = 0, height = 0, length, isLit] = found.mask as [number, number, number, boolean];
+  expect([length, isLit]).toEqual([Math.ceil(width / 8) * height, true]);
+  expect(found.rows).toBeGreaterThan(2);
+});
+
+test("it works where there is no WebGPU, and says so", async () => {
+  const backend = await page.evaluate(async () => {
+    const slicer = window.api.createSlicer();
+    await slicer.load("ball.stl");
+    const { report } = await slicer.plan({ rays: 512, backend: "cpu" });
+    slicer.dispose();
+    return [report.backend, report.adapter];
+  });
+  expect(backend).toEqual(["cpu", null]);
+});
+
+test("errors have codes of the list, and details", async () => {
+  const codes = await page.evaluate(async () => {
+    const { createSlicer, SlicerError, ERROR_CODES } = window.api;
+    const slicer = createSlicer();
+    const code = async (call: Promise<unknown>): Promise<unknown> => {
+      try {
+        await call;
+        return "nothing was thrown";
+      } catch (error) {
+        if (!(error instanceof SlicerError) || !(error.code in ERROR_CODES)) return String(error);
+        return error.detail === null ? error.code : [error.code, Object.keys(error.detail).sort()];
+      }
+    };
+    const found = [
+      await code(slicer.plan()),
+      await code(slicer.load("bad.stl")),
+      await code(slicer.load("nowhere.stl")),
+      await code(slicer.load("ball.stl")),
+      await code(slicer.mask(0)),
+      await code(slicer.plan({ rays: 512, tolerance: 0.01 })),
+      await code(slicer.plan({ rays: 512, printer: "nobody" })),
+    ];
+    slicer.dispose();
+    return found;
+  });
+  expect(codes).toEqual([
+    "no-model",
+    "stl-not-stl",
+    ["fetch-failed", ["status"]],
+    "nothing was thrown",
+    "no-plan",
+    ["infeasible", ["from_mm", "largest_layer_min_mm", "layer_min_mm", "least_tolerance", "to_mm", "tolerance"]],
+    ["bad-options", ["reason"]],
+  ]);
+});
+
+test.each(["load", "ldi", "masks"] as const)("an abort during %s stops the call, and what was there before goes on", async (stage) => {
+  const found = await page.evaluate(async (stage) => {
+    const slicer = window.api.createSlicer();
+    await slicer.load("heavy.stl");
+    const options = { rays: 2048, backend: "cpu" } as const;
+    const { report } = await slicer.plan(options);
+    const abort = new AbortController();
+    const call = {
+      signal: abort.signal,
+      onProgress: (at: string) => {
+        if (at === stage) abort.abort();
+      },
+    };
+    const running =
+      stage === "load"
+        ? slicer.load(await (await fetch("heavy.stl")).blob(), call)
+        : stage === "ldi"
+          ? slicer.plan({ ...options, rays: 4096 }, call)
+          : slicer.export(options, call);
+    const name = await running.then(
+      () => "it ended",
+      (error: Error) => error.name,
+    );
+    const mask = await slicer.mask(report.layers - 1);
+    const again = await slicer.plan(options);
+    slicer.dispose();
+    return { name, isThere: mask.bits.length > 0, layers: [report.layers, again.report.layers] };
+  }, stage);
+  expect(found.name).toBe("AbortError");
+  expect(found.isThere).toBe(true);
+  expect(found.layers[0]).toBe(found.layers[1]);
+});
+
+test("what waits for its turn is aborted at once, and a stream that is cancelled leaves a working slicer", async () => {
+  const found = await page.evaluate(async () => {
+    const slicer = window.api.createSlicer();
+    await slicer.load("ball.stl");
+    const first = slicer.plan({ rays: 1024 });
+    const second = await slicer.plan({ rays: 512 }, { signal: AbortSignal.abort() }).catch((error: Error) => error.name);
+    const { report } = await first;
+    const reader = slicer.exportStream().getReader();
+    await reader.read();
+    await reader.cancel();
+    const { size } = await slicer.export();
+    slicer.dispose();
+    const disposed = await slicer.plan().catch((error: Error) => error.name);
+    return { second, layers: report.layers, size, disposed };
+  });
+  expect(found).toMatchObject({ second: "AbortError", disposed: "AbortError" });
+  expect(found.size).toBeGreaterThan(1000);
+});

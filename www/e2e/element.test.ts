@@ -1,0 +1,221 @@
+/** The element on a page of somebody else, from the package as it is published. */
+import type { Browser, BrowserContextOptions, Page } from "playwright-core";
+import { afterAll, afterEach, beforeAll, expect, test } from "vitest";
+import type { CuspSlicer } from "../src/element/index.js";
+import { launch } from "./browser.js";
+import { servePacked } from "./packed.js";
+import type { Served } from "./serve.js";
+import { sphere } from "./solids.js";
+
+const html = `<!doctype html><html lang="de"><meta charset="utf-8" /><title>Shop</title>
+<script type="module" src="main.js"></script><body></body></html>`;
+// What the page's own script would do: note events, and register the class under a name of its own.
+const main = `
+import "./cusp-slicer/element.js";
+import { CuspSlicer } from "./cusp-slicer/element-class.js";
+customElements.define("shop-slicer", class extends CuspSlicer {});
+const told = [];
+for (const name of ["cusp-load", "cusp-plan", "cusp-progress", "cusp-export", "cusp-error", "cusp-change"]) {
+  document.addEventListener(name, ({ target, detail }) => told.push([target.id, name, detail]));
+}
+Object.assign(document, { told });
+document.body.dataset.ready = "";
+`;
+
+interface Told {
+  told: [id: string, name: string, detail: Record<string, unknown>][];
+}
+
+let served: Served;
+let browser: Browser;
+const pages: Page[] = [];
+const complaints: string[] = [];
+
+beforeAll(async () => {
+  served = await servePacked({ "index.html": html, "main.js": main, "ball.stl": sphere(10, 96).bytes, "bad.stl": "no" });
+  browser = await launch();
+}, 120_000);
+
+afterAll(async () => {
+  await browser.close();
+  await served.close();
+});
+
+afterEach(async () => {
+  await Promise.all(pages.splice(0).map((page) => page.context().close()));
+  expect(complaints.splice(0)).toEqual([]);
+});
+
+/** A page with this in its body. */
+async function start(body: string, options: BrowserContextOptions = {}): Promise<Page> {
+  const page = await (await browser.newContext({ locale: "fr-FR", ...options })).newPage();
+  pages.push(page);
+  page.on("pageerror", (error) => complaints.push(error.message));
+  page.on("console", (message) => {
+    if (message.type() === "error") complaints.push(message.text());
+  });
+  await page.goto(served.address);
+  await page.waitForSelector("body[data-ready]", { state: "attached" });
+  // By a range, since the policy has a say in markup that is written.
+  await page.evaluate((body) => document.body.append(document.createRange().createContextualFragment(body)), body);
+  return page;
+}
+
+const done = (page: Page, id: string): Promise<unknown> => page.waitForSelector(`#${id}[state=done]`);
+
+const events = (page: Page, id: string): Promise<string[]> =>
+  page.evaluate((id) => (document as unknown as Told).told.filter(([from]) => from === id).map(([, name]) => name), id);
+
+test("two of them work side by side, each with its own model, settings and language", async () => {
+  const page = await start(
+    `<cusp-slicer id="a" src="ball.stl" tolerance="0.05" locale="en"></cusp-slicer>` +
+      `<shop-slicer id="b" src="ball.stl" layer-min="0.04" layer-max="0.1" metric="area" tolerance="0.2" panels="plan"></shop-slicer>`,
+  );
+  await done(page, "a");
+  await done(page, "b");
+  const found = await page.evaluate(() =>
+    ["a", "b"].map((id) => {
+      const { result } = document.querySelector<CuspSlicer>(`#${id}`) ?? {};
+      const { tolerance, metric, layer_min_mm, layer_max_mm } = result?.options ?? {};
+      return { tolerance, metric, layer_min_mm, layer_max_mm };
+    }),
+  );
+  expect(found).toEqual([
+    { tolerance: 0.05, metric: "cusp", layer_min_mm: 0.05, layer_max_mm: 0.15 },
+    { tolerance: 0.2, metric: "area", layer_min_mm: 0.04, layer_max_mm: 0.1 },
+  ]);
+  expect(await page.locator("#a .download").innerText()).toBe("Download print file");
+  // The page is German, its reader French: what the page says counts for more.
+  expect(await page.locator("#b .download").innerText()).toBe("Druckdatei herunterladen");
+  expect(await page.locator("#b cusp-chart").count()).toBe(0);
+  for (const id of ["a", "b"]) {
+    const names = await events(page, id);
+    expect(names.filter((name) => name !== "cusp-progress" && name !== "cusp-change")).toEqual(["cusp-load", "cusp-plan"]);
+    expect(names).toContain("cusp-progress");
+  }
+});
+
+test("methods: load, plan, export, cancel", async () => {
+  const page = await start(`<cusp-slicer id="a"></cusp-slicer>`);
+  const found = await page.evaluate(async () => {
+    const element = document.querySelector<CuspSlicer>("#a");
+    if (element === null) throw new Error("there is no element");
+    // A `DOMException` has a code of its own, which is a number.
+    const name = (error: Error & { code?: unknown }): string => (typeof error.code === "string" ? error.code : error.name);
+    const early = await element.plan().catch(name);
+    const none = await element.export().catch(name);
+    const bad = await element.load("bad.stl").catch(name);
+    const model = await element.load("ball.stl");
+    const first = await element.plan();
+    element.tolerance = 0.05;
+    const second = await element.plan();
+    const file = await element.export();
+    element.layerMin = 7;
+    const fault = await element.plan().catch(name);
+    element.layerMin = 0.05;
+    element.tolerance = 0.06;
+    const cancelled = element.plan().catch(name);
+    element.cancel();
+    return {
+      errors: [early, none, bad, fault],
+      model: model.name,
+      layers: [first.report.layers, second.report.layers],
+      file: [file.name, file.blob.size > 1000],
+      cancelled: await cancelled,
+    };
+  });
+  expect(found).toMatchObject({
+    errors: ["no-model", "no-plan", "stl-not-stl", "bad-options"],
+    model: "ball.stl",
+    file: ["ball-cusp.zip", true],
+    cancelled: "AbortError",
+  });
+  expect(found.layers[1]).toBeGreaterThan(found.layers[0] ?? 0);
+  expect(await events(page, "a")).toContain("cusp-error");
+});
+
+test("a shop takes the print file instead of the browser", async () => {
+  const page = await start(`<cusp-slicer id="a" src="ball.stl" format="uvj"></cusp-slicer>`);
+  await done(page, "a");
+  const saved: string[] = [];
+  page.on("download", (download) => saved.push(download.suggestedFilename()));
+  await page.evaluate(() => document.querySelector("#a")?.addEventListener("cusp-export", (event) => event.preventDefault()));
+  await page.locator("#a .download").click();
+  await expect.poll(() => events(page, "a")).toContain("cusp-export");
+  const name = await page.evaluate(
+    () => (document as unknown as Told).told.find(([, name]) => name === "cusp-export")?.[2]["name"],
+  );
+  expect(name).toBe("ball-cusp.uvj");
+  await page.waitForTimeout(300);
+  expect(saved).toEqual([]);
+});
+
+test("a quality is a place on the curve: finer takes longer", async () => {
+  const page = await start(`<cusp-slicer id="a" src="ball.stl" quality="0"></cusp-slicer>`);
+  const layers = (): Promise<number> =>
+    page.evaluate(() => document.querySelector<CuspSlicer>("#a")?.result?.report.layers ?? 0);
+  await expect.poll(() => page.evaluate(() => document.querySelector<CuspSlicer>("#a")?.query)).toContain("tolerance");
+  await done(page, "a");
+  const coarse = await layers();
+  await page.evaluate(() => {
+    const element = document.querySelector<CuspSlicer>("#a");
+    if (element !== null) element.quality = 1;
+  });
+  await expect.poll(layers).toBeGreaterThan(coarse);
+});
+
+test("colours and corners are the page's to set, and it is light or dark as its place is", async () => {
+  const page = await start(
+    `<cusp-slicer id="a" src="ball.stl" panels="plan"></cusp-slicer>` +
+      `<div id="dark"><cusp-slicer id="b" src="ball.stl" panels="plan"></cusp-slicer></div>`,
+  );
+  await page.evaluate(() => {
+    const sheet = new CSSStyleSheet();
+    sheet.replaceSync(
+      "#a { --cusp-accent: rgb(1, 2, 3); --cusp-radius: 0px; } #dark { color-scheme: dark; } #a::part(plan) { border-width: 7px; }",
+    );
+    document.adoptedStyleSheets = [sheet];
+  });
+  await done(page, "a");
+  await done(page, "b");
+  const style = (id: string, selector: string, property: string): Promise<string> =>
+    page.locator(`#${id} ${selector}`).evaluate((element, name) => getComputedStyle(element).getPropertyValue(name), property);
+  expect(await style("a", ".download", "background-color")).toBe("rgb(1, 2, 3)");
+  expect(await style("a", ".card", "border-top-left-radius")).toBe("0px");
+  expect(await style("a", ".card", "border-top-width")).toBe("7px");
+  expect(await style("a", ".card", "background-color")).toBe("rgb(255, 255, 255)");
+  expect(await style("b", ".card", "background-color")).toBe("rgb(27, 30, 37)");
+});
+
+test.each([1280, 390])("from right to left it mirrors, and nothing sticks out: %i px", async (width) => {
+  const viewport = { width, height: 900 };
+  const page = await start(`<div dir="rtl"><cusp-slicer id="a" src="ball.stl"></cusp-slicer></div>`, { viewport });
+  await done(page, "a");
+  const { count, card } = await page.evaluate(() => {
+    const root = document.querySelector("#a")?.shadowRoot;
+    const box = (selector: string): DOMRect | undefined => root?.querySelector(selector)?.getBoundingClientRect();
+    return { count: box(".count")?.right ?? 0, card: box(".card[part=plan]")?.right ?? 1 };
+  });
+  expect(card - count).toBeLessThan(40);
+  const overflow = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+  expect(overflow).toBe(0);
+});
+
+test("taken out of the page it rests, and put back it works on", async () => {
+  const page = await start(`<cusp-slicer id="a" src="ball.stl"></cusp-slicer>`);
+  await done(page, "a");
+  await expect.poll(() => page.workers().length).toBeGreaterThan(0);
+  const element = await page.evaluateHandle(() => {
+    const element = document.querySelector<CuspSlicer>("#a");
+    element?.remove();
+    return element;
+  });
+  await expect.poll(() => page.workers().length).toBe(0);
+  const layers = await page.evaluate(async (element) => {
+    if (element === null) return 0;
+    document.body.append(element);
+    element.tolerance = 0.055;
+    return (await element.plan()).report.layers;
+  }, element);
+  expect(layers).toBeGreaterThan(134);
+});

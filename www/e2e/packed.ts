@@ -1,0 +1,26 @@
+/** A page of somebody else with the package beside it, served by a plain web server under the element's policy. */
+import { cp, mkdtemp, rm, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { main as pack } from "../package/build.js";
+import type { Served } from "./serve.js";
+import { serveFolder } from "./static.js";
+
+const packed = fileURLToPath(new URL("../dist-package", import.meta.url));
+
+/** `files` by name; the package is in `cusp-slicer/`. */
+export async function servePacked(files: Readonly<Record<string, string | Uint8Array>>): Promise<Served> {
+  await pack();
+  const folder = await mkdtemp(join(tmpdir(), "cusp-packed-"));
+  await cp(packed, join(folder, "cusp-slicer"), { recursive: true });
+  for (const [name, content] of Object.entries(files)) await writeFile(join(folder, name), content);
+  const served = await serveFolder(folder);
+  return {
+    address: served.address,
+    async close() {
+      await served.close();
+      await rm(folder, { recursive: true, force: true });
+    },
+  };
+}

@@ -1,0 +1,166 @@
+/** Settings as a person goes through them: quality, undo, the address, languages, pasting; and the look at masks. */
+import type { Page } from "playwright-core";
+import { expect, test } from "vitest";
+import { download, drop, layers, maskOf, settled, state, words } from "./browser.js";
+import { pages } from "./pages.js";
+import { sphere } from "./solids.js";
+
+const start = pages();
+
+const ballFile = { name: "ball.stl", bytes: sphere(10, 96).bytes };
+
+async function opened(query = ""): Promise<Page> {
+  const page = await start(query);
+  await drop(page, ballFile);
+  await state(page, "done");
+  return page;
+}
+
+test("the quality slider goes through the best plans, and says what is gained", async () => {
+  const page = await opened();
+  const slider = page.getByRole("slider", { name: "Quality" });
+  await slider.focus();
+  await page.keyboard.press("End");
+  await settled(page);
+  const fine = await layers(page);
+  const said = page.locator("cusp-quality .gain");
+  expect((await said.innerText()).replace(/\s+/g, " ")).toMatch(/^Same quality as uniform 0.05 mm, \d+% less time\.$/);
+  await page.keyboard.press("Home");
+  await settled(page);
+  expect(await layers(page)).toBeLessThan(fine);
+  expect((await said.innerText()).replace(/\s+/g, " ")).toMatch(/^\d+% less time than uniform 0.05 mm; the deviation is/);
+  expect(Number(await page.getByLabel("Tolerance", { exact: true }).inputValue())).toBeGreaterThan(0.1);
+});
+
+test("settings are undone and redone, by button and by keyboard; typing in a field stays the browser's", async () => {
+  const page = await opened();
+  const field = page.getByLabel("Tolerance", { exact: true });
+  const [undo, redo] = [page.getByRole("button", { name: "Undo" }), page.getByRole("button", { name: "Redo" })];
+  expect(await undo.isDisabled()).toBe(true);
+  await field.fill("0.05");
+  await settled(page);
+  await page.getByLabel("Measure errors by").selectOption("Area deviation");
+  await settled(page);
+  await undo.click();
+  await settled(page);
+  expect(await field.inputValue()).toBe("0.05");
+  await page.getByLabel("Measure errors by").focus();
+  await page.keyboard.press("Control+z");
+  await settled(page);
+  expect(await field.inputValue()).toBe("0.065");
+  await page.keyboard.press("Control+Shift+z");
+  await settled(page);
+  expect(await field.inputValue()).toBe("0.05");
+  await redo.click();
+  await settled(page);
+  expect(await page.getByLabel("Measure errors by").inputValue()).toBe("area");
+  expect(await redo.isDisabled()).toBe(true);
+});
+
+test("the address has the settings, so that it gives the same plan again", async () => {
+  const page = await opened();
+  await page.getByLabel("Scale to height").fill("30");
+  await page.getByLabel("Tolerance", { exact: true }).fill("0.055");
+  await settled(page);
+  const count = await layers(page);
+  const { search } = new URL(page.url());
+  expect(search).toBe("?height=30&tolerance=0.055");
+  const again = await opened(search);
+  expect(await layers(again)).toBe(count);
+  await again.getByLabel("Scale to height").fill("");
+  await again.getByLabel("Tolerance", { exact: true }).fill("0.065");
+  await settled(again);
+});
+
+test("the page speaks the reader's language, and another when asked", async () => {
+  const page = await start("", { locale: "es-MX" });
+  expect(await page.title()).toMatch(/^Cusp: capas/);
+  await drop(page, ballFile);
+  await state(page, "done");
+  expect(await words(page)).toMatch(/\d+ ?% menos que uniforme/);
+  await page.getByLabel("Idioma").selectOption("中文");
+  await expect.poll(() => words(page)).toContain("公差相同");
+  expect(await page.locator("html").getAttribute("lang")).toBe("zh");
+  expect(new URL(page.url()).search).toBe("?locale=zh");
+});
+
+test("a file is pasted", async () => {
+  const page = await start();
+  await page.evaluate((bytes) => {
+    const clipboardData = new DataTransfer();
+    clipboardData.items.add(new File([Uint8Array.from(bytes)], "pasted.stl"));
+    document.body.dispatchEvent(new ClipboardEvent("paste", { clipboardData, bubbles: true, cancelable: true }));
+  }, [...ballFile.bytes]);
+  await state(page, "done");
+  expect(await page.locator("#model-name").innerText()).toBe("pasted.stl");
+});
+
+test("masks are played from below, and stop at the top", async () => {
+  const page = await opened("?planner=uniform&uniform=0.15");
+  const count = await layers(page);
+  const slider = page.getByRole("slider", { name: "Layer", exact: true });
+  await slider.fill(String(count - 4));
+  await maskOf(page, count - 5);
+  await page.getByRole("button", { name: "Play" }).click();
+  await maskOf(page, count - 1);
+  await expect.poll(() => page.getByRole("button", { name: "Play" }).count()).toBe(1);
+  await page.getByRole("button", { name: "Play" }).click();
+  await page.waitForFunction(() => {
+    const root = document.querySelector("cusp-slicer")?.shadowRoot?.querySelector("cusp-mask")?.shadowRoot;
+    return Number(root?.querySelector("canvas")?.dataset["layer"]) > 2;
+  });
+  await page.getByRole("button", { name: "Pause" }).click();
+});
+
+test("a mask is zoomed into, to its very pixels, and moved by keyboard", async () => {
+  const page = await opened();
+  const canvas = page.locator("cusp-mask canvas");
+  /** Grey values in the middle row, and whether any is neither black nor white. */
+  const row = (): Promise<{ lit: number; grey: number }> =>
+    canvas.evaluate((it) => {
+      const canvas = it as HTMLCanvasElement;
+      const { data } = canvas.getContext("2d")?.getImageData(0, canvas.height >> 1, canvas.width, 1) ?? { data: [] };
+      const values = Array.from(data).filter((_, i) => i % 4 === 0);
+      return { lit: values.filter((v) => v === 255).length, grey: values.filter((v) => v > 0 && v < 255).length };
+    });
+  await expect.poll(async () => (await row()).lit).toBeGreaterThan(0);
+  for (let i = 0; i < 5; i++) await page.getByRole("button", { name: "Zoom in" }).click();
+  expect(await page.locator("cusp-mask .tools").innerText()).toContain("32 ×");
+  const { lit } = await row();
+  // A quarter from the left, the rim of the ball is at 1/2 - √3/4 from above; an arrow key goes an eighth of what is seen.
+  await canvas.focus();
+  for (let i = 0; i < 0.25 * 32 * 8; i++) await page.keyboard.press("ArrowLeft");
+  for (let i = 0; i < (Math.sqrt(3) / 4) * 32 * 8; i++) await page.keyboard.press("ArrowUp");
+  await expect.poll(async () => (await row()).lit).toBeLessThan(lit);
+  expect((await row()).lit).toBeGreaterThan(0);
+  expect((await row()).grey).toBe(0);
+  await page.keyboard.press("-");
+  expect(await page.locator("cusp-mask .tools").innerText()).toContain("16 ×");
+});
+
+test("a printer gives pixels and file; a model too large for it is scaled to fit by a button beside it", async () => {
+  const page = await opened("?backend=cpu");
+  await page.getByLabel("Printer").selectOption("Prusa SL1S SPEED");
+  await settled(page);
+  expect(await page.locator("details.figures").evaluate((it) => it.textContent)).toMatch(/1,620 × 2,560 pixels of 0\.05/);
+  expect(await page.getByLabel("Resolution").count()).toBe(0);
+
+  await page.getByLabel("Scale to height").fill("120");
+  await state(page, "error");
+  const problem = page.locator("cusp-settings .field", { has: page.getByLabel("Printer") }).getByRole("alert");
+  expect(await problem.innerText()).toContain("The model is too large for this printer");
+  await problem.getByRole("button", { name: /^Scale to 80\.\d mm$|^Scale to 81 mm$/ }).click();
+  await settled(page);
+  expect(Number(await page.getByLabel("Scale to height").inputValue())).toBeLessThanOrEqual(81);
+
+  // Its own file has one thickness for all layers, which an adaptive plan has not.
+  await page.getByLabel("Scale to height").fill("10");
+  await settled(page);
+  await page.getByRole("button", { name: /Download print file/ }).click();
+  await state(page, "error");
+  const file = page.locator("cusp-settings .field", { has: page.getByLabel("Print file") }).getByRole("alert");
+  await file.getByRole("button", { name: "Uniform layers of 0.05 mm" }).click();
+  await settled(page);
+  const saved = await download(page);
+  expect(saved.suggestedFilename()).toBe("ball-cusp.sl1");
+});

@@ -1,0 +1,76 @@
+/** The order-site example, started for a test: its server in this process, and what it leaves in its folder. */
+import { mkdtemp, readdir, rm, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { afterAll, afterEach, beforeAll, expect } from "vitest";
+import { buildPage } from "../examples/shop/build.js";
+import { PRINTERS, RESINS, type ShopPrinter, type ShopResin } from "../examples/shop/catalogue.js";
+import { createShop, type Limits, type Shop } from "../examples/shop/server/shop.js";
+
+/** What is ordered. */
+export const [resin, printer] = [RESINS[1], PRINTERS[0]].map((it) => {
+  if (it === undefined) throw new Error("the shop has nothing to sell");
+  return it;
+}) as [ShopResin, ShopPrinter];
+
+export interface OpenShop {
+  address: string;
+  folder: string;
+}
+
+export interface Shops {
+  /** A folder of the test's own. */
+  folder(name: string): Promise<string>;
+  /** Opens a shop, which closes when the test ends. */
+  open(cusp: string, limits?: Partial<Limits>): Promise<OpenShop>;
+  /** A stand-in for the native program. */
+  program(script: string): Promise<string>;
+}
+
+export function shops(): Shops {
+  let built: string;
+  let root: string;
+  let shop: Shop | null = null;
+
+  beforeAll(async () => {
+    built = await buildPage();
+    root = await mkdtemp(join(tmpdir(), "cusp-shop-test-"));
+  }, 120_000);
+
+  afterEach(async () => {
+    await shop?.close();
+    shop = null;
+  });
+
+  afterAll(() => rm(root, { recursive: true, force: true }));
+
+  const folder = (name: string): Promise<string> => mkdtemp(join(root, `${name}-`));
+  return {
+    folder,
+    async open(cusp, limits = {}) {
+      const orders = await folder("orders");
+      shop = await createShop({ folder: orders, pages: built, cusp, ...limits });
+      return { address: await shop.listen(0), folder: orders };
+    },
+    async program(script) {
+      const path = join(await folder("program"), "cusp");
+      await writeFile(path, `#!${process.execPath}\n${script}\n`, { mode: 0o755 });
+      return path;
+    },
+  };
+}
+
+/** Numbers of the orders that were taken. */
+export function orders({ folder }: OpenShop): Promise<string[]> {
+  return readdir(join(folder, "orders"));
+}
+
+/** Uploads that are neither taken nor refused yet. */
+export function incoming({ folder }: OpenShop): Promise<string[]> {
+  return readdir(join(folder, "incoming"));
+}
+
+/** Nothing of those that were refused, or went away, stays behind. */
+export async function expectNoLeftovers(open: OpenShop): Promise<void> {
+  await expect.poll(() => incoming(open)).toEqual([]);
+}

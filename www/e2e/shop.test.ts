@@ -1,0 +1,272 @@
+/** The order-site example as a customer meets it, in a real browser. */
+import { execFileSync, spawn, type ChildProcess } from "node:child_process";
+import { cp, mkdir, readFile, writeFile } from "node:fs/promises";
+import { join } from "node:path";
+import { fileURLToPath } from "node:url";
+import axe from "axe-core";
+import type { Browser, BrowserContextOptions, Page } from "playwright-core";
+import { afterAll, afterEach, beforeAll, expect, test, type TestContext } from "vitest";
+import { findCusp } from "../examples/shop/cusp.js";
+import { priceOf, type Print } from "../examples/shop/price.js";
+import type { Order } from "../examples/shop/server/store.js";
+import type { Options } from "../src/api/index.js";
+import { binaryStl, exampleTriangles } from "../src/page/example.js";
+import { launch, state } from "./browser.js";
+import { freePort } from "./serve.js";
+import { expectNoLeftovers, orders, printer, resin, shops } from "./shop-open.js";
+
+const cusp = findCusp();
+const www = fileURLToPath(new URL("..", import.meta.url));
+const { folder: newFolder, open: start, program } = shops();
+
+let browser: Browser;
+const pages: Page[] = [];
+const children: ChildProcess[] = [];
+
+beforeAll(async () => {
+  browser = await launch();
+});
+
+afterEach(async () => {
+  await Promise.all(pages.splice(0).map((page) => page.context().close()));
+  for (const child of children.splice(0)) child.kill("SIGKILL");
+});
+
+afterAll(() => browser.close());
+
+/** A test of what only the native program can tell; where there is none it is skipped and says so. */
+function withCusp(name: string, body: (cusp: string) => Promise<void>, timeout_ms?: number): void {
+  const run = async (context: TestContext): Promise<void> => {
+    if (cusp === null) return context.skip("no native cusp: name it in the variable CUSP, or build it in ../target");
+    await body(cusp);
+  };
+  test(name, run, timeout_ms);
+}
+
+async function visit(address: string, options: BrowserContextOptions = {}): Promise<Page> {
+  const page = await (await browser.newContext({ locale: "en-GB", viewport: { width: 1280, height: 900 }, ...options })).newPage();
+  pages.push(page);
+  await page.goto(address);
+  await state(page, "empty");
+  return page;
+}
+
+async function loadSample(page: Page): Promise<void> {
+  await page.getByRole("button", { name: "Try our goblet" }).click();
+  await state(page, "done");
+  await expect.poll(() => page.locator("#order").isEnabled()).toBe(true);
+}
+
+const press = (page: Page): Promise<void> => page.getByRole("button", { name: "Add to order" }).click();
+const alert = (page: Page): Promise<string> => page.locator("#problem:not(:empty)").innerText();
+
+/** Changes what the page sends, as a customer with the browser's tools could. */
+async function cheat(page: Page, change: (form: FormData) => Promise<void> | void): Promise<void> {
+  await page.evaluate(`(() => {
+    const change = ${change.toString()};
+    const send = window.fetch;
+    window.fetch = async (address, init) => {
+      if (init?.body instanceof FormData) await change(init.body);
+      return send(address, init);
+    };
+  })()`);
+}
+
+function isRunning(pid: number): boolean {
+  try {
+    return process.kill(pid, 0);
+  } catch {
+    return false;
+  }
+}
+
+withCusp("a customer sees look, time, resin and price, chooses, and orders", async (cusp) => {
+  const open = await start(cusp);
+  const page = await visit(open.address);
+  const complaints: string[] = [];
+  page.on("pageerror", (error) => complaints.push(error.message));
+  page.on("console", (message) => void (message.type() === "error" && complaints.push(message.text())));
+  await loadSample(page);
+  // The view comes a little later, since its library is loaded when it is first needed.
+  await page.locator("cusp-view canvas").first().waitFor();
+  expect(await page.locator("#figures").innerText()).toMatch(/^\d+ h \d+ min · \d+\.\d ml$/);
+  const price = page.locator("#price");
+  const first = await price.innerText();
+  expect(first).toMatch(/^€\d+\.\d\d$/);
+
+  await page.getByRole("slider", { name: "Quality" }).press("ArrowRight");
+  await expect.poll(() => price.innerText()).not.toBe(first);
+  await page.getByText(resin.name).click();
+  await page.getByLabel("Copies").fill("99");
+  expect(await page.locator("#order").isDisabled()).toBe(true);
+  expect(await page.locator("#price-note").innerText()).toBe("From 1 to 20 copies, please.");
+  await page.getByLabel("Copies").fill("2");
+  await page.evaluate(() => {
+    const slicer = document.querySelector("cusp-slicer");
+    if (slicer !== null) slicer.query = `${slicer.query}&rotation=0.1,-0.2,0.05,1`;
+  });
+  const shown = (): Promise<Print & { made: unknown[] }> =>
+    page.evaluate(() => {
+      const { print_time_s, resin_ml, resin, options } = document.querySelector("cusp-slicer")?.result?.report ?? {};
+      return { print_time_s: print_time_s ?? 0, resin_ml: resin_ml ?? 0, made: [resin?.name, options?.rotation?.length] };
+    });
+  await expect.poll(async () => (await shown()).made).toEqual([resin.name, 4]);
+  const { total_cents } = priceOf(await shown(), printer, resin, 2);
+  await expect.poll(() => price.innerText()).toBe(`€${(total_cents / 100).toFixed(2)}`);
+
+  await press(page);
+  const id = await page.locator(".placed li").getAttribute("data-order");
+  expect(await orders(open)).toEqual([id]);
+  await expectNoLeftovers(open);
+  const folder = join(open.folder, "orders", id ?? "");
+  const order = JSON.parse(await readFile(join(folder, "order.json"), "utf8")) as Order;
+  expect(order).toMatchObject({ id, printer: printer.name, resin: resin.name, copies: 2, price_cents: total_cents });
+  expect(order.verdict.print_is_same).toBe(true);
+
+  // What lies there is what the native program makes of the same model.
+  expect(await readFile(join(folder, "model.stl"))).toEqual(Buffer.from(binaryStl(exampleTriangles())));
+  const { options } = JSON.parse(await readFile(join(folder, "plan.json"), "utf8")) as { options: Required<Options> };
+  const scratch = await newFolder("scratch");
+  await writeFile(join(scratch, "resin.json"), JSON.stringify(options.resin));
+  const own = join(scratch, "own.zip");
+  const call = ["slice", "--printer", printer.name, "--tolerance", String(options.tolerance), "--resin", join(scratch, "resin.json")];
+  call.push("--rotation", String(options.rotation));
+  execFileSync(cusp, [...call, "-o", own, join(folder, "model.stl")], { stdio: "ignore" });
+  expect((await readFile(own)).equals(await readFile(join(folder, "print.zip")))).toBe(true);
+  expect(complaints).toEqual([]);
+}, 120_000);
+
+withCusp("figures that were lowered on the way are refused, with the reason beside the button", async (cusp) => {
+  const open = await start(cusp);
+  const page = await visit(open.address);
+  await loadSample(page);
+  await cheat(page, async (form) => {
+    const report = JSON.parse(await (form.get("plan") as Blob).text()) as Record<string, unknown>;
+    const figure = document.body.dataset["cheat"] ?? "";
+    form.set("plan", new Blob([JSON.stringify({ ...report, [figure]: 0.5 })], { type: "application/json" }));
+  });
+  for (const figure of ["print_time_s", "resin_ml"]) {
+    await page.evaluate((figure) => void (document.body.dataset["cheat"] = figure), figure);
+    await press(page);
+    await expect.poll(() => alert(page)).toMatch(new RegExp(`^The plan was refused: .*${figure} is 0\\.5, but should be [\\d.]+\\.$`));
+  }
+  expect(await orders(open)).toEqual([]);
+  await expectNoLeftovers(open);
+});
+
+withCusp("a print file that is not the plan's is refused", async (cusp) => {
+  const open = await start(cusp);
+  const page = await visit(open.address);
+  await loadSample(page);
+  await cheat(page, async (form) => {
+    const bytes = new Uint8Array(await (form.get("print") as Blob).arrayBuffer());
+    const middle = bytes.length >> 1;
+    bytes[middle] = (bytes[middle] ?? 0) ^ 1;
+    form.set("print", new Blob([bytes], { type: "application/octet-stream" }));
+  });
+  await press(page);
+  expect(await alert(page)).toBe("The print file was refused: it is not the print file that this plan gives.");
+  expect(await orders(open)).toEqual([]);
+  await expectNoLeftovers(open);
+});
+
+withCusp("a price of the customer's own is refused, and the honest one is taken afterwards", async (cusp) => {
+  const open = await start(cusp);
+  const page = await visit(open.address);
+  await loadSample(page);
+  await cheat(page, (form) => {
+    if (document.body.dataset["cheat"] === undefined) form.set("price_cents", "1");
+    document.body.dataset["cheat"] = "once";
+  });
+  await press(page);
+  expect(await alert(page)).toBe("The price is another by now. Please load this page anew.");
+  expect(await orders(open)).toEqual([]);
+  await press(page);
+  await page.locator(".placed li").waitFor();
+  expect(await orders(open)).toHaveLength(1);
+});
+
+test("an upload that is too large is refused, and the page says so", async () => {
+  const most = { plan: 1e6, model: 1e6, print: 1e7 };
+  const open = await start("never called", { most_bytes: most });
+  const page = await visit(open.address);
+  await loadSample(page);
+  await press(page);
+  expect(await alert(page)).toBe("The model is larger than the 1 MB that this shop takes.");
+  expect(await orders(open)).toEqual([]);
+  await expectNoLeftovers(open);
+});
+
+test("an order that is cancelled leaves nothing behind", async () => {
+  const noted = join(await newFolder("noted"), "pid");
+  const slow = await program(`require("node:fs").writeFileSync(${JSON.stringify(noted)}, String(process.pid)); setInterval(() => {}, 1000);`);
+  const open = await start(slow);
+  const page = await visit(open.address);
+  await loadSample(page);
+  await press(page);
+  await expect.poll(() => readFile(noted, "utf8").catch(() => "")).toMatch(/^\d+$/);
+  const pid = Number(await readFile(noted, "utf8"));
+  expect(isRunning(pid)).toBe(true);
+  await page.locator("#cancel").click();
+  expect(await page.locator("#standing:not(:empty)").innerText()).toBe("Cancelled. Nothing was ordered.");
+  await expect.poll(() => isRunning(pid)).toBe(false);
+  await expectNoLeftovers(open);
+  expect(await orders(open)).toEqual([]);
+});
+
+test.each([
+  ["light", 1280],
+  ["dark", 390],
+] as const)("nothing is amiss for who cannot see it, and nothing sticks out: %s, %i px", async (colorScheme, width) => {
+  const open = await start("never called");
+  const page = await visit(open.address, { colorScheme, viewport: { width, height: 844 }, reducedMotion: "reduce" });
+  for (const step of [() => Promise.resolve(), () => loadSample(page)]) {
+    await step();
+    await page.evaluate(axe.source);
+    const { violations } = await page.evaluate(() => (window as unknown as { axe: typeof axe }).axe.run());
+    expect(violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(" | ")}`)).toEqual([]);
+    expect(await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth)).toBe(0);
+  }
+});
+
+withCusp("stopped and started again it has its orders, nothing else, and works", async (cusp) => {
+  const folder = await newFolder("restart");
+  const port = await freePort();
+  const run = async (): Promise<ChildProcess> => {
+    const env = { ...process.env, CUSP: cusp, PORT: String(port) };
+    const child = spawn(process.execPath, ["e2e/run.mjs", "../examples/shop/start", folder], { cwd: www, env });
+    children.push(child);
+    let said = "";
+    child.stdout.on("data", (chunk) => (said += String(chunk)));
+    child.stderr.on("data", (chunk) => (said += String(chunk)));
+    await expect.poll(() => said).toContain(`http://127.0.0.1:${port}/`);
+    return child;
+  };
+  const stop = (child: ChildProcess): Promise<number | null> =>
+    new Promise((resolve) => {
+      child.once("exit", (code) => resolve(code));
+      child.kill("SIGTERM");
+    });
+  const order = async (): Promise<void> => {
+    const page = await visit(`http://127.0.0.1:${port}/`);
+    await loadSample(page);
+    await press(page);
+    await page.locator(".placed li").waitFor();
+  };
+  const open = { address: `http://127.0.0.1:${port}/`, folder };
+
+  const first = await run();
+  await order();
+  const before = await orders(open);
+  expect(await stop(first)).toBe(0);
+  // As if the power had failed in the middle of an upload.
+  await mkdir(join(folder, "incoming/order-cut-short"));
+  await cp(join(folder, "orders", before[0] ?? "", "plan.json"), join(folder, "incoming/order-cut-short/plan.json"));
+
+  const second = await run();
+  expect(await orders(open)).toEqual(before);
+  await expectNoLeftovers(open);
+  await order();
+  expect(await orders(open)).toHaveLength(before.length + 1);
+  expect(await stop(second)).toBe(0);
+}, 120_000);

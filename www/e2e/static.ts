@@ -1,0 +1,41 @@
+/** Serves a folder on a free port of this machine, as a plain web server would, under a policy. */
+import { createReadStream } from "node:fs";
+import { stat } from "node:fs/promises";
+import { createServer } from "node:http";
+import { extname, join, normalize } from "node:path";
+import type { Served } from "./serve.js";
+
+/** What the element needs of a page's policy, and no more: see docs/embed.md. */
+export const ELEMENT_POLICY = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; connect-src 'self'";
+
+const TYPES: Readonly<Record<string, string>> = {
+  ".html": "text/html",
+  ".js": "text/javascript",
+  ".css": "text/css",
+  ".json": "application/json",
+  ".wasm": "application/wasm",
+};
+
+export async function serveFolder(folder: string, policy = ELEMENT_POLICY): Promise<Served> {
+  const server = createServer((request, response) => {
+    const { pathname } = new URL(request.url ?? "/", "http://localhost");
+    // The browser asks for it by itself; a page's own is no matter of these tests.
+    if (pathname === "/favicon.ico") return void response.writeHead(204).end();
+    const path = join(folder, normalize(decodeURIComponent(pathname.endsWith("/") ? `${pathname}index.html` : pathname)));
+    stat(path).then(
+      () => {
+        const type = TYPES[extname(path)] ?? "application/octet-stream";
+        response.writeHead(200, { "content-type": type, "content-security-policy": policy });
+        createReadStream(path).pipe(response);
+      },
+      () => response.writeHead(404).end(),
+    );
+  });
+  await new Promise<void>((resolve) => server.listen(0, "127.0.0.1", resolve));
+  const address = server.address();
+  if (address === null || typeof address !== "object") throw new Error("no port was free");
+  return {
+    address: `http://127.0.0.1:${address.port}/`,
+    close: () => new Promise((resolve) => void server.close(() => resolve())),
+  };
+}

@@ -1,0 +1,104 @@
+/** Pages with the view alone, for its tests: one build and one browser for all, and nothing unseen at the end. */
+import { decode } from "fast-png";
+import type { Browser, BrowserContextOptions, Page } from "playwright-core";
+import { afterAll, afterEach, beforeAll, expect } from "vitest";
+import { launch } from "./browser.js";
+import type { Harness, Heard } from "./view-page/main.js";
+import { serveView } from "./view-serve.js";
+
+declare global {
+  interface Window {
+    harness: Harness;
+  }
+}
+
+/** A processor draws, so that WebGL is there without a GPU. */
+export const SOFTWARE_GL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+
+export interface Prepared extends BrowserContextOptions {
+  /** Runs in the page before anything else. */
+  before?: () => void;
+}
+
+export function viewPages(): (options?: Prepared) => Promise<Page> {
+  let browser: Browser;
+  let served: Awaited<ReturnType<typeof serveView>>;
+  let opened: Page[] = [];
+  let complaints: string[] = [];
+
+  beforeAll(async () => {
+    served = await serveView();
+    browser = await launch(SOFTWARE_GL);
+  });
+
+  afterAll(async () => {
+    await browser.close();
+    await served.close();
+  });
+
+  afterEach(async () => {
+    const closing = opened;
+    const said = complaints;
+    opened = [];
+    complaints = [];
+    await Promise.all(closing.map((page) => page.context().close()));
+    expect(said).toEqual([]);
+  });
+
+  return async ({ before, ...options } = {}) => {
+    const context = await browser.newContext({
+      locale: "en-GB",
+      viewport: { width: 640, height: 640 },
+      reducedMotion: "reduce",
+      ...options,
+    });
+    const page = await context.newPage();
+    page.on("pageerror", (error) => complaints.push(error.message));
+    page.on("console", (message) => {
+      if (message.type() === "error") complaints.push(message.text());
+    });
+    if (before !== undefined) await page.addInitScript(before);
+    await page.goto(served.address);
+    await page.waitForFunction(() => "harness" in window);
+    opened.push(page);
+    return page;
+  };
+}
+
+export type Pixel = readonly [r: number, g: number, b: number];
+
+/** The picture of the view, by CSS pixels from its upper left corner. */
+export async function picture(page: Page): Promise<(x: number, y: number) => Pixel> {
+  const { data, width, channels } = decode(await page.locator("cusp-view").screenshot());
+  return (x, y) => {
+    const at = channels * (Math.round(y) * width + Math.round(x));
+    return [data[at] ?? 0, data[at + 1] ?? 0, data[at + 2] ?? 0];
+  };
+}
+
+/** Light of a channel. */
+const linear = (channel: number): number => {
+  const part = channel / 255;
+  return part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4;
+};
+
+/** How alike the colours are apart from how brightly they are lit: 1 is the same. */
+export function likeness(a: Pixel, b: Pixel): number {
+  const [u, v] = [a.map(linear), b.map(linear)];
+  const dot = u.reduce((sum, value, i) => sum + value * (v[i] ?? 0), 0);
+  return dot / (Math.hypot(...u) * Math.hypot(...v));
+}
+
+export const heard = (page: Page, type: string): Promise<Heard[]> =>
+  page.evaluate((wanted) => window.harness.heard.filter((event) => event.type === wanted), type);
+
+export const forget = (page: Page): Promise<void> =>
+  page.evaluate(() => {
+    window.harness.heard.length = 0;
+  });
+
+export const drawn = (page: Page): Promise<void> => page.evaluate(() => window.harness.drawn());
+
+/** What the view says of itself. */
+export const said = (page: Page): Promise<string> =>
+  page.locator("cusp-view #state").evaluate((state) => (state.textContent ?? "").replace(/\s+/g, " ").trim());

@@ -1,0 +1,52 @@
+/** Builds the view's own page and serves it, for its tests and for looking at it. */
+import { mkdtemp, readdir, readFile, rm } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { gzipSync } from "node:zlib";
+import { build, preview } from "vite";
+import { freePort, type Served } from "./serve.js";
+
+/** Also gives the compressed bytes of the scripts, by name. */
+export async function serveView(): Promise<Served & { sizes: ReadonlyMap<string, number> }> {
+  const root = fileURLToPath(new URL("./view-page", import.meta.url));
+  const outDir = await mkdtemp(join(tmpdir(), "cusp-view-"));
+  await build({
+    root,
+    configFile: false,
+    base: "./",
+    logLevel: "error",
+    build: {
+      outDir,
+      emptyOutDir: true,
+      target: "es2022",
+      assetsInlineLimit: 0,
+      chunkSizeWarningLimit: Infinity,
+      rolldownOptions: {
+        output: {
+          codeSplitting: { groups: [{ name: "three", test: /node_modules[\\/]three/ }] },
+        },
+      },
+    },
+  });
+  const sizes = new Map<string, number>();
+  for (const name of await readdir(join(outDir, "assets"))) {
+    if (name.endsWith(".js")) sizes.set(name, gzipSync(await readFile(join(outDir, "assets", name))).length);
+  }
+  const port = await freePort();
+  const server = await preview({
+    root,
+    configFile: false,
+    logLevel: "error",
+    build: { outDir },
+    preview: { host: "127.0.0.1", port, strictPort: true, open: false },
+  });
+  return {
+    address: `http://127.0.0.1:${port}/`,
+    sizes,
+    close: async () => {
+      await server.close();
+      await rm(outDir, { recursive: true });
+    },
+  };
+}

@@ -1,0 +1,73 @@
+/** What the shop sells, and what it lets a plan decide. The page offers it; the server holds every order against it. */
+import type { Resin } from "cusp-slicer";
+
+/** A resin with everything that print time and exposure follow from, so that a plan cannot bring figures of its own. */
+export interface ShopResin extends Required<Resin> {
+  /** For people: what it is good for. */
+  note: string;
+  /** Class of its swatch. */
+  swatch: string;
+  ml_cents: number;
+}
+
+export interface ShopPrinter {
+  /** As `cusp printers` lists it. */
+  name: string;
+  title: string;
+  note: string;
+  hour_cents: number;
+}
+
+/** What all of them share: the shop has one kind of vat and one way to move the plate. */
+const SHARED = {
+  exposures: [],
+  layer_mm: 0.05,
+  bottom_layers: 4,
+  wait_s: 1,
+  lift_mm: 5,
+  lift_mm_min: 65,
+  return_mm_min: 150,
+};
+
+export const RESINS: readonly ShopResin[] = [
+  { ...SHARED, name: "Stone grey", exposure_s: 2.5, bottom_exposure_s: 25, penetration_mm: 0.15, density_g_ml: 1.1, note: "Sharp detail, matt", swatch: "stone", ml_cents: 24 },
+  { ...SHARED, name: "Tough black", exposure_s: 3.2, bottom_exposure_s: 32, penetration_mm: 0.13, density_g_ml: 1.13, note: "For parts that bend", swatch: "tough", ml_cents: 38 },
+  { ...SHARED, name: "Clear", exposure_s: 2, bottom_exposure_s: 22, penetration_mm: 0.19, density_g_ml: 1.12, note: "Lets light through", swatch: "clear", ml_cents: 32 },
+];
+
+export const PRINTERS: readonly ShopPrinter[] = [
+  { name: "mars-4-ultra", title: "Fine", note: "18 µm pixels, 153 × 77 × 165 mm", hour_cents: 320 },
+  { name: "saturn-3-ultra", title: "Large", note: "24 µm pixels, 218 × 122 × 260 mm", hour_cents: 410 },
+];
+
+/** For each order line, however many copies. */
+export const SETUP_CENTS = 450;
+
+export const MOST_COPIES = 20;
+
+/** What a customer may choose, and how far. Lengths in mm. */
+export const TOLERANCE_MM = { least: 0.01, most: 0.15 };
+export const HEIGHT_MM = { least: 5, most: 260 };
+
+/** What nobody but the shop decides: how fine a plan is sampled and so what it costs to check, and how it is made. */
+export const FIXED = {
+  rays: 2048,
+  antialias: 1,
+  layer_min_mm: 0.05,
+  layer_max_mm: 0.15,
+  bin_mm: 0.002,
+  ranges: [],
+  planes_mm: [],
+  snap: "auto",
+  flat_area_mm2: 1,
+  metric: "cusp",
+  source: "exact",
+  planner: { kind: "optimal" },
+  minimize: "layers",
+  backend: "auto",
+} as const;
+
+/** The largest files that are taken, in bytes. A plan is JSON, a model an STL of about a million facets. */
+export const MOST_BYTES = { plan: 4e6, model: 50e6, print: 250e6 };
+
+export type PartName = keyof typeof MOST_BYTES;

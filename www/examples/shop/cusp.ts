@@ -1,0 +1,24 @@
+/** Where the native program is that verifies plans. */
+import { accessSync, constants } from "node:fs";
+import { delimiter, join } from "node:path";
+import { fileURLToPath } from "node:url";
+
+const NAME = process.platform === "win32" ? "cusp.exe" : "cusp";
+
+/** The one that CUSP names; else one built from this repository; else the first on PATH; null if there is none. */
+export function findCusp(): string | null {
+  const named = process.env["CUSP"];
+  if (named !== undefined && named !== "") return named;
+  const built = ["release", "debug"].map((profile) => fileURLToPath(new URL(`../../../target/${profile}/${NAME}`, import.meta.url)));
+  const onPath = (process.env["PATH"] ?? "").split(delimiter).map((folder) => join(folder, NAME));
+  return [...built, ...onPath].find(isProgram) ?? null;
+}
+
+function isProgram(path: string): boolean {
+  try {
+    accessSync(path, constants.X_OK);
+    return true;
+  } catch {
+    return false;
+  }
+}

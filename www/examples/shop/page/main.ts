@@ -1,0 +1,172 @@
+/** The shop's page: the element, the shop's own choices, a price that follows both, and a button that orders. */
+import "cusp-slicer/element";
+import { isAbort } from "cusp-slicer";
+import type { CuspSlicer } from "cusp-slicer/element-class";
+import { MOST_BYTES, MOST_COPIES, PRINTERS, RESINS, type PartName, type ShopPrinter, type ShopResin } from "../catalogue.js";
+import { priceOf, type Price } from "../price.js";
+import { choices } from "./choices.js";
+import { millilitres, money, number, time } from "./format.js";
+import { placeOrder, type Placed } from "./order.js";
+
+const find = <E extends Element = HTMLElement>(selector: string): E => {
+  const element = document.querySelector<E>(selector);
+  if (element === null) throw new Error(`there is no ${selector}`);
+  return element;
+};
+
+const slicer = find<CuspSlicer>("cusp-slicer");
+const copies = find<HTMLInputElement>("#copies");
+const button = find<HTMLButtonElement>("#order");
+const cancel = find<HTMLButtonElement>("#cancel");
+const standing = find("#standing");
+const problem = find("#problem");
+
+type Result = NonNullable<CuspSlicer["result"]>;
+
+/** What a customer would buy by pressing the button now; null while there is no plan, or no number of copies. */
+interface Offer {
+  result: Result;
+  copies: number;
+  price: Price;
+}
+
+/** The order that is on its way; null if none is. */
+let ordering: AbortController | null = null;
+const placed: Placed[] = [];
+
+function offer(): Offer | null {
+  const { result } = slicer;
+  const printer = PRINTERS.find(({ name }) => name === result?.report.printer);
+  const resin = RESINS.find(({ name }) => name === result?.report.resin.name);
+  if (result === null || printer === undefined || resin === undefined || !copies.checkValidity()) return null;
+  const count = copies.valueAsNumber;
+  return { result, copies: count, price: priceOf(result.report, printer, resin, count) };
+}
+
+function draw(): void {
+  const now = offer();
+  if (now !== null) fill(now);
+  find("#figures").hidden = find("#parts").hidden = now === null;
+  find("#price").textContent = now === null ? "" : money(now.price.total_cents);
+  const missing = slicer.result === null ? "The price comes with your model." : `From 1 to ${MOST_COPIES} copies, please.`;
+  find("#price-note").textContent = now === null ? missing : "incl. VAT";
+  const isPlanning = slicer.state === "busy" && ordering === null;
+  find(".choices").classList.toggle("replanning", isPlanning && now !== null);
+  button.disabled = now === null || isPlanning || ordering !== null;
+  cancel.hidden = ordering === null;
+}
+
+function fill({ result: { report }, copies, price }: Offer): void {
+  const figures: Readonly<Record<string, string>> = {
+    time: time(report.print_time_s),
+    resin: millilitres(report.resin_ml),
+    copies: number(copies),
+    setup: money(price.setup_cents),
+    timePrice: money(copies * price.time_cents),
+    resinPrice: money(copies * price.resin_cents),
+  };
+  for (const cell of document.querySelectorAll<HTMLElement>("[data-figure]")) {
+    cell.textContent = figures[cell.dataset["figure"] ?? ""] ?? "";
+  }
+}
+
+function say(text: string, fault = ""): void {
+  standing.textContent = text;
+  problem.textContent = fault;
+}
+
+async function order(): Promise<void> {
+  const seen = offer();
+  const { model } = slicer;
+  if (seen === null || model === null) return;
+  const { signal } = (ordering = new AbortController());
+  say("Making the print file…");
+  draw();
+  try {
+    // A choice that was made a moment ago may not be in the plan on show yet.
+    await slicer.plan();
+    const now = offer();
+    if (now === null || now.price.total_cents !== seen.price.total_cents) {
+      say("", "The price has just changed with your last choice. Please look at it and order again.");
+      return;
+    }
+    const { blob: print } = await slicer.export();
+    const parts = { plan: new Blob([JSON.stringify(now.result.report)]), model: model.file, print };
+    const fault = tooLarge(parts);
+    if (fault !== null) return say("", fault);
+    signal.throwIfAborted();
+    say("Sending and checking your order…");
+    const answer = await placeOrder({ copies: now.copies, price_cents: now.price.total_cents, parts }, signal);
+    say(`Checked and taken: order ${shortly(answer)}.`);
+    show(answer, model.name);
+  } catch (error) {
+    if (signal.aborted || isAbort(error)) say("Cancelled. Nothing was ordered.");
+    else say("", error instanceof Error ? error.message : String(error));
+  } finally {
+    ordering = null;
+    draw();
+  }
+}
+
+function tooLarge(parts: Readonly<Record<PartName, Blob>>): string | null {
+  const names: Readonly<Record<PartName, string>> = { plan: "plan", model: "model", print: "print file" };
+  for (const [part, most] of Object.entries(MOST_BYTES) as [PartName, number][]) {
+    if (parts[part].size > most) return `The ${names[part]} is larger than the ${number(most / 1e6)} MB that we take.`;
+  }
+  return null;
+}
+
+function show(answer: Placed, name: string): void {
+  placed.push(answer);
+  const item = document.createElement("li");
+  const words = (tag: string, text: string, kind = ""): void => {
+    const element = document.createElement(tag);
+    element.textContent = text;
+    element.className = kind;
+    item.append(element);
+  };
+  words("span", `${answer.copies} × ${name}`);
+  words("span", money(answer.price_cents));
+  words("span", `Order ${shortly(answer)}`, "quiet");
+  item.dataset["order"] = answer.id;
+  find(".placed ul").append(item);
+  find(".placed output").textContent = money(placed.reduce((sum, { price_cents }) => sum + price_cents, 0));
+  find(".placed").hidden = false;
+}
+
+/** As much of an order's number as people want to read. */
+const shortly = ({ id }: Placed): string => id.slice(0, 8);
+
+/** Takes a resin into the settings that the element has. */
+function pour({ name }: ShopResin): void {
+  const query = new URLSearchParams(slicer.query);
+  query.set("resin", name);
+  slicer.query = query.toString();
+}
+
+slicer.resins = RESINS.map(({ note: _note, swatch: _swatch, ml_cents: _cents, ...resin }) => resin);
+choices(find("#resins"), RESINS, (resin) => ({ ...resin, title: resin.name, price: `${money(resin.ml_cents)}/ml` }), pour);
+choices(
+  find("#printers"),
+  PRINTERS,
+  (printer) => ({ ...printer, price: `${money(printer.hour_cents)}/h` }),
+  ({ name }: ShopPrinter) => void (slicer.printer = name),
+);
+copies.max = String(MOST_COPIES);
+copies.addEventListener("input", draw);
+button.addEventListener("click", () => void order());
+cancel.addEventListener("click", () => {
+  ordering?.abort();
+  slicer.cancel();
+});
+find("#sample").addEventListener("click", () => {
+  // What comes of it the element shows by itself.
+  slicer.load("goblet.stl").catch(() => undefined);
+});
+for (const name of ["cusp-change", "cusp-load"] as const) {
+  // What was said of the last order is not about this one.
+  slicer.addEventListener(name, () => ordering ?? say(""));
+}
+new MutationObserver(draw).observe(slicer, { attributeFilter: ["state"] });
+slicer.addEventListener("cusp-plan", draw);
+draw();

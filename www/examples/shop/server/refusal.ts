@@ -1,0 +1,34 @@
+/** Why an order is not taken: what the page shows beside its button. */
+
+/** Every code that an answer can have, with its HTTP status. */
+export const STATUS = {
+  "no-such-page": 404,
+  "method-not-allowed": 405,
+  "foreign-page": 403,
+  "not-a-form": 400,
+  "too-large": 413,
+  "bad-order": 400,
+  "not-a-plan": 422,
+  "option-refused": 422,
+  "plan-refused": 422,
+  "model-refused": 422,
+  "print-refused": 422,
+  "price-differs": 409,
+  busy: 503,
+  "took-too-long": 503,
+  closing: 503,
+  failed: 500,
+} as const;
+
+export type RefusalCode = keyof typeof STATUS;
+
+export class Refusal extends Error {
+  readonly code: RefusalCode;
+
+  /** @param message one sentence for the customer */
+  constructor(code: RefusalCode, message: string) {
+    super(message);
+    this.name = "Refusal";
+    this.code = code;
+  }
+}

@@ -1,0 +1,171 @@
+/** The shop's server: its page, and one address to which orders are sent. */
+import { readFile } from "node:fs/promises";
+import { createServer, type IncomingMessage, type Server, type ServerResponse } from "node:http";
+import { join } from "node:path";
+import { MOST_BYTES, type PartName } from "../catalogue.js";
+import { priceOf } from "../price.js";
+import { readPages, type PageFile } from "./pages.js";
+import { wantedBy } from "./plan.js";
+import { Queue } from "./queue.js";
+import { Refusal, STATUS } from "./refusal.js";
+import { Store, type Order } from "./store.js";
+import { FILES, receive } from "./upload.js";
+import { verify, type Verifier } from "./verify.js";
+
+/** What the element needs, as docs/embed.md has it; then what this page's own style sheet and forms need. */
+const POLICY = [
+  "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; connect-src 'self'",
+  "style-src 'self'; img-src 'self'; form-action 'none'; base-uri 'none'; frame-ancestors 'none'",
+].join("; ");
+
+const SECURITY = {
+  "content-security-policy": POLICY,
+  "cross-origin-opener-policy": "same-origin",
+  "cross-origin-resource-policy": "same-origin",
+  "referrer-policy": "no-referrer",
+  "x-content-type-options": "nosniff",
+};
+
+/** Everybody but this machine goes through a web server that speaks TLS. */
+const HOST = "127.0.0.1";
+
+const CLOSING = new Refusal("closing", "The shop closes just now. Please try again in a minute.");
+
+export interface Setup extends Partial<Limits> {
+  /** Where orders are kept. */
+  folder: string;
+  /** The built page. */
+  pages: string;
+  /** The native program that verifies. */
+  cusp: string;
+}
+
+export interface Limits {
+  /** The largest files that are taken, in bytes. */
+  most_bytes: Readonly<Record<PartName, number>>;
+  /** Orders that may be under way at once; one of them is verified, the others wait. */
+  places: number;
+  /** How long a verification may take, ms. */
+  verify_ms: number;
+  /** How long an upload may take, ms. */
+  upload_ms: number;
+}
+
+const LIMITS: Limits = { most_bytes: MOST_BYTES, places: 8, verify_ms: 120_000, upload_ms: 300_000 };
+
+export interface Shop {
+  /** @param port 0 for any that is free. Gives the address. */
+  listen(port: number): Promise<string>;
+  /** Refuses what is under way, and removes its files. */
+  close(): Promise<void>;
+}
+
+export async function createShop({ folder, pages: built, cusp, ...given }: Setup): Promise<Shop> {
+  const limits = { ...LIMITS, ...given };
+  const [pages, store] = await Promise.all([readPages(built), Store.open(folder)]);
+  const queue = new Queue(limits.places);
+  const closing = new AbortController();
+  const verifier: Verifier = { cusp, limit_ms: limits.verify_ms };
+
+  const order = (request: IncomingMessage, signal: AbortSignal): Promise<Order> =>
+    queue.admit(() =>
+      store.withFolder(async (folder) => {
+        const { copies, price_cents } = await receive(request, folder, limits.most_bytes, signal);
+        const { printer, resin } = wantedBy(await readFile(join(folder, FILES.plan), "utf8"));
+        const verdict = await queue.inTurn(() => verify(folder, verifier, signal));
+        const { total_cents } = priceOf(verdict, printer, resin, copies);
+        if (total_cents !== price_cents) throw new Refusal("price-differs", "The price is another by now. Please load this page anew.");
+        return store.keep(folder, { printer: printer.name, resin: resin.name, copies, price_cents: total_cents, verdict });
+      }),
+    );
+
+  const answer = async (request: IncomingMessage, response: ServerResponse): Promise<void> => {
+    const { pathname } = new URL(request.url ?? "/", `http://${HOST}`);
+    if (pathname !== "/orders") return sendPage(pages.get(pathname), request, response);
+    if (request.method !== "POST") throw new Refusal("method-not-allowed", "Orders are posted.");
+    const from = request.headers["sec-fetch-site"];
+    if (from !== undefined && from !== "same-origin") throw new Refusal("foreign-page", "Orders come from the shop's own page.");
+    const gone = new AbortController();
+    response.once("close", () => gone.abort());
+    sendJson(response, 201, await order(request, AbortSignal.any([gone.signal, closing.signal])));
+  };
+
+  const refuse = async (error: unknown, request: IncomingMessage, response: ServerResponse): Promise<void> => {
+    // A browser reads an answer only when its upload is through, so that the rest is taken in and thrown away; but no
+    // more than twice what an honest customer could have sent.
+    const most = 2 * Object.values(limits.most_bytes).reduce((sum, bytes) => sum + bytes, 0);
+    if (!(await drain(request, most, closing.signal))) response.setHeader("connection", "close");
+    if (response.destroyed) return;
+    const { code, message } = closing.signal.aborted ? CLOSING : asRefusal(error);
+    sendJson(response, STATUS[code], { code, message });
+  };
+
+  const server = createServer((request, response) => {
+    answer(request, response).catch((error: unknown) => {
+      if (response.headersSent || response.destroyed) response.destroy();
+      else void refuse(error, request, response);
+    });
+  });
+  server.requestTimeout = limits.upload_ms;
+
+  return {
+    listen: (port) => listen(server, port),
+    close() {
+      closing.abort();
+      return new Promise((resolve) => void server.close(() => resolve()));
+    },
+  };
+}
+
+function listen(server: Server, port: number): Promise<string> {
+  return new Promise((resolve, reject) => {
+    server.once("error", reject);
+    server.listen(port, HOST, () => {
+      const address = server.address();
+      if (address === null || typeof address !== "object") reject(new Error("the server has no port"));
+      else resolve(`http://${HOST}:${address.port}/`);
+    });
+  });
+}
+
+function sendPage(file: PageFile | undefined, { method }: IncomingMessage, response: ServerResponse): void {
+  if (file === undefined) throw new Refusal("no-such-page", "There is no such page.");
+  if (method !== "GET" && method !== "HEAD") throw new Refusal("method-not-allowed", "Pages are only to be read.");
+  response.writeHead(200, {
+    ...SECURITY,
+    "content-type": file.type,
+    "content-length": file.bytes.length,
+    "cache-control": file.isHashed ? "public, max-age=31536000, immutable" : "no-cache",
+  });
+  response.end(method === "HEAD" ? undefined : file.bytes);
+}
+
+function sendJson(response: ServerResponse, status: number, value: unknown): void {
+  response.writeHead(status, { ...SECURITY, "content-type": "application/json", "cache-control": "no-store" });
+  response.end(JSON.stringify(value));
+}
+
+/** Throws away what is yet to come of a request; whether that was all of it. */
+function drain(request: IncomingMessage, most_bytes: number, signal: AbortSignal): Promise<boolean> {
+  if (request.complete || request.destroyed || signal.aborted) return Promise.resolve(request.complete);
+  return new Promise((resolve) => {
+    let bytes = 0;
+    const done = (): void => resolve(request.complete);
+    request.once("end", done).once("close", done).once("error", done);
+    signal.addEventListener("abort", done, { once: true });
+    request.on("data", (chunk: Buffer) => {
+      bytes += chunk.length;
+      if (bytes <= most_bytes) return;
+      request.pause();
+      done();
+    });
+    request.resume();
+  });
+}
+
+function asRefusal(error: unknown): Refusal {
+  if (error instanceof Refusal) return error;
+  // For whoever runs the shop; a customer is told nothing of its insides.
+  console.error(error);
+  return new Refusal("failed", "Something went wrong on our side. Your order was not taken.");
+}

@@ -1,0 +1,55 @@
+/** Asks the native `cusp` whether a plan is what model and options give, and the print file what the plan gives. */
+import { execFile } from "node:child_process";
+import { Refusal, type RefusalCode } from "./refusal.js";
+import { FILES } from "./upload.js";
+
+/** What `cusp verify --json` says of a plan that holds. */
+export interface Verdict {
+  layers: number;
+  /** In the metric's unit, as the tolerance. */
+  max_error: number;
+  tolerance: number;
+  print_time_s: number;
+  resin_ml: number;
+  print_is_same: boolean;
+}
+
+export interface Verifier {
+  /** The program. */
+  cusp: string;
+  /** How long it may take, ms. */
+  limit_ms: number;
+}
+
+/** Which file a sentence is about, by the name that it begins with. */
+const BLAME: readonly (readonly [file: string, code: RefusalCode, subject: string])[] = [
+  [FILES.plan, "plan-refused", "The plan was refused"],
+  [FILES.model, "model-refused", "The model was refused"],
+  [FILES.print, "print-refused", "The print file was refused"],
+];
+
+/** @param folder where the three files are */
+export function verify(folder: string, { cusp, limit_ms }: Verifier, signal: AbortSignal): Promise<Verdict> {
+  const call = ["verify", FILES.plan, FILES.model, "--print", FILES.print, "--json"];
+  return new Promise<Verdict>((resolve, reject) => {
+    execFile(cusp, call, { cwd: folder, timeout: limit_ms, killSignal: "SIGKILL", signal }, (error, stdout, stderr) => {
+      if (error === null) resolve(JSON.parse(stdout) as Verdict);
+      else if (signal.aborted) reject(error);
+      else if (error.killed === true) reject(new Refusal("took-too-long", "Checking this model takes longer than we can wait."));
+      else if (error.code === 1) reject(refused(stderr));
+      else reject(error);
+    });
+  }).then((verdict) => {
+    if (!verdict.print_is_same) throw new Refusal("print-refused", "The print file was refused.");
+    return verdict;
+  });
+}
+
+/** The program's own sentence, which names the file that it is about and no path: it runs in the folder. */
+function refused(stderr: string): Refusal {
+  const said = stderr.split("\n").findLast((line) => line.startsWith("cusp: "))?.slice("cusp: ".length) ?? "";
+  for (const [file, code, subject] of BLAME) {
+    if (said.startsWith(`${file}: `)) return new Refusal(code, `${subject}: ${said.slice(file.length + 2)}.`);
+  }
+  return new Refusal("plan-refused", `The order was refused: ${said}.`);
+}

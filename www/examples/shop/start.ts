@@ -1,0 +1,18 @@
+/** Starts the shop: `npm run shop [-- FOLDER]`. Orders are kept in FOLDER, or in a new one among the temporary files. */
+import { mkdtemp } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { buildCore, buildPage } from "./build.js";
+import { createShop } from "./server/shop.js";
+
+const PORT = 8090;
+
+export async function main([folder]: string[]): Promise<void> {
+  const cusp = buildCore();
+  const pages = await buildPage();
+  const orders = folder === undefined ? await mkdtemp(join(tmpdir(), "cusp-shop-")) : resolve(folder);
+  const shop = await createShop({ folder: orders, pages, cusp });
+  const address = await shop.listen(Number(process.env["PORT"] ?? PORT));
+  console.log(`shop    ${address}\norders  ${orders}\ncusp    ${cusp}`);
+  for (const signal of ["SIGINT", "SIGTERM"] as const) process.once(signal, () => void shop.close());
+}

@@ -1,0 +1,31 @@
+import { fileURLToPath } from "node:url";
+import { defineConfig, type Plugin } from "vite";
+import { binaryStl, exampleTriangles } from "../../src/page/example.js";
+
+const here = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
+
+/** A shop would put a file of its own beside its page. */
+const sampleModel: Plugin = {
+  name: "shop:sample-model",
+  generateBundle() {
+    this.emitFile({ type: "asset", fileName: "goblet.stl", source: binaryStl(exampleTriangles()) });
+  },
+};
+
+export default defineConfig({
+  root: here("."),
+  base: "./",
+  plugins: [sampleModel],
+  // In this repository the package is its own source. A shop runs `npm install cusp-slicer` and has no need of this.
+  resolve: {
+    // Also where Node was not told so: this page is only ever built, and libraries have another build for development.
+    conditions: ["production", "module", "browser", "import", "default"],
+    alias: [
+      { find: /^cusp-slicer$/, replacement: here("../../src/api/index.ts") },
+      { find: /^cusp-slicer\/element$/, replacement: here("../../src/element/register.ts") },
+      { find: /^cusp-slicer\/element-class$/, replacement: here("../../src/element/index.ts") },
+    ],
+  },
+  worker: { format: "es" },
+  build: { target: "es2022", assetsInlineLimit: 0, modulePreload: { polyfill: false }, reportCompressedSize: false, emptyOutDir: true },
+});

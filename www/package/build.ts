@@ -1,0 +1,160 @@
+/**
+ * Builds the npm package into `dist-package/` and packs it: `npm run package`.
+ *
+ * Everything that the package needs is inside it, so that it works from a plain web server as well as through a
+ * bundler. The addresses of worker and module stay as they are written in the source, `new URL("./worker.js",
+ * import.meta.url)`: that is what bundlers look for. three is in chunks that only the 3-D view asks for.
+ */
+import { execFileSync } from "node:child_process";
+import { copyFile, mkdir, readdir, readFile, rm, writeFile } from "node:fs/promises";
+import { dirname, join, relative } from "node:path";
+import { fileURLToPath } from "node:url";
+import { gzipSync } from "node:zlib";
+import { rolldown, type OutputChunk, type Plugin } from "rolldown";
+
+const root = fileURLToPath(new URL("..", import.meta.url));
+const out = join(root, "dist-package");
+
+/** What everything but three may come to, gzipped. */
+const LIMIT_BYTES = 500_000;
+
+const ENTRIES = {
+  index: "src/api/index.ts",
+  element: "src/element/register.ts",
+  "element-class": "src/element/index.ts",
+  worker: "src/api/worker.ts",
+} as const;
+
+const WASM = "cusp_slicer_bg.wasm";
+
+/** Addresses as they are once every file lies in one folder. */
+const flatAddresses: Plugin = {
+  name: "cusp:flat-addresses",
+  transform: {
+    filter: { id: /src\/api\/(lane|worker)\.ts$/ },
+    handler: (code) => code.replace(`"./worker.ts"`, `"./worker.js"`).replace(`"../../pkg/${WASM}"`, `"./${WASM}"`),
+  },
+};
+
+/** Style sheets as text, which elements adopt. */
+const inlineStyles: Plugin = {
+  name: "cusp:inline-styles",
+  async resolveId(source, importer) {
+    if (!source.endsWith("?inline")) return null;
+    const resolved = await this.resolve(source.slice(0, -"?inline".length), importer);
+    return resolved === null ? null : `${resolved.id}?inline`;
+  },
+  async load(id) {
+    if (!id.endsWith("?inline")) return null;
+    const text = await readFile(id.slice(0, -"?inline".length), "utf8");
+    return { code: `export default ${JSON.stringify(text)};`, moduleType: "js" };
+  },
+};
+
+/** lit notes its versions in globals, for a warning of its development build; on somebody else's page they have no place. */
+const noGlobals: Plugin = {
+  name: "cusp:no-globals",
+  transform: {
+    filter: { id: /node_modules[\\/](@lit|lit-html|lit-element)[\\/]/ },
+    handler(code) {
+      const names = /(?:[\w$]+\.)?\b(litPropertyMetadata|reactiveElementVersions|litHtmlVersions|litElementVersions)\b/g;
+      const own = code.replaceAll(names, "OWN.$1");
+      return own === code ? null : `const OWN = {};\n${own}`;
+    },
+  },
+};
+
+async function bundle(): Promise<readonly OutputChunk[]> {
+  const build = await rolldown({
+    cwd: root,
+    input: ENTRIES,
+    platform: "browser",
+    plugins: [flatAddresses, inlineStyles, noGlobals],
+    resolve: { conditionNames: ["production", "browser", "import", "default"] },
+    transform: { target: "es2022" },
+  });
+  const { output } = await build.write({
+    dir: out,
+    format: "es",
+    minify: true,
+    entryFileNames: "[name].js",
+    chunkFileNames: "[name]-[hash].js",
+    codeSplitting: { groups: [{ name: "three", test: /node_modules[\\/]three[\\/]/ }] },
+  });
+  return output.filter((it) => it.type === "chunk");
+}
+
+/** Declarations, which speak of lit only by a stand-in, since lit is inside. */
+async function declare(): Promise<void> {
+  const types = join(out, "types");
+  execFileSync(process.execPath, [join(root, "node_modules/typescript/bin/tsc"), "-p", "package/tsconfig.json", "--outDir", types], {
+    cwd: root,
+    stdio: "inherit",
+  });
+  await mkdir(join(types, "pkg"), { recursive: true });
+  // A page's own library of types may not have `Symbol.dispose` yet.
+  const core = await readFile(join(root, "pkg/cusp_slicer.d.ts"), "utf8");
+  await writeFile(join(types, "pkg/cusp_slicer.d.ts"), core.replaceAll(/^.*\[Symbol\.dispose\].*\n/gm, ""));
+  await copyFile(join(root, "package/lit.d.ts"), join(types, "lit.d.ts"));
+  for (const name of await readdir(types, { recursive: true })) {
+    if (!name.endsWith(".d.ts")) continue;
+    const path = join(types, name);
+    const text = await readFile(path, "utf8");
+    const lit = relative(dirname(path), join(types, "lit.js")).replaceAll("\\", "/");
+    const own = text.replaceAll(/(from |import\()["']lit["']/g, `$1"${lit.startsWith(".") ? lit : `./${lit}`}"`);
+    if (own !== text) await writeFile(path, own);
+  }
+}
+
+async function describe(): Promise<void> {
+  const { version, license } = JSON.parse(await readFile(join(root, "package.json"), "utf8")) as Record<string, string>;
+  const entry = (types: string, file: string): Record<string, string> => ({
+    types: `./types/src/${types}.d.ts`,
+    default: `./${file}.js`,
+  });
+  const description = {
+    name: "cusp-slicer",
+    version,
+    description: "Slices STL models for resin printers in the browser: layers as thin as the surface needs, and no thinner",
+    license,
+    type: "module",
+    keywords: ["3d-printing", "slicer", "resin", "stl", "custom-element", "wasm"],
+    exports: {
+      ".": entry("api/index", "index"),
+      "./element": entry("element/register", "element"),
+      "./element-class": entry("element/index", "element-class"),
+      "./worker.js": "./worker.js",
+      [`./${WASM}`]: `./${WASM}`,
+      "./package.json": "./package.json",
+    },
+    sideEffects: ["./element.js", "./worker.js"],
+  };
+  await writeFile(join(out, "package.json"), `${JSON.stringify(description, null, 2)}\n`);
+  await copyFile(join(root, "../docs/embed.md"), join(out, "README.md"));
+  for (const name of ["LICENSE-APACHE", "LICENSE-MIT"]) await copyFile(join(root, "..", name), join(out, name));
+}
+
+/** What a browser fetches, gzipped: with three, which comes with the 3-D view, and without. */
+async function weigh(chunks: readonly OutputChunk[]): Promise<{ all: number; three: number }> {
+  const gzipped = (bytes: string | Uint8Array): number => gzipSync(bytes, { level: 9 }).length;
+  const sum = (some: readonly OutputChunk[]): number => some.reduce((total, { code }) => total + gzipped(code), 0);
+  const three = sum(chunks.filter(({ name }) => name === "three"));
+  return { all: sum(chunks) + gzipped(await readFile(join(out, WASM))), three };
+}
+
+export async function main(): Promise<void> {
+  await rm(out, { recursive: true, force: true });
+  const chunks = await bundle();
+  const lazy = new Set(chunks.filter(({ isEntry }) => isEntry).flatMap(({ imports }) => imports));
+  if ([...lazy].some((name) => name.startsWith("three"))) throw new Error("three is loaded before it is needed");
+  await copyFile(join(root, "pkg", WASM), join(out, WASM));
+  await declare();
+  await describe();
+  const { all, three } = await weigh(chunks);
+  console.log(`gzipped ${all - three} bytes, and ${three} of three for the 3-D view`);
+  if (all - three > LIMIT_BYTES) throw new Error(`that is more than ${LIMIT_BYTES} bytes`);
+  const packed = execFileSync("npm", ["pack", "--json", "--loglevel=error"], { cwd: out, encoding: "utf8" });
+  const [tarball] = JSON.parse(packed) as { filename: string; size: number }[];
+  if (tarball === undefined) throw new Error("npm pack made no tarball");
+  console.log(`dist-package/${tarball.filename} ${tarball.size} bytes`);
+}

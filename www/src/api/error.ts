@@ -1,0 +1,89 @@
+/** Failures as data: a code for programs, a sentence for people, and typed details. */
+import type { CuspError } from "../../pkg/cusp_slicer.js";
+
+/** Every code that {@link SlicerError} can have, and what it means. A code once published keeps its meaning. */
+export const ERROR_CODES = {
+  "stl-empty": "The file has no bytes.",
+  "stl-not-stl": "Neither a binary STL nor text that begins with `solid`.",
+  "stl-truncated": "The file ends before its facets do.",
+  "stl-wrong-facet-count": "A binary STL with more facets than its header announces.",
+  "stl-not-finite": "A coordinate is NaN or infinite.",
+  "stl-syntax": "A line of a text STL that does not belong there.",
+  "stl-no-facets": "A well-formed STL without facets.",
+  "mesh-no-area": "No facet has an area.",
+  "mesh-zero-height": "The model is flat.",
+  "mesh-overflow": "Coordinates are too large to be computed with.",
+  "bad-height": "The height asked for is no positive number.",
+  "bad-rotation": "The rotation is no quaternion.",
+  "bad-length": "A length among the options is no positive number.",
+  "bad-time": "A time among the options is no number of seconds from 0.",
+  "bad-options": "The options contradict each other, or one is unknown.",
+  "grid-bad-size": "Masks of no pixels, or of more than there can be.",
+  "grid-too-fine": "Anti-aliasing asks for more rays than there can be.",
+  "model-too-large": "The model is wider or deeper than the printer; `detail.fitting_scale` fits.",
+  "model-too-high": "The model is higher than the printer's volume; `detail.fitting_scale` fits.",
+  "too-many-bins": "The bins are too small for the model's height.",
+  "not-whole-bins": "A length is no whole number of bins or motor steps.",
+  "layer-range-empty": "No layer thickness lies in the range.",
+  "layer-too-thick": "A uniform layer is thicker than the model allows.",
+  "layers-do-not-fit": "Layers do not add up to the height between two planes.",
+  "bad-range": "Height ranges overlap or are upside down.",
+  "bad-plane": "A plane that does not lie within the model.",
+  infeasible: "No plan keeps the tolerance; `detail` says where, and what would do.",
+  "out-of-reach": "No plan has so few layers or so short a print.",
+  "no-plan": "Masks or a print file were asked for before there was a plan.",
+  "no-hits": "No pixel meets the model.",
+  "too-many-facets": "More facets than can be sliced.",
+  "out-of-memory": "The work does not fit into memory.",
+  "no-gpu": "The GPU was asked for, and there is none.",
+  "gpu-too-small": "The model does not fit into the GPU's buffers.",
+  "gpu-failed": "The GPU failed at work.",
+  "all-black": "No pixel of any mask is lit.",
+  "uniform-only": "The format has one thickness for all layers, and the plan has several.",
+  "archive-write": "The print file could not be written.",
+  cancelled: "Stopped by the core itself; an aborted call rejects with an `AbortError` instead.",
+  "no-model": "A plan or a figure was asked for before a model was loaded.",
+  "file-unreadable": "The bytes of the file could not be read.",
+  "fetch-failed": "The model's address did not answer with a file.",
+  "start-failed": "The worker or the WebAssembly module could not be started.",
+  crash: "The worker broke down; the next call starts another.",
+} as const;
+
+export type ErrorCode = keyof typeof ERROR_CODES;
+
+export function isErrorCode(code: string): code is ErrorCode {
+  return Object.hasOwn(ERROR_CODES, code);
+}
+
+/** What every call rejects with, but for an abort, which is a `DOMException` of the name `AbortError`. */
+export class SlicerError extends Error {
+  readonly code: ErrorCode;
+  /** Typed details of the code, such as `least_tolerance`; null where there are none. Lengths are in mm. */
+  readonly detail: Readonly<Record<string, unknown>> | null;
+
+  constructor(code: ErrorCode, message: string, detail: Record<string, unknown> | null = null) {
+    super(message);
+    this.name = "SlicerError";
+    this.code = code;
+    this.detail = detail;
+  }
+}
+
+export function isAbort(error: unknown): boolean {
+  return error instanceof DOMException && error.name === "AbortError";
+}
+
+/** What the core threw, if it is an error that it describes: it crosses to this side as a plain object. */
+export function ofCore(value: unknown): SlicerError | null {
+  if (value instanceof SlicerError) return value;
+  if (typeof value !== "object" || value === null || value instanceof Error) return null;
+  const { code, message, detail } = value as Partial<CuspError>;
+  if (typeof code !== "string" || typeof message !== "string") return null;
+  return new SlicerError(isErrorCode(code) ? code : "crash", message, detail ?? null);
+}
+
+/** Anything that was thrown as one of these errors; what nobody described means that something broke. */
+export function asSlicerError(error: unknown): SlicerError {
+  if (error instanceof SlicerError) return error;
+  return new SlicerError("crash", error instanceof Error ? error.message : String(error));
+}

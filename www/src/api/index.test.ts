@@ -1,0 +1,109 @@
+import { expect, test } from "vitest";
+import { createSlicer, SCHEMA, type Slicer } from "./index.js";
+import { resolve } from "./source.js";
+import type { Engine } from "./lane.js";
+import type { Glance, MeshInfo, Options, Profiled, Report, SlicerWorker } from "./wire.js";
+
+/** A slicer over fake workers, and what these were asked. */
+function faked(): { slicer: Slicer; log: string[] } {
+  const log: string[] = [];
+  let workers = 0;
+  const spawn = (): Engine => {
+    const number = ++workers;
+    const say = (what: string): void => void log.push(`${number}: ${what}`);
+    const remote: SlicerWorker = {
+      boot: async () => ({}) as WebAssembly.Module,
+      open: async (file) => {
+        say(`open ${await file.text()}`);
+        return { facets: 1 } as MeshInfo;
+      },
+      plan: async (options) => {
+        say(`plan ${options.tolerance}`);
+        return { report: { mask: { width: 9, height: 2 } } as Report, profile: new Float32Array(1) };
+      },
+      tradeoff: async (_options: Options, points) => {
+        say(`tradeoff ${points}`);
+        return { points: [] };
+      },
+      compare: () => Promise.reject(new Error("not faked")),
+      mask: () => new Uint8Array(4),
+      archive: (_progress, port) => {
+        say("archive");
+        for (const chunk of [Uint8Array.of(1), Uint8Array.of(2, 3), null]) port?.postMessage(chunk);
+        return port === null ? new Blob(["zip"]) : null;
+      },
+      positions: () => {
+        say("positions");
+        return new Float32Array(9);
+      },
+      glance: () => ({ report: {} as Glance, profile: new Float32Array() }) as Profiled<Glance>,
+      printers: () => [],
+    };
+    return { remote, terminate: () => say("ended"), onBroken: () => undefined };
+  };
+  return { slicer: createSlicer({ spawn }), log };
+}
+
+test("results carry the version of their schema", async () => {
+  const { slicer } = faked();
+  const file = new Blob(["a"]);
+  const model = await slicer.load(file, { name: "a.stl" });
+  expect(model).toMatchObject({ schema: SCHEMA, name: "a.stl", info: { facets: 1 } });
+  expect(model.file).toBe(file);
+  expect((await slicer.plan()).schema).toBe(SCHEMA);
+  expect((await slicer.tradeoff()).schema).toBe(SCHEMA);
+  expect((await slicer.glance()).schema).toBe(SCHEMA);
+  expect(await slicer.mask(1)).toMatchObject({ layer: 1, width: 9, height: 2 });
+});
+
+test("a print file is of the last plan, or of one made for the options that it is asked with", async () => {
+  const { slicer, log } = faked();
+  await slicer.load(new Blob(["a"]));
+  await slicer.export({ tolerance: 1 });
+  await slicer.export({ tolerance: 1 });
+  await slicer.export();
+  await slicer.export({ tolerance: 2 });
+  expect(log).toEqual(["1: open a", "1: plan 1", "1: archive", "1: archive", "1: archive", "1: plan 2", "1: archive"]);
+});
+
+test("a stream gives the chunks as they come", async () => {
+  const { slicer } = faked();
+  await slicer.load(new Blob(["a"]));
+  const chunks: number[][] = [];
+  for await (const chunk of slicer.exportStream({}) as unknown as AsyncIterable<Uint8Array>) chunks.push([...chunk]);
+  expect(chunks).toEqual([[1], [2, 3]]);
+});
+
+test("a stream that fails says why, and one that nobody wants any more ends the worker", async () => {
+  const { slicer, log } = faked();
+  await expect(slicer.exportStream({}).getReader().read()).rejects.toMatchObject({ code: "no-model" });
+  await slicer.load(new Blob(["a"]));
+  await slicer.exportStream({}).cancel();
+  expect(log.filter((line) => line.endsWith("ended")).length).toBeLessThanOrEqual(1);
+  expect(await (await slicer.export({})).text()).toBe("zip");
+});
+
+test("live figures have a worker of their own, which reads the model when first asked", async () => {
+  const { slicer, log } = faked();
+  await slicer.load(new Blob(["a"]));
+  expect(log).toEqual(["1: open a"]);
+  await slicer.positions();
+  await slicer.load(new Blob(["b"]));
+  await slicer.positions();
+  expect(log).toEqual(["1: open a", "2: open a", "2: positions", "1: open b", "2: open b", "2: positions"]);
+});
+
+test("sources: files have names, bytes have none, addresses have the last part of their path", async () => {
+  const bytes = new TextEncoder().encode("solid");
+  expect(await resolve(new File([bytes], "a.stl"))).toMatchObject({ name: "a.stl" });
+  expect((await resolve(bytes)).name).toBe("model.stl");
+  expect(await (await resolve(bytes.buffer)).file.text()).toBe("solid");
+  const data = `data:,${"solid"}`;
+  expect(await (await resolve(data)).file.text()).toBe("solid");
+});
+
+test("an address that does not answer is an error with a code; an aborted one is an abort", async () => {
+  await expect(resolve("nonsense:x")).rejects.toMatchObject({ code: "fetch-failed" });
+  const signal = AbortSignal.abort();
+  await expect(resolve("data:,x", signal)).rejects.toMatchObject({ name: "AbortError" });
+});

@@ -1,0 +1,48 @@
+/** The ways a model can be given, made one: a Blob with a name. */
+import { isAbort, SlicerError } from "./error.js";
+
+/** A file, bytes, or an address: text is taken for one, relative to the page. */
+export type Source = Blob | ArrayBuffer | ArrayBufferView | URL | string;
+
+export interface Named {
+  file: Blob;
+  /** The file's name; the last part of an address; `model.stl` for bytes. */
+  name: string;
+}
+
+const NAMELESS = "model.stl";
+
+/** Fetches what is an address, with nothing but the address sent. */
+export async function resolve(source: Source, signal?: AbortSignal): Promise<Named> {
+  if (source instanceof File) return { file: source, name: source.name };
+  if (source instanceof Blob) return { file: source, name: NAMELESS };
+  if (typeof source !== "string" && !(source instanceof URL)) {
+    return { file: new Blob([source as ArrayBuffer]), name: NAMELESS };
+  }
+  return { file: await download(source, signal), name: nameOf(source) };
+}
+
+function nameOf(address: URL | string): string {
+  const path = String(address).replace(/[?#].*$/s, "");
+  const last = path.slice(path.lastIndexOf("/") + 1);
+  if (last === "" || path.startsWith("data:") || path.startsWith("blob:")) return NAMELESS;
+  try {
+    return decodeURIComponent(last);
+  } catch {
+    return last;
+  }
+}
+
+async function download(address: URL | string, signal?: AbortSignal): Promise<Blob> {
+  try {
+    const response = await fetch(address, signal === undefined ? {} : { signal });
+    if (response.ok) return await response.blob();
+    throw new SlicerError("fetch-failed", `the model could not be fetched (HTTP ${response.status})`, {
+      status: response.status,
+    });
+  } catch (error) {
+    if (error instanceof SlicerError || isAbort(error) || signal?.aborted === true) throw error;
+    const message = error instanceof Error ? error.message : String(error);
+    throw new SlicerError("fetch-failed", `the model could not be fetched (${message})`);
+  }
+}

@@ -1,0 +1,131 @@
+/** The worker: the only file that imports the WebAssembly package. One model is open at a time. */
+import * as Comlink from "comlink";
+import init, { printers, Slicer } from "../../pkg/cusp_slicer.js";
+import type { CuspError, OnProgress, SlicerWorker } from "./wire.js";
+
+/** Parts of a print file beyond this many bytes are handed to the browser, which may keep them on disk. */
+const BLOB_PART_BYTES = 8 << 20;
+
+let slicer: Slicer | null = null;
+let memory: WebAssembly.Memory | null = null;
+
+/** The open model. The other side opens one before it asks for anything of it. */
+function current(): Slicer {
+  if (slicer === null) throw new Error("no model is open");
+  return slicer;
+}
+
+async function compile(): Promise<WebAssembly.Module> {
+  // Spelled out like this, bundlers find the file and give it a place of its own.
+  const response = await fetch(new URL("../../pkg/cusp_slicer_bg.wasm", import.meta.url));
+  if (!response.ok) throw new Error(`the slicer could not be loaded (HTTP ${response.status})`);
+  // Streaming needs the right content type, which plain file hosts do not always send.
+  const typed = response.headers.get("content-type")?.startsWith("application/wasm") ?? false;
+  return typed ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
+}
+
+async function bytesOf(file: Blob): Promise<Uint8Array> {
+  try {
+    return new Uint8Array(await file.arrayBuffer());
+  } catch (cause) {
+    const unreadable: CuspError = {
+      code: "file-unreadable",
+      message: cause instanceof Error ? cause.message : String(cause),
+      detail: null,
+    };
+    throw unreadable;
+  }
+}
+
+/** The core is given a plain function: what comlink hands over is a proxy that answers to every property. */
+function plain(progress: OnProgress): OnProgress {
+  return (stage, fraction) => {
+    progress(stage, fraction);
+  };
+}
+
+/** Bytes that may be transferred: those that lie in the core's own memory are copied out of it. */
+function own(bytes: Uint8Array): Uint8Array<ArrayBuffer> {
+  const isShared = bytes.buffer === memory?.buffer || bytes.byteLength !== bytes.buffer.byteLength;
+  return isShared ? bytes.slice() : (bytes as Uint8Array<ArrayBuffer>);
+}
+
+/** Takes chunks and makes a Blob of them without ever having them in one array. */
+class BlobSink {
+  #done = new Blob([]);
+  #parts: Uint8Array<ArrayBuffer>[] = [];
+  #bytes = 0;
+
+  readonly take = (chunk: Uint8Array): void => {
+    this.#parts.push(own(chunk));
+    this.#bytes += chunk.byteLength;
+    if (this.#bytes >= BLOB_PART_BYTES) this.#fold();
+  };
+
+  finish(): Blob {
+    this.#fold();
+    return this.#done;
+  }
+
+  #fold(): void {
+    this.#done = new Blob([this.#done, ...this.#parts]);
+    this.#parts = [];
+    this.#bytes = 0;
+  }
+}
+
+const api: SlicerWorker = {
+  async boot(module) {
+    const compiled = module ?? (await compile());
+    ({ memory } = await init({ module_or_path: compiled }));
+    return compiled;
+  },
+  async open(file, progress) {
+    progress("load", 0);
+    const opened = new Slicer(await bytesOf(file));
+    slicer?.free();
+    slicer = opened;
+    return opened.info();
+  },
+  async plan(options, progress) {
+    const report = await current().plan(options, plain(progress));
+    const profile = current().profile(report.metric, report.source);
+    return Comlink.transfer({ report, profile }, [profile.buffer]);
+  },
+  tradeoff(options, points, progress) {
+    return current().tradeoff(options, points, plain(progress));
+  },
+  compare(options, progress) {
+    return current().compare(options, plain(progress));
+  },
+  mask(layer) {
+    const bits = current().mask(layer);
+    return Comlink.transfer(bits, [bits.buffer]);
+  },
+  archive(progress, port) {
+    if (port === null) {
+      const sink = new BlobSink();
+      current().archive(sink.take, plain(progress));
+      return sink.finish();
+    }
+    const take = (chunk: Uint8Array): void => {
+      const bytes = own(chunk);
+      port.postMessage(bytes, [bytes.buffer]);
+    };
+    current().archive(take, plain(progress));
+    port.postMessage(null);
+    return null;
+  },
+  positions() {
+    const positions = current().positions();
+    return Comlink.transfer(positions, [positions.buffer]);
+  },
+  glance(options) {
+    const report = current().glance(options);
+    const profile = current().glance_profile();
+    return Comlink.transfer({ report, profile }, [profile.buffer]);
+  },
+  printers,
+};
+
+Comlink.expose(api);

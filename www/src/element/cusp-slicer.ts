@@ -1,0 +1,416 @@
+/**
+ * `<cusp-slicer>`: a look at a model, a choice of quality, a time, an amount of resin and a print file.
+ *
+ * Everything is worked out in the customer's browser. See docs/embed.md for attributes, events, colours and parts.
+ */
+import { LitElement, type PropertyValues, type TemplateResult } from "lit";
+import { SlicerError } from "../api/error.js";
+import { createSlicer, type Model, type Plan, type Slicer } from "../api/index.js";
+import type { Source } from "../api/source.js";
+import type { Backend, Format, Metric, Resin } from "../api/wire.js";
+import { languageOf, type Language } from "../texts/index.js";
+import type { CuspSlicerEvents, ExportDetail } from "./events.js";
+import { face } from "./face.js";
+import { layoutStyles } from "./layout.js";
+import { METRICS } from "./metric.js";
+import { panelsOf } from "./panel-names.js";
+import { definePanels } from "./panels.js";
+import { problemStyles } from "./problem-box.js";
+import { progressStyles, standing } from "./progress.js";
+import type { Result } from "./result.js";
+import { Session, type Download, type Host } from "./session.js";
+import { fromAddress, parse, toAddress, withTolerance } from "./settings.js";
+import { shared } from "./styles.js";
+import { summaryStyles } from "./summary.js";
+
+export type State = "empty" | "busy" | "error" | "done" | "ready";
+
+/** Long enough for a browser to take hold of a file that is saved. */
+const SAVED_MS = 60_000;
+
+interface Waiting {
+  resolve(result: Plan): void;
+  reject(error: unknown): void;
+}
+
+export class CuspSlicer extends LitElement implements Host {
+  static override properties = {
+    src: { type: String },
+    locale: { type: String },
+    panels: { type: String },
+    printer: { type: String, noAccessor: true },
+    tolerance: { type: Number, noAccessor: true },
+    layerMin: { type: Number, attribute: "layer-min", noAccessor: true },
+    layerMax: { type: Number, attribute: "layer-max", noAccessor: true },
+    metric: { type: String, noAccessor: true },
+    format: { type: String, noAccessor: true },
+    quality: { type: Number, noAccessor: true },
+    backend: { type: String, noAccessor: true },
+    dragging: { state: true },
+  };
+
+  /** Address of an STL, which is opened when it is set. */
+  declare src: string | null;
+  /** BCP 47; if absent, that of the nearest `lang`, or what the browser prefers. */
+  declare locale: string | null;
+  /** What is shown, separated by blanks: open, model, settings, plan, view, profile, quality, layers. All if absent. */
+  declare panels: string | null;
+  declare dragging: boolean;
+
+  static override styles = [shared, summaryStyles, progressStyles, problemStyles, layoutStyles];
+
+  /** What this element works with; a page may ask it for more than the element shows. */
+  readonly slicer: Slicer = createSlicer();
+  readonly #session = new Session(this, this.slicer);
+  #waiting: Waiting[] = [];
+  #started = false;
+
+  constructor() {
+    super();
+    definePanels();
+    this.src = null;
+    this.locale = null;
+    this.panels = null;
+    this.dragging = false;
+    this.addEventListener("dragover", this.#dragOver);
+    this.addEventListener("dragleave", () => (this.dragging = false));
+    this.addEventListener("drop", this.#dropped);
+    this.addEventListener("paste", this.#pasted);
+    this.addEventListener("keydown", this.#key);
+  }
+
+  override connectedCallback(): void {
+    super.connectedCallback();
+    if (!this.#started) this.#session.start();
+    this.#started = true;
+  }
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    // Something that is only moved is back before this.
+    queueMicrotask(() => {
+      if (this.isConnected) return;
+      this.#session.cancel();
+      this.slicer.rest();
+    });
+  }
+
+  /** empty, busy, ready (a model without a plan), done, or error; reflected in the attribute `state`. */
+  get state(): State {
+    const { busy, isPending, failure, result, model } = this.#session;
+    if (busy !== null || isPending) return "busy";
+    if (failure !== null) return "error";
+    return result !== null ? "done" : model !== null ? "ready" : "empty";
+  }
+
+  /** The model that is open. */
+  get model(): Model | null {
+    return this.#session.model;
+  }
+
+  /** The last plan that worked. */
+  get result(): Result | null {
+    return this.#session.result;
+  }
+
+  /** Name of a printer (see `slicer.printers()`); empty for none. */
+  get printer(): string {
+    return this.#session.settings.printer;
+  }
+  set printer(printer: string | null) {
+    this.#session.preset({ printer: printer ?? "" });
+  }
+
+  /** Greatest error of a layer in the metric's unit: mm, mm, a part of one, mm³. Null for the usual one. */
+  get tolerance(): number | null {
+    const { metric, tolerances } = this.#session.settings;
+    const typed = parse(tolerances[metric] ?? "");
+    return typed === null ? null : typed / METRICS[metric].scale;
+  }
+  set tolerance(tolerance: number | null) {
+    const { settings } = this.#session;
+    const { scale } = METRICS[settings.metric];
+    this.#session.preset(withTolerance(settings, tolerance === null ? "" : String(tolerance * scale)));
+  }
+
+  /** Least layer thickness, mm. */
+  get layerMin(): number {
+    return parse(this.#session.settings.layerMin) ?? Number.NaN;
+  }
+  set layerMin(mm: number) {
+    this.#session.preset({ layerMin: String(mm) });
+  }
+
+  /** Greatest layer thickness, mm. */
+  get layerMax(): number {
+    return parse(this.#session.settings.layerMax) ?? Number.NaN;
+  }
+  set layerMax(mm: number) {
+    this.#session.preset({ layerMax: String(mm) });
+  }
+
+  /** What the tolerance measures. */
+  get metric(): Metric {
+    return this.#session.settings.metric;
+  }
+  set metric(metric: Metric) {
+    if (Object.hasOwn(METRICS, metric)) this.#session.preset({ metric });
+  }
+
+  /** The print file; null for the printer's own. */
+  get format(): Format | null {
+    const { format } = this.#session.settings;
+    return format === "" ? null : format;
+  }
+  set format(format: Format | null) {
+    this.#session.preset({ format: format ?? "" });
+  }
+
+  /**
+   * A place on the trade-off curve instead of a tolerance, from 0, the quickest print worth having, to 1, the finest.
+   * Null before the curve is known.
+   */
+  get quality(): number | null {
+    return this.#session.quality;
+  }
+  set quality(quality: number | null) {
+    this.#session.quality = quality;
+  }
+
+  /** Where rays are cast: `cpu`, `gpu`, or null for the best there is. */
+  get backend(): Backend | null {
+    return this.#session.backend;
+  }
+  set backend(backend: Backend | null) {
+    this.#session.backend = backend;
+    this.#session.replan();
+  }
+
+  /** Resins to choose from; each needs a name. */
+  get resins(): readonly Resin[] {
+    return this.#session.resins;
+  }
+  set resins(resins: readonly Resin[]) {
+    this.#session.resins = resins;
+    this.requestUpdate();
+  }
+
+  /** All settings as the query of an address, such as `metric=area&tolerance=5`: what is default is left out. */
+  get query(): string {
+    return toAddress(this.#session.settings);
+  }
+  set query(query: string) {
+    this.#session.preset(fromAddress(query));
+  }
+
+  /**
+   * Opens a model, or the first of several; the plan follows by itself.
+   *
+   * @throws SlicerError; an `AbortError` if it was cancelled, or if another model was opened meanwhile.
+   */
+  async load(source: Source | readonly File[], name?: string): Promise<Model> {
+    const model = isFiles(source) ? await this.#session.choose(source) : await this.#session.open(source, name);
+    if (model !== null) return model;
+    throw this.#reason();
+  }
+
+  /** The plan that the settings give, once it is there. */
+  plan(): Promise<Plan> {
+    if (Object.keys(this.#session.faults).length > 0) {
+      return Promise.reject(new SlicerError("bad-options", "a setting is out of range"));
+    }
+    if (this.model === null) return Promise.reject(new SlicerError("no-model", "load a model first"));
+    const { result } = this;
+    if (result !== null && this.#session.isCurrent && this.state === "done") return Promise.resolve(result);
+    return new Promise((resolve, reject) => {
+      this.#waiting.push({ resolve, reject });
+      this.#session.replan();
+    });
+  }
+
+  /** The print file of the plan that the settings give; nothing is saved. */
+  async export(): Promise<ExportDetail> {
+    if (this.model !== null) await this.plan();
+    const download = await this.#session.export();
+    if (download !== null) return download;
+    throw this.result === null ? new SlicerError("no-plan", "plan the layers first") : this.#reason();
+  }
+
+  /** Stops what is under way within a tenth of a second; the last plan stays. */
+  cancel(): void {
+    this.#session.cancel();
+  }
+
+  undo(): void {
+    this.#session.undo();
+  }
+
+  redo(): void {
+    this.#session.redo();
+  }
+
+  /** @internal What the session tells. */
+  loaded(model: Model): void {
+    this.#tell("cusp-load", model);
+  }
+  /** @internal */
+  planned(result: Result): void {
+    if (this.#session.isCurrent) this.#settle(({ resolve }) => resolve(result));
+    this.#tell("cusp-plan", result);
+  }
+  /** @internal */
+  failed(error: SlicerError): void {
+    this.#settle(({ reject }) => reject(error));
+    this.#tell("cusp-error", error);
+  }
+  /** @internal */
+  cancelled(): void {
+    this.#settle(({ reject }) => reject(new DOMException("cancelled", "AbortError")));
+  }
+  /** @internal */
+  progressed(busy: NonNullable<Session["busy"]>): void {
+    const { task, stage, fraction } = busy;
+    this.#tell("cusp-progress", { task, stage, fraction, ...standing(busy, performance.now()) });
+  }
+  /** @internal */
+  settingsChanged(): void {
+    this.#tell("cusp-change", { query: this.query });
+  }
+
+  override willUpdate(changed: PropertyValues<this>): void {
+    if (changed.has("src") && this.src !== null) void this.#session.open(this.src);
+  }
+
+  override render(): TemplateResult {
+    return face({
+      session: this.#session,
+      language: this.#language(),
+      panels: panelsOf(this.panels),
+      slicer: this.slicer,
+      isWide: this.clientWidth >= WIDE_PX,
+      isDragging: this.dragging,
+      picked: this.#picked,
+      save: this.#save,
+    });
+  }
+
+  override updated(): void {
+    const before = this.getAttribute("state");
+    this.setAttribute("state", this.state);
+    // Whoever pressed a button of the empty element, which is gone now, must not be left nowhere.
+    const root = this.renderRoot as ShadowRoot;
+    if (before === "busy" && root.activeElement === null && this.#orphaned && this.model !== null) {
+      this.#orphaned = false;
+      root.querySelector<HTMLElement>("#model-name")?.focus({ preventScroll: true });
+    }
+  }
+
+  /** Whether the focus was on something of the empty element when a model was opened from there. */
+  #orphaned = false;
+
+  /** @internal Called by whoever opens a model by a button that goes when the model comes. */
+  willOrphan(): void {
+    this.#orphaned = this.model === null;
+  }
+
+  #language(): Language {
+    const locales = [this.locale, langOf(this), ...navigator.languages];
+    return languageOf(...locales.filter((locale) => locale !== null));
+  }
+
+  /** Why the last task came to nothing. */
+  #reason(): unknown {
+    const { failure } = this.#session;
+    if (failure === null) return new DOMException("cancelled", "AbortError");
+    return failure.error === "not-stl" ? new SlicerError("stl-not-stl", `${failure.name} is no STL file`) : failure.error;
+  }
+
+  #settle(tell: (waiting: Waiting) => void): void {
+    const waiting = this.#waiting;
+    this.#waiting = [];
+    waiting.forEach(tell);
+  }
+
+  #tell<Name extends keyof CuspSlicerEvents>(name: Name, detail: CuspSlicerEvents[Name]["detail"]): boolean {
+    const isCancelable = name === "cusp-export";
+    return this.dispatchEvent(new CustomEvent(name, { detail, bubbles: true, composed: true, cancelable: isCancelable }));
+  }
+
+  readonly #picked = (event: Event): void => {
+    const input = event.target as HTMLInputElement;
+    const files = [...(input.files ?? [])];
+    // So that choosing the same file again is a change.
+    input.value = "";
+    if (files.length > 0) this.willOrphan();
+    void this.#session.choose(files);
+  };
+
+  readonly #save = async (): Promise<void> => {
+    const download = await this.#session.export();
+    if (download !== null && this.#tell("cusp-export", download)) saveFile(download);
+  };
+
+  readonly #dragOver = (event: DragEvent): void => {
+    event.preventDefault();
+    this.dragging = event.dataTransfer?.types.includes("Files") ?? false;
+  };
+
+  readonly #dropped = (event: DragEvent): void => {
+    event.preventDefault();
+    this.dragging = false;
+    void this.#session.choose([...(event.dataTransfer?.files ?? [])]);
+  };
+
+  readonly #pasted = (event: ClipboardEvent): void => {
+    const files = [...(event.clipboardData?.files ?? [])];
+    if (files.length === 0) return;
+    event.preventDefault();
+    void this.#session.choose(files);
+  };
+
+  readonly #key = (event: KeyboardEvent): void => {
+    if (event.key === "Escape") return this.cancel();
+    const [origin] = event.composedPath();
+    // In a text field these keys are the browser's own.
+    if (!(event.ctrlKey || event.metaKey) || (origin instanceof HTMLInputElement && origin.type === "text")) return;
+    const key = event.key.toLowerCase();
+    if (key === "y" || (key === "z" && event.shiftKey)) this.redo();
+    else if (key === "z") this.undo();
+    else return;
+    event.preventDefault();
+  };
+}
+
+/** From this width on settings stand beside the results, and are open. */
+const WIDE_PX = 896;
+
+function isFiles(source: Source | readonly File[]): source is readonly File[] {
+  return Array.isArray(source);
+}
+
+/** The nearest `lang` around an element, through shadow roots. */
+function langOf(element: Element): string | null {
+  for (let at: Element | null = element; at !== null; ) {
+    const found: Element | null = at.closest("[lang]");
+    if (found !== null) return found.getAttribute("lang");
+    const root: Node = at.getRootNode();
+    at = root instanceof ShadowRoot ? root.host : null;
+  }
+  return null;
+}
+
+function saveFile({ name, blob }: Download): void {
+  const address = URL.createObjectURL(blob);
+  const link = document.createElement("a");
+  link.href = address;
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(address), SAVED_MS);
+}
+
+declare global {
+  interface HTMLElementTagNameMap {
+    "cusp-slicer": CuspSlicer;
+  }
+  interface HTMLElementEventMap extends CuspSlicerEvents {}
+}

@@ -1,0 +1,277 @@
+/** The colours of the element, which its host may set, and how its panels are laid out. */
+import { css } from "lit";
+
+export const layoutStyles = css`
+  :host {
+    --cusp-font: system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", "Noto Sans", Arial, sans-serif;
+    --cusp-page: light-dark(#f4f5f7, #13151a);
+    --cusp-card: light-dark(#ffffff, #1b1e25);
+    --cusp-line: light-dark(#dfe3e8, #2e333d);
+    --cusp-field: light-dark(#868f9c, #6b7480);
+    --cusp-text: light-dark(#171b22, #e8eaee);
+    --cusp-quiet: light-dark(#566070, #a2abb8);
+    --cusp-accent: light-dark(#1f4f96, #8fb8f0);
+    --cusp-accent-hover: light-dark(#173f7c, #aacbf7);
+    --cusp-on-accent: light-dark(#ffffff, #10203a);
+    --cusp-good: light-dark(#1a6e3c, #7fd0a0);
+    --cusp-bad: light-dark(#a8212c, #ff9a9a);
+    --cusp-bad-wash: light-dark(#fdf1f1, #2d1b1f);
+    --cusp-note-wash: light-dark(#eef3fa, #1a2434);
+    --cusp-focus: light-dark(#2f74d6, #9ac4ff);
+    --cusp-chart-ink: light-dark(#171b22, #f4f6fa);
+    --cusp-chart-paper: light-dark(#ffffff, #1b1e25);
+    --cusp-chart-seam: rgb(16 19 26 / 0.22);
+    --cusp-radius: 12px;
+
+    display: block;
+    container-type: inline-size;
+    color: var(--cusp-text);
+    font: 16px/1.5 var(--cusp-font);
+    text-align: start;
+  }
+  :host([hidden]) {
+    display: none;
+  }
+  h2 {
+    font-size: 1.125rem;
+    font-weight: 600;
+    overflow-wrap: anywhere;
+  }
+  h2:focus:not(:focus-visible) {
+    outline: none;
+  }
+  .start {
+    display: grid;
+    justify-items: center;
+    gap: 1rem;
+    padding-top: clamp(0rem, 4vh, 3rem);
+  }
+  .drop {
+    display: grid;
+    justify-items: center;
+    align-content: center;
+    gap: 1rem;
+    width: 100%;
+    max-width: 44rem;
+    min-height: 20rem;
+    padding: 2rem 1rem;
+    border: 2px dashed var(--cusp-field);
+    border-radius: 16px;
+    background: var(--cusp-card);
+    cursor: pointer;
+    transition: border-color 120ms;
+  }
+  .drop:hover {
+    border-color: var(--cusp-accent);
+  }
+  .drop:has(:focus-visible),
+  .open-other label:has(:focus-visible) {
+    outline: 3px solid var(--cusp-focus);
+    outline-offset: 2px;
+  }
+  .drop-title {
+    font-size: 1.375rem;
+    font-weight: 600;
+  }
+  slot[name="empty"] {
+    display: block;
+    width: 100%;
+    max-width: 44rem;
+  }
+  .waiting {
+    display: grid;
+    gap: 1rem;
+    align-content: center;
+    justify-items: start;
+    min-height: 10rem;
+    width: 100%;
+    max-width: 44rem;
+  }
+  .waiting .progress {
+    width: 100%;
+  }
+
+  .work {
+    display: grid;
+    grid-template-columns: minmax(0, 1fr);
+    gap: 1rem;
+  }
+  .model dl {
+    display: flex;
+    flex-wrap: wrap;
+    gap: 0.5rem 1.5rem;
+    margin-top: 0.75rem;
+  }
+  .earlier {
+    margin-bottom: 0.75rem;
+    padding: 0.375rem 0.75rem;
+    border-radius: 6px;
+    background: var(--cusp-note-wash);
+    font-size: 0.875rem;
+  }
+  dt {
+    color: var(--cusp-quiet);
+    font-size: 0.8125rem;
+  }
+  .warning {
+    margin-top: 0.75rem;
+    padding-inline-start: 0.75rem;
+    border-inline-start: 3px solid #e0a030;
+    font-size: 0.875rem;
+  }
+  .files {
+    display: flex;
+    align-items: center;
+    gap: 0.5rem;
+    margin-top: 1rem;
+  }
+  .files button {
+    min-width: 2.25rem;
+    padding: 0;
+    font-size: 1.25rem;
+  }
+  .flip:dir(rtl) {
+    scale: -1 1;
+  }
+  .open-other {
+    display: flex;
+    align-items: center;
+    gap: 0.75rem;
+    margin-top: 1rem;
+  }
+  .open-other label {
+    position: relative;
+  }
+  .settings summary {
+    cursor: pointer;
+  }
+  .settings summary h2 {
+    display: inline;
+  }
+  .settings[open] summary {
+    margin-bottom: 1rem;
+  }
+  .settings {
+    position: relative;
+  }
+  .settings .steps {
+    position: absolute;
+    inset-block-start: 0.9375rem;
+    inset-inline-end: 1.25rem;
+    display: flex;
+    gap: 0.25rem;
+  }
+  .settings .steps button {
+    min-width: 2.25rem;
+    padding: 0;
+  }
+  .steps svg {
+    width: 1.125rem;
+    height: 1.125rem;
+    fill: none;
+    stroke: currentColor;
+    stroke-width: 1.75;
+    stroke-linecap: round;
+    stroke-linejoin: round;
+  }
+  .results {
+    display: grid;
+    grid-template-columns: minmax(0, 1fr);
+    gap: 1rem;
+    align-content: start;
+  }
+  .results > * {
+    transition: opacity 150ms;
+  }
+  /* Late to dim and quick to return, so that quick plans do not make the page blink. */
+  .results.replanning > * {
+    opacity: 0.6;
+    transition-delay: 250ms;
+  }
+  .results .waiting {
+    max-width: none;
+  }
+  .download {
+    min-height: 3rem;
+    padding-inline: 1.5rem;
+  }
+  details.quiet {
+    margin-top: 0.75rem;
+  }
+  details.quiet summary {
+    width: fit-content;
+    cursor: pointer;
+  }
+  .facts {
+    display: flex;
+    flex-wrap: wrap;
+    gap: 0.5rem 2rem;
+    margin-top: 0.5rem;
+  }
+  /* Waits a little before it shows, so that quick plans do not make it flash. */
+  .toast {
+    position: fixed;
+    z-index: 2;
+    inset-inline: 1rem;
+    bottom: 1rem;
+    max-width: 32rem;
+    margin-inline: auto;
+    box-shadow: 0 8px 30px rgb(0 0 0 / 0.25);
+    animation: appear 150ms 250ms both;
+  }
+  @keyframes appear {
+    from {
+      opacity: 0;
+    }
+  }
+  .dragging {
+    outline: 3px dashed var(--cusp-accent);
+    outline-offset: 0.25rem;
+    border-radius: 16px;
+  }
+  .span {
+    grid-column: 1 / -1;
+  }
+
+  @container (min-width: 56rem) {
+    .work {
+      grid-template-columns: 19rem minmax(0, 1fr);
+      grid-template-rows: auto 1fr;
+    }
+    .model {
+      grid-area: 1 / 1;
+    }
+    .settings {
+      grid-area: 2 / 1;
+      align-self: start;
+    }
+    .results {
+      grid-area: 1 / 2 / 3 / 3;
+      grid-template-columns: minmax(0, 1.15fr) minmax(0, 1fr);
+    }
+    .work.plain {
+      grid-template-columns: minmax(0, 1fr);
+    }
+    .plain .results {
+      grid-area: auto;
+    }
+  }
+  /* On a phone the answer comes before the settings, which fold away. */
+  @container (max-width: 55.99rem) {
+    .results {
+      display: contents;
+    }
+    .results > * {
+      order: 1;
+    }
+    .settings {
+      order: 0;
+    }
+    .results > .first {
+      order: -1;
+    }
+    .model {
+      order: -2;
+    }
+  }
+`;

@@ -1,0 +1,253 @@
+/** The model in three dimensions with its tools. The view itself, and three with it, is fetched when it is first shown. */
+import { css, html, LitElement, nothing, type PropertyValues, type TemplateResult } from "lit";
+import type { Slicer } from "../api/index.js";
+import type { Printer } from "../api/wire.js";
+import { languageOf, type Language } from "../texts/index.js";
+import type { Inset } from "../view/cameras.js";
+import type { Look } from "../view/model.js";
+import type { PaletteName } from "../view/palette.js";
+import type { BuildVolume } from "../view/plate.js";
+import type { Rotation } from "../view/pose.js";
+import type { RotateDetail } from "../view/events.js";
+import type { Tool } from "../view/stage.js";
+import type { ViewTexts } from "../view/texts.js";
+import type { PlotPlace } from "./profile-chart.js";
+import type { Shown } from "./result.js";
+import { shared } from "./styles.js";
+
+const MICROMETRES = 1000;
+/** Room around the model where there is no chart beside it. */
+const ALONE: Inset = { top_px: 12, bottom_px: 12 };
+const TOOLS: readonly Tool[] = ["turn", "rotate", "flat"];
+
+/** What the view says, from the catalogue. */
+export function viewTexts({ texts: { view: words }, format }: Language): ViewTexts {
+  const micrometres = (mm: number): string => format.tick(Math.round(mm * MICROMETRES * 10) / 10);
+  return {
+    name: words.title,
+    kind: words.kind,
+    keys: words.keys,
+    state: (size_mm, layers) => format.dimensions(size_mm) + (layers > 0 ? `, ${words.layers(layers)}` : ""),
+    empty: words.empty,
+    legend: words.legend,
+    tick: micrometres,
+    layer: (layer, z_mm, thickness_mm) =>
+      words.layer(format.count(layer + 1), format.height(z_mm), `${micrometres(thickness_mm)}\u00a0µm`),
+    grid: (step_mm) => words.grid(format.fine(step_mm)),
+    building: (part) => words.building(format.percent(part)),
+    unavailable: words.unavailable,
+  };
+}
+
+export class CuspModel extends LitElement {
+  static override properties = {
+    slicer: { attribute: false },
+    model: { attribute: false },
+    shown: { attribute: false },
+    layer: { type: Number },
+    rotation: { attribute: false },
+    scale: { type: Number },
+    printer: { attribute: false },
+    language: { attribute: false },
+    plot: { attribute: false },
+    inset: { state: true },
+    positions: { state: true },
+    isThere: { state: true },
+    tool: { state: true },
+    look: { state: true },
+    palette: { state: true },
+    aligned: { state: true },
+  };
+
+  declare slicer: Slicer | null;
+  /** Whatever stands for the model: positions are asked for when it is another. */
+  declare model: unknown;
+  declare shown: Shown | null;
+  declare layer: number;
+  declare rotation: Rotation;
+  declare scale: number;
+  declare printer: Printer | null;
+  declare language: Language;
+  /** Where the chart beside it shows which heights; null without a chart. */
+  declare plot: PlotPlace | null;
+  declare inset: Inset;
+  declare positions: Float32Array | null;
+  declare isThere: boolean;
+  declare tool: Tool;
+  declare look: Look;
+  declare palette: PaletteName;
+  /** Whether heights are to be where the chart has them, if it stands beside. */
+  declare aligned: boolean;
+
+  #texts: { of: Language; words: ViewTexts } | null = null;
+  #asked: unknown = null;
+  readonly #resized = new ResizeObserver(() => this.requestUpdate());
+
+  constructor() {
+    super();
+    this.slicer = null;
+    this.model = null;
+    this.shown = null;
+    this.layer = 0;
+    this.rotation = [0, 0, 0, 1];
+    this.scale = 1;
+    this.printer = null;
+    this.language = languageOf();
+    this.plot = null;
+    this.inset = ALONE;
+    this.positions = null;
+    this.isThere = false;
+    this.tool = "turn";
+    this.look = "thickness";
+    this.palette = "classic";
+    this.aligned = true;
+  }
+
+  static override styles = [
+    shared,
+    css`
+      :host {
+        display: flex;
+        flex-direction: column;
+        min-width: 0;
+        height: 100%;
+      }
+      .view {
+        flex: 1;
+        display: grid;
+        min-height: 28rem;
+      }
+      .tools {
+        display: flex;
+        flex-wrap: wrap;
+        gap: 0.375rem;
+        margin-top: 0.75rem;
+      }
+      [aria-pressed="true"] {
+        border-color: transparent;
+        background: var(--cusp-accent);
+        color: var(--cusp-on-accent);
+      }
+      [aria-pressed="true"]:hover:not(:disabled) {
+        background: var(--cusp-accent-hover);
+      }
+    `,
+  ];
+
+  override connectedCallback(): void {
+    super.connectedCallback();
+    this.#resized.observe(this);
+  }
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    this.#resized.disconnect();
+  }
+
+  override firstUpdated(): void {
+    void import("../view/cusp-view.js").then(() => (this.isThere = true));
+  }
+
+  override willUpdate(changed: PropertyValues<this>): void {
+    if (changed.has("model") && this.model !== this.#asked) void this.#fetch();
+  }
+
+  override updated(): void {
+    // Where the view lies is known when it is laid out.
+    const inset = this.#beside();
+    const { top_px, bottom_px } = this.inset;
+    if (inset.top_px !== top_px || inset.bottom_px !== bottom_px) this.inset = inset;
+  }
+
+  override render(): TemplateResult {
+    const { shown, language, tool } = this;
+    const canAlign = this.inset !== ALONE;
+    const isBeside = canAlign && this.aligned;
+    const { texts } = language;
+    const words = texts.view;
+    const isTurned = this.rotation.some((part, i) => part !== (i === 3 ? 1 : 0));
+    const toggle = (name: string, isOn: boolean, act: () => void): TemplateResult =>
+      html`<button class="small" aria-pressed=${isOn ? "true" : "false"} @click=${act}>${name}</button>`;
+    return html`
+      <div class="head"><h3>${words.title}</h3></div>
+      <div class="view">
+        ${this.isThere
+          ? html`<cusp-view
+              .positions=${this.positions}
+              .rotation=${this.rotation}
+              .scale=${this.scale}
+              .z_mm=${shown?.z_mm ?? []}
+              .thickness_mm=${shown?.thickness_mm ?? []}
+              .limits=${shown?.limits ?? [0, 0]}
+              .layer=${shown === null ? null : this.layer}
+              .plate=${volumeOf(this.printer)}
+              .look=${this.look}
+              .palette=${this.palette}
+              .tool=${tool}
+              .aligned=${isBeside}
+              .showsLegend=${!isBeside}
+              .heights_mm=${isBeside ? (this.plot?.heights_mm ?? null) : null}
+              .inset=${isBeside ? this.inset : ALONE}
+              .texts=${this.#words()}
+              @cusp-rotate=${(event: CustomEvent<RotateDetail>) => this.#tell(event)}
+              @cusp-layer=${(event: CustomEvent<number>) => this.#tell(event)}
+            ></cusp-view>`
+          : nothing}
+      </div>
+      <div class="tools" role="group" aria-label=${words.title}>
+        ${TOOLS.map((it) => toggle(words.tools[it], tool === it, () => (this.tool = it)))}
+        ${toggle(words.printed, this.look === "printed", () => (this.look = this.look === "printed" ? "thickness" : "printed"))}
+        ${toggle(words.safe, this.palette === "safe", () => (this.palette = this.palette === "safe" ? "classic" : "safe"))}
+        ${!canAlign ? nothing : toggle(words.aligned, this.aligned, () => (this.aligned = !this.aligned))}
+        ${isTurned ? html`<button class="small" @click=${this.#upright}>${words.upright}</button>` : nothing}
+      </div>
+    `;
+  }
+
+  /** Room that puts heights where the chart has them, if it stands beside and not above or below. */
+  #beside(): Inset {
+    const view = this.renderRoot.querySelector("cusp-view")?.getBoundingClientRect();
+    const plot = this.plot?.over.getBoundingClientRect();
+    if (view === undefined || plot === undefined) return ALONE;
+    const isBeside = plot.top >= view.top && plot.bottom <= view.bottom && plot.height > 0;
+    return isBeside ? { top_px: plot.top - view.top, bottom_px: view.bottom - plot.bottom } : ALONE;
+  }
+
+  /** Made once a language: another object would be another language to the view. */
+  #words(): ViewTexts {
+    if (this.#texts?.of !== this.language) this.#texts = { of: this.language, words: viewTexts(this.language) };
+    return this.#texts.words;
+  }
+
+  /** What the view tells goes on as it is; its events do not bubble. */
+  #tell<Detail>({ type, detail }: CustomEvent<Detail>): void {
+    this.dispatchEvent(new CustomEvent<Detail>(type, { detail }));
+  }
+
+  readonly #upright = (): void => {
+    const detail: RotateDetail = { rotation: [0, 0, 0, 1], final: true };
+    this.dispatchEvent(new CustomEvent<RotateDetail>("cusp-rotate", { detail }));
+  };
+
+  async #fetch(): Promise<void> {
+    const { model, slicer } = this;
+    this.#asked = model;
+    this.positions = null;
+    if (model === null || slicer === null) return;
+    // Without them there is an empty view; a worker that broke says so elsewhere.
+    const positions = await slicer.positions().catch(() => null);
+    if (this.#asked === model) this.positions = positions;
+  }
+}
+
+const volumes = new WeakMap<Printer, BuildVolume>();
+
+function volumeOf(printer: Printer | null): BuildVolume | null {
+  if (printer === null) return null;
+  let volume = volumes.get(printer);
+  if (volume === undefined) {
+    const [width_mm, depth_mm, height_mm] = printer.volume_mm;
+    volumes.set(printer, (volume = { width_mm, depth_mm, height_mm }));
+  }
+  return volume;
+}

@@ -1,0 +1,218 @@
+/** Failures in words: what happened, where it belongs, and what would mend it. */
+import { SlicerError, type ErrorCode } from "../api/error.js";
+import type { Language, Texts } from "../texts/index.js";
+import { METRICS } from "./metric.js";
+import * as round from "./round.js";
+import { binOf, parse, withTolerance, type Field, type Settings } from "./settings.js";
+
+/** A change of settings that may well help, offered as a button. */
+export interface Offer {
+  label: string;
+  change: Partial<Settings>;
+}
+
+export interface Problem {
+  /** Of the error; `not-stl` for a file that was not even read. */
+  code: ErrorCode | "not-stl";
+  title: string;
+  text: string;
+  offers: Offer[];
+  /** The setting that caused it; null where none did. */
+  field: Field | Choice | null;
+}
+
+/** A setting that is chosen from a list. */
+export type Choice = "metric" | "rays" | "printer" | "format" | "resin";
+
+/** What failed, and what was known then. */
+export interface Failure {
+  error: SlicerError | "not-stl";
+  /** The file's name. */
+  name: string;
+  /** Those that were in force. */
+  settings: Settings;
+  /** Height of the model as it was to be printed, in mm; null if none was open. */
+  height_mm: number | null;
+}
+
+type Kind = keyof Texts["problems"];
+
+const KINDS: Readonly<Record<Exclude<ErrorCode, "infeasible">, Kind>> = {
+  "stl-empty": "empty",
+  "stl-no-facets": "empty",
+  "stl-truncated": "cutShort",
+  "stl-not-stl": "notStl",
+  "stl-wrong-facet-count": "damaged",
+  "stl-not-finite": "damaged",
+  "stl-syntax": "damaged",
+  "mesh-no-area": "unusable",
+  "mesh-zero-height": "unusable",
+  "mesh-overflow": "unusable",
+  "bad-height": "badOptions",
+  "bad-rotation": "badOptions",
+  "bad-length": "badOptions",
+  "bad-time": "badTime",
+  "bad-options": "badOptions",
+  "grid-bad-size": "tooFine",
+  "grid-too-fine": "tooFine",
+  "too-many-bins": "tooFine",
+  "too-many-facets": "tooFine",
+  "out-of-memory": "tooFine",
+  "model-too-large": "tooLarge",
+  "model-too-high": "tooHigh",
+  "not-whole-bins": "notWhole",
+  "layer-range-empty": "rangeEmpty",
+  "layer-too-thick": "layerTooThick",
+  "layers-do-not-fit": "doNotFit",
+  "bad-range": "badRange",
+  "bad-plane": "badPlane",
+  "out-of-reach": "outOfReach",
+  "no-hits": "noHits",
+  "all-black": "allBlack",
+  "no-gpu": "gpu",
+  "gpu-failed": "gpu",
+  "gpu-too-small": "gpuTooSmall",
+  "uniform-only": "uniformOnly",
+  "file-unreadable": "unreadable",
+  "fetch-failed": "notFetched",
+  "start-failed": "startFailed",
+  crash: "crash",
+  "no-plan": "other",
+  "no-model": "other",
+  "archive-write": "other",
+  cancelled: "other",
+};
+
+/** The setting that a kind of failure is about. */
+const FIELDS: Partial<Record<Kind, Problem["field"]>> = {
+  tooLarge: "printer",
+  tooHigh: "printer",
+  tooFine: "rays",
+  noHits: "rays",
+  rangeEmpty: "layerMax",
+  doNotFit: "layerMin",
+  layerTooThick: "layerMax",
+  uniformOnly: "format",
+};
+
+/** A failure in words. */
+export function explain(failure: Failure, language: Language): Problem {
+  const { error, name } = failure;
+  const { texts } = language;
+  if (error === "not-stl") {
+    const [title, text] = texts.problems.notStl(name);
+    return { code: error, title, text, offers: [], field: null };
+  }
+  const { code } = error;
+  if (code === "infeasible") return infeasible(error, failure.settings, language);
+  const kind = KINDS[code];
+  const [title, text] = texts.problems[kind](name, sentence(error.message));
+  return { code, title, text, offers: offersFor(kind, error, failure, language), field: FIELDS[kind] ?? null };
+}
+
+function offersFor(kind: Kind, error: SlicerError, failure: Failure, language: Language): Offer[] {
+  switch (kind) {
+    case "doNotFit":
+      return halfAsThin(failure.settings, language);
+    case "tooFine":
+    case "crash":
+      return fewerRays(failure.settings, language);
+    case "tooLarge":
+    case "tooHigh":
+      return [...smaller(error, failure, language), { label: language.texts.offers.noPrinter, change: { printer: "" } }];
+    case "uniformOnly":
+      return uniformOr(failure.settings, language);
+    default:
+      return [];
+  }
+}
+
+function figure(error: SlicerError, key: string): number | null {
+  const value = error.detail?.[key];
+  return typeof value === "number" ? value : null;
+}
+
+/** The core knows where it fails and what would do: here that is put in words. */
+function infeasible(error: SlicerError, settings: Settings, language: Language): Problem {
+  const { texts, format } = language;
+  const { scale, error: written } = METRICS[settings.metric];
+  const offers: Offer[] = [];
+
+  const least = figure(error, "least_tolerance");
+  if (least !== null) {
+    const short = round.up(least * scale);
+    const label = texts.offers.tolerance(written(short / scale, format));
+    offers.push({ label, change: withTolerance(settings, String(short)) });
+  }
+  const largest = figure(error, "largest_layer_min_mm");
+  if (largest !== null) offers.push(layersFrom(thinEnough(largest, settings), language));
+
+  const place = texts.infeasible.where(
+    format.bareHeight(figure(error, "from_mm") ?? 0),
+    format.height(figure(error, "to_mm") ?? 0),
+    format.fine(figure(error, "layer_min_mm") ?? 0),
+  );
+  const way = least === null ? (largest === null ? "neither" : "thinner") : largest === null ? "larger" : "either";
+  return {
+    code: error.code,
+    title: texts.infeasible.title(written(figure(error, "tolerance") ?? 0, format)),
+    text: `${place} ${texts.infeasible[way]}`,
+    offers,
+    field: "tolerance",
+  };
+}
+
+/**
+ * A thinnest layer, in mm, that is at most the largest one that the core says will do. That holds for the bins that it
+ * looked at, so where this thickness would bring other bins, one that does not is taken.
+ */
+function thinEnough(largest_mm: number, settings: Settings): number {
+  const below = round.micrometreBelow(largest_mm);
+  const sameBins = binOf({ ...settings, layerMin: String(below) }) === binOf(settings);
+  return sameBins ? below : round.micrometreBelow(below - 0.001);
+}
+
+const layersFrom = (mm: number, { texts, format }: Language): Offer => ({
+  label: texts.offers.layersFrom(format.fine(mm)),
+  change: { layerMin: String(mm) },
+});
+
+function halfAsThin(settings: Settings, language: Language): Offer[] {
+  const half = round.micrometreBelow((parse(settings.layerMin) ?? 0) / 2);
+  return half > 0 ? [layersFrom(half, language)] : [];
+}
+
+function fewerRays(settings: Settings, { texts, format }: Language): Offer[] {
+  const half = Number(settings.rays) / 2;
+  return half >= 512 ? [{ label: texts.offers.rays(format.count(half)), change: { rays: String(half) } }] : [];
+}
+
+/** The height at which the model fits, to a tenth of a millimetre below. */
+function smaller(error: SlicerError, { height_mm }: Failure, { texts, format }: Language): Offer[] {
+  const scale = figure(error, "fitting_scale");
+  if (scale === null || height_mm === null) return [];
+  const fitting = Math.floor(10 * height_mm * scale) / 10;
+  return fitting > 0 ? [{ label: texts.offers.scale(format.fine(fitting)), change: { height: String(fitting) } }] : [];
+}
+
+function uniformOr(settings: Settings, { texts, format }: Language): Offer[] {
+  const thickness = parse(settings.uniform) ?? 0;
+  const change = { planner: "uniform" } as const;
+  return [
+    { label: texts.offers.uniform(format.fine(thickness)), change },
+    { label: texts.offers.images, change: { format: "png" } },
+  ];
+}
+
+/** Makes a message of the core, which is lower case and without a full stop, a sentence. */
+export function sentence(message: string): string {
+  const tidy = message.trim();
+  if (tidy === "") return "";
+  return tidy.charAt(0).toUpperCase() + tidy.slice(1) + (/[.!?]$/.test(tidy) ? "" : ".");
+}
+
+/** A warning of the core: its own words in English, the catalogue's in other languages. */
+export function warning({ code, message }: { code: string; message: string }, { texts }: Language): string {
+  const known = Object.hasOwn(texts.warnings, code) ? texts.warnings[code as keyof Texts["warnings"]] : null;
+  return known === null ? sentence(message) : known(sentence(message));
+}

@@ -1,0 +1,45 @@
+/** Which part of a mask is on the screen, and how large: zoom and place as numbers. */
+import type { Rectangle } from "./bitmap.js";
+
+export interface Place {
+  /** 1 shows the whole mask. */
+  zoom: number;
+  /** What is in the middle, as parts of width and height. */
+  centre: readonly [number, number];
+}
+
+export const WHOLE: Place = { zoom: 1, centre: [0.5, 0.5] };
+
+const MOST_ZOOM = 64;
+
+export interface Window {
+  /** What is seen of the mask, in its pixels; may reach beyond its edges. */
+  part: Rectangle;
+  /** Screen pixels of a mask's pixel, sideways and upright. */
+  scale: readonly [number, number];
+}
+
+/** `pitch` is how much taller than wide the mask's pixels are. */
+export function windowOf(place: Place, mask: readonly [number, number], screen: readonly [number, number], pitch: number): Window {
+  const fit = Math.min(screen[0] / mask[0], screen[1] / (mask[1] * pitch));
+  const scale = [fit * place.zoom, fit * place.zoom * pitch] as const;
+  const [width, height] = [screen[0] / scale[0], screen[1] / scale[1]];
+  const start = (part: number, all: number, seen: number): number =>
+    seen >= all ? (all - seen) / 2 : Math.min(all - seen, Math.max(0, part * all - seen / 2));
+  return {
+    part: { x: start(place.centre[0], mask[0], width), y: start(place.centre[1], mask[1], height), width, height },
+    scale,
+  };
+}
+
+/** Twice as large, or half. */
+export function zoomed({ zoom, centre }: Place, times: number): Place {
+  const next = Math.min(MOST_ZOOM, Math.max(1, zoom * times));
+  return next === 1 ? WHOLE : { zoom: next, centre };
+}
+
+/** Moved by parts of what is seen, not beyond the edges. */
+export function moved({ zoom, centre: [x, y] }: Place, [dx, dy]: readonly [number, number]): Place {
+  const inside = (value: number): number => Math.min(1 - 0.5 / zoom, Math.max(0.5 / zoom, value));
+  return { zoom, centre: [inside(x + dx / zoom), inside(y + dy / zoom)] };
+}

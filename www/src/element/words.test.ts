@@ -1,0 +1,304 @@
+import { expect, test } from "vitest";
+import { archiveName, choose } from "./choice.js";
+import { rows, sentence as sentenceIn, type Compared } from "./comparison.js";
+import { SlicerError, ERROR_CODES, type ErrorCode } from "../api/error.js";
+import { languageOf, LANGUAGES } from "../texts/index.js";
+import { explain as explainIn } from "./problem.js";
+import { notchOf } from "./curve.js";
+import { standing } from "./progress.js";
+import { gainWords, pictureOf } from "./quality.js";
+import * as round from "./round.js";
+import { check, DEFAULT_SETTINGS, type Settings } from "./settings.js";
+import type { Options, PlannerReport, Report, Stage } from "../api/wire.js";
+
+const english = languageOf("en");
+const { format } = english;
+const sentence = (compared: Compared): string => sentenceIn(compared, english);
+
+function explain(error: SlicerError, name: string, settings: Settings): ReturnType<typeof explainIn> {
+  return explainIn({ error, name, settings, height_mm: 60 }, english);
+}
+
+const limits = [0.05, 0.15] as const;
+
+const uniform = (layers: number, max_error: number, print_time_s: number): PlannerReport => ({
+  planner: "uniform",
+  layers,
+  max_error,
+  print_time_s,
+});
+
+function report(patch: Partial<Report>): Report {
+  return {
+    schema: 1,
+    stl: { bytes: 0, crc32: 0 },
+    options: {},
+    layers: 793,
+    height_mm: 60,
+    z_mm: [],
+    thickness_mm: [],
+    snapped_mm: [],
+    metric: "cusp",
+    unit: "mm",
+    source: "exact",
+    tolerance: 0.065,
+    max_error: 0.065,
+    sampled_error: 0.065,
+    max_error_mm: 0.065,
+    print_time_s: 9000,
+    planner: "optimal",
+    backend: "cpu",
+    adapter: null,
+    bins: 30_000,
+    bin_mm: 0.002,
+    facets: 69_451,
+    hits: 5_218_540,
+    uniform: { finest: uniform(1200, 0.05, 13_200), coarsest: uniform(400, 0.15, 5_538) },
+    exposure_s: [],
+    overhead_s: 7.6,
+    resin: {},
+    resin_ml: 44.4,
+    printer: null,
+    mask: { width: 2048, height: 1588, pitch_mm: 0.0293, pitch_y_mm: 0.0293, antialias: 1, is_mirrored: false },
+    warnings: [],
+    timings_ms: { load: 0, ldi: 0, profile: 0, plan: 0, masks: 0, total: 0 },
+    ...patch,
+  };
+}
+
+const compared = (patch: Partial<Report>, options: Options = {}): Compared => ({ report: report(patch), limits, options });
+
+test("the gain over the finest uniform plan, in layers or in time", () => {
+  expect(sentence(compared({}))).toBe("34% fewer than uniform 0.05\u00a0mm (1,200), same tolerance.");
+  expect(sentence(compared({}, { minimize: "time" }))).toBe(
+    "32% less time than uniform 0.05\u00a0mm (3\u00a0h\u00a040\u00a0min), same tolerance.",
+  );
+});
+
+test("a plan that gains nothing says so", () => {
+  expect(sentence(compared({ layers: 1200 }))).toMatch(/^As many as uniform 0.05/);
+  expect(sentence(compared({ print_time_s: 13_200 }, { minimize: "time" }))).toMatch(/^As slow as uniform 0.05/);
+});
+
+test("a plan as short as the coarsest, where that holds", () => {
+  const both = { finest: uniform(1200, 0.01, 13_200), coarsest: uniform(400, 0.03, 5_538) };
+  expect(sentence(compared({ layers: 400, uniform: both }))).toMatch(/^As few as uniform 0.15/);
+  expect(sentence(compared({ print_time_s: 5_538, uniform: both }, { minimize: "time" }))).toMatch(/^As quick as uniform 0.15/);
+});
+
+test("a plan that is longer than the coarsest, which holds too, does not hide that", () => {
+  const both = { finest: uniform(1200, 0.01, 13_200), coarsest: uniform(792, 0.03, 5_538) };
+  expect(sentence(compared({ uniform: both }))).toMatch(/^34% fewer than .*, but uniform 0.15\u00a0mm keeps the tolerance as well\.$/);
+});
+
+test("a uniform plan over the tolerance says by how much, in the unit of its metric", () => {
+  const over = { planner: "uniform", max_error: 0.1 };
+  expect(sentence(compared(over))).toMatch(/reaches 0.1\u00a0mm, more than the 0.065/);
+  expect(sentence(compared({ ...over, metric: "area" }))).toBe("The error reaches 10%, more than the 6.5% allowed.");
+  expect(sentence(compared({ ...over, metric: "volume", max_error: 11.26 }))).toMatch(/reaches 11.26\u00a0mm³/);
+});
+
+test("the coarsest row says that it breaks the tolerance; rounding of sums does not count", () => {
+  expect(rows(compared({ max_error: 0.0650000001 })).map(({ holds }) => holds)).toEqual([true, true, false]);
+});
+
+function infeasible(detail: Record<string, number | null>): SlicerError {
+  const where = { from_mm: 12.34, to_mm: 12.39, tolerance: 0.02, layer_min_mm: 0.05 };
+  return new SlicerError("infeasible", "no plan", { ...where, ...detail });
+}
+
+const infeasibleAt = (patch: Partial<Settings>, detail: Record<string, number | null>): ReturnType<typeof explain> =>
+  explain(infeasible(detail), "bunny.stl", { ...DEFAULT_SETTINGS, ...patch });
+
+test("infeasible: where, and the two ways out that the core knows, rounded so that they are ones", () => {
+  const problem = infeasibleAt({}, { least_tolerance: 0.0498731, largest_layer_min_mm: 0.02 });
+  expect(problem.title).toBe("No plan keeps 0.02\u00a0mm all the way up");
+  expect(problem.text).toBe(
+    "From 12.340 to 12.390\u00a0mm even a layer of 0.05\u00a0mm, the thinnest allowed, leaves a larger error. " +
+      "Allow a larger error, or thinner layers if your printer can make them.",
+  );
+  expect(problem.offers).toEqual([
+    { label: "Tolerance 0.05\u00a0mm", change: { tolerances: { cusp: "0.05" } } },
+    { label: "Layers from 0.02\u00a0mm", change: { layerMin: "0.02" } },
+  ]);
+});
+
+test("infeasible: only what the core knows is offered", () => {
+  const tolerance = infeasibleAt({}, { least_tolerance: 0.05, largest_layer_min_mm: null });
+  expect(tolerance.offers.map(({ change }) => change)).toEqual([{ tolerances: { cusp: "0.05" } }]);
+  expect(tolerance.text).toMatch(/Allow a larger error\.$/);
+  expect(infeasibleAt({}, { least_tolerance: null, largest_layer_min_mm: null }).offers).toEqual([]);
+});
+
+test.each([
+  ["roughness", 0.0999271, "0.1", "Tolerance 0.1\u00a0mm"],
+  ["area", 0.0712345, "7.13", "Tolerance 7.13%"],
+  ["volume", 137.234, "138", "Tolerance 138\u00a0mm³"],
+] as const)("infeasible by %s: the least tolerance in its unit, for that metric alone", (metric, least, text, label) => {
+  const problem = infeasibleAt(
+    { metric, tolerances: { cusp: "0.05" } },
+    { least_tolerance: least, largest_layer_min_mm: null },
+  );
+  expect(problem.offers).toEqual([{ label, change: { tolerances: { cusp: "0.05", [metric]: text } } }]);
+});
+
+test.each([
+  [{}, 0.024, "0.024"],
+  // With bins of 1 µm the core found 52 µm: at 2 µm that could fail, at 51 µm the bins stay.
+  [{ layerMin: "0.055" }, 0.052, "0.051"],
+  [{ layerMin: "0.055", layerMax: "0.155" }, 0.052, "0.052"],
+  [{ step: "0.0025" }, 0.0475, "0.047"],
+])("thinner layers are offered only where the core looks at the same bins: %j", (patch, largest, layerMin) => {
+  const [offer] = infeasibleAt(patch, { least_tolerance: null, largest_layer_min_mm: largest }).offers;
+  expect(offer?.change).toEqual({ layerMin });
+  const bin = (settings: Partial<Settings>): unknown => {
+    const checked = check({ ...DEFAULT_SETTINGS, ...settings });
+    return checked.ok ? checked.options.bin_mm : checked.faults;
+  };
+  expect(bin({ ...patch, ...offer?.change })).toEqual(bin(patch));
+});
+
+test("rounding up is short and never below; rounding down gives whole micrometres", () => {
+  expect([0.0500001, 0.05, 0.07, 0.0655, 11.2631, 137.234, 1234.5].map(round.up)).toEqual([
+    0.051, 0.05, 0.07, 0.066, 11.3, 138, 1235,
+  ]);
+  expect([0.0475, 0.048, 0.057].map(round.micrometreBelow)).toEqual([0.047, 0.048, 0.057]);
+});
+
+test("layers that do not add up: thinner ones may", () => {
+  const problem = explain(new SlicerError("layers-do-not-fit", "no"), "a.stl", DEFAULT_SETTINGS);
+  expect(problem.offers.map(({ change }) => change)).toEqual([{ layerMin: "0.025" }]);
+});
+
+test("the core's message becomes a sentence under our heading", () => {
+  const problem = explain(new SlicerError("stl-truncated", "the file ends at byte 90"), "a.stl", DEFAULT_SETTINGS);
+  expect(problem.title).toBe("a.stl is cut short");
+  expect(problem.text).toBe("The file ends at byte 90.");
+});
+
+test.each([
+  ["no-hits", "a.stl is too thin for these pixels"],
+  ["all-black", "Every mask would be black"],
+  ["layer-too-thick", "The layers are too thick for this model"],
+  ["layer-range-empty", "No layer of whole motor steps lies in this range"],
+  ["gpu-too-small", "The GPU is too small for this model"],
+  ["out-of-reach", "No plan is as short as that"],
+] as const)("%s has a heading of its own", (code, title) => {
+  expect(explain(new SlicerError(code, "x"), "a.stl", DEFAULT_SETTINGS).title).toBe(title);
+});
+
+test("out of memory offers half the rays, down to the least there is", () => {
+  const error = new SlicerError("out-of-memory", "too much");
+  expect(explain(error, "a.stl", DEFAULT_SETTINGS).offers[0]?.change).toEqual({ rays: "1024" });
+  expect(explain(error, "a.stl", { ...DEFAULT_SETTINGS, rays: "512" }).offers).toEqual([]);
+});
+
+test("a model that is too large may be scaled to fit, or the printer left out", () => {
+  const error = new SlicerError("model-too-large", "too large", { fitting_scale: 0.5012 });
+  const problem = explain(error, "a.stl", { ...DEFAULT_SETTINGS, printer: "p" });
+  expect(problem.field).toBe("printer");
+  expect(problem.offers).toEqual([
+    { label: "Scale to 30\u00a0mm", change: { height: "30" } },
+    { label: "Without a printer", change: { printer: "" } },
+  ]);
+});
+
+test("a file for uniform layers offers these, or another file", () => {
+  const { field, offers } = explain(new SlicerError("uniform-only", ""), "a.stl", { ...DEFAULT_SETTINGS, format: "sl1" });
+  expect(field).toBe("format");
+  expect(offers.map(({ change }) => change)).toEqual([{ planner: "uniform" }, { format: "png" }]);
+});
+
+test.each(LANGUAGES)("every code has a heading and a sentence: %s", (locale) => {
+  const language = languageOf(locale);
+  for (const code of Object.keys(ERROR_CODES) as ErrorCode[]) {
+    const failure = { error: new SlicerError(code, "why"), name: "a.stl", settings: DEFAULT_SETTINGS, height_mm: 1 };
+    const { title, text } = explainIn(failure, language);
+    expect(title.length, code).toBeGreaterThan(3);
+    expect(text.length, code).toBeGreaterThan(2);
+  }
+});
+
+test.each([
+  [[], { kind: "none" }],
+  [["a.txt"], { kind: "not-stl", name: "a.txt" }],
+  [["A.STL"], { kind: "files", files: [{ name: "A.STL" }] }],
+  [["model"], { kind: "files", files: [{ name: "model" }] }],
+  [["notes.txt", "b.stl", "c.stl"], { kind: "files", files: [{ name: "b.stl" }, { name: "c.stl" }] }],
+])("of %j the STLs are taken", (names, choice) => {
+  expect(choose(names.map((name) => ({ name })))).toEqual(choice);
+});
+
+test("the print file is named after the model and its kind", () => {
+  expect(archiveName("bunny.stl", "png")).toBe("bunny-cusp.zip");
+  expect(archiveName("part.v2.STL", "sl1")).toBe("part.v2-cusp.sl1");
+  expect(archiveName(".stl", "chitubox")).toBe("model-cusp.zip");
+});
+
+test("numbers as people read them", () => {
+  expect(format.duration(0.2)).toBe("< 1\u00a0ms");
+  expect(format.duration(412.4)).toBe("412\u00a0ms");
+  expect(format.duration(1340)).toBe("1.3\u00a0s");
+  expect([20, 59, 3_570, 3_599, 48_000, 9_000_000].map(format.time)).toEqual([
+    "<\u00a01\u00a0min",
+    "1\u00a0min",
+    "1\u00a0h\u00a00\u00a0min",
+    "1\u00a0h\u00a00\u00a0min",
+    "13\u00a0h\u00a020\u00a0min",
+    "2,500\u00a0h\u00a00\u00a0min",
+  ]);
+  expect(format.percent(0.07125, 2)).toBe("7.13%");
+  expect(format.volume(11.2631)).toBe("11.26\u00a0mm³");
+  expect(format.dimensions([60, 46.52, 59.4])).toBe("60.0 × 46.5 × 59.4\u00a0mm");
+});
+
+test("progress never runs backwards over the stages of a plan, and an export counts its own", () => {
+  const at = (stage: Stage, task: "plan" | "export"): number =>
+    standing({ task, name: "", stage, fraction: 0.5, started_ms: 0 }, 0).done;
+  const stages = (["load", "ldi", "profile", "plan"] as const).map((stage) => at(stage, "plan"));
+  expect(stages).toEqual([...stages].sort((a, b) => a - b));
+  expect(new Set(stages).size).toBe(4);
+  expect(at("masks", "export")).toBe(0.5);
+  expect(at("ldi", "export")).toBe(0);
+});
+
+test("the time left is guessed from what is done, not before there is something to go by", () => {
+  const at = (fraction: number, now_ms: number): number | null =>
+    standing({ task: "export", name: "", stage: "masks", fraction, started_ms: 0 }, now_ms).left_s;
+  expect(at(0.25, 5000)).toBe(15);
+  expect(at(0.25, 500)).toBeNull();
+  expect(at(0.01, 5000)).toBeNull();
+});
+
+test("a language is the first that there is a catalogue for, with the numbers of its country", () => {
+  expect(languageOf("tlh", "de-CH").locale).toBe("de-CH");
+  expect(languageOf("not a locale").locale).toBe("en");
+  expect(languageOf("de").format.size(1234.5)).toBe("1.234,5");
+  expect(languageOf("fr").texts.plan.layers(1)).toBe("couche");
+  expect(languageOf("fr").texts.plan.layers(2)).toBe("couches");
+  expect(languageOf("zh").format.time(3600)).toBe("1\u00a0小时\u00a00\u00a0分钟");
+});
+
+const curve = [0.05, 0.1, 0.2].map((max_error, i) => ({ tolerance: max_error, max_error, layers: 1, print_time_s: 300 - 100 * i }));
+
+test("quality in words: the same for less time, or less for a larger deviation", () => {
+  const words = (patch: Partial<Report>): string => gainWords({ report: report(patch), limits }, english);
+  expect(words({ max_error: 0.05 })).toBe("Same quality as uniform 0.05\u00a0mm, 32% less time.");
+  expect(words({})).toBe("32% less time than uniform 0.05\u00a0mm; the deviation is 0.065\u00a0mm instead of 0.05\u00a0mm.");
+  expect(words({ print_time_s: 13_200 })).toMatch(/^As slow as uniform/);
+});
+
+test("the picture of the curve: finer to the right, longer upwards, each point over its notch", () => {
+  const own = report({ max_error: 0.075, print_time_s: 250, uniform: { finest: uniform(9, 0.05, 400), coarsest: uniform(1, 0.3, 90) } });
+  const picture = pictureOf(curve, { report: own });
+  const xs = picture.dots.map(({ x }) => x);
+  expect(xs).toEqual([...xs].sort((a, b) => a - b));
+  expect(picture.own.x).toBeCloseTo(((xs[1] ?? 0) + (xs[2] ?? 0)) / 2);
+  expect([picture.finest.x, picture.coarsest.x]).toEqual([xs[2], xs[0]]);
+  expect(picture.finest.y).toBeLessThan(picture.own.y);
+  expect(picture.coarsest.y).toBeGreaterThan(picture.own.y);
+});
+
+test("the slider stands at the point whose tolerance is nearest", () => {
+  expect([0.01, 0.06, 0.11, 9].map((tolerance) => notchOf(curve, tolerance))).toEqual([2, 2, 1, 0]);
+});

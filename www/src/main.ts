@@ -1,1 +1,0 @@
-import "./cusp-app.js";

@@ -1,0 +1,9 @@
+import { expect, test } from "vitest";
+import { addressOf, settingsOf } from "./address.js";
+
+test("settings and what is the page's own share an address", () => {
+  const address = new URLSearchParams("height=60&locale=de&backend=cpu");
+  expect(settingsOf(address)).toBe("height=60");
+  expect(addressOf("height=60", new URLSearchParams("locale=de"))).toBe("?height=60&locale=de");
+  expect(addressOf("", new URLSearchParams())).toBe("");
+});

@@ -1,0 +1,48 @@
+/** The page as markup: header, element, and what stands in its slots. */
+import { html, type TemplateResult } from "lit";
+import { live } from "lit/directives/live.js";
+import { LANGUAGES, languageOf, type Language } from "../texts/index.js";
+import icon from "./icon.svg";
+
+export interface PageActions {
+  example(): void;
+  speak(locale: string): void;
+}
+
+export function frame({ locale, texts }: Language, { example, speak }: PageActions): TemplateResult {
+  const words = texts.page;
+  const code = new Intl.Locale(locale).language;
+  return html`
+    <header>
+      <div class="brand">
+        <img src=${icon} alt="" width="32" height="32" />
+        <h1>Cusp</h1>
+      </div>
+      <p class="tagline">${words.tagline}</p>
+      <p class="private">${words.private}</p>
+      <label class="language">
+        <span class="hidden">${words.languages}</span>
+        <select .value=${live(code)} @change=${(event: Event) => speak((event.target as HTMLSelectElement).value)}>
+          ${LANGUAGES.map(
+            (it) => html`<option value=${it} lang=${it} ?selected=${it === code}>${languageOf(it).texts.language}</option>`,
+          )}
+        </select>
+      </label>
+    </header>
+    <main>
+      <cusp-slicer .locale=${locale}>
+        <div slot="empty" class="empty">
+          <p>
+            ${words.noModel}
+            <button class="link" @click=${example}>${words.tryExample}</button>
+          </p>
+          <ul class="points">
+            ${words.points.map(([title, text]) => html`<li><strong>${title}</strong> ${text}</li>`)}
+          </ul>
+        </div>
+        <button slot="actions" class="link" @click=${example}>${words.example}</button>
+      </cusp-slicer>
+    </main>
+    <div class="drop-veil"><p>${words.drop}</p></div>
+  `;
+}

@@ -1,0 +1,76 @@
+/** Numbers as a language writes them. Lengths come in mm, times in s. */
+
+/** How a language writes hours and minutes after a number. */
+export interface TimeUnits {
+  hours: string;
+  minutes: string;
+}
+
+export type Format = ReturnType<typeof formatOf>;
+
+/** Word forms by plural category of the language; `other` where a category has none. */
+export type Forms = Partial<Record<Intl.LDMLPluralRule, string>> & { other: string };
+
+export function formatOf(locale: string, { hours, minutes }: TimeUnits) {
+  const formatters = new Map<string, Intl.NumberFormat>();
+  const rules = new Intl.PluralRules(locale);
+
+  function number(value: number, options: Intl.NumberFormatOptions): string {
+    const key = JSON.stringify(options);
+    let formatter = formatters.get(key);
+    if (formatter === undefined) formatters.set(key, (formatter = new Intl.NumberFormat(locale, options)));
+    return formatter.format(value);
+  }
+
+  /** A count: `1,200`. */
+  const count = (value: number): string => number(value, { maximumFractionDigits: 0 });
+  /** The form of a word that goes with a number: `layer`, `layers`. */
+  const plural = (value: number, forms: Forms): string => forms[rules.select(value)] ?? forms.other;
+  /** A count of something, in words: `1 layer`, `1,200 layers`. */
+  const counted = (value: number, forms: Forms): string => `${count(value)} ${plural(value, forms)}`;
+  /** A height or a size without its unit, to 0.1 mm: `60.0`. */
+  const size = (value: number): string => number(value, { minimumFractionDigits: 1, maximumFractionDigits: 1 });
+  /** A number on an axis, or as it was typed. */
+  const tick = (value: number): string => number(value, { maximumFractionDigits: 3 });
+  const micrometres = { minimumFractionDigits: 3, maximumFractionDigits: 3 };
+
+  return {
+    locale,
+    count,
+    plural,
+    counted,
+    size,
+    tick,
+    /** A thickness, tolerance or error with its unit, to the micrometre, no idle zeros: `0.05 mm`. */
+    fine: (mm: number): string => `${tick(mm)}\u00a0mm`,
+    /** A height on the model with its unit, always to the micrometre, so that it does not jump about: `12.340 mm`. */
+    height: (mm: number): string => `${number(mm, micrometres)}\u00a0mm`,
+    /** The same without its unit. */
+    bareHeight: (mm: number): string => number(mm, micrometres),
+    /** A part of one: `34 %` or `34%`, as the language has it, with so many decimals at most. */
+    percent: (value: number, decimals = 0): string => number(value, { style: "percent", maximumFractionDigits: decimals }),
+    /** A volume: `11.26 mm³`. */
+    volume: (mm3: number): string => `${number(mm3, { maximumSignificantDigits: 4 })}\u00a0mm³`,
+    /** An amount of resin: `44.4 ml`. */
+    millilitres: (ml: number): string => `${number(ml, { maximumSignificantDigits: 3 })}\u00a0ml`,
+    /** A time of a machine: `7.6 s`. */
+    seconds: (value: number): string => `${number(value, { maximumFractionDigits: 1 })}\u00a0s`,
+    /** The area of a section: `123.5 mm²`. */
+    area: (mm2: number): string => `${number(mm2, { maximumFractionDigits: 1 })}\u00a0mm²`,
+    /** The time of a print, which is known to the minute at best: `2 h 14 min`. */
+    time(seconds: number): string {
+      const whole = Math.round(seconds / 60);
+      if (whole < 1) return `<\u00a01\u00a0${minutes}`;
+      const [h, rest] = [Math.floor(whole / 60), `${whole % 60}\u00a0${minutes}`];
+      return h === 0 ? rest : `${count(h)}\u00a0${hours}\u00a0${rest}`;
+    },
+    /** A duration given in ms: `412 ms`, `1.3 s`. */
+    duration(ms: number): string {
+      if (ms < 1) return "< 1\u00a0ms";
+      if (ms < 995) return `${number(ms, { maximumFractionDigits: 0 })}\u00a0ms`;
+      return `${number(ms / 1000, { minimumFractionDigits: 1, maximumFractionDigits: 1 })}\u00a0s`;
+    },
+    /** Width × depth × height: `60.0 × 46.5 × 59.5 mm`. */
+    dimensions: (mm: readonly [number, number, number]): string => `${mm.map(size).join(" × ")}\u00a0mm`,
+  };
+}

@@ -1,0 +1,56 @@
+/** The languages of the element: one catalogue each, held to the same keys by the compiler. */
+import * as de from "./de.js";
+import * as en from "./en.js";
+import * as es from "./es.js";
+import { formatOf, type Format } from "./format.js";
+import * as fr from "./fr.js";
+import * as zh from "./zh.js";
+
+export type { Format } from "./format.js";
+export type { Words } from "./en.js";
+
+/** What every language has words for. */
+export type Texts = ReturnType<typeof en.en>;
+
+/** A language at work: its sentences, and how it writes numbers. */
+export interface Language {
+  /** BCP 47, as asked for where there is a catalogue for it: `de-AT` has German words and Austrian numbers. */
+  locale: string;
+  texts: Texts;
+  format: Format;
+}
+
+const CATALOGUES = {
+  en: { units: en.units, texts: en.en },
+  de: { units: de.units, texts: de.de },
+  es: { units: es.units, texts: es.es },
+  fr: { units: fr.units, texts: fr.fr },
+  zh: { units: zh.units, texts: zh.zh },
+} as const;
+
+export type LanguageCode = keyof typeof CATALOGUES;
+
+export const LANGUAGES = Object.keys(CATALOGUES) as LanguageCode[];
+
+const made = new Map<string, Language>();
+
+/** The first of these locales that there is a catalogue for; English if there is none. */
+export function languageOf(...locales: readonly string[]): Language {
+  const locale = locales.find((locale) => codeOf(locale) !== null) ?? "en";
+  let language = made.get(locale);
+  if (language === undefined) {
+    const { units, texts } = CATALOGUES[codeOf(locale) ?? "en"];
+    const format = formatOf(locale, units);
+    made.set(locale, (language = { locale, format, texts: texts(format) }));
+  }
+  return language;
+}
+
+function codeOf(locale: string): LanguageCode | null {
+  try {
+    const { language } = new Intl.Locale(locale);
+    return LANGUAGES.find((code) => code === language) ?? null;
+  } catch {
+    return null;
+  }
+}

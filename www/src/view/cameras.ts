@@ -1,0 +1,205 @@
+/** From where the model is looked at: freely in perspective, or from the side at the scale of a chart beside it. */
+import { MathUtils, OrthographicCamera, PerspectiveCamera, Vector3 } from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import type { Triple } from "./pose.js";
+
+/** Where heights are in the view, in CSS pixels from its upper edge. */
+export interface Frame {
+  /** The height of the model. */
+  readonly top_px: number;
+  /** The plate, z = 0. */
+  readonly bottom_px: number;
+}
+
+/** Room above and below the heights shown when aligned, CSS pixels. */
+export interface Inset {
+  readonly top_px: number;
+  readonly bottom_px: number;
+}
+
+/** A range of heights, mm. */
+export type Heights = readonly [bottom: number, top: number];
+
+const FIELD_OF_VIEW_DEG = 26;
+
+/** From the front, a little from the right and above. */
+const FIRST_LOOK = new Vector3(0.55, -1, 0.5).normalize();
+
+/** Room around the model in the free view. */
+const ROOM = 1.14;
+
+/** How far one may come near or go away, in distances of the whole model. */
+const NEAREST = 0.05;
+const FARTHEST = 6;
+
+const QUARTER_TURN = Math.PI / 2;
+
+export class Cameras {
+  readonly controls: OrbitControls;
+  readonly #free = new PerspectiveCamera(FIELD_OF_VIEW_DEG);
+  readonly #side = new OrthographicCamera();
+  #aligned = false;
+  #size_mm: Triple = [1, 1, 1];
+  #view: readonly [number, number] = [1, 1];
+  /** Where the free view was left, to come back to. */
+  #left: { readonly position: Vector3; readonly target: Vector3 } | null = null;
+
+  constructor(surface: HTMLElement) {
+    this.#free.up.set(0, 0, 1);
+    this.#side.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.#free, surface);
+    this.controls.rotateSpeed = 0.9;
+    this.controls.zoomSpeed = 1.2;
+    // Two fingers belong to the view; one that moves upwards scrolls the page, as on any page.
+    surface.style.touchAction = "pan-y";
+  }
+
+  get current(): PerspectiveCamera | OrthographicCamera {
+    return this.#aligned ? this.#side : this.#free;
+  }
+
+  setDamping(on: boolean): void {
+    this.controls.enableDamping = on;
+    this.controls.dampingFactor = 0.12;
+  }
+
+  setView(width_px: number, height_px: number): void {
+    this.#view = [width_px, height_px];
+    this.#free.aspect = width_px / height_px;
+    this.#free.updateProjectionMatrix();
+  }
+
+  /** Follows a model that has changed its pose: what was in the middle stays there, as far as it goes. */
+  follow(size_mm: Triple): void {
+    const risen = (size_mm[2] - this.#size_mm[2]) / 2;
+    this.#size_mm = size_mm;
+    if (this.#aligned) return;
+    this.controls.target.z += risen;
+    this.#free.position.z += risen;
+    this.#limit();
+  }
+
+  /** Shows the whole model from where it was first seen. */
+  reset(size_mm: Triple = this.#size_mm): void {
+    this.#size_mm = size_mm;
+    this.#left = null;
+    const target = new Vector3(0, 0, size_mm[2] / 2);
+    if (this.#aligned) {
+      this.#lookAlong(QUARTER_TURN, 0);
+      return;
+    }
+    this.controls.target.copy(target);
+    this.#free.position.copy(target).addScaledVector(FIRST_LOOK, this.#distance(FIRST_LOOK));
+    this.#limit();
+    this.controls.update();
+  }
+
+  /** Turns about the target: to the right and upwards, degrees. */
+  turn(right_deg: number, up_deg: number): void {
+    this.controls.rotateLeft(-MathUtils.degToRad(right_deg));
+    this.controls.rotateUp(-MathUtils.degToRad(up_deg));
+    this.controls.update();
+  }
+
+  /** Comes nearer by this factor; less than one goes away. */
+  zoom(factor: number): void {
+    if (this.#aligned) return;
+    this.controls.dollyIn(1 / factor);
+    this.controls.update();
+  }
+
+  setAligned(aligned: boolean): void {
+    if (aligned === this.#aligned) return;
+    const { controls } = this;
+    if (aligned) this.#left = { position: this.#free.position.clone(), target: controls.target.clone() };
+    this.#aligned = aligned;
+    controls.object = this.current;
+    controls.enableZoom = controls.enablePan = !aligned;
+    controls.minPolarAngle = aligned ? QUARTER_TURN : 0;
+    controls.maxPolarAngle = aligned ? QUARTER_TURN : Math.PI;
+    if (aligned) this.#lookAlong(QUARTER_TURN, 0);
+    else if (this.#left !== null) {
+      this.#free.position.copy(this.#left.position);
+      controls.target.copy(this.#left.target);
+      this.#limit();
+      controls.update();
+    } else this.reset();
+  }
+
+  /** Readies the current camera for drawing; gives where heights are if they have a scale. */
+  prepare(heights: Heights | null, inset: Inset): Frame | null {
+    const reach = Math.hypot(...this.#size_mm);
+    if (!this.#aligned) {
+      const away = this.#free.position.distanceTo(this.controls.target);
+      this.#free.near = Math.max(away - 4 * reach, 0.005 * away);
+      this.#free.far = away + 40 * reach;
+      this.#free.updateProjectionMatrix();
+      return null;
+    }
+    const [width, height] = this.#view;
+    const [bottom, top] = heights ?? [0, this.#size_mm[2]];
+    const room = Math.max(1, height - inset.top_px - inset.bottom_px);
+    // Turning about z must not change the scale, so the widest side counts.
+    const across = Math.hypot(this.#size_mm[0], this.#size_mm[1]);
+    const perPixel = Math.max((top - bottom) / room, heights === null ? across / (0.94 * width) : 0, 1e-9);
+    const lowest = bottom - inset.bottom_px * perPixel;
+    const z = this.controls.target.z;
+    Object.assign(this.#side, {
+      left: (-width / 2) * perPixel,
+      right: (width / 2) * perPixel,
+      bottom: lowest - z,
+      top: lowest + height * perPixel - z,
+      near: 0.01 * reach,
+      far: 20 * reach,
+    });
+    this.#side.updateProjectionMatrix();
+    // In hundredths, so that rounding does not pass for a change.
+    const rowOf = (z_mm: number): number => Math.round(100 * (height - (z_mm - lowest) / perPixel)) / 100;
+    return { top_px: rowOf(this.#size_mm[2]), bottom_px: rowOf(0) };
+  }
+
+  /** Where a point of the scene is in the view, CSS pixels. */
+  project(point: Vector3): readonly [number, number] {
+    const { x, y } = point.clone().project(this.current);
+    return [((x + 1) / 2) * this.#view[0], ((1 - y) / 2) * this.#view[1]];
+  }
+
+  dispose(): void {
+    this.controls.dispose();
+  }
+
+  /** Distance from the model's middle, along a look from it, at which all corners of its bounds are just seen. */
+  #distance(look: Vector3): number {
+    const right = new Vector3(0, 0, 1).cross(look).normalize();
+    const up = look.clone().cross(right);
+    const slope = Math.tan(MathUtils.degToRad(FIELD_OF_VIEW_DEG / 2));
+    let distance = 1e-3;
+    for (let corner = 0; corner < 8; corner++) {
+      const at = new Vector3(...this.#size_mm.map((side, axis) => (corner & (1 << axis) ? side / 2 : -side / 2)));
+      const across = (ROOM * Math.abs(at.dot(right))) / (slope * this.#free.aspect);
+      const high = (ROOM * Math.abs(at.dot(up))) / slope;
+      distance = Math.max(distance, at.dot(look) + Math.max(across, high));
+    }
+    return distance;
+  }
+
+  #limit(): void {
+    const distance = this.#distance(FIRST_LOOK);
+    this.controls.minDistance = NEAREST * distance;
+    this.controls.maxDistance = FARTHEST * distance;
+  }
+
+  /** Polar angle from above and azimuth from the front. */
+  #lookAlong(polar: number, azimuth: number): void {
+    const reach = 10 * Math.hypot(...this.#size_mm);
+    const target = new Vector3(0, 0, this.#size_mm[2] / 2);
+    this.controls.target.copy(target);
+    this.#side.position
+      .set(Math.sin(polar) * Math.sin(azimuth), -Math.sin(polar) * Math.cos(azimuth), Math.cos(polar))
+      .multiplyScalar(reach)
+      .add(target);
+    this.controls.minDistance = 0;
+    this.controls.maxDistance = Infinity;
+    this.controls.update();
+  }
+}

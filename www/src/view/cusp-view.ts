@@ -1,0 +1,402 @@
+/**
+ * `<cusp-view>`: the model in three dimensions, coloured by layer thickness or as it will be printed.
+ *
+ * A pure function of its properties. It shows a rotation of its own making at once and waits for no plan: one that comes
+ * later only changes the colours. Import this module lazily; nothing else of the front-end loads three.
+ */
+import { html, LitElement, nothing, type PropertyValues, type TemplateResult } from "lit";
+import type { Frame, Heights, Inset } from "./cameras.js";
+import { Derived } from "./derived.js";
+import type { HeightDetail, RotateDetail, ViewErrorDetail, ViewEvents } from "./events.js";
+import { pressed } from "./keys.js";
+import { legend, legendStyles } from "./legend.js";
+import type { Look } from "./model.js";
+import type { PaletteName } from "./palette.js";
+import type { BuildVolume } from "./plate.js";
+import { watchPointer } from "./pointer.js";
+import { Pointing, type Shown } from "./pointing.js";
+import { layFlat, turned, UPRIGHT, type Rotation } from "./pose.js";
+import { Printed } from "./printed.js";
+import { Stage, type Tool } from "./stage.js";
+import { contextOf, place } from "./surface.js";
+import { ENGLISH, type ViewTexts } from "./texts.js";
+import { themeOf } from "./theme.js";
+import { viewStyles } from "./view-styles.js";
+
+export class CuspView extends LitElement {
+  static override properties = {
+    positions: { attribute: false },
+    rotation: { attribute: false },
+    scale: { type: Number },
+    z_mm: { attribute: false },
+    thickness_mm: { attribute: false },
+    limits: { attribute: false },
+    layer: { type: Number },
+    plate: { attribute: false },
+    look: { type: String },
+    palette: { type: String },
+    tool: { type: String },
+    aligned: { type: Boolean },
+    heights_mm: { attribute: false },
+    inset: { attribute: false },
+    showsLegend: { attribute: false },
+    texts: { attribute: false },
+    building: { state: true },
+    broken: { state: true },
+  };
+
+  /** Nine numbers a facet, mm, in the file's pose; a new array is a new model. */
+  declare positions: Float32Array | null;
+  /** Turns the model before it is put on the plate. Ignored while the model is being dragged by its rings. */
+  declare rotation: Rotation;
+  /** What the file's lengths are multiplied by. */
+  declare scale: number;
+  /** Layer boundaries from 0 to the top, mm; empty where there is no plan. */
+  declare z_mm: readonly number[];
+  /** Of each layer. */
+  declare thickness_mm: readonly number[];
+  /** Thicknesses at the ends of the colour scale, mm. */
+  declare limits: readonly [number, number];
+  /** The layer looked at, counted from 0. */
+  declare layer: number | null;
+  /** The printer's build volume; without one the plate is a grid that fades. */
+  declare plate: BuildVolume | null;
+  declare look: Look;
+  declare palette: PaletteName;
+  declare tool: Tool;
+  /** Looks from the front without perspective, so that a height is a row of pixels: see `cusp-frame`. */
+  declare aligned: boolean;
+  /** The heights shown when aligned; null for the whole model. */
+  declare heights_mm: Heights | null;
+  /** Room above and below those heights when aligned. */
+  declare inset: Inset;
+  declare showsLegend: boolean;
+  declare texts: ViewTexts;
+  /** Progress of the stair steps, 0 to 1; null when none are being worked out. */
+  declare building: number | null;
+  /** Whether there is no WebGL. */
+  declare broken: boolean;
+
+  #stage: Stage | null = null;
+  #derived: Derived | null = null;
+  #life = new AbortController();
+  #frame: Frame | null = null;
+  #isHeld = false;
+  #pointing: Pointing | null = null;
+  /** Where the rings have turned the model to while they are held. */
+  #turned: Rotation | null = null;
+  #unsaid: RotateDetail | null = null;
+  readonly #printed = new Printed({
+    progress: (progress) => (this.building = progress),
+    steps: (steps) => {
+      this.#stage?.model.setSteps(steps);
+      this.#stage?.invalidate();
+    },
+  });
+  readonly #reducedMotion = matchMedia("(prefers-reduced-motion: reduce)");
+
+  static override styles = [viewStyles, legendStyles];
+
+  constructor() {
+    super();
+    this.positions = null;
+    this.rotation = UPRIGHT;
+    this.scale = 1;
+    this.z_mm = [];
+    this.thickness_mm = [];
+    this.limits = [0, 0];
+    this.layer = null;
+    this.plate = null;
+    this.look = "thickness";
+    this.palette = "classic";
+    this.tool = "turn";
+    this.aligned = false;
+    this.heights_mm = null;
+    this.inset = { top_px: 12, bottom_px: 12 };
+    this.showsLegend = true;
+    this.texts = ENGLISH;
+    this.building = null;
+    this.broken = false;
+  }
+
+  override render(): TemplateResult {
+    const { texts } = this;
+    if (this.broken) return html`<p class="unavailable">${texts.unavailable}</p>`;
+    const layers = this.thickness_mm.length;
+    const marked = this.layer === null ? undefined : this.thickness_mm[this.layer];
+    return html`
+      <div
+        class="stage"
+        part="stage"
+        data-tool=${this.tool}
+        tabindex="0"
+        role="application"
+        aria-roledescription=${texts.kind}
+        aria-label=${texts.name}
+        aria-describedby="state keys"
+        @keydown=${this.#key}
+      >
+        <div class="cross"></div>
+      </div>
+      <p class="hidden" id="state">
+        ${this.positions === null ? texts.empty : texts.state(this.#stage?.model.size_mm ?? [0, 0, 0], layers)}
+        ${this.#layerWords()}
+      </p>
+      <p class="hidden" id="keys">${texts.keys[this.tool]}</p>
+      <span class="label" part="label" hidden>${this.#layerWords()}</span>
+      ${this.showsLegend && layers > 0 && this.look === "thickness"
+        ? legend({ palette: this.palette, limits: this.limits, marked_mm: marked ?? null, texts })
+        : nothing}
+      ${this.positions === null || this.aligned
+        ? nothing
+        : html`<span class="grid">${texts.grid(this.#stage?.plate.step_mm ?? 1)}</span>`}
+      ${this.building === null
+        ? nothing
+        : html`<div class="building">
+            ${texts.building(this.building)}
+            <progress aria-label=${texts.building(this.building)} max="1" value=${this.building}></progress>
+          </div>`}
+      <span class="probe ink"></span><span class="probe accent"></span><span class="probe bad"></span>
+    `;
+  }
+
+  override connectedCallback(): void {
+    super.connectedCallback();
+    if (this.hasUpdated) this.#start();
+  }
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    this.#stop();
+  }
+
+  override firstUpdated(): void {
+    this.#start();
+  }
+
+  /** Before rendering, since what is rendered tells the size that the stage finds. */
+  override willUpdate(changed: PropertyValues<this>): void {
+    // While the rings are held the pointer alone turns the model, not an answer to where it was before.
+    if (this.#isHeld && this.#turned !== null) this.rotation = this.#turned;
+    if (this.#stage !== null) this.#show(this.#stage, (name) => changed.has(name));
+  }
+
+  /** Shows the whole model as at first. */
+  reset(): void {
+    this.#stage?.cameras.reset();
+  }
+
+  #start(): void {
+    const life = new AbortController();
+    this.#life = life;
+    const canvas = document.createElement("canvas");
+    const holder = this.renderRoot.querySelector<HTMLElement>(".stage");
+    const context = contextOf(canvas);
+    if (holder === null || context === null) {
+      this.broken = true;
+      const { unavailable: message } = this.texts;
+      this.#tell<ViewErrorDetail>("cusp-view-error", { code: "no-webgl", message });
+      return;
+    }
+    holder.prepend(canvas);
+    const stage = new Stage(
+      canvas,
+      context,
+      {
+        held: (on) => (this.#isHeld = on),
+        turned: (rotation) => this.#rotate(rotation, false),
+        done: (rotation) => this.#rotate(rotation, true),
+      },
+      (frame) => this.#drawn(frame),
+    );
+    this.#stage = stage;
+    const pointing = new Pointing(stage, () => this.#shown(), {
+      height: (detail) => this.#tell<HeightDetail>("cusp-height", detail),
+      layer: (layer) => this.#tell<number>("cusp-layer", layer),
+      lay: (normal) => this.#rotate(layFlat(this.rotation, normal), true),
+    });
+    this.#pointing = pointing;
+    watchPointer(
+      canvas,
+      { clicked: (at) => void pointing.clicked(at), hovered: (at) => void pointing.hovered(at) },
+      life.signal,
+    );
+    // The wheel scrolls the page until the view has been chosen by a click or by keyboard.
+    holder.addEventListener("wheel", this.#wheel, { capture: true, signal: life.signal });
+    this.renderRoot.addEventListener("transitionrun", this.#recolour, { signal: life.signal });
+    this.#reducedMotion.addEventListener("change", this.#damp, { signal: life.signal });
+    const resized = new ResizeObserver(() => stage.setSize(holder.clientWidth, holder.clientHeight));
+    resized.observe(holder);
+    life.signal.addEventListener("abort", () => resized.disconnect());
+    this.#damp();
+    this.#recolour();
+    this.#show(stage, () => true);
+    stage.setSize(holder.clientWidth, holder.clientHeight);
+    // The size and the grid were not known when the view was rendered.
+    this.requestUpdate();
+  }
+
+  #stop(): void {
+    this.#life.abort();
+    this.#printed.want(null);
+    this.#derived?.dispose();
+    this.#derived = null;
+    this.#stage?.dispose();
+    this.#stage = null;
+    this.#pointing = null;
+    this.renderRoot.querySelector("canvas")?.remove();
+    this.#frame = null;
+    this.#isHeld = false;
+    this.#turned = null;
+  }
+
+  /** Puts the properties that have changed on the stage. */
+  #show(stage: Stage, has: (name: keyof CuspView) => boolean): void {
+    const { model } = stage;
+    if (has("plate")) stage.setVolume(this.plate);
+    if (has("positions")) {
+      this.#derived?.dispose();
+      this.#derived = this.positions === null ? null : new Derived(this.positions);
+      stage.setPositions(this.positions ?? new Float32Array(0), this.rotation, this.scale);
+    } else if (has("rotation") || has("scale")) stage.setPose(this.rotation, this.scale, !this.#isHeld);
+    if (has("z_mm")) model.setPlan(this.z_mm);
+    if (has("limits")) model.setLimits(this.limits);
+    if (has("palette")) model.setPalette(this.palette);
+    if (has("look")) model.setLook(this.look);
+    if (has("layer") || has("z_mm")) model.setBand(this.#band());
+    if (has("aligned") || has("heights_mm") || has("inset")) {
+      stage.setAligned(this.aligned, this.heights_mm, this.inset);
+    }
+    if (has("tool")) stage.setTool(this.tool);
+    if ((has("tool") || has("positions")) && this.tool !== "turn") void this.#prepare();
+    if ((["positions", "rotation", "scale", "z_mm", "look"] as const).some(has)) this.#print();
+    stage.invalidate();
+  }
+
+  /** What turning wants is worked out before the first turn. */
+  async #prepare(): Promise<void> {
+    const derived = this.#derived;
+    const points = await derived?.points();
+    if (points != null && derived === this.#derived) this.#stage?.model.setPoints(points);
+  }
+
+  #shown(): Shown {
+    const { tool, z_mm } = this;
+    const derived = this.#derived;
+    return {
+      tool,
+      z_mm,
+      face: async (facet) => {
+        const face = (await derived?.face(facet)) ?? null;
+        return derived === this.#derived ? face : null;
+      },
+    };
+  }
+
+  #band(): readonly [number, number] | null {
+    if (this.layer === null) return null;
+    const [bottom, top] = [this.z_mm[this.layer], this.z_mm[this.layer + 1]];
+    return bottom === undefined || top === undefined ? null : [bottom, top];
+  }
+
+  #layerWords(): string {
+    const { layer } = this;
+    const band = this.#band();
+    if (layer === null || band === null) return "";
+    return this.texts.layer(layer, band[0], this.thickness_mm[layer] ?? band[1] - band[0]);
+  }
+
+  /** Has the stair steps worked out anew where they are to be shown; not while the model is being turned. */
+  #print(): void {
+    const { rotation, scale, z_mm } = this;
+    const derived = this.#derived;
+    const isWanted = this.look === "printed" && z_mm.length >= 2 && !this.#isHeld;
+    this.#printed.want(derived !== null && isWanted ? { derived, rotation, scale, z_mm } : null);
+  }
+
+  #rotate(rotation: Rotation, final: boolean): void {
+    this.rotation = rotation;
+    this.#turned = final ? null : rotation;
+    if (final) {
+      this.#unsaid = null;
+      this.#tell<RotateDetail>("cusp-rotate", { rotation, final });
+      return;
+    }
+    if (this.#unsaid === null) {
+      requestAnimationFrame(() => {
+        if (this.#unsaid !== null) this.#tell("cusp-rotate", this.#unsaid);
+        this.#unsaid = null;
+      });
+    }
+    this.#unsaid = { rotation, final };
+  }
+
+  readonly #key = (event: KeyboardEvent): void => {
+    const action = pressed(event, this.tool);
+    if (action === null || this.#stage === null) return;
+    event.preventDefault();
+    const { cameras } = this.#stage;
+    if (action.do === "turn-view") cameras.turn(action.right_deg, action.up_deg);
+    else if (action.do === "zoom") cameras.zoom(action.factor);
+    else if (action.do === "reset") cameras.reset();
+    else if (action.do === "turn-model") this.#rotate(turned(this.rotation, action.axis, action.degrees), true);
+    else void this.#pointing?.clicked([this.clientWidth / 2, this.clientHeight / 2]);
+  };
+
+  readonly #wheel = (event: WheelEvent): void => {
+    const chosen = this.shadowRoot?.activeElement?.classList.contains("stage") === true;
+    if (!chosen && !event.ctrlKey) event.stopPropagation();
+  };
+
+  /** Where frames take long, gliding on would last for seconds. */
+  readonly #damp = (): void => {
+    this.#stage?.cameras.setDamping(this.#stage.isSmooth && !this.#reducedMotion.matches);
+  };
+
+  readonly #recolour = (): void => {
+    const probe = (name: string): HTMLElement => {
+      const found = this.renderRoot.querySelector<HTMLElement>(`.probe.${name}`);
+      if (found === null) throw new Error(`the view has no probe of ${name}`);
+      return found;
+    };
+    this.#stage?.setTheme(themeOf({ ink: probe("ink"), accent: probe("accent"), bad: probe("bad") }));
+  };
+
+  /** What follows the picture: the label of the layer, and where heights are. */
+  #drawn(frame: Frame | null): void {
+    const label = this.renderRoot.querySelector<HTMLElement>(".label");
+    const band = this.positions === null ? null : this.#band();
+    if (label !== null && this.#stage !== null) {
+      place(label, band === null ? null : this.#stage.edgeAt((band[0] + band[1]) / 2), this.clientWidth);
+    }
+    if (frame?.top_px === this.#frame?.top_px && frame?.bottom_px === this.#frame?.bottom_px) return;
+    this.#frame = frame;
+    this.#tell<Frame | null>("cusp-frame", frame);
+  }
+
+  #tell<Detail>(name: string, detail: Detail): void {
+    this.dispatchEvent(new CustomEvent<Detail>(name, { detail }));
+  }
+}
+
+customElements.define("cusp-view", CuspView);
+
+/** Typed listeners for the view's own events. */
+export interface CuspView {
+  addEventListener<Type extends keyof ViewEvents>(
+    type: Type,
+    listener: (this: CuspView, event: ViewEvents[Type]) => void,
+    options?: boolean | AddEventListenerOptions,
+  ): void;
+  addEventListener(
+    type: string,
+    listener: EventListenerOrEventListenerObject,
+    options?: boolean | AddEventListenerOptions,
+  ): void;
+}
+
+declare global {
+  interface HTMLElementTagNameMap {
+    "cusp-view": CuspView;
+  }
+}

@@ -1,0 +1,88 @@
+/** Rings to turn the model by, about the axes of the plate. */
+import type { Camera, Object3D } from "three";
+import { TransformControls } from "three/addons/controls/TransformControls.js";
+import type { Rotation } from "./pose.js";
+
+/** With Shift held the model turns in steps. */
+const SNAP = Math.PI / 12;
+
+/** Of the rings, so that the outermost stays inside a square view; the controls' own unit. */
+const SIZE = 2.5;
+
+/** The axes x, y and z, and the ring under the pointer: as bright on light as on dark. */
+const COLOURS = ["#d9534f", "#4f9d5d", "#4a80d4", "#e6a117"] as const;
+
+export interface GizmoReports {
+  /** The rings hold the pointer, or have let it go. */
+  held(on: boolean): void;
+  /** Something about the rings looks different. */
+  changed(): void;
+  /** The model is to stand like this now. */
+  turned(rotation: Rotation): void;
+  /** The pointer was let go, and the model stands like this. */
+  done(rotation: Rotation): void;
+}
+
+export class Gizmo {
+  readonly #controls: TransformControls;
+  readonly #surface: HTMLElement;
+  readonly #snap = ({ shiftKey }: KeyboardEvent): void => {
+    this.#controls.setRotationSnap(shiftKey ? SNAP : null);
+  };
+
+  constructor(camera: Camera, surface: HTMLElement, scene: Object3D, reports: GizmoReports) {
+    this.#surface = surface;
+    const before = surface.style.touchAction;
+    const controls = new TransformControls(camera, surface);
+    surface.style.touchAction = before;
+    this.#controls = controls;
+    controls.setMode("rotate");
+    controls.setSpace("world");
+    controls.setColors(...COLOURS);
+    scene.add(controls.getHelper());
+    const rotation = (): Rotation | null => {
+      if (controls.object === undefined) return null;
+      const { x, y, z, w } = controls.object.quaternion;
+      return [x, y, z, w];
+    };
+    controls.addEventListener("change", () => reports.changed());
+    controls.addEventListener("objectChange", () => {
+      const now = rotation();
+      if (now !== null) reports.turned(now);
+    });
+    controls.addEventListener("dragging-changed", ({ value }) => {
+      reports.held(value === true);
+      const now = rotation();
+      if (value !== true && now !== null) reports.done(now);
+    });
+    addEventListener("keydown", this.#snap);
+    addEventListener("keyup", this.#snap);
+  }
+
+  /** Whether the pointer is on a ring or holds one. */
+  get isHot(): boolean {
+    return this.#controls.axis !== null || this.#controls.dragging;
+  }
+
+  /** @param aspect width of the view over its height */
+  fit(aspect: number): void {
+    this.#controls.setSize(SIZE * Math.min(1, aspect));
+  }
+
+  show(object: Object3D | null, camera: Camera): void {
+    this.#controls.camera = camera;
+    this.#controls.enabled = object !== null;
+    if (object === null) this.#controls.detach();
+    else if (this.#controls.object !== object) this.#controls.attach(object);
+    // The rings take every touch that begins on them.
+    this.#surface.style.touchAction = object === null ? "pan-y" : "none";
+  }
+
+  dispose(): void {
+    removeEventListener("keydown", this.#snap);
+    removeEventListener("keyup", this.#snap);
+    this.#controls.detach();
+    this.#controls.getHelper().removeFromParent();
+    this.#controls.dispose();
+  }
+}

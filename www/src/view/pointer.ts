@@ -1,0 +1,60 @@
+/** Clicks and hovers over the view, told apart from drags. */
+
+/** A pointer that has gone farther than this since it came down drags, CSS pixels. */
+const DRAG_FROM_PX = 4;
+
+export type Point = readonly [x_px: number, y_px: number];
+
+export interface PointerReports {
+  /** A press and release on one spot with the main button. */
+  clicked(at: Point): void;
+  /** Where the pointer is with no button down, once a frame at most; `null` when it has left. */
+  hovered(at: Point | null): void;
+}
+
+/** Watches `surface` until the signal is aborted. */
+export function watchPointer(surface: HTMLElement, reports: PointerReports, signal: AbortSignal): void {
+  let down: { readonly id: number; readonly at: Point } | null = null;
+  let latest: Point | null = null;
+  let asked = false;
+  const place = ({ clientX, clientY }: PointerEvent): Point => {
+    const { left, top } = surface.getBoundingClientRect();
+    return [clientX - left, clientY - top];
+  };
+  const hover = (at: Point | null): void => {
+    latest = at;
+    if (asked) return;
+    asked = true;
+    requestAnimationFrame(() => {
+      asked = false;
+      if (!signal.aborted) reports.hovered(latest);
+    });
+  };
+  const options = { signal };
+  surface.addEventListener(
+    "pointerdown",
+    (event) => {
+      down = event.isPrimary && event.button === 0 ? { id: event.pointerId, at: place(event) } : null;
+    },
+    options,
+  );
+  surface.addEventListener(
+    "pointermove",
+    (event) => {
+      if (event.buttons === 0) hover(place(event));
+    },
+    options,
+  );
+  surface.addEventListener("pointerleave", () => hover(null), options);
+  surface.addEventListener(
+    "pointerup",
+    (event) => {
+      const at = place(event);
+      if (down?.id !== event.pointerId) return;
+      if (Math.hypot(at[0] - down.at[0], at[1] - down.at[1]) <= DRAG_FROM_PX) reports.clicked(at);
+      down = null;
+    },
+    options,
+  );
+  surface.addEventListener("pointercancel", () => (down = null), options);
+}

@@ -1,0 +1,196 @@
+/**
+ * The model as it comes out of the printer: every layer the cross-section at its middle, pulled up from its bottom to
+ * its top. Walls and treads are exact; nothing is drawn from the facets themselves.
+ */
+import { Earcut } from "three/src/extras/Earcut.js";
+import { cutsOf, signedArea, tracer, type Contour, type Solid } from "./contours.js";
+
+/** Some layers on end. */
+export interface StepsPart {
+  /** Corners, three numbers each, mm: of each contour point one at the bottom of its layer and one at the top. */
+  readonly positions: Float32Array;
+  /** Triangles, outside counter-clockwise. */
+  readonly index: Uint32Array;
+}
+
+/** In parts, so that no buffer is too large to be copied in passing. */
+export interface Steps {
+  readonly parts: readonly StepsPart[];
+  /** How far the contours may be from the cross-sections, mm. */
+  readonly tolerance_mm: number;
+}
+
+/** Finer than any printer's pixel by far: what is left out cannot be printed either. */
+const TOLERANCE_MM = 0.001;
+
+/** Beyond this many contour points the buffers (72 bytes a point) crowd a phone: such a model gets a coarser tolerance. */
+const POINTS_LIMIT = 3_000_000;
+
+const COARSER = 4;
+
+/** A part is done once it has this many contour points: a few megabytes. */
+const PART_POINTS = 50_000;
+
+/** Contours with area are cut into polygons of an outline and the holes in it. */
+interface Polygon {
+  readonly outline: Contour;
+  readonly holes: Contour[];
+  readonly area: number;
+}
+
+/** Whether the point is inside the outline, by the parity of crossings. */
+function isInside(outline: Contour, x: number, y: number): boolean {
+  let inside = false;
+  for (let i = 0, j = outline.length - 2; i < outline.length; j = i, i += 2) {
+    const ax = outline[i] ?? 0;
+    const ay = outline[i + 1] ?? 0;
+    const bx = outline[j] ?? 0;
+    const by = outline[j + 1] ?? 0;
+    if (ay > y !== by > y && x < ((bx - ax) * (y - ay)) / (by - ay) + ax) inside = !inside;
+  }
+  return inside;
+}
+
+/** Gives each hole to the smallest outline around it. A hole in nothing is dropped. */
+export function polygons(contours: readonly Contour[]): Polygon[] {
+  const out: Polygon[] = [];
+  const holes: Contour[] = [];
+  for (const contour of contours) {
+    const area = signedArea(contour);
+    if (area > 0) out.push({ outline: contour, holes: [], area });
+    else if (area < 0) holes.push(contour);
+  }
+  out.sort((a, b) => a.area - b.area);
+  for (const hole of holes) {
+    const [x = 0, y = 0] = hole;
+    const area = -signedArea(hole);
+    out.find((polygon) => polygon.area > area && isInside(polygon.outline, x, y))?.holes.push(hole);
+  }
+  return out;
+}
+
+/** A typed array that grows by doubling. */
+class Growing<T extends Float32Array | Uint32Array> {
+  length = 0;
+  #array: T;
+  readonly #make: (length: number) => T;
+
+  constructor(make: (length: number) => T) {
+    this.#make = make;
+    this.#array = make(1024);
+  }
+
+  push(a: number, b: number, c: number): void {
+    if (this.length + 3 > this.#array.length) {
+      const larger = this.#make(2 * this.#array.length);
+      larger.set(this.#array);
+      this.#array = larger;
+    }
+    this.#array[this.length++] = a;
+    this.#array[this.length++] = b;
+    this.#array[this.length++] = c;
+  }
+
+  done(): T {
+    return this.#array.slice(0, this.length) as T;
+  }
+}
+
+/** The part under way. */
+class Pile {
+  readonly positions = new Growing((length) => new Float32Array(length));
+  readonly index = new Growing((length) => new Uint32Array(length));
+
+  /** Of contours: each stands at the bottom and at the top of its layer. */
+  get points(): number {
+    return this.positions.length / 6;
+  }
+
+  /** The corners of a contour, bottom and top in turn; gives the number of the first. */
+  #corners(contour: Contour, bottom: number, top: number): number {
+    const first = this.positions.length / 3;
+    for (let i = 0; i < contour.length; i += 2) {
+      const x = contour[i] ?? 0;
+      const y = contour[i + 1] ?? 0;
+      this.positions.push(x, y, bottom);
+      this.positions.push(x, y, top);
+    }
+    return first;
+  }
+
+  #walls(first: number, points: number): void {
+    for (let i = 0; i < points; i++) {
+      const here = first + 2 * i;
+      const next = first + 2 * ((i + 1) % points);
+      this.index.push(here, next, next + 1);
+      this.index.push(here, next + 1, here + 1);
+    }
+  }
+
+  layer(contours: readonly Contour[], bottom: number, top: number): void {
+    for (const { outline, holes } of polygons(contours)) {
+      const rings = [outline, ...holes];
+      const first = this.positions.length / 3;
+      const starts: number[] = [];
+      for (const ring of rings) {
+        if (ring !== outline) starts.push((this.positions.length / 3 - first) / 2);
+        this.#walls(this.#corners(ring, bottom, top), ring.length / 2);
+      }
+      const cap = Earcut.triangulate(rings.flat(), starts, 2);
+      for (let i = 0; i < cap.length; i += 3) {
+        const a = first + 2 * (cap[i] ?? 0);
+        const b = first + 2 * (cap[i + 1] ?? 0);
+        const c = first + 2 * (cap[i + 2] ?? 0);
+        this.index.push(a + 1, b + 1, c + 1);
+        this.index.push(a, c, b);
+      }
+    }
+  }
+}
+
+/** Contours of a mesh whose facets face inwards run the wrong way round. */
+function outwards(contours: Contour[]): Contour[] {
+  const total = contours.reduce((sum, contour) => sum + signedArea(contour), 0);
+  if (total >= 0) return contours;
+  return contours.map((contour) => {
+    const out: number[] = [];
+    for (let i = contour.length - 2; i >= 0; i -= 2) out.push(contour[i] ?? 0, contour[i + 1] ?? 0);
+    return out;
+  });
+}
+
+/** Heights at which the layers are cut: their middles. */
+export const middles = (z_mm: readonly number[]): number[] =>
+  z_mm.slice(1).map((top, layer) => ((z_mm[layer] ?? 0) + top) / 2);
+
+/**
+ * The stair steps of a model sliced at `z_mm` (layer boundaries, ascending). Yields its progress, 0 to 1, layer by
+ * layer, so that who runs it can give way to other things.
+ * Cost: the facets plus the points of all contours.
+ */
+export function* stairSteps(solid: Solid, z_mm: readonly number[]): Generator<number, Steps> {
+  const planes = middles(z_mm);
+  const finding = cutsOf(solid, planes);
+  let found = finding.next();
+  for (; found.done !== true; found = finding.next()) yield 0;
+  const cuts = found.value;
+  for (let tolerance_mm = TOLERANCE_MM; ; tolerance_mm *= COARSER) {
+    const trace = tracer(solid, tolerance_mm);
+    const parts: StepsPart[] = [];
+    let pile = new Pile();
+    let points = 0;
+    let layer = 0;
+    for (; layer < planes.length && points <= POINTS_LIMIT; layer++) {
+      const facets = cuts.facets.subarray(cuts.start[layer] ?? 0, cuts.start[layer + 1] ?? 0);
+      const contours = outwards(trace(planes[layer] ?? 0, facets));
+      pile.layer(contours, z_mm[layer] ?? 0, z_mm[layer + 1] ?? 0);
+      if (pile.points >= PART_POINTS || layer === planes.length - 1) {
+        points += pile.points;
+        parts.push({ positions: pile.positions.done(), index: pile.index.done() });
+        pile = new Pile();
+      }
+      yield (layer + 1) / planes.length;
+    }
+    if (points <= POINTS_LIMIT) return { parts, tolerance_mm };
+  }
+}

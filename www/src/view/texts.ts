@@ -1,0 +1,65 @@
+/** Every word of the view, with numbers put in by the one who gives them: the view itself knows no language. */
+
+export interface ViewTexts {
+  /** Name of the view for those who cannot see it. */
+  readonly name: string;
+  /** What kind of thing it is. */
+  readonly kind: string;
+  /** How to use it by keyboard, for each tool. */
+  readonly keys: Readonly<Record<"turn" | "rotate" | "flat", string>>;
+  /** The model on show. */
+  readonly state: (size_mm: readonly [number, number, number], layers: number) => string;
+  /** Nothing on show. */
+  readonly empty: string;
+  /** Heading of the colour scale, with its unit. */
+  readonly legend: string;
+  /** A thickness on the colour scale, without its unit. */
+  readonly tick: (thickness_mm: number) => string;
+  /** The layer looked at, counted from 0. */
+  readonly layer: (layer: number, z_mm: number, thickness_mm: number) => string;
+  /** Spacing of the plate's grid. */
+  readonly grid: (step_mm: number) => string;
+  /** While the stair steps are being worked out, 0 to 1. */
+  readonly building: (progress: number) => string;
+  /** Instead of the view where the browser has no WebGL. */
+  readonly unavailable: string;
+}
+
+const MICROMETRES = 1000;
+
+const english = (digits: number): ((value: number) => string) => {
+  const format = new Intl.NumberFormat("en", { maximumFractionDigits: digits });
+  return (value) => format.format(value);
+};
+
+/** From here on a tenth of a µm is more than anybody wants to read. */
+const WHOLE_FROM_UM = 100;
+
+const whole = english(0);
+const tenths = english(1);
+const hundredths = english(2);
+const micrometres = (mm: number): string => {
+  const um = mm * MICROMETRES;
+  return (um < WHOLE_FROM_UM ? tenths : whole)(um);
+};
+const exact = new Intl.NumberFormat("en", { maximumSignificantDigits: 1 });
+
+export const ENGLISH: ViewTexts = {
+  name: "Model",
+  kind: "3-D view",
+  keys: {
+    turn: "Arrow keys turn the view, plus and minus zoom, 0 shows the whole model.",
+    rotate: "Arrow keys and Page Up and Page Down turn the model by 5°, with Shift by 1°.",
+    flat: "Enter lays the face in the middle of the view on the plate. Arrow keys turn the view.",
+  },
+  state: ([x, y, z], layers) =>
+    `${tenths(x)} × ${tenths(y)} × ${tenths(z)} mm` + (layers > 0 ? `, ${whole(layers)} layers` : ""),
+  empty: "No model yet",
+  legend: "Layer thickness (µm)",
+  tick: micrometres,
+  layer: (layer, z_mm, thickness_mm) =>
+    `Layer ${whole(layer + 1)} · ${hundredths(z_mm)} mm · ${micrometres(thickness_mm)} µm`,
+  grid: (step_mm) => `Grid ${exact.format(step_mm)} mm`,
+  building: (progress) => `Working out the steps: ${whole(100 * progress)} %`,
+  unavailable: "This browser shows no 3-D view: WebGL 2 is switched off or missing.",
+};

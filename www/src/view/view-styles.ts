@@ -1,0 +1,158 @@
+/** How the view looks around its canvas. Takes the page's custom properties, and does without them. */
+import { css } from "lit";
+
+export const viewStyles = css`
+  :host {
+    position: relative;
+    display: block;
+    min-width: 0;
+    min-height: 12rem;
+    overflow: hidden;
+    border-radius: 8px;
+    color: var(--cusp-text, CanvasText);
+    background: var(
+      --cusp-view-background,
+      radial-gradient(
+        120% 90% at 50% 30%,
+        color-mix(in srgb, var(--cusp-card, Canvas) 97%, currentColor),
+        color-mix(in srgb, var(--cusp-card, Canvas) 90%, currentColor)
+      )
+    );
+  }
+  :host([hidden]) {
+    display: none;
+  }
+  *,
+  *::before,
+  *::after {
+    box-sizing: border-box;
+  }
+  .stage {
+    position: absolute;
+    inset: 0;
+    cursor: grab;
+    user-select: none;
+    -webkit-user-select: none;
+  }
+  .stage:active {
+    cursor: grabbing;
+  }
+  .stage[data-tool="flat"] {
+    cursor: crosshair;
+  }
+  .stage:focus-visible {
+    outline: 3px solid var(--cusp-focus, Highlight);
+    outline-offset: -3px;
+    border-radius: 8px;
+  }
+  canvas {
+    display: block;
+    width: 100%;
+    height: 100%;
+    touch-action: pan-y;
+  }
+  .hidden {
+    position: absolute;
+    width: 1px;
+    height: 1px;
+    margin: -1px;
+    overflow: hidden;
+    clip-path: inset(50%);
+    white-space: nowrap;
+  }
+  /* What a face must lie under to be laid flat by keyboard. */
+  .cross {
+    display: none;
+    position: absolute;
+    inset: calc(50% - 10px) auto auto calc(50% - 10px);
+    width: 20px;
+    height: 20px;
+    background:
+      linear-gradient(currentColor, currentColor) center / 2px 100% no-repeat,
+      linear-gradient(currentColor, currentColor) center / 100% 2px no-repeat;
+    pointer-events: none;
+  }
+  .stage[data-tool="flat"]:focus-visible .cross {
+    display: block;
+  }
+  .label {
+    position: absolute;
+    inset-block-end: 0.5rem;
+    inset-inline-end: 0.5rem;
+    padding: 0.125rem 0.5rem;
+    border-radius: 6px;
+    background: var(--cusp-text, CanvasText);
+    color: var(--cusp-card, Canvas);
+    font-size: 0.75rem;
+    line-height: 1.4;
+    font-variant-numeric: tabular-nums;
+    white-space: nowrap;
+    pointer-events: none;
+  }
+  .label.beside {
+    inset: 0 auto auto 0;
+  }
+  .grid {
+    position: absolute;
+    inset-block-end: 0.625rem;
+    inset-inline-start: 0.75rem;
+    color: var(--cusp-quiet, inherit);
+    font-size: 0.75rem;
+    pointer-events: none;
+  }
+  .building {
+    position: absolute;
+    inset: auto 0 0;
+    padding: 0 0.75rem 0.625rem;
+    color: var(--cusp-quiet, inherit);
+    font-size: 0.75rem;
+    text-align: end;
+    font-variant-numeric: tabular-nums;
+    pointer-events: none;
+  }
+  .building progress {
+    position: absolute;
+    inset: auto 0 0;
+    width: 100%;
+    height: 3px;
+    border: 0;
+    appearance: none;
+    background: transparent;
+    accent-color: var(--cusp-accent, Highlight);
+  }
+  .building progress::-webkit-progress-bar {
+    background: transparent;
+  }
+  .building progress::-webkit-progress-value {
+    background: var(--cusp-accent, Highlight);
+  }
+  .building progress::-moz-progress-bar {
+    background: var(--cusp-accent, Highlight);
+  }
+  .unavailable {
+    position: absolute;
+    inset: 0;
+    display: grid;
+    place-content: center;
+    margin: 0;
+    padding: 2rem;
+    color: var(--cusp-quiet, inherit);
+    text-align: center;
+    text-wrap: balance;
+  }
+  /* Probes of the page's colours. A change of colour is noticed as the start of a transition, whatever brought it about. */
+  .probe {
+    position: absolute;
+    visibility: hidden;
+    transition: color 1ms;
+  }
+  .ink {
+    color: var(--cusp-text, CanvasText);
+  }
+  .accent {
+    color: var(--cusp-accent, Highlight);
+  }
+  .bad {
+    color: var(--cusp-bad, #c0303a);
+  }
+`;
