@@ -47,6 +47,8 @@ enum Command {
     },
     /// Build the wasm package (www/pkg) and the page (www/dist)
     Build,
+    /// Build the npm package (www/dist-package), and weigh it
+    Package,
     /// Run every test: native, GPU, wasm in a browser, page, end to end
     Test {
         /// Run these steps only
@@ -96,6 +98,10 @@ fn run(command: Command) -> Result<bool> {
             serve::serve(&project, port)?;
         }
         Command::Build => build(&project)?,
+        Command::Package => {
+            wasm::build(&project)?;
+            process::run(node::npm(&project)?.args(["run", "package"]))?;
+        }
         Command::Test { steps } => return suite::run(&project, &steps),
         Command::Lint => return Ok(lint::run(&project)),
         Command::Size => {

@@ -106,8 +106,13 @@ impl Step {
             Self::Unit => vitest(&mut node::npm(project)?, "test", scratch),
             Self::E2e => {
                 let chromium = browser::chromium()?;
+                // The shop asks it whether plans are right.
+                process::run(process::cargo(project).args(["build", "--bin", "cusp"]))?;
+                let cusp = format!("target/debug/cusp{}", std::env::consts::EXE_SUFFIX);
                 vitest(
-                    node::npm(project)?.env("CHROMIUM", chromium),
+                    node::npm(project)?
+                        .env("CHROMIUM", chromium)
+                        .env("CUSP", project.root.join(cusp)),
                     "e2e",
                     scratch,
                 )
