@@ -3,7 +3,7 @@
 //!
 //! An upright wall has density 1: its layers are as rough as they are thick.
 
-use super::steepest::NO_SURFACE;
+use super::steepest::densities;
 
 /// The error that a layer may have where nobody says, in millimetres: as rough as walls in layers of 0.1 mm.
 pub const DEFAULT_TOLERANCE_MM: f64 = 0.1;
@@ -14,14 +14,7 @@ pub const CAP: f32 = 2.0;
 
 /// The densities of bins from the largest `n_z²` of each; 0 where there is no surface.
 pub fn density(steepest: &[f32]) -> Vec<f32> {
-    let of = |&square: &f32| {
-        if square == NO_SURFACE {
-            0.0
-        } else {
-            density_of(square)
-        }
-    };
-    steepest.iter().map(of).collect()
+    densities(steepest, density_of)
 }
 
 /// The density of a surface by its `n_z²`.

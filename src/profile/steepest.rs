@@ -92,6 +92,14 @@ pub(super) fn exact_maxima(
     maxima.into_values()
 }
 
+/// What metrics make of maxima: nothing where there is no surface.
+pub(super) fn densities(maxima: &[f32], of: impl Fn(f32) -> f32) -> Vec<f32> {
+    let values = maxima.iter();
+    values
+        .map(|&value| if value == NO_SURFACE { 0.0 } else { of(value) })
+        .collect()
+}
+
 /// By hand: `max` is a library call in wasm.
 fn raise(value: &mut f32, other: f32) {
     if *value < other {

@@ -64,12 +64,7 @@ impl Weighted {
     /// weight changes.
     pub fn profile(&self, shape: &Shape) -> Profile {
         let density = match self.metric {
-            Metric::Cusp | Metric::Roughness => {
-                let values = self.values.iter();
-                values
-                    .map(|&value| if value == NO_SURFACE { 0.0 } else { value })
-                    .collect()
-            }
+            Metric::Cusp | Metric::Roughness => steepest::densities(&self.values, |value| value),
             Metric::Area => {
                 let densities = area::density(&shape.areas_mm2, shape.bins);
                 densities

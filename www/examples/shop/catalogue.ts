@@ -62,6 +62,8 @@ export const FIXED = {
   flat_area_mm2: 1,
   metric: "cusp",
   source: "exact",
+  saliency: false,
+  weight_min: 0.25,
   planner: { kind: "optimal" },
   minimize: "layers",
   backend: "auto",
