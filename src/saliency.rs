@@ -16,18 +16,16 @@ use crate::progress::{Cancelled, Progress, report};
 const UNIT: f64 = 0.003;
 /// Finer scales, in units. Each is compared with its double.
 const SCALES: [usize; 5] = [2, 3, 4, 5, 6];
-/// All scales that averages are taken at, the largest first, in units.
+/// All scales that averages are taken at, in units.
 const AVERAGES: [usize; 8] = [12, 10, 8, 6, 5, 4, 3, 2];
 /// Averages reach so many times their scale.
 const REACH: f64 = 2.0;
-/// Side of the cells that vertices are sorted into, in units.
-const CELL: f64 = 8.0;
 /// Vertices that are averaged in a row.
 const CHUNK: usize = 512;
 
 /// The saliency of each facet of the surface, 0 to 1: the most salient has 1. All are 0 where nothing stands out.
 ///
-/// Cost: vertices times those within 7.2 % of the diagonal of each.
+/// Cost: linear in vertices.
 ///
 /// # Errors
 /// [`Cancelled`] if `progress` asks for it.
@@ -143,8 +141,8 @@ impl Surface {
         unit_mm: f64,
         progress: &mut Progress<'_>,
     ) -> Result<Vec<[f64; AVERAGES.len()]>, Cancelled> {
-        let cells = Cells::new(self, unit_mm * CELL);
-        let kernel = Kernel::new(unit_mm);
+        let kernel = Kernel::new();
+        let scales = AVERAGES.map(|units| Scale::new(self, units as f64 * unit_mm));
         let count = self.points.len();
         let firsts: Vec<usize> = (0..count).step_by(CHUNK).collect();
         let mut averages = Vec::with_capacity(count);
@@ -152,7 +150,10 @@ impl Surface {
             firsts.into_iter(),
             |first| {
                 let vertices = first..(first + CHUNK).min(count);
-                let around = |vertex: usize| kernel.averages(&cells, self.points[vertex]);
+                let around = |vertex: usize| {
+                    let average = |scale: &Scale| scale.average(&kernel, self.points[vertex]);
+                    scales.each_ref().map(average)
+                };
                 vertices.map(around).collect::<Vec<_>>()
             },
             |chunk| {
@@ -166,7 +167,7 @@ impl Surface {
     }
 }
 
-/// What a vertex adds to averages.
+/// What vertices add to averages.
 #[derive(Clone, Copy)]
 struct Sample {
     point: DVec3,
@@ -175,109 +176,110 @@ struct Sample {
     bent: f64,
 }
 
-/// Samples by the cell that they are in.
-struct Cells {
+/// What is averaged at one scale: vertices, those together that are close beside it, by the cell that they are in.
+struct Scale {
     samples: Vec<Sample>,
     ranges: FxHashMap<IVec3, (u32, u32)>,
-    side_mm: f64,
+    sigma_mm: f64,
 }
 
-impl Cells {
-    fn new(surface: &Surface, side_mm: f64) -> Self {
-        let mut order: Vec<(IVec3, u32)> = (0..surface.points.len())
+impl Scale {
+    /// Cells are as wide as the scale, and within each so many parts a side are one sample at most: so the cost does not grow
+    /// with the square of the vertices of a model.
+    const PARTS: i32 = 4;
+
+    fn new(surface: &Surface, sigma_mm: f64) -> Self {
+        let part_mm = sigma_mm / f64::from(Self::PARTS);
+        let cell_of = |part: IVec3| part.div_euclid(IVec3::splat(Self::PARTS));
+        let mut order: Vec<(IVec3, IVec3, u32)> = (0..surface.points.len())
             .filter(|&vertex| surface.area[vertex] > 0.0)
-            .map(|vertex| (cell_of(surface.points[vertex], side_mm), vertex as u32))
+            .map(|vertex| {
+                let part = (surface.points[vertex] / part_mm).floor().as_ivec3();
+                (cell_of(part), part, vertex as u32)
+            })
             .collect();
-        order.sort_unstable_by_key(|&(cell, vertex)| (cell.to_array(), vertex));
+        order.sort_unstable_by_key(|&(cell, part, vertex)| {
+            (cell.to_array(), part.to_array(), vertex)
+        });
+        let mut samples = Vec::new();
         let mut ranges = FxHashMap::default();
-        let mut first = 0;
         for cell in order.chunk_by(|a, b| a.0 == b.0) {
-            let end = first + cell.len() as u32;
-            ranges.insert(cell[0].0, (first, end));
-            first = end;
-        }
-        let sample = |&(_, vertex): &(IVec3, u32)| {
-            let vertex = vertex as usize;
-            Sample {
-                point: surface.points[vertex],
-                area: surface.area[vertex],
-                bent: surface.area[vertex] * surface.curvature[vertex],
+            let first = samples.len() as u32;
+            for part in cell.chunk_by(|a, b| a.1 == b.1) {
+                let mut sum = Sample {
+                    point: DVec3::ZERO,
+                    area: 0.0,
+                    bent: 0.0,
+                };
+                for &(_, _, vertex) in part {
+                    let vertex = vertex as usize;
+                    let area = surface.area[vertex];
+                    sum.point += surface.points[vertex] * area;
+                    sum.area += area;
+                    sum.bent += area * surface.curvature[vertex];
+                }
+                sum.point /= sum.area;
+                samples.push(sum);
             }
-        };
+            ranges.insert(cell[0].0, (first, samples.len() as u32));
+        }
         Self {
-            samples: order.iter().map(sample).collect(),
+            samples,
             ranges,
-            side_mm,
+            sigma_mm,
         }
     }
 
-    fn of(&self, cell: IVec3) -> &[Sample] {
-        self.ranges.get(&cell).map_or(&[], |&(first, end)| {
-            &self.samples[first as usize..end as usize]
-        })
-    }
-}
-
-fn cell_of(point: DVec3, side_mm: f64) -> IVec3 {
-    (point / side_mm).floor().as_ivec3()
-}
-
-/// Gaussian weights of all scales.
-struct Kernel {
-    /// exp(−2 i / [`STEPS`](Self::STEPS)): the weight at a part i of the square of a scale's reach.
-    weights: Vec<f64>,
-    /// For each of [`AVERAGES`], its reach squared and the steps a mm² of distance squared.
-    reaches: [(f64, f64); AVERAGES.len()],
-}
-
-impl Kernel {
-    const STEPS: usize = 2048;
-
-    fn new(unit_mm: f64) -> Self {
-        // exp by its series, in basic arithmetic alone: the same on every machine.
-        let step = REACH * REACH * 0.5 / Self::STEPS as f64;
-        let ratio = 1.0 - step * (1.0 - step / 2.0 * (1.0 - step / 3.0 * (1.0 - step / 4.0)));
-        let mut weights = Vec::with_capacity(Self::STEPS);
-        let mut weight = 1.0;
-        for _ in 0..Self::STEPS {
-            weights.push(weight);
-            weight *= ratio;
-        }
-        Self {
-            weights,
-            reaches: AVERAGES.map(|units| {
-                let reach_mm = REACH * units as f64 * unit_mm;
-                let square = reach_mm * reach_mm;
-                (square, Self::STEPS as f64 / square)
-            }),
-        }
-    }
-
-    fn averages(&self, cells: &Cells, point: DVec3) -> [f64; AVERAGES.len()] {
-        let mut sums = [(0.0, 0.0); AVERAGES.len()];
-        let middle = cell_of(point, cells.side_mm);
-        let farthest = self.reaches[0].0;
-        let reach = (farthest.sqrt() / cells.side_mm).ceil() as i32;
-        for x in -reach..=reach {
-            for y in -reach..=reach {
-                for z in -reach..=reach {
-                    for sample in cells.of(middle + IVec3::new(x, y, z)) {
+    fn average(&self, kernel: &Kernel, point: DVec3) -> f64 {
+        let reach_mm = REACH * self.sigma_mm;
+        let farthest = reach_mm * reach_mm;
+        let steps = Kernel::STEPS as f64 / farthest;
+        let first = ((point - reach_mm) / self.sigma_mm).floor().as_ivec3();
+        let last = ((point + reach_mm) / self.sigma_mm).floor().as_ivec3();
+        let (mut bent, mut area) = (0.0, 0.0);
+        for x in first.x..=last.x {
+            for y in first.y..=last.y {
+                for z in first.z..=last.z {
+                    let range = self.ranges.get(&IVec3::new(x, y, z));
+                    let Some(&(from, to)) = range else { continue };
+                    for sample in &self.samples[from as usize..to as usize] {
                         let square = (sample.point - point).length_squared();
-                        for (sum, &(reach, steps)) in sums.iter_mut().zip(&self.reaches) {
-                            // Scales become smaller, so that no other reaches as far either.
-                            if square >= reach {
-                                break;
-                            }
-                            let weight =
-                                self.weights[((square * steps) as usize).min(Self::STEPS - 1)];
-                            sum.0 += weight * sample.bent;
-                            sum.1 += weight * sample.area;
+                        if square < farthest {
+                            let weight = kernel.weights[(square * steps) as usize];
+                            bent += weight * sample.bent;
+                            area += weight * sample.area;
                         }
                     }
                 }
             }
         }
-        sums.map(|(bent, area)| if area > 0.0 { bent / area } else { 0.0 })
+        if area > 0.0 { bent / area } else { 0.0 }
+    }
+}
+
+/// Gaussian weights.
+struct Kernel {
+    /// exp(−2 i / [`STEPS`](Self::STEPS)): the weight at a part i of the square of a scale's reach.
+    weights: Vec<f64>,
+}
+
+impl Kernel {
+    const STEPS: usize = 2048;
+
+    fn new() -> Self {
+        // exp by its series, in basic arithmetic alone: the same on every machine.
+        let step = REACH * REACH * 0.5 / Self::STEPS as f64;
+        let ratio = 1.0 - step * (1.0 - step / 2.0 * (1.0 - step / 3.0 * (1.0 - step / 4.0)));
+        let mut weight = 1.0;
+        // One more, where rounding up leads.
+        let weights = (0..=Self::STEPS).map(|_| {
+            let this = weight;
+            weight *= ratio;
+            this
+        });
+        Self {
+            weights: weights.collect(),
+        }
     }
 }
 

@@ -4,6 +4,35 @@ use glam::DVec3;
 
 use crate::solids::Triangles;
 
+/// A head with a face toward −y: brow, eyes, nose and mouth.
+#[allow(dead_code, reason = "each bench takes but some of the models")]
+pub fn head(rings: u32) -> Triangles {
+    deformed(rings, |direction| {
+        // Raised by `height` around a place of the face, `wide` and `high` across.
+        let feature = |x: f64, z: f64, wide: f64, high: f64, height: f64| {
+            let [dx, dz] = [(direction.x - x) / wide, (direction.z - z) / high];
+            let square = dx * dx + dz * dz;
+            if direction.y < 0.0 {
+                height * (-square).exp()
+            } else {
+                0.0
+            }
+        };
+        let features = [
+            feature(0.0, 0.02, 0.09, 0.16, 0.16),
+            feature(0.0, -0.13, 0.12, 0.06, 0.06),
+            feature(-0.28, 0.17, 0.11, 0.06, -0.07),
+            feature(0.28, 0.17, 0.11, 0.06, -0.07),
+            feature(-0.28, 0.29, 0.16, 0.04, 0.035),
+            feature(0.28, 0.29, 0.16, 0.04, 0.035),
+            feature(0.0, -0.32, 0.22, 0.025, 0.035),
+            feature(0.0, -0.39, 0.18, 0.02, -0.03),
+            feature(0.0, -0.46, 0.18, 0.03, 0.03),
+        ];
+        direction * (1.0 + features.iter().sum::<f64>()) * DVec3::new(0.78, 0.9, 1.1)
+    })
+}
+
 /// A model and its name.
 pub type Named = (String, Triangles);
 
