@@ -1,4 +1,5 @@
 /** What the heat map shows of each facet. */
+import type { PaletteName } from "./palette.js";
 
 /** What was painted, what stands out, or how much a facet counts by both. */
 export type Heat = "paint" | "saliency" | "product";
@@ -21,20 +22,29 @@ export function heatOf({ heat, weights, saliency, least }: HeatSource, facet: nu
   return Math.max(least, paint * standing);
 }
 
-/** Texels in a row of the texture of facets: every WebGL 2 takes this. */
+/** Yellow is what matters most, violet what matters least: steady in lightness, so that it reads with any eyes. */
+export const HEAT_PALETTE: PaletteName = "safe";
+
+/** Texels in a row of the texture of facets, four facets a texel: every WebGL 2 takes this. */
 export const HEAT_ROW = 2048;
 
-/** Writes the heat of some facets, 0 to 255 each; gives the least and greatest of their numbers, or `null` for none. */
-export function packHeat(
-  source: HeatSource,
-  facets: Iterable<number>,
-  into: Uint8Array,
-): readonly [first: number, last: number] | null {
-  let [first, last] = [Infinity, -1];
+/** Facets in a row of that texture. */
+export const HEAT_ROW_FACETS = 4 * HEAT_ROW;
+
+/** Writes the heat of some facets, 0 to 255 each; gives the rows that they lie in. */
+export function packHeat(source: HeatSource, facets: Iterable<number>, into: Uint8Array): ReadonlySet<number> {
+  const rows = new Set<number>();
   for (const facet of facets) {
     into[facet] = Math.round(255 * heatOf(source, facet));
-    first = Math.min(first, facet);
-    last = Math.max(last, facet);
+    rows.add(Math.floor(facet / HEAT_ROW_FACETS));
   }
-  return last < 0 ? null : [first, last];
+  return rows;
 }
+
+/** The heat of a facet for a shader that has `uniform sampler2D heat`. */
+export const HEAT_GLSL = /* glsl */ `
+float heatAt(int facet) {
+  int texel = facet >> 2;
+  return texelFetch(heat, ivec2(texel % ${HEAT_ROW}, texel / ${HEAT_ROW}), 0)[facet & 3];
+}
+`;
