@@ -245,7 +245,7 @@ export class CuspModel extends LitElement {
         ${TOOLS.map((it) => toggle(words.tools[it], tool === it, () => (this.tool = it)))}
         ${toggle(words.printed, this.look === "printed", () => (this.look = this.look === "printed" ? "thickness" : "printed"))}
         ${toggle(words.safe, this.palette === "safe", () => (this.palette = this.palette === "safe" ? "classic" : "safe"))}
-        ${!canAlign ? nothing : toggle(words.aligned, this.aligned, () => (this.aligned = !this.aligned))}
+        ${!canAlign || isPainting ? nothing : toggle(words.aligned, this.aligned, () => (this.aligned = !this.aligned))}
         ${isTurned ? html`<button class="small" @click=${this.#upright}>${words.upright}</button>` : nothing}
       </div>
       ${isPainting ? this.#paintTools() : nothing}

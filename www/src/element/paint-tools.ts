@@ -58,7 +58,7 @@ export function paintTools(tools: PaintTools): TemplateResult {
     said: string,
     set: (value: number) => void,
   ): TemplateResult => html`<label class="slider">
-    <span>${name}</span><output>${said}</output>
+    <span>${name}</span><span class="said" aria-hidden="true">${said}</span>
     <input
       type="range"
       min=${least}
@@ -178,7 +178,7 @@ export const paintStyles = css`
     min-height: 1.75rem;
     margin: 0;
   }
-  .paint output {
+  .paint .said {
     color: var(--cusp-quiet);
     font-variant-numeric: tabular-nums;
   }

@@ -309,7 +309,7 @@ export class CuspView extends LitElement {
     }
     if (has("tool")) stage.setTool(this.tool);
     if ((has("tool") || has("positions")) && this.tool !== "turn") void this.#prepare();
-    if (has("tool") || has("positions")) void this.#painting?.prepare(this.#derived, this.tool === "paint");
+    if (has("tool") || has("positions")) this.#painting?.prepare(this.#derived, this.tool === "paint");
     if (this.#painting !== null) {
       this.#painting.brush = this.brush;
       if (has("weights")) this.#painting.weights = this.weights;
@@ -400,7 +400,7 @@ export class CuspView extends LitElement {
       event.stopPropagation();
       if (action.do === "undo-stroke") this.undo();
       else this.redo();
-    } else if (this.tool === "paint") this.#painting?.stamp([this.clientWidth / 2, this.clientHeight / 2]);
+    } else if (this.tool === "paint") void this.#painting?.stamp([this.clientWidth / 2, this.clientHeight / 2]);
     else void this.#pointing?.clicked([this.clientWidth / 2, this.clientHeight / 2]);
   };
 

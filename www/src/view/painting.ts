@@ -33,6 +33,7 @@ export class Painting {
   readonly #reports: PaintingReports;
   #ready: Ready | null = null;
   #asked: Derived | null = null;
+  #preparing: Promise<void> = Promise.resolve();
   #weights: Float32Array | null = null;
   /** The pointer that paints, where it was seen last, and where its dabs were. */
   #stroke: { readonly id: number; at: Point; last: Aimed | null; lastMirrored: Aimed | null } | null = null;
@@ -61,12 +62,16 @@ export class Painting {
   }
 
   /** Readies the brush for a model, when the tool is first taken. `null`: there is no model, or another one soon. */
-  async prepare(derived: Derived | null, isOn: boolean): Promise<void> {
+  prepare(derived: Derived | null, isOn: boolean): void {
     this.#isOn = isOn;
     if (this.#ready !== null && this.#ready.of !== derived) this.#ready = null;
     if (!isOn) this.#stage.setFace(null);
     if (derived === null || !isOn || this.#asked === derived) return;
     this.#asked = derived;
+    this.#preparing = this.#make(derived);
+  }
+
+  async #make(derived: Derived): Promise<void> {
     const [topology, { Aim }] = await Promise.all([derived.topology(), import("./aim.js")]);
     const { positions } = derived;
     if (topology === null || this.#asked !== derived || positions.length === 0) return;
@@ -106,8 +111,9 @@ export class Painting {
     signal.addEventListener("abort", () => cancelAnimationFrame(this.#frame));
   }
 
-  /** One dab as a stroke of its own, as by keyboard. */
-  stamp(at: Point): void {
+  /** One dab as a stroke of its own, as by keyboard; as soon as the brush is ready. */
+  async stamp(at: Point): Promise<void> {
+    await this.#preparing;
     if (this.#begin(-1, at)) this.#end();
   }
 
