@@ -22,11 +22,18 @@ export function normalsOf(positions: Float32Array): Float32Array {
   return normals;
 }
 
-/** Cosine of the angle between the ways that two facets face; null if one has no area. */
-function cosineOf(normals: Float32Array, a: number, b: number): number | null {
-  const [x, y, z] = [normals[3 * a] ?? 0, normals[3 * a + 1] ?? 0, normals[3 * a + 2] ?? 0];
-  const [u, v, w] = [normals[3 * b] ?? 0, normals[3 * b + 1] ?? 0, normals[3 * b + 2] ?? 0];
-  if ((x === 0 && y === 0 && z === 0) || (u === 0 && v === 0 && w === 0)) return null;
+/**
+ * Cosine of the angle between the ways that two facets face; 1 if one has no area. Asked thousands of times a move of the
+ * pointer: no arrays are taken apart here.
+ */
+function cosineOf(normals: Float32Array, a: number, b: number): number {
+  const x = normals[3 * a] ?? 0;
+  const y = normals[3 * a + 1] ?? 0;
+  const z = normals[3 * a + 2] ?? 0;
+  const u = normals[3 * b] ?? 0;
+  const v = normals[3 * b + 1] ?? 0;
+  const w = normals[3 * b + 2] ?? 0;
+  if ((x === 0 && y === 0 && z === 0) || (u === 0 && v === 0 && w === 0)) return 1;
   return x * u + y * v + z * w;
 }
 
@@ -57,7 +64,7 @@ function grown(twin: Int32Array, seed: number, takes: (from: number, to: number)
 export function smoothRegion({ topology, normals }: Surface, seed: number, crease_deg: number): number[] {
   // Normals are single precision: coplanar facets may seem to bend by this much of a cosine.
   const least = Math.cos((crease_deg * Math.PI) / 180) - 1e-6;
-  return grown(topology.twin, seed, (from, to) => (cosineOf(normals, from, to) ?? 1) >= least);
+  return grown(topology.twin, seed, (from, to) => cosineOf(normals, from, to) >= least);
 }
 
 export interface Touched {
@@ -78,7 +85,7 @@ export function brushRegion(
 ): Touched {
   const distances = new Map<number, number>([[seed, distanceTo(positions, seed, path)]]);
   const facets = grown(topology.twin, seed, (_, facet) => {
-    if ((cosineOf(normals, seed, facet) ?? 1) <= 0) return false;
+    if (cosineOf(normals, seed, facet) <= 0) return false;
     const distance = distanceTo(positions, facet, path);
     if (distance > radius_mm) return false;
     distances.set(facet, distance);
@@ -112,19 +119,26 @@ export function distanceToFacet(positions: Float32Array, facet: number, [x, y, z
   const py = y - ay;
   const pz = z - az;
   /** From the point a + v·b + w·c. */
-  const from = (v: number, w: number): number =>
-    Math.hypot(px - v * bx - w * cx, py - v * by - w * cy, pz - v * bz - w * cz);
+  const from = (v: number, w: number): number => {
+    const x = px - v * bx - w * cx;
+    const y = py - v * by - w * cy;
+    const z = pz - v * bz - w * cz;
+    // Many times faster than Math.hypot.
+    return Math.sqrt(x * x + y * y + z * z);
+  };
   const d1 = bx * px + by * py + bz * pz;
   const d2 = cx * px + cy * py + cz * pz;
   if (d1 <= 0 && d2 <= 0) return from(0, 0);
   const bb = bx * bx + by * by + bz * bz;
   const bc = bx * cx + by * cy + bz * cz;
   const cc = cx * cx + cy * cy + cz * cz;
-  const [d3, d4] = [d1 - bb, d2 - bc];
+  const d3 = d1 - bb;
+  const d4 = d2 - bc;
   if (d3 >= 0 && d4 <= d3) return from(1, 0);
   const vc = d1 * d4 - d3 * d2;
   if (vc <= 0 && d1 >= 0 && d3 <= 0) return from(d1 / (d1 - d3), 0);
-  const [d5, d6] = [d1 - bc, d2 - cc];
+  const d5 = d1 - bc;
+  const d6 = d2 - cc;
   if (d6 >= 0 && d5 <= d6) return from(0, 1);
   const vb = d5 * d2 - d1 * d6;
   if (vb <= 0 && d2 >= 0 && d6 <= 0) return from(0, d2 / (d2 - d6));
