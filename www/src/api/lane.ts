@@ -314,7 +314,9 @@ export class Lane {
         signal?.removeEventListener("abort", abort);
       }
     });
-    this.#queue = result.catch(() => undefined);
+    // The next call waits for the end of this one, not for its answer, which may be large: it is not held here.
+    const forget = (): void => undefined;
+    this.#queue = result.then(forget, forget);
     // A call that waits for another need not wait to be cancelled.
     return signal === undefined ? result : Promise.race([result, aborted(signal, result)]);
   }
