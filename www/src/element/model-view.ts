@@ -38,7 +38,7 @@ export function viewTexts({ texts: { view: words }, format }: Language): ViewTex
     empty: words.empty,
     legend: words.legend,
     heat: words.heat,
-    weight: format.tick,
+    weight: (weight) => format.percent(weight),
     tick: micrometres,
     layer: (layer, z_mm, thickness_mm) =>
       words.layer(format.count(layer + 1), format.height(z_mm), `${micrometres(thickness_mm)}\u00a0µm`),
@@ -203,6 +203,7 @@ export class CuspModel extends LitElement {
     const isPainting = tool === "paint";
     // From the side alone nobody could paint a top.
     const isBeside = canAlign && this.aligned && !isPainting;
+    const showsHeat = isPainting && this.colours !== "layers";
     const heat = this.colours === "layers" ? "paint" : this.colours;
     const { texts } = language;
     const words = texts.view;
@@ -220,9 +221,9 @@ export class CuspModel extends LitElement {
               .z_mm=${shown?.z_mm ?? []}
               .thickness_mm=${shown?.thickness_mm ?? []}
               .limits=${shown?.limits ?? [0, 0]}
-              .layer=${shown === null ? null : this.layer}
+              .layer=${shown === null || showsHeat ? null : this.layer}
               .plate=${volumeOf(this.printer)}
-              .look=${isPainting ? (this.colours === "layers" ? "thickness" : "weights") : this.look}
+              .look=${showsHeat ? "weights" : isPainting ? "thickness" : this.look}
               .weights=${this.weights}
               .saliency=${heat === "saliency" || this.#counts ? this.saliency : null}
               .heat=${heat}

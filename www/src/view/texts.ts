@@ -64,7 +64,7 @@ export const ENGLISH: ViewTexts = {
   empty: "No model yet",
   legend: "Layer thickness (µm)",
   heat: "How much it matters",
-  weight: english(2),
+  weight: (weight) => `${whole(100 * weight)}%`,
   tick: micrometres,
   layer: (layer, z_mm, thickness_mm) =>
     `Layer ${whole(layer + 1)} · ${hundredths(z_mm)} mm · ${micrometres(thickness_mm)} µm`,
