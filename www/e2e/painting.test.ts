@@ -59,9 +59,9 @@ async function top(page: Page): Promise<{ x: number; y: number; z_mm: number }> 
           const done = setTimeout(() => resolve(null), 250);
           it.addEventListener(
             "cusp-height",
-            ({ detail }) => {
+            (event) => {
               clearTimeout(done);
-              resolve(detail.z_mm);
+              resolve((event as CustomEvent<{ z_mm: number | null }>).detail.z_mm);
             },
             { once: true },
           );
