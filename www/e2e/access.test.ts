@@ -30,6 +30,10 @@ test.each(["light", "dark"] as const)("nothing is amiss in any state: %s", async
   await state(page, "done");
   expect(await broken(page)).toEqual([]);
 
+  await page.getByRole("button", { name: "What matters" }).click();
+  await page.getByRole("checkbox", { name: "Fill a smooth region" }).check();
+  expect(await broken(page)).toEqual([]);
+
   await page.getByLabel("Tolerance", { exact: true }).fill("0.02");
   await state(page, "error");
   expect(await broken(page)).toEqual([]);

@@ -37,6 +37,13 @@ function faked(): { slicer: Slicer; log: string[] } {
         return new Float32Array(9);
       },
       glance: () => ({ report: {} as Glance, profile: new Float32Array() }) as Profiled<Glance>,
+      saliency: () => Float32Array.of(0.5),
+      paint: (weights) => {
+        say(`paint ${weights === null ? "none" : [...weights].join()}`);
+        if (weights?.some((weight) => weight > 1)) throw { code: "weights-out-of-range", message: "no", detail: null };
+      },
+      weightsFile: (weights) => Uint8Array.from(weights, (weight) => 100 * weight),
+      readWeights: async (file) => Float32Array.from(new Uint8Array(await file.arrayBuffer()), (byte) => byte / 100),
       printers: () => [],
     };
     return { remote, terminate: () => say("ended"), onBroken: () => undefined };
@@ -91,6 +98,62 @@ test("live figures have a worker of their own, which reads the model when first 
   await slicer.load(new Blob(["b"]));
   await slicer.positions();
   expect(log).toEqual(["1: open a", "2: open a", "2: positions", "1: open b", "2: open b", "2: positions"]);
+});
+
+test("weights are copied, count for all that follows, and make a print file worth a plan", async () => {
+  const { slicer, log } = faked();
+  await slicer.load(new Blob(["a"]));
+  const weights = Float32Array.of(0.5);
+  const painted = slicer.paint(weights);
+  weights[0] = 0;
+  await painted;
+  await slicer.export({ tolerance: 1 });
+  await slicer.glance();
+  await slicer.paint(null);
+  await slicer.export({ tolerance: 1 });
+  const main = ["1: open a", "1: paint 0.5", "1: plan 1", "1: archive", "1: paint none", "1: plan 1", "1: archive"];
+  expect(log.filter((line) => line.startsWith("1"))).toEqual(main);
+  expect(log.filter((line) => line.startsWith("2"))).toEqual(["2: open a", "2: paint 0.5"]);
+});
+
+test("weights that the core refuses are dropped, and a model that is opened has none", async () => {
+  const { slicer, log } = faked();
+  await slicer.load(new Blob(["a"]));
+  await slicer.paint(Float32Array.of(0.5));
+  await expect(slicer.paint(Float32Array.of(2))).rejects.toMatchObject({ code: "weights-out-of-range" });
+  await slicer.plan({ tolerance: 1 });
+  await slicer.load(new Blob(["b"]));
+  await slicer.plan({ tolerance: 1 });
+  expect(log).toEqual(["1: open a", "1: paint 0.5", "1: paint 2", "1: plan 1", "1: open b", "1: plan 1"]);
+});
+
+test("a print file is of the weights that its plan was made for, even from a fresh worker", async () => {
+  const { slicer, log } = faked();
+  await slicer.load(new Blob(["a"]));
+  await slicer.paint(Float32Array.of(0.25));
+  await slicer.plan({ tolerance: 1 });
+  await slicer.paint(null);
+  slicer.rest();
+  // The print file is of the last plan, so that comes back with the weights that it was made for.
+  await slicer.export();
+  await slicer.plan({ tolerance: 2 });
+  const after = log.slice(log.indexOf("1: ended"));
+  expect(after.filter((line) => !line.endsWith("ended"))).toEqual([
+    "2: open a",
+    "2: paint 0.25",
+    "2: plan 1",
+    "2: archive",
+    "2: paint none",
+    "2: plan 2",
+  ]);
+});
+
+test("weights go into a file and come back", async () => {
+  const { slicer } = faked();
+  await slicer.load(new Blob(["a"]));
+  const file = await slicer.weightsFile(Float32Array.of(0.5, 1));
+  expect(await slicer.readWeights(file)).toEqual(Float32Array.of(0.5, 1));
+  expect(await slicer.saliency()).toEqual(Float32Array.of(0.5));
 });
 
 test("sources: files have names, bytes have none, addresses have the last part of their path", async () => {

@@ -50,6 +50,10 @@ class FakeWorker implements Engine {
     },
     positions: () => new Float32Array(9),
     glance: () => ({}) as Profiled<Glance>,
+    saliency: () => new Float32Array(1),
+    paint: () => undefined,
+    weightsFile: () => new Uint8Array(1),
+    readWeights: async () => new Float32Array(1),
     printers: () => [],
   };
 

@@ -2,7 +2,8 @@
  * One worker after another, as one: what was opened and planned last, brought back after a worker had to be ended.
  *
  * WebAssembly cannot be interrupted, so cancelling terminates the worker. What a fresh one needs is kept here: the
- * compiled module, the file, and the options of the last plan that worked, which are brought back when next needed.
+ * compiled module, the file, the weights of its facets, and the last plan that worked: its options and weights. They are brought
+ * back when next needed.
  */
 import * as Comlink from "comlink";
 import { isAbort, ofCore, SlicerError } from "./error.js";
@@ -56,7 +57,17 @@ interface Life {
   fate: Promise<never>;
   end(reason: unknown): void;
   file: Blob | null;
-  options: Options | null;
+  weights: Weights;
+  /** What the plan that the core holds was made for; null if nobody knows. */
+  planned: Planned | null;
+}
+
+/** How much each facet matters, 0 to 1; null: all alike. */
+type Weights = Float32Array | null;
+
+interface Planned {
+  options: Options;
+  weights: Weights;
 }
 
 const silent: OnProgress = () => undefined;
@@ -66,7 +77,10 @@ export class Lane {
   readonly #compiled: Compiled;
   #life: Life | null = null;
   #file: Blob | null = null;
-  #options: Options | null = null;
+  #planned: Planned | null = null;
+  #weights: Weights = null;
+  /** The last weights that the core took. */
+  #sound: Weights = null;
   /** Calls run one at a time: the core takes no second call while one is waiting for the GPU. */
   #queue: Promise<unknown> = Promise.resolve();
   #disposed = false;
@@ -78,7 +92,12 @@ export class Lane {
 
   /** The options of the plan that masks and print files are of; null before there is one. */
   get options(): Options | null {
-    return this.#options;
+    return this.#planned?.options ?? null;
+  }
+
+  /** Whether weights have changed since that plan. */
+  get isRepainted(): boolean {
+    return this.#planned !== null && this.#planned.weights !== this.#weights;
   }
 
   /** Starts the worker before it is needed. Failures show in the first real call. */
@@ -91,7 +110,8 @@ export class Lane {
     return this.#run(watch, async (life, progress) => {
       const info = await life.engine.remote.open(file, progress);
       life.file = this.#file = file;
-      life.options = this.#options = null;
+      life.planned = this.#planned = null;
+      life.weights = this.#weights = this.#sound = null;
       return info;
     });
   }
@@ -99,17 +119,32 @@ export class Lane {
   /** Takes a file for the one that is open elsewhere; it is read when something is asked of it. */
   take(file: Blob): void {
     this.#file = file;
-    this.#options = null;
+    this.#planned = null;
+    this.#weights = this.#sound = null;
+  }
+
+  /**
+   * Weights for whatever is asked from now on, kept as they are: whoever gives them does not write to them any more. The
+   * core gets the newest when it is next asked for a plan; weights that it refuses make that fail, and are dropped.
+   */
+  set weights(weights: Weights) {
+    this.#weights = weights;
+  }
+
+  /** Has the core take the weights now, or refuse them. */
+  paint(watch: Watch): Promise<void> {
+    return this.#run(watch, (life) => this.#restore(life));
   }
 
   /** Plans the open model. If that fails or is cancelled, masks and archive still belong to the plan before. */
   plan(options: Options, watch: Watch): Promise<Profiled<Report>> {
     return this.#run(watch, async (life, progress) => {
-      await this.#restoreFile(life);
+      await this.#restore(life);
+      const { weights } = life;
       // Until it succeeds nobody knows which plan the core holds.
-      life.options = null;
+      life.planned = null;
       const plan = await life.engine.remote.plan(options, progress);
-      life.options = this.#options = options;
+      life.planned = this.#planned = { options, weights };
       return plan;
     });
   }
@@ -168,8 +203,29 @@ export class Lane {
 
   glance(options: Options, watch: Watch): Promise<Profiled<Glance>> {
     return this.#run(watch, async (life) => {
-      await this.#restoreFile(life);
+      await this.#restore(life);
       return life.engine.remote.glance(options);
+    });
+  }
+
+  saliency(watch: Watch): Promise<Float32Array> {
+    return this.#run(watch, async (life, progress) => {
+      await this.#restoreFile(life);
+      return life.engine.remote.saliency(progress);
+    });
+  }
+
+  weightsFile(weights: Float32Array, watch: Watch): Promise<Uint8Array> {
+    return this.#run(watch, async (life) => {
+      await this.#restoreFile(life);
+      return life.engine.remote.weightsFile(weights);
+    });
+  }
+
+  readWeights(file: Blob, watch: Watch): Promise<Float32Array> {
+    return this.#run(watch, async (life) => {
+      await this.#restoreFile(life);
+      return life.engine.remote.readWeights(file);
     });
   }
 
@@ -195,8 +251,8 @@ export class Lane {
     ask: (remote: Remote, progress: OnProgress) => Promise<T>,
   ): Promise<T> {
     return this.#run(watch, async (life, progress) => {
-      await this.#restoreFile(life);
-      if (life.options !== null && !sameRays(life.options, options)) life.options = null;
+      await this.#restore(life);
+      if (life.planned !== null && !sameRays(life.planned.options, options)) life.planned = null;
       return ask(life.engine.remote, progress);
     });
   }
@@ -206,15 +262,37 @@ export class Lane {
     if (life.file === this.#file) return;
     await life.engine.remote.open(this.#file, Comlink.proxy(silent));
     life.file = this.#file;
-    life.options = null;
+    life.weights = null;
+    life.planned = null;
+  }
+
+  async #give(life: Life, weights: Weights): Promise<void> {
+    if (life.weights === weights) return;
+    await life.engine.remote.paint(weights);
+    life.weights = weights;
+  }
+
+  /** The model and the newest weights. */
+  async #restore(life: Life): Promise<void> {
+    await this.#restoreFile(life);
+    const asked = this.#weights;
+    try {
+      await this.#give(life, asked);
+      this.#sound = asked;
+    } catch (error) {
+      if (this.#weights === asked) this.#weights = this.#sound;
+      throw error;
+    }
   }
 
   async #restorePlan(life: Life, progress: OnProgress): Promise<void> {
     await this.#restoreFile(life);
-    if (this.#options === null) throw new SlicerError("no-plan", "plan the layers first");
-    if (life.options === this.#options) return;
-    await life.engine.remote.plan(this.#options, Comlink.proxy(progress));
-    life.options = this.#options;
+    const planned = this.#planned;
+    if (planned === null) throw new SlicerError("no-plan", "plan the layers first");
+    if (life.planned === planned) return;
+    await this.#give(life, planned.weights);
+    await life.engine.remote.plan(planned.options, Comlink.proxy(progress));
+    life.planned = planned;
   }
 
   #run<T>({ signal, onProgress }: Watch, task: (life: Life, progress: OnProgress) => Promise<T>): Promise<T> {
@@ -236,7 +314,9 @@ export class Lane {
         signal?.removeEventListener("abort", abort);
       }
     });
-    this.#queue = result.catch(() => undefined);
+    // The next call waits for the end of this one, not for its answer, which may be large: it is not held here.
+    const forget = (): void => undefined;
+    this.#queue = result.then(forget, forget);
     // A call that waits for another need not wait to be cancelled.
     return signal === undefined ? result : Promise.race([result, aborted(signal, result)]);
   }
@@ -275,7 +355,7 @@ export class Lane {
       },
     );
     booted.catch(() => undefined);
-    this.#life = { engine, booted, fate, end, file: null, options: null };
+    this.#life = { engine, booted, fate, end, file: null, weights: null, planned: null };
     return this.#life;
   }
 }

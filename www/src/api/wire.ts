@@ -48,6 +48,12 @@ export interface SlicerWorker {
   archive(progress: OnProgress, port: MessagePort | null): Blob | null;
   positions(): Float32Array;
   glance(options: Options): Profiled<Glance>;
+  /** How much each facet stands out, 0 to 1. */
+  saliency(progress: OnProgress): Float32Array;
+  /** How much each facet matters to later plans and glances, 0 to 1; null: all alike. */
+  paint(weights: Float32Array | null): void;
+  weightsFile(weights: Float32Array): Uint8Array;
+  readWeights(file: Blob): Promise<Float32Array>;
   printers(): Printer[];
 }
 
@@ -62,6 +68,8 @@ export const DEFAULTS = {
   metric: "cusp",
   minimize: "layers",
   snap: "auto",
+  saliency: false,
+  weight_min: 0.25,
 } as const;
 
 /**

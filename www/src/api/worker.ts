@@ -125,6 +125,21 @@ const api: SlicerWorker = {
     const profile = current().glance_profile();
     return Comlink.transfer({ report, profile }, [profile.buffer]);
   },
+  saliency(progress) {
+    const saliency = current().saliency(plain(progress));
+    return Comlink.transfer(saliency, [saliency.buffer]);
+  },
+  paint(weights) {
+    current().paint(weights);
+  },
+  weightsFile(weights) {
+    const bytes = own(current().weights_file(weights));
+    return Comlink.transfer(bytes, [bytes.buffer]);
+  },
+  async readWeights(file) {
+    const weights = current().read_weights(await bytesOf(file));
+    return Comlink.transfer(weights, [weights.buffer]);
+  },
   printers,
 };
 

@@ -24,8 +24,12 @@ export function choose<T extends Named>(files: readonly T[]): Choice<T> {
 
 const EXTENSIONS: Readonly<Record<Format, string>> = { png: "zip", chitubox: "zip", uvj: "uvj", sl1: "sl1" };
 
+const stemOf = (model: string): string => model.replace(/\.stl$/i, "").trim() || "model";
+
+/** What a file of weights is called: `bunny.stl` gives `bunny.weights`. */
+export const weightsName = (model: string): string => `${stemOf(model)}.weights`;
+
 /** What the print file is called: `bunny.stl` gives `bunny-cusp.zip`. */
 export function archiveName(model: string, format: Format): string {
-  const stem = model.replace(/\.stl$/i, "").trim();
-  return `${stem === "" ? "model" : stem}-cusp.${EXTENSIONS[format]}`;
+  return `${stemOf(model)}-cusp.${EXTENSIONS[format]}`;
 }

@@ -18,15 +18,13 @@ import { definePanels } from "./panels.js";
 import { problemStyles } from "./problem-box.js";
 import { progressStyles, standing } from "./progress.js";
 import type { Result } from "./result.js";
-import { Session, type Download, type Host } from "./session.js";
+import { saveFile } from "./save-file.js";
+import { Session, type Host } from "./session.js";
 import { fromAddress, parse, toAddress, withTolerance } from "./settings.js";
 import { shared } from "./styles.js";
 import { summaryStyles } from "./summary.js";
 
 export type State = "empty" | "busy" | "error" | "done" | "ready";
-
-/** Long enough for a browser to take hold of a file that is saved. */
-const SAVED_MS = 60_000;
 
 interface Waiting {
   resolve(result: Plan): void;
@@ -186,6 +184,14 @@ export class CuspSlicer extends LitElement implements Host {
     this.#session.replan();
   }
 
+  /** How much each facet matters, 0 to 1 in the order of `slicer.positions()`; null: all alike. The plan follows. */
+  get weights(): Float32Array | null {
+    return this.#session.weights;
+  }
+  set weights(weights: Float32Array | null) {
+    this.#session.paint(weights, true);
+  }
+
   /** Resins to choose from; each needs a name. */
   get resins(): readonly Resin[] {
     return this.#session.resins;
@@ -273,6 +279,10 @@ export class CuspSlicer extends LitElement implements Host {
     this.#tell("cusp-progress", { task, stage, fraction, ...standing(busy, performance.now()) });
   }
   /** @internal */
+  painted(weights: Float32Array | null, final: boolean): void {
+    this.#tell("cusp-paint", { weights, final });
+  }
+  /** @internal */
   settingsChanged(): void {
     this.#tell("cusp-change", { query: this.query });
   }
@@ -291,6 +301,7 @@ export class CuspSlicer extends LitElement implements Host {
       isDragging: this.dragging,
       picked: this.#picked,
       save: this.#save,
+      saveWeights: this.#saveWeights,
     });
   }
 
@@ -350,6 +361,11 @@ export class CuspSlicer extends LitElement implements Host {
     if (download !== null && this.#tell("cusp-export", download)) saveFile(download);
   };
 
+  readonly #saveWeights = async (): Promise<void> => {
+    const download = await this.#session.saveWeights();
+    if (download !== null) saveFile(download);
+  };
+
   readonly #dragOver = (event: DragEvent): void => {
     event.preventDefault();
     this.dragging = event.dataTransfer?.types.includes("Files") ?? false;
@@ -397,15 +413,6 @@ function langOf(element: Element): string | null {
     at = root instanceof ShadowRoot ? root.host : null;
   }
   return null;
-}
-
-function saveFile({ name, blob }: Download): void {
-  const address = URL.createObjectURL(blob);
-  const link = document.createElement("a");
-  link.href = address;
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(address), SAVED_MS);
 }
 
 declare global {

@@ -25,6 +25,13 @@ export interface ChangeDetail {
   query: string;
 }
 
+export interface Painted {
+  /** How much each facet matters, 0 to 1; null: all alike. */
+  weights: Float32Array | null;
+  /** False while a stroke of the brush goes on. */
+  final: boolean;
+}
+
 export interface CuspSlicerEvents {
   /** A model was read. */
   "cusp-load": CustomEvent<Model>;
@@ -35,6 +42,8 @@ export interface CuspSlicerEvents {
   "cusp-export": CustomEvent<ExportDetail>;
   /** Something failed; the element shows it as well. */
   "cusp-error": CustomEvent<SlicerError>;
+  /** A person or a program changed how much facets matter. */
+  "cusp-paint": CustomEvent<Painted>;
   /** A person or a program changed the settings. */
   "cusp-change": CustomEvent<ChangeDetail>;
 }

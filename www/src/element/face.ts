@@ -6,6 +6,7 @@ import { sentence } from "./comparison.js";
 import type { RotateDetail } from "../view/events.js";
 import type { Rotation } from "../view/pose.js";
 import { modelCard } from "./model-card.js";
+import type { Painted } from "./events.js";
 import type { Panel } from "./panel-names.js";
 import { explain, type Problem } from "./problem.js";
 import { problemBox } from "./problem-box.js";
@@ -28,6 +29,7 @@ export interface Facts {
   isDragging: boolean;
   picked(event: Event): void;
   save(): void;
+  saveWeights(): void;
 }
 
 interface Drawn extends Facts {
@@ -144,7 +146,7 @@ function waiting({ session, language }: Drawn): TemplateResult {
 }
 
 function results(drawn: Drawn, result: Result): TemplateResult {
-  const { session, language, panels, slicer, save } = drawn;
+  const { session, language, panels, slicer, save, saveWeights } = drawn;
   const { layer, mask, busy, curve, shown, turning, settings } = session;
   const { texts } = language;
   const look = (event: CustomEvent<number>): void => session.look(event.detail);
@@ -167,7 +169,13 @@ function results(drawn: Drawn, result: Result): TemplateResult {
             .rotation=${turning ?? rotationOf(settings.rotation)}
             .scale=${scaleOf(session)}
             .printer=${session.printers.find(({ name }) => name === settings.printer) ?? null}
+            .settings=${settings}
+            .weights=${session.weights}
             .language=${language}
+            @cusp-paint=${(event: CustomEvent<Painted>) => painted(session, event)}
+            @cusp-settings=${(event: CustomEvent<Partial<Settings>>) => session.change(event.detail)}
+            @cusp-open-weights=${(event: CustomEvent<File>) => void session.openWeights(event.detail)}
+            @cusp-save-weights=${saveWeights}
             @cusp-rotate=${(event: CustomEvent<RotateDetail>) => session.turn(event.detail.rotation, event.detail.final)}
             @cusp-layer=${look}
           ></cusp-model>
@@ -207,6 +215,11 @@ function results(drawn: Drawn, result: Result): TemplateResult {
         </section>`
       : nothing}
   `;
+}
+
+/** The session tells it again, of the element. */
+function painted(session: Session, event: CustomEvent<Painted>): void {
+  session.paint(event.detail.weights, event.detail.final);
 }
 
 /** Tells the view where the chart beside it shows which heights. */

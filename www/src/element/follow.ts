@@ -1,5 +1,5 @@
-/** Follows a model that is turned, by glances: what the plan would be, by the facets alone. */
-import type { GlancedPlan, Slicer } from "../api/index.js";
+/** Follows a model that is turned or painted, by glances: what the plan would be, by the facets alone. */
+import type { Slicer } from "../api/index.js";
 import type { Options } from "../api/wire.js";
 import { shownOf, type Shown } from "./result.js";
 import { layerRange } from "./settings.js";
@@ -12,28 +12,44 @@ export class Follower {
   readonly #client: Pick<Slicer, "glance">;
   readonly #show: (shown: Shown) => void;
   #running = false;
+  #next: Options | null = null;
+  /** How often it was told to stop: what was asked for before is news no more. */
+  #stops = 0;
 
   constructor(client: Pick<Slicer, "glance">, show: (shown: Shown) => void) {
     this.#client = client;
     this.#show = show;
   }
 
-  /** Glances at the newest turn, one at a time; those between are skipped. */
-  async follow(turning: Rotation, options: Options | null): Promise<void> {
+  /** Glances at the model as it is turned. */
+  turn(turning: Rotation, options: Options | null): void {
     this.turning = turning;
-    if (this.#running || options === null) return;
+    if (options !== null) void this.follow({ ...options, rotation: [...turning] });
+  }
+
+  /** Glances at the newest options, one at a time; those between are skipped. */
+  async follow(options: Options): Promise<void> {
+    this.#next = options;
+    if (this.#running) return;
     this.#running = true;
     try {
-      for (let at: Rotation | null = turning; at !== null; at = this.turning === at ? null : this.turning) {
-        const asked = { ...options, rotation: [...at] as [number, number, number, number] };
-        const { report, profile }: GlancedPlan = await this.#client.glance(asked);
-        if (this.turning === null) break;
-        this.#show(shownOf(report, profile, layerRange(asked)));
+      for (let at: Options | null = this.#next; at !== null; at = this.#next) {
+        this.#next = null;
+        const stops = this.#stops;
+        const { report, profile } = await this.#client.glance(at);
+        if (this.#stops === stops) this.#show(shownOf(report, profile, layerRange(at)));
       }
     } catch {
       // Where no plan holds there is nothing to follow; the plan will say so when the model is let go.
     } finally {
       this.#running = false;
     }
+  }
+
+  /** The model was let go. */
+  stop(): void {
+    this.turning = null;
+    this.#next = null;
+    this.#stops++;
   }
 }

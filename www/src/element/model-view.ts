@@ -1,6 +1,6 @@
 /** The model in three dimensions with its tools. The view itself, and three with it, is fetched when it is first shown. */
 import { css, html, LitElement, nothing, type PropertyValues, type TemplateResult } from "lit";
-import type { Slicer } from "../api/index.js";
+import type { Model, Slicer } from "../api/index.js";
 import type { Printer } from "../api/wire.js";
 import { languageOf, type Language } from "../texts/index.js";
 import type { Inset } from "../view/cameras.js";
@@ -8,17 +8,24 @@ import type { Look } from "../view/model.js";
 import type { PaletteName } from "../view/palette.js";
 import type { BuildVolume } from "../view/plate.js";
 import type { Rotation } from "../view/pose.js";
-import type { RotateDetail } from "../view/events.js";
+import { BRUSH, rebased, type Brush } from "../view/brush.js";
+import type { CuspView } from "../view/cusp-view.js";
+import type { PaintDetail, RotateDetail } from "../view/events.js";
 import type { Tool } from "../view/stage.js";
 import type { ViewTexts } from "../view/texts.js";
+import type { Painted } from "./events.js";
+import { paintStyles, paintTools, type Colours } from "./paint-tools.js";
 import type { PlotPlace } from "./profile-chart.js";
 import type { Shown } from "./result.js";
+import { DEFAULT_SETTINGS, type Settings } from "./settings.js";
 import { shared } from "./styles.js";
 
 const MICROMETRES = 1000;
 /** Room around the model where there is no chart beside it. */
 const ALONE: Inset = { top_px: 12, bottom_px: 12 };
-const TOOLS: readonly Tool[] = ["turn", "rotate", "flat"];
+/** The brush at first, as a part of the model's longest side. */
+const BRUSH_PART = 0.2;
+const TOOLS: readonly Tool[] = ["turn", "rotate", "flat", "paint"];
 
 /** What the view says, from the catalogue. */
 export function viewTexts({ texts: { view: words }, format }: Language): ViewTexts {
@@ -30,6 +37,8 @@ export function viewTexts({ texts: { view: words }, format }: Language): ViewTex
     state: (size_mm, layers) => format.dimensions(size_mm) + (layers > 0 ? `, ${words.layers(layers)}` : ""),
     empty: words.empty,
     legend: words.legend,
+    heat: words.heat,
+    weight: (weight) => format.percent(weight),
     tick: micrometres,
     layer: (layer, z_mm, thickness_mm) =>
       words.layer(format.count(layer + 1), format.height(z_mm), `${micrometres(thickness_mm)}\u00a0µm`),
@@ -57,11 +66,19 @@ export class CuspModel extends LitElement {
     look: { state: true },
     palette: { state: true },
     aligned: { state: true },
+    settings: { attribute: false },
+    weights: { attribute: false },
+    saliency: { state: true },
+    isFinding: { state: true },
+    brush: { state: true },
+    colours: { state: true },
+    canUndo: { state: true },
+    canRedo: { state: true },
   };
 
   declare slicer: Slicer | null;
-  /** Whatever stands for the model: positions are asked for when it is another. */
-  declare model: unknown;
+  /** Positions are asked for when it is another. */
+  declare model: Model | null;
   declare shown: Shown | null;
   declare layer: number;
   declare rotation: Rotation;
@@ -78,9 +95,19 @@ export class CuspModel extends LitElement {
   declare palette: PaletteName;
   /** Whether heights are to be where the chart has them, if it stands beside. */
   declare aligned: boolean;
+  declare settings: Settings;
+  /** How much each facet matters; null: all alike. */
+  declare weights: Float32Array | null;
+  /** How much each facet stands out; null until somebody wants to see that. */
+  declare saliency: Float32Array | null;
+  declare isFinding: boolean;
+  declare brush: Brush;
+  declare colours: Colours;
+  declare canUndo: boolean;
+  declare canRedo: boolean;
 
   #texts: { of: Language; words: ViewTexts } | null = null;
-  #asked: unknown = null;
+  #asked: Model | null = null;
   readonly #resized = new ResizeObserver(() => this.requestUpdate());
 
   constructor() {
@@ -101,10 +128,19 @@ export class CuspModel extends LitElement {
     this.look = "thickness";
     this.palette = "classic";
     this.aligned = true;
+    this.settings = DEFAULT_SETTINGS;
+    this.weights = null;
+    this.saliency = null;
+    this.isFinding = false;
+    this.brush = BRUSH;
+    this.colours = "product";
+    this.canUndo = false;
+    this.canRedo = false;
   }
 
   static override styles = [
     shared,
+    paintStyles,
     css`
       :host {
         display: flex;
@@ -150,6 +186,8 @@ export class CuspModel extends LitElement {
 
   override willUpdate(changed: PropertyValues<this>): void {
     if (changed.has("model") && this.model !== this.#asked) void this.#fetch();
+    const shows = this.tool === "paint" && (this.colours === "saliency" || this.#counts);
+    if (shows && this.positions !== null && this.saliency === null && !this.isFinding) void this.#find();
   }
 
   override updated(): void {
@@ -162,7 +200,11 @@ export class CuspModel extends LitElement {
   override render(): TemplateResult {
     const { shown, language, tool } = this;
     const canAlign = this.inset !== ALONE;
-    const isBeside = canAlign && this.aligned;
+    const isPainting = tool === "paint";
+    // From the side alone nobody could paint a top.
+    const isBeside = canAlign && this.aligned && !isPainting;
+    const showsHeat = isPainting && this.colours !== "layers";
+    const heat = this.colours === "layers" ? "paint" : this.colours;
     const { texts } = language;
     const words = texts.view;
     const isTurned = this.rotation.some((part, i) => part !== (i === 3 ? 1 : 0));
@@ -179,9 +221,15 @@ export class CuspModel extends LitElement {
               .z_mm=${shown?.z_mm ?? []}
               .thickness_mm=${shown?.thickness_mm ?? []}
               .limits=${shown?.limits ?? [0, 0]}
-              .layer=${shown === null ? null : this.layer}
+              .layer=${shown === null || showsHeat ? null : this.layer}
               .plate=${volumeOf(this.printer)}
-              .look=${this.look}
+              .look=${showsHeat ? "weights" : isPainting ? "thickness" : this.look}
+              .weights=${this.weights}
+              .saliency=${heat === "saliency" || this.#counts ? this.saliency : null}
+              .heat=${heat}
+              .least=${Number(this.settings.weightMin)}
+              .brush=${this.brush}
+              @cusp-paint=${this.#painted}
               .palette=${this.palette}
               .tool=${tool}
               .aligned=${isBeside}
@@ -198,10 +246,71 @@ export class CuspModel extends LitElement {
         ${TOOLS.map((it) => toggle(words.tools[it], tool === it, () => (this.tool = it)))}
         ${toggle(words.printed, this.look === "printed", () => (this.look = this.look === "printed" ? "thickness" : "printed"))}
         ${toggle(words.safe, this.palette === "safe", () => (this.palette = this.palette === "safe" ? "classic" : "safe"))}
-        ${!canAlign ? nothing : toggle(words.aligned, this.aligned, () => (this.aligned = !this.aligned))}
+        ${!canAlign || isPainting ? nothing : toggle(words.aligned, this.aligned, () => (this.aligned = !this.aligned))}
         ${isTurned ? html`<button class="small" @click=${this.#upright}>${words.upright}</button>` : nothing}
       </div>
+      ${isPainting ? this.#paintTools() : nothing}
     `;
+  }
+
+  /** Whether what stands out counts. */
+  get #counts(): boolean {
+    return this.settings.saliency === "on";
+  }
+
+  #paintTools(): TemplateResult {
+    const { brush, colours, settings, isFinding, canUndo, canRedo, language } = this;
+    const view = (): CuspView | null => this.renderRoot.querySelector("cusp-view");
+    const isPainted = this.weights !== null;
+    const give = (weights: Float32Array | null): void => {
+      this.canUndo = true;
+      this.#say<Painted>("cusp-paint", { weights, final: true });
+    };
+    return paintTools({
+      ...{ brush, colours, settings, isFinding, canUndo, canRedo, isPainted, language, most_mm: this.#reach },
+      brushed: (change) => {
+        const before = this.brush.base;
+        this.brush = { ...this.brush, ...change };
+        if (change.base === undefined) return;
+        const weights = this.weights ?? new Float32Array((this.positions?.length ?? 0) / 9).fill(before);
+        give(rebased(weights, before, change.base));
+      },
+      coloured: (colours) => (this.colours = colours),
+      changed: (change) => this.#say("cusp-settings", change),
+      undo: () => view()?.undo(),
+      redo: () => view()?.redo(),
+      clear: () => {
+        this.brush = { ...this.brush, base: BRUSH.base };
+        give(null);
+      },
+      open: (file) => this.#say("cusp-open-weights", file),
+      save: () => this.#say("cusp-save-weights", null),
+    });
+  }
+
+  /** The model's longest side as it stands, mm; a brush wider than that is of no use. */
+  get #reach(): number {
+    return this.scale * Math.max(...(this.model?.info.size_mm ?? [1]));
+  }
+
+  readonly #painted = (event: CustomEvent<PaintDetail>): void => {
+    ({ canUndo: this.canUndo, canRedo: this.canRedo } = event.detail);
+    this.#tell(event);
+  };
+
+  /** Works out what stands out. */
+  async #find(): Promise<void> {
+    const { model, slicer } = this;
+    if (slicer === null) return;
+    this.isFinding = true;
+    // Without it there is nothing more to see; a worker that broke says so elsewhere.
+    const saliency = await slicer.saliency().catch(() => new Float32Array(0));
+    this.isFinding = false;
+    if (this.model === model) this.saliency = saliency;
+  }
+
+  #say<Detail>(type: string, detail: Detail): void {
+    this.dispatchEvent(new CustomEvent<Detail>(type, { detail }));
   }
 
   /** Room that puts heights where the chart has them, if it stands beside and not above or below. */
@@ -221,22 +330,26 @@ export class CuspModel extends LitElement {
 
   /** What the view tells goes on as it is; its events do not bubble. */
   #tell<Detail>({ type, detail }: CustomEvent<Detail>): void {
-    this.dispatchEvent(new CustomEvent<Detail>(type, { detail }));
+    this.#say(type, detail);
   }
 
   readonly #upright = (): void => {
-    const detail: RotateDetail = { rotation: [0, 0, 0, 1], final: true };
-    this.dispatchEvent(new CustomEvent<RotateDetail>("cusp-rotate", { detail }));
+    this.#say<RotateDetail>("cusp-rotate", { rotation: [0, 0, 0, 1], final: true });
   };
 
   async #fetch(): Promise<void> {
     const { model, slicer } = this;
     this.#asked = model;
     this.positions = null;
+    this.saliency = null;
+    this.brush = BRUSH;
+    this.canUndo = this.canRedo = false;
     if (model === null || slicer === null) return;
     // Without them there is an empty view; a worker that broke says so elsewhere.
     const positions = await slicer.positions().catch(() => null);
-    if (this.#asked === model) this.positions = positions;
+    if (this.#asked !== model) return;
+    this.positions = positions;
+    this.brush = { ...BRUSH, size_mm: BRUSH_PART * this.#reach };
   }
 }
 

@@ -79,6 +79,9 @@ const KINDS: Readonly<Record<Exclude<ErrorCode, "infeasible">, Kind>> = {
   crash: "crash",
   "no-plan": "other",
   "no-model": "other",
+  "weights-not-weights": "notWeights",
+  "weights-other-mesh": "otherMesh",
+  "weights-out-of-range": "notWeights",
   "archive-write": "other",
   cancelled: "other",
 };

@@ -15,12 +15,12 @@ export interface Busy {
 
 const ORDER: Record<Busy["task"], readonly Stage[]> = {
   open: ["load"],
-  plan: ["load", "ldi", "profile", "plan"],
+  plan: ["load", "saliency", "ldi", "profile", "plan"],
   export: ["masks"],
 };
 
 /** What part of a plan its stages take: rays are most of it, on any model and machine. */
-const SHARE: Record<Stage, number> = { load: 0.05, ldi: 0.75, profile: 0.1, plan: 0.1, masks: 1 };
+const SHARE: Record<Stage, number> = { load: 0.05, saliency: 0.05, ldi: 0.7, profile: 0.1, plan: 0.1, masks: 1 };
 
 /** Before this much time, and this part, a guess of the rest would jump about. */
 const GUESS_FROM_MS = 1500;

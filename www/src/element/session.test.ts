@@ -34,6 +34,14 @@ class FakeClient {
     this.glances.push(options);
     return { schema: SCHEMA, report: { layers: 99, z_mm: [0], thickness_mm: [] } as unknown as Glance, profile: new Float32Array() };
   };
+  readonly painted: (Float32Array | null)[] = [];
+  readonly paint = async (weights: Float32Array | null): Promise<void> => void this.painted.push(weights);
+  readonly weightsFile = async (weights: Float32Array): Promise<Blob> => new Blob([weights.slice()]);
+  readonly readWeights = async (file: unknown): Promise<Float32Array> => {
+    const bytes = await (file as Blob).arrayBuffer();
+    if (bytes.byteLength === 0) throw new SlicerError("weights-not-weights", "no weights");
+    return new Float32Array(bytes);
+  };
   readonly curves: Options[] = [];
   readonly tradeoff = async (options: Options = {}): Promise<Tradeoff & { schema: 1 }> => {
     this.curves.push(options);
@@ -320,4 +328,66 @@ test("another model stands as in its file; the first one as the settings say", a
   client.last.resolve({ ...model, name: "b.stl" });
   await settle();
   expect(client.last.options).not.toHaveProperty("rotation");
+});
+
+test("a stroke is followed by glances, and planned at its end though the options are the same", async () => {
+  await planned();
+  const { length } = client.calls;
+  session.paint(Float32Array.of(0.5), false);
+  await settle();
+  expect(client.glances).toHaveLength(1);
+  expect(session.shown?.layers).toBe(99);
+  expect(client.calls).toHaveLength(length);
+  expect(session.isCurrent).toBe(false);
+
+  const weights = Float32Array.of(0.25);
+  session.paint(weights, true);
+  expect(client.calls).toHaveLength(length + 1);
+  expect(client.last.what).toBe("plan");
+  client.last.resolve(planOf(7));
+  await settle();
+  expect(session.isCurrent).toBe(true);
+  expect(session.shown?.layers).toBe(7);
+  expect(client.painted).toEqual([Float32Array.of(0.5), weights]);
+});
+
+test("what is painted while a plan is made is planned after it", async () => {
+  await planned();
+  session.paint(Float32Array.of(0.5), true);
+  const first = client.last;
+  session.paint(Float32Array.of(0.25), true);
+  expect(client.last).toBe(first);
+  first.resolve(planOf(8));
+  await settle();
+  expect(client.last).not.toBe(first);
+  expect(session.isCurrent).toBe(false);
+  client.last.resolve(planOf(7));
+  await settle();
+  expect(session.isCurrent).toBe(true);
+});
+
+test("weights are saved and come back from their file; a file that holds none is a failure", async () => {
+  await planned();
+  expect(await session.saveWeights()).toBeNull();
+  const weights = Float32Array.of(0.25);
+  session.paint(weights, true);
+  const saved = await session.saveWeights();
+  expect(saved?.name).toBe("a.weights");
+  session.paint(null, true);
+  await session.openWeights(new File([saved?.blob ?? ""], "a.weights"));
+  expect(session.weights).toEqual(weights);
+  await session.openWeights(new File([], "b.weights"));
+  expect(session.failure).toMatchObject({ error: { code: "weights-not-weights" }, name: "b.weights" });
+  expect(session.weights).toEqual(weights);
+});
+
+test("another model is all alike", async () => {
+  await planned();
+  session.paint(Float32Array.of(0.5), true);
+  client.last.resolve(planOf(9));
+  await settle();
+  void session.open(new Blob(), "b.stl");
+  client.last.resolve(model);
+  await settle();
+  expect(session.weights).toBeNull();
 });

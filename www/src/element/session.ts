@@ -8,7 +8,7 @@ import type { Model, Plan, Mask, Slicer, Watch } from "../api/index.js";
 import type { Backend, Options, TradeoffPoint } from "../api/wire.js";
 import { sameRays } from "../api/wire.js";
 import type { Source } from "../api/source.js";
-import { archiveName, choose } from "./choice.js";
+import { archiveName, choose, weightsName } from "./choice.js";
 import { Curve } from "./curve.js";
 import { Follower, type Rotation } from "./follow.js";
 import { layerAt } from "./layers.js";
@@ -34,6 +34,7 @@ export interface Host {
   cancelled?(): void;
   progressed?(busy: Busy): void;
   settingsChanged?(settings: Settings): void;
+  painted?(weights: Float32Array | null, isFinal: boolean): void;
 }
 
 export interface Setup {
@@ -41,7 +42,10 @@ export interface Setup {
   backend?: Backend | null;
 }
 
-type Client = Pick<Slicer, "load" | "plan" | "mask" | "export" | "tradeoff" | "glance" | "printers" | "warm">;
+type Client = Pick<
+  Slicer,
+  "load" | "plan" | "mask" | "export" | "tradeoff" | "glance" | "printers" | "warm" | "paint" | "weightsFile" | "readWeights"
+>;
 
 export class Session extends Preferences {
   model: Model | null = null;
@@ -53,6 +57,8 @@ export class Session extends Preferences {
   /** The layer looked at, from 0. */
   layer = 0;
   mask: Mask | null = null;
+  /** How much each facet matters, 0 to 1, as painted; null: all alike. */
+  weights: Float32Array | null = null;
   /** What charts and the view draw; null before there is a plan. */
   shown: Shown | null = null;
   /** Files that came together, and which of them is open. */
@@ -64,12 +70,14 @@ export class Session extends Preferences {
   readonly #curve = new Curve();
   readonly #follower: Follower;
   /** What runs. `options` are those of a plan, and null for anything else. */
-  #task: { abort: AbortController; options: Options | null } | null = null;
+  #task: { abort: AbortController; options: Options | null; weights: Float32Array | null } | null = null;
   #timer: ReturnType<typeof setTimeout> | undefined;
   /** Options to plan with when the task under way has ended. */
   #next: Options | null = null;
   #idling = false;
   #maskOf: Result | null = null;
+  /** The weights that the result is of. */
+  #weightsOf: Float32Array | null = null;
   /** Whether the newest plan asked for has not come about. */
   #failed = false;
   #archive: { of: Result; blob: Blob } | null = null;
@@ -152,9 +160,44 @@ export class Session extends Preferences {
 
   /** Follows a model that is turned: by glances while it is held, by a plan when it is let go. */
   turn(rotation: Rotation, isFinal: boolean): void {
-    if (!isFinal) return void this.#follower.follow(rotation, this.options);
-    this.#follower.turning = null;
+    if (!isFinal) return this.#follower.turn(rotation, this.options);
+    this.#follower.stop();
     this.change({ rotation: rotationText(rotation) });
+  }
+
+  /** Follows weights that are painted: by glances during a stroke, by a plan at its end. */
+  paint(weights: Float32Array | null, isFinal: boolean): void {
+    this.weights = weights;
+    // Weights that the core refuses make the plan fail, which says so.
+    if (this.model !== null) this.#client.paint(weights).catch(() => undefined);
+    this.#host.painted?.(weights, isFinal);
+    const { options } = this;
+    if (!isFinal) {
+      if (options !== null) void this.#follower.follow(options);
+      return;
+    }
+    this.#follower.stop();
+    this.#curve.forget();
+    this.replan();
+  }
+
+  /** Takes the weights of a file; what is wrong with it is shown. */
+  async openWeights(file: File): Promise<void> {
+    const { model } = this;
+    try {
+      const weights = await this.#client.readWeights(file);
+      if (this.model === model) this.paint(weights, true);
+    } catch (error) {
+      if (this.model === model && !isAbort(error)) this.#fail(error, file.name, this.settings);
+      this.#changed();
+    }
+  }
+
+  /** A file of the weights on show; null if all facets are alike. */
+  async saveWeights(): Promise<Download | null> {
+    const { weights, model } = this;
+    if (weights === null || model === null) return null;
+    return { name: weightsName(model.name), blob: await this.#client.weightsFile(weights) };
   }
 
   /** Takes the tolerance of a point of the curve, as if it had been typed. */
@@ -178,7 +221,7 @@ export class Session extends Preferences {
 
   /** Whether the result on show is what the settings ask for. */
   get isCurrent(): boolean {
-    return this.result !== null && areSame(this.result.options, this.options);
+    return this.result !== null && areSame(this.result.options, this.options) && this.#weightsOf === this.weights;
   }
 
   replan(delay_ms = 0): void {
@@ -251,7 +294,8 @@ export class Session extends Preferences {
     this.model = model;
     this.result = null;
     this.shown = null;
-    this.#follower.turning = null;
+    this.#follower.stop();
+    this.weights = null;
     this.mask = null;
     this.#curve.forget();
     this.#host.loaded?.(model);
@@ -270,7 +314,7 @@ export class Session extends Preferences {
     const { model } = this;
     if (model === null) return;
     if (this.#task !== null) {
-      if (areSame(this.#task.options, options)) {
+      if (areSame(this.#task.options, options) && this.#task.weights === this.weights) {
         this.#next = null;
         return;
       }
@@ -284,8 +328,9 @@ export class Session extends Preferences {
     }
     this.failure = null;
     this.#failed = true;
+    const { weights } = this;
     const plan = await this.#run("plan", model.name, options, (watch) => this.#client.plan(options, watch));
-    if (plan !== null) this.#show(plan, options);
+    if (plan !== null) this.#show(plan, options, weights);
     await this.#resume();
   }
 
@@ -298,13 +343,14 @@ export class Session extends Preferences {
     await this.#plan(next);
   }
 
-  #show(plan: Plan, options: Options): void {
+  #show(plan: Plan, options: Options, weights: Float32Array | null): void {
     const { report } = plan;
     this.#failed = false;
     const before = this.result?.report;
     const z = before?.z_mm[this.layer];
     const result = { ...plan, options, limits: layerRange(options) };
     this.result = result;
+    this.#weightsOf = weights;
     this.shown = shownOf(report, plan.profile, result.limits);
     // Keep looking at the same height, or at the middle of a new model.
     this.layer = layerAt(report.z_mm, z === undefined ? report.height_mm / 2 : (z * report.height_mm) / (before?.height_mm ?? 1));
@@ -317,8 +363,8 @@ export class Session extends Preferences {
 
   /** Runs one task, with progress shown. Null if it was cancelled or failed; a failure is shown. */
   async #run<T>(task: Busy["task"], name: string, options: Options | null, call: (watch: Watch) => Promise<T>): Promise<T | null> {
-    const mine = { abort: new AbortController(), options };
-    const { settings } = this;
+    const { settings, weights } = this;
+    const mine = { abort: new AbortController(), options, weights };
     this.#task = mine;
     const busy: Busy = { task, name, stage: task === "export" ? "masks" : "load", fraction: 0, started_ms: performance.now() };
     this.busy = busy;

@@ -28,6 +28,10 @@ interface Choices {
   minimize: Minimize;
   snap: Snap;
   rays: string;
+  /** Whether facets count by how much they stand out. */
+  saliency: "off" | "on";
+  /** What facets count for at least. */
+  weightMin: string;
   /** Empty for the printer's own. */
   format: FileFormat | "";
 }
@@ -66,6 +70,9 @@ export interface Offered {
 /** Rays along the longer side that the form offers, coarse to fine. */
 export const RAYS = [512, 1024, 2048, 4096] as const;
 
+/** Least weights that the form offers: with none at all a facet could take any layer. */
+export const WEIGHT_STEPS: readonly string[] = Array.from({ length: 20 }, (_, i) => String((5 * i + 5) / 100));
+
 export const DEFAULT_SETTINGS: Settings = {
   height: "",
   layerMin: String(DEFAULTS.layer_min_mm),
@@ -77,6 +84,8 @@ export const DEFAULT_SETTINGS: Settings = {
   minimize: DEFAULTS.minimize,
   snap: DEFAULTS.snap,
   rays: String(DEFAULTS.rays),
+  saliency: DEFAULTS.saliency ? "on" : "off",
+  weightMin: String(DEFAULTS.weight_min),
   format: "",
   printer: "",
   resin: "",
@@ -110,6 +119,8 @@ const CHOICES: { readonly [Key in keyof Choices]: readonly Choices[Key][] } = {
   minimize: ["layers", "time"],
   snap: ["auto", "off"],
   rays: RAYS.map(String),
+  saliency: ["off", "on"],
+  weightMin: WEIGHT_STEPS,
   format: ["", ...FORMATS],
 };
 
@@ -178,6 +189,8 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
 
   const { metric, planner } = settings;
   const options: Options = { metric };
+  if (settings.saliency === "on") options.saliency = true;
+  if (settings.weightMin !== DEFAULT_SETTINGS.weightMin) options.weight_min = Number(settings.weightMin);
   const printer = printers.find(({ name }) => name === settings.printer);
   // A name that nobody knows is the core's to refuse.
   if (settings.printer === "") options.rays = Number(settings.rays);

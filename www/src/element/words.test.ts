@@ -52,6 +52,7 @@ function report(patch: Partial<Report>): Report {
     bins: 30_000,
     bin_mm: 0.002,
     facets: 69_451,
+    weights_crc32: null,
     hits: 5_218_540,
     uniform: { finest: uniform(1200, 0.05, 13_200), coarsest: uniform(400, 0.15, 5_538) },
     exposure_s: [],
@@ -255,9 +256,9 @@ test("numbers as people read them", () => {
 test("progress never runs backwards over the stages of a plan, and an export counts its own", () => {
   const at = (stage: Stage, task: "plan" | "export"): number =>
     standing({ task, name: "", stage, fraction: 0.5, started_ms: 0 }, 0).done;
-  const stages = (["load", "ldi", "profile", "plan"] as const).map((stage) => at(stage, "plan"));
+  const stages = (["load", "saliency", "ldi", "profile", "plan"] as const).map((stage) => at(stage, "plan"));
   expect(stages).toEqual([...stages].sort((a, b) => a - b));
-  expect(new Set(stages).size).toBe(4);
+  expect(new Set(stages).size).toBe(5);
   expect(at("masks", "export")).toBe(0.5);
   expect(at("ldi", "export")).toBe(0);
 });

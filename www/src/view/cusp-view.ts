@@ -6,14 +6,17 @@
  */
 import { html, LitElement, nothing, type PropertyValues, type TemplateResult } from "lit";
 import type { Frame, Heights, Inset } from "./cameras.js";
+import { BRUSH, type Brush } from "./brush.js";
 import { Derived } from "./derived.js";
-import type { HeightDetail, RotateDetail, ViewErrorDetail, ViewEvents } from "./events.js";
+import type { HeightDetail, PaintDetail, RotateDetail, ViewErrorDetail, ViewEvents } from "./events.js";
 import { pressed } from "./keys.js";
-import { legend, legendStyles } from "./legend.js";
+import type { Heat } from "./heat.js";
+import { heatLegend, legend, legendStyles } from "./legend.js";
 import type { Look } from "./model.js";
+import { Painting } from "./painting.js";
 import type { PaletteName } from "./palette.js";
 import type { BuildVolume } from "./plate.js";
-import { watchPointer } from "./pointer.js";
+import { placeIn, watchPointer, type Point } from "./pointer.js";
 import { Pointing, type Shown } from "./pointing.js";
 import { layFlat, turned, UPRIGHT, type Rotation } from "./pose.js";
 import { Printed } from "./printed.js";
@@ -39,6 +42,11 @@ export class CuspView extends LitElement {
     aligned: { type: Boolean },
     heights_mm: { attribute: false },
     inset: { attribute: false },
+    weights: { attribute: false },
+    saliency: { attribute: false },
+    heat: { type: String },
+    least: { type: Number },
+    brush: { attribute: false },
     showsLegend: { attribute: false },
     texts: { attribute: false },
     building: { state: true },
@@ -70,6 +78,15 @@ export class CuspView extends LitElement {
   declare heights_mm: Heights | null;
   /** Room above and below those heights when aligned. */
   declare inset: Inset;
+  /** How much each facet matters, 0 to 1, as painted; null: all 1. Ignored while a stroke is being painted. */
+  declare weights: Float32Array | null;
+  /** How much each facet stands out, 0 to 1; null: all 1. */
+  declare saliency: Float32Array | null;
+  /** What the look `weights` shows. */
+  declare heat: Heat;
+  /** What a facet counts for at least, for showing the product. */
+  declare least: number;
+  declare brush: Brush;
   declare showsLegend: boolean;
   declare texts: ViewTexts;
   /** Progress of the stair steps, 0 to 1; null when none are being worked out. */
@@ -83,6 +100,7 @@ export class CuspView extends LitElement {
   #frame: Frame | null = null;
   #isHeld = false;
   #pointing: Pointing | null = null;
+  #painting: Painting | null = null;
   /** Where the rings have turned the model to while they are held. */
   #turned: Rotation | null = null;
   #unsaid: RotateDetail | null = null;
@@ -113,6 +131,11 @@ export class CuspView extends LitElement {
     this.aligned = false;
     this.heights_mm = null;
     this.inset = { top_px: 12, bottom_px: 12 };
+    this.weights = null;
+    this.saliency = null;
+    this.heat = "paint";
+    this.least = 0;
+    this.brush = BRUSH;
     this.showsLegend = true;
     this.texts = ENGLISH;
     this.building = null;
@@ -147,6 +170,7 @@ export class CuspView extends LitElement {
       ${this.showsLegend && layers > 0 && this.look === "thickness"
         ? legend({ palette: this.palette, limits: this.limits, marked_mm: marked ?? null, texts })
         : nothing}
+      ${this.look === "weights" && this.positions !== null ? heatLegend(texts) : nothing}
       ${this.positions === null || this.aligned
         ? nothing
         : html`<span class="grid">${texts.grid(this.#stage?.plate.step_mm ?? 1)}</span>`}
@@ -186,6 +210,15 @@ export class CuspView extends LitElement {
     this.#stage?.cameras.reset();
   }
 
+  /** Takes the last stroke of the brush back. */
+  undo(): void {
+    this.#painting?.undo();
+  }
+
+  redo(): void {
+    this.#painting?.redo();
+  }
+
   #start(): void {
     const life = new AbortController();
     this.#life = life;
@@ -216,11 +249,17 @@ export class CuspView extends LitElement {
       lay: (normal) => this.#rotate(layFlat(this.rotation, normal), true),
     });
     this.#pointing = pointing;
-    watchPointer(
-      canvas,
-      { clicked: (at) => void pointing.clicked(at), hovered: (at) => void pointing.hovered(at) },
-      life.signal,
-    );
+    const painting = new Painting(stage, {
+      changed: (facets) => this.#heat(facets),
+      painted: (detail) => this.#tell<PaintDetail>("cusp-paint", detail),
+    });
+    this.#painting = painting;
+    const hovered = (at: Point | null): void => {
+      painting.hover(at);
+      void pointing.hovered(at);
+    };
+    watchPointer(canvas, { clicked: (at) => void pointing.clicked(at), hovered }, life.signal);
+    painting.watch(holder, (event) => placeIn(canvas, event), life.signal);
     // The wheel scrolls the page until the view has been chosen by a click or by keyboard.
     holder.addEventListener("wheel", this.#wheel, { capture: true, signal: life.signal });
     this.renderRoot.addEventListener("transitionrun", this.#recolour, { signal: life.signal });
@@ -244,6 +283,7 @@ export class CuspView extends LitElement {
     this.#stage?.dispose();
     this.#stage = null;
     this.#pointing = null;
+    this.#painting = null;
     this.renderRoot.querySelector("canvas")?.remove();
     this.#frame = null;
     this.#isHeld = false;
@@ -269,6 +309,12 @@ export class CuspView extends LitElement {
     }
     if (has("tool")) stage.setTool(this.tool);
     if ((has("tool") || has("positions")) && this.tool !== "turn") void this.#prepare();
+    if (has("tool") || has("positions")) this.#painting?.prepare(this.#derived, this.tool === "paint");
+    if (this.#painting !== null) {
+      this.#painting.brush = this.brush;
+      if (has("weights")) this.#painting.weights = this.weights;
+    }
+    if ((["positions", "look", "heat", "saliency", "least"] as const).some(has)) this.#heat(null);
     if ((["positions", "rotation", "scale", "z_mm", "look"] as const).some(has)) this.#print();
     stage.invalidate();
   }
@@ -278,6 +324,15 @@ export class CuspView extends LitElement {
     const derived = this.#derived;
     const points = await derived?.points();
     if (points != null && derived === this.#derived) this.#stage?.model.setPoints(points);
+  }
+
+  /** Shows what facets weigh now; null: all of them. */
+  #heat(facets: Iterable<number> | null): void {
+    if (this.#stage === null || this.look !== "weights") return;
+    const { heat, saliency, least } = this;
+    const weights = this.#painting?.weights ?? null;
+    this.#stage.model.setHeat({ heat, weights, saliency, least }, facets);
+    this.#stage.invalidate();
   }
 
   #shown(): Shown {
@@ -340,6 +395,12 @@ export class CuspView extends LitElement {
     else if (action.do === "zoom") cameras.zoom(action.factor);
     else if (action.do === "reset") cameras.reset();
     else if (action.do === "turn-model") this.#rotate(turned(this.rotation, action.axis, action.degrees), true);
+    else if (action.do === "undo-stroke" || action.do === "redo-stroke") {
+      // The page's own undo is of something else.
+      event.stopPropagation();
+      if (action.do === "undo-stroke") this.undo();
+      else this.redo();
+    } else if (this.tool === "paint") void this.#painting?.stamp([this.clientWidth / 2, this.clientHeight / 2]);
     else void this.#pointing?.clicked([this.clientWidth / 2, this.clientHeight / 2]);
   };
 

@@ -9,25 +9,30 @@ import { inParts } from "./work.js";
 const TOPOLOGY_PART = 0.3;
 
 export class Derived {
-  readonly #positions: Float32Array;
+  readonly positions: Float32Array;
   readonly #stop = new AbortController();
   #topology: Promise<Topology> | null = null;
   #steps = new AbortController();
 
   /** @param positions nine numbers a facet, mm, in the file's pose */
   constructor(positions: Float32Array) {
-    this.#positions = positions;
+    this.positions = positions;
+  }
+
+  /** How the facets hang together; `null` once this is disposed of. */
+  topology(): Promise<Topology | null> {
+    return this.#whileAlive(this.#found());
   }
 
   /** The distinct points of the model; `null` once this is disposed of. */
   async points(): Promise<Float32Array | null> {
-    return (await this.#whileAlive(this.#found()))?.points ?? null;
+    return (await this.topology())?.points ?? null;
   }
 
   /** The flat face of a facet; `null` if it has none, or once this is disposed of. */
   async face(facet: number): Promise<FlatFace | null> {
-    const topology = await this.#whileAlive(this.#found());
-    return topology === null ? null : flatFace(this.#positions, topology, facet);
+    const topology = await this.topology();
+    return topology === null ? null : flatFace(this.positions, topology, facet);
   }
 
   /** The stair steps in this pose; `null` if another pose or plan has been asked for meanwhile. */
@@ -69,7 +74,7 @@ export class Derived {
 
   /** Found once, when first asked for. */
   #found(tell?: (progress: number) => void): Promise<Topology> {
-    this.#topology ??= inParts(topologyOf(this.#positions), this.#stop.signal, tell);
+    this.#topology ??= inParts(topologyOf(this.positions), this.#stop.signal, tell);
     return this.#topology;
   }
 

@@ -16,6 +16,16 @@ export interface HeightDetail {
   readonly layer: number | null;
 }
 
+/** Weights were painted, or a stroke was taken back. */
+export interface PaintDetail {
+  /** 0 to 1 a facet; written to no more. */
+  readonly weights: Float32Array;
+  /** False while the stroke goes on. */
+  readonly final: boolean;
+  readonly canUndo: boolean;
+  readonly canRedo: boolean;
+}
+
 export interface ViewErrorDetail {
   readonly code: "no-webgl";
   readonly message: string;
@@ -28,5 +38,6 @@ export interface ViewEvents {
   "cusp-layer": CustomEvent<number>;
   /** Where heights are, CSS pixels from the view's upper edge; null while the view is not aligned. */
   "cusp-frame": CustomEvent<Frame | null>;
+  "cusp-paint": CustomEvent<PaintDetail>;
   "cusp-view-error": CustomEvent<ViewErrorDetail>;
 }

@@ -3,7 +3,7 @@ import { pressed, type Action } from "./keys.js";
 import { ticks } from "./legend.js";
 import type { Tool } from "./stage.js";
 
-const press = (key: string, tool: Tool = "turn", held: Partial<Record<"shiftKey" | "ctrlKey", boolean>> = {}): Action | null =>
+const press = (key: string, tool: Tool = "turn", held: Partial<Record<"shiftKey" | "ctrlKey" | "metaKey", boolean>> = {}): Action | null =>
   pressed({ key, shiftKey: false, ctrlKey: false, metaKey: false, altKey: false, ...held }, tool);
 
 it("turns the view, or the model with the rings in hand", () => {
@@ -17,6 +17,13 @@ it("turns the view, or the model with the rings in hand", () => {
 it("leaves the page its own keys", () => {
   for (const key of ["Tab", "Escape", "a", "PageUp", "Home"]) expect(press(key)).toBeNull();
   expect(press("0", "turn", { ctrlKey: true })).toBeNull();
+});
+
+it("takes strokes back with the brush in hand, and leaves undo to the page otherwise", () => {
+  expect(press("z", "paint", { ctrlKey: true })).toEqual({ do: "undo-stroke" });
+  expect(press("Z", "paint", { metaKey: true, shiftKey: true })).toEqual({ do: "redo-stroke" });
+  expect(press("y", "paint", { ctrlKey: true })).toEqual({ do: "redo-stroke" });
+  expect(press("z", "turn", { ctrlKey: true })).toBeNull();
 });
 
 it("ticks a scale at round thicknesses, clear of its ends", () => {

@@ -6,7 +6,8 @@ export type Action =
   | { readonly do: "turn-model"; readonly axis: "x" | "y" | "z"; readonly degrees: number }
   | { readonly do: "zoom"; readonly factor: number }
   | { readonly do: "reset" }
-  | { readonly do: "pick-middle" };
+  | { readonly do: "pick-middle" }
+  | { readonly do: "undo-stroke" | "redo-stroke" };
 
 /** Degrees a press turns the view. */
 const VIEW_DEG = 10;
@@ -32,6 +33,10 @@ export function pressed(
   { key, shiftKey, ctrlKey, metaKey, altKey }: Pick<KeyboardEvent, "key" | "shiftKey" | "ctrlKey" | "metaKey" | "altKey">,
   tool: Tool,
 ): Action | null {
+  if (tool === "paint" && (ctrlKey || metaKey) && !altKey) {
+    if (key.toLowerCase() === "z") return { do: shiftKey ? "redo-stroke" : "undo-stroke" };
+    if (key.toLowerCase() === "y") return { do: "redo-stroke" };
+  }
   if (ctrlKey || metaKey || altKey) return null;
   if (key === "+" || key === "=") return { do: "zoom", factor: ZOOM };
   if (key === "-") return { do: "zoom", factor: 1 / ZOOM };

@@ -1,5 +1,6 @@
 /** The colour scale of layer thicknesses. */
 import { css, html, nothing, type TemplateResult } from "lit";
+import { HEAT_PALETTE } from "./heat.js";
 import { gradient, placeOf, type PaletteName } from "./palette.js";
 import type { ViewTexts } from "./texts.js";
 
@@ -36,6 +37,9 @@ export interface LegendData {
   readonly texts: ViewTexts;
 }
 
+/** Weights with a tick. */
+const WEIGHTS = [0, 0.25, 0.5, 0.75, 1];
+
 const across = (place: number): string => `${(100 * place).toFixed(2)}%`;
 
 /** Styles are set as properties: a strict policy takes no style attributes. */
@@ -52,6 +56,19 @@ export function legend({ palette, limits, marked_mm, texts }: LegendData): Templ
       </div>
       <div class="ticks">
         ${marks.map((mm) => html`<span .style=${`left: ${across(placeOf(mm, limits))}`}>${texts.tick(mm)}</span>`)}
+      </div>
+    </div>
+  `;
+}
+
+/** The colour scale of weights, from 0 to 1. */
+export function heatLegend(texts: ViewTexts): TemplateResult {
+  return html`
+    <div class="legend" part="legend">
+      <span class="heading">${texts.heat}</span>
+      <div class="scale" .style=${`background: ${gradient(HEAT_PALETTE, "to left")}`}></div>
+      <div class="ticks">
+        ${WEIGHTS.map((weight) => html`<span .style=${`left: ${across(weight)}`}>${texts.weight(weight)}</span>`)}
       </div>
     </div>
   `;

@@ -17,13 +17,15 @@ import {
   Vector2,
   Vector3,
 } from "three";
+import { HEAT_PALETTE, HEAT_ROW, HEAT_ROW_FACETS, packHeat, type HeatSource } from "./heat.js";
 import { packBoundaries, ROW, rowsFor } from "./lookup.js";
 import { PALETTE_SIZE, table, type PaletteName, type Rgb } from "./palette.js";
 import { extentOf, sizeOf, standing, type Extent, type Rotation, type Triple } from "./pose.js";
 import { MODEL_FRAGMENT, MODEL_VERTEX } from "./shaders.js";
 import type { Steps } from "./steps.js";
 
-export type Look = "thickness" | "printed";
+/** `weights`: how much facets matter, once that has been given. */
+export type Look = "thickness" | "printed" | "weights";
 
 /** No layer is looked at: a band that holds no height. */
 const NO_BAND: readonly [number, number] = [0, -1];
@@ -36,6 +38,13 @@ function boundariesTexture(rows: number): DataTexture {
 
 function paletteTexture(name: PaletteName): DataTexture {
   const texture = new DataTexture(table(name), PALETTE_SIZE, 1, RGBAFormat, UnsignedByteType);
+  texture.minFilter = texture.magFilter = NearestFilter;
+  texture.needsUpdate = true;
+  return texture;
+}
+
+function heatTexture(rows: number): DataTexture {
+  const texture = new DataTexture(new Uint8Array(HEAT_ROW_FACETS * rows), HEAT_ROW, rows, RGBAFormat, UnsignedByteType);
   texture.minFilter = texture.magFilter = NearestFilter;
   texture.needsUpdate = true;
   return texture;
@@ -60,6 +69,12 @@ export class Model {
   #middle = new Vector3();
   #boundaries = boundariesTexture(1);
   #palette = paletteTexture("classic");
+  readonly #heatPalette = paletteTexture(HEAT_PALETTE);
+  #heat = heatTexture(1);
+  /** Whether the graphics card has the heat of every facet, so that changes are enough. */
+  #hasHeat = false;
+  /** Rows of it that have changed since. */
+  readonly #stale = new Set<number>();
   #look: Look = "thickness";
   #hasSteps = false;
   #hasPlan = false;
@@ -77,6 +92,9 @@ export class Model {
         palette: { value: this.#palette },
         limits: { value: new Vector2(0, 0) },
         byThickness: { value: false },
+        heat: { value: this.#heat },
+        heatPalette: { value: this.#heatPalette },
+        byHeat: { value: false },
         resin: { value: new Vector3(0.75, 0.77, 0.8) },
         band: { value: new Vector2(...NO_BAND) },
       },
@@ -87,6 +105,11 @@ export class Model {
 
   get positions(): Float32Array {
     return this.#positions;
+  }
+
+  /** What the file's lengths are multiplied by. */
+  get scale(): number {
+    return this.pivot.scale.x || 1;
   }
 
   /** @param positions nine numbers a facet, mm, in the file's pose */
@@ -152,6 +175,30 @@ export class Model {
     this.#set("limits", new Vector2(...limits));
   }
 
+  /** Colours by how much facets matter; with `facets` that of others is as it was. */
+  setHeat(source: HeatSource, facets: Iterable<number> | null): void {
+    const count = this.#positions.length / 9;
+    const rows = Math.max(1, Math.ceil(count / HEAT_ROW_FACETS));
+    if (rows !== this.#heat.image.height) {
+      this.#heat.dispose();
+      this.#heat = heatTexture(rows);
+      this.#set("heat", this.#heat);
+      this.#hasHeat = false;
+    }
+    const changed = packHeat(source, facets ?? Array(count).keys(), this.#heat.image.data as Uint8Array);
+    this.#heat.clearUpdateRanges();
+    if (facets === null || !this.#hasHeat) {
+      this.#hasHeat = false;
+      this.#stale.clear();
+      this.#heat.onUpdate = () => (this.#hasHeat = true);
+    } else {
+      for (const row of changed) this.#stale.add(row);
+      for (const row of this.#stale) this.#heat.addUpdateRange(row * HEAT_ROW_FACETS, HEAT_ROW_FACETS);
+      this.#heat.onUpdate = () => this.#stale.clear();
+    }
+    this.#heat.needsUpdate = true;
+  }
+
   setResin(colour: Rgb): void {
     this.#set("resin", new Vector3(...colour).divideScalar(255));
   }
@@ -184,6 +231,8 @@ export class Model {
     this.#material.dispose();
     this.#boundaries.dispose();
     this.#palette.dispose();
+    this.#heatPalette.dispose();
+    this.#heat.dispose();
   }
 
   #clearSteps(): void {
@@ -202,5 +251,6 @@ export class Model {
     this.steps.visible = asSteps;
     this.facets.visible = !asSteps && this.#positions.length > 0;
     this.#set("byThickness", this.#look === "thickness" && this.#hasPlan);
+    this.#set("byHeat", this.#look === "weights");
   }
 }

@@ -12,15 +12,18 @@ export interface PointerReports {
   hovered(at: Point | null): void;
 }
 
+/** Where a pointer is, from the upper left corner of a surface. */
+export function placeIn(surface: HTMLElement, { clientX, clientY }: PointerEvent): Point {
+  const { left, top } = surface.getBoundingClientRect();
+  return [clientX - left, clientY - top];
+}
+
 /** Watches `surface` until the signal is aborted. */
 export function watchPointer(surface: HTMLElement, reports: PointerReports, signal: AbortSignal): void {
   let down: { readonly id: number; readonly at: Point } | null = null;
   let latest: Point | null = null;
   let asked = false;
-  const place = ({ clientX, clientY }: PointerEvent): Point => {
-    const { left, top } = surface.getBoundingClientRect();
-    return [clientX - left, clientY - top];
-  };
+  const place = (event: PointerEvent): Point => placeIn(surface, event);
   const hover = (at: Point | null): void => {
     latest = at;
     if (asked) return;

@@ -1,4 +1,5 @@
 /** The shaders. Heights are world z, mm; colours are sRGB and lit in linear light. */
+import { HEAT_GLSL } from "./heat.js";
 import { LAYER_AT_GLSL } from "./lookup.js";
 import { PALETTE_SIZE } from "./palette.js";
 
@@ -18,7 +19,9 @@ in vec3 position;
 export const MODEL_VERTEX = /* glsl */ `${HEAD}${MATRICES}
 out vec3 world;
 out vec3 eye;
+flat out int facet;
 void main() {
+  facet = gl_VertexID / 3;
   vec4 at = modelMatrix * vec4(position, 1.0);
   world = at.xyz;
   at = viewMatrix * at;
@@ -38,12 +41,16 @@ uniform int layers;
 uniform sampler2D palette;
 uniform vec2 limits;
 uniform bool byThickness;
+uniform sampler2D heat;
+uniform sampler2D heatPalette;
+uniform bool byHeat;
 uniform vec3 resin;
 uniform vec2 band;
 in vec3 world;
 in vec3 eye;
+flat in int facet;
 out vec4 colour;
-${LAYER_AT_GLSL}
+${LAYER_AT_GLSL}${HEAT_GLSL}
 vec3 linear(vec3 srgb) {
   return mix(srgb / 12.92, pow((srgb + 0.055) / 1.055, vec3(2.4)), step(0.04045, srgb));
 }
@@ -89,12 +96,17 @@ vec3 ofPlan(float width, float upwards) {
   return linear(base) * (1.0 - (first == last ? 0.45 : 0.0) * seam);
 }
 
+/** The palette's first entry is what matters most, as it is the thinnest layer. */
+vec3 ofHeat() {
+  return linear(texelFetch(heatPalette, ivec2(int((1.0 - heatAt(facet)) * ${(PALETTE_SIZE - 1).toFixed(1)} + 0.5), 0), 0).rgb);
+}
+
 void main() {
   // The part of the height that this pixel covers.
   float width = fwidth(world.z);
   vec3 normal = normalize(cross(dFdx(eye), dFdy(eye)));
   float upwards = dot(normal, viewMatrix[2].xyz);
-  vec3 light = lit(byThickness ? ofPlan(width, upwards) : linear(resin), normal);
+  vec3 light = lit(byHeat ? ofHeat() : byThickness ? ofPlan(width, upwards) : linear(resin), normal);
   vec3 shown = encoded(light);
   if (band.y > band.x) {
     // The layer looked at: never lower than three pixels, dark with a light edge, whatever is around it.

@@ -5,8 +5,11 @@ import {
   DoubleSide,
   Mesh,
   MeshBasicMaterial,
+  Raycaster,
   Scene,
+  Vector2,
   Vector3,
+  type Ray,
   WebGLRenderer,
 } from "three";
 import { Cameras, type Frame, type Heights, type Inset } from "./cameras.js";
@@ -18,7 +21,7 @@ import { Plate, type BuildVolume } from "./plate.js";
 import type { Rotation } from "./pose.js";
 
 /** What a person does with the pointer. */
-export type Tool = "turn" | "rotate" | "flat";
+export type Tool = "turn" | "rotate" | "flat" | "paint";
 
 /** Finer pixels than these cost four times as much and are not seen. */
 const DENSITY_LIMIT = 2;
@@ -162,6 +165,8 @@ export class Stage {
     this.#tool = tool;
     if (tool !== "flat") this.setFace(null);
     this.#gizmo.show(tool === "rotate" ? this.model.pivot : null, this.cameras.current);
+    // A brush takes every touch that begins on the model.
+    if (tool === "paint") this.#renderer.domElement.style.touchAction = "none";
     this.invalidate();
   }
 
@@ -189,6 +194,16 @@ export class Stage {
     const { current } = this.cameras;
     const hit = await this.#picker.pick(this.#renderer, current, this.model.facets, [x_px, y_px], [width, height]);
     return this.#isGone ? null : hit;
+  }
+
+  /** The ray through a point of the view, CSS pixels, in the pose of the model's file. */
+  rayAt(x_px: number, y_px: number): Ray {
+    const [width, height] = this.#size;
+    this.#scene.updateMatrixWorld();
+    this.cameras.current.updateMatrixWorld();
+    const caster = new Raycaster();
+    caster.setFromCamera(new Vector2((x_px / width) * 2 - 1, 1 - (y_px / height) * 2), this.cameras.current);
+    return caster.ray.applyMatrix4(this.model.facets.matrixWorld.clone().invert());
   }
 
   /** Where the right edge of the model is at a height, as far as its bounds tell: for a label. */

@@ -1,18 +1,24 @@
 /** Every word of the view, with numbers put in by the one who gives them: the view itself knows no language. */
 
+import type { Tool } from "./stage.js";
+
 export interface ViewTexts {
   /** Name of the view for those who cannot see it. */
   readonly name: string;
   /** What kind of thing it is. */
   readonly kind: string;
   /** How to use it by keyboard, for each tool. */
-  readonly keys: Readonly<Record<"turn" | "rotate" | "flat", string>>;
+  readonly keys: Readonly<Record<Tool, string>>;
   /** The model on show. */
   readonly state: (size_mm: readonly [number, number, number], layers: number) => string;
   /** Nothing on show. */
   readonly empty: string;
   /** Heading of the colour scale, with its unit. */
   readonly legend: string;
+  /** Heading of the colour scale of weights, which runs from 0 to 1. */
+  readonly heat: string;
+  /** A weight on the colour scale. */
+  readonly weight: (weight: number) => string;
   /** A thickness on the colour scale, without its unit. */
   readonly tick: (thickness_mm: number) => string;
   /** The layer looked at, counted from 0. */
@@ -51,11 +57,14 @@ export const ENGLISH: ViewTexts = {
     turn: "Arrow keys turn the view, plus and minus zoom, 0 shows the whole model.",
     rotate: "Arrow keys and Page Up and Page Down turn the model by 5°, with Shift by 1°.",
     flat: "Enter lays the face in the middle of the view on the plate. Arrow keys turn the view.",
+    paint: "Enter paints in the middle of the view, Ctrl+Z takes it back. Arrow keys turn the view.",
   },
   state: ([x, y, z], layers) =>
     `${tenths(x)} × ${tenths(y)} × ${tenths(z)} mm` + (layers > 0 ? `, ${whole(layers)} layers` : ""),
   empty: "No model yet",
   legend: "Layer thickness (µm)",
+  heat: "How much it matters",
+  weight: (weight) => `${whole(100 * weight)}%`,
   tick: micrometres,
   layer: (layer, z_mm, thickness_mm) =>
     `Layer ${whole(layer + 1)} · ${hundredths(z_mm)} mm · ${micrometres(thickness_mm)} µm`,

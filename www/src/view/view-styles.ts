@@ -37,7 +37,8 @@ export const viewStyles = css`
   .stage:active {
     cursor: grabbing;
   }
-  .stage[data-tool="flat"] {
+  .stage[data-tool="flat"],
+  .stage[data-tool="paint"] {
     cursor: crosshair;
   }
   .stage:focus-visible {
@@ -72,7 +73,8 @@ export const viewStyles = css`
       linear-gradient(currentColor, currentColor) center / 100% 2px no-repeat;
     pointer-events: none;
   }
-  .stage[data-tool="flat"]:focus-visible .cross {
+  .stage[data-tool="flat"]:focus-visible .cross,
+  .stage[data-tool="paint"]:focus-visible .cross {
     display: block;
   }
   .label {

@@ -1,0 +1,206 @@
+/** Painting what matters, with real pointer events: the plan follows where it was painted, and comes back from a file. */
+import type { Page } from "playwright-core";
+import { expect, test } from "vitest";
+import { drop, settled, state } from "./browser.js";
+import { pages } from "./pages.js";
+import { sphere } from "./solids.js";
+import { SOFTWARE_GL } from "./view-pages.js";
+
+const start = pages(SOFTWARE_GL);
+
+const RADIUS = 10;
+/** The thickest layer that is usual. */
+const THICKEST_MM = 0.15;
+const ball = { name: "ball.stl", bytes: sphere(RADIUS, 96).bytes };
+
+interface Planned {
+  z_mm: number[];
+  profile: number[];
+  bin_mm: number;
+  crc32: number | null;
+}
+
+const plan = (page: Page): Promise<Planned> =>
+  page.evaluate(() => {
+    const result = document.querySelector("cusp-slicer")?.result;
+    if (result == null) throw new Error("there is no plan");
+    const { z_mm, bin_mm, weights_crc32: crc32 } = result.report;
+    return { z_mm, bin_mm, crc32, profile: [...result.profile] };
+  });
+
+const weights = (page: Page): Promise<number[] | null> =>
+  page.evaluate(() => {
+    const found = document.querySelector("cusp-slicer")?.weights ?? null;
+    return found === null ? null : [...found];
+  });
+
+/** Opens the ball, with the brush in hand. */
+async function brushInHand(query = "?backend=cpu&rays=512"): Promise<Page> {
+  const page = await start(query);
+  await drop(page, ball);
+  await state(page, "done");
+  await page.getByRole("button", { name: "What matters" }).click();
+  await page.waitForSelector("cusp-view");
+  return page;
+}
+
+/** Where the model is highest on the screen, found by pointing at it from its middle upwards until it ends. */
+async function top(page: Page): Promise<{ x: number; y: number; z_mm: number }> {
+  const view = page.locator("cusp-view");
+  await view.scrollIntoViewIfNeeded();
+  const box = await view.boundingBox();
+  if (box === null) throw new Error("there is no view");
+  const x = box.x + box.width / 2;
+  // Every place on the model tells its height, and leaving it tells that.
+  const heightAt = async (y: number): Promise<number | null> => {
+    const told = view.evaluate(
+      (it) =>
+        new Promise<number | null>((resolve) => {
+          const hear = (event: Event): void => resolve((event as CustomEvent<{ z_mm: number | null }>).detail.z_mm);
+          it.addEventListener("cusp-height", hear, { once: true });
+        }),
+    );
+    await page.mouse.move(x, y);
+    return told;
+  };
+  let best = { x, y: 0, z_mm: -1 };
+  for (let y = box.y + box.height / 2; y > box.y; y -= 5) {
+    const z_mm = await heightAt(y);
+    if (z_mm === null) break;
+    if (z_mm > best.z_mm) best = { x, y, z_mm };
+  }
+  return best;
+}
+
+/** A stroke to and fro over a place. */
+async function stroke(page: Page, { x, y }: { x: number; y: number }): Promise<void> {
+  await page.mouse.move(x - 6, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 6, y + 2, { steps: 4 });
+  await page.mouse.move(x, y, { steps: 4 });
+  await page.mouse.up();
+}
+
+async function widest(page: Page): Promise<void> {
+  await page.getByRole("slider", { name: "Size (mm)" }).fill("95");
+}
+
+test("what is painted to matter less is planned thicker there and as before elsewhere; saved and reloaded, it is the same plan", async () => {
+  const page = await brushInHand();
+  const before = await plan(page);
+  expect(before.crc32).toBeNull();
+  await widest(page);
+  const at = await top(page);
+  expect(at.z_mm).toBeGreaterThan(0.95 * 2 * RADIUS);
+  await stroke(page, at);
+  await expect.poll(() => weights(page)).not.toBeNull();
+  await settled(page);
+  const painted = await plan(page);
+  expect(painted.crc32).not.toBeNull();
+  expect(painted.z_mm.length).toBeLessThan(before.z_mm.length);
+
+  // Everything painted is up there, so nothing below has changed: neither the profile nor the layers.
+  const lowest = await page.evaluate(async () => {
+    const slicer = document.querySelector("cusp-slicer");
+    const [positions, weights] = [await slicer?.slicer.positions(), slicer?.weights];
+    if (positions === undefined || weights == null) throw new Error("nothing is painted");
+    let lowest = Infinity;
+    for (const [facet, weight] of weights.entries()) {
+      if (weight < 1) for (let i = 2; i < 9; i += 3) lowest = Math.min(lowest, positions[9 * facet + i] ?? 0);
+    }
+    return lowest;
+  });
+  expect(lowest).toBeGreaterThan(RADIUS);
+  const bins = Math.floor(lowest / before.bin_mm);
+  expect(painted.profile.slice(0, bins)).toEqual(before.profile.slice(0, bins));
+  expect(painted.profile.slice(bins)).not.toEqual(before.profile.slice(bins));
+  // Of plans with as few layers the planner takes any, so planes may yet move a little: by less than a layer.
+  for (const [i, z_mm] of before.z_mm.entries()) {
+    if (z_mm < lowest) expect(Math.abs((painted.z_mm[i] ?? Infinity) - z_mm)).toBeLessThan(THICKEST_MM);
+  }
+
+  const [file] = await Promise.all([
+    page.waitForEvent("download"),
+    page.getByRole("button", { name: "Save weights" }).click(),
+  ]);
+  expect(file.suggestedFilename()).toBe("ball.weights");
+  const path = await file.path();
+
+  const again = await brushInHand();
+  expect((await plan(again)).z_mm).toEqual(before.z_mm);
+  await again.getByLabel("Load weights").setInputFiles(path);
+  await expect.poll(() => weights(again)).toEqual(await weights(page));
+  await settled(again);
+  const reloaded = await plan(again);
+  expect(reloaded.z_mm).toEqual(painted.z_mm);
+  expect(reloaded.crc32).toBe(painted.crc32);
+});
+
+test("strokes are taken back and made again by keyboard, and the settings stay", async () => {
+  const page = await brushInHand();
+  const before = await plan(page);
+  await widest(page);
+  await page.locator("cusp-view .stage").focus();
+  await page.keyboard.press("Enter");
+  await expect.poll(() => weights(page)).not.toBeNull();
+  const painted = await weights(page);
+  expect(Math.min(...(painted ?? []))).toBe(0);
+  await page.keyboard.press("Control+z");
+  await expect.poll(async () => Math.min(...((await weights(page)) ?? []))).toBe(1);
+  await settled(page);
+  // All at 1 is the same plan as none.
+  expect((await plan(page)).z_mm).toEqual(before.z_mm);
+  await page.keyboard.press("Control+Shift+z");
+  await expect.poll(() => weights(page)).toEqual(painted);
+  await page.getByRole("button", { name: "Clear" }).click();
+  await expect.poll(() => weights(page)).toBeNull();
+  await settled(page);
+  expect((await plan(page)).crc32).toBeNull();
+});
+
+test("a stroke beside the model turns the view and paints nothing", async () => {
+  const page = await brushInHand();
+  const view = page.locator("cusp-view");
+  const seen = await view.screenshot();
+  const box = await view.boundingBox();
+  if (box === null) throw new Error("there is no view");
+  await page.mouse.move(box.x + 20, box.y + box.height - 20);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 120, box.y + box.height - 60, { steps: 5 });
+  await page.mouse.up();
+  expect(await weights(page)).toBeNull();
+  expect((await view.screenshot()).equals(seen)).toBe(false);
+});
+
+test("weights of another model are a clear error", async () => {
+  const page = await brushInHand();
+  const other = await page.evaluate(async () => {
+    const slicer = document.querySelector("cusp-slicer");
+    const positions = await slicer?.slicer.positions();
+    const file = await slicer?.slicer.weightsFile(new Float32Array((positions?.length ?? 0) / 9).fill(0.5));
+    return [...new Uint8Array((await file?.arrayBuffer()) ?? new ArrayBuffer(0))];
+  });
+  await drop(page, { name: "smaller.stl", bytes: sphere(RADIUS, 48).bytes });
+  await state(page, "done");
+  await page.getByRole("button", { name: "What matters" }).click();
+  const give = (buffer: Buffer): Promise<void> =>
+    page.getByLabel("Load weights").setInputFiles({ name: "ball.weights", mimeType: "application/octet-stream", buffer });
+  await give(Buffer.from(other));
+  await page.getByText("ball.weights is of another model").waitFor();
+  await give(Buffer.from("nothing of the kind"));
+  await page.getByText("ball.weights holds no weights").waitFor();
+  expect(await weights(page)).toBeNull();
+});
+
+test("what stands out counts in the plan when that is switched on", async () => {
+  const page = await start("?backend=cpu&rays=512");
+  await page.getByRole("button", { name: "Try the example" }).click();
+  await state(page, "done");
+  const before = await plan(page);
+  await page.getByRole("button", { name: "What matters" }).click();
+  await page.getByRole("checkbox", { name: "What stands out matters more" }).check();
+  await settled(page);
+  const after = await plan(page);
+  expect(after.z_mm.length).toBeLessThan(before.z_mm.length);
+  expect(new URL(page.url()).searchParams.get("saliency")).toBe("on");
+});
