@@ -44,30 +44,35 @@ async function brushInHand(query = "?backend=cpu&rays=512"): Promise<Page> {
   return page;
 }
 
-/** Where the model is highest on the screen, found by pointing at it from its middle upwards until it ends. */
+/** Where the model is highest on the screen, found by pointing at it. */
 async function top(page: Page): Promise<{ x: number; y: number; z_mm: number }> {
   const view = page.locator("cusp-view");
   await view.scrollIntoViewIfNeeded();
   const box = await view.boundingBox();
   if (box === null) throw new Error("there is no view");
   const x = box.x + box.width / 2;
-  // Every place on the model tells its height, and leaving it tells that.
   const heightAt = async (y: number): Promise<number | null> => {
-    const told = view.evaluate(
+    await page.mouse.move(x, y);
+    return view.evaluate(
       (it) =>
         new Promise<number | null>((resolve) => {
-          const hear = (event: Event): void => resolve((event as CustomEvent<{ z_mm: number | null }>).detail.z_mm);
-          it.addEventListener("cusp-height", hear, { once: true });
+          const done = setTimeout(() => resolve(null), 600);
+          it.addEventListener(
+            "cusp-height",
+            (event) => {
+              clearTimeout(done);
+              resolve((event as CustomEvent<{ z_mm: number | null }>).detail.z_mm);
+            },
+            { once: true },
+          );
         }),
     );
-    await page.mouse.move(x, y);
-    return told;
   };
   let best = { x, y: 0, z_mm: -1 };
-  for (let y = box.y + box.height / 2; y > box.y; y -= 5) {
+  for (let y = box.y + 8; y < box.y + box.height / 2; y += 6) {
     const z_mm = await heightAt(y);
-    if (z_mm === null) break;
-    if (z_mm > best.z_mm) best = { x, y, z_mm };
+    if (z_mm !== null && z_mm > best.z_mm) best = { x, y, z_mm };
+    else if (z_mm !== null && z_mm < best.z_mm - 1) break;
   }
   return best;
 }

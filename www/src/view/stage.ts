@@ -12,6 +12,7 @@ import {
   type Ray,
   WebGLRenderer,
 } from "three";
+import { Aside } from "./aside.js";
 import { Cameras, type Frame, type Heights, type Inset } from "./cameras.js";
 import { Gizmo, type GizmoReports } from "./gizmo.js";
 import { Model } from "./model.js";
@@ -25,6 +26,9 @@ export type Tool = "turn" | "rotate" | "flat" | "paint";
 
 /** Finer pixels than these cost four times as much and are not seen. */
 const DENSITY_LIMIT = 2;
+
+/** From here on, where a processor draws in place of a GPU, a picture takes longer than the page may be held up. */
+const LARGE_FACETS = 50_000;
 
 export interface Theme {
   /** Lines of the plate. */
@@ -50,6 +54,7 @@ export class Stage {
   readonly #scene = new Scene();
   readonly #gizmo: Gizmo;
   readonly #picker = new Picker();
+  readonly #aside: Aside;
   readonly #face = new Mesh(
     new BufferGeometry(),
     new MeshBasicMaterial({
@@ -66,6 +71,8 @@ export class Stage {
   #inset: Inset = { top_px: 0, bottom_px: 0 };
   #size: readonly [number, number] = [0, 0];
   #asked = 0;
+  /** Whether something has changed since the picture that is being drawn aside. */
+  #isStale = false;
   #isGone = false;
   #tool: Tool = "turn";
   #volume: BuildVolume | null = null;
@@ -79,6 +86,7 @@ export class Stage {
   ) {
     this.#renderer = new WebGLRenderer({ canvas, context });
     this.#renderer.setClearColor(0x000000, 0);
+    this.#aside = new Aside(this.#renderer);
     this.#drawn = drawn;
     this.cameras = new Cameras(canvas);
     this.cameras.controls.addEventListener("change", this.invalidate);
@@ -222,6 +230,7 @@ export class Stage {
     this.#gizmo.dispose();
     this.cameras.dispose();
     this.#picker.dispose();
+    this.#aside.dispose();
     this.plate.dispose();
     this.model.dispose();
     this.#face.geometry.dispose();
@@ -246,10 +255,19 @@ export class Stage {
 
   #draw(): void {
     if (this.#size[0] === 0 || this.#renderer.getContext().isContextLost()) return;
+    this.#isStale = this.#aside.isBusy;
+    if (this.#isStale) return;
     const frame = this.cameras.prepare(this.#heights, this.#inset);
     this.#scene.updateMatrixWorld();
     this.plate.prepare(this.#renderer, this.model.facets);
-    this.#renderer.render(this.#scene, this.cameras.current);
-    this.#drawn(frame);
+    if (this.model.positions.length < 9 * LARGE_FACETS) {
+      this.#renderer.render(this.#scene, this.cameras.current);
+      this.#drawn(frame);
+      return;
+    }
+    const free = (): void => {
+      if (this.#isStale) this.invalidate();
+    };
+    this.#aside.draw(this.#scene, this.cameras.current, () => this.#drawn(frame), free);
   }
 }

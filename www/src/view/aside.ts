@@ -1,0 +1,124 @@
+/**
+ * Draws beside the canvas and shows the picture when it is done.
+ *
+ * Where there is no GPU the browser copies the canvas for every frame of the page, and the page stands still until a
+ * processor has drawn it: seconds for a million facets. Drawn here, the page goes on, and the canvas keeps the picture
+ * before until this one is ready.
+ */
+import {
+  GLSL3,
+  Mesh,
+  NearestFilter,
+  NoBlending,
+  OrthographicCamera,
+  PlaneGeometry,
+  RawShaderMaterial,
+  SRGBColorSpace,
+  WebGLRenderTarget,
+  type Camera,
+  type Scene,
+  type WebGLRenderer,
+} from "three";
+
+/** Between two looks at whether a picture is done, ms. */
+const LOOK_EVERY_MS = 8;
+
+const VERTEX = `precision highp float;
+in vec3 position;
+void main() {
+  gl_Position = vec4(position.xy, 0.0, 1.0);
+}`;
+
+const FRAGMENT = `precision highp float;
+uniform sampler2D picture;
+out vec4 colour;
+void main() {
+  colour = texelFetch(picture, ivec2(gl_FragCoord.xy), 0);
+}`;
+
+/** A target into which three writes colours as it does on a canvas: elsewhere it leaves them linear. */
+class CanvasLike extends WebGLRenderTarget {
+  readonly isXRRenderTarget = true;
+}
+
+export class Aside {
+  readonly #renderer: WebGLRenderer;
+  readonly #target: CanvasLike;
+  readonly #copy: Mesh<PlaneGeometry, RawShaderMaterial>;
+  readonly #eye = new OrthographicCamera();
+  #isBusy = false;
+  #timer = 0;
+  #asked = 0;
+
+  constructor(renderer: WebGLRenderer) {
+    this.#renderer = renderer;
+    const gl = renderer.getContext();
+    this.#target = new CanvasLike(1, 1, {
+      colorSpace: SRGBColorSpace,
+      // Numbers as they are written: they are copied, and not looked at as light.
+      internalFormat: "RGBA8",
+      minFilter: NearestFilter,
+      magFilter: NearestFilter,
+      // As smooth as the canvas.
+      samples: Number(gl.getParameter(gl.SAMPLES)),
+    });
+    this.#copy = new Mesh(
+      new PlaneGeometry(2, 2),
+      new RawShaderMaterial({
+        glslVersion: GLSL3,
+        vertexShader: VERTEX,
+        fragmentShader: FRAGMENT,
+        uniforms: { picture: { value: this.#target.texture } },
+        blending: NoBlending,
+        depthTest: false,
+        depthWrite: false,
+      }),
+    );
+    this.#copy.frustumCulled = false;
+  }
+
+  get isBusy(): boolean {
+    return this.#isBusy;
+  }
+
+  /**
+   * Draws a picture of the canvas' size. Calls `shown` once it is on the canvas, and `free` when the next may be drawn.
+   * Not while it is busy.
+   */
+  draw(scene: Scene, camera: Camera, shown: () => void, free: () => void): void {
+    const gl = this.#renderer.getContext() as WebGL2RenderingContext;
+    this.#target.setSize(gl.drawingBufferWidth, gl.drawingBufferHeight);
+    this.#renderer.setRenderTarget(this.#target);
+    this.#renderer.render(scene, camera);
+    this.#renderer.setRenderTarget(null);
+    const done = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
+    this.#isBusy = true;
+    const look = (): void => {
+      if (done !== null && !gl.isContextLost() && gl.clientWaitSync(done, 0, 0) === gl.TIMEOUT_EXPIRED) {
+        this.#timer = window.setTimeout(look, LOOK_EVERY_MS);
+        return;
+      }
+      gl.deleteSync(done);
+      this.#asked = requestAnimationFrame(() => {
+        this.#renderer.render(this.#copy, this.#eye);
+        shown();
+        // Were the next one begun before the browser has fetched this one, it would wait for both.
+        this.#asked = requestAnimationFrame(() => {
+          this.#isBusy = false;
+          free();
+        });
+      });
+    };
+    // A GPU is done by then.
+    this.#timer = window.setTimeout(look);
+  }
+
+  dispose(): void {
+    clearTimeout(this.#timer);
+    cancelAnimationFrame(this.#asked);
+    this.#target.dispose();
+    this.#copy.geometry.dispose();
+    this.#copy.material.dispose();
+  }
+}
