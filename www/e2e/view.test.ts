@@ -206,7 +206,8 @@ describe("drawing", () => {
     await page.evaluate(() => window.harness.show());
     const few = await after(2, 0);
     expect(few).toBeGreaterThan(5);
-    expect(await after(8, 2)).toBe(few);
+    // One or two come and go with what is drawn at the moment; a model that stayed would leave eight times its own.
+    expect(Math.abs((await after(8, 2)) - few)).toBeLessThanOrEqual(2);
   });
 
   it("follows the page's theme", async () => {
