@@ -1,0 +1,105 @@
+/** What the page looks like, against pictures of what it looked like: `npm run goldens` records them anew. */
+import type { BrowserContextOptions, Page, PageScreenshotOptions } from "playwright-core";
+import { expect, test } from "vitest";
+import { drop, state } from "./browser.js";
+import { difference, golden, isAlike, keep, record, small, TOLERANCE } from "./golden.js";
+import { pages } from "./pages.js";
+import { sphere } from "./solids.js";
+import { SOFTWARE_GL } from "./view-pages.js";
+
+const isRecording = process.env["BLESS"] === "1";
+
+const SIZES = [
+  ["wide", { width: 1280, height: 900 }],
+  ["narrow", { width: 390, height: 844 }],
+] as const;
+const THEMES = ["light", "dark"] as const;
+
+/** How often the picture has to come out the same before it counts as still. */
+const STILL = 3;
+
+async function example(page: Page): Promise<void> {
+  await page.getByRole("button", { name: "Try the example" }).click();
+  await state(page, "done");
+  await page.waitForSelector("canvas[data-layer]");
+  // The last thing to come is the curve, and with it the slider of qualities.
+  await expect.poll(() => page.locator("cusp-quality input[type=range]").count()).toBe(1);
+}
+
+const STATES: Readonly<Record<string, { query?: string; reach(page: Page): Promise<void> }>> = {
+  empty: { reach: async () => undefined },
+  done: { reach: example },
+  error: {
+    // No plan holds this tolerance: the page says so beside the field, and offers what would do.
+    query: "&metric=cusp&tolerance=0.02",
+    reach: async (page) => {
+      await drop(page, { name: "ball.stl", bytes: sphere(10, 96).bytes });
+      await state(page, "error");
+    },
+  },
+  settings: {
+    reach: async (page) => {
+      await example(page);
+      const settings = page.locator("details.settings");
+      if ((await settings.getAttribute("open")) === null) await settings.locator("summary").first().click();
+      await page.getByText("More settings").click();
+    },
+  },
+  printed: {
+    reach: async (page) => {
+      await example(page);
+      await page.getByRole("button", { name: "As printed" }).click();
+    },
+  },
+};
+
+/** The whole page, once nothing on it moves any more. */
+async function still(page: Page): Promise<Uint8Array> {
+  await page.evaluate(() => document.fonts.ready);
+  // How long a plan took is never the same, but folded away unless it is asked for.
+  const options: PageScreenshotOptions = { fullPage: true, animations: "disabled" };
+  let before = await page.screenshot(options);
+  for (let same = 1; same < STILL; ) {
+    const now = await page.screenshot(options);
+    same = now.equals(before) ? same + 1 : 1;
+    before = now;
+  }
+  return before;
+}
+
+const start = pages(SOFTWARE_GL);
+
+const looks = SIZES.flatMap(([size, viewport]) =>
+  THEMES.map((colorScheme) => [`${size}-${colorScheme}`, { viewport, colorScheme, reducedMotion: "reduce" }] as const),
+);
+
+for (const [look, options] of looks) {
+  test.each(Object.keys(STATES))(`%s, ${look}, looks as it did`, async (name) => {
+    const wanted = STATES[name];
+    if (wanted === undefined) throw new Error(`no state is called ${name}`);
+    const { query = "", reach } = wanted;
+    const page = await start(`?backend=cpu${query}`, options satisfies BrowserContextOptions);
+    await reach(page);
+    const screenshot = await still(page);
+    const actual = small(screenshot);
+    const title = `${name}-${look}`;
+    if (isRecording) await record(title, actual);
+    const before = await golden(title);
+    if (before === null) throw new Error(`there is no golden of ${title}: npm run goldens records it`);
+    const found = difference(before, actual);
+    if (isAlike(found)) return;
+    const folder = await keep(title, screenshot, actual);
+    expect.fail(`${title} is ${JSON.stringify(found)} off, more than ${JSON.stringify(TOLERANCE)}: see ${folder}`);
+  });
+}
+
+test("what is tolerated is less than what tells any two goldens of the same size apart", async () => {
+  const titles = looks.flatMap(([look]) => Object.keys(STATES).map((name) => `${name}-${look}`));
+  const pictures = await Promise.all(titles.map(golden));
+  for (const [i, one] of pictures.entries()) {
+    for (const [j, other] of pictures.entries()) {
+      if (i === j || one === null || other === null || titles[i]?.includes("wide") !== titles[j]?.includes("wide")) continue;
+      expect(isAlike(difference(one, other)), `${titles[i]} and ${titles[j]}`).toBe(false);
+    }
+  }
+});
