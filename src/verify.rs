@@ -34,6 +34,11 @@ pub enum VerifyError {
         /// Its CRC-32.
         crc32: u32,
     },
+    /// The plan was made with other weights of facets, or with some where none are given.
+    #[error(
+        "it was made with other weights of facets; give the file of weights that it was made with"
+    )]
+    OtherWeights,
     /// The model and the options give something else.
     #[error(
         "it is not what the model and its options give: {key} is {claimed}, but should be {found}"
@@ -102,8 +107,11 @@ impl Claim {
     /// holds on the mesh.
     ///
     /// # Errors
-    /// [`VerifyError::Differs`], [`VerifyError::ToleranceExceeded`].
+    /// [`VerifyError::OtherWeights`], [`VerifyError::Differs`], [`VerifyError::ToleranceExceeded`].
     pub fn check(&self, made: &Report) -> Result<(), VerifyError> {
+        if self.report["weights_crc32"].as_u64() != made.weights_crc32.map(u64::from) {
+            return Err(VerifyError::OtherWeights);
+        }
         // Through text, as the claim went, so that both had their numbers read alike.
         let text = serde_json::to_string(made);
         let value = text.and_then(|text| serde_json::from_str(&text));

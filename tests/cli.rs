@@ -350,6 +350,56 @@ fn verify_accepts_what_plan_and_slice_made_and_nothing_else() {
 }
 
 #[test]
+fn weights_go_from_file_to_plan_and_back_through_verify() {
+    let folder = TempDir::new().unwrap();
+    let model = sphere(&folder);
+    let weights = folder.path().join("ball.weights").display().to_string();
+    assert!(cusp(&["saliency", &model, "-o", &weights]).status.success());
+    let plain = json(&on_cpu(&["plan", &model, "--json"]));
+    let weighted = on_cpu(&[
+        "plan",
+        &model,
+        "--weights",
+        &weights,
+        "--weight-min",
+        "0.5",
+        "--json",
+    ]);
+    let salient = on_cpu(&[
+        "plan",
+        &model,
+        "--saliency",
+        "--weight-min",
+        "0.5",
+        "--json",
+    ]);
+    // What the file says is what the model's own saliency says.
+    assert_eq!(json(&weighted)["z_mm"], json(&salient)["z_mm"]);
+    assert!(json(&weighted)["layers"].as_u64() < plain["layers"].as_u64());
+    assert_eq!(plain["weights_crc32"], Value::Null);
+
+    let plan = folder.path().join("plan.json").display().to_string();
+    std::fs::write(&plan, &weighted.stdout).unwrap();
+    assert!(
+        cusp(&["verify", &plan, &model, "--weights", &weights])
+            .status
+            .success()
+    );
+    assert_fails(
+        &cusp(&["verify", &plan, &model]),
+        1,
+        "other weights of facets",
+    );
+    let other = self::model(&folder, "cube.stl", &binary_stl(&solids::cube(2.0)));
+    let refused = on_cpu(&["plan", &other, "--weights", &weights]);
+    assert_fails(&refused, 1, "these weights are for another mesh");
+    let refused = on_cpu(&["plan", &model, "--weights", &model]);
+    assert_fails(&refused, 1, "no file of weights");
+    let refused = on_cpu(&["plan", &model, "--weight-min", "2"]);
+    assert_fails(&refused, 1, "from 0 to 1");
+}
+
+#[test]
 fn a_failed_slice_leaves_the_old_file() {
     let folder = TempDir::new().unwrap();
     let zip = model(&folder, "out.zip", b"precious");

@@ -97,7 +97,7 @@ fn main() {
         bytes.extend((facets.len() as u32).to_le_bytes());
         for facet in &facets {
             bytes.extend([0; 12]);
-            let corners = facet.iter().flat_map(|corner| corner.to_array());
+            let corners = facet.iter().flat_map(Vec3::to_array);
             bytes.extend(corners.flat_map(f32::to_le_bytes));
             bytes.extend([0; 2]);
         }

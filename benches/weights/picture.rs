@@ -46,7 +46,7 @@ impl Picture {
         };
         let mut depths = vec![f64::INFINITY; self.pixels.len()];
         for (index, facet) in facets.iter().enumerate() {
-            let [a, b, c] = facet.map(|corner| corner.as_dvec3());
+            let [a, b, c] = facet.map(Vec3::as_dvec3);
             let normal = (b - a).cross(c - a).normalize_or_zero();
             let light = 0.55 + 0.45 * normal.dot(DVec3::new(-0.4, -0.75, 0.53)).max(0.0);
             let [a, b, c] = facet.map(place);
