@@ -5,9 +5,9 @@
  * the density level (`ori: 0`) gives the paper's figure with uPlot's own decimation, zoom and cursor still working.
  */
 import type uPlot from "uplot";
-import { css, ofThickness } from "./colour.js";
+import { css, ofThickness } from "../view/palette.js";
 import type { Language } from "../texts/index.js";
-import { layerAt } from "./layers.js";
+import { layerAt } from "../view/lookup.js";
 import { METRICS } from "./metric.js";
 import type { Metric } from "../api/wire.js";
 
@@ -102,7 +102,7 @@ function bandPattern(u: uPlot, data: ChartData, theme: ChartTheme): CanvasPatter
   const pen = strip.getContext("2d");
   if (pen === null || min == null || max == null || max <= min) return "transparent";
   for (const band of bands(data, max, min, bbox.height)) {
-    pen.fillStyle = css(ofThickness(band.thickness_mm, data.limits));
+    pen.fillStyle = css(ofThickness("classic", band.thickness_mm, data.limits));
     pen.fillRect(0, bbox.top + band.row, 1, band.rows);
   }
   const perMm = bbox.height / (max - min);

@@ -5,7 +5,7 @@ import type { Mask } from "../api/index.js";
 import type { Report } from "../api/wire.js";
 import { languageOf, type Language } from "../texts/index.js";
 import { coverage, factorFor, wholeBytes } from "./bitmap.js";
-import { css as cssColour, ofThickness } from "./colour.js";
+import { css as cssColour, ofThickness } from "../view/palette.js";
 import { styled } from "./styled.js";
 import { shared } from "./styles.js";
 import { moved, WHOLE, windowOf, zoomed, type Place } from "./window.js";
@@ -232,7 +232,7 @@ export class CuspMask extends LitElement {
         <div>
           <dt>${words.thickness}</dt>
           <dd>
-            <span class="swatch" ${styled({ background: cssColour(ofThickness(thickness_mm, this.limits)) })}></span
+            <span class="swatch" ${styled({ background: cssColour(ofThickness("classic", thickness_mm, this.limits)) })}></span
             >${thickness}
           </dd>
         </div>

@@ -3,8 +3,8 @@ import { coverage, factorFor, wholeBytes } from "./bitmap.js";
 import type { Rectangle } from "./bitmap.js";
 import { moved, WHOLE, windowOf, zoomed } from "./window.js";
 import { bands, densityEnd, type ChartData } from "./chart.js";
-import * as colour from "./colour.js";
-import { layerAt } from "./layers.js";
+import * as colour from "../view/palette.js";
+import { layerAt } from "../view/lookup.js";
 
 /** What `coverage` must find, one pixel at a time. */
 function naive(bits: Uint8Array, width: number, height: number, part: Rectangle, factor: number): number[] {
@@ -67,11 +67,11 @@ test("zoomed in, the middle stays where it is, and the edges of the mask are not
 });
 
 test("thin is red, thick is blue, and what lies outside the scale is clamped", () => {
-  const [thin, thick] = [colour.ofThickness(0.05, [0.05, 0.15]), colour.ofThickness(0.15, [0.05, 0.15])];
+  const [thin, thick] = [colour.ofThickness("classic", 0.05, [0.05, 0.15]), colour.ofThickness("classic", 0.15, [0.05, 0.15])];
   expect(thin[0]).toBeGreaterThan(2 * thin[2]);
   expect(thick[2]).toBeGreaterThan(2 * thick[0]);
-  expect(colour.ofThickness(1, [0.05, 0.15])).toEqual(thick);
-  expect(colour.ofThickness(0.05, [0.05, 0.05])).toEqual(colour.at(0.5));
+  expect(colour.ofThickness("classic", 1, [0.05, 0.15])).toEqual(thick);
+  expect(colour.ofThickness("classic", 0.05, [0.05, 0.05])).toEqual(colour.colourAt("classic", 0.5));
 });
 
 test("the layer at a height, ends included", () => {

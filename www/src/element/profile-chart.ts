@@ -3,9 +3,9 @@ import { css, html, LitElement, unsafeCSS, type PropertyValues, type TemplateRes
 import uPlot from "uplot";
 import uplotStyles from "uplot/dist/uPlot.min.css?inline";
 import { chartData, chartOptions, type ChartData, type ChartTheme } from "./chart.js";
-import { gradient } from "./colour.js";
+import { gradient } from "../view/palette.js";
 import { languageOf, type Language } from "../texts/index.js";
-import { layerAt } from "./layers.js";
+import { layerAt } from "../view/lookup.js";
 import { METRICS } from "./metric.js";
 import { shared } from "./styles.js";
 
@@ -65,7 +65,7 @@ export class CuspChart extends LitElement {
         color: var(--cusp-quiet);
       }
       .scale {
-        background: ${unsafeCSS(gradient())};
+        background: ${unsafeCSS(gradient("classic"))};
         width: 5rem;
         height: 0.625rem;
         border-radius: 3px;

@@ -11,7 +11,7 @@ import type { Source } from "../api/source.js";
 import { archiveName, choose, weightsName } from "./choice.js";
 import { Curve } from "./curve.js";
 import { Follower, type Rotation } from "./follow.js";
-import { layerAt } from "./layers.js";
+import { layerAt } from "../view/lookup.js";
 import { METRICS } from "./metric.js";
 import type { Failure } from "./problem.js";
 import type { Busy } from "./progress.js";
