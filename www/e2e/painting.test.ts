@@ -51,28 +51,25 @@ async function top(page: Page): Promise<{ x: number; y: number; z_mm: number }> 
   const box = await view.boundingBox();
   if (box === null) throw new Error("there is no view");
   const x = box.x + box.width / 2;
+  await view.evaluate((it) =>
+    it.addEventListener("cusp-height", (event) => {
+      it.dataset["told"] = String((event as CustomEvent<{ z_mm: number | null }>).detail.z_mm);
+    }),
+  );
   const heightAt = async (y: number): Promise<number | null> => {
+    await view.evaluate((it) => delete it.dataset["told"]);
     await page.mouse.move(x, y);
-    return view.evaluate(
-      (it) =>
-        new Promise<number | null>((resolve) => {
-          const done = setTimeout(() => resolve(null), 600);
-          it.addEventListener(
-            "cusp-height",
-            (event) => {
-              clearTimeout(done);
-              resolve((event as CustomEvent<{ z_mm: number | null }>).detail.z_mm);
-            },
-            { once: true },
-          );
-        }),
-    );
+    const told = page.locator("cusp-view[data-told]");
+    await told.waitFor({ state: "attached", timeout: 10_000 });
+    const z_mm = Number(await told.getAttribute("data-told"));
+    return Number.isNaN(z_mm) ? null : z_mm;
   };
   let best = { x, y: 0, z_mm: -1 };
-  for (let y = box.y + 8; y < box.y + box.height / 2; y += 6) {
+  // From the middle, where the ball is for certain, upward: every step is told, and so is leaving it.
+  for (let y = box.y + box.height / 2; y > box.y; y -= 8) {
     const z_mm = await heightAt(y);
-    if (z_mm !== null && z_mm > best.z_mm) best = { x, y, z_mm };
-    else if (z_mm !== null && z_mm < best.z_mm - 1) break;
+    if (z_mm === null || z_mm < best.z_mm - 1) break;
+    if (z_mm > best.z_mm) best = { x, y, z_mm };
   }
   return best;
 }
