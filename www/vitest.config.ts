@@ -12,6 +12,8 @@ export default defineConfig({
           globalSetup: "e2e/serve.ts",
           // One browser at a time: two would share the cores, and the tests look at durations.
           fileParallelism: false,
+          // Two cores are shared with a browser that draws in software: now and then it misses a moment that it is to be seen in.
+          retry: 2,
           expect: { poll: { timeout: 20_000 } },
           testTimeout: 60_000,
           hookTimeout: 60_000,

@@ -123,6 +123,16 @@ export async function record(name: string, { width, height, data }: Picture): Pr
   await writeFile(pathOf(name), encode({ width, height, data: coarse, channels: 3 }, { zlib: { level: 9 } }));
 }
 
+const FONTS = join(FOLDER, "fonts.txt");
+
+/** How wide letters were where the goldens were recorded; null if nobody has noted that. */
+export const goldenFonts = async (): Promise<string | null> => (existsSync(FONTS) ? (await readFile(FONTS, "utf8")).trim() : null);
+
+export async function recordFonts(widths: string): Promise<void> {
+  await mkdir(FOLDER, { recursive: true });
+  await writeFile(FONTS, `${widths}\n`);
+}
+
 /** Puts what was seen where a person can look at it, and gives the folder. */
 export async function keep(name: string, screenshot: Uint8Array, { width, height, data }: Picture): Promise<string> {
   const folder = await mkdtemp(join(tmpdir(), "cusp-golden-"));
