@@ -143,8 +143,13 @@ test("strokes are taken back and made again by keyboard, and the settings stay",
   const before = await plan(page);
   await widest(page);
   await page.locator("cusp-view .stage").focus();
-  await page.keyboard.press("Enter");
-  await expect.poll(() => weights(page)).not.toBeNull();
+  // The brush is loaded when it is first taken, and paints nothing before.
+  const press = async (): Promise<number[] | null> => {
+    await page.keyboard.press("Enter");
+    await page.waitForTimeout(1_500);
+    return weights(page);
+  };
+  await expect.poll(press).not.toBeNull();
   const painted = await weights(page);
   expect(Math.min(...(painted ?? []))).toBe(0);
   await page.keyboard.press("Control+z");
