@@ -9,9 +9,9 @@ import { serve } from "./serve.js";
 const LIMIT_BYTES = 200_000;
 
 const SHOTS: readonly (readonly [string, BrowserContextOptions])[] = [
-  ["page-wide", { viewport: { width: 1280, height: 900 } }],
-  ["page-dark", { viewport: { width: 1280, height: 900 }, colorScheme: "dark" }],
-  ["page-narrow", { viewport: { width: 390, height: 1700 } }],
+  ["page-wide", { viewport: { width: 1180, height: 780 } }],
+  ["page-dark", { viewport: { width: 1180, height: 780 }, colorScheme: "dark" }],
+  ["page-narrow", { viewport: { width: 390, height: 1500 } }],
 ];
 
 export async function main([folder]: string[]): Promise<void> {
@@ -31,6 +31,8 @@ export async function main([folder]: string[]): Promise<void> {
       await maskOf(page, layer - 1);
       await page.evaluate(() => document.fonts.ready);
       const path = `${into}/${name}.png`;
+      await page.evaluate(() => scrollTo(0, 0));
+      await page.waitForTimeout(500);
       // The top of the page: the whole of it would be too large a picture.
       await page.screenshot({ path });
       const { size } = await stat(path);
