@@ -3,10 +3,15 @@
 //! A ball of 40 mm and 80,000 facets on a 12K screen in every format; then each model named, 60 mm high, at 2048 pixels along
 //! its longer side in uniform layers of 0.05 mm. With `--peer` `prusa-slicer`, which must be on PATH, does the same in turn.
 
+#[path = "paper/models.rs"]
+#[expect(dead_code, reason = "a ball is enough here")]
+mod models;
 #[path = "../tests/common/peer.rs"]
 mod peer;
+#[path = "../tests/common/solids.rs"]
+#[expect(dead_code, reason = "the tests use the solids; here only their file")]
+mod solids;
 
-use std::f64::consts::{PI, TAU};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -18,55 +23,6 @@ use cusp_slicer::stl;
 const ROUNDS: usize = 5;
 const HEIGHT_MM: f64 = 60.0;
 const RAYS: f64 = 2048.0;
-
-/// A ball of `rings` rings of `columns` facets' pairs, as a binary STL.
-fn ball(radius: f64, rings: u32, columns: u32) -> Vec<u8> {
-    let point = |ring: u32, column: u32| -> [f32; 3] {
-        let polar = PI * f64::from(ring) / f64::from(rings);
-        let angle = TAU * f64::from(column % columns) / f64::from(columns);
-        let across = if ring == 0 || ring == rings {
-            0.0
-        } else {
-            radius * polar.sin()
-        };
-        let position = [
-            across * angle.cos(),
-            across * angle.sin(),
-            radius * polar.cos(),
-        ];
-        position.map(|coordinate| coordinate as f32)
-    };
-    let mut triangles = Vec::new();
-    for ring in 0..rings {
-        for column in 0..columns {
-            let [a, b] = [point(ring, column), point(ring, column + 1)];
-            let [c, d] = [point(ring + 1, column), point(ring + 1, column + 1)];
-            if ring > 0 {
-                triangles.push([a, c, b]);
-            }
-            if ring + 1 < rings {
-                triangles.push([b, c, d]);
-            }
-        }
-    }
-    binary_stl(&triangles)
-}
-
-fn binary_stl(triangles: &[[[f32; 3]; 3]]) -> Vec<u8> {
-    let mut bytes = vec![0; 80];
-    bytes.extend((triangles.len() as u32).to_le_bytes());
-    for corners in triangles {
-        bytes.extend([0; 12]);
-        bytes.extend(
-            corners
-                .iter()
-                .flatten()
-                .flat_map(|coordinate| coordinate.to_le_bytes()),
-        );
-        bytes.extend([0; 2]);
-    }
-    bytes
-}
 
 /// Seconds that a command takes.
 fn time(command: &mut Command) -> f64 {
@@ -113,7 +69,8 @@ fn main() {
     );
     println!("| format | s | MB |\n|---|---:|---:|");
     let model = folder.path().join("ball.stl");
-    fs::write(&model, ball(20.0, 199, 202)).expect("the ball");
+    let ball = models::ball(20.0, 199, 202);
+    fs::write(&model, solids::binary_stl(&ball)).expect("the ball");
     for format in ["png", "chitubox", "uvj", "sl1"] {
         let options = format!("--pixels 11520x5120 --pitch 0.019 --format {format}");
         let times = (0..ROUNDS).map(|_| time(&mut cusp(&model, &output, &options)));
@@ -143,12 +100,12 @@ fn compare(path: &Path, folder: &Path, with_peer: bool) {
     // With a margin, without which the peer finds that the model does not fit.
     let pitch_mm = size.x.max(size.y) / (RAYS - 8.0);
     // Written out at its size, so that both read the same.
-    let scaled: Vec<[[f32; 3]; 3]> = mesh.facets[..mesh.surface_facets]
+    let scaled: solids::Triangles = mesh.facets[..mesh.surface_facets]
         .iter()
-        .map(|facet| facet.map(|vertex| mesh.vertices[vertex as usize].to_array()))
+        .map(|facet| facet.map(|vertex| mesh.vertices[vertex as usize]))
         .collect();
     let model = folder.join("model.stl");
-    fs::write(&model, binary_stl(&scaled)).expect("the model");
+    fs::write(&model, solids::binary_stl(&scaled)).expect("the model");
     let (ours, peers) = (folder.join("ours.sl1"), folder.join("peers.sl1"));
     let side_mm = pitch_mm * RAYS;
     let options = format!("--pixels {RAYS}x{RAYS} --pitch {pitch_mm} --format sl1");

@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::grid::{Bins, Grid, GridError};
 use crate::ldi::gpu::{self, Gpu};
 use crate::ldi::{Ldi, LdiError, cpu};
-use crate::mask::{MaskCursor, Masks, Samples, Side};
+use crate::mask::{MaskCursor, Masks, Side};
 use crate::mesh::{Mesh, Pose};
 use crate::options::{Backend, Options};
 use crate::plan::Plan;
@@ -101,11 +101,17 @@ type SamplingOptions = (
     Backend,
 );
 
+/// What a plan is made from beside its options.
+#[derive(Clone, Copy)]
+struct Origin<'a> {
+    stl: &'a StlReport,
+    paint: Option<&'a [f32]>,
+}
+
 #[derive(Debug)]
 struct Planned {
     options: Options,
     plan: Plan,
-    samples: Samples,
     report: Report,
     masks: Option<(Masks, MaskCursor)>,
 }
@@ -230,14 +236,15 @@ impl Slicer {
         let bins = Bins::of_height(height_mm, options.bin_mm)?;
         let mut shapes = Shapes::of_mesh(&mesh, bins, options.metric.needs_areas());
         shapes.weigh(&mesh, None, options.metric, self.known_weights(options));
-        let plan = Planning::new(&mesh, height_mm, &shapes, options).plan(options)?;
+        let planning = Planning::new(&mesh, height_mm, &shapes, options);
+        let plan = planning.plan(options)?;
         let glance = Glance {
             layers: plan.layers(),
             size_mm: size.to_array(),
             z_mm: plan.z_mm(),
             thickness_mm: plan.thickness_mm(),
             metric: options.metric,
-            max_error: plan.max_error(&shapes.errors(options.metric, Source::Exact)),
+            max_error: planning.max_error(&plan),
             print_time_s: plan.print_time_s(&options.resin),
             bin_mm: bins.size_mm,
         };
@@ -273,14 +280,16 @@ impl Slicer {
 
         timings.sum_up();
         self.load_ms = 0.0;
-        let mut report = sampled.report(&self.stl, options, &plan, report, timings)?;
-        report.weights_crc32 = self.paint.as_deref().map(weights::crc_of);
+        let origin = Origin {
+            stl: &self.stl,
+            paint: self.paint.as_deref(),
+        };
+        let report = sampled.report(origin, options, &plan, report, timings)?;
         Ok(&self
             .planned
             .insert(Planned {
                 options: options.clone(),
                 plan,
-                samples: options.samples()?,
                 report,
                 masks: None,
             })
@@ -502,7 +511,7 @@ impl Slicer {
             let reason = format!("there is no layer {layer}; the plan has {layers}, from 0");
             return Err(Error::Options { reason });
         }
-        let (masks, cursor) = planned.masks(sampled);
+        let (masks, cursor) = planned.upright_masks(sampled)?;
         cursor.seek(masks, layer);
         Ok(cursor.whole(masks))
     }
@@ -520,19 +529,16 @@ impl Slicer {
         let clock = Instant::now();
         let (sampled, planned) = self.sampled_and_planned()?;
         let mut mask_progress = |fraction| progress(Stage::Masks, fraction);
-        let options = planned.options.clone();
         let mirrored;
-        let masks = if options.is_mirrored()? {
-            mirrored = planned.new_masks(sampled, Side::Below);
+        let masks = if planned.options.is_mirrored()? {
+            mirrored = sampled.masks(&planned.plan, &planned.options, Side::Below)?;
             &mirrored
         } else {
-            planned.masks(sampled);
-            planned
-                .masks
-                .as_ref()
-                .map(|(masks, _)| masks)
-                .ok_or(Error::NoPlan)?
+            planned.upright_masks(sampled)?;
+            let upright = planned.masks.as_ref().ok_or(Error::NoPlan)?;
+            &upright.0
         };
+        let options = &planned.options;
         let job = Job {
             masks,
             report: &planned.report,
@@ -559,18 +565,16 @@ impl Slicer {
 }
 
 impl Planned {
-    fn masks(&mut self, sampled: &Sampled) -> &mut (Masks, MaskCursor) {
-        let masks = self.masks.take().unwrap_or_else(|| {
-            let masks = self.new_masks(sampled, Side::Above);
+    /// The masks as seen from above, which are kept for the next one who looks, and where that one is.
+    fn upright_masks(&mut self, sampled: &Sampled) -> Result<&mut (Masks, MaskCursor), Error> {
+        let masks = if let Some(masks) = self.masks.take() {
+            masks
+        } else {
+            let masks = sampled.masks(&self.plan, &self.options, Side::Above)?;
             let cursor = masks.cursor();
             (masks, cursor)
-        });
-        self.masks.insert(masks)
-    }
-
-    fn new_masks(&self, sampled: &Sampled, side: Side) -> Masks {
-        let Sampled { ldi, grid, .. } = sampled;
-        Masks::new(ldi, &self.plan, grid, self.samples, side)
+        };
+        Ok(self.masks.insert(masks))
     }
 }
 
@@ -600,9 +604,14 @@ impl Sampled {
         Ok(Planning::new(&self.mesh, self.height_mm, shapes, options))
     }
 
+    fn masks(&self, plan: &Plan, options: &Options, side: Side) -> Result<Masks, Error> {
+        let samples = options.samples()?;
+        Ok(Masks::new(&self.ldi, plan, &self.grid, samples, side))
+    }
+
     fn report(
         &self,
-        stl: &StlReport,
+        origin: Origin<'_>,
         options: &Options,
         plan: &Plan,
         planned: PlanReport,
@@ -613,13 +622,13 @@ impl Sampled {
         let thickness_mm = plan.thickness_mm();
         Ok(Report {
             schema: SCHEMA,
-            stl: stl.clone(),
+            stl: origin.stl.clone(),
             // Where rays are cast decides nothing.
             options: Options {
                 backend: Backend::default(),
                 ..options.clone()
             },
-            weights_crc32: None,
+            weights_crc32: origin.paint.map(weights::crc_of),
             layers: plan.layers(),
             height_mm: self.height_mm,
             z_mm: plan.z_mm(),

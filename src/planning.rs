@@ -89,13 +89,10 @@ impl Shapes {
         if kept.is_some_and(|kept| kept.metric == metric && kept.weights == weights) {
             return false;
         }
-        let exact = Weighted::exact(mesh, &self.exact, &self.hidden, metric, &weights);
-        let sampled = match ldi {
-            None => exact.clone(),
-            Some(ldi) => {
-                Weighted::sampled(mesh, ldi, &self.sampled, &self.hidden, metric, &weights)
-            }
-        };
+        let bins = self.exact.bins;
+        let measure = |ldi| Weighted::new(mesh, ldi, &self.hidden, bins, metric, &weights);
+        let exact = measure(None);
+        let sampled = ldi.map_or_else(|| exact.clone(), |ldi| measure(Some(ldi)));
         self.weighing = Some(Weighing {
             metric,
             weights,
@@ -209,6 +206,11 @@ impl<'a> Planning<'a> {
         Ok(options.limits(self.tolerance.clone()?))
     }
 
+    /// The largest error of a plan on the mesh itself, in the metric's unit.
+    pub fn max_error(&self, plan: &Plan) -> f64 {
+        plan.max_error(&self.exact)
+    }
+
     pub fn plan(&self, options: &Options) -> Result<Plan, PlanError> {
         self.plan_by(options.planner, options)
     }
@@ -255,7 +257,7 @@ impl<'a> Planning<'a> {
         Ok(PlannerReport {
             planner: planner.name().to_owned(),
             layers: plan.layers(),
-            max_error: plan.max_error(&self.exact),
+            max_error: self.max_error(&plan),
             print_time_s: plan.print_time_s(&options.resin),
         })
     }
@@ -278,7 +280,7 @@ impl<'a> Planning<'a> {
             Err(error) if is_adaptive => return Err(error),
             Err(_) => options.metric.default_tolerance(),
         };
-        let max_error = plan.max_error(&self.exact);
+        let max_error = self.max_error(plan);
         let mut warnings = Vec::new();
         let planned_steps = plan.max_error_steps(&self.errors);
         if planned_steps > self.errors.to_steps(tolerance) {

@@ -121,6 +121,9 @@ pub fn mesh_warnings(mesh: &Mesh) -> Vec<Warning> {
 /// The version of reports: it grows when a name or a meaning changes, not when something is added.
 pub const SCHEMA: u32 = 1;
 
+/// Keys of a report that tell how a plan came about, not what it is: they differ from machine to machine.
+pub(crate) const OF_THE_MACHINE: [&str; 3] = ["timings_ms", "backend", "adapter"];
+
 /// What a model's file is known by.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]

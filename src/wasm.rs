@@ -132,8 +132,9 @@ impl Slicer {
     /// # Errors
     /// Throws a `CuspError` if there is not one from 0 to 1 for every facet.
     pub fn weights_file(&self, weights: &[f32]) -> Result<Vec<u8>, JsValue> {
-        weights::check(weights, self.slicer.info().facets).map_err(throw)?;
-        Ok(weights::to_bytes(weights, &self.slicer.positions()))
+        let corners = self.slicer.positions();
+        weights::check(weights, corners.len() / 9).map_err(throw)?;
+        Ok(weights::to_bytes(weights, &corners))
     }
 
     /// The weights in a file, which must be one of this model.

@@ -7,7 +7,10 @@ mod direct;
 mod figure;
 mod models;
 #[path = "../../tests/common/solids.rs"]
-#[expect(dead_code, reason = "the tests use the solids; here only their type")]
+#[expect(
+    dead_code,
+    reason = "the tests use the solids; here only their type and their file"
+)]
 mod solids;
 
 use std::fmt::Write as _;
@@ -67,22 +70,9 @@ fn models() -> Vec<Model> {
         name,
         height_mm: HEIGHT_MM,
         facets: triangles.len(),
-        bytes: binary_stl(&triangles),
+        bytes: solids::binary_stl(&triangles),
     });
     named.chain(made).collect()
-}
-
-fn binary_stl(triangles: &solids::Triangles) -> Vec<u8> {
-    let mut bytes = vec![0; 80];
-    bytes.extend((triangles.len() as u32).to_le_bytes());
-    for corners in triangles {
-        bytes.extend([0; 12]);
-        for corner in corners {
-            bytes.extend(corner.to_array().into_iter().flat_map(f32::to_le_bytes));
-        }
-        bytes.extend([0; 2]);
-    }
-    bytes
 }
 
 fn options(model: &Model) -> Options {

@@ -48,10 +48,17 @@ pub fn all() -> Vec<Named> {
     ]
 }
 
-/// A closed surface over a grid of `rings` × `2 rings`, between two poles: `at` takes both coordinates in 0 to 1, the
-/// first from pole to pole.
-fn surface(rings: u32, at: impl Fn(f64, f64) -> DVec3) -> Triangles {
-    let columns = 2 * rings;
+/// A ball of so many rings of pairs of facets.
+#[allow(dead_code, reason = "each bench takes but some of the models")]
+pub fn ball(radius: f64, rings: u32, columns: u32) -> Triangles {
+    surface([rings, columns], |along, around| {
+        direction(along, around) * radius
+    })
+}
+
+/// A closed surface over a grid of rings and columns, between two poles: `at` takes both coordinates in 0 to 1, the first from
+/// pole to pole.
+fn surface([rings, columns]: [u32; 2], at: impl Fn(f64, f64) -> DVec3) -> Triangles {
     let point = |ring: u32, column: u32| {
         let along = f64::from(ring) / f64::from(rings);
         // A pole is one point, whatever the column.
@@ -86,7 +93,9 @@ fn direction(along: f64, around: f64) -> DVec3 {
 }
 
 fn deformed(rings: u32, shape: impl Fn(DVec3) -> DVec3) -> Triangles {
-    surface(rings, |along, around| shape(direction(along, around)))
+    surface([rings, 2 * rings], |along, around| {
+        shape(direction(along, around))
+    })
 }
 
 /// A palm with five fingers: a ball drawn out in five directions.
@@ -117,7 +126,7 @@ fn bumps(direction: DVec3) -> DVec3 {
 /// A thin bent shell with an opening at its upper end: outside down, around the rim and inside back up.
 fn shell(rings: u32) -> Triangles {
     let wall = 0.06;
-    surface(rings, |along, around| {
+    surface([rings, 2 * rings], |along, around| {
         // From the outer pole at the bottom up to the rim, and from there down to the inner pole.
         let (rise, inset) = if along < 0.5 {
             (along * 2.0, 0.0)
@@ -152,7 +161,7 @@ fn goblet(rings: u32) -> Triangles {
         (0.9, 2.85),
         (0.0, 2.6),
     ];
-    surface(rings, |along, around| {
+    surface([rings, 2 * rings], |along, around| {
         let position = along * (outline.len() - 1) as f64;
         let piece = (position as usize).min(outline.len() - 2);
         // Corners are rounded by a smooth step between them.

@@ -7,7 +7,10 @@
 mod models;
 mod picture;
 #[path = "../../tests/common/solids.rs"]
-#[expect(dead_code, reason = "the tests use the solids; here only their type")]
+#[expect(
+    dead_code,
+    reason = "the tests use the solids; here only their type and their file"
+)]
 mod solids;
 
 use std::fmt::Write as _;
@@ -92,18 +95,7 @@ fn plan(slicer: &mut Slicer, saliency: bool, max_layers: Option<usize>) -> Repor
 
 fn main() {
     let facets = models::head(170);
-    let stl = {
-        let mut bytes = vec![0; 80];
-        bytes.extend((facets.len() as u32).to_le_bytes());
-        for facet in &facets {
-            bytes.extend([0; 12]);
-            let corners = facet.iter().flat_map(Vec3::to_array);
-            bytes.extend(corners.flat_map(f32::to_le_bytes));
-            bytes.extend([0; 2]);
-        }
-        bytes
-    };
-    let mut slicer = Slicer::load(&stl).expect("the head");
+    let mut slicer = Slicer::load(&solids::binary_stl(&facets)).expect("the head");
     let plain = plan(&mut slicer, false, None);
     let salient = slicer.saliency(&mut quiet).expect("saliency").to_vec();
     let painted: Vec<f32> = facets.iter().map(paint).collect();

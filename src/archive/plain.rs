@@ -8,6 +8,7 @@ use serde_json::json;
 
 use super::png::Depth;
 use super::{ArchiveError, Container, File, Job, LayerEntry};
+use crate::report::OF_THE_MACHINE;
 
 pub(super) struct Plain;
 
@@ -23,7 +24,7 @@ impl Container for Plain {
     fn files(&self, job: &Job<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
         let mut manifest = serde_json::to_value(job.report).map_err(ArchiveError::write)?;
         if let Some(manifest) = manifest.as_object_mut() {
-            for key in ["timings_ms", "backend", "adapter"] {
+            for key in OF_THE_MACHINE {
                 manifest.remove(key);
             }
             manifest.insert("layer_files".to_owned(), json!(layers));

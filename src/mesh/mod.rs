@@ -142,17 +142,17 @@ impl Mesh {
 
     /// The box around the surface.
     pub fn bounds(&self) -> Bounds {
-        let (mut min, mut max) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-        for facet in &self.facets[..self.surface_facets] {
-            for &vertex in facet {
-                min = min.min(self.vertices[vertex as usize]);
-                max = max.max(self.vertices[vertex as usize]);
-            }
+        self.bounds_of(|vertex| self.vertices[vertex].as_dvec3())
+    }
+
+    /// The box around the surface with its vertices elsewhere.
+    fn bounds_of(&self, place: impl Fn(usize) -> DVec3) -> Bounds {
+        let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for &vertex in self.facets[..self.surface_facets].iter().flatten() {
+            min = min.min(place(vertex as usize));
+            max = max.max(place(vertex as usize));
         }
-        Bounds {
-            min: min.as_dvec3(),
-            max: max.as_dvec3(),
-        }
+        Bounds { min, max }
     }
 
     /// Enclosed volume in mm³ by the divergence theorem, holes closed. Where bodies overlap, it counts
@@ -203,12 +203,8 @@ impl Mesh {
                 self.vertices.iter().map(turn).collect()
             }
         };
-        let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for &vertex in self.facets[..self.surface_facets].iter().flatten() {
-            min = min.min(turned[vertex as usize]);
-            max = max.max(turned[vertex as usize]);
-        }
-        let size = max - min;
+        let bounds = self.bounds_of(|vertex| turned[vertex]);
+        let size = bounds.size();
         if size.z <= 0.0 {
             return Err(MeshError::ZeroHeight);
         }
@@ -217,8 +213,8 @@ impl Mesh {
             Some(height_mm) => return Err(MeshError::BadHeight { height_mm }),
             None => 1.0,
         };
-        let middle = (min + max) * 0.5;
-        let foot = DVec3::new(middle.x, middle.y, min.z);
+        let middle = (bounds.min + bounds.max) * 0.5;
+        let foot = DVec3::new(middle.x, middle.y, bounds.min.z);
         if !((size * scale).as_vec3() * 2.0).is_finite() {
             return Err(MeshError::Overflow);
         }

@@ -4,6 +4,7 @@
 use super::steepest::{self, NO_SURFACE};
 use super::volume::VolumeError;
 use super::{LayerErrors, Metric, Profile, Shape, area, cusp, roughness};
+use crate::grid::Bins;
 use crate::ldi::Ldi;
 use crate::mesh::Mesh;
 
@@ -28,35 +29,22 @@ fn value_of(mesh: &Mesh, metric: Metric, weights: &[f32]) -> impl Fn(usize) -> f
 }
 
 impl Weighted {
-    /// Over all facets whose height range meets a bin. `weights` has one for each facet of the surface.
-    pub fn exact(
+    /// Over the hits of an LDI in each bin; without one over all facets whose height range meets it. `weights` has one for
+    /// each facet of the surface.
+    pub fn new(
         mesh: &Mesh,
-        shape: &Shape,
+        ldi: Option<&Ldi>,
         hidden: &[bool],
+        bins: Bins,
         metric: Metric,
         weights: &[f32],
     ) -> Self {
         let value = value_of(mesh, metric, weights);
-        Self {
-            metric,
-            values: steepest::exact_maxima(mesh, hidden, shape.bins, value),
-        }
-    }
-
-    /// Over the hits in a bin.
-    pub fn sampled(
-        mesh: &Mesh,
-        ldi: &Ldi,
-        shape: &Shape,
-        hidden: &[bool],
-        metric: Metric,
-        weights: &[f32],
-    ) -> Self {
-        let value = value_of(mesh, metric, weights);
-        Self {
-            metric,
-            values: steepest::sampled_maxima(mesh, ldi, hidden, shape.bins, value),
-        }
+        let values = match ldi {
+            None => steepest::exact_maxima(mesh, hidden, bins, value),
+            Some(ldi) => steepest::sampled_maxima(mesh, ldi, hidden, bins, value),
+        };
+        Self { metric, values }
     }
 
     /// The weighted profile of the metric. Of the volume deviation it is the areas: weights come in where a layer deviates

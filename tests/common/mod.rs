@@ -1,9 +1,15 @@
 //! Solids with closed forms, naive oracles and small helpers, shared by the suites.
 
-#![allow(dead_code, reason = "every suite uses its own part of this module")]
+#![allow(
+    dead_code,
+    unused_imports,
+    reason = "every suite uses its own part of this module"
+)]
 
 pub mod oracle;
 pub mod solids;
+
+pub use solids::binary_stl;
 
 use std::ops::ControlFlow;
 
@@ -40,20 +46,6 @@ pub fn shifted_grid(mesh: &Mesh, rays: u32, shift: [f64; 2]) -> Grid {
             + glam::DVec2::new(shift[0] - 1.0, shift[1] + 1.0) * grid.pitch_mm,
         ..grid
     }
-}
-
-/// A binary STL, written by another library.
-pub fn binary_stl(triangles: &[[Vec3; 3]]) -> Vec<u8> {
-    let triangles: Vec<_> = triangles
-        .iter()
-        .map(|corners| stl_io::Triangle {
-            normal: stl_io::Normal::new([0.0; 3]),
-            vertices: corners.map(|corner| stl_io::Vertex::new(corner.to_array())),
-        })
-        .collect();
-    let mut bytes = Vec::new();
-    stl_io::write_stl(&mut bytes, triangles.iter()).unwrap();
-    bytes
 }
 
 /// A progress callback of the pipeline that shows nothing.

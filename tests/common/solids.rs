@@ -1,9 +1,23 @@
 //! Closed solids made by code. Only basic arithmetic and square roots, so that every machine makes
-//! the same coordinates.
+//! the same coordinates. And what puts them in a file.
 
 use glam::{DVec2, DVec3, Vec3};
 
 pub type Triangles = Vec<[Vec3; 3]>;
+
+/// A binary STL, written by another library.
+pub fn binary_stl(triangles: &[[Vec3; 3]]) -> Vec<u8> {
+    let triangles: Vec<_> = triangles
+        .iter()
+        .map(|corners| stl_io::Triangle {
+            normal: stl_io::Normal::new([0.0; 3]),
+            vertices: corners.map(|corner| stl_io::Vertex::new(corner.to_array())),
+        })
+        .collect();
+    let mut bytes = Vec::new();
+    stl_io::write_stl(&mut bytes, triangles.iter()).unwrap();
+    bytes
+}
 
 /// An axis-aligned box from the origin.
 pub fn cuboid(size: Vec3) -> Triangles {

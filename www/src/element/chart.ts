@@ -9,19 +9,10 @@ import { css, ofThickness } from "../view/palette.js";
 import type { Language } from "../texts/index.js";
 import { layerAt } from "../view/lookup.js";
 import { METRICS } from "./metric.js";
-import type { Metric } from "../api/wire.js";
+import type { Shown } from "./result.js";
 
-export interface ChartData {
-  metric: Metric;
-  /** Value of each bin: see `Plan`. */
-  profile: Float32Array;
-  bin_mm: number;
-  /** Layer boundaries from 0 to the height of the model. */
-  z_mm: readonly number[];
-  thickness_mm: readonly number[];
-  /** Thicknesses at the ends of the colour scale. */
-  limits: readonly [number, number];
-}
+/** What the chart is drawn from. */
+export type ChartData = Omit<Shown, "layers" | "print_time_s">;
 
 export interface ChartTheme {
   ink: string;

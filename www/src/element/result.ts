@@ -12,10 +12,13 @@ export interface Result extends Plan {
 /** What charts and the view draw: of the last plan, or of a glance while the model is turned. */
 export interface Shown {
   metric: Metric;
+  /** Value of each bin: see `Plan`. */
   profile: Float32Array;
   bin_mm: number;
+  /** Layer boundaries from 0 to the height of the model. */
   z_mm: readonly number[];
   thickness_mm: readonly number[];
+  /** Thicknesses at the ends of the colour scale. */
   limits: readonly [number, number];
   layers: number;
   print_time_s: number;

@@ -1,5 +1,6 @@
 /** What the elements share: cards, buttons, focus, text that only screen readers get. */
 import { css } from "lit";
+import { hidden } from "../view/hidden.js";
 
 export const shared = css`
   *,
@@ -35,15 +36,7 @@ export const shared = css`
   .figures {
     font-variant-numeric: tabular-nums;
   }
-  .hidden {
-    position: absolute;
-    width: 1px;
-    height: 1px;
-    margin: -1px;
-    overflow: hidden;
-    clip-path: inset(50%);
-    white-space: nowrap;
-  }
+  ${hidden}
   button,
   .button {
     font: inherit;

@@ -1,3 +1,4 @@
+import { ENGLISH_SENTENCES } from "../view/texts.js";
 import type { Format } from "./format.js";
 
 export const units = { hours: "h", minutes: "min" };
@@ -227,21 +228,11 @@ export const en = ({ counted, plural }: Format) => ({
   view: {
     region: "The model in three dimensions",
     title: "Model",
-    kind: "3-D view",
-    keys: {
-      turn: "Arrow keys turn the view, plus and minus zoom, 0 shows the whole model.",
-      rotate: "Arrow keys and Page Up and Page Down turn the model by 5°, with Shift by 1°.",
-      flat: "Enter lays the face in the middle of the view on the plate. Arrow keys turn the view.",
-      paint: "Enter paints in the middle of the view, Ctrl+Z takes it back. Arrow keys turn the view.",
-    },
-    empty: "No model yet",
-    legend: "Layer thickness (µm)",
-    heat: "How much it matters",
+    ...ENGLISH_SENTENCES,
     layers: (count: number) => counted(count, LAYERS),
     layer: (layer: string, height: string, thickness: string) => `Layer ${layer} · ${height} · ${thickness}`,
     grid: (step: string) => `Grid ${step}`,
     building: (part: string) => `Working out the steps: ${part}`,
-    unavailable: "This browser shows no 3-D view: WebGL 2 is switched off or missing.",
     tools: { turn: "Look around", rotate: "Turn the model", flat: "Lay a face flat", paint: "What matters" },
     printed: "As printed",
     safe: "Colour-blind safe",

@@ -50,8 +50,8 @@ const micrometres = (mm: number): string => {
 };
 const exact = new Intl.NumberFormat("en", { maximumSignificantDigits: 1 });
 
-export const ENGLISH: ViewTexts = {
-  name: "Model",
+/** Those English sentences that have no numbers. */
+export const ENGLISH_SENTENCES: Pick<ViewTexts, "kind" | "keys" | "empty" | "legend" | "heat" | "unavailable"> = {
   kind: "3-D view",
   keys: {
     turn: "Arrow keys turn the view, plus and minus zoom, 0 shows the whole model.",
@@ -59,16 +59,21 @@ export const ENGLISH: ViewTexts = {
     flat: "Enter lays the face in the middle of the view on the plate. Arrow keys turn the view.",
     paint: "Enter paints in the middle of the view, Ctrl+Z takes it back. Arrow keys turn the view.",
   },
-  state: ([x, y, z], layers) =>
-    `${tenths(x)} × ${tenths(y)} × ${tenths(z)} mm` + (layers > 0 ? `, ${whole(layers)} layers` : ""),
   empty: "No model yet",
   legend: "Layer thickness (µm)",
   heat: "How much it matters",
+  unavailable: "This browser shows no 3-D view: WebGL 2 is switched off or missing.",
+};
+
+export const ENGLISH: ViewTexts = {
+  ...ENGLISH_SENTENCES,
+  name: "Model",
+  state: ([x, y, z], layers) =>
+    `${tenths(x)} × ${tenths(y)} × ${tenths(z)} mm` + (layers > 0 ? `, ${whole(layers)} layers` : ""),
   weight: (weight) => `${whole(100 * weight)}%`,
   tick: micrometres,
   layer: (layer, z_mm, thickness_mm) =>
     `Layer ${whole(layer + 1)} · ${hundredths(z_mm)} mm · ${micrometres(thickness_mm)} µm`,
   grid: (step_mm) => `Grid ${exact.format(step_mm)} mm`,
   building: (progress) => `Working out the steps: ${whole(100 * progress)} %`,
-  unavailable: "This browser shows no 3-D view: WebGL 2 is switched off or missing.",
 };

@@ -1,5 +1,6 @@
 /** How the view looks around its canvas. Takes the page's custom properties, and does without them. */
 import { css } from "lit";
+import { hidden } from "./hidden.js";
 
 export const viewStyles = css`
   :host {
@@ -52,15 +53,7 @@ export const viewStyles = css`
     height: 100%;
     touch-action: pan-y;
   }
-  .hidden {
-    position: absolute;
-    width: 1px;
-    height: 1px;
-    margin: -1px;
-    overflow: hidden;
-    clip-path: inset(50%);
-    white-space: nowrap;
-  }
+  ${hidden}
   /* What a face must lie under to be laid flat by keyboard. */
   .cross {
     display: none;
