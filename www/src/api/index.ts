@@ -12,13 +12,16 @@
  * the signal's reason if it was aborted; the model and the plan before it stay.
  */
 import { Lane, spawnWorker, type Compiled, type Engine, type Watch } from "./lane.js";
+import { orient, type OrientCall, type Oriented } from "./orient.js";
+import { Pool, type Held } from "./pool.js";
 import { resolve, type Source } from "./source.js";
 import { SlicerError } from "./error.js";
-import type { Comparison, Glance, MeshInfo, Options, Printer, Profiled, Report, Tradeoff } from "./wire.js";
+import type { Comparison, Glance, MeshInfo, Options, Printer, Profiled, Report, Search, Tradeoff } from "./wire.js";
 
 export { ERROR_CODES, isAbort, SlicerError, type ErrorCode } from "./error.js";
 export type { Source } from "./source.js";
 export type { Watch } from "./lane.js";
+export type { Found, OrientCall, SearchStage } from "./orient.js";
 export type * from "./wire.js";
 
 /** The version of what results look like. It grows when a field goes or changes its meaning, not when one is added. */
@@ -42,6 +45,9 @@ export interface Plan extends Versioned, Profiled<Report> {}
 
 /** A plan by the facets alone, for following a model that is being turned. */
 export interface GlancedPlan extends Versioned, Profiled<Glance> {}
+
+/** What a search for the best direction found. */
+export interface Orientation extends Versioned, Oriented {}
 
 /** The mask of a layer. */
 export interface Mask {
@@ -70,6 +76,12 @@ export interface Slicer {
   tradeoff(options?: Options, points?: number, call?: Watch): Promise<Tradeoff & Versioned>;
   /** The plans of all planners side by side. */
   compare(options?: Options, call?: Watch): Promise<Comparison & Versioned>;
+  /**
+   * The directions that the model is best built in, by layers or time against the quality of the surface. It has workers
+   * of its own, so that nothing waits for it; what it finds does not depend on how many. A candidate's `rotation` is for
+   * `options.rotation`, and with an `options.height_mm` its `size_mm[2]` is for that.
+   */
+  orient(options?: Options, search?: Search, call?: OrientCall): Promise<Orientation>;
   /** The print file of the last plan; with options that are not the last plan's, of a plan made for them first. */
   export(options?: Options, call?: Watch): Promise<Blob>;
   /** The same as it is made. The core does not wait for a slow reader: what is not read yet is kept in memory. */
@@ -103,16 +115,23 @@ export interface Slicer {
 export interface Setup {
   /** Makes a worker; for tests, and for pages that serve `worker.js` in a way of their own. */
   spawn?: () => Engine;
+  /** How many workers a search for directions may have at most; as many as there are cores if absent. */
+  workers?: number;
 }
 
 /** How many points a trade-off curve has if nothing else is said. */
 const CURVE_POINTS = 40;
 
-export function createSlicer({ spawn = spawnWorker }: Setup = {}): Slicer {
+/** Where the number of cores is not told. */
+const FEW_WORKERS = 2;
+
+export function createSlicer({ spawn = spawnWorker, workers = globalThis.navigator?.hardwareConcurrency ?? FEW_WORKERS }: Setup = {}): Slicer {
   const compiled: Compiled = { module: null };
   const main = new Lane(spawn, compiled);
   // Live figures must not wait for a plan that takes seconds: they have a worker, which starts when first asked.
   const side = new Lane(spawn, compiled);
+  const pool = new Pool(() => new Lane(spawn, compiled), workers);
+  let held: Omit<Held, "weights"> | null = null;
   let last: Plan | null = null;
 
   const plan: Slicer["plan"] = async (options = {}, call = {}) => {
@@ -131,6 +150,7 @@ export function createSlicer({ spawn = spawnWorker }: Setup = {}): Slicer {
       const named = await resolve(source, call.signal);
       const info = await main.open(named.file, call);
       side.take(named.file);
+      held = { file: named.file, facets: info.facets };
       last = null;
       return { schema: SCHEMA, name: name ?? named.name, file: named.file, info };
     },
@@ -146,6 +166,10 @@ export function createSlicer({ spawn = spawnWorker }: Setup = {}): Slicer {
     },
     async compare(options = {}, call = {}) {
       return { schema: SCHEMA, ...(await main.compare(options, call)) };
+    },
+    async orient(options = {}, search = {}, call = {}) {
+      if (held === null) throw new SlicerError("no-model", "open a model first");
+      return { schema: SCHEMA, ...(await orient(pool, { ...held, weights: main.weights }, options, search, call)) };
     },
     async export(options, call = {}) {
       await ensure(options, call);
@@ -192,10 +216,12 @@ export function createSlicer({ spawn = spawnWorker }: Setup = {}): Slicer {
     rest() {
       main.rest();
       side.rest();
+      pool.rest();
     },
     dispose() {
       main.dispose();
       side.dispose();
+      pool.dispose();
     },
   };
 }

@@ -54,6 +54,11 @@ class FakeWorker implements Engine {
     paint: () => undefined,
     weightsFile: () => new Uint8Array(1),
     readWeights: async () => new Float32Array(1),
+    directions: () => new Float64Array(0),
+    measureDirections: () => [],
+    rateDirections: () => ({ energies: [], scale: { cost: 1, quality: 1 }, minima: [] }),
+    refineDirection: (_options, _search, _scale, candidate) => candidate,
+    bestDirections: () => [],
     printers: () => [],
   };
 

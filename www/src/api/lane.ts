@@ -11,7 +11,7 @@ import { sameRays, type Comparison, type Glance, type MeshInfo, type OnProgress,
 import type { Printer, Profiled, Report, SlicerWorker, Tradeoff } from "./wire.js";
 
 /** A worker as it is seen from this side: what it answers at once there takes its time here. */
-type Remote = {
+export type Remote = {
   [Name in keyof SlicerWorker]: (
     ...given: Parameters<SlicerWorker[Name]>
   ) => ReturnType<SlicerWorker[Name]> | Promise<Awaited<ReturnType<SlicerWorker[Name]>>>;
@@ -63,7 +63,7 @@ interface Life {
 }
 
 /** How much each facet matters, 0 to 1; null: all alike. */
-type Weights = Float32Array | null;
+export type Weights = Float32Array | null;
 
 interface Planned {
   options: Options;
@@ -129,6 +129,10 @@ export class Lane {
    */
   set weights(weights: Weights) {
     this.#weights = weights;
+  }
+
+  get weights(): Weights {
+    return this.#weights;
   }
 
   /** Has the core take the weights now, or refuse them. */
@@ -202,10 +206,7 @@ export class Lane {
   }
 
   glance(options: Options, watch: Watch): Promise<Profiled<Glance>> {
-    return this.#run(watch, async (life) => {
-      await this.#restore(life);
-      return life.engine.remote.glance(options);
-    });
+    return this.ask(watch, (remote) => remote.glance(options));
   }
 
   saliency(watch: Watch): Promise<Float32Array> {
@@ -226,6 +227,14 @@ export class Lane {
     return this.#run(watch, async (life) => {
       await this.#restoreFile(life);
       return life.engine.remote.readWeights(file);
+    });
+  }
+
+  /** Asks what depends on nothing but the open model and its weights, and changes neither. */
+  ask<T>(watch: Watch, question: (remote: Remote) => T | Promise<T>): Promise<T> {
+    return this.#run(watch, async (life) => {
+      await this.#restore(life);
+      return question(life.engine.remote);
     });
   }
 
@@ -318,7 +327,7 @@ export class Lane {
     const forget = (): void => undefined;
     this.#queue = result.then(forget, forget);
     // A call that waits for another need not wait to be cancelled.
-    return signal === undefined ? result : Promise.race([result, aborted(signal, result)]);
+    return untilAborted(result, signal);
   }
 
   /** Errors that are described pass; anything else means that the core broke, and a broken core is not asked again. */
@@ -360,18 +369,20 @@ export class Lane {
   }
 }
 
-/** Rejects when the signal aborts, and is forgotten when the call ends. */
-function aborted(signal: AbortSignal, until: Promise<unknown>): Promise<never> {
-  return new Promise((_, reject) => {
+/** The answer, but for a signal that aborts before it is there. */
+export function untilAborted<T>(answer: Promise<T>, signal: AbortSignal | undefined): Promise<T> {
+  if (signal === undefined) return answer;
+  const aborted = new Promise<never>((_, reject) => {
     const abort = (): void => reject(signal.reason as Error);
     if (signal.aborted) abort();
     signal.addEventListener("abort", abort, { once: true });
     const forget = (): void => signal.removeEventListener("abort", abort);
-    until.then(forget, forget);
+    answer.then(forget, forget);
   });
+  return Promise.race([answer, aborted]);
 }
 
-const disposed = (): DOMException => new DOMException("the slicer was disposed of", "AbortError");
+export const disposed = (): DOMException => new DOMException("the slicer was disposed of", "AbortError");
 
 function broke(code: "crash" | "start-failed", cause: unknown): SlicerError {
   return new SlicerError(code, cause instanceof Error ? cause.message : String(cause));

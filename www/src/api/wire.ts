@@ -4,8 +4,11 @@
  * The types of the core are re-exported from the generated package, never copied: a change there is a type error here.
  */
 import type { Comparison, Glance, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff } from "../../pkg/cusp_slicer.js";
+import type { Candidate, Rating, Scale, Search } from "./stand-in.js";
 
 export type { Comparison, Glance, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff };
+export type { Candidate, Rating, Scale, Search };
+export type { Figures } from "./stand-in.js";
 export type {
   Backend,
   CuspError,
@@ -54,6 +57,13 @@ export interface SlicerWorker {
   paint(weights: Float32Array | null): void;
   weightsFile(weights: Float32Array): Uint8Array;
   readWeights(file: Blob): Promise<Float32Array>;
+  /** Unit vectors in the file's frame, three numbers each: so many evenly over the sphere, then the model's own flats. */
+  directions(count: number): Float64Array;
+  measureDirections(options: Options, directions: Float64Array): Candidate[];
+  /** Candidates in the order of their directions. */
+  rateDirections(candidates: Candidate[], search: Search): Rating;
+  refineDirection(options: Options, search: Search, scale: Scale, candidate: Candidate): Candidate;
+  bestDirections(rated: Candidate[]): Candidate[];
   printers(): Printer[];
 }
 
@@ -71,6 +81,9 @@ export const DEFAULTS = {
   saliency: false,
   weight_min: 0.25,
 } as const;
+
+/** What a search for directions asks for where nothing else is said. A test holds it against the core. */
+export const DEFAULT_SEARCH = { directions: 1000, alpha: 0.5, cost: "layers", quality: "error" } as const satisfies Search;
 
 /**
  * Whether two sets of options look at the model through the same rays: then going from one to the other is a matter of

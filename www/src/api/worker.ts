@@ -1,6 +1,7 @@
 /** The worker: the only file that imports the WebAssembly package. One model is open at a time. */
 import * as Comlink from "comlink";
 import init, { printers, Slicer } from "../../pkg/cusp_slicer.js";
+import { best, directions, measure, rate, refine } from "./stand-in.js";
 import type { CuspError, OnProgress, SlicerWorker } from "./wire.js";
 
 /** Parts of a print file beyond this many bytes are handed to the browser, which may keep them on disk. */
@@ -140,6 +141,15 @@ const api: SlicerWorker = {
     const weights = current().read_weights(await bytesOf(file));
     return Comlink.transfer(weights, [weights.buffer]);
   },
+  directions(count) {
+    current();
+    const found = directions(count);
+    return Comlink.transfer(found, [found.buffer]);
+  },
+  measureDirections: (options, directions) => measure(current(), options, directions),
+  rateDirections: rate,
+  refineDirection: (options, search, scale, candidate) => refine(current(), options, search, scale, candidate),
+  bestDirections: best,
   printers,
 };
 

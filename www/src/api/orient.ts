@@ -1,0 +1,119 @@
+/** The search for the direction that a model is best built in: over the whole sphere, then more finely around the best. */
+import type { Watch } from "./lane.js";
+import type { Held, Pool, Team } from "./pool.js";
+import { DEFAULT_SEARCH, type Candidate, type Options, type Search } from "./wire.js";
+
+/** What a search does: it measures directions over the whole sphere, then refines the best of them. */
+export type SearchStage = "directions" | "refinement";
+
+/** What is known while directions are measured. */
+export interface Found {
+  /** Unit vectors in the file's frame, three numbers each. */
+  directions: Float64Array;
+  /** One for each direction; null where it has not been measured yet. Energies are relative to what has been. */
+  candidates: readonly (Candidate | null)[];
+}
+
+export interface OrientCall extends Pick<Watch, "signal"> {
+  /** `fraction` is 0 to 1 within the stage. */
+  onProgress?: ((stage: SearchStage, fraction: number) => void) | undefined;
+  /** Told now and then as directions are measured, and once all are. */
+  onCandidates?: ((found: Found) => void) | undefined;
+  /** Candidates of an earlier search with the same model and options: they are rated anew, and not measured again. */
+  measured?: readonly Candidate[] | undefined;
+}
+
+/** What a search found. */
+export interface Oriented {
+  /** One for each direction, rated. */
+  candidates: Candidate[];
+  /** The best ones that differ from each other, the best first: three, or as many as there are. */
+  best: Candidate[];
+}
+
+/** Directions that a worker measures at a time: few, so that all end together, and enough to be worth a message. */
+const CHUNK = 16;
+
+/** How often what is known is rated while directions are measured. */
+const RATINGS = 12;
+
+export function orient(pool: Pool, model: Held, options: Options, wanted: Search, call: OrientCall): Promise<Oriented> {
+  const search = { ...DEFAULT_SEARCH, ...wanted };
+  return pool.run(model, call, async (team) => {
+    const measured = call.measured === undefined ? await measure(team, options, search, call) : [...call.measured];
+    const { energies, scale, minima } = await team.ask((remote) => remote.rateDirections(measured, search));
+    const candidates = rated(measured, energies);
+    call.onProgress?.("refinement", 0);
+    call.onCandidates?.({ directions: directionsOf(candidates), candidates });
+    const starts = minima.flatMap((index) => candidates[index] ?? []);
+    const refined = [...starts];
+    let done = 0;
+    await team.share(
+      starts,
+      (remote, start) => remote.refineDirection(options, search, scale, start),
+      (candidate, index) => {
+        refined[index] = candidate;
+        call.onProgress?.("refinement", ++done / starts.length);
+      },
+    );
+    const best = await team.ask((remote) => remote.bestDirections([...refined, ...candidates]));
+    return { candidates, best };
+  });
+}
+
+async function measure(team: Team, options: Options, search: Required<Search>, call: OrientCall): Promise<Candidate[]> {
+  call.onProgress?.("directions", 0);
+  const directions = await team.ask((remote) => remote.directions(search.directions));
+  const count = directions.length / 3;
+  const found: (Candidate | null)[] = Array.from({ length: count }, () => null);
+  const places = spread(count);
+  let measured = 0;
+  let toRate = 0;
+  let rating: Promise<void> | null = null;
+
+  const rate = async (): Promise<void> => {
+    const now = [...found];
+    const known = now.filter((candidate) => candidate !== null);
+    const { energies } = await team.ask((remote) => remote.rateDirections(known, search));
+    let next = 0;
+    const candidates = now.map((it) => (it === null ? null : { ...it, energy: energies[next++] ?? null }));
+    call.onCandidates?.({ directions, candidates });
+  };
+
+  await team.share(
+    places,
+    (remote, chunk) => remote.measureDirections(options, gathered(directions, chunk)),
+    (candidates, index) => {
+      for (const [i, place] of (places[index] ?? []).entries()) found[place] = candidates[i] ?? null;
+      measured += candidates.length;
+      call.onProgress?.("directions", measured / count);
+      if (call.onCandidates === undefined || rating !== null || measured < toRate || measured === count) return;
+      toRate = measured + count / RATINGS;
+      rating = rate().finally(() => (rating = null));
+      // What went wrong goes wrong again when all are rated.
+      rating.catch(() => undefined);
+    },
+  );
+  await rating;
+  return found.flatMap((candidate) => candidate ?? []);
+}
+
+/** Places of directions in chunks that each lie all over the sphere, so that it fills everywhere at once. */
+function spread(count: number): readonly (readonly number[])[] {
+  const chunks = Math.ceil(count / CHUNK);
+  return Array.from({ length: chunks }, (_, first) =>
+    Array.from({ length: Math.ceil((count - first) / chunks) }, (_, i) => first + i * chunks),
+  );
+}
+
+function gathered(directions: Float64Array, places: readonly number[]): Float64Array {
+  const out = new Float64Array(3 * places.length);
+  for (const [i, place] of places.entries()) out.set(directions.subarray(3 * place, 3 * place + 3), 3 * i);
+  return out;
+}
+
+const rated = (candidates: readonly Candidate[], energies: readonly (number | null)[]): Candidate[] =>
+  candidates.map((candidate, i) => ({ ...candidate, energy: energies[i] ?? null }));
+
+const directionsOf = (candidates: readonly Candidate[]): Float64Array =>
+  Float64Array.from(candidates.flatMap(({ direction }) => direction));

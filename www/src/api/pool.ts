@@ -1,0 +1,115 @@
+/** Several workers for work that comes in many parts: each holds the model, and whichever is free takes the next part. */
+import { disposed, untilAborted, type Lane, type Remote, type Watch, type Weights } from "./lane.js";
+
+/** More share the work no better, and each holds the model. */
+const MOST_WORKERS = 8;
+
+/** What the models in all workers together may take. */
+const MEMORY_BYTES = 512 << 20;
+/** What a facet takes in the core, beside its bytes of the file. */
+const FACET_BYTES = 100;
+
+/** Without work for so long, workers are ended. */
+const IDLE_MS = 10_000;
+
+/** A model as each worker is to have it. */
+export interface Held {
+  readonly file: Blob;
+  readonly facets: number;
+  readonly weights: Weights;
+}
+
+type Signal = Pick<Watch, "signal">;
+
+/** How many workers a model is worth. */
+export function workersFor({ file, facets }: Held, most: number): number {
+  const fitting = Math.floor(MEMORY_BYTES / (FACET_BYTES * facets + file.size));
+  return Math.max(1, Math.min(most, MOST_WORKERS, fitting));
+}
+
+/** Workers that all hold one model, while a task of the pool runs. */
+export interface Team {
+  ask<T>(question: (remote: Remote) => T | Promise<T>): Promise<T>;
+  /** Has each part done by whoever is free, and takes the answers as they come. The first failure ends it. */
+  share<Part, T>(
+    parts: readonly Part[],
+    question: (remote: Remote, part: Part) => T | Promise<T>,
+    take: (answer: T, index: number) => void,
+  ): Promise<void>;
+}
+
+export class Pool {
+  readonly #start: () => Lane;
+  readonly #most: number;
+  readonly #lanes: Lane[] = [];
+  /** Tasks run one at a time: each has the model that was open when it was asked for. */
+  #queue: Promise<unknown> = Promise.resolve();
+  #timer: ReturnType<typeof setTimeout> | undefined;
+  #isDisposed = false;
+
+  /** @param start gives a worker's lane; workers start when they are first needed */
+  constructor(start: () => Lane, most: number) {
+    this.#start = start;
+    this.#most = most;
+  }
+
+  run<T>(model: Held, { signal }: Signal, task: (team: Team) => Promise<T>): Promise<T> {
+    const result = this.#queue.then(async () => {
+      signal?.throwIfAborted();
+      if (this.#isDisposed) throw disposed();
+      clearTimeout(this.#timer);
+      try {
+        return await task(this.#team(model, { signal }));
+      } finally {
+        if (!this.#isDisposed) this.#timer = setTimeout(() => this.rest(), IDLE_MS);
+      }
+    });
+    const forget = (): void => undefined;
+    this.#queue = result.then(forget, forget);
+    return untilAborted(result, signal);
+  }
+
+  /** Ends the workers until they are needed again. */
+  rest(): void {
+    clearTimeout(this.#timer);
+    for (const lane of this.#lanes) lane.rest();
+  }
+
+  /** Ends the workers for good. */
+  dispose(): void {
+    this.#isDisposed = true;
+    clearTimeout(this.#timer);
+    for (const lane of this.#lanes) lane.dispose();
+  }
+
+  #team(model: Held, watch: Signal): Team {
+    const workers = workersFor(model, this.#most);
+    const lane = (place: number): Lane => {
+      const found = (this.#lanes[place] ??= this.#start());
+      found.take(model.file);
+      found.weights = model.weights;
+      return found;
+    };
+    return {
+      ask: (question) => lane(0).ask(watch, question),
+      async share(parts, question, take) {
+        let next = 0;
+        let isFailed = false;
+        const work = async (mine: Lane): Promise<void> => {
+          while (!isFailed && next < parts.length) {
+            const index = next++;
+            const part = parts[index] as (typeof parts)[number];
+            take(await mine.ask(watch, (remote) => question(remote, part)), index);
+          }
+        };
+        const working = Array.from({ length: Math.min(workers, parts.length) }, (_, place) => work(lane(place)));
+        try {
+          await Promise.all(working);
+        } catch (error) {
+          isFailed = true;
+          throw error;
+        }
+      },
+    };
+  }
+}
