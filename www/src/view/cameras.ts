@@ -1,7 +1,8 @@
 /** From where the model is looked at: freely in perspective, or from the side at the scale of a chart beside it. */
 import { MathUtils, OrthographicCamera, PerspectiveCamera, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import type { Triple } from "./pose.js";
+import type { Rotation, Triple } from "./pose.js";
+import { FIRST_LOOK } from "./turn.js";
 
 /** Where heights are in the view, in CSS pixels from its upper edge. */
 export interface Frame {
@@ -22,9 +23,6 @@ export type Heights = readonly [bottom: number, top: number];
 
 const FIELD_OF_VIEW_DEG = 26;
 
-/** From the front, a little from the right and above. */
-const FIRST_LOOK = new Vector3(0.55, -1, 0.5).normalize();
-
 /** Room around the model in the free view. */
 const ROOM = 1.14;
 
@@ -32,11 +30,46 @@ const ROOM = 1.14;
 const NEAREST = 0.05;
 const FARTHEST = 6;
 
+const FIRST = new Vector3(...FIRST_LOOK);
+
+/** Perspective from the middle of a model, z upwards. */
+export function perspective(): PerspectiveCamera {
+  const camera = new PerspectiveCamera(FIELD_OF_VIEW_DEG);
+  camera.up.set(0, 0, 1);
+  return camera;
+}
+
+/** Distance from a model's middle, along a look from it, at which all corners of its bounds are just seen. */
+export function distanceOf(size_mm: Triple, look: Vector3, aspect: number): number {
+  const right = new Vector3(0, 0, 1).cross(look).normalize();
+  const up = look.clone().cross(right);
+  const slope = Math.tan(MathUtils.degToRad(FIELD_OF_VIEW_DEG / 2));
+  let distance = 1e-3;
+  for (let corner = 0; corner < 8; corner++) {
+    const at = new Vector3(...size_mm.map((side, axis) => (corner & (1 << axis) ? side / 2 : -side / 2)));
+    const across = (ROOM * Math.abs(at.dot(right))) / (slope * aspect);
+    const high = (ROOM * Math.abs(at.dot(up))) / slope;
+    distance = Math.max(distance, at.dot(look) + Math.max(across, high));
+  }
+  return distance;
+}
+
+/** Puts a camera where a model was first seen from, with all of it in sight. */
+export function lookFirst(camera: PerspectiveCamera, size_mm: Triple): void {
+  const middle = new Vector3(0, 0, size_mm[2] / 2);
+  const distance = distanceOf(size_mm, FIRST, camera.aspect);
+  camera.position.copy(middle).addScaledVector(FIRST, distance);
+  camera.near = 0.01 * distance;
+  camera.far = 40 * distance;
+  camera.lookAt(middle);
+  camera.updateProjectionMatrix();
+}
+
 const QUARTER_TURN = Math.PI / 2;
 
 export class Cameras {
   readonly controls: OrbitControls;
-  readonly #free = new PerspectiveCamera(FIELD_OF_VIEW_DEG);
+  readonly #free = perspective();
   readonly #side = new OrthographicCamera();
   #aligned = false;
   #size_mm: Triple = [1, 1, 1];
@@ -45,7 +78,6 @@ export class Cameras {
   #left: { readonly position: Vector3; readonly target: Vector3 } | null = null;
 
   constructor(surface: HTMLElement) {
-    this.#free.up.set(0, 0, 1);
     this.#side.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.#free, surface);
     this.controls.rotateSpeed = 0.9;
@@ -89,7 +121,7 @@ export class Cameras {
       return;
     }
     this.controls.target.copy(target);
-    this.#free.position.copy(target).addScaledVector(FIRST_LOOK, this.#distance(FIRST_LOOK));
+    this.#free.position.copy(target).addScaledVector(FIRST, distanceOf(size_mm, FIRST, this.#free.aspect));
     this.#limit();
     this.controls.update();
   }
@@ -158,6 +190,12 @@ export class Cameras {
     return { top_px: rowOf(this.#size_mm[2]), bottom_px: rowOf(0) };
   }
 
+  /** How the current camera is turned: its right, up and towards the viewer, brought into the plate's frame. */
+  get turned(): Rotation {
+    const { x, y, z, w } = this.current.quaternion;
+    return [x, y, z, w];
+  }
+
   /** Where a point of the scene is in the view, CSS pixels. */
   project(point: Vector3): readonly [number, number] {
     const { x, y } = point.clone().project(this.current);
@@ -168,23 +206,8 @@ export class Cameras {
     this.controls.dispose();
   }
 
-  /** Distance from the model's middle, along a look from it, at which all corners of its bounds are just seen. */
-  #distance(look: Vector3): number {
-    const right = new Vector3(0, 0, 1).cross(look).normalize();
-    const up = look.clone().cross(right);
-    const slope = Math.tan(MathUtils.degToRad(FIELD_OF_VIEW_DEG / 2));
-    let distance = 1e-3;
-    for (let corner = 0; corner < 8; corner++) {
-      const at = new Vector3(...this.#size_mm.map((side, axis) => (corner & (1 << axis) ? side / 2 : -side / 2)));
-      const across = (ROOM * Math.abs(at.dot(right))) / (slope * this.#free.aspect);
-      const high = (ROOM * Math.abs(at.dot(up))) / slope;
-      distance = Math.max(distance, at.dot(look) + Math.max(across, high));
-    }
-    return distance;
-  }
-
   #limit(): void {
-    const distance = this.#distance(FIRST_LOOK);
+    const distance = distanceOf(this.#size_mm, FIRST, this.#free.aspect);
     this.controls.minDistance = NEAREST * distance;
     this.controls.maxDistance = FARTHEST * distance;
   }

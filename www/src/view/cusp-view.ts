@@ -98,6 +98,8 @@ export class CuspView extends LitElement {
   #derived: Derived | null = null;
   #life = new AbortController();
   #frame: Frame | null = null;
+  /** How the camera was turned when that was last told. */
+  #camera: Rotation | null = null;
   #isHeld = false;
   #pointing: Pointing | null = null;
   #painting: Painting | null = null;
@@ -430,9 +432,17 @@ export class CuspView extends LitElement {
     if (label !== null && this.#stage !== null) {
       place(label, band === null ? null : this.#stage.edgeAt((band[0] + band[1]) / 2), this.clientWidth);
     }
+    this.#tellCamera();
     if (frame?.top_px === this.#frame?.top_px && frame?.bottom_px === this.#frame?.bottom_px) return;
     this.#frame = frame;
     this.#tell<Frame | null>("cusp-frame", frame);
+  }
+
+  #tellCamera(): void {
+    const camera = this.#stage?.cameras.turned ?? null;
+    if (camera === null || String(camera) === String(this.#camera)) return;
+    this.#camera = camera;
+    this.#tell<Rotation>("cusp-camera", camera);
   }
 
   #tell<Detail>(name: string, detail: Detail): void {

@@ -38,6 +38,8 @@ export interface ViewEvents {
   "cusp-layer": CustomEvent<number>;
   /** Where heights are, CSS pixels from the view's upper edge; null while the view is not aligned. */
   "cusp-frame": CustomEvent<Frame | null>;
+  /** How the camera is turned: it brings its right, up and towards the viewer into the plate's frame. */
+  "cusp-camera": CustomEvent<Rotation>;
   "cusp-paint": CustomEvent<PaintDetail>;
   "cusp-view-error": CustomEvent<ViewErrorDetail>;
 }

@@ -1,0 +1,44 @@
+/** Turning vectors by unit quaternions, for what is drawn without three. */
+import type { Rotation, Triple } from "./pose.js";
+
+/** The turn by `first` and then by `second`. */
+export function combined(first: Rotation, second: Rotation): Rotation {
+  const [ax, ay, az, aw] = second;
+  const [bx, by, bz, bw] = first;
+  return [
+    aw * bx + ax * bw + ay * bz - az * by,
+    aw * by - ax * bz + ay * bw + az * bx,
+    aw * bz + ax * by - ay * bx + az * bw,
+    aw * bw - ax * bx - ay * by - az * bz,
+  ];
+}
+
+export const back = ([x, y, z, w]: Rotation): Rotation => [-x, -y, -z, w];
+
+export function turn([x, y, z, w]: Rotation, [vx, vy, vz]: Triple): Triple {
+  const [tx, ty, tz] = [2 * (y * vz - z * vy), 2 * (z * vx - x * vz), 2 * (x * vy - y * vx)];
+  return [vx + w * tx + y * tz - z * ty, vy + w * ty + z * tx - x * tz, vz + w * tz + x * ty - y * tx];
+}
+
+export function unit([x, y, z]: Triple): Triple {
+  const length = Math.hypot(x, y, z);
+  return [x / length, y / length, z / length];
+}
+
+/** Where the model is first looked at from: from the front, a little from the right and above. */
+export const FIRST_LOOK: Triple = unit([0.55, -1, 0.5]);
+
+const cross = ([ax, ay, az]: Triple, [bx, by, bz]: Triple): Triple => [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx];
+
+/**
+ * How a camera is turned that looks at the model from there, with z upwards: it brings the camera's right, up and towards
+ * the viewer into the plate's frame. `from` is not straight above or below.
+ */
+export function lookFrom(from: Triple): Rotation {
+  const [zx, zy, zz] = unit(from);
+  const [xx, xy, xz] = unit(cross([0, 0, 1], [zx, zy, zz]));
+  const [yx, yy, yz] = cross([zx, zy, zz], [xx, xy, xz]);
+  // Of the four ways to take a quaternion from a matrix this one holds for looks from the front and above.
+  const w = Math.sqrt(Math.max(1e-12, 1 + xx + yy + zz)) / 2;
+  return [(yz - zy) / (4 * w), (zx - xz) / (4 * w), (xy - yx) / (4 * w), w];
+}
