@@ -7,7 +7,7 @@ import { LitElement, type PropertyValues, type TemplateResult } from "lit";
 import { SlicerError } from "../api/error.js";
 import { createSlicer, type Model, type Plan, type Slicer } from "../api/index.js";
 import type { Source } from "../api/source.js";
-import type { Backend, Format, Metric, Resin } from "../api/wire.js";
+import type { Backend, Candidate, Format, Metric, Resin } from "../api/wire.js";
 import { languageOf, type Language } from "../texts/index.js";
 import type { CuspSlicerEvents, ExportDetail } from "./events.js";
 import { face } from "./face.js";
@@ -51,7 +51,7 @@ export class CuspSlicer extends LitElement implements Host {
   declare src: string | null;
   /** BCP 47; if absent, that of the nearest `lang`, or what the browser prefers. */
   declare locale: string | null;
-  /** What is shown, separated by blanks: open, model, settings, plan, view, profile, quality, layers. All if absent. */
+  /** What is shown, separated by blanks: open, model, settings, plan, view, profile, direction, quality, layers. All if absent. */
   declare panels: string | null;
   declare dragging: boolean;
 
@@ -281,6 +281,10 @@ export class CuspSlicer extends LitElement implements Host {
   /** @internal */
   painted(weights: Float32Array | null, final: boolean): void {
     this.#tell("cusp-paint", { weights, final });
+  }
+  /** @internal */
+  directed(candidate: Candidate): void {
+    this.#tell("cusp-direction", candidate);
   }
   /** @internal */
   settingsChanged(): void {

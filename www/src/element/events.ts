@@ -1,11 +1,12 @@
 /** What an element tells its page. None of these events bubbles out of a shadow root of the page's own. */
 import type { SlicerError } from "../api/error.js";
 import type { Model, Plan } from "../api/index.js";
-import type { Stage } from "../api/wire.js";
+import type { Candidate } from "../api/wire.js";
+import type { Step } from "./progress.js";
 
 export interface ProgressDetail {
-  task: "open" | "plan" | "export";
-  stage: Stage;
+  task: "open" | "plan" | "export" | "orient";
+  stage: Step;
   /** 0 to 1 within the stage. */
   fraction: number;
   /** 0 to 1 within the task. */
@@ -44,6 +45,8 @@ export interface CuspSlicerEvents {
   "cusp-error": CustomEvent<SlicerError>;
   /** A person or a program changed how much facets matter. */
   "cusp-paint": CustomEvent<Painted>;
+  /** A person chose a direction to build in; the plan follows. */
+  "cusp-direction": CustomEvent<Candidate>;
   /** A person or a program changed the settings. */
   "cusp-change": CustomEvent<ChangeDetail>;
 }

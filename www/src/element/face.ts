@@ -1,10 +1,14 @@
 /** What an element looks like, as a function of what its session says. */
 import { html, nothing, type TemplateResult } from "lit";
 import type { Slicer } from "../api/index.js";
+import type { Candidate } from "../api/wire.js";
 import type { Language } from "../texts/index.js";
 import { sentence } from "./comparison.js";
 import type { RotateDetail } from "../view/events.js";
+import type { PaletteName } from "../view/palette.js";
 import type { Rotation } from "../view/pose.js";
+import type { Searched } from "./direction-panel.js";
+import type { Aims } from "./directions.js";
 import { modelCard } from "./model-card.js";
 import type { Painted } from "./events.js";
 import type { Panel } from "./panel-names.js";
@@ -178,6 +182,8 @@ function results(drawn: Drawn, result: Result): TemplateResult {
             @cusp-save-weights=${saveWeights}
             @cusp-rotate=${(event: CustomEvent<RotateDetail>) => session.turn(event.detail.rotation, event.detail.final)}
             @cusp-layer=${look}
+            @cusp-camera=${seen}
+            @cusp-palette=${recoloured}
           ></cusp-model>
         </section>`
       : nothing}
@@ -190,6 +196,21 @@ function results(drawn: Drawn, result: Result): TemplateResult {
             @cusp-layer=${look}
             @cusp-plot=${placed}
           ></cusp-chart>
+        </section>`
+      : nothing}
+    ${panels.has("direction")
+      ? html`<section class="card span" part="direction" aria-label=${texts.direction.title}>
+          <cusp-direction
+            .slicer=${slicer}
+            .searched=${searchedOf(session)}
+            .metric=${settings.metric}
+            .rotation=${turning ?? rotationOf(settings.rotation)}
+            .language=${language}
+            @cusp-search=${() => session.directions.start()}
+            @cusp-search-cancel=${() => session.directions.cancel()}
+            @cusp-aims=${(event: CustomEvent<Partial<Aims>>) => session.directions.aim(event.detail)}
+            @cusp-stand=${(event: CustomEvent<Candidate>) => session.stand(event.detail)}
+          ></cusp-direction>
         </section>`
       : nothing}
     ${panels.has("quality") && result.report.planner !== "uniform"
@@ -224,9 +245,27 @@ function painted(session: Session, event: CustomEvent<Painted>): void {
 
 /** Tells the view where the chart beside it shows which heights. */
 function placed({ target, detail }: CustomEvent<PlotPlace>): void {
-  const root = (target as Element).getRootNode() as ShadowRoot;
-  const view = root.querySelector("cusp-model");
+  const view = beside(target, "cusp-model");
   if (view !== null) view.plot = detail;
+}
+
+/** Tells the sphere of directions how the view beside it looks at the model. */
+function seen({ target, detail }: CustomEvent<Rotation>): void {
+  const panel = beside(target, "cusp-direction");
+  if (panel !== null) panel.camera = detail;
+}
+
+function recoloured({ target, detail }: CustomEvent<PaletteName>): void {
+  const panel = beside(target, "cusp-direction");
+  if (panel !== null) panel.palette = detail;
+}
+
+function beside<Name extends "cusp-model" | "cusp-direction">(target: EventTarget | null, name: Name): HTMLElementTagNameMap[Name] | null {
+  return ((target as Element).getRootNode() as ShadowRoot).querySelector(name);
+}
+
+function searchedOf({ directions: { aims, found, best, busy, isCurrent, options } }: Session): Searched {
+  return { aims, found, best, busy, isCurrent, options };
 }
 
 const rotations = new Map<string, Rotation>();

@@ -239,19 +239,25 @@ export class CuspModel extends LitElement {
               .texts=${this.#words()}
               @cusp-rotate=${(event: CustomEvent<RotateDetail>) => this.#tell(event)}
               @cusp-layer=${(event: CustomEvent<number>) => this.#tell(event)}
+              @cusp-camera=${(event: CustomEvent<Rotation>) => this.#tell(event)}
             ></cusp-view>`
           : nothing}
       </div>
       <div class="tools" role="group" aria-label=${words.title}>
         ${TOOLS.map((it) => toggle(words.tools[it], tool === it, () => (this.tool = it)))}
         ${toggle(words.printed, this.look === "printed", () => (this.look = this.look === "printed" ? "thickness" : "printed"))}
-        ${toggle(words.safe, this.palette === "safe", () => (this.palette = this.palette === "safe" ? "classic" : "safe"))}
+        ${toggle(words.safe, this.palette === "safe", this.#otherPalette)}
         ${!canAlign || isPainting ? nothing : toggle(words.aligned, this.aligned, () => (this.aligned = !this.aligned))}
         ${isTurned ? html`<button class="small" @click=${this.#upright}>${words.upright}</button>` : nothing}
       </div>
       ${isPainting ? this.#paintTools() : nothing}
     `;
   }
+
+  readonly #otherPalette = (): void => {
+    this.palette = this.palette === "safe" ? "classic" : "safe";
+    this.#say<PaletteName>("cusp-palette", this.palette);
+  };
 
   /** Whether what stands out counts. */
   get #counts(): boolean {

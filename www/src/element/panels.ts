@@ -1,4 +1,6 @@
 /** The elements that an element is made of. */
+import { CuspDirection } from "./direction-panel.js";
+import { CuspSphere } from "./direction-sphere.js";
 import { CuspModel } from "./model-view.js";
 import { CuspMask } from "./mask-view.js";
 import { CuspChart } from "./profile-chart.js";
@@ -11,6 +13,8 @@ const PARTS = {
   "cusp-mask": CuspMask,
   "cusp-quality": CuspQuality,
   "cusp-model": CuspModel,
+  "cusp-direction": CuspDirection,
+  "cusp-sphere": CuspSphere,
 } as const;
 
 /** Makes the parts known to the browser, once, and not before an element is made. */
@@ -27,5 +31,7 @@ declare global {
     "cusp-mask": CuspMask;
     "cusp-quality": CuspQuality;
     "cusp-model": CuspModel;
+    "cusp-direction": CuspDirection;
+    "cusp-sphere": CuspSphere;
   }
 }

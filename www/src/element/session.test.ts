@@ -2,8 +2,8 @@ import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import { Session } from "./session.js";
 import { DEFAULT_SETTINGS } from "./settings.js";
 import { SlicerError } from "../api/error.js";
-import { SCHEMA, type GlancedPlan, type LoadCall, type Mask, type Model, type Plan, type Watch } from "../api/index.js";
-import type { Glance, MeshInfo, Options, Report, Tradeoff } from "../api/wire.js";
+import { SCHEMA, type GlancedPlan, type LoadCall, type Mask, type Model, type OrientCall, type Orientation, type Plan, type Watch } from "../api/index.js";
+import type { Glance, MeshInfo, Options, Report, Search, Tradeoff } from "../api/wire.js";
 
 const info = { facets: 1, size_mm: [1, 1, 10], warnings: [] } as unknown as MeshInfo;
 const model: Model = { schema: SCHEMA, name: "a.stl", file: new Blob(), info };
@@ -25,6 +25,8 @@ class FakeClient {
   readonly load = (_source: unknown, call: LoadCall = {}): Promise<Model> => this.#call("open", call);
   readonly plan = (options: Options = {}, call: Watch = {}): Promise<Plan> => this.#call("plan", call, options);
   readonly export = (_options?: Options, call: Watch = {}): Promise<Blob> => this.#call("export", call);
+  readonly orient = (options: Options = {}, _search?: Search, call: OrientCall = {}): Promise<Orientation> =>
+    this.#call("orient", call, options);
   readonly mask = async (layer: number): Promise<Mask> => {
     this.masks.push(layer);
     return { layer, width: 8, height: 1, bits: Uint8Array.of(255) };
@@ -55,7 +57,7 @@ class FakeClient {
     return call;
   }
 
-  #call<T>(what: string, watch: Watch, options?: Options): Promise<T> {
+  #call<T>(what: string, watch: Pick<Watch, "signal">, options?: Options): Promise<T> {
     return new Promise<T>((resolve, reject) => {
       watch.signal?.addEventListener("abort", () => reject(watch.signal?.reason));
       this.calls.push({ what, resolve: resolve as (value: unknown) => void, reject, ...(options && { options }) });

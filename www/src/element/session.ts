@@ -5,11 +5,12 @@
  */
 import { asSlicerError, isAbort, type SlicerError } from "../api/error.js";
 import type { Model, Plan, Mask, Slicer, Watch } from "../api/index.js";
-import type { Backend, Options, TradeoffPoint } from "../api/wire.js";
+import type { Backend, Candidate, Options, TradeoffPoint } from "../api/wire.js";
 import { sameRays } from "../api/wire.js";
 import type { Source } from "../api/source.js";
 import { archiveName, choose, weightsName } from "./choice.js";
 import { Curve } from "./curve.js";
+import { Directions } from "./directions.js";
 import { Follower, type Rotation } from "./follow.js";
 import { layerAt } from "../view/lookup.js";
 import { METRICS } from "./metric.js";
@@ -35,6 +36,7 @@ export interface Host {
   progressed?(busy: Busy): void;
   settingsChanged?(settings: Settings): void;
   painted?(weights: Float32Array | null, isFinal: boolean): void;
+  directed?(candidate: Candidate): void;
 }
 
 export interface Setup {
@@ -44,7 +46,7 @@ export interface Setup {
 
 type Client = Pick<
   Slicer,
-  "load" | "plan" | "mask" | "export" | "tradeoff" | "glance" | "printers" | "warm" | "paint" | "weightsFile" | "readWeights"
+  "load" | "plan" | "orient" | "mask" | "export" | "tradeoff" | "glance" | "printers" | "warm" | "paint" | "weightsFile" | "readWeights"
 >;
 
 export class Session extends Preferences {
@@ -64,6 +66,8 @@ export class Session extends Preferences {
   /** Files that came together, and which of them is open. */
   files: readonly File[] = [];
   place = 0;
+
+  readonly directions: Directions;
 
   readonly #host: Host;
   readonly #client: Client;
@@ -86,6 +90,18 @@ export class Session extends Preferences {
     super(settings, backend);
     this.#host = host;
     this.#client = client;
+    this.directions = new Directions(
+      {
+        subject: () => {
+          const { model, options, weights } = this;
+          return model === null || options === null ? null : { name: model.name, options, weights };
+        },
+        changed: () => this.#changed(),
+        progressed: (busy) => this.#host.progressed?.(busy),
+        failed: (error) => this.#fail(error, this.model?.name ?? "", this.settings),
+      },
+      client,
+    );
     this.#follower = new Follower(client, (shown) => {
       this.shown = shown;
       this.#changed();
@@ -165,6 +181,17 @@ export class Session extends Preferences {
     this.change({ rotation: rotationText(rotation) });
   }
 
+  /** Stands the model as a candidate of {@link directions} does. */
+  stand(candidate: Candidate): void {
+    const { rotation, size_mm } = candidate;
+    this.#follower.stop();
+    // A height is that of the model as it stands: another pose must not change its scale.
+    const height = this.settings.height.trim() === "" ? {} : { height: String(Number(size_mm[2].toFixed(6))) };
+    this.change({ rotation: rotationText(rotation), ...height });
+    if (this.options !== null) this.directions.applied(this.options);
+    this.#host.directed?.(candidate);
+  }
+
   /** Follows weights that are painted: by glances during a stroke, by a plan at its end. */
   paint(weights: Float32Array | null, isFinal: boolean): void {
     this.weights = weights;
@@ -236,8 +263,9 @@ export class Session extends Preferences {
     }, delay_ms);
   }
 
-  /** Stops the task under way, whatever stage it is in. The last good result stays. */
+  /** Stops the task under way, whatever stage it is in, and a search for directions. The last good result stays. */
   cancel(): void {
+    this.directions.cancel();
     if (this.busy === null) return;
     const { task } = this.busy;
     this.#drop();
@@ -297,6 +325,7 @@ export class Session extends Preferences {
     this.#follower.stop();
     this.weights = null;
     this.mask = null;
+    this.directions.forget();
     this.#curve.forget();
     this.#host.loaded?.(model);
     this.replan();

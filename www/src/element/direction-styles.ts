@@ -1,0 +1,229 @@
+/** How the panel of directions looks. */
+import { css } from "lit";
+
+export const directionStyles = css`
+  :host {
+    display: block;
+    min-width: 0;
+    container-type: inline-size;
+  }
+  h4 {
+    margin: 0;
+    font-size: 0.875rem;
+    font-weight: 600;
+  }
+  .hint {
+    text-wrap: pretty;
+  }
+  .stale {
+    margin-bottom: 0.75rem;
+    padding: 0.375rem 0.75rem;
+    border-radius: 6px;
+    background: var(--cusp-note-wash);
+    font-size: 0.875rem;
+  }
+  .aims {
+    display: grid;
+    grid-template-columns: 1fr 1fr;
+    gap: 0.5rem 1rem;
+    margin-top: 0.5rem;
+    font-size: 0.875rem;
+  }
+  .field {
+    display: grid;
+    align-content: start;
+    gap: 0.25rem;
+    min-width: 0;
+  }
+  .field span,
+  .balance label {
+    color: var(--cusp-quiet);
+  }
+  .balance {
+    grid-column: 1 / -1;
+  }
+  select {
+    font: inherit;
+    width: 100%;
+    min-height: 2.25rem;
+    padding: 0.25rem 0.5rem;
+    border: 1px solid var(--cusp-field);
+    border-radius: 8px;
+    background: var(--cusp-card);
+    color: var(--cusp-text);
+  }
+  input[type="range"] {
+    direction: ltr;
+    display: block;
+    width: 100%;
+    height: 1.75rem;
+    margin: 0.25rem 0 0;
+    accent-color: var(--cusp-accent);
+  }
+  .ends {
+    direction: ltr;
+    display: flex;
+    justify-content: space-between;
+    gap: 1rem;
+  }
+  .again {
+    margin-top: 1rem;
+  }
+  /* Waits before it shows, so that what is quick does not make it flash. */
+  .again.quick {
+    animation: appear 150ms 400ms both;
+  }
+  @keyframes appear {
+    from {
+      opacity: 0;
+    }
+  }
+  .results {
+    display: grid;
+    gap: 1.25rem;
+    margin-top: 1.25rem;
+  }
+  .old cusp-sphere,
+  .old .pose {
+    opacity: 0.6;
+  }
+  .globe {
+    display: grid;
+    align-content: start;
+    gap: 0.75rem;
+    min-width: 0;
+  }
+  .legend {
+    display: grid;
+    gap: 0.25rem;
+    font-size: 0.8125rem;
+  }
+  .scale {
+    direction: ltr;
+    display: grid;
+    grid-template-columns: auto 1fr auto;
+    align-items: center;
+    gap: 0.5rem;
+    font-variant-numeric: tabular-nums;
+  }
+  .scale i {
+    height: 0.625rem;
+    border-radius: 3px;
+  }
+  .keys {
+    display: flex;
+    flex-wrap: wrap;
+    gap: 0 1.25rem;
+    font-size: 0.8125rem;
+  }
+  .keys svg {
+    width: 0.75rem;
+    height: 0.75rem;
+    margin-inline-end: 0.375rem;
+    stroke: var(--cusp-text);
+    stroke-width: 2;
+  }
+  .keys .excluded {
+    display: inline-block;
+    width: 0.6875rem;
+    height: 0.6875rem;
+    margin-inline-end: 0.375rem;
+    border-radius: 2px;
+    background: rgb(138 143 152);
+  }
+  /* As high as it ever gets, so that pointing here and there moves nothing. */
+  .looked {
+    min-height: 9.5rem;
+  }
+  .looked dl {
+    display: grid;
+    grid-template-columns: repeat(auto-fill, minmax(8.5rem, 1fr));
+    gap: 0.375rem 1rem;
+  }
+  dt {
+    color: var(--cusp-quiet);
+    font-size: 0.8125rem;
+  }
+  dd {
+    font-size: 0.875rem;
+  }
+  .why {
+    margin-bottom: 0.5rem;
+    font-weight: 550;
+  }
+  .looked button {
+    margin-top: 0.625rem;
+  }
+  .best {
+    display: grid;
+    align-content: start;
+    gap: 0.5rem;
+    min-width: 0;
+  }
+  .pose {
+    position: relative;
+    display: grid;
+    grid-template-columns: 7rem minmax(0, 1fr);
+    justify-content: start;
+    gap: 0.75rem;
+    width: 100%;
+    padding: 0.375rem;
+    padding-inline-end: 0.75rem;
+    border-color: var(--cusp-line);
+    text-align: start;
+    font-weight: 400;
+  }
+  .pose canvas {
+    display: block;
+    width: 7rem;
+    height: 7rem;
+    border-radius: 6px;
+    background: color-mix(in srgb, var(--cusp-card) 94%, var(--cusp-text));
+  }
+  .pose[aria-pressed="true"] {
+    border-color: var(--cusp-accent);
+    box-shadow: inset 0 0 0 1px var(--cusp-accent);
+  }
+  .rank {
+    position: absolute;
+    inset-block-start: 0.625rem;
+    inset-inline-start: 0.625rem;
+    display: grid;
+    place-items: center;
+    width: 1.25rem;
+    height: 1.25rem;
+    border: 1.5px solid var(--cusp-text);
+    border-radius: 50%;
+    background: var(--cusp-card);
+    font-size: 0.75rem;
+    font-weight: 650;
+  }
+  .what {
+    display: grid;
+    align-content: center;
+    font-size: 0.875rem;
+    font-variant-numeric: tabular-nums;
+  }
+  .what .quiet {
+    font-size: 0.8125rem;
+  }
+  .probe {
+    position: absolute;
+    visibility: hidden;
+    color: var(--cusp-text);
+    transition: color 1ms;
+  }
+  @container (min-width: 44rem) {
+    .aims {
+      grid-template-columns: 11rem 11rem minmax(0, 1fr);
+      gap: 0.5rem 1.5rem;
+    }
+    .balance {
+      grid-column: auto;
+    }
+    .results {
+      grid-template-columns: minmax(0, 1.35fr) minmax(0, 1fr);
+      gap: 2rem;
+    }
+  }
+`;
