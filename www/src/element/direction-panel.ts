@@ -7,7 +7,7 @@ import { languageOf, type Language } from "../texts/index.js";
 import { gradient, type PaletteName } from "../view/palette.js";
 import type { Rotation } from "../view/pose.js";
 import { directionStyles } from "./direction-styles.js";
-import { energyRange } from "./direction-sphere.js";
+import { energyRange, type Looked } from "./direction-sphere.js";
 import type { Aims, Directions } from "./directions.js";
 import { METRICS } from "./metric.js";
 import { progressBar, progressStyles, type Busy } from "./progress.js";
@@ -48,7 +48,7 @@ export class CuspDirection extends LitElement {
   declare palette: PaletteName;
   declare language: Language;
   /** The candidate that is pointed at. */
-  declare looked: Candidate | null;
+  declare looked: Looked | null;
 
   #portraying: AbortController | null = null;
 
@@ -161,7 +161,7 @@ export class CuspDirection extends LitElement {
           .camera=${this.camera}
           .palette=${this.palette}
           .language=${this.language}
-          @cusp-look=${(event: CustomEvent<Candidate | null>) => (this.looked = event.detail)}
+          @cusp-look=${(event: CustomEvent<Looked | null>) => (this.looked = event.detail)}
           @cusp-stand=${(event: CustomEvent<Candidate>) => this.#stand(event.detail)}
         ></cusp-sphere>
         ${this.#legend(found)} ${this.#figures(searched)}
@@ -200,12 +200,13 @@ export class CuspDirection extends LitElement {
     const { looked, language } = this;
     const { direction: words } = language.texts;
     if (looked === null) return html`<p class="looked quiet hint">${words.point}</p>`;
-    const rows = figureRows(looked, options?.metric ?? this.metric, language);
-    return html`<div class="looked figures" data-direction=${looked.direction.join()}>
-      ${looked.excluded === null ? nothing : html`<p class="why">${words.why[looked.excluded]}</p>`}
+    const { candidate, isChosen } = looked;
+    const rows = figureRows(candidate, options?.metric ?? this.metric, language);
+    return html`<div class="looked figures" data-direction=${candidate.direction.join()}>
+      ${candidate.excluded === null ? nothing : html`<p class="why">${words.why[candidate.excluded]}</p>`}
       <dl>${rows.map(([name, value]) => html`<div><dt>${name}</dt><dd>${value}</dd></div>`)}</dl>
-      ${looked.excluded === null
-        ? html`<button class="small" @click=${() => this.#stand(looked)}>${words.stand}</button>`
+      ${isChosen && candidate.excluded === null
+        ? html`<button class="small" @click=${() => this.#stand(candidate)}>${words.stand}</button>`
         : nothing}
     </div>`;
   }
@@ -240,7 +241,7 @@ export class CuspDirection extends LitElement {
     const { looked, language } = this;
     const { texts, format } = language;
     if (looked !== null) {
-      const { excluded, figures } = looked;
+      const { excluded, figures } = looked.candidate;
       if (excluded !== null) return texts.direction.why[excluded];
       if (figures === null) return "";
       const error = METRICS[options?.metric ?? this.metric].error(figures.max_error, format);

@@ -19,6 +19,13 @@ const EXCLUDED: Rgb = [138, 143, 152];
 /** A mark this near to the pointer is meant, in radii of the sphere. */
 const MARK_REACH = 0.1;
 
+/** A candidate that is looked at. */
+export interface Looked {
+  readonly candidate: Candidate;
+  /** Whether it stays when the pointer leaves. */
+  readonly isChosen: boolean;
+}
+
 const SIDES: readonly Side[] = ["front", "back"];
 
 const WAYS: Readonly<Record<string, Way>> = { ArrowLeft: "left", ArrowRight: "right", ArrowUp: "up", ArrowDown: "down" };
@@ -171,7 +178,9 @@ export class CuspSphere extends LitElement {
   override updated(changed: PropertyValues<this>): void {
     if ((["found", "rotation", "camera", "palette"] as const).some((name) => changed.has(name))) this.#draw();
     if (changed.has("hovered") || changed.has("chosen")) {
-      this.dispatchEvent(new CustomEvent<Candidate | null>("cusp-look", { detail: this.hovered ?? this.chosen }));
+      const candidate = this.hovered ?? this.chosen;
+      const detail: Looked | null = candidate === null ? null : { candidate, isChosen: candidate === this.chosen };
+      this.dispatchEvent(new CustomEvent<Looked | null>("cusp-look", { detail }));
     }
   }
 

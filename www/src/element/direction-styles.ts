@@ -131,10 +131,6 @@ export const directionStyles = css`
     border-radius: 2px;
     background: rgb(138 143 152);
   }
-  /* As high as it ever gets, so that pointing here and there moves nothing. */
-  .looked {
-    min-height: 9.5rem;
-  }
   .looked dl {
     display: grid;
     grid-template-columns: repeat(auto-fill, minmax(8.5rem, 1fr));
@@ -213,6 +209,12 @@ export const directionStyles = css`
     color: var(--cusp-text);
     transition: color 1ms;
   }
+  /* On a phone the answer comes first. */
+  @container (max-width: 43.99rem) {
+    .best:has(.pose) {
+      order: -1;
+    }
+  }
   @container (min-width: 44rem) {
     .aims {
       grid-template-columns: 11rem 11rem minmax(0, 1fr);
@@ -220,6 +222,10 @@ export const directionStyles = css`
     }
     .balance {
       grid-column: auto;
+    }
+    /* As high as it gets, so that pointing here and there moves nothing. */
+    .looked {
+      min-height: 8.5rem;
     }
     .results {
       grid-template-columns: minmax(0, 1.35fr) minmax(0, 1fr);

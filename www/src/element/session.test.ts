@@ -3,7 +3,7 @@ import { Session } from "./session.js";
 import { DEFAULT_SETTINGS } from "./settings.js";
 import { SlicerError } from "../api/error.js";
 import { SCHEMA, type GlancedPlan, type LoadCall, type Mask, type Model, type OrientCall, type Orientation, type Plan, type Watch } from "../api/index.js";
-import type { Glance, MeshInfo, Options, Report, Search, Tradeoff } from "../api/wire.js";
+import type { Candidate, Glance, MeshInfo, Options, Report, Search, Tradeoff } from "../api/wire.js";
 
 const info = { facets: 1, size_mm: [1, 1, 10], warnings: [] } as unknown as MeshInfo;
 const model: Model = { schema: SCHEMA, name: "a.stl", file: new Blob(), info };
@@ -392,4 +392,40 @@ test("another model is all alike", async () => {
   client.last.resolve(model);
   await settle();
   expect(session.weights).toBeNull();
+});
+
+test("standing as a candidate does is a step that can be undone; a height keeps its scale", async () => {
+  await planned();
+  const stood: Candidate = {
+    ...{ direction: [0, 0, 1], rotation: [1, 0, 0, 0], size_mm: [1, 2, 3.25], excluded: null, figures: null, energy: null },
+  };
+  session.stand(stood);
+  expect(session.options).toMatchObject({ rotation: [1, 0, 0, 0] });
+  expect(session.options?.height_mm).toBeUndefined();
+  await settle();
+  expect(client.last).toMatchObject({ what: "plan", options: { rotation: [1, 0, 0, 0] } });
+  session.undo();
+  expect(session.options?.rotation).toBeUndefined();
+  session.change({ height: "20" });
+  session.stand(stood);
+  expect(session.options).toMatchObject({ rotation: [1, 0, 0, 0], height_mm: 3.25 });
+});
+
+test("a search goes on beside plans, ends with cancel, and is forgotten with its model", async () => {
+  await planned();
+  session.directions.start();
+  const search = client.last;
+  expect(search.what).toBe("orient");
+  expect(session.busy).toBeNull();
+  session.cancel();
+  expect(session.directions.busy).toBeNull();
+  session.directions.start();
+  client.last.resolve({ schema: SCHEMA, candidates: [], best: [] });
+  await settle();
+  expect(session.directions.isCurrent).toBe(true);
+  session.change({ tolerances: { cusp: "0.05" } });
+  expect(session.directions.isCurrent).toBe(false);
+  await planned();
+  expect(session.directions.found).toBeNull();
+  expect(session.directions.options).toBeNull();
 });
