@@ -21,7 +21,7 @@ import type { Comparison, Glance, MeshInfo, Options, Printer, Profiled, Report, 
 export { ERROR_CODES, isAbort, SlicerError, type ErrorCode } from "./error.js";
 export type { Source } from "./source.js";
 export type { Watch } from "./lane.js";
-export type { Found, OrientCall, SearchStage } from "./orient.js";
+export type { Found, OrientCall } from "./orient.js";
 export type * from "./wire.js";
 
 /** The version of what results look like. It grows when a field goes or changes its meaning, not when one is added. */

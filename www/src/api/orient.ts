@@ -3,9 +3,6 @@ import type { Watch } from "./lane.js";
 import type { Held, Pool, Team } from "./pool.js";
 import { DEFAULT_SEARCH, type Candidate, type Options, type Search } from "./wire.js";
 
-/** What a search does: it measures directions over the whole sphere, then refines the best of them. */
-export type SearchStage = "directions" | "refinement";
-
 /** What is known while directions are measured. */
 export interface Found {
   /** Unit vectors in the file's frame, three numbers each. */
@@ -14,9 +11,7 @@ export interface Found {
   candidates: readonly (Candidate | null)[];
 }
 
-export interface OrientCall extends Pick<Watch, "signal"> {
-  /** `fraction` is 0 to 1 within the stage. */
-  onProgress?: ((stage: SearchStage, fraction: number) => void) | undefined;
+export interface OrientCall extends Watch {
   /** Told now and then as directions are measured, and once all are. */
   onCandidates?: ((found: Found) => void) | undefined;
   /** Candidates of an earlier search with the same model and options: they are rated anew, and not measured again. */
@@ -27,12 +22,15 @@ export interface OrientCall extends Pick<Watch, "signal"> {
 export interface Oriented {
   /** One for each direction, rated. */
   candidates: Candidate[];
-  /** The best ones that differ from each other, the best first: three, or as many as there are. */
+  /** The best ones that differ from each other, the best first: three at most. */
   best: Candidate[];
 }
 
 /** Directions that a worker measures at a time: few, so that all end together, and enough to be worth a message. */
 const CHUNK = 16;
+
+/** What finer searches take of all the time, about. */
+const REFINEMENT = 0.2;
 
 /** How often what is known is rated while directions are measured. */
 const RATINGS = 12;
@@ -43,27 +41,27 @@ export function orient(pool: Pool, model: Held, options: Options, wanted: Search
     const measured = call.measured === undefined ? await measure(team, options, search, call) : [...call.measured];
     const { energies, scale, minima } = await team.ask((remote) => remote.rateDirections(measured, search));
     const candidates = rated(measured, energies);
-    call.onProgress?.("refinement", 0);
+    call.onProgress?.("directions", 1 - REFINEMENT);
     call.onCandidates?.({ directions: directionsOf(candidates), candidates });
     const starts = minima.flatMap((index) => candidates[index] ?? []);
-    const refined = [...starts];
+    const refined: Candidate[] = [];
     let done = 0;
     await team.share(
       starts,
       (remote, start) => remote.refineDirection(options, search, scale, start),
       (candidate, index) => {
         refined[index] = candidate;
-        call.onProgress?.("refinement", ++done / starts.length);
+        call.onProgress?.("directions", 1 - REFINEMENT * (1 - ++done / starts.length));
       },
     );
-    const best = await team.ask((remote) => remote.bestDirections([...refined, ...candidates]));
+    const best = await team.ask((remote) => remote.bestDirections(refined));
     return { candidates, best };
   });
 }
 
 async function measure(team: Team, options: Options, search: Required<Search>, call: OrientCall): Promise<Candidate[]> {
   call.onProgress?.("directions", 0);
-  const directions = await team.ask((remote) => remote.directions(search.directions));
+  const directions = await team.ask((remote) => remote.directions(options, search.directions));
   const count = directions.length / 3;
   const found: (Candidate | null)[] = Array.from({ length: count }, () => null);
   const places = spread(count);
@@ -86,7 +84,7 @@ async function measure(team: Team, options: Options, search: Required<Search>, c
     (candidates, index) => {
       for (const [i, place] of (places[index] ?? []).entries()) found[place] = candidates[i] ?? null;
       measured += candidates.length;
-      call.onProgress?.("directions", measured / count);
+      call.onProgress?.("directions", (1 - REFINEMENT) * (measured / count));
       if (call.onCandidates === undefined || rating !== null || measured < toRate || measured === count) return;
       toRate = measured + count / RATINGS;
       rating = rate().finally(() => (rating = null));

@@ -1,5 +1,7 @@
 /** Stands in for the core's search for directions until that is there: figures by glances. */
-import type { CuspError, Options, Slicer } from "../../pkg/cusp_slicer.js";
+import type { CuspError, Options, Slicer, Stage as CoreStage } from "../../pkg/cusp_slicer.js";
+
+export type Stage = CoreStage | "directions";
 
 /** What is searched for. */
 export interface Search {

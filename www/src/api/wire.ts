@@ -3,8 +3,8 @@
  *
  * The types of the core are re-exported from the generated package, never copied: a change there is a type error here.
  */
-import type { Comparison, Glance, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff } from "../../pkg/cusp_slicer.js";
-import type { Candidate, Rating, Scale, Search } from "./stand-in.js";
+import type { Comparison, Glance, MeshInfo, Metric, Options, Printer, Report, Tradeoff } from "../../pkg/cusp_slicer.js";
+import type { Candidate, Rating, Scale, Search, Stage } from "./stand-in.js";
 
 export type { Comparison, Glance, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff };
 export type { Candidate, Rating, Scale, Search };
@@ -58,12 +58,12 @@ export interface SlicerWorker {
   weightsFile(weights: Float32Array): Uint8Array;
   readWeights(file: Blob): Promise<Float32Array>;
   /** Unit vectors in the file's frame, three numbers each: so many evenly over the sphere, then the model's own flats. */
-  directions(count: number): Float64Array;
+  directions(options: Options, count: number): Float64Array;
   measureDirections(options: Options, directions: Float64Array): Candidate[];
   /** Candidates in the order of their directions. */
   rateDirections(candidates: Candidate[], search: Search): Rating;
   refineDirection(options: Options, search: Search, scale: Scale, candidate: Candidate): Candidate;
-  bestDirections(rated: Candidate[]): Candidate[];
+  bestDirections(refined: Candidate[]): Candidate[];
   printers(): Printer[];
 }
 

@@ -141,7 +141,7 @@ const api: SlicerWorker = {
     const weights = current().read_weights(await bytesOf(file));
     return Comlink.transfer(weights, [weights.buffer]);
   },
-  directions(count) {
+  directions(_options, count) {
     current();
     const found = directions(count);
     return Comlink.transfer(found, [found.buffer]);

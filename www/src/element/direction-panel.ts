@@ -142,8 +142,7 @@ export class CuspDirection extends LitElement {
 
   /** A rating of what is measured already shows no bar: it is there before one could read it. */
   #progress(busy: Busy, { best }: Searched): TemplateResult {
-    const isQuick = busy.stage === "refinement" && best.length > 0;
-    return html`<div class=${isQuick ? "again quick" : "again"}>
+    return html`<div class=${best.length > 0 ? "again quick" : "again"}>
       ${progressBar(busy, this.language, () => this.#say("cusp-search-cancel", null))}
     </div>`;
   }

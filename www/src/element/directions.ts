@@ -120,7 +120,7 @@ export class Directions {
         this.#host.changed();
       },
     };
-    this.busy = { task: "orient", name, stage: this.#measured === null ? "directions" : "refinement", fraction: 0, started_ms };
+    this.busy = { task: "orient", name, stage: "directions", fraction: 0, started_ms };
     this.#host.changed();
     try {
       for (let aims: Aims | null = null; aims !== this.aims && (aims === null || this.isCurrent); ) {

@@ -1,12 +1,11 @@
 /** What an element tells its page. None of these events bubbles out of a shadow root of the page's own. */
 import type { SlicerError } from "../api/error.js";
 import type { Model, Plan } from "../api/index.js";
-import type { Candidate } from "../api/wire.js";
-import type { Step } from "./progress.js";
+import type { Candidate, Stage } from "../api/wire.js";
 
 export interface ProgressDetail {
   task: "open" | "plan" | "export" | "orient";
-  stage: Step;
+  stage: Stage;
   /** 0 to 1 within the stage. */
   fraction: number;
   /** 0 to 1 within the task. */

@@ -1,33 +1,29 @@
 /** How far a task is, how long it will yet take, and the bar that shows both. */
 import { css, html, nothing, type TemplateResult } from "lit";
-import type { SearchStage } from "../api/index.js";
 import type { Stage } from "../api/wire.js";
 import type { Language } from "../texts/index.js";
-
-/** A part of a task. */
-export type Step = Stage | SearchStage;
 
 export interface Busy {
   task: "open" | "plan" | "export" | "orient";
   /** The model's name. */
   name: string;
-  stage: Step;
+  stage: Stage;
   /** 0 to 1 within the stage. */
   fraction: number;
   started_ms: number;
 }
 
-const ORDER: Record<Busy["task"], readonly Step[]> = {
+const ORDER: Record<Busy["task"], readonly Stage[]> = {
   open: ["load"],
   plan: ["load", "saliency", "ldi", "profile", "plan"],
   export: ["masks"],
-  orient: ["directions", "refinement"],
+  orient: ["directions"],
 };
 
 /** What part of a task its stages take: rays are most of a plan, on any model and machine. */
-const SHARE: Record<Step, number> = {
-  ...{ load: 0.05, saliency: 0.05, ldi: 0.7, profile: 0.1, plan: 0.1, masks: 1 },
-  ...{ directions: 0.7, refinement: 0.3 },
+const SHARE: Record<Stage, number> = {
+  ...{ load: 0.05, saliency: 0.05, ldi: 0.7, profile: 0.1, plan: 0.1 },
+  ...{ masks: 1, directions: 1 },
 };
 
 /** Before this much time, and this part, a guess of the rest would jump about. */

@@ -331,7 +331,6 @@ export const de = ({ counted, plural }: Format): Texts => ({
     plan: "Schichten werden geplant",
     masks: "Masken werden gezeichnet",
     directions: "Richtungen werden gemessen",
-    refinement: "Die besten Richtungen werden verfeinert",
     left: (seconds) => `noch etwa ${seconds}`,
     cancel: "Abbrechen",
   },

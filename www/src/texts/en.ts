@@ -330,7 +330,6 @@ export const en = ({ counted, plural }: Format) => ({
     plan: "Planning the layers",
     masks: "Drawing the masks",
     directions: "Measuring directions",
-    refinement: "Refining the best directions",
     left: (seconds: string) => `about ${seconds} left`,
     cancel: "Cancel",
   },

@@ -331,7 +331,6 @@ export const es = ({ counted, plural }: Format): Texts => ({
     plan: "Planificando las capas",
     masks: "Dibujando las máscaras",
     directions: "Midiendo direcciones",
-    refinement: "Afinando las mejores direcciones",
     left: (seconds) => `quedan unos ${seconds}`,
     cancel: "Cancelar",
   },

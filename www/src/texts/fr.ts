@@ -331,7 +331,6 @@ export const fr = ({ counted, plural }: Format): Texts => ({
     plan: "Planification des couches",
     masks: "Dessin des masques",
     directions: "Mesure des directions",
-    refinement: "Affinage des meilleures directions",
     left: (seconds) => `encore ${seconds} environ`,
     cancel: "Annuler",
   },

@@ -325,7 +325,6 @@ export const zh = ({ count: number }: Format): Texts => ({
     plan: "正在规划分层",
     masks: "正在绘制掩膜",
     directions: "正在测量各方向",
-    refinement: "正在细化最佳方向",
     left: (seconds) => `约剩 ${seconds}`,
     cancel: "取消",
   },

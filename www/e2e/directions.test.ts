@@ -1,0 +1,263 @@
+/** The search for the best building direction, as people use it. */
+import type { Locator, Page } from "playwright-core";
+import { expect, test } from "vitest";
+import { drop, layers, settled, state } from "./browser.js";
+import { pages } from "./pages.js";
+import { sphere } from "./solids.js";
+import { SOFTWARE_GL } from "./view-pages.js";
+
+const start = pages(SOFTWARE_GL);
+
+const panel = (page: Page): Locator => page.locator("cusp-direction");
+const disc = (page: Page, side: "Front" | "Back"): Locator =>
+  panel(page).locator("figure").filter({ hasText: side }).locator(".disc");
+
+async function example(query = "", options: Parameters<typeof start>[1] = {}): Promise<Page> {
+  const page = await start(`?backend=cpu&rays=512${query}`, { reducedMotion: "reduce", ...options });
+  await page.getByRole("button", { name: "Try the example" }).click();
+  await state(page, "done");
+  await page.waitForSelector("cusp-view");
+  return page;
+}
+
+async function search(page: Page): Promise<void> {
+  await panel(page).getByRole("button", { name: /Find the best direction|Search again/ }).click();
+  await searched(page);
+}
+
+async function searched(page: Page): Promise<void> {
+  await panel(page).getByRole("button", { name: /Find the best direction|Search again/ }).waitFor();
+}
+
+interface Seen {
+  red: number;
+  blue: number;
+  grey: number;
+  clear: number;
+}
+
+/** Parts of a disc's picture by colour. */
+function seen(page: Page, side: "Front" | "Back"): Promise<Seen> {
+  return disc(page, side)
+    .locator("canvas")
+    .evaluate((it) => {
+      const canvas = it as HTMLCanvasElement;
+      const pixels = canvas.getContext("2d")?.getImageData(0, 0, canvas.width, canvas.height).data ?? [];
+      const count = { red: 0, blue: 0, grey: 0, clear: 0 };
+      for (let at = 0; at < pixels.length; at += 4) {
+        const [r = 0, g = 0, b = 0, alpha = 0] = [pixels[at], pixels[at + 1], pixels[at + 2], pixels[at + 3]];
+        if (alpha === 0) count.clear++;
+        else if (Math.max(r, g, b) - Math.min(r, g, b) < 24) count.grey++;
+        else if (r > b + 90) count.red++;
+        else if (b > r + 60) count.blue++;
+      }
+      const whole = pixels.length / 4;
+      return { red: count.red / whole, blue: count.blue / whole, grey: count.grey / whole, clear: count.clear / whole };
+    });
+}
+
+/** A place of the front in the midst of grey: from the middle to the right and upwards, in radii. */
+function greyAt(page: Page): Promise<readonly [number, number]> {
+  return disc(page, "Front")
+    .locator("canvas")
+    .evaluate((it) => {
+      const canvas = it as HTMLCanvasElement;
+      const side = canvas.width;
+      const pixels = canvas.getContext("2d")?.getImageData(0, 0, side, side).data ?? [];
+      const isGrey = (x: number, y: number): boolean => {
+        const [r = 0, g = 0, b = 0, alpha = 0] = [0, 1, 2, 3].map((channel) => pixels[4 * (y * side + x) + channel]);
+        return alpha === 255 && Math.max(r, g, b) - Math.min(r, g, b) < 24;
+      };
+      const reach = Math.round(side / 80);
+      for (let y = reach; y < side - reach; y++) {
+        for (let x = reach; x < side - reach; x++) {
+          const around = [-reach, 0, reach].flatMap((dy) => [-reach, 0, reach].map((dx) => isGrey(x + dx, y + dy)));
+          if (around.every(Boolean)) return [(2 * x) / side - 1, 1 - (2 * y) / side] as const;
+        }
+      }
+      throw new Error("nothing is grey");
+    });
+}
+
+/** The middle of a disc, moved by parts of its radius. */
+async function at(page: Page, side: "Front" | "Back", right: number, up: number): Promise<{ x: number; y: number }> {
+  const it = disc(page, side);
+  await it.scrollIntoViewIfNeeded();
+  const box = await it.boundingBox();
+  if (box === null) throw new Error("the sphere is not there");
+  return { x: box.x + ((1 + right) * box.width) / 2, y: box.y + ((1 - up) * box.height) / 2 };
+}
+
+const figure = async (page: Page, name: string): Promise<string> =>
+  (await panel(page).locator(".looked div").filter({ has: page.locator("dt", { hasText: name }) }).locator("dd").innerText()).replace(",", "");
+
+test("a search fills the sphere with colours, from front and behind, and offers three directions with their pictures", async () => {
+  const page = await example();
+  await search(page);
+  for (const side of ["Front", "Back"] as const) {
+    const { red, blue, clear } = await seen(page, side);
+    expect(red, side).toBeGreaterThan(0.02);
+    expect(blue, side).toBeGreaterThan(0.02);
+    // What lies beside a disc, and nothing of it.
+    expect(Math.abs(clear - (1 - Math.PI / 4)), side).toBeLessThan(0.02);
+  }
+  const poses = panel(page).locator(".pose");
+  expect(await poses.count()).toBe(3);
+  await expect.poll(() => poses.locator("canvas[data-drawn]").count()).toBe(3);
+  const pictures = await poses.locator("canvas").evaluateAll((all) => all.map((it) => (it as HTMLCanvasElement).toDataURL()));
+  const blank = await page.evaluate(() => Object.assign(document.createElement("canvas"), { width: 256, height: 256 }).toDataURL());
+  expect(new Set([...pictures, blank]).size).toBe(4);
+});
+
+test("a best direction is applied by its button; the plan follows, and can be taken back", async () => {
+  const page = await example();
+  await page.evaluate(() => {
+    document.querySelector("cusp-slicer")?.addEventListener("cusp-direction", ({ detail }) => {
+      document.documentElement.dataset["promised"] = String(detail.figures?.layers);
+    });
+  });
+  const before = await layers(page);
+  await search(page);
+  const best = panel(page).locator(".pose").first();
+  await best.click();
+  await settled(page);
+  await expect.poll(() => best.getAttribute("aria-pressed")).toBe("true");
+  await expect.poll(() => layers(page)).not.toBe(before);
+  const promised = Number(await page.locator("html").getAttribute("data-promised"));
+  // Turned by an angle that is written down with six digits, a flat may fall on the other side of a bin.
+  expect(Math.abs((await layers(page)) - promised)).toBeLessThanOrEqual(1);
+  expect(promised).toBeLessThan(before);
+  await page.getByRole("button", { name: "Undo" }).click();
+  await settled(page);
+  expect(await layers(page)).toBe(before);
+});
+
+test("pointing at a direction shows its figures, clicking it stands the model so", async () => {
+  const page = await example();
+  const before = await layers(page);
+  await search(page);
+  const { x, y } = await at(page, "Front", 0.5, -0.3);
+  await page.mouse.move(x, y);
+  const promised = Number(await figure(page, "Layers"));
+  expect(await figure(page, "Size")).toMatch(/mm$/);
+  expect(Number(await figure(page, "Energy"))).toBeGreaterThan(0);
+  // Another place is another direction.
+  const elsewhere = await at(page, "Back", 0.2, 0.1);
+  const shown = (): Promise<string | null> => panel(page).locator(".looked").getAttribute("data-direction");
+  const first = await shown();
+  await page.mouse.move(elsewhere.x, elsewhere.y);
+  await expect.poll(shown).not.toBe(first);
+  await page.mouse.move(x, y);
+  await expect.poll(shown).toBe(first);
+  await page.mouse.click(x, y);
+  await settled(page);
+  await page.getByRole("button", { name: "As in the file" }).waitFor();
+  expect(Math.abs((await layers(page)) - promised)).toBeLessThanOrEqual(1);
+  expect(promised).not.toBe(before);
+});
+
+test("by keyboard: arrow keys go over the sphere, Enter applies", async () => {
+  const page = await example();
+  await search(page);
+  await panel(page).getByRole("application", { name: "Sphere of directions" }).focus();
+  const shown = (): Promise<string | null> => panel(page).locator("[data-direction]").getAttribute("data-direction");
+  const passed = new Set<string | null>();
+  await page.keyboard.press("ArrowDown");
+  passed.add(await shown());
+  for (let i = 0; i < 5; i++) {
+    await page.keyboard.press(i % 2 === 0 ? "ArrowRight" : "ArrowDown");
+    const before = [...passed];
+    await expect.poll(async () => before.includes(await shown())).toBe(false);
+    passed.add(await shown());
+  }
+  const promised = Number(await figure(page, "Layers"));
+  await page.keyboard.press("Enter");
+  await settled(page);
+  expect(Math.abs((await layers(page)) - promised)).toBeLessThanOrEqual(1);
+});
+
+test("the first touch shows a direction's figures, the second applies it", async () => {
+  const page = await example("", { hasTouch: true, viewport: { width: 390, height: 844 } });
+  const before = await layers(page);
+  await search(page);
+  const { x, y } = await at(page, "Front", 0.5, -0.3);
+  await page.touchscreen.tap(x, y);
+  await panel(page).locator("[data-direction]").waitFor();
+  expect(await layers(page)).toBe(before);
+  await panel(page).getByRole("button", { name: "Stand it so" }).waitFor();
+  await page.touchscreen.tap(x, y);
+  await page.getByRole("button", { name: "As in the file" }).waitFor();
+  await settled(page);
+});
+
+test("the sphere turns with the view and with the model; up is marked", async () => {
+  const page = await example();
+  await search(page);
+  const picture = (): Promise<string> => disc(page, "Front").locator("canvas").evaluate((it) => (it as HTMLCanvasElement).toDataURL());
+  const before = await picture();
+  await page.locator("cusp-view .stage").focus();
+  await page.keyboard.press("ArrowRight");
+  await expect.poll(picture).not.toBe(before);
+  const turned = await picture();
+  await panel(page).locator(".pose").first().click();
+  await expect.poll(picture).not.toBe(turned);
+  expect(await panel(page).locator(".up path").count()).toBeGreaterThan(0);
+});
+
+test("what counts may change without measuring again, and settings that matter make it out of date", async () => {
+  const page = await example();
+  await search(page);
+  const picture = (): Promise<string> => disc(page, "Front").locator("canvas").evaluate((it) => (it as HTMLCanvasElement).toDataURL());
+  const before = await picture();
+  await panel(page).getByLabel("Quality").selectOption("Overhang");
+  await expect.poll(picture).not.toBe(before);
+  await searched(page);
+  const rated = await picture();
+  await panel(page).getByRole("slider", { name: "What counts more" }).fill("2");
+  await expect.poll(picture).not.toBe(rated);
+  await searched(page);
+  expect(await panel(page).getByText("Found with other settings").count()).toBe(0);
+  await page.getByLabel("Tolerance", { exact: true }).fill("0.08");
+  await settled(page);
+  await panel(page).getByText("Found with other settings").waitFor();
+  await page.getByRole("button", { name: "Undo" }).click();
+  await settled(page);
+  expect(await panel(page).getByText("Found with other settings").count()).toBe(0);
+});
+
+test("directions that do not fit the printer are grey, and say why", async () => {
+  // As large as the plate allows upright: leaning, it is too large.
+  const page = await example("&printer=mars-4-ultra&height=115");
+  await search(page);
+  const { grey } = await seen(page, "Front");
+  expect(grey).toBeGreaterThan(0.01);
+  const [right, up] = await greyAt(page);
+  const { x, y } = await at(page, "Front", right, up);
+  await page.mouse.move(x, y);
+  await panel(page).getByText(/Too (wide|high)/).first().waitFor();
+  const before = await layers(page);
+  await page.mouse.click(x, y);
+  await settled(page);
+  expect(await layers(page)).toBe(before);
+});
+
+test("a search is cancelled by its button and by Escape, and leaves what it measured", async () => {
+  const page = await start("?backend=cpu&rays=512");
+  await drop(page, { name: "ball.stl", bytes: sphere(10, 600).bytes });
+  await state(page, "done");
+  const find = panel(page).getByRole("button", { name: "Find the best direction" });
+  await find.click();
+  await panel(page).getByRole("progressbar").waitFor();
+  // Once something is seen.
+  await expect.poll(async () => (await seen(page, "Front")).clear).toBeLessThan(0.99);
+  await panel(page).getByRole("button", { name: "Cancel" }).click();
+  await find.waitFor();
+  expect(await panel(page).locator(".pose").count()).toBe(0);
+  expect((await seen(page, "Front")).clear).toBeLessThan(0.99);
+  await find.click();
+  await panel(page).getByRole("progressbar").waitFor();
+  await page.keyboard.press("Escape");
+  await find.waitFor();
+  // The plan that was there is not touched.
+  expect(await layers(page)).toBeGreaterThan(0);
+});
