@@ -30,6 +30,12 @@ test.each(["light", "dark"] as const)("nothing is amiss in any state: %s", async
   await state(page, "done");
   expect(await broken(page)).toEqual([]);
 
+  await page.getByRole("button", { name: "Find the best direction" }).click();
+  await page.locator("cusp-direction .pose").first().waitFor();
+  await page.getByRole("application", { name: "Sphere of directions" }).press("ArrowRight");
+  await page.getByRole("button", { name: "Stand it so" }).waitFor();
+  expect(await broken(page)).toEqual([]);
+
   await page.getByRole("button", { name: "What matters" }).click();
   await page.getByRole("checkbox", { name: "Fill a smooth region" }).check();
   expect(await broken(page)).toEqual([]);

@@ -2,6 +2,7 @@
 import type { Browser, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, beforeEach, expect, test } from "vitest";
 import type * as Api from "../src/api/index.js";
+import { binaryStl, exampleTriangles } from "../src/page/example.js";
 import { launch } from "./browser.js";
 import { servePacked } from "./packed.js";
 import type { Served } from "./serve.js";
@@ -14,6 +15,7 @@ declare global {
 }
 
 const ball = sphere(10, 96).bytes;
+const goblet = binaryStl(exampleTriangles());
 // Enough facets and rays for each stage to be seen.
 const heavy = sphere(10, 700).bytes;
 
@@ -25,7 +27,7 @@ const complaints: string[] = [];
 beforeAll(async () => {
   const html = `<!doctype html><meta charset="utf-8" /><script type="module" src="main.js"></script>`;
   const main = `window.api = await import("./cusp-slicer/index.js");`;
-  served = await servePacked({ "index.html": html, "main.js": main, "ball.stl": ball, "heavy.stl": heavy, "bad.stl": "no" });
+  served = await servePacked({ "index.html": html, "main.js": main, "ball.stl": ball, "heavy.stl": heavy, "goblet.stl": goblet, "bad.stl": "no" });
   browser = await launch();
 }, 120_000);
 
@@ -180,4 +182,59 @@ test("what waits for its turn is aborted at once, and a stream that is cancelled
   });
   expect(found).toMatchObject({ second: "AbortError", disposed: "AbortError" });
   expect(found.size).toBeGreaterThan(1000);
+});
+
+test("a search for directions gives the same with any number of workers, and with what it measured before", async () => {
+  const found = await page.evaluate(async () => {
+    const search = { directions: 200, quality: "roughness" } as const;
+    const searched = async (workers: number) => {
+      const slicer = window.api.createSlicer({ workers });
+      await slicer.load("goblet.stl");
+      let known = 0;
+      const onCandidates: NonNullable<Api.OrientCall["onCandidates"]> = ({ candidates }) =>
+        (known = candidates.filter((candidate) => candidate !== null).length);
+      const { schema, candidates, best } = await slicer.orient({}, search, { onCandidates });
+      const again = await slicer.orient({}, search, { measured: candidates });
+      const [first] = best;
+      const plan = await slicer.plan({ rays: 512, backend: "cpu", ...(first && { rotation: first.rotation }) });
+      slicer.dispose();
+      return { schema, known, candidates, best, again: again.best, layers: plan.report.layers };
+    };
+    return Promise.all([1, 2, 3].map(searched));
+  });
+  const [one, ...others] = found;
+  if (one === undefined) throw new Error("nothing was found");
+  for (const other of others) expect(other).toEqual(one);
+  expect(one.again).toEqual(one.best);
+  expect(one.schema).toBe(1);
+  expect(one.known).toBe(one.candidates.length);
+  expect(one.candidates.length).toBeGreaterThanOrEqual(200);
+  const [first] = one.best;
+  expect(first?.energy).toBeLessThanOrEqual(Math.min(...one.candidates.map(({ energy }) => energy ?? Infinity)));
+  expect(one.layers).toBe(first?.figures?.layers);
+});
+
+test("a search is aborted, by its signal and with its slicer; what cannot be searched for has a code", async () => {
+  const found = await page.evaluate(async () => {
+    const slicer = window.api.createSlicer({ workers: 2 });
+    const nameOf = (running: Promise<unknown>): Promise<string> =>
+      running.then(
+        () => "it ended",
+        (error: Error & { code?: string }) => error.code || error.name,
+      );
+    const before = await nameOf(slicer.orient());
+    await slicer.load("heavy.stl");
+    const abort = new AbortController();
+    const aborted = nameOf(slicer.orient({}, {}, { signal: abort.signal, onCandidates: () => abort.abort() }));
+    const names = [before, await aborted];
+    const { best } = await slicer.orient({}, { directions: 20 });
+    names.push(await nameOf(slicer.orient({}, { directions: 20, alpha: 2 })));
+    names.push(await nameOf(slicer.orient({ printer: "nobody" }, { directions: 20 })));
+    const left = nameOf(slicer.orient());
+    slicer.dispose();
+    names.push(await left);
+    return { names, best: best.length };
+  });
+  expect(found.names).toEqual(["no-model", "AbortError", "bad-options", "bad-options", "AbortError"]);
+  expect(found.best).toBeGreaterThan(0);
 });

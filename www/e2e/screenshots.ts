@@ -8,10 +8,18 @@ import { serve } from "./serve.js";
 /** A picture in a repository is fetched by everyone who clones it. */
 const LIMIT_BYTES = 200_000;
 
-const SHOTS: readonly (readonly [string, BrowserContextOptions])[] = [
-  ["page-wide", { viewport: { width: 1180, height: 780 } }],
-  ["page-dark", { viewport: { width: 1180, height: 780 }, colorScheme: "dark" }],
-  ["page-narrow", { viewport: { width: 390, height: 1500 } }],
+interface Shot {
+  name: string;
+  options: BrowserContextOptions;
+  /** Whether it is of a search for directions, not of the page from its top. */
+  isOfDirections?: true;
+}
+
+const SHOTS: readonly Shot[] = [
+  { name: "page-wide", options: { viewport: { width: 1180, height: 780 } } },
+  { name: "page-dark", options: { viewport: { width: 1180, height: 780 }, colorScheme: "dark" } },
+  { name: "page-narrow", options: { viewport: { width: 390, height: 1500 } } },
+  { name: "page-direction", options: { viewport: { width: 1180, height: 780 } }, isOfDirections: true },
 ];
 
 export async function main([folder]: string[]): Promise<void> {
@@ -20,7 +28,7 @@ export async function main([folder]: string[]): Promise<void> {
   const served = await serve();
   const browser = await launch();
   try {
-    for (const [name, options] of SHOTS) {
+    for (const { name, options, isOfDirections } of SHOTS) {
       const { page } = await open(browser, served.address, { reducedMotion: "reduce", ...options });
       await page.getByRole("button", { name: "Try the example" }).click();
       await state(page, "done");
@@ -31,10 +39,16 @@ export async function main([folder]: string[]): Promise<void> {
       await maskOf(page, layer - 1);
       await page.evaluate(() => document.fonts.ready);
       const path = `${into}/${name}.png`;
-      await page.evaluate(() => scrollTo(0, 0));
-      await page.waitForTimeout(500);
-      // The top of the page: the whole of it would be too large a picture.
-      await page.screenshot({ path });
+      if (isOfDirections) {
+        await page.getByRole("button", { name: "Find the best direction" }).click();
+        await page.locator("cusp-direction .pose canvas[data-drawn]").nth(2).waitFor();
+        await page.locator("cusp-slicer [part=direction]").screenshot({ path });
+      } else {
+        await page.evaluate(() => scrollTo(0, 0));
+        await page.waitForTimeout(500);
+        // The top of the page: the whole of it would be too large a picture.
+        await page.screenshot({ path });
+      }
       const { size } = await stat(path);
       if (size > LIMIT_BYTES) throw new Error(`${name}.png is ${size} bytes, more than ${LIMIT_BYTES}`);
       console.log(`${name}.png ${size} bytes`);

@@ -30,6 +30,19 @@ export function sphere(radius: number, around: number): Solid {
   return { bytes: binaryStl(packed), volume_mm3: volume(packed) };
 }
 
+/** The same surface, each triangle cut into four at the middles of its sides. */
+export function finer(triangles: Float32Array): Float32Array {
+  const out = new Float32Array(4 * triangles.length);
+  for (let at = 0; at < triangles.length; at += 9) {
+    const corner = (k: number): number[] => [...triangles.subarray(at + 3 * (k % 3), at + 3 * (k % 3) + 3)];
+    const middle = (k: number): number[] => corner(k).map((part, axis) => (part + (corner(k + 1)[axis] ?? 0)) / 2);
+    const [a, b, c] = [corner(0), corner(1), corner(2)];
+    const [ab, bc, ca] = [middle(0), middle(1), middle(2)];
+    out.set([a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca].flat(), 4 * at);
+  }
+  return out;
+}
+
 /** Signed volume of triangles given as nine coordinates each. */
 export function volume(triangles: Float32Array): number {
   let six = 0;

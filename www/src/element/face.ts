@@ -10,6 +10,7 @@ import type { Rotation } from "../view/pose.js";
 import type { Searched } from "./direction-panel.js";
 import type { Aims } from "./directions.js";
 import { modelCard } from "./model-card.js";
+import type { Scaled } from "./model-view.js";
 import type { Painted } from "./events.js";
 import type { Panel } from "./panel-names.js";
 import { explain, type Problem } from "./problem.js";
@@ -171,7 +172,7 @@ function results(drawn: Drawn, result: Result): TemplateResult {
             .shown=${shown}
             .layer=${layer}
             .rotation=${turning ?? rotationOf(settings.rotation)}
-            .scale=${scaleOf(session)}
+            .scaled=${scaledOf(session)}
             .printer=${session.printers.find(({ name }) => name === settings.printer) ?? null}
             .settings=${settings}
             .weights=${session.weights}
@@ -268,19 +269,22 @@ function searchedOf({ directions: { aims, found, best, busy, isCurrent, options 
   return { aims, found, best, busy, isCurrent, options };
 }
 
+const UPRIGHT: Rotation = [0, 0, 0, 1];
+
 const rotations = new Map<string, Rotation>();
 
 /** Made once, since another array would be another rotation. */
 function rotationOf(text: string): Rotation {
   let rotation = rotations.get(text);
-  if (rotation === undefined) rotations.set(text, (rotation = quaternion(text) ?? [0, 0, 0, 1]));
+  if (rotation === undefined) rotations.set(text, (rotation = quaternion(text) ?? UPRIGHT));
   return rotation;
 }
 
-/** What the file's lengths are multiplied by: a height is that of the model as it stands. */
-function scaleOf({ result, model, settings }: Session): number {
-  const height_mm = settings.rotation === "" ? model?.info.size_mm[2] : undefined;
-  return result === null || height_mm === undefined || height_mm === 0 ? 1 : result.report.height_mm / height_mm;
+/** A height that is asked for is that of the model as it stands, or as it is being turned. */
+function scaledOf({ result, turning, shown }: Session): Scaled | null {
+  if (result?.options.height_mm === undefined) return null;
+  const height_mm = turning === null ? result.report.height_mm : (shown?.z_mm.at(-1) ?? result.report.height_mm);
+  return { height_mm, rotation: turning ?? result.options.rotation ?? UPRIGHT };
 }
 
 /** Said of a result that the settings on show did not give. */

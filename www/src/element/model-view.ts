@@ -8,6 +8,7 @@ import type { Look } from "../view/model.js";
 import type { PaletteName } from "../view/palette.js";
 import type { BuildVolume } from "../view/plate.js";
 import type { Rotation } from "../view/pose.js";
+import { heightOf } from "../view/turn.js";
 import { BRUSH, rebased, type Brush } from "../view/brush.js";
 import type { CuspView } from "../view/cusp-view.js";
 import type { PaintDetail, RotateDetail } from "../view/events.js";
@@ -48,6 +49,11 @@ export function viewTexts({ texts: { view: words }, format }: Language): ViewTex
   };
 }
 
+export interface Scaled {
+  readonly height_mm: number;
+  readonly rotation: Rotation;
+}
+
 export class CuspModel extends LitElement {
   static override properties = {
     slicer: { attribute: false },
@@ -55,7 +61,7 @@ export class CuspModel extends LitElement {
     shown: { attribute: false },
     layer: { type: Number },
     rotation: { attribute: false },
-    scale: { type: Number },
+    scaled: { attribute: false, hasChanged: (a: unknown, b: unknown) => JSON.stringify(a) !== JSON.stringify(b) },
     printer: { attribute: false },
     language: { attribute: false },
     plot: { attribute: false },
@@ -82,7 +88,8 @@ export class CuspModel extends LitElement {
   declare shown: Shown | null;
   declare layer: number;
   declare rotation: Rotation;
-  declare scale: number;
+  /** The height that the model is scaled to, and how it stands when it is that high; null for the file's own size. */
+  declare scaled: Scaled | null;
   declare printer: Printer | null;
   declare language: Language;
   /** Where the chart beside it shows which heights; null without a chart. */
@@ -106,6 +113,8 @@ export class CuspModel extends LitElement {
   declare canUndo: boolean;
   declare canRedo: boolean;
 
+  /** What the file's lengths are multiplied by. */
+  #scale = 1;
   #texts: { of: Language; words: ViewTexts } | null = null;
   #asked: Model | null = null;
   readonly #resized = new ResizeObserver(() => this.requestUpdate());
@@ -117,7 +126,7 @@ export class CuspModel extends LitElement {
     this.shown = null;
     this.layer = 0;
     this.rotation = [0, 0, 0, 1];
-    this.scale = 1;
+    this.scaled = null;
     this.printer = null;
     this.language = languageOf();
     this.plot = null;
@@ -186,6 +195,7 @@ export class CuspModel extends LitElement {
 
   override willUpdate(changed: PropertyValues<this>): void {
     if (changed.has("model") && this.model !== this.#asked) void this.#fetch();
+    if (changed.has("positions") || changed.has("scaled")) this.#fit();
     const shows = this.tool === "paint" && (this.colours === "saliency" || this.#counts);
     if (shows && this.positions !== null && this.saliency === null && !this.isFinding) void this.#find();
   }
@@ -217,7 +227,7 @@ export class CuspModel extends LitElement {
           ? html`<cusp-view
               .positions=${this.positions}
               .rotation=${this.rotation}
-              .scale=${this.scale}
+              .scale=${this.#scale}
               .z_mm=${shown?.z_mm ?? []}
               .thickness_mm=${shown?.thickness_mm ?? []}
               .limits=${shown?.limits ?? [0, 0]}
@@ -294,9 +304,15 @@ export class CuspModel extends LitElement {
     });
   }
 
+  #fit(): void {
+    const { positions, scaled } = this;
+    const own_mm = positions === null || scaled === null ? 0 : heightOf(positions, scaled.rotation);
+    this.#scale = own_mm > 0 ? (scaled?.height_mm ?? own_mm) / own_mm : 1;
+  }
+
   /** The model's longest side as it stands, mm; a brush wider than that is of no use. */
   get #reach(): number {
-    return this.scale * Math.max(...(this.model?.info.size_mm ?? [1]));
+    return this.#scale * Math.max(...(this.model?.info.size_mm ?? [1]));
   }
 
   readonly #painted = (event: CustomEvent<PaintDetail>): void => {

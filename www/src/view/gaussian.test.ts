@@ -1,8 +1,8 @@
 import { expect, test } from "vitest";
 import { drawSphere, Nearest, placeOf, seenAt, type Side } from "./gaussian.js";
 import type { Rgb } from "./palette.js";
-import { layFlat, turned, UPRIGHT, type Triple } from "./pose.js";
-import { back, combined, lookFrom, turn, unit } from "./turn.js";
+import { extentOf, layFlat, sizeOf, turned, UPRIGHT, type Triple } from "./pose.js";
+import { back, combined, heightOf, lookFrom, turn, unit } from "./turn.js";
 
 /** Points of a spiral over the sphere. */
 function spiral(count: number): Float64Array {
@@ -27,6 +27,13 @@ test("turning is what the view's own turning is", () => {
   close(turn(combined(a, b), [1, 2, 3]), turn(b, turn(a, [1, 2, 3])));
   close(turn(back(a), turn(a, [1, 2, 3])), [1, 2, 3]);
   close(turn(layFlat(UPRIGHT, [1, 0, 0]), [1, 0, 0]), [0, 0, -1]);
+});
+
+test("a turned model is as high as its view says", () => {
+  const points = Float32Array.from({ length: 90 }, (_, i) => Math.sin(7 * i));
+  const rotation = turned(turned(UPRIGHT, "x", 30), "y", 50);
+  expect(heightOf(points, rotation)).toBeCloseTo(sizeOf(extentOf(points, rotation, 1))[2], 12);
+  expect(heightOf(new Float32Array(0), rotation)).toBe(0);
 });
 
 test("a camera that looks from somewhere has that towards its viewer, and z upwards", () => {

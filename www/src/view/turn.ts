@@ -42,3 +42,16 @@ export function lookFrom(from: Triple): Rotation {
   const w = Math.sqrt(Math.max(1e-12, 1 + xx + yy + zz)) / 2;
   return [(yz - zy) / (4 * w), (zx - xz) / (4 * w), (xy - yx) / (4 * w), w];
 }
+
+/** How high a model stands that is turned so, in the unit of its points, three numbers each. */
+export function heightOf(points: Float32Array, rotation: Rotation): number {
+  const [a, b, c] = turn(back(rotation), [0, 0, 1]);
+  let least = Infinity;
+  let greatest = -Infinity;
+  for (let at = 0; at + 2 < points.length; at += 3) {
+    const z = a * (points[at] ?? 0) + b * (points[at + 1] ?? 0) + c * (points[at + 2] ?? 0);
+    if (z < least) least = z;
+    if (z > greatest) greatest = z;
+  }
+  return points.length < 3 ? 0 : greatest - least;
+}
