@@ -125,6 +125,9 @@ export class CuspSphere extends LitElement {
         width: 100%;
         height: 100%;
       }
+      canvas {
+        opacity: var(--cusp-faded, 1);
+      }
       svg {
         overflow: visible;
         pointer-events: none;

@@ -83,9 +83,9 @@ export const directionStyles = css`
     gap: 1.25rem;
     margin-top: 1.25rem;
   }
-  .old cusp-sphere,
-  .old .pose {
-    opacity: 0.6;
+  /* Words stay legible. */
+  .old {
+    --cusp-faded: 0.5;
   }
   .globe {
     display: grid;
@@ -175,6 +175,7 @@ export const directionStyles = css`
     height: 7rem;
     border-radius: 6px;
     background: color-mix(in srgb, var(--cusp-card) 94%, var(--cusp-text));
+    opacity: var(--cusp-faded, 1);
   }
   .pose[aria-pressed="true"] {
     border-color: var(--cusp-accent);
