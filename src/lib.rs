@@ -42,6 +42,7 @@ pub mod saliency;
 pub mod stl;
 pub mod weights;
 
+pub mod direction;
 mod error;
 pub mod options;
 pub mod pipeline;

@@ -1,6 +1,8 @@
 //! From the shape of a model to a plan and its figures: which errors a planner sees, at which tolerance, with which
 //! wishes.
 
+use std::borrow::Borrow;
+
 use crate::grid::Bins;
 use crate::ldi::Ldi;
 use crate::ldi::visibility::{Visibility, visibility};
@@ -9,6 +11,7 @@ use crate::options::{Options, Planner, Snap};
 use crate::plan::optimal::Objective;
 use crate::plan::tradeoff::{self, Goal, TradeoffPoint};
 use crate::plan::{Limits, Plan, PlanError, greedy, optimal, uniform};
+use crate::profile::relief::{Flat, Relief};
 use crate::profile::weighted::Weighted;
 use crate::profile::wishes::wishes;
 use crate::profile::{LayerErrors, Metric, Profile, Shape, Source, section, steepest};
@@ -19,6 +22,8 @@ use crate::report::{PlannerReport, UniformReport, Warning};
 pub(crate) struct Shapes {
     pub exact: Shape,
     pub sampled: Shape,
+    /// Horizontal facets that are not hidden.
+    flats: Vec<Flat>,
     /// Facets wholly inside the solid.
     hidden: Vec<bool>,
     /// Whether bodies overlap in a way that only rays can sort out.
@@ -38,45 +43,45 @@ struct Weighing {
 impl Shapes {
     pub fn new(mesh: &Mesh, ldi: &Ldi, bins: Bins) -> Self {
         let Visibility { hidden, overlaps } = visibility(mesh, ldi);
+        let relief = Relief::of(mesh, bins);
         let shape = |steepest| Shape {
             bins,
             steepest,
             areas_mm2: Vec::new(),
         };
         Self {
-            exact: shape(steepest::exact(mesh, &hidden, bins)),
-            sampled: shape(steepest::sampled(mesh, ldi, &hidden, bins)),
+            exact: shape(steepest::exact(&relief, &hidden)),
+            sampled: shape(steepest::sampled(&relief, ldi, &hidden)),
+            flats: relief.flats_but(&hidden),
             hidden,
             overlaps,
             weighing: None,
         }
     }
 
-    /// The shape of the mesh alone, where there are no rays: it stands for both sources, and no facet is known to be hidden.
-    pub fn of_mesh(mesh: &Mesh, bins: Bins, with_areas: bool) -> Self {
+    /// The shape of facets alone, where there are no rays: it stands for both sources, and no facet is known to be hidden.
+    /// `areas_mm2` may be empty if the metric is not made of them.
+    pub fn of_relief(relief: &Relief, areas_mm2: Vec<f64>) -> Self {
         let exact = Shape {
-            bins,
-            steepest: steepest::exact(mesh, &[], bins),
-            areas_mm2: if with_areas {
-                section::exact(mesh, &[], bins)
-            } else {
-                Vec::new()
-            },
+            bins: relief.bins,
+            steepest: steepest::exact(relief, &[]),
+            areas_mm2,
         };
         Self {
             sampled: exact.clone(),
             exact,
+            flats: relief.flats.clone(),
             hidden: Vec::new(),
             overlaps: false,
             weighing: None,
         }
     }
 
-    /// Weighs the facets of the surface for a metric, or all alike; returns whether anything was measured for it. Without an
-    /// LDI what is exact stands for both sources.
-    pub fn weigh(
+    /// Weighs the facets of the surface for a metric, or all alike; returns whether anything was measured for it, on the
+    /// relief that the shapes are of. Without an LDI what is exact stands for both sources.
+    pub fn weigh<R: Borrow<Relief>>(
         &mut self,
-        mesh: &Mesh,
+        relief: impl FnOnce() -> R,
         ldi: Option<&Ldi>,
         metric: Metric,
         weights: Option<Vec<f32>>,
@@ -89,8 +94,8 @@ impl Shapes {
         if kept.is_some_and(|kept| kept.metric == metric && kept.weights == weights) {
             return false;
         }
-        let bins = self.exact.bins;
-        let measure = |ldi| Weighted::new(mesh, ldi, &self.hidden, bins, metric, &weights);
+        let relief = relief();
+        let measure = |ldi| Weighted::new(relief.borrow(), ldi, &self.hidden, metric, &weights);
         let exact = measure(None);
         let sampled = ldi.map_or_else(|| exact.clone(), |ldi| measure(Some(ldi)));
         self.weighing = Some(Weighing {
@@ -178,7 +183,7 @@ pub(crate) struct PlanReport {
 }
 
 impl<'a> Planning<'a> {
-    pub fn new(mesh: &Mesh, height_mm: f64, shapes: &'a Shapes, options: &Options) -> Self {
+    pub fn new(height_mm: f64, shapes: &'a Shapes, options: &Options) -> Self {
         let exact = shapes.errors(options.metric, Source::Exact);
         let errors = match options.source {
             Source::Exact => exact.clone(),
@@ -189,7 +194,7 @@ impl<'a> Planning<'a> {
             Snap::Auto => {
                 let cusp = shapes.of(options.source).profile(Metric::Cusp);
                 let area_mm2 = options.flat_area_mm2;
-                wishes(mesh, &shapes.hidden, &cusp.density, cusp.bins, area_mm2)
+                wishes(&shapes.flats, &cusp.density, cusp.bins, area_mm2)
             }
         };
         Self {

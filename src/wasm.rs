@@ -10,6 +10,7 @@ use serde::Serialize;
 use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
+use crate::direction::{self, Candidate, Rating, Scale, Search};
 use crate::error::Error;
 use crate::options::Options;
 use crate::pipeline::{self, Stage};
@@ -86,6 +87,52 @@ pub fn defaults() -> JsValue {
     to_js(&Options::default())
 }
 
+/// Energies of candidates, in their order; some may still be missing.
+///
+/// # Errors
+/// Throws a `CuspError`.
+#[expect(
+    clippy::needless_pass_by_value,
+    reason = "values from JavaScript come by value"
+)]
+#[wasm_bindgen]
+pub fn rate_directions(
+    candidates: Vec<Ts<Candidate>>,
+    search: Ts<Search>,
+) -> Result<Ts<Rating>, JsValue> {
+    let search = search.to_rust().map_err(throw_conversion)?;
+    direction::rate(&to_rust(&candidates)?, &search)
+        .into_ts()
+        .map_err(throw_conversion)
+}
+
+/// The best of candidates that finer searches found, and the best of those that differ from it: three at most.
+///
+/// # Errors
+/// Throws a `CuspError`.
+#[expect(
+    clippy::needless_pass_by_value,
+    reason = "values from JavaScript come by value"
+)]
+#[wasm_bindgen]
+pub fn best_directions(refined: Vec<Ts<Candidate>>) -> Result<Vec<Ts<Candidate>>, JsValue> {
+    to_ts(direction::best(&to_rust(&refined)?))
+}
+
+fn to_rust(candidates: &[Ts<Candidate>]) -> Result<Vec<Candidate>, JsValue> {
+    let candidates = candidates.iter().map(Ts::to_rust);
+    candidates
+        .collect::<Result<_, _>>()
+        .map_err(throw_conversion)
+}
+
+fn to_ts(candidates: Vec<Candidate>) -> Result<Vec<Ts<Candidate>>, JsValue> {
+    let candidates = candidates.iter().map(Tsify::into_ts);
+    candidates
+        .collect::<Result<_, _>>()
+        .map_err(throw_conversion)
+}
+
 #[wasm_bindgen]
 impl Slicer {
     /// Reads an STL, binary or ASCII.
@@ -159,6 +206,68 @@ impl Slicer {
         let (glance, profile) = self.slicer.glance(&options).map_err(throw)?;
         self.glanced = profile.density;
         glance.into_ts().map_err(throw_conversion)
+    }
+
+    /// The directions of a search: so many unit vectors spread evenly, and those of the model's largest flats, three numbers
+    /// each.
+    ///
+    /// # Errors
+    /// Throws a `CuspError`.
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "values from JavaScript come by value"
+    )]
+    pub fn directions(&mut self, options: Ts<Options>, count: usize) -> Result<Vec<f64>, JsValue> {
+        let options = options.to_rust().map_err(throw_conversion)?;
+        let directions = self.slicer.directions(&options, count).map_err(throw)?;
+        Ok(directions.into_iter().flatten().collect())
+    }
+
+    /// Measures directions, three numbers each, in their order.
+    ///
+    /// # Errors
+    /// Throws a `CuspError`.
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "values from JavaScript come by value"
+    )]
+    pub fn measure_directions(
+        &mut self,
+        options: Ts<Options>,
+        directions: &[f64],
+    ) -> Result<Vec<Ts<Candidate>>, JsValue> {
+        let options = options.to_rust().map_err(throw_conversion)?;
+        let (directions, _) = directions.as_chunks::<3>();
+        let mut silent = |_, _| ControlFlow::Continue(());
+        let measured = self
+            .slicer
+            .measure_directions(&options, directions, &mut silent);
+        to_ts(measured.map_err(throw)?)
+    }
+
+    /// The best direction near a rated candidate, by a finer search.
+    ///
+    /// # Errors
+    /// Throws a `CuspError`.
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "values from JavaScript come by value"
+    )]
+    pub fn refine_direction(
+        &mut self,
+        options: Ts<Options>,
+        search: Ts<Search>,
+        scale: Ts<Scale>,
+        candidate: Ts<Candidate>,
+    ) -> Result<Ts<Candidate>, JsValue> {
+        let options = options.to_rust().map_err(throw_conversion)?;
+        let search = search.to_rust().map_err(throw_conversion)?;
+        let scale = scale.to_rust().map_err(throw_conversion)?;
+        let candidate = candidate.to_rust().map_err(throw_conversion)?;
+        let refined = self
+            .slicer
+            .refine_direction(&options, &search, &scale, &candidate);
+        refined.map_err(throw)?.into_ts().map_err(throw_conversion)
     }
 
     /// The profile of the last glance, as that of a plan.

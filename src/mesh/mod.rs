@@ -248,7 +248,8 @@ impl Pose {
     }
 }
 
-fn rotation_matrix(rotation: [f64; 4]) -> Result<DMat3, MeshError> {
+/// The rotation by a quaternion x, y, z, w of any length but 0.
+pub(crate) fn rotation_matrix(rotation: [f64; 4]) -> Result<DMat3, MeshError> {
     let quaternion = DQuat::from_array(rotation);
     let length = quaternion.length();
     if !length.is_normal() {

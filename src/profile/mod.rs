@@ -2,6 +2,7 @@
 
 pub mod area;
 pub mod cusp;
+pub mod relief;
 pub mod roughness;
 pub mod section;
 pub mod steepest;

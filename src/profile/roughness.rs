@@ -18,7 +18,7 @@ pub fn density(steepest: &[f32]) -> Vec<f32> {
 }
 
 /// The density of a surface by its `n_z²`.
-pub(super) fn density_of(square: f32) -> f32 {
+pub(crate) fn density_of(square: f32) -> f32 {
     let sine_square = 1.0 - square;
     if sine_square * (CAP * CAP) <= 1.0 {
         CAP

@@ -3,9 +3,8 @@
 //!
 //! Squares, because a division a facet is cheaper than a square root as well, and no less exact.
 
-use crate::grid::Bins;
+use super::relief::Relief;
 use crate::ldi::{Hit, Ldi};
-use crate::mesh::Mesh;
 use crate::parallel;
 
 /// What a bin without any surface has.
@@ -14,28 +13,28 @@ pub const NO_SURFACE: f32 = -1.0;
 /// Hits that are worth a thread of their own.
 const CHUNK_HITS: usize = 1 << 18;
 
-/// For each bin the largest `n_z²` over the hits in it (eq. 5), [`NO_SURFACE`] where there are none. `mesh` is the
-/// one that `ldi` was sampled from. Facets that `hidden` names have no part; it may be empty.
+/// For each bin the largest `n_z²` over the hits in it (eq. 5), [`NO_SURFACE`] where there are none. `relief` is that of
+/// the mesh that `ldi` was sampled from. Facets that `hidden` names have no part; it may be empty.
 ///
 /// Cost: linear in hits.
-pub fn sampled(mesh: &Mesh, ldi: &Ldi, hidden: &[bool], bins: Bins) -> Vec<f32> {
-    sampled_maxima(mesh, ldi, hidden, bins, |facet| mesh.n_z_squared(facet))
+pub fn sampled(relief: &Relief, ldi: &Ldi, hidden: &[bool]) -> Vec<f32> {
+    sampled_maxima(relief, ldi, hidden, |facet| relief.n_z_squared[facet])
 }
 
 /// The same of any value of facets that is not negative.
 pub(super) fn sampled_maxima(
-    mesh: &Mesh,
+    relief: &Relief,
     ldi: &Ldi,
     hidden: &[bool],
-    bins: Bins,
     value: impl Fn(usize) -> f32,
 ) -> Vec<f32> {
-    let values: Vec<f32> = (0..mesh.facets.len())
+    let bins = relief.bins;
+    let values: Vec<f32> = (0..relief.spans.len())
         .map(|facet| {
-            if facet < mesh.surface_facets && hidden.get(facet) != Some(&true) {
-                value(facet)
-            } else {
+            if hidden.get(facet) == Some(&true) {
                 NO_SURFACE
+            } else {
+                value(facet)
             }
         })
         .collect();
@@ -46,8 +45,10 @@ pub(super) fn sampled_maxima(
     let parts = parallel::map(chunks, |hits: &[Hit]| {
         let mut maxima = vec![NO_SURFACE; bins.count];
         for hit in hits {
-            let value = values[hit.facet() as usize];
-            raise(&mut maxima[bins.of(f64::from(hit.z_mm))], value);
+            // Facets beyond these only close the surface.
+            if let Some(&value) = values.get(hit.facet() as usize) {
+                raise(&mut maxima[bins.of(f64::from(hit.z_mm))], value);
+            }
         }
         maxima
     });
@@ -64,30 +65,23 @@ pub(super) fn sampled_maxima(
 /// Facets that `hidden` names have no part; it may be empty.
 ///
 /// Cost: linear in facets and bins, times the logarithm of the bins that the longest facet spans.
-pub fn exact(mesh: &Mesh, hidden: &[bool], bins: Bins) -> Vec<f32> {
-    exact_maxima(mesh, hidden, bins, |facet| mesh.n_z_squared(facet))
+pub fn exact(relief: &Relief, hidden: &[bool]) -> Vec<f32> {
+    exact_maxima(relief, hidden, |facet| relief.n_z_squared[facet])
 }
 
 /// The same of any value of facets that is not negative.
 pub(super) fn exact_maxima(
-    mesh: &Mesh,
+    relief: &Relief,
     hidden: &[bool],
-    bins: Bins,
     value: impl Fn(usize) -> f32,
 ) -> Vec<f32> {
-    let bin_of: Vec<u32> = mesh
-        .vertices
-        .iter()
-        .map(|vertex| bins.of(f64::from(vertex.z)) as u32)
-        .collect();
-    let mut maxima = RangeMaxima::new(bins.count);
-    for (facet, corners) in mesh.facets[..mesh.surface_facets].iter().enumerate() {
-        if hidden.get(facet) == Some(&true) {
-            continue;
+    let spans = relief.spans.iter();
+    let longest = spans.clone().map(|[lowest, highest]| highest - lowest + 1);
+    let mut maxima = RangeMaxima::new(relief.bins.count, longest.max().unwrap_or(1));
+    for (facet, &[lowest, highest]) in spans.enumerate() {
+        if hidden.get(facet) != Some(&true) {
+            maxima.raise(lowest, highest, value(facet));
         }
-        let [a, b, c] = corners.map(|vertex| bin_of[vertex as usize]);
-        let (lowest, highest) = (a.min(b).min(c), a.max(b).max(c));
-        maxima.raise(lowest as usize, highest as usize, value(facet));
     }
     maxima.into_values()
 }
@@ -100,50 +94,51 @@ pub(super) fn densities(maxima: &[f32], of: impl Fn(f32) -> f32) -> Vec<f32> {
         .collect()
 }
 
-/// By hand: `max` is a library call in wasm.
+/// By hand: `max` is a library call in wasm. Always written, since whether a value grows is hard to foretell.
 fn raise(value: &mut f32, other: f32) {
-    if *value < other {
-        *value = other;
-    }
+    *value = if *value < other { other } else { *value };
 }
 
 /// The maximum of values that were given to ranges of places: two writes a range, then one pass down.
 struct RangeMaxima {
     count: usize,
-    /// Level k at i is the maximum of ranges that cover the 2^k places from i on.
-    levels: Vec<Vec<f32>>,
+    /// One level of `count` places after another. Level k at i is the maximum of ranges that cover the 2^k places from i on.
+    levels: Vec<f32>,
 }
 
 impl RangeMaxima {
-    fn new(count: usize) -> Self {
+    /// For ranges of at most `longest` of `count` places.
+    fn new(count: usize, longest: u32) -> Self {
+        let levels = longest.ilog2() as usize + 1;
         Self {
             count,
-            levels: vec![vec![NO_SURFACE; count]],
+            levels: vec![NO_SURFACE; levels * count],
         }
     }
 
-    fn raise(&mut self, first: usize, last: usize, value: f32) {
-        let level = (last - first + 1).ilog2() as usize;
-        while self.levels.len() <= level {
-            self.levels.push(vec![NO_SURFACE; self.count]);
-        }
-        let maxima = &mut self.levels[level];
-        raise(&mut maxima[first], value);
-        raise(&mut maxima[last + 1 - (1 << level)], value);
+    #[inline]
+    fn raise(&mut self, first: u32, last: u32, value: f32) {
+        let level = (last - first + 1).ilog2();
+        let start = level as usize * self.count;
+        raise(&mut self.levels[start + first as usize], value);
+        let second = last + 1 - (1 << level);
+        raise(&mut self.levels[start + second as usize], value);
     }
 
     fn into_values(mut self) -> Vec<f32> {
-        while self.levels.len() > 1 {
-            let upper = self.levels.pop().unwrap_or_default();
-            let half = 1 << (self.levels.len() - 1);
-            let lower = self.levels.last_mut().expect("the lowest level stays");
-            for (value, other) in lower.iter_mut().zip(&upper) {
+        let count = self.count;
+        for level in (1..self.levels.len() / count).rev() {
+            let half = 1 << (level - 1);
+            let (below, upper) = self.levels.split_at_mut(level * count);
+            let lower = &mut below[(level - 1) * count..];
+            for (value, other) in lower.iter_mut().zip(&*upper) {
                 raise(value, *other);
             }
-            for (value, other) in lower[half..].iter_mut().zip(&upper) {
+            for (value, other) in lower[half..].iter_mut().zip(&*upper) {
                 raise(value, *other);
             }
         }
-        self.levels.pop().unwrap_or_default()
+        self.levels.truncate(count);
+        self.levels
     }
 }

@@ -1,12 +1,11 @@
 //! Profiles of models whose facets matter differently (section 4.2): the densities of a facet are multiplied by its weight, 0
 //! to 1, so that the tolerance holds where the weight is 1 and is loosened elsewhere.
 
+use super::relief::Relief;
 use super::steepest::{self, NO_SURFACE};
 use super::volume::VolumeError;
 use super::{LayerErrors, Metric, Profile, Shape, area, cusp, roughness};
-use crate::grid::Bins;
 use crate::ldi::Ldi;
-use crate::mesh::Mesh;
 
 /// The largest weighted density of each bin (eq. 21, 22), or for metrics of areas, which belong to no facet, the largest
 /// weight (eq. 23, 24); negative where there is no surface.
@@ -17,12 +16,12 @@ pub struct Weighted {
 }
 
 /// What a facet counts for under a metric.
-fn value_of(mesh: &Mesh, metric: Metric, weights: &[f32]) -> impl Fn(usize) -> f32 {
+fn value_of(relief: &Relief, metric: Metric, weights: &[f32]) -> impl Fn(usize) -> f32 {
     move |facet| {
-        let weight = weights[facet];
+        let (weight, square) = (weights[facet], relief.n_z_squared[facet]);
         match metric {
-            Metric::Cusp => weight * cusp::density_of(mesh.n_z_squared(facet)),
-            Metric::Roughness => weight * roughness::density_of(mesh.n_z_squared(facet)),
+            Metric::Cusp => weight * cusp::density_of(square),
+            Metric::Roughness => weight * roughness::density_of(square),
             Metric::Area | Metric::Volume => weight,
         }
     }
@@ -32,17 +31,16 @@ impl Weighted {
     /// Over the hits of an LDI in each bin; without one over all facets whose height range meets it. `weights` has one for
     /// each facet of the surface.
     pub fn new(
-        mesh: &Mesh,
+        relief: &Relief,
         ldi: Option<&Ldi>,
         hidden: &[bool],
-        bins: Bins,
         metric: Metric,
         weights: &[f32],
     ) -> Self {
-        let value = value_of(mesh, metric, weights);
+        let value = value_of(relief, metric, weights);
         let values = match ldi {
-            None => steepest::exact_maxima(mesh, hidden, bins, value),
-            Some(ldi) => steepest::sampled_maxima(mesh, ldi, hidden, bins, value),
+            None => steepest::exact_maxima(relief, hidden, value),
+            Some(ldi) => steepest::sampled_maxima(relief, ldi, hidden, value),
         };
         Self { metric, values }
     }

@@ -1,5 +1,7 @@
 //! The order of stages, and nothing else: the only module that knows it.
 
+mod orientation;
+
 use std::io::Write;
 use std::ops::ControlFlow;
 
@@ -7,16 +9,18 @@ use serde::Serialize;
 use web_time::Instant;
 
 use crate::archive::{self, Job};
+use crate::direction::Turntable;
 use crate::error::Error;
 use crate::grid::{Bins, Grid, GridError};
 use crate::ldi::gpu::{self, Gpu};
 use crate::ldi::{Ldi, LdiError, cpu};
 use crate::mask::{MaskCursor, Masks, Side};
-use crate::mesh::{Mesh, Pose};
+use crate::mesh::{Bounds, Mesh, Pose};
 use crate::options::{Backend, Options};
 use crate::plan::Plan;
 use crate::planning::{PlanReport, Planning, Shapes};
-use crate::profile::{Metric, Profile, Source};
+use crate::profile::relief::Relief;
+use crate::profile::{Metric, Profile, Source, section};
 use crate::progress::Progress;
 use crate::report::{
     Comparison, Glance, MaskReport, MeshInfo, Report, SCHEMA, StlReport, Timings, Tradeoff,
@@ -33,6 +37,8 @@ pub enum Stage {
     Load,
     /// Finding what stands out.
     Saliency,
+    /// Searching for the best building direction.
+    Directions,
     /// Sampling the layered depth image.
     Ldi,
     /// Making the profile.
@@ -49,6 +55,7 @@ impl Stage {
         match self {
             Self::Load => "load",
             Self::Saliency => "saliency",
+            Self::Directions => "directions",
             Self::Ldi => "ldi",
             Self::Profile => "profile",
             Self::Plan => "plan",
@@ -72,6 +79,8 @@ pub struct Slicer {
     paint: Option<Vec<f32>>,
     load_ms: f64,
     gpu: Option<Gpu>,
+    /// The surface for being looked at along directions, and at which scale.
+    turntable: Option<(f64, Turntable)>,
     sampled: Option<Sampled>,
     planned: Option<Planned>,
 }
@@ -134,6 +143,7 @@ impl Slicer {
             paint: None,
             load_ms: ms_since(clock),
             gpu: None,
+            turntable: None,
             sampled: None,
             planned: None,
         })
@@ -234,9 +244,11 @@ impl Slicer {
         let size = mesh.bounds().size();
         let height_mm = height_mm(size.z, options);
         let bins = Bins::of_height(height_mm, options.bin_mm)?;
-        let mut shapes = Shapes::of_mesh(&mesh, bins, options.metric.needs_areas());
-        shapes.weigh(&mesh, None, options.metric, self.known_weights(options));
-        let planning = Planning::new(&mesh, height_mm, &shapes, options);
+        let relief = Relief::of(&mesh, bins);
+        let areas_mm2 = || Ok::<_, Error>(section::exact(&mesh, &[], bins));
+        let weights = self.known_weights(options);
+        let shapes = shapes_of(&relief, areas_mm2, options, weights)?;
+        let planning = Planning::new(height_mm, &shapes, options);
         let plan = planning.plan(options)?;
         let glance = Glance {
             layers: plan.layers(),
@@ -371,7 +383,8 @@ impl Slicer {
         if options.metric.needs_areas() {
             is_new |= shapes.add_areas(&sampled.mesh, &sampled.ldi);
         }
-        is_new |= shapes.weigh(&sampled.mesh, Some(&sampled.ldi), options.metric, weights);
+        let relief = || Relief::of(&sampled.mesh, bins);
+        is_new |= shapes.weigh(relief, Some(&sampled.ldi), options.metric, weights);
         sampled.shapes = Some(shapes);
         if is_new {
             timings.profile = ms_since(clock);
@@ -388,27 +401,7 @@ impl Slicer {
         let clock = Instant::now();
         let mesh = self.model.on_plate(&options.pose())?;
         let bounds = mesh.bounds();
-        let grid = match (options.plate_pixels()?, options.plate_pitch_mm()?) {
-            (Some(pixels), Some(pitch_mm)) => Grid::plate(&bounds, pixels, pitch_mm)?,
-            (None, Some(pitch_mm)) if pitch_mm[0] == pitch_mm[1] => {
-                Grid::of_pitch(&bounds, pitch_mm[0])?
-            }
-            (None, None) => Grid::around(&bounds, options.rays)?,
-            (Some(_), None) | (None, Some(_)) => {
-                let reason = "pixels and their pitch in x and y belong together".to_owned();
-                return Err(Error::Options { reason });
-            }
-        };
-        if let Some(printer) = options.printer()?
-            && bounds.size().z > printer.volume_mm[2]
-        {
-            return Err(GridError::ModelTooHigh {
-                model_mm_z: bounds.size().z,
-                printer_mm_z: printer.volume_mm[2],
-                fitting_scale: (printer.volume_mm[2] / bounds.size().z * 1e4).floor() / 1e4,
-            }
-            .into());
-        }
+        let grid = grid(&bounds, options)?;
         timings.load += ms_since(clock);
 
         let clock = Instant::now();
@@ -578,6 +571,52 @@ impl Planned {
     }
 }
 
+/// The masks' pixels around a model of these bounds.
+///
+/// # Errors
+/// [`Error::Options`], [`Error::Grid`]; among these that the model does not fit the printer.
+fn grid(bounds: &Bounds, options: &Options) -> Result<Grid, Error> {
+    let grid = match (options.plate_pixels()?, options.plate_pitch_mm()?) {
+        (Some(pixels), Some(pitch_mm)) => Grid::plate(bounds, pixels, pitch_mm)?,
+        (None, Some(pitch_mm)) if pitch_mm[0] == pitch_mm[1] => {
+            Grid::of_pitch(bounds, pitch_mm[0])?
+        }
+        (None, None) => Grid::around(bounds, options.rays)?,
+        (Some(_), None) | (None, Some(_)) => {
+            let reason = "pixels and their pitch in x and y belong together".to_owned();
+            return Err(Error::Options { reason });
+        }
+    };
+    if let Some(printer) = options.printer()?
+        && bounds.size().z > printer.volume_mm[2]
+    {
+        return Err(GridError::ModelTooHigh {
+            model_mm_z: bounds.size().z,
+            printer_mm_z: printer.volume_mm[2],
+            fitting_scale: (printer.volume_mm[2] / bounds.size().z * 1e4).floor() / 1e4,
+        }
+        .into());
+    }
+    Ok(grid)
+}
+
+/// The shape of a relief under the metric and weights; for metrics that are made of them it asks for the areas of sections.
+fn shapes_of<E>(
+    relief: &Relief,
+    areas_mm2: impl FnOnce() -> Result<Vec<f64>, E>,
+    options: &Options,
+    weights: Option<Vec<f32>>,
+) -> Result<Shapes, E> {
+    let areas_mm2 = if options.metric.needs_areas() {
+        areas_mm2()?
+    } else {
+        Vec::new()
+    };
+    let mut shapes = Shapes::of_relief(relief, areas_mm2);
+    shapes.weigh(|| relief, None, options.metric, weights);
+    Ok(shapes)
+}
+
 /// The height as asked for, or as the file has it but for the noise of single precision.
 fn height_mm(size_mm: f64, options: &Options) -> f64 {
     options
@@ -601,7 +640,7 @@ impl Sampled {
     /// All that planning needs.
     fn planning(&self, options: &Options) -> Result<Planning<'_>, Error> {
         let shapes = self.shapes.as_ref().ok_or(Error::NoPlan)?;
-        Ok(Planning::new(&self.mesh, self.height_mm, shapes, options))
+        Ok(Planning::new(self.height_mm, shapes, options))
     }
 
     fn masks(&self, plan: &Plan, options: &Options, side: Side) -> Result<Masks, Error> {

@@ -1,0 +1,307 @@
+//! A model made ready for being looked at along many directions: what does not depend on the direction is computed once.
+
+use glam::{DVec3, Vec3};
+
+use super::order::ascending;
+use super::sphere::{about_z, lattice, unit, upright};
+use super::{Exclusion, Figures};
+use crate::grid::Bins;
+use crate::mesh::{Bounds, Mesh, rotation_matrix};
+use crate::plan::Plan;
+use crate::profile::relief::Relief;
+use crate::profile::roughness;
+
+/// Flats of a model that are laid on the plate, and turned up, at most.
+const FLATS: usize = 16;
+
+/// A flat counts from this part of the surface on.
+const FLAT_PART: f64 = 0.02;
+
+/// The cosine of the angle within which facets belong to one flat: 0.26°.
+const SAME_FLAT: f64 = 1.0 - 1e-5;
+
+/// Different flats that are told apart, from the largest facet on.
+const TOLD_APART: usize = 64;
+
+/// `n_z²` from which on a facet that faces down needs support: less than 45° from level.
+const OVERHANG: f32 = 0.5;
+
+/// The surface of a model, at the scale that it is printed at.
+#[derive(Debug)]
+pub(crate) struct Turntable {
+    /// The facets of the mesh in the order that they have here: neighbours follow each other, so that what is looked up for
+    /// one is at hand for the next.
+    order: Vec<usize>,
+    /// Coordinates of the vertices of the surface, one list an axis.
+    vertices_mm: [Vec<f64>; 3],
+    facets: Vec<[u32; 3]>,
+    /// Unit normals of facets, one list an axis.
+    normals: [Vec<f32>; 3],
+    areas_mm2: Vec<f64>,
+    surface_mm2: f64,
+}
+
+/// A model as it stands in a direction.
+#[derive(Debug)]
+pub(crate) struct Stand {
+    /// A quaternion x, y, z, w.
+    pub rotation: [f64; 4],
+    /// `n_z` of the unit normal of each facet.
+    n_z: Vec<f32>,
+    pub size_mm: [f64; 3],
+    /// Of each vertex above the plate, as a mesh in this pose has them.
+    heights_mm: Vec<f32>,
+}
+
+impl Turntable {
+    /// The surface of a mesh, scaled.
+    pub fn new(mesh: &Mesh, scale: f64) -> Self {
+        let order = neighbours_together(mesh);
+        let mut number_of = vec![u32::MAX; mesh.vertices.len()];
+        let mut vertices_mm: [Vec<f64>; 3] = Default::default();
+        let facets = order
+            .iter()
+            .map(|&facet| {
+                mesh.facets[facet].map(|vertex| {
+                    let number = &mut number_of[vertex as usize];
+                    if *number == u32::MAX {
+                        *number = vertices_mm[0].len() as u32;
+                        let vertex = mesh.vertices[vertex as usize].as_dvec3() * scale;
+                        for (list, coordinate) in vertices_mm.iter_mut().zip(vertex.to_array()) {
+                            list.push(coordinate);
+                        }
+                    }
+                    *number
+                })
+            })
+            .collect();
+        let mut normals: [Vec<f32>; 3] = Default::default();
+        let mut areas_mm2 = Vec::with_capacity(order.len());
+        for &facet in &order {
+            let [a, b, c] = mesh.corners(facet);
+            let normal = (b - a).cross(c - a);
+            let length = normal.length();
+            areas_mm2.push(length * scale * scale / 2.0);
+            // What is too small for its square to be a number counts as upright, as in a mesh.
+            let normal = if length > 0.0 {
+                normal / length
+            } else {
+                DVec3::X
+            };
+            for (list, coordinate) in normals.iter_mut().zip(normal.to_array()) {
+                list.push(coordinate as f32);
+            }
+        }
+        Self {
+            order,
+            vertices_mm,
+            facets,
+            normals,
+            surface_mm2: areas_mm2.iter().sum(),
+            areas_mm2,
+        }
+    }
+
+    /// Values of the facets of the mesh, in the order that facets have here.
+    pub fn arranged(&self, values: &[f32]) -> Vec<f32> {
+        let order = self.order.iter();
+        order.map(|&facet| values[facet]).collect()
+    }
+
+    /// So many directions spread evenly, and those of the model's largest flats behind them.
+    pub fn directions(&self, count: usize) -> Vec<[f64; 3]> {
+        let mut directions = lattice(count);
+        for flat in self.flats() {
+            directions.extend([-flat, flat]);
+        }
+        directions.into_iter().map(|it| it.to_array()).collect()
+    }
+
+    fn normal(&self, facet: usize) -> DVec3 {
+        let [x, y, z] = &self.normals;
+        unit(Vec3::new(x[facet], y[facet], z[facet]).as_dvec3())
+    }
+
+    /// Normals of the largest flats, the largest first.
+    fn flats(&self) -> Vec<DVec3> {
+        let mut flats: Vec<(DVec3, f64)> = Vec::new();
+        for facet in ascending(self.areas_mm2.iter().map(|area_mm2| -area_mm2)) {
+            let (normal, area_mm2) = (self.normal(facet), self.areas_mm2[facet]);
+            let is_same = |(flat, _): &(DVec3, f64)| flat.dot(normal) >= SAME_FLAT;
+            match flats.iter().position(is_same) {
+                Some(same) => flats[same].1 += area_mm2,
+                None if flats.len() < TOLD_APART => flats.push((normal, area_mm2)),
+                None => {}
+            }
+        }
+        flats.retain(|&(_, area_mm2)| area_mm2 >= FLAT_PART * self.surface_mm2);
+        let largest = ascending(flats.iter().map(|(_, area_mm2)| -area_mm2)).into_iter();
+        largest.take(FLATS).map(|flat| flats[flat].0).collect()
+    }
+
+    /// Stands the model on the plate with a direction upward, turned about it so that it fits, if that can be: `fits` says whether
+    /// a box does.
+    pub fn stand(
+        &self,
+        direction: [f64; 3],
+        fits: impl Fn(&Bounds) -> Result<(), Exclusion>,
+    ) -> (Stand, Option<Exclusion>) {
+        let upright = upright(DVec3::from_array(direction));
+        let mut first = None;
+        for turn in about_z() {
+            let rotation = (turn * upright).to_array();
+            let (stand, bounds) = self.turned(rotation);
+            match fits(&bounds) {
+                Ok(()) => return (stand, None),
+                Err(Exclusion::TooLarge) => {
+                    first.get_or_insert(stand);
+                }
+                Err(other) => return (stand, Some(other)),
+            }
+        }
+        let stand = first.unwrap_or_else(|| self.turned(upright.to_array()).0);
+        (stand, Some(Exclusion::TooLarge))
+    }
+
+    fn turned(&self, rotation: [f64; 4]) -> (Stand, Bounds) {
+        // The quaternions of this module have a length.
+        let matrix = rotation_matrix(rotation).unwrap_or_default();
+        let [mut min, mut max] = [DVec3::ZERO; 2];
+        let mut heights = Vec::new();
+        for axis in 0..3 {
+            let along = matrix.row(axis);
+            let places = self.places_along(along);
+            let [least, greatest] = range(&places);
+            (min[axis], max[axis]) = (least, greatest);
+            heights = places;
+        }
+        let heights_mm: Vec<f32> = heights.iter().map(|z| (z - min.z) as f32).collect();
+        let size = max - min;
+        let round = |length_mm: f64| (length_mm * 1e6).round() / 1e6;
+        let stand = Stand {
+            rotation,
+            n_z: self.n_z(matrix.row(2).as_vec3()),
+            size_mm: [
+                round(size.x),
+                round(size.y),
+                round(f64::from(size.z as f32)),
+            ],
+            heights_mm,
+        };
+        (stand, Bounds { min, max })
+    }
+
+    /// Coordinates of vertices along an axis.
+    fn places_along(&self, axis: DVec3) -> Vec<f64> {
+        let [x, y, z] = &self.vertices_mm;
+        x.iter()
+            .zip(y)
+            .zip(z)
+            .map(|((x, y), z)| axis.x * x + axis.y * y + axis.z * z)
+            .collect()
+    }
+
+    /// `n_z` of the unit normals of facets.
+    fn n_z(&self, up: Vec3) -> Vec<f32> {
+        let [x, y, z] = &self.normals;
+        x.iter()
+            .zip(y)
+            .zip(z)
+            .map(|((x, y), z)| x * up.x + y * up.y + z * up.z)
+            .collect()
+    }
+
+    /// The relief of the surface as it stands.
+    pub fn relief(&self, stand: &Stand, bins: Bins) -> Relief {
+        let square = |facet: usize| {
+            let square = stand.n_z[facet] * stand.n_z[facet];
+            // Single precision may go a little beyond.
+            if square > 1.0 { 1.0 } else { square }
+        };
+        let area = |facet: usize| self.areas_mm2[facet];
+        Relief::new(bins, &self.facets, &stand.heights_mm, square, area)
+    }
+
+    /// What a plan gives as the model stands.
+    pub fn figures(
+        &self,
+        stand: &Stand,
+        relief: &Relief,
+        plan: &Plan,
+        max_error: f64,
+        print_time_s: f64,
+    ) -> Figures {
+        // Thicknesses of the layers that bins belong to, summed up: in bins.
+        let mut sums = Vec::with_capacity(relief.bins.count + 1);
+        let mut sum = 0.0;
+        sums.push(sum);
+        for pair in plan.boundaries.windows(2) {
+            for _ in pair[0]..pair[1] {
+                sum += f64::from(pair[1] - pair[0]);
+                sums.push(sum);
+            }
+        }
+        // A plan may end a little below the model's top.
+        let top = sums.len() - 1;
+        let plate = plan.boundaries[1];
+        let (mut overhang_mm2, mut roughness) = (0.0, 0.0);
+        let facets = relief.spans.iter().zip(&relief.n_z_squared);
+        let facets = facets.zip(&stand.n_z).zip(&self.areas_mm2);
+        for (((&[first, last], &square), &n_z), &area_mm2) in facets {
+            let is_overhang = n_z < 0.0 && square > OVERHANG && last >= plate;
+            overhang_mm2 += if is_overhang { area_mm2 } else { 0.0 };
+            let end = last + 1;
+            let bins = sums[(end as usize).min(top)] - sums[(first as usize).min(top)];
+            let thickness = bins / f64::from((end - first) as i32);
+            roughness += area_mm2 * thickness * f64::from(roughness::density_of(square));
+        }
+        Figures {
+            layers: plan.layers(),
+            print_time_s,
+            max_error,
+            roughness_mm: roughness / self.surface_mm2 * relief.bins.size_mm,
+            overhang_mm2,
+        }
+    }
+}
+
+/// The facets of the surface of a mesh along a curve that fills space (Morton's).
+fn neighbours_together(mesh: &Mesh) -> Vec<usize> {
+    let bounds = mesh.bounds();
+    let cells = 1023.0 / bounds.size().max_element();
+    // The ten bits of a number, two places apart.
+    let spread = |number: f64| {
+        let number = number as u32;
+        (0..10).fold(0, |all, bit| all | (number >> bit & 1) << (3 * bit))
+    };
+    let keys = (0..mesh.surface_facets).map(|facet| {
+        let [a, b, c] = mesh.corners(facet);
+        let cell = ((a + b + c) / 3.0 - bounds.min) * cells;
+        f64::from(spread(cell.x) | spread(cell.y) << 1 | spread(cell.z) << 2)
+    });
+    ascending(keys)
+}
+
+/// The least and the greatest of some numbers.
+fn range(numbers: &[f64]) -> [f64; 2] {
+    // By hand and in lanes: `min` and `max` are library calls in wasm, and one after another they wait for each other.
+    let mut least = [f64::INFINITY; 4];
+    let mut greatest = [f64::NEG_INFINITY; 4];
+    let lanes = numbers.chunks_exact(4);
+    let rest = lanes.remainder();
+    for lane in lanes.chain(std::iter::once(rest)) {
+        for (i, &number) in lane.iter().enumerate() {
+            if number < least[i] {
+                least[i] = number;
+            }
+            if number > greatest[i] {
+                greatest[i] = number;
+            }
+        }
+    }
+    let all = least.into_iter().zip(greatest);
+    let (least, greatest) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |all, one| {
+        (all.0.min(one.0), all.1.max(one.1))
+    });
+    [least, greatest]
+}

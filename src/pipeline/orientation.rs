@@ -1,0 +1,257 @@
+//! Searching for the best building direction (section 4.3).
+
+use super::{Slicer, Stage, StageProgress, grid, shapes_of};
+use crate::direction::{
+    Candidate, Exclusion, Figures, Orientation, Scale, Search, Stand, Turntable, best, rate, refine,
+};
+use crate::error::Error;
+use crate::grid::{Bins, GridError};
+use crate::ldi::LdiError;
+use crate::mesh::{Bounds, Mesh, Pose};
+use crate::options::Options;
+use crate::parallel;
+use crate::planning::Planning;
+use crate::profile::section;
+use crate::report::SCHEMA;
+
+/// Directions that a thread is given at once.
+const BATCH: usize = 8;
+
+/// What finer searches take of all the time, about.
+const REFINEMENT: f64 = 0.2;
+
+/// What measuring a direction needs.
+struct Bench<'a> {
+    model: &'a Mesh,
+    table: &'a Turntable,
+    options: &'a Options,
+    /// Of facets as the table has them.
+    weights: Option<Vec<f32>>,
+}
+
+impl Slicer {
+    /// Searches for the best direction to print the model in. Where the model stands now matters only if the options give
+    /// a height, which is then the one as it stands now. Makes no plan, and leaves the last one.
+    ///
+    /// Directions that the model does not fit the printer in, or that have no plan within tolerance, are excluded; there may be
+    /// no best one.
+    ///
+    /// # Errors
+    /// [`Error::Options`], [`Error::Mesh`], [`Error::Plan`] for options that no direction makes good; [`Error::Ldi`] if
+    /// `progress` cancels.
+    pub fn orient(
+        &mut self,
+        options: &Options,
+        search: &Search,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<Orientation, Error> {
+        search.check()?;
+        let directions = self.directions(options, search.directions)?;
+        let candidates =
+            self.measure_directions(options, &directions, &mut |stage, fraction| {
+                progress(stage, fraction * (1.0 - REFINEMENT))
+            })?;
+        self.choose(options, search, candidates, progress)
+    }
+
+    /// The rest of a search whose directions have been measured, wherever that was: all of [`Self::directions`] in their
+    /// order.
+    ///
+    /// # Errors
+    /// Those of [`Self::orient`].
+    pub fn choose(
+        &mut self,
+        options: &Options,
+        search: &Search,
+        mut candidates: Vec<Candidate>,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<Orientation, Error> {
+        search.check()?;
+        let rating = rate(&candidates, search);
+        for (candidate, energy) in candidates.iter_mut().zip(rating.energies) {
+            candidate.energy = energy;
+        }
+        let bench = self.bench(options, progress)?;
+        let mut refined = Vec::with_capacity(rating.minima.len());
+        parallel::map_in_groups(
+            rating.minima.iter(),
+            |&index| bench.refine(search, &rating.scale, &candidates[index]),
+            |found| {
+                refined.push(found);
+                Ok::<_, LdiError>(())
+            },
+            &mut |fraction| progress(Stage::Directions, 1.0 - REFINEMENT * (1.0 - fraction)),
+            [0.0, 1.0],
+        )?;
+        Ok(Orientation {
+            schema: SCHEMA,
+            stl: self.stl.clone(),
+            search: *search,
+            scale: rating.scale,
+            best: best(&refined),
+            candidates,
+        })
+    }
+
+    /// The directions of a search: so many unit vectors spread evenly, and those of the model's largest flats.
+    ///
+    /// # Errors
+    /// [`Error::Mesh`].
+    pub fn directions(&mut self, options: &Options, count: usize) -> Result<Vec<[f64; 3]>, Error> {
+        Ok(self.turntable(options)?.directions(count))
+    }
+
+    /// Measures directions, in their order.
+    ///
+    /// # Errors
+    /// Those of [`Self::orient`].
+    pub fn measure_directions(
+        &mut self,
+        options: &Options,
+        directions: &[[f64; 3]],
+        progress: &mut StageProgress<'_>,
+    ) -> Result<Vec<Candidate>, Error> {
+        let bench = self.bench(options, progress)?;
+        let mut candidates = Vec::with_capacity(directions.len());
+        parallel::map_in_groups(
+            directions.chunks(BATCH),
+            |batch| {
+                let measured = batch.iter().map(|&direction| bench.measure(direction));
+                measured.collect::<Vec<_>>()
+            },
+            |batch| {
+                candidates.extend(batch);
+                Ok::<_, LdiError>(())
+            },
+            &mut |fraction| progress(Stage::Directions, fraction),
+            [0.0, 1.0],
+        )?;
+        Ok(candidates)
+    }
+
+    /// The best direction near a rated candidate, by a finer search.
+    ///
+    /// # Errors
+    /// Those of [`Self::orient`].
+    pub fn refine_direction(
+        &mut self,
+        options: &Options,
+        search: &Search,
+        scale: &Scale,
+        candidate: &Candidate,
+    ) -> Result<Candidate, Error> {
+        search.check()?;
+        let bench = self.bench(options, &mut |_, _| std::ops::ControlFlow::Continue(()))?;
+        Ok(bench.refine(search, scale, candidate))
+    }
+
+    fn turntable(&mut self, options: &Options) -> Result<&Turntable, Error> {
+        let scale = match options.height_mm {
+            None => 1.0,
+            Some(height_mm) => {
+                let pose = Pose {
+                    height_mm: None,
+                    ..options.pose()
+                };
+                let size = self.model.on_plate(&pose)?.bounds().size();
+                // Whether the height is one is for `on_plate` to say.
+                self.model.on_plate(&Pose {
+                    height_mm: Some(height_mm),
+                    ..pose
+                })?;
+                height_mm / size.z
+            }
+        };
+        let kept = self.turntable.take().filter(|kept| kept.0 == scale);
+        let table = kept.unwrap_or_else(|| (scale, Turntable::new(&self.model, scale)));
+        Ok(&self.turntable.insert(table).1)
+    }
+
+    fn bench<'a>(
+        &'a mut self,
+        options: &'a Options,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<Bench<'a>, Error> {
+        options.check()?;
+        // What is wrong in every direction is an error, and not a reason to exclude one.
+        if let Err(error) = grid(&self.model.bounds(), options)
+            && exclusion(&error).is_none()
+        {
+            return Err(error);
+        }
+        self.turntable(options)?;
+        let weights = self.weights(options, progress)?;
+        let table = &self.turntable.as_ref().ok_or(Error::NoPlan)?.1;
+        Ok(Bench {
+            model: &self.model,
+            table,
+            options,
+            weights: weights.map(|weights| table.arranged(&weights)),
+        })
+    }
+}
+
+impl Bench<'_> {
+    fn measure(&self, direction: [f64; 3]) -> Candidate {
+        let fits = |bounds: &Bounds| match grid(bounds, self.options) {
+            Err(error) => exclusion(&error).map_or(Ok(()), Err),
+            Ok(_) => Ok(()),
+        };
+        let (stand, mut excluded) = self.table.stand(direction, fits);
+        let mut figures = None;
+        if excluded.is_none() {
+            figures = self.figures(&stand);
+            excluded = figures.is_none().then_some(Exclusion::NoPlan);
+        }
+        Candidate {
+            direction,
+            rotation: stand.rotation,
+            size_mm: stand.size_mm,
+            excluded,
+            figures,
+            energy: None,
+        }
+    }
+
+    /// `None` if there is no plan.
+    fn figures(&self, stand: &Stand) -> Option<Figures> {
+        let options = self.options;
+        let height_mm = stand.size_mm[2];
+        let bins = Bins::of_height(height_mm, options.bin_mm).ok()?;
+        let relief = self.table.relief(stand, bins);
+        let areas_mm2 = || {
+            let pose = Pose {
+                rotation: Some(stand.rotation),
+                height_mm: Some(height_mm),
+            };
+            let mesh = self.model.on_plate(&pose)?;
+            Ok::<_, Error>(section::exact(&mesh, &[], bins))
+        };
+        let shapes = shapes_of(&relief, areas_mm2, options, self.weights.clone()).ok()?;
+        let planning = Planning::new(height_mm, &shapes, options);
+        let plan = planning.plan(options).ok()?;
+        let max_error = planning.max_error(&plan);
+        let print_time_s = plan.print_time_s(&options.resin);
+        Some(
+            self.table
+                .figures(stand, &relief, &plan, max_error, print_time_s),
+        )
+    }
+
+    fn refine(&self, search: &Search, scale: &Scale, candidate: &Candidate) -> Candidate {
+        refine(candidate, search, scale, |direction| {
+            self.measure(direction)
+        })
+    }
+}
+
+/// Why a model cannot be printed as it stands, if that is what an error says.
+fn exclusion(error: &Error) -> Option<Exclusion> {
+    match error {
+        Error::Grid(GridError::ModelTooLarge { .. } | GridError::BadSize { .. }) => {
+            Some(Exclusion::TooLarge)
+        }
+        Error::Grid(GridError::ModelTooHigh { .. }) => Some(Exclusion::TooHigh),
+        _ => None,
+    }
+}
