@@ -3,15 +3,16 @@
  *
  * The types of the core are re-exported from the generated package, never copied: a change there is a type error here.
  */
-import type { Comparison, Glance, MeshInfo, Metric, Options, Printer, Report, Tradeoff } from "../../pkg/cusp_slicer.js";
-import type { Candidate, Rating, Scale, Search, Stage } from "./stand-in.js";
+import type { Comparison, Glance, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff } from "../../pkg/cusp_slicer.js";
+import type { Candidate, Rating, Scale, Search } from "../../pkg/cusp_slicer.js";
 
 export type { Comparison, Glance, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff };
 export type { Candidate, Rating, Scale, Search };
-export type { Figures } from "./stand-in.js";
 export type {
   Backend,
   CuspError,
+  Exclusion,
+  Figures,
   Format,
   HeightRange,
   Minimize,

@@ -1,7 +1,6 @@
 /** The worker: the only file that imports the WebAssembly package. One model is open at a time. */
 import * as Comlink from "comlink";
-import init, { printers, Slicer } from "../../pkg/cusp_slicer.js";
-import { best, directions, measure, rate, refine } from "./stand-in.js";
+import init, { best_directions, printers, rate_directions, Slicer } from "../../pkg/cusp_slicer.js";
 import type { CuspError, OnProgress, SlicerWorker } from "./wire.js";
 
 /** Parts of a print file beyond this many bytes are handed to the browser, which may keep them on disk. */
@@ -141,15 +140,14 @@ const api: SlicerWorker = {
     const weights = current().read_weights(await bytesOf(file));
     return Comlink.transfer(weights, [weights.buffer]);
   },
-  directions(_options, count) {
-    current();
-    const found = directions(count);
-    return Comlink.transfer(found, [found.buffer]);
+  directions(options, count) {
+    const directions = current().directions(options, count);
+    return Comlink.transfer(directions, [directions.buffer]);
   },
-  measureDirections: (options, directions) => measure(current(), options, directions),
-  rateDirections: rate,
-  refineDirection: (options, search, scale, candidate) => refine(current(), options, search, scale, candidate),
-  bestDirections: best,
+  measureDirections: (options, directions) => current().measure_directions(options, directions),
+  rateDirections: rate_directions,
+  refineDirection: (options, search, scale, candidate) => current().refine_direction(options, search, scale, candidate),
+  bestDirections: best_directions,
   printers,
 };
 
