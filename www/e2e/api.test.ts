@@ -220,7 +220,7 @@ test("a search is aborted, by its signal and with its slicer; what cannot be sea
     const nameOf = (running: Promise<unknown>): Promise<string> =>
       running.then(
         () => "it ended",
-        (error: Error & { code?: string }) => error.code || error.name,
+        (error: Error) => (error instanceof window.api.SlicerError ? error.code : error.name),
       );
     const before = await nameOf(slicer.orient());
     await slicer.load("heavy.stl");

@@ -142,6 +142,9 @@ export class CuspSphere extends LitElement {
         stroke: var(--cusp-card);
         stroke-width: 5;
       }
+      figcaption {
+        margin-top: 0.5rem;
+      }
       .best circle {
         fill: var(--cusp-card);
       }
@@ -230,7 +233,8 @@ export class CuspSphere extends LitElement {
     const ring = (x: number, y: number, radius: number): SVGTemplateResult =>
       svg`<circle class="halo" cx=${x} cy=${y} r=${radius} /><circle cx=${x} cy=${y} r=${radius} />`;
     const up = at(turn(back(this.camera ?? FIRST_CAMERA), [0, 0, 1]), (x, y) => {
-      const cross = `M${x - 8} ${y}h16M${x} ${y - 8}v16`;
+      // Longer than the mark of a best one, which may be at the same place.
+      const cross = `M${x - 14} ${y}h28M${x} ${y - 14}v28`;
       return svg`<g class="up"><path class="halo" d=${cross} /><path d=${cross} /></g>`;
     });
     const best = this.best.map(({ direction }, i) =>

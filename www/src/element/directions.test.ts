@@ -210,4 +210,8 @@ test("a step goes to the first other direction, and stays where there is none", 
   expect(stepped([0, 0, 1], "right", byLongitude)).toBe(start + 1);
   expect(stepped([0, 0, 1], "left", byLongitude)).toBe(start - 1);
   expect(stepped([0, 0, 1], "up", byLongitude)).toBe(start);
+  // The top has no left and right of its own, but two sides.
+  const bySide = ([x, y]: Triple): number => (y > 0.9 ? 0 : Math.sign(x));
+  expect(stepped([0, 1, 0], "right", bySide)).toBe(1);
+  expect(stepped([0, 1, 0], "left", bySide)).toBe(-1);
 });

@@ -20,12 +20,21 @@ export function moved([x, y, z]: Triple, way: Way, degrees: number): Triple {
   return [Math.cos(turned) * Math.sin(around), Math.sin(turned), Math.cos(turned) * Math.cos(around)];
 }
 
+/** From the top or the bottom, where turning around the vertical leads nowhere, down to a side. */
+function aside([, y]: Triple, way: Way, degrees: number): Triple {
+  const angle = degrees * RADIANS;
+  return [way === "left" ? -Math.sin(angle) : Math.sin(angle), Math.sign(y) * Math.cos(angle), 0];
+}
+
 /** The first other direction that way; the same if there is none. */
 export function stepped(from: Triple, way: Way, indexOf: (seen: Triple) => number): number {
   const start = indexOf(from);
-  for (let degrees = LOOK_DEG; degrees < 180; degrees += LOOK_DEG) {
-    const index = indexOf(moved(from, way, degrees));
-    if (index !== start) return index;
+  const isAcross = way === "left" || way === "right";
+  for (const move of isAcross ? [moved, aside] : [moved]) {
+    for (let degrees = LOOK_DEG; degrees < 180; degrees += LOOK_DEG) {
+      const index = indexOf(move(from, way, degrees));
+      if (index !== start) return index;
+    }
   }
   return start;
 }
