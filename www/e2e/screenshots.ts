@@ -42,6 +42,7 @@ export async function main([folder]: string[]): Promise<void> {
       if (isOfDirections) {
         await page.getByRole("button", { name: "Find the best direction" }).click();
         await page.locator("cusp-direction .pose canvas[data-drawn]").nth(2).waitFor();
+        await page.locator("cusp-sphere .disc").first().hover({ position: { x: 60, y: 120 } });
         await page.locator("cusp-slicer [part=direction]").screenshot({ path });
       } else {
         await page.evaluate(() => scrollTo(0, 0));

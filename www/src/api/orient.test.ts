@@ -192,7 +192,12 @@ test("a search that waits for another is aborted without it", async () => {
 test.each(["measure", "refine"])("an error in one worker, during %s, is the search's", async (call) => {
   const it = faked({ workers: 3, fails: [3, call], slowness: () => 5 });
   await it.slicer.load(new Blob(["a"]));
-  await expect(it.slicer.orient({}, { directions: COUNT })).rejects.toMatchObject({ name: "SlicerError", code: "bad-options" });
+  let told = 0;
+  const running = it.slicer.orient({}, { directions: COUNT }, { onProgress: () => told++ });
+  await expect(running).rejects.toMatchObject({ name: "SlicerError", code: "bad-options" });
+  const before = told;
+  await vi.advanceTimersByTimeAsync(100);
+  expect(told).toBe(before);
 });
 
 test("each worker has the model and the weights of the time of the call, whatever comes later", async () => {

@@ -99,7 +99,8 @@ export class Pool {
           while (!isFailed && next < parts.length) {
             const index = next++;
             const part = parts[index] as (typeof parts)[number];
-            take(await mine.ask(watch, (remote) => question(remote, part)), index);
+            const answer = await mine.ask(watch, (remote) => question(remote, part));
+            if (!isFailed) take(answer, index);
           }
         };
         const working = Array.from({ length: Math.min(workers, parts.length) }, (_, place) => work(lane(place)));

@@ -88,7 +88,7 @@ export class CuspSlicer extends LitElement implements Host {
     // Something that is only moved is back before this.
     queueMicrotask(() => {
       if (this.isConnected) return;
-      this.#session.cancel();
+      this.cancel();
       this.slicer.rest();
     });
   }
@@ -242,9 +242,10 @@ export class CuspSlicer extends LitElement implements Host {
     throw this.result === null ? new SlicerError("no-plan", "plan the layers first") : this.#reason();
   }
 
-  /** Stops what is under way within a tenth of a second; the last plan stays. */
+  /** Stops what is under way within a tenth of a second, a search for directions too; the last plan stays. */
   cancel(): void {
     this.#session.cancel();
+    this.#session.directions.cancel();
   }
 
   undo(): void {

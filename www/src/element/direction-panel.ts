@@ -24,7 +24,7 @@ const STEPS = 20;
 const PICTURE_PX = 256;
 
 /** What of a search is on show. */
-export type Searched = Readonly<Pick<Directions, "aims" | "found" | "best" | "busy" | "isCurrent" | "options">>;
+export type Searched = Readonly<Pick<Directions, "aims" | "found" | "best" | "busy" | "isCurrent" | "isPossible" | "options">>;
 
 export class CuspDirection extends LitElement {
   static override properties = {
@@ -86,13 +86,13 @@ export class CuspDirection extends LitElement {
     const { searched, language } = this;
     const { direction: words } = language.texts;
     if (searched === null) return html`${nothing}`;
-    const { found, busy, isCurrent } = searched;
+    const { found, busy, isCurrent, isPossible } = searched;
     return html`
       <span class="probe"></span>
       <div class="head">
         <h3>${words.title}</h3>
         ${busy === null
-          ? html`<button class="small find" @click=${() => this.#say("cusp-search", null)}>
+          ? html`<button class="small find" ?disabled=${!isPossible} @click=${() => this.#say("cusp-search", null)}>
               ${found === null || isCurrent ? words.find : words.again}
             </button>`
           : nothing}

@@ -76,6 +76,8 @@ export class CuspSphere extends LitElement {
   /** By keyboard, or by the first touch. */
   declare chosen: Candidate | null;
 
+  /** Whether the last press was a finger's: not every browser's click says so. */
+  #isTouched = false;
   #nearest: { of: Float64Array; nearest: Nearest } | null = null;
   readonly #resized = new ResizeObserver(() => this.#draw());
 
@@ -205,9 +207,10 @@ export class CuspSphere extends LitElement {
         (side) => html`<figure>
           <div
             class="disc"
+            @pointerdown=${({ pointerType }: PointerEvent) => (this.#isTouched = pointerType === "touch")}
             @pointermove=${(event: PointerEvent) => this.#hover(event, side)}
             @pointerleave=${() => (this.hovered = null)}
-            @click=${(event: PointerEvent) => this.#click(event, side)}
+            @click=${(event: MouseEvent) => this.#click(event, side)}
           >
             <canvas></canvas>
             <svg viewBox="-100 -100 200 200" aria-hidden="true">${this.#marks(side)}</svg>
@@ -272,7 +275,7 @@ export class CuspSphere extends LitElement {
   }
 
   /** The candidate at the pointer: one of the best, if that is meant. */
-  #at({ currentTarget, clientX, clientY }: PointerEvent, side: Side): Candidate | null {
+  #at({ currentTarget, clientX, clientY }: MouseEvent, side: Side): Candidate | null {
     const { left, top, width } = (currentTarget as HTMLElement).getBoundingClientRect();
     const place: Place = [(2 * (clientX - left)) / width - 1, 1 - (2 * (clientY - top)) / width];
     const seen = seenAt(place, side);
@@ -290,10 +293,9 @@ export class CuspSphere extends LitElement {
   }
 
   /** A finger cannot point without touching: its first touch shows the figures, the next one at the same place applies. */
-  #click(event: PointerEvent, side: Side): void {
+  #click(event: MouseEvent, side: Side): void {
     const candidate = this.#at(event, side);
-    const isTouch = event.pointerType === "touch";
-    if (isTouch && candidate !== this.chosen) this.chosen = candidate;
+    if (this.#isTouched && candidate !== this.chosen) this.chosen = candidate;
     else this.#stand(candidate);
   }
 

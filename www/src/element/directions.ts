@@ -52,6 +52,11 @@ export class Directions {
     return this.#of?.options ?? null;
   }
 
+  /** Whether there is something to search. */
+  get isPossible(): boolean {
+    return this.#host.subject() !== null;
+  }
+
   /** Whether a search would find the same now. */
   get isCurrent(): boolean {
     const now = this.#host.subject();

@@ -265,8 +265,8 @@ function beside<Name extends "cusp-model" | "cusp-direction">(target: EventTarge
   return ((target as Element).getRootNode() as ShadowRoot).querySelector(name);
 }
 
-function searchedOf({ directions: { aims, found, best, busy, isCurrent, options } }: Session): Searched {
-  return { aims, found, best, busy, isCurrent, options };
+function searchedOf({ directions: { aims, found, best, busy, isCurrent, isPossible, options } }: Session): Searched {
+  return { aims, found, best, busy, isCurrent, isPossible, options };
 }
 
 const UPRIGHT: Rotation = [0, 0, 0, 1];

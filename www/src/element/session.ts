@@ -263,9 +263,8 @@ export class Session extends Preferences {
     }, delay_ms);
   }
 
-  /** Stops the task under way, whatever stage it is in, and a search for directions. The last good result stays. */
+  /** Stops the task under way, whatever stage it is in. The last good result stays. */
   cancel(): void {
-    this.directions.cancel();
     if (this.busy === null) return;
     const { task } = this.busy;
     this.#drop();
