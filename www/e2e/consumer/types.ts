@@ -1,5 +1,5 @@
 /** The package's types as a page written in TypeScript uses them; compiled, never run. */
-import { createSlicer, ERROR_CODES, SlicerError, type ErrorCode, type Options, type Plan, type Slicer } from "cusp-slicer";
+import { createSlicer, ERROR_CODES, SlicerError, type ErrorCode, type Options, type Orientation, type Plan, type Slicer } from "cusp-slicer";
 import "cusp-slicer/element";
 import { CuspSlicer } from "cusp-slicer/element-class";
 
@@ -26,4 +26,9 @@ const { signal } = new AbortController();
 await slicer.load(new URL("a.stl", location.href), { signal, onProgress: (stage, fraction) => console.log(stage, fraction) });
 const plan: Plan = await slicer.plan(options, { signal });
 await slicer.exportStream(options).pipeTo(new WritableStream<Uint8Array>());
+const { best }: Orientation = await slicer.orient(options, { alpha: 0.25, quality: "overhang" }, {
+  signal,
+  onCandidates: ({ directions, candidates }) => console.log(directions.length, candidates[0]?.excluded),
+});
+element.addEventListener("cusp-direction", ({ detail }) => console.log(detail.rotation, best[0]?.figures?.layers));
 console.log(plan.profile.length, new SlicerError("crash", "").detail);
