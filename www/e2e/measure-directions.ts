@@ -1,6 +1,7 @@
 /**
  * How long a search for the best direction takes in the browser, from the call to its answer, with one worker and with
- * several: `npm run measure-directions [-- FILE.stl [DIRECTIONS]]`. The example with 111,600 facets if no file is given.
+ * several: `npm run measure-directions [-- FILE.stl [HEIGHT_MM [DIRECTIONS]]]`. The example with 111,600 facets if no file
+ * is given, or `example` in its place.
  *
  * Workers are started within the time that is measured, as they are when somebody presses the button.
  */
@@ -13,8 +14,11 @@ import { finer } from "./solids.js";
 
 const ROUNDS = 5;
 
-export async function main([file, directions = "1000"]: string[]): Promise<void> {
-  const model = file === undefined ? binaryStl(finer(exampleTriangles())) : await readFile(file);
+/** Asks for the example. */
+const EXAMPLE = "example";
+
+export async function main([file = EXAMPLE, height, directions = "1000"]: string[]): Promise<void> {
+  const model = file === EXAMPLE ? binaryStl(finer(exampleTriangles())) : await readFile(file);
   const served = await servePacked({
     "index.html": `<!doctype html><meta charset="utf-8" /><script type="module" src="main.js"></script>`,
     "main.js": `window.api = await import("./cusp-slicer/index.js");`,
@@ -26,11 +30,12 @@ export async function main([file, directions = "1000"]: string[]): Promise<void>
     await page.goto(served.address);
     await page.waitForFunction(() => "api" in window);
     const cores = await page.evaluate(() => navigator.hardwareConcurrency);
-    console.log(`${(model.length - 84) / 50} facets, ${directions} directions, ${cores} cores, ${ROUNDS} rounds`);
+    const options = height === undefined ? {} : { height_mm: Number(height) };
+    console.log(`${(model.length - 84) / 50} facets, ${directions} directions, ${height === undefined ? "its own height" : `${height} mm high`}, ${cores} cores, ${ROUNDS} rounds`);
     const answers = new Set<string>();
     for (const workers of [1, cores]) {
       const rounds = await page.evaluate(
-        async ([workers, directions, rounds]) => {
+        async ([workers, directions, rounds, options]) => {
           const { createSlicer } = (window as unknown as { api: typeof Api }).api;
           const found: { first_ms: number; measured_ms: number; all_ms: number; again_ms: number; best: string }[] = [];
           for (let round = 0; round < rounds; round++) {
@@ -43,16 +48,16 @@ export async function main([file, directions = "1000"]: string[]): Promise<void>
               measured_ms = performance.now() - began;
               first_ms ||= measured_ms;
             };
-            const { candidates, best } = await slicer.orient({}, { directions }, { onCandidates });
+            const { candidates, best } = await slicer.orient(options, { directions }, { onCandidates });
             const all_ms = performance.now() - began;
             const rerated = performance.now();
-            await slicer.orient({}, { directions, alpha: 0.25 }, { measured: candidates });
+            await slicer.orient(options, { directions, alpha: 0.25 }, { measured: candidates });
             found.push({ first_ms, measured_ms, all_ms, again_ms: performance.now() - rerated, best: JSON.stringify(best) });
             slicer.dispose();
           }
           return found;
         },
-        [workers, Number(directions), ROUNDS] as const,
+        [workers, Number(directions), ROUNDS, options] as const,
       );
       for (const { best } of rounds) answers.add(best);
       const spread = (key: "first_ms" | "measured_ms" | "all_ms" | "again_ms"): string => {
