@@ -94,7 +94,7 @@ test("the example opens from the keyboard, and focus goes to the model", async (
   await state(page, "done");
   expect(await layers(page)).toBeGreaterThan(267);
   expect(await page.evaluate(() => document.querySelector("cusp-slicer")?.shadowRoot?.activeElement?.textContent)).toBe("goblet.stl");
-  await expect.poll(() => page.getByRole("status").innerText()).toMatch(/layers planned/);
+  await expect.poll(() => page.getByRole("status").last().innerText()).toMatch(/layers planned/);
 });
 
 test("a file chosen in the dialogue opens like a dropped one", async () => {
@@ -277,7 +277,7 @@ test("more settings: the least time, planes at flats, the motor step", async () 
   await settled(page);
   expect(await planes()).toBe(0);
 
-  await page.getByText("Print time", { exact: true }).click();
+  await page.locator("cusp-settings").getByText("Print time", { exact: true }).click();
   await settled(page);
   expect(await words(page)).toMatch(/less time than uniform/);
 

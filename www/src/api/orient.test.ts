@@ -234,6 +234,6 @@ test("a large model has fewer workers, and none has none", () => {
   const of = (facets: number, most = 64): number => workersFor({ file: new Blob([]), facets, weights: null }, most);
   expect(of(1000)).toBe(8);
   expect(of(1000, 2)).toBe(2);
-  expect(of(2_000_000)).toBe(2);
+  expect(of(1_500_000)).toBe(2);
   expect(of(50_000_000)).toBe(1);
 });

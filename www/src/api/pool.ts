@@ -6,8 +6,8 @@ const MOST_WORKERS = 8;
 
 /** What the models in all workers together may take. */
 const MEMORY_BYTES = 512 << 20;
-/** What a facet takes in the core, beside its bytes of the file. */
-const FACET_BYTES = 100;
+/** What a facet takes in the core, in the model and in what is worked out of it once, beside its bytes of the file. */
+const FACET_BYTES = 160;
 
 /** Without work for so long, workers are ended. */
 const IDLE_MS = 10_000;
