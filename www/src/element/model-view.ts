@@ -12,7 +12,7 @@ import { heightOf } from "../view/turn.js";
 import { BRUSH, rebased, type Brush } from "../view/brush.js";
 import type { CuspView } from "../view/cusp-view.js";
 import type { PaintDetail, RotateDetail } from "../view/events.js";
-import type { Tool } from "../view/stage.js";
+import type { Tool } from "../view/keys.js";
 import type { ViewTexts } from "../view/texts.js";
 import type { Painted } from "./events.js";
 import { paintStyles, paintTools, type Colours } from "./paint-tools.js";

@@ -1,7 +1,6 @@
 import { expect, it } from "vitest";
-import { pressed, type Action } from "./keys.js";
+import { pressed, type Action, type Tool } from "./keys.js";
 import { ticks } from "./legend.js";
-import type { Tool } from "./stage.js";
 
 const press = (key: string, tool: Tool = "turn", held: Partial<Record<"shiftKey" | "ctrlKey" | "metaKey", boolean>> = {}): Action | null =>
   pressed({ key, shiftKey: false, ctrlKey: false, metaKey: false, altKey: false, ...held }, tool);

@@ -1,5 +1,7 @@
 /** What a key does in the view. */
-import type { Tool } from "./stage.js";
+
+/** What a person does with the pointer. */
+export type Tool = "turn" | "rotate" | "flat" | "paint";
 
 export type Action =
   | { readonly do: "turn-view"; readonly right_deg: number; readonly up_deg: number }

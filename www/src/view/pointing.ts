@@ -4,7 +4,8 @@ import type { FlatFace } from "./flat.js";
 import { layerAt } from "./lookup.js";
 import type { Point } from "./pointer.js";
 import type { Triple } from "./pose.js";
-import type { Stage, Tool } from "./stage.js";
+import type { Tool } from "./keys.js";
+import type { Stage } from "./stage.js";
 
 /** What the view is showing just now. */
 export interface Shown {

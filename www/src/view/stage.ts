@@ -15,14 +15,12 @@ import {
 import { Aside } from "./aside.js";
 import { Cameras, type Frame, type Heights, type Inset } from "./cameras.js";
 import { Gizmo, type GizmoReports } from "./gizmo.js";
+import type { Tool } from "./keys.js";
 import { Model } from "./model.js";
 import type { Rgb } from "./palette.js";
 import { Picker, type Hit } from "./picker.js";
 import { Plate, type BuildVolume } from "./plate.js";
 import type { Rotation } from "./pose.js";
-
-/** What a person does with the pointer. */
-export type Tool = "turn" | "rotate" | "flat" | "paint";
 
 /** Finer pixels than these cost four times as much and are not seen. */
 const DENSITY_LIMIT = 2;
