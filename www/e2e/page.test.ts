@@ -94,7 +94,7 @@ test("the example opens from the keyboard, and focus goes to the model", async (
   await state(page, "done");
   expect(await layers(page)).toBeGreaterThan(267);
   expect(await page.evaluate(() => document.querySelector("cusp-slicer")?.shadowRoot?.activeElement?.textContent)).toBe("goblet.stl");
-  await expect.poll(() => page.getByRole("status").last().innerText()).toMatch(/layers planned/);
+  await page.getByRole("status").filter({ hasText: /layers planned/ }).waitFor();
 });
 
 test("a file chosen in the dialogue opens like a dropped one", async () => {
