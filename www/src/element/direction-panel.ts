@@ -302,7 +302,7 @@ export function figureRows({ figures, size_mm, energy }: Candidate, metric: Metr
       [words.overhang, format.area(figures.overhang_mm2)],
     );
   }
-  rows.push([words.size, format.dimensions(size_mm)]);
   if (energy !== null) rows.push([words.energy, format.tick(energy)]);
+  rows.push([words.size, format.dimensions(size_mm)]);
   return rows;
 }

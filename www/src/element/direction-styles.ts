@@ -133,8 +133,12 @@ export const directionStyles = css`
   }
   .looked dl {
     display: grid;
-    grid-template-columns: repeat(auto-fill, minmax(8.5rem, 1fr));
+    grid-template-columns: repeat(auto-fill, minmax(7.25rem, 1fr));
     gap: 0.375rem 1rem;
+  }
+  /* The size is the longest of all. */
+  .looked dl div:last-child {
+    grid-column: 1 / -1;
   }
   dt {
     color: var(--cusp-quiet);
@@ -226,7 +230,7 @@ export const directionStyles = css`
     }
     /* As high as it gets, so that pointing here and there moves nothing. */
     .looked {
-      min-height: 8.5rem;
+      min-height: 9rem;
     }
     .results {
       grid-template-columns: minmax(0, 1.35fr) minmax(0, 1fr);
