@@ -108,11 +108,12 @@ impl Turntable {
         order.map(|&facet| values[facet]).collect()
     }
 
-    /// So many directions spread evenly, and those of the model's largest flats behind them.
+    /// So many directions spread evenly; behind them the axes of the file, which designers build along, and those that lay the
+    /// largest flats of the model on the plate or turn them up.
     pub fn directions(&self, count: usize) -> Vec<[f64; 3]> {
         let mut directions = lattice(count);
-        for flat in self.flats() {
-            directions.extend([-flat, flat]);
+        for axis in DVec3::AXES.into_iter().chain(self.flats()) {
+            directions.extend([axis, -axis]);
         }
         directions.into_iter().map(|it| it.to_array()).collect()
     }
