@@ -49,7 +49,7 @@ fn orient(triangles: &solids::Triangles, options: &Options, search: &Search) -> 
 }
 
 fn measure(slicer: &mut Slicer, options: &Options, directions: &[DVec3]) -> Vec<Candidate> {
-    let directions: Vec<[f64; 3]> = directions.iter().map(|it| it.to_array()).collect();
+    let directions: Vec<[f64; 3]> = directions.iter().map(DVec3::to_array).collect();
     slicer
         .measure_directions(options, &directions, &mut quiet)
         .unwrap()
