@@ -20,6 +20,9 @@ const FLAT_PART: f64 = 0.02;
 /// The cosine of the angle within which facets belong to one flat: 0.26°.
 const SAME_FLAT: f64 = 1.0 - 1e-5;
 
+/// The cosine of the angle within which a flat is along an axis: that of what single precision leaves of none.
+const AXIS: f64 = 1.0 - 1e-12;
+
 /// Different flats that are told apart, from the largest facet on.
 const TOLD_APART: usize = 64;
 
@@ -123,19 +126,22 @@ impl Turntable {
         unit(Vec3::new(x[facet], y[facet], z[facet]).as_dvec3())
     }
 
-    /// Normals of the largest flats, the largest first.
+    /// Normals of the largest flats that are along no axis, the largest first; one for those that face each other.
     fn flats(&self) -> Vec<DVec3> {
         let mut flats: Vec<(DVec3, f64)> = Vec::new();
         for facet in ascending(self.areas_mm2.iter().map(|area_mm2| -area_mm2)) {
             let (normal, area_mm2) = (self.normal(facet), self.areas_mm2[facet]);
-            let is_same = |(flat, _): &(DVec3, f64)| flat.dot(normal) >= SAME_FLAT;
+            let is_same = |(flat, _): &(DVec3, f64)| flat.dot(normal).abs() >= SAME_FLAT;
             match flats.iter().position(is_same) {
                 Some(same) => flats[same].1 += area_mm2,
                 None if flats.len() < TOLD_APART => flats.push((normal, area_mm2)),
                 None => {}
             }
         }
-        flats.retain(|&(_, area_mm2)| area_mm2 >= FLAT_PART * self.surface_mm2);
+        let is_axis = |normal: DVec3| normal.abs().max_element() >= AXIS;
+        flats.retain(|&(normal, area_mm2)| {
+            area_mm2 >= FLAT_PART * self.surface_mm2 && !is_axis(normal)
+        });
         let largest = ascending(flats.iter().map(|(_, area_mm2)| -area_mm2)).into_iter();
         largest.take(FLATS).map(|flat| flats[flat].0).collect()
     }
