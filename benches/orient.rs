@@ -5,6 +5,7 @@
 //! their finer ones; the growth exponents are those of time against facets, and against directions, fitted over all rows.
 
 #[path = "paper/models.rs"]
+#[expect(dead_code, reason = "the paper's tables use the other models")]
 mod models;
 #[path = "../tests/common/solids.rs"]
 #[expect(dead_code, reason = "the tests use the other solids")]

@@ -255,6 +255,14 @@ impl Options {
         Ok(self.mirror.or(preset).unwrap_or(false))
     }
 
+    /// The same wherever rays are cast, which decides nothing.
+    pub(crate) fn anywhere(&self) -> Self {
+        Self {
+            backend: Backend::default(),
+            ..self.clone()
+        }
+    }
+
     /// How the model stands on the plate.
     pub(crate) fn pose(&self) -> Pose {
         Pose {

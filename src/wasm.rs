@@ -208,8 +208,8 @@ impl Slicer {
         glance.into_ts().map_err(throw_conversion)
     }
 
-    /// The directions of a search: so many unit vectors spread evenly, and those of the model's largest flats, three numbers
-    /// each.
+    /// The directions of a search: so many unit vectors spread evenly, the axes, and those of the model's largest flats, three
+    /// numbers each.
     ///
     /// # Errors
     /// Throws a `CuspError`.

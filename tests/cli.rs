@@ -721,3 +721,136 @@ mod unix {
         assert_eq!(std::fs::read(&zip).unwrap(), b"precious");
     }
 }
+
+/// A slab that stands on an edge, askew.
+fn slab(folder: &TempDir) -> String {
+    let mut slab = solids::cuboid(glam::Vec3::new(9.0, 7.0, 2.0));
+    let askew = glam::Quat::from_xyzw(0.3, -0.4, 0.1, 0.8).normalize();
+    for corner in slab.iter_mut().flatten() {
+        *corner = askew * *corner;
+    }
+    model(folder, "slab.stl", &binary_stl(&slab))
+}
+
+#[test]
+fn orient_finds_the_best_direction_and_applies_it() {
+    let folder = TempDir::new().unwrap();
+    let model = slab(&folder);
+    let flat = folder.path().join("flat.stl").display().to_string();
+    let output = cusp(&[
+        "orient",
+        &model,
+        "--directions",
+        "60",
+        "--apply",
+        "1",
+        "-o",
+        &flat,
+        "--json",
+    ]);
+    let found = json(&output);
+    let best = &found["best"][0];
+    assert_eq!(
+        found["stl"],
+        json(&on_cpu(&["plan", &model, "--json"]))["stl"]
+    );
+    assert!((best["size_mm"][2].as_f64().unwrap() - 2.0).abs() < 1e-4);
+    assert!(best["energy"].as_f64() < found["now"]["energy"].as_f64());
+    let plan = json(&on_cpu(&["plan", &flat, "--json"]));
+    assert_eq!(plan["layers"], best["figures"]["layers"]);
+    // The rotation that it gives says the same.
+    let rotation: Vec<String> = best["rotation"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(Value::to_string)
+        .collect();
+    let rotation = format!("--rotation={}", rotation.join(","));
+    assert_eq!(
+        json(&on_cpu(&["plan", &model, &rotation, "--json"]))["layers"],
+        plan["layers"]
+    );
+
+    let words = cusp(&[
+        "orient",
+        &model,
+        "--directions",
+        "60",
+        "--quality",
+        "overhang",
+        "--cost",
+        "time",
+    ]);
+    let words = String::from_utf8(words.stdout).unwrap();
+    assert!(words.contains("72 directions"), "{words}");
+    assert!(words.contains("\nnow "), "{words}");
+    assert!(words.contains("--rotation="), "{words}");
+    let none = cusp(&[
+        "orient",
+        &model,
+        "--directions",
+        "60",
+        "--tolerance",
+        "0.0001",
+    ]);
+    assert!(none.status.success());
+    let none = String::from_utf8(none.stdout).unwrap();
+    assert!(
+        none.contains("72 without a plan within tolerance"),
+        "{none}"
+    );
+    assert!(none.contains("no direction"), "{none}");
+
+    assert_fails(&cusp(&["orient", &model, "--apply", "1"]), 2, "--output");
+    assert_fails(&cusp(&["orient", &model, "--alpha", "2"]), 2, "from 0 to 1");
+    let two = cusp(&["orient", &model, &model, "--apply", "1", "-o", &flat]);
+    assert_fails(&two, 1, "--apply is for one model");
+    let itself = cusp(&["orient", &model, "--apply", "1", "-o", &model]);
+    assert_fails(&itself, 1, "is the model itself");
+}
+
+#[test]
+fn shards_of_a_batch_give_what_one_process_gives() {
+    let folder = TempDir::new().unwrap();
+    let [slab, ball] = [slab(&folder), sphere(&folder)];
+    let batch = |more: &[&str]| {
+        let models = [
+            "orient",
+            &slab,
+            &ball,
+            "--directions",
+            "40",
+            "--bin",
+            "0.01",
+        ];
+        cusp(&[&models[..], more].concat())
+    };
+    let parts: Vec<String> = (1..=3)
+        .map(|number| {
+            let part = batch(&["--shard", &format!("{number}/3")]);
+            assert!(part.status.success());
+            let path = folder.path().join(format!("part-{number}.jsonl"));
+            std::fs::write(&path, part.stdout).unwrap();
+            path.display().to_string()
+        })
+        .collect();
+    let merge = |places: &[usize]| {
+        let parts = places.iter().map(|&place| parts[place].as_str());
+        let arguments: Vec<&str> = ["--json", "--merge"].into_iter().chain(parts).collect();
+        batch(&arguments)
+    };
+    let whole = batch(&["--json"]);
+    assert_eq!(String::from_utf8_lossy(&whole.stdout).lines().count(), 2);
+    assert_eq!(merge(&[2, 0, 1]).stdout, whole.stdout);
+
+    assert_fails(&merge(&[0, 1]), 1, "directions are missing");
+    assert_fails(
+        &merge(&[0, 1, 2, 1]),
+        1,
+        "measured twice, in shards 2/3 and 2/3",
+    );
+    let other = cusp(&["orient", &slab, "--directions", "40", "--merge", &parts[0]]);
+    assert_fails(&other, 1, "other options");
+    assert_fails(&batch(&["--shard", "4/3"]), 2, "from 1/N to N/N");
+    assert_fails(&batch(&["--merge", &slab]), 1, "slab.stl");
+}

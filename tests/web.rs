@@ -7,6 +7,7 @@ mod common;
 use common::shifted_grid;
 use common::{binary_stl, fingerprint, on_plate, quiet, solids};
 use cusp_slicer::archive::Format;
+use cusp_slicer::direction::{Quality, Search};
 use cusp_slicer::grid::Grid;
 use cusp_slicer::ldi::cpu;
 #[cfg(target_arch = "wasm32")]
@@ -55,6 +56,28 @@ fn the_ldi_is_the_recorded_one() {
     assert_eq!(
         [hits, offsets],
         [0xf91a_24f3_ddd3_8515, 0x245c_617d_6fc3_e4e1]
+    );
+}
+
+#[wasm_bindgen_test(unsupported = test)]
+fn the_directions_are_the_recorded_ones() {
+    let options = Options {
+        bin_mm: 0.01,
+        ..options()
+    };
+    let search = Search {
+        directions: 40,
+        quality: Quality::Overhang,
+        ..Search::default()
+    };
+    let mut slicer = Slicer::load(&binary_stl(&model())).unwrap();
+    let found = slicer.orient(&options, &search, &mut quiet).unwrap();
+    assert_eq!(
+        (
+            found.best.len(),
+            fingerprint(format!("{found:?}").as_bytes())
+        ),
+        (3, 0xc259_fdb4_7bf3_520e)
     );
 }
 

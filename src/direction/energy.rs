@@ -39,7 +39,7 @@ impl Search {
     }
 
     /// The energy of a candidate, relative to what all have at most (eq. 25).
-    fn energy(&self, candidate: &Candidate, scale: &Scale) -> Option<f64> {
+    pub(crate) fn energy(&self, candidate: &Candidate, scale: &Scale) -> Option<f64> {
         let [cost, quality] = self.terms(candidate.figures.as_ref()?);
         let part = |value: f64, most: f64| if most > 0.0 { value / most } else { 0.0 };
         Some(

@@ -8,6 +8,8 @@
 
 mod energy;
 mod order;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod shard;
 pub(crate) mod sphere;
 mod turntable;
 
@@ -23,8 +25,8 @@ pub(crate) use turntable::{Stand, Turntable};
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 #[serde(default, deny_unknown_fields)]
 pub struct Search {
-    /// How many directions are looked along, spread evenly over the sphere. Those that lay a large flat of the model on the
-    /// plate, or turn it up, come on top.
+    /// How many directions are looked along, spread evenly over the sphere. The axes of the file, and those that lay a large flat
+    /// of the model on the plate or turn it up, come on top.
     pub directions: usize,
     /// How much the cost counts against the quality, α of eq. 25, from 0 to 1.
     pub alpha: f64,
@@ -175,6 +177,8 @@ pub struct Orientation {
     pub search: Search,
     /// What energies are relative to.
     pub scale: Scale,
+    /// The model as it stands now.
+    pub now: Candidate,
     /// The best direction and up to two others that are good in another way, the best first.
     pub best: Vec<Candidate>,
     /// All directions of the first look.

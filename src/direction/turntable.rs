@@ -20,11 +20,14 @@ const FLAT_PART: f64 = 0.02;
 /// The cosine of the angle within which facets belong to one flat: 0.26°.
 const SAME_FLAT: f64 = 1.0 - 1e-5;
 
+/// The cosine of the angle within which a flat is along an axis: that of what single precision leaves of none.
+const AXIS: f64 = 1.0 - 1e-12;
+
 /// Different flats that are told apart, from the largest facet on.
 const TOLD_APART: usize = 64;
 
-/// `n_z²` from which on a facet that faces down needs support: less than 45° from level.
-const OVERHANG: f32 = 0.5;
+/// −`n_z` from which on a facet needs support: it faces down at less than 45° from level.
+const OVERHANG: f32 = std::f32::consts::FRAC_1_SQRT_2;
 
 /// The surface of a model, at the scale that it is printed at.
 #[derive(Debug)]
@@ -108,11 +111,12 @@ impl Turntable {
         order.map(|&facet| values[facet]).collect()
     }
 
-    /// So many directions spread evenly, and those of the model's largest flats behind them.
+    /// So many directions spread evenly; behind them the axes of the file, which designers build along, and those that lay the
+    /// largest flats of the model on the plate or turn them up.
     pub fn directions(&self, count: usize) -> Vec<[f64; 3]> {
         let mut directions = lattice(count);
-        for flat in self.flats() {
-            directions.extend([-flat, flat]);
+        for axis in DVec3::AXES.into_iter().chain(self.flats()) {
+            directions.extend([axis, -axis]);
         }
         directions.into_iter().map(|it| it.to_array()).collect()
     }
@@ -122,19 +126,22 @@ impl Turntable {
         unit(Vec3::new(x[facet], y[facet], z[facet]).as_dvec3())
     }
 
-    /// Normals of the largest flats, the largest first.
+    /// Normals of the largest flats that are along no axis, the largest first; one for those that face each other.
     fn flats(&self) -> Vec<DVec3> {
         let mut flats: Vec<(DVec3, f64)> = Vec::new();
         for facet in ascending(self.areas_mm2.iter().map(|area_mm2| -area_mm2)) {
             let (normal, area_mm2) = (self.normal(facet), self.areas_mm2[facet]);
-            let is_same = |(flat, _): &(DVec3, f64)| flat.dot(normal) >= SAME_FLAT;
+            let is_same = |(flat, _): &(DVec3, f64)| flat.dot(normal).abs() >= SAME_FLAT;
             match flats.iter().position(is_same) {
                 Some(same) => flats[same].1 += area_mm2,
                 None if flats.len() < TOLD_APART => flats.push((normal, area_mm2)),
                 None => {}
             }
         }
-        flats.retain(|&(_, area_mm2)| area_mm2 >= FLAT_PART * self.surface_mm2);
+        let is_axis = |normal: DVec3| normal.abs().max_element() >= AXIS;
+        flats.retain(|&(normal, area_mm2)| {
+            area_mm2 >= FLAT_PART * self.surface_mm2 && !is_axis(normal)
+        });
         let largest = ascending(flats.iter().map(|(_, area_mm2)| -area_mm2)).into_iter();
         largest.take(FLATS).map(|flat| flats[flat].0).collect()
     }
@@ -166,16 +173,11 @@ impl Turntable {
     fn turned(&self, rotation: [f64; 4]) -> (Stand, Bounds) {
         // The quaternions of this module have a length.
         let matrix = rotation_matrix(rotation).unwrap_or_default();
-        let [mut min, mut max] = [DVec3::ZERO; 2];
-        let mut heights = Vec::new();
-        for axis in 0..3 {
-            let along = matrix.row(axis);
-            let places = self.places_along(along);
-            let [least, greatest] = range(&places);
-            (min[axis], max[axis]) = (least, greatest);
-            heights = places;
-        }
-        let heights_mm: Vec<f32> = heights.iter().map(|z| (z - min.z) as f32).collect();
+        let along = [0, 1, 2].map(|axis| self.places_along(matrix.row(axis)));
+        let [x, y, z] = along.each_ref().map(|places| range(places));
+        let min = DVec3::new(x[0], y[0], z[0]);
+        let max = DVec3::new(x[1], y[1], z[1]);
+        let heights_mm = along[2].iter().map(|z| (z - min.z) as f32).collect();
         let size = max - min;
         let round = |length_mm: f64| (length_mm * 1e6).round() / 1e6;
         let stand = Stand {
@@ -231,29 +233,31 @@ impl Turntable {
         max_error: f64,
         print_time_s: f64,
     ) -> Figures {
-        // Thicknesses of the layers that bins belong to, summed up: in bins.
+        // Thicknesses of the layers that bins belong to, summed up: in bins. A plan may end a little below the model's top, or
+        // above it.
         let mut sums = Vec::with_capacity(relief.bins.count + 1);
         let mut sum = 0.0;
-        sums.push(sum);
         for pair in plan.boundaries.windows(2) {
-            for _ in pair[0]..pair[1] {
-                sum += f64::from(pair[1] - pair[0]);
-                sums.push(sum);
-            }
+            let thickness = f64::from(pair[1] - pair[0]);
+            sums.extend((0..pair[1] - pair[0]).map(|bin| sum + f64::from(bin) * thickness));
+            sum += thickness * thickness;
         }
-        // A plan may end a little below the model's top.
-        let top = sums.len() - 1;
+        sums.resize(relief.bins.count + 1, sum);
         let plate = plan.boundaries[1];
+        let squares = relief.n_z_squared.iter();
+        let rough: Vec<f32> = squares
+            .map(|&square| roughness::density_of(square))
+            .collect();
         let (mut overhang_mm2, mut roughness) = (0.0, 0.0);
-        let facets = relief.spans.iter().zip(&relief.n_z_squared);
+        let facets = relief.spans.iter().zip(&rough);
         let facets = facets.zip(&stand.n_z).zip(&self.areas_mm2);
-        for (((&[first, last], &square), &n_z), &area_mm2) in facets {
-            let is_overhang = n_z < 0.0 && square > OVERHANG && last >= plate;
+        for (((&[first, last], &rough), &n_z), &area_mm2) in facets {
+            let is_overhang = n_z < -OVERHANG && last >= plate;
             overhang_mm2 += if is_overhang { area_mm2 } else { 0.0 };
             let end = last + 1;
-            let bins = sums[(end as usize).min(top)] - sums[(first as usize).min(top)];
+            let bins = sums[end as usize] - sums[first as usize];
             let thickness = bins / f64::from((end - first) as i32);
-            roughness += area_mm2 * thickness * f64::from(roughness::density_of(square));
+            roughness += area_mm2 * thickness * f64::from(rough);
         }
         Figures {
             layers: plan.layers(),

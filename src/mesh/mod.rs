@@ -246,6 +246,18 @@ impl Pose {
             height_mm: Some(height_mm),
         }
     }
+
+    /// The unit vector of the model as it stands in its file that points up from the plate.
+    ///
+    /// # Errors
+    /// [`MeshError::BadRotation`].
+    pub(crate) fn up(&self) -> Result<[f64; 3], MeshError> {
+        let up = match self.rotation {
+            None => DVec3::Z,
+            Some(rotation) => rotation_matrix(rotation)?.row(2),
+        };
+        Ok(up.to_array())
+    }
 }
 
 /// The rotation by a quaternion x, y, z, w of any length but 0.

@@ -168,11 +168,15 @@ impl Slicer {
 
     /// Corners of the facets of the surface, nine numbers a facet, in millimetres as they stand in the file.
     pub fn positions(&self) -> Vec<f32> {
-        let facets = self.model.facets[..self.model.surface_facets].iter();
-        let corners = facets
-            .flatten()
-            .map(|&vertex| self.model.vertices[vertex as usize]);
-        corners.flat_map(|corner| corner.to_array()).collect()
+        positions(&self.model)
+    }
+
+    /// The same as the model stands on the plate, upward from z = 0 and centred on x = y = 0.
+    ///
+    /// # Errors
+    /// [`Error::Mesh`].
+    pub fn positions_on_plate(&self, pose: &Pose) -> Result<Vec<f32>, Error> {
+        Ok(positions(&self.model.on_plate(pose)?))
     }
 
     /// Says how much each facet of the surface matters, from 0 to 1; all alike if that is absent. Later plans follow it.
@@ -571,6 +575,15 @@ impl Planned {
     }
 }
 
+/// Corners of the facets of the surface, nine numbers a facet.
+fn positions(mesh: &Mesh) -> Vec<f32> {
+    let facets = mesh.facets[..mesh.surface_facets].iter();
+    let corners = facets
+        .flatten()
+        .map(|&vertex| mesh.vertices[vertex as usize]);
+    corners.flat_map(|corner| corner.to_array()).collect()
+}
+
 /// The masks' pixels around a model of these bounds.
 ///
 /// # Errors
@@ -662,11 +675,7 @@ impl Sampled {
         Ok(Report {
             schema: SCHEMA,
             stl: origin.stl.clone(),
-            // Where rays are cast decides nothing.
-            options: Options {
-                backend: Backend::default(),
-                ..options.clone()
-            },
+            options: options.anywhere(),
             weights_crc32: origin.paint.map(weights::crc_of),
             layers: plan.layers(),
             height_mm: self.height_mm,

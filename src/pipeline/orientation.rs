@@ -1,6 +1,8 @@
 //! Searching for the best building direction (section 4.3).
 
 use super::{Slicer, Stage, StageProgress, grid, shapes_of};
+#[cfg(not(target_arch = "wasm32"))]
+use crate::direction::shard::{MergeError, Part, Shard, merge};
 use crate::direction::{
     Candidate, Exclusion, Figures, Orientation, Scale, Search, Stand, Turntable, best, rate, refine,
 };
@@ -13,6 +15,8 @@ use crate::parallel;
 use crate::planning::Planning;
 use crate::profile::section;
 use crate::report::SCHEMA;
+#[cfg(not(target_arch = "wasm32"))]
+use crate::weights;
 
 /// Directions that a thread is given at once.
 const BATCH: usize = 8;
@@ -72,6 +76,8 @@ impl Slicer {
             candidate.energy = energy;
         }
         let bench = self.bench(options, progress)?;
+        let mut now = bench.measure(options.pose().up()?);
+        now.energy = search.energy(&now, &rating.scale);
         let mut refined = Vec::with_capacity(rating.minima.len());
         parallel::map_in_groups(
             rating.minima.iter(),
@@ -88,12 +94,13 @@ impl Slicer {
             stl: self.stl.clone(),
             search: *search,
             scale: rating.scale,
+            now,
             best: best(&refined),
             candidates,
         })
     }
 
-    /// The directions of a search: so many unit vectors spread evenly, and those of the model's largest flats.
+    /// The directions of a search: so many unit vectors spread evenly, the axes, and those of the model's largest flats.
     ///
     /// # Errors
     /// [`Error::Mesh`].
@@ -127,6 +134,66 @@ impl Slicer {
             [0.0, 1.0],
         )?;
         Ok(candidates)
+    }
+
+    /// Measures the directions of a shard of a search.
+    ///
+    /// # Errors
+    /// Those of [`Self::orient`].
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn measure_shard(
+        &mut self,
+        options: &Options,
+        search: &Search,
+        shard: Shard,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<Part, Error> {
+        search.check()?;
+        let directions = self.directions(options, search.directions)?;
+        let places: Vec<usize> = shard.places(directions.len()).collect();
+        let ours: Vec<[f64; 3]> = places.iter().map(|&place| directions[place]).collect();
+        let candidates = self.measure_directions(options, &ours, progress)?;
+        Ok(Part {
+            places,
+            candidates,
+            ..self.part(options, shard, directions.len())
+        })
+    }
+
+    /// Puts together what was measured in shards, for [`Self::choose`]. Parts of other models are left aside.
+    ///
+    /// # Errors
+    /// [`MergeError`].
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn merge_shards(
+        &mut self,
+        options: &Options,
+        search: &Search,
+        parts: &[Part],
+    ) -> Result<Vec<Candidate>, MergeError> {
+        search.check()?;
+        let directions = self.directions(options, search.directions)?;
+        let none = Shard {
+            number: 0,
+            count: 0,
+        };
+        let whole = self.part(options, none, directions.len());
+        merge(parts, &whole, &directions)
+    }
+
+    /// A part with nothing in it.
+    #[cfg(not(target_arch = "wasm32"))]
+    fn part(&self, options: &Options, shard: Shard, directions: usize) -> Part {
+        Part {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            stl: self.stl.clone(),
+            options: options.anywhere(),
+            weights_crc32: self.paint.as_deref().map(weights::crc_of),
+            shard,
+            directions,
+            places: Vec::new(),
+            candidates: Vec::new(),
+        }
     }
 
     /// The best direction near a rated candidate, by a finer search.

@@ -20,9 +20,11 @@ pub fn density(steepest: &[f32]) -> Vec<f32> {
 /// The density of a surface by its `n_z²`.
 pub(crate) fn density_of(square: f32) -> f32 {
     let sine_square = 1.0 - square;
+    // Worked out before it is known to be wanted, so that many go at once.
+    let density = 1.0 / sine_square.sqrt();
     if sine_square * (CAP * CAP) <= 1.0 {
         CAP
     } else {
-        1.0 / sine_square.sqrt()
+        density
     }
 }

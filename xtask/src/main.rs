@@ -10,6 +10,7 @@ mod lint;
 mod node;
 mod process;
 mod project;
+mod python;
 mod report;
 mod runner_output;
 mod serve;
@@ -49,7 +50,7 @@ enum Command {
     Build,
     /// Build the npm package (www/dist-package), and weigh it
     Package,
-    /// Run every test: native, GPU, wasm in a browser, page, end to end
+    /// Run every test: native, GPU, wasm in a browser, page, end to end, cluster
     Test {
         /// Run these steps only
         #[arg(value_name = "STEP")]

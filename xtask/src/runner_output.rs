@@ -116,6 +116,49 @@ pub fn vitest(json: &str) -> Result<Tally> {
     Ok(tally)
 }
 
+/// Reads the output of Python's unittest when told to name its tests.
+///
+/// # Errors
+///
+/// Fails when there is no count of tests: it did not get to its end.
+pub fn unittest(text: &str) -> Result<Tally> {
+    let ran = text
+        .lines()
+        .rev()
+        .find_map(|line| line.strip_prefix("Ran ")?.split(' ').next()?.parse().ok());
+    let ran: usize = ran.context("unittest left no count")?;
+    // `OK`, `OK (skipped=1)` or `FAILED (failures=2, errors=1)`.
+    let counts = text
+        .lines()
+        .rev()
+        .find_map(|line| line.strip_prefix("OK").or(line.strip_prefix("FAILED")))
+        .context("unittest left no result")?;
+    let count = |what: &str| {
+        let counts = counts.trim_matches([' ', '(', ')']).split(", ");
+        let mut found = counts.filter_map(|count| count.strip_prefix(what)?.parse().ok());
+        found.next().unwrap_or(0)
+    };
+    let skipped: usize = count("skipped=");
+    let failed = count("failures=") + count("errors=") + count("unexpected successes=");
+    let mut tally = Tally {
+        // Parts of one test may fail several times.
+        passed: ran.saturating_sub(failed + skipped),
+        failed,
+        ignored: Vec::new(),
+    };
+    for line in text.lines() {
+        if let Some((name, reason)) = line.split_once(" ... skipped ") {
+            let name = name.split(' ').next().unwrap_or_default();
+            tally.ignore(name, reason.trim_matches(['\'', '"']));
+        }
+    }
+    let nameless = skipped.saturating_sub(tally.ignored.len());
+    if nameless > 0 {
+        tally.ignore(format!("{nameless} more"), "");
+    }
+    Ok(tally)
+}
+
 /// Cargo's announcement of what it runs next: `Running tests/web.rs (target/…)`
 /// or `Doc-tests cusp_slicer`.
 fn suite_name(line: &str) -> Option<&str> {
@@ -302,6 +345,46 @@ test result: FAILED. 1 passed; 1 failed; 1 ignored; 0 filtered out; finished in 
             Tally::default()
         );
         assert_eq!(libtest("no tests to run!\n").unwrap(), Tally::default());
+    }
+
+    #[test]
+    fn unittest_with_all_outcomes() {
+        let text = "\
+test_batch (test_orient.Orient.test_batch) ... ok
+test_killed (test_orient.Orient.test_killed) ... a word of a worker
+ok
+test_shell (test_orient.Orient.test_shell) ... skipped 'needs a shell'
+test_merge (test_orient.Orient.test_merge) ... FAIL
+test_error (test_orient.Orient.test_error) ... ERROR
+
+======================================================================
+FAIL: test_merge (test_orient.Orient.test_merge)
+----------------------------------------------------------------------
+AssertionError: 1 != 0
+
+----------------------------------------------------------------------
+Ran 5 tests in 12.344s
+
+FAILED (failures=1, errors=1, skipped=1)
+";
+        assert_eq!(
+            unittest(text).unwrap(),
+            Tally {
+                passed: 2,
+                failed: 2,
+                ignored: ignored(&[("test_shell", "needs a shell")]),
+            }
+        );
+        let good =
+            "test_batch (test_orient.Orient.test_batch) ... ok\n\nRan 1 test in 0.1s\n\nOK\n";
+        assert_eq!(unittest(good).unwrap().passed, 1);
+        let nameless = "Ran 3 tests in 0.1s\n\nOK (skipped=2)\n";
+        assert_eq!(
+            unittest(nameless).unwrap().ignored,
+            ignored(&[("2 more", "")])
+        );
+        assert!(unittest("Traceback (most recent call last):\n").is_err());
+        assert!(unittest("Ran 1 test in 0.1s\n").is_err());
     }
 
     #[test]

@@ -1,6 +1,11 @@
 //! `cargo xtask test`: every test that there is, step by step.
 
-use std::{fs, path::Path, process::Command, time::Instant};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::Command,
+    time::Instant,
+};
 
 use anyhow::{Context, Result};
 use clap::ValueEnum;
@@ -9,6 +14,7 @@ use tempfile::TempDir;
 use crate::{
     browser, debian, node, process,
     project::Project,
+    python,
     report::{self, Record, Verdict, judge},
     runner_output::{self, Tally},
     wasm,
@@ -34,6 +40,8 @@ pub enum Step {
     Unit,
     /// The built page in a headless browser
     E2e,
+    /// The search in shards on several worker processes (examples/cluster)
+    Cluster,
 }
 
 /// Runs the steps asked for, or all, each whatever became of those before it,
@@ -107,16 +115,16 @@ impl Step {
             Self::E2e => {
                 let chromium = browser::chromium()?;
                 // The shop asks it whether plans are right.
-                process::run(process::cargo(project).args(["build", "--bin", "cusp"]))?;
-                let cusp = format!("target/debug/cusp{}", std::env::consts::EXE_SUFFIX);
+                let cusp = build_cusp(project)?;
                 vitest(
                     node::npm(project)?
                         .env("CHROMIUM", chromium)
-                        .env("CUSP", project.root.join(cusp)),
+                        .env("CUSP", cusp),
                     "e2e",
                     scratch,
                 )
             }
+            Self::Cluster => cluster(project, scratch),
         }
     }
 }
@@ -160,6 +168,33 @@ fn gpu_on_swiftshader(project: &Project, scratch: &Path) -> Result<(Verdict, Tal
             .env("VK_DRIVER_FILES", &driver),
         scratch,
     )
+}
+
+/// The example that shares a search among worker processes.
+fn cluster(project: &Project, scratch: &Path) -> Result<(Verdict, Tally)> {
+    let python = match python::ensure_environment(project) {
+        Ok(python) => python,
+        Err(error) => return Ok((Verdict::Skipped(format!("{error:#}")), Tally::default())),
+    };
+    process::run(python::pip(&python).arg("check"))
+        .context("requirements.txt does not name all packages")?;
+    let cusp = build_cusp(project)?;
+    let (status, text) = process::tee(
+        process::command(python)
+            .current_dir(python::example(project))
+            .args(["-m", "unittest", "-v", "test_orient"])
+            .env("CUSP", cusp)
+            .env("PYTHONDONTWRITEBYTECODE", "1")
+            .env("XDG_RUNTIME_DIR", scratch),
+    )?;
+    Ok(judge(status, runner_output::unittest(&text)))
+}
+
+/// Builds the command line for tests of what calls it, and returns its path.
+fn build_cusp(project: &Project) -> Result<PathBuf> {
+    process::run(process::cargo(project).args(["build", "--bin", "cusp"]))?;
+    let name = format!("debug/cusp{}", std::env::consts::EXE_SUFFIX);
+    Ok(project.target.join(name))
 }
 
 /// Gives a Debian machine a Vulkan driver. Elsewhere the machine's own must do;

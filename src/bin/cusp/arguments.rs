@@ -1,0 +1,361 @@
+//! What users ask for, as arguments.
+
+use std::fs;
+use std::path::PathBuf;
+
+use clap::error::ErrorKind;
+use clap::{Args, CommandFactory, ValueEnum};
+use cusp_slicer::archive::Format;
+use cusp_slicer::direction::shard::Shard;
+use cusp_slicer::direction::{Cost, MAX_DIRECTIONS, Quality, Search};
+use cusp_slicer::exposure::Resin;
+use cusp_slicer::mask::LEVELS;
+use cusp_slicer::options::{Backend, Minimize, Options, Planner, Snap};
+use cusp_slicer::plan::HeightRange;
+use cusp_slicer::profile::{Metric, Source};
+
+use crate::Cli;
+use crate::files::{Failure, in_file};
+
+/// A model, and what to make of it.
+#[derive(Args)]
+pub struct Slicing {
+    /// STL file, binary or ASCII
+    pub model: PathBuf,
+    /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub choices: Choices,
+}
+
+/// How to slice.
+#[derive(Args)]
+pub struct Choices {
+    /// Turn the model by a quaternion
+    #[arg(long, value_name = "X,Y,Z,W", value_parser = rotation, allow_hyphen_values = true, help_heading = "Model")]
+    rotation: Option<[f64; 4]>,
+    /// Scale the model evenly to this height
+    #[arg(long, value_name = "MM", value_parser = length, help_heading = "Model")]
+    height: Option<f64>,
+    /// A printer by name, which gives pixels, pitch, mirroring and format: see `cusp printers`
+    #[arg(long, value_name = "NAME", help_heading = "Printer")]
+    printer: Option<String>,
+    /// Columns and rows of the masks, with the model in their middle [default: the model's bounding
+    /// box at 2048 pixels along its longer side]
+    #[arg(long, value_name = "WxH", value_parser = pixels, requires = "pitch", help_heading = "Printer")]
+    pixels: Option<[u32; 2]>,
+    /// Side of a pixel, or its sides in x and y: 0.019 or 0.019x0.024
+    #[arg(long, value_name = "MM", value_parser = pitch, help_heading = "Printer")]
+    pitch: Option<[f64; 2]>,
+    /// Smooth edges by grey: average each pixel over so many rays, and as many parts of its layer
+    #[arg(long, value_name = "LEVEL", default_value = "1", value_parser = antialias, help_heading = "Printer")]
+    aa: u32,
+    /// Mirror the masks of print files left to right
+    #[arg(long, value_name = "YES", help_heading = "Printer")]
+    mirror: Option<bool>,
+    /// The print file [default: what the printer takes, or png]
+    #[arg(long, value_enum, help_heading = "Printer")]
+    format: Option<Format>,
+    /// Resin as a JSON file: exposures, bottom layers, lift
+    #[arg(long, value_name = "FILE", help_heading = "Printer")]
+    resin: Option<PathBuf>,
+    /// Facets count by how much they stand out
+    #[arg(long, help_heading = "Weights")]
+    saliency: bool,
+    /// Facets count by this file of weights; with --saliency by the product
+    #[arg(long, value_name = "FILE", help_heading = "Weights")]
+    pub weights: Option<PathBuf>,
+    /// What facets count for at least: the error of one may be as many times the tolerance as this goes into 1
+    #[arg(
+        long,
+        value_name = "WEIGHT",
+        default_value_t = 0.25,
+        help_heading = "Weights"
+    )]
+    weight_min: f64,
+    /// Least layer thickness
+    #[arg(long, value_name = "MM", default_value = "0.05", value_parser = length, help_heading = "Layers")]
+    layer_min: f64,
+    /// Greatest layer thickness
+    #[arg(long, value_name = "MM", default_value = "0.15", value_parser = length, help_heading = "Layers")]
+    layer_max: f64,
+    /// Greatest error of a layer, in the metric's unit [default: 0.065 mm of cusp height, 0.1 mm of roughness, 0.1 of the
+    /// area, 1 mm³ of volume and as much more as the model needs]
+    #[arg(long, value_name = "ERROR", value_parser = positive, help_heading = "Layers")]
+    tolerance: Option<f64>,
+    /// Find the least tolerance that needs at most so many layers
+    #[arg(
+        long,
+        value_name = "K",
+        conflicts_with = "tolerance",
+        help_heading = "Layers"
+    )]
+    max_layers: Option<usize>,
+    /// Find the least tolerance that takes at most so many seconds
+    #[arg(long, value_name = "S", value_parser = positive, conflicts_with_all = ["tolerance", "max_layers"], help_heading = "Layers")]
+    max_time: Option<f64>,
+    /// What the error measures
+    #[arg(long, value_enum, default_value = "cusp", help_heading = "Layers")]
+    metric: Metric,
+    /// What errors are measured on
+    #[arg(long, value_enum, default_value = "exact", help_heading = "Layers")]
+    source: Source,
+    /// How layers are chosen
+    #[arg(long, value_enum, default_value = "optimal", help_heading = "Layers")]
+    planner: PlannerArg,
+    /// What the optimal plan has least of
+    #[arg(long, value_enum, default_value = "layers", help_heading = "Layers")]
+    minimize: Minimize,
+    /// Layer thickness of the uniform planner, and of no other: a length, `finest` or `coarsest`
+    #[arg(
+        long,
+        value_name = "MM",
+        value_parser = uniform_layer,
+        required_if_eq("planner", "uniform"),
+        help_heading = "Layers"
+    )]
+    layer: Option<Planner>,
+    /// Layers from Z0 to Z1 of MIN to MAX mm; may be given again for other heights
+    #[arg(long = "range", value_name = "Z0:Z1=MIN:MAX", value_parser = height_range, help_heading = "Layers")]
+    ranges: Vec<HeightRange>,
+    /// Put a plane at this height; may be given again
+    #[arg(long = "plane", value_name = "MM", value_parser = length, help_heading = "Layers")]
+    planes: Vec<f64>,
+    /// What heights are multiples of: the printer's motor step
+    #[arg(long, value_name = "MM", value_parser = length, help_heading = "Layers")]
+    step: Option<f64>,
+    /// Whether planes go where flats and sharp changes are
+    #[arg(long, value_enum, default_value = "auto", help_heading = "Layers")]
+    snap: Snap,
+    /// Height of a bin of the profile, to which layers are rounded
+    #[arg(long, value_name = "MM", default_value = "0.002", value_parser = length, help_heading = "Layers")]
+    bin: f64,
+    /// Where surfaces are sampled
+    #[arg(long, value_enum, default_value = "auto", help_heading = "Machine")]
+    backend: Backend,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum PlannerArg {
+    /// The fewest layers within tolerance, or the shortest time
+    Optimal,
+    /// Layer by layer, as thick as the profile allows
+    Greedy,
+    /// Layer by layer, as thick as the surface at the plane suggests
+    Local,
+    /// Layers of one thickness, given by --layer
+    Uniform,
+}
+
+impl Choices {
+    /// Ends the program where options of this `command` contradict each other in a way that clap's
+    /// attributes cannot say.
+    pub fn check(&self, command: &str) {
+        if self.layer.is_some() && self.planner != PlannerArg::Uniform {
+            let message = "--layer is for --planner uniform only; elsewhere --layer-min and \
+                           --layer-max bound the layers";
+            let mut cli = Cli::command();
+            cli.build();
+            let command = cli.find_subcommand_mut(command);
+            command
+                .expect("the command that was parsed")
+                .error(ErrorKind::ArgumentConflict, message)
+                .exit();
+        }
+    }
+
+    pub fn options(&self) -> Result<Options, Failure> {
+        let resin = match &self.resin {
+            None => Resin::default(),
+            Some(path) => {
+                let text = fs::read_to_string(path).map_err(|error| in_file(path, &error))?;
+                serde_json::from_str(&text).map_err(|error| in_file(path, &error))?
+            }
+        };
+        Ok(Options {
+            rotation: self.rotation,
+            height_mm: self.height,
+            printer: self.printer.clone(),
+            pixels: self.pixels,
+            pitch_mm: self.pitch.map(|pitch| pitch[0]),
+            pitch_y_mm: self.pitch.map(|pitch| pitch[1]),
+            antialias: self.aa,
+            mirror: self.mirror,
+            format: self.format,
+            layer_min_mm: self.layer_min,
+            layer_max_mm: self.layer_max,
+            tolerance: self.tolerance,
+            max_layers: self.max_layers,
+            max_time_s: self.max_time,
+            bin_mm: self.bin,
+            step_mm: self.step,
+            ranges: self.ranges.clone(),
+            planes_mm: self.planes.clone(),
+            snap: self.snap,
+            metric: self.metric,
+            source: self.source,
+            saliency: self.saliency,
+            weight_min: self.weight_min,
+            planner: match (self.planner, self.layer) {
+                (PlannerArg::Optimal, _) => Planner::Optimal,
+                (PlannerArg::Greedy, _) => Planner::Greedy,
+                (PlannerArg::Local, _) => Planner::Local,
+                (PlannerArg::Uniform, layer) => layer.unwrap_or(Planner::Finest),
+            },
+            minimize: self.minimize,
+            resin,
+            backend: self.backend,
+            ..Options::default()
+        })
+    }
+}
+
+/// Parses a positive length.
+fn length(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
+        _ => Err("a positive number of millimetres is needed".to_owned()),
+    }
+}
+
+/// Parses `P` or `PxQ`.
+fn pitch(text: &str) -> Result<[f64; 2], String> {
+    match text.split_once(['x', 'X', '×']) {
+        Some((x, y)) => Ok([length(x)?, length(y)?]),
+        None => Ok([length(text)?; 2]),
+    }
+}
+
+/// Parses `X,Y,Z,W`.
+fn rotation(text: &str) -> Result<[f64; 4], String> {
+    let parts = text.split(',').map(|part| part.trim().parse::<f64>());
+    let parts: Result<Vec<f64>, _> = parts.collect();
+    let parts = parts.ok().and_then(|parts| parts.try_into().ok());
+    parts.ok_or_else(|| "a quaternion has four numbers: X,Y,Z,W".to_owned())
+}
+
+/// Parses a level of anti-aliasing.
+fn antialias(text: &str) -> Result<u32, String> {
+    let level = text.parse().ok().filter(|level| LEVELS.contains(level));
+    level.ok_or_else(|| format!("there are levels {LEVELS:?}"))
+}
+
+/// Parses a positive number.
+fn positive(text: &str) -> Result<f64, String> {
+    length(text).map_err(|_| "a positive number is needed".to_owned())
+}
+
+/// Parses a thickness of uniform layers.
+fn uniform_layer(text: &str) -> Result<Planner, String> {
+    match text {
+        "finest" => Ok(Planner::Finest),
+        "coarsest" => Ok(Planner::Coarsest),
+        _ => Ok(Planner::Uniform {
+            layer_mm: length(text)
+                .map_err(|reason| format!("{reason}, or `finest` or `coarsest`"))?,
+        }),
+    }
+}
+
+/// Parses `Z0:Z1=MIN:MAX`.
+fn height_range(text: &str) -> Result<HeightRange, String> {
+    let pair = |text: &str| {
+        let (first, second) = text.split_once(':')?;
+        Some((first.trim().parse().ok()?, second.trim().parse().ok()?))
+    };
+    text.split_once('=')
+        .and_then(|(heights, layers)| {
+            let ((from_mm, to_mm), (layer_min_mm, layer_max_mm)) = (pair(heights)?, pair(layers)?);
+            Some(HeightRange {
+                from_mm,
+                to_mm,
+                layer_min_mm,
+                layer_max_mm,
+            })
+        })
+        .ok_or_else(|| "heights and thicknesses in mm are needed, such as 0:5=0.1:0.1".to_owned())
+}
+
+/// Parses `WxH`.
+fn pixels(text: &str) -> Result<[u32; 2], String> {
+    text.split_once(['x', 'X', '×'])
+        .and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]))
+        .filter(|size: &[u32; 2]| !size.contains(&0))
+        .ok_or_else(|| "columns and rows are needed, such as 3840x2400".to_owned())
+}
+
+/// What directions are searched for.
+#[derive(Args)]
+pub struct Orienting {
+    /// STL files, binary or ASCII
+    #[arg(required = true, value_name = "MODEL")]
+    pub models: Vec<PathBuf>,
+    /// Print one JSON object a model, each on a line of its own
+    #[arg(long)]
+    pub json: bool,
+    /// Directions to look along, spread evenly; the axes and the model's large flats come on top
+    #[arg(long, value_name = "N", default_value_t = Search::default().directions as u32, value_parser = clap::value_parser!(u32).range(1..=MAX_DIRECTIONS as i64), help_heading = "Search")]
+    directions: u32,
+    /// How much the cost counts against the quality, 0 to 1
+    #[arg(long, value_name = "A", default_value_t = Search::default().alpha, value_parser = fraction, help_heading = "Search")]
+    alpha: f64,
+    /// What costs
+    #[arg(long, value_enum, default_value = "layers", help_heading = "Search")]
+    cost: Cost,
+    /// What spoils the surface
+    #[arg(long, value_enum, default_value = "error", help_heading = "Search")]
+    quality: Quality,
+    /// Write the model as it stands in the Kth best direction, with -o; of one model only
+    #[arg(long, value_name = "K", requires = "output", conflicts_with = "shard", value_parser = clap::value_parser!(u32).range(1..=3), help_heading = "Search")]
+    pub apply: Option<u32>,
+    /// Where to write that model
+    #[arg(
+        short,
+        long,
+        value_name = "FILE",
+        requires = "apply",
+        help_heading = "Search"
+    )]
+    pub output: Option<PathBuf>,
+    /// Measure only the Ith of N parts, and print what to --merge
+    #[arg(long, value_name = "I/N", value_parser = shard, help_heading = "Several machines")]
+    pub shard: Option<Shard>,
+    /// Measure nothing: put together these parts, of the same models and options
+    #[arg(long, value_name = "PART", num_args = 1.., conflicts_with = "shard", help_heading = "Several machines")]
+    pub merge: Vec<PathBuf>,
+    #[command(flatten)]
+    pub choices: Choices,
+}
+
+impl Orienting {
+    pub fn search(&self) -> Search {
+        Search {
+            directions: self.directions as usize,
+            alpha: self.alpha,
+            cost: self.cost,
+            quality: self.quality,
+        }
+    }
+}
+
+/// Parses a number from 0 to 1.
+fn fraction(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok();
+    number
+        .filter(|number| (0.0..=1.0).contains(number))
+        .ok_or_else(|| "a number from 0 to 1 is needed".to_owned())
+}
+
+/// Parses `I/N`.
+fn shard(text: &str) -> Result<Shard, String> {
+    text.split_once('/')
+        .and_then(|(number, count)| {
+            let shard = Shard {
+                number: number.parse().ok()?,
+                count: count.parse().ok()?,
+            };
+            (1..=shard.count).contains(&shard.number).then_some(shard)
+        })
+        .ok_or_else(|| "a part of all is needed, from 1/N to N/N".to_owned())
+}

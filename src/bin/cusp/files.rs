@@ -1,0 +1,137 @@
+//! Models in, whole files out.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use cusp_slicer::pipeline::Slicer;
+use cusp_slicer::weights;
+use tempfile::NamedTempFile;
+
+use crate::arguments::Choices;
+
+/// Why a command stops.
+pub struct Failure {
+    pub exit_code: u8,
+    pub message: String,
+}
+
+impl From<String> for Failure {
+    fn from(message: String) -> Self {
+        Self {
+            exit_code: 1,
+            message,
+        }
+    }
+}
+
+impl Failure {
+    /// A failure of the library about a file; being interrupted is about none.
+    pub fn in_file(path: &Path, error: &cusp_slicer::Error) -> Self {
+        if error.code() == "cancelled" {
+            Self {
+                exit_code: 130,
+                message: error.to_string(),
+            }
+        } else {
+            in_file(path, error).into()
+        }
+    }
+}
+
+pub fn in_file(path: &Path, error: &dyn std::fmt::Display) -> String {
+    format!("{}: {error}", path.display())
+}
+
+pub fn load(model: &Path) -> Result<Slicer, Failure> {
+    let bytes = fs::read(model).map_err(|error| in_file(model, &error))?;
+    Slicer::load(&bytes).map_err(|error| Failure::in_file(model, &error))
+}
+
+/// Has facets count by a file of weights, if there is one.
+pub fn paint(slicer: &mut Slicer, weights: Option<&Path>) -> Result<(), Failure> {
+    let Some(path) = weights else { return Ok(()) };
+    let bytes = fs::read(path).map_err(|error| in_file(path, &error))?;
+    let weights =
+        weights::from_bytes(&bytes, &slicer.positions()).map_err(|error| in_file(path, &error))?;
+    slicer
+        .paint(Some(weights))
+        .map_err(|error| Failure::in_file(path, &error))
+}
+
+/// Loads a model, and the weights of its facets if there are any.
+pub fn load_weighted(model: &Path, choices: &Choices) -> Result<Slicer, Failure> {
+    let mut slicer = load(model)?;
+    paint(&mut slicer, choices.weights.as_deref())?;
+    Ok(slicer)
+}
+
+/// The file to write for `output`: itself, or what it links to, so that links stay links.
+///
+/// Fails with a sentence where no zip can be, which is cheaper to learn before the work.
+pub fn place_for(output: &Path, model: &Path) -> Result<PathBuf, String> {
+    match fs::metadata(output) {
+        Ok(found) if found.is_dir() => Err("is a folder; name a file in it".to_owned()),
+        Ok(found) if !found.is_file() => {
+            Err("is a device or a pipe; a zip can only be written to a file".to_owned())
+        }
+        Ok(_) => {
+            let place = output.canonicalize().map_err(|error| error.to_string())?;
+            if model.canonicalize().is_ok_and(|model| model == place) {
+                return Err("is the model itself; name another file".to_owned());
+            }
+            Ok(place)
+        }
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error.to_string()),
+        Err(_) if output.is_symlink() => {
+            Err("is a link to a file that does not exist; name that file instead".to_owned())
+        }
+        Err(_) => {
+            let names_folder = output.to_string_lossy().ends_with(std::path::is_separator);
+            let folder = if names_folder { output } else { parent(output) };
+            if folder.is_dir() {
+                Ok(output.to_owned())
+            } else {
+                Err(format!(
+                    "there is no folder {}; make it first",
+                    folder.display()
+                ))
+            }
+        }
+    }
+}
+
+fn parent(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+/// A file beside `place`, to be renamed to it once whole. It has the permissions of the file that it
+/// replaces, or those that the umask leaves a new one.
+pub fn file_beside(place: &Path) -> io::Result<NamedTempFile> {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        let mut builder = tempfile::Builder::new();
+        let old = fs::metadata(place).ok().map(|old| old.permissions());
+        let usual = fs::Permissions::from_mode(0o666);
+        builder.permissions(old.clone().unwrap_or(usual));
+        let file = builder.tempfile_in(parent(place))?;
+        if let Some(old) = old {
+            // The umask may have taken some away.
+            file.as_file().set_permissions(old)?;
+        }
+        Ok(file)
+    }
+    #[cfg(not(unix))]
+    NamedTempFile::new_in(parent(place))
+}
+
+/// Gives a file that is whole its name.
+pub fn keep(file: NamedTempFile, place: &Path, output: &Path) -> Result<(), Failure> {
+    let kept = file.persist(place);
+    kept.map_err(|error| in_file(output, &error.error))?;
+    Ok(())
+}

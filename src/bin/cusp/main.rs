@@ -1,0 +1,130 @@
+//! The command line: the only part with a file system, arguments and a terminal.
+
+mod arguments;
+mod files;
+mod models;
+mod orient;
+mod slice;
+mod terminal;
+mod verify;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use arguments::{Orienting, Slicing};
+use terminal::say;
+
+/// Adaptive slicer for resin printers: the fewest layers that keep the error within a tolerance.
+///
+/// Lengths are in millimetres; z is up. Exit codes: 0 done, 1 bad input or no feasible plan, 2 usage,
+/// 130 interrupted.
+#[derive(Parser)]
+#[command(name = "cusp", version)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Slice a model into a print file: masks with a manifest, or what a printer takes
+    #[command(allow_negative_numbers = true)]
+    Slice {
+        #[command(flatten)]
+        slicing: Slicing,
+        /// Where to write the print file; one that is there is replaced once the new one is whole
+        #[arg(short, long, value_name = "FILE")]
+        output: PathBuf,
+    },
+    /// Plan the layers of a model without writing masks
+    #[command(allow_negative_numbers = true)]
+    Plan {
+        #[command(flatten)]
+        slicing: Slicing,
+    },
+    /// Show how layers, time and error depend on each other
+    #[command(allow_negative_numbers = true)]
+    Tradeoff {
+        #[command(flatten)]
+        slicing: Slicing,
+        /// Plans on the curve
+        #[arg(long, default_value_t = 100, value_parser = clap::value_parser!(u32).range(2..=1000))]
+        points: u32,
+    },
+    /// Compare planners: coarsest, optimal, greedy and finest
+    #[command(allow_negative_numbers = true)]
+    Compare {
+        #[command(flatten)]
+        slicing: Slicing,
+    },
+    /// Search for the best direction to print a model in: few layers, and little error, roughness or overhang
+    #[command(allow_negative_numbers = true)]
+    Orient(Orienting),
+    /// Make a plan anew that somebody sent, and say whether it is the same and keeps its tolerance
+    Verify {
+        /// The plan as `cusp plan --json` or the page gives it, or the manifest of a zip of masks
+        plan: PathBuf,
+        /// STL file that it was made from
+        model: PathBuf,
+        /// Make this print file anew as well, and compare every byte
+        #[arg(long, value_name = "FILE")]
+        print: Option<PathBuf>,
+        /// The weights of facets that the plan was made with
+        #[arg(long, value_name = "FILE")]
+        weights: Option<PathBuf>,
+        /// Print one JSON object
+        #[arg(long)]
+        json: bool,
+    },
+    /// Find how much each facet stands out, and write that as weights
+    Saliency {
+        /// STL file, binary or ASCII
+        model: PathBuf,
+        /// Where to write the weights
+        #[arg(short, long, value_name = "FILE")]
+        output: PathBuf,
+    },
+    /// List the printers that are known by name
+    Printers {
+        /// Print one JSON array
+        #[arg(long)]
+        json: bool,
+    },
+    /// Describe a model: size, facets, volume, faults
+    Info {
+        /// STL file, binary or ASCII
+        model: PathBuf,
+        /// Print one JSON object
+        #[arg(long)]
+        json: bool,
+    },
+}
+
+fn main() -> ExitCode {
+    let result = match Cli::parse().command {
+        Command::Slice { slicing, output } => slice::slice(&slicing, &output),
+        Command::Plan { slicing } => slice::plan(&slicing),
+        Command::Tradeoff { slicing, points } => slice::tradeoff(&slicing, points as usize),
+        Command::Orient(orienting) => orient::orient(&orienting),
+        Command::Compare { slicing } => slice::compare(&slicing),
+        Command::Verify {
+            plan,
+            model,
+            print,
+            weights,
+            json,
+        } => verify::verify(&plan, &model, print.as_deref(), weights.as_deref(), json),
+        Command::Saliency { model, output } => models::saliency(&model, &output),
+        Command::Printers { json } => models::printers(json),
+        Command::Info { model, json } => models::info(&model, json),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            say(&failure.message);
+            ExitCode::from(failure.exit_code)
+        }
+    }
+}

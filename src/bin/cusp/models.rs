@@ -1,0 +1,88 @@
+//! Models as they are, and printers.
+
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::Path;
+
+use clap::ValueEnum;
+use cusp_slicer::printer::PRINTERS;
+use cusp_slicer::report::{MeshInfo, Warning};
+use cusp_slicer::weights;
+
+use crate::files::{Failure, file_beside, in_file, keep, load, place_for};
+use crate::terminal::{Bar, print, print_json, stop_on_interrupt};
+
+pub fn info(model: &Path, json: bool) -> Result<(), Failure> {
+    let info = load(model)?.info();
+    if json {
+        print_json(&info)?;
+    } else {
+        print(&describe_mesh(&info))?;
+    }
+    Ok(())
+}
+
+fn describe_mesh(info: &MeshInfo) -> String {
+    let [x, y, z] = info.size_mm;
+    let mut text = format!(
+        "size     {x:.3} × {y:.3} × {z:.3} mm\nfacets   {}\nvertices {}\nvolume   {:.3} ml\nclosed   {}",
+        info.facets,
+        info.vertices,
+        info.volume_mm3 / 1e3,
+        if info.closed { "yes" } else { "no" },
+    );
+    for Warning { message, .. } in &info.warnings {
+        text.push_str("\nwarning  ");
+        text.push_str(message);
+    }
+    text
+}
+
+pub fn saliency(model: &Path, output: &Path) -> Result<(), Failure> {
+    let place = place_for(output, model).map_err(|reason| in_file(output, &reason))?;
+    let mut slicer = load(model)?;
+    stop_on_interrupt();
+    let mut file = file_beside(&place).map_err(|error| in_file(output, &error))?;
+    let bar = Bar::new();
+    let mut progress = |stage, fraction| bar.report(stage, fraction);
+    let saliency = slicer
+        .saliency(&mut progress)
+        .map_err(|error| Failure::in_file(model, &error))?
+        .to_vec();
+    drop(bar);
+    let bytes = weights::to_bytes(&saliency, &slicer.positions());
+    file.write_all(&bytes)
+        .map_err(|error| in_file(output, &error))?;
+    keep(file, &place, output)
+}
+
+pub fn printers(json: bool) -> Result<(), Failure> {
+    if json {
+        return Ok(print_json(&PRINTERS)?);
+    }
+    let mut text = format!(
+        "{:<20} {:<28} {:>12}  {:<13} {:<20} format",
+        "name", "printer", "pixels", "pitch (µm)", "volume (mm)"
+    );
+    for printer in PRINTERS {
+        let by = |sides: &[f64]| {
+            sides
+                .iter()
+                .map(f64::to_string)
+                .collect::<Vec<_>>()
+                .join(" × ")
+        };
+        let format = printer.format.to_possible_value();
+        let _ = write!(
+            text,
+            "\n{:<20} {:<28} {:>12}  {:<13} {:<20} {}",
+            printer.name,
+            printer.model,
+            format!("{} × {}", printer.pixels[0], printer.pixels[1]),
+            by(&printer.pitch_um),
+            by(&printer.volume_mm),
+            format.as_ref().map_or("", |format| format.get_name())
+        );
+    }
+    Ok(print(&text)?)
+}

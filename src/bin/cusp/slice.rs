@@ -1,0 +1,170 @@
+//! Plans and print files.
+
+use std::fmt::Write as _;
+use std::io::BufWriter;
+use std::path::Path;
+
+use cusp_slicer::pipeline::{Slicer, StageProgress};
+use cusp_slicer::report::{Report, Warning};
+
+use crate::arguments::Slicing;
+use crate::files::{Failure, file_beside, in_file, keep, load_weighted, place_for};
+use crate::terminal::{Bar, duration, print, print_json, say, stop_on_interrupt};
+
+pub fn slice(slicing: &Slicing, output: &Path) -> Result<(), Failure> {
+    slicing.choices.check("slice");
+    let place = place_for(output, &slicing.model).map_err(|reason| in_file(output, &reason))?;
+    let mut slicer = load_weighted(&slicing.model, &slicing.choices)?;
+    stop_on_interrupt();
+    // Made before the work, so that a folder which cannot be written to is met at once.
+    let file = file_beside(&place).map_err(|error| in_file(output, &error))?;
+    let bar = Bar::new();
+    make_plan(&mut slicer, slicing, &bar)?;
+    let (writer, report) = slicer
+        .write_archive(BufWriter::new(file), &mut |stage, fraction| {
+            bar.report(stage, fraction)
+        })
+        .map_err(|error| Failure::in_file(output, &error))?;
+    let file = writer
+        .into_inner()
+        .map_err(|error| in_file(output, &error))?;
+    keep(file, &place, output)?;
+    drop(bar);
+    show(slicing, report)
+}
+
+pub fn plan(slicing: &Slicing) -> Result<(), Failure> {
+    slicing.choices.check("plan");
+    let mut slicer = load_weighted(&slicing.model, &slicing.choices)?;
+    stop_on_interrupt();
+    let bar = Bar::new();
+    let report = make_plan(&mut slicer, slicing, &bar)?;
+    drop(bar);
+    show(slicing, report)
+}
+
+fn make_plan<'a>(
+    slicer: &'a mut Slicer,
+    slicing: &Slicing,
+    bar: &Bar,
+) -> Result<&'a Report, Failure> {
+    let options = slicing.choices.options()?;
+    let mut progress = |stage, fraction| bar.report(stage, fraction);
+    pollster::block_on(slicer.plan(&options, &mut progress))
+        .map_err(|error| Failure::in_file(&slicing.model, &error))
+}
+
+fn show(slicing: &Slicing, report: &Report) -> Result<(), Failure> {
+    for Warning { message, .. } in &report.warnings {
+        say(&format!("warning: {message}"));
+    }
+    if slicing.json {
+        print_json(report)?;
+    } else {
+        print(&describe_plan(report))?;
+    }
+    Ok(())
+}
+
+fn describe_plan(report: &Report) -> String {
+    let (thinnest, thickest) = report
+        .thickness_mm
+        .iter()
+        .fold((f64::INFINITY, 0f64), |(low, high), &t| {
+            (low.min(t), high.max(t))
+        });
+    let words = |error| report.metric.words(error);
+    let (finest, coarsest) = (&report.uniform.finest, &report.uniform.coarsest);
+    format!(
+        "layers    {} of {thinnest:.3} to {thickest:.3} mm, {:.3} mm in all\n\
+         time      {}, {:.1} ml of resin\n\
+         uniform   {} at the least thickness (error {}), {} at the greatest ({})\n\
+         error     {} on the mesh, {} as sampled, tolerance {}\n\
+         planes    {} at flats and sharp changes\n\
+         masks     {} × {} pixels of {:.4} mm\n\
+         sampled   {} hits on {}, {:.0} ms in all",
+        report.layers,
+        report.height_mm,
+        duration(report.print_time_s),
+        report.resin_ml,
+        finest.layers,
+        words(finest.max_error),
+        coarsest.layers,
+        words(coarsest.max_error),
+        words(report.max_error),
+        words(report.sampled_error),
+        words(report.tolerance),
+        report.snapped_mm.len(),
+        report.mask.width,
+        report.mask.height,
+        report.mask.pitch_mm,
+        report.hits,
+        report.adapter.as_deref().unwrap_or("the CPU"),
+        report.timings_ms.total,
+    )
+}
+
+/// Loads the model and asks something of it that makes no plan, with a progress bar.
+fn study<T>(
+    slicing: &Slicing,
+    ask: impl AsyncFnOnce(&mut Slicer, &mut StageProgress<'_>) -> Result<T, cusp_slicer::Error>,
+) -> Result<T, Failure> {
+    let mut slicer = load_weighted(&slicing.model, &slicing.choices)?;
+    stop_on_interrupt();
+    let bar = Bar::new();
+    let mut progress = |stage, fraction| bar.report(stage, fraction);
+    pollster::block_on(ask(&mut slicer, &mut progress))
+        .map_err(|error| Failure::in_file(&slicing.model, &error))
+}
+
+pub fn tradeoff(slicing: &Slicing, points: usize) -> Result<(), Failure> {
+    slicing.choices.check("tradeoff");
+    let options = slicing.choices.options()?;
+    let curve = study(slicing, async |slicer, progress| {
+        slicer.tradeoff(&options, points, progress).await
+    })?;
+    if slicing.json {
+        return Ok(print_json(&curve)?);
+    }
+    let mut text = format!(
+        "tolerance     layers  largest error  time\n{:>9}",
+        options.metric.unit()
+    );
+    for point in &curve.points {
+        let _ = write!(
+            text,
+            "\n{:<12.5} {:>7}  {:<13.5}  {}",
+            point.tolerance,
+            point.layers,
+            point.max_error,
+            duration(point.print_time_s)
+        );
+    }
+    Ok(print(&text)?)
+}
+
+pub fn compare(slicing: &Slicing) -> Result<(), Failure> {
+    slicing.choices.check("compare");
+    let options = slicing.choices.options()?;
+    let comparison = study(slicing, async |slicer, progress| {
+        slicer.compare(&options, progress).await
+    })?;
+    if slicing.json {
+        return Ok(print_json(&comparison)?);
+    }
+    let mut text = format!(
+        "{} facets, {} mm high\nplanner    layers  largest error  time",
+        comparison.facets, comparison.height_mm
+    );
+    for row in &comparison.rows {
+        let _ = write!(
+            text,
+            "\n{:<9} {:>7}  {:<13}  {}",
+            row.planner,
+            row.layers,
+            comparison.metric.words(row.max_error),
+            duration(row.print_time_s)
+        );
+    }
+    Ok(print(&text)?)
+}

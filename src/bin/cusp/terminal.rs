@@ -1,0 +1,81 @@
+//! Words on the terminal, progress, and Ctrl-C.
+
+use std::io::{self, IsTerminal, Write as _};
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use cusp_slicer::pipeline::Stage;
+use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
+use serde::Serialize;
+
+/// Set once by Ctrl-C; stages look at it whenever they report progress.
+static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+
+/// Tells the user something on stderr; that nobody listens there is no reason to stop.
+pub fn say(message: &str) {
+    let _ = writeln!(io::stderr(), "cusp: {message}");
+}
+
+pub fn print_json(value: &impl Serialize) -> Result<(), String> {
+    print(&serde_json::to_string(value).map_err(|error| error.to_string())?)
+}
+
+/// Prints a line; a reader that has gone away, such as `head`, is no error.
+pub fn print(text: &str) -> Result<(), String> {
+    match writeln!(io::stdout(), "{text}") {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error.to_string()),
+        _ => Ok(()),
+    }
+}
+
+/// A time as people say it.
+pub fn duration(seconds: f64) -> String {
+    let minutes = (seconds / 60.0).round() as u64;
+    if minutes == 0 {
+        format!("{seconds:.0} s")
+    } else {
+        format!("{} h {:02} min", minutes / 60, minutes % 60)
+    }
+}
+
+/// From here on Ctrl-C is noted rather than deadly, so that temporary files go away.
+///
+/// Where an interrupt or hang-up is ignored already, as under `nohup`, it stays so: hence `try`, and
+/// hence failing does no harm.
+pub fn stop_on_interrupt() {
+    let _ = ctrlc::try_set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed));
+}
+
+/// A progress bar on a terminal, nothing elsewhere; it clears its line when dropped.
+pub struct Bar {
+    bar: ProgressBar,
+}
+
+impl Bar {
+    pub fn new() -> Self {
+        const STEPS: u64 = 1000;
+        if !io::stderr().is_terminal() {
+            return Self {
+                bar: ProgressBar::hidden(),
+            };
+        }
+        let style = ProgressStyle::with_template("{msg:8} {wide_bar} {percent:>3} %")
+            .unwrap_or_else(|_| ProgressStyle::default_bar());
+        Self {
+            bar: ProgressBar::new(STEPS)
+                .with_style(style)
+                .with_finish(ProgressFinish::AndClear),
+        }
+    }
+
+    pub fn report(&self, stage: Stage, fraction: f64) -> ControlFlow<()> {
+        self.bar.set_message(stage.name());
+        let steps = self.bar.length().unwrap_or_default() as f64;
+        self.bar.set_position((fraction * steps) as u64);
+        if INTERRUPTED.load(Ordering::Relaxed) {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
+}
