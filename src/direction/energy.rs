@@ -5,9 +5,10 @@ use glam::DVec3;
 use super::order::ascending;
 use super::sphere::{around, spacing};
 use super::{Candidate, Cost, Figures, Quality, Rating, Scale, Search};
+use crate::parallel;
 
 /// Finer searches at most.
-const MINIMA: usize = 6;
+const MINIMA: usize = 5;
 
 /// Distance in spacings up to which directions are neighbours: the next ones all around, and not those behind them.
 const NEIGHBOURS: f64 = 1.5;
@@ -107,7 +108,7 @@ pub fn refine(
     candidate: &Candidate,
     search: &Search,
     scale: &Scale,
-    measure: impl Fn([f64; 3]) -> Candidate,
+    measure: impl Fn([f64; 3]) -> Candidate + Sync,
 ) -> Candidate {
     let energy = |candidate: &Candidate| search.energy(candidate, scale);
     let mut best = candidate.clone();
@@ -116,8 +117,8 @@ pub fn refine(
     let mut measured = 0;
     while step >= FINEST && measured < MEASUREMENTS {
         let mut better = None;
-        for direction in around(DVec3::from_array(best.direction), step) {
-            let mut found = measure(direction.to_array());
+        let ring = around(DVec3::from_array(best.direction), step);
+        for mut found in parallel::map(ring.map(|it| it.to_array()).to_vec(), &measure) {
             found.energy = energy(&found);
             measured += 1;
             let least = better.as_ref().unwrap_or(&best).energy;

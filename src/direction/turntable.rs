@@ -40,7 +40,7 @@ pub(crate) struct Turntable {
     facets: Vec<[u32; 3]>,
     /// Unit normals of facets, one list an axis.
     normals: [Vec<f32>; 3],
-    areas_mm2: Vec<f64>,
+    areas_mm2: Vec<f32>,
     surface_mm2: f64,
 }
 
@@ -84,7 +84,7 @@ impl Turntable {
             let [a, b, c] = mesh.corners(facet);
             let normal = (b - a).cross(c - a);
             let length = normal.length();
-            areas_mm2.push(length * scale * scale / 2.0);
+            areas_mm2.push((length * scale * scale / 2.0) as f32);
             // What is too small for its square to be a number counts as upright, as in a mesh.
             let normal = if length > 0.0 {
                 normal / length
@@ -100,7 +100,7 @@ impl Turntable {
             vertices_mm,
             facets,
             normals,
-            surface_mm2: areas_mm2.iter().sum(),
+            surface_mm2: areas_mm2.iter().copied().map(f64::from).sum(),
             areas_mm2,
         }
     }
@@ -129,8 +129,8 @@ impl Turntable {
     /// Normals of the largest flats that are along no axis, the largest first; one for those that face each other.
     fn flats(&self) -> Vec<DVec3> {
         let mut flats: Vec<(DVec3, f64)> = Vec::new();
-        for facet in ascending(self.areas_mm2.iter().map(|area_mm2| -area_mm2)) {
-            let (normal, area_mm2) = (self.normal(facet), self.areas_mm2[facet]);
+        for facet in ascending(self.areas_mm2.iter().map(|&area_mm2| f64::from(-area_mm2))) {
+            let (normal, area_mm2) = (self.normal(facet), f64::from(self.areas_mm2[facet]));
             let is_same = |(flat, _): &(DVec3, f64)| flat.dot(normal).abs() >= SAME_FLAT;
             match flats.iter().position(is_same) {
                 Some(same) => flats[same].1 += area_mm2,
@@ -220,7 +220,7 @@ impl Turntable {
             // Single precision may go a little beyond.
             if square > 1.0 { 1.0 } else { square }
         };
-        let area = |facet: usize| self.areas_mm2[facet];
+        let area = |facet: usize| f64::from(self.areas_mm2[facet]);
         Relief::new(bins, &self.facets, &stand.heights_mm, square, area)
     }
 
@@ -252,6 +252,7 @@ impl Turntable {
         let facets = relief.spans.iter().zip(&rough);
         let facets = facets.zip(&stand.n_z).zip(&self.areas_mm2);
         for (((&[first, last], &rough), &n_z), &area_mm2) in facets {
+            let area_mm2 = f64::from(area_mm2);
             let is_overhang = n_z < -OVERHANG && last >= plate;
             overhang_mm2 += if is_overhang { area_mm2 } else { 0.0 };
             let end = last + 1;

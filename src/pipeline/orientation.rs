@@ -19,7 +19,7 @@ use crate::report::SCHEMA;
 use crate::weights;
 
 /// Directions that a thread is given at once.
-const BATCH: usize = 8;
+const BATCH: usize = 4;
 
 /// What finer searches take of all the time, about.
 const REFINEMENT: f64 = 0.2;

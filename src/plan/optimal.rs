@@ -180,6 +180,8 @@ struct Candidate {
     plane: u32,
     layers: u64,
     worst: u64,
+    /// Error of all that is below it.
+    steps_below: u64,
 }
 
 /// Lines 1 to 7 of Procedure 1 under an additive metric: the fewest layers to every plane, and among those plans the
@@ -213,11 +215,11 @@ pub fn fill_fewest(errors: &ErrorSum, segment: &Segment, tolerance: u64) -> Tabl
                 plane: highest,
                 layers,
                 worst,
+                steps_below: errors.steps_below(segment.boundary(highest)),
             });
         }
-        let upper = segment.boundary(plane);
-        let error_from =
-            |below: &Candidate| errors.steps_between(segment.boundary(below.plane), upper);
+        let steps = errors.steps_below(segment.boundary(plane));
+        let error_from = |below: &Candidate| steps - below.steps_below;
         while queue
             .get(front)
             .is_some_and(|below| plane - below.plane > greatest || error_from(below) > tolerance)

@@ -171,11 +171,14 @@ pub struct ErrorSum {
 }
 
 impl ErrorSum {
-    /// Error of the layer between two boundaries in steps, `ε_k` of eq. 1. There is none above the
-    /// last bin.
+    /// Error of the layer between two boundaries in steps, `ε_k` of eq. 1.
     pub fn steps_between(&self, lower: u32, upper: u32) -> u64 {
-        let last = self.bins.count;
-        self.sums[(upper as usize).min(last)] - self.sums[(lower as usize).min(last)]
+        self.steps_below(upper) - self.steps_below(lower)
+    }
+
+    /// Error of all that is below a boundary. There is none above the last bin.
+    pub fn steps_below(&self, boundary: u32) -> u64 {
+        self.sums[(boundary as usize).min(self.bins.count)]
     }
 }
 

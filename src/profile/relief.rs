@@ -64,10 +64,8 @@ impl Relief {
             [a.min(b).min(c), a.max(b).max(c)]
         };
         let n_z_squared: Vec<f32> = (0..facets.len()).map(n_z_squared).collect();
-        let horizontal = n_z_squared.iter().enumerate();
-        let flats = horizontal
-            .filter(|&(_, &square)| square >= HORIZONTAL)
-            .map(|(facet, _)| {
+        let flats = horizontal(&n_z_squared)
+            .map(|facet| {
                 let corners = facets[facet].map(|vertex| f64::from(heights_mm[vertex as usize]));
                 let [a, b, c] = corners;
                 Flat {
@@ -90,4 +88,18 @@ impl Relief {
         let is_seen = |flat: &&Flat| hidden.get(flat.facet as usize) != Some(&true);
         self.flats.iter().filter(is_seen).copied().collect()
     }
+}
+
+/// Places of the squares of horizontal facets. Most models have few: blocks without any are passed over at once.
+fn horizontal(n_z_squared: &[f32]) -> impl Iterator<Item = usize> {
+    const BLOCK: usize = 64;
+    let is_horizontal = |square: &&f32| **square >= HORIZONTAL;
+    let blocks = n_z_squared.chunks(BLOCK).enumerate();
+    blocks
+        .filter(move |(_, block)| block.iter().filter(is_horizontal).count() > 0)
+        .flat_map(|(place, block)| {
+            let facets = block.iter().zip(place * BLOCK..);
+            facets.filter(|(square, _)| **square >= HORIZONTAL)
+        })
+        .map(|(_, facet)| facet)
 }
