@@ -249,6 +249,8 @@ impl Slicer {
         self.turntable(options)?;
         let weights = self.weights(options, progress)?;
         let table = &self.turntable.as_ref().ok_or(Error::NoPlan)?.1;
+        #[cfg(not(target_arch = "wasm32"))]
+        parallel::keep_memory();
         Ok(Bench {
             model: &self.model,
             table,
