@@ -139,6 +139,8 @@ impl RangeMaxima {
             }
         }
         self.levels.truncate(count);
+        // What is kept must not hold on to all levels.
+        self.levels.shrink_to_fit();
         self.levels
     }
 }
