@@ -116,7 +116,7 @@ pub fn rate_directions(
 )]
 #[wasm_bindgen]
 pub fn best_directions(refined: Vec<Ts<Candidate>>) -> Result<Vec<Ts<Candidate>>, JsValue> {
-    to_ts(direction::best(&to_rust(&refined)?))
+    to_ts(&direction::best(&to_rust(&refined)?))
 }
 
 fn to_rust(candidates: &[Ts<Candidate>]) -> Result<Vec<Candidate>, JsValue> {
@@ -126,7 +126,7 @@ fn to_rust(candidates: &[Ts<Candidate>]) -> Result<Vec<Candidate>, JsValue> {
         .map_err(throw_conversion)
 }
 
-fn to_ts(candidates: Vec<Candidate>) -> Result<Vec<Ts<Candidate>>, JsValue> {
+fn to_ts(candidates: &[Candidate]) -> Result<Vec<Ts<Candidate>>, JsValue> {
     let candidates = candidates.iter().map(Tsify::into_ts);
     candidates
         .collect::<Result<_, _>>()
@@ -242,7 +242,7 @@ impl Slicer {
         let measured = self
             .slicer
             .measure_directions(&options, directions, &mut silent);
-        to_ts(measured.map_err(throw)?)
+        to_ts(&measured.map_err(throw)?)
     }
 
     /// The best direction near a rated candidate, by a finer search.

@@ -1,7 +1,7 @@
 //! The best building direction (section 4.3): a search on the Gaussian sphere for the way up that prints in the fewest layers
 //! with the least error.
 //!
-//! Directions are measured one by one ([`Turntable`]), by profile and plan alone: no copy of the mesh, no rays. Energies follow
+//! Directions are measured one by one, by profile and plan alone: no copy of the mesh, no rays. Energies follow
 //! from all the figures together ([`rate`]), the most promising directions are searched around more finely
 //! ([`refine`]), and the [`best`] are those that differ. Every step is a function of the ones before: who does them, on how
 //! many threads, workers or machines, makes no difference.
