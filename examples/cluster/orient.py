@@ -37,11 +37,13 @@ class Workplace(WorkerPlugin):
         self.folder = TemporaryDirectory(prefix="cusp-", dir=worker.local_directory)
         self.placed: set[Path] = set()
         self.running: set[Popen[str]] = set()
+        self.is_closed = False
         # A worker may have several threads, each with a task.
         self.lock = Lock()
 
     def teardown(self, worker: Worker) -> None:
         with self.lock:
+            self.is_closed = True
             for process in self.running:
                 process.kill()
         self.folder.cleanup()
@@ -62,6 +64,9 @@ class Workplace(WorkerPlugin):
         command = [self.cusp, "orient", model, *options, f"--shard={shard}"]
         try:
             with self.lock:
+                # A task that is tried again may begin while all of them end.
+                if self.is_closed:
+                    raise ChildProcessError(f"the search on {self.address} has ended")
                 process = Popen(command, stdin=DEVNULL, stdout=PIPE, stderr=PIPE, encoding="utf-8")
                 self.running.add(process)
         except OSError as error:
