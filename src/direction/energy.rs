@@ -49,8 +49,8 @@ impl Search {
     }
 }
 
-/// The energies of candidates: `search.directions` of the lattice in its order, and any others behind them. Candidates may be
-/// missing at the end, where there are no more yet.
+/// The energies of candidates, relative to those that are there: of all directions of a search, or of those that have been
+/// measured so far.
 pub fn rate(candidates: &[Candidate], search: &Search) -> Rating {
     let mut scale = Scale {
         cost: 0.0,

@@ -79,8 +79,8 @@ pub struct Slicer {
     paint: Option<Vec<f32>>,
     load_ms: f64,
     gpu: Option<Gpu>,
-    /// The surface for being looked at along directions, and at which scale.
-    turntable: Option<(f64, Turntable)>,
+    /// The surface for being looked at along directions, and the pose whose height it is scaled to, if one is asked for.
+    turntable: Option<(Option<Pose>, Turntable)>,
     sampled: Option<Sampled>,
     planned: Option<Planned>,
 }

@@ -213,25 +213,28 @@ impl Slicer {
     }
 
     fn turntable(&mut self, options: &Options) -> Result<&Turntable, Error> {
-        let scale = match options.height_mm {
-            None => 1.0,
-            Some(height_mm) => {
-                let pose = Pose {
-                    height_mm: None,
-                    ..options.pose()
-                };
-                let size = self.model.on_plate(&pose)?.bounds().size();
-                // Whether the height is one is for `on_plate` to say.
-                self.model.on_plate(&Pose {
-                    height_mm: Some(height_mm),
-                    ..pose
-                })?;
-                height_mm / size.z
-            }
+        // How the model stands matters only to a height.
+        let scaled = options.height_mm.map(|_| options.pose());
+        let table = match self.turntable.take().filter(|kept| kept.0 == scaled) {
+            Some(kept) => kept,
+            None => (scaled, Turntable::new(&self.model, self.scale(scaled)?)),
         };
-        let kept = self.turntable.take().filter(|kept| kept.0 == scale);
-        let table = kept.unwrap_or_else(|| (scale, Turntable::new(&self.model, scale)));
         Ok(&self.turntable.insert(table).1)
+    }
+
+    /// By how much the model is scaled to have its height in a pose.
+    fn scale(&self, scaled: Option<Pose>) -> Result<f64, Error> {
+        let Some((pose, height_mm)) = scaled.and_then(|pose| Some((pose, pose.height_mm?))) else {
+            return Ok(1.0);
+        };
+        // Whether the height is one is for `on_plate` to say.
+        self.model.on_plate(&pose)?;
+        let unscaled = Pose {
+            height_mm: None,
+            ..pose
+        };
+        let size = self.model.on_plate(&unscaled)?.bounds().size();
+        Ok(height_mm / size.z)
     }
 
     fn bench<'a>(
