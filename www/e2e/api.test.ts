@@ -4,7 +4,7 @@ import { afterAll, afterEach, beforeAll, beforeEach, expect, test } from "vitest
 import type * as Api from "../src/api/index.js";
 import { binaryStl, exampleTriangles } from "../src/page/example.js";
 import { launch } from "./browser.js";
-import { servePacked } from "./packed.js";
+import { serveApi } from "./packed.js";
 import type { Served } from "./serve.js";
 import { sphere } from "./solids.js";
 
@@ -25,9 +25,7 @@ let page: Page;
 const complaints: string[] = [];
 
 beforeAll(async () => {
-  const html = `<!doctype html><meta charset="utf-8" /><script type="module" src="main.js"></script>`;
-  const main = `window.api = await import("./cusp-slicer/index.js");`;
-  served = await servePacked({ "index.html": html, "main.js": main, "ball.stl": ball, "heavy.stl": heavy, "goblet.stl": goblet, "bad.stl": "no" });
+  served = await serveApi({ "ball.stl": ball, "heavy.stl": heavy, "goblet.stl": goblet, "bad.stl": "no" });
   browser = await launch();
 }, 120_000);
 

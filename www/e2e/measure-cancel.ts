@@ -5,7 +5,7 @@
 import { readFile } from "node:fs/promises";
 import type * as Api from "../src/api/index.js";
 import { launch } from "./browser.js";
-import { servePacked } from "./packed.js";
+import { serveApi } from "./packed.js";
 import { sphere } from "./solids.js";
 
 const ROUNDS = 5;
@@ -13,11 +13,7 @@ const STAGES = ["load", "ldi", "profile", "plan", "masks"] as const;
 
 export async function main([file]: string[]): Promise<void> {
   const model = file === undefined ? sphere(10, 700).bytes : await readFile(file);
-  const served = await servePacked({
-    "index.html": `<!doctype html><meta charset="utf-8" /><script type="module" src="main.js"></script>`,
-    "main.js": `window.api = await import("./cusp-slicer/index.js");`,
-    "model.stl": model,
-  });
+  const served = await serveApi({ "model.stl": model });
   const browser = await launch();
   try {
     const page = await browser.newPage();

@@ -9,7 +9,7 @@ import { readFile } from "node:fs/promises";
 import { binaryStl, exampleTriangles } from "../src/page/example.js";
 import type * as Api from "../src/api/index.js";
 import { launch } from "./browser.js";
-import { servePacked } from "./packed.js";
+import { serveApi } from "./packed.js";
 import { finer } from "./solids.js";
 
 const ROUNDS = 5;
@@ -19,11 +19,7 @@ const EXAMPLE = "example";
 
 export async function main([file = EXAMPLE, height, directions = "1000"]: string[]): Promise<void> {
   const model = file === EXAMPLE ? binaryStl(finer(exampleTriangles())) : await readFile(file);
-  const served = await servePacked({
-    "index.html": `<!doctype html><meta charset="utf-8" /><script type="module" src="main.js"></script>`,
-    "main.js": `window.api = await import("./cusp-slicer/index.js");`,
-    "model.stl": model,
-  });
+  const served = await serveApi({ "model.stl": model });
   const browser = await launch();
   try {
     const page = await browser.newPage();
