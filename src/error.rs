@@ -10,42 +10,51 @@ use crate::plan::PlanError;
 use crate::stl::StlError;
 use crate::weights::WeightsError;
 
-/// Any error of the library. Its text is one sentence that says what to do; serialised, it is the
-/// object of its typed details.
+/// Any error of the library. Its text is one sentence that says what to do; serialised, it is its
+/// code with the object of its typed details.
 #[derive(Debug, thiserror::Error, Serialize)]
-#[serde(untagged)]
+#[serde(tag = "code", content = "detail")]
 #[non_exhaustive]
 pub enum Error {
-    /// The bytes are no usable STL.
-    #[error(transparent)]
-    Stl(#[from] StlError),
-    /// The triangles are no usable mesh.
-    #[error(transparent)]
-    Mesh(#[from] MeshError),
-    /// Pixels or bins cannot be laid out.
-    #[error(transparent)]
-    Grid(#[from] GridError),
-    /// The weights are none, or those of another mesh.
-    #[error(transparent)]
-    Weights(#[from] WeightsError),
-    /// Sampling failed.
-    #[error(transparent)]
-    Ldi(#[from] LdiError),
-    /// There is no plan.
-    #[error(transparent)]
-    Plan(#[from] PlanError),
-    /// The print file could not be written.
-    #[error(transparent)]
-    Archive(#[from] ArchiveError),
     /// The options contradict each other or cannot be read.
     #[error("{reason}")]
+    #[serde(rename = "bad-options")]
     Options {
         /// What is wrong and how to put it right.
         reason: String,
     },
     /// Masks were asked for before there was a plan.
     #[error("there is no plan yet; make one first")]
+    #[serde(rename = "no-plan")]
     NoPlan,
+    /// The bytes are no usable STL.
+    #[error(transparent)]
+    #[serde(untagged)]
+    Stl(#[from] StlError),
+    /// The triangles are no usable mesh.
+    #[error(transparent)]
+    #[serde(untagged)]
+    Mesh(#[from] MeshError),
+    /// Pixels or bins cannot be laid out.
+    #[error(transparent)]
+    #[serde(untagged)]
+    Grid(#[from] GridError),
+    /// The weights are none, or those of another mesh.
+    #[error(transparent)]
+    #[serde(untagged)]
+    Weights(#[from] WeightsError),
+    /// Sampling failed.
+    #[error(transparent)]
+    #[serde(untagged)]
+    Ldi(#[from] LdiError),
+    /// There is no plan.
+    #[error(transparent)]
+    #[serde(untagged)]
+    Plan(#[from] PlanError),
+    /// The print file could not be written.
+    #[error(transparent)]
+    #[serde(untagged)]
+    Archive(#[from] ArchiveError),
 }
 
 impl Error {

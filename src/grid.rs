@@ -22,11 +22,13 @@ const ROUNDING_SLACK: f64 = 1e-9;
 
 /// Why pixels or bins cannot be laid out.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
-#[serde(untagged)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(tag = "code", content = "detail")]
 #[non_exhaustive]
 pub enum GridError {
     /// A length that must be positive and finite is not.
     #[error("{name} must be a positive number of millimetres, not {value_mm}")]
+    #[serde(rename = "bad-length")]
     BadLength {
         /// Name of the option.
         name: &'static str,
@@ -35,6 +37,7 @@ pub enum GridError {
     },
     /// A time that must be a number of seconds is none.
     #[error("the {name} must be a number of seconds from 0, not {value_s}")]
+    #[serde(rename = "bad-time")]
     BadTime {
         /// Name of the option.
         name: &'static str,
@@ -46,6 +49,7 @@ pub enum GridError {
         "a mask of {width} × {height} pixels is not possible: at least 1 × 1, at most 32768 a \
          side and 268 million in all"
     )]
+    #[serde(rename = "grid-bad-size")]
     BadSize {
         /// Pixels in x.
         width: u64,
@@ -57,6 +61,7 @@ pub enum GridError {
         "anti-aliasing asks for {width} × {height} rays, and there can be 32768 a side and 268 million in all; choose a \
          lower level"
     )]
+    #[serde(rename = "grid-too-fine")]
     TooFine {
         /// Rays in x.
         width: u32,
@@ -68,6 +73,7 @@ pub enum GridError {
         "the model is {model_mm_x:.3} × {model_mm_y:.3} mm, but the grid covers only \
          {grid_mm_x:.3} × {grid_mm_y:.3} mm; a scale of {fitting_scale:.4} fits"
     )]
+    #[serde(rename = "model-too-large")]
     ModelTooLarge {
         /// Extent of the model in x, in millimetres.
         model_mm_x: f64,
@@ -85,6 +91,7 @@ pub enum GridError {
         "the model is {model_mm_z:.3} mm high, but the printer only prints {printer_mm_z} mm; a scale of \
          {fitting_scale:.4} fits"
     )]
+    #[serde(rename = "model-too-high")]
     ModelTooHigh {
         /// Height of the model.
         model_mm_z: f64,
@@ -95,6 +102,7 @@ pub enum GridError {
     },
     /// The model is too high for its bins.
     #[error("{height_mm} mm in bins of {bin_mm} mm are too many; choose a larger bin")]
+    #[serde(rename = "too-many-bins")]
     TooManyBins {
         /// Height of the model.
         height_mm: f64,

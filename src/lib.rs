@@ -31,6 +31,7 @@ pub mod progress;
 
 pub mod archive;
 pub mod exposure;
+pub mod file_kind;
 pub mod grid;
 pub mod ldi;
 pub mod mask;
@@ -49,6 +50,7 @@ pub mod pipeline;
 mod planning;
 pub mod report;
 pub mod verify;
+pub mod warning;
 #[cfg(target_arch = "wasm32")]
 mod wasm;
 

@@ -15,7 +15,8 @@ use crate::profile::relief::{Flat, Relief};
 use crate::profile::weighted::Weighted;
 use crate::profile::wishes::wishes;
 use crate::profile::{LayerErrors, Metric, Profile, Shape, Source, section, steepest};
-use crate::report::{PlannerReport, UniformReport, Warning};
+use crate::report::{PlannerReport, UniformReport};
+use crate::warning::Warning;
 
 /// The shape of a model from both sources.
 #[derive(Debug)]
@@ -290,32 +291,28 @@ impl<'a> Planning<'a> {
         let planned_steps = plan.max_error_steps(&self.errors);
         if planned_steps > self.errors.to_steps(tolerance) {
             let planned = self.errors.to_value(planned_steps);
-            let message = format!(
-                "{} layers exceed the tolerance of {}: their largest error is {}",
-                options.planner.name(),
-                options.metric.words(tolerance),
-                options.metric.words(planned)
-            );
-            warnings.push(Warning::new("tolerance-exceeded", message));
+            warnings.push(Warning::ToleranceExceeded {
+                planner: options.planner.name().to_owned(),
+                metric: options.metric,
+                tolerance,
+                max_error: planned,
+            });
         } else if plan.max_error_steps(&self.exact) > self.exact.to_steps(tolerance) {
-            let message = format!(
-                "on the mesh itself the error reaches {}, more than the tolerance: rays miss a part of the surface",
-                options.metric.words(max_error)
-            );
-            warnings.push(Warning::new("tolerance-exceeded-on-mesh", message));
+            warnings.push(Warning::ToleranceExceededOnMesh {
+                metric: options.metric,
+                tolerance,
+                max_error,
+            });
         }
         if self.shapes.overlaps && options.metric.needs_areas() {
-            let message =
-                "the surface crosses itself, so that areas of sections are counted along rays";
-            warnings.push(Warning::new("sampled-sections", message));
+            warnings.push(Warning::SampledSections);
         }
         let top_mm = bins.boundary_mm(plan.boundaries[plan.layers()]);
         if (top_mm - self.height_mm).abs() > bins.size_mm && is_adaptive {
-            let message = format!(
-                "the print ends at {top_mm} mm, since layers do not add up to {} mm",
-                self.height_mm
-            );
-            warnings.push(Warning::new("top-moved", message));
+            warnings.push(Warning::TopMoved {
+                top_mm,
+                height_mm: self.height_mm,
+            });
         }
         let cusp = self.shapes.exact.errors(Metric::Cusp);
         Ok(PlanReport {

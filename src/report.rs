@@ -4,31 +4,13 @@ use serde::{Deserialize, Serialize};
 #[cfg(target_arch = "wasm32")]
 use tsify::Tsify;
 
+use crate::archive::Format;
 use crate::exposure::Resin;
 use crate::mesh::Mesh;
 use crate::options::Options;
 use crate::plan::tradeoff::TradeoffPoint;
 use crate::profile::{Metric, Source};
-
-/// Something that the user should know although the work went on.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(Tsify))]
-pub struct Warning {
-    /// Stable name for programs.
-    pub code: String,
-    /// One sentence for people.
-    pub message: String,
-}
-
-impl Warning {
-    /// A warning from its parts.
-    pub fn new(code: &str, message: impl Into<String>) -> Self {
-        Self {
-            code: code.to_owned(),
-            message: message.into(),
-        }
-    }
-}
+use crate::warning::Warning;
 
 /// Least and greatest coordinates.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -88,32 +70,22 @@ impl MeshInfo {
     }
 }
 
-/// A number with its noun: "1 hole", "2 holes".
-pub(crate) fn counted(number: usize, noun: &str) -> String {
-    format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
-}
-
 /// What the user should know about a mesh.
 pub fn mesh_warnings(mesh: &Mesh) -> Vec<Warning> {
     let mut warnings = Vec::new();
     if mesh.degenerate_facets > 0 {
-        let message = format!(
-            "{} without area left out",
-            counted(mesh.degenerate_facets, "facet")
-        );
-        warnings.push(Warning::new("degenerate-facets", message));
+        warnings.push(Warning::DegenerateFacets {
+            facets: mesh.degenerate_facets,
+        });
     }
     if mesh.was_inside_out {
-        let message = "the mesh was inside out, and was turned over";
-        warnings.push(Warning::new("inside-out", message));
+        warnings.push(Warning::InsideOut);
     }
     if !mesh.is_closed() {
-        let message = format!(
-            "the mesh is not closed: {} without a partner, {} closed by flat caps; look at the masks",
-            counted(mesh.open_edges, "edge"),
-            counted(mesh.holes, "hole"),
-        );
-        warnings.push(Warning::new("open-mesh", message));
+        warnings.push(Warning::OpenMesh {
+            open_edges: mesh.open_edges,
+            holes: mesh.holes,
+        });
     }
     warnings
 }
@@ -150,6 +122,28 @@ pub struct MaskReport {
     pub antialias: u32,
     /// Whether print files have them mirrored left to right.
     pub is_mirrored: bool,
+}
+
+/// The kind of a print file.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(Tsify))]
+pub struct PrintFileReport {
+    /// The format asked for, or the printer's own.
+    pub format: Format,
+    /// What its name ends with, without a dot.
+    pub extension: String,
+    /// Its media type.
+    pub media_type: String,
+}
+
+impl From<Format> for PrintFileReport {
+    fn from(format: Format) -> Self {
+        Self {
+            format,
+            extension: format.extension().to_owned(),
+            media_type: format.media_type().to_owned(),
+        }
+    }
 }
 
 /// What uniform layers would give within the same range of thicknesses.
@@ -313,16 +307,10 @@ pub struct Report {
     pub uniform: UniformReport,
     /// The masks' pixels.
     pub mask: MaskReport,
+    /// The print file that the plan is exported as.
+    pub print_file: PrintFileReport,
     /// What the user should know.
     pub warnings: Vec<Warning>,
     /// Milliseconds spent.
     pub timings_ms: Timings,
-}
-
-impl Report {
-    /// Adds a warning, unless it is there: the same plan may be written again.
-    pub(crate) fn add_warning(&mut self, warning: Option<Warning>) {
-        let new = warning.filter(|warning| !self.warnings.contains(warning));
-        self.warnings.extend(new);
-    }
 }

@@ -7,6 +7,8 @@
 use glam::Vec3;
 use serde::Serialize;
 
+use crate::file_kind::{FileKind, HEAD_BYTES};
+
 /// Bytes before the first facet of a binary STL: an 80 byte header and the facet count.
 const BINARY_HEADER_BYTES: usize = 84;
 /// Bytes of one facet of a binary STL: normal, three corners, attribute word.
@@ -14,20 +16,31 @@ const BINARY_FACET_BYTES: usize = 50;
 
 /// Why bytes could not be read as an STL.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
-#[serde(untagged)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(tag = "code", content = "detail")]
 #[non_exhaustive]
 pub enum StlError {
     /// The file has no bytes at all.
     #[error("the file is empty; export the model again as STL")]
+    #[serde(rename = "stl-empty")]
     Empty,
     /// Neither a binary STL nor text in ASCII or UTF-8 that begins with `solid`.
     #[error("this is no STL file; export the model as binary or ASCII STL")]
+    #[serde(rename = "stl-not-stl")]
     NotStl,
+    /// A file of another kind.
+    #[error("this is a {} file, no STL; {}", kind.name(), kind.advice())]
+    #[serde(rename = "other-file-kind")]
+    OtherKind {
+        /// What it is.
+        kind: FileKind,
+    },
     /// A binary STL that ends before the facets which its header announces.
     #[error(
         "the STL is cut short: its header announces {declared_facets} facets, which need \
          {expected_bytes} bytes, but the file ends at byte {found_bytes}; copy or export it again"
     )]
+    #[serde(rename = "stl-truncated")]
     Truncated {
         /// Facet count in the header.
         declared_facets: u64,
@@ -41,6 +54,7 @@ pub enum StlError {
         "the facet count is wrong: the header at byte 80 announces {declared_facets} facets, \
          but {found_facets} follow; export the model again"
     )]
+    #[serde(rename = "stl-wrong-facet-count")]
     WrongFacetCount {
         /// Facet count in the header.
         declared_facets: u64,
@@ -49,6 +63,7 @@ pub enum StlError {
     },
     /// A coordinate of a binary STL is NaN or infinite.
     #[error("the coordinate at byte {byte} (facet {facet}) is not a finite number")]
+    #[serde(rename = "stl-not-finite")]
     NotFiniteBinary {
         /// Offset of the coordinate in the file.
         byte: u64,
@@ -57,6 +72,7 @@ pub enum StlError {
     },
     /// A coordinate of an ASCII STL is NaN or infinite.
     #[error("line {line}: `{text}` is not a finite number")]
+    #[serde(rename = "stl-not-finite")]
     NotFiniteText {
         /// Line in the file, from 1.
         line: u64,
@@ -65,6 +81,7 @@ pub enum StlError {
     },
     /// A line of an ASCII STL that does not belong there.
     #[error("line {line}: expected {expected}, found `{found}`")]
+    #[serde(rename = "stl-syntax")]
     Syntax {
         /// Line in the file, from 1.
         line: u64,
@@ -75,6 +92,7 @@ pub enum StlError {
     },
     /// An ASCII STL that ends inside a solid.
     #[error("the STL is cut short: it ends at line {line}, where {expected} should follow")]
+    #[serde(rename = "stl-truncated")]
     EndOfText {
         /// Last line of the file, from 1.
         line: u64,
@@ -83,6 +101,7 @@ pub enum StlError {
     },
     /// A well-formed STL without facets.
     #[error("the STL holds no facets; export the model again")]
+    #[serde(rename = "stl-no-facets")]
     NoFacets,
 }
 
@@ -92,6 +111,7 @@ impl StlError {
         match self {
             Self::Empty => "stl-empty",
             Self::NotStl => "stl-not-stl",
+            Self::OtherKind { .. } => "other-file-kind",
             Self::Truncated { .. } | Self::EndOfText { .. } => "stl-truncated",
             Self::WrongFacetCount { .. } => "stl-wrong-facet-count",
             Self::NotFiniteBinary { .. } | Self::NotFiniteText { .. } => "stl-not-finite",
@@ -111,18 +131,10 @@ impl StlError {
 /// # Errors
 /// [`StlError`], with the byte offset or the line where reading failed.
 pub fn read(bytes: &[u8]) -> Result<Vec<[Vec3; 3]>, StlError> {
-    if bytes.is_empty() {
-        return Err(StlError::Empty);
-    }
-    let declared = declared_facets(bytes);
-    let fits = declared.is_some_and(|count| {
-        let expected = binary_length(count);
-        (expected..expected + BINARY_FACET_BYTES as u64).contains(&(bytes.len() as u64))
-    });
-    let triangles = if !fits && looks_like_text(bytes) {
-        read_ascii(bytes)?
-    } else {
-        read_binary(bytes, declared.ok_or(StlError::NotStl)?)?
+    let head = &bytes[..bytes.len().min(HEAD_BYTES)];
+    let triangles = match identify(head, bytes.len() as u64)? {
+        Encoding::Binary => read_binary(bytes)?,
+        Encoding::Text => read_ascii(bytes)?,
     };
     if triangles.is_empty() {
         return Err(StlError::NoFacets);
@@ -130,8 +142,64 @@ pub fn read(bytes: &[u8]) -> Result<Vec<[Vec3; 3]>, StlError> {
     Ok(triangles)
 }
 
-fn declared_facets(bytes: &[u8]) -> Option<u64> {
-    let count = bytes.get(80..BINARY_HEADER_BYTES)?;
+/// The two ways to write an STL.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Encoding {
+    /// Facets of 50 bytes.
+    Binary,
+    /// Words.
+    Text,
+}
+
+/// Tells from the first [`HEAD_BYTES`] of a file and its length whether it is an STL and how it is written: enough to
+/// refuse what is none before it is read.
+///
+/// # Errors
+/// [`StlError::Empty`], [`StlError::NotStl`], [`StlError::OtherKind`], [`StlError::Truncated`],
+/// [`StlError::WrongFacetCount`].
+pub fn identify(head: &[u8], length: u64) -> Result<Encoding, StlError> {
+    if length == 0 {
+        return Err(StlError::Empty);
+    }
+    let declared = declared_facets(head);
+    let fits = declared.is_some_and(|count| {
+        let expected = binary_length(count);
+        (expected..expected + BINARY_FACET_BYTES as u64).contains(&length)
+    });
+    if fits {
+        return Ok(Encoding::Binary);
+    }
+    if looks_like_text(head) {
+        return Ok(Encoding::Text);
+    }
+    if let Some(kind) = FileKind::of(head) {
+        return Err(StlError::OtherKind { kind });
+    }
+    let declared = declared.ok_or(StlError::NotStl)?;
+    let is_utf16 = head.starts_with(b"\xff\xfe") || head.starts_with(b"\xfe\xff");
+    let is_text = head
+        .iter()
+        .take(1024)
+        .all(|byte| byte.is_ascii_graphic() || byte.is_ascii_whitespace() || !byte.is_ascii());
+    let found = (length - BINARY_HEADER_BYTES as u64) / BINARY_FACET_BYTES as u64;
+    if is_text || is_utf16 {
+        return Err(StlError::NotStl);
+    }
+    if declared > found {
+        return Err(StlError::Truncated {
+            declared_facets: declared,
+            expected_bytes: binary_length(declared),
+            found_bytes: length,
+        });
+    }
+    Err(StlError::WrongFacetCount {
+        declared_facets: declared,
+        found_facets: found,
+    })
+}
+
+fn declared_facets(head: &[u8]) -> Option<u64> {
+    let count = head.get(80..BINARY_HEADER_BYTES)?;
     Some(u64::from(u32::from_le_bytes([
         count[0], count[1], count[2], count[3],
     ])))
@@ -149,30 +217,8 @@ fn looks_like_text(bytes: &[u8]) -> bool {
     word.len() >= 5 && word[..5].eq_ignore_ascii_case(b"solid") && !head.contains(&0)
 }
 
-fn read_binary(bytes: &[u8], declared: u64) -> Result<Vec<[Vec3; 3]>, StlError> {
+fn read_binary(bytes: &[u8]) -> Result<Vec<[Vec3; 3]>, StlError> {
     let body = &bytes[BINARY_HEADER_BYTES..];
-    let found = (body.len() / BINARY_FACET_BYTES) as u64;
-    let is_utf16 = bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff");
-    let is_text = bytes
-        .iter()
-        .take(1024)
-        .all(|byte| byte.is_ascii_graphic() || byte.is_ascii_whitespace() || !byte.is_ascii());
-    if (is_text || is_utf16) && declared != found {
-        return Err(StlError::NotStl);
-    }
-    if declared > found {
-        return Err(StlError::Truncated {
-            declared_facets: declared,
-            expected_bytes: binary_length(declared),
-            found_bytes: bytes.len() as u64,
-        });
-    }
-    if declared < found {
-        return Err(StlError::WrongFacetCount {
-            declared_facets: declared,
-            found_facets: found,
-        });
-    }
     body.chunks_exact(BINARY_FACET_BYTES)
         .enumerate()
         .map(|(facet, record)| {

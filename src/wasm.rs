@@ -5,36 +5,32 @@
 use std::io::{self, BufWriter, Write};
 use std::ops::ControlFlow;
 
-use js_sys::{Function, Uint8Array};
+use js_sys::{Function, Reflect, Uint8Array};
 use serde::Serialize;
 use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use crate::direction::{self, Candidate, Rating, Scale, Search};
 use crate::error::Error;
+use crate::file_kind::HEAD_BYTES;
 use crate::options::Options;
 use crate::pipeline::{self, Stage};
 use crate::printer::PRINTERS;
 use crate::profile::{Metric, Source};
 use crate::report::{Comparison, Glance, MeshInfo, Report, Tradeoff};
-use crate::weights;
+use crate::{stl, weights};
 
-/// What every function here throws.
-#[derive(Serialize, Tsify)]
-struct CuspError {
-    /// Stable name for programs.
-    code: &'static str,
-    /// One sentence for people, with what to do.
-    message: String,
-    /// The typed details of the error, if it has any.
-    #[tsify(type = "Record<string, unknown> | null")]
-    detail: JsValueOf,
-}
-
-/// Details that are a JavaScript value already.
-#[derive(Serialize)]
-#[serde(transparent)]
-struct JsValueOf(#[serde(with = "serde_wasm_bindgen::preserve")] JsValue);
+/// What every function here throws: code and typed details of an [`Error`], and one sentence for people with what to do.
+///
+/// The types of errors that others hold are generated; those that hold them are put together here.
+#[wasm_bindgen(typescript_custom_section)]
+const CUSP_ERROR: &str = r#"
+type OwnError = { code: "bad-options"; detail: { reason: string } } | { code: "no-plan" };
+export type CoreError =
+    | OwnError | StlError | MeshError | GridError | WeightsError | LdiError | ArchiveError
+    | Exclude<PlanError, { code: "Grid" }>;
+export type CuspError = CoreError & { message: string };
+"#;
 
 fn to_js(value: &impl Serialize) -> JsValue {
     let serializer = serde_wasm_bindgen::Serializer::json_compatible();
@@ -44,11 +40,11 @@ fn to_js(value: &impl Serialize) -> JsValue {
 
 fn throw(error: impl Into<Error>) -> JsValue {
     let error = error.into();
-    to_js(&CuspError {
-        code: error.code(),
-        message: error.to_string(),
-        detail: JsValueOf(to_js(&error)),
-    })
+    let message = error.to_string();
+    let thrown = to_js(&error);
+    // Fails only on what is no object.
+    let _ = Reflect::set(&thrown, &"message".into(), &message.into());
+    thrown
 }
 
 /// Values that do not fit their type: options that are none, mostly.
@@ -73,6 +69,22 @@ fn progress_to(callback: &Function) -> impl FnMut(Stage, f64) -> ControlFlow<()>
 pub struct Slicer {
     slicer: pipeline::Slicer,
     glanced: Vec<f32>,
+}
+
+/// Says whether a file is an STL, by its first bytes and its length, before it is read.
+///
+/// # Errors
+/// Throws a `CuspError` that names what it is instead.
+#[wasm_bindgen]
+pub fn identify(head: &[u8], length: f64) -> Result<(), JsValue> {
+    stl::identify(head, length as u64).map_err(throw)?;
+    Ok(())
+}
+
+/// Bytes that [`identify`] wants.
+#[wasm_bindgen]
+pub fn head_bytes() -> usize {
+    HEAD_BYTES
 }
 
 /// The printers that are known by name.

@@ -12,17 +12,20 @@ const HEAD_BYTES: usize = 16;
 
 /// Why weights cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
-#[serde(untagged)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(tag = "code", content = "detail")]
 #[non_exhaustive]
 pub enum WeightsError {
     /// The bytes are no file of weights.
     #[error("this is no file of weights: it does not begin with CUSPWT01, or is cut short")]
+    #[serde(rename = "weights-not-weights")]
     NotWeights,
     /// The weights were made for another mesh.
     #[error(
         "these weights are for another mesh, of {weights_facets} facets; this one has {mesh_facets}. Paint it anew, or take the \
          model that they were made for"
     )]
+    #[serde(rename = "weights-other-mesh")]
     OtherMesh {
         /// Facets that the weights are for.
         weights_facets: usize,
@@ -31,6 +34,7 @@ pub enum WeightsError {
     },
     /// A weight is no number from 0 to 1.
     #[error("the weight of facet {facet} is {weight}, and weights are 0 to 1")]
+    #[serde(rename = "weights-out-of-range")]
     OutOfRange {
         /// The first such facet, from 0.
         facet: usize,

@@ -8,6 +8,7 @@ use std::path::PathBuf;
 use std::process::{Command, Output};
 
 use common::{assert_near, binary_stl, solids};
+use glam::Vec3;
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -349,6 +350,45 @@ fn verify_accepts_what_plan_and_slice_made_and_nothing_else() {
     std::fs::write(&plan, cheaper).unwrap();
     assert_fails(&cusp(&["verify", &plan, &model]), 1, "resin_ml is 5e-10");
     assert_fails(&cusp(&["verify", &model, &model]), 1, "UTF-8");
+}
+
+#[test]
+fn every_command_that_plans_gives_the_same_warnings() {
+    let folder = TempDir::new().unwrap();
+    let mut floating = solids::cuboid(Vec3::new(6.0, 6.0, 1.0));
+    let ball = solids::sphere(2.0, 3);
+    floating.extend(solids::moved(&ball, Vec3::new(3.0, 3.0, 6.0)));
+    let model = model(&folder, "floating.stl", &binary_stl(&floating));
+    let plan = folder.path().join("plan.json").display().to_string();
+    let print = folder.path().join("print.zip").display().to_string();
+
+    let planned = on_cpu(&["plan", &model, "--pitch", "0.1", "--json"]);
+    std::fs::write(&plan, &planned.stdout).unwrap();
+    let warnings = json(&planned)["warnings"].clone();
+    let black = &warnings[0];
+    assert_eq!(black["code"], "black-layers");
+    let layers = black["detail"]["layers"].as_u64().unwrap();
+    assert!(layers > 10, "{black}");
+    let sliced = on_cpu(&["slice", &model, "-o", &print, "--pitch", "0.1", "--json"]);
+    assert_eq!(json(&sliced)["warnings"], warnings);
+    let verified = cusp(&["verify", &plan, &model, "--print", &print, "--json"]);
+    assert_eq!(json(&verified)["warnings"], warnings);
+    let said = format!("cusp: warning: {layers} layers of the plan are black, from 1.");
+    for output in [planned, sliced, verified] {
+        let stderr = String::from_utf8(output.stderr).unwrap();
+        assert!(stderr.contains(&said), "{stderr}");
+    }
+}
+
+#[test]
+fn a_file_of_another_kind_is_named() {
+    let folder = TempDir::new().unwrap();
+    let head = b"PK\x03\x04\x14\0\x06\0\x08\0[Content_Types].xml";
+    let model = model(&folder, "part.stl", head);
+    let said = "this is a 3MF file, no STL; export the model as STL";
+    for command in ["info", "plan", "orient"] {
+        assert_fails(&cusp(&[command, &model]), 1, said);
+    }
 }
 
 #[test]

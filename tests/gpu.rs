@@ -12,6 +12,7 @@ use cusp_slicer::ldi::{LdiError, cpu};
 use cusp_slicer::options::{Backend, Options};
 use cusp_slicer::pipeline::{Slicer, Stage, StageProgress};
 use cusp_slicer::progress::silent;
+use cusp_slicer::warning::Warning;
 use libtest_mimic::{Arguments, Completion, Failed, Trial};
 
 /// Samples on both backends; the pixels lie `shift` pixels off those that just cover the model.
@@ -83,7 +84,7 @@ fn tests() -> Vec<(String, Test)> {
     ));
     tests.push((
         "a gpu with small buffers hands its work to the cpu".to_owned(),
-        Box::new(|| plans_with_warning(with_buffers_of(1 << 10)?, "gpu-too-small", &mut quiet)),
+        Box::new(|| plans_with_warning(with_buffers_of(1 << 10)?, is_gpu_too_small, &mut quiet)),
     ));
     tests.push((
         "small buffers make small tiles".to_owned(),
@@ -152,7 +153,7 @@ fn upset(gpu: Gpu) -> Result<(), Failed> {
         }
         ControlFlow::Continue(())
     };
-    plans_with_warning(gpu, "gpu-failed", &mut progress)
+    plans_with_warning(gpu, is_gpu_failed, &mut progress)
 }
 
 /// Takes the device away in the middle of the job.
@@ -164,13 +165,13 @@ fn lose(gpu: Gpu) -> Result<(), Failed> {
         }
         ControlFlow::Continue(())
     };
-    plans_with_warning(gpu, "gpu-failed", &mut progress)
+    plans_with_warning(gpu, is_gpu_failed, &mut progress)
 }
 
-/// The plan must be the CPU's, with a warning of that code, once: the GPU is not tried again.
+/// The plan must be the CPU's, with that warning, once: the GPU is not tried again.
 fn plans_with_warning(
     gpu: Gpu,
-    code: &str,
+    is_wanted: fn(&Warning) -> bool,
     progress: &mut StageProgress<'_>,
 ) -> Result<(), Failed> {
     let stl = binary_stl(&solids::sphere(5.0, 5));
@@ -186,14 +187,20 @@ fn plans_with_warning(
     if found
         .warnings
         .iter()
-        .filter(|warning| warning.code == code)
+        .filter(|&warning| is_wanted(warning))
         .count()
         != 1
     {
-        return Err(format!("no warning {code}: {:?}", found.warnings).into());
+        return Err(format!("the warnings are {:?}", found.warnings).into());
     }
     if (found.backend.as_str(), &found.z_mm, found.hits) != ("cpu", &expected.z_mm, expected.hits) {
         return Err("the plan is not the CPU's".into());
+    }
+    // What happened on this machine leaves no trace in the print file.
+    let (expected, _) = on_cpu.write_archive(Vec::new(), &mut quiet)?;
+    let (found, _) = slicer.write_archive(Vec::new(), &mut quiet)?;
+    if found != expected {
+        return Err("the print file is not the CPU's".into());
     }
     Ok(())
 }
@@ -215,4 +222,12 @@ fn main() {
         })
         .collect();
     libtest_mimic::run(&arguments, trials).exit();
+}
+
+fn is_gpu_failed(warning: &Warning) -> bool {
+    matches!(warning, Warning::GpuFailed { .. })
+}
+
+fn is_gpu_too_small(warning: &Warning) -> bool {
+    matches!(warning, Warning::GpuTooSmall { .. })
 }

@@ -14,6 +14,7 @@ use cusp_slicer::options::{Backend, Minimize, Options, Planner, Snap};
 use cusp_slicer::pipeline::{Slicer, Stage};
 use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::report::Report;
+use cusp_slicer::warning::Warning;
 use glam::Vec3;
 
 fn options() -> Options {
@@ -180,27 +181,60 @@ fn output_that_would_be_black_is_an_error() {
     assert_eq!(code(result.map(|_| ())), "all-black");
 }
 
+/// A model, the level of anti-aliasing, and whether there are black layers.
+type BlackCase = (&'static str, solids::Triangles, u32, bool);
+
 #[test]
-fn black_layers_are_warned_of_once_however_often_the_plan_is_written() {
-    // A cone on its base: the tip is thinner than a pixel.
-    let mut slicer = load(&solids::cone(3.0, 4.0, 16));
-    plan(
-        &mut slicer,
-        &Options {
+fn the_plan_warns_of_exactly_the_layers_whose_masks_are_black() {
+    let floating = || {
+        let mut plate = solids::cuboid(Vec3::new(6.0, 6.0, 1.0));
+        let ball = solids::sphere(2.0, 4);
+        plate.extend(solids::moved(&ball, Vec3::new(3.0, 3.0, 6.0)));
+        plate
+    };
+    let cases: [BlackCase; 4] = [
+        // The tip is thinner than a pixel.
+        ("tip", solids::cone(3.0, 4.0, 16), 1, true),
+        ("floating", floating(), 1, true),
+        ("floating, grey", floating(), 4, true),
+        ("cube", solids::cube(3.0), 1, false),
+    ];
+    for (name, model, antialias, has_black) in cases {
+        let mut slicer = load(&model);
+        let options = Options {
             rays: 8,
+            antialias,
             ..options()
-        },
-    )
-    .unwrap();
-    for _ in 0..2 {
-        let (_, report) = slicer
-            .write_archive(Cursor::new(Vec::new()), &mut quiet)
-            .unwrap();
-        let black = report
+        };
+        let report = plan(&mut slicer, &options).unwrap();
+        let warned: Vec<_> = report
             .warnings
             .iter()
-            .filter(|warning| warning.code == "black-layers");
-        assert_eq!(black.count(), 1);
+            .filter_map(|warning| match *warning {
+                Warning::BlackLayers { layers, from_mm } => Some((layers, from_mm)),
+                _ => None,
+            })
+            .collect();
+        // What the masks themselves say.
+        let written = slicer.write_archive(Vec::new(), &mut quiet).unwrap().0;
+        let mut zip = zip::ZipArchive::new(Cursor::new(written)).unwrap();
+        let manifest = zip.by_name("manifest.json").unwrap();
+        let manifest: serde_json::Value = serde_json::from_reader(manifest).unwrap();
+        let black: Vec<usize> = manifest["layer_files"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .enumerate()
+            .filter(|(_, layer)| layer["lit_pixels"] == 0)
+            .map(|(layer, _)| layer)
+            .collect();
+        let expected: Vec<_> = black
+            .first()
+            .map(|&lowest| (black.len(), report.z_mm[lowest]))
+            .into_iter()
+            .collect();
+        assert_eq!(warned, expected, "{name}");
+        assert_eq!(!black.is_empty(), has_black, "{name}");
     }
 }
 
@@ -287,7 +321,7 @@ fn a_sampled_plan_that_fails_on_the_mesh_says_so() {
         report
             .warnings
             .iter()
-            .any(|warning| warning.code == "tolerance-exceeded-on-mesh")
+            .any(|warning| matches!(warning, Warning::ToleranceExceededOnMesh { .. }))
     );
 }
 

@@ -5,7 +5,8 @@
 mod common;
 
 use common::{binary_stl, solids};
-use cusp_slicer::stl::{StlError, read};
+use cusp_slicer::file_kind::{FileKind, HEAD_BYTES};
+use cusp_slicer::stl::{Encoding, StlError, identify, read};
 
 const ASCII: &str = "solid part one
   facet normal 0 0 1
@@ -241,5 +242,66 @@ fn text_in_utf_16_is_no_stl() {
 fn other_text_is_no_stl() {
     let text = "A letter about solids.\n".repeat(20);
     assert_eq!(read(text.as_bytes()), Err(StlError::NotStl));
-    assert_eq!(read(b"PK\x03\x04"), Err(StlError::NotStl));
+}
+
+#[test]
+fn files_of_other_kinds_are_named_by_their_first_bytes() {
+    let obj = b"# made by hand\r\n\r\nmtllib a.mtl\no part\nv 0 0 0\n";
+    let xml = b"\xef\xbb\xbf<?xml version=\"1.0\"?>\n<amf unit=\"millimeter\">";
+    let cases: [(&[u8], FileKind); 14] = [
+        (
+            b"PK\x03\x04\x14\0\x06\0\x08\0[Content_Types].xml",
+            FileKind::ThreeMf,
+        ),
+        (
+            b"PK\x03\x04 Metadata/x.png PK\x03\x04 3D/3dmodel.model",
+            FileKind::ThreeMf,
+        ),
+        (b"PK\x03\x04\x14\0part.amf", FileKind::Amf),
+        (b"PK\x03\x04\x14\0part.stl", FileKind::Zip),
+        (b"\x1f\x8b\x08\0part.stl", FileKind::Gzip),
+        (b"glTF\x02\0\0\0", FileKind::Gltf),
+        (b"<!DOCTYPE html><title>Log in", FileKind::Html),
+        (b"\n  <html lang=en>", FileKind::Html),
+        (b"<amf>", FileKind::Amf),
+        (xml, FileKind::Amf),
+        (b"ISO-10303-21;\nHEADER;", FileKind::Step),
+        (b"ply\nformat ascii 1.0\n", FileKind::Ply),
+        (obj, FileKind::Obj),
+        (b"v 1 2 3", FileKind::Obj),
+    ];
+    for (head, kind) in cases {
+        for length in [head.len(), 2000] {
+            let mut file = head.to_vec();
+            file.resize(length, b' ');
+            let error = read(&file).unwrap_err();
+            assert_eq!(error, StlError::OtherKind { kind }, "{head:?}");
+            let message = error.to_string();
+            assert!(message.contains(kind.name()), "{message}");
+        }
+    }
+    // Words alone are no reason.
+    for text in ["vase", "v", "# nothing", "plywood", "solids"] {
+        assert_eq!(FileKind::of(text.as_bytes()), None, "{text}");
+    }
+}
+
+#[test]
+fn a_binary_file_whose_length_is_right_is_an_stl_whatever_its_header_says() {
+    let triangles = solids::cube(2.0);
+    for header in [b"PK\x03\x04", b"ply\n", b"v 1 "] {
+        let mut bytes = binary_stl(&triangles);
+        bytes[..4].copy_from_slice(header);
+        assert_eq!(read(&bytes).unwrap(), triangles);
+    }
+}
+
+#[test]
+fn the_head_of_a_file_is_enough_to_refuse_it() {
+    let bytes = binary_stl(&solids::sphere(3.0, 6));
+    let head = &bytes[..HEAD_BYTES];
+    assert_eq!(identify(head, bytes.len() as u64), Ok(Encoding::Binary));
+    assert_eq!(identify(ASCII.as_bytes(), 1 << 40), Ok(Encoding::Text));
+    let cut = identify(head, bytes.len() as u64 - 51);
+    assert!(matches!(cut, Err(StlError::Truncated { .. })), "{cut:?}");
 }

@@ -25,7 +25,7 @@ use crate::mesh::Mesh;
 use crate::parallel::map_in_groups;
 use crate::printer::Printer;
 use crate::progress::{Cancelled, Progress, report};
-use crate::report::{Report, Warning, counted};
+use crate::report::Report;
 
 /// A file that printers or other programs take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -45,6 +45,24 @@ pub enum Format {
 }
 
 impl Format {
+    /// What the name of such a file ends with, without a dot.
+    pub fn extension(self) -> &'static str {
+        match self {
+            Self::Png | Self::Chitubox => "zip",
+            Self::Uvj => "uvj",
+            Self::Sl1 => "sl1",
+        }
+    }
+
+    /// The media type of such a file. A zip with an extension of its own is no `application/zip`, or browsers would
+    /// unpack or rename it.
+    pub fn media_type(self) -> &'static str {
+        match self {
+            Self::Png | Self::Chitubox => "application/zip",
+            Self::Uvj | Self::Sl1 => "application/octet-stream",
+        }
+    }
+
     fn container(self) -> &'static dyn Container {
         match self {
             Self::Png => &plain::Plain,
@@ -57,29 +75,34 @@ impl Format {
 
 /// Why a print file could not be written.
 #[derive(Debug, thiserror::Error, Serialize)]
-#[serde(untagged)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(tag = "code", content = "detail")]
 #[non_exhaustive]
 pub enum ArchiveError {
     /// The progress callback asked to stop.
     #[error(transparent)]
+    #[serde(rename = "cancelled")]
     Cancelled(#[from] Cancelled),
     /// No pixel of any mask is lit.
     #[error(
         "all masks are black: the model encloses nothing that the middle of a layer meets; check \
          the model, or choose thinner layers"
     )]
+    #[serde(rename = "all-black")]
     AllBlack,
     /// The format has one thickness for all layers, and the plan has several.
     #[error(
         "{format} files have one thickness for all layers, and this plan has several; choose the format chitubox, uvj or \
          png, or the uniform planner"
     )]
+    #[serde(rename = "uniform-only")]
     UniformOnly {
         /// The format asked for.
         format: &'static str,
     },
     /// Bytes could not be written: the disk is full, say.
     #[error("the print file could not be written: {reason}")]
+    #[serde(rename = "archive-write")]
     Write {
         /// What the system said.
         reason: String,
@@ -167,7 +190,7 @@ trait Container: Sync {
 /// Layers that one thread encodes in a row; the mask is copied once for each such run.
 const RUN: usize = 8;
 
-/// Writes a print file from its beginning to its end, and returns the writer with a warning if some layers are black.
+/// Writes a print file from its beginning to its end, and returns the writer.
 ///
 /// The bytes depend on the job alone, not on threads or machine. Whatever their number and size, they are written right:
 /// from 65,535 files or 4 GiB on by the rules of zip64.
@@ -179,7 +202,7 @@ pub fn write<W: Write>(
     job: &Job<'_>,
     writer: W,
     progress: &mut Progress<'_>,
-) -> Result<(W, Option<Warning>), ArchiveError> {
+) -> Result<W, ArchiveError> {
     report(progress, 0.0)?;
     let container = format.container();
     container.check(job)?;
@@ -214,25 +237,14 @@ pub fn write<W: Write>(
         [0.0, 1.0],
     )?;
 
-    let black = layers.iter().filter(|layer| layer.lit_pixels == 0).count();
-    if black == layers.len() {
+    if layers.iter().all(|layer| layer.lit_pixels == 0) {
         return Err(ArchiveError::AllBlack);
     }
-    let warning = (black > 0).then(|| {
-        let message = format!("{} of the plan are black", counted(black, "layer"));
-        Warning::new("black-layers", message)
-    });
-    let mut report = report.clone();
-    report.add_warning(warning.clone());
-    let job = Job {
-        report: &report,
-        ..*job
-    };
     let mut deflater = Deflater::new();
-    for (name, bytes) in container.files(&job, &layers)? {
+    for (name, bytes) in container.files(job, &layers)? {
         add(&mut zip, &name, &deflater.deflate(&bytes)?)?;
     }
-    Ok((zip.finish().map_err(ArchiveError::write)?, warning))
+    zip.finish().map_err(ArchiveError::write)
 }
 
 /// Adds a file. Without dates archives are reproducible.

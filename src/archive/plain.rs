@@ -8,7 +8,8 @@ use serde_json::json;
 
 use super::png::Depth;
 use super::{ArchiveError, Container, File, Job, LayerEntry};
-use crate::report::OF_THE_MACHINE;
+use crate::report::{OF_THE_MACHINE, Report};
+use crate::warning::Warning;
 
 pub(super) struct Plain;
 
@@ -22,7 +23,11 @@ impl Container for Plain {
     }
 
     fn files(&self, job: &Job<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
-        let mut manifest = serde_json::to_value(job.report).map_err(ArchiveError::write)?;
+        let report = Report {
+            warnings: of_the_plan(&job.report.warnings),
+            ..job.report.clone()
+        };
+        let mut manifest = serde_json::to_value(report).map_err(ArchiveError::write)?;
         if let Some(manifest) = manifest.as_object_mut() {
             for key in OF_THE_MACHINE {
                 manifest.remove(key);
@@ -32,4 +37,10 @@ impl Container for Plain {
         let json = serde_json::to_vec(&manifest).map_err(ArchiveError::write)?;
         Ok(vec![("manifest.json".to_owned(), json)])
     }
+}
+
+/// The warnings that every machine has.
+fn of_the_plan(warnings: &[Warning]) -> Vec<Warning> {
+    let of_the_plan = |warning: &&Warning| !warning.is_of_the_machine();
+    warnings.iter().filter(of_the_plan).cloned().collect()
 }

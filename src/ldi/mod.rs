@@ -10,9 +10,12 @@ pub mod cpu;
 pub mod gpu;
 pub mod layout;
 pub mod projection;
+mod solid;
 pub mod visibility;
 
 use serde::Serialize;
+
+pub use solid::Solid;
 
 use crate::grid::Grid;
 use crate::mesh::Mesh;
@@ -24,17 +27,20 @@ const CHUNK_RAYS: usize = 1 << 16;
 
 /// Why no LDI could be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
-#[serde(untagged)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(tag = "code", content = "detail")]
 #[non_exhaustive]
 pub enum LdiError {
     /// The progress callback asked to stop.
     #[error(transparent)]
+    #[serde(rename = "cancelled")]
     Cancelled(#[from] Cancelled),
     /// The hits do not fit into memory.
     #[error(
         "the model needs {needed_bytes} bytes for {hits} surface points at this resolution, more \
          than there is; choose fewer rays"
     )]
+    #[serde(rename = "out-of-memory")]
     OutOfMemory {
         /// Hits to be stored.
         hits: u64,
@@ -46,6 +52,7 @@ pub enum LdiError {
         "{facets} facets are too many; at most {} can be sliced",
         Hit::MAX_FACETS
     )]
+    #[serde(rename = "too-many-facets")]
     TooManyFacets {
         /// Facets of the mesh.
         facets: u64,
@@ -55,12 +62,14 @@ pub enum LdiError {
         "no pixel of {pitch_mm} mm meets the model, which is too small or too thin for them; \
          choose smaller pixels"
     )]
+    #[serde(rename = "no-hits")]
     NoHits {
         /// Side of a pixel.
         pitch_mm: f64,
     },
     /// No GPU adapter, or none of the kind asked for.
     #[error("no usable GPU: {reason}")]
+    #[serde(rename = "no-gpu")]
     NoGpu {
         /// What is missing.
         reason: String,
@@ -69,6 +78,7 @@ pub enum LdiError {
     #[error(
         "{facets} facets need a GPU buffer of {needed_bytes} bytes, and this GPU offers {limit_bytes}; use the CPU"
     )]
+    #[serde(rename = "gpu-too-small")]
     GpuTooSmall {
         /// Facets of the mesh.
         facets: u64,
@@ -79,6 +89,7 @@ pub enum LdiError {
     },
     /// The GPU failed while it was used.
     #[error("the GPU failed: {reason}")]
+    #[serde(rename = "gpu-failed")]
     GpuFailed {
         /// What the driver said.
         reason: String,
@@ -160,21 +171,6 @@ impl Ldi {
     /// The hits of a ray, from the plate upward.
     pub fn ray(&self, ray: usize) -> &[Hit] {
         &self.hits[self.offsets[ray] as usize..self.offsets[ray + 1] as usize]
-    }
-
-    /// Volume of the solid in mm³: the length of rays inside it times the area of a pixel.
-    pub fn solid_mm3(&self) -> f64 {
-        let lengths = parallel::map(self.chunks(), |offsets: &[u32]| {
-            let mut length_mm = 0.0;
-            for ray in offsets.windows(2) {
-                let hits = &self.hits[ray[0] as usize..ray[1] as usize];
-                for_each_solid_range(hits, |z_in, z_out| {
-                    length_mm += f64::from(z_out) - f64::from(z_in);
-                });
-            }
-            length_mm
-        });
-        lengths.into_iter().sum::<f64>() * self.grid.pixel_mm2()
     }
 
     /// The offsets of rays in chunks that are worth a thread each, with the one behind the last ray of each.

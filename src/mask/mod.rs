@@ -13,7 +13,7 @@ pub use samples::{LEVELS, Samples};
 pub use window::{Side, Window};
 
 use crate::grid::Grid;
-use crate::ldi::{Ldi, for_each_solid_range};
+use crate::ldi::{Ldi, Solid, for_each_solid_range};
 use crate::parallel;
 use crate::plan::Plan;
 use samples::SublayerOf;
@@ -96,6 +96,27 @@ impl Masks {
         cursor.change(self, 0, 1);
         cursor
     }
+}
+
+/// The layers of `plan` in whose masks no pixel has any light, from 0: those with no sampled height at which the solid
+/// has a section ([`Solid::heights_mm`]).
+///
+/// Cost: linear in layers and height ranges; no mask is made.
+pub fn black_layers(solid: &Solid, plan: &Plan, samples: Samples) -> Vec<usize> {
+    let sublayer_of = SublayerOf::new(plan, samples.sublayers);
+    let parts = samples.sublayers;
+    let mut black = Vec::new();
+    let mut next = 0;
+    for &(z_in, z_out) in &solid.heights_mm {
+        let on = sublayer_of.first_above(z_in);
+        let off = sublayer_of.first_above(z_out);
+        if on < off {
+            black.extend(next..on / parts);
+            next = next.max(off.div_ceil(parts));
+        }
+    }
+    black.extend(next..plan.layers() as u32);
+    black.into_iter().map(|layer| layer as usize).collect()
 }
 
 /// A pixel of the window and how many more of its samples a layer has lit than the one below.

@@ -8,29 +8,35 @@ use serde::Serialize;
 
 /// Why triangles do not make a printable mesh.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
-#[serde(untagged)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(tag = "code", content = "detail")]
 #[non_exhaustive]
 pub enum MeshError {
     /// Every facet is degenerate.
     #[error("none of the {facets} facets has an area; export the model again")]
+    #[serde(rename = "mesh-no-area")]
     NoArea {
         /// Facets in the input.
         facets: usize,
     },
     /// The mesh lies in a horizontal plane.
     #[error("the model has no height; is it flat, or lying in the plane z = constant?")]
+    #[serde(rename = "mesh-zero-height")]
     ZeroHeight,
     /// The requested height is not a positive number.
     #[error("the height must be a positive number of millimetres, not {height_mm}")]
+    #[serde(rename = "bad-height")]
     BadHeight {
         /// The height asked for.
         height_mm: f64,
     },
     /// The rotation is no quaternion of a length.
     #[error("the rotation must be a quaternion x, y, z, w whose length is not zero")]
+    #[serde(rename = "bad-rotation")]
     BadRotation,
     /// Coordinates overflow single precision after scaling.
     #[error("the model is too large: at this height its coordinates exceed what can be computed")]
+    #[serde(rename = "mesh-overflow")]
     Overflow,
 }
 

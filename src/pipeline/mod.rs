@@ -13,8 +13,8 @@ use crate::direction::Turntable;
 use crate::error::Error;
 use crate::grid::{Bins, Grid, GridError};
 use crate::ldi::gpu::{self, Gpu};
-use crate::ldi::{Ldi, LdiError, cpu};
-use crate::mask::{MaskCursor, Masks, Side};
+use crate::ldi::{Ldi, LdiError, Solid, cpu};
+use crate::mask::{MaskCursor, Masks, Side, black_layers};
 use crate::mesh::{Bounds, Mesh, Pose};
 use crate::options::{Backend, Options};
 use crate::plan::Plan;
@@ -24,8 +24,9 @@ use crate::profile::{Metric, Profile, Source, section};
 use crate::progress::Progress;
 use crate::report::{
     Comparison, Glance, MaskReport, MeshInfo, Report, SCHEMA, StlReport, Timings, Tradeoff,
-    Warning, mesh_warnings,
+    mesh_warnings,
 };
+use crate::warning::Warning;
 use crate::{saliency, stl, weights};
 
 /// A part of the work, for showing progress.
@@ -94,7 +95,7 @@ struct Sampled {
     /// The masks' pixels; the LDI has rays only where the model is.
     grid: Grid,
     ldi: Ldi,
-    solid_mm3: f64,
+    solid: Solid,
     adapter: Option<String>,
     warnings: Vec<Warning>,
     shapes: Option<Shapes>,
@@ -421,10 +422,7 @@ impl Slicer {
             Err(error @ LdiError::Cancelled(_)) => return Err(error.into()),
             Err(error) if options.backend == Backend::Gpu => return Err(error.into()),
             Err(error) => {
-                if !matches!(error, LdiError::NoGpu { .. }) {
-                    let message = format!("the CPU did the work of the GPU: {error}");
-                    warnings.push(Warning::new(error.code(), message));
-                }
+                warnings.extend(cpu_instead(&error));
                 (cpu::sample(&mesh, &rays, &mut ldi_progress)?, None)
             }
         };
@@ -436,11 +434,8 @@ impl Slicer {
         }
         let unclosed = ldi.rays_through_holes(&mesh);
         if unclosed > 0 {
-            let message = format!(
-                "{unclosed} of {} rays did not close, because they pass holes of the mesh; flat caps close them",
-                ldi.rays()
-            );
-            warnings.push(Warning::new("unclosed-rays", message));
+            let rays = ldi.rays();
+            warnings.push(Warning::UnclosedRays { unclosed, rays });
         }
         timings.ldi = ms_since(clock);
         let height_mm = height_mm(bounds.size().z, options);
@@ -450,7 +445,7 @@ impl Slicer {
             mesh,
             height_mm,
             grid,
-            solid_mm3: ldi.solid_mm3(),
+            solid: Solid::of(&ldi),
             ldi,
             adapter,
             warnings,
@@ -545,9 +540,8 @@ impl Slicer {
             ldi: &sampled.ldi,
         };
         let written = archive::write(options.format()?, &job, writer, &mut mask_progress);
-        let (writer, warning) = written?;
+        let writer = written?;
         let report = &mut planned.report;
-        report.add_warning(warning);
         report.timings_ms.masks = ms_since(clock);
         report.timings_ms.sum_up();
         Ok((writer, report))
@@ -671,6 +665,13 @@ impl Sampled {
     ) -> Result<Report, Error> {
         let mut warnings = self.warnings.clone();
         warnings.extend(planned.warnings);
+        let black = black_layers(&self.solid, plan, options.samples()?);
+        if let Some(&lowest) = black.first() {
+            warnings.push(Warning::BlackLayers {
+                layers: black.len(),
+                from_mm: plan.z_mm()[lowest],
+            });
+        }
         let thickness_mm = plan.thickness_mm();
         Ok(Report {
             schema: SCHEMA,
@@ -684,7 +685,7 @@ impl Sampled {
             overhead_s: options.resin.overhead_s(),
             resin: options.resin.clone(),
             thickness_mm,
-            resin_ml: self.solid_mm3 / 1e3,
+            resin_ml: self.solid.volume_mm3 / 1e3,
             printer: options.printer.clone(),
             snapped_mm: planned.snapped_mm,
             metric: options.metric,
@@ -711,9 +712,28 @@ impl Sampled {
                 antialias: options.antialias,
                 is_mirrored: options.is_mirrored()?,
             },
+            print_file: options.format()?.into(),
             warnings,
             timings_ms,
         })
+    }
+}
+
+/// What to tell of a GPU that was to do the work and did not; nothing if there is none.
+fn cpu_instead(error: &LdiError) -> Option<Warning> {
+    match *error {
+        LdiError::NoGpu { .. } => None,
+        LdiError::GpuTooSmall {
+            needed_bytes,
+            limit_bytes,
+            ..
+        } => Some(Warning::GpuTooSmall {
+            needed_bytes,
+            limit_bytes,
+        }),
+        _ => Some(Warning::GpuFailed {
+            reason: error.to_string(),
+        }),
     }
 }
 

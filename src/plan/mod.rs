@@ -50,17 +50,16 @@ pub struct HeightRange {
 
 /// Why there is no plan.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
-#[serde(untagged)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(tag = "code", content = "detail")]
 #[non_exhaustive]
 pub enum PlanError {
-    /// A limit is no positive number.
-    #[error(transparent)]
-    Grid(#[from] GridError),
     /// The layer range holds no whole number of steps.
     #[error(
         "no whole number of steps of {step_mm} mm lies between the layer thicknesses \
          {layer_min_mm} and {layer_max_mm} mm; widen the range or choose a smaller step"
     )]
+    #[serde(rename = "layer-range-empty")]
     EmptyRange {
         /// Least layer thickness.
         layer_min_mm: f64,
@@ -73,6 +72,7 @@ pub enum PlanError {
     #[error(
         "{name} {length_mm} mm is no whole number of bins of {bin_mm} mm; choose a bin that divides it"
     )]
+    #[serde(rename = "not-whole-bins")]
     NotWholeBins {
         /// Which length.
         name: &'static str,
@@ -85,6 +85,7 @@ pub enum PlanError {
     #[error(
         "the height range from {from_mm} to {to_mm} mm is empty or overlaps another; give ranges upward and apart"
     )]
+    #[serde(rename = "bad-range")]
     BadRange {
         /// Where it begins.
         from_mm: f64,
@@ -93,6 +94,7 @@ pub enum PlanError {
     },
     /// A plane that does not lie within the model.
     #[error("there can be no plane at {z_mm} mm in a model that is {height_mm} mm high")]
+    #[serde(rename = "bad-plane")]
     BadPlane {
         /// Its height.
         z_mm: f64,
@@ -101,6 +103,7 @@ pub enum PlanError {
     },
     /// A uniform layer whose middle, where its mask is sampled, lies above the model.
     #[error("layers of {layer_mm} mm are too thick for a model that is {height_mm} mm high")]
+    #[serde(rename = "layer-too-thick")]
     LayerTooThick {
         /// Layer thickness asked for.
         layer_mm: f64,
@@ -109,6 +112,7 @@ pub enum PlanError {
     },
     /// The paper's infeasible case: K\[N\] = ∞.
     #[error("{}", infeasible_message(self))]
+    #[serde(rename = "infeasible")]
     Infeasible {
         /// The highest plane that layers within tolerance can reach.
         from_mm: f64,
@@ -128,6 +132,7 @@ pub enum PlanError {
         "layers of {layer_min_mm} to {layer_max_mm} mm do not add up to the height from {from_mm} to \
          {to_mm} mm; widen the range of thicknesses or move the planes"
     )]
+    #[serde(rename = "layers-do-not-fit")]
     LayersDoNotFit {
         /// The plane below.
         from_mm: f64,
@@ -140,12 +145,17 @@ pub enum PlanError {
     },
     /// No tolerance gives a plan with so few layers or so short a print.
     #[error("no plan has {wanted}; at the least it takes {least}")]
+    #[serde(rename = "out-of-reach")]
     OutOfReach {
         /// What was asked for, in words.
         wanted: String,
         /// What the thickest layers take, in words.
         least: String,
     },
+    /// A limit is no positive number.
+    #[error(transparent)]
+    #[serde(untagged)]
+    Grid(#[from] GridError),
 }
 
 fn infeasible_message(error: &PlanError) -> String {

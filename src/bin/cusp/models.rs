@@ -6,7 +6,7 @@ use std::path::Path;
 
 use clap::ValueEnum;
 use cusp_slicer::printer::PRINTERS;
-use cusp_slicer::report::{MeshInfo, Warning};
+use cusp_slicer::report::MeshInfo;
 use cusp_slicer::weights;
 
 use crate::files::{Failure, file_beside, in_file, keep, load, place_for};
@@ -31,9 +31,8 @@ fn describe_mesh(info: &MeshInfo) -> String {
         info.volume_mm3 / 1e3,
         if info.closed { "yes" } else { "no" },
     );
-    for Warning { message, .. } in &info.warnings {
-        text.push_str("\nwarning  ");
-        text.push_str(message);
+    for warning in &info.warnings {
+        let _ = write!(text, "\nwarning  {warning}");
     }
     text
 }

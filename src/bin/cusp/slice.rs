@@ -5,11 +5,11 @@ use std::io::BufWriter;
 use std::path::Path;
 
 use cusp_slicer::pipeline::{Slicer, StageProgress};
-use cusp_slicer::report::{Report, Warning};
+use cusp_slicer::report::Report;
 
 use crate::arguments::Slicing;
 use crate::files::{Failure, file_beside, in_file, keep, load_weighted, place_for};
-use crate::terminal::{Bar, duration, print, print_json, say, stop_on_interrupt};
+use crate::terminal::{Bar, duration, print, print_json, stop_on_interrupt, warn};
 
 pub fn slice(slicing: &Slicing, output: &Path) -> Result<(), Failure> {
     slicing.choices.check("slice");
@@ -55,9 +55,7 @@ fn make_plan<'a>(
 }
 
 fn show(slicing: &Slicing, report: &Report) -> Result<(), Failure> {
-    for Warning { message, .. } in &report.warnings {
-        say(&format!("warning: {message}"));
-    }
+    warn(&report.warnings);
     if slicing.json {
         print_json(report)?;
     } else {

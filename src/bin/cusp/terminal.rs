@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use cusp_slicer::pipeline::Stage;
+use cusp_slicer::warning::Warning;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use serde::Serialize;
 
@@ -14,6 +15,13 @@ static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 /// Tells the user something on stderr; that nobody listens there is no reason to stop.
 pub fn say(message: &str) {
     let _ = writeln!(io::stderr(), "cusp: {message}");
+}
+
+/// Tells the user what to know although the work went on.
+pub fn warn(warnings: &[Warning]) {
+    for warning in warnings {
+        say(&format!("warning: {warning}"));
+    }
 }
 
 pub fn print_json(value: &impl Serialize) -> Result<(), String> {

@@ -4,10 +4,11 @@ use std::fs;
 use std::path::Path;
 
 use cusp_slicer::verify::Claim;
+use cusp_slicer::warning::Warning;
 use serde::Serialize;
 
 use crate::files::{Failure, in_file, load, paint};
-use crate::terminal::{Bar, print, print_json, stop_on_interrupt};
+use crate::terminal::{Bar, print, print_json, stop_on_interrupt, warn};
 
 /// Says that a plan, and a print file, are right.
 #[derive(Serialize)]
@@ -18,6 +19,7 @@ struct Verified {
     print_time_s: f64,
     resin_ml: f64,
     print_is_same: bool,
+    warnings: Vec<Warning>,
 }
 
 pub fn verify(
@@ -44,6 +46,7 @@ pub fn verify(
         print_time_s: made.print_time_s,
         resin_ml: made.resin_ml,
         print_is_same: print_file.is_some(),
+        warnings: made.warnings.clone(),
     };
     let words = made.metric.words(made.max_error);
     if let Some(path) = print_file {
@@ -57,6 +60,7 @@ pub fn verify(
         }
     }
     drop(bar);
+    warn(&verified.warnings);
     if json {
         return Ok(print_json(&verified)?);
     }

@@ -1,0 +1,123 @@
+//! Files that people take for models that can be read, told by their first bytes, so that an error can name them.
+
+use serde::Serialize;
+
+/// Bytes from the beginning of a file that tell its kind.
+pub const HEAD_BYTES: usize = 1 << 16;
+
+/// A kind of file that is no STL.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(rename_all = "lowercase")]
+#[non_exhaustive]
+pub enum FileKind {
+    /// 3MF: a zip with a model inside.
+    #[serde(rename = "3mf")]
+    ThreeMf,
+    /// AMF, as XML or in a zip.
+    Amf,
+    /// Wavefront OBJ.
+    Obj,
+    /// PLY, also called Stanford.
+    Ply,
+    /// STEP: exact surfaces, for CAD programs.
+    Step,
+    /// glTF in its binary form.
+    Gltf,
+    /// Another zip.
+    Zip,
+    /// Something that gzip has packed.
+    Gzip,
+    /// A web page.
+    Html,
+}
+
+impl FileKind {
+    /// What people call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::ThreeMf => "3MF",
+            Self::Amf => "AMF",
+            Self::Obj => "OBJ",
+            Self::Ply => "PLY",
+            Self::Step => "STEP",
+            Self::Gltf => "glTF",
+            Self::Zip => "zip",
+            Self::Gzip => "gzip",
+            Self::Html => "HTML",
+        }
+    }
+
+    /// What to do with it instead.
+    pub(crate) fn advice(self) -> &'static str {
+        match self {
+            Self::Zip | Self::Gzip => "unpack it, and open the STL inside",
+            Self::Html => {
+                "download the model itself; the address may need a login, or lead to a page about the model"
+            }
+            _ => "export the model as STL",
+        }
+    }
+
+    /// The kind of a file that begins with these bytes; `None` for one that is not known here, an STL among them.
+    pub fn of(head: &[u8]) -> Option<Self> {
+        if head.starts_with(b"PK\x03\x04") {
+            return Some(Self::of_zip(head));
+        }
+        if head.starts_with(b"\x1f\x8b") {
+            return Some(Self::Gzip);
+        }
+        if head.starts_with(b"glTF") {
+            return Some(Self::Gltf);
+        }
+        let text = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head);
+        let text = text.trim_ascii_start();
+        let starts_with = |word: &[u8]| {
+            text.get(..word.len())
+                .is_some_and(|start| start.eq_ignore_ascii_case(word))
+        };
+        if starts_with(b"<!doctype html") || starts_with(b"<html") {
+            return Some(Self::Html);
+        }
+        if starts_with(b"<amf") || (starts_with(b"<?xml") && contains(text, b"<amf")) {
+            return Some(Self::Amf);
+        }
+        if starts_with(b"ISO-10303-21;") {
+            return Some(Self::Step);
+        }
+        if starts_with(b"ply\n") || starts_with(b"ply\r") {
+            return Some(Self::Ply);
+        }
+        is_obj(text).then_some(Self::Obj)
+    }
+
+    /// Names of files stand in a zip as they are.
+    fn of_zip(head: &[u8]) -> Self {
+        if contains(head, b".amf") {
+            Self::Amf
+        } else if contains(head, b"[Content_Types].xml") || contains(head, b"3D/") {
+            Self::ThreeMf
+        } else {
+            Self::Zip
+        }
+    }
+}
+
+/// Whether the first line that is neither empty nor a comment is one that OBJ files have.
+fn is_obj(text: &[u8]) -> bool {
+    const WORDS: [&[u8]; 9] = [
+        b"v", b"vn", b"vt", b"f", b"o", b"g", b"s", b"mtllib", b"usemtl",
+    ];
+    let mut lines = text.split(|byte| matches!(byte, b'\n' | b'\r'));
+    let first = lines.find(|line| {
+        let line = line.trim_ascii();
+        !line.is_empty() && !line.starts_with(b"#")
+    });
+    let first = first.unwrap_or_default().trim_ascii();
+    let word = first.split(u8::is_ascii_whitespace).next();
+    word.is_some_and(|word| WORDS.contains(&word) && word.len() < first.len())
+}
+
+fn contains(text: &[u8], part: &[u8]) -> bool {
+    text.windows(part.len()).any(|window| window == part)
+}

@@ -1,0 +1,154 @@
+//! What the rays of an LDI are inside of: the solid's volume, and the heights at which any ray is in it.
+
+use super::{Ldi, for_each_solid_range};
+use crate::parallel;
+
+/// The solid as its rays see it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solid {
+    /// Volume in mm³: the length of rays inside it times the area of a pixel.
+    pub volume_mm3: f64,
+    /// Heights at which at least one ray is inside, from an entry (included) to an exit (excluded): ranges that do not
+    /// touch, upward.
+    pub heights_mm: Vec<(f32, f32)>,
+}
+
+impl Solid {
+    /// Measures the solid in one walk over all hits.
+    pub fn of(ldi: &Ldi) -> Self {
+        let parts = parallel::map(ldi.chunks(), |offsets: &[u32]| {
+            let mut length_mm = 0.0;
+            let mut heights = Heights::default();
+            for ray in offsets.windows(2) {
+                let hits = &ldi.hits[ray[0] as usize..ray[1] as usize];
+                for_each_solid_range(hits, |z_in, z_out| {
+                    length_mm += f64::from(z_out) - f64::from(z_in);
+                    heights.add(z_in, z_out);
+                });
+            }
+            (length_mm, heights)
+        });
+        let mut length_mm = 0.0;
+        let mut heights = Heights::default();
+        for (part_mm, part) in parts {
+            length_mm += part_mm;
+            for (z_in, z_out) in part.into_ranges() {
+                heights.add(z_in, z_out);
+            }
+        }
+        Self {
+            volume_mm3: length_mm * ldi.grid.pixel_mm2(),
+            heights_mm: heights.into_ranges(),
+        }
+    }
+}
+
+/// A union of height ranges.
+#[derive(Default)]
+struct Heights {
+    /// Ranges as their bits, the lower end above the upper one: heights are not negative, so that these are in order.
+    keys: Vec<u64>,
+    /// The range that took the last ones in: most rays pass the same solid as the ray before.
+    last: Option<(f32, f32)>,
+    /// How many keys there may be before they are merged.
+    limit: usize,
+}
+
+impl Heights {
+    /// Few enough to be sorted at once, and many enough to be worth it.
+    const LIMIT: usize = 1 << 10;
+
+    fn add(&mut self, z_in: f32, z_out: f32) {
+        match &mut self.last {
+            Some((from, to)) if z_in <= *to && *from <= z_out => {
+                *from = from.min(z_in);
+                *to = to.max(z_out);
+            }
+            last => {
+                let before = last.replace((z_in, z_out));
+                self.keep(before);
+            }
+        }
+    }
+
+    fn keep(&mut self, range: Option<(f32, f32)>) {
+        let key =
+            |(from, to): (f32, f32)| u64::from(from.to_bits()) << 32 | u64::from(to.to_bits());
+        self.keys.extend(range.map(key));
+        if self.keys.len() >= self.limit.max(Self::LIMIT) {
+            self.merge();
+            self.limit = 2 * self.keys.len();
+        }
+    }
+
+    /// Makes one range of those that overlap or touch.
+    fn merge(&mut self) {
+        let ends = |key: u64| ((key >> 32) as u32, key as u32);
+        self.keys.sort_unstable();
+        self.keys.dedup_by(|next, kept| {
+            let ((from, to), (first, last)) = (ends(*next), ends(*kept));
+            let joins = from <= last;
+            if joins {
+                *kept = u64::from(first) << 32 | u64::from(last.max(to));
+            }
+            joins
+        });
+    }
+
+    /// The ranges, upward; no two touch.
+    fn into_ranges(mut self) -> Vec<(f32, f32)> {
+        let last = self.last.take();
+        self.keep(last);
+        self.merge();
+        let ends = |key: u64| {
+            (
+                f32::from_bits((key >> 32) as u32),
+                f32::from_bits(key as u32),
+            )
+        };
+        self.keys.into_iter().map(ends).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Heights;
+
+    fn union(ranges: &[(f32, f32)]) -> Vec<(f32, f32)> {
+        let mut heights = Heights::default();
+        for &(from, to) in ranges {
+            heights.add(from, to);
+        }
+        heights.into_ranges()
+    }
+
+    #[test]
+    fn ranges_that_overlap_or_touch_become_one() {
+        let mut ranges = vec![
+            (4.0, 5.0),
+            (0.0, 1.0),
+            (2.0, 3.0),
+            (2.5, 2.75),
+            (3.0, 3.5),
+            (0.5, 2.25),
+        ];
+        assert_eq!(union(&ranges), [(0.0, 3.5), (4.0, 5.0)]);
+        ranges.push((0.0, 9.0));
+        assert_eq!(union(&ranges), [(0.0, 9.0)]);
+        assert_eq!(union(&[]), []);
+    }
+
+    #[test]
+    fn many_ranges_in_any_order_are_merged() {
+        // Odd numbers in an order that goes to and fro: nothing touches until the even ones come.
+        let at = |i: u32| (i * 7919 % 10_000) as f32;
+        let odd: Vec<_> = (0..10_000)
+            .map(|i| (2.0 * at(i), 2.0 * at(i) + 1.0))
+            .collect();
+        assert_eq!(union(&odd).len(), 10_000);
+        let all = odd
+            .iter()
+            .flat_map(|&(from, to)| [(from, to), (from + 1.0, to + 1.0)]);
+        assert_eq!(union(&all.collect::<Vec<_>>()), [(0.0, 20_000.0)]);
+    }
+}

@@ -1,0 +1,157 @@
+//! What users should know although the work went on.
+
+use serde::Serialize;
+
+use crate::profile::Metric;
+
+/// Something that the user should know although the work went on: a stable code and its details. Its text is one
+/// sentence for people.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(tag = "code", content = "detail", rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum Warning {
+    /// Facets without an area were dropped.
+    DegenerateFacets {
+        /// How many.
+        facets: usize,
+    },
+    /// The whole mesh was inside out, and was turned over.
+    InsideOut,
+    /// The mesh has edges without a partner; its holes were closed by flat caps.
+    OpenMesh {
+        /// Edges without a partner.
+        open_edges: usize,
+        /// Holes that were closed.
+        holes: usize,
+    },
+    /// Rays pass holes of the mesh, and close only by the caps over them.
+    UnclosedRays {
+        /// How many.
+        unclosed: usize,
+        /// Of how many rays.
+        rays: usize,
+    },
+    /// Layers exceed the tolerance, since the planner does not look at it.
+    ToleranceExceeded {
+        /// Name of the planner.
+        planner: String,
+        /// What the tolerance and the error measure.
+        metric: Metric,
+        /// The tolerance, in the metric's unit.
+        tolerance: f64,
+        /// The largest error, in the metric's unit.
+        max_error: f64,
+    },
+    /// Layers keep the tolerance where rays see the surface, and exceed it elsewhere.
+    ToleranceExceededOnMesh {
+        /// What the tolerance and the error measure.
+        metric: Metric,
+        /// The tolerance, in the metric's unit.
+        tolerance: f64,
+        /// The largest error, in the metric's unit.
+        max_error: f64,
+    },
+    /// The surface crosses itself, so that areas of sections are counted along rays.
+    SampledSections,
+    /// Layers do not add up to the model's height, and the top was moved.
+    TopMoved {
+        /// Where the print ends, in millimetres.
+        top_mm: f64,
+        /// Height of the model in millimetres.
+        height_mm: f64,
+    },
+    /// Masks of layers without any light.
+    BlackLayers {
+        /// How many.
+        layers: usize,
+        /// Bottom of the lowest, in millimetres above the plate.
+        from_mm: f64,
+    },
+    /// The mesh does not fit into the buffers of the GPU; the CPU did its work.
+    GpuTooSmall {
+        /// Bytes that the mesh takes.
+        needed_bytes: u64,
+        /// The largest buffer.
+        limit_bytes: u64,
+    },
+    /// The GPU failed; the CPU did its work.
+    GpuFailed {
+        /// What went wrong.
+        reason: String,
+    },
+}
+
+impl Warning {
+    /// Whether it tells of the machine and not of the plan: another machine may not have it.
+    pub(crate) fn is_of_the_machine(&self) -> bool {
+        matches!(self, Self::GpuTooSmall { .. } | Self::GpuFailed { .. })
+    }
+}
+
+impl std::fmt::Display for Warning {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::DegenerateFacets { facets } => {
+                write!(f, "{} without area left out", counted(*facets, "facet"))
+            }
+            Self::InsideOut => f.write_str("the mesh was inside out, and was turned over"),
+            Self::OpenMesh { open_edges, holes } => write!(
+                f,
+                "the mesh is not closed: {} without a partner, {} closed by flat caps; look at the masks",
+                counted(*open_edges, "edge"),
+                counted(*holes, "hole"),
+            ),
+            Self::UnclosedRays { unclosed, rays } => write!(
+                f,
+                "{unclosed} of {rays} rays did not close, because they pass holes of the mesh; flat caps close them"
+            ),
+            Self::ToleranceExceeded {
+                planner,
+                metric,
+                tolerance,
+                max_error,
+            } => write!(
+                f,
+                "{planner} layers exceed the tolerance of {}: their largest error is {}",
+                metric.words(*tolerance),
+                metric.words(*max_error)
+            ),
+            Self::ToleranceExceededOnMesh {
+                metric, max_error, ..
+            } => write!(
+                f,
+                "on the mesh itself the error reaches {}, more than the tolerance: rays miss a part of the surface",
+                metric.words(*max_error)
+            ),
+            Self::SampledSections => f.write_str(
+                "the surface crosses itself, so that areas of sections are counted along rays",
+            ),
+            Self::TopMoved { top_mm, height_mm } => write!(
+                f,
+                "the print ends at {top_mm} mm, since layers do not add up to {height_mm} mm"
+            ),
+            Self::BlackLayers { layers, from_mm } => write!(
+                f,
+                "{} of the plan {} black, from {from_mm:.3} mm up; look at the masks there",
+                counted(*layers, "layer"),
+                if *layers == 1 { "is" } else { "are" },
+            ),
+            Self::GpuTooSmall {
+                needed_bytes,
+                limit_bytes,
+            } => write!(
+                f,
+                "the CPU did the work of the GPU: the mesh needs a buffer of {needed_bytes} bytes, and the GPU offers {limit_bytes}"
+            ),
+            Self::GpuFailed { reason } => {
+                write!(f, "the CPU did the work of the GPU: {reason}")
+            }
+        }
+    }
+}
+
+/// A number with its noun: "1 hole", "2 holes".
+fn counted(number: usize, noun: &str) -> String {
+    format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
+}
