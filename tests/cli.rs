@@ -12,16 +12,14 @@ use glam::Vec3;
 use serde_json::Value;
 use tempfile::TempDir;
 
-/// Some drivers complain on stderr where nobody told them of a folder for their own use.
 fn cusp(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_cusp"))
         .args(arguments)
-        .env("XDG_RUNTIME_DIR", std::env::temp_dir())
         .output()
         .unwrap()
 }
 
-/// Without a GPU, since some drivers write to stderr themselves.
+/// Without a GPU, so that every machine does the same.
 fn on_cpu(arguments: &[&str]) -> Output {
     cusp(&[arguments, &["--backend", "cpu"]].concat())
 }
@@ -165,6 +163,52 @@ fn plan_prints_one_json_object_with_every_key() {
         (&"cusp".into(), &"cpu".into())
     );
     assert_eq!(report["mask"]["width"], 2048);
+}
+
+/// Mesa complains about a display that nobody asked for, wherever there is none.
+#[test]
+fn nothing_but_our_own_words_is_on_stderr() {
+    let folder = TempDir::new().unwrap();
+    let closed = sphere(&folder);
+    let mut open = solids::cube(3.0);
+    open.pop();
+    let open = model(&folder, "open.stl", &binary_stl(&open));
+    let plan = folder.path().join("plan.json").display().to_string();
+    std::fs::write(&plan, on_cpu(&["plan", &closed, "--json"]).stdout).unwrap();
+    let without_display = |arguments: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_cusp"));
+        for name in ["XDG_RUNTIME_DIR", "DISPLAY", "WAYLAND_DISPLAY"] {
+            command.env_remove(name);
+        }
+        let output = command.args(arguments).output().unwrap();
+        (
+            output.status.code(),
+            String::from_utf8(output.stderr).unwrap(),
+        )
+    };
+    let quiet = (Some(0), String::new());
+    assert_eq!(without_display(&["verify", &plan, &closed]), quiet);
+    for backend in ["auto", "gpu", "cpu"] {
+        for command in ["plan", "tradeoff", "compare"] {
+            let (code, words) = without_display(&[command, &closed, "--backend", backend]);
+            match code {
+                Some(0) => assert_eq!(words, "", "{command} {backend}"),
+                // There may be no GPU, nor a driver that emulates one.
+                _ => assert!(
+                    backend == "gpu" && words.contains("no usable GPU"),
+                    "{words}"
+                ),
+            }
+            assert!(words.lines().count() <= 1, "{words}");
+        }
+    }
+    // Words of our own still come through after the search.
+    let (code, words) = without_display(&["plan", &open, "--backend", "auto"]);
+    assert_eq!(code, Some(0), "{words}");
+    assert!(!words.is_empty());
+    for line in words.lines() {
+        assert!(line.starts_with("cusp: warning: "), "{words}");
+    }
 }
 
 #[test]

@@ -79,7 +79,8 @@ pub struct Slicer {
     /// How much each facet of the surface matters to the user.
     paint: Option<Vec<f32>>,
     load_ms: f64,
-    gpu: Option<Gpu>,
+    /// What the last search for a GPU found, if it is still to be used.
+    gpu: Option<Result<Gpu, LdiError>>,
     /// The surface for being looked at along directions, and the pose whose height it is scaled to, if one is asked for.
     turntable: Option<(Option<Pose>, Turntable)>,
     sampled: Option<Sampled>,
@@ -153,8 +154,16 @@ impl Slicer {
     /// Samples on `gpu` from now on, where the options do not ask for the CPU.
     #[must_use]
     pub fn with_gpu(mut self, gpu: Gpu) -> Self {
-        self.gpu = Some(gpu);
+        self.gpu = Some(Ok(gpu));
         self
+    }
+
+    /// Searches for the GPU that the next plan with this `backend` would search for, so that the plan need not: drivers may
+    /// write to stderr while they are asked, and the caller knows when. That plan says what was found.
+    pub async fn open_gpu(&mut self, backend: Backend) {
+        if self.gpu.is_none() {
+            self.gpu = Some(search_gpu(backend).await);
+        }
     }
 
     /// Describes the model as it stands in its file.
@@ -461,21 +470,14 @@ impl Slicer {
         options: &Options,
         progress: &mut Progress<'_>,
     ) -> Result<(Ldi, String), LdiError> {
-        let adapters = match options.backend {
-            Backend::Cpu => {
-                let reason = "the CPU was asked for".to_owned();
-                return Err(LdiError::NoGpu { reason });
-            }
-            Backend::Gpu => gpu::Adapters::Any,
-            Backend::Auto => gpu::Adapters::Hardware,
-        };
-        let gpu = match self.gpu.take() {
-            Some(gpu) => gpu,
-            None => Gpu::open(adapters).await?,
+        let found = self.gpu.take_if(|_| options.backend != Backend::Cpu);
+        let gpu = match found {
+            Some(found) => found?,
+            None => search_gpu(options.backend).await?,
         };
         let ldi = gpu::sample(mesh, rays, &gpu, gpu::Tiling::default(), progress).await?;
         let name = gpu.name().to_owned();
-        self.gpu = Some(gpu);
+        self.gpu = Some(Ok(gpu));
         Ok((ldi, name))
     }
 
@@ -576,6 +578,17 @@ fn positions(mesh: &Mesh) -> Vec<f32> {
         .flatten()
         .map(|&vertex| mesh.vertices[vertex as usize]);
     corners.flat_map(|corner| corner.to_array()).collect()
+}
+
+/// The GPU that a backend allows.
+async fn search_gpu(backend: Backend) -> Result<Gpu, LdiError> {
+    match backend {
+        Backend::Cpu => Err(LdiError::NoGpu {
+            reason: "the CPU was asked for".to_owned(),
+        }),
+        Backend::Gpu => Gpu::open(gpu::Adapters::Any).await,
+        Backend::Auto => Gpu::open(gpu::Adapters::Hardware).await,
+    }
 }
 
 /// The masks' pixels around a model of these bounds.

@@ -124,7 +124,7 @@ impl Step {
                     scratch,
                 )
             }
-            Self::Cluster => cluster(project, scratch),
+            Self::Cluster => cluster(project),
         }
     }
 }
@@ -171,7 +171,7 @@ fn gpu_on_swiftshader(project: &Project, scratch: &Path) -> Result<(Verdict, Tal
 }
 
 /// The example that shares a search among worker processes.
-fn cluster(project: &Project, scratch: &Path) -> Result<(Verdict, Tally)> {
+fn cluster(project: &Project) -> Result<(Verdict, Tally)> {
     let python = match python::ensure_environment(project) {
         Ok(python) => python,
         Err(error) => return Ok((Verdict::Skipped(format!("{error:#}")), Tally::default())),
@@ -184,8 +184,7 @@ fn cluster(project: &Project, scratch: &Path) -> Result<(Verdict, Tally)> {
             .current_dir(python::example(project))
             .args(["-m", "unittest", "-v", "test_orient"])
             .env("CUSP", cusp)
-            .env("PYTHONDONTWRITEBYTECODE", "1")
-            .env("XDG_RUNTIME_DIR", scratch),
+            .env("PYTHONDONTWRITEBYTECODE", "1"),
     )?;
     Ok(judge(status, runner_output::unittest(&text)))
 }

@@ -4,12 +4,13 @@ use std::fmt::Write as _;
 use std::io::BufWriter;
 use std::path::Path;
 
+use cusp_slicer::options::Options;
 use cusp_slicer::pipeline::{Slicer, StageProgress};
 use cusp_slicer::report::Report;
 
 use crate::arguments::Slicing;
 use crate::files::{Failure, file_beside, in_file, keep, load_weighted, place_for};
-use crate::terminal::{Bar, duration, print, print_json, stop_on_interrupt, warn};
+use crate::terminal::{Bar, duration, open_gpu, print, print_json, stop_on_interrupt, warn};
 
 pub fn slice(slicing: &Slicing, output: &Path) -> Result<(), Failure> {
     slicing.choices.check("slice");
@@ -49,6 +50,7 @@ fn make_plan<'a>(
     bar: &Bar,
 ) -> Result<&'a Report, Failure> {
     let options = slicing.choices.options()?;
+    open_gpu(slicer, options.backend);
     let mut progress = |stage, fraction| bar.report(stage, fraction);
     pollster::block_on(slicer.plan(&options, &mut progress))
         .map_err(|error| Failure::in_file(&slicing.model, &error))
@@ -105,10 +107,12 @@ fn describe_plan(report: &Report) -> String {
 /// Loads the model and asks something of it that makes no plan, with a progress bar.
 fn study<T>(
     slicing: &Slicing,
+    options: &Options,
     ask: impl AsyncFnOnce(&mut Slicer, &mut StageProgress<'_>) -> Result<T, cusp_slicer::Error>,
 ) -> Result<T, Failure> {
     let mut slicer = load_weighted(&slicing.model, &slicing.choices)?;
     stop_on_interrupt();
+    open_gpu(&mut slicer, options.backend);
     let bar = Bar::new();
     let mut progress = |stage, fraction| bar.report(stage, fraction);
     pollster::block_on(ask(&mut slicer, &mut progress))
@@ -118,7 +122,7 @@ fn study<T>(
 pub fn tradeoff(slicing: &Slicing, points: usize) -> Result<(), Failure> {
     slicing.choices.check("tradeoff");
     let options = slicing.choices.options()?;
-    let curve = study(slicing, async |slicer, progress| {
+    let curve = study(slicing, &options, async |slicer, progress| {
         slicer.tradeoff(&options, points, progress).await
     })?;
     if slicing.json {
@@ -144,7 +148,7 @@ pub fn tradeoff(slicing: &Slicing, points: usize) -> Result<(), Failure> {
 pub fn compare(slicing: &Slicing) -> Result<(), Failure> {
     slicing.choices.check("compare");
     let options = slicing.choices.options()?;
-    let comparison = study(slicing, async |slicer, progress| {
+    let comparison = study(slicing, &options, async |slicer, progress| {
         slicer.compare(&options, progress).await
     })?;
     if slicing.json {

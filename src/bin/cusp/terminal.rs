@@ -4,7 +4,8 @@ use std::io::{self, IsTerminal, Write as _};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use cusp_slicer::pipeline::Stage;
+use cusp_slicer::options::Backend;
+use cusp_slicer::pipeline::{Slicer, Stage};
 use cusp_slicer::warning::Warning;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use serde::Serialize;
@@ -52,6 +53,39 @@ pub fn duration(seconds: f64) -> String {
 /// hence failing does no harm.
 pub fn stop_on_interrupt() {
     let _ = ctrlc::try_set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed));
+}
+
+/// Searches for the GPU that the next plan may use, without what drivers say meanwhile: Mesa complains about a missing display,
+/// for instance, although nothing is displayed. What matters of a search is in its result.
+pub fn open_gpu(slicer: &mut Slicer, backend: Backend) {
+    #[cfg(unix)]
+    let _silence = Silence::begin();
+    pollster::block_on(slicer.open_gpu(backend));
+}
+
+/// While it lives, nothing reaches stderr. Drivers write to the file descriptor itself, so it is the descriptor that is turned
+/// away and back.
+#[cfg(unix)]
+struct Silence {
+    stderr: std::os::fd::OwnedFd,
+}
+
+#[cfg(unix)]
+impl Silence {
+    fn begin() -> io::Result<Self> {
+        use std::os::fd::AsFd as _;
+        let stderr = io::stderr().as_fd().try_clone_to_owned()?;
+        let nowhere = std::fs::File::options().write(true).open("/dev/null")?;
+        rustix::stdio::dup2_stderr(nowhere)?;
+        Ok(Self { stderr })
+    }
+}
+
+#[cfg(unix)]
+impl Drop for Silence {
+    fn drop(&mut self) {
+        let _ = rustix::stdio::dup2_stderr(&self.stderr);
+    }
 }
 
 /// A progress bar on a terminal, nothing elsewhere; it clears its line when dropped.

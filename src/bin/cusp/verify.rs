@@ -8,7 +8,7 @@ use cusp_slicer::warning::Warning;
 use serde::Serialize;
 
 use crate::files::{Failure, in_file, load, paint};
-use crate::terminal::{Bar, print, print_json, stop_on_interrupt, warn};
+use crate::terminal::{Bar, open_gpu, print, print_json, stop_on_interrupt, warn};
 
 /// Says that a plan, and a print file, are right.
 #[derive(Serialize)]
@@ -34,6 +34,7 @@ pub fn verify(
     paint(&mut slicer, weights)?;
     let claim = Claim::read(&text, slicer.stl()).map_err(|error| in_file(plan, &error))?;
     stop_on_interrupt();
+    open_gpu(&mut slicer, claim.options().backend);
     let bar = Bar::new();
     let mut progress = |stage, fraction| bar.report(stage, fraction);
     let made = pollster::block_on(slicer.plan(claim.options(), &mut progress))
