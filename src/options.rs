@@ -328,7 +328,7 @@ impl Options {
     ///
     /// # Errors
     /// [`Error::Plan`], [`Error::Options`].
-    pub(crate) fn check(&self) -> Result<(), Error> {
+    pub fn check(&self) -> Result<(), Error> {
         let bins = Bins {
             count: 1,
             size_mm: self.bin_mm,

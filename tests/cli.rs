@@ -667,6 +667,7 @@ fn a_closed_stderr_changes_no_exit_code() {
 
 #[cfg(unix)]
 mod unix {
+    use std::io::{BufRead as _, BufReader};
     use std::os::unix::fs::{PermissionsExt, symlink};
     use std::path::Path;
     use std::process::Stdio;
@@ -759,6 +760,31 @@ mod unix {
         } else {
             Command::new(cusp)
         }
+    }
+
+    #[test]
+    fn an_interrupt_stops_a_batch_in_which_a_model_is_bad() {
+        let folder = TempDir::new().unwrap();
+        let ball = model(&folder, "ball.stl", &binary_stl(&solids::sphere(10.0, 5)));
+        let absent = folder.path().join("absent.stl").display().to_string();
+        // So many directions take minutes.
+        let mut child = with_usual_signals()
+            .args(["orient", &absent, &ball, &ball, "--directions", "20000"])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut words = BufReader::new(child.stderr.take().unwrap()).lines();
+        let first = words.next().unwrap().unwrap();
+        assert!(first.contains("absent.stl"), "{first}");
+        let process = child.id().to_string();
+        let kill = Command::new("kill").args(["-INT", &process]).status();
+        assert!(kill.unwrap().success());
+        let rest: Vec<String> = words.map(Result::unwrap).collect();
+        assert_eq!(rest, ["cusp: cancelled"]);
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(130));
+        assert!(output.stdout.is_empty());
     }
 
     #[test]
@@ -927,14 +953,81 @@ fn shards_of_a_batch_give_what_one_process_gives() {
     assert_eq!(String::from_utf8_lossy(&whole.stdout).lines().count(), 2);
     assert_eq!(merge(&[2, 0, 1]).stdout, whole.stdout);
 
-    assert_fails(&merge(&[0, 1]), 1, "directions are missing");
-    assert_fails(
-        &merge(&[0, 1, 2, 1]),
-        1,
-        "measured twice, in shards 2/3 and 2/3",
-    );
+    for (places, words) in [
+        (&[0, 1][..], "directions are missing"),
+        (&[0, 1, 2, 1], "measured twice, in shards 2/3 and 2/3"),
+    ] {
+        assert_only_bad(&merge(places), "", &[(&slab, words), (&ball, words)]);
+    }
     let other = cusp(&["orient", &slab, "--directions", "40", "--merge", &parts[0]]);
     assert_fails(&other, 1, "other options");
     assert_fails(&batch(&["--shard", "4/3"]), 2, "from 1/N to N/N");
     assert_fails(&batch(&["--merge", &slab]), 1, "slab.stl");
+}
+
+/// Asserts that a batch gives `stdout`, and that these models are bad, for reasons with these words.
+#[track_caller]
+fn assert_only_bad(output: &Output, stdout: &str, bad: &[(&str, &str)]) {
+    assert_eq!(String::from_utf8_lossy(&output.stdout), stdout);
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{stderr}");
+    let lines: Vec<&str> = stderr.lines().collect();
+    assert_eq!(lines.len(), bad.len(), "{stderr}");
+    for (line, (model, words)) in lines.iter().zip(bad) {
+        assert!(line.starts_with(&format!("cusp: {model}: ")), "{line}");
+        assert!(line.contains(words), "{line}");
+    }
+}
+
+#[test]
+fn a_bad_model_does_not_stop_the_others_of_a_batch() {
+    let folder = TempDir::new().unwrap();
+    let [slab, ball] = [slab(&folder), sphere(&folder)];
+    let poem = model(&folder, "poem.stl", b"solid as a rock");
+    let absent = folder.path().join("absent.stl").display().to_string();
+    let orient = |models: &[&str], more: &[&str]| {
+        let fixed = ["orient", "--directions", "40", "--bin", "0.01"];
+        cusp(&[&fixed[..], models, more].concat())
+    };
+    let good = |more: &[&str]| {
+        let output = orient(&[&slab, &ball], more);
+        assert!(output.status.success());
+        assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let models = [&poem, &slab, &absent, &ball].map(String::as_str);
+    let bad = [(poem.as_str(), ""), (absent.as_str(), "No such file")];
+    for how in [&[][..], &["--json"], &["--shard", "1/1"]] {
+        assert_only_bad(&orient(&models, how), &good(how), &bad);
+    }
+    // The same models are bad when parts are merged.
+    let part = model(&folder, "part.jsonl", good(&["--shard", "1/1"]).as_bytes());
+    let merged = orient(&models, &["--json", "--merge", &part]);
+    assert_only_bad(&merged, &good(&["--json"]), &bad);
+    assert_only_bad(&orient(&[&absent], &[]), "", &bad[1..]);
+
+    // Weights belong to one model.
+    let weights = folder.path().join("slab.weights").display().to_string();
+    assert!(cusp(&["saliency", &slab, "-o", &weights]).status.success());
+    let weighed = ["--json", "--weights", &weights];
+    let alone = orient(&[&slab], &weighed);
+    assert!(alone.status.success());
+    assert_only_bad(
+        &orient(&[&ball, &slab], &weighed),
+        &String::from_utf8(alone.stdout).unwrap(),
+        &[(&ball, "slab.weights: these weights are for another mesh")],
+    );
+
+    // What is wrong for every model is said once.
+    for (how, words) in [
+        (["--layer-min", "0.2"], "cusp: no whole number of steps"),
+        (["--printer", "none"], "cusp: there is no printer none"),
+        (["--weights", &slab], "no file of weights"),
+        (["--weights", &absent], "absent.stl: No such file"),
+        (["--resin", &absent], "absent.stl: No such file"),
+    ] {
+        assert_fails(&orient(&models, &how), 1, words);
+        let merge = [&how[..], &["--merge", &part]].concat();
+        assert_fails(&orient(&models, &merge), 1, words);
+    }
 }

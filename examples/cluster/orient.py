@@ -10,7 +10,7 @@ import sys
 import uuid
 from collections.abc import Iterator
 from concurrent.futures import CancelledError
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from subprocess import DEVNULL, PIPE, CompletedProcess, Popen, run
 from tempfile import TemporaryDirectory
@@ -69,9 +69,10 @@ class Workplace(WorkerPlugin):
                     raise ChildProcessError(f"the search on {self.address} has ended")
                 process = Popen(command, stdin=DEVNULL, stdout=PIPE, stderr=PIPE, encoding="utf-8")
                 self.running.add(process)
+        except ChildProcessError:
+            raise
         except OSError as error:
-            message = f"orient.py: {self.cusp} on {self.address}: {error.strerror}; name the program by --cusp\n"
-            return CompletedProcess(command, 1, "", message)
+            raise OSError(f"{self.cusp} on {self.address}: {error.strerror}; name the program by --cusp") from error
         line, message = process.communicate()
         with self.lock:
             self.running.discard(process)
@@ -92,29 +93,84 @@ def send(client: Client, content: bytes) -> Future[bytes]:
     return client.submit(bytes, content, key=f"cusp-{hashlib.sha256(content).hexdigest()}")
 
 
-def measure_all(client: Client, arguments: argparse.Namespace, parts: Path) -> int:
-    """Measures all shards of all models, writes them to `parts`, and returns an exit code."""
+class Given:
+    """What the user gave: files of options, and models by their content, which is how cusp knows them too.
+
+    A model that is given twice is thus measured once, since cusp takes a shard only once. What cannot be read is left out: cusp
+    says so in the end.
+    """
+
+    def __init__(self, arguments: argparse.Namespace) -> None:
+        self.models: dict[bytes, list[str]] = {}
+        self.files: list[bytes] = []
+        try:
+            self.files = [Path(file).read_bytes() for file in arguments.files.values()]
+        except OSError:
+            return
+        for path in arguments.models:
+            with suppress(OSError):
+                self.models.setdefault(Path(path).read_bytes(), []).append(path)
+
+
+class Stop(Exception):
+    """The search is over, for all models: the exit code and words of cusp, which are as good here."""
+
+    def __init__(self, code: int, message: str) -> None:
+        super().__init__(message)
+        self.code, self.message = code, message
+
+
+class Measured:
+    """What became of the models, which are known by their content."""
+
+    def __init__(self) -> None:
+        # What cusp said about those that it could not measure.
+        self.refused: dict[bytes, str] = {}
+        # Why there is no answer of cusp at all.
+        self.lost: dict[bytes, str] = {}
+
+    def is_bad(self, model: bytes) -> bool:
+        return model in self.refused or model in self.lost
+
+    def take(self, model: bytes, task: Future[CompletedProcess[str]]) -> str:
+        """What a task that is done measured, if it did."""
+        try:
+            part = task.result()
+        except (ChildProcessError, KilledWorker) as error:
+            self.lost[model] = str(error)
+            return ""
+        if part.returncode == 1:
+            self.refused[model] = part.stderr
+        elif part.returncode != 0:
+            raise Stop(part.returncode, part.stderr)
+        return part.stdout
+
+
+def measure_all(client: Client, arguments: argparse.Namespace, given: Given, parts: Path) -> Measured:
+    """Measures all shards of all models and writes them to `parts`."""
+    measured = Measured()
     workplace = f"cusp-{uuid.uuid4()}"
     client.register_plugin(Workplace(arguments.cusp, list(arguments.files), arguments.options), name=workplace)
     try:
         count = arguments.shards or 2 * sum(client.nthreads().values())
-        files = [send(client, Path(file).read_bytes()) for file in arguments.files.values()]
-        tasks = []
-        for content, model in arguments.contents.items():
-            names, contents = [model, *arguments.files.values()], [send(client, content), *files]
+        files = [send(client, content) for content in given.files]
+        tasks: dict[Future[CompletedProcess[str]], bytes] = {}
+        for model, paths in given.models.items():
+            names, contents = [paths[0], *arguments.files.values()], [send(client, model), *files]
             for shard in (f"{number}/{count}" for number in range(1, count + 1)):
-                tasks.append(client.submit(measure, workplace, shard, names, contents, retries=RETRIES, pure=False))
+                task = client.submit(measure, workplace, shard, names, contents, retries=RETRIES, pure=False)
+                tasks[task] = model
         with parts.open("w", encoding="utf-8") as file:
             for done, task in enumerate(as_completed(tasks), 1):
-                part: CompletedProcess[str] = task.result()
-                if part.returncode != 0:
-                    sys.stderr.write(part.stderr)
-                    return part.returncode
-                file.write(part.stdout)
+                model = tasks[task]
+                if not measured.is_bad(model):
+                    file.write(measured.take(model, task))
+                    if measured.is_bad(model):
+                        client.cancel([other for other in tasks if tasks[other] == model])
                 if sys.stderr.isatty():
                     end = "\n" if done == len(tasks) else "\r"
                     print(f"measured {done} of {len(tasks)} shards", end=end, file=sys.stderr, flush=True)
-        return 0
+        return measured
     finally:
         # Also ends what still runs after an error or an interrupt.
         client.unregister_worker_plugin(workplace)
@@ -169,15 +225,27 @@ def parse() -> argparse.Namespace:
 
 def search(arguments: argparse.Namespace) -> int:
     """Measures on the workers and merges here; returns an exit code."""
-    # A model that is given twice is measured once: cusp knows models by their content, and takes a shard only once.
-    arguments.contents = {Path(model).read_bytes(): model for model in arguments.models}
+    given, measured = Given(arguments), Measured()
     with TemporaryDirectory(prefix="cusp-orient-") as folder:
         parts = Path(folder, "parts.jsonl")
-        with connect(arguments, folder) as client:
-            code = measure_all(client, arguments, parts)
+        parts.touch()
+        if given.models:
+            with connect(arguments, folder) as client:
+                measured = measure_all(client, arguments, given, parts)
+        lost = {path: reason for model, reason in measured.lost.items() for path in given.models[model]}
+        for path, reason in lost.items():
+            print(f"orient.py: {path}: {reason}", file=sys.stderr)
+        models = [path for path in arguments.models if path not in lost]
+        if not models:
+            return 1
         files = [f"{option}={file}" for option, file in arguments.files.items()]
-        command = [arguments.cusp, "orient", *arguments.models, *files, *arguments.options, f"--merge={parts}"]
-        return code or run(command, stdin=DEVNULL).returncode
+        command = [arguments.cusp, "orient", *models, *files, *arguments.options, f"--merge={parts}"]
+        merged = run(command, stdin=DEVNULL, stderr=PIPE if measured.refused else None, encoding="utf-8")
+        # Merging finds the same faults, and in the order of the models; the rest are faults of a worker.
+        words = merged.stderr or ""
+        sys.stderr.write(words)
+        sys.stderr.writelines(message for message in measured.refused.values() if message not in words)
+        return merged.returncode or bool(lost)
 
 
 def main() -> int:
@@ -193,6 +261,9 @@ def main() -> int:
         return search(parse())
     except KeyboardInterrupt:
         return 130
+    except Stop as stop:
+        sys.stderr.write(stop.message)
+        return stop.code
     except OSError as error:
         message = f"{error.filename}: {error.strerror}" if error.filename else str(error)
     except (KilledWorker, CancelledError) as error:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import logging
 import os
+import re
 import shutil
 import signal
 import struct
@@ -38,6 +39,14 @@ if [ $number -gt {free} ]; then
     mv '{calls}'/$number/new '{calls}'/$number/held
     while [ -d '{calls}' ] && [ ! -e '{calls}'/release ]; do sleep 0.05; done
 fi
+exec '{cusp}' "$@"
+"""
+
+# A cusp that is killed whenever it measures a model of so many bytes.
+DYING_CUSP = """#!/bin/sh
+case "$*" in
+    *--shard=*) [ "$(wc -c < "$2")" -eq {bytes} ] && kill -KILL $$ ;;
+esac
 exec '{cusp}' "$@"
 """
 
@@ -108,11 +117,15 @@ class Orient(unittest.TestCase):
             self.assertGreater(len(json.loads(line)["best"]), 0)
         return found.stdout
 
+    def script(self, name: str, text: str) -> Path:
+        path = self.folder / name
+        path.write_text(text)
+        path.chmod(0o755)
+        return path
+
     def holding_cusp(self, free: int) -> Path:
         """See `HOLDING_CUSP`."""
-        path = self.folder / "holding-cusp"
-        path.write_text(HOLDING_CUSP.format(calls=self.calls, free=free, cusp=Path(CUSP).absolute()))
-        path.chmod(0o755)
+        path = self.script("holding-cusp", HOLDING_CUSP.format(calls=self.calls, free=free, cusp=Path(CUSP).absolute()))
         # Whatever happens, none is held for ever.
         self.addCleanup(self.release)
         return path
@@ -215,6 +228,38 @@ class Orient(unittest.TestCase):
                 # Python drops an interrupt that arrives while it collects garbage; a person tries again.
                 interrupt(example.pid, number)
             self.assertEqual(self.finish(example), (130, "", ""))
+
+    def test_a_bad_model_does_not_stop_the_others(self) -> None:
+        poem = self.folder / "poem.stl"
+        poem.write_text("no model\n")
+        absent = self.folder / "absent.stl"
+        batch = [poem, self.wedge, absent, self.spire, poem, *self.options]
+        native = self.cusp(*batch)
+        # Two lines are answers, and three are complaints.
+        self.assertEqual((native.stdout, native.stderr.count("\n")), (self.in_one_process(self.wedge, self.spire, *self.options), 3))
+        found = self.finish(self.start("--workers=2", f"--cusp={CUSP}", *batch))
+        self.assertEqual(found, (1, native.stdout, native.stderr))
+
+    def test_a_model_that_cusp_dies_of_does_not_stop_the_others(self) -> None:
+        cusp = self.script("dying-cusp", DYING_CUSP.format(bytes=self.spire.stat().st_size, cusp=Path(CUSP).absolute()))
+        batch = [self.spire, self.wedge, *self.options]
+        code, output, messages = self.finish(self.start("--workers=2", f"--cusp={cusp}", *batch))
+        self.assertEqual((code, output), (1, self.in_one_process(self.wedge, *self.options)))
+        death = f"{re.escape(str(cusp))} on tcp://[^ ]+ was ended by signal 9"
+        self.assertRegex(messages, f"^orient.py: {re.escape(str(self.spire))}: {death}\n$")
+
+    def test_what_is_wrong_for_every_model_is_said_once(self) -> None:
+        for wrong in ["--layer-min=0.2", f"--weights={self.wedge}", f"--resin={self.folder}/absent.json"]:
+            batch = [self.wedge, self.spire, *self.options, wrong]
+            native = self.cusp(*batch)
+            self.assertEqual((native.returncode, native.stdout, native.stderr.count("\n")), (1, "", 1))
+            found = self.finish(self.start("--workers=2", f"--cusp={CUSP}", *batch))
+            self.assertEqual(found, (1, "", native.stderr))
+
+        missing = self.folder / "no-cusp"
+        code, output, messages = self.finish(self.start("--workers=1", f"--cusp={missing}", self.wedge, self.spire))
+        self.assertEqual((code, output, messages.count("\n")), (1, "", 1))
+        self.assertIn("name the program by --cusp", messages)
 
     def test_errors_are_those_of_cusp(self) -> None:
         code, output, messages = self.finish(self.start("--workers=1", f"--cusp={CUSP}", self.wedge, "--alpha=7"))

@@ -173,6 +173,8 @@ impl Slicer {
     ) -> Result<Vec<Candidate>, MergeError> {
         search.check()?;
         let directions = self.directions(options, search.directions)?;
+        // A model that no shard could measure has the same fault here, rather than no part.
+        self.check_for_all_directions(options)?;
         let none = Shard {
             number: 0,
             count: 0,
@@ -237,18 +239,21 @@ impl Slicer {
         Ok(height_mm / size.z)
     }
 
+    /// Finds what is wrong in every direction, which is an error, and not a reason to exclude one.
+    fn check_for_all_directions(&self, options: &Options) -> Result<(), Error> {
+        options.check()?;
+        match grid(&self.model.bounds(), options) {
+            Err(error) if exclusion(&error).is_none() => Err(error),
+            _ => Ok(()),
+        }
+    }
+
     fn bench<'a>(
         &'a mut self,
         options: &'a Options,
         progress: &mut StageProgress<'_>,
     ) -> Result<Bench<'a>, Error> {
-        options.check()?;
-        // What is wrong in every direction is an error, and not a reason to exclude one.
-        if let Err(error) = grid(&self.model.bounds(), options)
-            && exclusion(&error).is_none()
-        {
-            return Err(error);
-        }
+        self.check_for_all_directions(options)?;
         self.turntable(options)?;
         let weights = self.weights(options, progress)?;
         let table = &self.turntable.as_ref().ok_or(Error::NoPlan)?.1;

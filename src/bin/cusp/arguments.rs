@@ -15,7 +15,7 @@ use cusp_slicer::plan::HeightRange;
 use cusp_slicer::profile::{Metric, Source};
 
 use crate::Cli;
-use crate::files::{Failure, in_file};
+use crate::files::{Failure, WeightsFile, in_file};
 
 /// A model, and what to make of it.
 #[derive(Args)]
@@ -65,7 +65,7 @@ pub struct Choices {
     saliency: bool,
     /// Facets count by this file of weights; with --saliency by the product
     #[arg(long, value_name = "FILE", help_heading = "Weights")]
-    pub weights: Option<PathBuf>,
+    weights: Option<PathBuf>,
     /// What facets count for at least: the error of one may be as many times the tolerance as this goes into 1
     #[arg(
         long,
@@ -163,6 +163,12 @@ impl Choices {
                 .error(ErrorKind::ArgumentConflict, message)
                 .exit();
         }
+    }
+
+    /// The file of weights that is asked for, if one is.
+    pub fn read_weights(&self) -> Result<Option<WeightsFile<'_>>, Failure> {
+        let path = self.weights.as_deref();
+        path.map(WeightsFile::read).transpose()
     }
 
     pub fn options(&self) -> Result<Options, Failure> {

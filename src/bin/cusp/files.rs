@@ -4,8 +4,10 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use cusp_slicer::Error;
 use cusp_slicer::pipeline::Slicer;
-use cusp_slicer::weights;
+use cusp_slicer::progress::Cancelled;
+use cusp_slicer::weights::{self, WeightsError};
 use tempfile::NamedTempFile;
 
 use crate::arguments::Choices;
@@ -13,14 +15,15 @@ use crate::arguments::Choices;
 /// Why a command stops.
 pub struct Failure {
     pub exit_code: u8,
-    pub message: String,
+    /// What to say, if it has not been said.
+    pub message: Option<String>,
 }
 
 impl From<String> for Failure {
     fn from(message: String) -> Self {
         Self {
             exit_code: 1,
-            message,
+            message: Some(message),
         }
     }
 }
@@ -29,14 +32,24 @@ impl Failure {
     /// A failure of the library about a file; being interrupted is about none.
     pub fn in_file(path: &Path, error: &cusp_slicer::Error) -> Self {
         if error.code() == "cancelled" {
-            Self {
-                exit_code: 130,
-                message: error.to_string(),
-            }
+            Self::interrupted()
         } else {
             in_file(path, error).into()
         }
     }
+
+    pub fn interrupted() -> Self {
+        Self {
+            exit_code: 130,
+            message: Some(Cancelled.to_string()),
+        }
+    }
+
+    /// A failure with bad input that the user has been told of.
+    pub const TOLD: Self = Self {
+        exit_code: 1,
+        message: None,
+    };
 }
 
 pub fn in_file(path: &Path, error: &dyn std::fmt::Display) -> String {
@@ -48,21 +61,42 @@ pub fn load(model: &Path) -> Result<Slicer, Failure> {
     Slicer::load(&bytes).map_err(|error| Failure::in_file(model, &error))
 }
 
-/// Has facets count by a file of weights, if there is one.
-pub fn paint(slicer: &mut Slicer, weights: Option<&Path>) -> Result<(), Failure> {
-    let Some(path) = weights else { return Ok(()) };
-    let bytes = fs::read(path).map_err(|error| in_file(path, &error))?;
-    let weights =
-        weights::from_bytes(&bytes, &slicer.positions()).map_err(|error| in_file(path, &error))?;
-    slicer
-        .paint(Some(weights))
-        .map_err(|error| Failure::in_file(path, &error))
+/// A file of weights, of whichever model.
+pub struct WeightsFile<'a> {
+    path: &'a Path,
+    bytes: Vec<u8>,
+}
+
+impl<'a> WeightsFile<'a> {
+    pub fn read(path: &'a Path) -> Result<Self, Failure> {
+        let bytes = fs::read(path).map_err(|error| in_file(path, &error))?;
+        // No model makes that good.
+        if let Err(error @ WeightsError::NotWeights) = weights::from_bytes(&bytes, &[]) {
+            return Err(in_file(path, &error).into());
+        }
+        Ok(Self { path, bytes })
+    }
+
+    /// Has the facets of the slicer's `model` count by these weights.
+    pub fn paint(&self, slicer: &mut Slicer, model: &Path) -> Result<(), Failure> {
+        let weights = weights::from_bytes(&self.bytes, &slicer.positions());
+        let painted = weights.map_err(Error::from);
+        let painted = painted.and_then(|weights| slicer.paint(Some(weights)));
+        painted.map_err(|error| in_file(model, &in_file(self.path, &error)).into())
+    }
 }
 
 /// Loads a model, and the weights of its facets if there are any.
 pub fn load_weighted(model: &Path, choices: &Choices) -> Result<Slicer, Failure> {
+    load_painted(model, choices.read_weights()?.as_ref())
+}
+
+/// Loads a model, and paints it with weights that have been read.
+pub fn load_painted(model: &Path, weights: Option<&WeightsFile<'_>>) -> Result<Slicer, Failure> {
     let mut slicer = load(model)?;
-    paint(&mut slicer, choices.weights.as_deref())?;
+    if let Some(weights) = weights {
+        weights.paint(&mut slicer, model)?;
+    }
     Ok(slicer)
 }
 

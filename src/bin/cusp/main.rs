@@ -123,7 +123,9 @@ fn main() -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            say(&failure.message);
+            if let Some(message) = failure.message {
+                say(&message);
+            }
             ExitCode::from(failure.exit_code)
         }
     }

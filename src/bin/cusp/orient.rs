@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::fs;
 use std::io::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use cusp_slicer::direction::shard::Part;
 use cusp_slicer::direction::{Candidate, Exclusion, Orientation};
@@ -13,8 +13,8 @@ use cusp_slicer::pipeline::Slicer;
 use stl_io::{Normal, Triangle, Vertex};
 
 use crate::arguments::Orienting;
-use crate::files::{Failure, file_beside, in_file, keep, load_weighted, place_for};
-use crate::terminal::{Bar, duration, print, print_json, stop_on_interrupt};
+use crate::files::{Failure, WeightsFile, file_beside, in_file, keep, load_painted, place_for};
+use crate::terminal::{Bar, duration, is_interrupted, print, say, stop_on_interrupt, to_json};
 
 pub fn orient(orienting: &Orienting) -> Result<(), Failure> {
     orienting.choices.check("orient");
@@ -22,7 +22,6 @@ pub fn orient(orienting: &Orienting) -> Result<(), Failure> {
     if orienting.models.len() > 1 && orienting.apply.is_some() {
         return Err("--apply is for one model".to_owned().into());
     }
-    let parts = read_parts(orienting)?;
     let target = orienting.output.as_deref().map(|output| {
         let place = place_for(output, &orienting.models[0]);
         place
@@ -30,43 +29,84 @@ pub fn orient(orienting: &Orienting) -> Result<(), Failure> {
             .map_err(|reason| in_file(output, &reason))
     });
     let target = target.transpose()?;
+    // What is wrong with these is wrong for every model.
+    options.check().map_err(|error| error.to_string())?;
+    let task = Task {
+        options,
+        weights: orienting.choices.read_weights()?,
+        parts: read_parts(orienting)?,
+        target,
+    };
     stop_on_interrupt();
+    let mut is_any_bad = false;
     for model in &orienting.models {
-        let mut slicer = load_weighted(model, &orienting.choices)?;
+        if is_interrupted() {
+            return Err(Failure::interrupted());
+        }
+        match task.answer(orienting, model) {
+            Ok(answer) => print(&answer)?,
+            // The others of a batch are as good as before.
+            Err(Failure {
+                exit_code: 1,
+                message,
+            }) => {
+                say(&message.unwrap_or_default());
+                is_any_bad = true;
+            }
+            Err(failure) => return Err(failure),
+        }
+    }
+    if is_any_bad {
+        return Err(Failure::TOLD);
+    }
+    Ok(())
+}
+
+/// What is the same for all models.
+struct Task<'a> {
+    options: Options,
+    weights: Option<WeightsFile<'a>>,
+    parts: Vec<Part>,
+    /// The file to write, as the user names it and where it is.
+    target: Option<(&'a Path, PathBuf)>,
+}
+
+impl Task<'_> {
+    /// What to print for a model.
+    fn answer(&self, orienting: &Orienting, model: &Path) -> Result<String, Failure> {
+        let options = &self.options;
+        let mut slicer = load_painted(model, self.weights.as_ref())?;
         let bar = Bar::new();
         let mut progress = |stage, fraction| bar.report(stage, fraction);
         let search = orienting.search();
         if let Some(shard) = orienting.shard {
-            let part = slicer.measure_shard(&options, &search, shard, &mut progress);
-            let part = part.map_err(|error| Failure::in_file(model, &error))?;
-            drop(bar);
-            print_json(&part)?;
-            continue;
+            let part = slicer.measure_shard(options, &search, shard, &mut progress);
+            return Ok(to_json(
+                &part.map_err(|error| Failure::in_file(model, &error))?,
+            )?);
         }
         let found = if orienting.merge.is_empty() {
-            slicer.orient(&options, &search, &mut progress)
+            slicer.orient(options, &search, &mut progress)
         } else {
             let candidates = slicer
-                .merge_shards(&options, &search, &parts)
+                .merge_shards(options, &search, &self.parts)
                 .map_err(|error| in_file(model, &error))?;
-            slicer.choose(&options, &search, candidates, &mut progress)
+            slicer.choose(options, &search, candidates, &mut progress)
         };
         let found = found.map_err(|error| Failure::in_file(model, &error))?;
-        drop(bar);
-        if let (Some(number), Some((output, place))) = (orienting.apply, &target) {
+        if let (Some(number), Some((output, place))) = (orienting.apply, &self.target) {
             let candidate = found.best.get(number as usize - 1).ok_or_else(|| {
                 let reason = format!("there are only {} best directions", found.best.len());
                 in_file(model, &reason)
             })?;
-            apply(&slicer, &options, candidate, output, place)?;
+            apply(&slicer, options, candidate, output, place)?;
         }
         if orienting.json {
-            print_json(&found)?;
+            Ok(to_json(&found)?)
         } else {
-            print(&describe(model, &options, &found))?;
+            Ok(describe(model, options, &found))
         }
     }
-    Ok(())
 }
 
 /// The parts to merge: files of one JSON object a line.

@@ -25,8 +25,12 @@ pub fn warn(warnings: &[Warning]) {
     }
 }
 
+pub fn to_json(value: &impl Serialize) -> Result<String, String> {
+    serde_json::to_string(value).map_err(|error| error.to_string())
+}
+
 pub fn print_json(value: &impl Serialize) -> Result<(), String> {
-    print(&serde_json::to_string(value).map_err(|error| error.to_string())?)
+    print(&to_json(value)?)
 }
 
 /// Prints a line; a reader that has gone away, such as `head`, is no error.
@@ -88,6 +92,10 @@ impl Drop for Silence {
     }
 }
 
+pub fn is_interrupted() -> bool {
+    INTERRUPTED.load(Ordering::Relaxed)
+}
+
 /// A progress bar on a terminal, nothing elsewhere; it clears its line when dropped.
 pub struct Bar {
     bar: ProgressBar,
@@ -114,7 +122,7 @@ impl Bar {
         self.bar.set_message(stage.name());
         let steps = self.bar.length().unwrap_or_default() as f64;
         self.bar.set_position((fraction * steps) as u64);
-        if INTERRUPTED.load(Ordering::Relaxed) {
+        if is_interrupted() {
             ControlFlow::Break(())
         } else {
             ControlFlow::Continue(())

@@ -7,7 +7,7 @@ use cusp_slicer::verify::Claim;
 use cusp_slicer::warning::Warning;
 use serde::Serialize;
 
-use crate::files::{Failure, in_file, load, paint};
+use crate::files::{Failure, WeightsFile, in_file, load_painted};
 use crate::terminal::{Bar, open_gpu, print, print_json, stop_on_interrupt, warn};
 
 /// Says that a plan, and a print file, are right.
@@ -30,8 +30,8 @@ pub fn verify(
     json: bool,
 ) -> Result<(), Failure> {
     let text = fs::read_to_string(plan).map_err(|error| in_file(plan, &error))?;
-    let mut slicer = load(model)?;
-    paint(&mut slicer, weights)?;
+    let weights = weights.map(WeightsFile::read).transpose()?;
+    let mut slicer = load_painted(model, weights.as_ref())?;
     let claim = Claim::read(&text, slicer.stl()).map_err(|error| in_file(plan, &error))?;
     stop_on_interrupt();
     open_gpu(&mut slicer, claim.options().backend);
