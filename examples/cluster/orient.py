@@ -96,8 +96,8 @@ def send(client: Client, content: bytes) -> Future[bytes]:
 class Given:
     """What the user gave: files of options, and models by their content, which is how cusp knows them too.
 
-    A model that is given twice is thus measured once, since cusp takes a shard only once. What cannot be read is left out: cusp
-    says so in the end.
+    A model that is given twice is thus measured once, since cusp takes a shard only once. What cannot be read is left
+    out: cusp says so in the end.
     """
 
     def __init__(self, arguments: argparse.Namespace) -> None:

@@ -17,7 +17,8 @@ import sys
 import tempfile
 import time
 import unittest
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import psutil
@@ -90,6 +91,19 @@ def processes_of(session: int) -> list[psutil.Process]:
     return found
 
 
+@contextmanager
+def usual_interrupts() -> Iterator[None]:
+    """Programs that start meanwhile can be interrupted, as on a terminal.
+
+    A shell has jobs in the background ignore interrupts, and so all that they start, these tests for instance.
+    """
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
 @unittest.skipUnless(os.name == "posix", "needs signals and a shell")
 class Orient(unittest.TestCase):
     def setUp(self) -> None:
@@ -135,15 +149,16 @@ class Orient(unittest.TestCase):
 
     def start(self, *arguments: str | Path) -> subprocess.Popen[str]:
         """Starts the example in a session of its own and with temporary files of its own."""
-        example = subprocess.Popen(
-            [sys.executable, EXAMPLE, *arguments],
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-            start_new_session=True,
-            env={**os.environ, "TMPDIR": str(self.temporary)},
-        )
+        with usual_interrupts():
+            example = subprocess.Popen(
+                [sys.executable, EXAMPLE, *arguments],
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                text=True,
+                start_new_session=True,
+                env={**os.environ, "TMPDIR": str(self.temporary)},
+            )
         self.addCleanup(self.end, example)
         return example
 
@@ -236,7 +251,8 @@ class Orient(unittest.TestCase):
         batch = [poem, self.wedge, absent, self.spire, poem, *self.options]
         native = self.cusp(*batch)
         # Two lines are answers, and three are complaints.
-        self.assertEqual((native.stdout, native.stderr.count("\n")), (self.in_one_process(self.wedge, self.spire, *self.options), 3))
+        good = self.in_one_process(self.wedge, self.spire, *self.options)
+        self.assertEqual((native.stdout, native.stderr.count("\n")), (good, 3))
         found = self.finish(self.start("--workers=2", f"--cusp={CUSP}", *batch))
         self.assertEqual(found, (1, native.stdout, native.stderr))
 
