@@ -35,7 +35,7 @@ export class Curve {
       if (asSlicerError(error).code === "crash" || isAbort(error)) throw error;
       return { points: null };
     });
-    if (this.#of === key) this.points = points;
+    if (this.#of === key) this.points = points === null ? null : merged(points);
     return true;
   }
 
@@ -47,10 +47,10 @@ export class Curve {
     return Math.round((1 - wanted) * (points.length - 1));
   }
 
-  /** Where a tolerance lies, from 0, the quickest, to 1, the finest; null before the curve is known. */
-  placeOf(tolerance: number): number | null {
+  /** Where a plan lies, from 0, the quickest, to 1, the finest; null before the curve is known. */
+  placeOf(plan: Planned): number | null {
     if (this.points === null) return null;
-    return this.points.length < 2 ? 1 : notchOf(this.points, tolerance) / (this.points.length - 1);
+    return this.points.length < 2 ? 1 : notchOf(this.points, plan) / (this.points.length - 1);
   }
 }
 
@@ -59,10 +59,34 @@ function keyOf({ options: { tolerance: _, ...options } }: Result): string {
   return JSON.stringify(options);
 }
 
-/** The notch of the point whose tolerance is nearest to the plan's, counted from the loosest. */
-export function notchOf(points: readonly Pick<TradeoffPoint, "tolerance">[], tolerance: number): number {
-  let nearest = 0;
-  const distance = (index: number): number => Math.abs((points[index]?.tolerance ?? 0) - tolerance);
-  for (let index = 1; index < points.length; index++) if (distance(index) < distance(nearest)) nearest = index;
-  return points.length - 1 - nearest;
+/** What a plan comes to, whatever the tolerance that it was made for. */
+export type Planned = Pick<TradeoffPoint, "layers" | "max_error" | "print_time_s">;
+
+function isSame(a: Planned, b: Planned): boolean {
+  return a.layers === b.layers && a.max_error === b.max_error && a.print_time_s === b.print_time_s;
+}
+
+/** The points without those whose plan is the one before: of tolerances that give the same plan the tightest stays. */
+export function merged<Point extends Planned>(points: readonly Point[]): Point[] {
+  return points.filter((point, index) => {
+    const before = points[index - 1];
+    return before === undefined || !isSame(point, before);
+  });
+}
+
+/** Where a plan lies among the points, counted in notches from the loosest: at its own, or between two by its error. */
+export function placeAmong(points: readonly Planned[], plan: Planned): number {
+  const loosest = [...points].reverse();
+  const own = loosest.findIndex((point) => isSame(point, plan));
+  if (own >= 0) return own;
+  const finer = loosest.findIndex(({ max_error }) => max_error <= plan.max_error);
+  if (finer === 0) return 0;
+  if (finer < 0) return loosest.length - 1;
+  const [above, below] = [loosest[finer - 1]?.max_error ?? 0, loosest[finer]?.max_error ?? 0];
+  return finer - (plan.max_error - below) / (above - below);
+}
+
+/** The notch that is nearest to a plan. */
+export function notchOf(points: readonly Planned[], plan: Planned): number {
+  return Math.round(placeAmong(points, plan));
 }

@@ -3,7 +3,7 @@ import { css, html, LitElement, nothing, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
 import type { TradeoffPoint } from "../api/wire.js";
 import { languageOf, type Language } from "../texts/index.js";
-import { notchOf } from "./curve.js";
+import { notchOf, placeAmong, type Planned } from "./curve.js";
 import { METRICS } from "./metric.js";
 import type { Result } from "./result.js";
 import { shared } from "./styles.js";
@@ -26,31 +26,19 @@ export interface Picture {
   coarsest: Mark;
 }
 
-type Plotted = Pick<TradeoffPoint, "max_error" | "print_time_s">;
-
 /**
  * Where everything stands: each point over its notch, finer to the right, longer upwards; what is no point between those that its error lies between.
  */
-export function pictureOf(points: readonly Plotted[], { report }: Pick<Result, "report">): Picture {
+export function pictureOf(points: readonly Planned[], { report }: Pick<Result, "report">): Picture {
   const { finest, coarsest } = report.uniform;
-  const loosest = [...points].reverse();
   const times = [...points, report, finest, coarsest].map(({ print_time_s }) => print_time_s);
   const [shortest, longest] = [Math.min(...times), Math.max(...times)];
-  const mark = (notch: number, { print_time_s }: Plotted): Mark => ({
-    x: MARGIN + (points.length < 2 ? 0.5 : notch / (points.length - 1)) * (WIDTH - 2 * MARGIN),
-    y: HEIGHT - MARGIN - (longest === shortest ? 0.5 : (print_time_s - shortest) / (longest - shortest)) * (HEIGHT - 2 * MARGIN),
+  const mark = (plan: Planned): Mark => ({
+    x: MARGIN + (placeAmong(points, plan) / (points.length - 1)) * (WIDTH - 2 * MARGIN),
+    y: HEIGHT - MARGIN - (longest === shortest ? 0.5 : (plan.print_time_s - shortest) / (longest - shortest)) * (HEIGHT - 2 * MARGIN),
   });
-  const between = (it: Plotted): Mark => mark(notchAt(loosest, it.max_error), it);
-  return { dots: loosest.map((it, notch) => mark(notch, it)), own: between(report), finest: between(finest), coarsest: between(coarsest) };
-}
-
-/** The notch, with its fraction, of an error among points that become finer. */
-function notchAt(loosest: readonly Plotted[], max_error: number): number {
-  const finer = loosest.findIndex((point) => point.max_error <= max_error);
-  if (finer === 0) return 0;
-  if (finer < 0) return loosest.length - 1;
-  const [above, below] = [loosest[finer - 1]?.max_error ?? 0, loosest[finer]?.max_error ?? 0];
-  return finer - (above === below ? 0 : (max_error - below) / (above - below));
+  const dots = points.map(mark).reverse();
+  return { dots, own: mark(report), finest: mark(finest), coarsest: mark(coarsest) };
 }
 
 /** What the plan gains over the finest uniform one, and what it gives for that. */
@@ -190,18 +178,20 @@ export class CuspQuality extends LitElement {
         <p class="waiting quiet">${points === null ? words.waiting : nothing}</p>`;
     }
     const { report, limits } = result;
-    const { dots, own, finest, coarsest } = pictureOf(points, result);
-    const notch = notchOf(points, report.tolerance);
     const said = words.said(
       METRICS[report.metric].error(report.max_error, format),
       format.time(report.print_time_s),
       report.layers,
     );
+    const head = html`<div class="head">
+      <h3>${words.title}</h3>
+      <span class="quiet figures">${said}</span>
+    </div>`;
+    const gain = html`<p class="gain">${gainWords(result, language)}</p>`;
+    if (points.length === 1) return html`${head} ${gain} <p class="single quiet">${words.single}</p>`;
+    const { dots, own, finest, coarsest } = pictureOf(points, result);
     return html`
-      <div class="head">
-        <h3>${words.title}</h3>
-        <span class="quiet figures">${said}</span>
-      </div>
+      ${head}
       <svg
         viewBox="0 0 ${WIDTH} ${HEIGHT}"
         preserveAspectRatio="none"
@@ -223,11 +213,11 @@ export class CuspQuality extends LitElement {
         min="0"
         max=${points.length - 1}
         step="1"
-        .value=${live(String(notch))}
+        .value=${live(String(notchOf(points, report)))}
         @input=${this.#moved}
       />
       <div class="ends quiet"><span>${words.quick}</span><span>${words.fine}</span></div>
-      <p class="gain">${gainWords(result, language)}</p>
+      ${gain}
       <p class="key quiet">
         <span><i class="coarse"></i>${words.coarsest(format.fine(limits[1]), format.time(report.uniform.coarsest.print_time_s))}</span>
         <span><i></i>${words.finest(format.fine(limits[0]), format.time(report.uniform.finest.print_time_s))}</span>

@@ -45,9 +45,10 @@ class FakeClient {
     return new Float32Array(bytes);
   };
   readonly curves: Options[] = [];
+  tolerances = [0.05, 0.1, 0.15];
   readonly tradeoff = async (options: Options = {}): Promise<Tradeoff & { schema: 1 }> => {
     this.curves.push(options);
-    const points = [0.05, 0.1, 0.15].map((tolerance) => ({ tolerance, layers: 1, max_error: tolerance, print_time_s: 1 }));
+    const points = this.tolerances.map((tolerance) => ({ tolerance, layers: 1, max_error: tolerance, print_time_s: 1 }));
     return { schema: SCHEMA, points };
   };
 
@@ -288,6 +289,14 @@ test("a quality is a place on the curve, taken when that is known", async () => 
   session.takePoint(2);
   await settle();
   expect(client.last.options?.tolerance).toBe(0.15);
+});
+
+test("a plan without any error gives the least tolerance that can be asked for", async () => {
+  client.tolerances = [0];
+  session.quality = 0.5;
+  await planned();
+  expect(session.settings.tolerances.cusp).toBe("0.001");
+  expect(session.faults).toEqual({});
 });
 
 test("settings go back and forth, and are planned each time", async () => {

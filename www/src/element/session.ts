@@ -231,8 +231,10 @@ export class Session extends Preferences {
   takePoint(index: number): void {
     const point = this.curve?.[index];
     if (point === undefined) return;
-    const { scale } = METRICS[this.settings.metric];
-    this.change(withTolerance(this.settings, String(round.up(point.tolerance * scale))));
+    const { scale, tolerances } = METRICS[this.settings.metric];
+    // Where a plan has no error at all, its tolerance is less than any that can be asked for.
+    const tolerance = Math.max(round.up(point.tolerance * scale), tolerances[0]);
+    this.change(withTolerance(this.settings, String(tolerance)));
   }
 
   /** From 0, the quickest print worth having, to 1, the finest; at once or as soon as the curve is known. */
@@ -243,7 +245,7 @@ export class Session extends Preferences {
 
   get quality(): number | null {
     const { wanted } = this.#curve;
-    return wanted ?? (this.result === null ? null : this.#curve.placeOf(this.result.report.tolerance));
+    return wanted ?? (this.result === null ? null : this.#curve.placeOf(this.result.report));
   }
 
   /** Whether the result on show is what the settings ask for. */

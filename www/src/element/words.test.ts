@@ -4,7 +4,6 @@ import { rows, sentence as sentenceIn, type Compared } from "./comparison.js";
 import { SlicerError, ERROR_CODES, type ErrorCode } from "../api/error.js";
 import { languageOf, LANGUAGES } from "../texts/index.js";
 import { explain as explainIn } from "./problem.js";
-import { notchOf } from "./curve.js";
 import { standing } from "./progress.js";
 import { gainWords, pictureOf } from "./quality.js";
 import * as round from "./round.js";
@@ -298,8 +297,4 @@ test("the picture of the curve: finer to the right, longer upwards, each point o
   expect([picture.finest.x, picture.coarsest.x]).toEqual([xs[2], xs[0]]);
   expect(picture.finest.y).toBeLessThan(picture.own.y);
   expect(picture.coarsest.y).toBeGreaterThan(picture.own.y);
-});
-
-test("the slider stands at the point whose tolerance is nearest", () => {
-  expect([0.01, 0.06, 0.11, 9].map((tolerance) => notchOf(curve, tolerance))).toEqual([2, 2, 1, 0]);
 });
