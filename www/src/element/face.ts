@@ -46,7 +46,7 @@ interface Drawn extends Facts {
 export function face(facts: Facts): TemplateResult {
   const { session, language, panels, isDragging } = facts;
   const { failure, model, settings } = session;
-  const problem = failure === null ? null : explain(failure, language);
+  const problem = failure === null ? null : explain(failure, language, session.fixed);
   const isBeside = problem !== null && model !== null && panels.has("settings") && hasPlace(problem, settings, session);
   const drawn = { ...facts, problem, isBeside };
   return html`
@@ -131,6 +131,7 @@ function settingsCard({ session, language, problem, isBeside }: Drawn, isWide: b
       .info=${session.model?.info ?? null}
       .taken=${session.taken}
       .offered=${session}
+      .fixed=${session.fixed}
       .problem=${isBeside ? problem : null}
       .language=${language}
       @cusp-settings=${(event: CustomEvent<Partial<Settings>>) => session.change(event.detail)}
@@ -219,6 +220,7 @@ function results(drawn: Drawn, result: Result): TemplateResult {
           <cusp-quality
             .points=${curve}
             .result=${result}
+            .isFixed=${session.fixed.has("tolerances")}
             .language=${language}
             @cusp-point=${(event: CustomEvent<number>) => session.takePoint(event.detail)}
           ></cusp-quality>

@@ -12,6 +12,8 @@ export abstract class Preferences implements Offered {
   backend: Backend | null;
   printers: readonly Printer[] = [];
   resins: readonly Resin[] = [];
+  /** Settings that the page alone decides. */
+  fixed: ReadonlySet<keyof Settings> = new Set();
   readonly #history = new History<Settings>();
 
   constructor(settings: Settings, backend: Backend | null) {
@@ -42,25 +44,36 @@ export abstract class Preferences implements Offered {
     return this.#history.canRedo;
   }
 
-  /** Takes settings that nobody typed: there is no step back from them. */
+  /** Takes settings that the page decides, fixed ones too: there is no step back from them. */
   preset(patch: Partial<Settings>): void {
     this.#set({ ...this.settings, ...patch }, DEBOUNCE_MS);
+  }
+
+  /** Takes all settings at once, as an address has them. */
+  restore(settings: Settings): void {
+    this.#set(this.#allowed(settings), DEBOUNCE_MS);
   }
 
   /** Changes settings and plans again, soon if they make sense. */
   change(patch: Partial<Settings>): void {
     this.#history.note(this.settings, Object.keys(patch).join(), performance.now());
-    this.#set({ ...this.settings, ...patch }, DEBOUNCE_MS);
+    this.#set(this.#allowed({ ...this.settings, ...patch }), DEBOUNCE_MS);
   }
 
   undo(): void {
     const before = this.#history.undo(this.settings);
-    if (before !== null) this.#set(before, 0);
+    if (before !== null) this.#set(this.#allowed(before), 0);
   }
 
   redo(): void {
     const after = this.#history.redo(this.settings);
-    if (after !== null) this.#set(after, 0);
+    if (after !== null) this.#set(this.#allowed(after), 0);
+  }
+
+  /** These settings with the fixed ones as they are. */
+  #allowed(settings: Settings): Settings {
+    const kept = Object.fromEntries([...this.fixed].map((key) => [key, this.settings[key]]));
+    return { ...settings, ...kept };
   }
 
   #set(settings: Settings, delay_ms: number): void {

@@ -98,8 +98,18 @@ const FIELDS: Partial<Record<Kind, Problem["field"]>> = {
   uniformOnly: "format",
 };
 
-/** A failure in words. */
-export function explain(failure: Failure, language: Language): Problem {
+/**
+ * A failure in words.
+ *
+ * @param fixed settings that the page alone decides, so that no offer changes them
+ */
+export function explain(failure: Failure, language: Language, fixed: ReadonlySet<keyof Settings>): Problem {
+  const problem = describe(failure, language, fixed);
+  const isOpen = ({ change }: Offer): boolean => (Object.keys(change) as (keyof Settings)[]).every((key) => !fixed.has(key));
+  return { ...problem, offers: problem.offers.filter(isOpen) };
+}
+
+function describe(failure: Failure, language: Language, fixed: ReadonlySet<keyof Settings>): Problem {
   const { error, name } = failure;
   const { texts } = language;
   if (error === "not-stl") {
@@ -107,7 +117,7 @@ export function explain(failure: Failure, language: Language): Problem {
     return { code: error, title, text, offers: [], field: null };
   }
   const { code } = error;
-  if (code === "infeasible") return infeasible(error, failure.settings, language);
+  if (code === "infeasible") return infeasible(error, failure.settings, language, fixed);
   const kind = KINDS[code];
   const [title, text] = texts.problems[kind](name, sentence(error.message));
   return { code, title, text, offers: offersFor(kind, error, failure, language), field: FIELDS[kind] ?? null };
@@ -136,18 +146,18 @@ function figure(error: SlicerError, key: string): number | null {
 }
 
 /** The core knows where it fails and what would do: here that is put in words. */
-function infeasible(error: SlicerError, settings: Settings, language: Language): Problem {
+function infeasible(error: SlicerError, settings: Settings, language: Language, fixed: ReadonlySet<keyof Settings>): Problem {
   const { texts, format } = language;
   const { scale, error: written } = METRICS[settings.metric];
   const offers: Offer[] = [];
 
-  const least = figure(error, "least_tolerance");
+  const least = fixed.has("tolerances") ? null : figure(error, "least_tolerance");
   if (least !== null) {
     const short = round.up(least * scale);
     const label = texts.offers.tolerance(written(short / scale, format));
     offers.push({ label, change: withTolerance(settings, String(short)) });
   }
-  const largest = figure(error, "largest_layer_min_mm");
+  const largest = fixed.has("layerMin") ? null : figure(error, "largest_layer_min_mm");
   if (largest !== null) offers.push(layersFrom(thinEnough(largest, settings), language));
 
   const place = texts.infeasible.where(
@@ -156,10 +166,11 @@ function infeasible(error: SlicerError, settings: Settings, language: Language):
     format.fine(figure(error, "layer_min_mm") ?? 0),
   );
   const way = least === null ? (largest === null ? "neither" : "thinner") : largest === null ? "larger" : "either";
+  const isClosed = way === "neither" && fixed.has("layerMin");
   return {
     code: error.code,
     title: texts.infeasible.title(written(figure(error, "tolerance") ?? 0, format)),
-    text: `${place} ${texts.infeasible[way]}`,
+    text: isClosed ? place : `${place} ${texts.infeasible[way]}`,
     offers,
     field: "tolerance",
   };

@@ -59,18 +59,22 @@ export class CuspQuality extends LitElement {
   static override properties = {
     points: { attribute: false },
     result: { attribute: false },
+    isFixed: { attribute: false },
     language: { attribute: false },
   };
 
   /** From the tightest tolerance to the loosest; null while they are looked for. */
   declare points: readonly TradeoffPoint[] | null;
   declare result: Result | null;
+  /** Whether the page alone decides the tolerance. */
+  declare isFixed: boolean;
   declare language: Language;
 
   constructor() {
     super();
     this.points = null;
     this.result = null;
+    this.isFixed = false;
     this.language = languageOf();
   }
 
@@ -213,6 +217,7 @@ export class CuspQuality extends LitElement {
         min="0"
         max=${points.length - 1}
         step="1"
+        ?disabled=${this.isFixed}
         .value=${live(String(notchOf(points, report)))}
         @input=${this.#moved}
       />

@@ -27,6 +27,7 @@ export class CuspSettings extends LitElement {
     info: { attribute: false },
     taken: { attribute: false },
     offered: { attribute: false },
+    fixed: { attribute: false },
     problem: { attribute: false },
     language: { attribute: false },
   };
@@ -37,6 +38,8 @@ export class CuspSettings extends LitElement {
   /** The tolerance that the core took where none is typed; null if it is not known. */
   declare taken: number | null;
   declare offered: Offered;
+  /** Settings that are shown and cannot be changed. */
+  declare fixed: ReadonlySet<keyof Settings>;
   /** A failure that one of these settings caused; it is shown beside that. */
   declare problem: Problem | null;
   declare language: Language;
@@ -50,6 +53,7 @@ export class CuspSettings extends LitElement {
     this.info = null;
     this.taken = null;
     this.offered = { printers: [], resins: [] };
+    this.fixed = new Set();
     this.problem = null;
     this.language = languageOf();
   }
@@ -116,6 +120,15 @@ export class CuspSettings extends LitElement {
         outline: none;
         background: transparent;
         color: inherit;
+      }
+      .box:has(:disabled) {
+        background: var(--cusp-page);
+      }
+      input:disabled,
+      select:disabled {
+        opacity: 1;
+        color: var(--cusp-quiet);
+        cursor: not-allowed;
       }
       option {
         background: var(--cusp-card);
@@ -296,7 +309,8 @@ export class CuspSettings extends LitElement {
     placeholder = "",
   ): TemplateResult {
     const fault = this.faults[field];
-    const isDescribed = fault !== undefined || hint !== "";
+    const isFixed = this.fixed.has(field === "tolerance" ? "tolerances" : field);
+    const words = fault === undefined ? this.#hint(hint, isFixed) : faultWords(fault, this.language);
     return html`<div class="field">
       <label for=${field}>${label}</label>
       <div class="box ${fault === undefined ? "" : "wrong"}">
@@ -307,16 +321,13 @@ export class CuspSettings extends LitElement {
           id=${field}
           placeholder=${placeholder}
           aria-invalid=${fault === undefined ? "false" : "true"}
-          aria-describedby=${isDescribed ? `${field}-hint` : nothing}
+          aria-describedby=${words === "" ? nothing : `${field}-hint`}
+          ?disabled=${isFixed}
           .value=${live(value)}
           @input=${(event: Event) => this.#say(change((event.target as HTMLInputElement).value))}
         />${unit === "" ? nothing : html`<span class="unit">${unit}</span>`}
       </div>
-      ${isDescribed
-        ? html`<p class=${fault === undefined ? "hint" : "fault"} id="${field}-hint">
-            ${fault === undefined ? hint : faultWords(fault, this.language)}
-          </p>`
-        : nothing}
+      ${words === "" ? nothing : html`<p class=${fault === undefined ? "hint" : "fault"} id="${field}-hint">${words}</p>`}
       ${this.#beside(field)}
     </div>`;
   }
@@ -328,20 +339,28 @@ export class CuspSettings extends LitElement {
     hint = "",
     chosen: Settings[Key] = this.settings[key],
   ): TemplateResult {
+    const isFixed = this.fixed.has(key);
+    const words = this.#hint(hint, isFixed);
     return html`<div class="field">
       <label for=${key}>${label}</label>
       <div class="box">
         <select
           id=${key}
-          aria-describedby=${hint === "" ? nothing : `${key}-hint`}
+          aria-describedby=${words === "" ? nothing : `${key}-hint`}
+          ?disabled=${isFixed}
           .value=${live(chosen)}
           @change=${(event: Event) => this.#say({ [key]: (event.target as HTMLSelectElement).value })}
         >
           ${choices.map(([value, name]) => html`<option value=${value} ?selected=${value === chosen}>${name}</option>`)}
         </select>
       </div>
-      ${hint === "" ? nothing : html`<p class="hint" id="${key}-hint">${hint}</p>`} ${this.#beside(key)}
+      ${words === "" ? nothing : html`<p class="hint" id="${key}-hint">${words}</p>`} ${this.#beside(key)}
     </div>`;
+  }
+
+  /** What is said below a field: first why it cannot be changed, if so. */
+  #hint(hint: string, isFixed: boolean): string {
+    return isFixed ? `${this.language.texts.settings.fixed} ${hint}`.trim() : hint;
   }
 
   #radios<Key extends "planner" | "minimize" | "snap">(

@@ -14,8 +14,13 @@ const english = languageOf("en");
 const { format } = english;
 const sentence = (compared: Compared): string => sentenceIn(compared, english);
 
-function explain(error: SlicerError, name: string, settings: Settings): ReturnType<typeof explainIn> {
-  return explainIn({ error, name, settings, height_mm: 60 }, english);
+function explain(
+  error: SlicerError,
+  name: string,
+  settings: Settings,
+  fixed: readonly (keyof Settings)[] = [],
+): ReturnType<typeof explainIn> {
+  return explainIn({ error, name, settings, height_mm: 60 }, english, new Set(fixed));
 }
 
 const limits = [0.05, 0.15] as const;
@@ -203,6 +208,26 @@ test("a model that is too large may be scaled to fit, or the printer left out", 
   ]);
 });
 
+test("what the page has fixed is not offered to be changed", () => {
+  const large = new SlicerError("model-too-large", "too large", { fitting_scale: 0.5012 });
+  const { offers } = explain(large, "a.stl", { ...DEFAULT_SETTINGS, printer: "p" }, ["printer", "format"]);
+  expect(offers).toEqual([{ label: "Scale to 30\u00a0mm", change: { height: "30" } }]);
+  expect(explain(new SlicerError("uniform-only", ""), "a.stl", DEFAULT_SETTINGS, ["format"]).offers).toHaveLength(1);
+
+  const neither = infeasible({ least_tolerance: 0.05, largest_layer_min_mm: 0.02 });
+  const [thinner, larger, none] = ([["tolerances"], ["layerMin"], ["tolerances", "layerMin"]] as const).map((fixed) =>
+    explain(neither, "a.stl", DEFAULT_SETTINGS, fixed),
+  );
+  expect([thinner, larger, none].map((it) => it?.offers.map(({ change }) => Object.keys(change)))).toEqual([
+    [["layerMin"]],
+    [["tolerances"]],
+    [],
+  ]);
+  expect(thinner?.text).toMatch(/Allow thinner layers if your printer can make them\.$/);
+  expect(larger?.text).toMatch(/Allow a larger error\.$/);
+  expect(none?.text).toMatch(/leaves a larger error\.$/);
+});
+
 test("a file for uniform layers offers these, or another file", () => {
   const { field, offers } = explain(new SlicerError("uniform-only", ""), "a.stl", { ...DEFAULT_SETTINGS, format: "sl1" });
   expect(field).toBe("format");
@@ -213,7 +238,7 @@ test.each(LANGUAGES)("every code has a heading and a sentence: %s", (locale) => 
   const language = languageOf(locale);
   for (const code of Object.keys(ERROR_CODES) as ErrorCode[]) {
     const failure = { error: new SlicerError(code, "why"), name: "a.stl", settings: DEFAULT_SETTINGS, height_mm: 1 };
-    const { title, text } = explainIn(failure, language);
+    const { title, text } = explainIn(failure, language, new Set());
     expect(title.length, code).toBeGreaterThan(3);
     expect(text.length, code).toBeGreaterThan(2);
   }

@@ -46,6 +46,7 @@ export const de = ({ counted, plural }: Format): Texts => ({
     title: "Einstellungen",
     undo: "Rückgängig",
     redo: "Wiederholen",
+    fixed: "Von dieser Seite festgelegt.",
     layers: "Schichten",
     adaptive: "Adaptiv",
     uniform: "Gleichmäßig",

@@ -50,6 +50,7 @@ export const en = ({ counted, plural }: Format) => ({
     title: "Settings",
     undo: "Undo",
     redo: "Redo",
+    fixed: "Set by this page.",
     layers: "Layers",
     adaptive: "Adaptive",
     uniform: "Uniform",

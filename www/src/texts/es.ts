@@ -46,6 +46,7 @@ export const es = ({ counted, plural }: Format): Texts => ({
     title: "Ajustes",
     undo: "Deshacer",
     redo: "Rehacer",
+    fixed: "Fijado por esta página.",
     layers: "Capas",
     adaptive: "Adaptativas",
     uniform: "Uniformes",

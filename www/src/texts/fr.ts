@@ -46,6 +46,7 @@ export const fr = ({ counted, plural }: Format): Texts => ({
     title: "Réglages",
     undo: "Annuler",
     redo: "Rétablir",
+    fixed: "Fixé par cette page.",
     layers: "Couches",
     adaptive: "Adaptatives",
     uniform: "Uniformes",

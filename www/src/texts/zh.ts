@@ -44,6 +44,7 @@ export const zh = ({ count: number }: Format): Texts => ({
     title: "设置",
     undo: "撤销",
     redo: "重做",
+    fixed: "由本页面设定。",
     layers: "分层",
     adaptive: "自适应",
     uniform: "均匀",
