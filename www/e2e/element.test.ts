@@ -5,7 +5,7 @@ import type { CuspSlicer } from "../src/element/index.js";
 import { launch } from "./browser.js";
 import { servePacked } from "./packed.js";
 import type { Served } from "./serve.js";
-import { sphere } from "./solids.js";
+import { prism, sphere } from "./solids.js";
 
 const html = `<!doctype html><html lang="de"><meta charset="utf-8" /><title>Shop</title>
 <script type="module" src="main.js"></script><body></body></html>`;
@@ -32,7 +32,7 @@ const pages: Page[] = [];
 const complaints: string[] = [];
 
 beforeAll(async () => {
-  served = await servePacked({ "index.html": html, "main.js": main, "ball.stl": sphere(10, 96).bytes, "bad.stl": "no" });
+  served = await servePacked({ "index.html": html, "main.js": main, "ball.stl": sphere(10, 96).bytes, "prism.stl": prism(10, 20).bytes, "bad.stl": "no" });
   browser = await launch();
 }, 120_000);
 
@@ -110,9 +110,10 @@ test("methods: load, plan, export, cancel", async () => {
     element.tolerance = 0.05;
     const second = await element.plan();
     const file = await element.export();
-    element.layerMin = 7;
+    const { query } = element;
+    element.query = "layerMin=7";
     const fault = await element.plan().catch(name);
-    element.layerMin = 0.05;
+    element.query = query;
     element.tolerance = 0.06;
     const cancelled = element.plan().catch(name);
     element.cancel();
@@ -148,6 +149,72 @@ test("a shop takes the print file instead of the browser", async () => {
   expect(name).toBe("ball-cusp.uvj");
   await page.waitForTimeout(300);
   expect(saved).toEqual([]);
+});
+
+test("attributes that make no sense are for the page's developer: told, and the last good value stays", async () => {
+  const page = await start("");
+  const warnings: string[] = [];
+  page.on("console", (message) => void (message.type() === "warning" && warnings.push(message.text())));
+  const wrong = `tolerance="abc" metric="cups" panels="foo" layer-min="7" format="zip" printer="nobody-s" backend="tpu" quality="high" fixed="price"`;
+  await page.evaluate((wrong) => {
+    document.body.append(document.createRange().createContextualFragment(`<cusp-slicer id="a" src="ball.stl" locale="e" ${wrong}></cusp-slicer>`));
+  }, wrong);
+  await done(page, "a");
+  const found = await page.evaluate(async () => {
+    const element = document.querySelector<CuspSlicer>("#a");
+    if (element === null) throw new Error("there is no element");
+    const { tolerance, metric, panels, layerMin, format, printer, fixed } = element;
+    element.setAttribute("tolerance", "0.05");
+    element.setAttribute("tolerance", "thin");
+    element.tolerance = Number.NaN;
+    const { report } = await element.plan();
+    const told = (document as unknown as Told).told.filter(([, name]) => name === "cusp-error").map(([, , detail]) => detail["detail"]);
+    const codes = (document as unknown as Told).told.filter(([, name]) => name === "cusp-error").map(([, , detail]) => detail["code"]);
+    const state = { state: element.state, problems: element.shadowRoot?.querySelectorAll("[part=problem]").length };
+    return { taken: { tolerance, metric, panels, layerMin, format, printer, fixed }, told, codes, tolerance: report.tolerance, ...state };
+  });
+  const usual = { tolerance: null, metric: "cusp", panels: null, layerMin: 0.05, format: null, printer: "", fixed: null };
+  expect(found).toMatchObject({ taken: usual, tolerance: 0.05, state: "done", problems: 0 });
+  expect(new Set(found.codes)).toEqual(new Set(["bad-attribute"]));
+  const values = (found.told as { attribute: string; value: unknown }[]).map(({ attribute, value }) => `${attribute}=${String(value)}`);
+  expect(values.slice().sort()).toEqual([
+    ...["backend=tpu", "fixed=price", "format=zip", "layer-min=7", "locale=e", "metric=cups", "panels=foo", "printer=nobody-s"],
+    ...["quality=high", "tolerance=NaN", "tolerance=abc", "tolerance=thin"],
+  ]);
+  await expect.poll(() => warnings.filter((text) => text.startsWith("<cusp-slicer>: "))).toHaveLength(values.length);
+  expect(warnings.join("\n")).toContain(`metric="cups" is none of cusp, roughness, area, volume; the last good value stays`);
+  expect(found.told).toContainEqual(expect.objectContaining({ attribute: "printer", known: expect.arrayContaining(["saturn-3-ultra"]) }));
+});
+
+test("what the page has fixed is shown, and neither form, offer nor undo changes it", async () => {
+  const page = await start(
+    `<cusp-slicer id="a" src="ball.stl" locale="en" printer="sl1s" format="uvj" fixed="printer format layer-min"></cusp-slicer>`,
+  );
+  await done(page, "a");
+  const field = (name: string): ReturnType<Page["locator"]> => page.locator("#a").getByLabel(name, { exact: true });
+  for (const name of ["Printer", "Print file", "Thinnest layer"]) expect(await field(name).isDisabled(), name).toBe(true);
+  for (const name of ["Tolerance", "Thickest layer", "Measure errors by"]) expect(await field(name).isDisabled(), name).toBe(false);
+  expect(await page.locator("#a #printer-hint").innerText()).toMatch(/^Set by this page\. /);
+  await page.evaluate(() => document.querySelector<CuspSlicer>("#a")?.setAttribute("printer", "mars-4-ultra"));
+  await field("Scale to height").fill("120");
+  await page.waitForSelector("#a[state=error]");
+  expect(await page.locator("#a .offers button").allInnerTexts()).toEqual([expect.stringMatching(/^Scale to \d/)]);
+  const settings = await page.evaluate(() => {
+    const element = document.querySelector<CuspSlicer>("#a");
+    element?.undo();
+    if (element) element.query = "printer=saturn-3-ultra&format=png&tolerance=0.06";
+    return [element?.printer, element?.format, element?.tolerance];
+  });
+  expect(settings).toEqual(["mars-4-ultra", "uvj", 0.06]);
+});
+
+test("a prism has one best plan: a sentence stands in place of the slider", async () => {
+  const page = await start(`<cusp-slicer id="a" src="prism.stl" locale="en"></cusp-slicer>`);
+  await done(page, "a");
+  const said = page.locator("#a cusp-quality .single");
+  expect(await said.innerText()).toBe("There is only one best plan for this model: it is the quickest and the finest.");
+  expect(await page.locator("#a cusp-quality input").count()).toBe(0);
+  expect(await page.evaluate(() => document.querySelector<CuspSlicer>("#a")?.quality)).toBe(1);
 });
 
 test("a quality is a place on the curve: finer takes longer", async () => {

@@ -30,6 +30,22 @@ export function sphere(radius: number, around: number): Solid {
   return { bytes: binaryStl(packed), volume_mm3: volume(packed) };
 }
 
+/** A prism that stands upright on a square. */
+export function prism(side: number, height: number): Solid {
+  const corners = [[0, 0], [side, 0], [side, side], [0, side]] as const;
+  const triangles: number[] = [];
+  for (const [index, [x, y]] of corners.entries()) {
+    const [u, v] = corners[(index + 1) % corners.length] ?? [0, 0];
+    triangles.push(...[x, y, 0, u, v, 0, u, v, height], ...[x, y, 0, u, v, height, x, y, height]);
+  }
+  for (const [a, b] of [[1, 2], [2, 3]] as const) {
+    const [p, q, r] = [corners[0], corners[a], corners[b]];
+    triangles.push(...[...p, height, ...q, height, ...r, height], ...[...p, 0, ...r, 0, ...q, 0]);
+  }
+  const packed = Float32Array.from(triangles);
+  return { bytes: binaryStl(packed), volume_mm3: volume(packed) };
+}
+
 /** The same surface, each triangle cut into four at the middles of its sides. */
 export function finer(triangles: Float32Array): Float32Array {
   const out = new Float32Array(4 * triangles.length);

@@ -45,6 +45,7 @@ export const ERROR_CODES = {
   "weights-out-of-range": "A weight does not lie between 0 and 1.",
   "archive-write": "The print file could not be written.",
   cancelled: "Stopped by the core itself; an aborted call rejects with an `AbortError` instead.",
+  "bad-attribute": "An attribute or property of the element makes no sense; `detail` has `attribute`, `value` and, where there is a list, `known`.",
   "no-model": "A plan or a figure was asked for before a model was loaded.",
   "file-unreadable": "The bytes of the file could not be read.",
   "fetch-failed": "The model's address did not answer with a file.",

@@ -9,18 +9,19 @@ import { createSlicer, type Model, type Plan, type Slicer } from "../api/index.j
 import type { Source } from "../api/source.js";
 import type { Backend, Candidate, Format, Metric, Resin } from "../api/wire.js";
 import { languageOf, type Language } from "../texts/index.js";
+import { Attributes, settingsOf, type SettingName } from "./attributes.js";
 import type { CuspSlicerEvents, ExportDetail } from "./events.js";
 import { face } from "./face.js";
 import { layoutStyles } from "./layout.js";
 import { METRICS } from "./metric.js";
-import { panelsOf } from "./panel-names.js";
+import { PANELS, type Panel } from "./panel-names.js";
 import { definePanels } from "./panels.js";
 import { problemStyles } from "./problem-box.js";
 import { progressStyles, standing } from "./progress.js";
 import type { Result } from "./result.js";
 import { saveFile } from "./save-file.js";
 import { Session, type Host } from "./session.js";
-import { fromAddress, parse, toAddress, withTolerance } from "./settings.js";
+import { fromAddress, parse, toAddress } from "./settings.js";
 import { shared } from "./styles.js";
 import { summaryStyles } from "./summary.js";
 
@@ -34,25 +35,23 @@ interface Waiting {
 export class CuspSlicer extends LitElement implements Host {
   static override properties = {
     src: { type: String },
-    locale: { type: String },
-    panels: { type: String },
-    printer: { type: String, noAccessor: true },
-    tolerance: { type: Number, noAccessor: true },
-    layerMin: { type: Number, attribute: "layer-min", noAccessor: true },
-    layerMax: { type: Number, attribute: "layer-max", noAccessor: true },
-    metric: { type: String, noAccessor: true },
-    format: { type: String, noAccessor: true },
-    quality: { type: Number, noAccessor: true },
-    backend: { type: String, noAccessor: true },
+    locale: given(),
+    panels: given(),
+    fixed: given(),
+    printer: given(),
+    resin: given(),
+    tolerance: given(),
+    layerMin: given("layer-min"),
+    layerMax: given("layer-max"),
+    metric: given(),
+    format: given(),
+    quality: given(),
+    backend: given(),
     dragging: { state: true },
   };
 
   /** Address of an STL, which is opened when it is set. */
   declare src: string | null;
-  /** BCP 47; if absent, that of the nearest `lang`, or what the browser prefers. */
-  declare locale: string | null;
-  /** What is shown, separated by blanks: open, model, settings, plan, view, profile, direction, quality, layers. All if absent. */
-  declare panels: string | null;
   declare dragging: boolean;
 
   static override styles = [shared, summaryStyles, progressStyles, problemStyles, layoutStyles];
@@ -60,6 +59,10 @@ export class CuspSlicer extends LitElement implements Host {
   /** What this element works with; a page may ask it for more than the element shows. */
   readonly slicer: Slicer = createSlicer();
   readonly #session = new Session(this, this.slicer);
+  readonly #attributes = new Attributes(this.#session, (error) => this.#misused(error));
+  #locale: string | null = null;
+  #panels: readonly Panel[] | null = null;
+  #fixed: readonly SettingName[] | null = null;
   #waiting: Waiting[] = [];
   #started = false;
 
@@ -67,8 +70,6 @@ export class CuspSlicer extends LitElement implements Host {
     super();
     definePanels();
     this.src = null;
-    this.locale = null;
-    this.panels = null;
     this.dragging = false;
     this.addEventListener("dragover", this.#dragOver);
     this.addEventListener("dragleave", () => (this.dragging = false));
@@ -111,12 +112,57 @@ export class CuspSlicer extends LitElement implements Host {
     return this.#session.result;
   }
 
+  /** BCP 47; if absent, that of the nearest `lang`, or what the browser prefers. */
+  get locale(): string | null {
+    return this.#locale;
+  }
+  set locale(locale: string | null) {
+    const read = this.#attributes.read("locale", locale);
+    if (read === undefined) return;
+    this.#locale = read;
+    this.requestUpdate();
+  }
+
+  /** What is shown, separated by blanks: open, model, settings, plan, view, profile, direction, quality, layers. All if absent. */
+  get panels(): string | null {
+    return this.#panels?.join(" ") ?? null;
+  }
+  set panels(panels: string | null) {
+    const read = this.#attributes.read("panels", panels);
+    if (read === undefined) return;
+    this.#panels = read;
+    this.requestUpdate();
+  }
+
+  /**
+   * Attributes that the page alone decides, separated by blanks: printer, format, resin, metric, tolerance, layer-min,
+   * layer-max. They are shown and cannot be changed; undo, offers and the property `query` leave them alone.
+   */
+  get fixed(): string | null {
+    return this.#fixed?.join(" ") ?? null;
+  }
+  set fixed(fixed: string | null) {
+    const read = this.#attributes.read("fixed", fixed);
+    if (read === undefined) return;
+    this.#fixed = read;
+    this.#session.fixed = settingsOf(read ?? []);
+    this.requestUpdate();
+  }
+
   /** Name of a printer (see `slicer.printers()`); empty for none. */
   get printer(): string {
     return this.#session.settings.printer;
   }
   set printer(printer: string | null) {
-    this.#session.preset({ printer: printer ?? "" });
+    this.#attributes.set("printer", printer);
+  }
+
+  /** Name of one of {@link resins}; empty for the usual one. */
+  get resin(): string {
+    return this.#session.settings.resin;
+  }
+  set resin(resin: string | null) {
+    this.#attributes.set("resin", resin);
   }
 
   /** Greatest error of a layer in the metric's unit: mm, mm, a part of one, mm³. Null for the usual one. */
@@ -126,33 +172,31 @@ export class CuspSlicer extends LitElement implements Host {
     return typed === null ? null : typed / METRICS[metric].scale;
   }
   set tolerance(tolerance: number | null) {
-    const { settings } = this.#session;
-    const { scale } = METRICS[settings.metric];
-    this.#session.preset(withTolerance(settings, tolerance === null ? "" : String(tolerance * scale)));
+    this.#attributes.set("tolerance", tolerance);
   }
 
   /** Least layer thickness, mm. */
   get layerMin(): number {
     return parse(this.#session.settings.layerMin) ?? Number.NaN;
   }
-  set layerMin(mm: number) {
-    this.#session.preset({ layerMin: String(mm) });
+  set layerMin(mm: number | null) {
+    this.#attributes.set("layer-min", mm);
   }
 
   /** Greatest layer thickness, mm. */
   get layerMax(): number {
     return parse(this.#session.settings.layerMax) ?? Number.NaN;
   }
-  set layerMax(mm: number) {
-    this.#session.preset({ layerMax: String(mm) });
+  set layerMax(mm: number | null) {
+    this.#attributes.set("layer-max", mm);
   }
 
   /** What the tolerance measures. */
   get metric(): Metric {
     return this.#session.settings.metric;
   }
-  set metric(metric: Metric) {
-    if (Object.hasOwn(METRICS, metric)) this.#session.preset({ metric });
+  set metric(metric: Metric | null) {
+    this.#attributes.set("metric", metric);
   }
 
   /** The print file; null for the printer's own. */
@@ -161,7 +205,7 @@ export class CuspSlicer extends LitElement implements Host {
     return format === "" ? null : format;
   }
   set format(format: Format | null) {
-    this.#session.preset({ format: format ?? "" });
+    this.#attributes.set("format", format);
   }
 
   /**
@@ -172,7 +216,8 @@ export class CuspSlicer extends LitElement implements Host {
     return this.#session.quality;
   }
   set quality(quality: number | null) {
-    this.#session.quality = quality;
+    const read = this.#attributes.read("quality", quality);
+    if (read !== undefined) this.#session.quality = read;
   }
 
   /** Where rays are cast: `cpu`, `gpu`, or null for the best there is. */
@@ -180,7 +225,9 @@ export class CuspSlicer extends LitElement implements Host {
     return this.#session.backend;
   }
   set backend(backend: Backend | null) {
-    this.#session.backend = backend;
+    const read = this.#attributes.read("backend", backend);
+    if (read === undefined) return;
+    this.#session.backend = read;
     this.#session.replan();
   }
 
@@ -198,6 +245,7 @@ export class CuspSlicer extends LitElement implements Host {
   }
   set resins(resins: readonly Resin[]) {
     this.#session.resins = resins;
+    this.#attributes.offered();
     this.requestUpdate();
   }
 
@@ -206,7 +254,8 @@ export class CuspSlicer extends LitElement implements Host {
     return toAddress(this.#session.settings);
   }
   set query(query: string) {
-    this.#session.preset(fromAddress(query));
+    this.#attributes.settle();
+    this.#session.restore(fromAddress(query));
   }
 
   /**
@@ -222,6 +271,7 @@ export class CuspSlicer extends LitElement implements Host {
 
   /** The plan that the settings give, once it is there. */
   plan(): Promise<Plan> {
+    this.#attributes.settle();
     if (Object.keys(this.#session.faults).length > 0) {
       return Promise.reject(new SlicerError("bad-options", "a setting is out of range"));
     }
@@ -271,6 +321,10 @@ export class CuspSlicer extends LitElement implements Host {
     this.#tell("cusp-error", error);
   }
   /** @internal */
+  offered(): void {
+    this.#attributes.offered();
+  }
+  /** @internal */
   cancelled(): void {
     this.#settle(({ reject }) => reject(new DOMException("cancelled", "AbortError")));
   }
@@ -300,7 +354,7 @@ export class CuspSlicer extends LitElement implements Host {
     return face({
       session: this.#session,
       language: this.#language(),
-      panels: panelsOf(this.panels),
+      panels: new Set(this.#panels ?? PANELS),
       slicer: this.slicer,
       isWide: this.clientWidth >= WIDE_PX,
       isDragging: this.dragging,
@@ -332,6 +386,12 @@ export class CuspSlicer extends LitElement implements Host {
   #language(): Language {
     const locales = [this.locale, langOf(this), ...navigator.languages];
     return languageOf(...locales.filter((locale) => locale !== null));
+  }
+
+  /** An attribute that makes no sense is its developer's affair: a customer sees nothing of it. */
+  #misused(error: SlicerError): void {
+    console.warn(`<cusp-slicer>: ${error.message}`, this);
+    this.#tell("cusp-error", error);
   }
 
   /** Why the last task came to nothing. */
@@ -404,6 +464,12 @@ export class CuspSlicer extends LitElement implements Host {
 
 /** From this width on settings stand beside the results, and are open. */
 const WIDE_PX = 896;
+
+/** A property whose setter makes what it can of the attribute as it is written. */
+function given(attribute?: string) {
+  const converter = { fromAttribute: (text: string | null) => text };
+  return { noAccessor: true, converter, ...(attribute !== undefined && { attribute }) };
+}
 
 function isFiles(source: Source | readonly File[]): source is readonly File[] {
   return Array.isArray(source);

@@ -40,7 +40,7 @@ export interface CuspSlicerEvents {
   "cusp-progress": CustomEvent<ProgressDetail>;
   /** A print file was asked for by its button. Unless this is prevented, the browser saves it. */
   "cusp-export": CustomEvent<ExportDetail>;
-  /** Something failed; the element shows it as well. */
+  /** Something failed; the element shows it as well, unless it is a `bad-attribute`, which is for the page's developer. */
   "cusp-error": CustomEvent<SlicerError>;
   /** A person or a program changed how much facets matter. */
   "cusp-paint": CustomEvent<Painted>;

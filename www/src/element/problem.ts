@@ -53,6 +53,7 @@ const KINDS: Readonly<Record<Exclude<ErrorCode, "infeasible">, Kind>> = {
   "bad-length": "badOptions",
   "bad-time": "badTime",
   "bad-options": "badOptions",
+  "bad-attribute": "badOptions",
   "grid-bad-size": "tooFine",
   "grid-too-fine": "tooFine",
   "too-many-bins": "tooFine",

@@ -35,6 +35,8 @@ export interface Host {
   cancelled?(): void;
   progressed?(busy: Busy): void;
   settingsChanged?(settings: Settings): void;
+  /** There is more to choose from. */
+  offered?(): void;
   painted?(weights: Float32Array | null, isFinal: boolean): void;
   directed?(candidate: Candidate): void;
 }
@@ -125,6 +127,7 @@ export class Session extends Preferences {
     void this.#client.printers().then(
       (printers) => {
         this.printers = printers;
+        this.#host.offered?.();
         this.#changed();
       },
       () => undefined,
@@ -230,16 +233,20 @@ export class Session extends Preferences {
   /** Takes the tolerance of a point of the curve, as if it had been typed. */
   takePoint(index: number): void {
     const point = this.curve?.[index];
-    if (point === undefined) return;
+    if (point !== undefined) this.change(this.#within(point));
+  }
+
+  /** The change of settings that gives the plan of a point. */
+  #within(point: TradeoffPoint): Partial<Settings> {
     const { scale, tolerances } = METRICS[this.settings.metric];
     // Where a plan has no error at all, its tolerance is less than any that can be asked for.
     const tolerance = Math.max(round.up(point.tolerance * scale), tolerances[0]);
-    this.change(withTolerance(this.settings, String(tolerance)));
+    return withTolerance(this.settings, String(tolerance));
   }
 
   /** From 0, the quickest print worth having, to 1, the finest; at once or as soon as the curve is known. */
   set quality(quality: number | null) {
-    this.#curve.wanted = quality === null ? null : Math.min(1, Math.max(0, quality));
+    this.#curve.wanted = quality;
     this.#takeQuality();
   }
 
@@ -489,7 +496,8 @@ export class Session extends Preferences {
 
   #takeQuality(): void {
     const index = this.#curve.takeWanted();
-    if (index !== null) this.takePoint(index);
+    const point = index === null ? undefined : this.curve?.[index];
+    if (point !== undefined) this.preset(this.#within(point));
   }
 
   #changed(): void {
