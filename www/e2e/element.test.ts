@@ -208,11 +208,11 @@ test("what the page has fixed is shown, and neither form, offer nor undo changes
   expect(settings).toEqual(["mars-4-ultra", "uvj", 0.06]);
 });
 
-test("a prism has one best plan: a sentence stands in place of the slider", async () => {
+test("a prism comes out the same at every quality: a sentence stands in place of the slider", async () => {
   const page = await start(`<cusp-slicer id="a" src="prism.stl" locale="en"></cusp-slicer>`);
   await done(page, "a");
   const said = page.locator("#a cusp-quality .single");
-  expect(await said.innerText()).toBe("There is only one best plan for this model: it is the quickest and the finest.");
+  expect(await said.innerText()).toBe("Every quality gives this model the same layers.");
   expect(await page.locator("#a cusp-quality input").count()).toBe(0);
   expect(await page.evaluate(() => document.querySelector<CuspSlicer>("#a")?.quality)).toBe(1);
 });

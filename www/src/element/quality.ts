@@ -132,9 +132,10 @@ export class CuspQuality extends LitElement {
       }
       input {
         direction: ltr;
-        width: 100%;
+        /* So that its thumb, about a rem wide, stands below the dot of its notch: see MARGIN. */
+        width: calc(94% + 1rem);
         height: 2.25rem;
-        margin: 0;
+        margin: 0 calc(3% - 0.5rem);
         accent-color: var(--cusp-accent);
       }
       .ends {

@@ -183,7 +183,7 @@ export const de = ({ counted, plural }: Format): Texts => ({
     near: (part, uniform, error, finest) =>
       `${part} weniger Zeit als gleichmäßig ${uniform}; die Abweichung ist ${error} statt ${finest}.`,
     none: (uniform) => `So langsam wie gleichmäßig ${uniform}: lassen Sie dickeren Schichten mehr Raum.`,
-    single: "Für dieses Modell gibt es nur einen besten Plan: Er ist der schnellste und der feinste.",
+    single: "Jede Qualität ergibt für dieses Modell dieselben Schichten.",
   },
   details: {
     ran: (where, duration) => `Berechnet auf ${where} in ${duration}`,

@@ -190,7 +190,7 @@ export const en = ({ counted, plural }: Format) => ({
     near: (part: string, uniform: string, error: string, finest: string) =>
       `${part} less time than uniform ${uniform}; the deviation is ${error} instead of ${finest}.`,
     none: (uniform: string) => `As slow as uniform ${uniform}: give more room for thicker layers.`,
-    single: "There is only one best plan for this model: it is the quickest and the finest.",
+    single: "Every quality gives this model the same layers.",
   },
   details: {
     ran: (where: string, duration: string) => `Computed on ${where} in ${duration}`,

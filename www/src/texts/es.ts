@@ -183,7 +183,7 @@ export const es = ({ counted, plural }: Format): Texts => ({
     near: (part, uniform, error, finest) =>
       `${part} menos de tiempo que uniforme ${uniform}; la desviación es ${error} en vez de ${finest}.`,
     none: (uniform) => `Tan lento como uniforme ${uniform}: dé más margen a capas más gruesas.`,
-    single: "Para este modelo solo hay un plan óptimo: es el más rápido y el más fino.",
+    single: "Este modelo tiene las mismas capas con cualquier calidad.",
   },
   details: {
     ran: (where, duration) => `Calculado en ${where} en ${duration}`,

@@ -183,7 +183,7 @@ export const fr = ({ counted, plural }: Format): Texts => ({
     near: (part, uniform, error, finest) =>
       `${part} de temps en moins qu’uniforme ${uniform} ; l’écart est de ${error} au lieu de ${finest}.`,
     none: (uniform) => `Aussi lent qu’uniforme ${uniform} : laissez plus de place à des couches épaisses.`,
-    single: "Pour ce modèle, il n’y a qu’un seul plan optimal : c’est le plus rapide et le plus fin.",
+    single: "Ce modèle a les mêmes couches, quelle que soit la qualité.",
   },
   details: {
     ran: (where, duration) => `Calculé sur ${where} en ${duration}`,

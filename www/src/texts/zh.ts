@@ -178,7 +178,7 @@ export const zh = ({ count: number }: Format): Texts => ({
     same: (part, uniform) => `质量与均匀 ${uniform} 相同，省时 ${part}。`,
     near: (part, uniform, error, finest) => `比均匀 ${uniform} 省时 ${part}；偏差为 ${error}，而非 ${finest}。`,
     none: (uniform) => `与均匀 ${uniform} 一样慢：请给更厚的层留出余地。`,
-    single: "该模型只有一个最佳方案：既最快，也最精细。",
+    single: "无论选择哪种质量，该模型的分层都相同。",
   },
   details: {
     ran: (where, duration) => `由${where}计算，用时 ${duration}`,
