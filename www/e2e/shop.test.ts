@@ -13,6 +13,7 @@ import type { Options } from "../src/api/index.js";
 import { binaryStl, exampleTriangles } from "../src/page/example.js";
 import { launch, state } from "./browser.js";
 import { freePort } from "./serve.js";
+import { prism } from "./solids.js";
 import { expectNoLeftovers, orders, printer, resin, shops } from "./shop-open.js";
 
 const cusp = findCusp();
@@ -58,6 +59,12 @@ async function loadSample(page: Page): Promise<void> {
 }
 
 const press = (page: Page): Promise<void> => page.getByRole("button", { name: "Add to order" }).click();
+/** Totals of the lines on show, in cents. */
+async function totals(page: Page, list: string): Promise<number[]> {
+  const texts = await page.locator(`${list} dd:last-child`).allInnerTexts();
+  return texts.map((text) => Math.round(100 * Number(text.replace("€", ""))));
+}
+
 const alert = (page: Page): Promise<string> => page.locator("#problem:not(:empty)").innerText();
 
 /** Changes what the page sends, as a customer with the browser's tools could. */
@@ -89,7 +96,7 @@ withCusp("a customer sees look, time, resin and price, chooses, and orders", asy
   await loadSample(page);
   // The view comes a little later, since its library is loaded when it is first needed.
   await page.locator("cusp-view canvas").first().waitFor();
-  expect(await page.locator("#figures").innerText()).toMatch(/^\d+ h \d+ min · \d+\.\d ml$/);
+  expect(await page.locator("#figures").innerText()).toMatch(/^\d+\u00a0h\u00a0\d+\u00a0min · \d+\.\d ml$/);
   const price = page.locator("#price");
   const first = await price.innerText();
   expect(first).toMatch(/^€\d+\.\d\d$/);
@@ -111,11 +118,16 @@ withCusp("a customer sees look, time, resin and price, chooses, and orders", asy
       return { print_time_s: print_time_s ?? 0, resin_ml: resin_ml ?? 0, made: [resin?.name, options?.rotation?.length] };
     });
   await expect.poll(async () => (await shown()).made).toEqual([resin.name, 4]);
-  const { total_cents } = priceOf(await shown(), printer, resin, 2);
+  const { lines, total_cents } = priceOf(await shown(), printer, resin, 2);
   await expect.poll(() => price.innerText()).toBe(`€${(total_cents / 100).toFixed(2)}`);
+  expect(await totals(page, "#parts")).toEqual(lines.map(({ total_cents }) => total_cents));
+  expect(await page.locator("#parts [data-line=time] .times").innerText()).toMatch(/^2 × €\d+\.\d\d$/);
+  // The element says the same time, in words of its own.
+  await expect.poll(() => page.locator("cusp-quality .head").innerText()).toContain(`, ${await page.locator("#time").innerText()}, `);
 
   await press(page);
   const id = await page.locator(".placed li").getAttribute("data-order");
+  expect(await totals(page, ".placed li .lines")).toEqual(lines.map(({ total_cents }) => total_cents));
   expect(await orders(open)).toEqual([id]);
   await expectNoLeftovers(open);
   const folder = join(open.folder, "orders", id ?? "");
@@ -184,6 +196,39 @@ withCusp("a price of the customer's own is refused, and the honest one is taken 
   await press(page);
   await page.locator(".placed li").waitFor();
   expect(await orders(open)).toHaveLength(1);
+});
+
+test("a model that is too large for the printer may be scaled, and then has a price", async () => {
+  const open = await start("never called");
+  const page = await visit(open.address);
+  await page.evaluate((bytes) => {
+    const file = new File([Uint8Array.from(bytes)], "prism.stl");
+    document.querySelector("cusp-slicer")?.load(file).catch(() => undefined);
+  }, [...prism(100, 20).bytes]);
+  await state(page, "error");
+  const offers = page.locator("cusp-slicer .offers button");
+  expect(await offers.allInnerTexts()).toEqual([expect.stringMatching(/^Scale to /)]);
+  expect(await page.locator("#price-note").innerText()).toBe("The price comes with your model.");
+  await offers.click();
+  await state(page, "done");
+  await expect.poll(() => page.locator("#price").innerText()).toMatch(/^€\d+\.\d\d$/);
+});
+
+test("what the page's own buttons have chosen no undo takes back", async () => {
+  const open = await start("never called");
+  const page = await visit(open.address);
+  await loadSample(page);
+  await page.getByRole("slider", { name: "Quality" }).press("ArrowRight");
+  await state(page, "done");
+  await page.getByText(resin.name).click();
+  await page.getByText("Large").click();
+  await page.evaluate(() => document.querySelector("cusp-slicer")?.undo());
+  await page.evaluate(() => document.querySelector("cusp-slicer")?.plan());
+  const { printer, resin: poured } = await page.evaluate(() => {
+    const { report } = document.querySelector("cusp-slicer")?.result ?? {};
+    return { printer: report?.printer, resin: report?.resin.name };
+  });
+  expect([printer, poured]).toEqual(["saturn-3-ultra", resin.name]);
 });
 
 test("an upload that is too large is refused, and the page says so", async () => {

@@ -6,13 +6,17 @@ export interface Print {
   resin_ml: number;
 }
 
-/** Whole cents, taxes included. */
+/** A line of an order, in whole cents, taxes included. */
+export interface Line {
+  name: "setup" | "time" | "resin";
+  each_cents: number;
+  count: number;
+  total_cents: number;
+}
+
 export interface Price {
-  setup_cents: number;
-  /** For each copy. */
-  time_cents: number;
-  /** For each copy. */
-  resin_cents: number;
+  lines: readonly Line[];
+  /** The sum of the lines. */
   total_cents: number;
 }
 
@@ -20,7 +24,11 @@ const HOUR_S = 3600;
 
 /** @param copies a whole number from 1 */
 export function priceOf(print: Print, printer: ShopPrinter, resin: ShopResin, copies: number): Price {
-  const time_cents = Math.ceil((print.print_time_s / HOUR_S) * printer.hour_cents);
-  const resin_cents = Math.ceil(print.resin_ml * resin.ml_cents);
-  return { setup_cents: SETUP_CENTS, time_cents, resin_cents, total_cents: SETUP_CENTS + copies * (time_cents + resin_cents) };
+  const line = (name: Line["name"], each_cents: number, count: number): Line => ({ name, each_cents, count, total_cents: count * each_cents });
+  const lines = [
+    line("setup", SETUP_CENTS, 1),
+    line("time", Math.ceil((print.print_time_s / HOUR_S) * printer.hour_cents), copies),
+    line("resin", Math.ceil(print.resin_ml * resin.ml_cents), copies),
+  ];
+  return { lines, total_cents: lines.reduce((sum, { total_cents }) => sum + total_cents, 0) };
 }

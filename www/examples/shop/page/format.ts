@@ -13,9 +13,10 @@ export const number = (value: number): string => NUMBER.format(value);
 
 export const millilitres = (ml: number): string => `${MILLILITRES.format(ml)} ml`;
 
-/** Seconds as `4 h 12 min`. */
+/** Seconds as `4 h 12 min`, rounded as the element rounds them, so that one print has one time on the page. */
 export function time(seconds: number): string {
-  const minutes = Math.ceil(seconds / MINUTE_S);
-  const hours = Math.floor(minutes / HOUR_MINUTES);
-  return hours === 0 ? `${minutes} min` : `${hours} h ${minutes % HOUR_MINUTES} min`;
+  const minutes = Math.round(seconds / MINUTE_S);
+  if (minutes < 1) return "<\u00a01\u00a0min";
+  const [hours, rest] = [Math.floor(minutes / HOUR_MINUTES), `${minutes % HOUR_MINUTES}\u00a0min`];
+  return hours === 0 ? rest : `${number(hours)}\u00a0h\u00a0${rest}`;
 }

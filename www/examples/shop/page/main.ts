@@ -2,10 +2,11 @@
 import "cusp-slicer/element";
 import { isAbort } from "cusp-slicer";
 import type { CuspSlicer } from "cusp-slicer/element-class";
-import { MOST_BYTES, MOST_COPIES, PRINTERS, RESINS, type PartName, type ShopPrinter, type ShopResin } from "../catalogue.js";
+import { MOST_BYTES, MOST_COPIES, PRINTERS, RESINS, type PartName } from "../catalogue.js";
 import { priceOf, type Price } from "../price.js";
 import { choices } from "./choices.js";
 import { millilitres, money, number, time } from "./format.js";
+import { fillLines } from "./lines.js";
 import { placeOrder, type Placed } from "./order.js";
 
 const find = <E extends Element = HTMLElement>(selector: string): E => {
@@ -48,7 +49,7 @@ function draw(): void {
   if (now !== null) fill(now);
   find("#figures").hidden = find("#parts").hidden = now === null;
   find("#price").textContent = now === null ? "" : money(now.price.total_cents);
-  const missing = slicer.result === null ? "The price comes with your model." : `From 1 to ${MOST_COPIES} copies, please.`;
+  const missing = copies.validity.valid ? "The price comes with your model." : `From 1 to ${MOST_COPIES} copies, please.`;
   find("#price-note").textContent = now === null ? missing : "incl. VAT";
   const isPlanning = slicer.state === "busy" && ordering === null;
   find(".choices").classList.toggle("replanning", isPlanning && now !== null);
@@ -56,18 +57,10 @@ function draw(): void {
   cancel.hidden = ordering === null;
 }
 
-function fill({ result: { report }, copies, price }: Offer): void {
-  const figures: Readonly<Record<string, string>> = {
-    time: time(report.print_time_s),
-    resin: millilitres(report.resin_ml),
-    copies: number(copies),
-    setup: money(price.setup_cents),
-    timePrice: money(copies * price.time_cents),
-    resinPrice: money(copies * price.resin_cents),
-  };
-  for (const cell of document.querySelectorAll<HTMLElement>("[data-figure]")) {
-    cell.textContent = figures[cell.dataset["figure"] ?? ""] ?? "";
-  }
+function fill({ result: { report }, price }: Offer): void {
+  find("#time").textContent = time(report.print_time_s);
+  find("#resin").textContent = millilitres(report.resin_ml);
+  fillLines(find("#parts"), price.lines);
 }
 
 function say(text: string, fault = ""): void {
@@ -128,6 +121,10 @@ function show(answer: Placed, name: string): void {
   words("span", `${answer.copies} × ${name}`);
   words("span", money(answer.price_cents));
   words("span", `Order ${shortly(answer)}`, "quiet");
+  const lines = document.createElement("dl");
+  lines.className = "lines";
+  fillLines(lines, answer.lines);
+  item.append(lines);
   item.dataset["order"] = answer.id;
   find(".placed ul").append(item);
   find(".placed output").textContent = money(placed.reduce((sum, { price_cents }) => sum + price_cents, 0));
@@ -137,20 +134,13 @@ function show(answer: Placed, name: string): void {
 /** As much of an order's number as people want to read. */
 const shortly = ({ id }: Placed): string => id.slice(0, 8);
 
-/** Takes a resin into the settings that the element has. */
-function pour({ name }: ShopResin): void {
-  const query = new URLSearchParams(slicer.query);
-  query.set("resin", name);
-  slicer.query = query.toString();
-}
-
 slicer.resins = RESINS.map(({ note: _note, swatch: _swatch, ml_cents: _cents, ...resin }) => resin);
-choices(find("#resins"), RESINS, (resin) => ({ ...resin, title: resin.name, price: `${money(resin.ml_cents)}/ml` }), pour);
+choices(find("#resins"), RESINS, (resin) => ({ ...resin, title: resin.name, price: `${money(resin.ml_cents)}/ml` }), ({ name }) => void (slicer.resin = name));
 choices(
   find("#printers"),
   PRINTERS,
   (printer) => ({ ...printer, price: `${money(printer.hour_cents)}/h` }),
-  ({ name }: ShopPrinter) => void (slicer.printer = name),
+  ({ name }) => void (slicer.printer = name),
 );
 copies.max = String(MOST_COPIES);
 copies.addEventListener("input", draw);

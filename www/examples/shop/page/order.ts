@@ -1,9 +1,11 @@
 /** Sends an order and says what became of it. */
 import type { PartName } from "../catalogue.js";
+import type { Line } from "../price.js";
 
 export interface Placed {
   id: string;
   copies: number;
+  lines: readonly Line[];
   price_cents: number;
 }
 

@@ -73,9 +73,9 @@ export async function createShop({ folder, pages: built, cusp, ...given }: Setup
         const { copies, price_cents } = await receive(request, folder, limits.most_bytes, signal);
         const { printer, resin } = wantedBy(await readFile(join(folder, FILES.plan), "utf8"));
         const verdict = await queue.inTurn(() => verify(folder, verifier, signal));
-        const { total_cents } = priceOf(verdict, printer, resin, copies);
+        const { lines, total_cents } = priceOf(verdict, printer, resin, copies);
         if (total_cents !== price_cents) throw new Refusal("price-differs", "The price is another by now. Please load this page anew.");
-        return store.keep(folder, { printer: printer.name, resin: resin.name, copies, price_cents: total_cents, verdict });
+        return store.keep(folder, { printer: printer.name, resin: resin.name, copies, lines, price_cents: total_cents, verdict });
       }),
     );
 

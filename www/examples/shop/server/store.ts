@@ -2,6 +2,7 @@
 import { randomUUID } from "node:crypto";
 import { mkdir, mkdtemp, rename, rm, writeFile } from "node:fs/promises";
 import { join, resolve } from "node:path";
+import type { Line } from "../price.js";
 import type { Verdict } from "./verify.js";
 
 /** What is written of an order, beside its three files, as `order.json`. */
@@ -12,6 +13,8 @@ export interface Order {
   printer: string;
   resin: string;
   copies: number;
+  /** What the price is made of. */
+  lines: readonly Line[];
   price_cents: number;
   verdict: Verdict;
 }
