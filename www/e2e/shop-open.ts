@@ -16,13 +16,15 @@ export const [resin, printer] = [RESINS[1], PRINTERS[0]].map((it) => {
 export interface OpenShop {
   address: string;
   folder: string;
+  /** Closes it before the test ends. */
+  close(): Promise<void>;
 }
 
 export interface Shops {
   /** A folder of the test's own. */
   folder(name: string): Promise<string>;
-  /** Opens a shop, which closes when the test ends. */
-  open(cusp: string, limits?: Partial<Limits>): Promise<OpenShop>;
+  /** Opens a shop, which closes when the test ends; in a new folder unless it is told one. */
+  open(cusp: string, limits?: Partial<Limits>, folder?: string): Promise<OpenShop>;
   /** A stand-in for the native program. */
   program(script: string): Promise<string>;
 }
@@ -30,7 +32,7 @@ export interface Shops {
 export function shops(): Shops {
   let built: string;
   let root: string;
-  let shop: Shop | null = null;
+  const opened: Shop[] = [];
 
   beforeAll(async () => {
     built = await buildPage();
@@ -38,8 +40,7 @@ export function shops(): Shops {
   }, 120_000);
 
   afterEach(async () => {
-    await shop?.close();
-    shop = null;
+    await Promise.all(opened.splice(0).map((shop) => shop.close()));
   });
 
   afterAll(() => rm(root, { recursive: true, force: true }));
@@ -47,10 +48,12 @@ export function shops(): Shops {
   const folder = (name: string): Promise<string> => mkdtemp(join(root, `${name}-`));
   return {
     folder,
-    async open(cusp, limits = {}) {
-      const orders = await folder("orders");
-      shop = await createShop({ folder: orders, pages: built, cusp, ...limits });
-      return { address: await shop.listen(0), folder: orders };
+    async open(cusp, limits = {}, at) {
+      const orders = at ?? (await folder("orders"));
+      const shop = await createShop({ folder: orders, pages: built, cusp, ...limits });
+      opened.push(shop);
+      const address = await shop.listen(0);
+      return { address, folder: orders, close: () => shop.close() };
     },
     async program(script) {
       const path = join(await folder("program"), "cusp");
@@ -61,16 +64,16 @@ export function shops(): Shops {
 }
 
 /** Numbers of the orders that were taken. */
-export function orders({ folder }: OpenShop): Promise<string[]> {
+export function orders({ folder }: Pick<OpenShop, "folder">): Promise<string[]> {
   return readdir(join(folder, "orders"));
 }
 
 /** Uploads that are neither taken nor refused yet. */
-export function incoming({ folder }: OpenShop): Promise<string[]> {
+export function incoming({ folder }: Pick<OpenShop, "folder">): Promise<string[]> {
   return readdir(join(folder, "incoming"));
 }
 
 /** Nothing of those that were refused, or went away, stays behind. */
-export async function expectNoLeftovers(open: OpenShop): Promise<void> {
+export async function expectNoLeftovers(open: Pick<OpenShop, "folder">): Promise<void> {
   await expect.poll(() => incoming(open)).toEqual([]);
 }

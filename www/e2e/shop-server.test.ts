@@ -1,9 +1,13 @@
 /** The order-site example's server: what it takes and refuses, without a browser and without the native program. */
+import { randomUUID } from "node:crypto";
 import { readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { expect, test } from "vitest";
 import { FIXED } from "../examples/shop/catalogue.js";
+import { time } from "../examples/shop/page/format.js";
 import { priceOf } from "../examples/shop/price.js";
+import type { Order } from "../examples/shop/server/store.js";
+import { languageOf } from "../src/texts/index.js";
 import { expectNoLeftovers, incoming, orders, printer, resin, shops, type OpenShop } from "./shop-open.js";
 import { ELEMENT_POLICY } from "./static.js";
 
@@ -18,19 +22,34 @@ interface Sent {
   options?: object;
   print?: Blob;
   fields?: Readonly<Record<string, string | Blob>>;
+  key?: string;
   headers?: Readonly<Record<string, string>>;
   signal?: AbortSignal;
 }
 
+interface Answer extends Partial<Order> {
+  status: number;
+  code?: string;
+  message?: string;
+}
+
+/** A stand-in for the native program that says in a file how often it was asked. */
+async function counting(): Promise<{ cusp: string; count(): Promise<number> }> {
+  const log = join(await newFolder("scratch"), "asked.log");
+  const cusp = await program(`require("node:fs").appendFileSync(${JSON.stringify(log)}, ".");\n${HONEST}`);
+  return { cusp, count: async () => (await readFile(log, "utf8").catch(() => "")).length };
+}
+
 /** An order without a browser, honest where nothing else is said. */
-async function post({ address }: OpenShop, sent: Sent = {}): Promise<{ status: number; code?: string; message?: string }> {
+async function post({ address }: OpenShop, sent: Sent = {}): Promise<Answer> {
   const form = new FormData();
   const plan = new Blob([JSON.stringify({ ...VERDICT, options: { ...OPTIONS, ...sent.options } })], { type: "application/json" });
   const file = new Blob(["solid"], { type: "model/stl" });
   const price_cents = String(priceOf(VERDICT, printer, resin, 1).total_cents);
   const parts = { copies: "1", price_cents, plan, model: file, print: sent.print ?? file, ...sent.fields };
   for (const [name, part] of Object.entries(parts)) form.set(name, part);
-  const { headers = {}, signal = null } = sent;
+  const { key = randomUUID(), signal = null } = sent;
+  const headers = { "idempotency-key": key, ...sent.headers };
   const response = await fetch(`${address}orders`, { method: "POST", body: form, headers, signal });
   return { status: response.status, ...((await response.json()) as object) };
 }
@@ -94,8 +113,11 @@ test("what is no order is refused", async () => {
     { model: "text" },
   ];
   for (const field of fields) expect(await post(open, { fields: field }), JSON.stringify(field)).toMatchObject({ status: 400, code: "bad-order" });
+  for (const key of ["", "1", `${randomUUID()}/../..`]) {
+    expect(await post(open, { key }), key).toMatchObject({ status: 400, code: "bad-order", message: expect.stringContaining("UUID") });
+  }
   const body = (type: string, text: string): Promise<Response> =>
-    fetch(`${open.address}orders`, { method: "POST", body: text, headers: { "content-type": type } });
+    fetch(`${open.address}orders`, { method: "POST", body: text, headers: { "content-type": type, "idempotency-key": randomUUID() } });
   for (const [type, text] of [
     ["application/json", "{}"],
     ["multipart/form-data", ""],
@@ -144,4 +166,83 @@ test("whoever announces more than all files together may have is not listened to
   const open = await start("never called", { most_bytes: { plan: 1e6, model: 1e6, print: 1e6 } });
   expect(await post(open, { print: new Blob([new Uint8Array(4e6)]) })).toMatchObject({ status: 413, code: "too-large" });
   await expectNoLeftovers(open);
+});
+
+test("an order that is sent again is the order that exists, also when the shop was closed meanwhile", async () => {
+  const { cusp, count } = await counting();
+  const open = await start(cusp);
+  const key = randomUUID();
+  const first = await post(open, { key });
+  expect(first).toMatchObject({ status: 201, copies: 1 });
+  expect(await post(open, { key: key.toUpperCase() })).toEqual(first);
+  await open.close();
+  const again = await start(cusp, {}, open.folder);
+  // Larger than what is read ahead, so that the answer must wait for it.
+  expect(await post(again, { key, print: new Blob([new Uint8Array(20e6)]) })).toEqual(first);
+  expect(await count()).toBe(1);
+  expect(await orders(again)).toEqual([first.id]);
+  expect(first.id).not.toContain(key.slice(0, 8));
+  expect(await post(again)).toMatchObject({ status: 201 });
+  expect(await orders(again)).toHaveLength(2);
+  await expectNoLeftovers(again);
+});
+
+test("of two that are sent at the same time with one key one is taken, and both are told of it", async () => {
+  const { cusp, count } = await counting();
+  const open = await start(cusp);
+  const key = randomUUID();
+  const answers = await Promise.all([1, 2, 3].map(() => post(open, { key })));
+  expect(answers.map(({ status }) => status)).toEqual([201, 201, 201]);
+  expect(new Set(answers.map(({ id }) => id)).size).toBe(1);
+  expect(await orders(open)).toEqual([answers[0]?.id]);
+  expect(await count()).toBe(1);
+  await expectNoLeftovers(open);
+});
+
+test("a key whose order was refused is not spent, nor is that of a customer who went away", async () => {
+  const { cusp } = await counting();
+  const open = await start(cusp);
+  const key = randomUUID();
+  expect(await post(open, { key, fields: { price_cents: "1" } })).toMatchObject({ status: 409, code: "price-differs" });
+  expect(await post(open, { key })).toMatchObject({ status: 201 });
+
+  const gate = join(await newFolder("scratch"), "gate");
+  const slow = await start(await program(`const wait = setInterval(() => {
+    if (!require("node:fs").existsSync(${JSON.stringify(gate)})) return;
+    clearInterval(wait);
+    ${HONEST}
+  }, 10);`));
+  const gone = new AbortController();
+  const first = post(slow, { key, signal: gone.signal }).catch(() => null);
+  await expect.poll(async () => (await incoming(slow)).length).toBe(1);
+  const second = post(slow, { key });
+  await expect.poll(async () => (await incoming(slow)).length).toBe(2);
+  gone.abort();
+  await writeFile(gate, "");
+  expect(await first).toBeNull();
+  expect(await second).toMatchObject({ status: 201 });
+  expect(await orders(slow)).toHaveLength(1);
+  await expectNoLeftovers(slow);
+});
+
+test("the lines of an order add up to its price, and are kept with it", async () => {
+  const open = await start((await counting()).cusp);
+  const { lines = [], total_cents } = priceOf(VERDICT, printer, resin, 3);
+  expect(lines.map(({ name, each_cents, count, total_cents }) => [name, each_cents, count, total_cents])).toEqual([
+    ["setup", 450, 1, 450],
+    ["time", 320, 3, 960],
+    ["resin", 380, 3, 1140],
+  ]);
+  expect(total_cents).toBe(2550);
+  const answer = await post(open, { fields: { copies: "3", price_cents: String(total_cents) } });
+  expect(answer).toMatchObject({ status: 201, lines, price_cents: total_cents });
+  const kept = JSON.parse(await readFile(join(open.folder, "orders", answer.id ?? "", "order.json"), "utf8")) as Order;
+  expect(kept).toMatchObject({ lines, price_cents: total_cents });
+});
+
+test("the page writes times as the element does", () => {
+  const { format } = languageOf("en");
+  for (const seconds of [0, 29, 30, 89, 90, 1769, 1770, 1771, 3569, 3570, 3599, 3600, 86_429, 86_430, 1e7]) {
+    expect(time(seconds), String(seconds)).toBe(format.time(seconds));
+  }
 });

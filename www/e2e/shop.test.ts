@@ -198,6 +198,29 @@ withCusp("a price of the customer's own is refused, and the honest one is taken 
   expect(await orders(open)).toHaveLength(1);
 });
 
+withCusp("an order whose answer is lost is one order when it is sent again", async (cusp) => {
+  const open = await start(cusp);
+  const page = await visit(open.address);
+  await loadSample(page);
+  await page.route("**/orders", async (route) => {
+    await route.fetch();
+    await route.abort();
+  }, { times: 1 });
+  await press(page);
+  expect(await alert(page)).toBe("The shop does not answer. Please try again: this will be one order and not two.");
+  const taken = await orders(open);
+  expect(taken).toHaveLength(1);
+  await press(page);
+  await page.locator(".placed li").waitFor();
+  expect(await page.locator(".placed li").getAttribute("data-order")).toBe(taken[0]);
+  expect(await orders(open)).toEqual(taken);
+  // The same thing once more is another order, since the first is known to be taken.
+  await press(page);
+  await expect.poll(() => page.locator(".placed li").count()).toBe(2);
+  expect(await orders(open)).toHaveLength(2);
+  await expectNoLeftovers(open);
+});
+
 test("a model that is too large for the printer may be scaled, and then has a price", async () => {
   const open = await start("never called");
   const page = await visit(open.address);

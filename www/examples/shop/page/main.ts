@@ -33,6 +33,8 @@ interface Offer {
 
 /** The order that is on its way; null if none is. */
 let ordering: AbortController | null = null;
+/** The order that was sent last and of which no answer says that it was taken. */
+let unanswered: { what: string; key: string } | null = null;
 const placed: Placed[] = [];
 
 function offer(): Offer | null {
@@ -89,7 +91,8 @@ async function order(): Promise<void> {
     if (fault !== null) return say("", fault);
     signal.throwIfAborted();
     say("Sending and checking your order…");
-    const answer = await placeOrder({ copies: now.copies, price_cents: now.price.total_cents, parts }, signal);
+    const answer = await placeOrder({ key: keyOf(now), copies: now.copies, price_cents: now.price.total_cents, parts }, signal);
+    unanswered = null;
     say(`Checked and taken: order ${shortly(answer)}.`);
     show(answer, model.name);
   } catch (error) {
@@ -99,6 +102,14 @@ async function order(): Promise<void> {
     ordering = null;
     draw();
   }
+}
+
+/** The key of an order: the same one as long as the same thing is ordered and no answer says that it was taken. */
+function keyOf({ result, copies, price }: Offer): string {
+  const { stl, options, weights_crc32 } = result.report;
+  const what = JSON.stringify([stl, options, weights_crc32, copies, price.total_cents]);
+  if (unanswered?.what !== what) unanswered = { what, key: crypto.randomUUID() };
+  return unanswered.key;
 }
 
 function tooLarge(parts: Readonly<Record<PartName, Blob>>): string | null {

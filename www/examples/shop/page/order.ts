@@ -9,6 +9,14 @@ export interface Placed {
   price_cents: number;
 }
 
+export interface Ordered {
+  /** Names this order whenever it is sent, so that the shop takes it once. */
+  key: string;
+  copies: number;
+  price_cents: number;
+  parts: Readonly<Record<PartName, Blob>>;
+}
+
 /** What the server answered instead of taking an order. */
 export class OrderError extends Error {
   readonly code: string;
@@ -20,19 +28,19 @@ export class OrderError extends Error {
   }
 }
 
-export async function placeOrder(
-  { copies, price_cents, parts }: { copies: number; price_cents: number; parts: Readonly<Record<PartName, Blob>> },
-  signal: AbortSignal,
-): Promise<Placed> {
+export async function placeOrder({ key, copies, price_cents, parts }: Ordered, signal: AbortSignal): Promise<Placed> {
   const form = new FormData();
   form.set("copies", String(copies));
   form.set("price_cents", String(price_cents));
   for (const [name, blob] of Object.entries(parts)) form.set(name, new Blob([blob], { type: "application/octet-stream" }));
-  const response = await fetch("orders", { method: "POST", body: form, signal }).catch((error: unknown) => {
-    if (signal.aborted) throw error;
-    throw new OrderError("unreachable", "The shop does not answer. Your order was not taken.");
-  });
-  const answer = (await response.json().catch(() => ({}))) as Partial<Placed & OrderError>;
-  if (response.ok) return answer as Placed;
-  throw new OrderError(answer.code ?? "failed", answer.message ?? `The shop could not take the order (HTTP ${response.status}).`);
+  try {
+    const response = await fetch("orders", { method: "POST", body: form, headers: { "idempotency-key": key }, signal });
+    if (response.ok) return (await response.json()) as Placed;
+    const answer = (await response.json().catch(() => ({}))) as Partial<OrderError>;
+    throw new OrderError(answer.code ?? "failed", answer.message ?? `The shop could not take the order (HTTP ${response.status}).`);
+  } catch (error) {
+    if (signal.aborted || error instanceof OrderError) throw error;
+    // Whether it was taken nobody knows here; sent again it is the same order.
+    throw new OrderError("unreachable", "The shop does not answer. Please try again: this will be one order and not two.");
+  }
 }

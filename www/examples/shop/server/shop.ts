@@ -9,7 +9,7 @@ import { wantedBy } from "./plan.js";
 import { Queue } from "./queue.js";
 import { Refusal, STATUS } from "./refusal.js";
 import { Store, type Order } from "./store.js";
-import { FILES, receive } from "./upload.js";
+import { FILES, receive, type Form } from "./upload.js";
 import { verify, type Verifier } from "./verify.js";
 
 /** What the element needs, as docs/embed.md has it; then what this page's own style sheet and forms need. */
@@ -67,17 +67,35 @@ export async function createShop({ folder, pages: built, cusp, ...given }: Setup
   const closing = new AbortController();
   const verifier: Verifier = { cusp, limit_ms: limits.verify_ms };
 
-  const order = (request: IncomingMessage, signal: AbortSignal): Promise<Order> =>
+  /** What of an order came with its form is checked in its turn, and the order is taken. */
+  const take = async (folder: string, key: string, { copies, price_cents }: Form, signal: AbortSignal): Promise<Order> => {
+    const { printer, resin } = wantedBy(await readFile(join(folder, FILES.plan), "utf8"));
+    return queue.inTurn(async () => {
+      // Of two that came with one key at the same time the second finds what became of the first.
+      const before = await store.find(key);
+      if (before !== null) return before;
+      const verdict = await verify(folder, verifier, signal);
+      const { lines, total_cents } = priceOf(verdict, printer, resin, copies);
+      if (total_cents !== price_cents) throw new Refusal("price-differs", "The price is another by now. Please load this page anew.");
+      return store.keep(folder, key, { printer: printer.name, resin: resin.name, copies, lines, price_cents: total_cents, verdict });
+    });
+  };
+
+  const order = async (request: IncomingMessage, key: string, signal: AbortSignal): Promise<Order> =>
+    (await store.find(key)) ??
     queue.admit(() =>
-      store.withFolder(async (folder) => {
-        const { copies, price_cents } = await receive(request, folder, limits.most_bytes, signal);
-        const { printer, resin } = wantedBy(await readFile(join(folder, FILES.plan), "utf8"));
-        const verdict = await queue.inTurn(() => verify(folder, verifier, signal));
-        const { lines, total_cents } = priceOf(verdict, printer, resin, copies);
-        if (total_cents !== price_cents) throw new Refusal("price-differs", "The price is another by now. Please load this page anew.");
-        return store.keep(folder, { printer: printer.name, resin: resin.name, copies, lines, price_cents: total_cents, verdict });
-      }),
+      store.withFolder(async (folder) => take(folder, key, await receive(request, folder, limits.most_bytes, signal), signal)),
     );
+
+  /**
+   * Waits until an answer can be read: a browser reads none before its upload is through, so that the rest is taken in and
+   * thrown away; but no more than twice what an honest customer could have sent. Whether anybody is there to read it.
+   */
+  const isHeard = async (request: IncomingMessage, response: ServerResponse): Promise<boolean> => {
+    const most = 2 * Object.values(limits.most_bytes).reduce((sum, bytes) => sum + bytes, 0);
+    if (!(await drain(request, most, closing.signal))) response.setHeader("connection", "close");
+    return !response.destroyed;
+  };
 
   const answer = async (request: IncomingMessage, response: ServerResponse): Promise<void> => {
     const { pathname } = new URL(request.url ?? "/", `http://${HOST}`);
@@ -87,15 +105,12 @@ export async function createShop({ folder, pages: built, cusp, ...given }: Setup
     if (from !== undefined && from !== "same-origin") throw new Refusal("foreign-page", "Orders come from the shop's own page.");
     const gone = new AbortController();
     response.once("close", () => gone.abort());
-    sendJson(response, 201, await order(request, AbortSignal.any([gone.signal, closing.signal])));
+    const placed = await order(request, keyOf(request), AbortSignal.any([gone.signal, closing.signal]));
+    if (await isHeard(request, response)) sendJson(response, 201, placed);
   };
 
   const refuse = async (error: unknown, request: IncomingMessage, response: ServerResponse): Promise<void> => {
-    // A browser reads an answer only when its upload is through, so that the rest is taken in and thrown away; but no
-    // more than twice what an honest customer could have sent.
-    const most = 2 * Object.values(limits.most_bytes).reduce((sum, bytes) => sum + bytes, 0);
-    if (!(await drain(request, most, closing.signal))) response.setHeader("connection", "close");
-    if (response.destroyed) return;
+    if (!(await isHeard(request, response))) return;
     const { code, message } = closing.signal.aborted ? CLOSING : asRefusal(error);
     sendJson(response, STATUS[code], { code, message });
   };
@@ -115,6 +130,15 @@ export async function createShop({ folder, pages: built, cusp, ...given }: Setup
       return new Promise((resolve) => void server.close(() => resolve()));
     },
   };
+}
+
+const UUID = /^[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}$/i;
+
+/** The key that an order comes with: whoever sends it again means the same order. */
+function keyOf({ headers }: IncomingMessage): string {
+  const key = headers["idempotency-key"];
+  if (typeof key === "string" && UUID.test(key)) return key.toLowerCase();
+  throw new Refusal("bad-order", "An order needs an Idempotency-Key that is a UUID.");
 }
 
 function listen(server: Server, port: number): Promise<string> {

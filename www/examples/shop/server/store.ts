@@ -1,6 +1,6 @@
 /** Orders as folders of files. An order is there as a whole or not at all. */
-import { randomUUID } from "node:crypto";
-import { mkdir, mkdtemp, rename, rm, writeFile } from "node:fs/promises";
+import { createHash } from "node:crypto";
+import { mkdir, mkdtemp, readFile, rename, rm, writeFile } from "node:fs/promises";
 import { join, resolve } from "node:path";
 import type { Line } from "../price.js";
 import type { Verdict } from "./verify.js";
@@ -48,11 +48,30 @@ export class Store {
     }
   }
 
-  /** Makes an order of a folder with its files. */
-  async keep(folder: string, order: Omit<Order, "id" | "placed_at">): Promise<Order> {
-    const placed: Order = { id: randomUUID(), placed_at: new Date().toISOString(), ...order };
+  /** The order that was taken for a key; null if none was. */
+  async find(key: string): Promise<Order | null> {
+    try {
+      return JSON.parse(await readFile(join(this.#orders, idOf(key), "order.json"), "utf8")) as Order;
+    } catch (error) {
+      if ((error as NodeJS.ErrnoException).code === "ENOENT") return null;
+      throw error;
+    }
+  }
+
+  /** Makes an order of a folder with its files. A key has one order: there must be none yet. */
+  async keep(folder: string, key: string, order: Omit<Order, "id" | "placed_at">): Promise<Order> {
+    const placed: Order = { id: idOf(key), placed_at: new Date().toISOString(), ...order };
     await writeFile(join(folder, "order.json"), `${JSON.stringify(placed, null, 2)}\n`);
+    // Where there is an order already this fails, since its folder is not empty.
     await rename(folder, join(this.#orders, placed.id));
     return placed;
   }
+}
+
+/**
+ * The number of a key's order, so that the folder itself says which keys are spent. Numbers are told to many and a key to
+ * nobody, so that the one does not give the other away.
+ */
+function idOf(key: string): string {
+  return createHash("sha256").update(key).digest("hex").slice(0, 32);
 }
