@@ -1,5 +1,5 @@
 /** The element on a page of somebody else, from the package as it is published. */
-import type { Browser, BrowserContextOptions, Page } from "playwright-core";
+import type { Browser, BrowserContextOptions, Locator, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect, test } from "vitest";
 import type { CuspSlicer } from "../src/element/index.js";
 import { launch } from "./browser.js";
@@ -285,4 +285,41 @@ test("taken out of the page it rests, and put back it works on", async () => {
     return (await element.plan()).report.layers;
   }, element);
   expect(layers).toBeGreaterThan(134);
+});
+
+test("a part that cannot be fetched says so in its panel and to the page, and comes when it is tried again", async () => {
+  const page = await start("");
+  const blocked = /\/(cusp-view|portraits)-[^/]*\.js$/;
+  await page.route(blocked, (route) => route.abort());
+  await page.evaluate(() =>
+    document.body.append(
+      document
+        .createRange()
+        .createContextualFragment(`<cusp-slicer id="a" src="ball.stl" panels="plan view direction" locale="en"></cusp-slicer>`),
+    ),
+  );
+  await done(page, "a");
+  const failure = (panel: string): Locator => page.locator(`${panel} .part-failed`);
+  await failure("cusp-model").waitFor();
+  expect(await failure("cusp-model").innerText()).toContain("This part of the page could not be loaded.");
+  await page.getByRole("button", { name: "Find the best direction" }).click();
+  await failure("cusp-direction").waitFor();
+  const errors = await page.evaluate(() =>
+    (document as unknown as Told).told
+      .filter(([, name]) => name === "cusp-error")
+      .map(([id, , { code, detail }]) => ({ id, code, detail })),
+  );
+  expect(errors).toEqual(["view", "pictures"].map((part) => ({ id: "a", code: "part-failed", detail: { part } })));
+  // The plan is as good as before.
+  expect(await page.locator("#a").getAttribute("state")).toBe("done");
+
+  await page.unroute(blocked);
+  await failure("cusp-model").getByRole("button", { name: "Try again" }).click();
+  await page.locator("cusp-view").waitFor();
+  await failure("cusp-direction").getByRole("button", { name: "Try again" }).click();
+  await page.locator("cusp-direction canvas[data-drawn]").first().waitFor();
+  expect(await page.locator(".part-failed").count()).toBe(0);
+  const unloaded = complaints.splice(0);
+  expect(unloaded.filter((text) => !text.startsWith("Failed to load resource"))).toEqual([]);
+  expect(unloaded.length).toBeGreaterThan(0);
 });

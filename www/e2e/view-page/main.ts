@@ -1,6 +1,5 @@
 /** A page with nothing but the view: what tests ask of it goes through `window.harness`. */
-import "../../src/view/cusp-view.js";
-import type { CuspView } from "../../src/view/cusp-view.js";
+import { CuspView } from "../../src/view/cusp-view.js";
 import { ball, box, cone } from "../../src/view/fixtures.js";
 
 export interface Heard {
@@ -22,6 +21,7 @@ function facetsOf(stl: ArrayBuffer): Float32Array {
 }
 
 const heard: Heard[] = [];
+customElements.define("cusp-view", CuspView);
 const view = document.createElement("cusp-view");
 for (const type of TYPES) {
   view.addEventListener(type, (event) => heard.push({ type, detail: (event as CustomEvent<unknown>).detail }));

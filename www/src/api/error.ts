@@ -50,6 +50,7 @@ export const ERROR_CODES = {
   "file-unreadable": "The bytes of the file could not be read.",
   "fetch-failed": "The model's address did not answer with a file.",
   "start-failed": "The worker or the WebAssembly module could not be started.",
+  "part-failed": "A part of the element, which `detail.part` names, could not be loaded; what is on show stays.",
   crash: "The worker broke down; the next call starts another.",
 } as const;
 

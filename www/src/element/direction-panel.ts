@@ -10,6 +10,7 @@ import { directionStyles } from "./direction-styles.js";
 import { energyRange, type Looked } from "./direction-sphere.js";
 import type { Aims, Directions } from "./directions.js";
 import { METRICS } from "./metric.js";
+import { partFailure, partStyles, tellPartFailed } from "./part.js";
 import { progressBar, progressStyles, type Busy } from "./progress.js";
 import { rotationText } from "./settings.js";
 import { styled } from "./styled.js";
@@ -36,6 +37,7 @@ export class CuspDirection extends LitElement {
     palette: { type: String },
     language: { attribute: false },
     looked: { state: true },
+    isUnpictured: { state: true },
   };
 
   declare slicer: Slicer | null;
@@ -49,6 +51,8 @@ export class CuspDirection extends LitElement {
   declare language: Language;
   /** The candidate that is pointed at. */
   declare looked: Looked | null;
+  /** Whether what draws the pictures could not be fetched. */
+  declare isUnpictured: boolean;
 
   #portraying: AbortController | null = null;
 
@@ -62,9 +66,10 @@ export class CuspDirection extends LitElement {
     this.palette = "classic";
     this.language = languageOf();
     this.looked = null;
+    this.isUnpictured = false;
   }
 
-  static override styles = [shared, progressStyles, directionStyles];
+  static override styles = [shared, progressStyles, partStyles, directionStyles];
 
   override firstUpdated(): void {
     // Pictures have the page's colours. A change of these is noticed as the start of a transition, whatever brought it about.
@@ -167,6 +172,7 @@ export class CuspDirection extends LitElement {
       </div>
       <div class="best">
         ${best.length > 0 ? html`<h4>${texts.direction.best}</h4>` : nothing}
+        ${this.isUnpictured && best.length > 0 ? partFailure(this.language, () => void this.#portray()) : nothing}
         ${best.map((candidate, i) => this.#choice(candidate, i, searched))}
         ${!fits && busy === null ? html`<p class="quiet">${texts.direction.none}</p>` : nothing}
       </div>
@@ -260,14 +266,19 @@ export class CuspDirection extends LitElement {
     const { signal } = portraying;
     // Without pictures there are still the numbers; a worker that broke says so elsewhere.
     const positions = await slicer.positions().catch(() => null);
-    const { portray } = await import("../view/portraits.js");
     if (positions === null || signal.aborted) return;
+    const portraitist = await import("../view/portraits.js").catch((error: unknown) => {
+      tellPartFailed(this, "pictures", error);
+      return null;
+    });
+    this.isUnpictured = portraitist === null;
+    if (portraitist === null || signal.aborted) return;
     const canvases = [...this.renderRoot.querySelectorAll<HTMLCanvasElement>(".pose canvas")];
     const portraits = searched.best.flatMap(({ rotation }, i) => {
       const canvas = canvases[i];
       return canvas === undefined ? [] : [[canvas, rotation] as const];
     });
-    await portray(positions, portraits, this, signal);
+    await portraitist.portray(positions, portraits, this, signal);
     for (const [canvas] of portraits) canvas.dataset["drawn"] = "";
   }
 

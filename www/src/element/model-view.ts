@@ -15,6 +15,8 @@ import type { PaintDetail, RotateDetail } from "../view/events.js";
 import type { Tool } from "../view/keys.js";
 import type { ViewTexts } from "../view/texts.js";
 import type { Painted } from "./events.js";
+import { define } from "./define.js";
+import { partFailure, partStyles, tellPartFailed } from "./part.js";
 import { paintStyles, paintTools, type Colours } from "./paint-tools.js";
 import type { PlotPlace } from "./profile-chart.js";
 import type { Shown } from "./result.js";
@@ -68,6 +70,7 @@ export class CuspModel extends LitElement {
     inset: { state: true },
     positions: { state: true },
     isThere: { state: true },
+    isMissing: { state: true },
     tool: { state: true },
     look: { state: true },
     palette: { state: true },
@@ -96,7 +99,10 @@ export class CuspModel extends LitElement {
   declare plot: PlotPlace | null;
   declare inset: Inset;
   declare positions: Float32Array | null;
+  /** Whether the view has been fetched. */
   declare isThere: boolean;
+  /** Whether it could not be fetched. */
+  declare isMissing: boolean;
   declare tool: Tool;
   declare look: Look;
   declare palette: PaletteName;
@@ -133,6 +139,7 @@ export class CuspModel extends LitElement {
     this.inset = ALONE;
     this.positions = null;
     this.isThere = false;
+    this.isMissing = false;
     this.tool = "turn";
     this.look = "thickness";
     this.palette = "classic";
@@ -150,6 +157,7 @@ export class CuspModel extends LitElement {
   static override styles = [
     shared,
     paintStyles,
+    partStyles,
     css`
       :host {
         display: flex;
@@ -190,7 +198,7 @@ export class CuspModel extends LitElement {
   }
 
   override firstUpdated(): void {
-    void import("../view/cusp-view.js").then(() => (this.isThere = true));
+    void this.#load();
   }
 
   override willUpdate(changed: PropertyValues<this>): void {
@@ -251,7 +259,9 @@ export class CuspModel extends LitElement {
               @cusp-layer=${(event: CustomEvent<number>) => this.#tell(event)}
               @cusp-camera=${(event: CustomEvent<Rotation>) => this.#tell(event)}
             ></cusp-view>`
-          : nothing}
+          : this.isMissing
+            ? partFailure(language, () => void this.#load())
+            : nothing}
       </div>
       <div class="tools" role="group" aria-label=${words.title}>
         ${TOOLS.map((it) => toggle(words.tools[it], tool === it, () => (this.tool = it)))}
@@ -262,6 +272,18 @@ export class CuspModel extends LitElement {
       </div>
       ${isPainting ? this.#paintTools() : nothing}
     `;
+  }
+
+  async #load(): Promise<void> {
+    this.isMissing = false;
+    try {
+      const { CuspView } = await import("../view/cusp-view.js");
+      define("cusp-view", CuspView);
+      this.isThere = true;
+    } catch (error) {
+      this.isMissing = true;
+      tellPartFailed(this, "view", error);
+    }
   }
 
   readonly #otherPalette = (): void => {

@@ -1,4 +1,5 @@
 /** The elements that an element is made of. */
+import { define } from "./define.js";
 import { CuspDirection } from "./direction-panel.js";
 import { CuspSphere } from "./direction-sphere.js";
 import { CuspModel } from "./model-view.js";
@@ -19,9 +20,7 @@ const PARTS = {
 
 /** Makes the parts known to the browser, once, and not before an element is made. */
 export function definePanels(): void {
-  for (const [name, part] of Object.entries(PARTS)) {
-    if (customElements.get(name) === undefined) customElements.define(name, part);
-  }
+  for (const [name, part] of Object.entries(PARTS)) define(name, part);
 }
 
 declare global {

@@ -78,6 +78,7 @@ const KINDS: Readonly<Record<Exclude<ErrorCode, "infeasible">, Kind>> = {
   "fetch-failed": "notFetched",
   "start-failed": "startFailed",
   crash: "crash",
+  "part-failed": "other",
   "no-plan": "other",
   "no-model": "other",
   "weights-not-weights": "notWeights",

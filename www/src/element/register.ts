@@ -1,4 +1,5 @@
 /** Makes `<cusp-slicer>` known to the browser. */
 import { CuspSlicer } from "./cusp-slicer.js";
+import { define } from "./define.js";
 
-if (customElements.get("cusp-slicer") === undefined) customElements.define("cusp-slicer", CuspSlicer);
+define("cusp-slicer", CuspSlicer);

@@ -339,6 +339,7 @@ export const de = ({ counted, plural }: Format): Texts => ({
   notices: {
     cancelled: "Abgebrochen.",
     exportCancelled: "Der Download wurde abgebrochen.",
+    partFailed: "Dieser Teil der Seite ließ sich nicht laden. Prüfen Sie die Verbindung und versuchen Sie es noch einmal; hilft das nicht, laden Sie die Seite neu.",
     close: "Schließen",
   },
   offers: {

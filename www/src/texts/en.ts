@@ -338,6 +338,7 @@ export const en = ({ counted, plural }: Format) => ({
   notices: {
     cancelled: "Cancelled.",
     exportCancelled: "The download was cancelled.",
+    partFailed: "This part of the page could not be loaded. Check your connection and try again; if that does not help, reload the page.",
     close: "Close",
   },
   offers: {

@@ -339,6 +339,7 @@ export const es = ({ counted, plural }: Format): Texts => ({
   notices: {
     cancelled: "Cancelado.",
     exportCancelled: "Se canceló la descarga.",
+    partFailed: "No se pudo cargar esta parte de la página. Compruebe la conexión e inténtelo de nuevo; si no ayuda, recargue la página.",
     close: "Cerrar",
   },
   offers: {

@@ -339,6 +339,7 @@ export const fr = ({ counted, plural }: Format): Texts => ({
   notices: {
     cancelled: "Annulé.",
     exportCancelled: "Le téléchargement a été annulé.",
+    partFailed: "Cette partie de la page n’a pas pu être chargée. Vérifiez la connexion et réessayez ; si cela ne suffit pas, rechargez la page.",
     close: "Fermer",
   },
   offers: {

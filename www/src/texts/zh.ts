@@ -333,6 +333,7 @@ export const zh = ({ count: number }: Format): Texts => ({
   notices: {
     cancelled: "已取消。",
     exportCancelled: "下载已取消。",
+    partFailed: "页面的这一部分无法加载。请检查网络连接后重试；如仍无效，请重新加载页面。",
     close: "关闭",
   },
   offers: {

@@ -2,7 +2,8 @@
  * `<cusp-view>`: the model in three dimensions, coloured by layer thickness or as it will be printed.
  *
  * A pure function of its properties. It shows a rotation of its own making at once and waits for no plan: one that comes
- * later only changes the colours. Import this module lazily; nothing else of the front-end loads three.
+ * later only changes the colours. Import this module lazily; nothing else of the front-end loads three. Whoever imports it
+ * defines the element, since a bundler may leave out what a module does beside its exports.
  */
 import { html, LitElement, nothing, type PropertyValues, type TemplateResult } from "lit";
 import type { Frame, Heights, Inset } from "./cameras.js";
@@ -449,8 +450,6 @@ export class CuspView extends LitElement {
     this.dispatchEvent(new CustomEvent<Detail>(name, { detail }));
   }
 }
-
-customElements.define("cusp-view", CuspView);
 
 /** Typed listeners for the view's own events. */
 export interface CuspView {

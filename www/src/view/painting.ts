@@ -1,5 +1,5 @@
 /** The brush in a person's hand: what pointer and keys do to weights. */
-import type { Aim, Aimed } from "./aim.js";
+import { Aim, type Aimed } from "./aim.js";
 import { BRUSH, type Brush } from "./brush.js";
 import type { Derived } from "./derived.js";
 import type { PaintDetail } from "./events.js";
@@ -72,7 +72,7 @@ export class Painting {
   }
 
   async #make(derived: Derived): Promise<void> {
-    const [topology, { Aim }] = await Promise.all([derived.topology(), import("./aim.js")]);
+    const topology = await derived.topology();
     const { positions } = derived;
     if (topology === null || this.#asked !== derived || positions.length === 0) return;
     const surface: Surface = { positions, topology, normals: normalsOf(positions) };
