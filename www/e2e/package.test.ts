@@ -1,129 +1,154 @@
 /** The npm package, installed from its tarball into pages of somebody else, built by their bundlers, and run. */
 import { execFileSync, spawnSync } from "node:child_process";
-import { cp, mkdtemp, readdir, readFile, rm, writeFile } from "node:fs/promises";
-import { tmpdir } from "node:os";
-import { join } from "node:path";
-import { fileURLToPath } from "node:url";
+import { cp, readFile, writeFile } from "node:fs/promises";
+import { delimiter, join } from "node:path";
 import type { Browser } from "playwright-core";
-import { build } from "vite";
+import { build, type InlineConfig } from "vite";
 import { afterAll, beforeAll, expect, test } from "vitest";
 import webpack from "webpack";
-import { main as pack } from "../package/build.js";
 import { launch } from "./browser.js";
+import { snippets, visit, workplace, www, type Workplace } from "./package-apps.js";
 import { sphere } from "./solids.js";
-import { serveFolder } from "./static.js";
+import { SOFTWARE_GL } from "./view-pages.js";
 
-const packed = fileURLToPath(new URL("../dist-package", import.meta.url));
-const source = fileURLToPath(new URL("./consumer", import.meta.url));
-const compiler = fileURLToPath(new URL("../node_modules/typescript/bin/tsc", import.meta.url));
+const compiler = join(www, "node_modules/typescript/bin/tsc");
 
 let browser: Browser;
-let consumer: string;
+let work: Workplace;
 
 beforeAll(async () => {
-  await pack();
-  const [tarball] = (await readdir(packed)).filter((name) => name.endsWith(".tgz"));
-  consumer = await mkdtemp(join(tmpdir(), "cusp-consumer-"));
-  await cp(source, consumer, { recursive: true });
-  await writeFile(join(consumer, "ball.stl"), sphere(10, 96).bytes);
-  await writeFile(join(consumer, "package.json"), JSON.stringify({ name: "consumer", private: true, type: "module" }));
-  // The tarball has no dependencies, so that this needs no network.
-  const install = ["install", "--offline", "--no-audit", "--no-fund", "--loglevel=error", join(packed, tarball ?? "")];
-  execFileSync("npm", install, { cwd: consumer, stdio: "inherit" });
-  browser = await launch();
+  work = await workplace();
+  await cp(join(www, "e2e/consumer"), join(work.bare), { recursive: true });
+  browser = await launch(SOFTWARE_GL);
 }, 120_000);
 
 afterAll(async () => {
   await browser.close();
-  await rm(consumer, { recursive: true, force: true });
+  await work.close();
 });
 
-/** Runs the page in `folder` under the policy that the guide names, and gives what element and headless API made. */
-async function run(folder: string): Promise<{ element: string; headless: string; globals: string[] }> {
-  const served = await serveFolder(folder);
-  const context = await browser.newContext();
-  const page = await context.newPage();
-  const complaints: string[] = [];
-  page.on("pageerror", (error) => complaints.push(error.message));
-  page.on("console", (message) => {
-    if (message.type() === "error") complaints.push(message.text());
-  });
-  page.on("request", (request) => {
-    const address = request.url();
-    if (!address.startsWith(served.address) && !address.startsWith("blob:")) complaints.push(address);
-  });
-  await page.addInitScript(() => {
-    const before = new Set(Object.getOwnPropertyNames(window));
-    Object.defineProperty(document, "newGlobals", {
-      value: () => Object.getOwnPropertyNames(window).filter((name) => !before.has(name)),
-    });
-  });
-  try {
-    await page.goto(served.address);
-    const done = page.waitForSelector("body[data-headless][data-element]", { timeout: 20_000 });
-    await done.catch((error: unknown) => {
-      throw new Error([...complaints, String(error)].join("\n"));
-    });
-    const { dataset, globals } = await page.evaluate(() => ({
-      dataset: { ...document.body.dataset },
-      globals: (document as unknown as { newGlobals(): string[] }).newGlobals(),
-    }));
-    expect(complaints).toEqual([]);
-    return { element: dataset["element"] ?? "", headless: dataset["headless"] ?? "", globals };
-  } finally {
-    await context.close();
-    await served.close();
-  }
+/** The page that uses both element and headless API; `module` is what that is for a bundler. */
+async function consumer(name: string, module: string): Promise<string> {
+  const read = (file: string): Promise<string> => readFile(join(www, "e2e/consumer", file), "utf8");
+  return work.app(name, { "index.html": (await read("index.html")).replace("./main.js", module), "src/main.js": await read("main.js") });
 }
 
 async function works(folder: string, ownGlobals: (name: string) => boolean = () => false): Promise<void> {
-  await cp(join(consumer, "ball.stl"), join(folder, "ball.stl"), { force: true });
-  const { element, headless, globals } = await run(folder);
-  expect(headless).toMatch(new RegExp(`^1 ball.stl ${element} (cpu|gpu) true$`));
-  expect(Number(element)).toBeGreaterThan(134);
-  expect(globals.filter((name) => !ownGlobals(name))).toEqual([]);
+  await writeFile(join(folder, "ball.stl"), sphere(10, 96).bytes);
+  await visit(browser, folder, async ({ page, globals }) => {
+    const headless = await page.waitForSelector("body[data-headless]", { timeout: 30_000 });
+    expect(await headless.getAttribute("data-headless")).toMatch(/^1 ball.stl \d{3} (cpu|gpu) true$/);
+    expect(globals.filter((name) => !ownGlobals(name))).toEqual([]);
+  });
+}
+
+/** Builds an app in a folder of the workplace, as its own configuration says. Not made small: that takes a while. */
+async function vite(root: string, config: InlineConfig = { configFile: false }): Promise<string> {
+  await build({ logLevel: "error", ...config, root, build: { target: "es2022", minify: false, ...config.build } });
+  return join(root, config.build?.outDir ?? "dist");
+}
+
+const page = (body: string): string => `<!doctype html>
+<html lang="en"><head><meta charset="utf-8" /><script type="module" src="/src/main.js"></script></head>
+<body><div id="root">${body}</div></body></html>`;
+
+/** The price that the snippets show beside the element. */
+async function priced(folder: string): Promise<void> {
+  await visit(browser, folder, async ({ page }) => {
+    await expect.poll(() => page.locator("output").innerText()).toMatch(/^\d+\.\d\d €$/);
+  });
 }
 
 test("its types hold for a strict compiler that looks into libraries", () => {
   const options = ["--noEmit", "--strict", "--target", "es2022", "--module", "esnext", "--moduleResolution", "bundler"];
   const { stdout } = spawnSync(process.execPath, [compiler, ...options, "--lib", "es2023,dom,dom.iterable", "types.ts"], {
-    cwd: consumer,
+    cwd: work.bare,
     encoding: "utf8",
   });
   expect(stdout).toBe("");
 });
 
 test("built by Vite", async () => {
-  const outDir = join(consumer, "vite");
-  await build({ root: consumer, configFile: false, logLevel: "error", build: { outDir, target: "es2022" } });
-  await works(outDir);
+  await works(await vite(await consumer("vite", "/src/main.js")));
 });
 
 test("built by webpack", async () => {
-  const path = join(consumer, "webpack");
+  const context = await consumer("webpack", "./main.js");
+  const path = join(context, "dist");
   const compilation = webpack({
     mode: "production",
-    context: consumer,
-    entry: "./main.js",
+    context,
+    entry: "./src/main.js",
     output: { path, filename: "main.js", module: true },
     experiments: { outputModule: true },
+    optimization: { minimize: false },
     performance: { hints: false },
   });
   const stats = await new Promise<webpack.Stats | undefined>((resolve, reject) =>
     compilation?.run((error, stats) => (error ? reject(error) : resolve(stats))),
   );
   expect(stats?.toJson({ all: false, errors: true, warnings: true })).toMatchObject({ errors: [], warnings: [] });
-  await cp(join(consumer, "index.html"), join(path, "index.html"));
+  await cp(join(context, "index.html"), join(path, "index.html"));
   // webpack keeps track of its own chunks by one global.
   await works(path, (name) => name.startsWith("webpackChunk"));
 });
 
-test("from a plain web server, without a bundler", async () => {
-  const folder = join(consumer, "plain");
-  await cp(join(consumer, "node_modules/cusp-slicer"), join(folder, "cusp-slicer"), { recursive: true });
-  await cp(join(consumer, "index.html"), join(folder, "index.html"));
-  const script = await readFile(join(consumer, "main.js"), "utf8");
-  const own = script.replace(`"cusp-slicer"`, `"./cusp-slicer/index.js"`).replace(`"cusp-slicer/element"`, `"./cusp-slicer/element.js"`);
-  await writeFile(join(folder, "main.js"), own);
-  await works(folder);
+test("built by esbuild, with the commands of the guide", async () => {
+  const folder = await consumer("esbuild", "./main.js");
+  await cp(join(work.bare, "node_modules"), join(folder, "node_modules"), { recursive: true });
+  const { commands } = await snippets("Bundlers");
+  const PATH = [join(www, "node_modules/.bin"), process.env["PATH"]].join(delimiter);
+  for (const command of commands) execFileSync("sh", ["-ec", command], { cwd: folder, env: { ...process.env, PATH }, stdio: "pipe" });
+  await cp(join(folder, "index.html"), join(folder, "dist/index.html"));
+  await works(join(folder, "dist"));
+});
+
+test("the guide's page of plain HTML, from a plain web server", async () => {
+  const { files } = await snippets("Plain HTML");
+  const folder = await work.app("plain", { ...files, ...(await snippets("On your page")).files });
+  await cp(join(work.bare, "node_modules/cusp-slicer"), join(folder, "cusp-slicer"), { recursive: true });
+  await priced(folder);
+});
+
+test("the guide's component for React", async () => {
+  const folder = await work.app("react", {
+    ...(await snippets("On your page")).files,
+    ...(await snippets("React")).files,
+    "index.html": page(""),
+    "src/main.js": `
+import { createElement } from "react";
+import { createRoot } from "react-dom/client";
+import Slicer from "./Slicer.jsx";
+createRoot(document.querySelector("#root")).render(createElement(Slicer));`,
+  });
+  await priced(await vite(folder));
+});
+
+test("the guide's component for Vue", async () => {
+  const folder = await work.app("vue", {
+    ...(await snippets("On your page")).files,
+    ...(await snippets("Vue")).files,
+    "index.html": page(""),
+    "src/main.js": `
+import { createApp } from "vue";
+import Slicer from "./Slicer.vue";
+createApp(Slicer).mount("#root");`,
+  });
+  await priced(await vite(folder, { configFile: join(folder, "vite.config.js") }));
+});
+
+test("the guide's component for Svelte", async () => {
+  const folder = await work.app("svelte", {
+    ...(await snippets("On your page")).files,
+    ...(await snippets("Svelte")).files,
+    "index.html": page(""),
+    "vite.config.js": `
+import { svelte } from "@sveltejs/vite-plugin-svelte";
+export default { plugins: [svelte()] };`,
+    "src/main.js": `
+import { mount } from "svelte";
+import Slicer from "./Slicer.svelte";
+mount(Slicer, { target: document.querySelector("#root") });`,
+  });
+  await priced(await vite(folder, { configFile: join(folder, "vite.config.js") }));
 });

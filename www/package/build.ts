@@ -22,8 +22,10 @@ const ENTRIES = {
   index: "src/api/index.ts",
   element: "src/element/register.ts",
   "element-class": "src/element/index.ts",
-  worker: "src/api/worker.ts",
 } as const;
+
+/** By itself, so that where a bundler knows no workers this one file is copied. */
+const WORKER = { worker: "src/api/worker.ts" } as const;
 
 const WASM = "cusp_slicer_bg.wasm";
 
@@ -35,6 +37,7 @@ const flatAddresses: Plugin = {
     handler: (code) => code.replace(`"./worker.ts"`, `"./worker.js"`).replace(`"../../pkg/${WASM}"`, `"./${WASM}"`),
   },
 };
+
 
 /** Style sheets as text, which elements adopt. */
 const inlineStyles: Plugin = {
@@ -51,23 +54,23 @@ const inlineStyles: Plugin = {
   },
 };
 
-/** lit notes its versions in globals, for a warning of its development build; on somebody else's page they have no place. */
+/** lit and three note their versions in globals, to warn of a second copy; on somebody else's page they have no place. */
 const noGlobals: Plugin = {
   name: "cusp:no-globals",
   transform: {
-    filter: { id: /node_modules[\\/](@lit|lit-html|lit-element)[\\/]/ },
+    filter: { id: /node_modules[\\/](@lit|lit-html|lit-element|three)[\\/]/ },
     handler(code) {
-      const names = /(?:[\w$]+\.)?\b(litPropertyMetadata|reactiveElementVersions|litHtmlVersions|litElementVersions)\b/g;
+      const names = /(?:[\w$]+\.)?\b(litPropertyMetadata|reactiveElementVersions|litHtmlVersions|litElementVersions|__THREE__)\b/g;
       const own = code.replaceAll(names, "OWN.$1");
       return own === code ? null : `const OWN = {};\n${own}`;
     },
   },
 };
 
-async function bundle(): Promise<readonly OutputChunk[]> {
+async function bundle(input: Readonly<Record<string, string>>): Promise<readonly OutputChunk[]> {
   const build = await rolldown({
     cwd: root,
-    input: ENTRIES,
+    input,
     platform: "browser",
     plugins: [flatAddresses, inlineStyles, noGlobals],
     resolve: { conditionNames: ["production", "browser", "import", "default"] },
@@ -106,7 +109,7 @@ async function declare(): Promise<void> {
   }
 }
 
-async function describe(): Promise<void> {
+async function describe(chunks: readonly OutputChunk[]): Promise<void> {
   const { version, license } = JSON.parse(await readFile(join(root, "package.json"), "utf8")) as Record<string, string>;
   const entry = (types: string, file: string): Record<string, string> => ({
     types: `./types/src/${types}.d.ts`,
@@ -127,7 +130,8 @@ async function describe(): Promise<void> {
       [`./${WASM}`]: `./${WASM}`,
       "./package.json": "./package.json",
     },
-    sideEffects: ["./element.js", "./worker.js"],
+    // A bundler may leave out an import of these two where nothing of it is used, and keeps whatever else is imported.
+    sideEffects: chunks.map(({ fileName }) => `./${fileName}`).filter((name) => !["./index.js", "./element-class.js"].includes(name)),
   };
   await writeFile(join(out, "package.json"), `${JSON.stringify(description, null, 2)}\n`);
   await copyFile(join(root, "../docs/embed.md"), join(out, "README.md"));
@@ -144,12 +148,12 @@ async function weigh(chunks: readonly OutputChunk[]): Promise<{ all: number; thr
 
 export async function main(): Promise<void> {
   await rm(out, { recursive: true, force: true });
-  const chunks = await bundle();
+  const chunks = [...(await bundle(ENTRIES)), ...(await bundle(WORKER))];
   const lazy = new Set(chunks.filter(({ isEntry }) => isEntry).flatMap(({ imports }) => imports));
   if ([...lazy].some((name) => name.startsWith("three"))) throw new Error("three is loaded before it is needed");
   await copyFile(join(root, "pkg", WASM), join(out, WASM));
   await declare();
-  await describe();
+  await describe(chunks);
   const { all, three } = await weigh(chunks);
   console.log(`gzipped ${all - three} bytes, and ${three} of three for the 3-D view`);
   if (all - three > LIMIT_BYTES) throw new Error(`that is more than ${LIMIT_BYTES} bytes`);

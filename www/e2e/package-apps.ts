@@ -1,0 +1,148 @@
+/** Pages of somebody else with the package on them, made of the snippets of docs/embed.md. */
+import { cp, mkdir, mkdtemp, readdir, readFile, rm, symlink, writeFile } from "node:fs/promises";
+import { execFileSync } from "node:child_process";
+import { tmpdir } from "node:os";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { decode } from "fast-png";
+import type { Browser, Page } from "playwright-core";
+import { expect } from "vitest";
+import { main as pack } from "../package/build.js";
+import { sphere } from "./solids.js";
+import { serveFolder } from "./static.js";
+
+export const www = fileURLToPath(new URL("..", import.meta.url));
+
+/** What pages use beside the package, from the front-end's own packages. */
+const BESIDE = ["react", "react-dom", "@types/react", "@types/react-dom", "vue", "svelte", "preact", "solid-js", "csstype"];
+const TOOLS = ["vite", "@vitejs/plugin-vue", "@sveltejs/vite-plugin-svelte", "esbuild"];
+
+export interface Workplace {
+  /** Has nothing but the package in its node_modules. */
+  readonly bare: string;
+  /** Has the frameworks and bundlers there too. */
+  readonly folder: string;
+  /** A folder beside the package and the frameworks with these files in it. */
+  app(name: string, files: Readonly<Record<string, string>>): Promise<string>;
+  close(): Promise<void>;
+}
+
+/** Packs the package and installs it from its tarball, once for all pages. */
+export async function workplace(): Promise<Workplace> {
+  await pack();
+  const packed = join(www, "dist-package");
+  const [tarball = ""] = (await readdir(packed)).filter((name) => name.endsWith(".tgz"));
+  const root = await mkdtemp(join(tmpdir(), "cusp-apps-"));
+  const [bare, folder] = [join(root, "bare"), join(root, "full")];
+  await mkdir(bare);
+  await writeFile(join(bare, "package.json"), JSON.stringify({ name: "consumer", private: true, type: "module" }));
+  // The tarball has no dependencies, so that this needs no network.
+  const install = ["install", "--offline", "--no-audit", "--no-fund", "--loglevel=error", join(packed, tarball)];
+  execFileSync("npm", install, { cwd: bare, stdio: "inherit" });
+  await cp(bare, folder, { recursive: true });
+  for (const name of [...BESIDE, ...TOOLS]) {
+    const place = join(folder, "node_modules", name);
+    await mkdir(dirname(place), { recursive: true });
+    await symlink(join(www, "node_modules", name), place, "dir");
+  }
+  return {
+    bare,
+    folder,
+    async app(name, files) {
+      const place = join(folder, name);
+      await write(place, files);
+      return place;
+    },
+    close: () => rm(root, { recursive: true, force: true }),
+  };
+}
+
+export async function write(folder: string, files: Readonly<Record<string, string>>): Promise<void> {
+  for (const [path, text] of Object.entries(files)) {
+    await mkdir(dirname(join(folder, path)), { recursive: true });
+    await writeFile(join(folder, path), text);
+  }
+}
+
+/** The files and commands that a section of the guide shows: "```jsx src/App.jsx" begins a file, "```sh" commands. */
+export async function snippets(heading: string): Promise<{ files: Record<string, string>; commands: string[] }> {
+  const guide = await readFile(join(www, "../docs/embed.md"), "utf8");
+  const files: Record<string, string> = {};
+  const commands: string[] = [];
+  let at = "";
+  for (const [, title, kind, path = "", text = ""] of guide.matchAll(/^#+ ([^\n]+)$|^```(\w+)(?: (\S+))?\n(.*?)^```$/gms)) {
+    if (title !== undefined) at = title;
+    if (kind === undefined || at !== heading) continue;
+    if (path !== "") files[path] = text;
+    if (kind === "sh") commands.push(text);
+  }
+  return { files, commands };
+}
+
+export interface Ran {
+  page: Page;
+  /** Properties of `window` that were not there before the page began. */
+  globals: string[];
+}
+
+/**
+ * Runs the page in `folder` under the policy that the guide names, as a visitor does: opens a model, sees it in layers,
+ * and saves the print file. `look` sees the page at the end.
+ */
+export async function visit(browser: Browser, folder: string, look: (ran: Ran) => Promise<void>): Promise<void> {
+  const served = await serveFolder(folder);
+  const context = await browser.newContext({ locale: "en-GB", viewport: { width: 1280, height: 900 } });
+  const page = await context.newPage();
+  const complaints: string[] = [];
+  page.on("pageerror", (error) => complaints.push(error.message));
+  page.on("console", (message) => {
+    if (message.type() === "error") complaints.push(message.text());
+  });
+  page.on("request", (request) => {
+    const address = request.url();
+    if (!address.startsWith(served.address) && !address.startsWith("blob:")) complaints.push(address);
+  });
+  await page.addInitScript(() => {
+    const before = new Set(Object.getOwnPropertyNames(window));
+    Object.defineProperty(document, "newGlobals", {
+      value: () => Object.getOwnPropertyNames(window).filter((name) => !before.has(name)),
+    });
+  });
+  try {
+    await page.goto(served.address);
+    const ball = { name: "ball.stl", mimeType: "model/stl", buffer: Buffer.from(sphere(10, 96).bytes) };
+    await page.locator("cusp-slicer input[type=file]").first().setInputFiles(ball);
+    await page.waitForSelector("cusp-slicer[state=done]", { timeout: 30_000 });
+    await expect.poll(() => page.evaluate(() => customElements.get("cusp-view") !== undefined), { message: "cusp-view" }).toBe(true);
+    await expect.poll(() => coloursOf(page), { message: "colours of the 3-D view" }).toBeGreaterThan(50);
+    const [file] = await Promise.all([
+      page.waitForEvent("download"),
+      page.getByRole("button", { name: /Download print file/ }).click(),
+    ]);
+    expect((await readFile(await file.path())).subarray(0, 4).toString("latin1")).toBe("PK\u0003\u0004");
+    const globals = await page.evaluate(() => (document as unknown as { newGlobals(): string[] }).newGlobals());
+    await look({ page, globals });
+    expect(complaints).toEqual([]);
+  } catch (error) {
+    throw new Error([...complaints, String(error)].join("\n"), { cause: error });
+  } finally {
+    await context.close();
+    await served.close();
+  }
+}
+
+/** How many colours the 3-D view has on the screen, without its words: an empty one has one, or those of a gradient. */
+async function coloursOf(page: Page): Promise<number> {
+  const canvas = page.locator("cusp-view canvas");
+  if ((await canvas.count()) === 0) return 0;
+  const { width, height, data, channels } = decode(await canvas.screenshot());
+  const seen = new Set<number>();
+  // Around the middle, where the model stands; only colours that are not grey.
+  for (let y = Math.floor(height / 4); y < (3 * height) / 4; y++) {
+    for (let x = Math.floor(width / 4); x < (3 * width) / 4; x++) {
+      const [red = 0, green = 0, blue = 0] = data.subarray((y * width + x) * channels);
+      if (Math.max(red, green, blue) - Math.min(red, green, blue) > 40) seen.add((red << 16) | (green << 8) | blue);
+    }
+  }
+  return seen.size;
+}
