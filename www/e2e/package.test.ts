@@ -7,7 +7,7 @@ import { build, type InlineConfig } from "vite";
 import { afterAll, beforeAll, expect, test } from "vitest";
 import webpack from "webpack";
 import { launch } from "./browser.js";
-import { snippets, visit, workplace, www, type Workplace } from "./package-apps.js";
+import { snippets, visit, workplace, write, www, type Workplace } from "./package-apps.js";
 import { sphere } from "./solids.js";
 import { SOFTWARE_GL } from "./view-pages.js";
 
@@ -43,7 +43,7 @@ async function works(folder: string, ownGlobals: (name: string) => boolean = () 
 }
 
 /** Builds an app in a folder of the workplace, as its own configuration says. Not made small: that takes a while. */
-async function vite(root: string, config: InlineConfig = { configFile: false }): Promise<string> {
+async function vite(root: string, config: InlineConfig = {}): Promise<string> {
   await build({ logLevel: "error", ...config, root, build: { target: "es2022", minify: false, ...config.build } });
   return join(root, config.build?.outDir ?? "dist");
 }
@@ -52,6 +52,12 @@ const page = (body: string): string => `<!doctype html>
 <html lang="en"><head><meta charset="utf-8" /><script type="module" src="/src/main.js"></script></head>
 <body><div id="root">${body}</div></body></html>`;
 
+/** The guide's component for a framework, and files of the application that it is put into. */
+async function component(framework: string, use: string, files: Readonly<Record<string, string>> = {}): Promise<string> {
+  const [shared, own] = [await snippets("On your page"), await snippets(framework)];
+  return work.app(`${framework}-${use}`, { ...shared.files, ...own.files, ...files });
+}
+
 /** The price that the snippets show beside the element. */
 async function priced(folder: string): Promise<void> {
   await visit(browser, folder, async ({ page }) => {
@@ -59,13 +65,19 @@ async function priced(folder: string): Promise<void> {
   });
 }
 
-test("its types hold for a strict compiler that looks into libraries", () => {
-  const options = ["--noEmit", "--strict", "--target", "es2022", "--module", "esnext", "--moduleResolution", "bundler"];
-  const { stdout } = spawnSync(process.execPath, [compiler, ...options, "--lib", "es2023,dom,dom.iterable", "types.ts"], {
-    cwd: work.bare,
+/** What a strict compiler that looks into libraries says of a file; nothing if all is well. */
+function complaintsOf(cwd: string, file: string, options: readonly string[] = []): string {
+  const strict = ["--ignoreConfig", "--noEmit", "--strict", "--exactOptionalPropertyTypes", "--skipLibCheck", "false"];
+  const modern = ["--target", "es2022", "--module", "esnext", "--moduleResolution", "bundler", "--lib", "es2023,dom,dom.iterable"];
+  const { stdout } = spawnSync(process.execPath, [compiler, ...strict, ...modern, "--types", "", ...options, file], {
+    cwd,
     encoding: "utf8",
   });
-  expect(stdout).toBe("");
+  return stdout;
+}
+
+test("its types hold where nothing else is installed", () => {
+  expect(complaintsOf(work.bare, "types.ts")).toBe("");
 });
 
 test("built by Vite", async () => {
@@ -104,51 +116,89 @@ test("built by esbuild, with the commands of the guide", async () => {
 });
 
 test("the guide's page of plain HTML, from a plain web server", async () => {
-  const { files } = await snippets("Plain HTML");
-  const folder = await work.app("plain", { ...files, ...(await snippets("On your page")).files });
+  const folder = await component("Plain HTML", "plain");
   await cp(join(work.bare, "node_modules/cusp-slicer"), join(folder, "cusp-slicer"), { recursive: true });
   await priced(folder);
 });
 
-test("the guide's component for React", async () => {
-  const folder = await work.app("react", {
-    ...(await snippets("On your page")).files,
-    ...(await snippets("React")).files,
-    "index.html": page(""),
-    "src/main.js": `
+const REACT = {
+  "src/main.js": `
 import { createElement } from "react";
 import { createRoot } from "react-dom/client";
 import Slicer from "./Slicer.jsx";
 createRoot(document.querySelector("#root")).render(createElement(Slicer));`,
-  });
-  await priced(await vite(folder));
-});
+};
 
-test("the guide's component for Vue", async () => {
-  const folder = await work.app("vue", {
-    ...(await snippets("On your page")).files,
-    ...(await snippets("Vue")).files,
-    "index.html": page(""),
-    "src/main.js": `
+const VUE = {
+  "src/main.js": `
 import { createApp } from "vue";
 import Slicer from "./Slicer.vue";
 createApp(Slicer).mount("#root");`,
-  });
-  await priced(await vite(folder, { configFile: join(folder, "vite.config.js") }));
-});
+};
 
-test("the guide's component for Svelte", async () => {
-  const folder = await work.app("svelte", {
-    ...(await snippets("On your page")).files,
-    ...(await snippets("Svelte")).files,
-    "index.html": page(""),
-    "vite.config.js": `
+const SVELTE = {
+  "vite.config.js": `
 import { svelte } from "@sveltejs/vite-plugin-svelte";
 export default { plugins: [svelte()] };`,
-    "src/main.js": `
+  "src/main.js": `
 import { mount } from "svelte";
 import Slicer from "./Slicer.svelte";
 mount(Slicer, { target: document.querySelector("#root") });`,
-  });
-  await priced(await vite(folder, { configFile: join(folder, "vite.config.js") }));
+};
+
+test.each([
+  ["React", REACT],
+  ["Vue", VUE],
+  ["Svelte", SVELTE],
+])("the guide's component for %s", async (framework, files) => {
+  await priced(await vite(await component(framework, "client", { ...files, "index.html": page("") })));
+});
+
+test("imported on a server it does nothing, and calls say that there is no browser", () => {
+  const { stdout, stderr } = spawnSync(process.execPath, ["server.js"], { cwd: work.bare, encoding: "utf8" });
+  expect(stderr).toBe("");
+  const { class: name, codes, globals } = JSON.parse(stdout) as { class: string; codes: Record<string, string>; globals: string[] };
+  expect(name).toBe("ShopSlicer");
+  expect(Object.keys(codes)).toEqual(expect.arrayContaining(["load", "plan", "orient", "export", "exportStream", "printers"]));
+  expect([...new Set(Object.values(codes))]).toEqual(["no-browser"]);
+  expect(globals).toEqual([]);
+});
+
+const NEXT = {
+  "src/server.js": `
+import { createElement } from "react";
+import { renderToString } from "react-dom/server";
+import Page from "../app/page.jsx";
+console.log(renderToString(createElement(Page)));`,
+  "src/main.js": `
+import { createElement } from "react";
+import { hydrateRoot } from "react-dom/client";
+import Page from "../app/page.jsx";
+hydrateRoot(document.querySelector("#root"), createElement(Page));`,
+};
+
+const NUXT = {
+  "src/server.js": `
+import { createSSRApp } from "vue";
+import { renderToString } from "vue/server-renderer";
+import Slicer from "./Slicer.vue";
+console.log(await renderToString(createSSRApp(Slicer)));`,
+  "src/main.js": `
+import { createSSRApp } from "vue";
+import Slicer from "./Slicer.vue";
+createSSRApp(Slicer).mount("#root");`,
+};
+
+// The first imports the package on the server from where it is installed, the second has it in its bundle.
+test.each([
+  ["Next", NEXT, []],
+  ["Vue", NUXT, ["cusp-slicer"]],
+])("rendered on a server as by %s, it comes to life in the browser", async (framework, files, noExternal) => {
+  const folder = await component(framework, "server", files);
+  const built = await vite(folder, { ssr: { noExternal }, build: { ssr: "src/server.js", outDir: "server" } });
+  const { stdout, stderr } = spawnSync(process.execPath, [join(built, "server.js")], { cwd: folder, encoding: "utf8" });
+  expect(stderr).toBe("");
+  expect(stdout).toContain(`<cusp-slicer printer="saturn-3-ultra"></cusp-slicer>`);
+  await write(folder, { "index.html": page(stdout.trim()) });
+  await priced(await vite(folder));
 });

@@ -20,7 +20,16 @@ async function coreCodes(): Promise<string[]> {
 }
 
 /** Those that only this side gives. */
-const OWN = ["bad-attribute", "no-model", "file-unreadable", "fetch-failed", "start-failed", "part-failed", "crash"];
+const OWN = [
+  "bad-attribute",
+  "no-model",
+  "file-unreadable",
+  "fetch-failed",
+  "start-failed",
+  "part-failed",
+  "no-browser",
+  "crash",
+];
 
 test("the list of codes is the core's and this side's, no more and no fewer", async () => {
   const codes = await coreCodes();

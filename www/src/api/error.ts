@@ -51,6 +51,7 @@ export const ERROR_CODES = {
   "fetch-failed": "The model's address did not answer with a file.",
   "start-failed": "The worker or the WebAssembly module could not be started.",
   "part-failed": "A part of the element, which `detail.part` names, could not be loaded; what is on show stays.",
+  "no-browser": "There is no browser, such as on a server: nothing can be sliced there.",
   crash: "The worker broke down; the next call starts another.",
 } as const;
 

@@ -9,8 +9,10 @@
  *     slicer.dispose();
  *
  * Lengths are in mm, times in s. Calls are answered one after another. Every call rejects with a `SlicerError`, or with
- * the signal's reason if it was aborted; the model and the plan before it stay.
+ * the signal's reason if it was aborted; the model and the plan before it stay. Where there is no browser, as on a server that
+ * renders a page, a slicer can be made, and its calls reject with `no-browser`.
  */
+import { absentSlicer } from "./absent.js";
 import { Lane, spawnWorker, type Compiled, type Engine, type Watch } from "./lane.js";
 import { orient, type OrientCall, type Oriented } from "./orient.js";
 import { Pool, type Held } from "./pool.js";
@@ -126,6 +128,7 @@ const CURVE_POINTS = 40;
 const FEW_WORKERS = 2;
 
 export function createSlicer({ spawn = spawnWorker, workers = globalThis.navigator?.hardwareConcurrency ?? FEW_WORKERS }: Setup = {}): Slicer {
+  if (spawn === spawnWorker && globalThis.Worker === undefined) return absentSlicer();
   const compiled: Compiled = { module: null };
   const main = new Lane(spawn, compiled);
   // Live figures must not wait for a plan that takes seconds: they have a worker, which starts when first asked.

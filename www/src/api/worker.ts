@@ -151,4 +151,5 @@ const api: SlicerWorker = {
   printers,
 };
 
-Comlink.expose(api);
+// A server that imports every entry has nothing to listen to.
+if (globalThis.addEventListener !== undefined) Comlink.expose(api);

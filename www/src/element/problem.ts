@@ -79,6 +79,7 @@ const KINDS: Readonly<Record<Exclude<ErrorCode, "infeasible">, Kind>> = {
   "start-failed": "startFailed",
   crash: "crash",
   "part-failed": "other",
+  "no-browser": "other",
   "no-plan": "other",
   "no-model": "other",
   "weights-not-weights": "notWeights",

@@ -1,0 +1,29 @@
+/** The slicer where there are no workers, as on a server that renders a page: it does nothing, and every call rejects. */
+import { SlicerError } from "./error.js";
+import type { Slicer } from "./index.js";
+
+export function absentSlicer(): Slicer {
+  const error = (): SlicerError => new SlicerError("no-browser", "there is no browser here: call this in the page");
+  const reject = (): Promise<never> => Promise.reject(error());
+  const nothing = (): void => undefined;
+  return {
+    load: reject,
+    plan: reject,
+    mask: reject,
+    tradeoff: reject,
+    compare: reject,
+    orient: reject,
+    export: reject,
+    exportStream: () => new ReadableStream({ start: (controller) => controller.error(error()) }),
+    positions: reject,
+    glance: reject,
+    saliency: reject,
+    paint: reject,
+    weightsFile: reject,
+    readWeights: reject,
+    printers: reject,
+    warm: nothing,
+    rest: nothing,
+    dispose: nothing,
+  };
+}
