@@ -80,6 +80,24 @@ test("its types hold where nothing else is installed", () => {
   expect(complaintsOf(work.bare, "types.ts")).toBe("");
 });
 
+test.each([
+  ["react.tsx", "--jsx", "react-jsx", "--jsxImportSource", "react"],
+  ["preact.tsx", "--jsx", "react-jsx", "--jsxImportSource", "preact"],
+  ["solid.tsx", "--jsx", "preserve", "--jsxImportSource", "solid-js"],
+  ["vue.ts"],
+  ["svelte.ts"],
+])("its types hold in the markup of %s", async (file, ...options) => {
+  const folder = join(work.folder, "markup");
+  await cp(join(www, "e2e/consumer/markup"), folder, { recursive: true });
+  expect(complaintsOf(folder, file, options)).toBe("");
+});
+
+test.each(["React", "Next"])("its types hold in the guide's component for %s", async (framework) => {
+  const folder = await component(framework, "typed");
+  const file = framework === "React" ? "src/Slicer.jsx" : "app/page.jsx";
+  expect(complaintsOf(folder, file, ["--allowJs", "--checkJs", "--jsx", "react-jsx"])).toBe("");
+});
+
 test("built by Vite", async () => {
   await works(await vite(await consumer("vite", "/src/main.js")));
 });

@@ -6,7 +6,7 @@
  * import.meta.url)`: that is what bundlers look for. three is in chunks that only the 3-D view asks for.
  */
 import { execFileSync } from "node:child_process";
-import { copyFile, mkdir, readdir, readFile, rm, writeFile } from "node:fs/promises";
+import { copyFile, cp, mkdir, readdir, readFile, rm, writeFile } from "node:fs/promises";
 import { dirname, join, relative } from "node:path";
 import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
@@ -26,6 +26,15 @@ const ENTRIES = {
 
 /** By itself, so that where a bundler knows no workers this one file is copied. */
 const WORKER = { worker: "src/api/worker.ts" } as const;
+
+/** Entries that are the element with its types for the markup of a framework, by what those types come from. */
+const FRAMEWORKS = {
+  react: ["react", "@types/react"],
+  preact: ["preact"],
+  solid: ["solid-js"],
+  vue: ["vue"],
+  svelte: ["svelte"],
+} as const;
 
 const WASM = "cusp_slicer_bg.wasm";
 
@@ -115,6 +124,7 @@ async function declare(): Promise<void> {
   const core = await readFile(join(root, "pkg/cusp_slicer.d.ts"), "utf8");
   await writeFile(join(types, "pkg/cusp_slicer.d.ts"), core.replaceAll(/^.*\[Symbol\.dispose\].*\n/gm, ""));
   await copyFile(join(root, "package/lit.d.ts"), join(types, "lit.d.ts"));
+  await cp(join(root, "package/types"), types, { recursive: true });
   for (const name of await readdir(types, { recursive: true })) {
     if (!name.endsWith(".d.ts")) continue;
     const path = join(types, name);
@@ -128,9 +138,11 @@ async function declare(): Promise<void> {
 async function describe(chunks: readonly OutputChunk[]): Promise<void> {
   const { version, license } = JSON.parse(await readFile(join(root, "package.json"), "utf8")) as Record<string, string>;
   const entry = (types: string, file: string): Record<string, string> => ({
-    types: `./types/src/${types}.d.ts`,
+    types: `./types/${types}.d.ts`,
     default: `./${file}.js`,
   });
+  // Where every package sees only what it names, as with pnpm and Yarn, declarations find a framework by these.
+  const peers = Object.values(FRAMEWORKS).flat();
   const description = {
     name: "cusp-slicer",
     version,
@@ -139,13 +151,16 @@ async function describe(chunks: readonly OutputChunk[]): Promise<void> {
     type: "module",
     keywords: ["3d-printing", "slicer", "resin", "stl", "custom-element", "wasm"],
     exports: {
-      ".": entry("api/index", "index"),
-      "./element": entry("element/register", "element"),
-      "./element-class": entry("element/index", "element-class"),
+      ".": entry("src/api/index", "index"),
+      "./element": entry("src/element/register", "element"),
+      "./element-class": entry("src/element/index", "element-class"),
+      ...Object.fromEntries(Object.keys(FRAMEWORKS).map((name) => [`./${name}`, entry(name, "element")])),
       "./worker.js": "./worker.js",
       [`./${WASM}`]: `./${WASM}`,
       "./package.json": "./package.json",
     },
+    peerDependencies: Object.fromEntries(peers.map((name) => [name, "*"])),
+    peerDependenciesMeta: Object.fromEntries(peers.map((name) => [name, { optional: true }])),
     // A bundler may leave out an import of these two where nothing of it is used, and keeps whatever else is imported.
     sideEffects: chunks.map(({ fileName }) => `./${fileName}`).filter((name) => !["./index.js", "./element-class.js"].includes(name)),
   };

@@ -2,7 +2,7 @@
 const before = Object.getOwnPropertyNames(globalThis);
 const { createSlicer, SlicerError } = await import("cusp-slicer");
 const { CuspSlicer } = await import("cusp-slicer/element-class");
-const entries = ["element", "worker.js"];
+const entries = ["element", "react", "preact", "solid", "vue", "svelte", "worker.js"];
 for (const entry of entries) await import(`cusp-slicer/${entry}`);
 
 class ShopSlicer extends CuspSlicer {}

@@ -52,6 +52,7 @@ export class CuspSlicer extends LitElement implements Host {
 
   /** Address of an STL, which is opened when it is set. */
   declare src: string | null;
+  /** @internal */
   declare dragging: boolean;
 
   static override styles = [shared, summaryStyles, progressStyles, problemStyles, layoutStyles];
