@@ -8,8 +8,8 @@ import { decode } from "fast-png";
 import type { Browser, Page } from "playwright-core";
 import { expect } from "vitest";
 import { main as pack } from "../package/build.js";
+import type { Served } from "./serve.js";
 import { sphere } from "./solids.js";
-import { serveFolder } from "./static.js";
 
 export const www = fileURLToPath(new URL("..", import.meta.url));
 
@@ -85,12 +85,8 @@ export interface Ran {
   globals: string[];
 }
 
-/**
- * Runs the page in `folder` under the policy that the guide names, as a visitor does: opens a model, sees it in layers,
- * and saves the print file. `look` sees the page at the end.
- */
-export async function visit(browser: Browser, folder: string, look: (ran: Ran) => Promise<void>): Promise<void> {
-  const served = await serveFolder(folder);
+/** Uses a page as a visitor does: opens a model, sees it in layers, and saves the print file. `look` sees it at the end. */
+export async function visit(browser: Browser, served: Served, look: (ran: Ran) => Promise<void>): Promise<void> {
   const context = await browser.newContext({ locale: "en-GB", viewport: { width: 1280, height: 900 } });
   const page = await context.newPage();
   const complaints: string[] = [];

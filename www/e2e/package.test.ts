@@ -3,12 +3,14 @@ import { execFileSync, spawnSync } from "node:child_process";
 import { cp, readFile, writeFile } from "node:fs/promises";
 import { delimiter, join } from "node:path";
 import type { Browser } from "playwright-core";
-import { build, type InlineConfig } from "vite";
+import { build, createServer, type InlineConfig } from "vite";
 import { afterAll, beforeAll, expect, test } from "vitest";
 import webpack from "webpack";
 import { launch } from "./browser.js";
 import { snippets, visit, workplace, write, www, type Workplace } from "./package-apps.js";
+import { freePort } from "./serve.js";
 import { sphere } from "./solids.js";
+import { serveFolder } from "./static.js";
 import { SOFTWARE_GL } from "./view-pages.js";
 
 const compiler = join(www, "node_modules/typescript/bin/tsc");
@@ -35,7 +37,7 @@ async function consumer(name: string, module: string): Promise<string> {
 
 async function works(folder: string, ownGlobals: (name: string) => boolean = () => false): Promise<void> {
   await writeFile(join(folder, "ball.stl"), sphere(10, 96).bytes);
-  await visit(browser, folder, async ({ page, globals }) => {
+  await visit(browser, await serveFolder(folder), async ({ page, globals }) => {
     const headless = await page.waitForSelector("body[data-headless]", { timeout: 30_000 });
     expect(await headless.getAttribute("data-headless")).toMatch(/^1 ball.stl \d{3} (cpu|gpu) true$/);
     expect(globals.filter((name) => !ownGlobals(name))).toEqual([]);
@@ -60,10 +62,36 @@ async function component(framework: string, use: string, files: Readonly<Record<
 
 /** The price that the snippets show beside the element. */
 async function priced(folder: string): Promise<void> {
-  await visit(browser, folder, async ({ page }) => {
+  await visit(browser, await serveFolder(folder), async ({ page }) => {
     await expect.poll(() => page.locator("output").innerText()).toMatch(/^\d+\.\d\d €$/);
   });
 }
+
+/** What puts the guide's components on a page. */
+const REACT = {
+  "src/main.js": `
+import { createElement } from "react";
+import { createRoot } from "react-dom/client";
+import Slicer from "./Slicer.jsx";
+createRoot(document.querySelector("#root")).render(createElement(Slicer));`,
+};
+
+const VUE = {
+  "src/main.js": `
+import { createApp } from "vue";
+import Slicer from "./Slicer.vue";
+createApp(Slicer).mount("#root");`,
+};
+
+const SVELTE = {
+  "vite.config.js": `
+import { svelte } from "@sveltejs/vite-plugin-svelte";
+export default { plugins: [svelte()] };`,
+  "src/main.js": `
+import { mount } from "svelte";
+import Slicer from "./Slicer.svelte";
+mount(Slicer, { target: document.querySelector("#root") });`,
+};
 
 /** What a strict compiler that looks into libraries says of a file; nothing if all is well. */
 function complaintsOf(cwd: string, file: string, options: readonly string[] = []): string {
@@ -102,6 +130,16 @@ test("built by Vite", async () => {
   await works(await vite(await consumer("vite", "/src/main.js")));
 });
 
+test("on Vite's development server, which bundles packages beforehand", async () => {
+  // The browser asks for an icon, which this server does not have.
+  const icon = `<link rel="icon" href="data:," />`;
+  const root = await component("React", "development", { ...REACT, "index.html": page("").replace("</head>", `${icon}</head>`) });
+  const server = await createServer({ root, logLevel: "error", server: { host: "127.0.0.1", port: await freePort() } });
+  await server.listen();
+  const [address = ""] = server.resolvedUrls?.local ?? [];
+  await visit(browser, { address, close: () => server.close() }, () => Promise.resolve());
+});
+
 test("built by webpack", async () => {
   const context = await consumer("webpack", "./main.js");
   const path = join(context, "dist");
@@ -138,31 +176,6 @@ test("the guide's page of plain HTML, from a plain web server", async () => {
   await cp(join(work.bare, "node_modules/cusp-slicer"), join(folder, "cusp-slicer"), { recursive: true });
   await priced(folder);
 });
-
-const REACT = {
-  "src/main.js": `
-import { createElement } from "react";
-import { createRoot } from "react-dom/client";
-import Slicer from "./Slicer.jsx";
-createRoot(document.querySelector("#root")).render(createElement(Slicer));`,
-};
-
-const VUE = {
-  "src/main.js": `
-import { createApp } from "vue";
-import Slicer from "./Slicer.vue";
-createApp(Slicer).mount("#root");`,
-};
-
-const SVELTE = {
-  "vite.config.js": `
-import { svelte } from "@sveltejs/vite-plugin-svelte";
-export default { plugins: [svelte()] };`,
-  "src/main.js": `
-import { mount } from "svelte";
-import Slicer from "./Slicer.svelte";
-mount(Slicer, { target: document.querySelector("#root") });`,
-};
 
 test.each([
   ["React", REACT],
