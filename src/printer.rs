@@ -24,8 +24,12 @@ pub struct Printer {
     pub layer_mm: [f64; 2],
     /// What heights are multiples of.
     pub step_mm: f64,
-    /// The file that it takes, or from which other programs make that.
+    /// The print file to make for it: one that it reads, or one from which other programs make that.
     pub format: Format,
+    /// Whether it reads `format` without a converter.
+    pub reads_format: bool,
+    /// Extensions of the files that it reads, the usual one first.
+    pub reads: &'static [&'static str],
 }
 
 /// What presets whose makers name no limits allow.
@@ -33,12 +37,14 @@ const ANY_LAYER_MM: [f64; 2] = [0.01, 0.2];
 /// The step of common z drives.
 const USUAL_STEP_MM: f64 = 0.002;
 
-const fn chitubox(
+/// A printer whose own file other programs make from the zip of `ChiTuBox`.
+const fn converted(
     name: &'static str,
     model: &'static str,
     pixels: [u32; 2],
     pitch_um: [f64; 2],
     volume_mm: [f64; 3],
+    reads: &'static [&'static str],
 ) -> Printer {
     Printer {
         name,
@@ -50,78 +56,91 @@ const fn chitubox(
         layer_mm: ANY_LAYER_MM,
         step_mm: USUAL_STEP_MM,
         format: Format::Chitubox,
+        reads_format: false,
+        reads,
     }
 }
 
 /// All printers that are known by name.
 pub const PRINTERS: &[Printer] = &[
-    chitubox(
+    converted(
         "mars-4-ultra",
         "Elegoo Mars 4 Ultra",
         [8520, 4320],
         [18.0, 18.0],
         [153.36, 77.76, 165.0],
+        &["goo"],
     ),
-    chitubox(
+    converted(
         "saturn-3-ultra",
         "Elegoo Saturn 3 Ultra",
         [11520, 5120],
         [19.0, 24.0],
         [218.88, 122.88, 260.0],
+        &["goo"],
     ),
-    chitubox(
+    converted(
         "saturn-4-ultra-16k",
         "Elegoo Saturn 4 Ultra 16K",
         [15120, 6230],
         [14.0, 19.0],
         [211.68, 118.37, 220.0],
+        &["ctb", "goo"],
     ),
-    chitubox(
+    converted(
         "photon-mono-m5s",
         "Anycubic Photon Mono M5s",
         [11520, 5120],
         [19.0, 24.0],
         [218.88, 122.88, 200.0],
+        &["pm5s"],
     ),
-    chitubox(
+    converted(
         "photon-mono-m7-pro",
         "Anycubic Photon Mono M7 Pro",
         [13312, 5120],
         [16.8, 24.8],
         [223.642, 126.976, 230.0],
+        &["pwsz"],
     ),
-    chitubox(
+    converted(
         "sonic-mini-8k-s",
         "Phrozen Sonic Mini 8K S",
         [7536, 3240],
         [22.0, 22.0],
         [165.792, 71.28, 170.0],
+        &["prz"],
     ),
     Printer {
         format: Format::Sl1,
-        ..chitubox(
+        reads_format: true,
+        ..converted(
             "sl1s",
             "Prusa SL1S SPEED",
             [1620, 2560],
             [50.0, 50.0],
             [81.0, 128.0, 150.0],
+            &["sl1s"],
         )
     },
-    chitubox(
+    converted(
         "athena-12k",
         "Concepts3D Athena 12K",
         [11520, 5120],
         [19.0, 24.0],
         [218.88, 122.88, 245.0],
+        &["nanodlp"],
     ),
     Printer {
         is_mirrored: false,
-        ..chitubox(
+        reads_format: true,
+        ..converted(
             "shuffle",
             "Phrozen Shuffle",
             [1440, 2560],
             [47.0, 47.0],
             [67.68, 120.32, 200.0],
+            &["zip"],
         )
     },
 ];

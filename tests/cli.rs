@@ -1031,3 +1031,16 @@ fn a_bad_model_does_not_stop_the_others_of_a_batch() {
         assert_fails(&orient(&models, &merge), 1, words);
     }
 }
+
+#[test]
+fn printers_say_which_files_they_read() {
+    let text = String::from_utf8(cusp(&["printers"]).stdout).unwrap();
+    let line = |name: &str| text.lines().find(|line| line.starts_with(name)).unwrap();
+    assert!(line("name ").ends_with("format    reads"));
+    assert!(line("sl1s ").ends_with("sl1       sl1s"));
+    assert!(line("saturn-3-ultra ").ends_with("chitubox  goo by a converter"));
+    let json = json(&cusp(&["printers", "--json"]));
+    let printers = json.as_array().unwrap();
+    let saturn = printers.iter().find(|it| it["name"] == "saturn-3-ultra");
+    assert_eq!(saturn.unwrap()["reads"], serde_json::json!(["goo"]));
+}

@@ -443,7 +443,27 @@ fn printers_are_what_their_data_says() {
             let side_mm = f64::from(printer.pixels[axis]) * printer.pitch_um[axis] / 1e3;
             assert_near(side_mm, printer.volume_mm[axis], 0.005);
         }
+        assert!(!printer.reads.is_empty(), "{}", printer.name);
+        for extension in printer.reads {
+            assert!(
+                extension
+                    .bytes()
+                    .all(|it| it.is_ascii_lowercase() || it.is_ascii_digit()),
+                "{extension}"
+            );
+        }
     }
+    let direct = PRINTERS.iter().filter(|printer| printer.reads_format);
+    let direct: Vec<_> = direct
+        .map(|printer| (printer.name, printer.format, printer.reads))
+        .collect();
+    assert_eq!(
+        direct,
+        [
+            ("sl1s", Format::Sl1, &["sl1s"][..]),
+            ("shuffle", Format::Chitubox, &["zip"][..]),
+        ]
+    );
     let on = |name: &str, triangles: &solids::Triangles| {
         let mut slicer = Slicer::load(&binary_stl(triangles)).unwrap();
         let options = Options {

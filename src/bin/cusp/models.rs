@@ -60,8 +60,8 @@ pub fn printers(json: bool) -> Result<(), Failure> {
         return Ok(print_json(&PRINTERS)?);
     }
     let mut text = format!(
-        "{:<20} {:<28} {:>12}  {:<13} {:<20} format",
-        "name", "printer", "pixels", "pitch (µm)", "volume (mm)"
+        "{:<20} {:<28} {:>12}  {:<13} {:<23} {:<9} reads",
+        "name", "printer", "pixels", "pitch (µm)", "volume (mm)", "format"
     );
     for printer in PRINTERS {
         let by = |sides: &[f64]| {
@@ -74,13 +74,19 @@ pub fn printers(json: bool) -> Result<(), Failure> {
         let format = printer.format.to_possible_value();
         let _ = write!(
             text,
-            "\n{:<20} {:<28} {:>12}  {:<13} {:<20} {}",
+            "\n{:<20} {:<28} {:>12}  {:<13} {:<23} {:<9} {}{}",
             printer.name,
             printer.model,
             format!("{} × {}", printer.pixels[0], printer.pixels[1]),
             by(&printer.pitch_um),
             by(&printer.volume_mm),
-            format.as_ref().map_or("", |format| format.get_name())
+            format.as_ref().map_or("", |format| format.get_name()),
+            printer.reads.join(", "),
+            if printer.reads_format {
+                ""
+            } else {
+                " by a converter"
+            }
         );
     }
     Ok(print(&text)?)
