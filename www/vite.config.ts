@@ -1,4 +1,5 @@
 import { defineConfig, type Plugin } from "vite";
+import { anyLanguage } from "./package/any-language.js";
 
 /**
  * The policy that makes "your model never leaves this computer" a promise the browser keeps: scripts, workers and
@@ -48,7 +49,9 @@ function offlineFiles(): Plugin {
 export default defineConfig({
   // Relative addresses, so that the folder works under any path of any host.
   base: "./",
-  plugins: [contentSecurityPolicy(), offlineFiles()],
+  plugins: [contentSecurityPolicy(), offlineFiles(), anyLanguage],
+  // What the development server bundles beforehand passes by the plugin.
+  optimizeDeps: { exclude: ["uplot"] },
   worker: { format: "es" },
   build: {
     target: "es2022",

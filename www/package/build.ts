@@ -11,6 +11,7 @@ import { dirname, join, relative } from "node:path";
 import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
 import { rolldown, type OutputChunk, type Plugin } from "rolldown";
+import { anyLanguage } from "./any-language.js";
 
 const root = fileURLToPath(new URL("..", import.meta.url));
 const out = join(root, "dist-package");
@@ -89,7 +90,7 @@ async function bundle(input: Readonly<Record<string, string>>): Promise<readonly
     cwd: root,
     input,
     platform: "browser",
-    plugins: [flatAddresses, inlineStyles, noGlobals, onServers],
+    plugins: [flatAddresses, inlineStyles, noGlobals, anyLanguage, onServers],
     resolve: { conditionNames: ["production", "browser", "import", "default"] },
     transform: { target: "es2022" },
   });

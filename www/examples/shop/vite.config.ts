@@ -1,5 +1,6 @@
 import { fileURLToPath } from "node:url";
 import { defineConfig, type Plugin } from "vite";
+import { anyLanguage } from "../../package/any-language.js";
 import { binaryStl, exampleTriangles } from "../../src/page/example.js";
 
 const here = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
@@ -15,8 +16,8 @@ const sampleModel: Plugin = {
 export default defineConfig({
   root: here("."),
   base: "./",
-  plugins: [sampleModel],
-  // In this repository the package is its own source. A shop runs `npm install cusp-slicer` and has no need of this.
+  // In this repository the package is its own source, and is built like that. A shop runs `npm install cusp-slicer` and has no need of this.
+  plugins: [sampleModel, anyLanguage],
   resolve: {
     // Also where Node was not told so: this page is only ever built, and libraries have another build for development.
     conditions: ["production", "module", "browser", "import", "default"],

@@ -1,7 +1,8 @@
 /** Puts the chart of chart.ts on the page: size, colours, the marker of the layer looked at, clicks. */
 import { css, html, LitElement, unsafeCSS, type PropertyValues, type TemplateResult } from "lit";
-import uPlot from "uplot";
+import type uPlot from "uplot";
 import uplotStyles from "uplot/dist/uPlot.min.css?inline";
+import { SlicerError } from "../api/error.js";
 import { chartData, chartOptions, type ChartData, type ChartTheme } from "./chart.js";
 import { gradient } from "../view/palette.js";
 import { languageOf, type Language } from "../texts/index.js";
@@ -24,6 +25,7 @@ export class CuspChart extends LitElement {
     language: { attribute: false },
     zoomed: { state: true },
     hovered: { state: true },
+    failed: { state: true },
   };
 
   declare data: ChartData | null;
@@ -32,7 +34,11 @@ export class CuspChart extends LitElement {
   declare zoomed: boolean;
   /** The bin under the pointer. */
   declare hovered: number | null;
+  /** Whether what draws could not be loaded. */
+  declare failed: boolean;
 
+  /** What draws; null until it is loaded. */
+  #library: typeof uPlot | null = null;
   #plot: uPlot | null = null;
   #marker: HTMLElement | null = null;
   #resized: ResizeObserver | null = null;
@@ -46,6 +52,7 @@ export class CuspChart extends LitElement {
     this.language = languageOf();
     this.zoomed = false;
     this.hovered = null;
+    this.failed = false;
   }
 
   static override styles = [
@@ -110,6 +117,7 @@ export class CuspChart extends LitElement {
   override render(): TemplateResult {
     const [min, max] = this.data?.limits ?? [0, 0];
     const { texts, format } = this.language;
+    if (this.failed) return html`<div class="head"><h3>${texts.chart.title}</h3></div><p class="quiet">${texts.partFailed}</p>`;
     return html`
       <div class="head">
         <h3>${texts.chart.title}</h3>
@@ -144,11 +152,27 @@ export class CuspChart extends LitElement {
   override firstUpdated(): void {
     this.#resized = new ResizeObserver(() => this.#fit());
     this.#resized.observe(this.#frame);
+    void this.#load();
   }
 
   override updated(changed: PropertyValues<this>): void {
     if (changed.has("data") || changed.has("language")) this.#build();
     else if (changed.has("layer")) this.#mark();
+  }
+
+  async #load(): Promise<void> {
+    try {
+      ({ default: this.#library } = await import("uplot"));
+    } catch (error) {
+      // Not there, or not able to start in this browser. Everything else works without it.
+      this.#resized?.disconnect();
+      this.failed = true;
+      const reason = error instanceof Error ? error.message : String(error);
+      const detail = new SlicerError("part-failed", `the chart could not be loaded: ${reason}`, { part: "chart" });
+      this.dispatchEvent(new CustomEvent<SlicerError>("cusp-error", { detail }));
+      return;
+    }
+    this.#build();
   }
 
   get #frame(): HTMLElement {
@@ -183,7 +207,8 @@ export class CuspChart extends LitElement {
     this.zoomed = false;
     this.hovered = null;
     const { data } = this;
-    if (data === null || !this.isConnected) return;
+    const library = this.#library;
+    if (library === null || data === null || !this.isConnected) return;
     const frame = this.#frame;
     const options = chartOptions(data, this.#theme(), this.language, [frame.clientWidth, frame.clientHeight]);
     const whole = data.profile.length * data.bin_mm;
@@ -204,7 +229,7 @@ export class CuspChart extends LitElement {
         },
       ],
     };
-    this.#plot = new uPlot(options, chartData(data), frame);
+    this.#plot = new library(options, chartData(data), frame);
     this.#place([0, whole]);
     this.#marker = document.createElement("div");
     this.#marker.className = "marker";

@@ -196,6 +196,8 @@ const PRINTER = {
   is_mirrored: true,
   step_mm: 0.002,
   format: "chitubox",
+  reads_format: false,
+  reads: ["goo"],
 } satisfies Offered["printers"][number];
 
 test("a printer gives the pixels and the limits of layers", () => {

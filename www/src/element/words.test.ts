@@ -298,6 +298,11 @@ test("the time left is guessed from what is done, not before there is something 
 test("a language is the first that there is a catalogue for, with the numbers of its country", () => {
   expect(languageOf("tlh", "de-CH").locale).toBe("de-CH");
   expect(languageOf("not a locale").locale).toBe("en");
+  // What browsers call their language where nobody told the system one.
+  for (const locale of ["C", "POSIX", "en-US@posix", "de_DE.UTF-8", ""]) {
+    expect(languageOf(locale).format.size(1.5)).toBe("1.5");
+    expect(languageOf(locale, "fr").locale).toBe("fr");
+  }
   expect(languageOf("de").format.size(1234.5)).toBe("1.234,5");
   expect(languageOf("fr").texts.plan.layers(1)).toBe("couche");
   expect(languageOf("fr").texts.plan.layers(2)).toBe("couches");
