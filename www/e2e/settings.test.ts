@@ -144,6 +144,14 @@ test("a printer gives pixels and file; a model too large for it is scaled to fit
   await settled(page);
   expect(await page.locator("details.figures").evaluate((it) => it.textContent)).toMatch(/1,620 × 2,560 pixels of 0\.05/);
   expect(await page.getByLabel("Resolution").count()).toBe(0);
+  await page.getByLabel("Printer").selectOption("Elegoo Saturn 3 Ultra");
+  await settled(page);
+  expect(await page.locator("#file").innerText()).toBe(
+    "A ChiTuBox zip. The Elegoo Saturn 3 Ultra reads .goo: convert it with UVtools first. " +
+      "The model prints as it is: no supports, not hollowed.",
+  );
+  await page.getByLabel("Printer").selectOption("Prusa SL1S SPEED");
+  await settled(page);
 
   await page.getByLabel("Scale to height").fill("120");
   await state(page, "error");
@@ -161,6 +169,7 @@ test("a printer gives pixels and file; a model too large for it is scaled to fit
   const file = page.locator("cusp-settings .field", { has: page.getByLabel("Print file") }).getByRole("alert");
   await file.getByRole("button", { name: "Uniform layers of 0.05 mm" }).click();
   await settled(page);
+  expect(await page.locator("#file").innerText()).toContain("The Prusa SL1S SPEED reads it directly.");
   const saved = await download(page);
-  expect(saved.suggestedFilename()).toBe("ball-cusp.sl1");
+  expect(saved.suggestedFilename()).toBe("ball-cusp.sl1s");
 });

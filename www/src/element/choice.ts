@@ -1,5 +1,5 @@
-/** Which files of a drop or a file dialogue are taken, and what is made of their names. */
-import type { Format } from "../api/wire.js";
+/** Which files of a drop or a file dialogue are taken, what is saved of a plan, and what files are called. */
+import type { Format, Options, Printer } from "../api/wire.js";
 
 export interface Named {
   readonly name: string;
@@ -29,7 +29,25 @@ const stemOf = (model: string): string => model.replace(/\.stl$/i, "").trim() ||
 /** What a file of weights is called: `bunny.stl` gives `bunny.weights`. */
 export const weightsName = (model: string): string => `${stemOf(model)}.weights`;
 
-/** What the print file is called: `bunny.stl` gives `bunny-cusp.zip`. */
-export function archiveName(model: string, format: Format): string {
-  return `${stemOf(model)}-cusp.${EXTENSIONS[format]}`;
+/** What a plan is saved as, and the printer that it is for, if it is one that is known by name. */
+export interface PrintFile {
+  format: Format;
+  printer: Printer | null;
+}
+
+/** What the plan for these options is saved as. */
+export function printFile({ printer, format }: Pick<Options, "printer" | "format">, printers: readonly Printer[]): PrintFile {
+  const known = printers.find(({ name }) => name === printer) ?? null;
+  return { format: format ?? known?.format ?? "png", printer: known };
+}
+
+/** Whether the printer reads the file as it is. */
+export function isRead({ format, printer }: PrintFile): boolean {
+  return printer !== null && printer.reads_format && printer.format === format;
+}
+
+/** What the print file is called: `bunny.stl` gives `bunny-cusp.zip`. Printers list files of their own extensions only. */
+export function archiveName(model: string, file: PrintFile): string {
+  const own = isRead(file) ? file.printer?.reads[0] : undefined;
+  return `${stemOf(model)}-cusp.${own ?? EXTENSIONS[file.format]}`;
 }

@@ -14,6 +14,7 @@ import { modelCard } from "./model-card.js";
 import type { Scaled } from "./model-view.js";
 import type { Painted } from "./events.js";
 import type { Panel } from "./panel-names.js";
+import { fileWords } from "./file-words.js";
 import { explain, type Problem } from "./problem.js";
 import { problemBox } from "./problem-box.js";
 import type { PlotPlace } from "./profile-chart.js";
@@ -159,9 +160,10 @@ function results(drawn: Drawn, result: Result): TemplateResult {
   const { layer, mask, busy, curve, shown, turning, settings } = session;
   const { texts } = language;
   const look = (event: CustomEvent<number>): void => session.look(event.detail);
-  const download = html`<button class="primary download" ?disabled=${busy !== null} @click=${save}>
-    ${texts.plan.download}
-  </button>`;
+  const download = html`<button class="primary download" aria-describedby="file" ?disabled=${busy !== null} @click=${save}>
+      ${texts.plan.download}
+    </button>
+    <p id="file" class="quiet">${fileWords(session.fileOf(result), result, language)}</p>`;
   return html`
     ${panels.has("plan")
       ? html`<section class="card span first" part="plan" aria-label=${texts.plan.region}>

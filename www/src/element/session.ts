@@ -8,7 +8,7 @@ import type { Model, Plan, Mask, Slicer, Watch } from "../api/index.js";
 import type { Backend, Candidate, Options, TradeoffPoint } from "../api/wire.js";
 import { sameRays } from "../api/wire.js";
 import type { Source } from "../api/source.js";
-import { archiveName, choose, weightsName } from "./choice.js";
+import { archiveName, choose, printFile, weightsName, type PrintFile } from "./choice.js";
 import { Curve } from "./curve.js";
 import { Directions } from "./directions.js";
 import { Follower, type Rotation } from "./follow.js";
@@ -283,13 +283,16 @@ export class Session extends Preferences {
     void this.#idle();
   }
 
+  /** What a result is saved as. */
+  fileOf({ options }: Result): PrintFile {
+    return printFile(options, this.printers);
+  }
+
   /** Makes the print file of the result on show; null if cancelled or failed. */
   async export(): Promise<Download | null> {
     const { result, model } = this;
     if (result === null || model === null || this.busy !== null) return null;
-    const { printer } = result.report;
-    const format = result.options.format ?? this.printers.find(({ name }) => name === printer)?.format ?? "png";
-    const name = archiveName(model.name, format);
+    const name = archiveName(model.name, this.fileOf(result));
     if (this.#archive?.of === result) return { name, blob: this.#archive.blob };
     this.failure = null;
     const blob = await this.#run("export", model.name, null, (watch) => this.#client.export(undefined, watch));

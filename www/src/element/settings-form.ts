@@ -1,8 +1,9 @@
 /** The settings as a form. It holds nothing: it shows what it is given and says what was typed. */
 import { css, html, LitElement, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
-import { DEFAULTS, type MeshInfo } from "../api/wire.js";
+import { DEFAULTS, type Format, type MeshInfo } from "../api/wire.js";
 import { languageOf, type Language } from "../texts/index.js";
+import { printFile } from "./choice.js";
 import { METRIC_NAMES, METRICS } from "./metric.js";
 import type { Choice, Problem } from "./problem.js";
 import { problemBox, problemStyles } from "./problem-box.js";
@@ -222,7 +223,7 @@ export class CuspSettings extends LitElement {
             ...(settings.printer === "" ? [] : [["", words.formatUsual] as const]),
             ...FORMATS.map((format) => [format, words.formats[format]] as const),
           ],
-          settings.format === "sl1" && !isUniform ? words.formatUniform : "",
+          this.#file === "sl1" && !isUniform ? words.formatUniform : "",
           settings.format === "" && settings.printer === "" ? "png" : settings.format,
         )}
         ${offered.resins.length === 0
@@ -235,6 +236,12 @@ export class CuspSettings extends LitElement {
         ${this.#more(isUniform)}
       </form>
     `;
+  }
+
+  /** The print file that these settings give. */
+  get #file(): Format {
+    const { printer, format } = this.settings;
+    return printFile({ printer, ...(format !== "" && { format }) }, this.offered.printers).format;
   }
 
   #plannerHint(): string {

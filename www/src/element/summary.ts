@@ -41,6 +41,12 @@ export const summaryStyles = css`
     max-width: 34rem;
     text-wrap: pretty;
   }
+  /* A line of its own below the number and the button. */
+  #file {
+    flex-basis: 100%;
+    padding-inline-end: max(0px, 100% - 44rem);
+    text-wrap: pretty;
+  }
   table {
     width: 100%;
     margin-top: 1.25rem;
@@ -131,7 +137,7 @@ export const summaryStyles = css`
   }
 `;
 
-/** `shown` is what is being looked at: a glance, while the model is turned. `note` comes first, if there is one; `action` stands beside the number: the download. */
+/** `shown` is what is being looked at: a glance, while the model is turned. `note` comes first, if there is one; `action` stands beside the number: the download, and what to know before it. */
 export function summary(
   result: Result,
   shown: Pick<Shown, "layers" | "print_time_s">,

@@ -1,14 +1,15 @@
 import { expect, test } from "vitest";
-import { archiveName, choose } from "./choice.js";
+import { archiveName, choose, printFile } from "./choice.js";
 import { rows, sentence as sentenceIn, type Compared } from "./comparison.js";
 import { SlicerError, ERROR_CODES, type ErrorCode } from "../api/error.js";
-import { languageOf, LANGUAGES } from "../texts/index.js";
+import { languageOf, LANGUAGES, type Language } from "../texts/index.js";
+import { fileWords } from "./file-words.js";
 import { explain as explainIn } from "./problem.js";
 import { standing } from "./progress.js";
 import { gainWords, pictureOf } from "./quality.js";
 import * as round from "./round.js";
 import { check, DEFAULT_SETTINGS, type Settings } from "./settings.js";
-import type { Options, PlannerReport, Report, Stage } from "../api/wire.js";
+import type { Options, PlannerReport, Printer, Report, Stage } from "../api/wire.js";
 
 const english = languageOf("en");
 const { format } = english;
@@ -254,10 +255,47 @@ test.each([
   expect(choose(names.map((name) => ({ name })))).toEqual(choice);
 });
 
+const PRINTERS = (
+  [
+    ["saturn", "Saturn", "chitubox", ["ctb", "goo"], false],
+    ["shuffle", "Shuffle", "chitubox", ["zip"], true],
+    ["sl1s", "SL1S", "sl1", ["sl1s"], true],
+  ] as const
+).map(([name, model, format, reads, reads_format]): Printer => ({
+  ...{ name, model, format, reads: [...reads], reads_format },
+  ...{ pixels: [100, 100], pitch_um: [50, 50], volume_mm: [5, 5, 5], layer_mm: [0.02, 0.2], is_mirrored: true, step_mm: 0.002 },
+}));
+
 test("the print file is named after the model and its kind", () => {
-  expect(archiveName("bunny.stl", "png")).toBe("bunny-cusp.zip");
-  expect(archiveName("part.v2.STL", "sl1")).toBe("part.v2-cusp.sl1");
-  expect(archiveName(".stl", "chitubox")).toBe("model-cusp.zip");
+  const alone = { printer: null };
+  expect(archiveName("bunny.stl", { ...alone, format: "png" })).toBe("bunny-cusp.zip");
+  expect(archiveName("part.v2.STL", { ...alone, format: "sl1" })).toBe("part.v2-cusp.sl1");
+  expect(archiveName(".stl", { ...alone, format: "chitubox" })).toBe("model-cusp.zip");
+  // A printer that reads the file looks for its own extension.
+  expect(archiveName("a.stl", printFile({ printer: "sl1s" }, PRINTERS))).toBe("a-cusp.sl1s");
+  expect(archiveName("a.stl", printFile({ printer: "sl1s", format: "uvj" }, PRINTERS))).toBe("a-cusp.uvj");
+  expect(archiveName("a.stl", printFile({ printer: "saturn" }, PRINTERS))).toBe("a-cusp.zip");
+});
+
+test.each<[string, Parameters<typeof printFile>[0], Report["planner"], string]>([
+  ["no printer", {}, "optimal", "A zip of layer images."],
+  ["no printer, a format", { format: "chitubox" }, "optimal", "A ChiTuBox zip."],
+  ["one that needs a converter", { printer: "saturn" }, "optimal", "A ChiTuBox zip. The Saturn reads .ctb or .goo: convert it with UVtools first."],
+  ["one that reads it", { printer: "shuffle" }, "optimal", "A ChiTuBox zip. The Shuffle reads it directly."],
+  ["one that reads another zip", { printer: "shuffle", format: "png" }, "optimal", "A zip of layer images. The Shuffle cannot read it."],
+  ["one that reads uniform layers", { printer: "sl1s" }, "uniform", "A Prusa SL1 file. The SL1S reads it directly."],
+  [
+    "one that reads uniform layers alone",
+    { printer: "sl1s" },
+    "optimal",
+    "A Prusa SL1 file. This file has one thickness for all layers: choose uniform ones for it.",
+  ],
+])("before the download, %s: what the file is and what it needs", (_name, options, planner, said) => {
+  const words = (language: Language): string => fileWords(printFile(options, PRINTERS), { report: report({ planner }) }, language);
+  expect(words(english)).toBe(`${said} The model prints as it is: no supports, not hollowed.`);
+  const others = LANGUAGES.map((code) => words(languageOf(code)));
+  expect(new Set(others).size).toBe(LANGUAGES.length);
+  for (const other of others) expect(other).not.toContain("undefined");
 });
 
 test("numbers as people read them", () => {

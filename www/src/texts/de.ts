@@ -148,6 +148,19 @@ export const de = ({ counted, plural }: Format): Texts => ({
     within: "innerhalb der Toleranz",
     over: "über der Toleranz",
   },
+  file: {
+    kinds: {
+      png: "Ein Zip mit Bildern der Schichten.",
+      chitubox: "Ein ChiTuBox-Zip.",
+      uvj: "Eine UVJ-Datei.",
+      sl1: "Eine Prusa-SL1-Datei.",
+    },
+    direct: (printer) => `Der ${printer} liest diese Datei direkt.`,
+    convert: (printer, extensions) => `Der ${printer} liest ${extensions}: wandeln Sie die Datei vorher mit UVtools um.`,
+    unreadable: (printer) => `Der ${printer} kann diese Datei nicht lesen.`,
+    asIs: "Das Modell wird gedruckt, wie es ist: ohne Stützen, nicht ausgehöhlt.",
+    together: (sentences) => sentences.join(" "),
+  },
   gain: {
     over: (error, tolerance) => `Der Fehler erreicht ${error}, mehr als die erlaubten ${tolerance}.`,
     isUniform: (tolerance) => `Gleichmäßige Schichten, überall innerhalb von ${tolerance}. Adaptiv reichen vielleicht weniger.`,

@@ -153,6 +153,20 @@ export const en = ({ counted, plural }: Format) => ({
     within: "within tolerance",
     over: "over tolerance",
   },
+  /** Before the download: what the file is, what the printer makes of it, and what nobody added to the model. */
+  file: {
+    kinds: {
+      png: "A zip of layer images.",
+      chitubox: "A ChiTuBox zip.",
+      uvj: "A UVJ file.",
+      sl1: "A Prusa SL1 file.",
+    },
+    direct: (printer: string) => `The ${printer} reads it directly.`,
+    convert: (printer: string, extensions: string) => `The ${printer} reads ${extensions}: convert it with UVtools first.`,
+    unreadable: (printer: string) => `The ${printer} cannot read it.`,
+    asIs: "The model prints as it is: no supports, not hollowed.",
+    together: (sentences: readonly string[]) => sentences.join(" "),
+  },
   /** What the plan gains over uniform ones; `uniform` is a thickness, `figure` a number of layers or a time. */
   gain: {
     over: (error: string, tolerance: string) => `The error reaches ${error}, more than the ${tolerance} allowed.`,

@@ -148,6 +148,19 @@ export const es = ({ counted, plural }: Format): Texts => ({
     within: "dentro de la tolerancia",
     over: "fuera de la tolerancia",
   },
+  file: {
+    kinds: {
+      png: "Un zip con imágenes de las capas.",
+      chitubox: "Un zip de ChiTuBox.",
+      uvj: "Un archivo UVJ.",
+      sl1: "Un archivo Prusa SL1.",
+    },
+    direct: (printer) => `La ${printer} lo lee directamente.`,
+    convert: (printer, extensions) => `La ${printer} lee ${extensions}: conviértalo antes con UVtools.`,
+    unreadable: (printer) => `La ${printer} no puede leerlo.`,
+    asIs: "El modelo se imprime tal cual: sin soportes ni vaciado.",
+    together: (sentences) => sentences.join(" "),
+  },
   gain: {
     over: (error, tolerance) => `El error llega a ${error}, más que los ${tolerance} permitidos.`,
     isUniform: (tolerance) => `Capas uniformes, siempre dentro de ${tolerance}. Con adaptativas quizá basten menos.`,

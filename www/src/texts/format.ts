@@ -70,6 +70,8 @@ export function formatOf(locale: string, { hours, minutes }: TimeUnits) {
       if (ms < 995) return `${number(ms, { maximumFractionDigits: 0 })}\u00a0ms`;
       return `${number(ms / 1000, { minimumFractionDigits: 1, maximumFractionDigits: 1 })}\u00a0s`;
     },
+    /** Some of which one will do: `.ctb or .goo`. */
+    either: (items: readonly string[]): string => new Intl.ListFormat(locale, { type: "disjunction" }).format(items),
     /** Width × depth × height: `60.0 × 46.5 × 59.5 mm`. */
     dimensions: (mm: readonly [number, number, number]): string => `${mm.map(size).join(" × ")}\u00a0mm`,
   };

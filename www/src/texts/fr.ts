@@ -148,6 +148,19 @@ export const fr = ({ counted, plural }: Format): Texts => ({
     within: "dans la tolérance",
     over: "hors tolérance",
   },
+  file: {
+    kinds: {
+      png: "Un zip d’images des couches.",
+      chitubox: "Un zip ChiTuBox.",
+      uvj: "Un fichier UVJ.",
+      sl1: "Un fichier Prusa SL1.",
+    },
+    direct: (printer) => `L’imprimante ${printer} le lit directement.`,
+    convert: (printer, extensions) => `L’imprimante ${printer} lit ${extensions} : convertissez-le d’abord avec UVtools.`,
+    unreadable: (printer) => `L’imprimante ${printer} ne peut pas le lire.`,
+    asIs: "Le modèle est imprimé tel quel : sans supports ni évidement.",
+    together: (sentences) => sentences.join(" "),
+  },
   gain: {
     over: (error, tolerance) => `L’erreur atteint ${error}, plus que les ${tolerance} permis.`,
     isUniform: (tolerance) => `Couches uniformes, partout à ${tolerance} près. Adaptatives, il en faudrait peut-être moins.`,

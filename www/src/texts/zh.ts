@@ -146,6 +146,19 @@ export const zh = ({ count: number }: Format): Texts => ({
     within: "在公差内",
     over: "超出公差",
   },
+  file: {
+    kinds: {
+      png: "各层图像的 zip 文件。",
+      chitubox: "ChiTuBox zip 文件。",
+      uvj: "UVJ 文件。",
+      sl1: "Prusa SL1 文件。",
+    },
+    direct: (printer) => `${printer} 可直接读取。`,
+    convert: (printer, extensions) => `${printer} 读取 ${extensions}：请先用 UVtools 转换。`,
+    unreadable: (printer) => `${printer} 无法读取。`,
+    asIs: "模型按原样打印：未加支撑，未抽壳。",
+    together: (sentences) => sentences.join(""),
+  },
   gain: {
     over: (error, tolerance) => `误差达到 ${error}，超过允许的 ${tolerance}。`,
     isUniform: (tolerance) => `均匀分层，全高在 ${tolerance} 以内。自适应分层可能需要更少的层。`,
