@@ -289,18 +289,19 @@ test("taken out of the page it rests, and put back it works on", async () => {
 
 test("a part that cannot be fetched says so in its panel and to the page, and comes when it is tried again", async () => {
   const page = await start("");
-  const blocked = /\/(cusp-view|portraits)-[^/]*\.js$/;
+  const blocked = /\/(cusp-view|portraits|uPlot)[^/]*\.js$/;
   await page.route(blocked, (route) => route.abort());
   await page.evaluate(() =>
     document.body.append(
       document
         .createRange()
-        .createContextualFragment(`<cusp-slicer id="a" src="ball.stl" panels="plan view direction" locale="en"></cusp-slicer>`),
+        .createContextualFragment(`<cusp-slicer id="a" src="ball.stl" panels="plan view profile direction" locale="en"></cusp-slicer>`),
     ),
   );
   await done(page, "a");
   const failure = (panel: string): Locator => page.locator(`${panel} .part-failed`);
   await failure("cusp-model").waitFor();
+  await failure("cusp-chart").waitFor();
   expect(await failure("cusp-model").innerText()).toContain("This part of the page could not be loaded.");
   await page.getByRole("button", { name: "Find the best direction" }).click();
   await failure("cusp-direction").waitFor();
@@ -309,13 +310,17 @@ test("a part that cannot be fetched says so in its panel and to the page, and co
       .filter(([, name]) => name === "cusp-error")
       .map(([id, , { code, detail }]) => ({ id, code, detail })),
   );
-  expect(errors).toEqual(["view", "pictures"].map((part) => ({ id: "a", code: "part-failed", detail: { part } })));
+  const expected = ["view", "chart", "pictures"].map((part) => ({ id: "a", code: "part-failed", detail: { part } }));
+  expect(errors).toHaveLength(expected.length);
+  expect(errors).toEqual(expect.arrayContaining(expected));
   // The plan is as good as before.
   expect(await page.locator("#a").getAttribute("state")).toBe("done");
 
   await page.unroute(blocked);
   await failure("cusp-model").getByRole("button", { name: "Try again" }).click();
   await page.locator("cusp-view").waitFor();
+  await failure("cusp-chart").getByRole("button", { name: "Try again" }).click();
+  await page.locator("cusp-chart .plot canvas").waitFor();
   await failure("cusp-direction").getByRole("button", { name: "Try again" }).click();
   await page.locator("cusp-direction canvas[data-drawn]").first().waitFor();
   expect(await page.locator(".part-failed").count()).toBe(0);

@@ -362,7 +362,6 @@ export class CuspSlicer extends LitElement implements Host {
       picked: this.#picked,
       save: this.#save,
       saveWeights: this.#saveWeights,
-      partFailed: (error) => this.#tell("cusp-error", error),
     });
   }
 

@@ -1,6 +1,5 @@
 /** What an element looks like, as a function of what its session says. */
 import { html, nothing, type TemplateResult } from "lit";
-import type { SlicerError } from "../api/error.js";
 import type { Slicer } from "../api/index.js";
 import type { Candidate } from "../api/wire.js";
 import type { Language } from "../texts/index.js";
@@ -37,8 +36,6 @@ export interface Facts {
   picked(event: Event): void;
   save(): void;
   saveWeights(): void;
-  /** A part of what is shown could not be loaded. */
-  partFailed(error: SlicerError): void;
 }
 
 interface Drawn extends Facts {
@@ -156,7 +153,7 @@ function waiting({ session, language }: Drawn): TemplateResult {
 }
 
 function results(drawn: Drawn, result: Result): TemplateResult {
-  const { session, language, panels, slicer, save, saveWeights, partFailed } = drawn;
+  const { session, language, panels, slicer, save, saveWeights } = drawn;
   const { layer, mask, busy, curve, shown, turning, settings } = session;
   const { texts } = language;
   const look = (event: CustomEvent<number>): void => session.look(event.detail);
@@ -202,7 +199,6 @@ function results(drawn: Drawn, result: Result): TemplateResult {
             .language=${language}
             @cusp-layer=${look}
             @cusp-plot=${placed}
-            @cusp-error=${(event: CustomEvent<SlicerError>) => partFailed(event.detail)}
           ></cusp-chart>
         </section>`
       : nothing}

@@ -3,8 +3,8 @@ import { css, html, type TemplateResult } from "lit";
 import { SlicerError } from "../api/error.js";
 import type { Language } from "../texts/index.js";
 
-/** The 3-D view; the pictures of the best directions. */
-export type Part = "view" | "pictures";
+/** The 3-D view; the pictures of the best directions; the chart of the profile. */
+export type Part = "view" | "pictures" | "chart";
 
 /** Tells the page. The panel's event passes for one of the element, whose plan is as good as before. */
 export function tellPartFailed(panel: HTMLElement, part: Part, cause: unknown): void {

@@ -77,7 +77,6 @@ const KINDS: Readonly<Record<Exclude<ErrorCode, "infeasible">, Kind>> = {
   "file-unreadable": "unreadable",
   "fetch-failed": "notFetched",
   "start-failed": "startFailed",
-  "part-failed": "other",
   crash: "crash",
   "part-failed": "other",
   "no-browser": "other",

@@ -2,12 +2,12 @@
 import { css, html, LitElement, unsafeCSS, type PropertyValues, type TemplateResult } from "lit";
 import type uPlot from "uplot";
 import uplotStyles from "uplot/dist/uPlot.min.css?inline";
-import { SlicerError } from "../api/error.js";
 import { chartData, chartOptions, type ChartData, type ChartTheme } from "./chart.js";
 import { gradient } from "../view/palette.js";
 import { languageOf, type Language } from "../texts/index.js";
 import { layerAt } from "../view/lookup.js";
 import { METRICS } from "./metric.js";
+import { partFailure, partStyles, tellPartFailed } from "./part.js";
 import { shared } from "./styles.js";
 
 /** Where the chart shows which heights. */
@@ -58,6 +58,7 @@ export class CuspChart extends LitElement {
   static override styles = [
     unsafeCSS(uplotStyles),
     shared,
+    partStyles,
     css`
       :host {
         display: block;
@@ -117,7 +118,7 @@ export class CuspChart extends LitElement {
   override render(): TemplateResult {
     const [min, max] = this.data?.limits ?? [0, 0];
     const { texts, format } = this.language;
-    if (this.failed) return html`<div class="head"><h3>${texts.chart.title}</h3></div><p class="quiet">${texts.partFailed}</p>`;
+    if (this.failed) return html`<div class="head"><h3>${texts.chart.title}</h3></div>${partFailure(this.language, () => void this.#load())}`;
     return html`
       <div class="head">
         <h3>${texts.chart.title}</h3>
@@ -150,8 +151,6 @@ export class CuspChart extends LitElement {
   }
 
   override firstUpdated(): void {
-    this.#resized = new ResizeObserver(() => this.#fit());
-    this.#resized.observe(this.#frame);
     void this.#load();
   }
 
@@ -163,15 +162,17 @@ export class CuspChart extends LitElement {
   async #load(): Promise<void> {
     try {
       ({ default: this.#library } = await import("uplot"));
+      this.failed = false;
     } catch (error) {
       // Not there, or not able to start in this browser. Everything else works without it.
-      this.#resized?.disconnect();
       this.failed = true;
-      const reason = error instanceof Error ? error.message : String(error);
-      const detail = new SlicerError("part-failed", `the chart could not be loaded: ${reason}`, { part: "chart" });
-      this.dispatchEvent(new CustomEvent<SlicerError>("cusp-error", { detail }));
+      tellPartFailed(this, "chart", error);
       return;
     }
+    await this.updateComplete;
+    if (!this.isConnected) return;
+    this.#resized = new ResizeObserver(() => this.#fit());
+    this.#resized.observe(this.#frame);
     this.#build();
   }
 

@@ -349,7 +349,6 @@ export const de = ({ counted, plural }: Format): Texts => ({
     left: (seconds) => `noch etwa ${seconds}`,
     cancel: "Abbrechen",
   },
-  partFailed: "Dieser Teil konnte nicht geladen werden.",
   notices: {
     cancelled: "Abgebrochen.",
     exportCancelled: "Der Download wurde abgebrochen.",

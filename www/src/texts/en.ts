@@ -349,8 +349,6 @@ export const en = ({ counted, plural }: Format) => ({
     left: (seconds: string) => `about ${seconds} left`,
     cancel: "Cancel",
   },
-  /** In place of a part of the element that is loaded by itself. */
-  partFailed: "This part could not be loaded.",
   notices: {
     cancelled: "Cancelled.",
     exportCancelled: "The download was cancelled.",

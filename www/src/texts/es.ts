@@ -349,7 +349,6 @@ export const es = ({ counted, plural }: Format): Texts => ({
     left: (seconds) => `quedan unos ${seconds}`,
     cancel: "Cancelar",
   },
-  partFailed: "No se pudo cargar esta parte.",
   notices: {
     cancelled: "Cancelado.",
     exportCancelled: "Se canceló la descarga.",

@@ -349,7 +349,6 @@ export const fr = ({ counted, plural }: Format): Texts => ({
     left: (seconds) => `encore ${seconds} environ`,
     cancel: "Annuler",
   },
-  partFailed: "Cette partie n’a pas pu être chargée.",
   notices: {
     cancelled: "Annulé.",
     exportCancelled: "Le téléchargement a été annulé.",

@@ -343,7 +343,6 @@ export const zh = ({ count: number }: Format): Texts => ({
     left: (seconds) => `约剩 ${seconds}`,
     cancel: "取消",
   },
-  partFailed: "此部分未能加载。",
   notices: {
     cancelled: "已取消。",
     exportCancelled: "下载已取消。",
