@@ -9,6 +9,7 @@ use crate::exposure::Resin;
 use crate::mesh::Mesh;
 use crate::options::Options;
 use crate::plan::tradeoff::TradeoffPoint;
+use crate::printer::Printer;
 use crate::profile::{Metric, Source};
 use crate::warning::Warning;
 
@@ -130,18 +131,24 @@ pub struct MaskReport {
 pub struct PrintFileReport {
     /// The format asked for, or the printer's own.
     pub format: Format,
-    /// What its name ends with, without a dot.
+    /// What its name ends with, without a dot: what the printer looks for if it reads the file, else the format's own.
     pub extension: String,
     /// Its media type.
     pub media_type: String,
+    /// Whether the printer, if one was named, reads it without a converter.
+    pub is_read_by_printer: bool,
 }
 
-impl From<Format> for PrintFileReport {
-    fn from(format: Format) -> Self {
+impl PrintFileReport {
+    /// Describes a file of `format` for a printer.
+    pub fn new(format: Format, printer: Option<&Printer>) -> Self {
+        let reader = printer.filter(|printer| printer.reads_format && printer.format == format);
+        let own = reader.and_then(|printer| printer.reads.first().copied());
         Self {
             format,
-            extension: format.extension().to_owned(),
+            extension: own.unwrap_or(format.extension()).to_owned(),
             media_type: format.media_type().to_owned(),
+            is_read_by_printer: reader.is_some(),
         }
     }
 }

@@ -23,7 +23,7 @@ use crate::profile::relief::Relief;
 use crate::profile::{Metric, Profile, Source, section};
 use crate::progress::Progress;
 use crate::report::{
-    Comparison, Glance, MaskReport, MeshInfo, Report, SCHEMA, StlReport, Timings, Tradeoff,
+    Comparison, Glance, MaskReport, MeshInfo, PrintFileReport, Report, SCHEMA, StlReport, Timings, Tradeoff,
     mesh_warnings,
 };
 use crate::warning::Warning;
@@ -725,7 +725,7 @@ impl Sampled {
                 antialias: options.antialias,
                 is_mirrored: options.is_mirrored()?,
             },
-            print_file: options.format()?.into(),
+            print_file: PrintFileReport::new(options.format()?, options.printer()?),
             warnings,
             timings_ms,
         })

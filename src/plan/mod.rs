@@ -50,7 +50,7 @@ pub struct HeightRange {
 
 /// Why there is no plan.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]
 #[serde(tag = "code", content = "detail")]
 #[non_exhaustive]
 pub enum PlanError {

@@ -54,7 +54,7 @@ test("from a file to a print file: by address, bytes, Blob; whole and in chunks 
     const mask = await slicer.mask(Math.floor(report.layers / 2));
     const curve = await slicer.tradeoff({ rays: 512 }, 5);
     const comparison = await slicer.compare({ rays: 512 });
-    const whole = new Uint8Array(await (await slicer.export()).arrayBuffer());
+    const whole = new Uint8Array(await (await slicer.export()).blob.arrayBuffer());
     const streamed = new Uint8Array(await new Response(slicer.exportStream()).arrayBuffer());
     const bytes = await (await fetch("ball.stl")).arrayBuffer();
     const again = await slicer.load(bytes);
@@ -94,6 +94,25 @@ test("it works where there is no WebGPU, and says so", async () => {
   expect(backend).toEqual(["cpu", null]);
 });
 
+test("a call that is not awaited takes its place: the plan is of the model that is being loaded", async () => {
+  const found = await page.evaluate(async () => {
+    const slicer = window.api.createSlicer();
+    await slicer.load("ball.stl");
+    void slicer.load("goblet.stl");
+    const [{ report }, { report: preview }, file] = await Promise.all([
+      slicer.plan({ rays: 512, format: "uvj" }),
+      slicer.glance({ rays: 512 }),
+      slicer.export(),
+    ]);
+    slicer.dispose();
+    const { name, type, warnings } = file;
+    return { bytes: report.stl.bytes, height_mm: preview.size_mm[2], file: { name, type }, isSame: warnings.length === report.warnings.length };
+  });
+  expect(found).toMatchObject({ bytes: goblet.byteLength, isSame: true });
+  expect(found.height_mm).toBeGreaterThan(20.1);
+  expect(found.file).toEqual({ name: "goblet-cusp.uvj", type: "application/octet-stream" });
+});
+
 test("errors have codes of the list, and details", async () => {
   const codes = await page.evaluate(async () => {
     const { createSlicer, SlicerError, ERROR_CODES } = window.api;
@@ -104,12 +123,13 @@ test("errors have codes of the list, and details", async () => {
         return "nothing was thrown";
       } catch (error) {
         if (!(error instanceof SlicerError) || !(error.code in ERROR_CODES)) return String(error);
-        return error.detail === null ? error.code : [error.code, Object.keys(error.detail).sort()];
+        return error.detail === null ? error.code : [error.code, Object.keys(error.detail as object).sort()];
       }
     };
     const found = [
       await code(slicer.plan()),
       await code(slicer.load("bad.stl")),
+      await code(slicer.load(new Blob(["PK\u0003\u0004 [Content_Types].xml"]))),
       await code(slicer.load("nowhere.stl")),
       await code(slicer.load("ball.stl")),
       await code(slicer.mask(0)),
@@ -122,6 +142,7 @@ test("errors have codes of the list, and details", async () => {
   expect(codes).toEqual([
     "no-model",
     "stl-not-stl",
+    ["other-file-kind", ["kind"]],
     ["fetch-failed", ["status"]],
     "nothing was thrown",
     "no-plan",
@@ -173,7 +194,7 @@ test("what waits for its turn is aborted at once, and a stream that is cancelled
     const reader = slicer.exportStream().getReader();
     await reader.read();
     await reader.cancel();
-    const { size } = await slicer.export();
+    const { size } = (await slicer.export()).blob;
     slicer.dispose();
     const disposed = await slicer.plan().catch((error: Error) => error.name);
     return { second, layers: report.layers, size, disposed };

@@ -135,6 +135,27 @@ test("methods: load, plan, export, cancel", async () => {
   expect(await events(page, "a")).toContain("cusp-error");
 });
 
+test("a thumbnail is a PNG of the model in its layers", async () => {
+  const page = await start(`<cusp-slicer id="a" src="ball.stl" panels="plan"></cusp-slicer>`);
+  await done(page, "a");
+  const found = await page.evaluate(async () => {
+    const blob = await document.querySelector<CuspSlicer>("#a")?.thumbnail(120);
+    if (blob === undefined) throw new Error("there is no element");
+    const picture = await createImageBitmap(blob);
+    const canvas = new OffscreenCanvas(picture.width, picture.height);
+    const pen = canvas.getContext("2d");
+    pen?.drawImage(picture, 0, 0);
+    const { data = new Uint8ClampedArray() } = pen?.getImageData(0, 0, picture.width, picture.height) ?? {};
+    const at = (x: number, y: number): number[] => [...data.slice(4 * (y * picture.width + x), 4 * (y * picture.width + x) + 4)];
+    const colours = new Set<string>();
+    for (let y = 0; y < picture.height; y++) colours.add(at(60, y).join());
+    return { type: blob.type, size: [picture.width, picture.height], corner: at(0, 0)[3], middle: at(60, 60)[3], colours: colours.size };
+  });
+  expect(found).toMatchObject({ type: "image/png", size: [120, 120], corner: 0, middle: 255 });
+  // The ball has thin layers at its poles and thick ones at its equator.
+  expect(found.colours).toBeGreaterThan(10);
+});
+
 test("a shop takes the print file instead of the browser", async () => {
   const page = await start(`<cusp-slicer id="a" src="ball.stl" format="uvj"></cusp-slicer>`);
   await done(page, "a");

@@ -1,10 +1,11 @@
 /** Failures as data: a code for programs, a sentence for people, and typed details. */
-import type { CuspError } from "../../pkg/cusp_slicer.js";
+import type { CoreError } from "../../pkg/cusp_slicer.js";
 
 /** Every code that {@link SlicerError} can have, and what it means. A code once published keeps its meaning. */
 export const ERROR_CODES = {
   "stl-empty": "The file has no bytes.",
   "stl-not-stl": "Neither a binary STL nor text that begins with `solid`.",
+  "other-file-kind": "A file of another kind, which `detail.kind` names.",
   "stl-truncated": "The file ends before its facets do.",
   "stl-wrong-facet-count": "A binary STL with more facets than its header announces.",
   "stl-not-finite": "A coordinate is NaN or infinite.",
@@ -53,39 +54,81 @@ export const ERROR_CODES = {
   "part-failed": "A part of the element, which `detail.part` names, could not be loaded; what is on show stays.",
   "no-browser": "There is no browser, such as on a server: nothing can be sliced there.",
   crash: "The worker broke down; the next call starts another.",
-} as const;
+} as const satisfies Record<ErrorCode, string>;
 
-export type ErrorCode = keyof typeof ERROR_CODES;
+/** Errors that only this side gives, with their details. */
+interface OwnDetails {
+  "bad-attribute": { attribute: string; value: unknown; known?: readonly string[] };
+  "part-failed": { part: string };
+  "no-browser": null;
+  "no-model": null;
+  "file-unreadable": null;
+  "fetch-failed": { status: number } | null;
+  "start-failed": null;
+  crash: null;
+}
+
+type DetailOf<E> = E extends { detail: infer Detail } ? Detail : null;
+
+/** The details of each code. Lengths are in mm. */
+export type ErrorDetails = { [E in CoreError as E["code"]]: DetailOf<E> } & OwnDetails;
+
+export type ErrorCode = keyof ErrorDetails;
 
 export function isErrorCode(code: string): code is ErrorCode {
   return Object.hasOwn(ERROR_CODES, code);
 }
 
-/** What every call rejects with, but for an abort, which is a `DOMException` of the name `AbortError`. */
-export class SlicerError extends Error {
-  readonly code: ErrorCode;
-  /** Typed details of the code, such as `least_tolerance`; null where there are none. Lengths are in mm. */
-  readonly detail: Readonly<Record<string, unknown>> | null;
+/** One kind of error: its code tells what its details are. */
+interface SlicerErrorOf<Code extends ErrorCode> extends Error {
+  readonly name: "SlicerError";
+  readonly code: Code;
+  /** Typed details of the code, such as `least_tolerance`; null where there are none. */
+  readonly detail: ErrorDetails[Code];
+}
 
-  constructor(code: ErrorCode, message: string, detail: Record<string, unknown> | null = null) {
+/**
+ * What every call rejects with, except for an abort, which is the signal's reason. A union over all codes: after
+ * `error.code === "infeasible"`, `error.detail.least_tolerance` is known to be there.
+ */
+export type SlicerError = { [Code in ErrorCode]: SlicerErrorOf<Code> }[ErrorCode];
+
+interface SlicerErrorConstructor {
+  new <Code extends ErrorCode>(
+    code: Code,
+    message: string,
+    ...detail: null extends ErrorDetails[Code] ? [detail?: ErrorDetails[Code]] : [detail: ErrorDetails[Code]]
+  ): SlicerErrorOf<Code> & SlicerError;
+  readonly prototype: SlicerError;
+}
+
+export const SlicerError = class SlicerError extends Error {
+  readonly code: ErrorCode;
+  readonly detail: unknown;
+
+  constructor(code: ErrorCode, message: string, detail: unknown = null) {
     super(message);
     this.name = "SlicerError";
     this.code = code;
     this.detail = detail;
   }
-}
+} as unknown as SlicerErrorConstructor;
 
-export function isAbort(error: unknown): boolean {
-  return error instanceof DOMException && error.name === "AbortError";
+/** Whether a call was stopped: by its `signal` for whatever reason, or by one that timed out or was aborted. */
+export function isAbort(error: unknown, signal?: AbortSignal): boolean {
+  if (signal?.aborted === true && error === signal.reason) return true;
+  return error instanceof DOMException && (error.name === "AbortError" || error.name === "TimeoutError");
 }
 
 /** What the core threw, if it is an error that it describes: it crosses to this side as a plain object. */
 export function ofCore(value: unknown): SlicerError | null {
   if (value instanceof SlicerError) return value;
   if (typeof value !== "object" || value === null || value instanceof Error) return null;
-  const { code, message, detail } = value as Partial<CuspError>;
+  const { code, message, detail } = value as Record<string, unknown>;
   if (typeof code !== "string" || typeof message !== "string") return null;
-  return new SlicerError(isErrorCode(code) ? code : "crash", message, detail ?? null);
+  const described = isErrorCode(code) ? { code, detail: detail ?? null } : { code: "crash" as const, detail: null };
+  // What the core says of itself is what its types say.
+  return new SlicerError(described.code as "crash", message, described.detail as null);
 }
 
 /** Anything that was thrown as one of these errors; what nobody described means that something broke. */

@@ -4,6 +4,14 @@ import { resolve } from "./source.js";
 import type { Engine } from "./lane.js";
 import type { Glance, MeshInfo, Options, Profiled, Report, SlicerWorker } from "./wire.js";
 
+/** What the fakes report: masks are as wide as the tolerance says. */
+const reportOf = ({ tolerance = 9 }: Options): Report =>
+  ({
+    mask: { width: tolerance, height: 2 },
+    print_file: { format: "uvj", extension: "uvj", media_type: "application/octet-stream" },
+    warnings: [{ code: "inside-out" }],
+  }) as unknown as Report;
+
 /** A slicer over fake workers, and what these were asked. */
 function faked(): { slicer: Slicer; log: string[] } {
   const log: string[] = [];
@@ -19,7 +27,7 @@ function faked(): { slicer: Slicer; log: string[] } {
       },
       plan: async (options) => {
         say(`plan ${options.tolerance}`);
-        return { report: { mask: { width: 9, height: 2 } } as Report, profile: new Float32Array(1) };
+        return { report: reportOf(options), profile: new Float32Array(1) };
       },
       tradeoff: async (_options: Options, points) => {
         say(`tradeoff ${points}`);
@@ -92,7 +100,7 @@ test("a stream that fails says why, and one that nobody wants any more ends the 
   await slicer.load(new Blob(["a"]));
   await slicer.exportStream({}).cancel();
   expect(log.filter((line) => line.endsWith("ended")).length).toBeLessThanOrEqual(1);
-  expect(await (await slicer.export({})).text()).toBe("zip");
+  expect(await (await slicer.export({})).blob.text()).toBe("zip");
 });
 
 test("live figures have a worker of their own, which reads the model when first asked", async () => {
@@ -174,4 +182,51 @@ test("an address that does not answer is an error with a code; an aborted one is
   await expect(resolve("nonsense:x")).rejects.toMatchObject({ code: "fetch-failed" });
   const signal = AbortSignal.abort();
   await expect(resolve("data:,x", signal)).rejects.toMatchObject({ name: "AbortError" });
+});
+
+test("a print file has a name, a type and what there is to know", async () => {
+  const { slicer } = faked();
+  await slicer.load(new Blob(["a"]), { name: "cup.STL" });
+  const { blob, ...file } = await slicer.export({});
+  expect(file).toEqual({
+    schema: SCHEMA,
+    name: "cup-cusp.uvj",
+    type: "application/octet-stream",
+    warnings: [{ code: "inside-out" }],
+  });
+  expect(blob.type).toBe(file.type);
+});
+
+test("a call that is not awaited takes its place: what follows is about the model that it loads", async () => {
+  const { slicer, log } = faked();
+  await slicer.load(new Blob(["a"]));
+  const address = URL.createObjectURL(new Blob(["b"]));
+  void slicer.load(address);
+  void slicer.plan({ tolerance: 1 });
+  void slicer.positions();
+  const file = slicer.export({ tolerance: 2 });
+  // Made after that export, which it must not change.
+  void slicer.plan({ tolerance: 3 });
+  const mask = slicer.mask(0);
+  void slicer.load(new Blob(["c"]));
+  expect((await mask).width).toBe(3);
+  await file;
+  await slicer.plan({ tolerance: 4 });
+  const main = ["open a", "open b", "plan 1", "plan 2", "archive", "plan 3", "open c", "plan 4"];
+  const positions = log.find((line) => line.endsWith(": positions"))?.[0] ?? "";
+  expect(log.filter((line) => line.startsWith("1")).map((line) => line.slice(3))).toEqual(main);
+  expect(log).toContain(`${positions}: open b`);
+});
+
+test("weights count for the calls made after them, and a model that cannot be loaded changes nothing", async () => {
+  const { slicer, log } = faked();
+  await slicer.load(new Blob(["a"]));
+  void slicer.plan({ tolerance: 1 });
+  void slicer.paint(Float32Array.of(0.5));
+  void slicer.plan({ tolerance: 2 });
+  const failed = slicer.load("nonsense:x");
+  const planned = slicer.plan({ tolerance: 3 });
+  await expect(failed).rejects.toMatchObject({ code: "fetch-failed" });
+  await planned;
+  expect(log).toEqual(["1: open a", "1: plan 1", "1: paint 0.5", "1: plan 2", "1: plan 3"]);
 });

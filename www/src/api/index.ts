@@ -5,22 +5,23 @@
  *     const slicer = createSlicer();
  *     await slicer.load(file);
  *     const { report } = await slicer.plan({ tolerance: 0.05, printer: "saturn-3-ultra" });
- *     const zip = await slicer.export();
+ *     const { name, blob } = await slicer.export();
  *     slicer.dispose();
  *
- * Lengths are in mm, times in s. Calls are answered one after another. Every call rejects with a `SlicerError`, or with
+ * Lengths are in mm, times in s. A call takes its place when it is made: it is about the model that the last `load()` before it
+ * opens, and the weights of the last `paint()`, whether or not these were awaited. Every call rejects with a `SlicerError`, or with
  * the signal's reason if it was aborted; the model and the plan before it stay. Where there is no browser, as on a server that
  * renders a page, a slicer can be made, and its calls reject with `no-browser`.
  */
 import { absentSlicer } from "./absent.js";
-import { Lane, spawnWorker, type Compiled, type Engine, type Watch } from "./lane.js";
+import { Lane, spawnWorker, type About, type Compiled, type Engine, type Planned, type Wanted, type Watch } from "./lane.js";
 import { orient, type OrientCall, type Oriented } from "./orient.js";
-import { Pool, type Held } from "./pool.js";
-import { resolve, type Source } from "./source.js";
-import { SlicerError } from "./error.js";
-import type { Comparison, Glance, MeshInfo, Options, Printer, Profiled, Report, Search, Tradeoff } from "./wire.js";
+import { Pool } from "./pool.js";
+import { resolve, stemOf, type Source } from "./source.js";
+import type { Comparison, Glance, MeshInfo, Options, Printer, Profiled, Report, Search, Tradeoff, Warning } from "./wire.js";
 
-export { ERROR_CODES, isAbort, SlicerError, type ErrorCode } from "./error.js";
+export { ERROR_CODES, isAbort, SlicerError, type ErrorCode, type ErrorDetails } from "./error.js";
+export { WARNING_CODES, type WarningCode } from "./warning.js";
 export type { Source } from "./source.js";
 export type { Watch } from "./lane.js";
 export type { Found, OrientCall } from "./orient.js";
@@ -62,6 +63,17 @@ export interface Mask {
   bits: Uint8Array;
 }
 
+/** A print file. */
+export interface PrintFile extends Versioned {
+  /** What to save it as: the model's name with the format's extension. */
+  name: string;
+  /** Its media type: `application/zip`, or `application/octet-stream` where the extension is the format's own. */
+  type: string;
+  blob: Blob;
+  /** What the user should know of the plan. */
+  warnings: Warning[];
+}
+
 export interface LoadCall extends Watch {
   /** What the model is called, where the source has no name. */
   name?: string;
@@ -85,7 +97,7 @@ export interface Slicer {
    */
   orient(options?: Options, search?: Search, call?: OrientCall): Promise<Orientation>;
   /** The print file of the last plan; with options that are not the last plan's, of a plan made for them first. */
-  export(options?: Options, call?: Watch): Promise<Blob>;
+  export(options?: Options, call?: Watch): Promise<PrintFile>;
   /** The same as it is made. The core does not wait for a slow reader: what is not read yet is kept in memory. */
   exportStream(options?: Options, call?: Watch): ReadableStream<Uint8Array>;
   /** Corners of all facets, nine numbers a facet, mm, as the file has them. */
@@ -115,7 +127,7 @@ export interface Slicer {
 }
 
 export interface Setup {
-  /** Makes a worker; for tests, and for pages that serve `worker.js` in a way of their own. */
+  /** @internal Makes a worker; tests give a fake. */
   spawn?: () => Engine;
   /** How many workers a search for directions may have at most; as many as there are cores if absent. */
   workers?: number;
@@ -134,63 +146,55 @@ export function createSlicer({ spawn = spawnWorker, workers = globalThis.navigat
   // Live figures must not wait for a plan that takes seconds: they have a worker, which starts when first asked.
   const side = new Lane(spawn, compiled);
   const pool = new Pool(() => new Lane(spawn, compiled), workers);
-  let held: Omit<Held, "weights"> | null = null;
-  let last: Plan | null = null;
+  /** What a call that is made now is about, once the loads before it have ended. */
+  let about: About = Promise.resolve(null);
 
-  const plan: Slicer["plan"] = async (options = {}, call = {}) => {
-    const made = await main.plan(options, call);
-    return (last = { schema: SCHEMA, ...made });
-  };
-
-  /** Makes the plan that a print file is asked for, unless it is the last one. */
-  const ensure = async (options: Options | undefined, call: Watch): Promise<void> => {
-    if (options === undefined) return;
-    if (main.isRepainted || JSON.stringify(options) !== JSON.stringify(main.options)) await plan(options, call);
-  };
+  const wanted = (options: Options | undefined): Wanted => (options === undefined ? null : { about, options });
 
   return {
     async load(source, { name, ...call } = {}) {
-      const named = await resolve(source, call.signal);
-      const info = await main.open(named.file, call);
-      side.take(named.file);
-      held = { file: named.file, facets: info.facets };
-      last = null;
-      return { schema: SCHEMA, name: name ?? named.name, file: named.file, info };
+      const before = about;
+      const named = resolve(source, call.signal);
+      const opened = main.open(named.then(({ file }) => file), call);
+      const loaded = Promise.all([named, opened]).then(([it, info]) => ({ ...it, name: name ?? it.name, info }));
+      about = loaded.then(
+        ({ name, file, info }) => ({ name, file, facets: info.facets, weights: null }),
+        () => before,
+      );
+      return { schema: SCHEMA, ...(await loaded) };
     },
-    plan,
+    async plan(options = {}, call = {}) {
+      return { schema: SCHEMA, ...(await main.plan(about, options, call)) };
+    },
     async mask(layer, call = {}) {
-      const bits = await main.mask(layer, call);
-      if (last === null) throw new SlicerError("no-plan", "plan the layers first");
-      const { width, height } = last.report.mask;
+      const { bits, of } = await main.mask(layer, call);
+      const { width, height } = of.report.mask;
       return { layer, width, height, bits };
     },
     async tradeoff(options = {}, points = CURVE_POINTS, call = {}) {
-      return { schema: SCHEMA, ...(await main.tradeoff(options, points, call)) };
+      return { schema: SCHEMA, ...(await main.tradeoff(about, options, points, call)) };
     },
     async compare(options = {}, call = {}) {
-      return { schema: SCHEMA, ...(await main.compare(options, call)) };
+      return { schema: SCHEMA, ...(await main.compare(about, options, call)) };
     },
     async orient(options = {}, search = {}, call = {}) {
-      if (held === null) throw new SlicerError("no-model", "open a model first");
-      return { schema: SCHEMA, ...(await orient(pool, { ...held, weights: main.weights }, options, search, call)) };
+      return { schema: SCHEMA, ...(await orient(pool, about, options, search, call)) };
     },
     async export(options, call = {}) {
-      await ensure(options, call);
-      return main.archive(call);
+      const { blob, of } = await main.archive(wanted(options), call);
+      return printFile(blob, of);
     },
     exportStream(options, call = {}) {
       const gone = new AbortController();
       const signal = call.signal === undefined ? gone.signal : AbortSignal.any([call.signal, gone.signal]);
-      const watch = { ...call, signal };
       return new ReadableStream<Uint8Array>({
         async start(controller) {
           try {
-            await ensure(options, watch);
             // Chunks that were on their way when nobody wanted them any more go nowhere.
             const take = (chunk: Uint8Array): void => {
               if (!signal.aborted) controller.enqueue(chunk);
             };
-            await main.archiveTo(take, watch);
+            await main.archiveTo(wanted(options), take, { ...call, signal });
             controller.close();
           } catch (error) {
             if (!gone.signal.aborted) controller.error(error);
@@ -199,20 +203,30 @@ export function createSlicer({ spawn = spawnWorker, workers = globalThis.navigat
         cancel: () => gone.abort(),
       });
     },
-    positions: (call = {}) => side.positions(call),
+    positions: (call = {}) => side.ask(about, call, (remote) => remote.positions()),
     async glance(options = {}, call = {}) {
-      return { schema: SCHEMA, ...(await side.glance(options, call)) };
+      return { schema: SCHEMA, ...(await side.ask(about, call, (remote) => remote.glance(options))) };
     },
-    saliency: (call = {}) => side.saliency(call),
+    saliency: (call = {}) => side.ask(about, call, (remote, progress) => remote.saliency(progress)),
     paint(weights, call = {}) {
-      main.weights = side.weights = weights?.slice() ?? null;
-      return main.paint(call);
+      const before = about;
+      const own = weights?.slice() ?? null;
+      const painted = (about = before.then((subject) => (subject === null ? null : { ...subject, weights: own })));
+      const taken = main.paint(painted, call);
+      taken.catch(() => {
+        // Weights that were refused count for nothing that is asked from now on.
+        if (about === painted) about = before;
+      });
+      return taken;
     },
     async weightsFile(weights, call = {}) {
-      return new Blob([(await side.weightsFile(weights, call)) as Uint8Array<ArrayBuffer>]);
+      const bytes = await side.ask(about, call, (remote) => remote.weightsFile(weights));
+      return new Blob([bytes as Uint8Array<ArrayBuffer>]);
     },
-    async readWeights(file, call = {}) {
-      return side.readWeights((await resolve(file, call.signal)).file, call);
+    readWeights(source, call = {}) {
+      const now = about;
+      const named = resolve(source, call.signal);
+      return named.then(({ file }) => side.ask(now, call, (remote) => remote.readWeights(file)));
     },
     printers: () => main.printers(),
     warm: () => main.warm(),
@@ -227,4 +241,10 @@ export function createSlicer({ spawn = spawnWorker, workers = globalThis.navigat
       pool.dispose();
     },
   };
+}
+
+function printFile(blob: Blob, { subject, report }: Planned): PrintFile {
+  const { extension, media_type: type } = report.print_file;
+  const name = `${stemOf(subject.name)}-cusp.${extension}`;
+  return { schema: SCHEMA, name, type, blob: blob.slice(0, blob.size, type), warnings: report.warnings };
 }

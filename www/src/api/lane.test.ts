@@ -1,6 +1,6 @@
 import { beforeEach, expect, test } from "vitest";
 import { SlicerError } from "./error.js";
-import { Lane, type Engine, type Watch } from "./lane.js";
+import { Lane, type About, type Engine, type Watch } from "./lane.js";
 import type { CuspError, Glance, MeshInfo, OnProgress, Options, Profiled, Report, SlicerWorker } from "./wire.js";
 
 /** What the fake workers were asked, in order: `worker number: call`. */
@@ -31,7 +31,7 @@ class FakeWorker implements Engine {
       progress("ldi", 0.5);
       await this.#work(`plan ${options.tolerance} of ${this.opened}`);
       this.planned = options;
-      return {} as Profiled<Report>;
+      return { report: {} } as Profiled<Report>;
     },
     mask: (layer) => {
       this.#say(`mask ${layer} of ${this.planned.tolerance}`);
@@ -81,12 +81,36 @@ class FakeWorker implements Engine {
   }
 }
 
-let client: Lane;
+/** A lane as it is used: what is asked is about the model that was opened last. */
+class Client {
+  readonly lane: Lane;
+  about: About = Promise.resolve(null);
+
+  constructor(spawn: () => Engine) {
+    this.lane = new Lane(spawn);
+  }
+
+  open(file: Blob, watch: Watch): Promise<MeshInfo> {
+    const opened = this.lane.open(Promise.resolve(file), watch);
+    const before = this.about;
+    this.about = opened.then(
+      ({ facets }) => ({ name: "", file, facets, weights: null }),
+      () => before,
+    );
+    return opened;
+  }
+
+  plan(options: Options, watch: Watch): Promise<Profiled<Report>> {
+    return this.lane.plan(this.about, options, watch);
+  }
+}
+
+let client: Client;
 
 beforeEach(() => {
   log = [];
   workers = [];
-  client = new Lane(() => new FakeWorker());
+  client = new Client(() => new FakeWorker());
 });
 
 function watch(signal = new AbortController().signal, onProgress: OnProgress = () => undefined): Watch {
@@ -109,10 +133,10 @@ async function hung(call: (watch: Watch) => Promise<unknown>): Promise<void> {
 }
 
 test("a warm worker is the one that works, and it is started once", async () => {
-  client.warm();
+  client.lane.warm();
   await client.open(new Blob(["a"]), watch());
   await client.plan({ tolerance: 1 }, watch());
-  await client.mask(3);
+  await client.lane.mask(3);
   expect(log).toEqual(["1: boot, compiling", "1: open a", "1: plan 1 of a", "1: mask 3 of 1"]);
 });
 
@@ -130,7 +154,7 @@ test("cancelling a plan ends the worker; the next one is given module, file and 
   await hung((watch) => client.plan({ tolerance: 2 }, watch));
   expect(worker(1).terminated).toBe(true);
   log = [];
-  await client.mask(0);
+  await client.lane.mask(0);
   expect(log).toEqual(["2: boot", "2: open a", "2: plan 1 of a", "2: mask 0 of 1"]);
 });
 
@@ -158,14 +182,14 @@ test("a call that has not begun can be cancelled without ending the worker", asy
 test("an error of the core keeps its code and details, and the worker; masks go back to the last good plan", async () => {
   await client.open(new Blob(["a"]), watch());
   await client.plan({ tolerance: 1 }, watch());
-  const failure: CuspError = { code: "infeasible", message: "no", detail: { from_mm: 2 } };
+  const failure: CuspError = { code: "too-many-facets", message: "no", detail: { facets: 2 } };
   worker(1).failure = failure;
   const running = client.plan({ tolerance: 2 }, watch());
   await expect(running).rejects.toBeInstanceOf(SlicerError);
   await expect(running).rejects.toMatchObject(failure);
   worker(1).failure = null;
   log = [];
-  await client.mask(0);
+  await client.lane.mask(0);
   expect(log).toEqual(["1: plan 1 of a", "1: mask 0 of 1"]);
 });
 
@@ -181,12 +205,12 @@ test("a core that breaks is replaced", async () => {
 
 test("a core that does not start says so, and the next call tries again", async () => {
   const starts: Engine[] = [];
-  const failing = new Lane(() => {
+  const failing = new Client(() => {
     const engine = new FakeWorker();
     if (starts.push(engine) === 1) engine.remote.boot = () => Promise.reject(new Error("HTTP 404"));
     return engine;
   });
-  failing.warm();
+  failing.lane.warm();
   await expect(failing.open(new Blob(["a"]), watch())).rejects.toMatchObject({ code: "start-failed", message: "HTTP 404" });
   await failing.open(new Blob(["a"]), watch());
   expect(log).toEqual(["2: boot, compiling", "2: open a"]);
@@ -217,10 +241,10 @@ test("a study over the same rays leaves the plan with the core; over others the 
   await client.open(new Blob(["a"]), watch());
   await client.plan({ tolerance: 1, rays: 512 }, watch());
   log = [];
-  await client.tradeoff({ tolerance: 2, rays: 512 }, 9, watch());
-  await client.mask(0);
-  await client.tradeoff({ rays: 1024 }, 9, watch());
-  await client.mask(0);
+  await client.lane.tradeoff(client.about, { tolerance: 2, rays: 512 }, 9, watch());
+  await client.lane.mask(0);
+  await client.lane.tradeoff(client.about, { rays: 1024 }, 9, watch());
+  await client.lane.mask(0);
   expect(log).toEqual([
     "1: tradeoff of 512 rays",
     "1: mask 0 of 1",
@@ -233,17 +257,54 @@ test("a study over the same rays leaves the plan with the core; over others the 
 test("a print file comes whole, or chunk by chunk in order", async () => {
   await client.open(new Blob(["a"]), watch());
   await client.plan({}, watch());
-  expect(await (await client.archive(watch())).text()).toBe("zip");
+  expect(await (await client.lane.archive(null, watch())).blob.text()).toBe("zip");
   const chunks: string[] = [];
-  await client.archiveTo((chunk) => chunks.push(new TextDecoder().decode(chunk)), watch());
+  await client.lane.archiveTo(null, (chunk) => chunks.push(new TextDecoder().decode(chunk)), watch());
   expect(chunks).toEqual(["z", "ip"]);
 });
 
 test("asked too early, it says what is missing; disposed of, it works no more", async () => {
   await expect(client.plan({}, watch())).rejects.toMatchObject({ code: "no-model" });
   await client.open(new Blob(["a"]), watch());
-  await expect(client.mask(0)).rejects.toMatchObject({ code: "no-plan" });
-  client.dispose();
-  await expect(client.mask(0)).rejects.toMatchObject({ name: "AbortError" });
+  await expect(client.lane.mask(0)).rejects.toMatchObject({ code: "no-plan" });
+  client.lane.dispose();
+  await expect(client.lane.mask(0)).rejects.toMatchObject({ name: "AbortError" });
   expect(workers).toHaveLength(1);
+});
+
+test("each call takes its place when it is made: a file that is still fetched holds the calls after it", async () => {
+  await client.open(new Blob(["a"]), watch());
+  let arrive: (file: Blob) => void = () => undefined;
+  const file = new Promise<Blob>((resolve) => (arrive = resolve));
+  const opened = client.lane.open(file, watch());
+  const about = opened.then(async ({ facets }) => ({ name: "", file: await file, facets, weights: null }));
+  const planned = client.lane.plan(about, { tolerance: 1 }, watch());
+  await new Promise((resolve) => setTimeout(resolve));
+  arrive(new Blob(["b"]));
+  await planned;
+  expect(log.slice(2)).toEqual(["1: open b", "1: plan 1 of b"]);
+});
+
+test("a fetch that is cancelled leaves the worker alone", async () => {
+  await client.open(new Blob(["a"]), watch());
+  const abort = new AbortController();
+  const opened = client.lane.open(new Promise(() => undefined), watch(abort.signal));
+  abort.abort();
+  await expect(opened).rejects.toMatchObject({ name: "AbortError" });
+  expect(worker(1).terminated).toBe(false);
+});
+
+test("a signal that times out is an abort, and so is one with a reason of its own", async () => {
+  await client.open(new Blob(["a"]), watch());
+  worker(1).hang = true;
+  await expect(client.plan({}, watch(AbortSignal.timeout(5)))).rejects.toMatchObject({ name: "TimeoutError" });
+  const abort = new AbortController();
+  const reason = new Error("enough");
+  await client.plan({}, watch());
+  worker(2).hang = true;
+  const running = client.plan({}, watch(abort.signal));
+  const outcome = expect(running).rejects.toBe(reason);
+  await new Promise((resolve) => setTimeout(resolve));
+  abort.abort(reason);
+  await outcome;
 });

@@ -1,13 +1,13 @@
 /**
- * One worker after another, as one: what was opened and planned last, brought back after a worker had to be ended.
+ * One worker after another, as one: what calls are about is brought to whichever worker answers them.
  *
- * WebAssembly cannot be interrupted, so cancelling terminates the worker. What a fresh one needs is kept here: the
- * compiled module, the file, the weights of its facets, and the last plan that worked: its options and weights. They are brought
- * back when next needed.
+ * WebAssembly cannot be interrupted, so cancelling terminates the worker. Each call therefore says what it is about: the model
+ * and the weights of its facets, as they stood when the call was made. The last plan that worked is kept with what it was made
+ * of, and made again where a fresh worker is asked for its masks.
  */
 import * as Comlink from "comlink";
 import { isAbort, ofCore, SlicerError } from "./error.js";
-import { sameRays, type Comparison, type Glance, type MeshInfo, type OnProgress, type Options } from "./wire.js";
+import { sameRays, type Comparison, type MeshInfo, type OnProgress, type Options } from "./wire.js";
 import type { Printer, Profiled, Report, SlicerWorker, Tradeoff } from "./wire.js";
 
 /** A worker as it is seen from this side: what it answers at once there takes its time here. */
@@ -65,10 +65,26 @@ interface Life {
 /** How much each facet matters, 0 to 1; null: all alike. */
 export type Weights = Float32Array | null;
 
-interface Planned {
-  options: Options;
-  weights: Weights;
+/** What a call is about: a model, and the weights of its facets. */
+export interface Subject {
+  readonly name: string;
+  readonly file: Blob;
+  readonly facets: number;
+  readonly weights: Weights;
 }
+
+/** A subject that calls made earlier may still have to settle; null if no model was loaded. */
+export type About = Promise<Subject | null>;
+
+/** A plan that worked, and what it was made of. */
+export interface Planned {
+  readonly subject: Subject;
+  readonly options: Options;
+  readonly report: Report;
+}
+
+/** The plan that a print file is asked for: the last one, or one for these options. */
+export type Wanted = { about: About; options: Options } | null;
 
 const silent: OnProgress = () => undefined;
 
@@ -76,11 +92,7 @@ export class Lane {
   readonly #spawn: () => Engine;
   readonly #compiled: Compiled;
   #life: Life | null = null;
-  #file: Blob | null = null;
   #planned: Planned | null = null;
-  #weights: Weights = null;
-  /** The last weights that the core took. */
-  #sound: Weights = null;
   /** Calls run one at a time: the core takes no second call while one is waiting for the GPU. */
   #queue: Promise<unknown> = Promise.resolve();
   #disposed = false;
@@ -90,98 +102,61 @@ export class Lane {
     this.#compiled = compiled;
   }
 
-  /** The options of the plan that masks and print files are of; null before there is one. */
-  get options(): Options | null {
-    return this.#planned?.options ?? null;
-  }
-
-  /** Whether weights have changed since that plan. */
-  get isRepainted(): boolean {
-    return this.#planned !== null && this.#planned.weights !== this.#weights;
-  }
-
   /** Starts the worker before it is needed. Failures show in the first real call. */
   warm(): void {
     if (!this.#disposed) this.#live().booted.catch(() => undefined);
   }
 
-  /** Opens a model. If that fails or is cancelled, the one before stays. */
-  open(file: Blob, watch: Watch): Promise<MeshInfo> {
-    return this.#run(watch, async (life, progress) => {
+  /** Opens a model when its file is there. If that fails or is cancelled, the one before stays. */
+  open(file: Promise<Blob>, watch: Watch): Promise<MeshInfo> {
+    return this.#run(watch, file, async (life, file, progress) => {
       const info = await life.engine.remote.open(file, progress);
-      life.file = this.#file = file;
+      life.file = file;
+      life.weights = null;
       life.planned = this.#planned = null;
-      life.weights = this.#weights = this.#sound = null;
       return info;
     });
   }
 
-  /** Takes a file for the one that is open elsewhere; it is read when something is asked of it. */
-  take(file: Blob): void {
-    this.#file = file;
-    this.#planned = null;
-    this.#weights = this.#sound = null;
+  /** Has the core take the subject's weights now, or refuse them. */
+  paint(about: About, watch: Watch): Promise<void> {
+    return this.#about(about, watch, () => Promise.resolve());
   }
 
-  /**
-   * Weights for whatever is asked from now on, kept as they are: whoever gives them does not write to them any more. The
-   * core gets the newest when it is next asked for a plan; weights that it refuses make that fail, and are dropped.
-   */
-  set weights(weights: Weights) {
-    this.#weights = weights;
+  /** Plans the layers. If that fails or is cancelled, masks and print file still belong to the plan before. */
+  plan(about: About, options: Options, watch: Watch): Promise<Profiled<Report>> {
+    return this.#about(about, watch, (life, progress, subject) => this.#plan(life, subject, options, progress));
   }
 
-  get weights(): Weights {
-    return this.#weights;
+  tradeoff(about: About, options: Options, points: number, watch: Watch): Promise<Tradeoff> {
+    return this.#study(about, options, watch, (remote, progress) => remote.tradeoff(options, points, progress));
   }
 
-  /** Has the core take the weights now, or refuse them. */
-  paint(watch: Watch): Promise<void> {
-    return this.#run(watch, (life) => this.#restore(life));
+  compare(about: About, options: Options, watch: Watch): Promise<Comparison> {
+    return this.#study(about, options, watch, (remote, progress) => remote.compare(options, progress));
   }
 
-  /** Plans the open model. If that fails or is cancelled, masks and archive still belong to the plan before. */
-  plan(options: Options, watch: Watch): Promise<Profiled<Report>> {
-    return this.#run(watch, async (life, progress) => {
-      await this.#restore(life);
-      const { weights } = life;
-      // Until it succeeds nobody knows which plan the core holds.
-      life.planned = null;
-      const plan = await life.engine.remote.plan(options, progress);
-      life.planned = this.#planned = { options, weights };
-      return plan;
+  /** The mask of a layer of the last good plan, and that plan. */
+  mask(layer: number, watch: Watch = {}): Promise<{ bits: Uint8Array; of: Planned }> {
+    return this.#run(watch, null, async (life) => {
+      const of = await this.#restorePlan(life, silent);
+      return { bits: await life.engine.remote.mask(layer), of };
     });
   }
 
-  tradeoff(options: Options, points: number, watch: Watch): Promise<Tradeoff> {
-    return this.#study(options, watch, (remote, progress) => remote.tradeoff(options, points, progress));
-  }
-
-  compare(options: Options, watch: Watch): Promise<Comparison> {
-    return this.#study(options, watch, (remote, progress) => remote.compare(options, progress));
-  }
-
-  /** The mask of a layer of the last good plan. */
-  mask(layer: number, watch: Watch = {}): Promise<Uint8Array> {
-    return this.#run(watch, async (life) => {
-      await this.#restorePlan(life, silent);
-      return life.engine.remote.mask(layer);
-    });
-  }
-
-  /** The print file of the last good plan. */
-  archive(watch: Watch): Promise<Blob> {
-    return this.#run(watch, async (life, progress) => {
-      await this.#restorePlan(life, progress);
+  /** The print file of the plan that is wanted, and that plan. */
+  archive(wanted: Wanted, watch: Watch): Promise<{ blob: Blob; of: Planned }> {
+    return this.#run(watch, wanted?.about ?? null, async (life, subject, progress) => {
+      const of = await this.#planFor(life, subject, wanted?.options, progress);
       const blob = await life.engine.remote.archive(progress, null);
-      return blob ?? new Blob([]);
+      return { blob: blob ?? new Blob([]), of };
     });
   }
 
   /** The same, chunk by chunk. The core does not wait for a slow taker. */
-  archiveTo(take: (chunk: Uint8Array) => void, watch: Watch): Promise<void> {
-    return this.#run(watch, async (life, progress) => {
-      await this.#restorePlan(life, progress);
+  archiveTo(wanted: Wanted, take: (chunk: Uint8Array) => void, watch: Watch): Promise<void> {
+    return this.#run(watch, wanted?.about ?? null, async (life, subject, progress) => {
+      await this.#planFor(life, subject, wanted?.options, progress);
       const { port1, port2 } = new MessageChannel();
       const ended = new Promise<void>((resolve) => {
         port1.onmessage = ({ data }: MessageEvent<Uint8Array | null>): void => {
@@ -198,48 +173,13 @@ export class Lane {
     });
   }
 
-  positions(watch: Watch): Promise<Float32Array> {
-    return this.#run(watch, async (life) => {
-      await this.#restoreFile(life);
-      return life.engine.remote.positions();
-    });
-  }
-
-  glance(options: Options, watch: Watch): Promise<Profiled<Glance>> {
-    return this.ask(watch, (remote) => remote.glance(options));
-  }
-
-  saliency(watch: Watch): Promise<Float32Array> {
-    return this.#run(watch, async (life, progress) => {
-      await this.#restoreFile(life);
-      return life.engine.remote.saliency(progress);
-    });
-  }
-
-  weightsFile(weights: Float32Array, watch: Watch): Promise<Uint8Array> {
-    return this.#run(watch, async (life) => {
-      await this.#restoreFile(life);
-      return life.engine.remote.weightsFile(weights);
-    });
-  }
-
-  readWeights(file: Blob, watch: Watch): Promise<Float32Array> {
-    return this.#run(watch, async (life) => {
-      await this.#restoreFile(life);
-      return life.engine.remote.readWeights(file);
-    });
-  }
-
-  /** Asks what depends on nothing but the open model and its weights, and changes neither. */
-  ask<T>(watch: Watch, question: (remote: Remote) => T | Promise<T>): Promise<T> {
-    return this.#run(watch, async (life) => {
-      await this.#restore(life);
-      return question(life.engine.remote);
-    });
+  /** Asks what depends on nothing but the subject, and changes nothing. */
+  ask<T>(about: About, watch: Watch, question: (remote: Remote, progress: OnProgress) => T | Promise<T>): Promise<T> {
+    return this.#about(about, watch, async (life, progress) => question(life.engine.remote, progress));
   }
 
   printers(): Promise<Printer[]> {
-    return this.#run({}, (life) => Promise.resolve(life.engine.remote.printers()));
+    return this.#run({}, null, (life) => Promise.resolve(life.engine.remote.printers()));
   }
 
   /** Ends the worker until the next call, which brings back what was there. */
@@ -255,58 +195,86 @@ export class Lane {
 
   /** Looks at other plans; the last one stays, but through other rays the core would have to make it again. */
   #study<T>(
+    about: About,
     options: Options,
     watch: Watch,
-    ask: (remote: Remote, progress: OnProgress) => Promise<T>,
+    ask: (remote: Remote, progress: OnProgress) => T | Promise<T>,
   ): Promise<T> {
-    return this.#run(watch, async (life, progress) => {
-      await this.#restore(life);
+    return this.#about(about, watch, async (life, progress) => {
       if (life.planned !== null && !sameRays(life.planned.options, options)) life.planned = null;
       return ask(life.engine.remote, progress);
     });
   }
 
-  async #restoreFile(life: Life): Promise<void> {
-    if (this.#file === null) throw new SlicerError("no-model", "load a model first");
-    if (life.file === this.#file) return;
-    await life.engine.remote.open(this.#file, Comlink.proxy(silent));
-    life.file = this.#file;
-    life.weights = null;
+  async #plan(life: Life, subject: Subject, options: Options, progress: OnProgress): Promise<Profiled<Report>> {
+    // Until it succeeds nobody knows which plan the core holds.
     life.planned = null;
+    const plan = await life.engine.remote.plan(options, progress);
+    life.planned = this.#planned = { subject, options, report: plan.report };
+    return plan;
   }
 
-  async #give(life: Life, weights: Weights): Promise<void> {
+  /** Brings the core the subject's file and weights. */
+  async #bring(life: Life, { file, weights }: Subject): Promise<void> {
+    const { remote } = life.engine;
+    if (life.file !== file) {
+      await remote.open(file, Comlink.proxy(silent));
+      life.file = file;
+      life.weights = null;
+      life.planned = null;
+    }
     if (life.weights === weights) return;
-    await life.engine.remote.paint(weights);
+    await remote.paint(weights);
     life.weights = weights;
   }
 
-  /** The model and the newest weights. */
-  async #restore(life: Life): Promise<void> {
-    await this.#restoreFile(life);
-    const asked = this.#weights;
-    try {
-      await this.#give(life, asked);
-      this.#sound = asked;
-    } catch (error) {
-      if (this.#weights === asked) this.#weights = this.#sound;
-      throw error;
-    }
-  }
-
-  async #restorePlan(life: Life, progress: OnProgress): Promise<void> {
-    await this.#restoreFile(life);
+  /** Brings back the last plan that worked. */
+  async #restorePlan(life: Life, progress: OnProgress): Promise<Planned> {
     const planned = this.#planned;
     if (planned === null) throw new SlicerError("no-plan", "plan the layers first");
-    if (life.planned === planned) return;
-    await this.#give(life, planned.weights);
+    if (life.planned === planned) return planned;
+    await this.#bring(life, planned.subject);
     await life.engine.remote.plan(planned.options, Comlink.proxy(progress));
     life.planned = planned;
+    return planned;
   }
 
-  #run<T>({ signal, onProgress }: Watch, task: (life: Life, progress: OnProgress) => Promise<T>): Promise<T> {
+  /** Makes the plan that options ask for, unless it is the last one, which serves also where there are none. */
+  async #planFor(life: Life, subject: Subject | null, options: Options | undefined, progress: OnProgress): Promise<Planned> {
+    if (options === undefined) return this.#restorePlan(life, progress);
+    const now = present(subject);
+    const last = this.#planned;
+    const isLast = last?.subject.file === now.file && last.subject.weights === now.weights;
+    if (isLast && JSON.stringify(last.options) === JSON.stringify(options)) return this.#restorePlan(life, progress);
+    await this.#bring(life, now);
+    await this.#plan(life, now, options, progress);
+    return this.#restorePlan(life, progress);
+  }
+
+  /** Runs a task on a worker that has what the call is about. */
+  #about<T>(
+    about: About,
+    watch: Watch,
+    task: (life: Life, progress: OnProgress, subject: Subject) => Promise<T>,
+  ): Promise<T> {
+    return this.#run(watch, about, async (life, given, progress) => {
+      const subject = present(given);
+      await this.#bring(life, subject);
+      return task(life, progress, subject);
+    });
+  }
+
+  /** Takes a place in the queue at once; there it waits for what it needs, then for the worker. */
+  #run<N, T>(
+    { signal, onProgress }: Watch,
+    needed: Promise<N> | null,
+    task: (life: Life, needed: N, progress: OnProgress) => Promise<T>,
+  ): Promise<T> {
+    // What fails before its turn is told at its turn.
+    needed?.catch(() => undefined);
     const result = this.#queue.then(async () => {
       signal?.throwIfAborted();
+      const needs = (needed === null ? null : await untilAborted(needed, signal)) as N;
       if (this.#disposed) throw disposed();
       const life = this.#live();
       const abort = (): void => life.end(signal?.reason);
@@ -316,9 +284,9 @@ export class Lane {
         if (signal?.aborted !== true) onProgress?.(stage, fraction);
       });
       try {
-        return await Promise.race([life.booted.then(() => task(life, progress)), life.fate]);
+        return await Promise.race([life.booted.then(() => task(life, needs, progress)), life.fate]);
       } catch (error) {
-        throw this.#understand(error, life);
+        throw this.#understand(error, life, signal);
       } finally {
         signal?.removeEventListener("abort", abort);
       }
@@ -331,8 +299,8 @@ export class Lane {
   }
 
   /** Errors that are described pass; anything else means that the core broke, and a broken core is not asked again. */
-  #understand(error: unknown, life: Life): unknown {
-    if (isAbort(error)) return error;
+  #understand(error: unknown, life: Life, signal: AbortSignal | undefined): unknown {
+    if (isAbort(error, signal)) return error;
     const described = ofCore(error);
     if (described !== null && described.code !== "start-failed" && described.code !== "crash") return described;
     const broken = described ?? broke("crash", error);
@@ -367,6 +335,12 @@ export class Lane {
     this.#life = { engine, booted, fate, end, file: null, weights: null, planned: null };
     return this.#life;
   }
+}
+
+/** The subject of a call that needs one. */
+export function present(subject: Subject | null): Subject {
+  if (subject === null) throw new SlicerError("no-model", "load a model first");
+  return subject;
 }
 
 /** The answer, but for a signal that aborts before it is there. */

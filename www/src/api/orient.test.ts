@@ -231,7 +231,7 @@ test("workers that nobody needs are ended after a while, and on request", async 
 });
 
 test("a large model has fewer workers, and none has none", () => {
-  const of = (facets: number, most = 64): number => workersFor({ file: new Blob([]), facets, weights: null }, most);
+  const of = (facets: number, most = 64): number => workersFor({ file: new Blob([]), facets }, most);
   expect(of(1000)).toBe(8);
   expect(of(1000, 2)).toBe(2);
   expect(of(1_500_000)).toBe(2);

@@ -1,6 +1,6 @@
 /** The search for the direction that a model is best built in: over the whole sphere, then more finely around the best. */
-import type { Watch } from "./lane.js";
-import type { Held, Pool, Team } from "./pool.js";
+import type { About, Watch } from "./lane.js";
+import type { Pool, Team } from "./pool.js";
 import { DEFAULT_SEARCH, type Candidate, type Options, type Search } from "./wire.js";
 
 /** What is known while directions are measured. */
@@ -35,9 +35,9 @@ const REFINEMENT = 0.2;
 /** How often what is known is rated while directions are measured. */
 const RATINGS = 12;
 
-export function orient(pool: Pool, model: Held, options: Options, wanted: Search, call: OrientCall): Promise<Oriented> {
+export function orient(pool: Pool, about: About, options: Options, wanted: Search, call: OrientCall): Promise<Oriented> {
   const search = { ...DEFAULT_SEARCH, ...wanted };
-  return pool.run(model, call, async (team) => {
+  return pool.run(about, call, async (team) => {
     const measured = call.measured === undefined ? await measure(team, options, search, call) : [...call.measured];
     const { energies, scale, minima } = await team.ask((remote) => remote.rateDirections(measured, search));
     const candidates = rated(measured, energies);

@@ -1,5 +1,5 @@
 /** Several workers for work that comes in many parts: each holds the model, and whichever is free takes the next part. */
-import { disposed, untilAborted, type Lane, type Remote, type Watch, type Weights } from "./lane.js";
+import { disposed, present, untilAborted, type About, type Lane, type Remote, type Subject, type Watch } from "./lane.js";
 
 /** More share the work no better, and each holds the model. */
 const MOST_WORKERS = 8;
@@ -12,17 +12,10 @@ const FACET_BYTES = 160;
 /** Without work for so long, workers are ended. */
 const IDLE_MS = 10_000;
 
-/** A model as each worker is to have it. */
-export interface Held {
-  readonly file: Blob;
-  readonly facets: number;
-  readonly weights: Weights;
-}
-
 type Signal = Pick<Watch, "signal">;
 
 /** How many workers a model is worth. */
-export function workersFor({ file, facets }: Held, most: number): number {
+export function workersFor({ file, facets }: Pick<Subject, "file" | "facets">, most: number): number {
   const fitting = Math.floor(MEMORY_BYTES / (FACET_BYTES * facets + file.size));
   return Math.max(1, Math.min(most, MOST_WORKERS, fitting));
 }
@@ -42,7 +35,7 @@ export class Pool {
   readonly #start: () => Lane;
   readonly #most: number;
   readonly #lanes: Lane[] = [];
-  /** Tasks run one at a time: each has the model that was open when it was asked for. */
+  /** Tasks run one at a time. */
   #queue: Promise<unknown> = Promise.resolve();
   #timer: ReturnType<typeof setTimeout> | undefined;
   #isDisposed = false;
@@ -53,13 +46,13 @@ export class Pool {
     this.#most = most;
   }
 
-  run<T>(model: Held, { signal }: Signal, task: (team: Team) => Promise<T>): Promise<T> {
+  run<T>(about: About, { signal }: Signal, task: (team: Team) => Promise<T>): Promise<T> {
     const result = this.#queue.then(async () => {
       signal?.throwIfAborted();
       if (this.#isDisposed) throw disposed();
       clearTimeout(this.#timer);
       try {
-        return await task(this.#team(model, { signal }));
+        return await task(this.#team(present(await about), { signal }));
       } finally {
         if (!this.#isDisposed) this.#timer = setTimeout(() => this.rest(), IDLE_MS);
       }
@@ -82,16 +75,12 @@ export class Pool {
     for (const lane of this.#lanes) lane.dispose();
   }
 
-  #team(model: Held, watch: Signal): Team {
-    const workers = workersFor(model, this.#most);
-    const lane = (place: number): Lane => {
-      const found = (this.#lanes[place] ??= this.#start());
-      found.take(model.file);
-      found.weights = model.weights;
-      return found;
-    };
+  #team(subject: Subject, watch: Signal): Team {
+    const workers = workersFor(subject, this.#most);
+    const about = Promise.resolve(subject);
+    const lane = (place: number): Lane => (this.#lanes[place] ??= this.#start());
     return {
-      ask: (question) => lane(0).ask(watch, question),
+      ask: (question) => lane(0).ask(about, watch, question),
       async share(parts, question, take) {
         let next = 0;
         let isFailed = false;
@@ -99,7 +88,7 @@ export class Pool {
           while (!isFailed && next < parts.length) {
             const index = next++;
             const part = parts[index] as (typeof parts)[number];
-            const answer = await mine.ask(watch, (remote) => question(remote, part));
+            const answer = await mine.ask(about, watch, (remote) => question(remote, part));
             if (!isFailed) take(answer, index);
           }
         };

@@ -12,6 +12,9 @@ export interface Named {
 
 const NAMELESS = "model.stl";
 
+/** A model's name without its extension. */
+export const stemOf = (model: string): string => model.replace(/\.stl$/i, "").trim() || "model";
+
 /** Fetches what is an address, with nothing but the address sent. */
 export async function resolve(source: Source, signal?: AbortSignal): Promise<Named> {
   if (source instanceof File) return { file: source, name: source.name };

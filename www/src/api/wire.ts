@@ -12,6 +12,7 @@ export type {
   Backend,
   CuspError,
   Exclusion,
+  FileKind,
   Figures,
   Format,
   HeightRange,

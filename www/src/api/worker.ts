@@ -1,7 +1,7 @@
 /** The worker: the only file that imports the WebAssembly package. One model is open at a time. */
 import * as Comlink from "comlink";
-import init, { best_directions, printers, rate_directions, Slicer } from "../../pkg/cusp_slicer.js";
-import type { CuspError, OnProgress, SlicerWorker } from "./wire.js";
+import init, { best_directions, head_bytes, identify, printers, rate_directions, Slicer } from "../../pkg/cusp_slicer.js";
+import type { OnProgress, SlicerWorker } from "./wire.js";
 
 /** Parts of a print file beyond this many bytes are handed to the browser, which may keep them on disk. */
 const BLOB_PART_BYTES = 8 << 20;
@@ -28,7 +28,7 @@ async function bytesOf(file: Blob): Promise<Uint8Array> {
   try {
     return new Uint8Array(await file.arrayBuffer());
   } catch (cause) {
-    const unreadable: CuspError = {
+    const unreadable = {
       code: "file-unreadable",
       message: cause instanceof Error ? cause.message : String(cause),
       detail: null,
@@ -82,6 +82,8 @@ const api: SlicerWorker = {
   },
   async open(file, progress) {
     progress("load", 0);
+    // What is no STL is refused before it takes memory.
+    identify(await bytesOf(file.slice(0, head_bytes())), file.size);
     const opened = new Slicer(await bytesOf(file));
     slicer?.free();
     slicer = opened;

@@ -12,6 +12,7 @@ class Wishes extends Preferences {
 const printer = (name: string, thinnest: number): Printer => ({
   ...{ name, model: name, pixels: [100, 100], pitch_um: [50, 50], volume_mm: [5, 5, 5] },
   ...{ layer_mm: [thinnest, 0.2], is_mirrored: true, step_mm: 0.002, format: "chitubox" },
+  ...{ reads: ["ctb"], reads_format: false },
 });
 
 let wishes: Wishes;

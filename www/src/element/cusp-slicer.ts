@@ -5,12 +5,12 @@
  */
 import { LitElement, type PropertyValues, type TemplateResult } from "lit";
 import { SlicerError } from "../api/error.js";
-import { createSlicer, type Model, type Plan, type Slicer } from "../api/index.js";
+import { createSlicer, type Model, type Plan, type PrintFile, type Slicer } from "../api/index.js";
 import type { Source } from "../api/source.js";
 import type { Backend, Candidate, Format, Metric, Resin } from "../api/wire.js";
 import { languageOf, type Language } from "../texts/index.js";
 import { Attributes, settingsOf, type SettingName } from "./attributes.js";
-import type { CuspSlicerEvents, ExportDetail } from "./events.js";
+import type { CuspSlicerEvents } from "./events.js";
 import { face } from "./face.js";
 import { layoutStyles } from "./layout.js";
 import { METRICS } from "./metric.js";
@@ -24,6 +24,7 @@ import { Session, type Host } from "./session.js";
 import { fromAddress, parse, toAddress } from "./settings.js";
 import { shared } from "./styles.js";
 import { summaryStyles } from "./summary.js";
+import { thumbnailOf } from "./thumbnail.js";
 
 export type State = "empty" | "busy" | "error" | "done" | "ready";
 
@@ -274,7 +275,8 @@ export class CuspSlicer extends LitElement implements Host {
   plan(): Promise<Plan> {
     this.#attributes.settle();
     if (Object.keys(this.#session.faults).length > 0) {
-      return Promise.reject(new SlicerError("bad-options", "a setting is out of range"));
+      const reason = "a setting is out of range";
+      return Promise.reject(new SlicerError("bad-options", reason, { reason }));
     }
     if (this.model === null) return Promise.reject(new SlicerError("no-model", "load a model first"));
     const { result } = this;
@@ -286,11 +288,24 @@ export class CuspSlicer extends LitElement implements Host {
   }
 
   /** The print file of the plan that the settings give; nothing is saved. */
-  async export(): Promise<ExportDetail> {
+  async export(): Promise<PrintFile> {
     if (this.model !== null) await this.plan();
     const download = await this.#session.export();
     if (download !== null) return download;
     throw this.result === null ? new SlicerError("no-plan", "plan the layers first") : this.#reason();
+  }
+
+  /**
+   * A square PNG of the model in the layers of its plan, on a transparent ground: for a basket, or a list of orders. Rejects with
+   * `part-failed` where the 3-D view cannot be loaded or there is no WebGL.
+   *
+   * @param size_px of each side, 16 to 2048
+   */
+  async thumbnail(size_px = THUMBNAIL_PX): Promise<Blob> {
+    await this.plan();
+    const { result } = this;
+    if (result === null) throw new SlicerError("no-plan", "plan the layers first");
+    return thumbnailOf(this.slicer, result, size_px);
   }
 
   /** Stops what is under way within a tenth of a second, a search for directions too; the last plan stays. */
@@ -399,7 +414,7 @@ export class CuspSlicer extends LitElement implements Host {
   #reason(): unknown {
     const { failure } = this.#session;
     if (failure === null) return new DOMException("cancelled", "AbortError");
-    return failure.error === "not-stl" ? new SlicerError("stl-not-stl", `${failure.name} is no STL file`) : failure.error;
+    return failure.error;
   }
 
   #settle(tell: (waiting: Waiting) => void): void {
@@ -462,6 +477,9 @@ export class CuspSlicer extends LitElement implements Host {
     event.preventDefault();
   };
 }
+
+/** Pixels of each side of a thumbnail if nothing else is said. */
+const THUMBNAIL_PX = 400;
 
 /** From this width on settings stand beside the results, and are open. */
 const WIDE_PX = 896;

@@ -1,6 +1,6 @@
 /** What an element tells its page. None of these events bubbles out of a shadow root of the page's own. */
 import type { SlicerError } from "../api/error.js";
-import type { Model, Plan } from "../api/index.js";
+import type { Model, Plan, PrintFile } from "../api/index.js";
 import type { Candidate, Stage } from "../api/wire.js";
 
 export interface ProgressDetail {
@@ -12,12 +12,6 @@ export interface ProgressDetail {
   done: number;
   /** Seconds that the task will yet take; null where nobody can know. */
   left_s: number | null;
-}
-
-export interface ExportDetail {
-  /** What the file is called. */
-  name: string;
-  blob: Blob;
 }
 
 export interface ChangeDetail {
@@ -39,7 +33,7 @@ export interface CuspSlicerEvents {
   "cusp-plan": CustomEvent<Plan>;
   "cusp-progress": CustomEvent<ProgressDetail>;
   /** A print file was asked for by its button. Unless this is prevented, the browser saves it. */
-  "cusp-export": CustomEvent<ExportDetail>;
+  "cusp-export": CustomEvent<PrintFile>;
   /** Something failed; the element shows it as well, unless it is a `bad-attribute`, which is for the page's developer. */
   "cusp-error": CustomEvent<SlicerError>;
   /** A person or a program changed how much facets matter. */

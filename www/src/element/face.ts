@@ -21,6 +21,7 @@ import { progressBar } from "./progress.js";
 import type { Result } from "./result.js";
 import type { Session } from "./session.js";
 import { hasPlace } from "./settings-form.js";
+import { UPRIGHT } from "../view/turn.js";
 import { quaternion } from "./settings.js";
 import type { Settings } from "./settings.js";
 import { details, summary } from "./summary.js";
@@ -160,7 +161,7 @@ function results(drawn: Drawn, result: Result): TemplateResult {
   const download = html`<button class="primary download" aria-describedby="file" ?disabled=${busy !== null} @click=${save}>
       ${texts.plan.download}
     </button>
-    <p id="file" class="quiet">${fileWords(session.fileOf(result), result, language)}</p>`;
+    <p id="file" class="quiet">${fileWords(result, session.printers, language)}</p>`;
   return html`
     ${panels.has("plan")
       ? html`<section class="card span first" part="plan" aria-label=${texts.plan.region}>
@@ -272,8 +273,6 @@ function beside<Name extends "cusp-model" | "cusp-direction">(target: EventTarge
 function searchedOf({ directions: { aims, found, best, busy, isCurrent, isPossible, options } }: Session): Searched {
   return { aims, found, best, busy, isCurrent, isPossible, options };
 }
-
-const UPRIGHT: Rotation = [0, 0, 0, 1];
 
 const rotations = new Map<string, Rotation>();
 

@@ -1,7 +1,7 @@
 /** What is known of the model that is open. */
 import { html, nothing, type TemplateResult } from "lit";
 import type { Language } from "../texts/index.js";
-import { warning } from "./problem.js";
+import { warningWords } from "./problem.js";
 import type { Session } from "./session.js";
 
 export interface ModelActions {
@@ -18,7 +18,7 @@ export function modelCard(session: Session, language: Language, { picked, turnTo
   const scale = result === null || own[2] === 0 ? 1 : result.report.height_mm / own[2];
   const isScaled = session.settings.rotation === "" && Math.abs(scale - 1) > 1e-3;
   const size = (isScaled ? own.map((mm) => mm * scale) : own) as [number, number, number];
-  const warnings = [...info.warnings, ...(result?.report.warnings ?? [])].map((it) => warning(it, language));
+  const warnings = [...info.warnings, ...(result?.report.warnings ?? [])].map((it) => warningWords(it, language));
   return html`<section class="card model" part="model" aria-label=${texts.model.region}>
     <h2 id="model-name" tabindex="-1">${name}</h2>
     <dl class="figures">

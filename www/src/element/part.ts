@@ -6,10 +6,14 @@ import type { Language } from "../texts/index.js";
 /** The 3-D view; the pictures of the best directions; the chart of the profile. */
 export type Part = "view" | "pictures" | "chart";
 
+export function partError(part: Part, cause: unknown): SlicerError {
+  const message = cause instanceof Error ? cause.message : String(cause);
+  return new SlicerError("part-failed", `a part of the page could not be loaded: ${part} (${message})`, { part });
+}
+
 /** Tells the page. The panel's event passes for one of the element, whose plan is as good as before. */
 export function tellPartFailed(panel: HTMLElement, part: Part, cause: unknown): void {
-  const message = cause instanceof Error ? cause.message : String(cause);
-  const detail = new SlicerError("part-failed", `a part of the page could not be loaded: ${part} (${message})`, { part });
+  const detail = partError(part, cause);
   panel.dispatchEvent(new CustomEvent("cusp-error", { detail, bubbles: true, composed: true }));
 }
 

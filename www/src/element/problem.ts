@@ -1,5 +1,6 @@
 /** Failures in words: what happened, where it belongs, and what would mend it. */
-import { SlicerError, type ErrorCode } from "../api/error.js";
+import type { ErrorCode, SlicerError } from "../api/error.js";
+import type { FileKind, Warning } from "../api/wire.js";
 import type { Language, Texts } from "../texts/index.js";
 import { METRICS } from "./metric.js";
 import * as round from "./round.js";
@@ -12,8 +13,7 @@ export interface Offer {
 }
 
 export interface Problem {
-  /** Of the error; `not-stl` for a file that was not even read. */
-  code: ErrorCode | "not-stl";
+  code: ErrorCode;
   title: string;
   text: string;
   offers: Offer[];
@@ -26,7 +26,7 @@ export type Choice = "metric" | "rays" | "printer" | "format" | "resin";
 
 /** What failed, and what was known then. */
 export interface Failure {
-  error: SlicerError | "not-stl";
+  error: SlicerError;
   /** The file's name. */
   name: string;
   /** Those that were in force. */
@@ -37,7 +37,7 @@ export interface Failure {
 
 type Kind = keyof Texts["problems"];
 
-const KINDS: Readonly<Record<Exclude<ErrorCode, "infeasible">, Kind>> = {
+const KINDS: Readonly<Record<Exclude<ErrorCode, "infeasible" | "other-file-kind">, Kind>> = {
   "stl-empty": "empty",
   "stl-no-facets": "empty",
   "stl-truncated": "cutShort",
@@ -115,15 +115,23 @@ export function explain(failure: Failure, language: Language, fixed: ReadonlySet
 function describe(failure: Failure, language: Language, fixed: ReadonlySet<keyof Settings>): Problem {
   const { error, name } = failure;
   const { texts } = language;
-  if (error === "not-stl") {
-    const [title, text] = texts.problems.notStl(name);
-    return { code: error, title, text, offers: [], field: null };
-  }
   const { code } = error;
-  if (code === "infeasible") return infeasible(error, failure.settings, language, fixed);
-  const kind = KINDS[code];
+  if (error.code === "infeasible") return infeasible(error, failure.settings, language, fixed);
+  if (error.code === "other-file-kind") return otherKind(error.detail.kind, name, texts);
+  const kind = KINDS[error.code];
   const [title, text] = texts.problems[kind](name, sentence(error.message));
   return { code, title, text, offers: offersFor(kind, error, failure, language), field: FIELDS[kind] ?? null };
+}
+
+/** What people call a kind of file. */
+const FILE_KINDS: Readonly<Record<FileKind, string>> = {
+  ...{ "3mf": "3MF", amf: "AMF", obj: "OBJ", ply: "PLY", step: "STEP", gltf: "glTF" },
+  ...{ zip: "ZIP", gzip: "gzip", html: "HTML" },
+};
+
+function otherKind(kind: FileKind, name: string, { otherKind: words }: Texts): Problem {
+  const text = kind === "html" ? words.page : kind === "zip" || kind === "gzip" ? words.packed : words.model;
+  return { code: "other-file-kind", title: words.title(name, FILE_KINDS[kind]), text, offers: [], field: null };
 }
 
 function offersFor(kind: Kind, error: SlicerError, failure: Failure, language: Language): Offer[] {
@@ -135,7 +143,7 @@ function offersFor(kind: Kind, error: SlicerError, failure: Failure, language: L
       return fewerRays(failure.settings, language);
     case "tooLarge":
     case "tooHigh":
-      return [...smaller(error, failure, language), { label: language.texts.offers.noPrinter, change: { printer: "" } }];
+      return [...smaller(scaleThatFits(error), failure, language), { label: language.texts.offers.noPrinter, change: { printer: "" } }];
     case "uniformOnly":
       return uniformOr(failure.settings, language);
     default:
@@ -143,36 +151,33 @@ function offersFor(kind: Kind, error: SlicerError, failure: Failure, language: L
   }
 }
 
-function figure(error: SlicerError, key: string): number | null {
-  const value = error.detail?.[key];
-  return typeof value === "number" ? value : null;
-}
+type Infeasible = Extract<SlicerError, { code: "infeasible" }>;
 
 /** The core knows where it fails and what would do: here that is put in words. */
-function infeasible(error: SlicerError, settings: Settings, language: Language, fixed: ReadonlySet<keyof Settings>): Problem {
+function infeasible(error: Infeasible, settings: Settings, language: Language, fixed: ReadonlySet<keyof Settings>): Problem {
   const { texts, format } = language;
   const { scale, error: written } = METRICS[settings.metric];
   const offers: Offer[] = [];
 
-  const least = fixed.has("tolerances") ? null : figure(error, "least_tolerance");
+  const least = fixed.has("tolerances") ? null : error.detail.least_tolerance;
   if (least !== null) {
     const short = round.up(least * scale);
     const label = texts.offers.tolerance(written(short / scale, format));
     offers.push({ label, change: withTolerance(settings, String(short)) });
   }
-  const largest = fixed.has("layerMin") ? null : figure(error, "largest_layer_min_mm");
+  const largest = fixed.has("layerMin") ? null : error.detail.largest_layer_min_mm;
   if (largest !== null) offers.push(layersFrom(thinEnough(largest, settings), language));
 
   const place = texts.infeasible.where(
-    format.bareHeight(figure(error, "from_mm") ?? 0),
-    format.height(figure(error, "to_mm") ?? 0),
-    format.fine(figure(error, "layer_min_mm") ?? 0),
+    format.bareHeight(error.detail.from_mm),
+    format.height(error.detail.to_mm),
+    format.fine(error.detail.layer_min_mm),
   );
   const way = least === null ? (largest === null ? "neither" : "thinner") : largest === null ? "larger" : "either";
   const isClosed = way === "neither" && fixed.has("layerMin");
   return {
     code: error.code,
-    title: texts.infeasible.title(written(figure(error, "tolerance") ?? 0, format)),
+    title: texts.infeasible.title(written(error.detail.tolerance, format)),
     text: isClosed ? place : `${place} ${texts.infeasible[way]}`,
     offers,
     field: "tolerance",
@@ -204,9 +209,13 @@ function fewerRays(settings: Settings, { texts, format }: Language): Offer[] {
   return half >= 512 ? [{ label: texts.offers.rays(format.count(half)), change: { rays: String(half) } }] : [];
 }
 
+/** What a model that is too large may be scaled by; null for any other error. */
+function scaleThatFits(error: SlicerError): number | null {
+  return error.code === "model-too-large" || error.code === "model-too-high" ? error.detail.fitting_scale : null;
+}
+
 /** The height at which the model fits, to a tenth of a millimetre below. */
-function smaller(error: SlicerError, { height_mm }: Failure, { texts, format }: Language): Offer[] {
-  const scale = figure(error, "fitting_scale");
+function smaller(scale: number | null, { height_mm }: Failure, { texts, format }: Language): Offer[] {
   if (scale === null || height_mm === null) return [];
   const fitting = Math.floor(10 * height_mm * scale) / 10;
   return fitting > 0 ? [{ label: texts.offers.scale(format.fine(fitting)), change: { height: String(fitting) } }] : [];
@@ -228,8 +237,29 @@ export function sentence(message: string): string {
   return tidy.charAt(0).toUpperCase() + tidy.slice(1) + (/[.!?]$/.test(tidy) ? "" : ".");
 }
 
-/** A warning of the core: its own words in English, the catalogue's in other languages. */
-export function warning({ code, message }: { code: string; message: string }, { texts }: Language): string {
-  const known = Object.hasOwn(texts.warnings, code) ? texts.warnings[code as keyof Texts["warnings"]] : null;
-  return known === null ? sentence(message) : known(sentence(message));
+/** A warning in words. */
+export function warningWords(warning: Warning, { texts: { warnings: words }, format }: Language): string {
+  switch (warning.code) {
+    case "degenerate-facets":
+      return words[warning.code](warning.detail.facets);
+    case "open-mesh":
+      return words[warning.code](warning.detail.open_edges, warning.detail.holes);
+    case "unclosed-rays":
+      return words[warning.code](format.count(warning.detail.unclosed), format.count(warning.detail.rays));
+    case "tolerance-exceeded":
+    case "tolerance-exceeded-on-mesh": {
+      const { metric, max_error, tolerance } = warning.detail;
+      return words[warning.code](METRICS[metric].error(max_error, format), METRICS[metric].error(tolerance, format));
+    }
+    case "top-moved":
+      return words[warning.code](format.height(warning.detail.top_mm), format.height(warning.detail.height_mm));
+    case "black-layers":
+      return words[warning.code](warning.detail.layers, format.height(warning.detail.from_mm));
+    case "gpu-failed":
+      return words[warning.code](warning.detail.reason);
+    case "inside-out":
+    case "sampled-sections":
+    case "gpu-too-small":
+      return words[warning.code]();
+  }
 }

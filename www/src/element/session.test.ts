@@ -2,7 +2,7 @@ import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import { Session } from "./session.js";
 import { DEFAULT_SETTINGS } from "./settings.js";
 import { SlicerError } from "../api/error.js";
-import { SCHEMA, type GlancedPlan, type LoadCall, type Mask, type Model, type OrientCall, type Orientation, type Plan, type Watch } from "../api/index.js";
+import { SCHEMA, type GlancedPlan, type LoadCall, type Mask, type Model, type OrientCall, type Orientation, type Plan, type PrintFile, type Watch } from "../api/index.js";
 import type { Candidate, Glance, MeshInfo, Options, Report, Search, Tradeoff } from "../api/wire.js";
 
 const info = { facets: 1, size_mm: [1, 1, 10], warnings: [] } as unknown as MeshInfo;
@@ -24,7 +24,7 @@ class FakeClient {
   readonly printers = async (): Promise<[]> => [];
   readonly load = (_source: unknown, call: LoadCall = {}): Promise<Model> => this.#call("open", call);
   readonly plan = (options: Options = {}, call: Watch = {}): Promise<Plan> => this.#call("plan", call, options);
-  readonly export = (_options?: Options, call: Watch = {}): Promise<Blob> => this.#call("export", call);
+  readonly export = (_options?: Options, call: Watch = {}): Promise<PrintFile> => this.#call("export", call);
   readonly orient = (options: Options = {}, _search?: Search, call: OrientCall = {}): Promise<Orientation> =>
     this.#call("orient", call, options);
   readonly mask = async (layer: number): Promise<Mask> => {
@@ -65,6 +65,9 @@ class FakeClient {
     });
   }
 }
+
+const zip: PrintFile = { schema: SCHEMA, name: "a-cusp.zip", type: "application/zip", blob: new Blob(["zip"]), warnings: [] };
+const CUT = new SlicerError("stl-truncated", "", { line: 3, expected: "facet" });
 
 let client: FakeClient;
 let session: Session;
@@ -156,9 +159,9 @@ test("a failed plan keeps the last good one and its masks, and says what happene
   await planned();
   session.change({ tolerances: { cusp: "0.02" } });
   await settle();
-  client.last.reject(new SlicerError("infeasible", "", { least_tolerance: 0.05 }));
+  client.last.reject(new SlicerError("too-many-facets", "", { facets: 9 }));
   await settle();
-  expect(session.failure?.error).toMatchObject({ code: "infeasible" });
+  expect(session.failure?.error).toMatchObject({ code: "too-many-facets" });
   expect(session.earlier).toBe(true);
   session.look(1);
   await settle();
@@ -170,7 +173,7 @@ test("a failed plan keeps the last good one and its masks, and says what happene
 test("a file that cannot be read leaves the open model alone", async () => {
   await planned();
   void session.open(new Blob(), "b.stl");
-  client.last.reject(new SlicerError("stl-truncated", ""));
+  client.last.reject(CUT);
   await settle();
   expect(session.failure).toMatchObject({ error: { code: "stl-truncated" }, name: "b.stl" });
   expect(session.model?.name).toBe("a.stl");
@@ -198,7 +201,7 @@ test("settings changed during a download wait for it", async () => {
   session.change({ rays: "4096" });
   await settle();
   expect(client.last.what).toBe("export");
-  client.last.resolve(new Blob(["zip"]));
+  client.last.resolve(zip);
   expect(await download).not.toBeNull();
   await settle();
   expect(client.last.options?.rays).toBe(4096);
@@ -210,7 +213,7 @@ test("settings changed while a file is read belong to it, or to the model before
   session.change({ tolerances: { cusp: "0.05" } });
   await settle();
   expect(client.last.what).toBe("open");
-  client.last.reject(new SlicerError("stl-truncated", ""));
+  client.last.reject(CUT);
   await settle();
   expect(client.last.options?.tolerance).toBe(0.05);
 });
@@ -218,7 +221,7 @@ test("settings changed while a file is read belong to it, or to the model before
 test("a zip is made once for each plan", async () => {
   await planned();
   const first = session.export();
-  client.last.resolve(new Blob(["zip"]));
+  client.last.resolve(zip);
   await settle();
   expect(await first).toMatchObject({ name: "a-cusp.zip" });
   const again = await session.export();
@@ -259,8 +262,12 @@ test("of several files the first is opened and the others wait; of none it says 
   client.last.resolve({ ...model, name: "b.stl" });
   await settle();
   expect([session.model?.name, session.place]).toEqual(["b.stl", 1]);
-  await session.choose([new File([], "notes.txt")]);
-  expect(session.failure).toMatchObject({ error: "not-stl", name: "notes.txt" });
+  // The core looks inside and says what it is.
+  void session.choose([new File([], "notes.txt")]);
+  client.last.reject(new SlicerError("stl-not-stl", ""));
+  await settle();
+  expect(session.failure).toMatchObject({ error: { code: "stl-not-stl" }, name: "notes.txt" });
+  expect([session.model?.name, session.place, session.files.length]).toEqual(["b.stl", 1, 2]);
 });
 
 test("the curve is asked for once, as long as nothing but the tolerance changes", async () => {

@@ -4,11 +4,11 @@
  * No DOM here: an element (or a test) hosts it, is told when something changed, and draws what it finds.
  */
 import { asSlicerError, isAbort, type SlicerError } from "../api/error.js";
-import type { Model, Plan, Mask, Slicer, Watch } from "../api/index.js";
+import type { Model, Plan, Mask, PrintFile, Slicer, Watch } from "../api/index.js";
 import type { Backend, Candidate, Options, TradeoffPoint } from "../api/wire.js";
 import { sameRays } from "../api/wire.js";
 import type { Source } from "../api/source.js";
-import { archiveName, choose, printFile, weightsName, type PrintFile } from "./choice.js";
+import { choose, weightsName } from "./choice.js";
 import { Curve } from "./curve.js";
 import { Directions } from "./directions.js";
 import { Follower, type Rotation } from "./follow.js";
@@ -86,7 +86,7 @@ export class Session extends Preferences {
   #weightsOf: Float32Array | null = null;
   /** Whether the newest plan asked for has not come about. */
   #failed = false;
-  #archive: { of: Result; blob: Blob } | null = null;
+  #archive: { of: Result; file: PrintFile } | null = null;
 
   constructor(host: Host, client: Client, { settings = DEFAULT_SETTINGS, backend = null }: Setup = {}) {
     super(settings, backend);
@@ -152,15 +152,13 @@ export class Session extends Preferences {
 
   /** Takes the STLs of a drop or a dialogue: the first is opened, the others wait. */
   async choose(files: readonly File[]): Promise<Model | null> {
-    const choice = choose(files);
-    if (choice.kind === "none") return null;
-    if (choice.kind === "not-stl") {
-      this.failure = { error: "not-stl", name: choice.name, settings: this.settings, height_mm: null };
-      this.#changed();
-      return null;
-    }
-    this.files = choice.files;
-    return this.turnTo(0);
+    if (files.length === 0) return null;
+    const { files: before, place } = this;
+    this.files = choose(files);
+    const model = await this.turnTo(0);
+    // What cannot be opened leaves what was there.
+    if (model === null) [this.files, this.place] = [before, place];
+    return model;
   }
 
   /** Opens another of the files that came together. */
@@ -283,23 +281,16 @@ export class Session extends Preferences {
     void this.#idle();
   }
 
-  /** What a result is saved as. */
-  fileOf({ options }: Result): PrintFile {
-    return printFile(options, this.printers);
-  }
-
   /** Makes the print file of the result on show; null if cancelled or failed. */
-  async export(): Promise<Download | null> {
+  async export(): Promise<PrintFile | null> {
     const { result, model } = this;
     if (result === null || model === null || this.busy !== null) return null;
-    const name = archiveName(model.name, this.fileOf(result));
-    if (this.#archive?.of === result) return { name, blob: this.#archive.blob };
+    if (this.#archive?.of === result) return this.#archive.file;
     this.failure = null;
-    const blob = await this.#run("export", model.name, null, (watch) => this.#client.export(undefined, watch));
+    const file = await this.#run("export", model.name, null, (watch) => this.#client.export(undefined, watch));
     void this.#resume();
-    if (blob === null) return null;
-    this.#archive = { of: result, blob };
-    return { name, blob };
+    if (file !== null) this.#archive = { of: result, file };
+    return file;
   }
 
   look(layer: number): void {

@@ -3,7 +3,7 @@ import { css, html, LitElement, nothing, type PropertyValues, type TemplateResul
 import { live } from "lit/directives/live.js";
 import { DEFAULTS, type Format, type MeshInfo } from "../api/wire.js";
 import { languageOf, type Language } from "../texts/index.js";
-import { printFile } from "./choice.js";
+import { formatFor } from "./choice.js";
 import { METRIC_NAMES, METRICS } from "./metric.js";
 import type { Choice, Problem } from "./problem.js";
 import { problemBox, problemStyles } from "./problem-box.js";
@@ -241,7 +241,7 @@ export class CuspSettings extends LitElement {
   /** The print file that these settings give. */
   get #file(): Format {
     const { printer, format } = this.settings;
-    return printFile({ printer, ...(format !== "" && { format }) }, this.offered.printers).format;
+    return formatFor({ printer, format }, this.offered.printers);
   }
 
   #plannerHint(): string {

@@ -1,15 +1,16 @@
 import { expect, test } from "vitest";
-import { archiveName, choose, printFile } from "./choice.js";
+import { choose, formatFor } from "./choice.js";
 import { rows, sentence as sentenceIn, type Compared } from "./comparison.js";
 import { SlicerError, ERROR_CODES, type ErrorCode } from "../api/error.js";
+import { WARNING_CODES } from "../api/warning.js";
 import { languageOf, LANGUAGES, type Language } from "../texts/index.js";
 import { fileWords } from "./file-words.js";
-import { explain as explainIn } from "./problem.js";
+import { explain as explainIn, warningWords } from "./problem.js";
 import { standing } from "./progress.js";
 import { gainWords, pictureOf } from "./quality.js";
 import * as round from "./round.js";
 import { check, DEFAULT_SETTINGS, type Settings } from "./settings.js";
-import type { Options, PlannerReport, Printer, Report, Stage } from "../api/wire.js";
+import type { Format as PrintFormat, Options, PlannerReport, Printer, Report, Stage, Warning } from "../api/wire.js";
 
 const english = languageOf("en");
 const { format } = english;
@@ -65,6 +66,7 @@ function report(patch: Partial<Report>): Report {
     resin: {},
     resin_ml: 44.4,
     printer: null,
+    print_file: { format: "png", extension: "zip", media_type: "application/zip", is_read_by_printer: false },
     mask: { width: 2048, height: 1588, pitch_mm: 0.0293, pitch_y_mm: 0.0293, antialias: 1, is_mirrored: false },
     warnings: [],
     timings_ms: { load: 0, ldi: 0, profile: 0, plan: 0, masks: 0, total: 0 },
@@ -108,9 +110,13 @@ test("the coarsest row says that it breaks the tolerance; rounding of sums does 
   expect(rows(compared({ max_error: 0.0650000001 })).map(({ holds }) => holds)).toEqual([true, true, false]);
 });
 
+/** Of these only a few figures count. */
+const failed = (code: ErrorCode, message: string, detail: object = {}): SlicerError =>
+  new SlicerError(code as "crash", message, detail as unknown as null);
+
 function infeasible(detail: Record<string, number | null>): SlicerError {
   const where = { from_mm: 12.34, to_mm: 12.39, tolerance: 0.02, layer_min_mm: 0.05 };
-  return new SlicerError("infeasible", "no plan", { ...where, ...detail });
+  return failed("infeasible", "no plan", { ...where, ...detail });
 }
 
 const infeasibleAt = (patch: Partial<Settings>, detail: Record<string, number | null>): ReturnType<typeof explain> =>
@@ -172,12 +178,12 @@ test("rounding up is short and never below; rounding down gives whole micrometre
 });
 
 test("layers that do not add up: thinner ones may", () => {
-  const problem = explain(new SlicerError("layers-do-not-fit", "no"), "a.stl", DEFAULT_SETTINGS);
+  const problem = explain(failed("layers-do-not-fit", "no"), "a.stl", DEFAULT_SETTINGS);
   expect(problem.offers.map(({ change }) => change)).toEqual([{ layerMin: "0.025" }]);
 });
 
 test("the core's message becomes a sentence under our heading", () => {
-  const problem = explain(new SlicerError("stl-truncated", "the file ends at byte 90"), "a.stl", DEFAULT_SETTINGS);
+  const problem = explain(failed("stl-truncated", "the file ends at byte 90"), "a.stl", DEFAULT_SETTINGS);
   expect(problem.title).toBe("a.stl is cut short");
   expect(problem.text).toBe("The file ends at byte 90.");
 });
@@ -190,17 +196,17 @@ test.each([
   ["gpu-too-small", "The GPU is too small for this model"],
   ["out-of-reach", "No plan is as short as that"],
 ] as const)("%s has a heading of its own", (code, title) => {
-  expect(explain(new SlicerError(code, "x"), "a.stl", DEFAULT_SETTINGS).title).toBe(title);
+  expect(explain(failed(code, "x"), "a.stl", DEFAULT_SETTINGS).title).toBe(title);
 });
 
 test("out of memory offers half the rays, down to the least there is", () => {
-  const error = new SlicerError("out-of-memory", "too much");
+  const error = failed("out-of-memory", "too much");
   expect(explain(error, "a.stl", DEFAULT_SETTINGS).offers[0]?.change).toEqual({ rays: "1024" });
   expect(explain(error, "a.stl", { ...DEFAULT_SETTINGS, rays: "512" }).offers).toEqual([]);
 });
 
 test("a model that is too large may be scaled to fit, or the printer left out", () => {
-  const error = new SlicerError("model-too-large", "too large", { fitting_scale: 0.5012 });
+  const error = failed("model-too-large", "too large", { fitting_scale: 0.5012 });
   const problem = explain(error, "a.stl", { ...DEFAULT_SETTINGS, printer: "p" });
   expect(problem.field).toBe("printer");
   expect(problem.offers).toEqual([
@@ -210,10 +216,10 @@ test("a model that is too large may be scaled to fit, or the printer left out", 
 });
 
 test("what the page has fixed is not offered to be changed", () => {
-  const large = new SlicerError("model-too-large", "too large", { fitting_scale: 0.5012 });
+  const large = failed("model-too-large", "too large", { fitting_scale: 0.5012 });
   const { offers } = explain(large, "a.stl", { ...DEFAULT_SETTINGS, printer: "p" }, ["printer", "format"]);
   expect(offers).toEqual([{ label: "Scale to 30\u00a0mm", change: { height: "30" } }]);
-  expect(explain(new SlicerError("uniform-only", ""), "a.stl", DEFAULT_SETTINGS, ["format"]).offers).toHaveLength(1);
+  expect(explain(failed("uniform-only", ""), "a.stl", DEFAULT_SETTINGS, ["format"]).offers).toHaveLength(1);
 
   const neither = infeasible({ least_tolerance: 0.05, largest_layer_min_mm: 0.02 });
   const [thinner, larger, none] = ([["tolerances"], ["layerMin"], ["tolerances", "layerMin"]] as const).map((fixed) =>
@@ -230,7 +236,7 @@ test("what the page has fixed is not offered to be changed", () => {
 });
 
 test("a file for uniform layers offers these, or another file", () => {
-  const { field, offers } = explain(new SlicerError("uniform-only", ""), "a.stl", { ...DEFAULT_SETTINGS, format: "sl1" });
+  const { field, offers } = explain(failed("uniform-only", ""), "a.stl", { ...DEFAULT_SETTINGS, format: "sl1" });
   expect(field).toBe("format");
   expect(offers.map(({ change }) => change)).toEqual([{ planner: "uniform" }, { format: "png" }]);
 });
@@ -238,7 +244,7 @@ test("a file for uniform layers offers these, or another file", () => {
 test.each(LANGUAGES)("every code has a heading and a sentence: %s", (locale) => {
   const language = languageOf(locale);
   for (const code of Object.keys(ERROR_CODES) as ErrorCode[]) {
-    const failure = { error: new SlicerError(code, "why"), name: "a.stl", settings: DEFAULT_SETTINGS, height_mm: 1 };
+    const failure = { error: failed(code, "why", { kind: "obj" }), name: "a.stl", settings: DEFAULT_SETTINGS, height_mm: 1 };
     const { title, text } = explainIn(failure, language, new Set());
     expect(title.length, code).toBeGreaterThan(3);
     expect(text.length, code).toBeGreaterThan(2);
@@ -246,13 +252,51 @@ test.each(LANGUAGES)("every code has a heading and a sentence: %s", (locale) => 
 });
 
 test.each([
-  [[], { kind: "none" }],
-  [["a.txt"], { kind: "not-stl", name: "a.txt" }],
-  [["A.STL"], { kind: "files", files: [{ name: "A.STL" }] }],
-  [["model"], { kind: "files", files: [{ name: "model" }] }],
-  [["notes.txt", "b.stl", "c.stl"], { kind: "files", files: [{ name: "b.stl" }, { name: "c.stl" }] }],
-])("of %j the STLs are taken", (names, choice) => {
-  expect(choose(names.map((name) => ({ name })))).toEqual(choice);
+  [[], []],
+  // The core looks inside and says what it is.
+  [["a.txt", "b.3mf"], ["a.txt"]],
+  [["A.STL"], ["A.STL"]],
+  [["model"], ["model"]],
+  [["notes.txt", "b.stl", "c.stl"], ["b.stl", "c.stl"]],
+])("of %j the STLs are taken", (names, taken) => {
+  expect(choose(names.map((name) => ({ name }))).map(({ name }) => name)).toEqual(taken);
+});
+
+test.each([
+  ["3mf", "a is a file of another kind: 3MF", /Export the model as STL/],
+  ["gzip", "a is a file of another kind: gzip", /Unpack it/],
+  ["html", "a is a file of another kind: HTML", /web page/],
+] as const)("a file of another kind is named: %s", (kind, title, text) => {
+  const problem = explain(new SlicerError("other-file-kind", "", { kind }), "a", DEFAULT_SETTINGS);
+  expect(problem.title).toBe(title);
+  expect(problem.text).toMatch(text);
+});
+
+test("warnings are sentences with their figures, in every language", () => {
+  const metric = "cusp";
+  const warnings: Warning[] = [
+    { code: "degenerate-facets", detail: { facets: 1 } },
+    { code: "inside-out" },
+    { code: "open-mesh", detail: { open_edges: 3, holes: 1 } },
+    { code: "unclosed-rays", detail: { unclosed: 12, rays: 3456 } },
+    { code: "tolerance-exceeded", detail: { planner: "uniform", metric, tolerance: 0.05, max_error: 0.0712 } },
+    { code: "tolerance-exceeded-on-mesh", detail: { metric, tolerance: 0.05, max_error: 0.0712 } },
+    { code: "sampled-sections" },
+    { code: "top-moved", detail: { top_mm: 9.95, height_mm: 10 } },
+    { code: "black-layers", detail: { layers: 64, from_mm: 1 } },
+    { code: "gpu-too-small", detail: { needed_bytes: 2, limit_bytes: 1 } },
+    { code: "gpu-failed", detail: { reason: "lost" } },
+  ];
+  expect(warnings.map(({ code }) => code)).toEqual(Object.keys(WARNING_CODES));
+  const words = (locale: string): string[] => warnings.map((warning) => warningWords(warning, languageOf(locale)));
+  expect(words("en")[0]).toBe("1 facet without area left out.");
+  expect(words("en")[4]).toBe("The error reaches 0.071\u00a0mm, more than the tolerance of 0.05\u00a0mm.");
+  expect(words("en")[8]).toMatch(/^64 layers without a lit pixel, from 1\.000\u00a0mm up/);
+  for (const locale of LANGUAGES) {
+    const said = words(locale);
+    expect(said.join(), locale).not.toMatch(/undefined|NaN/);
+    expect(said[8], locale).toContain("64");
+  }
 });
 
 const PRINTERS = (
@@ -266,18 +310,13 @@ const PRINTERS = (
   ...{ pixels: [100, 100], pitch_um: [50, 50], volume_mm: [5, 5, 5], layer_mm: [0.02, 0.2], is_mirrored: true, step_mm: 0.002 },
 }));
 
-test("the print file is named after the model and its kind", () => {
-  const alone = { printer: null };
-  expect(archiveName("bunny.stl", { ...alone, format: "png" })).toBe("bunny-cusp.zip");
-  expect(archiveName("part.v2.STL", { ...alone, format: "sl1" })).toBe("part.v2-cusp.sl1");
-  expect(archiveName(".stl", { ...alone, format: "chitubox" })).toBe("model-cusp.zip");
-  // A printer that reads the file looks for its own extension.
-  expect(archiveName("a.stl", printFile({ printer: "sl1s" }, PRINTERS))).toBe("a-cusp.sl1s");
-  expect(archiveName("a.stl", printFile({ printer: "sl1s", format: "uvj" }, PRINTERS))).toBe("a-cusp.uvj");
-  expect(archiveName("a.stl", printFile({ printer: "saturn" }, PRINTERS))).toBe("a-cusp.zip");
+test("the format that settings stand for is the printer's own, if none is chosen", () => {
+  expect(formatFor({ printer: "", format: "" }, PRINTERS)).toBe("png");
+  expect(formatFor({ printer: "sl1s", format: "" }, PRINTERS)).toBe("sl1");
+  expect(formatFor({ printer: "sl1s", format: "uvj" }, PRINTERS)).toBe("uvj");
 });
 
-test.each<[string, Parameters<typeof printFile>[0], Report["planner"], string]>([
+test.each<[string, { printer?: string; format?: PrintFormat }, Report["planner"], string]>([
   ["no printer", {}, "optimal", "A zip of layer images."],
   ["no printer, a format", { format: "chitubox" }, "optimal", "A ChiTuBox zip."],
   ["one that needs a converter", { printer: "saturn" }, "optimal", "A ChiTuBox zip. The Saturn reads .ctb or .goo: convert it with UVtools first."],
@@ -291,7 +330,12 @@ test.each<[string, Parameters<typeof printFile>[0], Report["planner"], string]>(
     "A Prusa SL1 file. This file has one thickness for all layers: choose uniform ones for it.",
   ],
 ])("before the download, %s: what the file is and what it needs", (_name, options, planner, said) => {
-  const words = (language: Language): string => fileWords(printFile(options, PRINTERS), { report: report({ planner }) }, language);
+  const printer = PRINTERS.find(({ name }) => name === options.printer);
+  const format = options.format ?? printer?.format ?? "png";
+  const is_read_by_printer = printer?.reads_format === true && printer.format === format;
+  const print_file = { format, extension: "", media_type: "", is_read_by_printer };
+  const patch = { planner, print_file, printer: printer?.name ?? null };
+  const words = (language: Language): string => fileWords({ report: report(patch) }, PRINTERS, language);
   expect(words(english)).toBe(`${said} The model prints as it is: no supports, not hollowed.`);
   const others = LANGUAGES.map((code) => words(languageOf(code)));
   expect(new Set(others).size).toBe(LANGUAGES.length);

@@ -4,6 +4,9 @@ import type { Texts } from "./index.js";
 export const units = { hours: "h", minutes: "min" };
 
 const LAYERS = { one: "Schicht", other: "Schichten" };
+const FACETS = { one: "Dreieck", other: "Dreiecke" };
+const EDGES = { one: "Kante", other: "Kanten" };
+const HOLES = { one: "Loch", other: "Löcher" };
 
 export const de = ({ counted, plural }: Format): Texts => ({
   language: "Deutsch",
@@ -420,17 +423,27 @@ export const de = ({ counted, plural }: Format): Texts => ({
     thinner: "Erlauben Sie dünnere Schichten, wenn Ihr Drucker es kann.",
     neither: "Ändern Sie den Bereich der Schichten.",
   },
+  otherKind: {
+    title: (name, kind) => `${name} ist eine Datei anderer Art: ${kind}`,
+    model: "Cusp liest STL. Exportieren Sie das Modell als STL, und öffnen Sie diese Datei.",
+    packed: "Entpacken Sie die Datei, und öffnen Sie das STL darin.",
+    page: "Das ist eine Webseite, kein Modell. Laden Sie das Modell selbst herunter: Vielleicht verlangt die Adresse eine Anmeldung, oder sie führt zu einer Seite über das Modell.",
+  },
   warnings: {
-    "degenerate-facets": () => "Dreiecke ohne Fläche wurden weggelassen.",
+    "degenerate-facets": (facets) => `${counted(facets, FACETS)} ohne Fläche weggelassen.`,
     "inside-out": () => "Das Netz war von innen nach außen gekehrt und wurde umgedreht.",
-    "open-mesh": () => "Das Netz ist nicht geschlossen; Löcher wurden eben geschlossen. Sehen Sie sich die Masken an.",
-    "unclosed-rays": () => "Einige Strahlen gehen durch geschlossene Löcher. Sehen Sie sich die Masken an.",
-    "tolerance-exceeded": () => "Der Fehler ist größer als die Toleranz.",
-    "tolerance-exceeded-on-mesh": () => "Am Netz selbst ist der Fehler größer als die Toleranz: Strahlen verfehlen einen Teil.",
+    "open-mesh": (edges, holes) =>
+      `Das Netz ist nicht geschlossen: ${counted(edges, EDGES)} ohne Gegenstück, ${counted(holes, HOLES)} eben geschlossen. Sehen Sie sich die Masken an.`,
+    "unclosed-rays": (unclosed, rays) =>
+      `${unclosed} von ${rays} Strahlen gehen durch Löcher des Netzes, die eben geschlossen sind. Sehen Sie sich die Masken an.`,
+    "tolerance-exceeded": (error, tolerance) => `Der Fehler erreicht ${error}, mehr als die Toleranz von ${tolerance}.`,
+    "tolerance-exceeded-on-mesh": (error, tolerance) =>
+      `Am Netz selbst erreicht der Fehler ${error}, mehr als die Toleranz von ${tolerance}: Strahlen verfehlen einen Teil der Oberfläche.`,
     "sampled-sections": () => "Die Oberfläche schneidet sich selbst; Querschnitte werden entlang von Strahlen gezählt.",
-    "top-moved": () => "Der Druck endet etwas neben der Höhe des Modells, weil die Schichten sie nicht genau ergeben.",
-    "black-layers": () => "Einige Schichten des Plans sind schwarz.",
-    "gpu-too-small": () => "Die CPU hat die Arbeit der GPU übernommen, die dafür zu klein ist.",
-    "gpu-failed": () => "Die CPU hat die Arbeit der GPU übernommen, die versagt hat.",
+    "top-moved": (top, height) => `Der Druck endet bei ${top}, weil die Schichten nicht genau ${height} ergeben.`,
+    "black-layers": (layers, from) =>
+      `${counted(layers, LAYERS)} ohne belichteten Pixel, ab ${from}: Teile schweben in der Luft oder sind dünner als ein Pixel. Sehen Sie sich dort die Masken an.`,
+    "gpu-too-small": () => "Das Modell passt nicht in den Speicher der GPU; die CPU hat ihre Arbeit übernommen.",
+    "gpu-failed": (reason) => `Die GPU hat versagt, und die CPU hat ihre Arbeit übernommen. (${reason})`,
   },
 });

@@ -4,6 +4,9 @@ import type { Format } from "./format.js";
 export const units = { hours: "h", minutes: "min" };
 
 const LAYERS = { one: "layer", other: "layers" };
+const FACETS = { one: "facet", other: "facets" };
+const EDGES = { one: "edge", other: "edges" };
+const HOLES = { one: "hole", other: "holes" };
 
 /**
  * Every sentence that a person sees or hears, in English. The other languages are held to the same keys by the compiler.
@@ -424,19 +427,30 @@ export const en = ({ counted, plural }: Format) => ({
     thinner: "Allow thinner layers if your printer can make them.",
     neither: "Change the range of layers.",
   },
-  /** By code; `message` is the core's own sentence. */
+  /** A file that is no STL: `kind` is what it is called, such as 3MF. */
+  otherKind: {
+    title: (name: string, kind: string) => `${name} is a file of another kind: ${kind}`,
+    model: "Cusp reads STL. Export the model as STL, and open that.",
+    packed: "Unpack it, and open the STL inside.",
+    page: "This is a web page, not a model. Download the model itself: the address may need a login, or lead to a page about it.",
+  },
+  /** By the code of a warning; figures come as text, already written for the language, but where a plural depends on them. */
   warnings: {
-    "degenerate-facets": (message: string) => message,
-    "inside-out": (message: string) => message,
-    "open-mesh": (message: string) => message,
-    "unclosed-rays": (message: string) => message,
-    "tolerance-exceeded": (message: string) => message,
-    "tolerance-exceeded-on-mesh": (message: string) => message,
-    "sampled-sections": (message: string) => message,
-    "top-moved": (message: string) => message,
-    "black-layers": (message: string) => message,
-    "gpu-too-small": (message: string) => message,
-    "gpu-failed": (message: string) => message,
+    "degenerate-facets": (facets: number) => `${counted(facets, FACETS)} without area left out.`,
+    "inside-out": () => "The mesh was inside out, and was turned over.",
+    "open-mesh": (edges: number, holes: number) =>
+      `The mesh is not closed: ${counted(edges, EDGES)} without a partner, ${counted(holes, HOLES)} closed by flat caps. Look at the masks.`,
+    "unclosed-rays": (unclosed: string, rays: string) =>
+      `${unclosed} of ${rays} rays pass holes of the mesh; flat caps close them. Look at the masks.`,
+    "tolerance-exceeded": (error: string, tolerance: string) => `The error reaches ${error}, more than the tolerance of ${tolerance}.`,
+    "tolerance-exceeded-on-mesh": (error: string, tolerance: string) =>
+      `On the mesh itself the error reaches ${error}, more than the tolerance of ${tolerance}: rays miss a part of the surface.`,
+    "sampled-sections": () => "The surface crosses itself, so that areas of sections are counted along rays.",
+    "top-moved": (top: string, height: string) => `The print ends at ${top}, since layers do not add up to ${height}.`,
+    "black-layers": (layers: number, from: string) =>
+      `${counted(layers, LAYERS)} without a lit pixel, from ${from} up: parts hang in the air, or are thinner than a pixel. Look at the masks there.`,
+    "gpu-too-small": () => "The model does not fit into the GPU’s memory; the CPU did its work.",
+    "gpu-failed": (reason: string) => `The GPU failed, and the CPU did its work. (${reason})`,
   },
 });
 

@@ -4,6 +4,10 @@ import type { Texts } from "./index.js";
 export const units = { hours: "h", minutes: "min" };
 
 const LAYERS = { one: "capa", other: "capas" };
+const FACETS = { one: "faceta", other: "facetas" };
+const OMITTED = { one: "omitida", other: "omitidas" };
+const EDGES = { one: "arista", other: "aristas" };
+const HOLES = { one: "agujero tapado", other: "agujeros tapados" };
 
 export const es = ({ counted, plural }: Format): Texts => ({
   language: "Español",
@@ -417,17 +421,27 @@ export const es = ({ counted, plural }: Format): Texts => ({
     thinner: "Permita capas más finas si su impresora puede hacerlas.",
     neither: "Cambie el intervalo de capas.",
   },
+  otherKind: {
+    title: (name, kind) => `${name} es un archivo de otro tipo: ${kind}`,
+    model: "Cusp lee STL. Exporte el modelo como STL y abra ese archivo.",
+    packed: "Descomprímalo y abra el STL que contiene.",
+    page: "Esto es una página web, no un modelo. Descargue el modelo mismo: quizá la dirección pida iniciar sesión o lleve a una página sobre él.",
+  },
   warnings: {
-    "degenerate-facets": () => "Se omitieron facetas sin área.",
+    "degenerate-facets": (facets) => `${counted(facets, FACETS)} sin área, ${plural(facets, OMITTED)}.`,
     "inside-out": () => "La malla estaba del revés y se le dio la vuelta.",
-    "open-mesh": () => "La malla no está cerrada; los agujeros se taparon con planos. Mire las máscaras.",
-    "unclosed-rays": () => "Algunos rayos atraviesan agujeros tapados. Mire las máscaras.",
-    "tolerance-exceeded": () => "El error supera la tolerancia.",
-    "tolerance-exceeded-on-mesh": () => "En la propia malla el error supera la tolerancia: los rayos no ven una parte.",
+    "open-mesh": (edges, holes) =>
+      `La malla no está cerrada: ${counted(edges, EDGES)} sin pareja, ${counted(holes, HOLES)} con planos. Mire las máscaras.`,
+    "unclosed-rays": (unclosed, rays) =>
+      `${unclosed} de ${rays} rayos atraviesan agujeros de la malla, tapados con planos. Mire las máscaras.`,
+    "tolerance-exceeded": (error, tolerance) => `El error llega a ${error}, más que la tolerancia de ${tolerance}.`,
+    "tolerance-exceeded-on-mesh": (error, tolerance) =>
+      `En la propia malla el error llega a ${error}, más que la tolerancia de ${tolerance}: los rayos no ven una parte de la superficie.`,
     "sampled-sections": () => "La superficie se cruza consigo misma; las secciones se cuentan a lo largo de rayos.",
-    "top-moved": () => "La impresión termina cerca de la altura del modelo, porque las capas no la suman exactamente.",
-    "black-layers": () => "Algunas capas del plan son negras.",
-    "gpu-too-small": () => "La CPU hizo el trabajo de la GPU, que es demasiado pequeña.",
-    "gpu-failed": () => "La CPU hizo el trabajo de la GPU, que falló.",
+    "top-moved": (top, height) => `La impresión termina en ${top}, porque las capas no suman exactamente ${height}.`,
+    "black-layers": (layers, from) =>
+      `${counted(layers, LAYERS)} sin ningún píxel iluminado, desde ${from}: hay partes en el aire o más finas que un píxel. Mire ahí las máscaras.`,
+    "gpu-too-small": () => "El modelo no cabe en la memoria de la GPU; la CPU hizo su trabajo.",
+    "gpu-failed": (reason) => `La GPU falló y la CPU hizo su trabajo. (${reason})`,
   },
 });

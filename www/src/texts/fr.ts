@@ -4,6 +4,10 @@ import type { Texts } from "./index.js";
 export const units = { hours: "h", minutes: "min" };
 
 const LAYERS = { one: "couche", other: "couches" };
+const FACETS = { one: "facette", other: "facettes" };
+const OMITTED = { one: "omise", other: "omises" };
+const EDGES = { one: "arête", other: "arêtes" };
+const HOLES = { one: "trou bouché", other: "trous bouchés" };
 
 export const fr = ({ counted, plural }: Format): Texts => ({
   language: "Français",
@@ -417,17 +421,27 @@ export const fr = ({ counted, plural }: Format): Texts => ({
     thinner: "Permettez des couches plus fines si votre imprimante en est capable.",
     neither: "Changez l’intervalle des couches.",
   },
+  otherKind: {
+    title: (name, kind) => `${name} est un fichier d’un autre type : ${kind}`,
+    model: "Cusp lit le STL. Exportez le modèle en STL et ouvrez ce fichier.",
+    packed: "Décompressez-le et ouvrez le STL qu’il contient.",
+    page: "C’est une page web, pas un modèle. Téléchargez le modèle lui-même : l’adresse demande peut-être une connexion, ou mène à une page sur le modèle.",
+  },
   warnings: {
-    "degenerate-facets": () => "Des facettes sans aire ont été omises.",
+    "degenerate-facets": (facets) => `${counted(facets, FACETS)} sans aire, ${plural(facets, OMITTED)}.`,
     "inside-out": () => "Le maillage était à l’envers et a été retourné.",
-    "open-mesh": () => "Le maillage n’est pas fermé ; les trous ont été bouchés à plat. Regardez les masques.",
-    "unclosed-rays": () => "Des rayons traversent des trous bouchés. Regardez les masques.",
-    "tolerance-exceeded": () => "L’erreur dépasse la tolérance.",
-    "tolerance-exceeded-on-mesh": () => "Sur le maillage même l’erreur dépasse la tolérance : les rayons en manquent une partie.",
+    "open-mesh": (edges, holes) =>
+      `Le maillage n’est pas fermé : ${counted(edges, EDGES)} sans vis-à-vis, ${counted(holes, HOLES)} à plat. Regardez les masques.`,
+    "unclosed-rays": (unclosed, rays) =>
+      `${unclosed} rayons sur ${rays} traversent des trous du maillage, bouchés à plat. Regardez les masques.`,
+    "tolerance-exceeded": (error, tolerance) => `L’erreur atteint ${error}, plus que la tolérance de ${tolerance}.`,
+    "tolerance-exceeded-on-mesh": (error, tolerance) =>
+      `Sur le maillage même l’erreur atteint ${error}, plus que la tolérance de ${tolerance} : les rayons manquent une partie de la surface.`,
     "sampled-sections": () => "La surface se croise ; les sections sont comptées le long des rayons.",
-    "top-moved": () => "L’impression finit près de la hauteur du modèle, car les couches ne la font pas exactement.",
-    "black-layers": () => "Des couches du plan sont noires.",
-    "gpu-too-small": () => "Le CPU a fait le travail du GPU, qui est trop petit.",
-    "gpu-failed": () => "Le CPU a fait le travail du GPU, qui a échoué.",
+    "top-moved": (top, height) => `L’impression finit à ${top}, car les couches ne font pas exactement ${height}.`,
+    "black-layers": (layers, from) =>
+      `${counted(layers, LAYERS)} sans pixel éclairé, à partir de ${from} : des parties flottent en l’air ou sont plus fines qu’un pixel. Regardez-y les masques.`,
+    "gpu-too-small": () => "Le modèle ne tient pas dans la mémoire du GPU ; le CPU a fait son travail.",
+    "gpu-failed": (reason) => `Le GPU a échoué, et le CPU a fait son travail. (${reason})`,
   },
 });

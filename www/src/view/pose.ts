@@ -1,12 +1,12 @@
 /** How a model stands on the plate: turned by a unit quaternion, centred, its lowest point at z = 0. */
 import { Quaternion, Vector3 } from "three";
 
+export { UPRIGHT } from "./turn.js";
+
 /** A unit quaternion [x, y, z, w] that turns the model before it is put on the plate. */
 export type Rotation = readonly [x: number, y: number, z: number, w: number];
 
 export type Triple = readonly [x: number, y: number, z: number];
-
-export const UPRIGHT: Rotation = [0, 0, 0, 1];
 
 /** Bounds of the turned and scaled model, mm, before it is put on the plate. */
 export interface Extent {

@@ -1,6 +1,9 @@
 /** Turning vectors by unit quaternions, for what is drawn without three. */
 import type { Rotation, Triple } from "./pose.js";
 
+/** As the file has it. */
+export const UPRIGHT: Rotation = [0, 0, 0, 1];
+
 /** The turn by `first` and then by `second`. */
 export function combined(first: Rotation, second: Rotation): Rotation {
   const [ax, ay, az, aw] = second;
