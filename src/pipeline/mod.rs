@@ -23,8 +23,8 @@ use crate::profile::relief::Relief;
 use crate::profile::{Metric, Profile, Source, section};
 use crate::progress::Progress;
 use crate::report::{
-    Comparison, Glance, MaskReport, MeshInfo, PrintFileReport, Report, SCHEMA, StlReport, Timings, Tradeoff,
-    mesh_warnings,
+    Comparison, Glance, MaskReport, MeshInfo, PrintFileReport, Report, SCHEMA, StlReport, Timings,
+    Tradeoff, mesh_warnings,
 };
 use crate::warning::Warning;
 use crate::{saliency, stl, weights};
