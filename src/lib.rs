@@ -45,6 +45,7 @@ pub mod weights;
 
 pub mod direction;
 mod error;
+mod job;
 pub mod options;
 pub mod pipeline;
 mod planning;

@@ -3,14 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::archive::Format;
-use crate::error::Error;
 use crate::exposure::Resin;
-use crate::grid::Bins;
-use crate::mask::Samples;
-use crate::mesh::Pose;
-use crate::plan::optimal::Objective;
-use crate::plan::{HeightRange, Limits, uniform};
-use crate::printer::{self, Printer};
+use crate::plan::HeightRange;
 use crate::profile::{Metric, Source};
 
 /// Where the LDI is sampled.
@@ -195,174 +189,11 @@ impl Default for Options {
 }
 
 impl Options {
-    /// The printer, if one is named.
-    ///
-    /// # Errors
-    /// [`Error::Options`] if nobody knows it.
-    pub(crate) fn printer(&self) -> Result<Option<&'static Printer>, Error> {
-        let Some(name) = &self.printer else {
-            return Ok(None);
-        };
-        let known = || {
-            let names: Vec<&str> = printer::PRINTERS
-                .iter()
-                .map(|printer| printer.name)
-                .collect();
-            Error::Options {
-                reason: format!("there is no printer {name}; known are {}", names.join(", ")),
-            }
-        };
-        printer::named(name).map(Some).ok_or_else(known)
-    }
-
-    /// Pixels of masks if they are given.
-    ///
-    /// # Errors
-    /// [`Error::Options`].
-    pub(crate) fn plate_pixels(&self) -> Result<Option<[u32; 2]>, Error> {
-        let preset = self.printer()?.map(|printer| printer.pixels);
-        Ok(self.pixels.or(preset))
-    }
-
-    /// Sides of a pixel in x and y, if they are given.
-    ///
-    /// # Errors
-    /// [`Error::Options`].
-    pub(crate) fn plate_pitch_mm(&self) -> Result<Option<[f64; 2]>, Error> {
-        let printer = self.printer()?;
-        let preset = printer.map(|printer| printer.pitch_um.map(|pitch_um| pitch_um / 1e3));
-        let given = self
-            .pitch_mm
-            .map(|x_mm| [x_mm, self.pitch_y_mm.unwrap_or(x_mm)]);
-        Ok(given.or(preset))
-    }
-
-    /// The print file that is asked for, or that the printer takes.
-    ///
-    /// # Errors
-    /// [`Error::Options`].
-    pub(crate) fn format(&self) -> Result<Format, Error> {
-        let preset = self.printer()?.map(|printer| printer.format);
-        Ok(self.format.or(preset).unwrap_or_default())
-    }
-
-    /// Whether print files have their masks mirrored.
-    ///
-    /// # Errors
-    /// [`Error::Options`].
-    pub(crate) fn is_mirrored(&self) -> Result<bool, Error> {
-        let preset = self.printer()?.map(|printer| printer.is_mirrored);
-        Ok(self.mirror.or(preset).unwrap_or(false))
-    }
-
     /// The same wherever rays are cast, which decides nothing.
     pub(crate) fn anywhere(&self) -> Self {
         Self {
             backend: Backend::default(),
             ..self.clone()
         }
-    }
-
-    /// How the model stands on the plate.
-    pub(crate) fn pose(&self) -> Pose {
-        Pose {
-            rotation: self.rotation,
-            height_mm: self.height_mm,
-        }
-    }
-
-    /// What the light of a pixel is averaged over.
-    ///
-    /// # Errors
-    /// [`Error::Options`].
-    pub(crate) fn samples(&self) -> Result<Samples, Error> {
-        Samples::of_level(self.antialias).ok_or_else(|| Error::Options {
-            reason: format!(
-                "there are anti-aliasing levels 1, 2, 4 and 8, but no {}",
-                self.antialias
-            ),
-        })
-    }
-
-    /// What plans must keep to within `tolerance`.
-    pub(crate) fn limits(&self, tolerance: f64) -> Limits {
-        Limits {
-            layer_min_mm: self.layer_min_mm,
-            layer_max_mm: self.layer_max_mm,
-            tolerance,
-            ranges: self.ranges.clone(),
-            planes_mm: self.planes_mm.clone(),
-            step_mm: self.step_mm.or_else(|| {
-                let printer = self.printer().ok().flatten();
-                printer.map(|printer| printer.step_mm)
-            }),
-        }
-    }
-
-    /// Finds thicknesses that the printer cannot make.
-    fn check_printer(&self) -> Result<(), Error> {
-        let Some(printer) = self.printer()? else {
-            return Ok(());
-        };
-        let [least_mm, greatest_mm] = printer.layer_mm;
-        if self.layer_min_mm < least_mm || self.layer_max_mm > greatest_mm {
-            return Err(Error::Options {
-                reason: format!(
-                    "the {} makes layers of {least_mm} to {greatest_mm} mm, not {} to {} mm",
-                    printer.model, self.layer_min_mm, self.layer_max_mm
-                ),
-            });
-        }
-        Ok(())
-    }
-
-    /// What plans have least of.
-    pub(crate) fn objective(&self) -> Objective<'_> {
-        match self.minimize {
-            Minimize::Layers => Objective::Layers,
-            Minimize::Time => Objective::Time(&self.resin),
-        }
-    }
-
-    /// Finds what no model could make good, before any time is spent on sampling.
-    ///
-    /// # Errors
-    /// [`Error::Plan`], [`Error::Options`].
-    pub fn check(&self) -> Result<(), Error> {
-        let bins = Bins {
-            count: 1,
-            size_mm: self.bin_mm,
-        };
-        self.check_printer()?;
-        self.samples()?;
-        if !(0.0..=1.0).contains(&self.weight_min) {
-            let reason = format!(
-                "the least weight must be from 0 to 1, not {}",
-                self.weight_min
-            );
-            return Err(Error::Options { reason });
-        }
-        self.resin.check().map_err(crate::plan::PlanError::from)?;
-        let given = [
-            self.tolerance.is_some(),
-            self.max_layers.is_some(),
-            self.max_time_s.is_some(),
-        ];
-        if given.into_iter().filter(|&given| given).count() > 1 {
-            let reason =
-                "give a tolerance, the most layers or the longest time, but not two of them";
-            return Err(Error::Options {
-                reason: reason.to_owned(),
-            });
-        }
-        match self.planner {
-            Planner::Uniform { layer_mm } => {
-                uniform::thickness_in_bins(bins, layer_mm)?;
-            }
-            _ => self
-                .limits(self.tolerance.unwrap_or(self.metric.default_tolerance()))
-                .check(bins)?,
-        }
-        Ok(())
     }
 }

@@ -4,10 +4,11 @@
 use std::borrow::Borrow;
 
 use crate::grid::Bins;
+use crate::job::{Aim, Layering};
 use crate::ldi::Ldi;
 use crate::ldi::visibility::{Visibility, visibility};
 use crate::mesh::Mesh;
-use crate::options::{Options, Planner, Snap};
+use crate::options::Planner;
 use crate::plan::optimal::Objective;
 use crate::plan::tradeoff::{self, Goal, TradeoffPoint};
 use crate::plan::{Limits, Plan, PlanError, greedy, optimal, uniform};
@@ -161,6 +162,7 @@ impl Shapes {
 /// All that planners need to know about a model.
 pub(crate) struct Planning<'a> {
     shapes: &'a Shapes,
+    layering: &'a Layering,
     height_mm: f64,
     /// Errors under the metric, of the source that plans are made from.
     errors: LayerErrors,
@@ -184,32 +186,32 @@ pub(crate) struct PlanReport {
 }
 
 impl<'a> Planning<'a> {
-    pub fn new(height_mm: f64, shapes: &'a Shapes, options: &Options) -> Self {
-        let exact = shapes.errors(options.metric, Source::Exact);
-        let errors = match options.source {
+    pub fn new(height_mm: f64, shapes: &'a Shapes, layering: &'a Layering) -> Self {
+        let exact = shapes.errors(layering.metric, Source::Exact);
+        let errors = match layering.source {
             Source::Exact => exact.clone(),
-            Source::Sampled => shapes.errors(options.metric, Source::Sampled),
+            Source::Sampled => shapes.errors(layering.metric, Source::Sampled),
         };
-        let wishes = match options.snap {
-            Snap::Off => Vec::new(),
-            Snap::Auto => {
-                let cusp = shapes.of(options.source).profile(Metric::Cusp);
-                let area_mm2 = options.flat_area_mm2;
+        let wishes = match layering.snap_mm2 {
+            None => Vec::new(),
+            Some(area_mm2) => {
+                let cusp = shapes.of(layering.source).profile(Metric::Cusp);
                 wishes(&shapes.flats, &cusp.density, cusp.bins, area_mm2)
             }
         };
         Self {
             shapes,
             height_mm,
-            tolerance: tolerance(&errors, &wishes, options),
+            tolerance: tolerance(&errors, &wishes, layering),
+            layering,
             errors,
             exact,
             wishes,
         }
     }
 
-    fn limits(&self, options: &Options) -> Result<Limits, PlanError> {
-        Ok(options.limits(self.tolerance.clone()?))
+    fn limits(&self) -> Result<Limits, PlanError> {
+        Ok(self.layering.limits(self.tolerance.clone()?))
     }
 
     /// The largest error of a plan on the mesh itself, in the metric's unit.
@@ -217,28 +219,28 @@ impl<'a> Planning<'a> {
         plan.max_error(&self.exact)
     }
 
-    pub fn plan(&self, options: &Options) -> Result<Plan, PlanError> {
-        self.plan_by(options.planner, options)
+    pub fn plan(&self) -> Result<Plan, PlanError> {
+        self.plan_by(self.layering.planner)
     }
 
-    fn plan_by(&self, planner: Planner, options: &Options) -> Result<Plan, PlanError> {
+    fn plan_by(&self, planner: Planner) -> Result<Plan, PlanError> {
         let (errors, wishes) = (&self.errors, &self.wishes);
         let bins = errors.bins();
-        let greedily = |sight| greedy::plan(errors, &self.limits(options)?, wishes, sight);
+        let greedily = |sight| greedy::plan(errors, &self.limits()?, wishes, sight);
         match planner {
             Planner::Optimal => {
                 // The time is what a longest time is about.
-                let objective = match options.max_time_s {
-                    Some(_) => Objective::Time(&options.resin),
-                    None => options.objective(),
+                let objective = match self.layering.aim {
+                    Aim::Time(_) => Objective::Time(&self.layering.resin),
+                    _ => self.layering.objective(),
                 };
-                optimal::plan(errors, &self.limits(options)?, wishes, objective)
+                optimal::plan(errors, &self.limits()?, wishes, objective)
             }
             Planner::Greedy => greedily(greedy::Sight::Profile),
             Planner::Local => greedily(greedy::Sight::Plane),
             Planner::Uniform { layer_mm } => uniform::plan(bins, self.height_mm, layer_mm),
             Planner::Finest | Planner::Coarsest => {
-                let limits = options.limits(0.0);
+                let limits = self.layering.limits(0.0);
                 let thickness = limits.thickness(bins, limits.layer_min_mm, limits.layer_max_mm)?;
                 let units = match planner {
                     Planner::Finest => *thickness.start(),
@@ -258,33 +260,34 @@ impl<'a> Planning<'a> {
         }
     }
 
-    fn row(&self, planner: Planner, options: &Options) -> Result<PlannerReport, PlanError> {
-        let plan = self.plan_by(planner, options)?;
+    fn row(&self, planner: Planner) -> Result<PlannerReport, PlanError> {
+        let plan = self.plan_by(planner)?;
         Ok(PlannerReport {
             planner: planner.name().to_owned(),
             layers: plan.layers(),
             max_error: self.max_error(&plan),
-            print_time_s: plan.print_time_s(&options.resin),
+            print_time_s: plan.print_time_s(&self.layering.resin),
         })
     }
 
-    pub fn report(&self, options: &Options, plan: &Plan) -> Result<PlanReport, PlanError> {
-        let (finest, coarsest) = match options.planner {
+    pub fn report(&self, plan: &Plan) -> Result<PlanReport, PlanError> {
+        let layering = self.layering;
+        let (finest, coarsest) = match layering.planner {
             // They may be planned with no valid range; they then stand for both ends.
-            Planner::Uniform { .. } if options.limits(1.0).check(plan.bins).is_err() => {
-                (options.planner, options.planner)
+            Planner::Uniform { .. } if layering.limits(1.0).check(plan.bins).is_err() => {
+                (layering.planner, layering.planner)
             }
             _ => (Planner::Finest, Planner::Coarsest),
         };
         let bins = plan.bins;
         let is_adaptive = matches!(
-            options.planner,
+            layering.planner,
             Planner::Optimal | Planner::Greedy | Planner::Local
         );
         let tolerance = match self.tolerance.clone() {
             Ok(tolerance) => tolerance,
             Err(error) if is_adaptive => return Err(error),
-            Err(_) => options.metric.default_tolerance(),
+            Err(_) => layering.metric.default_tolerance(),
         };
         let max_error = self.max_error(plan);
         let mut warnings = Vec::new();
@@ -292,19 +295,19 @@ impl<'a> Planning<'a> {
         if planned_steps > self.errors.to_steps(tolerance) {
             let planned = self.errors.to_value(planned_steps);
             warnings.push(Warning::ToleranceExceeded {
-                planner: options.planner.name().to_owned(),
-                metric: options.metric,
+                planner: layering.planner.name().to_owned(),
+                metric: layering.metric,
                 tolerance,
                 max_error: planned,
             });
         } else if plan.max_error_steps(&self.exact) > self.exact.to_steps(tolerance) {
             warnings.push(Warning::ToleranceExceededOnMesh {
-                metric: options.metric,
+                metric: layering.metric,
                 tolerance,
                 max_error,
             });
         }
-        if self.shapes.overlaps && options.metric.needs_areas() {
+        if self.shapes.overlaps && layering.metric.needs_areas() {
             warnings.push(Warning::SampledSections);
         }
         let top_mm = bins.boundary_mm(plan.boundaries[plan.layers()]);
@@ -323,33 +326,29 @@ impl<'a> Planning<'a> {
                 .collect(),
             tolerance,
             max_error,
-            sampled_error: plan.max_error(&self.shapes.errors(options.metric, Source::Sampled)),
+            sampled_error: plan.max_error(&self.shapes.errors(layering.metric, Source::Sampled)),
             max_error_mm: plan.max_error(&cusp),
-            print_time_s: plan.print_time_s(&options.resin),
+            print_time_s: plan.print_time_s(&layering.resin),
             uniform: UniformReport {
-                finest: self.row(finest, options)?,
-                coarsest: self.row(coarsest, options)?,
+                finest: self.row(finest)?,
+                coarsest: self.row(coarsest)?,
             },
             warnings,
         })
     }
 
-    pub fn tradeoff(
-        &self,
-        options: &Options,
-        points: usize,
-    ) -> Result<Vec<TradeoffPoint>, PlanError> {
+    pub fn tradeoff(&self, points: usize) -> Result<Vec<TradeoffPoint>, PlanError> {
         tradeoff::curve(
             &self.errors,
-            &options.limits(0.0),
+            &self.layering.limits(0.0),
             &self.wishes,
-            options.objective(),
-            &options.resin,
+            self.layering.objective(),
+            &self.layering.resin,
             points,
         )
     }
 
-    pub fn compare(&self, options: &Options) -> Result<Vec<PlannerReport>, PlanError> {
+    pub fn compare(&self) -> Result<Vec<PlannerReport>, PlanError> {
         [
             Planner::Coarsest,
             Planner::Optimal,
@@ -358,35 +357,27 @@ impl<'a> Planning<'a> {
             Planner::Finest,
         ]
         .into_iter()
-        .map(|planner| self.row(planner, options))
+        .map(|planner| self.row(planner))
         .collect()
     }
 }
 
-/// The tolerance that the options give, or ask to find.
-fn tolerance(errors: &LayerErrors, wishes: &[u32], options: &Options) -> Result<f64, PlanError> {
-    let goal = match (options.max_layers, options.max_time_s) {
-        (Some(layers), _) => Some(Goal::Layers(layers)),
-        (None, Some(time_s)) => Some(Goal::Time(time_s)),
-        (None, None) => None,
+/// The tolerance that is asked for, or is to be found.
+fn tolerance(errors: &LayerErrors, wishes: &[u32], layering: &Layering) -> Result<f64, PlanError> {
+    let goal = match layering.aim {
+        Aim::Tolerance(tolerance) => return Ok(tolerance),
+        Aim::AtLeast(usual) => {
+            let limits = layering.limits(usual);
+            let steps = errors.to_steps(usual);
+            if optimal::within(errors, &limits, &[], Objective::Layers, steps)?.is_ok() {
+                return Ok(usual);
+            }
+            let least = tradeoff::least_tolerance(errors, &limits, Objective::Layers);
+            return Ok(least.unwrap_or(usual));
+        }
+        Aim::Layers(layers) => Goal::Layers(layers),
+        Aim::Time(time_s) => Goal::Time(time_s),
     };
-    if let Some(goal) = goal {
-        let limits = options.limits(0.0);
-        return tradeoff::tolerance_for(errors, &limits, wishes, &options.resin, goal);
-    }
-    if let Some(tolerance) = options.tolerance {
-        return Ok(tolerance);
-    }
-    let usual = options.metric.default_tolerance();
-    if options.metric != Metric::Volume {
-        return Ok(usual);
-    }
-    // No volume suits all models: as much more as this one needs.
-    let limits = options.limits(usual);
-    let steps = errors.to_steps(usual);
-    if optimal::within(errors, &limits, &[], Objective::Layers, steps)?.is_ok() {
-        return Ok(usual);
-    }
-    let least = tradeoff::least_tolerance(errors, &limits, Objective::Layers);
-    Ok(least.unwrap_or(usual))
+    let limits = layering.limits(0.0);
+    tradeoff::tolerance_for(errors, &limits, wishes, &layering.resin, goal)
 }

@@ -10,6 +10,7 @@ use std::ops::ControlFlow;
 
 use common::{binary_stl, quiet, solids};
 use cusp_slicer::Error;
+use cusp_slicer::archive::Format;
 use cusp_slicer::options::{Backend, Minimize, Options, Planner, Snap};
 use cusp_slicer::pipeline::{Slicer, Stage};
 use cusp_slicer::profile::{Metric, Source};
@@ -179,6 +180,51 @@ fn output_that_would_be_black_is_an_error() {
     plan(&mut low, &coarse).unwrap();
     let result = low.write_archive(Cursor::new(Vec::new()), &mut quiet);
     assert_eq!(code(result.map(|_| ())), "all-black");
+}
+
+#[test]
+fn looking_at_other_plans_leaves_the_plan_and_its_masks_alone() {
+    let stl = binary_stl(&solids::sphere(3.0, 4));
+    let planned = Options {
+        antialias: 4,
+        format: Some(Format::Png),
+        ..options()
+    };
+    let looks: [(&str, Options); 3] = [
+        ("other samples", options()),
+        (
+            "other rays",
+            Options {
+                rays: 77,
+                ..options()
+            },
+        ),
+        (
+            "another pose",
+            Options {
+                height_mm: Some(4.0),
+                ..options()
+            },
+        ),
+    ];
+    for (name, look) in looks {
+        let mut slicer = Slicer::load(&stl).unwrap();
+        plan(&mut slicer, &planned).unwrap();
+        let expected = slicer.write_archive(Vec::new(), &mut quiet).unwrap().0;
+        let mask = slicer.mask(20).unwrap();
+
+        pollster::block_on(slicer.tradeoff(&look, 3, &mut quiet)).unwrap();
+        assert_eq!(slicer.mask(20).unwrap(), mask, "{name}");
+        pollster::block_on(slicer.compare(&look, &mut quiet)).unwrap();
+        let found = slicer.write_archive(Vec::new(), &mut quiet).unwrap().0;
+        assert!(found == expected, "{name}");
+
+        // A plan whose masks nobody has looked at yet.
+        plan(&mut slicer, &planned).unwrap();
+        pollster::block_on(slicer.tradeoff(&look, 3, &mut quiet)).unwrap();
+        let found = slicer.write_archive(Vec::new(), &mut quiet).unwrap().0;
+        assert!(found == expected, "{name}, masks made afterwards");
+    }
 }
 
 /// A model, the level of anti-aliasing, and whether there are black layers.

@@ -4,18 +4,20 @@ mod orientation;
 
 use std::io::Write;
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use serde::Serialize;
 use web_time::Instant;
 
-use crate::archive::{self, Job};
+use crate::archive;
 use crate::direction::Turntable;
 use crate::error::Error;
-use crate::grid::{Bins, Grid, GridError};
+use crate::grid::{Bins, Grid};
+use crate::job::{Job, Layering, Sampling};
 use crate::ldi::gpu::{self, Gpu};
 use crate::ldi::{Ldi, LdiError, Solid, cpu};
 use crate::mask::{MaskCursor, Masks, Side, black_layers};
-use crate::mesh::{Bounds, Mesh, Pose};
+use crate::mesh::{Mesh, Pose};
 use crate::options::{Backend, Options};
 use crate::plan::Plan;
 use crate::planning::{PlanReport, Planning, Shapes};
@@ -83,14 +85,15 @@ pub struct Slicer {
     gpu: Option<Result<Gpu, LdiError>>,
     /// The surface for being looked at along directions, and the pose whose height it is scaled to, if one is asked for.
     turntable: Option<(Option<Pose>, Turntable)>,
-    sampled: Option<Sampled>,
+    sampled: Option<Arc<Sampled>>,
+    measured: Option<Measured>,
     planned: Option<Planned>,
 }
 
-/// The model on the plate and its LDI, with the options that they depend on.
+/// The model on the plate and its rays. Nothing in it changes, so that whoever holds it can be given no other rays.
 #[derive(Debug)]
 struct Sampled {
-    options: SamplingOptions,
+    sampling: Sampling,
     mesh: Mesh,
     height_mm: f64,
     /// The masks' pixels; the LDI has rays only where the model is.
@@ -99,29 +102,28 @@ struct Sampled {
     solid: Solid,
     adapter: Option<String>,
     warnings: Vec<Warning>,
-    shapes: Option<Shapes>,
 }
 
-type SamplingOptions = (
-    Pose,
-    Option<String>,
-    Option<[u32; 2]>,
-    [Option<f64>; 2],
-    u32,
-    u32,
-    Backend,
-);
+/// What was measured of a sampled model last.
+#[derive(Debug)]
+struct Measured {
+    of: Arc<Sampled>,
+    shapes: Shapes,
+}
 
-/// What a plan is made from beside its options.
+/// What a plan is made from.
 #[derive(Clone, Copy)]
 struct Origin<'a> {
     stl: &'a StlReport,
+    options: &'a Options,
     paint: Option<&'a [f32]>,
 }
 
+/// A plan with the rays that it was made from: its masks are made from no others.
 #[derive(Debug)]
 struct Planned {
-    options: Options,
+    of: Arc<Sampled>,
+    job: Job,
     plan: Plan,
     report: Report,
     masks: Option<(Masks, MaskCursor)>,
@@ -147,6 +149,7 @@ impl Slicer {
             gpu: None,
             turntable: None,
             sampled: None,
+            measured: None,
             planned: None,
         })
     }
@@ -226,19 +229,27 @@ impl Slicer {
         options: &Options,
         progress: &mut StageProgress<'_>,
     ) -> Result<Option<Vec<f32>>, Error> {
-        if options.saliency {
+        self.layering_weights(&options.resolve()?.layering, progress)
+    }
+
+    fn layering_weights(
+        &mut self,
+        layering: &Layering,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<Option<Vec<f32>>, Error> {
+        if layering.saliency {
             self.saliency(progress)?;
         }
-        Ok(self.known_weights(options))
+        Ok(self.known_weights(layering))
     }
 
     /// The same without computing any saliency that is not there yet.
-    fn known_weights(&self, options: &Options) -> Option<Vec<f32>> {
-        let saliency = self.saliency.as_ref().filter(|_| options.saliency);
+    fn known_weights(&self, layering: &Layering) -> Option<Vec<f32>> {
+        let saliency = self.saliency.as_ref().filter(|_| layering.saliency);
         if saliency.is_none() && self.paint.is_none() {
             return None;
         }
-        let least = options.weight_min as f32;
+        let least = layering.weight_min as f32;
         let of = |weights: Option<&Vec<f32>>, facet: usize| weights.map_or(1.0, |it| it[facet]);
         let weight = |facet| {
             let product = of(saliency, facet) * of(self.paint.as_ref(), facet);
@@ -253,28 +264,30 @@ impl Slicer {
     /// # Errors
     /// [`Error::Mesh`], [`Error::Grid`], [`Error::Plan`], [`Error::Options`].
     pub fn glance(&self, options: &Options) -> Result<(Glance, Profile), Error> {
-        options.check()?;
-        let mesh = self.model.on_plate(&options.pose())?;
+        let Job {
+            sampling, layering, ..
+        } = &options.resolve()?;
+        let mesh = self.model.on_plate(&sampling.pose)?;
         let size = mesh.bounds().size();
-        let height_mm = height_mm(size.z, options);
-        let bins = Bins::of_height(height_mm, options.bin_mm)?;
+        let height_mm = sampling.height_mm(size.z);
+        let bins = Bins::of_height(height_mm, layering.bin_mm)?;
         let relief = Relief::of(&mesh, bins);
         let areas_mm2 = || Ok::<_, Error>(section::exact(&mesh, &[], bins));
-        let weights = self.known_weights(options);
-        let shapes = shapes_of(&relief, areas_mm2, options, weights)?;
-        let planning = Planning::new(height_mm, &shapes, options);
-        let plan = planning.plan(options)?;
+        let weights = self.known_weights(layering);
+        let shapes = shapes_of(&relief, areas_mm2, layering, weights)?;
+        let planning = Planning::new(height_mm, &shapes, layering);
+        let plan = planning.plan()?;
         let glance = Glance {
             layers: plan.layers(),
             size_mm: size.to_array(),
             z_mm: plan.z_mm(),
             thickness_mm: plan.thickness_mm(),
-            metric: options.metric,
+            metric: layering.metric,
             max_error: planning.max_error(&plan),
-            print_time_s: plan.print_time_s(&options.resin),
+            print_time_s: plan.print_time_s(&layering.resin),
             bin_mm: bins.size_mm,
         };
-        Ok((glance, shapes.profile(options.metric, Source::Exact)))
+        Ok((glance, shapes.profile(layering.metric, Source::Exact)))
     }
 
     /// Samples the model, makes its profile and plans its layers; repeats only what the options
@@ -288,38 +301,38 @@ impl Slicer {
         progress: &mut StageProgress<'_>,
     ) -> Result<&Report, Error> {
         self.planned = None;
-        options.check()?;
+        let job = options.resolve()?;
         let mut timings = Timings {
             load: self.load_ms,
             ..Timings::default()
         };
-        self.measure(options, &mut timings, progress).await?;
-        let sampled = self.sampled.as_mut().ok_or(Error::NoPlan)?;
+        let measured = self.measure(&job, &mut timings, progress).await?;
 
         let clock = Instant::now();
         continue_or_cancel(progress(Stage::Plan, 0.0))?;
-        let planning = sampled.planning(options)?;
-        let plan = planning.plan(options)?;
-        let report = planning.report(options, &plan)?;
+        let planning = measured.planning(&job.layering);
+        let plan = planning.plan()?;
+        let figures = planning.report(&plan)?;
         timings.plan = ms_since(clock);
         continue_or_cancel(progress(Stage::Plan, 1.0))?;
 
         timings.sum_up();
+        let of = Arc::clone(&measured.of);
         self.load_ms = 0.0;
         let origin = Origin {
             stl: &self.stl,
+            options,
             paint: self.paint.as_deref(),
         };
-        let report = sampled.report(origin, options, &plan, report, timings)?;
-        Ok(&self
-            .planned
-            .insert(Planned {
-                options: options.clone(),
-                plan,
-                report,
-                masks: None,
-            })
-            .report)
+        let report = of.report(origin, &job, &plan, figures, timings);
+        let planned = Planned {
+            of,
+            job,
+            plan,
+            report,
+            masks: None,
+        };
+        Ok(&self.planned.insert(planned).report)
     }
 
     /// Best plans for `points` tolerances, from the tightest that can be held to the loosest that saves a layer. Makes
@@ -333,12 +346,11 @@ impl Slicer {
         points: usize,
         progress: &mut StageProgress<'_>,
     ) -> Result<Tradeoff, Error> {
-        options.check()?;
-        self.measure(options, &mut Timings::default(), progress)
-            .await?;
-        let sampled = self.sampled.as_mut().ok_or(Error::NoPlan)?;
+        let job = options.resolve()?;
+        let mut timings = Timings::default();
+        let measured = self.measure(&job, &mut timings, progress).await?;
         continue_or_cancel(progress(Stage::Plan, 0.0))?;
-        let points = sampled.planning(options)?.tradeoff(options, points)?;
+        let points = measured.planning(&job.layering).tradeoff(points)?;
         continue_or_cancel(progress(Stage::Plan, 1.0))?;
         Ok(Tradeoff { points })
     }
@@ -352,84 +364,93 @@ impl Slicer {
         options: &Options,
         progress: &mut StageProgress<'_>,
     ) -> Result<Comparison, Error> {
-        options.check()?;
-        self.measure(options, &mut Timings::default(), progress)
-            .await?;
-        let sampled = self.sampled.as_mut().ok_or(Error::NoPlan)?;
+        let job = options.resolve()?;
+        let mut timings = Timings::default();
+        let measured = self.measure(&job, &mut timings, progress).await?;
         continue_or_cancel(progress(Stage::Plan, 0.0))?;
-        let rows = sampled.planning(options)?.compare(options)?;
+        let rows = measured.planning(&job.layering).compare()?;
         continue_or_cancel(progress(Stage::Plan, 1.0))?;
+        let metric = job.layering.metric;
         Ok(Comparison {
-            facets: sampled.mesh.surface_facets,
-            height_mm: sampled.height_mm,
-            metric: options.metric,
-            unit: options.metric.unit().to_owned(),
+            facets: measured.of.mesh.surface_facets,
+            height_mm: measured.of.height_mm,
+            metric,
+            unit: metric.unit().to_owned(),
             rows,
         })
     }
 
-    /// Samples the model and measures its shape, unless what is there still holds.
+    /// Samples the model and measures its shape, unless what is there still holds. Leaves the last plan, which has the rays
+    /// that it was made from.
     async fn measure(
         &mut self,
-        options: &Options,
+        job: &Job,
         timings: &mut Timings,
         progress: &mut StageProgress<'_>,
-    ) -> Result<(), Error> {
-        let weights = self.weights(options, progress)?;
-        let key = sampling_options(options);
-        let sampled = match self.sampled.take().filter(|sampled| sampled.options == key) {
+    ) -> Result<&Measured, Error> {
+        let layering = &job.layering;
+        let weights = self.layering_weights(layering, progress)?;
+        let kept = self.sampled.take();
+        let sampled = match kept.filter(|kept| kept.sampling == job.sampling) {
             Some(sampled) => sampled,
-            None => self.sample(options, timings, progress).await?,
+            None => {
+                // Rays that nobody needs any more make room for the new ones.
+                self.measured = None;
+                Arc::new(self.sample(&job.sampling, timings, progress).await?)
+            }
         };
-        let sampled = self.sampled.insert(sampled);
+        self.sampled = Some(Arc::clone(&sampled));
 
         let clock = Instant::now();
         continue_or_cancel(progress(Stage::Profile, 0.0))?;
-        let bins = Bins::of_height(sampled.height_mm, options.bin_mm)?;
-        let kept = sampled.shapes.take();
+        let bins = Bins::of_height(sampled.height_mm, layering.bin_mm)?;
+        let kept = self.measured.take();
         let mut is_new = false;
         let mut shapes = kept
-            .filter(|shapes| shapes.exact.bins == bins)
-            .unwrap_or_else(|| {
-                is_new = true;
-                Shapes::new(&sampled.mesh, &sampled.ldi, bins)
-            });
-        if options.metric.needs_areas() {
+            .filter(|kept| Arc::ptr_eq(&kept.of, &sampled) && kept.shapes.exact.bins == bins)
+            .map_or_else(
+                || {
+                    is_new = true;
+                    Shapes::new(&sampled.mesh, &sampled.ldi, bins)
+                },
+                |kept| kept.shapes,
+            );
+        if layering.metric.needs_areas() {
             is_new |= shapes.add_areas(&sampled.mesh, &sampled.ldi);
         }
         let relief = || Relief::of(&sampled.mesh, bins);
-        is_new |= shapes.weigh(relief, Some(&sampled.ldi), options.metric, weights);
-        sampled.shapes = Some(shapes);
+        is_new |= shapes.weigh(relief, Some(&sampled.ldi), layering.metric, weights);
         if is_new {
             timings.profile = ms_since(clock);
         }
-        Ok(())
+        Ok(self.measured.insert(Measured {
+            of: sampled,
+            shapes,
+        }))
     }
 
     async fn sample(
         &mut self,
-        options: &Options,
+        sampling: &Sampling,
         timings: &mut Timings,
         progress: &mut StageProgress<'_>,
     ) -> Result<Sampled, Error> {
         let clock = Instant::now();
-        let mesh = self.model.on_plate(&options.pose())?;
+        let mesh = self.model.on_plate(&sampling.pose)?;
         let bounds = mesh.bounds();
-        let grid = grid(&bounds, options)?;
+        let grid = sampling.grid(&bounds)?;
         timings.load += ms_since(clock);
 
         let clock = Instant::now();
         let mut ldi_progress = |fraction| progress(Stage::Ldi, fraction);
         let mut warnings = mesh_warnings(&mesh);
-        let rays = grid
-            .refined(options.samples()?.rays())
-            .around_model(&bounds);
+        let rays = grid.refined(sampling.samples.rays()).around_model(&bounds);
         rays.check_rays()?;
-        let on_gpu = self.sample_on_gpu(&mesh, &rays, options, &mut ldi_progress);
+        let on_gpu = self.sample_on_gpu(&mesh, &rays, sampling.backend, &mut ldi_progress);
         let (ldi, adapter) = match on_gpu.await {
             Ok((ldi, adapter)) => (ldi, Some(adapter)),
             Err(error @ LdiError::Cancelled(_)) => return Err(error.into()),
-            Err(error) if options.backend == Backend::Gpu => return Err(error.into()),
+            Err(error) if sampling.backend == Backend::Gpu => return Err(error.into()),
             Err(error) => {
                 warnings.extend(cpu_instead(&error));
                 (cpu::sample(&mesh, &rays, &mut ldi_progress)?, None)
@@ -447,18 +468,15 @@ impl Slicer {
             warnings.push(Warning::UnclosedRays { unclosed, rays });
         }
         timings.ldi = ms_since(clock);
-        let height_mm = height_mm(bounds.size().z, options);
-        let options = sampling_options(options);
         Ok(Sampled {
-            options,
+            height_mm: sampling.height_mm(bounds.size().z),
+            sampling: sampling.clone(),
             mesh,
-            height_mm,
             grid,
             solid: Solid::of(&ldi),
             ldi,
             adapter,
             warnings,
-            shapes: None,
         })
     }
 
@@ -467,13 +485,13 @@ impl Slicer {
         &mut self,
         mesh: &Mesh,
         rays: &Grid,
-        options: &Options,
+        backend: Backend,
         progress: &mut Progress<'_>,
     ) -> Result<(Ldi, String), LdiError> {
-        let found = self.gpu.take_if(|_| options.backend != Backend::Cpu);
+        let found = self.gpu.take_if(|_| backend != Backend::Cpu);
         let gpu = match found {
             Some(found) => found?,
-            None => search_gpu(options.backend).await?,
+            None => search_gpu(backend).await?,
         };
         let ldi = gpu::sample(mesh, rays, &gpu, gpu::Tiling::default(), progress).await?;
         let name = gpu.name().to_owned();
@@ -486,8 +504,7 @@ impl Slicer {
     /// # Errors
     /// [`Error::NoPlan`], also for a metric of areas if no plan has needed them.
     pub fn profile(&self, metric: Metric, source: Source) -> Result<Profile, Error> {
-        let sampled = self.sampled.as_ref().ok_or(Error::NoPlan)?;
-        let shapes = sampled.shapes.as_ref().ok_or(Error::NoPlan)?;
+        let shapes = &self.measured.as_ref().ok_or(Error::NoPlan)?.shapes;
         if metric.needs_areas() && shapes.of(source).areas_mm2.is_empty() {
             return Err(Error::NoPlan);
         }
@@ -499,13 +516,13 @@ impl Slicer {
     /// # Errors
     /// [`Error::NoPlan`], [`Error::Options`] if there is no such layer.
     pub fn mask(&mut self, layer: usize) -> Result<Vec<u8>, Error> {
-        let (sampled, planned) = self.sampled_and_planned()?;
+        let planned = self.planned.as_mut().ok_or(Error::NoPlan)?;
         let layers = planned.plan.layers();
         if layer >= layers {
             let reason = format!("there is no layer {layer}; the plan has {layers}, from 0");
             return Err(Error::Options { reason });
         }
-        let (masks, cursor) = planned.upright_masks(sampled)?;
+        let (masks, cursor) = planned.upright_masks();
         cursor.seek(masks, layer);
         Ok(cursor.whole(masks))
     }
@@ -521,53 +538,53 @@ impl Slicer {
         progress: &mut StageProgress<'_>,
     ) -> Result<(W, &Report), Error> {
         let clock = Instant::now();
-        let (sampled, planned) = self.sampled_and_planned()?;
+        let planned = self.planned.as_mut().ok_or(Error::NoPlan)?;
         let mut mask_progress = |fraction| progress(Stage::Masks, fraction);
+        let output = planned.job.output.clone();
         let mirrored;
-        let masks = if planned.options.is_mirrored()? {
-            mirrored = sampled.masks(&planned.plan, &planned.options, Side::Below)?;
+        let masks = if output.is_mirrored {
+            mirrored = planned.masks(Side::Below);
             &mirrored
         } else {
-            planned.upright_masks(sampled)?;
+            planned.upright_masks();
             let upright = planned.masks.as_ref().ok_or(Error::NoPlan)?;
             &upright.0
         };
-        let options = &planned.options;
-        let job = Job {
+        let job = archive::Job {
             masks,
             report: &planned.report,
-            printer: options.printer()?,
-            resin: &options.resin,
-            mesh: &sampled.mesh,
-            ldi: &sampled.ldi,
+            printer: output.printer,
+            resin: &planned.job.layering.resin,
+            mesh: &planned.of.mesh,
+            ldi: &planned.of.ldi,
         };
-        let written = archive::write(options.format()?, &job, writer, &mut mask_progress);
-        let writer = written?;
+        let writer = archive::write(output.format, &job, writer, &mut mask_progress)?;
         let report = &mut planned.report;
         report.timings_ms.masks = ms_since(clock);
         report.timings_ms.sum_up();
         Ok((writer, report))
     }
-
-    fn sampled_and_planned(&mut self) -> Result<(&Sampled, &mut Planned), Error> {
-        match (&self.sampled, &mut self.planned) {
-            (Some(sampled), Some(planned)) => Ok((sampled, planned)),
-            _ => Err(Error::NoPlan),
-        }
-    }
 }
 
 impl Planned {
+    fn masks(&self, side: Side) -> Masks {
+        let Sampled {
+            ldi,
+            grid,
+            sampling,
+            ..
+        } = &*self.of;
+        Masks::new(ldi, &self.plan, grid, sampling.samples, side)
+    }
+
     /// The masks as seen from above, which are kept for the next one who looks, and where that one is.
-    fn upright_masks(&mut self, sampled: &Sampled) -> Result<&mut (Masks, MaskCursor), Error> {
-        let masks = if let Some(masks) = self.masks.take() {
-            masks
-        } else {
-            let masks = sampled.masks(&self.plan, &self.options, Side::Above)?;
+    fn upright_masks(&mut self) -> &mut (Masks, MaskCursor) {
+        let masks = self.masks.take().unwrap_or_else(|| {
+            let masks = self.masks(Side::Above);
             let cursor = masks.cursor();
             (masks, cursor)
-        };
-        Ok(self.masks.insert(masks))
+        });
+        self.masks.insert(masks)
     }
 }
 
@@ -591,94 +608,52 @@ async fn search_gpu(backend: Backend) -> Result<Gpu, LdiError> {
     }
 }
 
-/// The masks' pixels around a model of these bounds.
-///
-/// # Errors
-/// [`Error::Options`], [`Error::Grid`]; among these that the model does not fit the printer.
-fn grid(bounds: &Bounds, options: &Options) -> Result<Grid, Error> {
-    let grid = match (options.plate_pixels()?, options.plate_pitch_mm()?) {
-        (Some(pixels), Some(pitch_mm)) => Grid::plate(bounds, pixels, pitch_mm)?,
-        (None, Some(pitch_mm)) if pitch_mm[0] == pitch_mm[1] => {
-            Grid::of_pitch(bounds, pitch_mm[0])?
-        }
-        (None, None) => Grid::around(bounds, options.rays)?,
-        (Some(_), None) | (None, Some(_)) => {
-            let reason = "pixels and their pitch in x and y belong together".to_owned();
-            return Err(Error::Options { reason });
-        }
-    };
-    if let Some(printer) = options.printer()?
-        && bounds.size().z > printer.volume_mm[2]
-    {
-        return Err(GridError::ModelTooHigh {
-            model_mm_z: bounds.size().z,
-            printer_mm_z: printer.volume_mm[2],
-            fitting_scale: (printer.volume_mm[2] / bounds.size().z * 1e4).floor() / 1e4,
-        }
-        .into());
-    }
-    Ok(grid)
-}
-
 /// The shape of a relief under the metric and weights; for metrics that are made of them it asks for the areas of sections.
 fn shapes_of<E>(
     relief: &Relief,
     areas_mm2: impl FnOnce() -> Result<Vec<f64>, E>,
-    options: &Options,
+    layering: &Layering,
     weights: Option<Vec<f32>>,
 ) -> Result<Shapes, E> {
-    let areas_mm2 = if options.metric.needs_areas() {
+    let areas_mm2 = if layering.metric.needs_areas() {
         areas_mm2()?
     } else {
         Vec::new()
     };
     let mut shapes = Shapes::of_relief(relief, areas_mm2);
-    shapes.weigh(|| relief, None, options.metric, weights);
+    shapes.weigh(|| relief, None, layering.metric, weights);
     Ok(shapes)
 }
 
-/// The height as asked for, or as the file has it but for the noise of single precision.
-fn height_mm(size_mm: f64, options: &Options) -> f64 {
-    options
-        .height_mm
-        .unwrap_or_else(|| (size_mm * 1e6).round() / 1e6)
-}
-
-fn sampling_options(options: &Options) -> SamplingOptions {
-    (
-        options.pose(),
-        options.printer.clone(),
-        options.pixels,
-        [options.pitch_mm, options.pitch_y_mm],
-        options.rays,
-        options.antialias,
-        options.backend,
-    )
+impl Measured {
+    /// All that planning needs.
+    fn planning<'a>(&'a self, layering: &'a Layering) -> Planning<'a> {
+        Planning::new(self.of.height_mm, &self.shapes, layering)
+    }
 }
 
 impl Sampled {
-    /// All that planning needs.
-    fn planning(&self, options: &Options) -> Result<Planning<'_>, Error> {
-        let shapes = self.shapes.as_ref().ok_or(Error::NoPlan)?;
-        Ok(Planning::new(self.height_mm, shapes, options))
-    }
-
-    fn masks(&self, plan: &Plan, options: &Options, side: Side) -> Result<Masks, Error> {
-        let samples = options.samples()?;
-        Ok(Masks::new(&self.ldi, plan, &self.grid, samples, side))
-    }
-
     fn report(
         &self,
         origin: Origin<'_>,
-        options: &Options,
+        job: &Job,
         plan: &Plan,
         planned: PlanReport,
         timings_ms: Timings,
-    ) -> Result<Report, Error> {
+    ) -> Report {
+        let Job {
+            sampling,
+            layering,
+            output,
+        } = job;
+        let Origin {
+            stl,
+            options,
+            paint,
+        } = origin;
         let mut warnings = self.warnings.clone();
         warnings.extend(planned.warnings);
-        let black = black_layers(&self.solid, plan, options.samples()?);
+        let black = black_layers(&self.solid, plan, sampling.samples);
         if let Some(&lowest) = black.first() {
             warnings.push(Warning::BlackLayers {
                 layers: black.len(),
@@ -686,25 +661,25 @@ impl Sampled {
             });
         }
         let thickness_mm = plan.thickness_mm();
-        Ok(Report {
+        Report {
             schema: SCHEMA,
-            stl: origin.stl.clone(),
+            stl: stl.clone(),
             options: options.anywhere(),
-            weights_crc32: origin.paint.map(weights::crc_of),
+            weights_crc32: paint.map(weights::crc_of),
             layers: plan.layers(),
             height_mm: self.height_mm,
             z_mm: plan.z_mm(),
-            exposure_s: options.resin.exposures_s(&thickness_mm),
-            overhead_s: options.resin.overhead_s(),
-            resin: options.resin.clone(),
+            exposure_s: layering.resin.exposures_s(&thickness_mm),
+            overhead_s: layering.resin.overhead_s(),
+            resin: layering.resin.clone(),
             thickness_mm,
             resin_ml: self.solid.volume_mm3 / 1e3,
-            printer: options.printer.clone(),
+            printer: output.printer.map(|printer| printer.name.to_owned()),
             snapped_mm: planned.snapped_mm,
-            metric: options.metric,
-            unit: options.metric.unit().to_owned(),
-            source: options.source,
-            planner: options.planner.name().to_owned(),
+            metric: layering.metric,
+            unit: layering.metric.unit().to_owned(),
+            source: layering.source,
+            planner: layering.planner.name().to_owned(),
             tolerance: planned.tolerance,
             max_error: planned.max_error,
             sampled_error: planned.sampled_error,
@@ -723,12 +698,12 @@ impl Sampled {
                 pitch_mm: self.grid.pitch_mm,
                 pitch_y_mm: self.grid.pitch_y_mm,
                 antialias: options.antialias,
-                is_mirrored: options.is_mirrored()?,
+                is_mirrored: output.is_mirrored,
             },
-            print_file: PrintFileReport::new(options.format()?, options.printer()?),
+            print_file: PrintFileReport::new(output.format, output.printer),
             warnings,
             timings_ms,
-        })
+        }
     }
 }
 

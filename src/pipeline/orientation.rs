@@ -1,6 +1,6 @@
 //! Searching for the best building direction (section 4.3).
 
-use super::{Slicer, Stage, StageProgress, grid, shapes_of};
+use super::{Slicer, Stage, StageProgress, shapes_of};
 #[cfg(not(target_arch = "wasm32"))]
 use crate::direction::shard::{MergeError, Part, Shard, merge};
 use crate::direction::{
@@ -8,6 +8,7 @@ use crate::direction::{
 };
 use crate::error::Error;
 use crate::grid::{Bins, GridError};
+use crate::job::Job;
 use crate::ldi::LdiError;
 use crate::mesh::{Bounds, Mesh, Pose};
 use crate::options::Options;
@@ -28,7 +29,7 @@ const REFINEMENT: f64 = 0.2;
 struct Bench<'a> {
     model: &'a Mesh,
     table: &'a Turntable,
-    options: &'a Options,
+    job: Job,
     /// Of facets as the table has them.
     weights: Option<Vec<f32>>,
 }
@@ -76,7 +77,7 @@ impl Slicer {
             candidate.energy = energy;
         }
         let bench = self.bench(options, progress)?;
-        let mut now = bench.measure(options.pose().up()?);
+        let mut now = bench.measure(bench.job.sampling.pose.up()?);
         now.energy = search.energy(&now, &rating.scale);
         let mut refined = Vec::with_capacity(rating.minima.len());
         parallel::map_in_groups(
@@ -105,7 +106,7 @@ impl Slicer {
     /// # Errors
     /// [`Error::Mesh`].
     pub fn directions(&mut self, options: &Options, count: usize) -> Result<Vec<[f64; 3]>, Error> {
-        Ok(self.turntable(options)?.directions(count))
+        Ok(self.turntable(&options.resolve()?)?.directions(count))
     }
 
     /// Measures directions, in their order.
@@ -174,7 +175,7 @@ impl Slicer {
         search.check()?;
         let directions = self.directions(options, search.directions)?;
         // A model that no shard could measure has the same fault here, rather than no part.
-        self.check_for_all_directions(options)?;
+        self.check_for_all_directions(&options.resolve()?)?;
         let none = Shard {
             number: 0,
             count: 0,
@@ -214,9 +215,10 @@ impl Slicer {
         Ok(bench.refine(search, scale, candidate))
     }
 
-    fn turntable(&mut self, options: &Options) -> Result<&Turntable, Error> {
+    fn turntable(&mut self, job: &Job) -> Result<&Turntable, Error> {
         // How the model stands matters only to a height.
-        let scaled = options.height_mm.map(|_| options.pose());
+        let pose = job.sampling.pose;
+        let scaled = pose.height_mm.map(|_| pose);
         let table = match self.turntable.take().filter(|kept| kept.0 == scaled) {
             Some(kept) => kept,
             None => (scaled, Turntable::new(&self.model, self.scale(scaled)?)),
@@ -240,29 +242,29 @@ impl Slicer {
     }
 
     /// Finds what is wrong in every direction, which is an error, and not a reason to exclude one.
-    fn check_for_all_directions(&self, options: &Options) -> Result<(), Error> {
-        options.check()?;
-        match grid(&self.model.bounds(), options) {
-            Err(error) if exclusion(&error).is_none() => Err(error),
+    fn check_for_all_directions(&self, job: &Job) -> Result<(), Error> {
+        match job.sampling.grid(&self.model.bounds()) {
+            Err(error) if exclusion(&error).is_none() => Err(error.into()),
             _ => Ok(()),
         }
     }
 
     fn bench<'a>(
         &'a mut self,
-        options: &'a Options,
+        options: &Options,
         progress: &mut StageProgress<'_>,
     ) -> Result<Bench<'a>, Error> {
-        self.check_for_all_directions(options)?;
-        self.turntable(options)?;
-        let weights = self.weights(options, progress)?;
+        let job = options.resolve()?;
+        self.check_for_all_directions(&job)?;
+        self.turntable(&job)?;
+        let weights = self.layering_weights(&job.layering, progress)?;
         let table = &self.turntable.as_ref().ok_or(Error::NoPlan)?.1;
         #[cfg(not(target_arch = "wasm32"))]
         parallel::keep_memory();
         Ok(Bench {
             model: &self.model,
             table,
-            options,
+            job,
             weights: weights.map(|weights| table.arranged(&weights)),
         })
     }
@@ -270,7 +272,7 @@ impl Slicer {
 
 impl Bench<'_> {
     fn measure(&self, direction: [f64; 3]) -> Candidate {
-        let fits = |bounds: &Bounds| match grid(bounds, self.options) {
+        let fits = |bounds: &Bounds| match self.job.sampling.grid(bounds) {
             Err(error) => exclusion(&error).map_or(Ok(()), Err),
             Ok(_) => Ok(()),
         };
@@ -292,9 +294,9 @@ impl Bench<'_> {
 
     /// `None` if there is no plan.
     fn figures(&self, stand: &Stand) -> Option<Figures> {
-        let options = self.options;
+        let layering = &self.job.layering;
         let height_mm = stand.size_mm[2];
-        let bins = Bins::of_height(height_mm, options.bin_mm).ok()?;
+        let bins = Bins::of_height(height_mm, layering.bin_mm).ok()?;
         let relief = self.table.relief(stand, bins);
         let areas_mm2 = || {
             let pose = Pose {
@@ -304,11 +306,11 @@ impl Bench<'_> {
             let mesh = self.model.on_plate(&pose)?;
             Ok::<_, Error>(section::exact(&mesh, &[], bins))
         };
-        let shapes = shapes_of(&relief, areas_mm2, options, self.weights.clone()).ok()?;
-        let planning = Planning::new(height_mm, &shapes, options);
-        let plan = planning.plan(options).ok()?;
+        let shapes = shapes_of(&relief, areas_mm2, layering, self.weights.clone()).ok()?;
+        let planning = Planning::new(height_mm, &shapes, layering);
+        let plan = planning.plan().ok()?;
         let max_error = planning.max_error(&plan);
-        let print_time_s = plan.print_time_s(&options.resin);
+        let print_time_s = plan.print_time_s(&layering.resin);
         Some(
             self.table
                 .figures(stand, &relief, &plan, max_error, print_time_s),
@@ -323,12 +325,10 @@ impl Bench<'_> {
 }
 
 /// Why a model cannot be printed as it stands, if that is what an error says.
-fn exclusion(error: &Error) -> Option<Exclusion> {
+fn exclusion(error: &GridError) -> Option<Exclusion> {
     match error {
-        Error::Grid(GridError::ModelTooLarge { .. } | GridError::BadSize { .. }) => {
-            Some(Exclusion::TooLarge)
-        }
-        Error::Grid(GridError::ModelTooHigh { .. }) => Some(Exclusion::TooHigh),
+        GridError::ModelTooLarge { .. } | GridError::BadSize { .. } => Some(Exclusion::TooLarge),
+        GridError::ModelTooHigh { .. } => Some(Exclusion::TooHigh),
         _ => None,
     }
 }

@@ -113,6 +113,26 @@ test("a call that is not awaited takes its place: the plan is of the model that 
   expect(found.file).toEqual({ name: "goblet-cusp.uvj", type: "application/octet-stream" });
 });
 
+test("looking at other plans leaves the print file alone, grey pixels and all", async () => {
+  const found = await page.evaluate(async () => {
+    const slicer = window.api.createSlicer();
+    const bytes = async (): Promise<string> => {
+      const { blob } = await slicer.export();
+      return String(new Uint8Array(await crypto.subtle.digest("SHA-256", await blob.arrayBuffer())));
+    };
+    await slicer.load("ball.stl");
+    await slicer.plan({ rays: 256, antialias: 4 });
+    const before = await bytes();
+    await slicer.tradeoff({});
+    const traded = await bytes();
+    await slicer.compare({ rays: 100, height_mm: 7 });
+    const compared = await bytes();
+    slicer.dispose();
+    return { isSame: traded === before && compared === before };
+  });
+  expect(found).toEqual({ isSame: true });
+});
+
 test("errors have codes of the list, and details", async () => {
   const codes = await page.evaluate(async () => {
     const { createSlicer, SlicerError, ERROR_CODES } = window.api;

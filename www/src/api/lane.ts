@@ -7,8 +7,7 @@
  */
 import * as Comlink from "comlink";
 import { isAbort, ofCore, SlicerError } from "./error.js";
-import { sameRays, type Comparison, type MeshInfo, type OnProgress, type Options } from "./wire.js";
-import type { Printer, Profiled, Report, SlicerWorker, Tradeoff } from "./wire.js";
+import type { Comparison, MeshInfo, OnProgress, Options, Printer, Profiled, Report, SlicerWorker, Tradeoff } from "./wire.js";
 
 /** A worker as it is seen from this side: what it answers at once there takes its time here. */
 export type Remote = {
@@ -129,11 +128,11 @@ export class Lane {
   }
 
   tradeoff(about: About, options: Options, points: number, watch: Watch): Promise<Tradeoff> {
-    return this.#study(about, options, watch, (remote, progress) => remote.tradeoff(options, points, progress));
+    return this.ask(about, watch, (remote, progress) => remote.tradeoff(options, points, progress));
   }
 
   compare(about: About, options: Options, watch: Watch): Promise<Comparison> {
-    return this.#study(about, options, watch, (remote, progress) => remote.compare(options, progress));
+    return this.ask(about, watch, (remote, progress) => remote.compare(options, progress));
   }
 
   /** The mask of a layer of the last good plan, and that plan. */
@@ -173,7 +172,7 @@ export class Lane {
     });
   }
 
-  /** Asks what depends on nothing but the subject, and changes nothing. */
+  /** Asks what depends on nothing but the subject; the last plan stays, with its masks. */
   ask<T>(about: About, watch: Watch, question: (remote: Remote, progress: OnProgress) => T | Promise<T>): Promise<T> {
     return this.#about(about, watch, async (life, progress) => question(life.engine.remote, progress));
   }
@@ -191,19 +190,6 @@ export class Lane {
   dispose(): void {
     this.#disposed = true;
     this.#life?.end(disposed());
-  }
-
-  /** Looks at other plans; the last one stays, but through other rays the core would have to make it again. */
-  #study<T>(
-    about: About,
-    options: Options,
-    watch: Watch,
-    ask: (remote: Remote, progress: OnProgress) => T | Promise<T>,
-  ): Promise<T> {
-    return this.#about(about, watch, async (life, progress) => {
-      if (life.planned !== null && !sameRays(life.planned.options, options)) life.planned = null;
-      return ask(life.engine.remote, progress);
-    });
   }
 
   async #plan(life: Life, subject: Subject, options: Options, progress: OnProgress): Promise<Profiled<Report>> {

@@ -95,6 +95,7 @@ export function sameRays(a: Options, b: Options): boolean {
   return (
     a.height_mm === b.height_mm &&
     a.rays === b.rays &&
+    a.antialias === b.antialias &&
     a.printer === b.printer &&
     a.pitch_mm === b.pitch_mm &&
     a.pitch_y_mm === b.pitch_y_mm &&

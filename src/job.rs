@@ -1,0 +1,295 @@
+//! What options come to: every default of metric, printer and format settled and checked, once. Nobody behind
+//! [`Options::resolve`] looks an option up.
+//!
+//! The parts are what the stages work from. Being comparable, a part is also the key under which its stage's result is
+//! kept.
+
+use crate::archive::Format;
+use crate::error::Error;
+use crate::exposure::Resin;
+use crate::grid::{Bins, Grid, GridError};
+use crate::mask::Samples;
+use crate::mesh::{Bounds, Pose};
+use crate::options::{Backend, Minimize, Options, Planner, Snap};
+use crate::plan::optimal::Objective;
+use crate::plan::{Limits, PlanError, uniform};
+use crate::printer::{self, Printer};
+use crate::profile::{Metric, Source};
+
+/// What is to be done.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Job {
+    pub sampling: Sampling,
+    pub layering: Layering,
+    pub output: Output,
+}
+
+/// What the LDI depends on, beside the model.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Sampling {
+    pub pose: Pose,
+    pub raster: Raster,
+    /// What the printer's volume is high.
+    pub greatest_height_mm: Option<f64>,
+    pub samples: Samples,
+    pub backend: Backend,
+}
+
+/// How the masks' pixels are laid out.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Raster {
+    /// So many along the model's longer side.
+    Around { pixels: u32 },
+    /// As many of this pitch as cover the model.
+    OfPitch { pitch_mm: f64 },
+    /// Those of a plate, with the model in the middle.
+    Plate {
+        pixels: [u32; 2],
+        pitch_mm: [f64; 2],
+    },
+}
+
+/// What the plan depends on, beside the rays.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Layering {
+    pub bin_mm: f64,
+    pub metric: Metric,
+    pub source: Source,
+    pub planner: Planner,
+    pub aim: Aim,
+    pub minimize: Minimize,
+    /// What plans keep to, whatever the tolerance.
+    limits: Limits,
+    /// The area in mm² from which on a flat is worth a plane; nothing if no planes go to flats and sharp changes.
+    pub snap_mm2: Option<f64>,
+    pub saliency: bool,
+    pub weight_min: f64,
+    pub resin: Resin,
+}
+
+/// Which tolerance a plan keeps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Aim {
+    /// This one, in the metric's unit.
+    Tolerance(f64),
+    /// This one, and as much more as the model needs.
+    AtLeast(f64),
+    /// The least that needs at most so many layers.
+    Layers(usize),
+    /// The least that takes at most so many seconds.
+    Time(f64),
+}
+
+/// What the print file depends on, beside the plan and the rays.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Output {
+    pub format: Format,
+    pub is_mirrored: bool,
+    pub printer: Option<&'static Printer>,
+}
+
+impl Options {
+    /// Settles and checks everything that no model is needed for.
+    ///
+    /// # Errors
+    /// [`Error::Options`], [`Error::Plan`].
+    pub(crate) fn resolve(&self) -> Result<Job, Error> {
+        let printer = self.known_printer()?;
+        Ok(Job {
+            layering: self.layering(printer)?,
+            sampling: self.sampling(printer)?,
+            output: Output {
+                format: self
+                    .format
+                    .or(printer.map(|printer| printer.format))
+                    .unwrap_or_default(),
+                is_mirrored: self
+                    .mirror
+                    .or(printer.map(|printer| printer.is_mirrored))
+                    .unwrap_or(false),
+                printer,
+            },
+        })
+    }
+
+    /// Finds what no model could make good.
+    ///
+    /// # Errors
+    /// [`Error::Options`], [`Error::Plan`].
+    pub fn check(&self) -> Result<(), Error> {
+        self.resolve().map(|_| ())
+    }
+
+    fn known_printer(&self) -> Result<Option<&'static Printer>, Error> {
+        let Some(name) = &self.printer else {
+            return Ok(None);
+        };
+        let unknown = || {
+            let names: Vec<&str> = printer::PRINTERS
+                .iter()
+                .map(|printer| printer.name)
+                .collect();
+            let names = names.join(", ");
+            wrong(format!("there is no printer {name}; known are {names}"))
+        };
+        printer::named(name).map(Some).ok_or_else(unknown)
+    }
+
+    fn sampling(&self, printer: Option<&Printer>) -> Result<Sampling, Error> {
+        let pixels = self.pixels.or(printer.map(|printer| printer.pixels));
+        let given_mm = self
+            .pitch_mm
+            .map(|x_mm| [x_mm, self.pitch_y_mm.unwrap_or(x_mm)]);
+        let preset_mm = printer.map(|printer| printer.pitch_um.map(|pitch_um| pitch_um / 1e3));
+        let raster = match (pixels, given_mm.or(preset_mm)) {
+            (Some(pixels), Some(pitch_mm)) => Raster::Plate { pixels, pitch_mm },
+            (None, Some([x_mm, y_mm])) if x_mm == y_mm => Raster::OfPitch { pitch_mm: x_mm },
+            (None, None) => Raster::Around { pixels: self.rays },
+            (Some(_), None) | (None, Some(_)) => {
+                let reason = "pixels and their pitch in x and y belong together";
+                return Err(wrong(reason));
+            }
+        };
+        let level = self.antialias;
+        let unknown = || {
+            wrong(format!(
+                "there are anti-aliasing levels 1, 2, 4 and 8, but no {level}"
+            ))
+        };
+        Ok(Sampling {
+            pose: Pose {
+                rotation: self.rotation,
+                height_mm: self.height_mm,
+            },
+            raster,
+            greatest_height_mm: printer.map(|printer| printer.volume_mm[2]),
+            samples: Samples::of_level(level).ok_or_else(unknown)?,
+            backend: self.backend,
+        })
+    }
+
+    fn layering(&self, printer: Option<&Printer>) -> Result<Layering, Error> {
+        self.check_printer(printer)?;
+        if !(0.0..=1.0).contains(&self.weight_min) {
+            let weight = self.weight_min;
+            let reason = format!("the least weight must be from 0 to 1, not {weight}");
+            return Err(wrong(reason));
+        }
+        self.resin.check().map_err(PlanError::from)?;
+        let usual = self.metric.default_tolerance();
+        let aim = match (self.tolerance, self.max_layers, self.max_time_s) {
+            (Some(tolerance), None, None) => Aim::Tolerance(tolerance),
+            (None, Some(layers), None) => Aim::Layers(layers),
+            (None, None, Some(time_s)) => Aim::Time(time_s),
+            // No volume suits all models.
+            (None, None, None) if self.metric == Metric::Volume => Aim::AtLeast(usual),
+            (None, None, None) => Aim::Tolerance(usual),
+            _ => {
+                let reason =
+                    "give a tolerance, the most layers or the longest time, but not two of them";
+                return Err(wrong(reason));
+            }
+        };
+        let layering = Layering {
+            bin_mm: self.bin_mm,
+            metric: self.metric,
+            source: self.source,
+            planner: self.planner,
+            aim,
+            minimize: self.minimize,
+            limits: Limits {
+                layer_min_mm: self.layer_min_mm,
+                layer_max_mm: self.layer_max_mm,
+                tolerance: 0.0,
+                ranges: self.ranges.clone(),
+                planes_mm: self.planes_mm.clone(),
+                step_mm: self.step_mm.or(printer.map(|printer| printer.step_mm)),
+            },
+            snap_mm2: (self.snap == Snap::Auto).then_some(self.flat_area_mm2),
+            saliency: self.saliency,
+            weight_min: self.weight_min,
+            resin: self.resin.clone(),
+        };
+        let bins = Bins {
+            count: 1,
+            size_mm: self.bin_mm,
+        };
+        match self.planner {
+            Planner::Uniform { layer_mm } => {
+                uniform::thickness_in_bins(bins, layer_mm)?;
+            }
+            _ => layering
+                .limits(self.tolerance.unwrap_or(usual))
+                .check(bins)?,
+        }
+        Ok(layering)
+    }
+
+    /// Finds thicknesses that the printer cannot make.
+    fn check_printer(&self, printer: Option<&Printer>) -> Result<(), Error> {
+        let Some(printer) = printer else {
+            return Ok(());
+        };
+        let [least_mm, greatest_mm] = printer.layer_mm;
+        if self.layer_min_mm < least_mm || self.layer_max_mm > greatest_mm {
+            return Err(wrong(format!(
+                "the {} makes layers of {least_mm} to {greatest_mm} mm, not {} to {} mm",
+                printer.model, self.layer_min_mm, self.layer_max_mm
+            )));
+        }
+        Ok(())
+    }
+}
+
+fn wrong(reason: impl Into<String>) -> Error {
+    Error::Options {
+        reason: reason.into(),
+    }
+}
+
+impl Sampling {
+    /// The masks' pixels around a model of these bounds.
+    ///
+    /// # Errors
+    /// [`GridError`]; among these that the model does not fit the printer.
+    pub fn grid(&self, bounds: &Bounds) -> Result<Grid, GridError> {
+        let grid = match self.raster {
+            Raster::Plate { pixels, pitch_mm } => Grid::plate(bounds, pixels, pitch_mm)?,
+            Raster::OfPitch { pitch_mm } => Grid::of_pitch(bounds, pitch_mm)?,
+            Raster::Around { pixels } => Grid::around(bounds, pixels)?,
+        };
+        let model_mm_z = bounds.size().z;
+        match self.greatest_height_mm {
+            Some(printer_mm_z) if model_mm_z > printer_mm_z => Err(GridError::ModelTooHigh {
+                model_mm_z,
+                printer_mm_z,
+                fitting_scale: (printer_mm_z / model_mm_z * 1e4).floor() / 1e4,
+            }),
+            _ => Ok(grid),
+        }
+    }
+
+    /// The height as asked for, or as the file has it without the noise of single precision.
+    pub fn height_mm(&self, size_mm: f64) -> f64 {
+        let asked_mm = self.pose.height_mm;
+        asked_mm.unwrap_or_else(|| (size_mm * 1e6).round() / 1e6)
+    }
+}
+
+impl Layering {
+    /// What plans keep to within `tolerance`.
+    pub fn limits(&self, tolerance: f64) -> Limits {
+        Limits {
+            tolerance,
+            ..self.limits.clone()
+        }
+    }
+
+    /// What plans have least of.
+    pub fn objective(&self) -> Objective<'_> {
+        match self.minimize {
+            Minimize::Layers => Objective::Layers,
+            Minimize::Time => Objective::Time(&self.resin),
+        }
+    }
+}
