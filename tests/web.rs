@@ -97,7 +97,7 @@ async fn check_plan_and_masks() {
         let (bytes, _) = slicer.write_archive(Vec::new(), &mut quiet).unwrap();
         fingerprint(&bytes)
     };
-    assert_eq!(archive(&mut slicer), 0x6c81_16e9_3631_7474);
+    assert_eq!(archive(&mut slicer), 0x386b_2ac2_305e_876e);
     let grey = Options {
         antialias: 4,
         printer: Some("sl1s".to_owned()),
