@@ -5,7 +5,7 @@ import type { CuspSlicer } from "../src/element/index.js";
 import { launch } from "./browser.js";
 import { servePacked } from "./packed.js";
 import type { Served } from "./serve.js";
-import { prism, sphere } from "./solids.js";
+import { floating, prism, sphere } from "./solids.js";
 
 const html = `<!doctype html><html lang="de"><meta charset="utf-8" /><title>Shop</title>
 <script type="module" src="main.js"></script><body></body></html>`;
@@ -32,7 +32,7 @@ const pages: Page[] = [];
 const complaints: string[] = [];
 
 beforeAll(async () => {
-  served = await servePacked({ "index.html": html, "main.js": main, "ball.stl": sphere(10, 96).bytes, "prism.stl": prism(10, 20).bytes, "bad.stl": "no" });
+  served = await servePacked({ "index.html": html, "main.js": main, "ball.stl": sphere(10, 96).bytes, "prism.stl": prism(10, 20).bytes, "floating.stl": floating(6, 3), "bad.stl": "no" });
   browser = await launch();
 }, 120_000);
 
@@ -133,6 +133,19 @@ test("methods: load, plan, export, cancel", async () => {
   });
   expect(found.layers[1]).toBeGreaterThan(found.layers[0] ?? 0);
   expect(await events(page, "a")).toContain("cusp-error");
+});
+
+test("a part that hangs in the air is warned of, in words and in the plan, whatever panels there are", async () => {
+  const page = await start(`<cusp-slicer id="a" src="floating.stl" locale="en" panels="plan"></cusp-slicer>`);
+  await done(page, "a");
+  const [said] = await page.locator("#a .warning").allInnerTexts();
+  expect(said).toMatch(/^\d+ layers without a lit pixel, from 6\.\d+\u00a0mm up/);
+  const warnings = await page.evaluate(async () => {
+    const element = document.querySelector<CuspSlicer>("#a");
+    return [element?.result?.report.warnings, (await element?.export())?.warnings];
+  });
+  expect(warnings[0]).toMatchObject([{ code: "black-layers" }]);
+  expect(warnings[1]).toEqual(warnings[0]);
 });
 
 test("a thumbnail is a PNG of the model in its layers", async () => {

@@ -13,7 +13,11 @@ import { ELEMENT_POLICY } from "./static.js";
 
 const { folder: newFolder, open: start, program } = shops();
 
-const VERDICT = { layers: 3, max_error: 0.05, tolerance: 0.06, print_time_s: 3600, resin_ml: 10, print_is_same: true };
+const WARNINGS = [{ code: "black-layers", detail: { layers: 2, from_mm: 1 } }];
+const VERDICT = {
+  ...{ layers: 3, max_error: 0.05, tolerance: 0.06, print_time_s: 3600, resin_ml: 10, print_is_same: true },
+  warnings: WARNINGS,
+};
 const HONEST = `console.log(${JSON.stringify(JSON.stringify(VERDICT))});`;
 const { note: _note, swatch: _swatch, ml_cents: _cents, ...cured } = resin;
 const OPTIONS = { ...FIXED, printer: printer.name, resin: cured, tolerance: 0.06 };
@@ -237,7 +241,7 @@ test("the lines of an order add up to its price, and are kept with it", async ()
   const answer = await post(open, { fields: { copies: "3", price_cents: String(total_cents) } });
   expect(answer).toMatchObject({ status: 201, lines, price_cents: total_cents });
   const kept = JSON.parse(await readFile(join(open.folder, "orders", answer.id ?? "", "order.json"), "utf8")) as Order;
-  expect(kept).toMatchObject({ lines, price_cents: total_cents });
+  expect(kept).toMatchObject({ lines, price_cents: total_cents, verdict: { warnings: WARNINGS } });
 });
 
 test("the page writes times as the element does", () => {

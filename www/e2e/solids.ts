@@ -30,8 +30,20 @@ export function sphere(radius: number, around: number): Solid {
   return { bytes: binaryStl(packed), volume_mm3: volume(packed) };
 }
 
+/** Prisms one above the other, each as high as its side, with so much air between them. */
+export function floating(side: number, gap: number): Uint8Array {
+  const below = facetsOf(side, side);
+  const above = below.map((part, i) => (i % 3 === 2 ? part + side + gap : part));
+  return binaryStl(Float32Array.from([...below, ...above]));
+}
+
 /** A prism that stands upright on a square. */
 export function prism(side: number, height: number): Solid {
+  const packed = Float32Array.from(facetsOf(side, height));
+  return { bytes: binaryStl(packed), volume_mm3: volume(packed) };
+}
+
+function facetsOf(side: number, height: number): number[] {
   const corners = [[0, 0], [side, 0], [side, side], [0, side]] as const;
   const triangles: number[] = [];
   for (const [index, [x, y]] of corners.entries()) {
@@ -42,8 +54,7 @@ export function prism(side: number, height: number): Solid {
     const [p, q, r] = [corners[0], corners[a], corners[b]];
     triangles.push(...[...p, height, ...q, height, ...r, height], ...[...p, 0, ...r, 0, ...q, 0]);
   }
-  const packed = Float32Array.from(triangles);
-  return { bytes: binaryStl(packed), volume_mm3: volume(packed) };
+  return triangles;
 }
 
 /** The same surface, each triangle cut into four at the middles of its sides. */

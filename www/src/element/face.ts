@@ -9,7 +9,7 @@ import type { PaletteName } from "../view/palette.js";
 import type { Rotation } from "../view/pose.js";
 import type { Searched } from "./direction-panel.js";
 import type { Aims } from "./directions.js";
-import { modelCard } from "./model-card.js";
+import { modelCard, warnings } from "./model-card.js";
 import type { Scaled } from "./model-view.js";
 import type { Painted } from "./events.js";
 import type { Panel } from "./panel-names.js";
@@ -165,7 +165,8 @@ function results(drawn: Drawn, result: Result): TemplateResult {
   return html`
     ${panels.has("plan")
       ? html`<section class="card span first" part="plan" aria-label=${texts.plan.region}>
-          ${summary(result, shown ?? result.report, language, earlier(drawn), download)} ${details(result, language)}
+          ${summary(result, shown ?? result.report, language, earlier(drawn), download)}
+          ${panels.has("model") ? nothing : warnings(session, language)} ${details(result, language)}
         </section>`
       : nothing}
     ${panels.has("view")

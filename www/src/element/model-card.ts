@@ -9,6 +9,13 @@ export interface ModelActions {
   turnTo(place: number): void;
 }
 
+/** What there is to know of the model and its plan. */
+export function warnings({ model, result }: Session, language: Language): readonly TemplateResult[] {
+  const all = [...(model?.info.warnings ?? []), ...(result?.report.warnings ?? [])];
+  const words = new Set(all.map((it) => warningWords(it, language)));
+  return [...words].map((sentence) => html`<p class="warning">${sentence}</p>`);
+}
+
 export function modelCard(session: Session, language: Language, { picked, turnTo }: ModelActions): TemplateResult {
   const { model, result, files, place } = session;
   const { texts, format } = language;
@@ -18,7 +25,6 @@ export function modelCard(session: Session, language: Language, { picked, turnTo
   const scale = result === null || own[2] === 0 ? 1 : result.report.height_mm / own[2];
   const isScaled = session.settings.rotation === "" && Math.abs(scale - 1) > 1e-3;
   const size = (isScaled ? own.map((mm) => mm * scale) : own) as [number, number, number];
-  const warnings = [...info.warnings, ...(result?.report.warnings ?? [])].map((it) => warningWords(it, language));
   return html`<section class="card model" part="model" aria-label=${texts.model.region}>
     <h2 id="model-name" tabindex="-1">${name}</h2>
     <dl class="figures">
@@ -36,7 +42,7 @@ export function modelCard(session: Session, language: Language, { picked, turnTo
         <dd>${info.closed ? texts.model.closed : texts.model.open}</dd>
       </div>
     </dl>
-    ${[...new Set(warnings)].map((words) => html`<p class="warning">${words}</p>`)}
+    ${warnings(session, language)}
     ${files.length < 2
       ? nothing
       : html`<div class="files">

@@ -1,5 +1,6 @@
 /** Asks the native `cusp` whether a plan is what model and options give, and the print file what the plan gives. */
 import { execFile } from "node:child_process";
+import type { Warning } from "cusp-slicer";
 import { Refusal, type RefusalCode } from "./refusal.js";
 import { FILES } from "./upload.js";
 
@@ -12,6 +13,8 @@ export interface Verdict {
   print_time_s: number;
   resin_ml: number;
   print_is_same: boolean;
+  /** What whoever prints it should know, such as parts that hang in the air. */
+  warnings: readonly Warning[];
 }
 
 export interface Verifier {
