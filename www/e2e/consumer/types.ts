@@ -1,5 +1,6 @@
 /** The package's types as a page written in TypeScript uses them; compiled, never run. */
-import { createSlicer, ERROR_CODES, SlicerError, type ErrorCode, type Options, type Orientation, type Plan, type Slicer } from "cusp-slicer";
+import { createSlicer, ERROR_CODES, SlicerError, WARNING_CODES } from "cusp-slicer";
+import type { ErrorCode, Options, Orientation, Plan, PrintFile, Slicer } from "cusp-slicer";
 import "cusp-slicer/element";
 import { CuspSlicer } from "cusp-slicer/element-class";
 
@@ -17,6 +18,12 @@ element.addEventListener("cusp-error", ({ detail }) => {
   const code: ErrorCode = detail.code;
   console.log(ERROR_CODES[code]);
 });
+// A code tells what its details are.
+element.addEventListener("cusp-error", ({ detail: error }) => {
+  if (error.code === "infeasible") console.log((error.detail.least_tolerance ?? 0) * 2);
+  // @ts-expect-error Only after a look at the code.
+  console.log(error.detail.from_mm);
+});
 // @ts-expect-error There is no such metric.
 element.metric = "beauty";
 
@@ -25,6 +32,15 @@ const slicer: Slicer = createSlicer();
 const { signal } = new AbortController();
 await slicer.load(new URL("a.stl", location.href), { signal, onProgress: (stage, fraction) => console.log(stage, fraction) });
 const plan: Plan = await slicer.plan(options, { signal });
+const { name, type, blob, warnings }: PrintFile = await slicer.export();
+for (const warning of warnings) {
+  const meaning: string = WARNING_CODES[warning.code];
+  if (warning.code === "black-layers") console.log(meaning, warning.detail.layers + warning.detail.from_mm);
+}
+const picture: Blob = await element.thumbnail(200);
+console.log(name.length, type.length, blob.size, picture.size);
+// @ts-expect-error Workers are the package's own affair.
+createSlicer({ spawn: () => new Worker("worker.js") });
 await slicer.exportStream(options).pipeTo(new WritableStream<Uint8Array>());
 const { best }: Orientation = await slicer.orient(options, { alpha: 0.25, quality: "overhang" }, {
   signal,

@@ -139,7 +139,8 @@ const CURVE_POINTS = 40;
 /** Where the number of cores is not told. */
 const FEW_WORKERS = 2;
 
-export function createSlicer({ spawn = spawnWorker, workers = globalThis.navigator?.hardwareConcurrency ?? FEW_WORKERS }: Setup = {}): Slicer {
+export function createSlicer(setup: Setup = {}): Slicer {
+  const { spawn = spawnWorker, workers = globalThis.navigator?.hardwareConcurrency ?? FEW_WORKERS } = setup;
   if (spawn === spawnWorker && globalThis.Worker === undefined) return absentSlicer();
   const compiled: Compiled = { module: null };
   const main = new Lane(spawn, compiled);
