@@ -391,13 +391,12 @@ impl Slicer {
         let layering = &job.layering;
         let weights = self.layering_weights(layering, progress)?;
         let kept = self.sampled.take();
-        let sampled = match kept.filter(|kept| kept.sampling == job.sampling) {
-            Some(sampled) => sampled,
-            None => {
-                // Rays that nobody needs any more make room for the new ones.
-                self.measured = None;
-                Arc::new(self.sample(&job.sampling, timings, progress).await?)
-            }
+        let sampled = if let Some(kept) = kept.filter(|kept| kept.sampling == job.sampling) {
+            kept
+        } else {
+            // Rays that nobody needs any more make room for the new ones.
+            self.measured = None;
+            Arc::new(self.sample(&job.sampling, timings, progress).await?)
         };
         self.sampled = Some(Arc::clone(&sampled));
 
