@@ -4,9 +4,9 @@
 //! The parts are what the stages work from. Being comparable, a part is also the key under which its stage's result is
 //! kept.
 
-use crate::archive::Format;
 use crate::error::Error;
 use crate::exposure::Resin;
+use crate::format::Format;
 use crate::grid::{Bins, Grid, GridError};
 use crate::mask::Samples;
 use crate::mesh::{Bounds, Pose};

@@ -32,6 +32,7 @@ pub mod progress;
 pub mod archive;
 pub mod exposure;
 pub mod file_kind;
+pub mod format;
 pub mod grid;
 pub mod ldi;
 pub mod mask;

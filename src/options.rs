@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::archive::Format;
 use crate::exposure::Resin;
+use crate::format::Format;
 use crate::plan::HeightRange;
 use crate::profile::{Metric, Source};
 

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::archive::Format;
+use crate::format::Format;
 
 /// A resin printer: its screen, its volume and the file that it takes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

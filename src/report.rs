@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 #[cfg(target_arch = "wasm32")]
 use tsify::Tsify;
 
-use crate::archive::Format;
 use crate::exposure::Resin;
+use crate::format::Format;
 use crate::mesh::Mesh;
 use crate::options::Options;
 use crate::plan::tradeoff::TradeoffPoint;

@@ -10,9 +10,9 @@ use std::ops::ControlFlow;
 
 use common::{assert_near, binary_stl, on_plate, quiet, solids};
 use cusp_slicer::Error;
-use cusp_slicer::archive::Format;
 use cusp_slicer::archive::runs::RunWriter;
 use cusp_slicer::exposure::Resin;
+use cusp_slicer::format::Format;
 use cusp_slicer::grid::{Bins, Grid};
 use cusp_slicer::ldi::cpu;
 use cusp_slicer::mask::{Light, Masks, Samples, Side};

@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 
 use common::{binary_stl, quiet, solids};
 use cusp_slicer::Error;
-use cusp_slicer::archive::Format;
+use cusp_slicer::format::Format;
 use cusp_slicer::options::{Backend, Minimize, Options, Planner, Snap};
 use cusp_slicer::pipeline::{Slicer, Stage};
 use cusp_slicer::profile::{Metric, Source};

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use common::{binary_stl, quiet, solids};
-use cusp_slicer::archive::Format;
+use cusp_slicer::format::Format;
 use cusp_slicer::options::{Backend, Options, Planner};
 use cusp_slicer::pipeline::Slicer;
 use cusp_slicer::report::Report;

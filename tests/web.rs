@@ -6,8 +6,8 @@ mod common;
 #[cfg(target_arch = "wasm32")]
 use common::shifted_grid;
 use common::{binary_stl, fingerprint, on_plate, quiet, solids};
-use cusp_slicer::archive::Format;
 use cusp_slicer::direction::{Quality, Search};
+use cusp_slicer::format::Format;
 use cusp_slicer::grid::Grid;
 use cusp_slicer::ldi::cpu;
 #[cfg(target_arch = "wasm32")]

@@ -16,9 +16,10 @@ use std::ops::Range;
 
 use flate2::{Compress, Compression, FlushCompress};
 use rawzip::{CompressionMethod, DataDescriptorOutput, ZipArchiveWriter};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::exposure::Resin;
+use crate::format::Format;
 use crate::ldi::Ldi;
 use crate::mask::{Light, MaskCursor, Masks};
 use crate::mesh::Mesh;
@@ -27,42 +28,7 @@ use crate::printer::Printer;
 use crate::progress::{Cancelled, Progress, report};
 use crate::report::Report;
 
-/// A file that printers or other programs take.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
-#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
-#[serde(rename_all = "lowercase")]
-pub enum Format {
-    /// One-bit PNGs and a manifest.json.
-    #[default]
-    Png,
-    /// The zip of `ChiTuBox`: run.gcode with a height and an exposure for every layer.
-    Chitubox,
-    /// UVJ: config.json with a height and an exposure for every layer.
-    Uvj,
-    /// Prusa's SL1 and SL1S, for layers of one thickness.
-    Sl1,
-}
-
 impl Format {
-    /// What the name of such a file ends with, without a dot.
-    pub fn extension(self) -> &'static str {
-        match self {
-            Self::Png | Self::Chitubox => "zip",
-            Self::Uvj => "uvj",
-            Self::Sl1 => "sl1",
-        }
-    }
-
-    /// The media type of such a file. A zip with an extension of its own is no `application/zip`, or browsers would
-    /// unpack or rename it.
-    pub fn media_type(self) -> &'static str {
-        match self {
-            Self::Png | Self::Chitubox => "application/zip",
-            Self::Uvj | Self::Sl1 => "application/octet-stream",
-        }
-    }
-
     fn container(self) -> &'static dyn Container {
         match self {
             Self::Png => &plain::Plain,

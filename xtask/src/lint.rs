@@ -3,6 +3,7 @@
 use anyhow::Result;
 
 use crate::{
+    modules,
     process::{self, cargo},
     project::Project,
     wasm,
@@ -11,7 +12,8 @@ use crate::{
 /// Runs all checks, each whatever the others say; `false` when one failed.
 /// A check that cannot run has failed.
 pub fn run(project: &Project) -> bool {
-    let checks: [(&str, &dyn Fn() -> Result<()>); 4] = [
+    let checks: [(&str, &dyn Fn() -> Result<()>); 5] = [
+        ("modules", &|| modules::check(project)),
         ("fmt", &|| {
             process::run(cargo(project).args(["fmt", "--all", "--check"]))
         }),

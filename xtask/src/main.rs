@@ -7,6 +7,7 @@
 mod browser;
 mod debian;
 mod lint;
+mod modules;
 mod node;
 mod process;
 mod project;
@@ -56,7 +57,7 @@ enum Command {
         #[arg(value_name = "STEP")]
         steps: Vec<suite::Step>,
     },
-    /// Check formatting, lints (native and wasm) and documentation
+    /// Check formatting, lints (native and wasm), documentation, and that modules form no circle
     Lint,
     /// Build the wasm module and hold its gzipped size against the budget
     Size,

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, ValueEnum};
-use cusp_slicer::archive::Format;
 use cusp_slicer::direction::shard::Shard;
 use cusp_slicer::direction::{Cost, MAX_DIRECTIONS, Quality, Search};
 use cusp_slicer::exposure::Resin;
+use cusp_slicer::format::Format;
 use cusp_slicer::mask::LEVELS;
 use cusp_slicer::options::{Backend, Minimize, Options, Planner, Snap};
 use cusp_slicer::plan::HeightRange;
