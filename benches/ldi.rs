@@ -12,9 +12,9 @@ use std::time::Instant;
 use cusp_slicer::grid::Grid;
 use cusp_slicer::ldi::gpu::{self, Gpu};
 use cusp_slicer::ldi::{Hit, Ldi, cpu};
-use cusp_slicer::mesh::{Mesh, Pose};
+use cusp_slicer::model::read::stl;
+use cusp_slicer::model::{Mesh, Pose};
 use cusp_slicer::progress::silent;
-use cusp_slicer::stl;
 use glam::Vec3;
 
 /// Time spent on one cell of the table at most, but for its first run.

@@ -15,21 +15,21 @@ use std::fs;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use cusp_slicer::direction::{Orientation, Search};
-use cusp_slicer::options::Options;
-use cusp_slicer::pipeline::Slicer;
+use cusp_slicer::job::Options;
+use cusp_slicer::job::Slicer;
+use cusp_slicer::orientation::{OrientationReport, SearchOptions};
 
 /// Time spent on one row at most, but for its first run.
 const BUDGET_S: f64 = 4.0;
 
 /// A time in milliseconds, and a search.
-type Timed = (f64, Orientation);
+type Timed = (f64, OrientationReport);
 
 /// The least time of several searches, each from the loaded model on.
 fn search(bytes: &[u8], options: &Options, directions: usize) -> Timed {
-    let search = Search {
+    let search = SearchOptions {
         directions,
-        ..Search::default()
+        ..SearchOptions::default()
     };
     let all = Instant::now();
     let mut least = f64::INFINITY;
@@ -77,7 +77,7 @@ fn row(name: &str, (ms, found): &Timed) {
     let layers = found
         .best
         .iter()
-        .map(|best| best.figures.map_or(0, |figures| figures.layers).to_string())
+        .map(|best| best.metrics.map_or(0, |metrics| metrics.layers).to_string())
         .collect::<Vec<_>>();
     println!(
         "| {name} | {ms:.0} | {:.2} | {} |",

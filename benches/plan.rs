@@ -9,14 +9,14 @@ mod solids;
 use std::hint::black_box;
 use std::time::Instant;
 
-use cusp_slicer::exposure::Resin;
 use cusp_slicer::grid::Bins;
-use cusp_slicer::mesh::{Mesh, Pose};
+use cusp_slicer::model::{Mesh, Pose};
 use cusp_slicer::plan::optimal::{self, Objective};
 use cusp_slicer::plan::tradeoff;
 use cusp_slicer::plan::{Limits, Plan, greedy};
-use cusp_slicer::profile::relief::Relief;
+use cusp_slicer::profile::facet_bins::FacetBins;
 use cusp_slicer::profile::{LayerErrors, Metric, Profile, Shape, section, steepest};
+use cusp_slicer::resin::Resin;
 use glam::Vec3;
 
 /// Time spent on one figure at most, but for its first run.
@@ -105,7 +105,7 @@ fn planners() {
     let mesh = balls(6, 3).on_plate(&Pose::of_height(23.771)).unwrap();
     let shape = Shape {
         bins,
-        steepest: steepest::exact(&Relief::of(&mesh, bins), &[]),
+        steepest: steepest::exact(&FacetBins::of(&mesh, bins), &[]),
         areas_mm2: section::exact(&mesh, &[], bins),
     };
     let profile: Profile = shape.profile(Metric::Cusp);
@@ -171,12 +171,12 @@ fn profiles() {
     for (levels, count) in [(5, 1), (6, 1), (6, 3), (7, 3), (8, 2)] {
         let mesh = balls(levels, count);
         let bins = Bins::of_height(60.0, 0.002).unwrap();
-        let (steepest_ms, _) = time(|| steepest::exact(&Relief::of(&mesh, bins), &[]));
+        let (steepest_ms, _) = time(|| steepest::exact(&FacetBins::of(&mesh, bins), &[]));
         let (areas_ms, _) = time(|| section::exact(&mesh, &[], bins));
         let (all_ms, plan) = time(|| {
             let shape = Shape {
                 bins,
-                steepest: steepest::exact(&Relief::of(&mesh, bins), &[]),
+                steepest: steepest::exact(&FacetBins::of(&mesh, bins), &[]),
                 areas_mm2: Vec::new(),
             };
             optimal::plan(&shape.errors(Metric::Cusp), &limits, &[], Objective::Layers).unwrap()

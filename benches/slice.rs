@@ -17,8 +17,8 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use cusp_slicer::mesh::{Mesh, Pose};
-use cusp_slicer::stl;
+use cusp_slicer::model::read::stl;
+use cusp_slicer::model::{Mesh, Pose};
 
 const ROUNDS: usize = 5;
 const HEIGHT_MM: f64 = 60.0;

@@ -3,7 +3,7 @@
 use glam::DVec2;
 use serde::Serialize;
 
-use crate::mesh::Bounds;
+use crate::model::Bounds;
 
 /// Longest side of a mask in pixels.
 pub const MAX_SIDE: u32 = 1 << 15;

@@ -1,59 +1,75 @@
-//! Cusp slices 3-D models for resin printers: an STL becomes a layered depth image, this a metric
-//! profile (error density along z), and this the fewest layers of varying thickness that keep the error
-//! within a tolerance.
+//! Cusp slices 3-D models for resin printers. An STL is sampled into a layered depth image (LDI), the LDI and the facets give
+//! a metric profile (error density along z), and dynamic programming finds the fewest layers of varying thickness that keep
+//! every layer's error within a tolerance.
+//!
+//! The method: H. Mao, T.-H. Kwok, Y. Chen, C. C. L. Wang, "Adaptive slicing based on efficient profile analysis",
+//! Computer-Aided Design 107 (2019). Sections, equations and tables in these pages are those of the paper.
 //!
 //! ```
-//! use cusp_slicer::options::Options;
-//! use cusp_slicer::pipeline::{Slicer, Stage};
+//! use std::fs::{self, File};
 //! use std::ops::ControlFlow;
 //!
-//! # fn main() -> Result<(), cusp_slicer::Error> {
-//! # let bytes = b"solid a\nfacet normal 0 0 0 outer loop vertex 0 0 0 vertex 9 0 0 vertex 0 9 9
-//! #   endloop endfacet\nendsolid".as_slice();
-//! let mut slicer = Slicer::load(bytes)?;
+//! use cusp_slicer::{Options, Slicer, Stage};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! # let folder = tempfile::tempdir()?;
+//! # std::env::set_current_dir(&folder)?;
+//! # let corners = ["0 0 0", "9 0 0", "0 9 0", "0 0 9"];
+//! # let facets = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]].map(|facet| {
+//! #     let vertices = facet.map(|corner: usize| format!("vertex {}\n", corners[corner])).concat();
+//! #     format!("facet normal 0 0 0\nouter loop\n{vertices}endloop\nendfacet\n")
+//! # });
+//! # fs::write("model.stl", format!("solid\n{}endsolid\n", facets.concat()))?;
+//! let mut slicer = Slicer::load(&fs::read("model.stl")?)?;
 //! let options = Options { rays: 64, ..Options::default() };
 //! let mut progress = |_: Stage, _: f64| ControlFlow::Continue(());
+//!
 //! let report = pollster::block_on(slicer.plan(&options, &mut progress))?;
-//! assert_eq!(report.z_mm.len(), report.layers + 1);
+//! println!("{} layers, {:.0} s, {:.1} ml", report.layers, report.print_time_s, report.resin_ml);
+//!
+//! let file = File::create("model.zip")?;
+//! slicer.write_archive(file, &mut progress)?;
 //! # Ok(())
 //! # }
 //! ```
 //!
+//! # Modules, in pipeline order
+//! [`model`] reads, welds and poses a mesh; [`ldi`] samples it; [`profile`] and [`plan`] find the layers; [`mask`] images them;
+//! [`archive`] writes the print file; [`orientation`] searches for the way up. [`job`] resolves [`Options`] and runs the stages.
+//! [`format`](mod@format), [`printer`], [`resin`] and [`grid`] are data that the others look things up in.
+//!
 //! # Conventions
-//! - Millimetres and milliseconds wherever a number leaves the library, with the unit in its name.
-//! - z is up; the plate is z = 0 and the model stands on it, centred on x = y = 0.
+//! - Millimetres and seconds wherever a number leaves the library, with the unit in its name; times of stages are in
+//!   milliseconds.
+//! - z is up; the plate is z = 0, and the model is centred on x = y = 0 above it.
 //! - Facets are counter-clockwise seen from outside; inside is a non-zero winding number.
 //! - Row 0 of a mask is at the largest y; a mask is sampled at the middle of its layer.
-//! - Everything that decides uses basic IEEE arithmetic or integers: a plan is the same on every machine.
+//! - Whatever decides uses integers, basic IEEE arithmetic and square roots: a plan is the same on every machine.
 
 mod parallel;
 pub mod progress;
 
-pub mod archive;
-pub mod exposure;
-pub mod file_kind;
 pub mod format;
 pub mod grid;
-pub mod ldi;
-pub mod mask;
-pub mod mesh;
-pub mod plan;
 pub mod printer;
-pub mod profile;
-pub mod saliency;
-pub mod stl;
-pub mod weights;
-
-pub mod direction;
-mod error;
-mod job;
-pub mod options;
-pub mod pipeline;
-mod planning;
-pub mod report;
-pub mod verify;
+pub mod resin;
 pub mod warning;
+
+pub mod model;
+
+pub mod ldi;
+pub mod profile;
+
+pub mod plan;
+
+pub mod mask;
+
+pub mod archive;
+pub mod orientation;
+
+pub mod job;
 #[cfg(target_arch = "wasm32")]
 mod wasm;
 
-pub use error::Error;
+pub use job::{Error, Options, Report, Slicer, Stage};
+pub use warning::Warning;

@@ -114,15 +114,15 @@ impl std::fmt::Display for Warning {
             } => write!(
                 f,
                 "{planner} layers exceed the tolerance of {}: their largest error is {}",
-                metric.words(*tolerance),
-                metric.words(*max_error)
+                metric.format(*tolerance),
+                metric.format(*max_error)
             ),
             Self::ToleranceExceededOnMesh {
                 metric, max_error, ..
             } => write!(
                 f,
                 "on the mesh itself the error reaches {}, more than the tolerance: rays miss a part of the surface",
-                metric.words(*max_error)
+                metric.format(*max_error)
             ),
             Self::SampledSections => f.write_str(
                 "the surface crosses itself, so that areas of sections are counted along rays",

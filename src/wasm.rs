@@ -1,6 +1,6 @@
 //! The library in the browser: the only file with wasm-bindgen.
 //!
-//! Errors are thrown as `{ code, message, detail }`; see [`crate::Error`].
+//! Errors are thrown as `{ code, message, detail }`; see [`crate::job::Error`].
 
 use std::io::{self, BufWriter, Write};
 use std::ops::ControlFlow;
@@ -10,15 +10,16 @@ use serde::Serialize;
 use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
-use crate::direction::{self, Candidate, Rating, Scale, Search};
-use crate::error::Error;
-use crate::file_kind::HEAD_BYTES;
-use crate::options::Options;
-use crate::pipeline::{self, Stage};
+use crate::job::Error;
+use crate::job::Options;
+use crate::job::{self, Stage};
+use crate::job::{Comparison, MeshInfo, Preview, Report, Tradeoff};
+use crate::model::read::kind::HEAD_BYTES;
+use crate::model::read::stl;
+use crate::model::weights;
+use crate::orientation::{self, Candidate, Rating, Scale, SearchOptions};
 use crate::printer::PRINTERS;
 use crate::profile::{Metric, Source};
-use crate::report::{Comparison, Glance, MeshInfo, Report, Tradeoff};
-use crate::{stl, weights};
 
 /// What every function here throws: code and typed details of an [`Error`], and one sentence for people with what to do.
 ///
@@ -67,8 +68,8 @@ fn progress_to(callback: &Function) -> impl FnMut(Stage, f64) -> ControlFlow<()>
 /// A loaded model; a change of options repeats only what depends on it.
 #[wasm_bindgen]
 pub struct Slicer {
-    slicer: pipeline::Slicer,
-    glanced: Vec<f32>,
+    slicer: job::Slicer,
+    preview_density: Vec<f32>,
 }
 
 /// Says whether a file is an STL, by its first bytes and its length, before it is read.
@@ -108,12 +109,12 @@ pub fn defaults() -> JsValue {
     reason = "values from JavaScript come by value"
 )]
 #[wasm_bindgen]
-pub fn rate_directions(
+pub fn rate_candidates(
     candidates: Vec<Ts<Candidate>>,
-    search: Ts<Search>,
+    search: Ts<SearchOptions>,
 ) -> Result<Ts<Rating>, JsValue> {
     let search = search.to_rust().map_err(throw_conversion)?;
-    direction::rate(&to_rust(&candidates)?, &search)
+    orientation::rate(&to_rust(&candidates)?, &search)
         .into_ts()
         .map_err(throw_conversion)
 }
@@ -127,8 +128,8 @@ pub fn rate_directions(
     reason = "values from JavaScript come by value"
 )]
 #[wasm_bindgen]
-pub fn best_directions(refined: Vec<Ts<Candidate>>) -> Result<Vec<Ts<Candidate>>, JsValue> {
-    to_ts(&direction::best(&to_rust(&refined)?))
+pub fn best_candidates(refined: Vec<Ts<Candidate>>) -> Result<Vec<Ts<Candidate>>, JsValue> {
+    to_ts(&orientation::best(&to_rust(&refined)?))
 }
 
 fn to_rust(candidates: &[Ts<Candidate>]) -> Result<Vec<Candidate>, JsValue> {
@@ -153,10 +154,10 @@ impl Slicer {
     /// Throws a `CuspError` if the bytes are no usable STL.
     #[wasm_bindgen(constructor)]
     pub fn new(stl: &[u8]) -> Result<Slicer, JsValue> {
-        let slicer = pipeline::Slicer::load(stl).map_err(throw)?;
+        let slicer = job::Slicer::load(stl).map_err(throw)?;
         Ok(Self {
             slicer,
-            glanced: Vec::new(),
+            preview_density: Vec::new(),
         })
     }
 
@@ -178,12 +179,12 @@ impl Slicer {
         Ok(saliency.map_err(throw)?.to_vec())
     }
 
-    /// Says how much each facet matters, from 0 to 1; all alike if that is absent. Later plans and glances follow it.
+    /// Says how much each facet matters, from 0 to 1; all alike if that is absent. Later plans and previews follow it.
     ///
     /// # Errors
     /// Throws a `CuspError`.
-    pub fn paint(&mut self, weights: Option<Vec<f32>>) -> Result<(), JsValue> {
-        self.slicer.paint(weights).map_err(throw)
+    pub fn set_weights(&mut self, weights: Option<Vec<f32>>) -> Result<(), JsValue> {
+        self.slicer.set_weights(weights).map_err(throw)
     }
 
     /// A file of weights of this model.
@@ -213,11 +214,11 @@ impl Slicer {
         clippy::needless_pass_by_value,
         reason = "values from JavaScript come by value"
     )]
-    pub fn glance(&mut self, options: Ts<Options>) -> Result<Ts<Glance>, JsValue> {
+    pub fn preview(&mut self, options: Ts<Options>) -> Result<Ts<Preview>, JsValue> {
         let options = options.to_rust().map_err(throw_conversion)?;
-        let (glance, profile) = self.slicer.glance(&options).map_err(throw)?;
-        self.glanced = profile.density;
-        glance.into_ts().map_err(throw_conversion)
+        let (preview, profile) = self.slicer.preview(&options).map_err(throw)?;
+        self.preview_density = profile.density;
+        preview.into_ts().map_err(throw_conversion)
     }
 
     /// The directions of a search: so many unit vectors spread evenly, the axes, and those of the model's largest flats, three
@@ -268,7 +269,7 @@ impl Slicer {
     pub fn refine_direction(
         &mut self,
         options: Ts<Options>,
-        search: Ts<Search>,
+        search: Ts<SearchOptions>,
         scale: Ts<Scale>,
         candidate: Ts<Candidate>,
     ) -> Result<Ts<Candidate>, JsValue> {
@@ -282,9 +283,9 @@ impl Slicer {
         refined.map_err(throw)?.into_ts().map_err(throw_conversion)
     }
 
-    /// The profile of the last glance, as that of a plan.
-    pub fn glance_profile(&self) -> Vec<f32> {
-        self.glanced.clone()
+    /// The profile of the last preview, as that of a plan.
+    pub fn preview_profile(&self) -> Vec<f32> {
+        self.preview_density.clone()
     }
 
     /// Describes the model as it stands in its file.

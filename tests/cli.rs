@@ -861,13 +861,13 @@ fn orient_finds_the_best_direction_and_applies_it() {
     let found = json(&output);
     let best = &found["best"][0];
     assert_eq!(
-        found["stl"],
-        json(&on_cpu(&["plan", &model, "--json"]))["stl"]
+        found["model"],
+        json(&on_cpu(&["plan", &model, "--json"]))["model"]
     );
     assert!((best["size_mm"][2].as_f64().unwrap() - 2.0).abs() < 1e-4);
     assert!(best["energy"].as_f64() < found["now"]["energy"].as_f64());
     let plan = json(&on_cpu(&["plan", &flat, "--json"]));
-    assert_eq!(plan["layers"], best["figures"]["layers"]);
+    assert_eq!(plan["layers"], best["metrics"]["layers"]);
     // The rotation that it gives says the same.
     let rotation: Vec<String> = best["rotation"]
         .as_array()

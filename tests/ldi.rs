@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 use common::{assert_near, on_plate, oracle, sample, solids};
 use cusp_slicer::grid::Grid;
 use cusp_slicer::ldi::{Hit, Ldi, LdiError, cpu, for_each_solid_range};
-use cusp_slicer::mesh::Mesh;
+use cusp_slicer::model::Mesh;
 use cusp_slicer::progress::{Cancelled, silent};
 use glam::Vec3;
 

@@ -5,7 +5,7 @@
 mod common;
 
 use common::{assert_near, on_plate, solids};
-use cusp_slicer::mesh::{Mesh, MeshError, Pose};
+use cusp_slicer::model::{Mesh, MeshError, Pose};
 use glam::{DVec3, Vec3};
 
 #[test]

@@ -11,10 +11,10 @@ use std::ops::ControlFlow;
 use common::{binary_stl, quiet, solids};
 use cusp_slicer::Error;
 use cusp_slicer::format::Format;
-use cusp_slicer::options::{Backend, Minimize, Options, Planner, Snap};
-use cusp_slicer::pipeline::{Slicer, Stage};
+use cusp_slicer::job::Report;
+use cusp_slicer::job::{Backend, Minimize, Options, Planner, Snap};
+use cusp_slicer::job::{Slicer, Stage};
 use cusp_slicer::profile::{Metric, Source};
-use cusp_slicer::report::Report;
 use cusp_slicer::warning::Warning;
 use glam::Vec3;
 

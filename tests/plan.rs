@@ -6,7 +6,6 @@
 mod common;
 
 use common::{assert_near, oracle, oracle::Rules};
-use cusp_slicer::exposure::Resin;
 use cusp_slicer::grid::Bins;
 use cusp_slicer::plan::greedy::Sight;
 use cusp_slicer::plan::optimal::{Objective, Table, fill_cheapest, fill_fewest};
@@ -15,6 +14,7 @@ use cusp_slicer::plan::tradeoff::{Goal, curve, tolerance_for};
 use cusp_slicer::plan::{HeightRange, Limits, Plan, PlanError, greedy, optimal, uniform};
 use cusp_slicer::profile::volume::VolumeError;
 use cusp_slicer::profile::{ErrorSum, LayerErrors, Profile};
+use cusp_slicer::resin::Resin;
 
 /// Bins of 1 mm.
 fn bins(count: usize) -> Bins {
@@ -438,7 +438,7 @@ fn heights_are_multiples_of_the_motor_step() {
         plan.boundaries.contains(&310),
         "1.24 mm is nearest to the plane asked for"
     );
-    assert_eq!(plan.wishes, [600]);
+    assert_eq!(plan.snap_planes, [600]);
     assert_eq!(plan.z_mm().last(), Some(&4.44));
     let uneven = Limits {
         step_mm: Some(0.01),
@@ -456,7 +456,7 @@ fn wishes_are_granted_in_order_and_give_way() {
     let plain = limits(3.0, 6.0, 100.0);
     let segments = Segments::new(bins(30), &plain, &[10, 12, 25, 2, 29]).unwrap();
     // 12 is too near to 10, 2 to the plate and 29 to the top.
-    assert_eq!(segments.wishes, [10, 25]);
+    assert_eq!(segments.snap_planes, [10, 25]);
     assert_eq!(segments.segments.len(), 3);
 
     // The layers from 0 to 10 would be 3 to 4 bins: too much where the profile is 1.
@@ -465,7 +465,7 @@ fn wishes_are_granted_in_order_and_give_way() {
     let tight = limits(3.0, 6.0, 3.0);
     assert!(optimal::plan(&sum(&density), &tight, &[], Objective::Layers).is_ok());
     let plan = optimal::plan(&sum(&density), &tight, &[10, 20], Objective::Layers).unwrap();
-    assert_eq!(plan.wishes, [20]);
+    assert_eq!(plan.snap_planes, [20]);
 }
 
 #[test]

@@ -8,9 +8,9 @@ use common::{assert_near, on_plate, oracle, sample, solids};
 use cusp_slicer::grid::{Bins, Grid};
 use cusp_slicer::ldi::cpu;
 use cusp_slicer::ldi::visibility::{Visibility, visibility};
-use cusp_slicer::mesh::Mesh;
-use cusp_slicer::profile::relief::Relief;
-use cusp_slicer::profile::wishes::wishes;
+use cusp_slicer::model::Mesh;
+use cusp_slicer::profile::facet_bins::FacetBins;
+use cusp_slicer::profile::snap_planes::snap_planes;
 use cusp_slicer::profile::{Metric, Profile, Shape, area, cusp, roughness, section, steepest};
 use cusp_slicer::progress::silent;
 use glam::Vec3;
@@ -27,12 +27,12 @@ fn shapes(triangles: &solids::Triangles, bin_mm: f64) -> [Shape; 2] {
     [
         Shape {
             bins,
-            steepest: steepest::exact(&Relief::of(&mesh, bins), &seen.hidden),
+            steepest: steepest::exact(&FacetBins::of(&mesh, bins), &seen.hidden),
             areas_mm2: section::exact(&mesh, &seen.hidden, bins),
         },
         Shape {
             bins,
-            steepest: steepest::sampled(&Relief::of(&mesh, bins), &ldi, &seen.hidden),
+            steepest: steepest::sampled(&FacetBins::of(&mesh, bins), &ldi, &seen.hidden),
             areas_mm2: section::sampled(&ldi, bins),
         },
     ]
@@ -130,7 +130,7 @@ fn the_exact_profile_is_that_of_a_loop_over_facets_and_bins() {
         let mesh = on_plate(&triangles);
         let bins = bins_of(&mesh, mesh.bounds().size().z / 173.0);
         let expected = oracle::steepest(&mesh, bins, |_| true);
-        let found = steepest::exact(&Relief::of(&mesh, bins), &[]);
+        let found = steepest::exact(&FacetBins::of(&mesh, bins), &[]);
         for (bin, (&found, &expected)) in found.iter().zip(&expected).enumerate() {
             let found = f64::from(found);
             let found = if found < 0.0 { found } else { found.sqrt() };
@@ -211,10 +211,10 @@ fn what_lies_wholly_inside_has_no_part() {
     let bins = bins_of(&mesh, 0.1);
     let areas_mm2 = section::exact(&mesh, &found.hidden, bins);
     assert!(areas_mm2.iter().all(|area| (area - 100.0).abs() < 1e-9));
-    let density = steepest::exact(&Relief::of(&mesh, bins), &found.hidden);
+    let density = steepest::exact(&FacetBins::of(&mesh, bins), &found.hidden);
     assert_eq!(
         density,
-        steepest::exact(&Relief::of(&on_plate(&outer), bins), &[])
+        steepest::exact(&FacetBins::of(&on_plate(&outer), bins), &[])
     );
 }
 
@@ -257,16 +257,16 @@ fn flats_come_before_sharp_changes_and_larger_before_smaller() {
     let mesh = on_plate(&stairs);
     let bins = bins_of(&mesh, 0.1);
     let hidden = seen(&mesh, 300).hidden;
-    let relief = Relief::of(&mesh, bins);
-    let density = cusp::density(&steepest::exact(&relief, &hidden));
-    let flats = relief.flats_but(&hidden);
-    let found = wishes(&flats, &density, bins, 1.0);
+    let facet_bins = FacetBins::of(&mesh, bins);
+    let density = cusp::density(&steepest::exact(&facet_bins, &hidden));
+    let flats = facet_bins.flats_but(&hidden);
+    let found = snap_planes(&flats, &density, bins, 1.0);
     assert_eq!(found[..2], [100, 120]);
     // Around each flat the density changes sharply.
     for sharp in [99, 100, 119, 120, 1, 139] {
         assert!(found[2..].contains(&sharp), "{sharp}: {found:?}");
     }
-    let large = wishes(&flats, &[], bins, 50.0);
+    let large = snap_planes(&flats, &[], bins, 50.0);
     assert_eq!(large, [100]);
 }
 

@@ -7,14 +7,14 @@ mod common;
 use std::ops::ControlFlow;
 
 use common::{assert_near, binary_stl, quiet, solids};
-use cusp_slicer::mesh::Mesh;
-use cusp_slicer::options::{Backend, Options, Snap};
-use cusp_slicer::pipeline::Slicer;
+use cusp_slicer::job::Report;
+use cusp_slicer::job::Slicer;
+use cusp_slicer::job::{Backend, Options, Snap};
+use cusp_slicer::model::Mesh;
+use cusp_slicer::model::saliency::saliency;
+use cusp_slicer::model::weights::{self, WeightsError};
 use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::progress::silent;
-use cusp_slicer::report::Report;
-use cusp_slicer::saliency::saliency;
-use cusp_slicer::weights::{self, WeightsError};
 use glam::{DVec3, Quat, Vec3};
 
 const METRICS: [Metric; 4] = [
@@ -260,7 +260,7 @@ fn weight_1_changes_nothing_and_weight_one_half_doubles_the_tolerance() {
                 source,
                 ..options(metric)
             };
-            slicer.paint(None).unwrap();
+            slicer.set_weights(None).unwrap();
             let plain = plan(&mut slicer, &options);
             let profile = slicer.profile(metric, source).unwrap();
             let tight = options.tolerance.unwrap_or(plain.tolerance);
@@ -270,13 +270,13 @@ fn weight_1_changes_nothing_and_weight_one_half_doubles_the_tolerance() {
             };
             let doubled = plan(&mut slicer, &doubled);
 
-            slicer.paint(Some(vec![1.0; facets])).unwrap();
+            slicer.set_weights(Some(vec![1.0; facets])).unwrap();
             let same = plan(&mut slicer, &options);
             assert_eq!(same.z_mm, plain.z_mm, "{metric:?}, {source:?}");
             assert_eq!(same.max_error, plain.max_error);
             assert_eq!(slicer.profile(metric, source).unwrap(), profile);
 
-            slicer.paint(Some(vec![0.5; facets])).unwrap();
+            slicer.set_weights(Some(vec![0.5; facets])).unwrap();
             let half = Options {
                 tolerance: Some(tight),
                 ..options.clone()
@@ -309,7 +309,7 @@ fn the_plan_changes_where_weights_do_and_nowhere_else() {
     // The file is stood on the plate: heights in it are 8 mm less.
     let paint = |facet: &[Vec3; 3]| if middle(facet).z > 3.0 { 0.4 } else { 1.0 };
     slicer
-        .paint(Some(triangles.iter().map(paint).collect()))
+        .set_weights(Some(triangles.iter().map(paint).collect()))
         .unwrap();
     let painted = plan(&mut slicer, &options);
     assert!(painted.layers < plain.layers);
@@ -320,8 +320,8 @@ fn the_plan_changes_where_weights_do_and_nowhere_else() {
     // On a facet of weight 0.4 the error is at most 2.5 times the tolerance.
     assert!(painted.max_error_mm > 0.065 && painted.max_error_mm <= 0.065 / 0.4);
     assert!(painted.max_error <= 0.065);
-    // A glance agrees, and the least weight bounds what is loosened.
-    assert_eq!(slicer.glance(&options).unwrap().0.z_mm, painted.z_mm);
+    // A preview agrees, and the least weight bounds what is loosened.
+    assert_eq!(slicer.preview(&options).unwrap().0.z_mm, painted.z_mm);
     let bounded = Options {
         weight_min: 0.9,
         ..options.clone()
@@ -347,13 +347,13 @@ fn weights_are_the_product_of_paint_and_saliency() {
     let paint: Vec<f32> = (0..triangles.len())
         .map(|facet| (facet % 11) as f32 / 10.0)
         .collect();
-    slicer.paint(Some(paint.clone())).unwrap();
+    slicer.set_weights(Some(paint.clone())).unwrap();
     let found = slicer.weights(&options, &mut quiet).unwrap().unwrap();
     for (facet, weight) in found.into_iter().enumerate() {
         assert_eq!(weight, (saliency[facet] * paint[facet]).max(0.1));
     }
     // More layers at the bumps than a ball without weights on its tolerance has; fewer in all.
-    slicer.paint(None).unwrap();
+    slicer.set_weights(None).unwrap();
     let salient = plan(&mut slicer, &options);
     let plain = plan(&mut slicer, &self::options(Metric::Cusp));
     assert!(
@@ -411,7 +411,7 @@ fn weights_in_a_file_are_bound_to_their_mesh() {
     );
     let mut slicer = slicer;
     assert_eq!(
-        slicer.paint(Some(vec![1.0; 3])).unwrap_err().code(),
+        slicer.set_weights(Some(vec![1.0; 3])).unwrap_err().code(),
         "weights-other-mesh"
     );
 }

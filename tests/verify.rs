@@ -5,12 +5,12 @@
 mod common;
 
 use common::{assert_near, binary_stl, quiet, solids};
-use cusp_slicer::mesh::MeshError;
-use cusp_slicer::options::{Backend, Options, Planner};
-use cusp_slicer::pipeline::Slicer;
+use cusp_slicer::job::Report;
+use cusp_slicer::job::Slicer;
+use cusp_slicer::job::{Backend, Options, Planner};
+use cusp_slicer::job::{Claim, VerifyError};
+use cusp_slicer::model::MeshError;
 use cusp_slicer::profile::Metric;
-use cusp_slicer::report::Report;
-use cusp_slicer::verify::{Claim, VerifyError};
 use serde_json::{Value, json};
 
 fn options() -> Options {
@@ -32,7 +32,7 @@ fn planned(triangles: &solids::Triangles, options: &Options) -> (Slicer, Report)
 /// Makes the plan anew from what was sent.
 fn verify(sent: &Value, triangles: &solids::Triangles) -> Result<(), VerifyError> {
     let mut slicer = Slicer::load(&binary_stl(triangles)).unwrap();
-    let claim = Claim::read(&sent.to_string(), slicer.stl())?;
+    let claim = Claim::read(&sent.to_string(), slicer.model_file())?;
     let made = pollster::block_on(slicer.plan(claim.options(), &mut quiet)).unwrap();
     claim.check(made)
 }
@@ -144,14 +144,17 @@ fn a_glance_is_the_plan_where_no_facet_is_hidden() {
                     rotation,
                     ..options()
                 };
-                let (glance, profile) = slicer.glance(&options).unwrap();
+                let (preview, profile) = slicer.preview(&options).unwrap();
                 let report = pollster::block_on(slicer.plan(&options, &mut quiet)).unwrap();
-                assert_eq!(glance.z_mm.len(), glance.layers + 1);
-                assert_near(glance.size_mm[2], report.height_mm, 1e-6);
+                assert_eq!(preview.z_mm.len(), preview.layers + 1);
+                assert_near(preview.size_mm[2], report.height_mm, 1e-6);
                 if !hides_facets {
-                    assert_eq!(glance.z_mm, report.z_mm, "{name}, {metric:?}, {rotation:?}");
-                    assert_eq!(glance.max_error, report.max_error);
-                    assert_eq!(glance.print_time_s, report.print_time_s);
+                    assert_eq!(
+                        preview.z_mm, report.z_mm,
+                        "{name}, {metric:?}, {rotation:?}"
+                    );
+                    assert_eq!(preview.max_error, report.max_error);
+                    assert_eq!(preview.print_time_s, report.print_time_s);
                     let source = report.source;
                     assert_eq!(profile, slicer.profile(metric, source).unwrap());
                 }
@@ -175,8 +178,8 @@ fn a_rotation_turns_the_model() {
             ..options()
         };
         let (slicer, report) = planned(&brick, &options);
-        let (glance, _) = slicer.glance(&options).unwrap();
-        for (found, expected) in glance.size_mm.into_iter().zip(size_mm) {
+        let (preview, _) = slicer.preview(&options).unwrap();
+        for (found, expected) in preview.size_mm.into_iter().zip(size_mm) {
             assert_near(found, expected, 1e-6);
         }
         assert_near(report.resin_ml, 0.06, 1e-3);
@@ -201,7 +204,7 @@ fn a_rotation_turns_the_model() {
             ..options()
         };
         let slicer = Slicer::load(&binary_stl(&cone)).unwrap();
-        let error = slicer.glance(&options).unwrap_err();
+        let error = slicer.preview(&options).unwrap_err();
         assert_eq!(error.code(), MeshError::BadRotation.code());
     }
 }

@@ -6,19 +6,19 @@ mod common;
 #[cfg(target_arch = "wasm32")]
 use common::shifted_grid;
 use common::{binary_stl, fingerprint, on_plate, quiet, solids};
-use cusp_slicer::direction::{Quality, Search};
 use cusp_slicer::format::Format;
 use cusp_slicer::grid::Grid;
+use cusp_slicer::job::Slicer;
+#[cfg(target_arch = "wasm32")]
+use cusp_slicer::job::Stage;
+use cusp_slicer::job::{Backend, Minimize, Options};
 use cusp_slicer::ldi::cpu;
 #[cfg(target_arch = "wasm32")]
 use cusp_slicer::ldi::{
     LdiError,
     gpu::{self, Gpu},
 };
-use cusp_slicer::options::{Backend, Minimize, Options};
-use cusp_slicer::pipeline::Slicer;
-#[cfg(target_arch = "wasm32")]
-use cusp_slicer::pipeline::Stage;
+use cusp_slicer::orientation::{Quality, SearchOptions};
 use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::progress::silent;
 #[cfg(target_arch = "wasm32")]
@@ -67,20 +67,38 @@ fn the_directions_are_the_recorded_ones() {
         bin_mm: 0.01,
         ..options()
     };
-    let search = Search {
+    let search = SearchOptions {
         directions: 40,
         quality: Quality::Overhang,
-        ..Search::default()
+        ..SearchOptions::default()
     };
     let mut slicer = Slicer::load(&binary_stl(&model())).unwrap();
     let found = slicer.orient(&options, &search, &mut quiet).unwrap();
-    assert_eq!(
-        (
-            found.best.len(),
-            fingerprint(format!("{found:?}").as_bytes())
-        ),
-        (3, 0xa0f5_352b_7146_b3c4)
-    );
+    let all = found
+        .candidates
+        .iter()
+        .chain(&found.best)
+        .chain([&found.now]);
+    let numbers: Vec<u8> = all
+        .flat_map(|candidate| {
+            let metrics = candidate.metrics.iter().flat_map(|metrics| {
+                [
+                    metrics.layers as f64,
+                    metrics.print_time_s,
+                    metrics.max_error,
+                    metrics.roughness_mm,
+                    metrics.overhang_mm2,
+                ]
+            });
+            let place = candidate.direction.into_iter().chain(candidate.rotation);
+            let place = place.chain(candidate.size_mm).chain(candidate.energy);
+            place
+                .chain(metrics)
+                .flat_map(f64::to_le_bytes)
+                .collect::<Vec<_>>()
+        })
+        .collect();
+    assert_eq!((found.best.len(), fingerprint(&numbers)), (3, 0xd560_21eb_8cfe_0e35));
 }
 
 async fn check_plan_and_masks() {
@@ -97,7 +115,7 @@ async fn check_plan_and_masks() {
         let (bytes, _) = slicer.write_archive(Vec::new(), &mut quiet).unwrap();
         fingerprint(&bytes)
     };
-    assert_eq!(archive(&mut slicer), 0x386b_2ac2_305e_876e);
+    assert_eq!(archive(&mut slicer), 0xa2ac_35ae_7ae8_8e83);
     let grey = Options {
         antialias: 4,
         printer: Some("sl1s".to_owned()),
@@ -105,7 +123,7 @@ async fn check_plan_and_masks() {
         ..options()
     };
     slicer.plan(&grey, &mut quiet).await.unwrap();
-    assert_eq!(archive(&mut slicer), 0x1df1_a66a_51cc_b1ce);
+    assert_eq!(archive(&mut slicer), 0x483e_0910_05ed_c591);
     // Every metric, source and objective.
     let mut plans = Vec::new();
     for metric in [
@@ -126,8 +144,8 @@ async fn check_plan_and_masks() {
                 ..options()
             };
             let report = slicer.plan(&options, &mut quiet).await.unwrap();
-            let figures = [report.max_error, report.sampled_error, report.print_time_s];
-            let numbers = report.z_mm.iter().chain(&figures);
+            let metrics = [report.max_error, report.sampled_error, report.print_time_s];
+            let numbers = report.z_mm.iter().chain(&metrics);
             plans.extend(numbers.flat_map(|number| number.to_le_bytes()));
         }
     }

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use cusp_slicer::mesh::Mesh;
+use cusp_slicer::model::Mesh;
 use glam::DVec2;
 
 /// Facets in order of their lowest corner, so that a plane looks only at those it can cut.

@@ -20,14 +20,14 @@ use std::path::Path;
 use std::time::Instant;
 
 use cusp_slicer::grid::Bins;
-use cusp_slicer::mesh::{Mesh, Pose};
-use cusp_slicer::options::{Backend, Options};
-use cusp_slicer::pipeline::{Slicer, Stage};
+use cusp_slicer::job::{Backend, Options};
+use cusp_slicer::job::{Slicer, Stage};
+use cusp_slicer::model::read::stl;
+use cusp_slicer::model::{Mesh, Pose};
 use cusp_slicer::plan::Limits;
 use cusp_slicer::plan::optimal::{self, Objective};
-use cusp_slicer::profile::relief::Relief;
+use cusp_slicer::profile::facet_bins::FacetBins;
 use cusp_slicer::profile::{Metric, Shape, Source, steepest};
-use cusp_slicer::stl;
 
 use direct::DirectSlicer;
 
@@ -156,7 +156,7 @@ fn table_2(models: &[Model], text: &mut String) {
             let bins = Bins::of_height(model.height_mm, 0.002).expect("bins");
             let shape = Shape {
                 bins,
-                steepest: steepest::exact(&Relief::of(&mesh, bins), &[]),
+                steepest: steepest::exact(&FacetBins::of(&mesh, bins), &[]),
                 areas_mm2: Vec::new(),
             };
             let limits = Limits {

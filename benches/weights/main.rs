@@ -18,12 +18,12 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
-use cusp_slicer::mesh::Mesh;
-use cusp_slicer::options::{Backend, Options};
-use cusp_slicer::pipeline::{Slicer, Stage};
+use cusp_slicer::job::Report;
+use cusp_slicer::job::{Backend, Options};
+use cusp_slicer::job::{Slicer, Stage};
+use cusp_slicer::model::Mesh;
+use cusp_slicer::model::saliency::saliency;
 use cusp_slicer::progress::silent;
-use cusp_slicer::report::Report;
-use cusp_slicer::saliency::saliency;
 use glam::Vec3;
 use picture::{Colour, Picture};
 
@@ -99,7 +99,7 @@ fn main() {
     let plain = plan(&mut slicer, false, None);
     let salient = slicer.saliency(&mut quiet).expect("saliency").to_vec();
     let painted: Vec<f32> = facets.iter().map(paint).collect();
-    slicer.paint(Some(painted.clone())).expect("paint");
+    slicer.set_weights(Some(painted.clone())).expect("paint");
     let weighted = plan(&mut slicer, true, Some(plain.layers));
 
     let mesh = Mesh::from_triangles(&facets).expect("a mesh");

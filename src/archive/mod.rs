@@ -1,42 +1,48 @@
-//! Print files: zips of masks, one file a format.
-//!
-//! A format says how masks are named and stored and which other files there are; this module encodes the masks on all
-//! cores and writes the zip.
+//! Print files, one file a format, from masks, plan and exposures.
 
-mod chitubox;
-mod plain;
 pub mod png;
 mod preview;
 pub mod runs;
-mod sl1;
-mod uvj;
+mod zip;
 
 use std::io::Write;
-use std::ops::Range;
 
-use flate2::{Compress, Compression, FlushCompress};
-use rawzip::{CompressionMethod, DataDescriptorOutput, ZipArchiveWriter};
 use serde::Serialize;
+use serde_json::Value;
 
-use crate::exposure::Resin;
 use crate::format::Format;
 use crate::ldi::Ldi;
-use crate::mask::{Light, MaskCursor, Masks};
-use crate::mesh::Mesh;
-use crate::parallel::map_in_groups;
+use crate::mask::Masks;
+use crate::model::Mesh;
+use crate::plan::Plan;
 use crate::printer::Printer;
 use crate::progress::{Cancelled, Progress, report};
-use crate::report::Report;
+use crate::resin::Resin;
 
-impl Format {
-    fn container(self) -> &'static dyn Container {
-        match self {
-            Self::Png => &plain::Plain,
-            Self::Chitubox => &chitubox::Chitubox,
-            Self::Uvj => &uvj::Uvj,
-            Self::Sl1 => &sl1::Sl1,
-        }
+/// The encoder of a format.
+fn encoder(format: Format) -> &'static dyn Encoder {
+    match format {
+        Format::Png => &zip::Zip(zip::png::Png),
+        Format::Chitubox => &zip::Zip(zip::chitubox::Chitubox),
+        Format::Uvj => &zip::Zip(zip::uvj::Uvj),
+        Format::Sl1 => &zip::Zip(zip::sl1::Sl1),
     }
+}
+
+/// What tells formats apart. A zip of masks is a [`zip::Container`] instead, in a [`zip::Zip`].
+trait Encoder {
+    /// Refuses a plan that the format cannot express.
+    fn check(&self, _job: &PrintJob<'_>) -> Result<(), ArchiveError> {
+        Ok(())
+    }
+
+    /// Writes the file from its beginning to its end. Fails with [`ArchiveError::AllBlack`] if no mask is lit.
+    fn encode(
+        &self,
+        job: &PrintJob<'_>,
+        writer: &mut dyn Write,
+        progress: &mut Progress<'_>,
+    ) -> Result<(), ArchiveError>;
 }
 
 /// Why a print file could not be written.
@@ -86,7 +92,8 @@ impl ArchiveError {
         }
     }
 
-    fn write(error: impl std::fmt::Display) -> Self {
+    /// The error of a write that failed.
+    pub(crate) fn write(error: impl std::fmt::Display) -> Self {
         Self::Write {
             reason: error.to_string(),
         }
@@ -101,197 +108,55 @@ impl From<std::io::Error> for ArchiveError {
 
 /// What a print file is made from.
 #[derive(Clone, Copy)]
-pub struct Job<'a> {
+pub struct PrintJob<'a> {
     /// The masks, seen from the side that the printer lights from.
     pub masks: &'a Masks,
+    /// Whether that is from below: rows run from right to left.
+    pub is_mirrored: bool,
     /// The plan.
-    pub report: &'a Report,
-    /// The printer, if it is one that is known by name.
-    pub printer: Option<&'a Printer>,
+    pub plan: &'a Plan,
+    /// Height of the model in millimetres; the plan's top may differ by part of a layer.
+    pub height_mm: f64,
+    /// Seconds of exposure of each layer.
+    pub exposure_s: &'a [f64],
     /// The resin.
     pub resin: &'a Resin,
+    /// Resin that the model takes, in millilitres.
+    pub resin_ml: f64,
+    /// The printer, if one was named.
+    pub printer: Option<&'a Printer>,
     /// The model, for previews.
     pub mesh: &'a Mesh,
     /// The rays that it was sampled along.
     pub ldi: &'a Ldi,
+    /// An object that describes the whole job, for formats of ours.
+    pub manifest: &'a Value,
 }
 
-/// A layer of a print file.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct LayerEntry {
-    /// Name of the mask in the zip.
-    pub file: String,
-    /// Top of the layer, in millimetres above the plate.
-    pub z_mm: f64,
-    /// Thickness of the layer in millimetres.
-    pub thickness_mm: f64,
-    /// Seconds of exposure.
-    pub exposure_s: f64,
-    /// White pixels of the mask.
-    pub lit_pixels: u64,
-}
-
-/// Name and contents of a file in a zip.
-type File = (String, Vec<u8>);
-
-/// What tells formats apart.
-trait Container: Sync {
-    /// Refuses a plan that the format cannot express.
-    fn check(&self, _job: &Job<'_>) -> Result<(), ArchiveError> {
-        Ok(())
+impl PrintJob<'_> {
+    /// Time that the layers take, in seconds.
+    fn print_time_s(&self) -> f64 {
+        self.plan.print_time_s(self.resin)
     }
-
-    /// How masks are stored whose pixels are either lit or dark; all others are grey.
-    fn depth(&self) -> png::Depth {
-        png::Depth::Grey
-    }
-
-    /// The name of a layer's mask.
-    fn mask_name(&self, layer: usize) -> String;
-
-    /// The files beside the masks.
-    fn files(&self, job: &Job<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError>;
 }
-
-/// Layers that one thread encodes in a row; the mask is copied once for each such run.
-const RUN: usize = 8;
 
 /// Writes a print file from its beginning to its end, and returns the writer.
 ///
-/// The bytes depend on the job alone, not on threads or machine. Whatever their number and size, they are written right:
-/// from 65,535 files or 4 GiB on by the rules of zip64.
+/// The bytes depend on the job alone, not on threads or machine.
 ///
 /// # Errors
 /// [`ArchiveError`].
 pub fn write<W: Write>(
     format: Format,
-    job: &Job<'_>,
-    writer: W,
+    job: &PrintJob<'_>,
+    mut writer: W,
     progress: &mut Progress<'_>,
 ) -> Result<W, ArchiveError> {
     report(progress, 0.0)?;
-    let container = format.container();
-    container.check(job)?;
-    let Job { masks, report, .. } = *job;
-    let mut zip = ZipArchiveWriter::new(writer);
-    let mut layers: Vec<LayerEntry> = Vec::with_capacity(masks.layers());
-
-    let mut ahead = masks.cursor();
-    let runs = (0..masks.layers()).step_by(RUN).map(|first| {
-        ahead.seek(masks, first);
-        (ahead.clone(), first..(first + RUN).min(masks.layers()))
-    });
-    map_in_groups(
-        runs,
-        |(cursor, layers)| encode_run(container, masks, cursor, layers),
-        |encoded: Result<Vec<Mask>, ArchiveError>| {
-            for Mask { png, lit_pixels } in encoded? {
-                let layer = layers.len();
-                let file = container.mask_name(layer);
-                add(&mut zip, &file, &png)?;
-                layers.push(LayerEntry {
-                    file,
-                    z_mm: report.z_mm[layer + 1],
-                    thickness_mm: report.thickness_mm[layer],
-                    exposure_s: report.exposure_s[layer],
-                    lit_pixels,
-                });
-            }
-            Ok::<_, ArchiveError>(())
-        },
-        progress,
-        [0.0, 1.0],
-    )?;
-
-    if layers.iter().all(|layer| layer.lit_pixels == 0) {
-        return Err(ArchiveError::AllBlack);
-    }
-    let mut deflater = Deflater::new();
-    for (name, bytes) in container.files(job, &layers)? {
-        add(&mut zip, &name, &deflater.deflate(&bytes)?)?;
-    }
-    zip.finish().map_err(ArchiveError::write)
-}
-
-/// Adds a file. Without dates archives are reproducible.
-fn add<W: Write>(
-    zip: &mut ZipArchiveWriter<W>,
-    name: &str,
-    file: &Deflated,
-) -> Result<(), ArchiveError> {
-    let builder = zip
-        .new_file(name)
-        .compression_method(CompressionMethod::DEFLATE);
-    let (mut entry, _) = builder.start().map_err(ArchiveError::write)?;
-    entry.write_all(&file.bytes).map_err(ArchiveError::write)?;
-    let sum = DataDescriptorOutput::new(file.crc, file.length);
-    entry.finish(sum).map_err(ArchiveError::write)?;
-    Ok(())
-}
-
-/// A file as it stands in a zip.
-struct Deflated {
-    bytes: Vec<u8>,
-    crc: u32,
-    length: u64,
-}
-
-/// Deflates file after file.
-struct Deflater(Compress);
-
-impl Deflater {
-    /// Streams of masks repeat themselves at short distances, which the fourth level finds: the first takes a quarter of
-    /// the time, but leaves a sixth more.
-    const LEVEL: u32 = 4;
-
-    fn new() -> Self {
-        Self(Compress::new(Compression::new(Self::LEVEL), false))
-    }
-
-    fn deflate(&mut self, file: &[u8]) -> Result<Deflated, ArchiveError> {
-        self.0.reset();
-        let mut bytes = Vec::with_capacity(file.len() / 2 + 1024);
-        loop {
-            let rest = &file[self.0.total_in() as usize..];
-            let status = self.0.compress_vec(rest, &mut bytes, FlushCompress::Finish);
-            match status.map_err(ArchiveError::write)? {
-                flate2::Status::StreamEnd => break,
-                _ => bytes.reserve(file.len() / 2 + 1024),
-            }
-        }
-        Ok(Deflated {
-            bytes,
-            crc: rawzip::crc32(file),
-            length: file.len() as u64,
-        })
-    }
-}
-
-struct Mask {
-    png: Deflated,
-    lit_pixels: u64,
-}
-
-fn encode_run(
-    container: &dyn Container,
-    masks: &Masks,
-    mut cursor: MaskCursor,
-    layers: Range<usize>,
-) -> Result<Vec<Mask>, ArchiveError> {
-    let depth = match cursor.light() {
-        Light::Bits(_) => container.depth(),
-        Light::Samples(_) => png::Depth::Grey,
-    };
-    let mut deflater = Deflater::new();
-    layers
-        .map(|layer| {
-            cursor.seek(masks, layer);
-            Ok(Mask {
-                png: deflater.deflate(&png::encode(masks, &cursor, depth))?,
-                lit_pixels: cursor.lit_pixels(),
-            })
-        })
-        .collect()
+    let encoder = encoder(format);
+    encoder.check(job)?;
+    encoder.encode(job, &mut writer, progress)?;
+    Ok(writer)
 }
 
 /// Text of numbers without idle digits: to a thousandth of the unit.

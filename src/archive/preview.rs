@@ -3,7 +3,7 @@
 use super::png::{self, Depth};
 use super::runs::RunWriter;
 use crate::ldi::Ldi;
-use crate::mesh::Mesh;
+use crate::model::Mesh;
 
 /// How bright each pixel of a model is, seen from above: lit from the left and behind, brighter higher up.
 #[derive(Debug, Clone, PartialEq)]

@@ -6,7 +6,7 @@
 use super::projection::Projection;
 use super::{Hit, Ldi, LdiError, assemble};
 use crate::grid::Grid;
-use crate::mesh::Mesh;
+use crate::model::Mesh;
 use crate::parallel::map_in_groups;
 use crate::progress::{Progress, report};
 

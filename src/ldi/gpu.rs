@@ -10,7 +10,7 @@ use super::layout::{SCAN_BLOCK, Tile};
 use super::projection::{Projection, STEPS};
 use super::{Ldi, LdiError, assemble};
 use crate::grid::Grid;
-use crate::mesh::Mesh;
+use crate::model::Mesh;
 use crate::progress::{Progress, report};
 
 /// Which adapters may be used.

@@ -18,7 +18,7 @@ use serde::Serialize;
 pub use solid::Solid;
 
 use crate::grid::Grid;
-use crate::mesh::Mesh;
+use crate::model::Mesh;
 use crate::parallel;
 use crate::progress::Cancelled;
 

@@ -12,7 +12,7 @@ use std::ops::Range;
 use glam::DVec2;
 
 use crate::grid::Grid;
-use crate::mesh::Mesh;
+use crate::model::Mesh;
 
 /// Lattice steps a pixel.
 pub const STEPS: i64 = 256;

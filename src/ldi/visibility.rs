@@ -1,7 +1,7 @@
 //! Which facets lie wholly inside the solid, where bodies overlap: they are no part of what is printed.
 
 use super::{Hit, Ldi};
-use crate::mesh::Mesh;
+use crate::model::Mesh;
 use crate::parallel;
 
 /// What an LDI shows about the facets of its mesh.

@@ -21,13 +21,13 @@ pub enum Sight {
 pub fn plan(
     errors: &LayerErrors,
     limits: &Limits,
-    wishes: &[u32],
+    snap_planes: &[u32],
     sight: Sight,
 ) -> Result<Plan, PlanError> {
     let bins = errors.bins();
     limits.check(bins)?;
     let tolerance = errors.to_steps(limits.tolerance);
-    let laid_out = Segments::new(bins, limits, wishes)?;
+    let laid_out = Segments::new(bins, limits, snap_planes)?;
     let mut boundaries = vec![0];
     for segment in &laid_out.segments {
         let mut plane = 0;
@@ -43,7 +43,7 @@ pub fn plan(
     Ok(Plan {
         bins,
         boundaries,
-        wishes: laid_out.wishes,
+        snap_planes: laid_out.snap_planes,
     })
 }
 

@@ -12,9 +12,9 @@ use std::ops::RangeInclusive;
 
 use serde::{Deserialize, Serialize};
 
-use crate::exposure::Resin;
 use crate::grid::{Bins, GridError, positive};
 use crate::profile::LayerErrors;
+use crate::resin::Resin;
 
 /// What every plan must keep to.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -211,7 +211,7 @@ pub struct Plan {
     /// Boundaries of layers in bins: 0, then the top of each layer.
     pub boundaries: Vec<u32>,
     /// Those of them that are where the caller wished for a plane.
-    pub wishes: Vec<u32>,
+    pub snap_planes: Vec<u32>,
 }
 
 impl Plan {

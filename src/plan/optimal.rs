@@ -2,8 +2,8 @@
 
 use super::segment::{Segment, Segments};
 use super::{Limits, Plan, PlanError, tradeoff};
-use crate::exposure::Resin;
 use crate::profile::{ErrorSum, LayerErrors};
+use crate::resin::Resin;
 
 /// What is to be as little as possible.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,7 +17,7 @@ pub enum Objective<'a> {
 /// Plans the fewest layers, or the shortest time, with all errors within the tolerance; among those plans one whose
 /// largest error is the least.
 ///
-/// There is a plane at each of `wishes`, boundaries of bins in the order of their importance, unless layers do not add
+/// There is a plane at each of `snap_planes`, boundaries of bins in the order of their importance, unless layers do not add
 /// up or exceed the tolerance beside it.
 ///
 /// Cost: linear in bins, whatever the range of thicknesses, for the fewest layers under an additive metric; bins times
@@ -28,13 +28,13 @@ pub enum Objective<'a> {
 pub fn plan(
     errors: &LayerErrors,
     limits: &Limits,
-    wishes: &[u32],
+    snap_planes: &[u32],
     objective: Objective<'_>,
 ) -> Result<Plan, PlanError> {
     let bins = errors.bins();
     limits.check(bins)?;
     let tolerance = errors.to_steps(limits.tolerance);
-    match within(errors, limits, wishes, objective, tolerance)? {
+    match within(errors, limits, snap_planes, objective, tolerance)? {
         Ok(plan) => Ok(plan),
         Err(blocked) => {
             let mm = |boundary| bins.boundary_mm(boundary);
@@ -69,14 +69,14 @@ pub struct Blocked {
 pub fn within(
     errors: &LayerErrors,
     limits: &Limits,
-    wishes: &[u32],
+    snap_planes: &[u32],
     objective: Objective<'_>,
     tolerance: u64,
 ) -> Result<Result<Plan, Blocked>, PlanError> {
     let bins = errors.bins();
-    let mut wishes = wishes.to_vec();
-    'wishes: loop {
-        let laid_out = Segments::new(bins, limits, &wishes)?;
+    let mut snap_planes = snap_planes.to_vec();
+    'snap_planes: loop {
+        let laid_out = Segments::new(bins, limits, &snap_planes)?;
         let mut boundaries = vec![0];
         for segment in &laid_out.segments {
             let table = fill(errors, segment, objective, tolerance);
@@ -87,9 +87,9 @@ pub fn within(
             // Wishes give way to the tolerance.
             let beside = [segment.lower, segment.upper()];
             let (given_up, kept): (Vec<u32>, Vec<u32>) = laid_out
-                .wishes
+                .snap_planes
                 .iter()
-                .partition(|wish| beside.contains(wish));
+                .partition(|snap_plane| beside.contains(snap_plane));
             if given_up.is_empty() {
                 let reached = table.highest_reached();
                 let next = (reached + segment.thickness.start()).min(segment.units);
@@ -99,13 +99,13 @@ pub fn within(
                     next: segment.boundary(next),
                 }));
             }
-            wishes = kept;
-            continue 'wishes;
+            snap_planes = kept;
+            continue 'snap_planes;
         }
         return Ok(Ok(Plan {
             bins,
             boundaries,
-            wishes: laid_out.wishes,
+            snap_planes: laid_out.snap_planes,
         }));
     }
 }

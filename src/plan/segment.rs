@@ -38,25 +38,25 @@ impl Segment {
     }
 }
 
-/// The segments of a plan, upward, and what became of the wishes.
+/// The segments of a plan, upward, and what became of the snap planes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Segments {
     /// Segments from the plate upward.
     pub segments: Vec<Segment>,
     /// The wished planes that are kept: boundaries of bins, upward.
-    pub wishes: Vec<u32>,
+    pub snap_planes: Vec<u32>,
 }
 
 impl Segments {
     /// Lays out the segments of a model of so many bins.
     ///
     /// Planes are at the plate, at the ends of the height ranges and where the user asks for one; then at each of
-    /// `wishes`, in this order, as long as the layers still add up between them. The top is moved to the nearest height
-    /// that layers add up to, by at most half the least thickness, of equal ones to the lower; wishes do not move it.
+    /// `snap_planes`, in this order, as long as the layers still add up between them. The top is moved to the nearest height
+    /// that layers add up to, by at most half the least thickness, of equal ones to the lower; snap planes do not move it.
     ///
     /// # Errors
     /// [`PlanError`]: limits out of order, or planes between which no layers fit.
-    pub fn new(bins: Bins, limits: &Limits, wishes: &[u32]) -> Result<Self, PlanError> {
+    pub fn new(bins: Bins, limits: &Limits, snap_planes: &[u32]) -> Result<Self, PlanError> {
         let layout = Layout::new(bins, limits)?;
         let mut planes = layout.demanded_planes(limits)?;
         let top = layout.top(planes[planes.len() - 1])?;
@@ -67,8 +67,8 @@ impl Segments {
             }
         }
         let mut kept = Vec::new();
-        for &wish in wishes {
-            let plane = layout.round(wish);
+        for &snap_plane in snap_planes {
+            let plane = layout.round(snap_plane);
             let Err(place) = planes.binary_search(&plane) else {
                 continue;
             };
@@ -86,7 +86,7 @@ impl Segments {
         kept.sort_unstable();
         Ok(Self {
             segments: layout.segments(&planes, top),
-            wishes: kept,
+            snap_planes: kept,
         })
     }
 }

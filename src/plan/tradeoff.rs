@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use super::optimal::{self, Objective};
 use super::{Limits, Plan, PlanError};
-use crate::exposure::Resin;
 use crate::profile::LayerErrors;
+use crate::resin::Resin;
 
 /// A point of the trade-off curve.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -38,18 +38,18 @@ pub enum Goal {
 pub fn curve(
     errors: &LayerErrors,
     limits: &Limits,
-    wishes: &[u32],
+    snap_planes: &[u32],
     objective: Objective<'_>,
     resin: &Resin,
     points: usize,
 ) -> Result<Vec<TradeoffPoint>, PlanError> {
-    let loosest = best_within(errors, limits, wishes, objective, u64::MAX)?;
+    let loosest = best_within(errors, limits, snap_planes, objective, u64::MAX)?;
     let Some(loosest) = loosest else {
         return Ok(Vec::new());
     };
     let most = loosest.max_error_steps(errors).max(1);
     let least = least_steps(most, |tolerance| {
-        Ok(best_within(errors, limits, wishes, objective, tolerance)?.is_some())
+        Ok(best_within(errors, limits, snap_planes, objective, tolerance)?.is_some())
     })?;
     let last = points.max(2) - 1;
     let mut curve = Vec::with_capacity(last + 1);
@@ -57,7 +57,7 @@ pub fn curve(
         // Closer together where tolerances are tight, and by basic arithmetic alone.
         let part = point as f64 / last as f64;
         let tolerance = least + ((most - least) as f64 * (part * part)) as u64;
-        let Some(plan) = best_within(errors, limits, wishes, objective, tolerance)? else {
+        let Some(plan) = best_within(errors, limits, snap_planes, objective, tolerance)? else {
             continue;
         };
         curve.push(TradeoffPoint {
@@ -77,7 +77,7 @@ pub fn curve(
 pub fn tolerance_for(
     errors: &LayerErrors,
     limits: &Limits,
-    wishes: &[u32],
+    snap_planes: &[u32],
     resin: &Resin,
     goal: Goal,
 ) -> Result<f64, PlanError> {
@@ -90,7 +90,7 @@ pub fn tolerance_for(
         Goal::Layers(layers) => plan.layers() <= layers,
         Goal::Time(time_s) => plan.print_time_s(resin) <= time_s,
     };
-    let loosest = best_within(errors, limits, wishes, objective, u64::MAX)?;
+    let loosest = best_within(errors, limits, snap_planes, objective, u64::MAX)?;
     let Some(loosest) = loosest.as_ref().filter(|plan| meets(plan)) else {
         let (wanted, least) = match (goal, loosest) {
             (Goal::Layers(layers), plan) => (
@@ -108,7 +108,7 @@ pub fn tolerance_for(
     };
     let most = loosest.max_error_steps(errors);
     let least = least_steps(most, |tolerance| {
-        let plan = best_within(errors, limits, wishes, objective, tolerance)?;
+        let plan = best_within(errors, limits, snap_planes, objective, tolerance)?;
         Ok(plan.as_ref().is_some_and(meets))
     })?;
     Ok(round_up(errors.to_value(least)))
@@ -164,11 +164,11 @@ pub fn largest_layer_min_mm(
 fn best_within(
     errors: &LayerErrors,
     limits: &Limits,
-    wishes: &[u32],
+    snap_planes: &[u32],
     objective: Objective<'_>,
     tolerance: u64,
 ) -> Result<Option<Plan>, PlanError> {
-    Ok(optimal::within(errors, limits, wishes, objective, tolerance)?.ok())
+    Ok(optimal::within(errors, limits, snap_planes, objective, tolerance)?.ok())
 }
 
 /// The least number up to `most`, for which it holds, for which `holds` does; it then holds for all larger ones.

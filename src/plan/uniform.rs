@@ -23,7 +23,7 @@ pub fn plan(bins: Bins, height_mm: f64, layer_mm: f64) -> Result<Plan, PlanError
     Ok(Plan {
         bins,
         boundaries: (0..=layers).map(|layer| layer * thickness).collect(),
-        wishes: Vec::new(),
+        snap_planes: Vec::new(),
     })
 }
 

@@ -2,13 +2,14 @@
 
 pub mod area;
 pub mod cusp;
-pub mod relief;
+pub mod facet_bins;
 pub mod roughness;
 pub mod section;
+pub(crate) mod shapes;
+pub mod snap_planes;
 pub mod steepest;
 pub mod volume;
 pub mod weighted;
-pub mod wishes;
 
 use serde::{Deserialize, Serialize};
 
@@ -58,7 +59,7 @@ impl Metric {
     }
 
     /// An error or tolerance for people: to four digits with its unit, a fraction as a percentage.
-    pub fn words(self, error: f64) -> String {
+    pub fn format(self, error: f64) -> String {
         let (number, unit) = match self {
             Self::Area => (error * 100.0, "%"),
             metric => (error, metric.unit()),

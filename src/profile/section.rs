@@ -5,7 +5,7 @@ use glam::DVec2;
 
 use crate::grid::Bins;
 use crate::ldi::{Ldi, for_each_solid_range};
-use crate::mesh::Mesh;
+use crate::model::Mesh;
 use crate::parallel;
 
 /// Rays that are worth a thread of their own.

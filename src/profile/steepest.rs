@@ -3,7 +3,7 @@
 //!
 //! Squares, because a division a facet is cheaper than a square root as well, and no less exact.
 
-use super::relief::Relief;
+use super::facet_bins::FacetBins;
 use crate::ldi::{Hit, Ldi};
 use crate::parallel;
 
@@ -13,23 +13,25 @@ pub const NO_SURFACE: f32 = -1.0;
 /// Hits that are worth a thread of their own.
 const CHUNK_HITS: usize = 1 << 18;
 
-/// For each bin the largest `n_z²` over the hits in it (eq. 5), [`NO_SURFACE`] where there are none. `relief` is that of
+/// For each bin the largest `n_z²` over the hits in it (eq. 5), [`NO_SURFACE`] where there are none. `facet_bins` is that of
 /// the mesh that `ldi` was sampled from. Facets that `hidden` names have no part; it may be empty.
 ///
 /// Cost: linear in hits.
-pub fn sampled(relief: &Relief, ldi: &Ldi, hidden: &[bool]) -> Vec<f32> {
-    sampled_maxima(relief, ldi, hidden, |facet| relief.n_z_squared[facet])
+pub fn sampled(facet_bins: &FacetBins, ldi: &Ldi, hidden: &[bool]) -> Vec<f32> {
+    sampled_maxima(facet_bins, ldi, hidden, |facet| {
+        facet_bins.n_z_squared[facet]
+    })
 }
 
 /// The same of any value of facets that is not negative.
 pub(super) fn sampled_maxima(
-    relief: &Relief,
+    facet_bins: &FacetBins,
     ldi: &Ldi,
     hidden: &[bool],
     value: impl Fn(usize) -> f32,
 ) -> Vec<f32> {
-    let bins = relief.bins;
-    let values: Vec<f32> = (0..relief.spans.len())
+    let bins = facet_bins.bins;
+    let values: Vec<f32> = (0..facet_bins.spans.len())
         .map(|facet| {
             if hidden.get(facet) == Some(&true) {
                 NO_SURFACE
@@ -65,19 +67,19 @@ pub(super) fn sampled_maxima(
 /// Facets that `hidden` names have no part; it may be empty.
 ///
 /// Cost: linear in facets and bins, times the logarithm of the bins that the longest facet spans.
-pub fn exact(relief: &Relief, hidden: &[bool]) -> Vec<f32> {
-    exact_maxima(relief, hidden, |facet| relief.n_z_squared[facet])
+pub fn exact(facet_bins: &FacetBins, hidden: &[bool]) -> Vec<f32> {
+    exact_maxima(facet_bins, hidden, |facet| facet_bins.n_z_squared[facet])
 }
 
 /// The same of any value of facets that is not negative.
 pub(super) fn exact_maxima(
-    relief: &Relief,
+    facet_bins: &FacetBins,
     hidden: &[bool],
     value: impl Fn(usize) -> f32,
 ) -> Vec<f32> {
-    let spans = relief.spans.iter();
+    let spans = facet_bins.spans.iter();
     let longest = spans.clone().map(|[lowest, highest]| highest - lowest + 1);
-    let mut maxima = RangeMaxima::new(relief.bins.count, longest.max().unwrap_or(1));
+    let mut maxima = RangeMaxima::new(facet_bins.bins.count, longest.max().unwrap_or(1));
     for (facet, &[lowest, highest]) in spans.enumerate() {
         if hidden.get(facet) != Some(&true) {
             maxima.raise(lowest, highest, value(facet));

@@ -7,7 +7,7 @@
 use crate::grid::Bins;
 
 /// The error that a layer may have where nobody says, in mm³, unless the model needs more: see
-/// [`crate::options::Options::tolerance`].
+/// [`crate::job::Options::tolerance`].
 pub const DEFAULT_TOLERANCE_MM3: f64 = 1.0;
 
 /// Steps a mm² of the areas: sums are of whole numbers, so that all machines agree.

@@ -1,7 +1,7 @@
 //! Profiles of models whose facets matter differently (section 4.2): the densities of a facet are multiplied by its weight, 0
 //! to 1, so that the tolerance holds where the weight is 1 and is loosened elsewhere.
 
-use super::relief::Relief;
+use super::facet_bins::FacetBins;
 use super::steepest::{self, NO_SURFACE};
 use super::volume::VolumeError;
 use super::{LayerErrors, Metric, Profile, Shape, area, cusp, roughness};
@@ -16,9 +16,9 @@ pub struct Weighted {
 }
 
 /// What a facet counts for under a metric.
-fn value_of(relief: &Relief, metric: Metric, weights: &[f32]) -> impl Fn(usize) -> f32 {
+fn value_of(facet_bins: &FacetBins, metric: Metric, weights: &[f32]) -> impl Fn(usize) -> f32 {
     move |facet| {
-        let (weight, square) = (weights[facet], relief.n_z_squared[facet]);
+        let (weight, square) = (weights[facet], facet_bins.n_z_squared[facet]);
         match metric {
             Metric::Cusp => weight * cusp::density_of(square),
             Metric::Roughness => weight * roughness::density_of(square),
@@ -31,16 +31,16 @@ impl Weighted {
     /// Over the hits of an LDI in each bin; without one over all facets whose height range meets it. `weights` has one for
     /// each facet of the surface.
     pub fn new(
-        relief: &Relief,
+        facet_bins: &FacetBins,
         ldi: Option<&Ldi>,
         hidden: &[bool],
         metric: Metric,
         weights: &[f32],
     ) -> Self {
-        let value = value_of(relief, metric, weights);
+        let value = value_of(facet_bins, metric, weights);
         let values = match ldi {
-            None => steepest::exact_maxima(relief, hidden, value),
-            Some(ldi) => steepest::sampled_maxima(relief, ldi, hidden, value),
+            None => steepest::exact_maxima(facet_bins, hidden, value),
+            Some(ldi) => steepest::sampled_maxima(facet_bins, ldi, hidden, value),
         };
         Self { metric, values }
     }

@@ -14,9 +14,9 @@ pub use solids::binary_stl;
 use std::ops::ControlFlow;
 
 use cusp_slicer::grid::Grid;
+use cusp_slicer::job::Stage;
 use cusp_slicer::ldi::{Ldi, cpu};
-use cusp_slicer::mesh::{Mesh, Pose};
-use cusp_slicer::pipeline::Stage;
+use cusp_slicer::model::{Mesh, Pose};
 use cusp_slicer::progress::silent;
 use glam::Vec3;
 

@@ -1,7 +1,7 @@
 //! Naive implementations that are obviously right, to hold the real ones against.
 
 use cusp_slicer::grid::{Bins, Grid};
-use cusp_slicer::mesh::Mesh;
+use cusp_slicer::model::Mesh;
 
 /// What a ray meets, found by looking at every facet in double precision.
 pub struct NaiveRay {

@@ -5,14 +5,14 @@ use std::path::PathBuf;
 
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, ValueEnum};
-use cusp_slicer::direction::shard::Shard;
-use cusp_slicer::direction::{Cost, MAX_DIRECTIONS, Quality, Search};
-use cusp_slicer::exposure::Resin;
 use cusp_slicer::format::Format;
+use cusp_slicer::job::{Backend, Minimize, Options, Planner, Snap};
 use cusp_slicer::mask::LEVELS;
-use cusp_slicer::options::{Backend, Minimize, Options, Planner, Snap};
+use cusp_slicer::orientation::shard::Shard;
+use cusp_slicer::orientation::{Cost, MAX_DIRECTIONS, Quality, SearchOptions};
 use cusp_slicer::plan::HeightRange;
 use cusp_slicer::profile::{Metric, Source};
+use cusp_slicer::resin::Resin;
 
 use crate::Cli;
 use crate::files::{Failure, WeightsFile, in_file};
@@ -301,19 +301,29 @@ pub struct Orienting {
     #[arg(long)]
     pub json: bool,
     /// Directions to look along, spread evenly; the axes and the model's large flats come on top
-    #[arg(long, value_name = "N", default_value_t = Search::default().directions as u32, value_parser = clap::value_parser!(u32).range(1..=MAX_DIRECTIONS as i64), help_heading = "Search")]
+    #[arg(long, value_name = "N", default_value_t = SearchOptions::default().directions as u32, value_parser = clap::value_parser!(u32).range(1..=MAX_DIRECTIONS as i64), help_heading = "SearchOptions")]
     directions: u32,
     /// How much the cost counts against the quality, 0 to 1
-    #[arg(long, value_name = "A", default_value_t = Search::default().alpha, value_parser = fraction, help_heading = "Search")]
+    #[arg(long, value_name = "A", default_value_t = SearchOptions::default().alpha, value_parser = fraction, help_heading = "SearchOptions")]
     alpha: f64,
     /// What costs
-    #[arg(long, value_enum, default_value = "layers", help_heading = "Search")]
+    #[arg(
+        long,
+        value_enum,
+        default_value = "layers",
+        help_heading = "SearchOptions"
+    )]
     cost: Cost,
     /// What spoils the surface
-    #[arg(long, value_enum, default_value = "error", help_heading = "Search")]
+    #[arg(
+        long,
+        value_enum,
+        default_value = "error",
+        help_heading = "SearchOptions"
+    )]
     quality: Quality,
     /// Write the model as it stands in the Kth best direction, with -o; of one model only
-    #[arg(long, value_name = "K", requires = "output", conflicts_with = "shard", value_parser = clap::value_parser!(u32).range(1..=3), help_heading = "Search")]
+    #[arg(long, value_name = "K", requires = "output", conflicts_with = "shard", value_parser = clap::value_parser!(u32).range(1..=3), help_heading = "SearchOptions")]
     pub apply: Option<u32>,
     /// Where to write that model
     #[arg(
@@ -321,7 +331,7 @@ pub struct Orienting {
         long,
         value_name = "FILE",
         requires = "apply",
-        help_heading = "Search"
+        help_heading = "SearchOptions"
     )]
     pub output: Option<PathBuf>,
     /// Measure only the Ith of N parts, and print what to --merge
@@ -335,8 +345,8 @@ pub struct Orienting {
 }
 
 impl Orienting {
-    pub fn search(&self) -> Search {
-        Search {
+    pub fn search(&self) -> SearchOptions {
+        SearchOptions {
             directions: self.directions as usize,
             alpha: self.alpha,
             cost: self.cost,

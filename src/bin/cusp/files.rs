@@ -5,9 +5,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use cusp_slicer::Error;
-use cusp_slicer::pipeline::Slicer;
+use cusp_slicer::job::Slicer;
+use cusp_slicer::model::weights::{self, WeightsError};
 use cusp_slicer::progress::Cancelled;
-use cusp_slicer::weights::{self, WeightsError};
 use tempfile::NamedTempFile;
 
 use crate::arguments::Choices;
@@ -81,7 +81,7 @@ impl<'a> WeightsFile<'a> {
     pub fn paint(&self, slicer: &mut Slicer, model: &Path) -> Result<(), Failure> {
         let weights = weights::from_bytes(&self.bytes, &slicer.positions());
         let painted = weights.map_err(Error::from);
-        let painted = painted.and_then(|weights| slicer.paint(Some(weights)));
+        let painted = painted.and_then(|weights| slicer.set_weights(Some(weights)));
         painted.map_err(|error| in_file(model, &in_file(self.path, &error)).into())
     }
 }

@@ -5,9 +5,9 @@ use std::io::Write as _;
 use std::path::Path;
 
 use clap::ValueEnum;
+use cusp_slicer::job::MeshInfo;
+use cusp_slicer::model::weights;
 use cusp_slicer::printer::PRINTERS;
-use cusp_slicer::report::MeshInfo;
-use cusp_slicer::weights;
 
 use crate::files::{Failure, file_beside, in_file, keep, load, place_for};
 use crate::terminal::{Bar, print, print_json, stop_on_interrupt};

@@ -5,11 +5,11 @@ use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use cusp_slicer::direction::shard::Part;
-use cusp_slicer::direction::{Candidate, Exclusion, Orientation};
-use cusp_slicer::mesh::Pose;
-use cusp_slicer::options::Options;
-use cusp_slicer::pipeline::Slicer;
+use cusp_slicer::job::Options;
+use cusp_slicer::job::Slicer;
+use cusp_slicer::model::Pose;
+use cusp_slicer::orientation::shard::Part;
+use cusp_slicer::orientation::{Candidate, Exclusion, OrientationReport};
 use stl_io::{Normal, Triangle, Vertex};
 
 use crate::arguments::Orienting;
@@ -151,7 +151,7 @@ fn apply(
     keep(file, place, output)
 }
 
-fn describe(model: &Path, options: &Options, found: &Orientation) -> String {
+fn describe(model: &Path, options: &Options, found: &OrientationReport) -> String {
     let excluded = |why| {
         let candidates = found.candidates.iter();
         candidates.filter(|it| it.excluded == Some(why)).count()
@@ -180,7 +180,7 @@ fn describe(model: &Path, options: &Options, found: &Orientation) -> String {
     let rows = rows.map(|(place, candidate)| ((place + 1).to_string(), candidate));
     for (name, candidate) in rows.chain([("now".to_owned(), &found.now)]) {
         let [x, y, z] = candidate.size_mm;
-        let Some(figures) = &candidate.figures else {
+        let Some(metrics) = &candidate.metrics else {
             let _ = write!(
                 text,
                 "\n{name:<4} does not fit: {x:.1} × {y:.1} × {z:.1} mm"
@@ -191,11 +191,11 @@ fn describe(model: &Path, options: &Options, found: &Orientation) -> String {
             text,
             "\n{name:<4} {:.4}  {:>6}  {:<11}  {:<13}  {:<10}  {:<11}  {x:.1} × {y:.1} × {z:.1} mm",
             candidate.energy.unwrap_or_default(),
-            figures.layers,
-            duration(figures.print_time_s),
-            options.metric.words(figures.max_error),
-            format!("{:.4} mm", figures.roughness_mm),
-            format!("{:.1} mm²", figures.overhang_mm2),
+            metrics.layers,
+            duration(metrics.print_time_s),
+            options.metric.format(metrics.max_error),
+            format!("{:.4} mm", metrics.roughness_mm),
+            format!("{:.1} mm²", metrics.overhang_mm2),
         );
     }
     let [x, y, z, w] = found.best[0].rotation;

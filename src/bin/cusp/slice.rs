@@ -4,9 +4,9 @@ use std::fmt::Write as _;
 use std::io::BufWriter;
 use std::path::Path;
 
-use cusp_slicer::options::Options;
-use cusp_slicer::pipeline::{Slicer, StageProgress};
-use cusp_slicer::report::Report;
+use cusp_slicer::job::Options;
+use cusp_slicer::job::Report;
+use cusp_slicer::job::{Slicer, StageProgress};
 
 use crate::arguments::Slicing;
 use crate::files::{Failure, file_beside, in_file, keep, load_weighted, place_for};
@@ -73,7 +73,7 @@ fn describe_plan(report: &Report) -> String {
         .fold((f64::INFINITY, 0f64), |(low, high), &t| {
             (low.min(t), high.max(t))
         });
-    let words = |error| report.metric.words(error);
+    let words = |error| report.metric.format(error);
     let (finest, coarsest) = (&report.uniform.finest, &report.uniform.coarsest);
     format!(
         "layers    {} of {thinnest:.3} to {thickest:.3} mm, {:.3} mm in all\n\
@@ -164,7 +164,7 @@ pub fn compare(slicing: &Slicing) -> Result<(), Failure> {
             "\n{:<9} {:>7}  {:<13}  {}",
             row.planner,
             row.layers,
-            comparison.metric.words(row.max_error),
+            comparison.metric.format(row.max_error),
             duration(row.print_time_s)
         );
     }

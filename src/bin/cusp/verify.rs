@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use cusp_slicer::verify::Claim;
+use cusp_slicer::job::Claim;
 use cusp_slicer::warning::Warning;
 use serde::Serialize;
 
@@ -32,7 +32,7 @@ pub fn verify(
     let text = fs::read_to_string(plan).map_err(|error| in_file(plan, &error))?;
     let weights = weights.map(WeightsFile::read).transpose()?;
     let mut slicer = load_painted(model, weights.as_ref())?;
-    let claim = Claim::read(&text, slicer.stl()).map_err(|error| in_file(plan, &error))?;
+    let claim = Claim::read(&text, slicer.model_file()).map_err(|error| in_file(plan, &error))?;
     stop_on_interrupt();
     open_gpu(&mut slicer, claim.options().backend);
     let bar = Bar::new();
@@ -49,7 +49,7 @@ pub fn verify(
         print_is_same: print_file.is_some(),
         warnings: made.warnings.clone(),
     };
-    let words = made.metric.words(made.max_error);
+    let words = made.metric.format(made.max_error);
     if let Some(path) = print_file {
         let sent = fs::read(path).map_err(|error| in_file(path, &error))?;
         let (bytes, _) = slicer

@@ -2,13 +2,13 @@
 
 use glam::{DVec3, Vec3};
 
+use super::directions::{about_z, lattice, unit, upright};
 use super::order::ascending;
-use super::sphere::{about_z, lattice, unit, upright};
-use super::{Exclusion, Figures};
+use super::{Exclusion, Metrics};
 use crate::grid::Bins;
-use crate::mesh::{Bounds, Mesh, rotation_matrix};
+use crate::model::{Bounds, Mesh, rotation_matrix};
 use crate::plan::Plan;
-use crate::profile::relief::Relief;
+use crate::profile::facet_bins::FacetBins;
 use crate::profile::roughness;
 
 /// Flats of a model that are laid on the plate, and turned up, at most.
@@ -31,7 +31,7 @@ const OVERHANG: f32 = std::f32::consts::FRAC_1_SQRT_2;
 
 /// The surface of a model, at the scale that it is printed at.
 #[derive(Debug)]
-pub(crate) struct Turntable {
+pub(crate) struct Surface {
     /// The facets of the mesh in the order that they have here: neighbours follow each other, so that what is looked up for
     /// one is at hand for the next.
     order: Vec<usize>,
@@ -46,7 +46,7 @@ pub(crate) struct Turntable {
 
 /// A model as it stands in a direction.
 #[derive(Debug)]
-pub(crate) struct Stand {
+pub(crate) struct Placement {
     /// A quaternion x, y, z, w.
     pub rotation: [f64; 4],
     /// `n_z` of the unit normal of each facet.
@@ -56,7 +56,7 @@ pub(crate) struct Stand {
     heights_mm: Vec<f32>,
 }
 
-impl Turntable {
+impl Surface {
     /// The surface of a mesh, scaled.
     pub fn new(mesh: &Mesh, scale: f64) -> Self {
         let order = neighbours_together(mesh);
@@ -148,29 +148,29 @@ impl Turntable {
 
     /// Stands the model on the plate with a direction upward, turned about it so that it fits, if that can be: `fits` says whether
     /// a box does.
-    pub fn stand(
+    pub fn place(
         &self,
         direction: [f64; 3],
         fits: impl Fn(&Bounds) -> Result<(), Exclusion>,
-    ) -> (Stand, Option<Exclusion>) {
+    ) -> (Placement, Option<Exclusion>) {
         let upright = upright(DVec3::from_array(direction));
         let mut first = None;
         for turn in about_z() {
             let rotation = (turn * upright).to_array();
-            let (stand, bounds) = self.turned(rotation);
+            let (placement, bounds) = self.turned(rotation);
             match fits(&bounds) {
-                Ok(()) => return (stand, None),
+                Ok(()) => return (placement, None),
                 Err(Exclusion::TooLarge) => {
-                    first.get_or_insert(stand);
+                    first.get_or_insert(placement);
                 }
-                Err(other) => return (stand, Some(other)),
+                Err(other) => return (placement, Some(other)),
             }
         }
-        let stand = first.unwrap_or_else(|| self.turned(upright.to_array()).0);
-        (stand, Some(Exclusion::TooLarge))
+        let placement = first.unwrap_or_else(|| self.turned(upright.to_array()).0);
+        (placement, Some(Exclusion::TooLarge))
     }
 
-    fn turned(&self, rotation: [f64; 4]) -> (Stand, Bounds) {
+    fn turned(&self, rotation: [f64; 4]) -> (Placement, Bounds) {
         // The quaternions of this module have a length.
         let matrix = rotation_matrix(rotation).unwrap_or_default();
         let along = [0, 1, 2].map(|axis| self.places_along(matrix.row(axis)));
@@ -180,7 +180,7 @@ impl Turntable {
         let heights_mm = along[2].iter().map(|z| (z - min.z) as f32).collect();
         let size = max - min;
         let round = |length_mm: f64| (length_mm * 1e6).round() / 1e6;
-        let stand = Stand {
+        let placement = Placement {
             rotation,
             n_z: self.n_z(matrix.row(2).as_vec3()),
             size_mm: [
@@ -190,7 +190,7 @@ impl Turntable {
             ],
             heights_mm,
         };
-        (stand, Bounds { min, max })
+        (placement, Bounds { min, max })
     }
 
     /// Coordinates of vertices along an axis.
@@ -213,44 +213,44 @@ impl Turntable {
             .collect()
     }
 
-    /// The relief of the surface as it stands.
-    pub fn relief(&self, stand: &Stand, bins: Bins) -> Relief {
+    /// The facet bins of the surface as it stands.
+    pub fn facet_bins(&self, placement: &Placement, bins: Bins) -> FacetBins {
         let square = |facet: usize| {
-            let square = stand.n_z[facet] * stand.n_z[facet];
+            let square = placement.n_z[facet] * placement.n_z[facet];
             // Single precision may go a little beyond.
             if square > 1.0 { 1.0 } else { square }
         };
         let area = |facet: usize| f64::from(self.areas_mm2[facet]);
-        Relief::new(bins, &self.facets, &stand.heights_mm, square, area)
+        FacetBins::new(bins, &self.facets, &placement.heights_mm, square, area)
     }
 
     /// What a plan gives as the model stands.
-    pub fn figures(
+    pub fn metrics(
         &self,
-        stand: &Stand,
-        relief: &Relief,
+        placement: &Placement,
+        facet_bins: &FacetBins,
         plan: &Plan,
         max_error: f64,
         print_time_s: f64,
-    ) -> Figures {
+    ) -> Metrics {
         // Thicknesses of the layers that bins belong to, summed up: in bins. A plan may end a little below the model's top, or
         // above it.
-        let mut sums = Vec::with_capacity(relief.bins.count + 1);
+        let mut sums = Vec::with_capacity(facet_bins.bins.count + 1);
         let mut sum = 0.0;
         for pair in plan.boundaries.windows(2) {
             let thickness = f64::from(pair[1] - pair[0]);
             sums.extend((0..pair[1] - pair[0]).map(|bin| sum + f64::from(bin) * thickness));
             sum += thickness * thickness;
         }
-        sums.resize(relief.bins.count + 1, sum);
+        sums.resize(facet_bins.bins.count + 1, sum);
         let plate = plan.boundaries[1];
-        let squares = relief.n_z_squared.iter();
+        let squares = facet_bins.n_z_squared.iter();
         let rough: Vec<f32> = squares
             .map(|&square| roughness::density_of(square))
             .collect();
         let (mut overhang_mm2, mut roughness) = (0.0, 0.0);
-        let facets = relief.spans.iter().zip(&rough);
-        let facets = facets.zip(&stand.n_z).zip(&self.areas_mm2);
+        let facets = facet_bins.spans.iter().zip(&rough);
+        let facets = facets.zip(&placement.n_z).zip(&self.areas_mm2);
         for (((&[first, last], &rough), &n_z), &area_mm2) in facets {
             let area_mm2 = f64::from(area_mm2);
             let is_overhang = n_z < -OVERHANG && last >= plate;
@@ -260,11 +260,11 @@ impl Turntable {
             let thickness = bins / f64::from((end - first) as i32);
             roughness += area_mm2 * thickness * f64::from(rough);
         }
-        Figures {
+        Metrics {
             layers: plan.layers(),
             print_time_s,
             max_error,
-            roughness_mm: roughness / self.surface_mm2 * relief.bins.size_mm,
+            roughness_mm: roughness / self.surface_mm2 * facet_bins.bins.size_mm,
             overhang_mm2,
         }
     }

@@ -1,23 +1,22 @@
 //! Searching for the best building direction (section 4.3).
 
-use super::{Slicer, Stage, StageProgress, shapes_of};
-#[cfg(not(target_arch = "wasm32"))]
-use crate::direction::shard::{MergeError, Part, Shard, merge};
-use crate::direction::{
-    Candidate, Exclusion, Figures, Orientation, Scale, Search, Stand, Turntable, best, rate, refine,
-};
-use crate::error::Error;
+use super::planning::{Planning, shapes_of};
+use super::resolve::Job;
+use super::slicer::{Slicer, Stage, StageProgress};
+use super::{Error, Options, SCHEMA};
 use crate::grid::{Bins, GridError};
-use crate::job::Job;
 use crate::ldi::LdiError;
-use crate::mesh::{Bounds, Mesh, Pose};
-use crate::options::Options;
-use crate::parallel;
-use crate::planning::Planning;
-use crate::profile::section;
-use crate::report::SCHEMA;
 #[cfg(not(target_arch = "wasm32"))]
-use crate::weights;
+use crate::model::weights;
+use crate::model::{Bounds, Mesh, Pose};
+#[cfg(not(target_arch = "wasm32"))]
+use crate::orientation::shard::{MergeError, Part, Shard, merge};
+use crate::orientation::{
+    Candidate, Exclusion, Metrics, OrientationReport, Placement, Scale, SearchOptions, Surface,
+    best, rate, refine,
+};
+use crate::parallel;
+use crate::profile::section;
 
 /// Directions that a thread is given at once.
 const BATCH: usize = 4;
@@ -26,9 +25,9 @@ const BATCH: usize = 4;
 const REFINEMENT: f64 = 0.2;
 
 /// What measuring a direction needs.
-struct Bench<'a> {
+struct Evaluator<'a> {
     model: &'a Mesh,
-    table: &'a Turntable,
+    table: &'a Surface,
     job: Job,
     /// Of facets as the table has them.
     weights: Option<Vec<f32>>,
@@ -47,9 +46,9 @@ impl Slicer {
     pub fn orient(
         &mut self,
         options: &Options,
-        search: &Search,
+        search: &SearchOptions,
         progress: &mut StageProgress<'_>,
-    ) -> Result<Orientation, Error> {
+    ) -> Result<OrientationReport, Error> {
         search.check()?;
         let directions = self.directions(options, search.directions)?;
         let candidates =
@@ -67,10 +66,10 @@ impl Slicer {
     pub fn choose(
         &mut self,
         options: &Options,
-        search: &Search,
+        search: &SearchOptions,
         mut candidates: Vec<Candidate>,
         progress: &mut StageProgress<'_>,
-    ) -> Result<Orientation, Error> {
+    ) -> Result<OrientationReport, Error> {
         search.check()?;
         let rating = rate(&candidates, search);
         for (candidate, energy) in candidates.iter_mut().zip(rating.energies) {
@@ -87,12 +86,12 @@ impl Slicer {
                 refined.push(found);
                 Ok::<_, LdiError>(())
             },
-            &mut |fraction| progress(Stage::Directions, 1.0 - REFINEMENT * (1.0 - fraction)),
+            &mut |fraction| progress(Stage::Orientation, 1.0 - REFINEMENT * (1.0 - fraction)),
             [0.0, 1.0],
         )?;
-        Ok(Orientation {
+        Ok(OrientationReport {
             schema: SCHEMA,
-            stl: self.stl.clone(),
+            model: self.file.clone(),
             search: *search,
             scale: rating.scale,
             now,
@@ -106,7 +105,7 @@ impl Slicer {
     /// # Errors
     /// [`Error::Mesh`].
     pub fn directions(&mut self, options: &Options, count: usize) -> Result<Vec<[f64; 3]>, Error> {
-        Ok(self.turntable(&options.resolve()?)?.directions(count))
+        Ok(self.surface(&options.resolve()?)?.directions(count))
     }
 
     /// Measures directions, in their order.
@@ -131,7 +130,7 @@ impl Slicer {
                 candidates.extend(batch);
                 Ok::<_, LdiError>(())
             },
-            &mut |fraction| progress(Stage::Directions, fraction),
+            &mut |fraction| progress(Stage::Orientation, fraction),
             [0.0, 1.0],
         )?;
         Ok(candidates)
@@ -145,7 +144,7 @@ impl Slicer {
     pub fn measure_shard(
         &mut self,
         options: &Options,
-        search: &Search,
+        search: &SearchOptions,
         shard: Shard,
         progress: &mut StageProgress<'_>,
     ) -> Result<Part, Error> {
@@ -169,7 +168,7 @@ impl Slicer {
     pub fn merge_shards(
         &mut self,
         options: &Options,
-        search: &Search,
+        search: &SearchOptions,
         parts: &[Part],
     ) -> Result<Vec<Candidate>, MergeError> {
         search.check()?;
@@ -189,9 +188,9 @@ impl Slicer {
     fn part(&self, options: &Options, shard: Shard, directions: usize) -> Part {
         Part {
             version: env!("CARGO_PKG_VERSION").to_owned(),
-            stl: self.stl.clone(),
-            options: options.anywhere(),
-            weights_crc32: self.paint.as_deref().map(weights::crc_of),
+            model: self.file.clone(),
+            options: options.without_backend(),
+            weights_crc32: self.painted.as_deref().map(weights::crc_of),
             shard,
             directions,
             places: Vec::new(),
@@ -206,7 +205,7 @@ impl Slicer {
     pub fn refine_direction(
         &mut self,
         options: &Options,
-        search: &Search,
+        search: &SearchOptions,
         scale: &Scale,
         candidate: &Candidate,
     ) -> Result<Candidate, Error> {
@@ -215,15 +214,15 @@ impl Slicer {
         Ok(bench.refine(search, scale, candidate))
     }
 
-    fn turntable(&mut self, job: &Job) -> Result<&Turntable, Error> {
+    fn surface(&mut self, job: &Job) -> Result<&Surface, Error> {
         // How the model stands matters only to a height.
         let pose = job.sampling.pose;
         let scaled = pose.height_mm.map(|_| pose);
-        let table = match self.turntable.take().filter(|kept| kept.0 == scaled) {
+        let table = match self.surface.take().filter(|kept| kept.0 == scaled) {
             Some(kept) => kept,
-            None => (scaled, Turntable::new(&self.model, self.scale(scaled)?)),
+            None => (scaled, Surface::new(&self.model, self.scale(scaled)?)),
         };
-        Ok(&self.turntable.insert(table).1)
+        Ok(&self.surface.insert(table).1)
     }
 
     /// By how much the model is scaled to have its height in a pose.
@@ -253,15 +252,15 @@ impl Slicer {
         &'a mut self,
         options: &Options,
         progress: &mut StageProgress<'_>,
-    ) -> Result<Bench<'a>, Error> {
+    ) -> Result<Evaluator<'a>, Error> {
         let job = options.resolve()?;
         self.check_for_all_directions(&job)?;
-        self.turntable(&job)?;
+        self.surface(&job)?;
         let weights = self.layering_weights(&job.layering, progress)?;
-        let table = &self.turntable.as_ref().ok_or(Error::NoPlan)?.1;
+        let table = &self.surface.as_ref().ok_or(Error::NoPlan)?.1;
         #[cfg(not(target_arch = "wasm32"))]
         parallel::keep_memory();
-        Ok(Bench {
+        Ok(Evaluator {
             model: &self.model,
             table,
             job,
@@ -270,54 +269,54 @@ impl Slicer {
     }
 }
 
-impl Bench<'_> {
+impl Evaluator<'_> {
     fn measure(&self, direction: [f64; 3]) -> Candidate {
         let fits = |bounds: &Bounds| match self.job.sampling.grid(bounds) {
             Err(error) => exclusion(&error).map_or(Ok(()), Err),
             Ok(_) => Ok(()),
         };
-        let (stand, mut excluded) = self.table.stand(direction, fits);
-        let mut figures = None;
+        let (placement, mut excluded) = self.table.place(direction, fits);
+        let mut metrics = None;
         if excluded.is_none() {
-            figures = self.figures(&stand);
-            excluded = figures.is_none().then_some(Exclusion::NoPlan);
+            metrics = self.metrics(&placement);
+            excluded = metrics.is_none().then_some(Exclusion::NoPlan);
         }
         Candidate {
             direction,
-            rotation: stand.rotation,
-            size_mm: stand.size_mm,
+            rotation: placement.rotation,
+            size_mm: placement.size_mm,
             excluded,
-            figures,
+            metrics,
             energy: None,
         }
     }
 
     /// `None` if there is no plan.
-    fn figures(&self, stand: &Stand) -> Option<Figures> {
+    fn metrics(&self, placement: &Placement) -> Option<Metrics> {
         let layering = &self.job.layering;
-        let height_mm = stand.size_mm[2];
+        let height_mm = placement.size_mm[2];
         let bins = Bins::of_height(height_mm, layering.bin_mm).ok()?;
-        let relief = self.table.relief(stand, bins);
+        let facet_bins = self.table.facet_bins(placement, bins);
         let areas_mm2 = || {
             let pose = Pose {
-                rotation: Some(stand.rotation),
+                rotation: Some(placement.rotation),
                 height_mm: Some(height_mm),
             };
             let mesh = self.model.on_plate(&pose)?;
             Ok::<_, Error>(section::exact(&mesh, &[], bins))
         };
-        let shapes = shapes_of(&relief, areas_mm2, layering, self.weights.clone()).ok()?;
+        let shapes = shapes_of(&facet_bins, areas_mm2, layering, self.weights.clone()).ok()?;
         let planning = Planning::new(height_mm, &shapes, layering);
         let plan = planning.plan().ok()?;
         let max_error = planning.max_error(&plan);
         let print_time_s = plan.print_time_s(&layering.resin);
         Some(
             self.table
-                .figures(stand, &relief, &plan, max_error, print_time_s),
+                .metrics(placement, &facet_bins, &plan, max_error, print_time_s),
         )
     }
 
-    fn refine(&self, search: &Search, scale: &Scale, candidate: &Candidate) -> Candidate {
+    fn refine(&self, search: &SearchOptions, scale: &Scale, candidate: &Candidate) -> Candidate {
         refine(candidate, search, scale, |direction| {
             self.measure(direction)
         })

@@ -7,7 +7,7 @@
 use glam::Vec3;
 use serde::Serialize;
 
-use crate::file_kind::{FileKind, HEAD_BYTES};
+use crate::model::read::kind::{FileKind, HEAD_BYTES};
 
 /// Bytes before the first facet of a binary STL: an 80 byte header and the facet count.
 const BINARY_HEADER_BYTES: usize = 84;

@@ -1,7 +1,7 @@
 //! Heights at which a plane is worth having: flats, so that they print at their true height, and sharp changes of the
 //! profile (section 3.3).
 
-use super::relief::Flat;
+use super::facet_bins::Flat;
 use crate::grid::Bins;
 
 /// Difference of the cusp height densities of neighbouring bins from which on a change is sharp.
@@ -9,7 +9,12 @@ pub const SHARP: f32 = 0.5;
 
 /// Boundaries of bins where a plane is wished for, the most important first: horizontal facets that together have at
 /// least `flat_area_mm2` at one height, by area; then changes of `cusp_density` by more than [`SHARP`], by size.
-pub fn wishes(flats: &[Flat], cusp_density: &[f32], bins: Bins, flat_area_mm2: f64) -> Vec<u32> {
+pub fn snap_planes(
+    flats: &[Flat],
+    cusp_density: &[f32],
+    bins: Bins,
+    flat_area_mm2: f64,
+) -> Vec<u32> {
     let mut flats = levels(flats, bins);
     flats.retain(|&(_, area_mm2)| area_mm2 >= flat_area_mm2);
     flats.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));

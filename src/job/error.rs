@@ -5,10 +5,10 @@ use serde::Serialize;
 use crate::archive::ArchiveError;
 use crate::grid::GridError;
 use crate::ldi::LdiError;
-use crate::mesh::MeshError;
+use crate::model::MeshError;
+use crate::model::read::stl::StlError;
+use crate::model::weights::WeightsError;
 use crate::plan::PlanError;
-use crate::stl::StlError;
-use crate::weights::WeightsError;
 
 /// Any error of the library. Its text is one sentence that says what to do; serialised, it is its
 /// code with the object of its typed details.

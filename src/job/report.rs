@@ -1,16 +1,17 @@
 //! What leaves the library as data: the report of a plan and of a mesh, with units in names.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
+use serde_json::Value;
 #[cfg(target_arch = "wasm32")]
 use tsify::Tsify;
 
-use crate::exposure::Resin;
+use super::Options;
 use crate::format::Format;
-use crate::mesh::Mesh;
-use crate::options::Options;
+use crate::model::{Mesh, ModelFile};
 use crate::plan::tradeoff::TradeoffPoint;
 use crate::printer::Printer;
 use crate::profile::{Metric, Source};
+use crate::resin::Resin;
 use crate::warning::Warning;
 
 /// Least and greatest coordinates.
@@ -92,20 +93,10 @@ pub fn mesh_warnings(mesh: &Mesh) -> Vec<Warning> {
 }
 
 /// The version of reports: it grows when a name or a meaning changes, not when something is added.
-pub const SCHEMA: u32 = 1;
+pub const SCHEMA: u32 = 2;
 
 /// Keys of a report that tell how a plan came about, not what it is: they differ from machine to machine.
 pub(crate) const OF_THE_MACHINE: [&str; 3] = ["timings_ms", "backend", "adapter"];
-
-/// What a model's file is known by.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(target_arch = "wasm32", derive(Tsify))]
-pub struct StlReport {
-    /// Its length.
-    pub bytes: usize,
-    /// Its CRC-32, as zips have it.
-    pub crc32: u32,
-}
 
 /// The masks' pixels.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -229,7 +220,7 @@ impl Timings {
 /// What a model gives in a pose without being sampled: for following live while it is turned.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
-pub struct Glance {
+pub struct Preview {
     /// Number of layers.
     pub layers: usize,
     /// Extent of the model in x, y and z.
@@ -255,7 +246,7 @@ pub struct Report {
     /// The version of this object: [`SCHEMA`].
     pub schema: u32,
     /// The file that the model was read from.
-    pub stl: StlReport,
+    pub model: ModelFile,
     /// What was asked for, with which the same file gives the same plan again.
     pub options: Options,
     /// CRC-32 of the weights that the user gave to facets, as little-endian single precision numbers, if any.
@@ -320,4 +311,23 @@ pub struct Report {
     pub warnings: Vec<Warning>,
     /// Milliseconds spent.
     pub timings_ms: Timings,
+}
+
+impl Report {
+    /// The report without what differs from machine to machine, times and where rays were cast: the same plan gives the
+    /// same manifest everywhere.
+    ///
+    /// # Errors
+    /// None that a report causes.
+    pub(crate) fn manifest(&self) -> Result<Value, serde_json::Error> {
+        let mut report = self.clone();
+        report
+            .warnings
+            .retain(|warning| !warning.is_of_the_machine());
+        let mut manifest = serde_json::to_value(report)?;
+        if let Some(manifest) = manifest.as_object_mut() {
+            manifest.retain(|key, _| !OF_THE_MACHINE.contains(&&**key));
+        }
+        Ok(manifest)
+    }
 }

@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::Candidate;
-use crate::options::Options;
-use crate::report::StlReport;
+use crate::job::Options;
+use crate::model::ModelFile;
 
 /// Which part of a search one machine measures: of all directions in their order each `count`th, from the `number`th on. So
 /// all parts are spread over the whole sphere and take about as long.
@@ -29,10 +29,10 @@ pub struct Part {
     /// The version of the library that measured it.
     pub version: String,
     /// The file that the model was read from.
-    pub stl: StlReport,
+    pub model: ModelFile,
     /// What was asked for but for what rates directions.
     pub options: Options,
-    /// CRC-32 of the weights that the user gave to facets, if any: see [`crate::report::Report::weights_crc32`].
+    /// CRC-32 of the weights that the user gave to facets, if any: see [`crate::job::Report::weights_crc32`].
     pub weights_crc32: Option<u32>,
     /// Which part it is.
     pub shard: Shard,
@@ -50,7 +50,7 @@ pub struct Part {
 pub enum MergeError {
     /// The model or the options are not good for a search.
     #[error(transparent)]
-    Search(#[from] crate::Error),
+    SearchOptions(#[from] crate::job::Error),
     /// No part is of this model, with these weights.
     #[error("no part is of this model with these weights")]
     None,
@@ -123,7 +123,8 @@ pub fn merge(
     directions: &[[f64; 3]],
 ) -> Result<Vec<Candidate>, MergeError> {
     let mut found: Vec<Option<(Shard, &Candidate)>> = vec![None; directions.len()];
-    let is_ours = |part: &&Part| part.stl == whole.stl && part.weights_crc32 == whole.weights_crc32;
+    let is_ours =
+        |part: &&Part| part.model == whole.model && part.weights_crc32 == whole.weights_crc32;
     let mut ours = parts.iter().filter(is_ours).peekable();
     if ours.peek().is_none() {
         return Err(MergeError::None);

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
+use super::directions::{around, spacing};
 use super::order::ascending;
-use super::sphere::{around, spacing};
-use super::{Candidate, Cost, Figures, Quality, Rating, Scale, Search};
+use super::{Candidate, Cost, Metrics, Quality, Rating, Scale, SearchOptions};
 use crate::parallel;
 
 /// Finer searches at most.
@@ -25,23 +25,23 @@ const BEST: usize = 3;
 /// The cosine of the angle from which on directions are different choices: 20°.
 const DISTINCT: f64 = 0.939_692_620_785_908_4;
 
-impl Search {
-    fn terms(&self, figures: &Figures) -> [f64; 2] {
+impl SearchOptions {
+    fn terms(&self, metrics: &Metrics) -> [f64; 2] {
         let cost = match self.cost {
-            Cost::Layers => figures.layers as f64,
-            Cost::Time => figures.print_time_s,
+            Cost::Layers => metrics.layers as f64,
+            Cost::Time => metrics.print_time_s,
         };
         let quality = match self.quality {
-            Quality::Error => figures.max_error,
-            Quality::Roughness => figures.roughness_mm,
-            Quality::Overhang => figures.overhang_mm2,
+            Quality::Error => metrics.max_error,
+            Quality::Roughness => metrics.roughness_mm,
+            Quality::Overhang => metrics.overhang_mm2,
         };
         [cost, quality]
     }
 
     /// The energy of a candidate, relative to what all have at most (eq. 25).
     pub(crate) fn energy(&self, candidate: &Candidate, scale: &Scale) -> Option<f64> {
-        let [cost, quality] = self.terms(candidate.figures.as_ref()?);
+        let [cost, quality] = self.terms(candidate.metrics.as_ref()?);
         let part = |value: f64, most: f64| if most > 0.0 { value / most } else { 0.0 };
         Some(
             self.alpha * part(cost, scale.cost) + (1.0 - self.alpha) * part(quality, scale.quality),
@@ -51,13 +51,13 @@ impl Search {
 
 /// The energies of candidates, relative to those that are there: of all directions of a search, or of those that have been
 /// measured so far.
-pub fn rate(candidates: &[Candidate], search: &Search) -> Rating {
+pub fn rate(candidates: &[Candidate], search: &SearchOptions) -> Rating {
     let mut scale = Scale {
         cost: 0.0,
         quality: 0.0,
     };
-    for figures in candidates.iter().filter_map(|it| it.figures.as_ref()) {
-        let [cost, quality] = search.terms(figures);
+    for metrics in candidates.iter().filter_map(|it| it.metrics.as_ref()) {
+        let [cost, quality] = search.terms(metrics);
         scale.cost = scale.cost.max(cost);
         scale.quality = scale.quality.max(quality);
     }
@@ -73,7 +73,11 @@ pub fn rate(candidates: &[Candidate], search: &Search) -> Rating {
 }
 
 /// Candidates with no better neighbour, the best first; of equal neighbours the first one stands for all.
-fn minima(candidates: &[Candidate], energies: &[Option<f64>], search: &Search) -> Vec<usize> {
+fn minima(
+    candidates: &[Candidate],
+    energies: &[Option<f64>],
+    search: &SearchOptions,
+) -> Vec<usize> {
     let reach = NEIGHBOURS * spacing(search.directions);
     // Neighbours are near in z: they are looked for among those only.
     let z_of = |index: usize| candidates[index].direction[2];
@@ -106,7 +110,7 @@ fn minima(candidates: &[Candidate], energies: &[Option<f64>], search: &Search) -
 /// it meets, rated. `measure` gives the candidate of a direction.
 pub fn refine(
     candidate: &Candidate,
-    search: &Search,
+    search: &SearchOptions,
     scale: &Scale,
     measure: impl Fn([f64; 3]) -> Candidate + Sync,
 ) -> Candidate {

@@ -2,18 +2,19 @@
 
 use std::fmt::Write as _;
 
-use super::preview::Look;
-use super::{ArchiveError, Container, File, Job, LayerEntry, thousandths};
+use super::{Container, File, LayerEntry};
+use crate::archive::preview::Look;
+use crate::archive::{ArchiveError, PrintJob, thousandths};
 
-pub(super) struct Sl1;
+pub struct Sl1;
 
 /// What masks are named after.
 const JOB: &str = "cusp";
 
 impl Container for Sl1 {
-    fn check(&self, job: &Job<'_>) -> Result<(), ArchiveError> {
+    fn check(&self, job: &PrintJob<'_>) -> Result<(), ArchiveError> {
         // The first layer may differ.
-        let mut later = job.report.thickness_mm.iter().skip(1);
+        let mut later = job.plan.thickness_mm().into_iter().skip(1);
         let second = later.next();
         if later.any(|thickness_mm| Some(thickness_mm) != second) {
             return Err(ArchiveError::UniformOnly { format: "sl1" });
@@ -25,7 +26,7 @@ impl Container for Sl1 {
         format!("{JOB}{layer:05}.png")
     }
 
-    fn files(&self, job: &Job<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
+    fn files(&self, job: &PrintJob<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
         let look = Look::new(job.mesh, job.ldi);
         Ok(vec![
             ("config.ini".to_owned(), config(job, layers).into_bytes()),
@@ -50,13 +51,13 @@ fn ini(pairs: &[(&str, String)]) -> String {
     text
 }
 
-fn layer_mm(job: &Job<'_>) -> f64 {
-    let thickness_mm = &job.report.thickness_mm;
+fn layer_mm(job: &PrintJob<'_>) -> f64 {
+    let thickness_mm = job.plan.thickness_mm();
     *thickness_mm.get(1).unwrap_or(&thickness_mm[0])
 }
 
-fn config(job: &Job<'_>, layers: &[LayerEntry]) -> String {
-    let Job { report, resin, .. } = *job;
+fn config(job: &PrintJob<'_>, layers: &[LayerEntry]) -> String {
+    let resin = job.resin;
     let layer_mm = layer_mm(job);
     let slow = resin.bottom_layers.min(layers.len());
     let name = resin.name.replace(['\n', '\r'], " ");
@@ -77,7 +78,7 @@ fn config(job: &Job<'_>, layers: &[LayerEntry]) -> String {
         ("numFast", (layers.len() - slow).to_string()),
         ("numSlow", slow.to_string()),
         ("printProfile", format!("{} mm", thousandths(layer_mm))),
-        ("printTime", thousandths(report.print_time_s)),
+        ("printTime", thousandths(job.print_time_s())),
         ("printerModel", "SL1S".to_owned()),
         ("printerProfile", "Original Prusa SL1S SPEED".to_owned()),
         ("printerVariant", "default".to_owned()),
@@ -85,18 +86,18 @@ fn config(job: &Job<'_>, layers: &[LayerEntry]) -> String {
             "prusaSlicerVersion",
             concat!("Cusp-", env!("CARGO_PKG_VERSION")).to_owned(),
         ),
-        ("usedMaterial", thousandths(report.resin_ml)),
+        ("usedMaterial", thousandths(job.resin_ml)),
     ])
 }
 
-fn prusaslicer(job: &Job<'_>) -> String {
-    let mask = &job.report.mask;
+fn prusaslicer(job: &PrintJob<'_>) -> String {
+    let grid = &job.masks.grid;
     // The screen is named by its sides as it lies; masks stand upright.
-    let is_portrait = mask.height > mask.width;
+    let is_portrait = grid.height > grid.width;
     let (long, short) = if is_portrait {
-        ((mask.height, mask.pitch_y_mm), (mask.width, mask.pitch_mm))
+        ((grid.height, grid.pitch_y_mm), (grid.width, grid.pitch_mm))
     } else {
-        ((mask.width, mask.pitch_mm), (mask.height, mask.pitch_y_mm))
+        ((grid.width, grid.pitch_mm), (grid.height, grid.pitch_y_mm))
     };
     let mm = |side: (u32, f64)| thousandths(f64::from(side.0) * side.1);
     ini(&[
@@ -105,7 +106,7 @@ fn prusaslicer(job: &Job<'_>) -> String {
         ("display_height", mm(short)),
         ("display_pixels_x", long.0.to_string()),
         ("display_pixels_y", short.0.to_string()),
-        ("display_mirror_x", u8::from(mask.is_mirrored).to_string()),
+        ("display_mirror_x", u8::from(job.is_mirrored).to_string()),
         ("display_mirror_y", "0".to_owned()),
         (
             "display_orientation",
@@ -114,7 +115,7 @@ fn prusaslicer(job: &Job<'_>) -> String {
         ("layer_height", thousandths(layer_mm(job))),
         (
             "initial_layer_height",
-            thousandths(job.report.thickness_mm[0]),
+            thousandths(job.plan.thickness_mm()[0]),
         ),
         (
             "exposure_time",

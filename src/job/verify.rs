@@ -4,8 +4,9 @@
 use serde::Deserialize;
 use serde_json::Value;
 
-use crate::options::Options;
-use crate::report::{OF_THE_MACHINE, Report, SCHEMA, StlReport};
+use super::report::OF_THE_MACHINE;
+use super::{Options, Report, SCHEMA};
+use crate::model::ModelFile;
 use crate::warning::Warning;
 
 /// Why a plan is not accepted.
@@ -68,7 +69,7 @@ pub struct Claim {
 
 #[derive(Deserialize)]
 struct Head {
-    stl: StlReport,
+    model: ModelFile,
     options: Options,
 }
 
@@ -77,7 +78,7 @@ impl Claim {
     ///
     /// # Errors
     /// [`VerifyError::NotAPlan`], [`VerifyError::OtherSchema`], [`VerifyError::OtherModel`].
-    pub fn read(json: &str, model: &StlReport) -> Result<Self, VerifyError> {
+    pub fn read(json: &str, model: &ModelFile) -> Result<Self, VerifyError> {
         let not_a_plan = |error: serde_json::Error| VerifyError::NotAPlan {
             reason: error.to_string(),
         };
@@ -86,11 +87,14 @@ impl Claim {
         if found != u64::from(SCHEMA) {
             return Err(VerifyError::OtherSchema { found });
         }
-        let Head { stl, options } = Head::deserialize(&report).map_err(not_a_plan)?;
-        if stl != *model {
+        let Head {
+            model: claimed,
+            options,
+        } = Head::deserialize(&report).map_err(not_a_plan)?;
+        if claimed != *model {
             return Err(VerifyError::OtherModel {
-                bytes: stl.bytes,
-                crc32: stl.crc32,
+                bytes: claimed.bytes,
+                crc32: claimed.crc32,
             });
         }
         Ok(Self { report, options })

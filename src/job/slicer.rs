@@ -1,7 +1,5 @@
 //! The order of stages, and nothing else: the only module that knows it.
 
-mod orientation;
-
 use std::io::Write;
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -9,27 +7,28 @@ use std::sync::Arc;
 use serde::Serialize;
 use web_time::Instant;
 
-use crate::archive;
-use crate::direction::Turntable;
-use crate::error::Error;
+use super::planning::{PlanReport, Planning, shapes_of};
+use super::report::mesh_warnings;
+use super::resolve::{Job, Layering, Sampling};
+use super::{
+    Backend, Comparison, Error, MaskReport, MeshInfo, Options, Preview, PrintFileReport, Report,
+    SCHEMA, Timings, Tradeoff,
+};
+use crate::archive::{self, ArchiveError, PrintJob};
 use crate::grid::{Bins, Grid};
-use crate::job::{Job, Layering, Sampling};
 use crate::ldi::gpu::{self, Gpu};
 use crate::ldi::{Ldi, LdiError, Solid, cpu};
 use crate::mask::{MaskCursor, Masks, Side, black_layers};
-use crate::mesh::{Mesh, Pose};
-use crate::options::{Backend, Options};
+use crate::model::read::stl;
+use crate::model::{Mesh, ModelFile, Pose};
+use crate::model::{saliency, weights};
+use crate::orientation::Surface;
 use crate::plan::Plan;
-use crate::planning::{PlanReport, Planning, Shapes};
-use crate::profile::relief::Relief;
+use crate::profile::facet_bins::FacetBins;
+use crate::profile::shapes::Shapes;
 use crate::profile::{Metric, Profile, Source, section};
 use crate::progress::Progress;
-use crate::report::{
-    Comparison, Glance, MaskReport, MeshInfo, PrintFileReport, Report, SCHEMA, StlReport, Timings,
-    Tradeoff, mesh_warnings,
-};
 use crate::warning::Warning;
-use crate::{saliency, stl, weights};
 
 /// A part of the work, for showing progress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -40,8 +39,8 @@ pub enum Stage {
     Load,
     /// Finding what stands out.
     Saliency,
-    /// Searching for the best building direction.
-    Directions,
+    /// Searching for the best orientation.
+    Orientation,
     /// Sampling the layered depth image.
     Ldi,
     /// Making the profile.
@@ -58,7 +57,7 @@ impl Stage {
         match self {
             Self::Load => "load",
             Self::Saliency => "saliency",
-            Self::Directions => "directions",
+            Self::Orientation => "orientation",
             Self::Ldi => "ldi",
             Self::Profile => "profile",
             Self::Plan => "plan",
@@ -74,17 +73,17 @@ pub type StageProgress<'a> = dyn FnMut(Stage, f64) -> ControlFlow<()> + 'a;
 /// repeats only what depends on it.
 #[derive(Debug)]
 pub struct Slicer {
-    model: Mesh,
-    stl: StlReport,
+    pub(super) model: Mesh,
+    pub(super) file: ModelFile,
     /// How much each facet of the surface stands out, once that was asked for.
     saliency: Option<Vec<f32>>,
     /// How much each facet of the surface matters to the user.
-    paint: Option<Vec<f32>>,
+    pub(super) painted: Option<Vec<f32>>,
     load_ms: f64,
     /// What the last search for a GPU found, if it is still to be used.
     gpu: Option<Result<Gpu, LdiError>>,
     /// The surface for being looked at along directions, and the pose whose height it is scaled to, if one is asked for.
-    turntable: Option<(Option<Pose>, Turntable)>,
+    pub(super) surface: Option<(Option<Pose>, Surface)>,
     sampled: Option<Arc<Sampled>>,
     measured: Option<Measured>,
     planned: Option<Planned>,
@@ -114,9 +113,9 @@ struct Measured {
 /// What a plan is made from.
 #[derive(Clone, Copy)]
 struct Origin<'a> {
-    stl: &'a StlReport,
+    file: &'a ModelFile,
     options: &'a Options,
-    paint: Option<&'a [f32]>,
+    painted: Option<&'a [f32]>,
 }
 
 /// A plan with the rays that it was made from: its masks are made from no others.
@@ -139,15 +138,15 @@ impl Slicer {
         let model = Mesh::from_triangles(&stl::read(bytes)?)?;
         Ok(Self {
             model,
-            stl: StlReport {
+            file: ModelFile {
                 bytes: bytes.len(),
                 crc32: rawzip::crc32(bytes),
             },
             saliency: None,
-            paint: None,
+            painted: None,
             load_ms: ms_since(clock),
             gpu: None,
-            turntable: None,
+            surface: None,
             sampled: None,
             measured: None,
             planned: None,
@@ -175,8 +174,8 @@ impl Slicer {
     }
 
     /// What the model's file is known by.
-    pub fn stl(&self) -> &StlReport {
-        &self.stl
+    pub fn model_file(&self) -> &ModelFile {
+        &self.file
     }
 
     /// Corners of the facets of the surface, nine numbers a facet, in millimetres as they stand in the file.
@@ -196,11 +195,11 @@ impl Slicer {
     ///
     /// # Errors
     /// [`Error::Weights`].
-    pub fn paint(&mut self, weights: Option<Vec<f32>>) -> Result<(), Error> {
+    pub fn set_weights(&mut self, weights: Option<Vec<f32>>) -> Result<(), Error> {
         if let Some(weights) = &weights {
             weights::check(weights, self.model.surface_facets)?;
         }
-        self.paint = weights;
+        self.painted = weights;
         Ok(())
     }
 
@@ -232,7 +231,7 @@ impl Slicer {
         self.layering_weights(&options.resolve()?.layering, progress)
     }
 
-    fn layering_weights(
+    pub(super) fn layering_weights(
         &mut self,
         layering: &Layering,
         progress: &mut StageProgress<'_>,
@@ -246,13 +245,13 @@ impl Slicer {
     /// The same without computing any saliency that is not there yet.
     fn known_weights(&self, layering: &Layering) -> Option<Vec<f32>> {
         let saliency = self.saliency.as_ref().filter(|_| layering.saliency);
-        if saliency.is_none() && self.paint.is_none() {
+        if saliency.is_none() && self.painted.is_none() {
             return None;
         }
         let least = layering.weight_min as f32;
         let of = |weights: Option<&Vec<f32>>, facet: usize| weights.map_or(1.0, |it| it[facet]);
         let weight = |facet| {
-            let product = of(saliency, facet) * of(self.paint.as_ref(), facet);
+            let product = of(saliency, facet) * of(self.painted.as_ref(), facet);
             if product < least { least } else { product }
         };
         Some((0..self.model.surface_facets).map(weight).collect())
@@ -263,7 +262,7 @@ impl Slicer {
     ///
     /// # Errors
     /// [`Error::Mesh`], [`Error::Grid`], [`Error::Plan`], [`Error::Options`].
-    pub fn glance(&self, options: &Options) -> Result<(Glance, Profile), Error> {
+    pub fn preview(&self, options: &Options) -> Result<(Preview, Profile), Error> {
         let Job {
             sampling, layering, ..
         } = &options.resolve()?;
@@ -271,13 +270,13 @@ impl Slicer {
         let size = mesh.bounds().size();
         let height_mm = sampling.height_mm(size.z);
         let bins = Bins::of_height(height_mm, layering.bin_mm)?;
-        let relief = Relief::of(&mesh, bins);
+        let facet_bins = FacetBins::of(&mesh, bins);
         let areas_mm2 = || Ok::<_, Error>(section::exact(&mesh, &[], bins));
         let weights = self.known_weights(layering);
-        let shapes = shapes_of(&relief, areas_mm2, layering, weights)?;
+        let shapes = shapes_of(&facet_bins, areas_mm2, layering, weights)?;
         let planning = Planning::new(height_mm, &shapes, layering);
         let plan = planning.plan()?;
-        let glance = Glance {
+        let preview = Preview {
             layers: plan.layers(),
             size_mm: size.to_array(),
             z_mm: plan.z_mm(),
@@ -287,7 +286,7 @@ impl Slicer {
             print_time_s: plan.print_time_s(&layering.resin),
             bin_mm: bins.size_mm,
         };
-        Ok((glance, shapes.profile(layering.metric, Source::Exact)))
+        Ok((preview, shapes.profile(layering.metric, Source::Exact)))
     }
 
     /// Samples the model, makes its profile and plans its layers; repeats only what the options
@@ -320,9 +319,9 @@ impl Slicer {
         let of = Arc::clone(&measured.of);
         self.load_ms = 0.0;
         let origin = Origin {
-            stl: &self.stl,
+            file: &self.file,
             options,
-            paint: self.paint.as_deref(),
+            painted: self.painted.as_deref(),
         };
         let report = of.report(origin, &job, &plan, figures, timings);
         let planned = Planned {
@@ -417,8 +416,8 @@ impl Slicer {
         if layering.metric.needs_areas() {
             is_new |= shapes.add_areas(&sampled.mesh, &sampled.ldi);
         }
-        let relief = || Relief::of(&sampled.mesh, bins);
-        is_new |= shapes.weigh(relief, Some(&sampled.ldi), layering.metric, weights);
+        let facet_bins = || FacetBins::of(&sampled.mesh, bins);
+        is_new |= shapes.weigh(facet_bins, Some(&sampled.ldi), layering.metric, weights);
         if is_new {
             timings.profile = ms_since(clock);
         }
@@ -549,13 +548,19 @@ impl Slicer {
             let upright = planned.masks.as_ref().ok_or(Error::NoPlan)?;
             &upright.0
         };
-        let job = archive::Job {
+        let report = &planned.report;
+        let job = PrintJob {
             masks,
-            report: &planned.report,
-            printer: output.printer,
+            is_mirrored: output.is_mirrored,
+            plan: &planned.plan,
+            height_mm: report.height_mm,
+            exposure_s: &report.exposure_s,
             resin: &planned.job.layering.resin,
+            resin_ml: report.resin_ml,
+            printer: output.printer,
             mesh: &planned.of.mesh,
             ldi: &planned.of.ldi,
+            manifest: &report.manifest().map_err(ArchiveError::write)?,
         };
         let writer = archive::write(output.format, &job, writer, &mut mask_progress)?;
         let report = &mut planned.report;
@@ -607,23 +612,6 @@ async fn search_gpu(backend: Backend) -> Result<Gpu, LdiError> {
     }
 }
 
-/// The shape of a relief under the metric and weights; for metrics that are made of them it asks for the areas of sections.
-fn shapes_of<E>(
-    relief: &Relief,
-    areas_mm2: impl FnOnce() -> Result<Vec<f64>, E>,
-    layering: &Layering,
-    weights: Option<Vec<f32>>,
-) -> Result<Shapes, E> {
-    let areas_mm2 = if layering.metric.needs_areas() {
-        areas_mm2()?
-    } else {
-        Vec::new()
-    };
-    let mut shapes = Shapes::of_relief(relief, areas_mm2);
-    shapes.weigh(|| relief, None, layering.metric, weights);
-    Ok(shapes)
-}
-
 impl Measured {
     /// All that planning needs.
     fn planning<'a>(&'a self, layering: &'a Layering) -> Planning<'a> {
@@ -646,9 +634,9 @@ impl Sampled {
             output,
         } = job;
         let Origin {
-            stl,
+            file,
             options,
-            paint,
+            painted,
         } = origin;
         let mut warnings = self.warnings.clone();
         warnings.extend(planned.warnings);
@@ -662,9 +650,9 @@ impl Sampled {
         let thickness_mm = plan.thickness_mm();
         Report {
             schema: SCHEMA,
-            stl: stl.clone(),
-            options: options.anywhere(),
-            weights_crc32: paint.map(weights::crc_of),
+            model: file.clone(),
+            options: options.without_backend(),
+            weights_crc32: painted.map(weights::crc_of),
             layers: plan.layers(),
             height_mm: self.height_mm,
             z_mm: plan.z_mm(),

@@ -4,17 +4,16 @@
 //! The parts are what the stages work from. Being comparable, a part is also the key under which its stage's result is
 //! kept.
 
-use crate::error::Error;
-use crate::exposure::Resin;
+use super::{Backend, Error, Minimize, Options, Planner, Snap};
 use crate::format::Format;
 use crate::grid::{Bins, Grid, GridError};
 use crate::mask::Samples;
-use crate::mesh::{Bounds, Pose};
-use crate::options::{Backend, Minimize, Options, Planner, Snap};
+use crate::model::{Bounds, Pose};
 use crate::plan::optimal::Objective;
 use crate::plan::{Limits, PlanError, uniform};
 use crate::printer::{self, Printer};
 use crate::profile::{Metric, Source};
+use crate::resin::Resin;
 
 /// What is to be done.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,7 +55,7 @@ pub(crate) struct Layering {
     pub metric: Metric,
     pub source: Source,
     pub planner: Planner,
-    pub aim: Aim,
+    pub target: Target,
     pub minimize: Minimize,
     /// What plans keep to, whatever the tolerance.
     limits: Limits,
@@ -69,7 +68,7 @@ pub(crate) struct Layering {
 
 /// Which tolerance a plan keeps.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Aim {
+pub(crate) enum Target {
     /// This one, in the metric's unit.
     Tolerance(f64),
     /// This one, and as much more as the model needs.
@@ -177,13 +176,13 @@ impl Options {
         }
         self.resin.check().map_err(PlanError::from)?;
         let usual = self.metric.default_tolerance();
-        let aim = match (self.tolerance, self.max_layers, self.max_time_s) {
-            (Some(tolerance), None, None) => Aim::Tolerance(tolerance),
-            (None, Some(layers), None) => Aim::Layers(layers),
-            (None, None, Some(time_s)) => Aim::Time(time_s),
+        let target = match (self.tolerance, self.max_layers, self.max_time_s) {
+            (Some(tolerance), None, None) => Target::Tolerance(tolerance),
+            (None, Some(layers), None) => Target::Layers(layers),
+            (None, None, Some(time_s)) => Target::Time(time_s),
             // No volume suits all models.
-            (None, None, None) if self.metric == Metric::Volume => Aim::AtLeast(usual),
-            (None, None, None) => Aim::Tolerance(usual),
+            (None, None, None) if self.metric == Metric::Volume => Target::AtLeast(usual),
+            (None, None, None) => Target::Tolerance(usual),
             _ => {
                 let reason =
                     "give a tolerance, the most layers or the longest time, but not two of them";
@@ -195,7 +194,7 @@ impl Options {
             metric: self.metric,
             source: self.source,
             planner: self.planner,
-            aim,
+            target,
             minimize: self.minimize,
             limits: Limits {
                 layer_min_mm: self.layer_min_mm,

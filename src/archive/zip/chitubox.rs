@@ -3,17 +3,18 @@
 
 use std::fmt::Write as _;
 
-use super::preview::Look;
-use super::{ArchiveError, Container, File, Job, LayerEntry, thousandths};
+use super::{Container, File, LayerEntry};
+use crate::archive::preview::Look;
+use crate::archive::{ArchiveError, PrintJob, thousandths};
 
-pub(super) struct Chitubox;
+pub struct Chitubox;
 
 impl Container for Chitubox {
     fn mask_name(&self, layer: usize) -> String {
         format!("{}.png", layer + 1)
     }
 
-    fn files(&self, job: &Job<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
+    fn files(&self, job: &PrintJob<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
         let look = Look::new(job.mesh, job.ldi);
         Ok(vec![
             ("run.gcode".to_owned(), run_gcode(job, layers).into_bytes()),
@@ -23,49 +24,41 @@ impl Container for Chitubox {
     }
 }
 
-fn run_gcode(job: &Job<'_>, layers: &[LayerEntry]) -> String {
-    let Job {
-        report,
-        printer,
-        resin,
-        ..
-    } = *job;
-    let mask = &report.mask;
+fn run_gcode(job: &PrintJob<'_>, layers: &[LayerEntry]) -> String {
+    let PrintJob { printer, resin, .. } = *job;
+    let grid = &job.masks.grid;
     let volume_mm = printer.map_or(
         [
-            f64::from(mask.width) * mask.pitch_mm,
-            f64::from(mask.height) * mask.pitch_y_mm,
-            report.height_mm.ceil(),
+            f64::from(grid.width) * grid.pitch_mm,
+            f64::from(grid.height) * grid.pitch_y_mm,
+            job.height_mm.ceil(),
         ],
         |printer| printer.volume_mm,
     );
     let mm = thousandths;
     // The thickness of most layers stands for all where a program asks for one.
-    let usual_mm = report
-        .thickness_mm
-        .get(layers.len() / 2)
-        .copied()
-        .unwrap_or(resin.layer_mm);
+    let middle = layers.get(layers.len() / 2);
+    let usual_mm = middle.map_or(resin.layer_mm, |layer| layer.thickness_mm);
     let head = [
         ("fileName", "model".to_owned()),
         (
             "machineType",
             printer.map_or("custom", |printer| printer.model).to_owned(),
         ),
-        ("estimatedPrintTime", mm(report.print_time_s)),
-        ("volume", mm(report.resin_ml)),
+        ("estimatedPrintTime", mm(job.print_time_s())),
+        ("volume", mm(job.resin_ml)),
         ("resin", resin.name.replace(['\n', '\r'], " ")),
-        ("weight", mm(report.resin_ml * resin.density_g_ml)),
+        ("weight", mm(job.resin_ml * resin.density_g_ml)),
         ("price", "0".to_owned()),
         ("layerHeight", mm(usual_mm)),
-        ("resolutionX", mask.width.to_string()),
-        ("resolutionY", mask.height.to_string()),
+        ("resolutionX", grid.width.to_string()),
+        ("resolutionY", grid.height.to_string()),
         ("machineX", mm(volume_mm[0])),
         ("machineY", mm(volume_mm[1])),
         ("machineZ", mm(volume_mm[2])),
         (
             "projectType",
-            if mask.is_mirrored {
+            if job.is_mirrored {
                 "LCD_mirror"
             } else {
                 "Normal"
@@ -85,11 +78,11 @@ fn run_gcode(job: &Job<'_>, layers: &[LayerEntry]) -> String {
         ("bottomLightOffTime", mm(resin.wait_s)),
         ("bottomPWMLight", "255".to_owned()),
         ("PWMLight", "255".to_owned()),
-        ("antiAliasLevel", mask.antialias.to_string()),
+        ("antiAliasLevel", job.masks.samples.sublayers.to_string()),
         ("bottomLayCount", resin.bottom_layers.to_string()),
         ("bottomLayerCount", resin.bottom_layers.to_string()),
         ("totalLayer", layers.len().to_string()),
-        ("mirror", u8::from(mask.is_mirrored).to_string()),
+        ("mirror", u8::from(job.is_mirrored).to_string()),
     ];
     let mut text = String::new();
     for (key, value) in head {

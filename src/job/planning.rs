@@ -1,163 +1,16 @@
 //! From the shape of a model to a plan and its figures: which errors a planner sees, at which tolerance, with which
-//! wishes.
+//! snap planes.
 
-use std::borrow::Borrow;
-
-use crate::grid::Bins;
-use crate::job::{Aim, Layering};
-use crate::ldi::Ldi;
-use crate::ldi::visibility::{Visibility, visibility};
-use crate::mesh::Mesh;
-use crate::options::Planner;
+use super::resolve::{Layering, Target};
+use super::{Planner, PlannerReport, UniformReport};
 use crate::plan::optimal::Objective;
 use crate::plan::tradeoff::{self, Goal, TradeoffPoint};
 use crate::plan::{Limits, Plan, PlanError, greedy, optimal, uniform};
-use crate::profile::relief::{Flat, Relief};
-use crate::profile::weighted::Weighted;
-use crate::profile::wishes::wishes;
-use crate::profile::{LayerErrors, Metric, Profile, Shape, Source, section, steepest};
-use crate::report::{PlannerReport, UniformReport};
+use crate::profile::facet_bins::FacetBins;
+use crate::profile::shapes::Shapes;
+use crate::profile::snap_planes::snap_planes;
+use crate::profile::{LayerErrors, Metric, Source};
 use crate::warning::Warning;
-
-/// The shape of a model from both sources.
-#[derive(Debug)]
-pub(crate) struct Shapes {
-    pub exact: Shape,
-    pub sampled: Shape,
-    /// Horizontal facets that are not hidden.
-    flats: Vec<Flat>,
-    /// Facets wholly inside the solid.
-    hidden: Vec<bool>,
-    /// Whether bodies overlap in a way that only rays can sort out.
-    overlaps: bool,
-    weighing: Option<Weighing>,
-}
-
-/// The shapes under weights.
-#[derive(Debug)]
-struct Weighing {
-    metric: Metric,
-    weights: Vec<f32>,
-    exact: Weighted,
-    sampled: Weighted,
-}
-
-impl Shapes {
-    pub fn new(mesh: &Mesh, ldi: &Ldi, bins: Bins) -> Self {
-        let Visibility { hidden, overlaps } = visibility(mesh, ldi);
-        let relief = Relief::of(mesh, bins);
-        let shape = |steepest| Shape {
-            bins,
-            steepest,
-            areas_mm2: Vec::new(),
-        };
-        Self {
-            exact: shape(steepest::exact(&relief, &hidden)),
-            sampled: shape(steepest::sampled(&relief, ldi, &hidden)),
-            flats: relief.flats_but(&hidden),
-            hidden,
-            overlaps,
-            weighing: None,
-        }
-    }
-
-    /// The shape of facets alone, where there are no rays: it stands for both sources, and no facet is known to be hidden.
-    /// `areas_mm2` may be empty if the metric is not made of them.
-    pub fn of_relief(relief: &Relief, areas_mm2: Vec<f64>) -> Self {
-        let exact = Shape {
-            bins: relief.bins,
-            steepest: steepest::exact(relief, &[]),
-            areas_mm2,
-        };
-        Self {
-            sampled: exact.clone(),
-            exact,
-            flats: relief.flats.clone(),
-            hidden: Vec::new(),
-            overlaps: false,
-            weighing: None,
-        }
-    }
-
-    /// Weighs the facets of the surface for a metric, or all alike; returns whether anything was measured for it, on the
-    /// relief that the shapes are of. Without an LDI what is exact stands for both sources.
-    pub fn weigh<R: Borrow<Relief>>(
-        &mut self,
-        relief: impl FnOnce() -> R,
-        ldi: Option<&Ldi>,
-        metric: Metric,
-        weights: Option<Vec<f32>>,
-    ) -> bool {
-        let Some(weights) = weights else {
-            self.weighing = None;
-            return false;
-        };
-        let kept = self.weighing.as_ref();
-        if kept.is_some_and(|kept| kept.metric == metric && kept.weights == weights) {
-            return false;
-        }
-        let relief = relief();
-        let measure = |ldi| Weighted::new(relief.borrow(), ldi, &self.hidden, metric, &weights);
-        let exact = measure(None);
-        let sampled = ldi.map_or_else(|| exact.clone(), |ldi| measure(Some(ldi)));
-        self.weighing = Some(Weighing {
-            metric,
-            weights,
-            exact,
-            sampled,
-        });
-        true
-    }
-
-    /// The profile of a metric, weighted if facets were weighed for it.
-    pub fn profile(&self, metric: Metric, source: Source) -> Profile {
-        let shape = self.of(source);
-        match self.weighted(metric, source) {
-            Some(weighted) => weighted.profile(shape),
-            None => shape.profile(metric),
-        }
-    }
-
-    /// The errors of layers, weighted if facets were weighed for the metric.
-    pub fn errors(&self, metric: Metric, source: Source) -> LayerErrors {
-        let shape = self.of(source);
-        match self.weighted(metric, source) {
-            Some(weighted) => weighted.errors(shape),
-            None => shape.errors(metric),
-        }
-    }
-
-    fn weighted(&self, metric: Metric, source: Source) -> Option<&Weighted> {
-        let weighing = self.weighing.as_ref();
-        let weighing = weighing.filter(|weighing| weighing.metric == metric)?;
-        Some(match source {
-            Source::Exact => &weighing.exact,
-            Source::Sampled => &weighing.sampled,
-        })
-    }
-
-    /// Measures the areas of sections as well, unless that was done; returns whether it was not.
-    pub fn add_areas(&mut self, mesh: &Mesh, ldi: &Ldi) -> bool {
-        if !self.sampled.areas_mm2.is_empty() {
-            return false;
-        }
-        let bins = self.exact.bins;
-        self.sampled.areas_mm2 = section::sampled(ldi, bins);
-        self.exact.areas_mm2 = if self.overlaps {
-            self.sampled.areas_mm2.clone()
-        } else {
-            section::exact(mesh, &self.hidden, bins)
-        };
-        true
-    }
-
-    pub fn of(&self, source: Source) -> &Shape {
-        match source {
-            Source::Exact => &self.exact,
-            Source::Sampled => &self.sampled,
-        }
-    }
-}
 
 /// All that planners need to know about a model.
 pub(crate) struct Planning<'a> {
@@ -168,7 +21,7 @@ pub(crate) struct Planning<'a> {
     errors: LayerErrors,
     /// The same of the exact shape, for reports.
     exact: LayerErrors,
-    wishes: Vec<u32>,
+    snap_planes: Vec<u32>,
     /// The tolerance that the options give or ask to find, or why there is none.
     tolerance: Result<f64, PlanError>,
 }
@@ -192,21 +45,21 @@ impl<'a> Planning<'a> {
             Source::Exact => exact.clone(),
             Source::Sampled => shapes.errors(layering.metric, Source::Sampled),
         };
-        let wishes = match layering.snap_mm2 {
+        let snap_planes = match layering.snap_mm2 {
             None => Vec::new(),
             Some(area_mm2) => {
                 let cusp = shapes.of(layering.source).profile(Metric::Cusp);
-                wishes(&shapes.flats, &cusp.density, cusp.bins, area_mm2)
+                snap_planes(&shapes.flats, &cusp.density, cusp.bins, area_mm2)
             }
         };
         Self {
             shapes,
             height_mm,
-            tolerance: tolerance(&errors, &wishes, layering),
+            tolerance: tolerance(&errors, &snap_planes, layering),
             layering,
             errors,
             exact,
-            wishes,
+            snap_planes,
         }
     }
 
@@ -224,17 +77,17 @@ impl<'a> Planning<'a> {
     }
 
     fn plan_by(&self, planner: Planner) -> Result<Plan, PlanError> {
-        let (errors, wishes) = (&self.errors, &self.wishes);
+        let (errors, snap_planes) = (&self.errors, &self.snap_planes);
         let bins = errors.bins();
-        let greedily = |sight| greedy::plan(errors, &self.limits()?, wishes, sight);
+        let greedily = |sight| greedy::plan(errors, &self.limits()?, snap_planes, sight);
         match planner {
             Planner::Optimal => {
                 // The time is what a longest time is about.
-                let objective = match self.layering.aim {
-                    Aim::Time(_) => Objective::Time(&self.layering.resin),
+                let objective = match self.layering.target {
+                    Target::Time(_) => Objective::Time(&self.layering.resin),
                     _ => self.layering.objective(),
                 };
-                optimal::plan(errors, &self.limits()?, wishes, objective)
+                optimal::plan(errors, &self.limits()?, snap_planes, objective)
             }
             Planner::Greedy => greedily(greedy::Sight::Profile),
             Planner::Local => greedily(greedy::Sight::Plane),
@@ -252,7 +105,7 @@ impl<'a> Planning<'a> {
                     Err(PlanError::LayerTooThick { .. }) => Ok(Plan {
                         bins,
                         boundaries: vec![0, bins.count as u32],
-                        wishes: Vec::new(),
+                        snap_planes: Vec::new(),
                     }),
                     plan => plan,
                 }
@@ -320,9 +173,9 @@ impl<'a> Planning<'a> {
         let cusp = self.shapes.exact.errors(Metric::Cusp);
         Ok(PlanReport {
             snapped_mm: plan
-                .wishes
+                .snap_planes
                 .iter()
-                .map(|&wish| bins.boundary_mm(wish))
+                .map(|&snap_plane| bins.boundary_mm(snap_plane))
                 .collect(),
             tolerance,
             max_error,
@@ -341,7 +194,7 @@ impl<'a> Planning<'a> {
         tradeoff::curve(
             &self.errors,
             &self.layering.limits(0.0),
-            &self.wishes,
+            &self.snap_planes,
             self.layering.objective(),
             &self.layering.resin,
             points,
@@ -363,10 +216,14 @@ impl<'a> Planning<'a> {
 }
 
 /// The tolerance that is asked for, or is to be found.
-fn tolerance(errors: &LayerErrors, wishes: &[u32], layering: &Layering) -> Result<f64, PlanError> {
-    let goal = match layering.aim {
-        Aim::Tolerance(tolerance) => return Ok(tolerance),
-        Aim::AtLeast(usual) => {
+fn tolerance(
+    errors: &LayerErrors,
+    snap_planes: &[u32],
+    layering: &Layering,
+) -> Result<f64, PlanError> {
+    let goal = match layering.target {
+        Target::Tolerance(tolerance) => return Ok(tolerance),
+        Target::AtLeast(usual) => {
             let limits = layering.limits(usual);
             let steps = errors.to_steps(usual);
             if optimal::within(errors, &limits, &[], Objective::Layers, steps)?.is_ok() {
@@ -375,9 +232,26 @@ fn tolerance(errors: &LayerErrors, wishes: &[u32], layering: &Layering) -> Resul
             let least = tradeoff::least_tolerance(errors, &limits, Objective::Layers);
             return Ok(least.unwrap_or(usual));
         }
-        Aim::Layers(layers) => Goal::Layers(layers),
-        Aim::Time(time_s) => Goal::Time(time_s),
+        Target::Layers(layers) => Goal::Layers(layers),
+        Target::Time(time_s) => Goal::Time(time_s),
     };
     let limits = layering.limits(0.0);
-    tradeoff::tolerance_for(errors, &limits, wishes, &layering.resin, goal)
+    tradeoff::tolerance_for(errors, &limits, snap_planes, &layering.resin, goal)
+}
+
+/// The shapes of facets alone under the metric and weights; asks for the areas of sections where the metric needs them.
+pub fn shapes_of<E>(
+    facet_bins: &FacetBins,
+    areas_mm2: impl FnOnce() -> Result<Vec<f64>, E>,
+    layering: &Layering,
+    weights: Option<Vec<f32>>,
+) -> Result<Shapes, E> {
+    let areas_mm2 = if layering.metric.needs_areas() {
+        areas_mm2()?
+    } else {
+        Vec::new()
+    };
+    let mut shapes = Shapes::of_facets(facet_bins, areas_mm2);
+    shapes.weigh(|| facet_bins, None, layering.metric, weights);
+    Ok(shapes)
 }

@@ -5,8 +5,8 @@
 mod common;
 
 use common::{binary_stl, solids};
-use cusp_slicer::file_kind::{FileKind, HEAD_BYTES};
-use cusp_slicer::stl::{Encoding, StlError, identify, read};
+use cusp_slicer::model::read::kind::{FileKind, HEAD_BYTES};
+use cusp_slicer::model::read::stl::{Encoding, StlError, identify, read};
 
 const ASCII: &str = "solid part one
   facet normal 0 0 1

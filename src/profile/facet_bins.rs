@@ -1,14 +1,14 @@
 //! A surface as metrics see it along z: which bins its facets meet and how steep they are.
 
 use crate::grid::Bins;
-use crate::mesh::Mesh;
+use crate::model::Mesh;
 
 /// A facet is horizontal if `n_z²` of its normal is at least this: within 0.06°.
 const HORIZONTAL: f32 = 1.0 - 1e-6;
 
 /// The facets of a surface along z, in their order. What only closes a surface has no part in it.
 #[derive(Debug, Clone)]
-pub struct Relief {
+pub struct FacetBins {
     /// The height ranges that `spans` speaks of.
     pub bins: Bins,
     /// The first and the last bin that each facet meets.
@@ -30,8 +30,8 @@ pub struct Flat {
     pub area_mm2: f64,
 }
 
-impl Relief {
-    /// The relief of a mesh that stands on the plate.
+impl FacetBins {
+    /// The facet bins of a mesh that stands on the plate.
     pub fn of(mesh: &Mesh, bins: Bins) -> Self {
         let heights_mm: Vec<f32> = mesh.vertices.iter().map(|vertex| vertex.z).collect();
         let facets = &mesh.facets[..mesh.surface_facets];
@@ -47,7 +47,7 @@ impl Relief {
         )
     }
 
-    /// The relief of facets over vertices of these heights, with the `n_z²` of each, and for horizontal ones the area in mm².
+    /// The facet bins of facets over vertices of these heights, with the `n_z²` of each, and for horizontal ones the area in mm².
     pub(crate) fn new(
         bins: Bins,
         facets: &[[u32; 3]],

@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::exposure::Resin;
 use crate::format::Format;
 use crate::plan::HeightRange;
 use crate::profile::{Metric, Source};
+use crate::resin::Resin;
 
 /// Where the LDI is sampled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -137,7 +137,7 @@ pub struct Options {
     pub metric: Metric,
     /// What errors are measured on.
     pub source: Source,
-    /// Whether facets count by how much they stand out: see [`crate::saliency`].
+    /// Whether facets count by how much they stand out: see [`crate::model::saliency`].
     pub saliency: bool,
     /// What facets count for at least, 0 to 1, where some count for less than others. The error of a facet may be as many
     /// times the tolerance as its weight goes into 1.
@@ -190,7 +190,7 @@ impl Default for Options {
 
 impl Options {
     /// The same wherever rays are cast, which decides nothing.
-    pub(crate) fn anywhere(&self) -> Self {
+    pub(crate) fn without_backend(&self) -> Self {
         Self {
             backend: Backend::default(),
             ..self.clone()

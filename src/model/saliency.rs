@@ -8,7 +8,7 @@
 use glam::{DVec3, IVec3};
 use rustc_hash::FxHashMap;
 
-use crate::mesh::Mesh;
+use crate::model::Mesh;
 use crate::parallel::map_in_groups;
 use crate::progress::{Cancelled, Progress, report};
 

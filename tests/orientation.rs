@@ -1,4 +1,4 @@
-//! The search for the best direction: planted answers, symmetries, figures against other ways to them, shards.
+//! The search for the best direction: planted answers, symmetries, metrics against other ways to them, shards.
 
 #![cfg(not(target_arch = "wasm32"))]
 
@@ -7,13 +7,13 @@ mod common;
 use std::ops::ControlFlow;
 
 use common::{assert_near, binary_stl, quiet, solids};
-use cusp_slicer::direction::shard::{MergeError, Part, Shard};
-use cusp_slicer::direction::{
-    Candidate, Cost, Exclusion, Figures, Orientation, Quality, Search, best, rate,
+use cusp_slicer::job::{Options, Snap};
+use cusp_slicer::job::{Slicer, Stage};
+use cusp_slicer::model::Pose;
+use cusp_slicer::orientation::shard::{MergeError, Part, Shard};
+use cusp_slicer::orientation::{
+    Candidate, Cost, Exclusion, Metrics, OrientationReport, Quality, SearchOptions, best, rate,
 };
-use cusp_slicer::mesh::Pose;
-use cusp_slicer::options::{Options, Snap};
-use cusp_slicer::pipeline::{Slicer, Stage};
 use cusp_slicer::profile::Metric;
 use glam::{DQuat, DVec3, Quat, Vec3};
 
@@ -32,10 +32,10 @@ fn options() -> Options {
     }
 }
 
-fn few(directions: usize) -> Search {
-    Search {
+fn few(directions: usize) -> SearchOptions {
+    SearchOptions {
         directions,
-        ..Search::default()
+        ..SearchOptions::default()
     }
 }
 
@@ -43,7 +43,11 @@ fn slicer(triangles: &solids::Triangles) -> Slicer {
     Slicer::load(&binary_stl(triangles)).unwrap()
 }
 
-fn orient(triangles: &solids::Triangles, options: &Options, search: &Search) -> Orientation {
+fn orient(
+    triangles: &solids::Triangles,
+    options: &Options,
+    search: &SearchOptions,
+) -> OrientationReport {
     let mut slicer = slicer(triangles);
     slicer.orient(options, search, &mut quiet).unwrap()
 }
@@ -55,8 +59,8 @@ fn measure(slicer: &mut Slicer, options: &Options, directions: &[DVec3]) -> Vec<
         .unwrap()
 }
 
-fn figures(slicer: &mut Slicer, options: &Options, direction: DVec3) -> Figures {
-    measure(slicer, options, &[direction])[0].figures.unwrap()
+fn metrics(slicer: &mut Slicer, options: &Options, direction: DVec3) -> Metrics {
+    measure(slicer, options, &[direction])[0].metrics.unwrap()
 }
 
 /// Some rotation that has nothing to do with any axis or lattice.
@@ -148,11 +152,15 @@ fn candidates_are_what_a_glance_in_their_pose_shows() {
                 height_mm: Some(candidate.size_mm[2]),
                 ..options.clone()
             };
-            let (glance, _) = slicer.glance(&there).unwrap();
-            let figures = candidate.figures.unwrap();
-            assert!(figures.layers.abs_diff(glance.layers) <= 1);
-            assert_near(figures.max_error, glance.max_error, 0.02 * glance.max_error);
-            for (ours, theirs) in candidate.size_mm.into_iter().zip(glance.size_mm) {
+            let (preview, _) = slicer.preview(&there).unwrap();
+            let metrics = candidate.metrics.unwrap();
+            assert!(metrics.layers.abs_diff(preview.layers) <= 1);
+            assert_near(
+                metrics.max_error,
+                preview.max_error,
+                0.02 * preview.max_error,
+            );
+            for (ours, theirs) in candidate.size_mm.into_iter().zip(preview.size_mm) {
                 assert_near(ours, theirs, 1e-5);
             }
             // The rotation turns the direction upright.
@@ -169,34 +177,34 @@ fn weights_count_facet_by_facet() {
     let weights = model
         .iter()
         .map(|corners| if corners[0].x > 0.0 { 1.0 } else { 0.3 });
-    slicer.paint(Some(weights.collect())).unwrap();
+    slicer.set_weights(Some(weights.collect())).unwrap();
     let directions = slicer.directions(&options(), 20).unwrap();
     let found = slicer
         .measure_directions(&options(), &directions, &mut quiet)
         .unwrap();
-    slicer.paint(None).unwrap();
+    slicer.set_weights(None).unwrap();
     let plain = slicer
         .measure_directions(&options(), &directions, &mut quiet)
         .unwrap();
-    slicer.paint(Some(vec![1.0; model.len()])).unwrap();
+    slicer.set_weights(Some(vec![1.0; model.len()])).unwrap();
     let mut fewer = 0;
     for (candidate, plain) in found.iter().zip(&plain) {
-        let layers = candidate.figures.unwrap().layers;
-        assert!(layers <= plain.figures.unwrap().layers);
-        fewer += usize::from(layers < plain.figures.unwrap().layers);
+        let layers = candidate.metrics.unwrap().layers;
+        assert!(layers <= plain.metrics.unwrap().layers);
+        fewer += usize::from(layers < plain.metrics.unwrap().layers);
     }
     assert!(fewer > 5, "{fewer}");
     let weights = model
         .iter()
         .map(|corners| if corners[0].x > 0.0 { 1.0 } else { 0.3 });
-    slicer.paint(Some(weights.collect())).unwrap();
+    slicer.set_weights(Some(weights.collect())).unwrap();
     for candidate in found {
         let options = Options {
             rotation: Some(candidate.rotation),
             ..options()
         };
-        let (glance, _) = slicer.glance(&options).unwrap();
-        assert!(candidate.figures.unwrap().layers.abs_diff(glance.layers) <= 1);
+        let (preview, _) = slicer.preview(&options).unwrap();
+        assert!(candidate.metrics.unwrap().layers.abs_diff(preview.layers) <= 1);
     }
 }
 
@@ -218,23 +226,23 @@ fn overhangs_have_closed_forms() {
         (30.0, side * side),
         (60.0, side * height),
     ] {
-        let found = figures(&mut tower, &options(), at(degrees));
+        let found = metrics(&mut tower, &options(), at(degrees));
         assert_near(found.overhang_mm2, expected, 1e-3);
     }
     // A cone of 60° to level on its tip needs none for its side, but for its base when it lies.
     let mut cone = slicer(&solids::cone(5.0, 5.0 * 3f64.sqrt(), 16));
     assert_near(
-        figures(&mut cone, &options(), -DVec3::Z).overhang_mm2,
+        metrics(&mut cone, &options(), -DVec3::Z).overhang_mm2,
         0.0,
         1e-9,
     );
     assert_near(
-        figures(&mut cone, &options(), DVec3::Z).overhang_mm2,
+        metrics(&mut cone, &options(), DVec3::Z).overhang_mm2,
         0.0,
         1e-9,
     );
     let mut flat = slicer(&solids::cone(8.0, 4.0, 16));
-    assert!(figures(&mut flat, &options(), -DVec3::Z).overhang_mm2 > 200.0);
+    assert!(metrics(&mut flat, &options(), -DVec3::Z).overhang_mm2 > 200.0);
 }
 
 /// The mean roughness of a surface by going over every facet, and along its height in small steps.
@@ -279,14 +287,14 @@ fn roughness_is_that_of_every_facet_in_its_layers() {
             rotation,
             ..options()
         };
-        let (glance, _) = slicer.glance(&there).unwrap();
+        let (preview, _) = slicer.preview(&there).unwrap();
         let pose = Pose {
             rotation,
             height_mm: None,
         };
         let corners = slicer.positions_on_plate(&pose).unwrap();
-        let naive = naive_roughness(&corners, &glance.z_mm);
-        let found = candidate.figures.unwrap().roughness_mm;
+        let naive = naive_roughness(&corners, &preview.z_mm);
+        let found = candidate.metrics.unwrap().roughness_mm;
         assert_near(found, naive, 0.01 * naive);
     }
 }
@@ -298,7 +306,7 @@ fn a_ball_is_the_same_from_everywhere() {
     let layers: Vec<usize> = found
         .candidates
         .iter()
-        .map(|candidate| candidate.figures.unwrap().layers)
+        .map(|candidate| candidate.metrics.unwrap().layers)
         .collect();
     let (least, most) = (layers.iter().min().unwrap(), layers.iter().max().unwrap());
     // Facets stand for the surface within their own angle, here up to 90° / 2^levels, and so do slopes and the layers
@@ -330,7 +338,7 @@ fn a_tilted_cylinder_is_found_again() {
     assert!(degrees_off(&found.best[0], tilt() * Vec3::Z) < 2.0);
     // For the fewest layers a rod lies, whichever way it is rolled.
     let rod = turned(&solids::cylinder(2.0, 30.0, 16), tilt());
-    let layers = Search {
+    let layers = SearchOptions {
         alpha: 1.0,
         ..few(400)
     };
@@ -391,7 +399,7 @@ fn upside_down_a_model_has_as_many_layers() {
         for &direction in &directions {
             let direction = DVec3::from_array(direction);
             let [up, down] =
-                [direction, -direction].map(|direction| figures(&mut slicer, &options, direction));
+                [direction, -direction].map(|direction| metrics(&mut slicer, &options, direction));
             // Bins are counted from the plate, so that the same surface lies otherwise in them.
             assert!(
                 up.layers.abs_diff(down.layers) <= 2,
@@ -430,9 +438,9 @@ fn rays_make_no_difference() {
     );
 }
 
-fn rated(found: &Orientation) -> impl Iterator<Item = (f64, Figures)> {
+fn rated(found: &OrientationReport) -> impl Iterator<Item = (f64, Metrics)> {
     let candidates = found.candidates.iter();
-    candidates.filter_map(|candidate| Some((candidate.energy?, candidate.figures?)))
+    candidates.filter_map(|candidate| Some((candidate.energy?, candidate.metrics?)))
 }
 
 #[test]
@@ -444,7 +452,7 @@ fn alpha_and_the_terms_do_what_they_say() {
         .measure_directions(&options(), &directions, &mut quiet)
         .unwrap();
     let mut search = |alpha, cost, quality| {
-        let search = Search {
+        let search = SearchOptions {
             alpha,
             cost,
             quality,
@@ -454,18 +462,18 @@ fn alpha_and_the_terms_do_what_they_say() {
             .choose(&options(), &search, candidates.clone(), &mut quiet)
             .unwrap()
     };
-    let least = |found: &Orientation, of: fn(&Figures) -> f64| {
+    let least = |found: &OrientationReport, of: fn(&Metrics) -> f64| {
         rated(found)
-            .map(|(_, figures)| of(&figures))
+            .map(|(_, metrics)| of(&metrics))
             .fold(f64::INFINITY, f64::min)
     };
-    let first = |found: &Orientation| found.best[0].figures.unwrap();
+    let first = |found: &OrientationReport| found.best[0].metrics.unwrap();
     let found = search(1.0, Cost::Layers, Quality::Error);
     assert!(first(&found).layers as f64 <= least(&found, |it| it.layers as f64));
     let found = search(1.0, Cost::Time, Quality::Error);
     assert!(first(&found).print_time_s <= least(&found, |it| it.print_time_s));
     for (quality, of) in [
-        (Quality::Error, (|it| it.max_error) as fn(&Figures) -> f64),
+        (Quality::Error, (|it| it.max_error) as fn(&Metrics) -> f64),
         (Quality::Roughness, |it| it.roughness_mm),
         (Quality::Overhang, |it| it.overhang_mm2),
     ] {
@@ -474,11 +482,11 @@ fn alpha_and_the_terms_do_what_they_say() {
     }
     // Eq. 25, by hand.
     let found = search(0.3, Cost::Time, Quality::Overhang);
-    let most = |of: fn(&Figures) -> f64| rated(&found).map(|(_, it)| of(&it)).fold(0.0, f64::max);
+    let most = |of: fn(&Metrics) -> f64| rated(&found).map(|(_, it)| of(&it)).fold(0.0, f64::max);
     let (time, overhang) = (most(|it| it.print_time_s), most(|it| it.overhang_mm2));
     assert_eq!((found.scale.cost, found.scale.quality), (time, overhang));
-    for (energy, figures) in rated(&found) {
-        let expected = 0.3 * figures.print_time_s / time + 0.7 * figures.overhang_mm2 / overhang;
+    for (energy, metrics) in rated(&found) {
+        let expected = 0.3 * metrics.print_time_s / time + 0.7 * metrics.overhang_mm2 / overhang;
         assert_near(energy, expected, 1e-12);
     }
 }
@@ -532,12 +540,12 @@ fn what_does_not_fit_is_excluded_and_what_fits_askew_is_turned() {
         ..plate.clone()
     };
     let planned = pollster::block_on(rod.plan(&there, &mut quiet)).unwrap();
-    assert_eq!(planned.layers, lying.figures.unwrap().layers);
+    assert_eq!(planned.layers, lying.metrics.unwrap().layers);
 
     let mut longer = slicer(&solids::cuboid(Vec3::new(175.0, 4.0, 4.0)));
     let found = measure(&mut longer, &plate, &[DVec3::Z, DVec3::X]);
     assert_eq!(found[0].excluded, Some(Exclusion::TooLarge));
-    assert_eq!((found[0].figures, found[0].energy), (None, None));
+    assert_eq!((found[0].metrics, found[0].energy), (None, None));
     assert_eq!(found[1].excluded, None);
 
     let printer = Options {
@@ -584,7 +592,7 @@ fn searches_end_when_nobody_wants_them() {
     let mut slicer = slicer(&bean());
     let mut calls = 0;
     let stopped = slicer.orient(&options(), &few(2000), &mut |stage, fraction| {
-        assert_eq!(stage, Stage::Directions);
+        assert_eq!(stage, Stage::Orientation);
         assert!((0.0..=1.0).contains(&fraction));
         calls += 1;
         if calls == 3 {
@@ -595,15 +603,15 @@ fn searches_end_when_nobody_wants_them() {
     });
     assert_eq!(stopped.unwrap_err().code(), "cancelled");
     assert_eq!(calls, 3);
-    let none = Search {
+    let none = SearchOptions {
         directions: 0,
-        ..Search::default()
+        ..SearchOptions::default()
     };
     for search in [
         none,
-        Search {
+        SearchOptions {
             alpha: 1.1,
-            ..Search::default()
+            ..SearchOptions::default()
         },
     ] {
         let error = slicer.orient(&options(), &search, &mut quiet).unwrap_err();
@@ -630,7 +638,7 @@ fn parts(model: &solids::Triangles, count: usize) -> Vec<Part> {
         .collect()
 }
 
-fn merge(parts: &[Part], options: &Options) -> Result<Orientation, MergeError> {
+fn merge(parts: &[Part], options: &Options) -> Result<OrientationReport, MergeError> {
     let mut slicer = slicer(&bean());
     let candidates = slicer.merge_shards(options, &few(50), parts)?;
     Ok(slicer.choose(options, &few(50), candidates, &mut quiet)?)

@@ -2,10 +2,11 @@
 
 use serde_json::{Value, json};
 
-use super::preview::Look;
-use super::{ArchiveError, Container, File, Job, LayerEntry};
+use super::{Container, File, LayerEntry};
+use crate::archive::preview::Look;
+use crate::archive::{ArchiveError, PrintJob};
 
-pub(super) struct Uvj;
+pub struct Uvj;
 
 /// By how much a step may exceed the nominal layer height for a reader that checks it.
 const STEP_ROOM: f64 = 1.5;
@@ -15,7 +16,7 @@ impl Container for Uvj {
         format!("slice/{layer:08}.png")
     }
 
-    fn files(&self, job: &Job<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
+    fn files(&self, job: &PrintJob<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
         let look = Look::new(job.mesh, job.ldi);
         let config = serde_json::to_vec(&config(job, layers)).map_err(ArchiveError::write)?;
         Ok(vec![
@@ -26,9 +27,9 @@ impl Container for Uvj {
     }
 }
 
-fn config(job: &Job<'_>, layers: &[LayerEntry]) -> Value {
-    let Job { report, resin, .. } = *job;
-    let mask = &report.mask;
+fn config(job: &PrintJob<'_>, layers: &[LayerEntry]) -> Value {
+    let resin = job.resin;
+    let grid = &job.masks.grid;
     let exposure = |exposure_s: f64| {
         json!({
             "LightOnTime": exposure_s,
@@ -40,12 +41,10 @@ fn config(job: &Job<'_>, layers: &[LayerEntry]) -> Value {
             "RetractSpeed": resin.return_mm_min,
         })
     };
-    let thickest_mm = report.thickness_mm.iter().copied().fold(0.0, f64::max);
-    let usual_mm = report
-        .thickness_mm
-        .get(layers.len() / 2)
-        .copied()
-        .unwrap_or(thickest_mm);
+    let thickness_mm = layers.iter().map(|layer| layer.thickness_mm);
+    let thickest_mm = thickness_mm.fold(0.0, f64::max);
+    let middle = layers.get(layers.len() / 2);
+    let usual_mm = middle.map_or(thickest_mm, |layer| layer.thickness_mm);
     let mut bottom = exposure(resin.bottom_exposure_s);
     bottom["Count"] = json!(resin.bottom_layers);
     let layers: Vec<Value> = layers
@@ -55,18 +54,18 @@ fn config(job: &Job<'_>, layers: &[LayerEntry]) -> Value {
     json!({
         "Properties": {
             "Size": {
-                "X": mask.width,
-                "Y": mask.height,
+                "X": grid.width,
+                "Y": grid.height,
                 "Millimeter": {
-                    "X": f64::from(mask.width) * mask.pitch_mm,
-                    "Y": f64::from(mask.height) * mask.pitch_y_mm,
+                    "X": f64::from(grid.width) * grid.pitch_mm,
+                    "Y": f64::from(grid.height) * grid.pitch_y_mm,
                 },
                 "Layers": layers.len(),
                 "LayerHeight": usual_mm.max((thickest_mm / STEP_ROOM * 1e3).ceil() / 1e3),
             },
             "Exposure": exposure(resin.exposure_s(usual_mm)),
             "Bottom": bottom,
-            "AntiAliasLevel": mask.antialias,
+            "AntiAliasLevel": job.masks.samples.sublayers,
         },
         "Layers": layers,
     })

@@ -2,29 +2,29 @@
 //! with the least error.
 //!
 //! Directions are measured one by one, by profile and plan alone: no copy of the mesh, no rays. Energies follow
-//! from all the figures together ([`rate`]), the most promising directions are searched around more finely
+//! from all the metrics together ([`rate`]), the most promising directions are searched around more finely
 //! ([`refine`]), and the [`best`] are those that differ. Every step is a function of the ones before: who does them, on how
 //! many threads, workers or machines, makes no difference.
 
+pub(crate) mod directions;
 mod energy;
 mod order;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod shard;
-pub(crate) mod sphere;
-mod turntable;
+mod surface;
 
 use serde::{Deserialize, Serialize};
 #[cfg(target_arch = "wasm32")]
 use tsify::Tsify;
 
 pub use energy::{best, rate, refine};
-pub(crate) use turntable::{Stand, Turntable};
+pub(crate) use surface::{Placement, Surface};
 
 /// What is searched for.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 #[serde(default, deny_unknown_fields)]
-pub struct Search {
+pub struct SearchOptions {
     /// How many directions are looked along, spread evenly over the sphere. The axes of the file, and those that lay a large flat
     /// of the model on the plate or turn it up, come on top.
     pub directions: usize,
@@ -36,7 +36,7 @@ pub struct Search {
     pub quality: Quality,
 }
 
-impl Default for Search {
+impl Default for SearchOptions {
     fn default() -> Self {
         Self {
             directions: 1000,
@@ -50,9 +50,9 @@ impl Default for Search {
 /// The most directions of a search.
 pub const MAX_DIRECTIONS: usize = 100_000;
 
-impl Search {
+impl SearchOptions {
     /// Finds what cannot be searched for.
-    pub(crate) fn check(&self) -> Result<(), crate::Error> {
+    pub(crate) fn check(&self) -> Result<(), crate::job::Error> {
         let reason = if !(1..=MAX_DIRECTIONS).contains(&self.directions) {
             format!(
                 "there can be 1 to {MAX_DIRECTIONS} directions, not {}",
@@ -63,7 +63,7 @@ impl Search {
         } else {
             return Ok(());
         };
-        Err(crate::Error::Options { reason })
+        Err(crate::job::Error::Options { reason })
     }
 }
 
@@ -109,7 +109,7 @@ pub struct Candidate {
     /// Why it cannot be printed so, if it cannot.
     pub excluded: Option<Exclusion>,
     /// What printing it so gives; absent if it is excluded.
-    pub figures: Option<Figures>,
+    pub metrics: Option<Metrics>,
     /// F of eq. 25, from 0 to 1; absent before it is rated, and if it is excluded.
     pub energy: Option<f64>,
 }
@@ -130,7 +130,7 @@ pub enum Exclusion {
 /// What printing in a direction gives.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
-pub struct Figures {
+pub struct Metrics {
     /// Layers of the plan, K.
     pub layers: usize,
     /// Time that they take.
@@ -168,13 +168,13 @@ pub struct Rating {
 
 /// What a search has found.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Orientation {
-    /// The version of this object: [`crate::report::SCHEMA`].
+pub struct OrientationReport {
+    /// The version of this object: [`crate::job::SCHEMA`].
     pub schema: u32,
     /// The file that the model was read from.
-    pub stl: crate::report::StlReport,
+    pub model: crate::model::ModelFile,
     /// What was searched for.
-    pub search: Search,
+    pub search: SearchOptions,
     /// What energies are relative to.
     pub scale: Scale,
     /// The model as it stands now.

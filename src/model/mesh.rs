@@ -1,10 +1,11 @@
 //! A triangle mesh in millimetres, with the report of its health that users see first.
 
-mod holes;
-
-use glam::{DMat3, DQuat, DVec3, Vec3};
+use glam::{DVec3, Vec3};
 use rustc_hash::FxHashMap;
 use serde::Serialize;
+
+use super::holes;
+use super::pose::{Pose, rotation_matrix};
 
 /// Why triangles do not make a printable mesh.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
@@ -233,47 +234,6 @@ impl Mesh {
             ..*self
         })
     }
-}
-
-/// How a model stands on the plate.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Pose {
-    /// A quaternion x, y, z, w that turns it from how it stands in its file, of any length but 0.
-    pub rotation: Option<[f64; 4]>,
-    /// The height to which it is then scaled evenly.
-    pub height_mm: Option<f64>,
-}
-
-impl Pose {
-    /// As in the file, scaled evenly to a height.
-    pub fn of_height(height_mm: f64) -> Self {
-        Self {
-            rotation: None,
-            height_mm: Some(height_mm),
-        }
-    }
-
-    /// The unit vector of the model as it stands in its file that points up from the plate.
-    ///
-    /// # Errors
-    /// [`MeshError::BadRotation`].
-    pub(crate) fn up(&self) -> Result<[f64; 3], MeshError> {
-        let up = match self.rotation {
-            None => DVec3::Z,
-            Some(rotation) => rotation_matrix(rotation)?.row(2),
-        };
-        Ok(up.to_array())
-    }
-}
-
-/// The rotation by a quaternion x, y, z, w of any length but 0.
-pub(crate) fn rotation_matrix(rotation: [f64; 4]) -> Result<DMat3, MeshError> {
-    let quaternion = DQuat::from_array(rotation);
-    let length = quaternion.length();
-    if !length.is_normal() {
-        return Err(MeshError::BadRotation);
-    }
-    Ok(DMat3::from_quat(quaternion / length))
 }
 
 /// Gives equal corners one index, in order of first use. Corners of facets with fewer than three

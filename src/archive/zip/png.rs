@@ -1,0 +1,29 @@
+//! A zip of one-bit PNG masks with a manifest: the default download.
+//!
+//! `layers/00000.png` upward from the plate, white where the resin is cured, row 0 at the largest y;
+//! `manifest.json` is the job's manifest with an entry for every layer.
+
+use serde_json::json;
+
+use super::{Container, File, LayerEntry};
+use crate::archive::png::Depth;
+use crate::archive::{ArchiveError, PrintJob};
+
+pub struct Png;
+
+impl Container for Png {
+    fn depth(&self) -> Depth {
+        Depth::Bit
+    }
+
+    fn mask_name(&self, layer: usize) -> String {
+        format!("layers/{layer:05}.png")
+    }
+
+    fn files(&self, job: &PrintJob<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
+        let mut manifest = job.manifest.clone();
+        manifest["layer_files"] = json!(layers);
+        let json = serde_json::to_vec(&manifest).map_err(ArchiveError::write)?;
+        Ok(vec![("manifest.json".to_owned(), json)])
+    }
+}

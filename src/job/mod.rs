@@ -1,0 +1,16 @@
+//! A job: options resolved once, then the stages in their order, each an immutable value.
+
+mod error;
+mod options;
+mod orient;
+mod planning;
+mod report;
+mod resolve;
+mod slicer;
+mod verify;
+
+pub use error::Error;
+pub use options::*;
+pub use report::*;
+pub use slicer::*;
+pub use verify::*;

@@ -1,0 +1,14 @@
+//! The model: read from a file, welded to a closed mesh, posed on the plate, weighted by facet.
+
+mod file;
+mod holes;
+mod mesh;
+mod pose;
+pub mod read;
+pub mod saliency;
+pub mod weights;
+
+pub use file::ModelFile;
+pub use mesh::{Bounds, Mesh, MeshError};
+pub use pose::Pose;
+pub(crate) use pose::rotation_matrix;

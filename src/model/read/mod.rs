@@ -1,0 +1,4 @@
+//! Model files, one file a format.
+
+pub mod kind;
+pub mod stl;
