@@ -12,7 +12,7 @@ use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use crate::job::Error;
 use crate::job::Options;
-use crate::job::{self, Stage};
+use crate::job::{self, OptionsError, Stage};
 use crate::job::{Comparison, MeshInfo, Preview, Report, Tradeoff};
 use crate::model::read::kind::HEAD_BYTES;
 use crate::model::read::stl;
@@ -26,9 +26,9 @@ use crate::profile::{Metric, Source};
 /// The types of errors that others hold are generated; those that hold them are put together here.
 #[wasm_bindgen(typescript_custom_section)]
 const CUSP_ERROR: &str = r#"
-type OwnError = { code: "bad-options"; detail: { reason: string } } | { code: "no-plan" };
+type OwnError = { code: "no-plan" } | { code: "no-layer"; detail: { layer: number; layers: number } };
 export type CoreError =
-    | OwnError | StlError | MeshError | GridError | WeightsError | LdiError | ArchiveError
+    | OwnError | OptionsError | StlError | MeshError | GridError | WeightsError | LdiError | ArchiveError
     | Exclude<PlanError, { code: "Grid" }>;
 export type CuspError = CoreError & { message: string };
 "#;
@@ -50,8 +50,8 @@ fn throw(error: impl Into<Error>) -> JsValue {
 
 /// Values that do not fit their type: options that are none, mostly.
 fn throw_conversion(error: impl std::fmt::Display) -> JsValue {
-    throw(Error::Options {
-        reason: error.to_string(),
+    throw(OptionsError::Unreadable {
+        system: error.to_string(),
     })
 }
 

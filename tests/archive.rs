@@ -183,7 +183,7 @@ fn zips_beyond_four_gibibytes_are_read_by_another_library() {
 fn more_files_than_a_plain_zip_counts_are_all_there() {
     let options = Options {
         rays: 3,
-        bin_mm: 0.001,
+        bin_mm: Some(0.001),
         planner: Planner::Uniform { layer_mm: 0.001 },
         ..options()
     };

@@ -27,7 +27,7 @@ const METRICS: [Metric; 4] = [
 /// Coarser bins than usual, for speed.
 fn options() -> Options {
     Options {
-        bin_mm: 0.01,
+        bin_mm: Some(0.01),
         ..Options::default()
     }
 }

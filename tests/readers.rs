@@ -158,7 +158,7 @@ fn python_reads_every_mask() -> Result<(), Failed> {
 fn python_reads_70_000_layers() -> Result<(), Failed> {
     let options = Options {
         rays: 3,
-        bin_mm: 0.001,
+        bin_mm: Some(0.001),
         planner: Planner::Uniform { layer_mm: 0.001 },
         backend: Backend::Cpu,
         ..Options::default()

@@ -64,7 +64,7 @@ fn the_ldi_is_the_recorded_one() {
 #[wasm_bindgen_test(unsupported = test)]
 fn the_directions_are_the_recorded_ones() {
     let options = Options {
-        bin_mm: 0.01,
+        bin_mm: Some(0.01),
         ..options()
     };
     let search = SearchOptions {
@@ -98,7 +98,10 @@ fn the_directions_are_the_recorded_ones() {
                 .collect::<Vec<_>>()
         })
         .collect();
-    assert_eq!((found.best.len(), fingerprint(&numbers)), (3, 0xd560_21eb_8cfe_0e35));
+    assert_eq!(
+        (found.best.len(), fingerprint(&numbers)),
+        (3, 0xd560_21eb_8cfe_0e35)
+    );
 }
 
 async fn check_plan_and_masks() {

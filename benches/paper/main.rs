@@ -116,7 +116,7 @@ fn table_1(models: &[Model], text: &mut String) {
     );
     for bin_um in [50, 25, 10, 5, 2, 1] {
         let options = Options {
-            bin_mm: f64::from(bin_um) / 1000.0,
+            bin_mm: Some(f64::from(bin_um) / 1000.0),
             ..options(hand)
         };
         let report = pollster::block_on(slicer.plan(&options, &mut quiet)).cloned();

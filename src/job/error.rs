@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::OptionsError;
 use crate::archive::ArchiveError;
 use crate::grid::GridError;
 use crate::ldi::LdiError;
@@ -16,17 +17,23 @@ use crate::plan::PlanError;
 #[serde(tag = "code", content = "detail")]
 #[non_exhaustive]
 pub enum Error {
-    /// The options contradict each other or cannot be read.
-    #[error("{reason}")]
-    #[serde(rename = "bad-options")]
-    Options {
-        /// What is wrong and how to put it right.
-        reason: String,
+    /// The plan has no such layer.
+    #[error("there is no layer {layer}; the plan has {layers}, from 0")]
+    #[serde(rename = "no-layer")]
+    NoLayer {
+        /// The layer asked for, from 0.
+        layer: usize,
+        /// Layers of the plan.
+        layers: usize,
     },
     /// Masks were asked for before there was a plan.
     #[error("there is no plan yet; make one first")]
     #[serde(rename = "no-plan")]
     NoPlan,
+    /// The options contradict each other or cannot be read.
+    #[error(transparent)]
+    #[serde(untagged)]
+    Options(#[from] OptionsError),
     /// The bytes are no usable STL.
     #[error(transparent)]
     #[serde(untagged)]
@@ -68,7 +75,8 @@ impl Error {
             Self::Ldi(error) => error.code(),
             Self::Plan(error) => error.code(),
             Self::Archive(error) => error.code(),
-            Self::Options { .. } => "bad-options",
+            Self::Options(error) => error.code(),
+            Self::NoLayer { .. } => "no-layer",
             Self::NoPlan => "no-plan",
         }
     }

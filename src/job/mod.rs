@@ -2,6 +2,7 @@
 
 mod error;
 mod options;
+mod options_error;
 mod orient;
 mod planning;
 mod report;
@@ -11,6 +12,7 @@ mod verify;
 
 pub use error::Error;
 pub use options::*;
+pub use options_error::OptionsError;
 pub use report::*;
 pub use slicer::*;
 pub use verify::*;

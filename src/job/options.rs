@@ -121,8 +121,8 @@ pub struct Options {
     pub max_layers: Option<usize>,
     /// Find the least tolerance that takes at most so many seconds.
     pub max_time_s: Option<f64>,
-    /// Height of a bin of the profile.
-    pub bin_mm: f64,
+    /// Height of a bin of the profile; if absent 2 µm, or what the step or a thickness needs.
+    pub bin_mm: Option<f64>,
     /// What every height is a multiple of: the printer's motor step, or a bin if absent and no printer is named.
     pub step_mm: Option<f64>,
     /// Height ranges with a layer thickness of their own.
@@ -170,7 +170,7 @@ impl Default for Options {
             tolerance: None,
             max_layers: None,
             max_time_s: None,
-            bin_mm: 0.002,
+            bin_mm: None,
             step_mm: None,
             ranges: Vec::new(),
             planes_mm: Vec::new(),

@@ -4,14 +4,14 @@
 //! The parts are what the stages work from. Being comparable, a part is also the key under which its stage's result is
 //! kept.
 
-use super::{Backend, Error, Minimize, Options, Planner, Snap};
+use super::{Backend, Error, Minimize, Options, OptionsError, Planner, Snap};
 use crate::format::Format;
 use crate::grid::{Bins, Grid, GridError};
 use crate::mask::Samples;
 use crate::model::{Bounds, Pose};
 use crate::plan::optimal::Objective;
 use crate::plan::{Limits, PlanError, uniform};
-use crate::printer::{self, Printer};
+use crate::printer::{self, PRINTERS, Printer};
 use crate::profile::{Metric, Source};
 use crate::resin::Resin;
 
@@ -119,22 +119,18 @@ impl Options {
         self.resolve().map(|_| ())
     }
 
-    fn known_printer(&self) -> Result<Option<&'static Printer>, Error> {
+    fn known_printer(&self) -> Result<Option<&'static Printer>, OptionsError> {
         let Some(name) = &self.printer else {
             return Ok(None);
         };
-        let unknown = || {
-            let names: Vec<&str> = printer::PRINTERS
-                .iter()
-                .map(|printer| printer.name)
-                .collect();
-            let names = names.join(", ");
-            wrong(format!("there is no printer {name}; known are {names}"))
+        let unknown = || OptionsError::UnknownPrinter {
+            printer: name.clone(),
+            known: PRINTERS.iter().map(|printer| printer.name).collect(),
         };
         printer::named(name).map(Some).ok_or_else(unknown)
     }
 
-    fn sampling(&self, printer: Option<&Printer>) -> Result<Sampling, Error> {
+    fn sampling(&self, printer: Option<&Printer>) -> Result<Sampling, OptionsError> {
         let pixels = self.pixels.or(printer.map(|printer| printer.pixels));
         let given_mm = self
             .pitch_mm
@@ -144,16 +140,7 @@ impl Options {
             (Some(pixels), Some(pitch_mm)) => Raster::Plate { pixels, pitch_mm },
             (None, Some([x_mm, y_mm])) if x_mm == y_mm => Raster::OfPitch { pitch_mm: x_mm },
             (None, None) => Raster::Around { pixels: self.rays },
-            (Some(_), None) | (None, Some(_)) => {
-                let reason = "pixels and their pitch in x and y belong together";
-                return Err(wrong(reason));
-            }
-        };
-        let level = self.antialias;
-        let unknown = || {
-            wrong(format!(
-                "there are anti-aliasing levels 1, 2, 4 and 8, but no {level}"
-            ))
+            (Some(_), None) | (None, Some(_)) => return Err(OptionsError::PixelsWithoutPitch),
         };
         Ok(Sampling {
             pose: Pose {
@@ -162,7 +149,9 @@ impl Options {
             },
             raster,
             greatest_height_mm: printer.map(|printer| printer.volume_mm[2]),
-            samples: Samples::of_level(level).ok_or_else(unknown)?,
+            samples: Samples::of_level(self.antialias).ok_or(OptionsError::BadAntialias {
+                antialias: self.antialias,
+            })?,
             backend: self.backend,
         })
     }
@@ -170,9 +159,8 @@ impl Options {
     fn layering(&self, printer: Option<&Printer>) -> Result<Layering, Error> {
         self.check_printer(printer)?;
         if !(0.0..=1.0).contains(&self.weight_min) {
-            let weight = self.weight_min;
-            let reason = format!("the least weight must be from 0 to 1, not {weight}");
-            return Err(wrong(reason));
+            let weight_min = self.weight_min;
+            return Err(OptionsError::BadWeightMin { weight_min }.into());
         }
         self.resin.check().map_err(PlanError::from)?;
         let usual = self.metric.default_tolerance();
@@ -183,14 +171,16 @@ impl Options {
             // No volume suits all models.
             (None, None, None) if self.metric == Metric::Volume => Target::AtLeast(usual),
             (None, None, None) => Target::Tolerance(usual),
-            _ => {
-                let reason =
-                    "give a tolerance, the most layers or the longest time, but not two of them";
-                return Err(wrong(reason));
-            }
+            _ => return Err(OptionsError::SeveralTargets.into()),
         };
+        let step_mm = match self.planner {
+            // Uniform layers are as thick as they are said to be.
+            Planner::Uniform { .. } => None,
+            _ => self.step_mm.or(printer.map(|printer| printer.step_mm)),
+        };
+        let bin_mm = self.bin_mm.unwrap_or_else(|| self.usual_bin_mm(step_mm));
         let layering = Layering {
-            bin_mm: self.bin_mm,
+            bin_mm,
             metric: self.metric,
             source: self.source,
             planner: self.planner,
@@ -202,7 +192,7 @@ impl Options {
                 tolerance: 0.0,
                 ranges: self.ranges.clone(),
                 planes_mm: self.planes_mm.clone(),
-                step_mm: self.step_mm.or(printer.map(|printer| printer.step_mm)),
+                step_mm,
             },
             snap_mm2: (self.snap == Snap::Auto).then_some(self.flat_area_mm2),
             saliency: self.saliency,
@@ -211,7 +201,7 @@ impl Options {
         };
         let bins = Bins {
             count: 1,
-            size_mm: self.bin_mm,
+            size_mm: bin_mm,
         };
         match self.planner {
             Planner::Uniform { layer_mm } => {
@@ -224,26 +214,73 @@ impl Options {
         Ok(layering)
     }
 
-    /// Finds thicknesses that the printer cannot make.
-    fn check_printer(&self, printer: Option<&Printer>) -> Result<(), Error> {
+    /// Finds layers and steps that the printer cannot make.
+    fn check_printer(&self, printer: Option<&Printer>) -> Result<(), OptionsError> {
         let Some(printer) = printer else {
             return Ok(());
         };
-        let [least_mm, greatest_mm] = printer.layer_mm;
-        if self.layer_min_mm < least_mm || self.layer_max_mm > greatest_mm {
-            return Err(wrong(format!(
-                "the {} makes layers of {least_mm} to {greatest_mm} mm, not {} to {} mm",
-                printer.model, self.layer_min_mm, self.layer_max_mm
-            )));
+        let [printer_min_mm, printer_max_mm] = printer.layer_mm;
+        for [layer_min_mm, layer_max_mm] in self.thicknesses_mm() {
+            if layer_min_mm < printer_min_mm || layer_max_mm > printer_max_mm {
+                return Err(OptionsError::PrinterLayers {
+                    model: printer.model,
+                    printer_min_mm,
+                    printer_max_mm,
+                    layer_min_mm,
+                    layer_max_mm,
+                });
+            }
         }
-        Ok(())
+        match self.step_mm {
+            Some(step_mm) if !is_multiple(step_mm, printer.step_mm) => {
+                Err(OptionsError::PrinterStep {
+                    model: printer.model,
+                    printer_step_mm: printer.step_mm,
+                    step_mm,
+                })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Least and greatest thickness wherever the options give them: uniform layers, or all layers and those of height ranges.
+    fn thicknesses_mm(&self) -> Vec<[f64; 2]> {
+        if let Planner::Uniform { layer_mm } = self.planner {
+            return vec![[layer_mm; 2]];
+        }
+        let ranges = self.ranges.iter();
+        let ranges = ranges.map(|range| [range.layer_min_mm, range.layer_max_mm]);
+        let all = std::iter::once([self.layer_min_mm, self.layer_max_mm]);
+        all.chain(ranges).collect()
+    }
+
+    /// The height of a bin where the options give none: with a step the largest one up to [`BIN_MM`] that divides it, without
+    /// one half of that if a thickness needs it.
+    fn usual_bin_mm(&self, step_mm: Option<f64>) -> f64 {
+        match step_mm {
+            // What is no step is refused where it is used.
+            Some(step_mm) if step_mm >= ROUNDING => {
+                step_mm / (step_mm / BIN_MM - ROUNDING).ceil().max(1.0)
+            }
+            Some(_) => BIN_MM,
+            None => {
+                let mut thicknesses = self.thicknesses_mm().into_iter().flatten();
+                let is_whole = thicknesses.all(|thickness_mm| is_multiple(thickness_mm, BIN_MM));
+                if is_whole { BIN_MM } else { BIN_MM / 2.0 }
+            }
+        }
     }
 }
 
-fn wrong(reason: impl Into<String>) -> Error {
-    Error::Options {
-        reason: reason.into(),
-    }
+/// Height of a bin that holds most thicknesses that people ask for.
+const BIN_MM: f64 = 0.002;
+
+/// How far from a whole number a quotient may be for rounding to be the reason.
+const ROUNDING: f64 = 1e-6;
+
+fn is_multiple(length_mm: f64, of_mm: f64) -> bool {
+    let quotient = length_mm / of_mm;
+    quotient.round() >= 1.0 && (quotient - quotient.round()).abs() <= ROUNDING
 }
 
 impl Sampling {

@@ -512,13 +512,12 @@ impl Slicer {
     /// The mask of a layer of the last plan: see [`MaskCursor::whole`].
     ///
     /// # Errors
-    /// [`Error::NoPlan`], [`Error::Options`] if there is no such layer.
+    /// [`Error::NoPlan`], [`Error::NoLayer`].
     pub fn mask(&mut self, layer: usize) -> Result<Vec<u8>, Error> {
         let planned = self.planned.as_mut().ok_or(Error::NoPlan)?;
         let layers = planned.plan.layers();
         if layer >= layers {
-            let reason = format!("there is no layer {layer}; the plan has {layers}, from 0");
-            return Err(Error::Options { reason });
+            return Err(Error::NoLayer { layer, layers });
         }
         let (masks, cursor) = planned.upright_masks();
         cursor.seek(masks, layer);

@@ -63,7 +63,7 @@ impl SearchOptions {
         } else {
             return Ok(());
         };
-        Err(crate::job::Error::Options { reason })
+        Err(crate::job::OptionsError::Unreadable { system: reason }.into())
     }
 }
 

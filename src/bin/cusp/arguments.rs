@@ -49,7 +49,7 @@ pub struct Choices {
     #[arg(long, value_name = "MM", value_parser = pitch, help_heading = "Printer")]
     pitch: Option<[f64; 2]>,
     /// Smooth edges by grey: average each pixel over so many rays, and as many parts of its layer
-    #[arg(long, value_name = "LEVEL", default_value = "1", value_parser = antialias, help_heading = "Printer")]
+    #[arg(long, value_name = "LEVEL", default_value_t = Options::default().antialias, value_parser = antialias, help_heading = "Printer")]
     aa: u32,
     /// Mirror the masks of print files left to right
     #[arg(long, value_name = "YES", help_heading = "Printer")]
@@ -70,15 +70,15 @@ pub struct Choices {
     #[arg(
         long,
         value_name = "WEIGHT",
-        default_value_t = 0.25,
+        default_value_t = Options::default().weight_min,
         help_heading = "Weights"
     )]
     weight_min: f64,
     /// Least layer thickness
-    #[arg(long, value_name = "MM", default_value = "0.05", value_parser = length, help_heading = "Layers")]
+    #[arg(long, value_name = "MM", default_value_t = Options::default().layer_min_mm, value_parser = length, help_heading = "Layers")]
     layer_min: f64,
     /// Greatest layer thickness
-    #[arg(long, value_name = "MM", default_value = "0.15", value_parser = length, help_heading = "Layers")]
+    #[arg(long, value_name = "MM", default_value_t = Options::default().layer_max_mm, value_parser = length, help_heading = "Layers")]
     layer_max: f64,
     /// Greatest error of a layer, in the metric's unit [default: 0.065 mm of cusp height, 0.1 mm of roughness, 0.1 of the
     /// area, 1 mm³ of volume and as much more as the model needs]
@@ -96,16 +96,16 @@ pub struct Choices {
     #[arg(long, value_name = "S", value_parser = positive, conflicts_with_all = ["tolerance", "max_layers"], help_heading = "Layers")]
     max_time: Option<f64>,
     /// What the error measures
-    #[arg(long, value_enum, default_value = "cusp", help_heading = "Layers")]
+    #[arg(long, value_enum, default_value_t = Options::default().metric, help_heading = "Layers")]
     metric: Metric,
     /// What errors are measured on
-    #[arg(long, value_enum, default_value = "exact", help_heading = "Layers")]
+    #[arg(long, value_enum, default_value_t = Options::default().source, help_heading = "Layers")]
     source: Source,
     /// How layers are chosen
     #[arg(long, value_enum, default_value = "optimal", help_heading = "Layers")]
     planner: PlannerArg,
     /// What the optimal plan has least of
-    #[arg(long, value_enum, default_value = "layers", help_heading = "Layers")]
+    #[arg(long, value_enum, default_value_t = Options::default().minimize, help_heading = "Layers")]
     minimize: Minimize,
     /// Layer thickness of the uniform planner, and of no other: a length, `finest` or `coarsest`
     #[arg(
@@ -126,13 +126,13 @@ pub struct Choices {
     #[arg(long, value_name = "MM", value_parser = length, help_heading = "Layers")]
     step: Option<f64>,
     /// Whether planes go where flats and sharp changes are
-    #[arg(long, value_enum, default_value = "auto", help_heading = "Layers")]
+    #[arg(long, value_enum, default_value_t = Options::default().snap, help_heading = "Layers")]
     snap: Snap,
-    /// Height of a bin of the profile, to which layers are rounded
-    #[arg(long, value_name = "MM", default_value = "0.002", value_parser = length, help_heading = "Layers")]
-    bin: f64,
+    /// Height of a bin of the profile, to which layers are rounded [default: 0.002, or what the step or a thickness needs]
+    #[arg(long, value_name = "MM", value_parser = length, help_heading = "Layers")]
+    bin: Option<f64>,
     /// Where surfaces are sampled
-    #[arg(long, value_enum, default_value = "auto", help_heading = "Machine")]
+    #[arg(long, value_enum, default_value_t = Options::default().backend, help_heading = "Machine")]
     backend: Backend,
 }
 
@@ -301,29 +301,29 @@ pub struct Orienting {
     #[arg(long)]
     pub json: bool,
     /// Directions to look along, spread evenly; the axes and the model's large flats come on top
-    #[arg(long, value_name = "N", default_value_t = SearchOptions::default().directions as u32, value_parser = clap::value_parser!(u32).range(1..=MAX_DIRECTIONS as i64), help_heading = "SearchOptions")]
+    #[arg(long, value_name = "N", default_value_t = SearchOptions::default().directions as u32, value_parser = clap::value_parser!(u32).range(1..=MAX_DIRECTIONS as i64), help_heading = "Search")]
     directions: u32,
     /// How much the cost counts against the quality, 0 to 1
-    #[arg(long, value_name = "A", default_value_t = SearchOptions::default().alpha, value_parser = fraction, help_heading = "SearchOptions")]
+    #[arg(long, value_name = "A", default_value_t = SearchOptions::default().alpha, value_parser = fraction, help_heading = "Search")]
     alpha: f64,
     /// What costs
     #[arg(
         long,
         value_enum,
-        default_value = "layers",
-        help_heading = "SearchOptions"
+        default_value_t = SearchOptions::default().cost,
+        help_heading = "Search"
     )]
     cost: Cost,
     /// What spoils the surface
     #[arg(
         long,
         value_enum,
-        default_value = "error",
-        help_heading = "SearchOptions"
+        default_value_t = SearchOptions::default().quality,
+        help_heading = "Search"
     )]
     quality: Quality,
     /// Write the model as it stands in the Kth best direction, with -o; of one model only
-    #[arg(long, value_name = "K", requires = "output", conflicts_with = "shard", value_parser = clap::value_parser!(u32).range(1..=3), help_heading = "SearchOptions")]
+    #[arg(long, value_name = "K", requires = "output", conflicts_with = "shard", value_parser = clap::value_parser!(u32).range(1..=3), help_heading = "Search")]
     pub apply: Option<u32>,
     /// Where to write that model
     #[arg(
@@ -331,7 +331,7 @@ pub struct Orienting {
         long,
         value_name = "FILE",
         requires = "apply",
-        help_heading = "SearchOptions"
+        help_heading = "Search"
     )]
     pub output: Option<PathBuf>,
     /// Measure only the Ith of N parts, and print what to --merge

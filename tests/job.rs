@@ -14,6 +14,7 @@ use cusp_slicer::format::Format;
 use cusp_slicer::job::Report;
 use cusp_slicer::job::{Backend, Minimize, Options, Planner, Snap};
 use cusp_slicer::job::{Slicer, Stage};
+use cusp_slicer::plan::HeightRange;
 use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::warning::Warning;
 use glam::Vec3;
@@ -92,7 +93,7 @@ fn options_that_no_model_could_make_good_are_refused_before_sampling() {
     for (options, expected) in [
         (
             Options {
-                bin_mm: 0.0,
+                bin_mm: Some(0.0),
                 ..options()
             },
             "bad-length",
@@ -130,6 +131,153 @@ fn options_that_no_model_could_make_good_are_refused_before_sampling() {
     }
 }
 
+/// Without a height of bins: that of most thicknesses, half of it where a thickness needs that, and a part of the step.
+#[test]
+fn bins_follow_from_the_step_or_the_thicknesses() {
+    let mut slicer = load(&solids::cube(2.0));
+    let uniform = |layer_mm| Options {
+        planner: Planner::Uniform { layer_mm },
+        ..options()
+    };
+    let step = |step_mm| Options {
+        step_mm: Some(step_mm),
+        ..options()
+    };
+    for (options, expected_mm) in [
+        (options(), 0.002),
+        (uniform(0.05), 0.002),
+        (uniform(0.051), 0.001),
+        (step(0.01), 0.002),
+        (step(0.005), 0.005 / 3.0),
+        (step(0.001), 0.001),
+        (
+            Options {
+                layer_min_mm: 0.025,
+                ..options()
+            },
+            0.001,
+        ),
+        (
+            Options {
+                bin_mm: Some(0.01),
+                ..options()
+            },
+            0.01,
+        ),
+    ] {
+        let report = plan(&mut slicer, &options).unwrap();
+        let bin_mm = report.bin_mm;
+        assert!(
+            (bin_mm - expected_mm).abs() < 1e-12,
+            "{bin_mm} for {options:?}"
+        );
+        if let Some(step_mm) = options.step_mm {
+            for z_mm in &report.z_mm {
+                let steps = z_mm / step_mm;
+                assert!(
+                    (steps - steps.round()).abs() < 1e-6,
+                    "{z_mm} is no multiple of {step_mm}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_printer_prints_neither_thinner_nor_thicker_nor_finer_than_it_can() {
+    let range = |layer_min_mm, layer_max_mm| HeightRange {
+        from_mm: 0.0,
+        to_mm: 1.0,
+        layer_min_mm,
+        layer_max_mm,
+    };
+    let of_printer = Options {
+        printer: Some("sl1s".to_owned()),
+        layer_min_mm: 0.05,
+        layer_max_mm: 0.1,
+        ..options()
+    };
+    assert_eq!(of_printer.check().map_err(|error| error.code()), Ok(()));
+    let uniform = |layer_mm| Planner::Uniform { layer_mm };
+    for (options, expected) in [
+        (
+            Options {
+                layer_max_mm: 0.5,
+                ..of_printer.clone()
+            },
+            "printer-layers",
+        ),
+        (
+            Options {
+                planner: uniform(0.5),
+                ..of_printer.clone()
+            },
+            "printer-layers",
+        ),
+        (
+            Options {
+                planner: uniform(0.001),
+                ..of_printer.clone()
+            },
+            "printer-layers",
+        ),
+        (
+            Options {
+                ranges: vec![range(0.05, 0.5)],
+                ..of_printer.clone()
+            },
+            "printer-layers",
+        ),
+        (
+            Options {
+                step_mm: Some(0.0011),
+                ..of_printer.clone()
+            },
+            "printer-step",
+        ),
+        (
+            Options {
+                printer: Some("nobody".to_owned()),
+                ..of_printer.clone()
+            },
+            "unknown-printer",
+        ),
+        (
+            Options {
+                antialias: 3,
+                ..of_printer.clone()
+            },
+            "bad-antialias",
+        ),
+        (
+            Options {
+                weight_min: 2.0,
+                ..of_printer.clone()
+            },
+            "bad-weight-min",
+        ),
+        (
+            Options {
+                pixels: Some([9, 9]),
+                printer: None,
+                ..of_printer.clone()
+            },
+            "pixels-without-pitch",
+        ),
+        (
+            Options {
+                tolerance: Some(0.1),
+                max_layers: Some(9),
+                ..of_printer.clone()
+            },
+            "several-targets",
+        ),
+    ] {
+        let found = options.check().map_err(|error| error.code());
+        assert_eq!(found, Err(expected), "{options:?}");
+    }
+}
+
 #[test]
 fn uniform_layers_need_no_range() {
     let mut slicer = load(&solids::cube(10.0));
@@ -138,7 +286,7 @@ fn uniform_layers_need_no_range() {
         &mut slicer,
         &Options {
             planner,
-            bin_mm: 0.2,
+            bin_mm: Some(0.2),
             ..options()
         },
     )
@@ -171,7 +319,7 @@ fn output_that_would_be_black_is_an_error() {
     assert_eq!(code(plan(&mut thin, &options())), "no-hits");
     let mut low = load(&solids::cuboid(Vec3::new(1.0, 1.0, 0.4)));
     let coarse = Options {
-        bin_mm: 1.0,
+        bin_mm: Some(1.0),
         layer_min_mm: 1.0,
         layer_max_mm: 1.0,
         tolerance: Some(10.0),
@@ -356,7 +504,7 @@ fn a_sampled_plan_that_fails_on_the_mesh_says_so() {
         source: Source::Sampled,
         tolerance: Some(0.02),
         layer_min_mm: 0.1,
-        bin_mm: 0.01,
+        bin_mm: Some(0.01),
         snap: Snap::Off,
         ..options()
     };
@@ -416,5 +564,5 @@ fn a_goal_is_met_with_the_least_tolerance() {
         tolerance: Some(0.1),
         ..few
     };
-    assert_eq!(code(plan(&mut slicer, &both)), "bad-options");
+    assert_eq!(code(plan(&mut slicer, &both)), "several-targets");
 }
