@@ -1,7 +1,7 @@
 //! How long sampling takes, by facets, rays and backend: `cargo xtask bench ldi [MODEL.stl …]`.
 //!
-//! Prints a table in Markdown. Times are the least of several runs; the growth exponent is that of time against
-//! facets + hits, fitted over all sizes of at least a million of both together.
+//! Prints a table in Markdown. Times are the minimum of several runs; the growth exponent is that of time against
+//! facets + hits, fitted over all rows in which that sum is at least a million.
 
 #[path = "../tests/common/solids.rs"]
 #[expect(dead_code, reason = "the tests use the other solids")]
@@ -17,10 +17,10 @@ use cusp_slicer::model::{Mesh, Pose};
 use cusp_slicer::progress::silent;
 use glam::Vec3;
 
-/// Time spent on one cell of the table at most, but for its first run.
+/// The time budget of one cell; its first run may exceed it.
 const BUDGET_S: f64 = 1.0;
 
-/// Balls side by side and on top of each other, of `levels` each.
+/// A grid of spheres, `columns` × `columns` × `layers`, each subdivided `levels` times.
 fn balls(columns: usize, layers: usize, levels: u32) -> solids::Triangles {
     let ball = solids::sphere(5.0, levels);
     let place = |i: usize| {
@@ -32,7 +32,7 @@ fn balls(columns: usize, layers: usize, levels: u32) -> solids::Triangles {
         .collect()
 }
 
-/// The least time of several runs in seconds, and the last result.
+/// The minimum time of several runs in seconds, and the last result.
 fn time<T>(mut work: impl FnMut() -> T) -> (f64, T) {
     let all = Instant::now();
     let mut least = f64::INFINITY;
@@ -50,7 +50,7 @@ fn bytes(ldi: &Ldi) -> usize {
     ldi.hits.len() * size_of::<Hit>() + ldi.offsets.len() * size_of::<u32>()
 }
 
-/// The slope of the line through points of (ln work, ln time).
+/// The slope of the line fitted to points of (ln work, ln time).
 fn slope(points: &[(f64, f64)]) -> f64 {
     let count = points.len() as f64;
     let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / count;
@@ -83,7 +83,7 @@ fn main() {
     let mut points = Vec::new();
     let generated = [(1, 1, 5), (1, 1, 7), (2, 2, 7), (2, 10, 7)]
         .map(|(columns, layers, levels)| Mesh::from_triangles(&balls(columns, layers, levels)));
-    // Models named on the command line, 60 mm high, come first.
+    // Models named on the command line come first, 60 mm high.
     let named = std::env::args()
         .skip(1)
         .filter(|argument| !argument.starts_with('-'));
@@ -103,7 +103,7 @@ fn main() {
             if work >= 1e6 {
                 points.push((work.ln(), seconds.ln()));
             }
-            // An emulated GPU takes minutes for the largest.
+            // An emulated GPU takes minutes for the largest models.
             let on_gpu = if device.is_ok() && work < 2e7 {
                 let (seconds, result) = time(|| gpu(&mesh, &grid));
                 assert!(

@@ -1,8 +1,7 @@
-//! How long the search for the best direction takes, by facets, directions, rays and threads: `cargo xtask bench orient
-//! [MODEL.stl …]`.
+//! How long the orientation search takes, by facets, directions, rays and threads: `cargo xtask bench orient [MODEL.stl …]`.
 //!
-//! Prints tables in Markdown. Models are 60 mm long, bins 2 µm high. Times are the least of several runs, whole searches with
-//! their finer ones; the growth exponents are those of time against facets, and against directions, fitted over all rows.
+//! Prints tables in Markdown. Models are 60 mm high, bins 2 µm. Times are the minimum of several whole searches, refinement
+//! included; the growth exponents are those of time against facets, and against directions, fitted over all rows.
 
 #[path = "paper/models.rs"]
 #[expect(dead_code, reason = "the paper's tables use the other models")]
@@ -19,13 +18,13 @@ use cusp_slicer::job::Options;
 use cusp_slicer::job::Slicer;
 use cusp_slicer::orientation::{OrientationReport, SearchOptions};
 
-/// Time spent on one row at most, but for its first run.
+/// The time budget of one row; its first run may exceed it.
 const BUDGET_S: f64 = 4.0;
 
 /// A time in milliseconds, and a search.
 type Timed = (f64, OrientationReport);
 
-/// The least time of several searches, each from the loaded model on.
+/// The minimum time of several searches, each from the loaded model on.
 fn search(bytes: &[u8], options: &Options, directions: usize) -> Timed {
     let search = SearchOptions {
         directions,
@@ -53,13 +52,13 @@ fn options() -> Options {
     }
 }
 
-/// The head, in about so many facets.
+/// The head, with approximately this many facets.
 fn head(facets: usize) -> Vec<u8> {
     let rings = (facets as f64 / 4.0).sqrt().round() as u32;
     solids::binary_stl(&models::head(rings))
 }
 
-/// The slope of a line through points of logarithms.
+/// The slope of the line fitted to the logarithms of the points.
 fn exponent(points: &[(f64, f64)]) -> f64 {
     let logs: Vec<(f64, f64)> = points.iter().map(|(x, y)| (x.ln(), y.ln())).collect();
     let count = logs.len() as f64;
@@ -87,7 +86,9 @@ fn row(name: &str, (ms, found): &Timed) {
 }
 
 fn table(head: &str) {
-    println!("\n| {head} | ms | ms a direction | layers of the best |\n|---|---:|---:|---|");
+    println!(
+        "\n| {head} | ms | ms per direction | layers of the best three |\n|---|---:|---:|---|"
+    );
 }
 
 fn main() {

@@ -1,6 +1,6 @@
 //! How long profiles and plans take: `cargo xtask bench plan`.
 //!
-//! Prints tables in Markdown. Times are the least of several runs, on one core.
+//! Prints tables in Markdown. Times are the minimum of several runs, on one core.
 
 #[path = "../tests/common/solids.rs"]
 #[expect(dead_code, reason = "the tests use the other solids")]
@@ -19,10 +19,10 @@ use cusp_slicer::profile::{LayerErrors, Metric, Profile, Shape, section, steepes
 use cusp_slicer::resin::Resin;
 use glam::Vec3;
 
-/// Time spent on one figure at most, but for its first run.
+/// The time budget of one figure; its first run may exceed it.
 const BUDGET_S: f64 = 0.5;
 
-/// The least time of several runs in milliseconds, and the last result.
+/// The minimum time of several runs in milliseconds, and the last result.
 fn time<T>(mut work: impl FnMut() -> T) -> (f64, T) {
     let all = Instant::now();
     let mut least = f64::INFINITY;
@@ -36,7 +36,7 @@ fn time<T>(mut work: impl FnMut() -> T) -> (f64, T) {
     }
 }
 
-/// Procedure 1 as the paper has it, the sum of line 5 and all. Returns the number of layers.
+/// Procedure 1 as printed in the paper, including the sum in line 5. Returns the number of layers.
 fn procedure_1(density: &[f32], tolerance: f32, least: usize, greatest: usize) -> Option<u32> {
     let count = density.len();
     let mut k = vec![u32::MAX; count + 1];
@@ -52,7 +52,7 @@ fn procedure_1(density: &[f32], tolerance: f32, least: usize, greatest: usize) -
     Some(k[count]).filter(|&layers| layers != u32::MAX)
 }
 
-/// The same with prefix sums, as most would write it.
+/// Procedure 1 with prefix sums, the usual implementation.
 fn procedure_1_with_sums(
     density: &[f32],
     tolerance: f64,
@@ -76,7 +76,7 @@ fn procedure_1_with_sums(
     Some(k[count]).filter(|&layers| layers != u32::MAX)
 }
 
-/// Balls on a string, which have all slopes.
+/// A row of spheres, which have all slopes.
 fn balls(levels: u32, count: usize) -> Mesh {
     let ball = solids::sphere(10.0, levels);
     let place = |i: usize| Vec3::new(0.0, 3.0, 20.0) * i as f32;
@@ -131,7 +131,7 @@ fn planners() {
     let (sums_ms, with_sums) = time(|| procedure_1_with_sums(&profile.density, 65.0, 50, 150));
     let (linear_ms, linear) = time(|| best(&errors, &limits, Objective::Layers));
     assert_eq!(with_sums.map(|layers| layers as usize), Some(linear));
-    println!("| planner | ms | layers | times faster than procedure 1 |");
+    println!("| planner | ms | layers | speed-up over Procedure 1 |");
     println!("|---|---:|---:|---:|");
     let row = |name: &str, ms: f64, layers: usize| {
         println!("| {name} | {ms:.3} | {layers} | {:.0} |", literal_ms / ms);
@@ -142,7 +142,7 @@ fn planners() {
         literal.unwrap_or(0) as usize,
     );
     row(
-        "Procedure 1 with running sums",
+        "Procedure 1 with prefix sums",
         sums_ms,
         with_sums.unwrap_or(0) as usize,
     );

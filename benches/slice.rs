@@ -1,7 +1,7 @@
-//! How long `cusp slice` takes as a whole process, STL to finished file: `cargo xtask bench slice [--peer] [MODEL.stl …]`.
+//! How long `cusp slice` takes as a whole process, STL to print file: `cargo xtask bench slice [--peer] [MODEL.stl …]`.
 //!
-//! A ball of 40 mm and 80,000 facets on a 12K screen in every format; then each model named, 60 mm high, at 2048 pixels along
-//! its longer side in uniform layers of 0.05 mm. With `--peer` `prusa-slicer`, which must be on PATH, does the same in turn.
+//! A sphere of 40 mm and 80,000 facets on a 12K screen, in every format; then each model named, 60 mm high, at 2048 pixels along
+//! its longer side, in uniform layers of 0.05 mm. With `--peer`, `prusa-slicer`, which must be on PATH, slices the same models.
 
 #[path = "paper/models.rs"]
 #[expect(dead_code, reason = "a ball is enough here")]
@@ -24,7 +24,7 @@ const ROUNDS: usize = 5;
 const HEIGHT_MM: f64 = 60.0;
 const RAYS: f64 = 2048.0;
 
-/// Seconds that a command takes.
+/// The time a command takes, in seconds.
 fn time(command: &mut Command) -> f64 {
     let clock = Instant::now();
     let status = command.stdout(Stdio::null()).stderr(Stdio::null()).status();
@@ -65,7 +65,7 @@ fn main() {
     let output = folder.path().join("out.zip");
 
     println!(
-        "A ball of 40 mm on 11520 × 5120 pixels of 19 µm, 800 layers of 0.05 mm; medians of {ROUNDS}\n"
+        "A sphere of 40 mm on 11520 × 5120 pixels of 19 µm, 800 layers of 0.05 mm; medians of {ROUNDS}\n"
     );
     println!("| format | s | MB |\n|---|---:|---:|");
     let model = folder.path().join("ball.stl");
@@ -90,16 +90,16 @@ fn main() {
     }
 }
 
-/// A model in uniform layers by us and, if asked for, by `prusa-slicer`, one after the other in each round.
+/// Slices a model in uniform layers with cusp and, `with_peer`, with `prusa-slicer`, alternating each round.
 fn compare(path: &Path, folder: &Path, with_peer: bool) {
     let bytes = fs::read(path).expect("a model to read");
     let mesh = Mesh::from_triangles(&stl::read(&bytes).expect("an STL"))
         .and_then(|mesh| mesh.on_plate(&Pose::of_height(HEIGHT_MM)))
         .expect("a mesh");
     let size = mesh.bounds().size();
-    // With a margin, without which the peer finds that the model does not fit.
+    // With a margin: without one, PrusaSlicer says that the model does not fit.
     let pitch_mm = size.x.max(size.y) / (RAYS - 8.0);
-    // Written out at its size, so that both read the same.
+    // Written at its final size, so that both slicers read the same file.
     let scaled: solids::Triangles = mesh.facets[..mesh.surface_facets]
         .iter()
         .map(|facet| facet.map(|vertex| mesh.vertices[vertex as usize]))
@@ -133,7 +133,7 @@ fn compare(path: &Path, folder: &Path, with_peer: bool) {
     }
 }
 
-/// How many lit pixels differ between two SL1 files.
+/// Prints what fraction of the lit pixels differs between two SL1 files.
 fn compare_masks(ours: &Path, peers: &Path) {
     let (ours, peers) = (peer::sl1_masks(ours), peer::sl1_masks(peers));
     let mut lit = 0u64;

@@ -1,20 +1,21 @@
-//! A direct slicer, as the paper compares with: it cuts the mesh with every plane and joins the pieces to contours.
+//! A direct slicer, like the one the paper compares with: it intersects the mesh with every plane and joins the segments into
+//! contours.
 
 use std::collections::HashMap;
 
 use cusp_slicer::model::Mesh;
 use glam::DVec2;
 
-/// Facets in order of their lowest corner, so that a plane looks only at those it can cut.
+/// Facets sorted by their lowest corner, so that a plane visits only those it can cut.
 pub struct DirectSlicer<'a> {
     mesh: &'a Mesh,
-    /// Lowest and highest height of each facet with its index, upward.
+    /// Lowest and highest z of each facet with its index, ascending.
     facets: Vec<(f32, f32, u32)>,
-    /// Height of the tallest facet.
+    /// Extent in z of the tallest facet.
     tallest: f32,
 }
 
-/// The contours at a height, and the steepest surface that they lie on.
+/// The contours at a height, and the slope of the surface that they lie on.
 pub struct Section {
     /// Closed contours.
     pub contours: Vec<Vec<DVec2>>,
@@ -47,7 +48,7 @@ impl<'a> DirectSlicer<'a> {
         let first = self
             .facets
             .partition_point(|facet| facet.0 < z - self.tallest);
-        // A piece of contour goes from one edge of the mesh to another; edges are named by their vertices.
+        // A segment of a contour runs from one edge of the mesh to another; an edge is identified by its vertices.
         let mut next: HashMap<(u32, u32), ((u32, u32), DVec2)> = HashMap::new();
         let mut steepest = 0.0f64;
         for &(low, high, facet) in &self.facets[first..] {
@@ -91,14 +92,14 @@ impl<'a> DirectSlicer<'a> {
         }
     }
 
-    /// Uniform layers: returns how many and the points of their contours.
+    /// Uniform layers: returns their number and the number of contour points.
     pub fn uniform(&self, height: f32, layer: f32) -> (usize, usize) {
         let layers = (height / layer).round() as usize;
         let points = (0..layers).map(|k| self.points((k as f32 + 0.5) * layer));
         (layers, points.sum())
     }
 
-    /// The greedy method of \[3\]: each layer as thick as the steepest surface at its plane allows.
+    /// The greedy method of \[3\]: each layer is as thick as the largest |`n_z`| at its plane allows.
     pub fn local(
         &self,
         height: f32,

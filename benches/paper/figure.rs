@@ -1,10 +1,10 @@
-//! Figure 5 as a drawing: the profiles of a model under the four metrics, and the plans made from them.
+//! Draws figure 5: the profiles of a model under the four metrics, and the plans made from them.
 
 use std::fmt::Write as _;
 
 use cusp_slicer::profile::Metric;
 
-/// One metric's part of the figure.
+/// One metric's panel of the figure.
 pub struct Panel {
     pub metric: Metric,
     pub tolerance: f64,
@@ -15,10 +15,10 @@ pub struct Panel {
 const WIDTH: f64 = 170.0;
 const HEIGHT: f64 = 360.0;
 const GAP: f64 = 24.0;
-/// Points of a profile's line.
+/// Points in a profile's polyline.
 const POINTS: usize = 240;
 
-/// Draws the panels side by side, height upward, on light and on dark pages.
+/// Draws the panels side by side, z upward, on a white background that suits light and dark pages.
 pub fn draw(name: &str, panels: &[Panel]) -> String {
     let width = panels.len() as f64 * (WIDTH + GAP) + GAP;
     let mut svg = format!(

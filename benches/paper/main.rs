@@ -1,7 +1,7 @@
-//! Tables 1, 2 and 3 and figure 5 of the paper, remade: `cargo xtask bench paper [MODEL.stl …]`.
+//! Tables 1, 2 and 3 and figure 5 of the paper, reproduced: `cargo xtask bench paper [MODEL.stl …]`.
 //!
 //! Writes docs/paper.md and docs/paper-metrics.svg. Models named on the command line come first, 60 mm high; the others
-//! are made by code. A direct slicer of our own stands in for the paper's.
+//! are generated. A direct slicer of our own stands in for the paper's.
 
 mod direct;
 mod figure;
@@ -31,7 +31,7 @@ use cusp_slicer::profile::{Metric, Shape, Source, steepest};
 
 use direct::DirectSlicer;
 
-/// What our own models are scaled to, and their finest facets with them.
+/// The height to which generated models are scaled.
 const HEIGHT_MM: f64 = 40.0;
 
 struct Model {
@@ -87,9 +87,11 @@ fn options(model: &Model) -> Options {
 fn main() {
     let models = models();
     let mut text = String::from(
-        "# The paper's tables, remade\n\n\
-         Written by `cargo xtask bench paper`, on the CPU alone: cusp height, layers of 50 to 150 µm, ε = 65 µm, b = 2 µm, \
-         2048 rays. The scanned model is 60 mm high; the others are made by code and 40 mm high.\n\n",
+        "# The paper's tables, reproduced\n\n\
+         The paper is Mao, Kwok, Chen and Wang, \"Adaptive slicing based on efficient profile analysis\", *Computer-Aided \
+         Design* 107 (2019).\n\n\
+         Written by `cargo xtask bench paper`, on the CPU: cusp height, layers of 50 to 150 µm, ε = 65 µm, b = 2 µm, \
+         2048 rays. The scanned model is 60 mm high; the others are generated, 40 mm high.\n\n",
     );
     table_1(&models, &mut text);
     table_2(&models, &mut text);
@@ -112,7 +114,7 @@ fn table_1(models: &[Model], text: &mut String) {
     let mut slicer = Slicer::load(&hand.bytes).expect("the hand");
     let _ = writeln!(
         text,
-        "## Table 1: the size of bins, for the hand\n\n| b (µm) | intervals | planning (ms) | layers |\n|---:|---:|---:|---:|"
+        "## Table 1: bin size, for the hand\n\n| b (µm) | intervals | planning (ms) | layers |\n|---:|---:|---:|---:|"
     );
     for bin_um in [50, 25, 10, 5, 2, 1] {
         let options = Options {
@@ -135,10 +137,10 @@ fn table_2(models: &[Model], text: &mut String) {
     let _ = writeln!(
         text,
         "\n## Table 2: seconds from the mesh to a plan\n\n\
-         *Plan* measures the facets and plans; *all* samples the layered depth image as well, from which the masks come \
-         for nearly nothing. The others cut the mesh with every plane, with a sweep that looks only at the facets there: \
-         uniform at 150 and 50 µm, greedy by the surface at the plane, and at 12.5 µm, from which a plan like ours could \
-         be made. Single-threaded but for *all*.\n\n\
+         *Plan* measures the facets and plans; *all* also samples the layered depth image, from which the masks follow at \
+         almost no cost. The other columns intersect the mesh with every plane, by a sweep over the facets at that height: \
+         *coarsest* and *finest* are uniform at 150 and 50 µm, *local* is greedy by the surface at the plane, and *ultra* \
+         is uniform at 12.5 µm, from which a plan like ours could be made. All columns except *all* are single-threaded.\n\n\
          | model | facets | layers | plan | all | coarsest | local | finest | ultra | ultra / plan |\n|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|"
     );
     for model in models {
@@ -184,8 +186,9 @@ fn table_2(models: &[Model], text: &mut String) {
 fn table_3(models: &[Model], text: &mut String) {
     let _ = writeln!(
         text,
-        "\n## Table 3: layers and the largest error in mm, measured on every facet\n\n\
-         Greedy is \\[3\\], which sees the surface at the plane; errors above the tolerance are bold.\n\n\
+        "\n## Table 3: layers, and the largest error in mm, measured on every facet\n\n\
+         *Greedy* is the paper's \\[3\\], which sees only the surface at the plane. Errors above the tolerance are bold. The \
+         first four columns are layers, the last four errors.\n\n\
          | model | height | facets | coarsest | ours | greedy | finest | coarsest | ours | greedy | finest |\n\
          |---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|"
     );
@@ -255,6 +258,6 @@ fn figure_5(models: &[Model], text: &mut String) {
     let _ = writeln!(
         text,
         "\n## Figure 5: the four metrics of the shell\n\n\
-         Profiles to the left, plans to the right: red layers are 50 µm thick, blue ones 150 µm.\n\n![Profiles and plans](paper-metrics.svg)"
+         Profiles are on the left, plans on the right. Red layers are 50 µm thick, blue ones 150 µm.\n\n![Profiles and plans](paper-metrics.svg)"
     );
 }

@@ -1,14 +1,14 @@
-//! Models like the paper's, made by code: a hearing-aid-like shell, a goblet, a hand-like shape and a bumpy ball.
+//! Generated models like the paper's: a shell like a hearing aid's, a goblet, a hand, a bumpy ball and a lens.
 
 use glam::DVec3;
 
 use crate::solids::Triangles;
 
 /// A head with a face toward −y: brow, eyes, nose and mouth.
-#[allow(dead_code, reason = "each bench takes but some of the models")]
+#[allow(dead_code, reason = "each bench uses only some of the models")]
 pub fn head(rings: u32) -> Triangles {
     deformed(rings, |direction| {
-        // Raised by `height` around a place of the face, `wide` and `high` across.
+        // A bump of `height` at (x, z) on the face, `wide` × `high` in size.
         let feature = |x: f64, z: f64, wide: f64, high: f64, height: f64| {
             let [dx, dz] = [(direction.x - x) / wide, (direction.z - z) / high];
             let square = dx * dx + dz * dz;
@@ -36,7 +36,7 @@ pub fn head(rings: u32) -> Triangles {
 /// A model and its name.
 pub type Named = (String, Triangles);
 
-/// All of them, of about as many facets as the paper's.
+/// All models of the tables, with about as many facets as the paper's.
 pub fn all() -> Vec<Named> {
     let named = |name: &str, triangles| (name.to_owned(), triangles);
     vec![
@@ -48,8 +48,8 @@ pub fn all() -> Vec<Named> {
     ]
 }
 
-/// A ball of so many rings of pairs of facets.
-#[allow(dead_code, reason = "each bench takes but some of the models")]
+/// A sphere of `rings` × `columns` pairs of facets.
+#[allow(dead_code, reason = "each bench uses only some of the models")]
 pub fn ball(radius: f64, rings: u32, columns: u32) -> Triangles {
     surface([rings, columns], |along, around| {
         direction(along, around) * radius
@@ -85,7 +85,7 @@ fn surface([rings, columns]: [u32; 2], at: impl Fn(f64, f64) -> DVec3) -> Triang
     triangles
 }
 
-/// The direction at two coordinates of a ball, from the upper pole to the lower.
+/// The unit vector at two coordinates of a sphere, from the upper pole to the lower.
 fn direction(along: f64, around: f64) -> DVec3 {
     let (polar, azimuth) = (along * std::f64::consts::PI, around * std::f64::consts::TAU);
     let ring = polar.sin();
@@ -98,7 +98,7 @@ fn deformed(rings: u32, shape: impl Fn(DVec3) -> DVec3) -> Triangles {
     })
 }
 
-/// A palm with five fingers: a ball drawn out in five directions.
+/// A palm with five fingers: a sphere extended in five directions.
 fn hand(direction: DVec3) -> DVec3 {
     let mut radius = 1.0;
     for finger in 0..5 {
@@ -114,7 +114,7 @@ fn hand(direction: DVec3) -> DVec3 {
     direction * radius * DVec3::new(1.0, 0.5, 1.2)
 }
 
-/// A ball with many smooth bumps.
+/// A sphere with many smooth bumps.
 fn bumps(direction: DVec3) -> DVec3 {
     let wave = |scale: f64| {
         let [x, y, z] = (direction * scale).to_array();
@@ -123,7 +123,7 @@ fn bumps(direction: DVec3) -> DVec3 {
     direction * (1.0 + 0.05 * wave(7.0) + 0.02 * wave(17.0))
 }
 
-/// A thin bent shell with an opening at its upper end: outside down, around the rim and inside back up.
+/// A thin bent shell, open at its upper end: the outside, the rim and the inside.
 fn shell(rings: u32) -> Triangles {
     let wall = 0.06;
     surface([rings, 2 * rings], |along, around| {
@@ -143,9 +143,9 @@ fn shell(rings: u32) -> Triangles {
     })
 }
 
-/// A goblet: foot, stem and bowl, turned about z.
+/// A goblet: foot, stem and bowl, revolved about z.
 fn goblet(rings: u32) -> Triangles {
-    // Radius and height along the outline, from the foot's middle outside up to the rim and inside down.
+    // Radius and height along the outline: from the foot's centre up the outside to the rim, and down the inside.
     let outline = [
         (0.0, 0.0),
         (1.6, 0.0),
@@ -164,7 +164,7 @@ fn goblet(rings: u32) -> Triangles {
     surface([rings, 2 * rings], |along, around| {
         let position = along * (outline.len() - 1) as f64;
         let piece = (position as usize).min(outline.len() - 2);
-        // Corners are rounded by a smooth step between them.
+        // A smooth step rounds the corners.
         let part = position - piece as f64;
         let part = part * part * (3.0 - 2.0 * part) * 0.5 + part * 0.5;
         let (from, to) = (outline[piece], outline[piece + 1]);

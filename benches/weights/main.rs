@@ -1,4 +1,4 @@
-//! Figures 1, 6 and 7 of the paper, remade on a head made by code, and what saliency costs: `cargo xtask bench weights`.
+//! Figures 1, 6 and 7 of the paper, reproduced on a generated head, and the cost of saliency: `cargo xtask bench weights`.
 //!
 //! Writes docs/weights.md and docs/weights.png.
 
@@ -34,7 +34,7 @@ fn quiet(_: Stage, _: f64) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }
 
-/// From dark blue for 0 by green to yellow for 1, as evenly bright as it looks.
+/// From violet for 0 through green to yellow for 1, perceptually uniform.
 fn heat(weight: f64) -> Colour {
     let steps = [
         [0.27, 0.0, 0.33],
@@ -65,7 +65,7 @@ fn between(steps: &[Colour], part: f64) -> Colour {
     [0, 1, 2].map(|channel| from[channel] + (to[channel] - from[channel]) * part)
 }
 
-/// What a user would paint: the face, fading out around it.
+/// The weight a user might paint on a facet: the face, fading out around it.
 fn paint(facet: &[Vec3; 3]) -> f32 {
     let middle = (facet[0] + facet[1] + facet[2]) / 3.0;
     let [x, z] = [middle.x / 0.52, (middle.z + 0.08) / 0.62];
@@ -77,7 +77,7 @@ fn paint(facet: &[Vec3; 3]) -> f32 {
     }
 }
 
-/// By tolerance, or with so many layers.
+/// Plans within the default tolerance, or with at most `max_layers`.
 fn plan(slicer: &mut Slicer, saliency: bool, max_layers: Option<usize>) -> Report {
     let options = Options {
         height_mm: Some(HEIGHT_MM),
@@ -125,13 +125,13 @@ fn main() {
 
     let mut text = format!(
         "# Weighted models\n\n\
-         Written by `cargo xtask bench weights`: a head of {} facets made by code, {HEIGHT_MM} mm high, layers of 50 to 150 µm, \
-         cusp height within 65 µm. The weighted plan has as many layers, spent where the weights are: its errors are the least that \
-         so many layers can have, least weight 0.1.\n\n\
-         ![Saliency, paint and their product as heat; plans without and with them](weights.png)\n\n\
-         From the left: mesh saliency, what was painted, the product of both (figure 6; yellow is 1, violet 0); the layers of \
-         the plain plan and of the weighted one (figures 1 and 7; red is 50 µm, blue 150 µm).\n\n\
-         | plan | layers | print time | largest error under the weights | largest cusp anywhere |\n\
+         Written by `cargo xtask bench weights`: a generated head of {} facets, {HEIGHT_MM} mm high, layers of 50 to 150 µm, \
+         cusp height within 65 µm. The weighted plan has the smallest weighted error that at most as many layers as the plain \
+         plan's can reach; the minimum weight is 0.1.\n\n\
+         ![Saliency, paint and their product as heat maps; plans without and with weights](weights.png)\n\n\
+         From left to right: mesh saliency, painted weights and their product (figure 6; yellow is 1, violet 0); the layers of \
+         the plain plan and of the weighted plan (figures 1 and 7; red is 50 µm, blue 150 µm).\n\n\
+         | plan | layers | print time | largest weighted error | largest cusp height anywhere |\n\
          |---|---:|---:|---:|---:|\n",
         facets.len()
     );
@@ -145,7 +145,7 @@ fn main() {
             report.max_error_mm
         );
     }
-    text.push_str("\n## What saliency costs\n\nOn one thread; least of three.\n\n| facets | s |\n|---:|---:|\n");
+    text.push_str("\n## What saliency costs\n\nOn one thread; minimum of three runs.\n\n| facets | s |\n|---:|---:|\n");
     let one = rayon::ThreadPoolBuilder::new()
         .num_threads(1)
         .build()

@@ -1,8 +1,8 @@
-//! Models from the front, facets in colours of their own, several side by side in one PNG.
+//! Renders models from the front, facet by facet in a given colour, side by side in one PNG.
 
 use glam::{DVec3, Vec3};
 
-/// Pixels of a model's height.
+/// Height of a model in pixels.
 const HEIGHT: usize = 340;
 /// Pixels around each model.
 const MARGIN: usize = 14;
@@ -10,7 +10,7 @@ const MARGIN: usize = 14;
 /// A colour, red, green and blue from 0 to 1.
 pub type Colour = [f64; 3];
 
-/// Draws the models side by side. `colour` says what a facet looks like at a height, a part of the model's.
+/// Draws models side by side.
 pub struct Picture {
     width: usize,
     pixels: Vec<[u8; 3]>,
@@ -19,7 +19,7 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// Room for so many models of these bounds.
+    /// A picture with room for `panels` models of this size.
     pub fn new(panels: usize, size: DVec3) -> Self {
         let panel = (size.x / size.z * HEIGHT as f64) as usize + 2 * MARGIN;
         let width = panel * panels;
@@ -31,7 +31,8 @@ impl Picture {
         }
     }
 
-    /// Adds a model as seen from the front, along y, with light from above left.
+    /// Adds a model seen from the front, along y, lit from the upper left. `colour` takes a facet and a height as a fraction of
+    /// the model's.
     pub fn add(&mut self, facets: &[[Vec3; 3]], colour: impl Fn(usize, f64) -> Colour) {
         let all = || facets.iter().flatten().map(|corner| corner.as_dvec3());
         let min = all().fold(DVec3::INFINITY, DVec3::min);
