@@ -909,7 +909,7 @@ fn orient_finds_the_best_direction_and_applies_it() {
         none.contains("72 without a plan within tolerance"),
         "{none}"
     );
-    assert!(none.contains("no direction"), "{none}");
+    assert!(none.contains("no orientation"), "{none}");
 
     assert_fails(&cusp(&["orient", &model, "--apply", "1"]), 2, "--output");
     assert_fails(&cusp(&["orient", &model, "--alpha", "2"]), 2, "from 0 to 1");

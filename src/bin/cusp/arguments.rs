@@ -17,7 +17,7 @@ use cusp_slicer::resin::Resin;
 use crate::Cli;
 use crate::files::{Failure, WeightsFile, in_file};
 
-/// A model, and what to make of it.
+/// A model, and how to slice it.
 #[derive(Args)]
 pub struct Slicing {
     /// STL file, binary or ASCII
@@ -29,44 +29,44 @@ pub struct Slicing {
     pub choices: Choices,
 }
 
-/// How to slice.
+/// The options of every command that plans.
 #[derive(Args)]
 pub struct Choices {
-    /// Turn the model by a quaternion
+    /// Rotate the model by a quaternion
     #[arg(long, value_name = "X,Y,Z,W", value_parser = rotation, allow_hyphen_values = true, help_heading = "Model")]
     rotation: Option<[f64; 4]>,
-    /// Scale the model evenly to this height
+    /// Scale the model uniformly to this height
     #[arg(long, value_name = "MM", value_parser = length, help_heading = "Model")]
     height: Option<f64>,
-    /// A printer by name, which gives pixels, pitch, mirroring and format: see `cusp printers`
+    /// Printer by name, which sets pixels, pitch, mirroring and format: see `cusp printers`
     #[arg(long, value_name = "NAME", help_heading = "Printer")]
     printer: Option<String>,
-    /// Columns and rows of the masks, with the model in their middle [default: the model's bounding
-    /// box at 2048 pixels along its longer side]
+    /// Columns and rows of the masks, with the model at the centre [default: the model's bounding box at 2048 pixels along
+    /// its longer side]
     #[arg(long, value_name = "WxH", value_parser = pixels, requires = "pitch", help_heading = "Printer")]
     pixels: Option<[u32; 2]>,
-    /// Side of a pixel, or its sides in x and y: 0.019 or 0.019x0.024
+    /// Pixel size, or pixel sizes in x and y: 0.019 or 0.019x0.024
     #[arg(long, value_name = "MM", value_parser = pitch, help_heading = "Printer")]
     pitch: Option<[f64; 2]>,
-    /// Smooth edges by grey: average each pixel over so many rays, and as many parts of its layer
+    /// Anti-alias edges: average each pixel over this many rays, at as many heights within its layer
     #[arg(long, value_name = "LEVEL", default_value_t = Options::default().antialias, value_parser = antialias, help_heading = "Printer")]
     aa: u32,
-    /// Mirror the masks of print files left to right
-    #[arg(long, value_name = "YES", help_heading = "Printer")]
+    /// Mirror the masks left to right
+    #[arg(long, value_name = "BOOL", help_heading = "Printer")]
     mirror: Option<bool>,
-    /// The print file [default: what the printer takes, or png]
+    /// Format of the print file [default: the printer's, or png]
     #[arg(long, value_enum, help_heading = "Printer")]
     format: Option<Format>,
-    /// Resin as a JSON file: exposures, bottom layers, lift
+    /// Resin, as a JSON file: exposures, bottom layers, lift
     #[arg(long, value_name = "FILE", help_heading = "Printer")]
     resin: Option<PathBuf>,
-    /// Facets count by how much they stand out
+    /// Weight facets by saliency: how much they stand out
     #[arg(long, help_heading = "Weights")]
     saliency: bool,
-    /// Facets count by this file of weights; with --saliency by the product
+    /// Weight facets by this file; with --saliency, by the product of both
     #[arg(long, value_name = "FILE", help_heading = "Weights")]
     weights: Option<PathBuf>,
-    /// What facets count for at least: the error of one may be as many times the tolerance as this goes into 1
+    /// Smallest weight of a facet: a facet of weight w may exceed the tolerance by a factor of 1/w
     #[arg(
         long,
         value_name = "WEIGHT",
@@ -74,17 +74,15 @@ pub struct Choices {
         help_heading = "Weights"
     )]
     weight_min: f64,
-    /// Least layer thickness
+    /// Minimum layer thickness
     #[arg(long, value_name = "MM", default_value_t = Options::default().layer_min_mm, value_parser = length, help_heading = "Layers")]
     layer_min: f64,
-    /// Greatest layer thickness
+    /// Maximum layer thickness
     #[arg(long, value_name = "MM", default_value_t = Options::default().layer_max_mm, value_parser = length, help_heading = "Layers")]
     layer_max: f64,
-    /// Greatest error of a layer, in the metric's unit [default: 0.065 mm of cusp height, 0.1 mm of roughness, 0.1 of the
-    /// area, 1 mm³ of volume and as much more as the model needs]
-    #[arg(long, value_name = "ERROR", value_parser = positive, help_heading = "Layers")]
+    #[arg(long, value_name = "ERROR", value_parser = positive, help = tolerance_help(), help_heading = "Layers")]
     tolerance: Option<f64>,
-    /// Find the least tolerance that needs at most so many layers
+    /// Find the smallest tolerance that needs at most this many layers
     #[arg(
         long,
         value_name = "K",
@@ -92,22 +90,22 @@ pub struct Choices {
         help_heading = "Layers"
     )]
     max_layers: Option<usize>,
-    /// Find the least tolerance that takes at most so many seconds
+    /// Find the smallest tolerance that prints in at most this many seconds
     #[arg(long, value_name = "S", value_parser = positive, conflicts_with_all = ["tolerance", "max_layers"], help_heading = "Layers")]
     max_time: Option<f64>,
     /// What the error measures
     #[arg(long, value_enum, default_value_t = Options::default().metric, help_heading = "Layers")]
     metric: Metric,
-    /// What errors are measured on
+    /// Where errors are measured
     #[arg(long, value_enum, default_value_t = Options::default().source, help_heading = "Layers")]
     source: Source,
     /// How layers are chosen
     #[arg(long, value_enum, default_value = "optimal", help_heading = "Layers")]
     planner: PlannerArg,
-    /// What the optimal plan has least of
+    /// What the optimal planner minimizes
     #[arg(long, value_enum, default_value_t = Options::default().minimize, help_heading = "Layers")]
     minimize: Minimize,
-    /// Layer thickness of the uniform planner, and of no other: a length, `finest` or `coarsest`
+    /// Layer thickness, for --planner uniform only: a length, `finest` or `coarsest`
     #[arg(
         long,
         value_name = "MM",
@@ -116,22 +114,22 @@ pub struct Choices {
         help_heading = "Layers"
     )]
     layer: Option<Planner>,
-    /// Layers from Z0 to Z1 of MIN to MAX mm; may be given again for other heights
+    /// Limit layers between heights Z0 and Z1 to MIN to MAX mm; repeatable
     #[arg(long = "range", value_name = "Z0:Z1=MIN:MAX", value_parser = height_range, help_heading = "Layers")]
     ranges: Vec<HeightRange>,
-    /// Put a plane at this height; may be given again
+    /// Put a plane at this height; repeatable
     #[arg(long = "plane", value_name = "MM", value_parser = length, help_heading = "Layers")]
     planes: Vec<f64>,
-    /// What heights are multiples of: the printer's motor step
+    /// Round heights to multiples of this: the printer's motor step
     #[arg(long, value_name = "MM", value_parser = length, help_heading = "Layers")]
     step: Option<f64>,
-    /// Whether planes go where flats and sharp changes are
+    /// Whether to put planes at flats and sharp changes
     #[arg(long, value_enum, default_value_t = Options::default().snap, help_heading = "Layers")]
     snap: Snap,
-    /// Height of a bin of the profile, to which layers are rounded [default: 0.002, or what the step or a thickness needs]
+    /// Height of a bin of the profile [default: 0.002, or what the step or a thickness needs]
     #[arg(long, value_name = "MM", value_parser = length, help_heading = "Layers")]
     bin: Option<f64>,
-    /// Where surfaces are sampled
+    /// Where to sample the model
     #[arg(long, value_enum, default_value_t = Options::default().backend, help_heading = "Machine")]
     backend: Backend,
 }
@@ -144,17 +142,17 @@ enum PlannerArg {
     Greedy,
     /// Layer by layer, as thick as the surface at the plane suggests
     Local,
-    /// Layers of one thickness, given by --layer
+    /// Layers of one thickness, set by --layer
     Uniform,
 }
 
 impl Choices {
-    /// Ends the program where options of this `command` contradict each other in a way that clap's
-    /// attributes cannot say.
+    /// Exits with a usage error if options of `command` contradict each other in a way that clap's
+    /// attributes cannot express.
     pub fn check(&self, command: &str) {
         if self.layer.is_some() && self.planner != PlannerArg::Uniform {
-            let message = "--layer is for --planner uniform only; elsewhere --layer-min and \
-                           --layer-max bound the layers";
+            let message = "--layer is for --planner uniform only; other planners take --layer-min \
+                           and --layer-max";
             let mut cli = Cli::command();
             cli.build();
             let command = cli.find_subcommand_mut(command);
@@ -165,7 +163,7 @@ impl Choices {
         }
     }
 
-    /// The file of weights that is asked for, if one is.
+    /// Reads the file of weights, if one is given.
     pub fn read_weights(&self) -> Result<Option<WeightsFile<'_>>, Failure> {
         let path = self.weights.as_deref();
         path.map(WeightsFile::read).transpose()
@@ -217,11 +215,26 @@ impl Choices {
     }
 }
 
+/// The help of `--tolerance`, with the defaults that the library has.
+fn tolerance_help() -> String {
+    let [cusp, roughness, area, volume] = [
+        Metric::Cusp,
+        Metric::Roughness,
+        Metric::Area,
+        Metric::Volume,
+    ]
+    .map(|metric| metric.default_tolerance());
+    format!(
+        "Largest error of a layer, in the metric's unit [default: {cusp} mm of cusp height, {roughness} mm of roughness, \
+         {area} of the area, {volume} mm³ of volume or the smallest tolerance that the model allows]"
+    )
+}
+
 /// Parses a positive length.
 fn length(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
-        _ => Err("a positive number of millimetres is needed".to_owned()),
+        _ => Err("expected a positive number of millimetres".to_owned()),
     }
 }
 
@@ -238,21 +251,21 @@ fn rotation(text: &str) -> Result<[f64; 4], String> {
     let parts = text.split(',').map(|part| part.trim().parse::<f64>());
     let parts: Result<Vec<f64>, _> = parts.collect();
     let parts = parts.ok().and_then(|parts| parts.try_into().ok());
-    parts.ok_or_else(|| "a quaternion has four numbers: X,Y,Z,W".to_owned())
+    parts.ok_or_else(|| "expected a quaternion of four numbers: X,Y,Z,W".to_owned())
 }
 
-/// Parses a level of anti-aliasing.
+/// Parses an anti-aliasing level.
 fn antialias(text: &str) -> Result<u32, String> {
     let level = text.parse().ok().filter(|level| LEVELS.contains(level));
-    level.ok_or_else(|| format!("there are levels {LEVELS:?}"))
+    level.ok_or_else(|| format!("expected one of the levels {LEVELS:?}"))
 }
 
 /// Parses a positive number.
 fn positive(text: &str) -> Result<f64, String> {
-    length(text).map_err(|_| "a positive number is needed".to_owned())
+    length(text).map_err(|_| "expected a positive number".to_owned())
 }
 
-/// Parses a thickness of uniform layers.
+/// Parses the thickness of uniform layers.
 fn uniform_layer(text: &str) -> Result<Planner, String> {
     match text {
         "finest" => Ok(Planner::Finest),
@@ -280,7 +293,7 @@ fn height_range(text: &str) -> Result<HeightRange, String> {
                 layer_max_mm,
             })
         })
-        .ok_or_else(|| "heights and thicknesses in mm are needed, such as 0:5=0.1:0.1".to_owned())
+        .ok_or_else(|| "expected heights and thicknesses in mm, such as 0:5=0.1:0.1".to_owned())
 }
 
 /// Parses `WxH`.
@@ -288,44 +301,34 @@ fn pixels(text: &str) -> Result<[u32; 2], String> {
     text.split_once(['x', 'X', '×'])
         .and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]))
         .filter(|size: &[u32; 2]| !size.contains(&0))
-        .ok_or_else(|| "columns and rows are needed, such as 3840x2400".to_owned())
+        .ok_or_else(|| "expected columns and rows, such as 3840x2400".to_owned())
 }
 
-/// What directions are searched for.
+/// The options of the orientation search.
 #[derive(Args)]
 pub struct Orienting {
     /// STL files, binary or ASCII
     #[arg(required = true, value_name = "MODEL")]
     pub models: Vec<PathBuf>,
-    /// Print one JSON object a model, each on a line of its own
+    /// Print one JSON object per model, each on its own line
     #[arg(long)]
     pub json: bool,
-    /// Directions to look along, spread evenly; the axes and the model's large flats come on top
+    /// Directions to evaluate, spread evenly; the axes and the normals of large flats are added
     #[arg(long, value_name = "N", default_value_t = SearchOptions::default().directions as u32, value_parser = clap::value_parser!(u32).range(1..=MAX_DIRECTIONS as i64), help_heading = "Search")]
     directions: u32,
-    /// How much the cost counts against the quality, 0 to 1
+    /// Weight of the cost against the quality, 0 to 1
     #[arg(long, value_name = "A", default_value_t = SearchOptions::default().alpha, value_parser = fraction, help_heading = "Search")]
     alpha: f64,
-    /// What costs
-    #[arg(
-        long,
-        value_enum,
-        default_value_t = SearchOptions::default().cost,
-        help_heading = "Search"
-    )]
+    /// What counts as cost
+    #[arg(long, value_enum, default_value_t = SearchOptions::default().cost, help_heading = "Search")]
     cost: Cost,
-    /// What spoils the surface
-    #[arg(
-        long,
-        value_enum,
-        default_value_t = SearchOptions::default().quality,
-        help_heading = "Search"
-    )]
+    /// What counts as quality; less is better
+    #[arg(long, value_enum, default_value_t = SearchOptions::default().quality, help_heading = "Search")]
     quality: Quality,
-    /// Write the model as it stands in the Kth best direction, with -o; of one model only
+    /// Write the model in the Kth best orientation to -o; for a single model
     #[arg(long, value_name = "K", requires = "output", conflicts_with = "shard", value_parser = clap::value_parser!(u32).range(1..=3), help_heading = "Search")]
     pub apply: Option<u32>,
-    /// Where to write that model
+    /// Where to write the oriented model
     #[arg(
         short,
         long,
@@ -334,10 +337,10 @@ pub struct Orienting {
         help_heading = "Search"
     )]
     pub output: Option<PathBuf>,
-    /// Measure only the Ith of N parts, and print what to --merge
+    /// Measure only shard I of N, and print a part for --merge
     #[arg(long, value_name = "I/N", value_parser = shard, help_heading = "Several machines")]
     pub shard: Option<Shard>,
-    /// Measure nothing: put together these parts, of the same models and options
+    /// Measure nothing: merge these parts, made with the same models and options
     #[arg(long, value_name = "PART", num_args = 1.., conflicts_with = "shard", help_heading = "Several machines")]
     pub merge: Vec<PathBuf>,
     #[command(flatten)]
@@ -360,7 +363,7 @@ fn fraction(text: &str) -> Result<f64, String> {
     let number = text.parse().ok();
     number
         .filter(|number| (0.0..=1.0).contains(number))
-        .ok_or_else(|| "a number from 0 to 1 is needed".to_owned())
+        .ok_or_else(|| "expected a number from 0 to 1".to_owned())
 }
 
 /// Parses `I/N`.
@@ -373,5 +376,5 @@ fn shard(text: &str) -> Result<Shard, String> {
             };
             (1..=shard.count).contains(&shard.number).then_some(shard)
         })
-        .ok_or_else(|| "a part of all is needed, from 1/N to N/N".to_owned())
+        .ok_or_else(|| "expected a shard, from 1/N to N/N".to_owned())
 }

@@ -1,4 +1,4 @@
-//! Models in, whole files out.
+//! Reads models, and writes files that are complete or not at all.
 
 use std::fs;
 use std::io;
@@ -12,10 +12,10 @@ use tempfile::NamedTempFile;
 
 use crate::arguments::Choices;
 
-/// Why a command stops.
+/// Why a command failed.
 pub struct Failure {
     pub exit_code: u8,
-    /// What to say, if it has not been said.
+    /// What to tell the user; `None` if that has been done.
     pub message: Option<String>,
 }
 
@@ -29,7 +29,7 @@ impl From<String> for Failure {
 }
 
 impl Failure {
-    /// A failure of the library about a file; being interrupted is about none.
+    /// A failure of the library that concerns a file. An interrupt concerns none.
     pub fn in_file(path: &Path, error: &cusp_slicer::Error) -> Self {
         if error.code() == "cancelled" {
             Self::interrupted()
@@ -45,7 +45,7 @@ impl Failure {
         }
     }
 
-    /// A failure with bad input that the user has been told of.
+    /// Bad input that has already been reported.
     pub const TOLD: Self = Self {
         exit_code: 1,
         message: None,
@@ -61,7 +61,7 @@ pub fn load(model: &Path) -> Result<Slicer, Failure> {
     Slicer::load(&bytes).map_err(|error| Failure::in_file(model, &error))
 }
 
-/// A file of weights, of whichever model.
+/// A file of weights, not yet matched to a model.
 pub struct WeightsFile<'a> {
     path: &'a Path,
     bytes: Vec<u8>,
@@ -70,14 +70,14 @@ pub struct WeightsFile<'a> {
 impl<'a> WeightsFile<'a> {
     pub fn read(path: &'a Path) -> Result<Self, Failure> {
         let bytes = fs::read(path).map_err(|error| in_file(path, &error))?;
-        // No model makes that good.
+        // This is wrong for every model.
         if let Err(error @ WeightsError::NotWeights) = weights::from_bytes(&bytes, &[]) {
             return Err(in_file(path, &error).into());
         }
         Ok(Self { path, bytes })
     }
 
-    /// Has the facets of the slicer's `model` count by these weights.
+    /// Applies these weights to the facets of the slicer's `model`.
     pub fn paint(&self, slicer: &mut Slicer, model: &Path) -> Result<(), Failure> {
         let weights = weights::from_bytes(&self.bytes, &slicer.positions());
         let painted = weights.map_err(Error::from);
@@ -86,12 +86,12 @@ impl<'a> WeightsFile<'a> {
     }
 }
 
-/// Loads a model, and the weights of its facets if there are any.
+/// Loads a model, with the weights of its facets if any are given.
 pub fn load_weighted(model: &Path, choices: &Choices) -> Result<Slicer, Failure> {
     load_painted(model, choices.read_weights()?.as_ref())
 }
 
-/// Loads a model, and paints it with weights that have been read.
+/// Loads a model, and applies weights that have been read.
 pub fn load_painted(model: &Path, weights: Option<&WeightsFile<'_>>) -> Result<Slicer, Failure> {
     let mut slicer = load(model)?;
     if let Some(weights) = weights {
@@ -100,14 +100,14 @@ pub fn load_painted(model: &Path, weights: Option<&WeightsFile<'_>>) -> Result<S
     Ok(slicer)
 }
 
-/// The file to write for `output`: itself, or what it links to, so that links stay links.
+/// The file to write for `output`: itself, or the target of a link, so that links stay links.
 ///
-/// Fails with a sentence where no zip can be, which is cheaper to learn before the work.
+/// Fails with a sentence if no file can be written there, so that the user learns it before the work.
 pub fn place_for(output: &Path, model: &Path) -> Result<PathBuf, String> {
     match fs::metadata(output) {
         Ok(found) if found.is_dir() => Err("is a folder; name a file in it".to_owned()),
         Ok(found) if !found.is_file() => {
-            Err("is a device or a pipe; a zip can only be written to a file".to_owned())
+            Err("is a device or a pipe; only a regular file can be written".to_owned())
         }
         Ok(_) => {
             let place = output.canonicalize().map_err(|error| error.to_string())?;
@@ -127,7 +127,7 @@ pub fn place_for(output: &Path, model: &Path) -> Result<PathBuf, String> {
                 Ok(output.to_owned())
             } else {
                 Err(format!(
-                    "there is no folder {}; make it first",
+                    "there is no folder {}; create it first",
                     folder.display()
                 ))
             }
@@ -142,8 +142,8 @@ fn parent(path: &Path) -> &Path {
     }
 }
 
-/// A file beside `place`, to be renamed to it once whole. It has the permissions of the file that it
-/// replaces, or those that the umask leaves a new one.
+/// A temporary file beside `place`, to be renamed once complete. It has the permissions of the file it replaces, or those that
+/// the umask gives a new one.
 pub fn file_beside(place: &Path) -> io::Result<NamedTempFile> {
     #[cfg(unix)]
     {
@@ -154,7 +154,7 @@ pub fn file_beside(place: &Path) -> io::Result<NamedTempFile> {
         builder.permissions(old.clone().unwrap_or(usual));
         let file = builder.tempfile_in(parent(place))?;
         if let Some(old) = old {
-            // The umask may have taken some away.
+            // The umask may have removed some.
             file.as_file().set_permissions(old)?;
         }
         Ok(file)
@@ -163,7 +163,7 @@ pub fn file_beside(place: &Path) -> io::Result<NamedTempFile> {
     NamedTempFile::new_in(parent(place))
 }
 
-/// Gives a file that is whole its name.
+/// Moves a complete file into place.
 pub fn keep(file: NamedTempFile, place: &Path, output: &Path) -> Result<(), Failure> {
     let kept = file.persist(place);
     kept.map_err(|error| in_file(output, &error.error))?;

@@ -1,4 +1,4 @@
-//! The command line: the only part with a file system, arguments and a terminal.
+//! The command line: the only part that uses a file system, arguments and a terminal.
 
 mod arguments;
 mod files;
@@ -18,8 +18,7 @@ use terminal::say;
 
 /// Adaptive slicer for resin printers: the fewest layers that keep the error within a tolerance.
 ///
-/// Lengths are in millimetres; z is up. Exit codes: 0 done, 1 bad input or no feasible plan, 2 usage,
-/// 130 interrupted.
+/// Lengths are in millimetres; z is up. Exit codes: 0 done, 1 bad input or no feasible plan, 2 usage, 130 interrupted.
 #[derive(Parser)]
 #[command(name = "cusp", version)]
 struct Cli {
@@ -29,12 +28,12 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Slice a model into a print file: masks with a manifest, or what a printer takes
+    /// Slice a model into a print file: masks with a manifest, or a printer's format
     #[command(allow_negative_numbers = true)]
     Slice {
         #[command(flatten)]
         slicing: Slicing,
-        /// Where to write the print file; one that is there is replaced once the new one is whole
+        /// Where to write the print file; an existing file is replaced only once the new one is complete
         #[arg(short, long, value_name = "FILE")]
         output: PathBuf,
     },
@@ -49,36 +48,36 @@ enum Command {
     Tradeoff {
         #[command(flatten)]
         slicing: Slicing,
-        /// Plans on the curve
+        /// Number of plans on the curve
         #[arg(long, default_value_t = 100, value_parser = clap::value_parser!(u32).range(2..=1000))]
         points: u32,
     },
-    /// Compare planners: coarsest, optimal, greedy and finest
+    /// Compare planners: coarsest, optimal, greedy, local and finest
     #[command(allow_negative_numbers = true)]
     Compare {
         #[command(flatten)]
         slicing: Slicing,
     },
-    /// Search for the best direction to print a model in: few layers, and little error, roughness or overhang
+    /// Find the best orientations of a model: few layers, and little error, roughness or overhang
     #[command(allow_negative_numbers = true)]
     Orient(Orienting),
-    /// Make a plan anew that somebody sent, and say whether it is the same and keeps its tolerance
+    /// Recompute a plan, and check that it matches and keeps its tolerance
     Verify {
-        /// The plan as `cusp plan --json` or the page gives it, or the manifest of a zip of masks
+        /// Plan from `cusp plan --json` or from the page, or the manifest of a zip of masks
         plan: PathBuf,
-        /// STL file that it was made from
+        /// Model that the plan was made from: STL file, binary or ASCII
         model: PathBuf,
-        /// Make this print file anew as well, and compare every byte
+        /// Recompute this print file as well, and compare every byte
         #[arg(long, value_name = "FILE")]
         print: Option<PathBuf>,
-        /// The weights of facets that the plan was made with
+        /// File of weights that the plan was made with
         #[arg(long, value_name = "FILE")]
         weights: Option<PathBuf>,
         /// Print one JSON object
         #[arg(long)]
         json: bool,
     },
-    /// Find how much each facet stands out, and write that as weights
+    /// Write the saliency of each facet, how much it stands out, as a file of weights
     Saliency {
         /// STL file, binary or ASCII
         model: PathBuf,
@@ -86,13 +85,13 @@ enum Command {
         #[arg(short, long, value_name = "FILE")]
         output: PathBuf,
     },
-    /// List the printers that are known by name
+    /// List the printers known by name
     Printers {
         /// Print one JSON array
         #[arg(long)]
         json: bool,
     },
-    /// Describe a model: size, facets, volume, faults
+    /// Describe a model: size, facets, volume, defects
     Info {
         /// STL file, binary or ASCII
         model: PathBuf,

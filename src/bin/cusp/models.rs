@@ -1,4 +1,4 @@
-//! Models as they are, and printers.
+//! Commands that plan nothing: describing models, saliency, printers.
 
 use std::fmt::Write as _;
 use std::io::Write as _;

@@ -1,4 +1,4 @@
-//! The search for the best direction, whole or in parts.
+//! The orientation search, whole or in shards.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -29,7 +29,7 @@ pub fn orient(orienting: &Orienting) -> Result<(), Failure> {
             .map_err(|reason| in_file(output, &reason))
     });
     let target = target.transpose()?;
-    // What is wrong with these is wrong for every model.
+    // Wrong options are wrong for every model: report them once.
     options.check().map_err(|error| error.to_string())?;
     let task = Task {
         options,
@@ -45,7 +45,7 @@ pub fn orient(orienting: &Orienting) -> Result<(), Failure> {
         }
         match task.answer(orienting, model) {
             Ok(answer) => print(&answer)?,
-            // The others of a batch are as good as before.
+            // A bad model does not affect the rest of the batch.
             Err(Failure {
                 exit_code: 1,
                 message,
@@ -62,17 +62,17 @@ pub fn orient(orienting: &Orienting) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What is the same for all models.
+/// What all models of a batch share.
 struct Task<'a> {
     options: Options,
     weights: Option<WeightsFile<'a>>,
     parts: Vec<Part>,
-    /// The file to write, as the user names it and where it is.
+    /// The file to write: as the user named it, and where it is.
     target: Option<(&'a Path, PathBuf)>,
 }
 
 impl Task<'_> {
-    /// What to print for a model.
+    /// The text to print for a model.
     fn answer(&self, orienting: &Orienting, model: &Path) -> Result<String, Failure> {
         let options = &self.options;
         let mut slicer = load_painted(model, self.weights.as_ref())?;
@@ -96,7 +96,7 @@ impl Task<'_> {
         let found = found.map_err(|error| Failure::in_file(model, &error))?;
         if let (Some(number), Some((output, place))) = (orienting.apply, &self.target) {
             let candidate = found.best.get(number as usize - 1).ok_or_else(|| {
-                let reason = format!("there are only {} best directions", found.best.len());
+                let reason = format!("only {} orientations were found", found.best.len());
                 in_file(model, &reason)
             })?;
             apply(&slicer, options, candidate, output, place)?;
@@ -109,7 +109,7 @@ impl Task<'_> {
     }
 }
 
-/// The parts to merge: files of one JSON object a line.
+/// Reads the parts to merge: one JSON object per line.
 fn read_parts(orienting: &Orienting) -> Result<Vec<Part>, Failure> {
     let mut parts = Vec::new();
     for path in &orienting.merge {
@@ -121,7 +121,7 @@ fn read_parts(orienting: &Orienting) -> Result<Vec<Part>, Failure> {
     Ok(parts)
 }
 
-/// Writes the model as it stands in a direction, on the plate, as a binary STL.
+/// Writes the model, oriented and on the plate, as a binary STL.
 fn apply(
     slicer: &Slicer,
     options: &Options,
@@ -139,7 +139,7 @@ fn apply(
     let facets = facets
         .iter()
         .map(|&[ax, ay, az, bx, by, bz, cx, cy, cz]| Triangle {
-            // Programs work it out from the corners.
+            // Readers compute the normal from the corners.
             normal: Normal::new([0.0; 3]),
             vertices: [[ax, ay, az], [bx, by, bz], [cx, cy, cz]].map(Vertex::new),
         });
@@ -168,9 +168,7 @@ fn describe(model: &Path, options: &Options, found: &OrientationReport) -> Strin
         }
     }
     if found.best.is_empty() {
-        text.push_str(
-            "\nthere is no direction to print it in; choose another printer or wider limits",
-        );
+        text.push_str("\nno orientation can be printed; choose another printer or wider limits");
         return text;
     }
     text.push_str(
@@ -199,6 +197,6 @@ fn describe(model: &Path, options: &Options, found: &OrientationReport) -> Strin
         );
     }
     let [x, y, z, w] = found.best[0].rotation;
-    let _ = write!(text, "\nas in the first: --rotation={x},{y},{z},{w}");
+    let _ = write!(text, "\nto print the first: --rotation={x},{y},{z},{w}");
     text
 }

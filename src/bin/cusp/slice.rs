@@ -17,7 +17,7 @@ pub fn slice(slicing: &Slicing, output: &Path) -> Result<(), Failure> {
     let place = place_for(output, &slicing.model).map_err(|reason| in_file(output, &reason))?;
     let mut slicer = load_weighted(&slicing.model, &slicing.choices)?;
     stop_on_interrupt();
-    // Made before the work, so that a folder which cannot be written to is met at once.
+    // Created before the work, so that a folder without write permission fails at once.
     let file = file_beside(&place).map_err(|error| in_file(output, &error))?;
     let bar = Bar::new();
     make_plan(&mut slicer, slicing, &bar)?;
@@ -76,13 +76,13 @@ fn describe_plan(report: &Report) -> String {
     let words = |error| report.metric.format(error);
     let (finest, coarsest) = (&report.uniform.finest, &report.uniform.coarsest);
     format!(
-        "layers    {} of {thinnest:.3} to {thickest:.3} mm, {:.3} mm in all\n\
+        "layers    {} of {thinnest:.3} to {thickest:.3} mm, {:.3} mm in total\n\
          time      {}, {:.1} ml of resin\n\
-         uniform   {} at the least thickness (error {}), {} at the greatest ({})\n\
+         uniform   {} at minimum thickness (error {}), {} at maximum thickness (error {})\n\
          error     {} on the mesh, {} as sampled, tolerance {}\n\
          planes    {} at flats and sharp changes\n\
          masks     {} × {} pixels of {:.4} mm\n\
-         sampled   {} hits on {}, {:.0} ms in all",
+         sampled   {} hits on {}, {:.0} ms in total",
         report.layers,
         report.height_mm,
         duration(report.print_time_s),
@@ -104,7 +104,7 @@ fn describe_plan(report: &Report) -> String {
     )
 }
 
-/// Loads the model and asks something of it that makes no plan, with a progress bar.
+/// Loads the model and runs `ask`, which makes no plan, with a progress bar.
 fn study<T>(
     slicing: &Slicing,
     options: &Options,

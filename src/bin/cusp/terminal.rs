@@ -1,4 +1,4 @@
-//! Words on the terminal, progress, and Ctrl-C.
+//! Terminal output, progress and Ctrl-C.
 
 use std::io::{self, IsTerminal, Write as _};
 use std::ops::ControlFlow;
@@ -10,15 +10,15 @@ use cusp_slicer::warning::Warning;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use serde::Serialize;
 
-/// Set once by Ctrl-C; stages look at it whenever they report progress.
+/// Set by Ctrl-C; stages check it whenever they report progress.
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
-/// Tells the user something on stderr; that nobody listens there is no reason to stop.
+/// Writes a message to stderr; a closed stderr is no reason to stop.
 pub fn say(message: &str) {
     let _ = writeln!(io::stderr(), "cusp: {message}");
 }
 
-/// Tells the user what to know although the work went on.
+/// Prints warnings to stderr.
 pub fn warn(warnings: &[Warning]) {
     for warning in warnings {
         say(&format!("warning: {warning}"));
@@ -33,7 +33,7 @@ pub fn print_json(value: &impl Serialize) -> Result<(), String> {
     print(&to_json(value)?)
 }
 
-/// Prints a line; a reader that has gone away, such as `head`, is no error.
+/// Prints a line. A reader that has closed the pipe, such as `head`, is not an error.
 pub fn print(text: &str) -> Result<(), String> {
     match writeln!(io::stdout(), "{text}") {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error.to_string()),
@@ -41,7 +41,7 @@ pub fn print(text: &str) -> Result<(), String> {
     }
 }
 
-/// A time as people say it.
+/// A duration for people: seconds below a minute, else hours and minutes.
 pub fn duration(seconds: f64) -> String {
     let minutes = (seconds / 60.0).round() as u64;
     if minutes == 0 {
@@ -51,24 +51,24 @@ pub fn duration(seconds: f64) -> String {
     }
 }
 
-/// From here on Ctrl-C is noted rather than deadly, so that temporary files go away.
+/// From here on, Ctrl-C sets a flag instead of killing the process, so that temporary files are removed.
 ///
-/// Where an interrupt or hang-up is ignored already, as under `nohup`, it stays so: hence `try`, and
-/// hence failing does no harm.
+/// An interrupt or hang-up that is already ignored, as under `nohup`, stays ignored: hence `try`, and hence a failure does no
+/// harm.
 pub fn stop_on_interrupt() {
     let _ = ctrlc::try_set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed));
 }
 
-/// Searches for the GPU that the next plan may use, without what drivers say meanwhile: Mesa complains about a missing display,
-/// for instance, although nothing is displayed. What matters of a search is in its result.
+/// Searches for the GPU that the next plan may use, and silences drivers meanwhile. Mesa, for one, complains about a missing
+/// display although nothing is displayed; the result of the search says what matters.
 pub fn open_gpu(slicer: &mut Slicer, backend: Backend) {
     #[cfg(unix)]
     let _silence = Silence::begin();
     pollster::block_on(slicer.open_gpu(backend));
 }
 
-/// While it lives, nothing reaches stderr. Drivers write to the file descriptor itself, so it is the descriptor that is turned
-/// away and back.
+/// While it lives, nothing reaches stderr. Drivers write to the file descriptor itself, so the descriptor is redirected and
+/// restored.
 #[cfg(unix)]
 struct Silence {
     stderr: std::os::fd::OwnedFd,
@@ -96,7 +96,7 @@ pub fn is_interrupted() -> bool {
     INTERRUPTED.load(Ordering::Relaxed)
 }
 
-/// A progress bar on a terminal, nothing elsewhere; it clears its line when dropped.
+/// A progress bar on a terminal, hidden elsewhere. Clears its line when dropped.
 pub struct Bar {
     bar: ProgressBar,
 }

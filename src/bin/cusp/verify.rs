@@ -1,4 +1,4 @@
-//! Whether a plan that somebody sent is right.
+//! Checks a submitted plan and print file.
 
 use std::fs;
 use std::path::Path;
@@ -10,7 +10,7 @@ use serde::Serialize;
 use crate::files::{Failure, WeightsFile, in_file, load_painted};
 use crate::terminal::{Bar, open_gpu, print, print_json, stop_on_interrupt, warn};
 
-/// Says that a plan, and a print file, are right.
+/// The result of a successful verification.
 #[derive(Serialize)]
 struct Verified {
     layers: usize,
@@ -66,10 +66,10 @@ pub fn verify(
         return Ok(print_json(&verified)?);
     }
     Ok(print(&format!(
-        "the plan is right: {} layers, largest error {words} within its tolerance{}",
+        "the plan is correct: {} layers, largest error {words} within its tolerance{}",
         verified.layers,
         if verified.print_is_same {
-            "; the print file is the one that it gives"
+            "; the print file matches it"
         } else {
             ""
         }
