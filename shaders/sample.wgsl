@@ -1,50 +1,50 @@
-// Which facets every ray meets, in two passes over the mesh whatever the depth: `count` adds up the
+// Finds the facets that each ray hits, in two passes over the mesh whatever the depth: `count` counts the
 // hits of each ray, a prefix sum (scan.wgsl) turns the counts into offsets, and `fill` writes the facets
-// to their places.
+// at their offsets.
 //
-// The rasteriser only proposes pixels: every facet is drawn as one triangle somewhat larger than itself,
-// and integers decide whether it covers a pixel's centre. The result does not depend on how an
+// The rasteriser only proposes pixels: every facet is drawn as one triangle slightly larger than itself,
+// and integers decide whether the facet covers a pixel centre. The result does not depend on how an
 // adapter rounds or clips, and equals that of src/ldi/cpu.rs hit for hit.
 
 // The part of the grid that a pass draws. Twin of `Tile` in src/ldi/layout.rs.
 struct Tile {
-    // Top left corner of the tile, in lattice steps from that of the grid.
+    // Top left corner of the tile relative to that of the grid, in lattice steps.
     origin: vec2<i32>,
     // Columns and rows.
     size: vec2<u32>,
 }
 
-// Lattice steps a pixel; twin of `STEPS` in src/ldi/projection.rs.
+// Lattice steps per pixel; twin of `STEPS` in src/ldi/projection.rs.
 const STEPS: i32 = 256;
-// By how much proposals are larger than facets, in pixels. Adapters may snap vertices to 1/16 pixel.
+// How far proposals extend beyond facets, in pixels. Adapters may snap vertices to 1/16 pixel.
 const MARGIN: f32 = 0.25;
 
 @group(0) @binding(0) var<uniform> tile: Tile;
-// Positions of vertices, columns to the right and rows downward, in lattice steps.
+// Vertex positions in lattice steps: x to the right, y downward.
 @group(0) @binding(1) var<storage, read> positions: array<vec2<i32>>;
-// Three vertices a facet.
+// Three vertex indices per facet.
 @group(0) @binding(2) var<storage, read> corners: array<u32>;
-// Hits of each ray of the tile; `fill` counts them down again.
+// Hits of each ray of the tile; `fill` counts them back down.
 @group(0) @binding(3) var<storage, read_write> counts: array<atomic<u32>>;
-// Where the hits of each ray begin.
+// Index of each ray's first hit.
 @group(0) @binding(4) var<storage, read> offsets: array<u32>;
-// The facets that rays meet, in no particular order within a ray.
+// The facets that rays hit, unordered within a ray.
 @group(0) @binding(5) var<storage, read_write> facets: array<u32>;
 
-// Below this, 1 + the cosine between the normals of two edges, a corner is a needle.
+// A corner is a needle if 1 + the cosine between the normals of its edges is below this.
 const NEEDLE: f32 = 0.05;
 
 struct Candidate {
     @builtin(position) position: vec4<f32>,
     @location(0) @interpolate(flat) facet: u32,
-    // The corners, so that the inside is where edge functions are positive, in lattice steps.
+    // The corners in lattice steps, ordered so that edge functions are positive inside.
     @location(1) @interpolate(flat) a: vec2<i32>,
     @location(2) @interpolate(flat) b: vec2<i32>,
     @location(3) @interpolate(flat) c: vec2<i32>,
 }
 
-// The sign of u.x · v.y - u.y · v.x for components of up to 24 bits with sign. The products need
-// 48 bits: they are summed in limbs of 12.
+// The sign of u.x · v.y - u.y · v.x for signed components of up to 24 bits. The products need 48 bits, so
+// they are summed in 12-bit limbs.
 fn cross_sign(u: vec2<i32>, v: vec2<i32>) -> i32 {
     let u_high = u >> vec2<u32>(12u);
     let v_high = v >> vec2<u32>(12u);
@@ -54,14 +54,14 @@ fn cross_sign(u: vec2<i32>, v: vec2<i32>) -> i32 {
     let middle = u_high.x * v_low.y + u_low.x * v_high.y - u_high.y * v_low.x - u_low.y * v_high.x
         + (low >> 12u);
     let high = u_high.x * v_high.y - u_high.y * v_high.x + (middle >> 12u);
-    // What is left of the lower limbs is not negative and less than one of the highest.
+    // The remainder of the lower limbs is not negative, and less than one unit of the highest.
     if high != 0 {
         return sign(high);
     }
     return select(0, 1, ((middle | low) & 4095) != 0);
 }
 
-// The unit normal of an edge, away from the facet.
+// The unit normal of an edge, pointing away from the facet.
 fn outward(start: vec2<f32>, end: vec2<f32>) -> vec2<f32> {
     let edge = end - start;
     return normalize(vec2<f32>(edge.y, -edge.x));
@@ -72,8 +72,8 @@ fn mitre(corner: vec2<f32>, n: vec2<f32>, m: vec2<f32>) -> vec2<f32> {
     return corner + (n + m) * (MARGIN / (1.0 + dot(n, m)));
 }
 
-// A corner of a right triangle around the facet's bounding rectangle from `start` to `end`, its longest
-// edge: for needles, whose mitres would reach too far.
+// A corner of a right triangle that encloses the facet's bounding rectangle along its longest edge, from
+// `start` to `end`: for needles, whose mitres would reach too far.
 fn enclose(start: vec2<f32>, end: vec2<f32>, other: vec2<f32>, corner: u32) -> vec2<f32> {
     let along = normalize(end - start);
     let across = vec2<f32>(-along.y, along.x);
@@ -84,7 +84,7 @@ fn enclose(start: vec2<f32>, end: vec2<f32>, other: vec2<f32>, corner: u32) -> v
     return start + along * reach.x + across * reach.y;
 }
 
-// Three vertices a facet.
+// Proposes the pixels of a facet: three vertices each.
 @vertex
 fn propose(@builtin(vertex_index) index: u32) -> Candidate {
     let facet = index / 3u;
@@ -94,7 +94,7 @@ fn propose(@builtin(vertex_index) index: u32) -> Candidate {
     var c = positions[corners[facet * 3u + 2u]];
     let area = cross_sign(b - a, c - a);
     if area == 0 {
-        // Edge-on to the rays: three vertices in one place outside cover nothing.
+        // Edge-on to the rays: three coincident vertices outside the view cover nothing.
         return Candidate(vec4<f32>(2.0, 2.0, 0.0, 1.0), facet, a, b, c);
     }
     if area < 0 {
@@ -102,7 +102,7 @@ fn propose(@builtin(vertex_index) index: u32) -> Candidate {
         b = c;
         c = swapped;
     }
-    // In pixels from the corner of the tile; exact.
+    // Pixels relative to the tile's corner; exact.
     let p = vec2<f32>(a - tile.origin) / f32(STEPS);
     let q = vec2<f32>(b - tile.origin) / f32(STEPS);
     let r = vec2<f32>(c - tile.origin) / f32(STEPS);
@@ -135,7 +135,7 @@ fn propose(@builtin(vertex_index) index: u32) -> Candidate {
     return Candidate(vec4<f32>(x, y, 0.0, 1.0), facet, a, b, c);
 }
 
-// Whether a pixel centre is on the facet's side of an edge, by the top-left rule.
+// Whether a pixel centre is on the inner side of an edge, by the top-left rule.
 fn is_inside(start: vec2<i32>, end: vec2<i32>, centre: vec2<i32>) -> bool {
     let edge = end - start;
     let side = cross_sign(edge, centre - start);

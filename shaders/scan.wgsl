@@ -1,20 +1,20 @@
-// Exclusive prefix sum, in three steps: within blocks, over the blocks' totals, and both together.
+// Exclusive prefix sum in three steps: within blocks, over the blocks' totals, and adding the two.
 
 const THREADS: u32 = 256u;
-// Values that a thread sums up.
+// Values per thread.
 const RUN: u32 = 4u;
-// Values of a block; twin of `SCAN_BLOCK` in src/ldi/layout.rs.
+// Values per block; twin of `SCAN_BLOCK` in src/ldi/layout.rs.
 const BLOCK: u32 = 1024u;
 
 @group(0) @binding(0) var<storage, read> values: array<u32>;
-// One more than there are values: the last is the total.
+// One longer than `values`: the last element is the total.
 @group(0) @binding(1) var<storage, read_write> sums: array<u32>;
-// One for each block, and the total behind them.
+// One per block, followed by the total.
 @group(0) @binding(2) var<storage, read_write> totals: array<u32>;
 
 var<workgroup> shared_sums: array<u32, 256>;
 
-// The sum of what the threads before this one bring, and of all.
+// The sum of the values of the threads before this one, and of all threads.
 struct Share {
     before: u32,
     all: u32,
