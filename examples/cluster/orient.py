@@ -20,14 +20,14 @@ from typing import cast
 import dask
 from distributed import Client, Future, KilledWorker, LocalCluster, Worker, WorkerPlugin, as_completed, get_worker
 
-# How often a task is tried again when cusp itself was killed, for want of memory, say.
+# How often a task is retried when cusp itself was killed, for lack of memory, for example.
 RETRIES = 2
-# Options of cusp that name files, which workers may not have.
+# Options of cusp that name files; workers may not have them.
 FILE_OPTIONS = ("--weights", "--resin")
 
 
 class Workplace(WorkerPlugin):
-    """On every worker, also later ones: a folder of files and the processes that read them, both gone at its end."""
+    """On every worker, including later ones: files and the processes that read them, removed at the end."""
 
     def __init__(self, cusp: str, file_options: list[str], options: list[str]) -> None:
         self.cusp, self.file_options, self.options = cusp, file_options, options
@@ -49,7 +49,7 @@ class Workplace(WorkerPlugin):
         self.folder.cleanup()
 
     def place(self, content: bytes) -> str:
-        """Writes a file unless it is there."""
+        """Writes a file unless it exists."""
         path = Path(self.folder.name, hashlib.sha256(content).hexdigest())
         with self.lock:
             if path not in self.placed:
@@ -58,13 +58,13 @@ class Workplace(WorkerPlugin):
         return str(path)
 
     def measure(self, shard: str, names: list[str], contents: list[bytes]) -> CompletedProcess[str]:
-        """Runs cusp on a model, which comes first, with the files of options, in their order."""
+        """Runs cusp on a model. `contents` holds the model first, then the files of options, in their order."""
         model, *files = places = [self.place(content) for content in contents]
         options = [f"{option}={file}" for option, file in zip(self.file_options, files)] + self.options
         command = [self.cusp, "orient", model, *options, f"--shard={shard}"]
         try:
             with self.lock:
-                # A task that is tried again may begin while all of them end.
+                # A retried task may begin during shutdown.
                 if self.is_closed:
                     raise ChildProcessError(f"the search on {self.address} has ended")
                 process = Popen(command, stdin=DEVNULL, stdout=PIPE, stderr=PIPE, encoding="utf-8")
@@ -89,15 +89,15 @@ def measure(workplace: str, shard: str, names: list[str], contents: list[bytes])
 
 
 def send(client: Client, content: bytes) -> Future[bytes]:
-    """Puts a file where tasks find it: as a task, whose result is made again when the workers that have it go."""
+    """Sends a file to the workers as a task, whose result is recomputed when the workers that hold it are lost."""
     return client.submit(bytes, content, key=f"cusp-{hashlib.sha256(content).hexdigest()}")
 
 
 class Given:
-    """What the user gave: files of options, and models by their content, which is how cusp knows them too.
+    """The user's input: files of options, and models by content, which is how cusp identifies them.
 
-    A model that is given twice is thus measured once, since cusp takes a shard only once. What cannot be read is left
-    out: cusp says so in the end.
+    A model given twice is measured once, since cusp takes a shard only once. An unreadable file is left out: cusp
+    reports it in the end.
     """
 
     def __init__(self, arguments: argparse.Namespace) -> None:
@@ -113,7 +113,7 @@ class Given:
 
 
 class Stop(Exception):
-    """The search is over, for all models: the exit code and words of cusp, which are as good here."""
+    """The search fails for all models: the exit code and message of cusp."""
 
     def __init__(self, code: int, message: str) -> None:
         super().__init__(message)
@@ -121,19 +121,19 @@ class Stop(Exception):
 
 
 class Measured:
-    """What became of the models, which are known by their content."""
+    """The results for the models, identified by their content."""
 
     def __init__(self) -> None:
-        # What cusp said about those that it could not measure.
+        # cusp's messages about models that it could not measure.
         self.refused: dict[bytes, str] = {}
-        # Why there is no answer of cusp at all.
+        # Why cusp gave no answer at all.
         self.lost: dict[bytes, str] = {}
 
     def is_bad(self, model: bytes) -> bool:
         return model in self.refused or model in self.lost
 
     def take(self, model: bytes, task: Future[CompletedProcess[str]]) -> str:
-        """What a task that is done measured, if it did."""
+        """The part that a finished task measured; empty if it failed."""
         try:
             part = task.result()
         except (ChildProcessError, KilledWorker) as error:
@@ -172,13 +172,13 @@ def measure_all(client: Client, arguments: argparse.Namespace, given: Given, par
                     print(f"measured {done} of {len(tasks)} shards", end=end, file=sys.stderr, flush=True)
         return measured
     finally:
-        # Also ends what still runs after an error or an interrupt.
+        # Also ends processes that still run after an error or an interrupt.
         client.unregister_worker_plugin(workplace)
 
 
 @contextmanager
 def connect(arguments: argparse.Namespace, folder: str) -> Iterator[Client]:
-    """The workers: those of an existing scheduler, or processes on this machine that keep their files in `folder`."""
+    """Connects to an existing scheduler, or starts workers on this machine that keep their files in `folder`."""
     if arguments.scheduler:
         with Client(arguments.scheduler) as client:
             client.wait_for_workers(1, timeout=60)
@@ -190,9 +190,9 @@ def connect(arguments: argparse.Namespace, folder: str) -> Iterator[Client]:
         threads_per_worker=1,
         host="127.0.0.1",
         dashboard_address=None,
-        # What matters of failed tasks is said here, without their tracebacks.
+        # Failed tasks are reported here, without their tracebacks.
         silence_logs=logging.CRITICAL,
-        # Ctrl-C reaches all processes of a terminal, and this one ends the others.
+        # Ctrl-C reaches all processes of a terminal; this one ends the others.
         preload=["import signal; signal.signal(signal.SIGINT, signal.SIG_IGN)"],
     )
     with cluster, Client(cluster) as client:
@@ -201,7 +201,7 @@ def connect(arguments: argparse.Namespace, folder: str) -> Iterator[Client]:
 
 def count_of(text: str) -> int:
     if not text.isdecimal() or int(text) == 0:
-        raise argparse.ArgumentTypeError("a number from 1 on is needed")
+        raise argparse.ArgumentTypeError("expected a positive whole number")
     return int(text)
 
 
@@ -209,14 +209,14 @@ def parse() -> argparse.Namespace:
     """This script's own arguments; those for cusp are its `options` and `files`."""
     usage = "%(prog)s [--workers N | --scheduler ADDRESS] [--shards N] [--cusp PATH] MODEL... [OPTION...]"
     parser = argparse.ArgumentParser(description=__doc__, usage=usage, allow_abbrev=False)
-    parser.add_argument("models", metavar="MODEL", nargs="+", help="STL files, before all options of cusp orient")
+    parser.add_argument("models", metavar="MODEL", nargs="+", help="STL files, before the options of cusp orient")
     where = parser.add_mutually_exclusive_group()
     where.add_argument("--workers", metavar="N", type=count_of, default=4, help="processes on this machine [4]")
     where.add_argument("--scheduler", metavar="ADDRESS", help="an existing Dask scheduler: tcp://HOST:8786")
-    parser.add_argument("--shards", metavar="N", type=count_of, help="parts of a search [2 for each worker]")
+    parser.add_argument("--shards", metavar="N", type=count_of, help="parts of a search [2 per worker]")
     parser.add_argument("--cusp", metavar="PATH", default="cusp", help="the program, here and on workers [cusp]")
     for option in FILE_OPTIONS:
-        parser.add_argument(option, metavar="FILE", help="as for cusp orient: workers are sent the file")
+        parser.add_argument(option, metavar="FILE", help="as for cusp orient; the file is sent to the workers")
     arguments, options = parser.parse_known_args()
     arguments.options = options
     arguments.files = {option: file for option in FILE_OPTIONS if (file := getattr(arguments, option.strip("-")))}
@@ -241,7 +241,7 @@ def search(arguments: argparse.Namespace) -> int:
         files = [f"{option}={file}" for option, file in arguments.files.items()]
         command = [arguments.cusp, "orient", *models, *files, *arguments.options, f"--merge={parts}"]
         merged = run(command, stdin=DEVNULL, stderr=PIPE if measured.refused else None, encoding="utf-8")
-        # Merging finds the same faults, and in the order of the models; the rest are faults of a worker.
+        # Merging reports the same failures in the order of the models; the rest are failures of a worker.
         words = merged.stderr or ""
         sys.stderr.write(words)
         sys.stderr.writelines(message for message in measured.refused.values() if message not in words)
@@ -249,12 +249,12 @@ def search(arguments: argparse.Namespace) -> int:
 
 
 def main() -> int:
-    # Ends like Ctrl-C, and so leaves nothing behind.
+    # SIGTERM ends the search as Ctrl-C does, and leaves nothing behind.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     dask.config.set({
-        # A task that takes more workers with it is given up. (An existing scheduler has its own limit.)
+        # A task that kills more workers is given up. (An existing scheduler has its own limit.)
         "distributed.scheduler.allowed-failures": 3,
-        # Models are sent as tasks; from 10 MB on there would be a warning.
+        # Models are sent as tasks, which Dask would warn about from 10 MB.
         "distributed.admin.large-graph-warning-threshold": "1 TiB",
     })
     try:

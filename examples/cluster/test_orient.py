@@ -1,4 +1,4 @@
-"""The example, run for real: worker processes on this machine, and one of them killed half-way.
+"""Runs the example for real: worker processes on this machine, one of them killed halfway.
 
     CUSP=target/release/cusp python -m unittest -v examples/cluster/test_orient.py
 """
@@ -26,11 +26,11 @@ from distributed import Client, LocalCluster
 
 EXAMPLE = Path(__file__).with_name("orient.py")
 CUSP = os.environ.get("CUSP") or shutil.which("cusp") or "cusp"
-# Seconds after which something will not happen any more.
+# Seconds to wait before giving up.
 PATIENCE = 100
 
-# A cusp that numbers its calls and holds those after the first few, until there is a file `release`. It also says who
-# called it, with a number of its own.
+# A cusp that numbers its calls and holds those after the first few until a file `release` exists. It also records its
+# own process and its caller's.
 HOLDING_CUSP = """#!/bin/sh
 number=1
 until mkdir '{calls}'/$number 2>/dev/null; do number=$((number + 1)); done
@@ -43,7 +43,7 @@ fi
 exec '{cusp}' "$@"
 """
 
-# A cusp that is killed whenever it measures a model of so many bytes.
+# A cusp that is killed whenever it measures a model of this many bytes.
 DYING_CUSP = """#!/bin/sh
 case "$*" in
     *--shard=*) [ "$(wc -c < "$2")" -eq {bytes} ] && kill -KILL $$ ;;
@@ -80,7 +80,7 @@ def wait_until(happened: Callable[[], bool], what: str) -> None:
 
 
 def processes_of(session: int) -> list[psutil.Process]:
-    """Those of a session that still run."""
+    """The processes of a session that still run."""
     found = []
     for process in psutil.process_iter():
         try:
@@ -93,7 +93,7 @@ def processes_of(session: int) -> list[psutil.Process]:
 
 @contextmanager
 def usual_interrupts() -> Iterator[None]:
-    """Programs that start meanwhile can be interrupted, as on a terminal.
+    """Programs started in this context can be interrupted, as on a terminal.
 
     A shell has jobs in the background ignore interrupts, and so all that they start, these tests for instance.
     """
@@ -124,7 +124,7 @@ class Orient(unittest.TestCase):
         return subprocess.run([CUSP, "orient", *arguments], capture_output=True, text=True, timeout=PATIENCE)
 
     def in_one_process(self, *arguments: str | Path) -> str:
-        """The answer to compare with, which must be one."""
+        """The expected answer; the command must succeed."""
         found = self.cusp(*arguments)
         self.assertEqual(found.returncode, 0, found.stderr)
         for line in found.stdout.splitlines():
@@ -140,7 +140,7 @@ class Orient(unittest.TestCase):
     def holding_cusp(self, free: int) -> Path:
         """See `HOLDING_CUSP`."""
         path = self.script("holding-cusp", HOLDING_CUSP.format(calls=self.calls, free=free, cusp=Path(CUSP).absolute()))
-        # Whatever happens, none is held for ever.
+        # Whatever happens, no call is held forever.
         self.addCleanup(self.release)
         return path
 
@@ -148,7 +148,7 @@ class Orient(unittest.TestCase):
         (self.calls / "release").touch()
 
     def start(self, *arguments: str | Path) -> subprocess.Popen[str]:
-        """Starts the example in a session of its own and with temporary files of its own."""
+        """Starts the example in its own session and with its own temporary folder."""
         with usual_interrupts():
             example = subprocess.Popen(
                 [sys.executable, EXAMPLE, *arguments],
@@ -168,21 +168,21 @@ class Orient(unittest.TestCase):
         example.communicate()
 
     def finish(self, example: subprocess.Popen[str]) -> tuple[int, str, str]:
-        """Waits for its exit code, output and messages; no process or file of it may be left."""
+        """Returns exit code, output and messages once it ends, leaving no process or file behind."""
         output, messages = example.communicate(timeout=PATIENCE)
         wait_until(lambda: not processes_of(example.pid), "processes end with the example")
         self.assertEqual(list(self.temporary.iterdir()), [])
         return example.returncode, output, messages
 
     def call(self, number: int) -> list[str]:
-        """What the holding cusp was asked for: the model, by its name, and the shard."""
+        """The arguments of a call of the holding cusp: the model's name and the shard."""
         _, model, *options = (self.calls / str(number) / "arguments").read_text().splitlines()
         return [Path(model).name, *(option for option in options if option.startswith("--shard="))]
 
     def test_a_batch_on_several_workers(self) -> None:
         resin = self.folder / "resin.json"
         resin.write_text('{"exposure_s": 1.5}')
-        # The model that comes twice is measured once and answered twice.
+        # A model given twice is measured once and answered twice.
         batch = [self.wedge, self.spire, self.wedge, *self.options, f"--resin={resin}"]
         code, output, messages = self.finish(self.start("--workers=3", f"--cusp={CUSP}", *batch))
         self.assertEqual((code, messages), (0, ""))
@@ -199,16 +199,16 @@ class Orient(unittest.TestCase):
             host="127.0.0.1",
             dashboard_address=None,
             local_directory=str(self.folder),
-            # Losing a worker is what is wanted.
+            # The test loses a worker on purpose.
             silence_logs=logging.CRITICAL,
         )
         with cluster, Client(cluster) as client:
             self.addCleanup(self.release)
             arguments = [f"--scheduler={cluster.scheduler_address}", f"--cusp={cusp}", f"--shards={shards}", *batch]
             example = self.start(*arguments)
-            # Half of the calls were let through, and the next one belongs to a worker that waits for it.
+            # Half of the calls went through; the next one belongs to a worker that waits for it.
             held = self.calls / str(half + 1) / "held"
-            wait_until(lambda: held.exists() or example.poll() is not None, "a worker is half-way")
+            wait_until(lambda: held.exists() or example.poll() is not None, "a worker is halfway")
             self.assertIsNone(example.poll(), "the example ended before a worker was killed")
             worker, its_cusp = map(int, held.read_text().split())
             addresses = {pid: address for address, pid in client.run(os.getpid).items()}
@@ -217,7 +217,7 @@ class Orient(unittest.TestCase):
             self.assertTrue(client.processing()[address], "the worker has no task")
 
             os.kill(worker, signal.SIGKILL)
-            # As when a machine goes.
+            # As if the machine were lost.
             os.kill(its_cusp, signal.SIGKILL)
             wait_until(lambda: address not in client.nthreads(), "the scheduler misses the worker")
             wait_until(lambda: not psutil.pid_exists(worker), "the worker is gone")
@@ -225,14 +225,14 @@ class Orient(unittest.TestCase):
             code, output, messages = self.finish(example)
         self.assertEqual((code, messages), (0, ""))
         self.assertEqual(output, self.in_one_process(*batch))
-        # The last call is for merging.
+        # The last call merges.
         *measured, _ = [self.call(number) for number in range(1, len(list(self.calls.iterdir())))]
         self.assertEqual(len({tuple(call) for call in measured}), 2 * shards)
         self.assertGreaterEqual(measured.count(self.call(half + 1)), 2, "what the worker had was not measured again")
 
     def test_an_interrupt_leaves_nothing(self) -> None:
         cusp = self.holding_cusp(free=0)
-        # Ctrl-C is for all processes of a terminal.
+        # Ctrl-C reaches all processes of a terminal.
         for round, (interrupt, number) in enumerate([(os.kill, signal.SIGTERM), (os.killpg, signal.SIGINT)], 1):
             example = self.start("--workers=2", f"--cusp={cusp}", self.wedge, *self.options)
             wait_until(lambda: (self.calls / str(2 * round) / "held").exists(), "both workers measure")
@@ -240,7 +240,7 @@ class Orient(unittest.TestCase):
             try:
                 example.wait(timeout=PATIENCE / 4)
             except subprocess.TimeoutExpired:
-                # Python drops an interrupt that arrives while it collects garbage; a person tries again.
+                # Python drops an interrupt that arrives during garbage collection; a user would press it again.
                 interrupt(example.pid, number)
             self.assertEqual(self.finish(example), (130, "", ""))
 
@@ -250,7 +250,7 @@ class Orient(unittest.TestCase):
         absent = self.folder / "absent.stl"
         batch = [poem, self.wedge, absent, self.spire, poem, *self.options]
         native = self.cusp(*batch)
-        # Two lines are answers, and three are complaints.
+        # Two lines of answers, three of errors.
         good = self.in_one_process(self.wedge, self.spire, *self.options)
         self.assertEqual((native.stdout, native.stderr.count("\n")), (good, 3))
         found = self.finish(self.start("--workers=2", f"--cusp={CUSP}", *batch))
@@ -285,7 +285,7 @@ class Orient(unittest.TestCase):
         text.write_text("no model\n")
         code, output, messages = self.finish(self.start("--workers=1", f"--cusp={CUSP}", text, *self.options))
         self.assertEqual((code, output, messages), (1, "", self.cusp(text, *self.options).stderr))
-        # It is the file that was given that is named, not a worker's copy.
+        # The message names the given file, not a worker's copy.
         self.assertIn(str(text), messages)
 
     def test_merging_notices_gaps_and_duplicates(self) -> None:
