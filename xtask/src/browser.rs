@@ -1,4 +1,4 @@
-//! A Chromium, the driver that steers it, and the software GPU that it carries.
+//! Chromium, chromedriver, and the software GPU that Chromium ships.
 
 use std::{
     env, fs,
@@ -44,7 +44,7 @@ const FLAGS: [&str; 8] = [
 ///
 /// # Errors
 ///
-/// Fails when there is none to be had.
+/// Fails if none is found or can be installed.
 pub fn chromium() -> Result<PathBuf> {
     if let Some(path) = env::var_os("CHROMIUM") {
         return Ok(path.into());
@@ -65,7 +65,7 @@ pub fn chromium() -> Result<PathBuf> {
 ///
 /// # Errors
 ///
-/// Fails when there is none, or only one of another version.
+/// Fails if there is none, or its version differs from the browser's.
 pub fn chromedriver(chromium: &Path) -> Result<PathBuf> {
     let on_path = || which::which("chromedriver").ok();
     let driver = env::var_os("CHROMEDRIVER")
@@ -81,13 +81,13 @@ pub fn chromedriver(chromium: &Path) -> Result<PathBuf> {
         )?;
     let (browser, own) = (major_version(chromium)?, major_version(&driver)?);
     if browser != own {
-        bail!("chromedriver is of version {own}, the browser of {browser}: they must be the same");
+        bail!("chromedriver has version {own}, the browser {browser}: they must match");
     }
     Ok(driver)
 }
 
 /// The Vulkan driver that Chromium ships: a second, independent implementation
-/// to run native GPU tests on. `None` where the browser came without.
+/// to run native GPU tests on. `None` if the browser ships none.
 pub fn swiftshader(chromium: &Path) -> Option<PathBuf> {
     let beside = chromium.canonicalize().ok()?.parent()?.to_path_buf();
     [

@@ -1,4 +1,4 @@
-//! Debian's packages, where there are any and we may install them.
+//! Debian packages, where they exist and we may install them.
 
 use std::{
     path::Path,
@@ -9,19 +9,18 @@ use anyhow::{Context, Result, bail};
 
 use crate::process::{self, command};
 
-/// Installs those of `packages` that are missing. Does nothing, quickly, when
-/// none is.
+/// Installs those of `packages` that are missing; quick if none is.
 ///
 /// # Errors
 ///
-/// Fails where this is no Debian, where we are not root, or where a package
-/// cannot be had; the error says what to type.
+/// Fails if this is not Debian, if we are not root, or if a package is not
+/// available; the error says what to type.
 pub fn ensure(packages: &[&str]) -> Result<()> {
     static LISTS_ARE_FRESH: AtomicBool = AtomicBool::new(false);
 
     if !is_debian() {
         bail!(
-            "this is no Debian: its packages {} cannot be had",
+            "this is not Debian: the packages {} are not available",
             packages.join(" ")
         );
     }
@@ -51,12 +50,12 @@ pub fn ensure(packages: &[&str]) -> Result<()> {
     .with_context(|| format!("cannot install {list}"))
 }
 
-/// Whether Debian's package manager is here.
+/// Whether this machine has Debian's package manager.
 pub fn is_debian() -> bool {
     Path::new("/etc/debian_version").exists() && which::which("apt-get").is_ok()
 }
 
-/// Whether packages can be installed without asking for rights.
+/// Whether packages can be installed without asking for permission.
 pub fn is_root() -> bool {
     process::output(command("id").arg("-u")).is_ok_and(|id| id == "0")
 }

@@ -1,4 +1,4 @@
-//! `cargo xtask lint`: everything that is checked without running it.
+//! `cargo xtask lint`: static checks.
 
 use anyhow::Result;
 
@@ -9,8 +9,8 @@ use crate::{
     wasm,
 };
 
-/// Runs all checks, each whatever the others say; `false` when one failed.
-/// A check that cannot run has failed.
+/// Runs all checks, each regardless of the others. Returns `false` if one failed;
+/// a check that cannot run has failed.
 pub fn run(project: &Project) -> bool {
     let checks: [(&str, &dyn Fn() -> Result<()>); 5] = [
         ("modules", &|| modules::check(project)),

@@ -1,8 +1,8 @@
 //! The project's own commands: `cargo xtask help` lists them.
 //!
-//! Each command makes sure of what it needs before it starts (compiler target,
-//! wasm tools, browser, npm packages), so that a fresh clone on a machine with
-//! only Rust and Node is enough, and a second run spends no time on it.
+//! Each command first ensures what it needs (compiler target, wasm tools,
+//! browser, npm packages), so that a fresh clone on a machine with only Rust and
+//! Node is enough, and a second run spends no time on it.
 
 mod browser;
 mod debian;
@@ -32,7 +32,7 @@ use crate::project::Project;
 #[command(
     name = "cargo xtask",
     bin_name = "cargo xtask",
-    about = "Build, try and test Cusp. `cargo xtask start` is all that a first look needs."
+    about = "Build, try and test Cusp. For a first look, run `cargo xtask start`."
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -41,7 +41,7 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Build everything and serve the page on this machine
+    /// Build everything and serve the page on this computer
     Start {
         /// Port to serve on [default: 8080, or the next free one]
         #[arg(long)]
@@ -49,33 +49,33 @@ enum Command {
     },
     /// Build the wasm package (www/pkg) and the page (www/dist)
     Build,
-    /// Build the npm package (www/dist-package), and weigh it
+    /// Build the npm package (www/dist-package) and report its size
     Package,
     /// Run every test: native, GPU, wasm in a browser, page, end to end, cluster
     Test {
-        /// Run these steps only
+        /// Run only these steps
         #[arg(value_name = "STEP")]
         steps: Vec<suite::Step>,
     },
-    /// Check formatting, lints (native and wasm), documentation, and that modules form no circle
+    /// Check formatting, lints (native and wasm), documentation and module cycles
     Lint,
-    /// Build the wasm module and hold its gzipped size against the budget
+    /// Build the wasm module and check its gzipped size against the budget
     Size,
-    /// Take the documentation's pictures with a real browser
+    /// Take the documentation's screenshots in a browser
     Screenshots,
-    /// Run the benchmarks, or the one named
+    /// Run all benchmarks, or one
     Bench {
-        /// A file of benches/ without its extension
+        /// A benchmark: a file or folder of benches/, without extension
         name: Option<String>,
-        /// Handed on to the benchmark: its head says what it takes
+        /// Arguments of the benchmark: its source says which it takes
         #[arg(requires = "name", trailing_var_arg = true, allow_hyphen_values = true)]
         arguments: Vec<String>,
     },
 }
 
 fn main() -> ExitCode {
-    // With no argument clap prints the help to stderr and exits with 2; asking
-    // what there is to do is no error here.
+    // Without arguments clap prints the help to stderr and exits with 2. Asking
+    // what there is to do is not an error here.
     if std::env::args_os().len() < 2 {
         use clap::CommandFactory;
         let _ = Arguments::command().print_help();
@@ -91,7 +91,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Runs one command; `false` when it did its work and the answer is no.
+/// Runs one command. Returns `false` if it ran and found a failure.
 fn run(command: Command) -> Result<bool> {
     let project = Project::here()?;
     match command {

@@ -1,4 +1,4 @@
-//! Whether the library's modules form a circle: each imports the ones before it and nothing else.
+//! Detects import cycles among the library's modules: each imports the ones before it and nothing else.
 
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -10,13 +10,13 @@ use anyhow::{Result, bail};
 
 use crate::project::Project;
 
-/// Modules by what they import.
+/// The modules that each module imports.
 type Graph = BTreeMap<String, BTreeSet<String>>;
 
-/// Files that know all modules: the crate's root and the two doors.
+/// Files that may import every module: the crate's root and the two front ends.
 const OUTSIDE: [&str; 3] = ["lib", "wasm", "bin"];
 
-/// Fails with the modules of a circle, if there is one.
+/// Fails with the modules of an import cycle, if there is one.
 pub fn check(project: &Project) -> Result<()> {
     let source = project.root.join("src");
     let mut graph = Graph::new();
@@ -28,12 +28,12 @@ pub fn check(project: &Project) -> Result<()> {
         }
     }
     match circle(&graph) {
-        Some(circle) => bail!("modules form a circle: {}", circle.join(" → ")),
+        Some(circle) => bail!("import cycle: {}", circle.join(" → ")),
         None => Ok(()),
     }
 }
 
-/// Adds what a file, or the files of a folder, import.
+/// Adds the imports of a file, or of the files in a folder.
 fn collect(path: &Path, imports: &mut BTreeSet<String>) -> Result<()> {
     if path.is_dir() {
         for entry in fs::read_dir(path)? {
@@ -45,7 +45,7 @@ fn collect(path: &Path, imports: &mut BTreeSet<String>) -> Result<()> {
     Ok(())
 }
 
-/// The modules that a text names after `crate::`. Comments and tests, which may look anywhere, do not count.
+/// The modules that a text names after `crate::`. Comments and tests are ignored: they may name any module.
 fn imported(text: &str) -> BTreeSet<String> {
     let text = text.split("#[cfg(test)]").next().unwrap_or_default();
     let code: Vec<&str> = text
@@ -63,7 +63,7 @@ fn imported(text: &str) -> BTreeSet<String> {
     found
 }
 
-/// The first words of the items of a group, up to the brace that closes it.
+/// The first word of each item of a `use` group, up to its closing brace.
 fn heads(group: &str) -> Vec<String> {
     let mut depth = 0;
     let mut starts = vec![0];
@@ -87,7 +87,7 @@ fn word(text: &str) -> String {
     text.chars().take_while(is_part).collect()
 }
 
-/// The modules of a circle, the first one again at its end.
+/// The modules of a cycle, with the first repeated at the end.
 fn circle(graph: &Graph) -> Option<Vec<String>> {
     let mut done = BTreeSet::new();
     graph

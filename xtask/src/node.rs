@@ -1,4 +1,4 @@
-//! npm: the page's packages and scripts.
+//! npm: the packages and scripts of `www/`.
 
 use std::{fs, path::PathBuf, process::Command, time::SystemTime};
 
@@ -9,7 +9,7 @@ use crate::{
     project::Project,
 };
 
-/// What the page's own tools need.
+/// The oldest Node that the page's tools support.
 const OLDEST_NODE: u32 = 20;
 
 /// `npm` in the page's folder, with its packages installed.
@@ -22,7 +22,7 @@ pub fn npm(project: &Project) -> Result<Command> {
     Ok(bare_npm(project))
 }
 
-/// Builds `www/dist`. The wasm package must be there.
+/// Builds `www/dist`. The wasm package must have been built.
 ///
 /// # Errors
 ///
@@ -31,12 +31,12 @@ pub fn build_page(project: &Project) -> Result<()> {
     process::run(npm(project)?.args(["run", "build"]))
 }
 
-/// The folder of the packages' own programs.
+/// The folder of the packages' executables.
 pub fn bin(project: &Project) -> PathBuf {
     project.www.join("node_modules/.bin")
 }
 
-/// Installs exactly what the lock file names, when it is newer than what is
+/// Installs exactly what the lock file names, if that is newer than what is
 /// installed.
 ///
 /// # Errors
@@ -55,7 +55,7 @@ pub fn ensure_packages(project: &Project) -> Result<()> {
 }
 
 fn bare_npm(project: &Project) -> Command {
-    // On Windows npm is a script, which is found only by its full name.
+    // On Windows npm is a script, found only by its full name.
     let program = which::which("npm").unwrap_or_else(|_| "npm".into());
     let mut npm = command(program);
     npm.current_dir(&project.www);
@@ -64,10 +64,10 @@ fn bare_npm(project: &Project) -> Command {
 
 fn check_node() -> Result<()> {
     let found = process::output(command("node").arg("--version"))
-        .with_context(|| format!("Node {OLDEST_NODE} or newer is needed: https://nodejs.org"))?;
+        .with_context(|| format!("Node {OLDEST_NODE} or newer is required: https://nodejs.org"))?;
     match major(&found) {
         Some(number) if number >= OLDEST_NODE => Ok(()),
-        _ => bail!("Node {OLDEST_NODE} or newer is needed, found {found}: https://nodejs.org"),
+        _ => bail!("Node {OLDEST_NODE} or newer is required, found {found}: https://nodejs.org"),
     }
 }
 

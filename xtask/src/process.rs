@@ -1,4 +1,4 @@
-//! Running other programs: with their output shown, taken, or both.
+//! Runs other programs, with their output shown, captured, or both.
 
 use std::{
     env,
@@ -12,8 +12,8 @@ use anyhow::{Context, Result, bail};
 
 use crate::project::Project;
 
-/// A call of `program` without standard input: nothing here asks questions, and
-/// a tool that would ask must fail rather than wait.
+/// A command without standard input: nothing here asks questions, and a tool that
+/// does must fail rather than wait.
 pub fn command(program: impl AsRef<OsStr>) -> Command {
     let mut command = Command::new(program);
     command.stdin(Stdio::null());
@@ -30,8 +30,8 @@ pub fn cargo(project: &Project) -> Command {
     command
 }
 
-/// Runs to the end with all output shown on standard error: standard output is
-/// for what xtask itself was asked for.
+/// Runs to completion with all output on standard error: standard output is for
+/// xtask's own result.
 ///
 /// # Errors
 ///
@@ -40,7 +40,7 @@ pub fn run(command: &mut Command) -> Result<()> {
     show(command.stdout(io::stderr()))
 }
 
-/// Runs to the end with the output shown where the program wants it.
+/// Runs to completion with the output where the program writes it.
 ///
 /// # Errors
 ///
@@ -51,12 +51,12 @@ pub fn show(command: &mut Command) -> Result<()> {
     check(command, status)
 }
 
-/// Runs to the end and returns standard output, trimmed; nothing is shown.
+/// Runs to completion and returns standard output, trimmed; shows nothing.
 ///
 /// # Errors
 ///
-/// Fails when the program cannot be started or reports failure; the error then
-/// carries what it wrote to standard error.
+/// Fails if the program cannot be started or reports failure; the error then
+/// includes its standard error.
 pub fn output(command: &mut Command) -> Result<String> {
     let output = command.output().with_context(|| not_started(command))?;
     if !output.status.success() {
@@ -66,8 +66,8 @@ pub fn output(command: &mut Command) -> Result<String> {
     Ok(String::from_utf8_lossy(&output.stdout).trim().to_owned())
 }
 
-/// Runs to the end with the output shown, and returns a copy of it: standard
-/// output and standard error in one stream, in the order they were written.
+/// Runs to completion with the output shown, and returns a copy: standard output
+/// and standard error in one stream, in the order they were written.
 ///
 /// # Errors
 ///
@@ -80,8 +80,8 @@ pub fn tee(command: &mut Command) -> Result<(ExitStatus, String)> {
         .stderr(writer)
         .spawn()
         .with_context(|| not_started(command))?;
-    // The command holds the pipe's writing ends: while they are open in this
-    // process, the reader never sees an end.
+    // The command holds the pipe's write ends: while they are open in this
+    // process, the reader never sees the end.
     command.stdout(Stdio::null()).stderr(Stdio::null());
 
     let mut text = String::new();
@@ -114,7 +114,7 @@ pub fn path_with<'a>(
     )
 }
 
-/// Says on standard error what is about to run, as one would type it.
+/// Prints the command to standard error, as one would type it.
 fn announce(command: &Command) {
     eprintln!("$ {}", describe(command));
 }

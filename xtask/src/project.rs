@@ -1,4 +1,4 @@
-//! Where things are in the checkout.
+//! Paths in the checkout.
 
 use std::{
     env,
@@ -11,10 +11,10 @@ use anyhow::{Context, Result};
 pub struct Project {
     /// The checkout's root.
     pub root: PathBuf,
-    /// The page: npm's project.
+    /// The npm project: page, element and package.
     pub www: PathBuf,
-    /// Cargo's target folder; whatever xtask makes for itself lies in here too,
-    /// so that `cargo clean` takes it away.
+    /// Cargo's target folder. xtask keeps its own files there too, so that `cargo
+    /// clean` removes them.
     pub target: PathBuf,
 }
 
@@ -25,13 +25,13 @@ impl Project {
     ///
     /// Fails when the manifest's folder has no parent.
     pub fn here() -> Result<Self> {
-        // The variable that cargo sets at run time is right even when a target
-        // folder was moved along with its checkout; the built-in one is not.
+        // The variable that cargo sets at run time is correct even if a target
+        // folder was moved with its checkout; the built-in one is not.
         let manifest =
             env::var("CARGO_MANIFEST_DIR").unwrap_or_else(|_| env!("CARGO_MANIFEST_DIR").into());
         let root = Path::new(&manifest)
             .parent()
-            .context("xtask lies in no workspace")?
+            .context("xtask is not in a workspace")?
             .to_path_buf();
         let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| "target".into(), PathBuf::from);
         Ok(Self {
@@ -41,7 +41,7 @@ impl Project {
         })
     }
 
-    /// The version of a package that Cargo.lock has settled on.
+    /// The version of a package that Cargo.lock pins.
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! Python: the example that runs on several machines, and its packages.
+//! Python: the cluster example and its packages.
 
 use std::{
     fs,
@@ -13,7 +13,7 @@ use crate::{
     project::Project,
 };
 
-/// What the example and its packages need.
+/// The oldest Python that the example and its packages support.
 const OLDEST_PYTHON: (u32, u32) = (3, 11);
 
 /// The example's folder.
@@ -22,7 +22,7 @@ pub fn example(project: &Project) -> PathBuf {
 }
 
 /// The Python of a virtual environment with exactly the packages that the
-/// example's list names; made anew when that changes.
+/// example's list names; recreated when the list changes.
 ///
 /// # Errors
 ///
@@ -33,7 +33,7 @@ pub fn ensure_environment(project: &Project) -> Result<PathBuf> {
     let wanted =
         fs::read_to_string(&list).with_context(|| format!("cannot read {}", list.display()))?;
     let folder = project.target.join("cluster");
-    // Written last: what was interrupted is made anew.
+    // Written last, so that an interrupted environment is recreated.
     let stamp = folder.join("installed.txt");
     let python = folder.join(if cfg!(windows) {
         "Scripts/python.exe"
@@ -51,10 +51,10 @@ pub fn ensure_environment(project: &Project) -> Result<PathBuf> {
             .with_context(|| format!("cannot remove {}", folder.display()))?;
     }
     process::run(command(system).args(["-m", "venv"]).arg(&folder))
-        .context("cannot make a virtual environment")?;
+        .context("cannot create a virtual environment")?;
     process::run(
         pip(&python)
-            // What is not on the list is not to come along unseen.
+            // Nothing that is not on the list may be installed silently.
             .args(["install", "--quiet", "--no-deps", "--requirement"])
             .arg(&list),
     )
@@ -73,7 +73,7 @@ pub fn pip(python: &Path) -> Command {
 /// The machine's own Python.
 fn system_python() -> Result<PathBuf> {
     let (major, minor) = OLDEST_PYTHON;
-    let needed = format!("Python {major}.{minor} or newer is needed: https://www.python.org");
+    let needed = format!("Python {major}.{minor} or newer is required: https://www.python.org");
     for name in ["python3", "python"] {
         let Ok(found) = which::which(name) else {
             continue;

@@ -1,4 +1,4 @@
-//! What became of the steps, and the summary at the end.
+//! The results of the steps, and the summary.
 
 use std::{fmt::Write, process::ExitStatus, time::Duration};
 
@@ -6,14 +6,14 @@ use anyhow::Result;
 
 use crate::runner_output::Tally;
 
-/// What became of a step as a whole.
+/// The result of a step as a whole.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// It ran and found nothing wrong.
+    /// It ran and found no failure.
     Passed,
-    /// It found something, or did not get far enough to find anything.
+    /// It found a failure, or did not complete.
     Failed(String),
-    /// This machine lacks what it needs.
+    /// This machine lacks a prerequisite.
     Skipped(String),
 }
 
@@ -21,16 +21,16 @@ pub enum Verdict {
 pub struct Record {
     /// The step's name.
     pub step: String,
-    /// What became of it.
+    /// Its result.
     pub verdict: Verdict,
-    /// The tests that it ran; all zero for a step that is no test runner.
+    /// The tests that it ran; all zero for a step that runs none.
     pub tally: Tally,
     /// How long it took.
     pub elapsed: Duration,
 }
 
 impl Record {
-    /// A failed step counts as one failed test when it can show none.
+    /// A failed step without failed tests counts as one.
     fn failed(&self) -> usize {
         match self.verdict {
             Verdict::Failed(_) => self.tally.failed.max(1),
@@ -43,8 +43,8 @@ impl Record {
     }
 }
 
-/// Judges a test runner by its exit status and by what it wrote: it has passed
-/// only when both say so and at least one test was run.
+/// Judges a test runner by its exit status and its output: it passed only if
+/// both say so and at least one test ran.
 pub fn judge(status: ExitStatus, tally: Result<Tally>) -> (Verdict, Tally) {
     let tally = match tally {
         Ok(tally) => tally,
@@ -67,7 +67,7 @@ pub fn is_good(records: &[Record]) -> bool {
     records.iter().all(|record| record.failed() == 0)
 }
 
-/// A table of the steps, the names of what did not run, and one line of counts.
+/// A table of the steps, the tests that did not run, and one line of totals.
 pub fn summary(records: &[Record]) -> String {
     let mut text = String::new();
     let mut line = |words: std::fmt::Arguments<'_>| {

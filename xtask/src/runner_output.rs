@@ -1,11 +1,11 @@
-//! What a test runner wrote, read as counts.
+//! Reads counts from the output of test runners.
 
 use std::path::Path;
 
 use anyhow::{Context, Result};
 use serde_json::Value;
 
-/// Counts of single tests.
+/// Counts of individual tests.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub struct Tally {
     /// Tests that ran and passed.
@@ -21,7 +21,7 @@ pub struct Tally {
 pub struct Ignored {
     /// Suite and name.
     pub name: String,
-    /// Why, in the runner's words; may be empty.
+    /// The reason that the runner gives; may be empty.
     pub reason: String,
 }
 
@@ -39,8 +39,8 @@ impl Tally {
 ///
 /// # Errors
 ///
-/// Fails when a summary line has no counts. No summary line at all is an empty
-/// tally: a caller takes that for a failure.
+/// Fails if a summary line has no counts. No summary line at all is an empty
+/// tally, which callers treat as a failure.
 pub fn libtest(text: &str) -> Result<Tally> {
     let mut tally = Tally::default();
     let mut suite = String::new();
@@ -74,11 +74,11 @@ pub fn libtest(text: &str) -> Result<Tally> {
     Ok(tally)
 }
 
-/// Reads what vitest's JSON reporter wrote.
+/// Reads the output of vitest's JSON reporter.
 ///
 /// # Errors
 ///
-/// Fails when this is no such report.
+/// Fails if this is not such a report.
 pub fn vitest(json: &str) -> Result<Tally> {
     let report: Value = serde_json::from_str(json).context("not the report of vitest")?;
     let count = |key: &str| {
@@ -94,8 +94,8 @@ pub fn vitest(json: &str) -> Result<Tally> {
     let list = |value: &Value| value.as_array().cloned().unwrap_or_default();
     for file in list(&report["testResults"]) {
         let tests = list(&file["assertionResults"]);
-        // A file that fails outside of its tests (it does not load, say) has no
-        // failed test to show for it.
+        // A file that fails outside its tests (it does not load, for example)
+        // has no failed test.
         let status = |test: &Value, wanted: &str| test["status"] == wanted;
         if status(&file, "failed") && !tests.iter().any(|test| status(test, "failed")) {
             tally.failed += 1;
@@ -107,7 +107,7 @@ pub fn vitest(json: &str) -> Result<Tally> {
             {
                 let path = Path::new(text(&file["name"]));
                 let suite = path.file_name().unwrap_or_default().to_string_lossy();
-                // Vitest keeps no reason of its own; a test may leave one here.
+                // Vitest records no reason itself; a test may leave one here.
                 let reason = text(&test["meta"]["reason"]);
                 tally.ignore(format!("{suite}: {}", text(&test["fullName"])), reason);
             }
@@ -116,11 +116,11 @@ pub fn vitest(json: &str) -> Result<Tally> {
     Ok(tally)
 }
 
-/// Reads the output of Python's unittest when told to name its tests.
+/// Reads the verbose output of Python's unittest.
 ///
 /// # Errors
 ///
-/// Fails when there is no count of tests: it did not get to its end.
+/// Fails if there is no count of tests: it did not complete.
 pub fn unittest(text: &str) -> Result<Tally> {
     let ran = text
         .lines()
@@ -141,7 +141,7 @@ pub fn unittest(text: &str) -> Result<Tally> {
     let skipped: usize = count("skipped=");
     let failed = count("failures=") + count("errors=") + count("unexpected successes=");
     let mut tally = Tally {
-        // Parts of one test may fail several times.
+        // Subtests of one test may fail several times.
         passed: ran.saturating_sub(failed + skipped),
         failed,
         ignored: Vec::new(),
@@ -169,7 +169,7 @@ fn suite_name(line: &str) -> Option<&str> {
     Some(name.strip_prefix("unittests ").unwrap_or(name))
 }
 
-/// The words in `, reason` (libtest) or ` (reason)` (libtest-mimic).
+/// The reason in `, reason` (libtest) or ` (reason)` (libtest-mimic).
 fn bare(reason: &str) -> &str {
     let reason = reason.trim_start_matches(',').trim();
     reason
@@ -184,7 +184,7 @@ fn count_before(text: &str, what: &str) -> Option<usize> {
         .find_map(|part| part.trim().strip_suffix(what)?.trim_end().parse().ok())
 }
 
-/// Takes out the escape sequences that set colours.
+/// Removes the escape sequences that set colours.
 fn without_colour(line: &str) -> String {
     let mut plain = String::with_capacity(line.len());
     let mut rest = line;

@@ -1,4 +1,4 @@
-//! Serving the built page on this machine, until Ctrl-C.
+//! Serves the built page on this computer until Ctrl-C.
 
 use std::{
     io::{Read, Write},
@@ -13,16 +13,16 @@ use anyhow::{Context, Result, bail};
 use crate::{process::command, project::Project};
 
 const FIRST_PORT: u16 = 8080;
-/// How many ports after the first are tried.
+/// How many ports to try.
 const PORTS: u16 = 100;
 const PATIENCE: Duration = Duration::from_secs(30);
 
-/// Serves `www/dist` on the loopback address, prints where once it answers, and
-/// returns after Ctrl-C.
+/// Serves `www/dist` on the loopback address, prints the address once it answers,
+/// and returns after Ctrl-C.
 ///
 /// # Errors
 ///
-/// Fails when the port asked for is taken or the server does not come up.
+/// Fails if the given port is taken or the server does not start.
 pub fn serve(project: &Project, port: Option<u16>) -> Result<()> {
     let port = match port {
         Some(port) if is_free(port) => port,
@@ -41,27 +41,27 @@ pub fn serve(project: &Project, port: Option<u16>) -> Result<()> {
         .stdout(Stdio::null());
     let (send, stopped) = mpsc::channel();
     ctrlc::set_handler(move || {
-        // Without a receiver we are on our way out already.
+        // Without a receiver we are already exiting.
         let _ = send.send(());
     })?;
     let mut server = server
         .spawn()
         .context("cannot start vite's preview server")?;
     let result = watch(&mut server, port, &stopped);
-    // It may have ended by itself: the same Ctrl-C reaches both.
+    // It may have exited already: the same Ctrl-C reaches both.
     let _ = server.kill();
     let _ = server.wait();
     result
 }
 
-/// Waits for the server to answer, says so, and waits for the end.
+/// Waits for the server to answer, prints its address, and waits for the end.
 fn watch(server: &mut Child, port: u16, stopped: &mpsc::Receiver<()>) -> Result<()> {
     let started = Instant::now();
     let mut announced = false;
     loop {
         if !announced && answers(port) {
             println!("http://127.0.0.1:{port}/");
-            eprintln!("Ctrl-C ends it.");
+            eprintln!("Press Ctrl-C to stop.");
             announced = true;
         }
         let pause = Duration::from_millis(if announced { 500 } else { 50 });
@@ -69,7 +69,7 @@ fn watch(server: &mut Child, port: u16, stopped: &mpsc::Receiver<()>) -> Result<
             return Ok(());
         }
         if let Some(status) = server.try_wait()? {
-            bail!("the server has ended ({status})");
+            bail!("the server exited ({status})");
         }
         if !announced && started.elapsed() > PATIENCE {
             bail!("the server does not answer");
@@ -81,7 +81,7 @@ fn is_free(port: u16) -> bool {
     TcpListener::bind((Ipv4Addr::LOCALHOST, port)).is_ok()
 }
 
-/// Whether the page itself is there, not merely an open port.
+/// Whether the page itself answers, not merely an open port.
 fn answers(port: u16) -> bool {
     let ask = || -> std::io::Result<bool> {
         let mut stream = TcpStream::connect((Ipv4Addr::LOCALHOST, port))?;

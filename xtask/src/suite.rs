@@ -1,4 +1,4 @@
-//! `cargo xtask test`: every test that there is, step by step.
+//! `cargo xtask test`: every test, step by step.
 
 use std::{
     fs,
@@ -40,16 +40,16 @@ pub enum Step {
     Unit,
     /// The built page in a headless browser
     E2e,
-    /// The search in shards on several worker processes (examples/cluster)
+    /// The orientation search in shards on several worker processes (examples/cluster)
     Cluster,
 }
 
-/// Runs the steps asked for, or all, each whatever became of those before it,
-/// and prints the summary; `false` when anything failed.
+/// Runs the given steps, or all, each regardless of the results before it, and
+/// prints a summary. Returns `false` if anything failed.
 ///
 /// # Errors
 ///
-/// Fails when no folder for temporary files can be made.
+/// Fails if no temporary folder can be created.
 pub fn run(project: &Project, steps: &[Step]) -> Result<bool> {
     let scratch = TempDir::with_prefix("cusp-test-")?;
     let mut records: Vec<Record> = Vec::new();
@@ -114,7 +114,7 @@ impl Step {
             Self::Unit => vitest(&mut node::npm(project)?, "test", scratch),
             Self::E2e => {
                 let chromium = browser::chromium()?;
-                // The shop asks it whether plans are right.
+                // The shop verifies plans with it.
                 let cusp = build_cusp(project)?;
                 vitest(
                     node::npm(project)?
@@ -129,14 +129,14 @@ impl Step {
     }
 }
 
-/// Runs a cargo test command and counts.
+/// Runs a cargo test command and counts its tests.
 fn cargo_test(command: &mut Command, scratch: &Path) -> Result<(Verdict, Tally)> {
-    // Vulkan drivers want a private folder and complain at length without one.
+    // Vulkan drivers need a private folder and complain at length without one.
     let (status, text) = process::tee(command.env("XDG_RUNTIME_DIR", scratch))?;
     Ok(judge(status, runner_output::libtest(&text)))
 }
 
-/// Runs one of npm's scripts that is a call of vitest, and counts.
+/// Runs an npm script that calls vitest, and counts its tests.
 fn vitest(npm: &mut Command, script: &str, scratch: &Path) -> Result<(Verdict, Tally)> {
     let file = scratch.join(format!("{script}.json"));
     let mut to_file = std::ffi::OsString::from("--outputFile.json=");
@@ -150,8 +150,8 @@ fn vitest(npm: &mut Command, script: &str, scratch: &Path) -> Result<(Verdict, T
     Ok(judge(status, tally))
 }
 
-/// A second, independent driver: what passes on both owes nothing to the quirks
-/// of one.
+/// A second, independent driver: what passes on both does not depend on the
+/// quirks of one.
 fn gpu_on_swiftshader(project: &Project, scratch: &Path) -> Result<(Verdict, Tally)> {
     let Some(driver) = browser::chromium()
         .ok()
@@ -170,7 +170,7 @@ fn gpu_on_swiftshader(project: &Project, scratch: &Path) -> Result<(Verdict, Tal
     )
 }
 
-/// The example that shares a search among worker processes.
+/// The example that distributes a search among worker processes.
 fn cluster(project: &Project) -> Result<(Verdict, Tally)> {
     let python = match python::ensure_environment(project) {
         Ok(python) => python,
@@ -189,15 +189,15 @@ fn cluster(project: &Project) -> Result<(Verdict, Tally)> {
     Ok(judge(status, runner_output::unittest(&text)))
 }
 
-/// Builds the command line for tests of what calls it, and returns its path.
+/// Builds the command line for tests that call it, and returns its path.
 fn build_cusp(project: &Project) -> Result<PathBuf> {
     process::run(process::cargo(project).args(["build", "--bin", "cusp"]))?;
     let name = format!("debug/cusp{}", std::env::consts::EXE_SUFFIX);
     Ok(project.target.join(name))
 }
 
-/// Gives a Debian machine a Vulkan driver. Elsewhere the machine's own must do;
-/// where there is none, the GPU tests show as ignored.
+/// Installs a Vulkan driver on Debian. Elsewhere the machine's own is used;
+/// without one, the GPU tests show as ignored.
 fn ensure_vulkan() {
     if debian::is_debian()
         && let Err(error) = debian::ensure(&VULKAN_PACKAGES)

@@ -1,8 +1,8 @@
-//! The compiler that makes wasm.
+//! The compiler for wasm.
 //!
 //! Usually the one that built xtask, with rustup's wasm target. Where rustup
-//! cannot fetch a target but Debian's packages are to be had, Debian's compiler
-//! stands in for everything wasm; native builds stay on rustup's.
+//! cannot fetch a target but Debian's packages are available, Debian's compiler
+//! builds everything for wasm; native builds stay with rustup's.
 
 use std::{
     fs,
@@ -19,10 +19,10 @@ use crate::{
     wasm_std,
 };
 
-/// The one target that the browser's half is built for.
+/// The target of the browser build.
 pub const WASM_TARGET: &str = "wasm32-unknown-unknown";
 
-/// Debian's current compiler, which lives beside the distribution's own.
+/// Debian's current compiler, beside the distribution's default one.
 const COMPILER_PACKAGES: [&str; 4] = ["rustc-web", "cargo-web", "rust-web-src", "lld-22"];
 const CLIPPY_PACKAGE: &str = "rust-web-clippy";
 const LINKER: &str = "wasm-ld-22";
@@ -31,9 +31,9 @@ const LINKER: &str = "wasm-ld-22";
 pub enum Toolchain {
     /// The compiler on `PATH`.
     Default,
-    /// Debian's, under its own names in this folder.
+    /// Debian's, in this folder under the usual names.
     Debian {
-        /// A folder with nothing but Debian's cargo, rustc and the like, so that
+        /// A folder with only Debian's cargo, rustc and related tools, so that
         /// putting it first on `PATH` changes nothing else.
         bin: PathBuf,
     },
@@ -44,13 +44,13 @@ impl Toolchain {
     ///
     /// # Errors
     ///
-    /// Fails when neither way works; the error says what is missing and how to
+    /// Fails if neither way works; the error says what is missing and how to
     /// get it.
     pub fn ensure(project: &Project) -> Result<Self> {
         if has_wasm_std(command("rustc").current_dir(&project.root)) {
             return Ok(Self::Default);
         }
-        // Asking rustup costs a network round trip: not where it has failed before.
+        // Asking rustup costs a network round trip: skip it where it has failed before.
         let bin = project.target.join("debian-rust");
         if debian::is_debian() {
             link_tools(&bin)?;
@@ -89,7 +89,7 @@ impl Toolchain {
         match self {
             Self::Default => process::output(command("cargo").args(["clippy", "--version"]))
                 .map(drop)
-                .context("clippy is missing: get it with `rustup component add clippy`"),
+                .context("clippy is missing: install it with `rustup component add clippy`"),
             Self::Debian { bin } => {
                 debian::ensure(&[CLIPPY_PACKAGE])?;
                 link_tools(bin)
@@ -97,7 +97,7 @@ impl Toolchain {
         }
     }
 
-    /// A call of a program that compiles for wasm or calls something that does.
+    /// A command that compiles for wasm or calls something that does.
     /// `folders` come first on its `PATH`.
     ///
     /// # Errors
@@ -124,7 +124,7 @@ impl Toolchain {
                     "PATH",
                     path_with([bin.as_path()].into_iter().chain(folders))?,
                 );
-                // What rustup's cargo has set for xtask would mislead Debian's.
+                // Variables that rustup's cargo sets for xtask would mislead Debian's.
                 for name in [
                     "CARGO",
                     "RUSTC",
@@ -153,7 +153,7 @@ impl Toolchain {
         self.command(project, &self.program("cargo"), folders)
     }
 
-    /// Where one of the compiler's programs is.
+    /// The path of one of the compiler's programs.
     pub fn program(&self, name: &str) -> PathBuf {
         match self {
             Self::Default => name.into(),
@@ -173,8 +173,8 @@ impl Toolchain {
     }
 }
 
-/// Cargo's target folder for wasm builds. One of its own: two compilers that share
-/// one rebuild each other's.
+/// Cargo's target folder for wasm builds. Two compilers that share a folder
+/// rebuild each other's output.
 pub fn wasm_target_folder(project: &Project) -> PathBuf {
     project.target.join("wasm")
 }
@@ -203,7 +203,7 @@ fn add_target(project: &Project) -> Result<()> {
     .map(drop)
 }
 
-/// Fills `bin` with links to those of Debian's tools that are installed.
+/// Fills `bin` with links to the installed Debian tools.
 fn link_tools(bin: &Path) -> Result<()> {
     fs::create_dir_all(bin)?;
     for tool in ["cargo", "rustc", "rustdoc", "cargo-clippy", "clippy-driver"] {
@@ -221,7 +221,7 @@ fn symlink(original: &Path, link: &Path) -> std::io::Result<()> {
     std::os::unix::fs::symlink(original, link)
 }
 
-/// There is no Debian without links; this only lets xtask compile elsewhere.
+/// Debian always has links; this only lets xtask compile elsewhere.
 #[cfg(not(unix))]
 fn symlink(original: &Path, link: &Path) -> std::io::Result<()> {
     fs::copy(original, link).map(drop)

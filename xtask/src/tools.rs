@@ -1,4 +1,4 @@
-//! wasm-pack and wasm-bindgen's programs, at the versions that the project needs.
+//! wasm-pack and wasm-bindgen's programs, in the versions that the project needs.
 
 use std::path::{Path, PathBuf};
 
@@ -11,8 +11,8 @@ use crate::{
 
 /// Installed when no wasm-pack is found.
 const WASM_PACK: &str = "0.15.1";
-/// The oldest one that is taken when found: the first to know `--no-pack` and
-/// today's lock files.
+/// The oldest version that is accepted: the first that supports `--no-pack` and
+/// the current lock file format.
 const OLDEST_WASM_PACK: (u32, u32) = (0, 13);
 
 /// Where the programs are.
@@ -21,7 +21,7 @@ pub struct Tools {
     pub bin: PathBuf,
     /// wasm-pack itself.
     pub wasm_pack: PathBuf,
-    /// What runs a wasm test binary in a browser.
+    /// The runner of wasm test binaries in a browser.
     pub test_runner: PathBuf,
 }
 
@@ -34,8 +34,8 @@ impl Tools {
     pub fn ensure(project: &Project) -> Result<Self> {
         let root = project.target.join("tools");
         let bin = root.join("bin");
-        // The programs and the library talk through an unstable format: the
-        // versions must be equal.
+        // The programs and the library share an unstable format, so the versions
+        // must be equal.
         let wasm_bindgen = project.locked_version("wasm-bindgen")?;
 
         let mut missing = Vec::new();
@@ -64,8 +64,8 @@ impl Tools {
     }
 }
 
-/// Both tools share most of their dependencies and so one build. Not `--locked`:
-/// the lock files that they are published with name withdrawn versions.
+/// Both tools share most of their dependencies, and so one build. Not `--locked`:
+/// their published lock files name withdrawn versions.
 fn install(project: &Project, root: &Path, packages: &[String]) -> Result<()> {
     eprintln!("installing {} (minutes, once)", packages.join(" and "));
     process::run(
@@ -77,14 +77,14 @@ fn install(project: &Project, root: &Path, packages: &[String]) -> Result<()> {
             // Leaves out TLS, for drivers on other machines.
             .arg("--no-default-features")
             .env("CARGO_TARGET_DIR", root.join("build"))
-            // They run for a second or two: being fast is not worth the minutes.
+            // They run for a second or two: optimising them is not worth the minutes.
             .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "0")
             .env("CARGO_PROFILE_RELEASE_LTO", "off"),
     )
     .with_context(|| format!("cannot install {}", packages.join(" ")))
 }
 
-/// The first program of this name whose version will do: our own, then `PATH`'s.
+/// The first program of this name with an acceptable version: our own, then `PATH`'s.
 fn find(bin: &Path, name: &str, fits: impl Fn(&str) -> bool) -> Option<PathBuf> {
     let path = path_with([bin]).ok()?;
     which::which_in_all(name, Some(path), ".")

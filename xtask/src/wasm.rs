@@ -1,4 +1,4 @@
-//! The wasm package: built, tested in a browser, linted, weighed.
+//! The wasm package: building, browser tests, lints and size.
 
 use std::{
     fs,
@@ -18,12 +18,12 @@ use crate::{
     tools::Tools,
 };
 
-/// What the page's visitors are asked to load, gzipped, in bytes.
+/// The size budget of the gzipped module, in bytes.
 const BUDGET: usize = 335_000;
 /// Relative to the page's folder.
 const MODULE: &str = "pkg/cusp_slicer_bg.wasm";
-/// The command line is a default feature, and has no place in a browser. Without
-/// this, cargo would compile it for wasm along with the tests.
+/// Leaves out the command line, a default feature: cargo would otherwise compile
+/// it for wasm along with the tests.
 const NO_COMMAND_LINE: &str = "--no-default-features";
 /// Software GPUs are slow; the runner's own limit is 20 seconds for all tests.
 const BROWSER_TEST_SECONDS: &str = "900";
@@ -43,12 +43,12 @@ pub fn build(project: &Project) -> Result<()> {
             .args(["build", "--release", "--target", WASM_TARGET])
             .args(["--lib", NO_COMMAND_LINE]),
     )?;
-    // Cargo knows when there is nothing to do; wasm-pack would spend seconds on
+    // Cargo knows when there is nothing to do; wasm-pack would spend seconds
     // optimising the same module again.
     if is_packed(project) {
         return Ok(());
     }
-    // Without wasm-opt on PATH wasm-pack would quietly leave that step out.
+    // Without wasm-opt on PATH, wasm-pack would silently skip that step.
     let npm_bin = node::bin(project);
     which::which_in(
         "wasm-opt",
@@ -64,14 +64,14 @@ pub fn build(project: &Project) -> Result<()> {
                 [tools.bin.as_path(), npm_bin.as_path()],
             )?
             .args(["build", "--release", "--target", "web"])
-            // It is to use what was just found, and download nothing.
+            // Use what was just found; download nothing.
             .args(["--mode", "no-install", "--no-pack", "--out-dir"])
             .arg(project.www.join("pkg"))
             .args(["--", NO_COMMAND_LINE]),
     )
 }
 
-/// Whether the package is newer than all that it is made of.
+/// Whether the package is newer than everything it is built from.
 fn is_packed(project: &Project) -> bool {
     let modified = |path: PathBuf| fs::metadata(path).and_then(|data| data.modified()).ok();
     let compiled = toolchain::wasm_target_folder(project)
@@ -102,7 +102,7 @@ fn is_packed(project: &Project) -> bool {
 /// The tests of tests/web.rs, to be run in a browser.
 ///
 /// Not `wasm-pack test`: that compiles every test of the package for wasm before
-/// it runs the one asked for, and most are native only.
+/// it runs this one, and most are native only.
 ///
 /// # Errors
 ///
@@ -127,14 +127,14 @@ pub fn test_command(project: &Project) -> Result<Command> {
             "WASM_BINDGEN_TEST_WEBDRIVER_JSON",
             browser::webdriver_settings(project, &chromium)?,
         );
-    // The runner would rather take another browser's driver than ours.
+    // Otherwise the runner may prefer another browser's driver.
     for name in ["GECKODRIVER", "SAFARIDRIVER"] {
         cargo.env_remove(name).env_remove(format!("{name}_REMOTE"));
     }
     Ok(cargo)
 }
 
-/// Lints what is compiled for wasm only.
+/// Lints the code that is compiled only for wasm.
 ///
 /// # Errors
 ///
@@ -152,7 +152,7 @@ pub fn clippy(project: &Project) -> Result<()> {
     )
 }
 
-/// Weighs the built module; `false` when it is over the budget.
+/// Reports the built module's size. Returns `false` if it is over the budget.
 ///
 /// # Errors
 ///

@@ -1,8 +1,8 @@
 //! Rust's standard library for wasm, built from Debian's source package.
 //!
 //! Debian ships the current compiler and its source, but no library for wasm.
-//! Cargo can build one (`-Zbuild-std`), in half a minute; put where the compiler
-//! looks for its libraries, it serves every later build like rustup's would.
+//! Cargo can build one (`-Zbuild-std`) in half a minute. Where the compiler
+//! looks for its libraries, it serves every later build as rustup's would.
 
 use std::{
     fs,
@@ -17,12 +17,12 @@ use crate::{
     toolchain::{Toolchain, WASM_TARGET},
 };
 
-/// Lies among the libraries and tells which compiler they fit.
+/// Stamp file beside the libraries: names the compiler that built them.
 const STAMP: &str = "built-from-source-for";
-/// The empty crate whose dependencies are what we are after.
+/// An empty crate, built for the sake of its dependencies.
 const SEED: &str = "wasm_std_seed";
 
-/// Whether the libraries are there and fit the compiler that is there now.
+/// Whether the libraries exist and match the current compiler.
 pub fn is_current(toolchain: &Toolchain) -> bool {
     let current = || -> Result<bool> {
         let stamp = fs::read_to_string(library_folder(toolchain)?.join(STAMP))?;
@@ -31,11 +31,11 @@ pub fn is_current(toolchain: &Toolchain) -> bool {
     toolchain.program("rustc").exists() && current().unwrap_or(false)
 }
 
-/// Builds the libraries and puts them where the compiler looks.
+/// Builds the libraries and installs them where the compiler looks.
 ///
 /// # Errors
 ///
-/// Fails when the build does or the compiler's folder cannot be written to.
+/// Fails if the build fails or the compiler's folder is not writable.
 pub fn build(toolchain: &Toolchain, project: &Project) -> Result<()> {
     if is_current(toolchain) {
         return Ok(());
@@ -58,10 +58,10 @@ pub fn build(toolchain: &Toolchain, project: &Project) -> Result<()> {
             .env("CARGO_TARGET_DIR", &built)
             // The switch that lets a stable compiler build its own library.
             .env("RUSTC_BOOTSTRAP", "1")
-            // Cargo leaves the bitcode out of what it does not link with LTO
-            // itself; the project's release profile needs it. Set here, the
-            // flags also keep the project's own (.cargo/config.toml) away from
-            // what every project on the machine will use.
+            // Cargo omits bitcode from what it does not link with LTO itself,
+            // and the project's release profile needs it. Setting the flags
+            // here also keeps the project's own (.cargo/config.toml) out of a
+            // library that every project on the machine will use.
             .env("RUSTFLAGS", "-Cembed-bitcode=yes")
             .args(["build", "--release", "--target", WASM_TARGET])
             .arg("-Zbuild-std=std,panic_abort,test,proc_macro"),
@@ -94,8 +94,8 @@ pub fn libraries(folder: &Path) -> Result<Vec<PathBuf>> {
     Ok(libraries)
 }
 
-/// Replaces the libraries in `to`: two builds of one crate side by side are an
-/// error to the compiler.
+/// Replaces the libraries in `to`: the compiler rejects two builds of one crate
+/// side by side.
 fn install(from: &Path, to: &Path) -> Result<()> {
     fs::create_dir_all(to)?;
     for old in libraries(to)? {
