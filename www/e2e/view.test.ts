@@ -1,6 +1,6 @@
 /** What the view draws, in a real browser. */
 import { describe, expect, it } from "vitest";
-import { colourAt } from "../src/view/palette.js";
+import { colourAt } from "../src/view/legend/palette.js";
 import { drawn, heard, likeness, picture, viewPages } from "./view-pages.js";
 
 const start = viewPages();

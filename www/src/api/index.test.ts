@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { createSlicer, SCHEMA, type Slicer } from "./index.js";
 import { resolve } from "./source.js";
-import type { Engine } from "./lane.js";
+import type { Engine } from "./client.js";
 import type { Glance, MeshInfo, Options, Profiled, Report, SlicerWorker } from "./wire.js";
 
 /** What the fakes report: masks are as wide as the tolerance says. */

@@ -14,7 +14,7 @@
  * renders a page, a slicer can be made, and its calls reject with `no-browser`.
  */
 import { absentSlicer } from "./absent.js";
-import { Lane, spawnWorker, type About, type Compiled, type Engine, type Planned, type Wanted, type Watch } from "./lane.js";
+import { Lane, spawnWorker, type About, type Compiled, type Engine, type Planned, type Wanted, type Watch } from "./client.js";
 import { orient, type OrientCall, type Oriented } from "./orient.js";
 import { Pool } from "./pool.js";
 import { resolve, stemOf, type Source } from "./source.js";
@@ -23,7 +23,7 @@ import type { Comparison, Glance, MeshInfo, Options, Printer, Profiled, Report, 
 export { ERROR_CODES, isAbort, SlicerError, type ErrorCode, type ErrorDetails } from "./error.js";
 export { WARNING_CODES, type WarningCode } from "./warning.js";
 export type { Source } from "./source.js";
-export type { Watch } from "./lane.js";
+export type { Watch } from "./client.js";
 export type { Found, OrientCall } from "./orient.js";
 export type * from "./wire.js";
 

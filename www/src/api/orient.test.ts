@@ -1,5 +1,5 @@
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
-import type { Engine } from "./lane.js";
+import type { Engine } from "./client.js";
 import { createSlicer, type OrientCall, type Slicer } from "./index.js";
 import { workersFor } from "./pool.js";
 import type { Candidate, Glance, MeshInfo, Profiled, Report } from "./wire.js";

@@ -1,5 +1,5 @@
 /** The search for the direction that a model is best built in: over the whole sphere, then more finely around the best. */
-import type { About, Watch } from "./lane.js";
+import type { About, Watch } from "./client.js";
 import type { Pool, Team } from "./pool.js";
 import { DEFAULT_SEARCH, type Candidate, type Options, type Search } from "./wire.js";
 

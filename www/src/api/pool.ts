@@ -1,5 +1,5 @@
 /** Several workers for work that comes in many parts: each holds the model, and whichever is free takes the next part. */
-import { disposed, present, untilAborted, type About, type Lane, type Remote, type Subject, type Watch } from "./lane.js";
+import { disposed, present, untilAborted, type About, type Lane, type Remote, type Subject, type Watch } from "./client.js";
 
 /** More share the work no better, and each holds the model. */
 const MOST_WORKERS = 8;

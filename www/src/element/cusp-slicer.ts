@@ -9,22 +9,22 @@ import { createSlicer, type Model, type Plan, type PrintFile, type Slicer } from
 import type { Source } from "../api/source.js";
 import type { Backend, Candidate, Format, Metric, Resin } from "../api/wire.js";
 import { languageOf, type Language } from "../texts/index.js";
-import { Attributes, settingsOf, type SettingName } from "./attributes.js";
+import { Attributes, settingsOf, type SettingName } from "./state/attributes.js";
 import type { CuspSlicerEvents } from "./events.js";
-import { face } from "./face.js";
-import { layoutStyles } from "./layout.js";
-import { METRICS } from "./metric.js";
-import { PANELS, type Panel } from "./panel-names.js";
-import { definePanels } from "./panels.js";
-import { problemStyles } from "./problem-box.js";
-import { progressStyles, standing } from "./progress.js";
-import type { Result } from "./result.js";
-import { saveFile } from "./save-file.js";
-import { Session, type Host } from "./session.js";
-import { fromAddress, parse, toAddress } from "./settings.js";
-import { shared } from "./styles.js";
-import { summaryStyles } from "./summary.js";
-import { thumbnailOf } from "./thumbnail.js";
+import { face } from "./template.js";
+import { layoutStyles } from "./styles/layout.js";
+import { METRICS } from "./state/metric.js";
+import { PANELS, type Panel } from "./state/panel-names.js";
+import { definePanels } from "./panels/index.js";
+import { problemStyles } from "./parts/problem-box.js";
+import { progressStyles, standing } from "./parts/progress.js";
+import type { Result } from "./state/result.js";
+import { saveFile } from "./parts/save-file.js";
+import { Session, type Host } from "./state/session.js";
+import { fromAddress, parse, toAddress } from "./state/settings.js";
+import { shared } from "./styles/shared.js";
+import { summaryStyles } from "./panels/summary.js";
+import { thumbnailOf } from "./parts/thumbnail.js";
 
 export type State = "empty" | "busy" | "error" | "done" | "ready";
 

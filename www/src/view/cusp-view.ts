@@ -6,25 +6,25 @@
  * defines the element, since a bundler may leave out what a module does beside its exports.
  */
 import { html, LitElement, nothing, type PropertyValues, type TemplateResult } from "lit";
-import type { Frame, Heights, Inset } from "./cameras.js";
-import { BRUSH, type Brush } from "./brush.js";
-import { Derived } from "./derived.js";
+import type { Frame, Heights, Inset } from "./scene/cameras.js";
+import { BRUSH, type Brush } from "./paint/brush.js";
+import { Derived } from "./steps/derived.js";
 import type { HeightDetail, PaintDetail, RotateDetail, ViewErrorDetail, ViewEvents } from "./events.js";
-import { pressed, type Tool } from "./keys.js";
-import type { Heat } from "./heat.js";
-import { heatLegend, legend, legendStyles } from "./legend.js";
-import type { Look } from "./model.js";
-import { Painting } from "./painting.js";
-import type { PaletteName } from "./palette.js";
-import type { BuildVolume } from "./plate.js";
-import { placeIn, watchPointer, type Point } from "./pointer.js";
-import { Pointing, type Shown } from "./pointing.js";
-import { layFlat, turned, UPRIGHT, type Rotation } from "./pose.js";
-import { Printed } from "./printed.js";
-import { Stage } from "./stage.js";
-import { contextOf, place } from "./surface.js";
+import { pressed, type Tool } from "./scene/keys.js";
+import type { Heat } from "./paint/heat.js";
+import { heatLegend, legend, legendStyles } from "./legend/legend.js";
+import type { Look } from "./scene/model.js";
+import { Painting } from "./paint/painting.js";
+import type { PaletteName } from "./legend/palette.js";
+import type { BuildVolume } from "./scene/plate.js";
+import { placeIn, watchPointer, type Point } from "./scene/pointer.js";
+import { Pointing, type Shown } from "./scene/pointing.js";
+import { layFlat, turned, UPRIGHT, type Rotation } from "./scene/pose.js";
+import { Printed } from "./steps/printed.js";
+import { Stage } from "./scene/scene.js";
+import { contextOf, place } from "./scene/surface.js";
 import { ENGLISH, type ViewTexts } from "./texts.js";
-import { themeOf } from "./theme.js";
+import { themeOf } from "./scene/theme.js";
 import { viewStyles } from "./view-styles.js";
 
 export class CuspView extends LitElement {

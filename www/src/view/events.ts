@@ -1,6 +1,6 @@
 /** What the view tells. */
-import type { Frame } from "./cameras.js";
-import type { Rotation } from "./pose.js";
+import type { Frame } from "./scene/cameras.js";
+import type { Rotation } from "./scene/pose.js";
 
 /** The model was turned, by the rings, by laying a face flat or by keyboard. The view shows it already. */
 export interface RotateDetail {

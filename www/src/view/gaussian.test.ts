@@ -1,8 +1,8 @@
 import { expect, test } from "vitest";
 import { drawSphere, Nearest, placeOf, seenAt, type Side } from "./gaussian.js";
-import type { Rgb } from "./palette.js";
-import { extentOf, layFlat, sizeOf, turned, UPRIGHT, type Triple } from "./pose.js";
-import { back, combined, heightOf, lookFrom, turn, unit } from "./turn.js";
+import type { Rgb } from "./legend/palette.js";
+import { extentOf, layFlat, sizeOf, turned, UPRIGHT, type Triple } from "./scene/pose.js";
+import { back, combined, heightOf, lookFrom, turn, unit } from "./scene/turn.js";
 
 /** Points of a spiral over the sphere. */
 function spiral(count: number): Float64Array {

@@ -2,9 +2,9 @@
  * The Gaussian sphere: every point of it is a direction, and has the colour of the sample nearest to it. It is drawn twice,
  * from the front and from behind, as a disc each.
  */
-import type { Rgb } from "./palette.js";
-import type { Rotation, Triple } from "./pose.js";
-import { back, turn } from "./turn.js";
+import type { Rgb } from "./legend/palette.js";
+import type { Rotation, Triple } from "./scene/pose.js";
+import { back, turn } from "./scene/turn.js";
 
 /** Cells along the side of the map of nearest directions, which is an octahedron laid out as a square. */
 const MAP_SIDE = 64;

@@ -1,6 +1,6 @@
 /** Every word of the view, with numbers put in by the one who gives them: the view itself knows no language. */
 
-import type { Tool } from "./keys.js";
+import type { Tool } from "./scene/keys.js";
 
 export interface ViewTexts {
   /** Name of the view for those who cannot see it. */

@@ -1,6 +1,6 @@
 /** How the view looks around its canvas. Takes the page's custom properties, and does without them. */
 import { css } from "lit";
-import { hidden } from "./hidden.js";
+import { hidden } from "./visually-hidden.js";
 
 export const viewStyles = css`
   :host {

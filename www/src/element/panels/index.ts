@@ -1,0 +1,36 @@
+/** The elements that an element is made of. */
+import { define } from "../define.js";
+import { CuspDirection } from "./orientation-panel.js";
+import { CuspSphere } from "./orientation-sphere.js";
+import { CuspModel } from "./model-view.js";
+import { CuspMask } from "./mask-view.js";
+import { CuspChart } from "./profile-chart.js";
+import { CuspQuality } from "./quality.js";
+import { CuspSettings } from "./settings-form.js";
+
+const PARTS = {
+  "cusp-settings": CuspSettings,
+  "cusp-chart": CuspChart,
+  "cusp-mask": CuspMask,
+  "cusp-quality": CuspQuality,
+  "cusp-model": CuspModel,
+  "cusp-direction": CuspDirection,
+  "cusp-sphere": CuspSphere,
+} as const;
+
+/** Makes the parts known to the browser, once, and not before an element is made. */
+export function definePanels(): void {
+  for (const [name, part] of Object.entries(PARTS)) define(name, part);
+}
+
+declare global {
+  interface HTMLElementTagNameMap {
+    "cusp-settings": CuspSettings;
+    "cusp-chart": CuspChart;
+    "cusp-mask": CuspMask;
+    "cusp-quality": CuspQuality;
+    "cusp-model": CuspModel;
+    "cusp-direction": CuspDirection;
+    "cusp-sphere": CuspSphere;
+  }
+}

@@ -1,0 +1,355 @@
+/** A layer's mask on a canvas at any zoom, with the range input that goes through the layers, and play. */
+import { css, html, LitElement, nothing, type PropertyValues, type TemplateResult } from "lit";
+import { live } from "lit/directives/live.js";
+import type { Mask } from "../../api/index.js";
+import type { Report } from "../../api/wire.js";
+import { languageOf, type Language } from "../../texts/index.js";
+import { coverage, factorFor, wholeBytes } from "../parts/bitmap.js";
+import { css as cssColour, ofThickness } from "../../view/legend/palette.js";
+import { styled } from "../parts/styled.js";
+import { shared } from "../styles/shared.js";
+import { moved, WHOLE, windowOf, zoomed, type Place } from "../parts/window.js";
+
+/** Least time between two layers when they are played; for those who want less motion. */
+const FRAME_MS = 60;
+const CALM_FRAME_MS = 400;
+
+/** How far an arrow key moves the picture, as a part of what is seen. */
+const STEP = 0.125;
+
+const ARROWS: Readonly<Record<string, readonly [number, number]>> = {
+  ArrowLeft: [-STEP, 0],
+  ArrowRight: [STEP, 0],
+  ArrowUp: [0, -STEP],
+  ArrowDown: [0, STEP],
+};
+
+export class CuspMask extends LitElement {
+  static override properties = {
+    mask: { attribute: false },
+    report: { attribute: false },
+    limits: { attribute: false },
+    layer: { type: Number },
+    language: { attribute: false },
+    place: { state: true },
+    playing: { state: true },
+  };
+
+  declare mask: Mask | null;
+  declare report: Report | null;
+  declare limits: readonly [number, number];
+  declare layer: number;
+  declare language: Language;
+  declare place: Place;
+  declare playing: boolean;
+
+  #resized: ResizeObserver | null = null;
+  #timer: ReturnType<typeof setTimeout> | undefined;
+  /** Where the pointer holds the picture. */
+  #held: readonly [number, number] | null = null;
+  readonly #calm = matchMedia("(prefers-reduced-motion: reduce)");
+
+  constructor() {
+    super();
+    this.mask = null;
+    this.report = null;
+    this.limits = [0, 0];
+    this.layer = 0;
+    this.language = languageOf();
+    this.place = WHOLE;
+    this.playing = false;
+  }
+
+  static override styles = [
+    shared,
+    css`
+      :host {
+        display: flex;
+        flex-direction: column;
+        min-width: 0;
+        height: 100%;
+      }
+      .well {
+        position: relative;
+        flex: 1;
+        min-height: 18rem;
+        border-radius: 8px;
+        background: #000;
+        overflow: hidden;
+      }
+      canvas {
+        position: absolute;
+        inset: 0;
+        width: 100%;
+        height: 100%;
+        border-radius: 8px;
+      }
+      canvas:focus-visible {
+        outline-offset: -3px;
+      }
+      canvas.zoomed {
+        cursor: grab;
+        touch-action: none;
+      }
+      .tools {
+        display: flex;
+        align-items: center;
+        gap: 0.25rem;
+      }
+      .tools button {
+        min-width: 2.25rem;
+        padding: 0;
+      }
+      .scrub {
+        display: grid;
+        grid-template-columns: auto auto 1fr auto;
+        align-items: center;
+        gap: 0.5rem;
+        margin-top: 0.75rem;
+      }
+      .scrub button {
+        min-width: 2.75rem;
+        padding: 0;
+        font-size: 1.25rem;
+      }
+      .scrub svg {
+        width: 1rem;
+        height: 1rem;
+        fill: currentColor;
+      }
+      input {
+        width: 100%;
+        height: 2.75rem;
+        margin: 0;
+        accent-color: var(--cusp-accent);
+      }
+      dl {
+        display: flex;
+        flex-wrap: wrap;
+        justify-content: space-between;
+        gap: 0.25rem 1rem;
+        margin-top: 0.5rem;
+      }
+      dt {
+        color: var(--cusp-quiet);
+        font-size: 0.8125rem;
+      }
+      dd {
+        font-weight: 550;
+        white-space: nowrap;
+      }
+      .swatch {
+        display: inline-block;
+        width: 0.75em;
+        height: 0.75em;
+        margin-inline-end: 0.375em;
+        border-radius: 2px;
+      }
+      @media (max-width: 420px) {
+        dl {
+          font-size: 0.875rem;
+        }
+      }
+    `,
+  ];
+
+  override connectedCallback(): void {
+    super.connectedCallback();
+    if (this.hasUpdated) this.#watch();
+  }
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    this.#resized?.disconnect();
+    this.#stop();
+  }
+
+  override firstUpdated(): void {
+    this.#watch();
+  }
+
+  override render(): TemplateResult {
+    const { report, layer, place } = this;
+    const { texts, format } = this.language;
+    const words = texts.mask;
+    const layers = report?.layers ?? 1;
+    const z = format.height(report?.z_mm[layer] ?? 0);
+    const thickness_mm = report?.thickness_mm[layer] ?? 0;
+    const thickness = format.height(thickness_mm);
+    const said = words.said(format.count(layer + 1), format.count(layers), z, thickness);
+    const isZoomed = place.zoom > 1;
+    return html`
+      <div class="head">
+        <h3>${words.title}</h3>
+        <div class="tools">
+          <span class="quiet figures">${isZoomed ? words.zoom(format.count(place.zoom)) : nothing}</span>
+          <button class="small" aria-label=${words.zoomOut} ?disabled=${!isZoomed} @click=${() => this.#zoom(0.5)}>−</button>
+          <button class="small" aria-label=${words.zoomIn} @click=${() => this.#zoom(2)}>+</button>
+        </div>
+      </div>
+      <div class="well">
+        <canvas
+          class=${isZoomed ? "zoomed" : ""}
+          role="img"
+          tabindex=${isZoomed ? 0 : -1}
+          aria-label=${words.picture(said) + (isZoomed ? `. ${words.wellHint}` : "")}
+          @keydown=${this.#key}
+          @dblclick=${() => this.#zoom(2)}
+          @pointerdown=${this.#grab}
+          @pointermove=${this.#drag}
+          @pointerup=${this.#release}
+          @pointercancel=${this.#release}
+        ></canvas>
+      </div>
+      <div class="scrub">
+        <button aria-label=${this.playing ? words.pause : words.play} @click=${this.#toggle}>
+          <svg viewBox="0 0 16 16" aria-hidden="true">
+            <path d=${this.playing ? "M3 2h4v12H3zM9 2h4v12H9z" : "M3 1.5v13l11-6.5z"} />
+          </svg>
+        </button>
+        <button aria-label=${words.below} ?disabled=${layer <= 0} @click=${() => this.#go(layer - 1)}>−</button>
+        <input
+          type="range"
+          aria-label=${words.layer}
+          aria-valuetext=${said}
+          min="1"
+          max=${layers}
+          step="1"
+          .value=${live(String(layer + 1))}
+          @input=${(event: Event) => this.#go(Number((event.target as HTMLInputElement).value) - 1)}
+        />
+        <button aria-label=${words.above} ?disabled=${layer >= layers - 1} @click=${() => this.#go(layer + 1)}>+</button>
+      </div>
+      <dl class="figures">
+        <div>
+          <dt>${words.layer}</dt>
+          <dd>${format.count(layer + 1)} / ${format.count(layers)}</dd>
+        </div>
+        <div>
+          <dt>${words.height}</dt>
+          <dd>${z}</dd>
+        </div>
+        <div>
+          <dt>${words.thickness}</dt>
+          <dd>
+            <span class="swatch" ${styled({ background: cssColour(ofThickness("classic", thickness_mm, this.limits)) })}></span
+            >${thickness}
+          </dd>
+        </div>
+      </dl>
+    `;
+  }
+
+  override updated(changed: PropertyValues<this>): void {
+    if (changed.has("mask") || changed.has("place")) this.#paint();
+    if (this.playing && changed.has("mask")) this.#next();
+  }
+
+  get #canvas(): HTMLCanvasElement {
+    const canvas = this.renderRoot.querySelector("canvas");
+    if (canvas === null) throw new Error("the mask has no canvas");
+    return canvas;
+  }
+
+  #watch(): void {
+    this.#resized ??= new ResizeObserver(() => this.#paint());
+    this.#resized.observe(this.#canvas);
+  }
+
+  #paint(): void {
+    const canvas = this.#canvas;
+    const { mask, report } = this;
+    const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((css) => Math.round(css * devicePixelRatio));
+    const pen = canvas.getContext("2d");
+    if (pen === null || !width || !height) return;
+    if (canvas.width !== width || canvas.height !== height) {
+      canvas.width = width;
+      canvas.height = height;
+    }
+    pen.clearRect(0, 0, width, height);
+    if (mask === null || report === null) {
+      canvas.removeAttribute("data-layer");
+      return;
+    }
+    const pitch = report.mask.pitch_y_mm / report.mask.pitch_mm;
+    const { part, scale } = windowOf(this.place, [mask.width, mask.height], [width, height], pitch);
+    const whole = wholeBytes(part, mask.width, mask.height);
+    const factor = factorFor(Math.max(...scale));
+    const picture = pictureOf(coverage(mask.bits, mask.width, whole, factor));
+    if (picture !== null) {
+      pen.imageSmoothingEnabled = factor * Math.max(...scale) < 1;
+      const [x, y] = [(whole.x - part.x) * scale[0], (whole.y - part.y) * scale[1]];
+      pen.drawImage(picture, x, y, picture.width * factor * scale[0], picture.height * factor * scale[1]);
+    }
+    // Says which layer the picture is of, which may lag behind the slider.
+    canvas.dataset["layer"] = String(mask.layer);
+  }
+
+  #go(layer: number): void {
+    this.dispatchEvent(new CustomEvent<number>("cusp-layer", { detail: layer }));
+  }
+
+  #zoom(times: number): void {
+    this.place = zoomed(this.place, times);
+  }
+
+  readonly #toggle = (): void => {
+    if (this.playing) return this.#stop();
+    this.playing = true;
+    // From the top it begins again.
+    if (this.layer >= (this.report?.layers ?? 1) - 1) this.#go(0);
+    else this.#next();
+  };
+
+  /** Goes on to the layer above once this one is on show. */
+  #next(): void {
+    clearTimeout(this.#timer);
+    if (this.layer >= (this.report?.layers ?? 1) - 1) return this.#stop();
+    this.#timer = setTimeout(() => this.#go(this.layer + 1), this.#calm.matches ? CALM_FRAME_MS : FRAME_MS);
+  }
+
+  #stop(): void {
+    clearTimeout(this.#timer);
+    this.playing = false;
+  }
+
+  readonly #key = (event: KeyboardEvent): void => {
+    const step = ARROWS[event.key];
+    if (step !== undefined) this.place = moved(this.place, step);
+    else if (event.key === "+" || event.key === "=") this.#zoom(2);
+    else if (event.key === "-") this.#zoom(0.5);
+    else return;
+    event.preventDefault();
+  };
+
+  readonly #grab = (event: PointerEvent): void => {
+    if (this.place.zoom === 1) return;
+    this.#held = [event.clientX, event.clientY];
+    this.#canvas.setPointerCapture(event.pointerId);
+  };
+
+  readonly #drag = (event: PointerEvent): void => {
+    if (this.#held === null) return;
+    const { clientWidth, clientHeight } = this.#canvas;
+    const [x, y] = this.#held;
+    this.#held = [event.clientX, event.clientY];
+    this.place = moved(this.place, [(x - event.clientX) / clientWidth, (y - event.clientY) / clientHeight]);
+  };
+
+  readonly #release = (): void => {
+    this.#held = null;
+  };
+}
+
+function pictureOf({ width, height, values }: ReturnType<typeof coverage>): HTMLCanvasElement | null {
+  if (width === 0 || height === 0) return null;
+  const picture = document.createElement("canvas");
+  picture.width = width;
+  picture.height = height;
+  const image = new ImageData(width, height);
+  // One word a pixel: opaque grey reads the same in any byte order but for the alpha, and browsers are little-endian.
+  const words = new Uint32Array(image.data.buffer);
+  for (let i = 0; i < values.length; i++) words[i] = 0xff000000 | ((values[i] ?? 0) * 0x010101);
+  picture.getContext("2d")?.putImageData(image, 0, 0);
+  return picture;
+}

@@ -1,0 +1,69 @@
+/** What is known of the model that is open. */
+import { html, nothing, type TemplateResult } from "lit";
+import type { Language } from "../../texts/index.js";
+import { warningWords } from "../state/problem.js";
+import type { Session } from "../state/session.js";
+
+export interface ModelActions {
+  picked(event: Event): void;
+  turnTo(place: number): void;
+}
+
+/** What there is to know of the model and its plan. */
+export function warnings({ model, result }: Session, language: Language): readonly TemplateResult[] {
+  const all = [...(model?.info.warnings ?? []), ...(result?.report.warnings ?? [])];
+  const words = new Set(all.map((it) => warningWords(it, language)));
+  return [...words].map((sentence) => html`<p class="warning">${sentence}</p>`);
+}
+
+export function modelCard(session: Session, language: Language, { picked, turnTo }: ModelActions): TemplateResult {
+  const { model, result, files, place } = session;
+  const { texts, format } = language;
+  if (model === null) return html``;
+  const { name, info } = model;
+  const own = info.size_mm;
+  const scale = result === null || own[2] === 0 ? 1 : result.report.height_mm / own[2];
+  const isScaled = session.settings.rotation === "" && Math.abs(scale - 1) > 1e-3;
+  const size = (isScaled ? own.map((mm) => mm * scale) : own) as [number, number, number];
+  return html`<section class="card model" part="model" aria-label=${texts.model.region}>
+    <h2 id="model-name" tabindex="-1">${name}</h2>
+    <dl class="figures">
+      <div>
+        <dt>${texts.model.size}</dt>
+        <dd title=${texts.model.sizeHelp}>${format.dimensions(size)}</dd>
+        ${isScaled ? html`<dd class="quiet">${texts.model.scaled(format.dimensions(own))}</dd>` : nothing}
+      </div>
+      <div>
+        <dt>${texts.model.facets}</dt>
+        <dd>${format.count(info.facets)}</dd>
+      </div>
+      <div>
+        <dt>${texts.model.surface}</dt>
+        <dd>${info.closed ? texts.model.closed : texts.model.open}</dd>
+      </div>
+    </dl>
+    ${warnings(session, language)}
+    ${files.length < 2
+      ? nothing
+      : html`<div class="files">
+          <button class="small" aria-label=${texts.open.previous} ?disabled=${place === 0} @click=${() => turnTo(place - 1)}>
+            <span class="flip">‹</span>
+          </button>
+          <span class="quiet">${texts.open.place(format.count(place + 1), format.count(files.length))}</span>
+          <button
+            class="small"
+            aria-label=${texts.open.next}
+            ?disabled=${place === files.length - 1}
+            @click=${() => turnTo(place + 1)}
+          >
+            <span class="flip">›</span>
+          </button>
+        </div>`}
+    <div class="open-other">
+      <label class="button small">
+        <input class="hidden" type="file" accept=".stl,model/stl" multiple @change=${picked} />${texts.open.another}
+      </label>
+      <slot name="actions"></slot>
+    </div>
+  </section>`;
+}

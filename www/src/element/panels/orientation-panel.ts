@@ -1,0 +1,319 @@
+/** The search for the best direction: what counts, the sphere of energies, and the best ones to choose from. */
+import { html, LitElement, nothing, type PropertyValues, type TemplateResult } from "lit";
+import { live } from "lit/directives/live.js";
+import type { Found, Slicer } from "../../api/index.js";
+import type { Candidate, Metric } from "../../api/wire.js";
+import { languageOf, type Language } from "../../texts/index.js";
+import { gradient, type PaletteName } from "../../view/legend/palette.js";
+import type { Rotation } from "../../view/scene/pose.js";
+import { directionStyles } from "../styles/orientation-styles.js";
+import { energyRange, type Looked } from "./orientation-sphere.js";
+import type { Aims, Directions } from "../state/orientation.js";
+import { METRICS } from "../state/metric.js";
+import { partFailure, partStyles, tellPartFailed } from "../parts/part.js";
+import { progressBar, progressStyles, type Busy } from "../parts/progress.js";
+import { rotationText } from "../state/settings.js";
+import { styled } from "../parts/styled.js";
+import { shared } from "../styles/shared.js";
+
+const COSTS: readonly Aims["cost"][] = ["layers", "time"];
+const QUALITIES: readonly Aims["quality"][] = ["error", "roughness", "overhang"];
+const MICROMETRES = 1000;
+/** Steps of the slider from one end to the other. */
+const STEPS = 20;
+/** Pixels of a small picture; it is shown at half of that. */
+const PICTURE_PX = 256;
+
+/** What of a search is on show. */
+export type Searched = Readonly<Pick<Directions, "aims" | "found" | "best" | "busy" | "isCurrent" | "isPossible" | "options">>;
+
+export class CuspDirection extends LitElement {
+  static override properties = {
+    slicer: { attribute: false },
+    searched: { attribute: false },
+    metric: { type: String },
+    rotation: { attribute: false },
+    camera: { attribute: false },
+    palette: { type: String },
+    language: { attribute: false },
+    looked: { state: true },
+    isUnpictured: { state: true },
+  };
+
+  declare slicer: Slicer | null;
+  declare searched: Searched | null;
+  /** What errors are measured by where the search does not say. */
+  declare metric: Metric;
+  declare rotation: Rotation;
+  /** How the view beside it looks at the model; null without one. */
+  declare camera: Rotation | null;
+  declare palette: PaletteName;
+  declare language: Language;
+  /** The candidate that is pointed at. */
+  declare looked: Looked | null;
+  /** Whether what draws the pictures could not be fetched. */
+  declare isUnpictured: boolean;
+
+  #portraying: AbortController | null = null;
+
+  constructor() {
+    super();
+    this.slicer = null;
+    this.searched = null;
+    this.metric = "cusp";
+    this.rotation = [0, 0, 0, 1];
+    this.camera = null;
+    this.palette = "classic";
+    this.language = languageOf();
+    this.looked = null;
+    this.isUnpictured = false;
+  }
+
+  static override styles = [shared, progressStyles, partStyles, directionStyles];
+
+  override firstUpdated(): void {
+    // Pictures have the page's colours. A change of these is noticed as the start of a transition, whatever brought it about.
+    this.renderRoot.addEventListener("transitionrun", ({ target }) => {
+      if ((target as Element).classList.contains("probe")) void this.#portray();
+    });
+  }
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    this.#portraying?.abort();
+  }
+
+  override updated(changed: PropertyValues<this>): void {
+    if (changed.has("searched") && changed.get("searched")?.best !== this.searched?.best) void this.#portray();
+  }
+
+  override render(): TemplateResult {
+    const { searched, language } = this;
+    const { direction: words } = language.texts;
+    if (searched === null) return html`${nothing}`;
+    const { found, busy, isCurrent, isPossible } = searched;
+    return html`
+      <span class="probe"></span>
+      <div class="head">
+        <h3>${words.title}</h3>
+        ${busy === null
+          ? html`<button class="small find" ?disabled=${!isPossible} @click=${() => this.#say("cusp-search", null)}>
+              ${found === null || isCurrent ? words.find : words.again}
+            </button>`
+          : nothing}
+      </div>
+      ${found === null && busy === null ? html`<p class="quiet hint">${words.hint}</p>` : nothing}
+      ${found !== null && busy === null && !isCurrent ? html`<p class="stale">${words.stale}</p>` : nothing}
+      ${this.#aims(searched.aims)} ${busy === null ? nothing : this.#progress(busy, searched)}
+      ${found === null ? nothing : this.#results(searched, found)}
+      <p class="hidden" role="status">${this.#announcement(searched)}</p>
+    `;
+  }
+
+  #aims({ alpha, cost, quality }: Aims): TemplateResult {
+    const { texts, format } = this.language;
+    const { direction: words } = texts;
+    const choice = <T extends string>(
+      name: string,
+      value: T,
+      values: readonly T[],
+      names: Readonly<Record<T, string>>,
+      set: (value: T) => void,
+    ): TemplateResult => html`<label class="field">
+      <span>${name}</span>
+      <select @change=${({ target }: Event) => set((target as HTMLSelectElement).value as T)}>
+        ${values.map((it) => html`<option value=${it} ?selected=${it === value}>${names[it]}</option>`)}
+      </select>
+    </label>`;
+    const said = words.parts(words.costs[cost], format.percent(alpha), words.qualities[quality], format.percent(1 - alpha));
+    return html`<div class="aims">
+      ${choice(words.cost, cost, COSTS, words.costs, (cost) => this.#aim({ cost }))}
+      ${choice(words.quality, quality, QUALITIES, words.qualities, (quality) => this.#aim({ quality }))}
+      <div class="balance">
+        <label for="balance">${words.balance}</label>
+        <input
+          id="balance"
+          type="range"
+          min="0"
+          max=${STEPS}
+          .value=${live(String(Math.round((1 - alpha) * STEPS)))}
+          aria-valuetext=${said}
+          @input=${({ target }: Event) => this.#aim({ alpha: 1 - Number((target as HTMLInputElement).value) / STEPS })}
+        />
+        <div class="ends quiet"><span>${words.fewer[cost]}</span><span>${words.better[quality]}</span></div>
+      </div>
+    </div>`;
+  }
+
+  /** A rating of what is measured already shows no bar: it is there before one could read it. */
+  #progress(busy: Busy, { best }: Searched): TemplateResult {
+    return html`<div class=${best.length > 0 ? "again quick" : "again"}>
+      ${progressBar(busy, this.language, () => this.#say("cusp-search-cancel", null))}
+    </div>`;
+  }
+
+  #results(searched: Searched, found: Found): TemplateResult {
+    const { best, busy, isCurrent } = searched;
+    const { texts } = this.language;
+    const fits = found.candidates.some((candidate) => candidate?.excluded === null);
+    return html`<div class="results ${busy === null && !isCurrent ? "old" : ""}">
+      <div class="globe">
+        <cusp-sphere
+          .found=${found}
+          .best=${best}
+          .rotation=${this.rotation}
+          .camera=${this.camera}
+          .palette=${this.palette}
+          .language=${this.language}
+          @cusp-look=${(event: CustomEvent<Looked | null>) => (this.looked = event.detail)}
+          @cusp-stand=${(event: CustomEvent<Candidate>) => this.#stand(event.detail)}
+        ></cusp-sphere>
+        ${this.#legend(found)} ${this.#figures(searched)}
+      </div>
+      <div class="best">
+        ${best.length > 0 ? html`<h4>${texts.direction.best}</h4>` : nothing}
+        ${this.isUnpictured && best.length > 0 ? partFailure(this.language, () => void this.#portray()) : nothing}
+        ${best.map((candidate, i) => this.#choice(candidate, i, searched))}
+        ${!fits && busy === null ? html`<p class="quiet">${texts.direction.none}</p>` : nothing}
+      </div>
+    </div>`;
+  }
+
+  #legend({ candidates }: Found): TemplateResult {
+    const { texts, format } = this.language;
+    const { direction: words } = texts;
+    const range = energyRange(candidates);
+    const hasExcluded = candidates.some((candidate) => candidate !== null && candidate.excluded !== null);
+    return html`<div class="legend">
+      ${range === null
+        ? nothing
+        : html`<span class="quiet">${words.legend}</span>
+            <div class="scale">
+              <span>${format.tick(range[0])}</span>
+              <i ${styled({ background: gradient(this.palette, "to left") })}></i>
+              <span>${format.tick(range[1])}</span>
+            </div>`}
+      <div class="keys quiet">
+        <span><svg viewBox="-9 -9 18 18" aria-hidden="true"><path d="M-8 0h16M0 -8v16" /></svg>${words.upright}</span>
+        ${hasExcluded ? html`<span><i class="excluded"></i>${words.excluded}</span>` : nothing}
+      </div>
+    </div>`;
+  }
+
+  /** What is known of the direction that is pointed at. */
+  #figures({ options }: Searched): TemplateResult {
+    const { looked, language } = this;
+    const { direction: words } = language.texts;
+    if (looked === null) return html`<p class="looked quiet hint">${words.point}</p>`;
+    const { candidate, isChosen } = looked;
+    const rows = figureRows(candidate, options?.metric ?? this.metric, language);
+    return html`<div class="looked figures" data-direction=${candidate.direction.join()}>
+      ${candidate.excluded === null ? nothing : html`<p class="why">${words.why[candidate.excluded]}</p>`}
+      <dl>${rows.map(([name, value]) => html`<div><dt>${name}</dt><dd>${value}</dd></div>`)}</dl>
+      ${isChosen && candidate.excluded === null
+        ? html`<button class="small" @click=${() => this.#stand(candidate)}>${words.stand}</button>`
+        : nothing}
+    </div>`;
+  }
+
+  #choice(candidate: Candidate, place: number, { options }: Searched): TemplateResult {
+    const { language } = this;
+    const { texts, format } = language;
+    const { figures } = candidate;
+    const isApplied = rotationText(candidate.rotation) === rotationText(this.rotation);
+    const { error } = METRICS[options?.metric ?? this.metric];
+    return html`<button
+      class="pose"
+      aria-pressed=${isApplied ? "true" : "false"}
+      @click=${() => this.#stand(candidate)}
+    >
+      <canvas width=${PICTURE_PX} height=${PICTURE_PX} aria-hidden="true"></canvas>
+      <span class="rank" aria-hidden="true">${place + 1}</span>
+      <span class="hidden">${texts.direction.rank(format.count(place + 1))}:</span>
+      ${figures === null
+        ? nothing
+        : html`<span class="what">
+            <strong>${format.count(figures.layers)} ${texts.plan.layers(figures.layers)}</strong>
+            <span>${format.time(figures.print_time_s)}</span>
+            <span class="quiet">${texts.direction.error} ${error(figures.max_error, format)}</span>
+            <span class="quiet">${texts.direction.roughness} ${micrometres(figures.roughness_mm, language)}</span>
+            <span class="quiet">${texts.direction.overhang} ${format.area(figures.overhang_mm2)}</span>
+          </span>`}
+    </button>`;
+  }
+
+  #announcement({ busy, found, best, options }: Searched): string {
+    const { looked, language } = this;
+    const { texts, format } = language;
+    if (looked !== null) {
+      const { excluded, figures } = looked.candidate;
+      if (excluded !== null) return texts.direction.why[excluded];
+      if (figures === null) return "";
+      const error = METRICS[options?.metric ?? this.metric].error(figures.max_error, format);
+      return texts.direction.said(figures.layers, format.time(figures.print_time_s), error);
+    }
+    if (busy !== null) return texts.progress[busy.stage];
+    return found !== null && best.length > 0 ? texts.direction.found(format.count(found.candidates.length)) : "";
+  }
+
+  /** Draws the best poses, with the model fetched for that and not kept. */
+  async #portray(): Promise<void> {
+    this.#portraying?.abort();
+    const { slicer, searched } = this;
+    if (slicer === null || searched === null || searched.best.length === 0) return;
+    const portraying = new AbortController();
+    this.#portraying = portraying;
+    const { signal } = portraying;
+    // Without pictures there are still the numbers; a worker that broke says so elsewhere.
+    const positions = await slicer.positions().catch(() => null);
+    if (positions === null || signal.aborted) return;
+    const portraitist = await import("../../view/scene/thumbnails.js").catch((error: unknown) => {
+      tellPartFailed(this, "pictures", error);
+      return null;
+    });
+    this.isUnpictured = portraitist === null;
+    if (portraitist === null || signal.aborted) return;
+    const canvases = [...this.renderRoot.querySelectorAll<HTMLCanvasElement>(".pose canvas")];
+    const portraits = searched.best.flatMap(({ rotation }, i) => {
+      const canvas = canvases[i];
+      return canvas === undefined ? [] : [[canvas, rotation] as const];
+    });
+    await portraitist.portray(positions, portraits, this, signal);
+    for (const [canvas] of portraits) canvas.dataset["drawn"] = "";
+  }
+
+  #aim(change: Partial<Aims>): void {
+    this.#say<Partial<Aims>>("cusp-aims", change);
+  }
+
+  #stand(candidate: Candidate): void {
+    this.#say<Candidate>("cusp-stand", candidate);
+  }
+
+  #say<Detail>(type: string, detail: Detail): void {
+    this.dispatchEvent(new CustomEvent<Detail>(type, { detail }));
+  }
+}
+
+function micrometres(mm: number, { format }: Language): string {
+  return `${format.tick(Math.round(mm * MICROMETRES * 10) / 10)}\u00a0µm`;
+}
+
+/** What is known of a candidate: a name and a value each. */
+export function figureRows({ figures, size_mm, energy }: Candidate, metric: Metric, language: Language): [string, string][] {
+  const { texts, format } = language;
+  const { direction: words } = texts;
+  const rows: [string, string][] = [];
+  if (figures !== null) {
+    rows.push(
+      [words.layers, format.count(figures.layers)],
+      [words.time, format.time(figures.print_time_s)],
+      [words.error, METRICS[metric].error(figures.max_error, format)],
+      [words.roughness, micrometres(figures.roughness_mm, language)],
+      [words.overhang, format.area(figures.overhang_mm2)],
+    );
+  }
+  if (energy !== null) rows.push([words.energy, format.tick(energy)]);
+  rows.push([words.size, format.dimensions(size_mm)]);
+  return rows;
+}

@@ -1,0 +1,241 @@
+/** The trade-off curve as a picture and a slider: one notch is one best plan, the quicker ones first. */
+import { css, html, LitElement, nothing, type TemplateResult } from "lit";
+import { live } from "lit/directives/live.js";
+import type { TradeoffPoint } from "../../api/wire.js";
+import { languageOf, type Language } from "../../texts/index.js";
+import { notchOf, placeAmong, type Planned } from "../state/curve.js";
+import { METRICS } from "../state/metric.js";
+import type { Result } from "../state/result.js";
+import { shared } from "../styles/shared.js";
+
+/** The picture's own units; it is stretched to its place. */
+const WIDTH = 400;
+const HEIGHT = 120;
+const MARGIN = 12;
+
+export interface Mark {
+  x: number;
+  y: number;
+}
+
+export interface Picture {
+  /** A dot for each point of the curve, the loosest first: notch i of the slider. */
+  dots: Mark[];
+  own: Mark;
+  finest: Mark;
+  coarsest: Mark;
+}
+
+/**
+ * Where everything stands: each point over its notch, finer to the right, longer upwards; what is no point between those that its error lies between.
+ */
+export function pictureOf(points: readonly Planned[], { report }: Pick<Result, "report">): Picture {
+  const { finest, coarsest } = report.uniform;
+  const times = [...points, report, finest, coarsest].map(({ print_time_s }) => print_time_s);
+  const [shortest, longest] = [Math.min(...times), Math.max(...times)];
+  const mark = (plan: Planned): Mark => ({
+    x: MARGIN + (placeAmong(points, plan) / (points.length - 1)) * (WIDTH - 2 * MARGIN),
+    y: HEIGHT - MARGIN - (longest === shortest ? 0.5 : (plan.print_time_s - shortest) / (longest - shortest)) * (HEIGHT - 2 * MARGIN),
+  });
+  const dots = points.map(mark).reverse();
+  return { dots, own: mark(report), finest: mark(finest), coarsest: mark(coarsest) };
+}
+
+/** What the plan gains over the finest uniform one, and what it gives for that. */
+export function gainWords({ report, limits }: Pick<Result, "report" | "limits">, { texts, format }: Language): string {
+  const { finest } = report.uniform;
+  const uniform = format.fine(limits[0]);
+  const saved = 1 - report.print_time_s / finest.print_time_s;
+  if (saved < 0.005) return texts.quality.none(uniform);
+  const part = format.percent(saved);
+  const error = (value: number): string => METRICS[report.metric].error(value, format);
+  // What reads the same is the same.
+  const isSame = report.max_error <= finest.max_error || error(report.max_error) === error(finest.max_error);
+  if (isSame) return texts.quality.same(part, uniform);
+  return texts.quality.near(part, uniform, error(report.max_error), error(finest.max_error));
+}
+
+export class CuspQuality extends LitElement {
+  static override properties = {
+    points: { attribute: false },
+    result: { attribute: false },
+    isFixed: { attribute: false },
+    language: { attribute: false },
+  };
+
+  /** From the tightest tolerance to the loosest; null while they are looked for. */
+  declare points: readonly TradeoffPoint[] | null;
+  declare result: Result | null;
+  /** Whether the page alone decides the tolerance. */
+  declare isFixed: boolean;
+  declare language: Language;
+
+  constructor() {
+    super();
+    this.points = null;
+    this.result = null;
+    this.isFixed = false;
+    this.language = languageOf();
+  }
+
+  static override styles = [
+    shared,
+    css`
+      :host {
+        display: flex;
+        flex-direction: column;
+        height: 100%;
+        min-width: 0;
+      }
+      svg {
+        display: block;
+        flex: 1 1 7rem;
+        width: 100%;
+        height: 7rem;
+        max-height: 14rem;
+        overflow: visible;
+        direction: ltr;
+      }
+      /* Dots are strokes without a length: the picture is stretched, and they are not. */
+      path {
+        fill: none;
+        stroke: var(--cusp-accent);
+        stroke-linecap: round;
+        stroke-linejoin: round;
+        vector-effect: non-scaling-stroke;
+      }
+      .curve {
+        stroke-width: 2px;
+      }
+      .dot {
+        stroke-width: 6px;
+      }
+      .own {
+        stroke-width: 18px;
+      }
+      .own.inside {
+        stroke: var(--cusp-card);
+        stroke-width: 10px;
+      }
+      .uniform {
+        stroke: var(--cusp-quiet);
+        stroke-linecap: square;
+        stroke-width: 11px;
+      }
+      .uniform.inside {
+        stroke: var(--cusp-card);
+        stroke-width: 6px;
+      }
+      .base {
+        stroke: var(--cusp-line);
+        stroke-width: 1px;
+      }
+      input {
+        direction: ltr;
+        /* So that its thumb, about a rem wide, stands below the dot of its notch: see MARGIN. */
+        width: calc(94% + 1rem);
+        height: 2.25rem;
+        margin: 0 calc(3% - 0.5rem);
+        accent-color: var(--cusp-accent);
+      }
+      .ends {
+        direction: ltr;
+        display: flex;
+        justify-content: space-between;
+        margin-top: -0.25rem;
+      }
+      .gain {
+        margin-top: 0.5rem;
+        font-weight: 550;
+        text-wrap: pretty;
+      }
+      .key {
+        display: flex;
+        flex-wrap: wrap;
+        gap: 0.125rem 1.25rem;
+        margin-top: 0.5rem;
+      }
+      .key i {
+        display: inline-block;
+        box-sizing: border-box;
+        width: 0.6875rem;
+        height: 0.6875rem;
+        margin-inline-end: 0.375rem;
+        border: 0.3125rem solid var(--cusp-quiet);
+      }
+      .key i.coarse {
+        border-width: 2px;
+      }
+      .waiting {
+        min-height: 7.5rem;
+        display: grid;
+        place-items: center;
+      }
+    `,
+  ];
+
+  override render(): TemplateResult {
+    const { points, result, language } = this;
+    const { texts, format } = language;
+    const words = texts.quality;
+    if (result === null || points === null || points.length === 0) {
+      return html`<div class="head"><h3>${words.title}</h3></div>
+        <p class="waiting quiet">${points === null ? words.waiting : nothing}</p>`;
+    }
+    const { report, limits } = result;
+    const said = words.said(
+      METRICS[report.metric].error(report.max_error, format),
+      format.time(report.print_time_s),
+      report.layers,
+    );
+    const head = html`<div class="head">
+      <h3>${words.title}</h3>
+      <span class="quiet figures">${said}</span>
+    </div>`;
+    const gain = html`<p class="gain">${gainWords(result, language)}</p>`;
+    if (points.length === 1) return html`${head} ${gain} <p class="single quiet">${words.single}</p>`;
+    const { dots, own, finest, coarsest } = pictureOf(points, result);
+    return html`
+      ${head}
+      <svg
+        viewBox="0 0 ${WIDTH} ${HEIGHT}"
+        preserveAspectRatio="none"
+        role="img"
+        aria-label=${words.axis(texts.metrics[report.metric].name)}
+      >
+        <path class="base" d="M0 ${HEIGHT}h${WIDTH}" />
+        <path class="curve" d=${`M${dots.map(({ x, y }) => `${x} ${y}`).join("L")}`} />
+        <path class="dot" d=${dots.map(dot).join("")} />
+        <path class="uniform" d=${dot(finest) + dot(coarsest)} />
+        <path class="uniform inside" d=${dot(coarsest)} />
+        <path class="own" d=${dot(own)} />
+        <path class="own inside" d=${dot(own)} />
+      </svg>
+      <input
+        type="range"
+        aria-label=${words.title}
+        aria-valuetext=${said}
+        min="0"
+        max=${points.length - 1}
+        step="1"
+        ?disabled=${this.isFixed}
+        .value=${live(String(notchOf(points, report)))}
+        @input=${this.#moved}
+      />
+      <div class="ends quiet"><span>${words.quick}</span><span>${words.fine}</span></div>
+      ${gain}
+      <p class="key quiet">
+        <span><i class="coarse"></i>${words.coarsest(format.fine(limits[1]), format.time(report.uniform.coarsest.print_time_s))}</span>
+        <span><i></i>${words.finest(format.fine(limits[0]), format.time(report.uniform.finest.print_time_s))}</span>
+      </p>
+    `;
+  }
+
+  readonly #moved = (event: Event): void => {
+    const notch = Number((event.target as HTMLInputElement).value);
+    const index = (this.points?.length ?? 1) - 1 - notch;
+    this.dispatchEvent(new CustomEvent<number>("cusp-point", { detail: index }));
+  };
+}
+
+const dot = ({ x, y }: Mark): string => `M${x} ${y}h0`;

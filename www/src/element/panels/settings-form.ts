@@ -1,0 +1,410 @@
+/** The settings as a form. It holds nothing: it shows what it is given and says what was typed. */
+import { css, html, LitElement, nothing, type PropertyValues, type TemplateResult } from "lit";
+import { live } from "lit/directives/live.js";
+import { DEFAULTS, type Format, type MeshInfo } from "../../api/wire.js";
+import { languageOf, type Language } from "../../texts/index.js";
+import { formatFor } from "../state/choice.js";
+import { METRIC_NAMES, METRICS } from "../state/metric.js";
+import type { Choice, Problem } from "../state/problem.js";
+import { problemBox, problemStyles } from "../parts/problem-box.js";
+import { DEFAULT_SETTINGS, faultWords, FORMATS, RAYS, usualTolerance, withTolerance } from "../state/settings.js";
+import type { Faults, Field, Offered, Settings } from "../state/settings.js";
+import { shared } from "../styles/shared.js";
+
+/** Settings that are out of sight at first, unless they are changed. */
+const MORE = ["minimize", "snap", "step", "exposure", "bottomExposure", "bottomLayers"] as const;
+
+/** Whether the form has a place beside which a failure can be shown. */
+export function hasPlace({ field }: Problem, { printer }: Settings, { printers }: Offered): boolean {
+  if (field === null) return false;
+  if (field === "printer") return printers.length > 0;
+  return field !== "rays" || printer === "";
+}
+
+export class CuspSettings extends LitElement {
+  static override properties = {
+    settings: { attribute: false },
+    faults: { attribute: false },
+    info: { attribute: false },
+    taken: { attribute: false },
+    offered: { attribute: false },
+    fixed: { attribute: false },
+    problem: { attribute: false },
+    language: { attribute: false },
+  };
+
+  declare settings: Settings;
+  declare faults: Faults;
+  declare info: MeshInfo | null;
+  /** The tolerance that the core took where none is typed; null if it is not known. */
+  declare taken: number | null;
+  declare offered: Offered;
+  /** Settings that are shown and cannot be changed. */
+  declare fixed: ReadonlySet<keyof Settings>;
+  /** A failure that one of these settings caused; it is shown beside that. */
+  declare problem: Problem | null;
+  declare language: Language;
+  /** Whether more settings are open at first; null before there are any settings. */
+  #moreAtFirst: boolean | null = null;
+
+  constructor() {
+    super();
+    this.settings = DEFAULT_SETTINGS;
+    this.faults = {};
+    this.info = null;
+    this.taken = null;
+    this.offered = { printers: [], resins: [] };
+    this.fixed = new Set();
+    this.problem = null;
+    this.language = languageOf();
+  }
+
+  static override styles = [
+    shared,
+    problemStyles,
+    css`
+      form,
+      .more {
+        display: grid;
+        gap: 1rem;
+      }
+      .more {
+        margin-top: 1rem;
+      }
+      details summary {
+        width: fit-content;
+        font-size: 0.875rem;
+        font-weight: 550;
+        cursor: pointer;
+      }
+      .pair {
+        display: grid;
+        grid-template-columns: 1fr 1fr;
+        gap: 0.75rem;
+      }
+      label,
+      legend {
+        display: block;
+        padding: 0;
+        font-size: 0.875rem;
+        font-weight: 550;
+      }
+      .field {
+        min-width: 0;
+      }
+      .box {
+        display: flex;
+        align-items: center;
+        margin-top: 0.25rem;
+        border: 1px solid var(--cusp-field);
+        border-radius: 8px;
+        background: var(--cusp-card);
+      }
+      .box:focus-within {
+        outline: 3px solid var(--cusp-focus);
+        outline-offset: 1px;
+      }
+      .box.wrong {
+        border-color: var(--cusp-bad);
+        box-shadow: inset 0 0 0 1px var(--cusp-bad);
+      }
+      input[type="text"],
+      select {
+        font: inherit;
+        font-variant-numeric: tabular-nums;
+        width: 100%;
+        min-width: 0;
+        min-height: 2.5rem;
+        padding: 0.25rem 0.625rem;
+        border: 0;
+        border-radius: 8px;
+        outline: none;
+        background: transparent;
+        color: inherit;
+      }
+      .box:has(:disabled) {
+        background: var(--cusp-page);
+      }
+      input:disabled,
+      select:disabled {
+        opacity: 1;
+        color: var(--cusp-quiet);
+        cursor: not-allowed;
+      }
+      option {
+        background: var(--cusp-card);
+        color: var(--cusp-text);
+      }
+      .unit {
+        padding-inline-end: 0.625rem;
+        color: var(--cusp-quiet);
+        font-size: 0.875rem;
+      }
+      .hint,
+      .fault {
+        margin-top: 0.25rem;
+        font-size: 0.8125rem;
+        line-height: 1.4;
+      }
+      .hint {
+        color: var(--cusp-quiet);
+      }
+      .fault {
+        color: var(--cusp-bad);
+      }
+      .choice {
+        display: grid;
+        grid-template-columns: 1fr 1fr;
+        margin-top: 0.25rem;
+        border: 1px solid var(--cusp-field);
+        border-radius: 8px;
+        overflow: hidden;
+      }
+      .choice:focus-within:has(:focus-visible) {
+        outline: 3px solid var(--cusp-focus);
+        outline-offset: 1px;
+      }
+      .choice label {
+        min-height: 2.5rem;
+        display: grid;
+        place-items: center;
+        text-align: center;
+        cursor: pointer;
+      }
+      .choice label:has(:checked) {
+        background: var(--cusp-accent);
+        color: var(--cusp-on-accent);
+      }
+      .problem {
+        margin: 0.5rem 0 0;
+      }
+    `,
+  ];
+
+  override willUpdate(changed: PropertyValues<this>): void {
+    // What the address changes must be seen; afterwards it is the reader who opens and closes.
+    if (!changed.has("settings") || this.#moreAtFirst !== null) return;
+    this.#moreAtFirst = MORE.some((key) => this.settings[key] !== DEFAULT_SETTINGS[key]);
+  }
+
+  override render(): TemplateResult {
+    const { settings, info, offered } = this;
+    const { texts, format } = this.language;
+    const words = texts.settings;
+    const isUniform = settings.planner === "uniform";
+    const own = info === null ? "" : format.size(info.size_mm[2]);
+    return html`
+      <form novalidate @submit=${(event: Event) => event.preventDefault()}>
+        ${this.#radios("planner", words.layers, [["optimal", words.adaptive], ["uniform", words.uniform]], this.#plannerHint())}
+        ${isUniform ? this.#length("uniform", words.thickness) : nothing}
+        ${this.#select(
+          "metric",
+          words.metric,
+          METRIC_NAMES.map((metric) => [metric, texts.metrics[metric].name]),
+          texts.metrics[settings.metric].help,
+        )}
+        ${this.#tolerance()}
+        <div class="pair">${this.#length("layerMin", words.thinnest)} ${this.#length("layerMax", words.thickest)}</div>
+        ${isUniform ? html`<p class="hint">${words.rangeHint}</p>` : nothing}
+        ${this.#length("height", words.height, info === null ? words.heightHint : words.heightOwn(`${own}\u00a0mm`), own)}
+        ${offered.printers.length === 0 ? nothing : this.#printer()}
+        ${settings.printer === ""
+          ? this.#select(
+              "rays",
+              words.resolution,
+              RAYS.map((rays) => [String(rays), words.pixels(format.count(rays))]),
+              words.resolutionHint,
+            )
+          : nothing}
+        ${this.#select(
+          "format",
+          words.format,
+          [
+            ...(settings.printer === "" ? [] : [["", words.formatUsual] as const]),
+            ...FORMATS.map((format) => [format, words.formats[format]] as const),
+          ],
+          this.#file === "sl1" && !isUniform ? words.formatUniform : "",
+          settings.format === "" && settings.printer === "" ? "png" : settings.format,
+        )}
+        ${offered.resins.length === 0
+          ? nothing
+          : this.#select(
+              "resin",
+              words.resin,
+              [["", words.resinUsual], ...offered.resins.map(({ name = "" }) => [name, name] as const)],
+            )}
+        ${this.#more(isUniform)}
+      </form>
+    `;
+  }
+
+  /** The print file that these settings give. */
+  get #file(): Format {
+    const { printer, format } = this.settings;
+    return formatFor({ printer, format }, this.offered.printers);
+  }
+
+  #plannerHint(): string {
+    const { planner, minimize } = this.settings;
+    const words = this.language.texts.settings;
+    if (planner === "uniform") return words.uniformHint;
+    return minimize === "time" ? words.quickestHint : words.fewestHint;
+  }
+
+  #printer(): TemplateResult {
+    const { settings, offered, language } = this;
+    const { texts, format } = language;
+    const chosen = offered.printers.find(({ name }) => name === settings.printer);
+    const hint =
+      chosen === undefined
+        ? ""
+        : texts.settings.printerHint(
+            chosen.pixels.map(format.count).join(" × "),
+            `${[...new Set(chosen.pitch_um)].map(format.tick).join(" × ")}\u00a0µm`,
+            format.dimensions(chosen.volume_mm),
+          );
+    const models = offered.printers.map(({ name, model }) => [name, model] as const);
+    return this.#select("printer", texts.settings.printer, [["", texts.settings.noPrinter], ...models], hint);
+  }
+
+  /** What few people need. */
+  #more(isUniform: boolean): TemplateResult {
+    const words = this.language.texts.settings;
+    return html`<details ?open=${this.#moreAtFirst}>
+      <summary>${words.more}</summary>
+      <div class="more">
+        ${isUniform
+          ? nothing
+          : html`${this.#radios("minimize", words.least, [["layers", words.leastLayers], ["time", words.leastTime]], words.leastHint)}
+            ${this.#radios("snap", words.flats, [["auto", words.on], ["off", words.off]], words.flatsHint)}
+            ${this.#length("step", words.step, words.stepHint)}`}
+        ${this.#typed("exposure", words.exposure, "s", words.exposureHint)}
+        <div class="pair">
+          ${this.#typed("bottomLayers", words.bottomLayers, "")} ${this.#typed("bottomExposure", words.bottomExposure, "s")}
+        </div>
+      </div>
+    </details>`;
+  }
+
+  #tolerance(): TemplateResult {
+    const { settings, taken } = this;
+    const { texts, format } = this.language;
+    const { metric, tolerances } = settings;
+    const { unit, error } = METRICS[metric];
+    const least = DEFAULTS.tolerance[metric];
+    const hint = taken !== null && taken > least ? texts.settings.toleranceTaken(error(least, format)) : "";
+    const usual = usualTolerance(metric, taken);
+    const change = (text: string): Partial<Settings> => withTolerance(settings, text);
+    return this.#field("tolerance", texts.settings.tolerance, tolerances[metric] ?? usual, unit, hint, change, usual);
+  }
+
+  #length(field: Exclude<Field, "tolerance">, label: string, hint = "", placeholder = ""): TemplateResult {
+    return this.#typed(field, label, "mm", hint, placeholder);
+  }
+
+  #typed(field: Exclude<Field, "tolerance">, label: string, unit: string, hint = "", placeholder = ""): TemplateResult {
+    return this.#field(field, label, this.settings[field], unit, hint, (text) => ({ [field]: text }), placeholder);
+  }
+
+  #field(
+    field: Field,
+    label: string,
+    value: string,
+    unit: string,
+    hint: string,
+    change: (text: string) => Partial<Settings>,
+    placeholder = "",
+  ): TemplateResult {
+    const fault = this.faults[field];
+    const isFixed = this.fixed.has(field === "tolerance" ? "tolerances" : field);
+    const words = fault === undefined ? this.#hint(hint, isFixed) : faultWords(fault, this.language);
+    return html`<div class="field">
+      <label for=${field}>${label}</label>
+      <div class="box ${fault === undefined ? "" : "wrong"}">
+        <input
+          type="text"
+          inputmode="decimal"
+          autocomplete="off"
+          id=${field}
+          placeholder=${placeholder}
+          aria-invalid=${fault === undefined ? "false" : "true"}
+          aria-describedby=${words === "" ? nothing : `${field}-hint`}
+          ?disabled=${isFixed}
+          .value=${live(value)}
+          @input=${(event: Event) => this.#say(change((event.target as HTMLInputElement).value))}
+        />${unit === "" ? nothing : html`<span class="unit">${unit}</span>`}
+      </div>
+      ${words === "" ? nothing : html`<p class=${fault === undefined ? "hint" : "fault"} id="${field}-hint">${words}</p>`}
+      ${this.#beside(field)}
+    </div>`;
+  }
+
+  #select<Key extends Choice>(
+    key: Key,
+    label: string,
+    choices: readonly (readonly [Settings[Key], string])[],
+    hint = "",
+    chosen: Settings[Key] = this.settings[key],
+  ): TemplateResult {
+    const isFixed = this.fixed.has(key);
+    const words = this.#hint(hint, isFixed);
+    return html`<div class="field">
+      <label for=${key}>${label}</label>
+      <div class="box">
+        <select
+          id=${key}
+          aria-describedby=${words === "" ? nothing : `${key}-hint`}
+          ?disabled=${isFixed}
+          .value=${live(chosen)}
+          @change=${(event: Event) => this.#say({ [key]: (event.target as HTMLSelectElement).value })}
+        >
+          ${choices.map(([value, name]) => html`<option value=${value} ?selected=${value === chosen}>${name}</option>`)}
+        </select>
+      </div>
+      ${words === "" ? nothing : html`<p class="hint" id="${key}-hint">${words}</p>`} ${this.#beside(key)}
+    </div>`;
+  }
+
+  /** What is said below a field: first why it cannot be changed, if so. */
+  #hint(hint: string, isFixed: boolean): string {
+    return isFixed ? `${this.language.texts.settings.fixed} ${hint}`.trim() : hint;
+  }
+
+  #radios<Key extends "planner" | "minimize" | "snap">(
+    key: Key,
+    legend: string,
+    choices: readonly (readonly [Settings[Key], string])[],
+    hint: string,
+  ): TemplateResult {
+    return html`<fieldset aria-describedby="${key}-hint">
+      <legend>${legend}</legend>
+      <div class="choice">
+        ${choices.map(
+          ([value, name]) => html`<label>
+            <input
+              class="hidden"
+              type="radio"
+              name=${key}
+              value=${value}
+              .checked=${live(this.settings[key] === value)}
+              @change=${() => this.#say({ [key]: value })}
+            />${name}</label
+          >`,
+        )}
+      </div>
+      <p class="hint" id="${key}-hint">${hint}</p>
+    </fieldset>`;
+  }
+
+  /** What went wrong because of this field, with what would mend it. */
+  #beside(field: Problem["field"]): TemplateResult | typeof nothing {
+    const { problem, language } = this;
+    if (problem === null || problem.field !== field) return nothing;
+    const close = (): void => void this.dispatchEvent(new CustomEvent("cusp-dismiss"));
+    return problemBox(problem, language, (change) => this.#say(change), close);
+  }
+
+  #say(patch: Partial<Settings>): void {
+    this.dispatchEvent(new CustomEvent<Partial<Settings>>("cusp-settings", { detail: patch }));
+  }
+}

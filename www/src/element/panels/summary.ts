@@ -1,0 +1,218 @@
+/** The result in one look: the number of layers, the time they take, what that saves, and the two uniform plans beside it. */
+import { css, html, nothing, type TemplateResult } from "lit";
+import type { Language } from "../../texts/index.js";
+import { rows, sentence } from "../state/comparison.js";
+import { METRICS } from "../state/metric.js";
+import type { Result, Shown } from "../state/result.js";
+import { styled } from "../parts/styled.js";
+
+export const summaryStyles = css`
+  .answer {
+    display: flex;
+    flex-wrap: wrap;
+    align-items: end;
+    justify-content: space-between;
+    gap: 1rem 2rem;
+  }
+  .figure {
+    display: flex;
+    flex-wrap: wrap;
+    align-items: baseline;
+    gap: 0.25rem 1.5rem;
+  }
+  .count {
+    display: flex;
+    align-items: baseline;
+    gap: 0.625rem;
+    font-size: clamp(2.75rem, 2rem + 3vw, 4rem);
+    font-weight: 650;
+    line-height: 1;
+    letter-spacing: -0.02em;
+    font-variant-numeric: tabular-nums;
+  }
+  .count span,
+  .time {
+    font-size: 1.25rem;
+    font-weight: 500;
+    letter-spacing: 0;
+  }
+  .gain {
+    margin-top: 0.5rem;
+    max-width: 34rem;
+    text-wrap: pretty;
+  }
+  /* A line of its own below the number and the button. */
+  #file {
+    flex-basis: 100%;
+    padding-inline-end: max(0px, 100% - 44rem);
+    text-wrap: pretty;
+  }
+  table {
+    width: 100%;
+    margin-top: 1.25rem;
+    border-collapse: collapse;
+    font-size: 0.9375rem;
+    font-variant-numeric: tabular-nums;
+  }
+  th,
+  td {
+    padding-block: 0.4375rem;
+    padding-inline: 0 0.75rem;
+    border-top: 1px solid var(--cusp-line);
+    text-align: start;
+    font-weight: 400;
+    white-space: nowrap;
+  }
+  thead th {
+    border: 0;
+    padding-top: 0;
+    color: var(--cusp-quiet);
+    font-size: 0.8125rem;
+  }
+  td.number {
+    text-align: end;
+  }
+  thead th.number {
+    text-align: end;
+  }
+  td.bar {
+    width: 45%;
+  }
+  td.bar div {
+    height: 0.625rem;
+    border-radius: 3px;
+    background: var(--cusp-field);
+    opacity: 0.55;
+  }
+  tr.own th,
+  tr.own td {
+    font-weight: 600;
+  }
+  tr.own td.bar div {
+    background: var(--cusp-accent);
+    opacity: 1;
+  }
+  .over {
+    color: var(--cusp-bad);
+  }
+  .within {
+    color: var(--cusp-good);
+  }
+  @media (max-width: 640px) {
+    .holds {
+      display: block;
+      font-size: 0.8125rem;
+      white-space: normal;
+    }
+    td.bar,
+    th.bar {
+      display: none;
+    }
+    /* Four columns do not fit a phone: a plan's name stands above its figures. */
+    tr {
+      display: grid;
+      grid-template-columns: 3rem 5.75rem minmax(0, 1fr);
+      column-gap: 0.5rem;
+      padding-block: 0.4375rem;
+      border-top: 1px solid var(--cusp-line);
+    }
+    thead tr {
+      padding-top: 0;
+      border: 0;
+    }
+    tbody th {
+      grid-column: 1 / -1;
+    }
+    th,
+    td,
+    td.number,
+    thead th.number {
+      padding: 0;
+      border: 0;
+      text-align: start;
+    }
+    thead th:first-child {
+      display: none;
+    }
+  }
+`;
+
+/** `shown` is what is being looked at: a glance, while the model is turned. `note` comes first, if there is one; `action` stands beside the number: the download, and what to know before it. */
+export function summary(
+  result: Result,
+  shown: Pick<Shown, "layers" | "print_time_s">,
+  language: Language,
+  note: TemplateResult | typeof nothing,
+  action: TemplateResult | typeof nothing,
+): TemplateResult {
+  const { report } = result;
+  const { texts, format } = language;
+  const compared = rows(result);
+  const most = Math.max(...compared.map(({ layers }) => layers));
+  const { columns } = texts.plan;
+  return html`
+    ${note}
+    <div class="answer">
+      <div>
+        <div class="figure">
+          <p class="count" data-layers=${shown.layers}>
+            ${format.count(shown.layers)}<span>${texts.plan.layers(shown.layers)}</span>
+          </p>
+          <p class="time">${texts.plan.time(format.time(shown.print_time_s))}</p>
+          <p class="time resin">${texts.plan.resin(format.millilitres(report.resin_ml))}</p>
+        </div>
+        <p class="gain">${sentence(result, language)}</p>
+      </div>
+      ${action}
+    </div>
+    <table>
+      <thead>
+        <tr>
+          <th scope="col">${columns.plan}</th>
+          <th scope="col" class="number">${columns.layers}</th>
+          <th class="bar" aria-hidden="true"></th>
+          <th scope="col" class="number">${columns.time}</th>
+          <th scope="col">${columns.error}</th>
+        </tr>
+      </thead>
+      <tbody>
+        ${compared.map(
+          ({ uniform_mm, layers, print_time_s, max_error, holds }) => html`<tr class=${uniform_mm === null ? "own" : ""}>
+            <th scope="row">${uniform_mm === null ? texts.plan.own : texts.plan.uniform(format.fine(uniform_mm))}</th>
+            <td class="number">${format.count(layers)}</td>
+            <td class="bar" aria-hidden="true"><div ${styled({ width: `${(100 * layers) / most}%` })}></div></td>
+            <td class="number">${format.time(print_time_s)}</td>
+            <td>
+              ${METRICS[report.metric].error(max_error, format)}
+              <span class="holds ${holds ? "within" : "over"}">${holds ? texts.plan.within : texts.plan.over}</span>
+            </td>
+          </tr>`,
+        )}
+      </tbody>
+    </table>
+  `;
+}
+
+const STAGES = ["load", "ldi", "profile", "plan", "masks"] as const;
+
+/** How the result came about, for those who want to know. */
+export function details({ report }: Result, { texts: { details: words }, format }: Language): TemplateResult {
+  const { mask, metric, timings_ms } = report;
+  const error = (value: number): string => METRICS[metric].error(value, format);
+  const fact = (name: string, value: string): TemplateResult => html`<div><dt>${name}</dt><dd>${value}</dd></div>`;
+  const ran = report.backend === "gpu" ? words.gpu(report.adapter) : words.cpu;
+  return html`<details class="quiet figures">
+    <summary>${words.ran(ran, format.duration(timings_ms.total))}</summary>
+    <dl class="facts">
+      ${STAGES.map((stage) => (timings_ms[stage] > 0 ? fact(words[stage], format.duration(timings_ms[stage])) : nothing))}
+      ${fact(words.meshError, error(report.max_error))} ${fact(words.rayError, error(report.sampled_error))}
+      ${metric === "cusp" ? nothing : fact(words.cuspError, format.fine(report.max_error_mm))}
+      ${fact(words.flats, format.count(report.snapped_mm.length))}
+      ${fact(words.source, report.source === "exact" ? words.exact : words.sampled)}
+      ${fact(words.overhead, format.seconds(report.overhead_s))}
+      ${fact(words.mask, words.maskSize(format.count(mask.width), format.count(mask.height), format.fine(mask.pitch_mm)))}
+      ${fact(words.bins, words.binSize(format.count(report.bins), format.fine(report.bin_mm)))}
+      ${fact(words.hits, format.count(report.hits))}
+    </dl>
+  </details>`;
+}

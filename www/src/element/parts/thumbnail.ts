@@ -1,0 +1,28 @@
+/** A small picture of a model in the layers of its plan, for places that have no room for an element. */
+import type { Slicer } from "../../api/index.js";
+import { heightOf, UPRIGHT } from "../../view/scene/turn.js";
+import { partError } from "./part.js";
+import type { Result } from "../state/result.js";
+import { quaternion } from "../state/settings.js";
+
+/** Pixels of each side. */
+const LEAST_PX = 16;
+const MOST_PX = 2048;
+
+/** @param size_px of each side, brought into 16 to 2048 */
+export async function thumbnailOf(slicer: Pick<Slicer, "positions">, { report, options, limits }: Result, size_px: number): Promise<Blob> {
+  const drawing = import("../../view/scene/thumbnails.js").catch((cause: unknown) => {
+    throw partError("pictures", cause);
+  });
+  const [positions, { thumbnail }] = await Promise.all([slicer.positions(), drawing]);
+  const rotation = quaternion((options.rotation ?? []).join()) ?? UPRIGHT;
+  const own_mm = heightOf(positions, rotation);
+  const picture = {
+    ...{ positions, rotation, limits, palette: "classic" as const, z_mm: report.z_mm },
+    scale: own_mm > 0 ? report.height_mm / own_mm : 1,
+  };
+  const side_px = Math.min(MOST_PX, Math.max(LEAST_PX, Math.round(size_px)));
+  const png = await thumbnail(picture, side_px);
+  if (png === null) throw partError("pictures", "this browser has no WebGL");
+  return png;
+}

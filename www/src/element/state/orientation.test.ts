@@ -1,0 +1,217 @@
+import { beforeEach, expect, test } from "vitest";
+import { SCHEMA, type OrientCall, type Orientation } from "../../api/index.js";
+import { SlicerError } from "../../api/error.js";
+import type { Candidate, Options, Search } from "../../api/wire.js";
+import { Directions, type Subject } from "./orientation.js";
+import { coloursOf, energyRange } from "../panels/orientation-sphere.js";
+import { figureRows } from "../panels/orientation-panel.js";
+import { moved, stepped } from "../parts/sphere-steps.js";
+import { languageOf } from "../../texts/index.js";
+import { colourAt } from "../../view/legend/palette.js";
+import type { Triple } from "../../view/scene/pose.js";
+
+const candidate = (energy: number | null, patch: Partial<Candidate> = {}): Candidate => ({
+  direction: [0, 0, 1],
+  rotation: [0, 0, 0, 1],
+  size_mm: [1, 2, 3],
+  excluded: null,
+  figures: { layers: 1200, print_time_s: 3600, max_error: 0.06, roughness_mm: 0.0123, overhang_mm2: 50 },
+  energy,
+  ...patch,
+});
+
+interface Asked {
+  options: Options;
+  search: Search;
+  call: OrientCall;
+  answer(candidates: Candidate[], best?: Candidate[]): Promise<void>;
+  refuse(error: unknown): Promise<void>;
+}
+
+let asked: Asked[];
+let subject: Subject | null;
+let failures: unknown[];
+let directions: Directions;
+
+const settle = (): Promise<unknown> => new Promise((resolve) => setTimeout(resolve));
+const last = (): Asked => {
+  const call = asked.at(-1);
+  if (call === undefined) throw new Error("no search was asked for");
+  return call;
+};
+
+beforeEach(() => {
+  asked = [];
+  failures = [];
+  subject = { name: "a.stl", options: { tolerance: 0.05 }, weights: null };
+  const orient = (options: Options = {}, search: Search = {}, call: OrientCall = {}): Promise<Orientation> =>
+    new Promise((resolve, reject) => {
+      call.signal?.addEventListener("abort", () => reject(call.signal?.reason));
+      asked.push({
+        ...{ options, search, call },
+        answer: async (candidates, best = candidates.slice(0, 3)) => {
+          resolve({ schema: SCHEMA, candidates, best });
+          await settle();
+        },
+        refuse: async (error) => {
+          reject(error);
+          await settle();
+        },
+      });
+    });
+  const host = {
+    subject: () => subject,
+    changed: () => undefined,
+    progressed: () => undefined,
+    failed: (error: unknown) => void failures.push(error),
+  };
+  directions = new Directions(host, { orient });
+});
+
+test("a search shows what is measured, how far it is, and at last the best", async () => {
+  directions.start();
+  expect(directions.busy).toMatchObject({ task: "orient", stage: "directions" });
+  last().call.onProgress?.("directions", 0.5);
+  const found = { directions: new Float64Array(6), candidates: [candidate(1), null] };
+  last().call.onCandidates?.(found);
+  expect(directions.busy).toMatchObject({ fraction: 0.5 });
+  expect(directions.found).toBe(found);
+  await last().answer([candidate(1), candidate(2)]);
+  expect(directions.busy).toBeNull();
+  expect(directions.best).toHaveLength(2);
+  expect(directions.isCurrent).toBe(true);
+});
+
+test("without a model, or with settings that make no sense, there is no search", () => {
+  subject = null;
+  directions.start();
+  expect(asked).toEqual([]);
+});
+
+test("what counts is rated anew with what is measured; what came meanwhile is rated at the end, once", async () => {
+  directions.start();
+  const measured = [candidate(1), candidate(2)];
+  directions.aim({ alpha: 0.3 });
+  directions.aim({ alpha: 0.2 });
+  await last().answer(measured);
+  expect(asked.map(({ search }) => search.alpha)).toEqual([0.5, 0.2]);
+  expect(last().call.measured).toBe(measured);
+  await last().answer(measured);
+  expect(directions.busy).toBeNull();
+  directions.aim({ quality: "overhang" });
+  expect(last().search).toEqual({ alpha: 0.2, cost: "layers", quality: "overhang" });
+  expect(last().call.measured).toBe(measured);
+});
+
+test("a cancelled search keeps what it measured, and what comes late is no news", async () => {
+  directions.start();
+  const { call } = last();
+  const found = { directions: new Float64Array(3), candidates: [candidate(1)] };
+  call.onCandidates?.(found);
+  directions.cancel();
+  expect(call.signal?.aborted).toBe(true);
+  call.onCandidates?.({ directions: new Float64Array(3), candidates: [null] });
+  call.onProgress?.("directions", 1);
+  await settle();
+  expect(directions.found).toBe(found);
+  expect(directions.busy).toBeNull();
+  expect(failures).toEqual([]);
+});
+
+test("an error ends the search and is told", async () => {
+  directions.start();
+  const error = new SlicerError("crash", "no");
+  await last().refuse(error);
+  expect(failures).toEqual([error]);
+  expect(directions.busy).toBeNull();
+});
+
+test("it is out of date when something changes that it depends on, and only then", async () => {
+  directions.start();
+  await last().answer([candidate(1)]);
+  const given = subject;
+  if (given === null) throw new Error("there is a subject");
+  const isCurrent = (change: Partial<Options>, weights: Float32Array | null = null): boolean => {
+    subject = { ...given, options: { ...given.options, ...change }, weights };
+    return directions.isCurrent;
+  };
+  expect(isCurrent({ rotation: [1, 0, 0, 0], rays: 512, backend: "cpu", format: "uvj" })).toBe(true);
+  expect(isCurrent({ tolerance: 0.06 })).toBe(false);
+  expect(isCurrent({ layer_max_mm: 0.2 })).toBe(false);
+  expect(isCurrent({ printer: "mars-4-ultra" })).toBe(false);
+  expect(isCurrent({}, new Float32Array(1))).toBe(false);
+  directions.aim({ alpha: 1 });
+  expect(asked).toHaveLength(1);
+  expect(isCurrent({})).toBe(true);
+});
+
+test("a height is that of the pose: out of date when turned otherwise, not when a direction is applied", async () => {
+  const options: Options = { height_mm: 50, rotation: [0, 0, 0, 1] };
+  subject = { name: "a.stl", options, weights: null };
+  directions.start();
+  await last().answer([candidate(1)]);
+  subject = { name: "a.stl", options: { ...options, rotation: [1, 0, 0, 0] }, weights: null };
+  expect(directions.isCurrent).toBe(false);
+  const applied: Options = { height_mm: 30, rotation: [0, 1, 0, 0] };
+  directions.applied(applied);
+  subject = { name: "a.stl", options: applied, weights: null };
+  expect(directions.isCurrent).toBe(true);
+});
+
+test("the greatest energy is red, the least blue, what does not fit grey, what is not known clear", () => {
+  const candidates = [candidate(0.4), candidate(0.8), candidate(0.6), candidate(null, { excluded: "too-high" }), null, candidate(null)];
+  expect(energyRange(candidates)).toEqual([0.4, 0.8]);
+  expect(energyRange([null])).toBeNull();
+  for (const palette of ["classic", "safe"] as const) {
+    const [least, greatest, middle, excluded, unknown, unrated] = coloursOf(candidates, palette);
+    expect(least).toEqual(colourAt(palette, 1));
+    expect(greatest).toEqual(colourAt(palette, 0));
+    expect(middle).toEqual(colourAt(palette, 0.5));
+    if (excluded == null) throw new Error("what does not fit has a colour");
+    expect(Math.max(...excluded) - Math.min(...excluded)).toBeLessThan(20);
+    expect([unknown, unrated]).toEqual([null, null]);
+  }
+  expect(coloursOf([candidate(1)], "classic")).toEqual([colourAt("classic", 1)]);
+});
+
+test("what is known of a candidate is told in the language; of one that does not fit its size", () => {
+  const { format } = languageOf("en");
+  const rows = Object.fromEntries(figureRows(candidate(0.5), "cusp", languageOf("en")));
+  expect(rows).toEqual({
+    Layers: "1,200",
+    "Print time": format.time(3600),
+    "Largest error": "0.06\u00a0mm",
+    "Mean roughness": "12.3\u00a0µm",
+    "Overhanging area": "50\u00a0mm²",
+    Size: "1.0 × 2.0 × 3.0\u00a0mm",
+    Energy: "0.5",
+  });
+  const out = candidate(null, { figures: null, excluded: "too-large" });
+  expect(figureRows(out, "cusp", languageOf("en")).map(([name]) => name)).toEqual(["Size"]);
+});
+
+test("arrow keys go where they point, on either side, and around the rim", () => {
+  const front: Triple = [0, 0, 1];
+  expect(moved(front, "right", 30)[0]).toBeCloseTo(0.5, 12);
+  expect(moved(front, "left", 30)[0]).toBeCloseTo(-0.5, 12);
+  expect(moved(front, "up", 30)[1]).toBeCloseTo(0.5, 12);
+  expect(moved(front, "down", 30)[1]).toBeCloseTo(-0.5, 12);
+  // From behind, what is right on the picture is left of the front.
+  expect(moved([0, 0, -1], "right", 30)[0]).toBeCloseTo(-0.5, 12);
+  expect(moved([0, 0, -1], "up", 30)[1]).toBeCloseTo(0.5, 12);
+  expect(moved(front, "right", 120)[2]).toBeCloseTo(-0.5, 12);
+  // The top is as far as it goes.
+  expect(moved([0, Math.sin(1.5), Math.cos(1.5)], "up", 30)[1]).toBeCloseTo(1, 12);
+});
+
+test("a step goes to the first other direction, and stays where there is none", () => {
+  const byLongitude = ([x, , z]: Triple): number => Math.floor((Math.atan2(x, z) / Math.PI) * 18 + 18.5);
+  const start = byLongitude([0, 0, 1]);
+  expect(stepped([0, 0, 1], "right", byLongitude)).toBe(start + 1);
+  expect(stepped([0, 0, 1], "left", byLongitude)).toBe(start - 1);
+  expect(stepped([0, 0, 1], "up", byLongitude)).toBe(start);
+  // The top has no left and right of its own, but two sides.
+  const bySide = ([x, y]: Triple): number => (y > 0.9 ? 0 : Math.sign(x));
+  expect(stepped([0, 1, 0], "right", bySide)).toBe(1);
+  expect(stepped([0, 1, 0], "left", bySide)).toBe(-1);
+});

@@ -1,0 +1,157 @@
+/** The search for the best direction: what counts, what is known so far, and whether it still holds. */
+import { isAbort } from "../../api/error.js";
+import type { Found, OrientCall, Slicer } from "../../api/index.js";
+import { DEFAULT_SEARCH, type Candidate, type Options, type Search } from "../../api/wire.js";
+import type { Busy } from "../parts/progress.js";
+
+/** What a direction is judged by. */
+export type Aims = Readonly<Required<Pick<Search, "alpha" | "cost" | "quality">>>;
+
+/** What a search depends on. */
+export interface Subject {
+  /** The model's name. */
+  readonly name: string;
+  readonly options: Options;
+  readonly weights: Float32Array | null;
+}
+
+export interface DirectionsHost {
+  /** What a search would be about now; null if there is no model, or its settings make no sense. */
+  subject(): Subject | null;
+  changed(): void;
+  progressed(busy: Busy): void;
+  failed(error: unknown): void;
+}
+
+const { alpha, cost, quality } = DEFAULT_SEARCH;
+
+export class Directions {
+  aims: Aims = { alpha, cost, quality };
+  /** What has been measured; null before a search. */
+  found: Found | null = null;
+  /** The best that differ from each other, the best first; empty until they are known. */
+  best: readonly Candidate[] = [];
+  /** How far the search is; null if none runs. */
+  busy: Busy | null = null;
+  readonly #host: DirectionsHost;
+  readonly #client: Pick<Slicer, "orient">;
+  #of: Subject | null = null;
+  /** The options that all this is of, in each pose that it was applied in. */
+  #keys = new Set<string>();
+  /** All candidates, once they are measured. */
+  #measured: readonly Candidate[] | null = null;
+  #abort: AbortController | null = null;
+
+  constructor(host: DirectionsHost, client: Pick<Slicer, "orient">) {
+    this.#host = host;
+    this.#client = client;
+  }
+
+  /** Options that the figures on show are of. */
+  get options(): Options | null {
+    return this.#of?.options ?? null;
+  }
+
+  /** Whether there is something to search. */
+  get isPossible(): boolean {
+    return this.#host.subject() !== null;
+  }
+
+  /** Whether a search would find the same now. */
+  get isCurrent(): boolean {
+    const now = this.#host.subject();
+    return now !== null && this.#of?.weights === now.weights && this.#keys.has(keyOf(now.options));
+  }
+
+  /** Searches anew. */
+  start(): void {
+    const subject = this.#host.subject();
+    if (subject === null) return;
+    this.forget();
+    this.#of = subject;
+    this.#keys.add(keyOf(subject.options));
+    void this.#run(subject);
+  }
+
+  /** Stops a search; what it has measured stays on show. */
+  cancel(): void {
+    const abort = this.#abort;
+    if (abort === null) return;
+    this.#abort = null;
+    this.busy = null;
+    abort.abort();
+    this.#host.changed();
+  }
+
+  /** Something else counts now: what is measured is rated anew. */
+  aim(change: Partial<Aims>): void {
+    this.aims = { ...this.aims, ...change };
+    this.#host.changed();
+    // A search that runs sees it at its end.
+    if (this.busy === null && this.#measured !== null && this.#of !== null && this.isCurrent) void this.#run(this.#of);
+  }
+
+  /** The model was put in a pose that was found: what is known holds there as well. */
+  applied(options: Options): void {
+    this.#keys.add(keyOf(options));
+  }
+
+  forget(): void {
+    this.cancel();
+    this.found = null;
+    this.best = [];
+    this.#of = null;
+    this.#measured = null;
+    this.#keys = new Set();
+  }
+
+  async #run(subject: Subject): Promise<void> {
+    const abort = new AbortController();
+    this.#abort = abort;
+    const isMine = (): boolean => this.#abort === abort;
+    const { name, options } = subject;
+    const started_ms = performance.now();
+    const call: OrientCall = {
+      signal: abort.signal,
+      onProgress: (stage, fraction) => {
+        if (!isMine()) return;
+        this.busy = { task: "orient", name, stage, fraction, started_ms };
+        this.#host.progressed(this.busy);
+        this.#host.changed();
+      },
+      onCandidates: (found) => {
+        if (!isMine()) return;
+        this.found = found;
+        this.#host.changed();
+      },
+    };
+    this.busy = { task: "orient", name, stage: "directions", fraction: 0, started_ms };
+    this.#host.changed();
+    try {
+      for (let aims: Aims | null = null; aims !== this.aims && (aims === null || this.isCurrent); ) {
+        aims = this.aims;
+        const measured = this.#measured ?? undefined;
+        const { candidates, best } = await this.#client.orient(options, aims, { ...call, measured });
+        if (!isMine()) return;
+        this.#measured = candidates;
+        this.best = best;
+      }
+    } catch (error) {
+      if (isMine() && !isAbort(error)) this.#host.failed(error);
+    } finally {
+      if (isMine()) {
+        this.#abort = null;
+        this.busy = null;
+        this.#host.changed();
+      }
+    }
+  }
+}
+
+/**
+ * What figures of all directions depend on: not on the pose, unless a height is asked for, which is that of the model as
+ * it stands; nor on where rays are cast, how many, or the kind of file.
+ */
+function keyOf({ rotation, height_mm, rays: _rays, backend: _backend, format: _format, ...options }: Options): string {
+  return JSON.stringify(height_mm === undefined ? options : { ...options, height_mm, rotation });
+}

@@ -1,0 +1,113 @@
+import { expect, test } from "vitest";
+import { coverage, factorFor, wholeBytes } from "../parts/bitmap.js";
+import type { Rectangle } from "../parts/bitmap.js";
+import { moved, WHOLE, windowOf, zoomed } from "../parts/window.js";
+import { bands, densityEnd, type ChartData } from "../parts/chart.js";
+import * as colour from "../../view/legend/palette.js";
+import { layerAt } from "../../view/scene/lookup.js";
+
+/** What `coverage` must find, one pixel at a time. */
+function naive(bits: Uint8Array, width: number, height: number, part: Rectangle, factor: number): number[] {
+  const stride = Math.ceil(width / 8);
+  const lit = (x: number, y: number): number =>
+    x < width && y < height ? ((bits[y * stride + (x >> 3)] ?? 0) >> (7 - (x & 7))) & 1 : 0;
+  const out: number[] = [];
+  for (let y = 0; y < part.height; y += factor) {
+    for (let x = 0; x < part.width; x += factor) {
+      let sum = 0;
+      for (let dy = 0; dy < Math.min(factor, part.height - y); dy++) {
+        for (let dx = 0; dx < factor; dx++) sum += lit(part.x + x + dx, part.y + y + dy);
+      }
+      out.push(Math.round((255 * sum) / (factor * factor)));
+    }
+  }
+  return out;
+}
+
+const [MASK_WIDTH, MASK_HEIGHT] = [37, 29];
+const BITS = Uint8Array.from({ length: Math.ceil(MASK_WIDTH / 8) * MASK_HEIGHT }, (_, i) =>
+  // Bits past the width are padding: the format leaves them dark.
+  i % 5 === 4 ? ((i * 89 + 41) & 0b11111000) : (i * 89 + 41) & 255,
+);
+
+test.each([
+  [1, { x: 0, y: 0, width: 37, height: 29 }],
+  [2, { x: 0, y: 0, width: 37, height: 29 }],
+  [4, { x: 0, y: 0, width: 37, height: 29 }],
+  [8, { x: 0, y: 0, width: 37, height: 29 }],
+  [1, { x: 8, y: 8, width: 16, height: 8 }],
+  [4, { x: 16, y: 8, width: 21, height: 21 }],
+])("a mask merged by %i is the mean of its blocks: %j", (factor, part) => {
+  const got = coverage(BITS, MASK_WIDTH, part, factor);
+  expect([got.width, got.height]).toEqual([Math.ceil(part.width / factor), Math.ceil(part.height / factor)]);
+  expect([...got.values]).toEqual(naive(BITS, MASK_WIDTH, MASK_HEIGHT, part, factor));
+});
+
+test("pixels are merged only as long as none on the screen goes without", () => {
+  expect([2, 1, 0.6, 0.5, 0.3, 0.25, 0.1, 0.01].map(factorFor)).toEqual([1, 1, 1, 2, 2, 4, 8, 8]);
+});
+
+test("a part in whole bytes holds the part, within the mask", () => {
+  expect(wholeBytes({ x: 9, y: 3, width: 10, height: 6 }, 37, 29)).toEqual({ x: 8, y: 0, width: 16, height: 16 });
+  expect(wholeBytes({ x: -4, y: -9, width: 99, height: 99 }, 37, 29)).toEqual({ x: 0, y: 0, width: 37, height: 29 });
+});
+
+test("the whole mask fits the screen in its true proportions", () => {
+  const { part, scale } = windowOf(WHOLE, [100, 50], [400, 400], 2);
+  expect(scale).toEqual([4, 8]);
+  expect(part).toEqual({ x: 0, y: 0, width: 100, height: 50 });
+});
+
+test("zoomed in, the middle stays where it is, and the edges of the mask are not passed", () => {
+  const twice = zoomed({ zoom: 1, centre: [0.5, 0.5] }, 2);
+  expect(windowOf(twice, [100, 100], [100, 100], 1).part).toEqual({ x: 25, y: 25, width: 50, height: 50 });
+  const corner = moved(moved(twice, [9, 0]), [0, -9]);
+  expect(windowOf(corner, [100, 100], [100, 100], 1).part).toEqual({ x: 50, y: 0, width: 50, height: 50 });
+  expect(zoomed(corner, 0.5)).toEqual(WHOLE);
+});
+
+test("thin is red, thick is blue, and what lies outside the scale is clamped", () => {
+  const [thin, thick] = [colour.ofThickness("classic", 0.05, [0.05, 0.15]), colour.ofThickness("classic", 0.15, [0.05, 0.15])];
+  expect(thin[0]).toBeGreaterThan(2 * thin[2]);
+  expect(thick[2]).toBeGreaterThan(2 * thick[0]);
+  expect(colour.ofThickness("classic", 1, [0.05, 0.15])).toEqual(thick);
+  expect(colour.ofThickness("classic", 0.05, [0.05, 0.05])).toEqual(colour.colourAt("classic", 0.5));
+});
+
+test("the layer at a height, ends included", () => {
+  const z = [0, 0.1, 0.2, 0.4];
+  expect([-1, 0, 0.05, 0.1, 0.39, 0.4, 9].map((at) => layerAt(z, at))).toEqual([0, 0, 0, 1, 2, 2, 2]);
+});
+
+const data: ChartData = {
+  metric: "cusp",
+  profile: new Float32Array(40),
+  bin_mm: 0.01,
+  z_mm: [0, 0.1, 0.2, 0.4],
+  thickness_mm: [0.1, 0.1, 0.2],
+  limits: [0.1, 0.2],
+};
+
+test("rows of one thickness join into a band; from the top down", () => {
+  expect(bands(data, 0.4, 0, 8)).toEqual([
+    { row: 0, rows: 4, thickness_mm: 0.2 },
+    { row: 4, rows: 4, thickness_mm: 0.1 },
+  ]);
+});
+
+test("a row over several layers has their mean, and rows off the model have none", () => {
+  const [only, ...others] = bands(data, 0.8, 0, 2);
+  expect(others).toEqual([]);
+  expect(only?.row).toBe(1);
+  expect(only?.thickness_mm).toBeCloseTo(0.4 / 3);
+});
+
+test("the axis ends where the metric's densities do, or at the largest area of this model", () => {
+  const end = (metric: ChartData["metric"], ...profile: number[]): number =>
+    densityEnd({ ...data, metric, profile: Float32Array.from(profile) });
+  expect(end("cusp", 0.5)).toBeCloseTo(1, 1);
+  expect(end("roughness", 0.5)).toBeCloseTo(2, 1);
+  expect(end("area", 0.5)).toBeCloseTo(2, 1);
+  expect(end("volume", 0, 300, 200)).toBeCloseTo(303);
+  expect(end("volume", 0)).toBe(1);
+});

@@ -1,0 +1,265 @@
+/** Failures in words: what happened, where it belongs, and what would mend it. */
+import type { ErrorCode, SlicerError } from "../../api/error.js";
+import type { FileKind, Warning } from "../../api/wire.js";
+import type { Language, Texts } from "../../texts/index.js";
+import { METRICS } from "./metric.js";
+import * as round from "./round.js";
+import { binOf, parse, withTolerance, type Field, type Settings } from "./settings.js";
+
+/** A change of settings that may well help, offered as a button. */
+export interface Offer {
+  label: string;
+  change: Partial<Settings>;
+}
+
+export interface Problem {
+  code: ErrorCode;
+  title: string;
+  text: string;
+  offers: Offer[];
+  /** The setting that caused it; null where none did. */
+  field: Field | Choice | null;
+}
+
+/** A setting that is chosen from a list. */
+export type Choice = "metric" | "rays" | "printer" | "format" | "resin";
+
+/** What failed, and what was known then. */
+export interface Failure {
+  error: SlicerError;
+  /** The file's name. */
+  name: string;
+  /** Those that were in force. */
+  settings: Settings;
+  /** Height of the model as it was to be printed, in mm; null if none was open. */
+  height_mm: number | null;
+}
+
+type Kind = keyof Texts["problems"];
+
+const KINDS: Readonly<Record<Exclude<ErrorCode, "infeasible" | "other-file-kind">, Kind>> = {
+  "stl-empty": "empty",
+  "stl-no-facets": "empty",
+  "stl-truncated": "cutShort",
+  "stl-not-stl": "notStl",
+  "stl-wrong-facet-count": "damaged",
+  "stl-not-finite": "damaged",
+  "stl-syntax": "damaged",
+  "mesh-no-area": "unusable",
+  "mesh-zero-height": "unusable",
+  "mesh-overflow": "unusable",
+  "bad-height": "badOptions",
+  "bad-rotation": "badOptions",
+  "bad-length": "badOptions",
+  "bad-time": "badTime",
+  "bad-options": "badOptions",
+  "bad-attribute": "badOptions",
+  "grid-bad-size": "tooFine",
+  "grid-too-fine": "tooFine",
+  "too-many-bins": "tooFine",
+  "too-many-facets": "tooFine",
+  "out-of-memory": "tooFine",
+  "model-too-large": "tooLarge",
+  "model-too-high": "tooHigh",
+  "not-whole-bins": "notWhole",
+  "layer-range-empty": "rangeEmpty",
+  "layer-too-thick": "layerTooThick",
+  "layers-do-not-fit": "doNotFit",
+  "bad-range": "badRange",
+  "bad-plane": "badPlane",
+  "out-of-reach": "outOfReach",
+  "no-hits": "noHits",
+  "all-black": "allBlack",
+  "no-gpu": "gpu",
+  "gpu-failed": "gpu",
+  "gpu-too-small": "gpuTooSmall",
+  "uniform-only": "uniformOnly",
+  "file-unreadable": "unreadable",
+  "fetch-failed": "notFetched",
+  "start-failed": "startFailed",
+  crash: "crash",
+  "part-failed": "other",
+  "no-browser": "other",
+  "no-plan": "other",
+  "no-model": "other",
+  "weights-not-weights": "notWeights",
+  "weights-other-mesh": "otherMesh",
+  "weights-out-of-range": "notWeights",
+  "archive-write": "other",
+  cancelled: "other",
+};
+
+/** The setting that a kind of failure is about. */
+const FIELDS: Partial<Record<Kind, Problem["field"]>> = {
+  tooLarge: "printer",
+  tooHigh: "printer",
+  tooFine: "rays",
+  noHits: "rays",
+  rangeEmpty: "layerMax",
+  doNotFit: "layerMin",
+  layerTooThick: "layerMax",
+  uniformOnly: "format",
+};
+
+/**
+ * A failure in words.
+ *
+ * @param fixed settings that the page alone decides, so that no offer changes them
+ */
+export function explain(failure: Failure, language: Language, fixed: ReadonlySet<keyof Settings>): Problem {
+  const problem = describe(failure, language, fixed);
+  const isOpen = ({ change }: Offer): boolean => (Object.keys(change) as (keyof Settings)[]).every((key) => !fixed.has(key));
+  return { ...problem, offers: problem.offers.filter(isOpen) };
+}
+
+function describe(failure: Failure, language: Language, fixed: ReadonlySet<keyof Settings>): Problem {
+  const { error, name } = failure;
+  const { texts } = language;
+  const { code } = error;
+  if (error.code === "infeasible") return infeasible(error, failure.settings, language, fixed);
+  if (error.code === "other-file-kind") return otherKind(error.detail.kind, name, texts);
+  const kind = KINDS[error.code];
+  const [title, text] = texts.problems[kind](name, sentence(error.message));
+  return { code, title, text, offers: offersFor(kind, error, failure, language), field: FIELDS[kind] ?? null };
+}
+
+/** What people call a kind of file. */
+const FILE_KINDS: Readonly<Record<FileKind, string>> = {
+  ...{ "3mf": "3MF", amf: "AMF", obj: "OBJ", ply: "PLY", step: "STEP", gltf: "glTF" },
+  ...{ zip: "ZIP", gzip: "gzip", html: "HTML" },
+};
+
+function otherKind(kind: FileKind, name: string, { otherKind: words }: Texts): Problem {
+  const text = kind === "html" ? words.page : kind === "zip" || kind === "gzip" ? words.packed : words.model;
+  return { code: "other-file-kind", title: words.title(name, FILE_KINDS[kind]), text, offers: [], field: null };
+}
+
+function offersFor(kind: Kind, error: SlicerError, failure: Failure, language: Language): Offer[] {
+  switch (kind) {
+    case "doNotFit":
+      return halfAsThin(failure.settings, language);
+    case "tooFine":
+    case "crash":
+      return fewerRays(failure.settings, language);
+    case "tooLarge":
+    case "tooHigh":
+      return [...smaller(scaleThatFits(error), failure, language), { label: language.texts.offers.noPrinter, change: { printer: "" } }];
+    case "uniformOnly":
+      return uniformOr(failure.settings, language);
+    default:
+      return [];
+  }
+}
+
+type Infeasible = Extract<SlicerError, { code: "infeasible" }>;
+
+/** The core knows where it fails and what would do: here that is put in words. */
+function infeasible(error: Infeasible, settings: Settings, language: Language, fixed: ReadonlySet<keyof Settings>): Problem {
+  const { texts, format } = language;
+  const { scale, error: written } = METRICS[settings.metric];
+  const offers: Offer[] = [];
+
+  const least = fixed.has("tolerances") ? null : error.detail.least_tolerance;
+  if (least !== null) {
+    const short = round.up(least * scale);
+    const label = texts.offers.tolerance(written(short / scale, format));
+    offers.push({ label, change: withTolerance(settings, String(short)) });
+  }
+  const largest = fixed.has("layerMin") ? null : error.detail.largest_layer_min_mm;
+  if (largest !== null) offers.push(layersFrom(thinEnough(largest, settings), language));
+
+  const place = texts.infeasible.where(
+    format.bareHeight(error.detail.from_mm),
+    format.height(error.detail.to_mm),
+    format.fine(error.detail.layer_min_mm),
+  );
+  const way = least === null ? (largest === null ? "neither" : "thinner") : largest === null ? "larger" : "either";
+  const isClosed = way === "neither" && fixed.has("layerMin");
+  return {
+    code: error.code,
+    title: texts.infeasible.title(written(error.detail.tolerance, format)),
+    text: isClosed ? place : `${place} ${texts.infeasible[way]}`,
+    offers,
+    field: "tolerance",
+  };
+}
+
+/**
+ * A thinnest layer, in mm, that is at most the largest one that the core says will do. That holds for the bins that it
+ * looked at, so where this thickness would bring other bins, one that does not is taken.
+ */
+function thinEnough(largest_mm: number, settings: Settings): number {
+  const below = round.micrometreBelow(largest_mm);
+  const sameBins = binOf({ ...settings, layerMin: String(below) }) === binOf(settings);
+  return sameBins ? below : round.micrometreBelow(below - 0.001);
+}
+
+const layersFrom = (mm: number, { texts, format }: Language): Offer => ({
+  label: texts.offers.layersFrom(format.fine(mm)),
+  change: { layerMin: String(mm) },
+});
+
+function halfAsThin(settings: Settings, language: Language): Offer[] {
+  const half = round.micrometreBelow((parse(settings.layerMin) ?? 0) / 2);
+  return half > 0 ? [layersFrom(half, language)] : [];
+}
+
+function fewerRays(settings: Settings, { texts, format }: Language): Offer[] {
+  const half = Number(settings.rays) / 2;
+  return half >= 512 ? [{ label: texts.offers.rays(format.count(half)), change: { rays: String(half) } }] : [];
+}
+
+/** What a model that is too large may be scaled by; null for any other error. */
+function scaleThatFits(error: SlicerError): number | null {
+  return error.code === "model-too-large" || error.code === "model-too-high" ? error.detail.fitting_scale : null;
+}
+
+/** The height at which the model fits, to a tenth of a millimetre below. */
+function smaller(scale: number | null, { height_mm }: Failure, { texts, format }: Language): Offer[] {
+  if (scale === null || height_mm === null) return [];
+  const fitting = Math.floor(10 * height_mm * scale) / 10;
+  return fitting > 0 ? [{ label: texts.offers.scale(format.fine(fitting)), change: { height: String(fitting) } }] : [];
+}
+
+function uniformOr(settings: Settings, { texts, format }: Language): Offer[] {
+  const thickness = parse(settings.uniform) ?? 0;
+  const change = { planner: "uniform" } as const;
+  return [
+    { label: texts.offers.uniform(format.fine(thickness)), change },
+    { label: texts.offers.images, change: { format: "png" } },
+  ];
+}
+
+/** Makes a message of the core, which is lower case and without a full stop, a sentence. */
+export function sentence(message: string): string {
+  const tidy = message.trim();
+  if (tidy === "") return "";
+  return tidy.charAt(0).toUpperCase() + tidy.slice(1) + (/[.!?]$/.test(tidy) ? "" : ".");
+}
+
+/** A warning in words. */
+export function warningWords(warning: Warning, { texts: { warnings: words }, format }: Language): string {
+  switch (warning.code) {
+    case "degenerate-facets":
+      return words[warning.code](warning.detail.facets);
+    case "open-mesh":
+      return words[warning.code](warning.detail.open_edges, warning.detail.holes);
+    case "unclosed-rays":
+      return words[warning.code](format.count(warning.detail.unclosed), format.count(warning.detail.rays));
+    case "tolerance-exceeded":
+    case "tolerance-exceeded-on-mesh": {
+      const { metric, max_error, tolerance } = warning.detail;
+      return words[warning.code](METRICS[metric].error(max_error, format), METRICS[metric].error(tolerance, format));
+    }
+    case "top-moved":
+      return words[warning.code](format.height(warning.detail.top_mm), format.height(warning.detail.height_mm));
+    case "black-layers":
+      return words[warning.code](warning.detail.layers, format.height(warning.detail.from_mm));
+    case "gpu-failed":
+      return words[warning.code](warning.detail.reason);
+    case "inside-out":
+    case "sampled-sections":
+    case "gpu-too-small":
+      return words[warning.code]();
+  }
+}

@@ -1,0 +1,38 @@
+/** What came of settings: a plan with the options it was made for, and what is drawn of it. */
+import type { Plan } from "../../api/index.js";
+import type { Metric, Options } from "../../api/wire.js";
+
+/** A plan with the options it was made for. */
+export interface Result extends Plan {
+  options: Options;
+  /** Thinnest and thickest layer allowed, mm: the ends of the colour scale. */
+  limits: readonly [number, number];
+}
+
+/** What charts and the view draw: of the last plan, or of a glance while the model is turned. */
+export interface Shown {
+  metric: Metric;
+  /** Value of each bin: see `Plan`. */
+  profile: Float32Array;
+  bin_mm: number;
+  /** Layer boundaries from 0 to the height of the model. */
+  z_mm: readonly number[];
+  thickness_mm: readonly number[];
+  /** Thicknesses at the ends of the colour scale. */
+  limits: readonly [number, number];
+  layers: number;
+  print_time_s: number;
+}
+
+export function shownOf(
+  { metric, bin_mm, z_mm, thickness_mm, layers, print_time_s }: Omit<Shown, "profile" | "limits">,
+  profile: Float32Array,
+  limits: Shown["limits"],
+): Shown {
+  return { metric, bin_mm, z_mm, thickness_mm, layers, print_time_s, profile, limits };
+}
+
+/** Whether two sets of options, made alike, ask for the same plan. */
+export function areSame(a: Options | null, b: Options | null): boolean {
+  return JSON.stringify(a) === JSON.stringify(b);
+}

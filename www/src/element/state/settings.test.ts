@@ -1,0 +1,228 @@
+import { expect, test } from "vitest";
+import { sameRays } from "../../api/wire.js";
+import { languageOf } from "../../texts/index.js";
+import {
+  check,
+  DEFAULT_SETTINGS,
+  faultWords,
+  fromAddress,
+  layerRange,
+  parse,
+  quaternion,
+  rotationText,
+  toAddress,
+  type Field,
+  type Offered,
+  type Settings,
+  usualTolerance,
+  withTolerance,
+} from "./settings.js";
+
+/** What is wrong, in English. */
+function faults(patch: Partial<Settings>, offered: Offered = { printers: [], resins: [] }): Partial<Record<Field, string>> {
+  const checked = check({ ...DEFAULT_SETTINGS, ...patch }, offered);
+  if (checked.ok) return {};
+  return Object.fromEntries(Object.entries(checked.faults).map(([field, fault]) => [field, faultWords(fault, languageOf("en"))]));
+}
+
+function options(patch: Partial<Settings>): unknown {
+  const checked = check({ ...DEFAULT_SETTINGS, ...patch });
+  return checked.ok ? checked.options : checked.faults;
+}
+
+test("the settings as they come are the core's defaults", () => {
+  expect(options({})).toEqual({
+    rays: 2048,
+    layer_min_mm: 0.05,
+    layer_max_mm: 0.15,
+    metric: "cusp",
+    minimize: "layers",
+    snap: "auto",
+    planner: { kind: "optimal" },
+  });
+});
+
+test.each([
+  ["cusp", "0.065", "0.05", 0.05],
+  ["roughness", "0.1", "0,2", 0.2],
+  ["area", "10", "5", 0.05],
+  ["volume", "1", "20", 20],
+] as const)("the tolerance of %s is %s until one is typed, and is sent in the core's unit", (metric, usual, typed, sent) => {
+  const settings = { ...DEFAULT_SETTINGS, metric };
+  expect(usualTolerance(metric, null)).toBe(usual);
+  expect(options(settings)).not.toHaveProperty("tolerance");
+  const changed = { ...settings, ...withTolerance(settings, typed) };
+  expect(options(changed)).toMatchObject({ metric, tolerance: sent });
+  expect(options({ ...changed, ...withTolerance(changed, " ") })).not.toHaveProperty("tolerance");
+});
+
+test("a tolerance belongs to the metric that it was typed for", () => {
+  const cusp = { ...DEFAULT_SETTINGS, ...withTolerance(DEFAULT_SETTINGS, "0.05") };
+  const area = { ...cusp, metric: "area" as const };
+  expect(options(area)).not.toHaveProperty("tolerance");
+  const both = { ...area, ...withTolerance(area, "x") };
+  expect(faults(both).tolerance).toMatch(/0.1 to 200 %/);
+  expect(options({ ...both, metric: "cusp" })).toMatchObject({ tolerance: 0.05 });
+});
+
+test("a tolerance that the core took is shown short, and never below it", () => {
+  expect(usualTolerance("volume", 11.2631)).toBe("11.3");
+  expect(usualTolerance("area", 0.07)).toBe("7");
+});
+
+test.each([
+  ["0.05", 0.05],
+  [" 0,05 ", 0.05],
+  [".5", 0.5],
+  ["12.", 12],
+  ["0", 0],
+  ["", null],
+  ["-1", null],
+  ["1e3", null],
+  ["1,2,3", null],
+  ["abc", null],
+])("%j is read as %j", (text, value) => {
+  expect(parse(text)).toBe(value);
+});
+
+test("a height is optional, and judged only when given", () => {
+  expect(options({ height: "60" })).toMatchObject({ height_mm: 60 });
+  expect(faults({ height: " " })).toEqual({});
+  expect(faults({ height: "tall" }).height).toMatch(/number/);
+  expect(faults({ height: "0" }).height).toMatch(/0.1 to 1,000/);
+});
+
+test("a range that is upside down is a fault of its upper end", () => {
+  expect(faults({ layerMin: "0.2", layerMax: "0.1" })).toEqual({
+    layerMax: "The thickest layer must not be thinner than the thinnest.",
+  });
+});
+
+test("micrometres typed for millimetres are recognised", () => {
+  expect(faults({ tolerances: { cusp: "65" } }).tolerance).toMatch(/65 µm is 0.065 mm/);
+  expect(faults({ step: "10" }).step).toMatch(/10 µm is 0.01 mm/);
+  expect(faults({ height: "6000" }).height).toBe("Must be 0.1 to 1,000 mm.");
+  expect(faults({ metric: "area", tolerances: { area: "1000" } }).tolerance).toBe("Must be 0.1 to 200 %.");
+});
+
+test("the uniform thickness counts only for the uniform planner", () => {
+  expect(faults({ uniform: "x" })).toEqual({});
+  expect(faults({ planner: "uniform", uniform: "x" }).uniform).toMatch(/number/);
+  expect(options({ planner: "uniform", uniform: "0.1" })).toMatchObject({ planner: { kind: "uniform", layer_mm: 0.1 } });
+});
+
+test("bins are halved where a thickness is no whole number of them, and no further", () => {
+  expect(options({ layerMin: "0.025" })).toMatchObject({ bin_mm: 0.001 });
+  expect(options({ planner: "uniform", uniform: "0.035" })).toMatchObject({ bin_mm: 0.001 });
+  expect(options({ uniform: "0.035" })).not.toHaveProperty("bin_mm");
+  expect(faults({ layerMax: "0.1005" }).layerMax).toMatch(/0.001 mm/);
+});
+
+test.each([
+  ["0.01", undefined],
+  ["0.0025", 0.00125],
+  ["0.00125", 0.00125],
+  ["0.003", 0.0015],
+])("with a motor step of %s mm the bin divides it", (step, bin_mm) => {
+  const found = options({ step }) as { step_mm: number; bin_mm?: number };
+  expect(found.step_mm).toBe(Number(step));
+  expect(found.bin_mm).toBe(bin_mm);
+});
+
+test("with a motor step the range need not be whole bins: layers are whole steps within it", () => {
+  expect(faults({ step: "0.0025", layerMin: "0.0525" })).toEqual({});
+  const [least, most] = layerRange({ layer_min_mm: 0.05, layer_max_mm: 0.15, step_mm: 0.02 });
+  expect(least).toBeCloseTo(0.06);
+  expect(most).toBeCloseTo(0.14);
+  expect(layerRange({ layer_min_mm: 0.05, layer_max_mm: 0.15, step_mm: 0.01 })[0]).toBeCloseTo(0.05);
+});
+
+test("what only adaptive plans have is neither judged nor sent for uniform ones", () => {
+  const uniform = options({ planner: "uniform", step: "x", minimize: "time", snap: "off" });
+  for (const key of ["step_mm", "minimize", "snap"]) expect(uniform).not.toHaveProperty(key);
+  expect(options({ step: "0.01", minimize: "time", snap: "off" })).toMatchObject({ step_mm: 0.01, minimize: "time", snap: "off" });
+  expect(faults({ step: "x" }).step).toMatch(/number/);
+});
+
+test("an address may name settings, and what it cannot name is ignored", () => {
+  expect(fromAddress("?height=60&rays=4096&planner=uniform&uniform=0.1&backend=gpu")).toEqual({
+    ...DEFAULT_SETTINGS,
+    height: "60",
+    rays: "4096",
+    planner: "uniform",
+    uniform: "0.1",
+  });
+  expect(fromAddress("?tolerance=5&metric=area&minimize=time&snap=off&step=0.01")).toEqual({
+    ...DEFAULT_SETTINGS,
+    metric: "area",
+    tolerances: { area: "5" },
+    minimize: "time",
+    snap: "off",
+    step: "0.01",
+  });
+  expect(fromAddress("?rays=7&planner=best&metric=beauty&minimize=cost&snap=on&constructor=1")).toEqual(DEFAULT_SETTINGS);
+});
+
+test("only what moves the rays makes a difference to sameRays", () => {
+  expect(sameRays({ rays: 1024, tolerance: 0.05 }, { rays: 1024, metric: "area" })).toBe(true);
+  expect(sameRays({ rays: 1024 }, { rays: 2048 })).toBe(false);
+  expect(sameRays({ height_mm: 60 }, {})).toBe(false);
+  expect(sameRays({ pixels: [1, 2] }, { pixels: [1, 2] })).toBe(true);
+});
+
+test("an address is made of what is not as usual, and gives the settings again", () => {
+  expect(toAddress(DEFAULT_SETTINGS)).toBe("");
+  const settings: Settings = {
+    ...DEFAULT_SETTINGS,
+    metric: "area",
+    tolerances: { area: "5" },
+    height: "60",
+    printer: "sl1s",
+    format: "uvj",
+    bottomLayers: "6",
+    rotation: "0,0,1,0",
+  };
+  expect(toAddress(settings)).toBe("metric=area&format=uvj&height=60&bottomLayers=6&printer=sl1s&rotation=0%2C0%2C1%2C0&tolerance=5");
+  expect(fromAddress(toAddress(settings))).toEqual(settings);
+});
+
+const PRINTER = {
+  name: "p",
+  model: "P",
+  pixels: [100, 100],
+  pitch_um: [50, 50],
+  volume_mm: [5, 5, 5],
+  layer_mm: [0.02, 0.2],
+  is_mirrored: true,
+  step_mm: 0.002,
+  format: "chitubox",
+  reads_format: false,
+  reads: ["goo"],
+} satisfies Offered["printers"][number];
+
+test("a printer gives the pixels and the limits of layers", () => {
+  const offered: Offered = { printers: [PRINTER], resins: [] };
+  expect(options({ printer: "p" })).toMatchObject({ printer: "p" });
+  expect(options({ printer: "p" })).not.toHaveProperty("rays");
+  expect(faults({ printer: "p", layerMax: "0.3" }, offered).layerMax).toBe("Must be 0.02 to 0.2 mm.");
+  expect(faults({ layerMax: "0.3" }, offered)).toEqual({});
+});
+
+test("a resin is the host's, with what is typed over it", () => {
+  const resins = [{ name: "tough", exposure_s: 4, wait_s: 2 }];
+  const checked = check({ ...DEFAULT_SETTINGS, resin: "tough", exposure: "3,5", bottomLayers: "6" }, { printers: [], resins });
+  expect(checked).toMatchObject({ ok: true, options: { resin: { name: "tough", exposure_s: 3.5, wait_s: 2, bottom_layers: 6 } } });
+  expect(options({})).not.toHaveProperty("resin");
+  expect(faults({ bottomLayers: "2.5" }).bottomLayers).toMatch(/whole number/);
+  expect(faults({ exposure: "0" }).exposure).toBe("Must be 0.1 to 600 s.");
+});
+
+test("a rotation is written short, and none is empty", () => {
+  expect(rotationText([0, 0, 0, 1])).toBe("");
+  expect(rotationText([0, -0, Math.SQRT1_2, Math.SQRT1_2])).toBe("0,0,0.707107,0.707107");
+});
+
+test("a rotation is four numbers, made a unit; anything else is none", () => {
+  expect(quaternion("0,0,2,0")).toEqual([0, 0, 1, 0]);
+  expect(["", "1,2", "0,0,0,0", "a,b,c,d", "1,2,3,4,5"].map(quaternion)).toEqual([null, null, null, null, null]);
+});

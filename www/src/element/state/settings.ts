@@ -1,0 +1,313 @@
+/** The form's settings: what was typed or chosen, whether it makes sense, and the options it stands for. */
+import { DEFAULTS } from "../../api/wire.js";
+import type { Format as FileFormat, Metric, Minimize, Options, Printer, Resin, Snap } from "../../api/wire.js";
+import type { Language } from "../../texts/index.js";
+import { METRIC_NAMES, METRICS } from "./metric.js";
+import * as round from "./round.js";
+
+/** Lengths in mm as typed, so that a half-typed number stays on the screen. */
+interface Lengths {
+  height: string;
+  layerMin: string;
+  layerMax: string;
+  uniform: string;
+  step: string;
+}
+
+/** Exposures in s and a count as typed; where they are empty the resin's own hold. */
+interface Curing {
+  exposure: string;
+  bottomExposure: string;
+  bottomLayers: string;
+}
+
+/** What is chosen from a list. */
+interface Choices {
+  planner: "optimal" | "uniform";
+  metric: Metric;
+  minimize: Minimize;
+  snap: Snap;
+  rays: string;
+  /** Whether facets count by how much they stand out. */
+  saliency: "off" | "on";
+  /** What facets count for at least. */
+  weightMin: string;
+  /** Empty for the printer's own. */
+  format: FileFormat | "";
+}
+
+/** What is chosen from a list that is not known beforehand; empty for none. */
+interface Names {
+  /** Name of a printer. */
+  printer: string;
+  /** Name of one of the host's resins. */
+  resin: string;
+  /** How the model is turned before it stands on the plate: x, y, z and w of a unit quaternion, with commas between. */
+  rotation: string;
+}
+
+export interface Settings extends Lengths, Curing, Choices, Names {
+  /** Tolerances as typed, each in the unit of its metric. Where there is none or an empty one, the core's own holds. */
+  tolerances: Readonly<Partial<Record<Metric, string>>>;
+}
+
+/** What is typed, and may be wrong. */
+export type Field = keyof Lengths | keyof Curing | "tolerance";
+
+/** What is wrong with a field. */
+export type Fault =
+  | { kind: "number" | "range"; value: number | null; least: number; most: number; unit: string }
+  | { kind: "upsideDown" | "bins" | "whole" };
+
+export type Faults = Partial<Record<Field, Fault>>;
+
+/** What there is to choose from. */
+export interface Offered {
+  printers: readonly Printer[];
+  resins: readonly Resin[];
+}
+
+/** Rays along the longer side that the form offers, coarse to fine. */
+export const RAYS = [512, 1024, 2048, 4096] as const;
+
+/** Least weights that the form offers: with none at all a facet could take any layer. */
+export const WEIGHT_STEPS: readonly string[] = Array.from({ length: 20 }, (_, i) => String((5 * i + 5) / 100));
+
+export const DEFAULT_SETTINGS: Settings = {
+  height: "",
+  layerMin: String(DEFAULTS.layer_min_mm),
+  layerMax: String(DEFAULTS.layer_max_mm),
+  uniform: String(DEFAULTS.layer_min_mm),
+  step: "",
+  planner: "optimal",
+  metric: DEFAULTS.metric,
+  minimize: DEFAULTS.minimize,
+  snap: DEFAULTS.snap,
+  rays: String(DEFAULTS.rays),
+  saliency: DEFAULTS.saliency ? "on" : "off",
+  weightMin: String(DEFAULTS.weight_min),
+  format: "",
+  printer: "",
+  resin: "",
+  rotation: "",
+  exposure: "",
+  bottomExposure: "",
+  bottomLayers: "",
+  tolerances: {},
+};
+
+/** Every key whose value is any text. */
+const TYPED: readonly (keyof Lengths | keyof Curing | keyof Names)[] = [
+  "height",
+  "layerMin",
+  "layerMax",
+  "uniform",
+  "step",
+  "exposure",
+  "bottomExposure",
+  "bottomLayers",
+  "printer",
+  "resin",
+  "rotation",
+];
+
+export const FORMATS: readonly FileFormat[] = ["png", "chitubox", "uvj", "sl1"];
+
+const CHOICES: { readonly [Key in keyof Choices]: readonly Choices[Key][] } = {
+  planner: ["optimal", "uniform"],
+  metric: METRIC_NAMES,
+  minimize: ["layers", "time"],
+  snap: ["auto", "off"],
+  rays: RAYS.map(String),
+  saliency: ["off", "on"],
+  weightMin: WEIGHT_STEPS,
+  format: ["", ...FORMATS],
+};
+
+/**
+ * The settings with those that a page address names, such as `?height=60&metric=area&tolerance=5`; its other parts are
+ * left alone. What it says is judged like anything typed, but a choice that is none is ignored, as there is no field to
+ * show it in.
+ */
+export function fromAddress(query: string): Settings {
+  const address = new URLSearchParams(query);
+  const settings = { ...DEFAULT_SETTINGS };
+  const choose = <Key extends keyof Choices>(key: Key): void => {
+    const choice = CHOICES[key].find((choice) => choice === address.get(key));
+    if (choice !== undefined) (settings as Choices)[key] = choice;
+  };
+  for (const key of Object.keys(CHOICES) as (keyof Choices)[]) choose(key);
+  for (const key of TYPED) settings[key] = address.get(key) ?? settings[key];
+  const tolerance = address.get("tolerance");
+  return tolerance === null ? settings : { ...settings, ...withTolerance(settings, tolerance) };
+}
+
+/** What {@link fromAddress} makes the settings of again: only what differs from the defaults, in a fixed order. */
+export function toAddress(settings: Settings): string {
+  const address = new URLSearchParams();
+  for (const key of [...(Object.keys(CHOICES) as (keyof Choices)[]), ...TYPED]) {
+    if (settings[key] !== DEFAULT_SETTINGS[key]) address.set(key, settings[key]);
+  }
+  const tolerance = settings.tolerances[settings.metric];
+  if (tolerance !== undefined) address.set("tolerance", tolerance);
+  return address.toString();
+}
+
+/** The change of settings that types a tolerance for the metric on show. */
+export function withTolerance({ metric, tolerances }: Settings, text: string): Pick<Settings, "tolerances"> {
+  return { tolerances: { ...tolerances, [metric]: text } };
+}
+
+/** The tolerance that holds where none is typed, in the metric's unit: what the core took by itself, or will take. */
+export function usualTolerance(metric: Metric, taken: number | null): string {
+  return String(round.up((taken ?? DEFAULTS.tolerance[metric]) * METRICS[metric].scale));
+}
+
+export type Checked = { ok: true; options: Options } | { ok: false; faults: Faults };
+
+/** The thickest layer a resin printer could cure; past it a number is a slip of the unit (µm for mm). */
+const THICKEST_MM = 1;
+const THINNEST_MM = 0.001;
+const TALLEST_MM = 1000;
+const LONGEST_S = 600;
+const MOST_BOTTOM_LAYERS = 100;
+
+const NONE: Offered = { printers: [], resins: [] };
+
+/**
+ * Options for the core, or every fault at once. A field that the chosen planner does not use is not judged.
+ */
+export function check(settings: Settings, { printers, resins }: Offered = NONE): Checked {
+  const faults: Faults = {};
+
+  const read = (field: Field, text: string, least: number, most: number, unit = "mm"): number => {
+    const value = parse(text);
+    if (value === null) faults[field] = { kind: "number", value, least, most, unit };
+    else if (value < least || value > most) faults[field] = { kind: "range", value, least, most, unit };
+    return value ?? Number.NaN;
+  };
+
+  const { metric, planner } = settings;
+  const options: Options = { metric };
+  if (settings.saliency === "on") options.saliency = true;
+  if (settings.weightMin !== DEFAULT_SETTINGS.weightMin) options.weight_min = Number(settings.weightMin);
+  const printer = printers.find(({ name }) => name === settings.printer);
+  // A name that nobody knows is the core's to refuse.
+  if (settings.printer === "") options.rays = Number(settings.rays);
+  else options.printer = settings.printer;
+  if (settings.format !== "") options.format = settings.format;
+  const [thinnest, thickest] = printer?.layer_mm ?? [THINNEST_MM, THICKEST_MM];
+  const layer = (field: "layerMin" | "layerMax" | "uniform"): number =>
+    read(field, settings[field], thinnest, thickest);
+  if (settings.height.trim() !== "") options.height_mm = read("height", settings.height, 0.1, TALLEST_MM);
+
+  if (planner === "uniform") {
+    options.planner = { kind: planner, layer_mm: layer("uniform") };
+  } else {
+    options.planner = { kind: planner };
+    options.minimize = settings.minimize;
+    options.snap = settings.snap;
+    if (hasStep(settings)) options.step_mm = read("step", settings.step, THINNEST_MM, THICKEST_MM);
+  }
+  // The range also sets the two uniform plans that the result is compared with, so it counts for either planner.
+  const min = (options.layer_min_mm = layer("layerMin"));
+  const max = (options.layer_max_mm = layer("layerMax"));
+  if (min > max) faults.layerMax = { kind: "upsideDown" };
+
+  const typed = settings.tolerances[metric] ?? "";
+  if (typed.trim() !== "") {
+    const { tolerances, unit, scale } = METRICS[metric];
+    options.tolerance = read("tolerance", typed, ...tolerances, unit) / scale;
+  }
+
+  const resin: Resin = { ...resins.find(({ name }) => name === settings.resin) };
+  if (settings.exposure.trim() !== "") resin.exposure_s = read("exposure", settings.exposure, 0.1, LONGEST_S, "s");
+  if (settings.bottomExposure.trim() !== "") {
+    resin.bottom_exposure_s = read("bottomExposure", settings.bottomExposure, 0.1, LONGEST_S, "s");
+  }
+  if (settings.bottomLayers.trim() !== "") {
+    const layers = (resin.bottom_layers = read("bottomLayers", settings.bottomLayers, 0, MOST_BOTTOM_LAYERS, ""));
+    if (!Number.isInteger(layers)) faults.bottomLayers ??= { kind: "whole" };
+  }
+  if (Object.keys(resin).length > 0) options.resin = resin;
+
+  const rotation = quaternion(settings.rotation);
+  if (rotation !== null) options.rotation = rotation;
+
+  const bin_mm = binOf(settings);
+  if (bin_mm !== DEFAULTS.bin_mm) options.bin_mm = bin_mm;
+  if (!hasStep(settings)) {
+    for (const field of thicknesses(settings)) {
+      if (!isMultiple(parse(settings[field]) ?? 0, bin_mm)) faults[field] ??= { kind: "bins" };
+    }
+  }
+
+  return Object.keys(faults).length === 0 ? { ok: true, options } : { ok: false, faults };
+}
+
+/** A fault in words for the person who typed it. */
+export function faultWords(fault: Fault, { texts: { faults }, format }: Language): string {
+  if (fault.kind !== "number" && fault.kind !== "range") return faults[fault.kind];
+  const { kind, value, least, most, unit } = fault;
+  const range = faults.between(format.tick(least), format.tick(most), unit === "" ? "" : ` ${unit}`);
+  const words = faults[kind](range);
+  if (value === null) return words;
+  const asMicrometres = value / 1000;
+  const isSlip = unit === "mm" && value > most && asMicrometres >= least && most < TALLEST_MM;
+  return isSlip ? `${words} ${faults.micrometres(format.tick(value), format.tick(asMicrometres))}` : words;
+}
+
+/** Whether heights are to be whole motor steps. Uniform layers are as thick as they are said to be. */
+const hasStep = ({ planner, step }: Settings): boolean => planner === "optimal" && step.trim() !== "";
+
+/** The thicknesses that must be whole bins where there is no motor step. */
+const thicknesses = ({ planner }: Settings): ("layerMin" | "layerMax" | "uniform")[] =>
+  planner === "uniform" ? ["layerMin", "layerMax", "uniform"] : ["layerMin", "layerMax"];
+
+/**
+ * The bin to plan in, in mm: the usual one; half of it where a thickness needs that; with a motor step the largest one,
+ * up to the usual, that divides it.
+ */
+export function binOf(settings: Settings): number {
+  if (hasStep(settings)) {
+    const step = parse(settings.step) ?? 0;
+    return step < THINNEST_MM ? DEFAULTS.bin_mm : step / Math.ceil(step / DEFAULTS.bin_mm - ROUNDING);
+  }
+  const isWhole = thicknesses(settings).every((field) => isMultiple(parse(settings[field]) ?? 0, DEFAULTS.bin_mm));
+  return isWhole ? DEFAULTS.bin_mm : DEFAULTS.bin_mm / 2;
+}
+
+/** Thinnest and thickest layer of a plan in mm: whole motor steps, where there is one. */
+export function layerRange({ layer_min_mm = 0, layer_max_mm = 0, step_mm }: Options): [number, number] {
+  if (step_mm === undefined) return [layer_min_mm, layer_max_mm];
+  const [least, most] = [Math.ceil(layer_min_mm / step_mm - ROUNDING), Math.floor(layer_max_mm / step_mm + ROUNDING)];
+  return [least * step_mm, most * step_mm];
+}
+
+/** A number as people type it, with a point or a comma; null if it is none. */
+export function parse(text: string): number | null {
+  const tidy = text.trim().replace(",", ".");
+  if (!/^\d*\.?\d+$|^\d+\.$/.test(tidy)) return null;
+  return Number(tidy);
+}
+
+/** A rotation as it stands in the settings; null for none, and for what is none. */
+export function quaternion(text: string): [number, number, number, number] | null {
+  const [x = NaN, y = NaN, z = NaN, w = NaN, ...more] = text.split(",").map(Number);
+  const length = Math.hypot(x, y, z, w);
+  return more.length === 0 && length > 0 ? [x / length, y / length, z / length, w / length] : null;
+}
+
+/** A rotation as it stands in the settings: to a part in a million, and empty for none. */
+export function rotationText(rotation: readonly number[]): string {
+  const text = rotation.map((part) => String(Number(part.toFixed(6)) + 0)).join();
+  return text === "0,0,0,1" ? "" : text;
+}
+
+/** What a quotient of decimals may be off by. */
+const ROUNDING = 1e-6;
+
+function isMultiple(value: number, step: number): boolean {
+  const times = value / step;
+  return Math.abs(times - Math.round(times)) < ROUNDING;
+}

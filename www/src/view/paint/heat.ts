@@ -1,0 +1,50 @@
+/** What the heat map shows of each facet. */
+import type { PaletteName } from "../legend/palette.js";
+
+/** What was painted, what stands out, or how much a facet counts by both. */
+export type Heat = "paint" | "saliency" | "product";
+
+export interface HeatSource {
+  readonly heat: Heat;
+  /** 0 to 1 a facet; null: all 1. */
+  readonly weights: Float32Array | null;
+  readonly saliency: Float32Array | null;
+  /** What a facet counts for at least where something is weighted. */
+  readonly least: number;
+}
+
+/** 0 to 1. */
+export function heatOf({ heat, weights, saliency, least }: HeatSource, facet: number): number {
+  const paint = weights?.[facet] ?? 1;
+  const standing = saliency?.[facet] ?? 1;
+  if (heat === "paint") return paint;
+  if (heat === "saliency") return standing;
+  return Math.max(least, paint * standing);
+}
+
+/** Yellow is what matters most, violet what matters least: steady in lightness, so that it reads with any eyes. */
+export const HEAT_PALETTE: PaletteName = "safe";
+
+/** Texels in a row of the texture of facets, four facets a texel: every WebGL 2 takes this. */
+export const HEAT_ROW = 2048;
+
+/** Facets in a row of that texture. */
+export const HEAT_ROW_FACETS = 4 * HEAT_ROW;
+
+/** Writes the heat of some facets, 0 to 255 each; gives the rows that they lie in. */
+export function packHeat(source: HeatSource, facets: Iterable<number>, into: Uint8Array): ReadonlySet<number> {
+  const rows = new Set<number>();
+  for (const facet of facets) {
+    into[facet] = Math.round(255 * heatOf(source, facet));
+    rows.add(Math.floor(facet / HEAT_ROW_FACETS));
+  }
+  return rows;
+}
+
+/** The heat of a facet for a shader that has `uniform sampler2D heat`. */
+export const HEAT_GLSL = /* glsl */ `
+float heatAt(int facet) {
+  int texel = facet >> 2;
+  return texelFetch(heat, ivec2(texel % ${HEAT_ROW}, texel / ${HEAT_ROW}), 0)[facet & 3];
+}
+`;

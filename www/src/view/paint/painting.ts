@@ -1,0 +1,201 @@
+/** The brush in a person's hand: what pointer and keys do to weights. */
+import { Aim, type Aimed } from "../scene/raycast.js";
+import { BRUSH, type Brush } from "./brush.js";
+import type { Derived } from "../steps/derived.js";
+import type { PaintDetail } from "../events.js";
+import { Painter, mirrored, type Dab } from "./painter.js";
+import type { Point } from "../scene/pointer.js";
+import { extentOf, UPRIGHT, type Triple } from "../scene/pose.js";
+import { normalsOf, type Surface } from "./region.js";
+import type { Stage } from "../scene/scene.js";
+
+/** A mirrored place counts if the model comes at least this near to it, as a part of the brush's radius. */
+const MIRROR_WITHIN = 0.5;
+
+export interface PaintingReports {
+  /** Weights of these facets are others now; null: any. */
+  changed(facets: readonly number[] | Uint32Array | null): void;
+  painted(detail: PaintDetail): void;
+}
+
+/** What a model is painted with once that is there. */
+interface Ready {
+  readonly of: Derived;
+  readonly painter: Painter;
+  readonly aim: Aim;
+  /** Middle of the model's x in its file, mm. */
+  readonly middle_x: number;
+}
+
+export class Painting {
+  brush: Brush = BRUSH;
+  readonly #stage: Stage;
+  readonly #reports: PaintingReports;
+  #ready: Ready | null = null;
+  #asked: Derived | null = null;
+  #preparing: Promise<void> = Promise.resolve();
+  #weights: Float32Array | null = null;
+  /** The pointer that paints, where it was seen last, and where its dabs were. */
+  #stroke: { readonly id: number; at: Point; last: Aimed | null; lastMirrored: Aimed | null } | null = null;
+  #frame = 0;
+  #isOn = false;
+
+  constructor(stage: Stage, reports: PaintingReports) {
+    this.#stage = stage;
+    this.#reports = reports;
+  }
+
+  /** 0 to 1 a facet, the stroke under way included; null: all alike. */
+  get weights(): Float32Array | null {
+    return this.#ready?.painter.weights ?? this.#weights;
+  }
+
+  /** Weights from outside; what was said by `painted` may come back as it is. */
+  set weights(weights: Float32Array | null) {
+    if (weights === this.#weights) return;
+    this.#weights = weights;
+    const painter = this.#ready?.painter;
+    const facets = painter?.weights.length ?? 0;
+    if (weights !== null && painter !== undefined && weights.length !== facets) return;
+    painter?.replace(weights ?? new Float32Array(facets).fill(1));
+    this.#reports.changed(null);
+  }
+
+  /** Readies the brush for a model, when the tool is first taken. `null`: there is no model, or another one soon. */
+  prepare(derived: Derived | null, isOn: boolean): void {
+    this.#isOn = isOn;
+    if (this.#ready !== null && this.#ready.of !== derived) this.#ready = null;
+    if (!isOn) this.#stage.setFace(null);
+    if (derived === null || !isOn || this.#asked === derived) return;
+    this.#asked = derived;
+    this.#preparing = this.#make(derived);
+  }
+
+  async #make(derived: Derived): Promise<void> {
+    const topology = await derived.topology();
+    const { positions } = derived;
+    if (topology === null || this.#asked !== derived || positions.length === 0) return;
+    const surface: Surface = { positions, topology, normals: normalsOf(positions) };
+    const { least, greatest } = extentOf(topology.points, UPRIGHT, 1);
+    const known = this.#weights?.length === positions.length / 9 ? this.#weights : null;
+    const painter = new Painter(surface, known, 1);
+    this.#ready = { of: derived, painter, aim: new Aim(positions), middle_x: (least[0] + greatest[0]) / 2 };
+    this.#reports.changed(null);
+  }
+
+  /** Listens until the signal is aborted. What begins beside the model is left to whoever turns the view. */
+  watch(holder: HTMLElement, place: (event: PointerEvent) => Point, signal: AbortSignal): void {
+    const options = { capture: true, signal };
+    const down = (event: PointerEvent): void => {
+      if (!event.isPrimary || event.button !== 0 || !this.#begin(event.pointerId, place(event))) return;
+      event.stopPropagation();
+      holder.setPointerCapture(event.pointerId);
+    };
+    const move = (event: PointerEvent): void => {
+      if (event.pointerId !== this.#stroke?.id) return;
+      event.stopPropagation();
+      this.#stroke.at = place(event);
+      if (this.#frame === 0) this.#frame = requestAnimationFrame(this.#follow);
+    };
+    const up = (event: PointerEvent): void => {
+      if (event.pointerId !== this.#stroke?.id) return;
+      event.stopPropagation();
+      this.#stroke.at = place(event);
+      this.#follow();
+      this.#end();
+    };
+    holder.addEventListener("pointerdown", down, options);
+    holder.addEventListener("pointermove", move, options);
+    holder.addEventListener("pointerup", up, options);
+    holder.addEventListener("pointercancel", up, options);
+    signal.addEventListener("abort", () => cancelAnimationFrame(this.#frame));
+  }
+
+  /** One dab as a stroke of its own, as by keyboard; as soon as the brush is ready. */
+  async stamp(at: Point): Promise<void> {
+    await this.#preparing;
+    if (this.#begin(-1, at)) this.#end();
+  }
+
+  /** Shows what the brush would touch under a pointer that is not down. */
+  hover(at: Point | null): void {
+    if (!this.#isOn || this.#ready === null || this.#stroke !== null) return;
+    const aimed = at === null ? null : this.#aimed(at);
+    const { painter } = this.#ready;
+    const scale = this.#stage.model.scale;
+    this.#stage.setFace(aimed === null ? null : painter.touched({ ...aimed, from: null }, this.brush, scale).facets);
+  }
+
+  undo(): void {
+    const painter = this.#ready?.painter;
+    this.#stepped(painter?.strokes.undo(painter.weights) ?? null);
+  }
+
+  redo(): void {
+    const painter = this.#ready?.painter;
+    this.#stepped(painter?.strokes.redo(painter.weights) ?? null);
+  }
+
+  #stepped(facets: Uint32Array | null): void {
+    if (facets === null) return;
+    this.#reports.changed(facets);
+    this.#tell(true);
+  }
+
+  /** Whether there is something to paint under the point. */
+  #begin(id: number, at: Point): boolean {
+    if (!this.#isOn || this.#ready === null || this.#stroke !== null || this.#aimed(at) === null) return false;
+    this.#stroke = { id, at, last: null, lastMirrored: null };
+    this.#stage.setFace(null);
+    this.#follow();
+    return true;
+  }
+
+  #end(): void {
+    this.#stroke = null;
+    cancelAnimationFrame(this.#frame);
+    this.#frame = 0;
+    if (this.#ready?.painter.end() === true) this.#tell(true);
+  }
+
+  #aimed(at: Point): Aimed | null {
+    return this.#ready?.aim.cast(this.#stage.rayAt(...at)) ?? null;
+  }
+
+  /** Paints up to where the pointer is. */
+  readonly #follow = (): void => {
+    this.#frame = 0;
+    const stroke = this.#stroke;
+    if (stroke === null) return;
+    const aimed = this.#aimed(stroke.at);
+    const changed = this.#dab(aimed, stroke.last);
+    stroke.last = aimed;
+    if (this.brush.mirrors) {
+      const other = aimed === null ? null : this.#mirror(aimed.point);
+      changed.push(...this.#dab(other, stroke.lastMirrored));
+      stroke.lastMirrored = other;
+    }
+    if (changed.length === 0) return;
+    this.#reports.changed(changed);
+    this.#tell(false);
+  };
+
+  #dab(aimed: Aimed | null, last: Aimed | null): number[] {
+    if (aimed === null || this.#ready === null) return [];
+    const dab: Dab = { ...aimed, from: last?.point ?? null };
+    return this.#ready.painter.dab(dab, this.brush, this.#stage.model.scale);
+  }
+
+  #mirror(point: Triple): Aimed | null {
+    if (this.#ready === null) return null;
+    const { aim, middle_x } = this.#ready;
+    return aim.nearest(mirrored(point, middle_x), (MIRROR_WITHIN * this.brush.size_mm) / 2 / this.#stage.model.scale);
+  }
+
+  #tell(final: boolean): void {
+    if (this.#ready === null) return;
+    const { weights, strokes } = this.#ready.painter;
+    this.#weights = weights.slice();
+    this.#reports.painted({ weights: this.#weights, final, canUndo: strokes.canUndo, canRedo: strokes.canRedo });
+  }
+}

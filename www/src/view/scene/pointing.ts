@@ -1,0 +1,84 @@
+/** What pointing at the model means: a height, a layer, or a face that is to lie flat. */
+import type { HeightDetail } from "../events.js";
+import type { FlatFace } from "./flat.js";
+import { layerAt } from "./lookup.js";
+import type { Point } from "./pointer.js";
+import type { Triple } from "./pose.js";
+import type { Tool } from "./keys.js";
+import type { Stage } from "./scene.js";
+
+/** What the view is showing just now. */
+export interface Shown {
+  readonly tool: Tool;
+  readonly z_mm: readonly number[];
+  face(facet: number): Promise<FlatFace | null>;
+}
+
+export interface PointingReports {
+  height(detail: HeightDetail): void;
+  /** A layer was clicked, counted from 0. */
+  layer(layer: number): void;
+  /** The face with this normal, in the file's pose, is to lie on the plate. */
+  lay(normal: Triple): void;
+}
+
+export class Pointing {
+  readonly #stage: Stage;
+  readonly #shown: () => Shown;
+  readonly #reports: PointingReports;
+  #pointer: Point | null = null;
+  #isPicking = false;
+  #isOver = false;
+  #marked: readonly number[] | null = null;
+
+  constructor(stage: Stage, shown: () => Shown, reports: PointingReports) {
+    this.#stage = stage;
+    this.#shown = shown;
+    this.#reports = reports;
+  }
+
+  async clicked(at: Point): Promise<void> {
+    if (this.#stage.isHot) return;
+    const hit = await this.#stage.pick(...at);
+    if (hit === null) return;
+    const { tool, z_mm } = this.#shown();
+    if (tool === "flat") {
+      const face = await this.#shown().face(hit.facet);
+      if (face === null) return;
+      this.#mark(null);
+      this.#reports.lay(face.normal);
+    } else if (z_mm.length >= 2) this.#reports.layer(layerAt(z_mm, hit.z_mm));
+  }
+
+  /** One pick at a time; a pointer that has moved on meanwhile is looked for again. */
+  async hovered(at: Point | null): Promise<void> {
+    this.#pointer = at;
+    if (this.#isPicking) return;
+    this.#isPicking = true;
+    try {
+      let sought: Point | null;
+      do {
+        sought = this.#pointer;
+        await this.#hover(sought);
+      } while (sought !== this.#pointer);
+    } finally {
+      this.#isPicking = false;
+    }
+  }
+
+  async #hover(at: Point | null): Promise<void> {
+    const hit = at === null ? null : await this.#stage.pick(...at);
+    const { tool, z_mm } = this.#shown();
+    const layer = hit === null || z_mm.length < 2 ? null : layerAt(z_mm, hit.z_mm);
+    if (hit !== null || this.#isOver) this.#reports.height({ z_mm: hit?.z_mm ?? null, layer });
+    this.#isOver = hit !== null;
+    if (tool !== "flat" || (hit !== null && this.#marked?.includes(hit.facet) === true)) return;
+    const face = hit === null ? null : await this.#shown().face(hit.facet);
+    if (this.#shown().tool === "flat") this.#mark(face?.facets ?? null);
+  }
+
+  #mark(facets: readonly number[] | null): void {
+    this.#marked = facets;
+    this.#stage.setFace(facets);
+  }
+}

@@ -1,0 +1,271 @@
+/** The scene on its canvas. Draws when something has changed, and only then. */
+import {
+  BufferAttribute,
+  BufferGeometry,
+  DoubleSide,
+  Mesh,
+  MeshBasicMaterial,
+  Raycaster,
+  Scene,
+  Vector2,
+  Vector3,
+  type Ray,
+  WebGLRenderer,
+} from "three";
+import { Aside } from "./offscreen.js";
+import { Cameras, type Frame, type Heights, type Inset } from "./cameras.js";
+import { Gizmo, type GizmoReports } from "./gizmo.js";
+import type { Tool } from "./keys.js";
+import { Model } from "./model.js";
+import type { Rgb } from "../legend/palette.js";
+import { Picker, type Hit } from "./picker.js";
+import { Plate, type BuildVolume } from "./plate.js";
+import type { Rotation } from "./pose.js";
+
+/** Finer pixels than these cost four times as much and are not seen. */
+const DENSITY_LIMIT = 2;
+
+/** From here on, where a processor draws in place of a GPU, a picture takes longer than the page may be held up. */
+const LARGE_FACETS = 50_000;
+
+export interface Theme {
+  /** Lines of the plate. */
+  readonly ink: Rgb;
+  /** The face that would lie down. */
+  readonly accent: Rgb;
+  /** The build volume's outline when the model does not fit. */
+  readonly bad: Rgb;
+  /** The printed look. */
+  readonly resin: Rgb;
+  /** 0 to 1. */
+  readonly shadow: number;
+}
+
+/** After a frame has been drawn. */
+export type Drawn = (frame: Frame | null) => void;
+
+export class Stage {
+  readonly model = new Model();
+  readonly cameras: Cameras;
+  readonly plate: Plate;
+  readonly #renderer: WebGLRenderer;
+  readonly #scene = new Scene();
+  readonly #gizmo: Gizmo;
+  readonly #picker = new Picker();
+  readonly #aside: Aside;
+  readonly #face = new Mesh(
+    new BufferGeometry(),
+    new MeshBasicMaterial({
+      side: DoubleSide,
+      transparent: true,
+      opacity: 0.75,
+      polygonOffset: true,
+      polygonOffsetFactor: -2,
+      polygonOffsetUnits: -2,
+    }),
+  );
+  readonly #drawn: Drawn;
+  #heights: Heights | null = null;
+  #inset: Inset = { top_px: 0, bottom_px: 0 };
+  #size: readonly [number, number] = [0, 0];
+  #asked = 0;
+  /** Whether something has changed since the picture that is being drawn aside. */
+  #isStale = false;
+  #isGone = false;
+  #tool: Tool = "turn";
+  #volume: BuildVolume | null = null;
+
+  /** @param context of the canvas, with alpha */
+  constructor(
+    canvas: HTMLCanvasElement,
+    context: WebGL2RenderingContext,
+    reports: Omit<GizmoReports, "changed">,
+    drawn: Drawn,
+  ) {
+    this.#renderer = new WebGLRenderer({ canvas, context });
+    this.#renderer.setClearColor(0x000000, 0);
+    this.#aside = new Aside(this.#renderer);
+    this.#drawn = drawn;
+    this.cameras = new Cameras(canvas);
+    this.cameras.controls.addEventListener("change", this.invalidate);
+    this.plate = new Plate(this.model.facets);
+    this.#face.frustumCulled = false;
+    this.model.facets.add(this.#face);
+    this.#scene.add(this.model.pivot, this.model.steps, this.plate.group);
+    this.#gizmo = new Gizmo(this.cameras.current, canvas, this.#scene, {
+      ...reports,
+      held: (on) => {
+        this.cameras.controls.enabled = !on;
+        reports.held(on);
+      },
+      changed: this.invalidate,
+    });
+    canvas.addEventListener("webglcontextrestored", this.#restored);
+  }
+
+  /** Asks for a frame; any number of asks before it is drawn come to one. */
+  readonly invalidate = (): void => {
+    if (this.#asked === 0 && !this.#isGone) this.#asked = requestAnimationFrame(this.#frame);
+  };
+
+  /** Whether a GPU draws: see `contextOf`. */
+  get isSmooth(): boolean {
+    return this.#renderer.getContext().getContextAttributes()?.antialias === true;
+  }
+
+  get isHot(): boolean {
+    return this.#gizmo.isHot;
+  }
+
+  setSize(width_px: number, height_px: number): void {
+    if (width_px < 1 || height_px < 1) return;
+    this.#size = [width_px, height_px];
+    this.#renderer.setPixelRatio(Math.min(devicePixelRatio, DENSITY_LIMIT));
+    this.#renderer.setSize(width_px, height_px, false);
+    this.cameras.setView(width_px, height_px);
+    this.#gizmo.fit(width_px / height_px);
+    // What was on the canvas is gone with its size: a frame later would be a flash.
+    this.#draw();
+  }
+
+  /** A new model, seen whole. */
+  setPositions(positions: Float32Array, rotation: Rotation, scale: number): void {
+    this.model.setPositions(positions, rotation, scale);
+    this.setFace(null);
+    this.plate.fit(this.model.size_mm, this.#volume);
+    this.cameras.reset(this.model.size_mm);
+    this.invalidate();
+  }
+
+  /** @param follow whether the camera goes along with the model's middle */
+  setPose(rotation: Rotation, scale: number, follow: boolean): void {
+    this.model.setPose(rotation, scale);
+    this.plate.fit(this.model.size_mm, this.#volume);
+    if (follow) this.cameras.follow(this.model.size_mm);
+    this.invalidate();
+  }
+
+  setVolume(volume: BuildVolume | null): void {
+    this.#volume = volume;
+    this.plate.fit(this.model.size_mm, volume);
+    this.invalidate();
+  }
+
+  setTheme({ ink, accent, bad, resin, shadow }: Theme): void {
+    this.plate.setTheme(ink, bad, shadow);
+    this.model.setResin(resin);
+    this.#face.material.color.setRGB(accent[0] / 255, accent[1] / 255, accent[2] / 255, "srgb");
+    this.invalidate();
+  }
+
+  setAligned(aligned: boolean, heights: Heights | null, inset: Inset): void {
+    this.#heights = heights;
+    this.#inset = inset;
+    this.cameras.setAligned(aligned);
+    this.setTool(this.#tool);
+    this.plate.group.visible = !aligned;
+    this.invalidate();
+  }
+
+  setTool(tool: Tool): void {
+    this.#tool = tool;
+    if (tool !== "flat") this.setFace(null);
+    this.#gizmo.show(tool === "rotate" ? this.model.pivot : null, this.cameras.current);
+    // A brush takes every touch that begins on the model.
+    if (tool === "paint") this.#renderer.domElement.style.touchAction = "none";
+    this.invalidate();
+  }
+
+  /** Marks some facets. */
+  setFace(facets: readonly number[] | null): void {
+    const { geometry } = this.#face;
+    geometry.dispose();
+    this.#face.visible = facets !== null;
+    if (facets !== null) {
+      const corners = new Float32Array(9 * facets.length);
+      for (const [i, facet] of facets.entries()) {
+        corners.set(this.model.positions.subarray(9 * facet, 9 * facet + 9), 9 * i);
+      }
+      this.#face.geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(corners, 3));
+    }
+    this.invalidate();
+  }
+
+  /** What is under a point of the view, CSS pixels. */
+  async pick(x_px: number, y_px: number): Promise<Hit | null> {
+    const [width, height] = this.#size;
+    if (this.#isGone || width === 0 || this.#renderer.getContext().isContextLost()) return null;
+    this.#scene.updateMatrixWorld();
+    this.cameras.current.updateMatrixWorld();
+    const { current } = this.cameras;
+    const hit = await this.#picker.pick(this.#renderer, current, this.model.facets, [x_px, y_px], [width, height]);
+    return this.#isGone ? null : hit;
+  }
+
+  /** The ray through a point of the view, CSS pixels, in the pose of the model's file. */
+  rayAt(x_px: number, y_px: number): Ray {
+    const [width, height] = this.#size;
+    this.#scene.updateMatrixWorld();
+    this.cameras.current.updateMatrixWorld();
+    const caster = new Raycaster();
+    caster.setFromCamera(new Vector2((x_px / width) * 2 - 1, 1 - (y_px / height) * 2), this.cameras.current);
+    return caster.ray.applyMatrix4(this.model.facets.matrixWorld.clone().invert());
+  }
+
+  /** Where the right edge of the model is at a height, as far as its bounds tell: for a label. */
+  edgeAt(z_mm: number): readonly [number, number] {
+    const camera = this.cameras.current;
+    const right = new Vector3().setFromMatrixColumn(camera.matrixWorld, 0);
+    const [x, y] = this.model.size_mm;
+    const reach = 0.5 * (Math.abs(right.x) * x + Math.abs(right.y) * y);
+    return this.cameras.project(right.multiplyScalar(reach).setZ(z_mm));
+  }
+
+  dispose(): void {
+    this.#isGone = true;
+    cancelAnimationFrame(this.#asked);
+    this.#renderer.domElement.removeEventListener("webglcontextrestored", this.#restored);
+    this.#gizmo.dispose();
+    this.cameras.dispose();
+    this.#picker.dispose();
+    this.#aside.dispose();
+    this.plate.dispose();
+    this.model.dispose();
+    this.#face.geometry.dispose();
+    this.#face.material.dispose();
+    this.#renderer.dispose();
+    // Browsers allow a page only so many contexts, and collect them late.
+    this.#renderer.forceContextLoss();
+  }
+
+  readonly #restored = (): void => {
+    this.plate.restored();
+    this.invalidate();
+  };
+
+  readonly #frame = (): void => {
+    this.#asked = 0;
+    // True while the view still glides after the pointer has let it go.
+    const moving = this.cameras.controls.enabled && this.cameras.controls.update();
+    this.#draw();
+    if (moving) this.invalidate();
+  };
+
+  #draw(): void {
+    if (this.#size[0] === 0 || this.#renderer.getContext().isContextLost()) return;
+    this.#isStale = this.#aside.isBusy;
+    if (this.#isStale) return;
+    const frame = this.cameras.prepare(this.#heights, this.#inset);
+    this.#scene.updateMatrixWorld();
+    this.plate.prepare(this.#renderer, this.model.facets);
+    if (this.model.positions.length < 9 * LARGE_FACETS) {
+      this.#renderer.render(this.#scene, this.cameras.current);
+      this.#drawn(frame);
+      return;
+    }
+    const free = (): void => {
+      if (this.#isStale) this.invalidate();
+    };
+    this.#aside.draw(this.#scene, this.cameras.current, () => this.#drawn(frame), free);
+  }
+}

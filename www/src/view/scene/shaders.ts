@@ -1,0 +1,240 @@
+/** The shaders. Heights are world z, mm; colours are sRGB and lit in linear light. */
+import { HEAT_GLSL } from "../paint/heat.js";
+import { LAYER_AT_GLSL } from "./lookup.js";
+import { PALETTE_SIZE } from "../legend/palette.js";
+
+const HEAD = /* glsl */ `
+precision highp float;
+precision highp int;
+precision highp sampler2D;
+`;
+
+const MATRICES = /* glsl */ `
+uniform mat4 modelMatrix;
+uniform mat4 viewMatrix;
+uniform mat4 projectionMatrix;
+in vec3 position;
+`;
+
+export const MODEL_VERTEX = /* glsl */ `${HEAD}${MATRICES}
+out vec3 world;
+out vec3 eye;
+flat out int facet;
+void main() {
+  facet = gl_VertexID / 3;
+  vec4 at = modelMatrix * vec4(position, 1.0);
+  world = at.xyz;
+  at = viewMatrix * at;
+  eye = at.xyz;
+  gl_Position = projectionMatrix * at;
+}
+`;
+
+/**
+ * The colour of a pixel is that of the mean thickness of the layers it meets, as in the chart: where layers are lower
+ * than a pixel they blend instead of flickering, and nothing but the boundaries is looked up.
+ */
+export const MODEL_FRAGMENT = /* glsl */ `${HEAD}
+uniform mat4 viewMatrix;
+uniform sampler2D boundaries;
+uniform int layers;
+uniform sampler2D palette;
+uniform vec2 limits;
+uniform bool byThickness;
+uniform sampler2D heat;
+uniform sampler2D heatPalette;
+uniform bool byHeat;
+uniform vec3 resin;
+uniform vec2 band;
+in vec3 world;
+in vec3 eye;
+flat in int facet;
+out vec4 colour;
+${LAYER_AT_GLSL}${HEAT_GLSL}
+vec3 linear(vec3 srgb) {
+  return mix(srgb / 12.92, pow((srgb + 0.055) / 1.055, vec3(2.4)), step(0.04045, srgb));
+}
+
+vec3 encoded(vec3 light) {
+  light = clamp(light, 0.0, 1.0);
+  return mix(light * 12.92, 1.055 * pow(light, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, light));
+}
+
+/** Key light from the upper left, fill from the right, a rim from behind; sky above and the plate's glow below. */
+vec3 lit(vec3 base, vec3 normal) {
+  float sky = 0.5 + 0.5 * dot(normal, viewMatrix[2].xyz);
+  float key = 0.5 + 0.5 * dot(normal, normalize(vec3(-0.45, 0.6, 0.66)));
+  float fill = max(dot(normal, normalize(vec3(0.75, 0.05, 0.66))), 0.0);
+  float rim = pow(1.0 - clamp(normal.z, 0.0, 1.0), 3.0);
+  float light = 0.16 + 0.24 * sky + 0.58 * key * key + 0.14 * fill;
+  return base * light + vec3(0.1) * rim * sky;
+}
+
+// A level face on a boundary belongs to the layer that ends there: the one inside the model. Half a micrometre inwards
+// is less than any plan resolves.
+const float INWARDS = 0.0005;
+
+vec3 ofPlan(float width, float upwards) {
+  float z = world.z - INWARDS * upwards;
+  int first = layerAt(z - 0.5 * width);
+  float bottom = boundary(first);
+  float top = boundary(first + 1);
+  int last = first;
+  if (z + 0.5 * width >= top) {
+    last = layerAt(z + 0.5 * width);
+    top = boundary(last + 1);
+  }
+  float thickness = (top - bottom) / float(last - first + 1);
+  float span = limits.y - limits.x;
+  float place = span > 0.0 ? clamp((thickness - limits.x) / span, 0.0, 1.0) : 0.5;
+  vec3 base = texelFetch(palette, ivec2(int(place * ${(PALETTE_SIZE - 1).toFixed(1)} + 0.5), 0), 0).rgb;
+  // A seam between layers that are tall enough to tell apart, but none over a whole level face.
+  float pixels = thickness / max(width, 1e-9);
+  float nearest = min(z - bottom, top - z) / max(width, 1e-9);
+  float seam = (1.0 - smoothstep(0.2, 1.0, nearest)) * smoothstep(5.0, 10.0, pixels);
+  seam *= 1.0 - smoothstep(0.99, 0.999, abs(upwards));
+  return linear(base) * (1.0 - (first == last ? 0.45 : 0.0) * seam);
+}
+
+/** The palette's first entry is what matters most, as it is the thinnest layer. */
+vec3 ofHeat() {
+  return linear(texelFetch(heatPalette, ivec2(int((1.0 - heatAt(facet)) * ${(PALETTE_SIZE - 1).toFixed(1)} + 0.5), 0), 0).rgb);
+}
+
+void main() {
+  // The part of the height that this pixel covers.
+  float width = fwidth(world.z);
+  vec3 normal = normalize(cross(dFdx(eye), dFdy(eye)));
+  float upwards = dot(normal, viewMatrix[2].xyz);
+  vec3 light = lit(byHeat ? ofHeat() : byThickness ? ofPlan(width, upwards) : linear(resin), normal);
+  vec3 shown = encoded(light);
+  if (band.y > band.x) {
+    // The layer looked at: never lower than three pixels, dark with a light edge, whatever is around it.
+    float grown = max(0.0, 1.5 * width - 0.5 * (band.y - band.x));
+    float z = world.z - INWARDS * upwards;
+    float inside = min(z - band.x, band.y - z) + grown;
+    float edge = inside / max(width, 1e-9);
+    float tall = smoothstep(6.0, 12.0, (band.y - band.x) / max(width, 1e-9));
+    if (edge > 0.0) shown = mix(shown, vec3(0.06, 0.07, 0.1), mix(0.94, edge < 2.0 ? 0.94 : 0.3, tall));
+    else if (edge > -1.5) shown = mix(shown, vec3(1.0), 0.85);
+  }
+  colour = vec4(shown, 1.0);
+}
+`;
+
+/** Which facet is under a pixel: its number plus one in four bytes, so that zero is nothing. */
+export const PICK_VERTEX = /* glsl */ `${HEAD}${MATRICES}
+flat out uint facet;
+void main() {
+  facet = uint(gl_VertexID / 3 + 1);
+  gl_Position = projectionMatrix * viewMatrix * modelMatrix * vec4(position, 1.0);
+}
+`;
+
+export const PICK_FRAGMENT = /* glsl */ `${HEAD}
+flat in uint facet;
+out vec4 colour;
+void main() {
+  colour = vec4(uvec4(facet, facet >> 8u, facet >> 16u, facet >> 24u) & 255u) / 255.0;
+}
+`;
+
+/** How near the plate the model is, seen from below: what the shadow is made of. */
+export const SHADOW_VERTEX = /* glsl */ `${HEAD}${MATRICES}
+uniform float reach;
+out float near;
+void main() {
+  vec4 at = modelMatrix * vec4(position, 1.0);
+  near = 1.0 - at.z / reach;
+  gl_Position = projectionMatrix * viewMatrix * at;
+}
+`;
+
+export const SHADOW_FRAGMENT = /* glsl */ `${HEAD}
+in float near;
+out vec4 colour;
+void main() {
+  colour = vec4(clamp(near, 0.0, 1.0));
+}
+`;
+
+export const BLUR_VERTEX = /* glsl */ `${HEAD}
+in vec3 position;
+out vec2 place;
+void main() {
+  place = position.xy + 0.5;
+  gl_Position = vec4(2.0 * position.xy, 0.0, 1.0);
+}
+`;
+
+/** Softens the shadow's picture: rings of samples from its smaller copies. */
+export const BLUR_FRAGMENT = /* glsl */ `${HEAD}
+uniform sampler2D sharp;
+in vec2 place;
+out vec4 colour;
+void main() {
+  float sum = 0.0;
+  for (int ring = 1; ring <= 3; ring++) {
+    for (int i = 0; i < 12; i++) {
+      float angle = (float(i) + 0.33 * float(ring)) * 0.5235988;
+      sum += textureLod(sharp, place + 0.014 * float(ring) * vec2(cos(angle), sin(angle)), 2.0).a;
+    }
+  }
+  colour = vec4(sum / 36.0);
+}
+`;
+
+export const PLATE_VERTEX = /* glsl */ `${HEAD}${MATRICES}
+out vec2 at;
+void main() {
+  vec4 world = modelMatrix * vec4(position, 1.0);
+  at = world.xy;
+  gl_Position = projectionMatrix * viewMatrix * world;
+}
+`;
+
+/** A grid of thin lines with every fifth stronger, a soft shadow, and an edge that is sharp or fades. */
+export const PLATE_FRAGMENT = /* glsl */ `${HEAD}
+uniform vec3 ink;
+uniform float step_mm;
+uniform vec2 half_mm;
+uniform bool hasEdge;
+uniform sampler2D shadow;
+uniform float shadowHalf_mm;
+uniform float shadowStrength;
+in vec2 at;
+out vec4 colour;
+
+float lines(float pitch) {
+  vec2 width = fwidth(at);
+  vec2 away = abs(fract(at / pitch + 0.5) - 0.5) * pitch;
+  vec2 drawn = 1.0 - smoothstep(vec2(0.3), vec2(1.1), away / width);
+  // Lines closer than a few pixels are grey mist: let them go before that.
+  drawn *= 1.0 - smoothstep(0.08, 0.3, width / pitch);
+  return max(drawn.x, drawn.y);
+}
+
+float shade() {
+  vec2 place = at / (2.0 * shadowHalf_mm) + 0.5;
+  // Outside the picture its edge would go on for ever.
+  vec2 inner = step(abs(place - 0.5), vec2(0.5));
+  return inner.x * inner.y * texture(shadow, place).a;
+}
+
+void main() {
+  float grid = max(0.1 * lines(step_mm), 0.2 * lines(5.0 * step_mm));
+  vec2 inner = half_mm - abs(at);
+  float fade = 1.0 - smoothstep(0.55, 1.0, length(at) / half_mm.x);
+  if (hasEdge) {
+    vec2 away = inner / fwidth(at);
+    float border = 1.0 - smoothstep(0.5, 1.6, min(away.x, away.y));
+    grid = max(grid, 0.4 * border);
+    fade = 1.0;
+  }
+  float dark = shadowStrength * shade();
+  float lineAlpha = grid * fade;
+  // The shadow lies over the lines; both are laid over whatever the page has behind the view.
+  float alpha = dark + lineAlpha * (1.0 - dark);
+  colour = vec4(ink * lineAlpha * (1.0 - dark), alpha);
+}
+`;

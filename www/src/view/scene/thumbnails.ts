@@ -1,0 +1,108 @@
+/** Pictures of a model beside the page, from where it is first seen: in several poses on the plate, or in its layers. */
+import { Scene, WebGLRenderer } from "three";
+import { lookFirst, perspective } from "./cameras.js";
+import { Model } from "./model.js";
+import type { PaletteName } from "../legend/palette.js";
+import { Plate } from "./plate.js";
+import { UPRIGHT, type Rotation } from "./pose.js";
+import { contextOf } from "./surface.js";
+import { themeOf } from "./theme.js";
+
+const frame = (): Promise<unknown> => new Promise((resolve) => requestAnimationFrame(resolve));
+
+/** A scene that is drawn beside the page, picture after picture; it is gone after `draw`. */
+async function withScene<T>(draw: (studio: Studio) => Promise<T>): Promise<T | null> {
+  const canvas = document.createElement("canvas");
+  const context = contextOf(canvas);
+  if (context === null) return null;
+  const renderer = new WebGLRenderer({ canvas, context });
+  renderer.setClearColor(0x000000, 0);
+  const model = new Model();
+  const plate = new Plate(model.facets);
+  const scene = new Scene().add(model.pivot, plate.group);
+  const camera = perspective();
+  const shoot = (width_px: number, height_px: number): HTMLCanvasElement => {
+    plate.fit(model.size_mm, null);
+    renderer.setSize(width_px, height_px, false);
+    camera.aspect = width_px / height_px;
+    lookFirst(camera, model.size_mm);
+    scene.updateMatrixWorld();
+    plate.prepare(renderer, model.facets);
+    renderer.render(scene, camera);
+    return canvas;
+  };
+  try {
+    return await draw({ model, plate, shoot });
+  } finally {
+    plate.dispose();
+    model.dispose();
+    renderer.dispose();
+    // Browsers allow a page only so many contexts, and collect them late.
+    renderer.forceContextLoss();
+  }
+}
+
+interface Studio {
+  readonly model: Model;
+  readonly plate: Plate;
+  /** Draws the model as it stands, whole; the canvas is the next picture's too. */
+  shoot(width_px: number, height_px: number): HTMLCanvasElement;
+}
+
+/**
+ * Draws the model on each canvas in the rotation beside it, one a frame. Where there is no WebGL canvases stay empty.
+ *
+ * @param positions nine numbers a facet, mm, in the file's pose
+ * @param host whose text has the colour of the plate's lines
+ */
+export async function portray(
+  positions: Float32Array,
+  portraits: readonly (readonly [HTMLCanvasElement, Rotation])[],
+  host: HTMLElement,
+  signal: AbortSignal,
+): Promise<void> {
+  await withScene(async ({ model, plate, shoot }) => {
+    const theme = themeOf({ ink: host, accent: host, bad: host });
+    plate.setTheme(theme.ink, theme.bad, theme.shadow);
+    model.setResin(theme.resin);
+    model.setLook("printed");
+    model.setPositions(positions, UPRIGHT, 1);
+    for (const [target, rotation] of portraits) {
+      await frame();
+      if (signal.aborted) return;
+      model.setPose(rotation, 1);
+      const canvas = shoot(target.width, target.height);
+      const pen = target.getContext("2d");
+      pen?.clearRect(0, 0, target.width, target.height);
+      pen?.drawImage(canvas, 0, 0);
+    }
+  });
+}
+
+/** A model in its layers. */
+export interface Layered {
+  /** Nine numbers a facet, mm, in the file's pose. */
+  readonly positions: Float32Array;
+  readonly rotation: Rotation;
+  /** What the file's lengths are multiplied by. */
+  readonly scale: number;
+  /** Layer boundaries from 0 to the top, mm. */
+  readonly z_mm: readonly number[];
+  /** Thicknesses at the ends of the colour scale, mm. */
+  readonly limits: readonly [number, number];
+  readonly palette: PaletteName;
+}
+
+/** A square PNG of a model coloured by layer thickness, on a transparent ground; null where there is no WebGL. */
+export function thumbnail({ positions, rotation, scale, z_mm, limits, palette }: Layered, size_px: number): Promise<Blob | null> {
+  return withScene(({ model, plate, shoot }) => {
+    plate.group.visible = false;
+    model.setPositions(positions, rotation, scale);
+    model.setPlan(z_mm);
+    model.setLimits(limits);
+    model.setPalette(palette);
+    model.setLook("thickness");
+    const canvas = shoot(size_px, size_px);
+    return new Promise<Blob | null>((resolve) => canvas.toBlob(resolve, "image/png"));
+  });
+}

@@ -1,0 +1,89 @@
+/** What is worked out from the facets of one model when it is first asked for, without holding up what is on show. */
+import { flatFace, type FlatFace } from "../scene/flat.js";
+import { posed, type Rotation } from "../scene/pose.js";
+import { stairSteps, type Steps } from "./steps.js";
+import { topologyOf, type Topology } from "../scene/topology.js";
+import { inParts } from "./work.js";
+
+/** Part of the progress bar that finding the topology takes, when it has not been found yet. */
+const TOPOLOGY_PART = 0.3;
+
+export class Derived {
+  readonly positions: Float32Array;
+  readonly #stop = new AbortController();
+  #topology: Promise<Topology> | null = null;
+  #steps = new AbortController();
+
+  /** @param positions nine numbers a facet, mm, in the file's pose */
+  constructor(positions: Float32Array) {
+    this.positions = positions;
+  }
+
+  /** How the facets hang together; `null` once this is disposed of. */
+  topology(): Promise<Topology | null> {
+    return this.#whileAlive(this.#found());
+  }
+
+  /** The distinct points of the model; `null` once this is disposed of. */
+  async points(): Promise<Float32Array | null> {
+    return (await this.topology())?.points ?? null;
+  }
+
+  /** The flat face of a facet; `null` if it has none, or once this is disposed of. */
+  async face(facet: number): Promise<FlatFace | null> {
+    const topology = await this.topology();
+    return topology === null ? null : flatFace(this.positions, topology, facet);
+  }
+
+  /** The stair steps in this pose; `null` if another pose or plan has been asked for meanwhile. */
+  async steps(
+    rotation: Rotation,
+    scale: number,
+    z_mm: readonly number[],
+    tell: (progress: number) => void,
+  ): Promise<Steps | null> {
+    this.cancel();
+    const { signal } = this.#steps;
+    // The topology goes on when the steps are no longer wanted.
+    const found = this.#found((progress) => {
+      if (!signal.aborted) tell(TOPOLOGY_PART * progress);
+    });
+    const topology = await this.#whileAlive(found);
+    if (topology === null || signal.aborted) return null;
+    const points = posed(topology.points, rotation, scale);
+    try {
+      return await inParts(stairSteps({ points, topology }, z_mm), signal, (progress) =>
+        tell(TOPOLOGY_PART + (1 - TOPOLOGY_PART) * progress),
+      );
+    } catch (error) {
+      if (signal.aborted) return null;
+      throw error;
+    }
+  }
+
+  /** Drops the steps under way. */
+  cancel(): void {
+    this.#steps.abort();
+    this.#steps = new AbortController();
+  }
+
+  dispose(): void {
+    this.#steps.abort();
+    this.#stop.abort();
+  }
+
+  /** Found once, when first asked for. */
+  #found(tell?: (progress: number) => void): Promise<Topology> {
+    this.#topology ??= inParts(topologyOf(this.positions), this.#stop.signal, tell);
+    return this.#topology;
+  }
+
+  async #whileAlive<Result>(work: Promise<Result>): Promise<Result | null> {
+    try {
+      return await work;
+    } catch (error) {
+      if (this.#stop.signal.aborted) return null;
+      throw error;
+    }
+  }
+}
