@@ -31,7 +31,7 @@ test.each(["light", "dark"] as const)("nothing is amiss in any state: %s", async
   expect(await broken(page)).toEqual([]);
 
   await page.getByRole("button", { name: "Find the best direction" }).click();
-  await page.locator("cusp-direction .pose").first().waitFor();
+  await page.locator("cusp-orientation .pose").first().waitFor();
   await page.getByRole("application", { name: "Sphere of directions" }).press("ArrowRight");
   await page.getByRole("button", { name: "Stand it so" }).waitFor();
   expect(await broken(page)).toEqual([]);

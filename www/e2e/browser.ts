@@ -120,7 +120,7 @@ export async function layers(page: Page): Promise<number> {
 
 /** What the element says, every run of blanks one space: thin and unbreakable ones are for the eye. */
 export async function words(page: Page): Promise<string> {
-  return (await page.locator("cusp-slicer .face").innerText()).replace(/\s+/g, " ");
+  return (await page.locator("cusp-slicer .slicer").innerText()).replace(/\s+/g, " ");
 }
 
 /** Waits until the mask on show is that of this layer, counted from 0. */

@@ -323,13 +323,13 @@ test("taken out of the page it rests, and put back it works on", async () => {
 
 test("a part that cannot be fetched says so in its panel and to the page, and comes when it is tried again", async () => {
   const page = await start("");
-  const blocked = /\/(cusp-view|portraits|uPlot)[^/]*\.js$/;
+  const blocked = /\/(cusp-view|thumbnails|uPlot)[^/]*\.js$/;
   await page.route(blocked, (route) => route.abort());
   await page.evaluate(() =>
     document.body.append(
       document
         .createRange()
-        .createContextualFragment(`<cusp-slicer id="a" src="ball.stl" panels="plan view profile direction" locale="en"></cusp-slicer>`),
+        .createContextualFragment(`<cusp-slicer id="a" src="ball.stl" panels="plan view profile orientation" locale="en"></cusp-slicer>`),
     ),
   );
   await done(page, "a");
@@ -338,7 +338,7 @@ test("a part that cannot be fetched says so in its panel and to the page, and co
   await failure("cusp-chart").waitFor();
   expect(await failure("cusp-model").innerText()).toContain("This part of the page could not be loaded.");
   await page.getByRole("button", { name: "Find the best direction" }).click();
-  await failure("cusp-direction").waitFor();
+  await failure("cusp-orientation").waitFor();
   const errors = await page.evaluate(() =>
     (document as unknown as Told).told
       .filter(([, name]) => name === "cusp-error")
@@ -355,8 +355,8 @@ test("a part that cannot be fetched says so in its panel and to the page, and co
   await page.locator("cusp-view").waitFor();
   await failure("cusp-chart").getByRole("button", { name: "Try again" }).click();
   await page.locator("cusp-chart .plot canvas").waitFor();
-  await failure("cusp-direction").getByRole("button", { name: "Try again" }).click();
-  await page.locator("cusp-direction canvas[data-drawn]").first().waitFor();
+  await failure("cusp-orientation").getByRole("button", { name: "Try again" }).click();
+  await page.locator("cusp-orientation canvas[data-drawn]").first().waitFor();
   expect(await page.locator(".part-failed").count()).toBe(0);
   const unloaded = complaints.splice(0);
   expect(unloaded.filter((text) => !text.startsWith("Failed to load resource"))).toEqual([]);

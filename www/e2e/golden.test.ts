@@ -45,11 +45,11 @@ const STATES: Readonly<Record<string, { query?: string; reach(page: Page): Promi
       await page.getByText("More settings").click();
     },
   },
-  directions: {
+  orientation: {
     reach: async (page) => {
       await example(page);
       await page.getByRole("button", { name: "Find the best direction" }).click();
-      await expect.poll(() => page.locator("cusp-direction .pose canvas[data-drawn]").count()).toBe(3);
+      await expect.poll(() => page.locator("cusp-orientation .pose canvas[data-drawn]").count()).toBe(3);
     },
   },
   printed: {

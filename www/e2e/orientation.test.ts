@@ -8,7 +8,7 @@ import { SOFTWARE_GL } from "./view-pages.js";
 
 const start = pages(SOFTWARE_GL);
 
-const panel = (page: Page): Locator => page.locator("cusp-direction");
+const panel = (page: Page): Locator => page.locator("cusp-orientation");
 const disc = (page: Page, side: "Front" | "Back"): Locator =>
   panel(page).locator("figure").filter({ hasText: side }).locator(".disc");
 
@@ -112,7 +112,7 @@ test("a search fills the sphere with colours, from front and behind, and offers 
 test("a best direction is applied by its button; the plan follows, and can be taken back", async () => {
   const page = await example();
   await page.evaluate(() => {
-    document.querySelector("cusp-slicer")?.addEventListener("cusp-direction", ({ detail }) => {
+    document.querySelector("cusp-slicer")?.addEventListener("cusp-orientation", ({ detail }) => {
       document.documentElement.dataset["promised"] = String(detail.figures?.layers);
     });
   });
@@ -195,7 +195,7 @@ test("the sphere turns with the view and with the model; up is marked", async ()
   await search(page);
   const picture = (): Promise<string> => disc(page, "Front").locator("canvas").evaluate((it) => (it as HTMLCanvasElement).toDataURL());
   const before = await picture();
-  await page.locator("cusp-view .stage").focus();
+  await page.locator("cusp-view .scene").focus();
   await page.keyboard.press("ArrowRight");
   await expect.poll(picture).not.toBe(before);
   const turned = await picture();

@@ -25,7 +25,7 @@ export async function servePacked(files: Readonly<Record<string, string | Uint8A
   };
 }
 
-/** A page that has the slicer without a face as `window.api`, and files by name beside it. */
+/** A page that has the headless slicer as `window.api`, and files by name beside it. */
 export function serveApi(files: Readonly<Record<string, string | Uint8Array>>): Promise<Served> {
   return servePacked({
     "index.html": `<!doctype html><meta charset="utf-8" /><script type="module" src="main.js"></script>`,

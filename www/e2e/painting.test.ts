@@ -142,7 +142,7 @@ test("strokes are taken back and made again by keyboard, and the settings stay",
   const page = await brushInHand();
   const before = await plan(page);
   await widest(page);
-  await page.locator("cusp-view .stage").focus();
+  await page.locator("cusp-view .scene").focus();
   // The brush is loaded when it is first taken, and paints nothing before.
   const press = async (): Promise<number[] | null> => {
     await page.keyboard.press("Enter");

@@ -12,14 +12,14 @@ interface Shot {
   name: string;
   options: BrowserContextOptions;
   /** Whether it is of a search for directions, not of the page from its top. */
-  isOfDirections?: true;
+  isOfOrientation?: true;
 }
 
 const SHOTS: readonly Shot[] = [
   { name: "page-wide", options: { viewport: { width: 1180, height: 780 } } },
   { name: "page-dark", options: { viewport: { width: 1180, height: 780 }, colorScheme: "dark" } },
   { name: "page-narrow", options: { viewport: { width: 390, height: 1500 } } },
-  { name: "page-direction", options: { viewport: { width: 1180, height: 780 } }, isOfDirections: true },
+  { name: "page-orientation", options: { viewport: { width: 1180, height: 780 } }, isOfOrientation: true },
 ];
 
 export async function main([folder]: string[]): Promise<void> {
@@ -28,7 +28,7 @@ export async function main([folder]: string[]): Promise<void> {
   const served = await serve();
   const browser = await launch();
   try {
-    for (const { name, options, isOfDirections } of SHOTS) {
+    for (const { name, options, isOfOrientation } of SHOTS) {
       const { page } = await open(browser, served.address, { reducedMotion: "reduce", ...options });
       await page.getByRole("button", { name: "Try the example" }).click();
       await state(page, "done");
@@ -39,11 +39,11 @@ export async function main([folder]: string[]): Promise<void> {
       await maskOf(page, layer - 1);
       await page.evaluate(() => document.fonts.ready);
       const path = `${into}/${name}.png`;
-      if (isOfDirections) {
+      if (isOfOrientation) {
         await page.getByRole("button", { name: "Find the best direction" }).click();
-        await page.locator("cusp-direction .pose canvas[data-drawn]").nth(2).waitFor();
+        await page.locator("cusp-orientation .pose canvas[data-drawn]").nth(2).waitFor();
         await page.locator("cusp-sphere .disc").first().hover({ position: { x: 60, y: 120 } });
-        await page.locator("cusp-slicer [part=direction]").screenshot({ path });
+        await page.locator("cusp-slicer [part=orientation]").screenshot({ path });
       } else {
         await page.evaluate(() => scrollTo(0, 0));
         await page.waitForTimeout(500);

@@ -35,7 +35,7 @@ test("turned by keyboard, the model is planned anew as it stands; undo and a but
   const page = await example();
   const upright = await layers(page);
   await page.getByRole("button", { name: "Turn the model" }).click();
-  await page.locator("cusp-view .stage").focus();
+  await page.locator("cusp-view .scene").focus();
   for (let i = 0; i < 18; i++) await page.keyboard.press("ArrowUp");
   await settled(page);
   await expect.poll(() => layers(page)).not.toBe(upright);

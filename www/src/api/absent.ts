@@ -18,7 +18,7 @@ export function absentSlicer(): Slicer {
     positions: reject,
     glance: reject,
     saliency: reject,
-    paint: reject,
+    setWeights: reject,
     weightsFile: reject,
     readWeights: reject,
     printers: reject,

@@ -1,6 +1,6 @@
 import { beforeEach, expect, test } from "vitest";
 import { SlicerError } from "./error.js";
-import { Lane, type About, type Engine, type Watch } from "./client.js";
+import { Client, type About, type WorkerHandle, type Watch } from "./client.js";
 import type { CuspError, Glance, MeshInfo, OnProgress, Options, Profiled, Report, SlicerWorker } from "./wire.js";
 
 /** What the fake workers were asked, in order: `worker number: call`. */
@@ -8,7 +8,7 @@ let log: string[];
 let workers: FakeWorker[];
 
 /** A worker whose next call can be told to hang, as a long computation does, or to fail. */
-class FakeWorker implements Engine {
+class FakeWorker implements WorkerHandle {
   readonly number = workers.push(this);
   terminated = false;
   hang = false;
@@ -51,7 +51,7 @@ class FakeWorker implements Engine {
     positions: () => new Float32Array(9),
     glance: () => ({}) as Profiled<Glance>,
     saliency: () => new Float32Array(1),
-    paint: () => undefined,
+    setWeights: () => undefined,
     weightsFile: () => new Uint8Array(1),
     readWeights: async () => new Float32Array(1),
     directions: () => new Float64Array(0),
@@ -81,17 +81,17 @@ class FakeWorker implements Engine {
   }
 }
 
-/** A lane as it is used: what is asked is about the model that was opened last. */
-class Client {
-  readonly lane: Lane;
+/** A client as it is used: what is asked is about the model that was opened last. */
+class Caller {
+  readonly client: Client;
   about: About = Promise.resolve(null);
 
-  constructor(spawn: () => Engine) {
-    this.lane = new Lane(spawn);
+  constructor(spawn: () => WorkerHandle) {
+    this.client = new Client(spawn);
   }
 
   open(file: Blob, watch: Watch): Promise<MeshInfo> {
-    const opened = this.lane.open(Promise.resolve(file), watch);
+    const opened = this.client.open(Promise.resolve(file), watch);
     const before = this.about;
     this.about = opened.then(
       ({ facets }) => ({ name: "", file, facets, weights: null }),
@@ -101,16 +101,16 @@ class Client {
   }
 
   plan(options: Options, watch: Watch): Promise<Profiled<Report>> {
-    return this.lane.plan(this.about, options, watch);
+    return this.client.plan(this.about, options, watch);
   }
 }
 
-let client: Client;
+let caller: Caller;
 
 beforeEach(() => {
   log = [];
   workers = [];
-  client = new Client(() => new FakeWorker());
+  caller = new Caller(() => new FakeWorker());
 });
 
 function watch(signal = new AbortController().signal, onProgress: OnProgress = () => undefined): Watch {
@@ -133,45 +133,45 @@ async function hung(call: (watch: Watch) => Promise<unknown>): Promise<void> {
 }
 
 test("a warm worker is the one that works, and it is started once", async () => {
-  client.lane.warm();
-  await client.open(new Blob(["a"]), watch());
-  await client.plan({ tolerance: 1 }, watch());
-  await client.lane.mask(3);
+  caller.client.warm();
+  await caller.open(new Blob(["a"]), watch());
+  await caller.plan({ tolerance: 1 }, watch());
+  await caller.client.mask(3);
   expect(log).toEqual(["1: boot, compiling", "1: open a", "1: plan 1 of a", "1: mask 3 of 1"]);
 });
 
 test("progress comes through", async () => {
   const stages: string[] = [];
-  await client.open(new Blob(["a"]), watch());
-  await client.plan({}, watch(undefined, (stage, fraction) => stages.push(`${stage} ${fraction}`)));
+  await caller.open(new Blob(["a"]), watch());
+  await caller.plan({}, watch(undefined, (stage, fraction) => stages.push(`${stage} ${fraction}`)));
   expect(stages).toEqual(["ldi 0.5"]);
 });
 
 test("cancelling a plan ends the worker; the next one is given module, file and the last good plan", async () => {
-  await client.open(new Blob(["a"]), watch());
-  await client.plan({ tolerance: 1 }, watch());
+  await caller.open(new Blob(["a"]), watch());
+  await caller.plan({ tolerance: 1 }, watch());
   worker(1).hang = true;
-  await hung((watch) => client.plan({ tolerance: 2 }, watch));
+  await hung((watch) => caller.plan({ tolerance: 2 }, watch));
   expect(worker(1).terminated).toBe(true);
   log = [];
-  await client.lane.mask(0);
+  await caller.client.mask(0);
   expect(log).toEqual(["2: boot", "2: open a", "2: plan 1 of a", "2: mask 0 of 1"]);
 });
 
 test("cancelling while a file is read keeps the one before", async () => {
-  await client.open(new Blob(["a"]), watch());
+  await caller.open(new Blob(["a"]), watch());
   worker(1).hang = true;
-  await hung((watch) => client.open(new Blob(["b"]), watch));
+  await hung((watch) => caller.open(new Blob(["b"]), watch));
   log = [];
-  await client.plan({ tolerance: 1 }, watch());
+  await caller.plan({ tolerance: 1 }, watch());
   expect(log).toEqual(["2: boot", "2: open a", "2: plan 1 of a"]);
 });
 
 test("a call that has not begun can be cancelled without ending the worker", async () => {
-  await client.open(new Blob(["a"]), watch());
+  await caller.open(new Blob(["a"]), watch());
   const abort = new AbortController();
-  const first = client.plan({ tolerance: 1 }, watch());
-  const second = client.plan({ tolerance: 2 }, watch(abort.signal));
+  const first = caller.plan({ tolerance: 1 }, watch());
+  const second = caller.plan({ tolerance: 2 }, watch(abort.signal));
   abort.abort();
   await expect(second).rejects.toMatchObject({ name: "AbortError" });
   await first;
@@ -180,71 +180,71 @@ test("a call that has not begun can be cancelled without ending the worker", asy
 });
 
 test("an error of the core keeps its code and details, and the worker; masks go back to the last good plan", async () => {
-  await client.open(new Blob(["a"]), watch());
-  await client.plan({ tolerance: 1 }, watch());
+  await caller.open(new Blob(["a"]), watch());
+  await caller.plan({ tolerance: 1 }, watch());
   const failure: CuspError = { code: "too-many-facets", message: "no", detail: { facets: 2 } };
   worker(1).failure = failure;
-  const running = client.plan({ tolerance: 2 }, watch());
+  const running = caller.plan({ tolerance: 2 }, watch());
   await expect(running).rejects.toBeInstanceOf(SlicerError);
   await expect(running).rejects.toMatchObject(failure);
   worker(1).failure = null;
   log = [];
-  await client.lane.mask(0);
+  await caller.client.mask(0);
   expect(log).toEqual(["1: plan 1 of a", "1: mask 0 of 1"]);
 });
 
 test("a core that breaks is replaced", async () => {
-  await client.open(new Blob(["a"]), watch());
+  await caller.open(new Blob(["a"]), watch());
   worker(1).failure = new WebAssembly.RuntimeError("unreachable");
-  await expect(client.plan({}, watch())).rejects.toMatchObject({ code: "crash", message: "unreachable" });
+  await expect(caller.plan({}, watch())).rejects.toMatchObject({ code: "crash", message: "unreachable" });
   expect(worker(1).terminated).toBe(true);
   log = [];
-  await client.plan({ tolerance: 1 }, watch());
+  await caller.plan({ tolerance: 1 }, watch());
   expect(log).toEqual(["2: boot", "2: open a", "2: plan 1 of a"]);
 });
 
 test("a core that does not start says so, and the next call tries again", async () => {
-  const starts: Engine[] = [];
-  const failing = new Client(() => {
-    const engine = new FakeWorker();
-    if (starts.push(engine) === 1) engine.remote.boot = () => Promise.reject(new Error("HTTP 404"));
-    return engine;
+  const starts: WorkerHandle[] = [];
+  const failing = new Caller(() => {
+    const handle = new FakeWorker();
+    if (starts.push(handle) === 1) handle.remote.boot = () => Promise.reject(new Error("HTTP 404"));
+    return handle;
   });
-  failing.lane.warm();
+  failing.client.warm();
   await expect(failing.open(new Blob(["a"]), watch())).rejects.toMatchObject({ code: "start-failed", message: "HTTP 404" });
   await failing.open(new Blob(["a"]), watch());
   expect(log).toEqual(["2: boot, compiling", "2: open a"]);
 });
 
 test("a worker that breaks by itself fails the call that waits for it", async () => {
-  await client.open(new Blob(["a"]), watch());
+  await caller.open(new Blob(["a"]), watch());
   worker(1).hang = true;
-  const running = client.plan({}, watch());
+  const running = caller.plan({}, watch());
   await new Promise((resolve) => setTimeout(resolve));
   worker(1).broken("no script");
   await expect(running).rejects.toMatchObject({ code: "crash", message: "no script" });
 });
 
 test("a call that waits for another is cancelled at once, not when its turn comes", async () => {
-  await client.open(new Blob(["a"]), watch());
+  await caller.open(new Blob(["a"]), watch());
   worker(1).hang = true;
-  const first = client.plan({}, watch());
+  const first = caller.plan({}, watch());
   first.catch(() => undefined);
   const abort = new AbortController();
-  const second = client.plan({}, watch(abort.signal));
+  const second = caller.plan({}, watch(abort.signal));
   abort.abort();
   await expect(second).rejects.toMatchObject({ name: "AbortError" });
   expect(worker(1).terminated).toBe(false);
 });
 
 test("looking at other plans leaves the plan with the core, whatever rays they are over", async () => {
-  await client.open(new Blob(["a"]), watch());
-  await client.plan({ tolerance: 1, rays: 512 }, watch());
+  await caller.open(new Blob(["a"]), watch());
+  await caller.plan({ tolerance: 1, rays: 512 }, watch());
   log = [];
-  await client.lane.tradeoff(client.about, { tolerance: 2, rays: 512 }, 9, watch());
-  await client.lane.mask(0);
-  await client.lane.tradeoff(client.about, { rays: 1024 }, 9, watch());
-  await client.lane.mask(0);
+  await caller.client.tradeoff(caller.about, { tolerance: 2, rays: 512 }, 9, watch());
+  await caller.client.mask(0);
+  await caller.client.tradeoff(caller.about, { rays: 1024 }, 9, watch());
+  await caller.client.mask(0);
   expect(log).toEqual([
     "1: tradeoff of 512 rays",
     "1: mask 0 of 1",
@@ -254,30 +254,30 @@ test("looking at other plans leaves the plan with the core, whatever rays they a
 });
 
 test("a print file comes whole, or chunk by chunk in order", async () => {
-  await client.open(new Blob(["a"]), watch());
-  await client.plan({}, watch());
-  expect(await (await client.lane.archive(null, watch())).blob.text()).toBe("zip");
+  await caller.open(new Blob(["a"]), watch());
+  await caller.plan({}, watch());
+  expect(await (await caller.client.archive(null, watch())).blob.text()).toBe("zip");
   const chunks: string[] = [];
-  await client.lane.archiveTo(null, (chunk) => chunks.push(new TextDecoder().decode(chunk)), watch());
+  await caller.client.archiveTo(null, (chunk) => chunks.push(new TextDecoder().decode(chunk)), watch());
   expect(chunks).toEqual(["z", "ip"]);
 });
 
 test("asked too early, it says what is missing; disposed of, it works no more", async () => {
-  await expect(client.plan({}, watch())).rejects.toMatchObject({ code: "no-model" });
-  await client.open(new Blob(["a"]), watch());
-  await expect(client.lane.mask(0)).rejects.toMatchObject({ code: "no-plan" });
-  client.lane.dispose();
-  await expect(client.lane.mask(0)).rejects.toMatchObject({ name: "AbortError" });
+  await expect(caller.plan({}, watch())).rejects.toMatchObject({ code: "no-model" });
+  await caller.open(new Blob(["a"]), watch());
+  await expect(caller.client.mask(0)).rejects.toMatchObject({ code: "no-plan" });
+  caller.client.dispose();
+  await expect(caller.client.mask(0)).rejects.toMatchObject({ name: "AbortError" });
   expect(workers).toHaveLength(1);
 });
 
 test("each call takes its place when it is made: a file that is still fetched holds the calls after it", async () => {
-  await client.open(new Blob(["a"]), watch());
+  await caller.open(new Blob(["a"]), watch());
   let arrive: (file: Blob) => void = () => undefined;
   const file = new Promise<Blob>((resolve) => (arrive = resolve));
-  const opened = client.lane.open(file, watch());
+  const opened = caller.client.open(file, watch());
   const about = opened.then(async ({ facets }) => ({ name: "", file: await file, facets, weights: null }));
-  const planned = client.lane.plan(about, { tolerance: 1 }, watch());
+  const planned = caller.client.plan(about, { tolerance: 1 }, watch());
   await new Promise((resolve) => setTimeout(resolve));
   arrive(new Blob(["b"]));
   await planned;
@@ -285,23 +285,23 @@ test("each call takes its place when it is made: a file that is still fetched ho
 });
 
 test("a fetch that is cancelled leaves the worker alone", async () => {
-  await client.open(new Blob(["a"]), watch());
+  await caller.open(new Blob(["a"]), watch());
   const abort = new AbortController();
-  const opened = client.lane.open(new Promise(() => undefined), watch(abort.signal));
+  const opened = caller.client.open(new Promise(() => undefined), watch(abort.signal));
   abort.abort();
   await expect(opened).rejects.toMatchObject({ name: "AbortError" });
   expect(worker(1).terminated).toBe(false);
 });
 
 test("a signal that times out is an abort, and so is one with a reason of its own", async () => {
-  await client.open(new Blob(["a"]), watch());
+  await caller.open(new Blob(["a"]), watch());
   worker(1).hang = true;
-  await expect(client.plan({}, watch(AbortSignal.timeout(5)))).rejects.toMatchObject({ name: "TimeoutError" });
+  await expect(caller.plan({}, watch(AbortSignal.timeout(5)))).rejects.toMatchObject({ name: "TimeoutError" });
   const abort = new AbortController();
   const reason = new Error("enough");
-  await client.plan({}, watch());
+  await caller.plan({}, watch());
   worker(2).hang = true;
-  const running = client.plan({}, watch(abort.signal));
+  const running = caller.plan({}, watch(abort.signal));
   const outcome = expect(running).rejects.toBe(reason);
   await new Promise((resolve) => setTimeout(resolve));
   abort.abort(reason);

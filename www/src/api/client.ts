@@ -16,8 +16,8 @@ export type Remote = {
   ) => ReturnType<SlicerWorker[Name]> | Promise<Awaited<ReturnType<SlicerWorker[Name]>>>;
 };
 
-/** What a {@link Lane} needs of a worker; the tests give a fake. */
-export interface Engine {
+/** What a {@link Client} needs of a worker; the tests give a fake. */
+export interface WorkerHandle {
   remote: Remote;
   /** Ends the worker at once, whatever it is doing. */
   terminate(): void;
@@ -32,7 +32,7 @@ export interface Watch {
   onProgress?: OnProgress | undefined;
 }
 
-export function spawnWorker(): Engine {
+export function spawnWorker(): WorkerHandle {
   const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module", name: "cusp-slicer" });
   return {
     remote: Comlink.wrap<SlicerWorker>(worker),
@@ -44,14 +44,14 @@ export function spawnWorker(): Engine {
   };
 }
 
-/** Where lanes keep the compiled module, which is the same for all. */
+/** Where clients keep the compiled module, which is the same for all. */
 export interface Compiled {
   module: WebAssembly.Module | null;
 }
 
 /** A live worker: `fate` rejects when it is ended, so that no call on it waits for ever. */
 interface Life {
-  engine: Engine;
+  handle: WorkerHandle;
   booted: Promise<unknown>;
   fate: Promise<never>;
   end(reason: unknown): void;
@@ -87,8 +87,8 @@ export type Wanted = { about: About; options: Options } | null;
 
 const silent: OnProgress = () => undefined;
 
-export class Lane {
-  readonly #spawn: () => Engine;
+export class Client {
+  readonly #spawn: () => WorkerHandle;
   readonly #compiled: Compiled;
   #life: Life | null = null;
   #planned: Planned | null = null;
@@ -96,7 +96,7 @@ export class Lane {
   #queue: Promise<unknown> = Promise.resolve();
   #disposed = false;
 
-  constructor(spawn: () => Engine = spawnWorker, compiled: Compiled = { module: null }) {
+  constructor(spawn: () => WorkerHandle = spawnWorker, compiled: Compiled = { module: null }) {
     this.#spawn = spawn;
     this.#compiled = compiled;
   }
@@ -109,7 +109,7 @@ export class Lane {
   /** Opens a model when its file is there. If that fails or is cancelled, the one before stays. */
   open(file: Promise<Blob>, watch: Watch): Promise<MeshInfo> {
     return this.#run(watch, file, async (life, file, progress) => {
-      const info = await life.engine.remote.open(file, progress);
+      const info = await life.handle.remote.open(file, progress);
       life.file = file;
       life.weights = null;
       life.planned = this.#planned = null;
@@ -118,7 +118,7 @@ export class Lane {
   }
 
   /** Has the core take the subject's weights now, or refuse them. */
-  paint(about: About, watch: Watch): Promise<void> {
+  setWeights(about: About, watch: Watch): Promise<void> {
     return this.#about(about, watch, () => Promise.resolve());
   }
 
@@ -139,7 +139,7 @@ export class Lane {
   mask(layer: number, watch: Watch = {}): Promise<{ bits: Uint8Array; of: Planned }> {
     return this.#run(watch, null, async (life) => {
       const of = await this.#restorePlan(life, silent);
-      return { bits: await life.engine.remote.mask(layer), of };
+      return { bits: await life.handle.remote.mask(layer), of };
     });
   }
 
@@ -147,7 +147,7 @@ export class Lane {
   archive(wanted: Wanted, watch: Watch): Promise<{ blob: Blob; of: Planned }> {
     return this.#run(watch, wanted?.about ?? null, async (life, subject, progress) => {
       const of = await this.#planFor(life, subject, wanted?.options, progress);
-      const blob = await life.engine.remote.archive(progress, null);
+      const blob = await life.handle.remote.archive(progress, null);
       return { blob: blob ?? new Blob([]), of };
     });
   }
@@ -164,7 +164,7 @@ export class Lane {
         };
       });
       try {
-        await life.engine.remote.archive(progress, Comlink.transfer(port2, [port2]));
+        await life.handle.remote.archive(progress, Comlink.transfer(port2, [port2]));
         await Promise.race([ended, life.fate]);
       } finally {
         port1.close();
@@ -174,11 +174,11 @@ export class Lane {
 
   /** Asks what depends on nothing but the subject; the last plan stays, with its masks. */
   ask<T>(about: About, watch: Watch, question: (remote: Remote, progress: OnProgress) => T | Promise<T>): Promise<T> {
-    return this.#about(about, watch, async (life, progress) => question(life.engine.remote, progress));
+    return this.#about(about, watch, async (life, progress) => question(life.handle.remote, progress));
   }
 
   printers(): Promise<Printer[]> {
-    return this.#run({}, null, (life) => Promise.resolve(life.engine.remote.printers()));
+    return this.#run({}, null, (life) => Promise.resolve(life.handle.remote.printers()));
   }
 
   /** Ends the worker until the next call, which brings back what was there. */
@@ -195,14 +195,14 @@ export class Lane {
   async #plan(life: Life, subject: Subject, options: Options, progress: OnProgress): Promise<Profiled<Report>> {
     // Until it succeeds nobody knows which plan the core holds.
     life.planned = null;
-    const plan = await life.engine.remote.plan(options, progress);
+    const plan = await life.handle.remote.plan(options, progress);
     life.planned = this.#planned = { subject, options, report: plan.report };
     return plan;
   }
 
   /** Brings the core the subject's file and weights. */
   async #bring(life: Life, { file, weights }: Subject): Promise<void> {
-    const { remote } = life.engine;
+    const { remote } = life.handle;
     if (life.file !== file) {
       await remote.open(file, Comlink.proxy(silent));
       life.file = file;
@@ -210,7 +210,7 @@ export class Lane {
       life.planned = null;
     }
     if (life.weights === weights) return;
-    await remote.paint(weights);
+    await remote.setWeights(weights);
     life.weights = weights;
   }
 
@@ -220,7 +220,7 @@ export class Lane {
     if (planned === null) throw new SlicerError("no-plan", "plan the layers first");
     if (life.planned === planned) return planned;
     await this.#bring(life, planned.subject);
-    await life.engine.remote.plan(planned.options, Comlink.proxy(progress));
+    await life.handle.remote.plan(planned.options, Comlink.proxy(progress));
     life.planned = planned;
     return planned;
   }
@@ -296,19 +296,19 @@ export class Lane {
 
   #live(): Life {
     if (this.#life !== null) return this.#life;
-    const engine = this.#spawn();
+    const handle = this.#spawn();
     let end: (reason: unknown) => void = () => undefined;
     const fate = new Promise<never>((_, reject) => {
       end = (reason) => {
-        engine.terminate();
-        if (this.#life?.engine === engine) this.#life = null;
+        handle.terminate();
+        if (this.#life?.handle === handle) this.#life = null;
         reject(reason);
       };
     });
     fate.catch(() => undefined);
     let started = false;
-    engine.onBroken((message) => end(broke(started ? "crash" : "start-failed", message)));
-    const booted = engine.remote.boot(this.#compiled.module).then(
+    handle.onBroken((message) => end(broke(started ? "crash" : "start-failed", message)));
+    const booted = handle.remote.boot(this.#compiled.module).then(
       (module) => {
         started = true;
         this.#compiled.module = module;
@@ -318,7 +318,7 @@ export class Lane {
       },
     );
     booted.catch(() => undefined);
-    this.#life = { engine, booted, fate, end, file: null, weights: null, planned: null };
+    this.#life = { handle, booted, fate, end, file: null, weights: null, planned: null };
     return this.#life;
   }
 }

@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { createSlicer, SCHEMA, type Slicer } from "./index.js";
 import { resolve } from "./source.js";
-import type { Engine } from "./client.js";
+import type { WorkerHandle } from "./client.js";
 import type { Glance, MeshInfo, Options, Profiled, Report, SlicerWorker } from "./wire.js";
 
 /** What the fakes report: masks are as wide as the tolerance says. */
@@ -16,7 +16,7 @@ const reportOf = ({ tolerance = 9 }: Options): Report =>
 function faked(): { slicer: Slicer; log: string[] } {
   const log: string[] = [];
   let workers = 0;
-  const spawn = (): Engine => {
+  const spawn = (): WorkerHandle => {
     const number = ++workers;
     const say = (what: string): void => void log.push(`${number}: ${what}`);
     const remote: SlicerWorker = {
@@ -46,8 +46,8 @@ function faked(): { slicer: Slicer; log: string[] } {
       },
       glance: () => ({ report: {} as Glance, profile: new Float32Array() }) as Profiled<Glance>,
       saliency: () => Float32Array.of(0.5),
-      paint: (weights) => {
-        say(`paint ${weights === null ? "none" : [...weights].join()}`);
+      setWeights: (weights) => {
+        say(`setWeights ${weights === null ? "none" : [...weights].join()}`);
         if (weights?.some((weight) => weight > 1)) throw { code: "weights-out-of-range", message: "no", detail: null };
       },
       weightsFile: (weights) => Uint8Array.from(weights, (weight) => 100 * weight),
@@ -117,35 +117,35 @@ test("weights are copied, count for all that follows, and make a print file wort
   const { slicer, log } = faked();
   await slicer.load(new Blob(["a"]));
   const weights = Float32Array.of(0.5);
-  const painted = slicer.paint(weights);
+  const painted = slicer.setWeights(weights);
   weights[0] = 0;
   await painted;
   await slicer.export({ tolerance: 1 });
   await slicer.glance();
-  await slicer.paint(null);
+  await slicer.setWeights(null);
   await slicer.export({ tolerance: 1 });
-  const main = ["1: open a", "1: paint 0.5", "1: plan 1", "1: archive", "1: paint none", "1: plan 1", "1: archive"];
+  const main = ["1: open a", "1: setWeights 0.5", "1: plan 1", "1: archive", "1: setWeights none", "1: plan 1", "1: archive"];
   expect(log.filter((line) => line.startsWith("1"))).toEqual(main);
-  expect(log.filter((line) => line.startsWith("2"))).toEqual(["2: open a", "2: paint 0.5"]);
+  expect(log.filter((line) => line.startsWith("2"))).toEqual(["2: open a", "2: setWeights 0.5"]);
 });
 
 test("weights that the core refuses are dropped, and a model that is opened has none", async () => {
   const { slicer, log } = faked();
   await slicer.load(new Blob(["a"]));
-  await slicer.paint(Float32Array.of(0.5));
-  await expect(slicer.paint(Float32Array.of(2))).rejects.toMatchObject({ code: "weights-out-of-range" });
+  await slicer.setWeights(Float32Array.of(0.5));
+  await expect(slicer.setWeights(Float32Array.of(2))).rejects.toMatchObject({ code: "weights-out-of-range" });
   await slicer.plan({ tolerance: 1 });
   await slicer.load(new Blob(["b"]));
   await slicer.plan({ tolerance: 1 });
-  expect(log).toEqual(["1: open a", "1: paint 0.5", "1: paint 2", "1: plan 1", "1: open b", "1: plan 1"]);
+  expect(log).toEqual(["1: open a", "1: setWeights 0.5", "1: setWeights 2", "1: plan 1", "1: open b", "1: plan 1"]);
 });
 
 test("a print file is of the weights that its plan was made for, even from a fresh worker", async () => {
   const { slicer, log } = faked();
   await slicer.load(new Blob(["a"]));
-  await slicer.paint(Float32Array.of(0.25));
+  await slicer.setWeights(Float32Array.of(0.25));
   await slicer.plan({ tolerance: 1 });
-  await slicer.paint(null);
+  await slicer.setWeights(null);
   slicer.rest();
   // The print file is of the last plan, so that comes back with the weights that it was made for.
   await slicer.export();
@@ -153,10 +153,10 @@ test("a print file is of the weights that its plan was made for, even from a fre
   const after = log.slice(log.indexOf("1: ended"));
   expect(after.filter((line) => !line.endsWith("ended"))).toEqual([
     "2: open a",
-    "2: paint 0.25",
+    "2: setWeights 0.25",
     "2: plan 1",
     "2: archive",
-    "2: paint none",
+    "2: setWeights none",
     "2: plan 2",
   ]);
 });
@@ -222,11 +222,11 @@ test("weights count for the calls made after them, and a model that cannot be lo
   const { slicer, log } = faked();
   await slicer.load(new Blob(["a"]));
   void slicer.plan({ tolerance: 1 });
-  void slicer.paint(Float32Array.of(0.5));
+  void slicer.setWeights(Float32Array.of(0.5));
   void slicer.plan({ tolerance: 2 });
   const failed = slicer.load("nonsense:x");
   const planned = slicer.plan({ tolerance: 3 });
   await expect(failed).rejects.toMatchObject({ code: "fetch-failed" });
   await planned;
-  expect(log).toEqual(["1: open a", "1: plan 1", "1: paint 0.5", "1: plan 2", "1: plan 3"]);
+  expect(log).toEqual(["1: open a", "1: plan 1", "1: setWeights 0.5", "1: plan 2", "1: plan 3"]);
 });

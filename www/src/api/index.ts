@@ -1,5 +1,5 @@
 /**
- * The slicer without a face: models in, plans, masks and print files out. It works in a worker of its own, sends
+ * The headless slicer: models in, plans, masks and print files out. It works in a worker of its own, sends
  * nothing anywhere, and needs neither WebGPU nor cross-origin isolation.
  *
  *     const slicer = createSlicer();
@@ -9,12 +9,12 @@
  *     slicer.dispose();
  *
  * Lengths are in mm, times in s. A call takes its place when it is made: it is about the model that the last `load()` before it
- * opens, and the weights of the last `paint()`, whether or not these were awaited. Every call rejects with a `SlicerError`, or with
+ * opens, and the weights of the last `setWeights()`, whether or not these were awaited. Every call rejects with a `SlicerError`, or with
  * the signal's reason if it was aborted; the model and the plan before it stay. Where there is no browser, as on a server that
  * renders a page, a slicer can be made, and its calls reject with `no-browser`.
  */
 import { absentSlicer } from "./absent.js";
-import { Lane, spawnWorker, type About, type Compiled, type Engine, type Planned, type Wanted, type Watch } from "./client.js";
+import { Client, spawnWorker, type About, type Compiled, type WorkerHandle, type Planned, type Wanted, type Watch } from "./client.js";
 import { orient, type OrientCall, type Oriented } from "./orient.js";
 import { Pool } from "./pool.js";
 import { resolve, stemOf, type Source } from "./source.js";
@@ -111,7 +111,7 @@ export interface Slicer {
    * The tolerance holds where that is 1 and is loosened elsewhere, never more than `options.weight_min` allows. Weights
    * are copied, and belong to the model that is open. Resolves once they are taken.
    */
-  paint(weights: Float32Array | null, call?: Watch): Promise<void>;
+  setWeights(weights: Float32Array | null, call?: Watch): Promise<void>;
   /** A small file of weights that is bound to the model. */
   weightsFile(weights: Float32Array, call?: Watch): Promise<Blob>;
   /** The weights of such a file, which must be of the model that is open; `paint` makes them count. */
@@ -128,7 +128,7 @@ export interface Slicer {
 
 export interface Setup {
   /** @internal Makes a worker; tests give a fake. */
-  spawn?: () => Engine;
+  spawn?: () => WorkerHandle;
   /** How many workers a search for directions may have at most; as many as there are cores if absent. */
   workers?: number;
 }
@@ -143,10 +143,10 @@ export function createSlicer(setup: Setup = {}): Slicer {
   const { spawn = spawnWorker, workers = globalThis.navigator?.hardwareConcurrency ?? FEW_WORKERS } = setup;
   if (spawn === spawnWorker && globalThis.Worker === undefined) return absentSlicer();
   const compiled: Compiled = { module: null };
-  const main = new Lane(spawn, compiled);
+  const main = new Client(spawn, compiled);
   // Live figures must not wait for a plan that takes seconds: they have a worker, which starts when first asked.
-  const side = new Lane(spawn, compiled);
-  const pool = new Pool(() => new Lane(spawn, compiled), workers);
+  const side = new Client(spawn, compiled);
+  const pool = new Pool(() => new Client(spawn, compiled), workers);
   /** What a call that is made now is about, once the loads before it have ended. */
   let about: About = Promise.resolve(null);
 
@@ -209,11 +209,11 @@ export function createSlicer(setup: Setup = {}): Slicer {
       return { schema: SCHEMA, ...(await side.ask(about, call, (remote) => remote.glance(options))) };
     },
     saliency: (call = {}) => side.ask(about, call, (remote, progress) => remote.saliency(progress)),
-    paint(weights, call = {}) {
+    setWeights(weights, call = {}) {
       const before = about;
       const own = weights?.slice() ?? null;
       const painted = (about = before.then((subject) => (subject === null ? null : { ...subject, weights: own })));
-      const taken = main.paint(painted, call);
+      const taken = main.setWeights(painted, call);
       taken.catch(() => {
         // Weights that were refused count for nothing that is asked from now on.
         if (about === painted) about = before;

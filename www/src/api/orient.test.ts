@@ -1,5 +1,5 @@
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
-import type { Engine } from "./client.js";
+import type { WorkerHandle } from "./client.js";
 import { createSlicer, type OrientCall, type Slicer } from "./index.js";
 import { workersFor } from "./pool.js";
 import type { Candidate, Glance, MeshInfo, Profiled, Report } from "./wire.js";
@@ -39,7 +39,7 @@ function faked({ workers, slowness = () => 0, hangs, fails }: Setup): Faked {
   const log: string[] = [];
   const live = new Set<number>();
   let started = 0;
-  const spawn = (): Engine => {
+  const spawn = (): WorkerHandle => {
     const number = ++started;
     live.add(number);
     const work = async <T>(call: string, answer: T): Promise<T> => {
@@ -52,10 +52,10 @@ function faked({ workers, slowness = () => 0, hangs, fails }: Setup): Faked {
     const unused = (): never => {
       throw new Error("not asked for by a search");
     };
-    const remote: Engine["remote"] = {
+    const remote: WorkerHandle["remote"] = {
       boot: async () => ({}) as WebAssembly.Module,
       open: async (file) => work(`open ${await file.text()}`, { facets: FACETS } as MeshInfo),
-      paint: (weights) => void log.push(`${number}: paint ${weights?.join() ?? "none"}`),
+      setWeights: (weights) => void log.push(`${number}: setWeights ${weights?.join() ?? "none"}`),
       directions: (_options, count) => Float64Array.from({ length: 3 * count }, (_, i) => (i % 3 === 0 ? i / 3 : 0)),
       measureDirections: (_options, directions) => {
         const all = Array.from({ length: directions.length / 3 }, (_, i) => candidateAt(directions.subarray(3 * i)));
@@ -204,19 +204,19 @@ test("each worker has the model and the weights of the time of the call, whateve
   const { slicer, log } = faked({ workers: 2, slowness: () => 3 });
   await expect(slicer.orient()).rejects.toMatchObject({ code: "no-model" });
   await slicer.load(new Blob(["a"]));
-  await slicer.paint(Float32Array.of(0.5));
+  await slicer.setWeights(Float32Array.of(0.5));
   const running = slicer.orient({}, { directions: COUNT });
-  void slicer.paint(null);
+  void slicer.setWeights(null);
   await slicer.load(new Blob(["b"]));
   await running;
-  expect(log.filter((line) => /^[23]: (open|paint)/.test(line)).toSorted()).toEqual([
+  expect(log.filter((line) => /^[23]: (open|setWeights)/.test(line)).toSorted()).toEqual([
     "2: open a",
-    "2: paint 0.5",
+    "2: setWeights 0.5",
     "3: open a",
-    "3: paint 0.5",
+    "3: setWeights 0.5",
   ]);
   await slicer.orient({}, { directions: COUNT });
-  expect(log.filter((line) => /^[23]: (open|paint)/.test(line)).toSorted().filter((line) => line.includes("b"))).toEqual(["2: open b", "3: open b"]);
+  expect(log.filter((line) => /^[23]: (open|setWeights)/.test(line)).toSorted().filter((line) => line.includes("b"))).toEqual(["2: open b", "3: open b"]);
 });
 
 test("workers that nobody needs are ended after a while, and on request", async () => {

@@ -1,5 +1,5 @@
 /** Several workers for work that comes in many parts: each holds the model, and whichever is free takes the next part. */
-import { disposed, present, untilAborted, type About, type Lane, type Remote, type Subject, type Watch } from "./client.js";
+import { disposed, present, untilAborted, type About, type Client, type Remote, type Subject, type Watch } from "./client.js";
 
 /** More share the work no better, and each holds the model. */
 const MOST_WORKERS = 8;
@@ -32,16 +32,16 @@ export interface Team {
 }
 
 export class Pool {
-  readonly #start: () => Lane;
+  readonly #start: () => Client;
   readonly #most: number;
-  readonly #lanes: Lane[] = [];
+  readonly #clients: Client[] = [];
   /** Tasks run one at a time. */
   #queue: Promise<unknown> = Promise.resolve();
   #timer: ReturnType<typeof setTimeout> | undefined;
   #isDisposed = false;
 
-  /** @param start gives a worker's lane; workers start when they are first needed */
-  constructor(start: () => Lane, most: number) {
+  /** @param start gives a worker's client; workers start when they are first needed */
+  constructor(start: () => Client, most: number) {
     this.#start = start;
     this.#most = most;
   }
@@ -65,26 +65,26 @@ export class Pool {
   /** Ends the workers until they are needed again. */
   rest(): void {
     clearTimeout(this.#timer);
-    for (const lane of this.#lanes) lane.rest();
+    for (const client of this.#clients) client.rest();
   }
 
   /** Ends the workers for good. */
   dispose(): void {
     this.#isDisposed = true;
     clearTimeout(this.#timer);
-    for (const lane of this.#lanes) lane.dispose();
+    for (const client of this.#clients) client.dispose();
   }
 
   #team(subject: Subject, watch: Signal): Team {
     const workers = workersFor(subject, this.#most);
     const about = Promise.resolve(subject);
-    const lane = (place: number): Lane => (this.#lanes[place] ??= this.#start());
+    const client = (place: number): Client => (this.#clients[place] ??= this.#start());
     return {
-      ask: (question) => lane(0).ask(about, watch, question),
+      ask: (question) => client(0).ask(about, watch, question),
       async share(parts, question, take) {
         let next = 0;
         let isFailed = false;
-        const work = async (mine: Lane): Promise<void> => {
+        const work = async (mine: Client): Promise<void> => {
           while (!isFailed && next < parts.length) {
             const index = next++;
             const part = parts[index] as (typeof parts)[number];
@@ -92,7 +92,7 @@ export class Pool {
             if (!isFailed) take(answer, index);
           }
         };
-        const working = Array.from({ length: Math.min(workers, parts.length) }, (_, place) => work(lane(place)));
+        const working = Array.from({ length: Math.min(workers, parts.length) }, (_, place) => work(client(place)));
         try {
           await Promise.all(working);
         } catch (error) {

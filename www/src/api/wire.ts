@@ -56,7 +56,7 @@ export interface SlicerWorker {
   /** How much each facet stands out, 0 to 1. */
   saliency(progress: OnProgress): Float32Array;
   /** How much each facet matters to later plans and glances, 0 to 1; null: all alike. */
-  paint(weights: Float32Array | null): void;
+  setWeights(weights: Float32Array | null): void;
   weightsFile(weights: Float32Array): Uint8Array;
   readWeights(file: Blob): Promise<Float32Array>;
   /** Unit vectors in the file's frame, three numbers each: so many evenly over the sphere, then the model's own flats. */

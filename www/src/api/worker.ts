@@ -131,7 +131,7 @@ const api: SlicerWorker = {
     const saliency = current().saliency(plain(progress));
     return Comlink.transfer(saliency, [saliency.buffer]);
   },
-  paint(weights) {
+  setWeights(weights) {
     current().paint(weights);
   },
   weightsFile(weights) {

@@ -11,7 +11,7 @@ import type { Backend, Candidate, Format, Metric, Resin } from "../api/wire.js";
 import { languageOf, type Language } from "../texts/index.js";
 import { Attributes, settingsOf, type SettingName } from "./state/attributes.js";
 import type { CuspSlicerEvents } from "./events.js";
-import { face } from "./template.js";
+import { template } from "./template.js";
 import { layoutStyles } from "./styles/layout.js";
 import { METRICS } from "./state/metric.js";
 import { PANELS, type Panel } from "./state/panel-names.js";
@@ -125,7 +125,7 @@ export class CuspSlicer extends LitElement implements Host {
     this.requestUpdate();
   }
 
-  /** What is shown, separated by blanks: open, model, settings, plan, view, profile, direction, quality, layers. All if absent. */
+  /** What is shown, separated by blanks: open, model, settings, plan, view, profile, orientation, quality, layers. All if absent. */
   get panels(): string | null {
     return this.#panels?.join(" ") ?? null;
   }
@@ -238,7 +238,7 @@ export class CuspSlicer extends LitElement implements Host {
     return this.#session.weights;
   }
   set weights(weights: Float32Array | null) {
-    this.#session.paint(weights, true);
+    this.#session.setWeights(weights, true);
   }
 
   /** Resins to choose from; each needs a name. */
@@ -311,7 +311,7 @@ export class CuspSlicer extends LitElement implements Host {
   /** Stops what is under way within a tenth of a second, a search for directions too; the last plan stays. */
   cancel(): void {
     this.#session.cancel();
-    this.#session.directions.cancel();
+    this.#session.orientation.cancel();
   }
 
   undo(): void {
@@ -354,8 +354,8 @@ export class CuspSlicer extends LitElement implements Host {
     this.#tell("cusp-paint", { weights, final });
   }
   /** @internal */
-  directed(candidate: Candidate): void {
-    this.#tell("cusp-direction", candidate);
+  oriented(candidate: Candidate): void {
+    this.#tell("cusp-orientation", candidate);
   }
   /** @internal */
   settingsChanged(): void {
@@ -367,7 +367,7 @@ export class CuspSlicer extends LitElement implements Host {
   }
 
   override render(): TemplateResult {
-    return face({
+    return template({
       session: this.#session,
       language: this.#language(),
       panels: new Set(this.#panels ?? PANELS),

@@ -39,7 +39,7 @@ export interface CuspSlicerEvents {
   /** A person or a program changed how much facets matter. */
   "cusp-paint": CustomEvent<Painted>;
   /** A person chose a direction to build in; the plan follows. */
-  "cusp-direction": CustomEvent<Candidate>;
+  "cusp-orientation": CustomEvent<Candidate>;
   /** A person or a program changed the settings. */
   "cusp-change": CustomEvent<ChangeDetail>;
 }

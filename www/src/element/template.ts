@@ -45,20 +45,20 @@ interface Drawn extends Facts {
   isBeside: boolean;
 }
 
-export function face(facts: Facts): TemplateResult {
+export function template(facts: Facts): TemplateResult {
   const { session, language, panels, isDragging } = facts;
   const { failure, model, settings } = session;
   const problem = failure === null ? null : explain(failure, language, session.fixed);
   const isBeside = problem !== null && model !== null && panels.has("settings") && hasPlace(problem, settings, session);
   const drawn = { ...facts, problem, isBeside };
   return html`
-    <div class="face ${isDragging ? "dragging" : ""}" aria-busy=${session.busy !== null}>
+    <div class="slicer ${isDragging ? "dragging" : ""}" aria-busy=${session.busy !== null}>
       ${problem === null || isBeside
         ? nothing
         : problemBox(problem, language, (change) => session.change(change), () => session.dismiss())}
       ${notice(drawn)} ${model === null ? start(drawn) : work(drawn)}
     </div>
-    <p class="hidden" role="status" aria-live="polite">${announcement(drawn)}</p>
+    <p class="visually-hidden" role="status" aria-live="polite">${announcement(drawn)}</p>
   `;
 }
 
@@ -82,7 +82,7 @@ function start({ session, language, panels, picked }: Drawn): TemplateResult {
         </div>`
       : panels.has("open")
         ? html`<label class="drop" part="drop">
-            <input class="hidden" type="file" accept=".stl,model/stl" multiple @change=${picked} />
+            <input class="visually-hidden" type="file" accept=".stl,model/stl" multiple @change=${picked} />
             ${layersPicture}
             <span class="drop-title">${texts.open.drop}</span>
             <span class="button primary">${texts.open.choose}</span>
@@ -98,7 +98,7 @@ function work(drawn: Drawn): TemplateResult {
   const isPlain = !panels.has("model") && !panels.has("settings");
   return html`<div class="work ${isPlain ? "plain" : ""}">
     ${panels.has("model")
-      ? modelCard(session, language, { picked, turnTo: (place) => void session.turnTo(place) })
+      ? modelCard(session, language, { picked, openFile: (place) => void session.openFile(place) })
       : nothing}
     ${panels.has("settings") ? settingsCard(drawn, isWide) : nothing}
     <div class="results ${busy?.task === "plan" && result !== null ? "replanning" : ""}">
@@ -157,7 +157,7 @@ function results(drawn: Drawn, result: Result): TemplateResult {
   const { session, language, panels, slicer, save, saveWeights } = drawn;
   const { layer, mask, busy, curve, shown, turning, settings } = session;
   const { texts } = language;
-  const look = (event: CustomEvent<number>): void => session.look(event.detail);
+  const selectLayer = (event: CustomEvent<number>): void => session.selectLayer(event.detail);
   const download = html`<button class="primary download" aria-describedby="file" ?disabled=${busy !== null} @click=${save}>
       ${texts.plan.download}
     </button>
@@ -187,7 +187,7 @@ function results(drawn: Drawn, result: Result): TemplateResult {
             @cusp-open-weights=${(event: CustomEvent<File>) => void session.openWeights(event.detail)}
             @cusp-save-weights=${saveWeights}
             @cusp-rotate=${(event: CustomEvent<RotateDetail>) => session.turn(event.detail.rotation, event.detail.final)}
-            @cusp-layer=${look}
+            @cusp-layer=${selectLayer}
             @cusp-camera=${seen}
             @cusp-palette=${recoloured}
           ></cusp-model>
@@ -199,24 +199,24 @@ function results(drawn: Drawn, result: Result): TemplateResult {
             .data=${shown}
             .layer=${layer}
             .language=${language}
-            @cusp-layer=${look}
+            @cusp-layer=${selectLayer}
             @cusp-plot=${placed}
           ></cusp-chart>
         </section>`
       : nothing}
-    ${panels.has("direction")
-      ? html`<section class="card span" part="direction" aria-label=${texts.direction.title}>
-          <cusp-direction
+    ${panels.has("orientation")
+      ? html`<section class="card span" part="orientation" aria-label=${texts.orientation.title}>
+          <cusp-orientation
             .slicer=${slicer}
             .searched=${searchedOf(session)}
             .metric=${settings.metric}
             .rotation=${turning ?? rotationOf(settings.rotation)}
             .language=${language}
-            @cusp-search=${() => session.directions.start()}
-            @cusp-search-cancel=${() => session.directions.cancel()}
-            @cusp-aims=${(event: CustomEvent<Partial<Aims>>) => session.directions.aim(event.detail)}
-            @cusp-stand=${(event: CustomEvent<Candidate>) => session.stand(event.detail)}
-          ></cusp-direction>
+            @cusp-search=${() => session.orientation.start()}
+            @cusp-search-cancel=${() => session.orientation.cancel()}
+            @cusp-aims=${(event: CustomEvent<Partial<Aims>>) => session.orientation.aim(event.detail)}
+            @cusp-orient=${(event: CustomEvent<Candidate>) => session.orient(event.detail)}
+          ></cusp-orientation>
         </section>`
       : nothing}
     ${panels.has("quality") && result.report.planner !== "uniform"
@@ -238,7 +238,7 @@ function results(drawn: Drawn, result: Result): TemplateResult {
             .limits=${result.limits}
             .layer=${layer}
             .language=${language}
-            @cusp-layer=${look}
+            @cusp-layer=${selectLayer}
           ></cusp-mask>
         </section>`
       : nothing}
@@ -247,7 +247,7 @@ function results(drawn: Drawn, result: Result): TemplateResult {
 
 /** The session tells it again, of the element. */
 function painted(session: Session, event: CustomEvent<Painted>): void {
-  session.paint(event.detail.weights, event.detail.final);
+  session.setWeights(event.detail.weights, event.detail.final);
 }
 
 /** Tells the view where the chart beside it shows which heights. */
@@ -258,20 +258,20 @@ function placed({ target, detail }: CustomEvent<PlotPlace>): void {
 
 /** Tells the sphere of directions how the view beside it looks at the model. */
 function seen({ target, detail }: CustomEvent<Rotation>): void {
-  const panel = beside(target, "cusp-direction");
+  const panel = beside(target, "cusp-orientation");
   if (panel !== null) panel.camera = detail;
 }
 
 function recoloured({ target, detail }: CustomEvent<PaletteName>): void {
-  const panel = beside(target, "cusp-direction");
+  const panel = beside(target, "cusp-orientation");
   if (panel !== null) panel.palette = detail;
 }
 
-function beside<Name extends "cusp-model" | "cusp-direction">(target: EventTarget | null, name: Name): HTMLElementTagNameMap[Name] | null {
+function beside<Name extends "cusp-model" | "cusp-orientation">(target: EventTarget | null, name: Name): HTMLElementTagNameMap[Name] | null {
   return ((target as Element).getRootNode() as ShadowRoot).querySelector(name);
 }
 
-function searchedOf({ directions: { aims, found, best, busy, isCurrent, isPossible, options } }: Session): Searched {
+function searchedOf({ orientation: { aims, found, best, busy, isCurrent, isPossible, options } }: Session): Searched {
   return { aims, found, best, busy, isCurrent, isPossible, options };
 }
 

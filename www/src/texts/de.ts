@@ -282,7 +282,7 @@ export const de = ({ counted, plural }: Format): Texts => ({
     save: "Gewichte speichern",
     open: "Gewichte laden",
   },
-  direction: {
+  orientation: {
     title: "Baurichtung",
     hint: "Anders gedreht braucht das Modell vielleicht weniger Schichten oder wird glatter.",
     find: "Beste Richtung suchen",
@@ -317,7 +317,7 @@ export const de = ({ counted, plural }: Format): Texts => ({
     roughness: "Mittlere Rauheit",
     overhang: "Überhängende Fläche",
     size: "Größe",
-    stand: "So hinstellen",
+    apply: "So hinstellen",
     best: "Beste Richtungen",
     rank: (rank) => `Richtung ${rank}`,
     said: (layers, time, error) => `${counted(layers, LAYERS)}, ${time}, Fehler ${error}`,

@@ -280,7 +280,7 @@ export const en = ({ counted, plural }: Format) => ({
     save: "Save weights",
     open: "Load weights",
   },
-  direction: {
+  orientation: {
     title: "Building direction",
     hint: "Turned another way, the model may need fewer layers or come out smoother.",
     find: "Find the best direction",
@@ -316,7 +316,7 @@ export const en = ({ counted, plural }: Format) => ({
     roughness: "Mean roughness",
     overhang: "Overhanging area",
     size: "Size",
-    stand: "Stand it so",
+    apply: "Stand it so",
     best: "Best directions",
     rank: (rank: string) => `Direction ${rank}`,
     said: (layers: number, time: string, error: string) => `${counted(layers, LAYERS)}, ${time}, error ${error}`,

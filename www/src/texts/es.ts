@@ -283,7 +283,7 @@ export const es = ({ counted, plural }: Format): Texts => ({
     save: "Guardar pesos",
     open: "Cargar pesos",
   },
-  direction: {
+  orientation: {
     title: "Dirección de construcción",
     hint: "Girado de otro modo, el modelo puede necesitar menos capas o quedar más liso.",
     find: "Buscar la mejor dirección",
@@ -318,7 +318,7 @@ export const es = ({ counted, plural }: Format): Texts => ({
     roughness: "Rugosidad media",
     overhang: "Área en voladizo",
     size: "Tamaño",
-    stand: "Colocar así",
+    apply: "Colocar así",
     best: "Mejores direcciones",
     rank: (rank) => `Dirección ${rank}`,
     said: (layers, time, error) => `${counted(layers, LAYERS)}, ${time}, error ${error}`,

@@ -283,7 +283,7 @@ export const fr = ({ counted, plural }: Format): Texts => ({
     save: "Enregistrer les poids",
     open: "Charger des poids",
   },
-  direction: {
+  orientation: {
     title: "Direction de fabrication",
     hint: "Tourné autrement, le modèle demande peut-être moins de couches ou sera plus lisse.",
     find: "Chercher la meilleure direction",
@@ -318,7 +318,7 @@ export const fr = ({ counted, plural }: Format): Texts => ({
     roughness: "Rugosité moyenne",
     overhang: "Surface en surplomb",
     size: "Taille",
-    stand: "Poser ainsi",
+    apply: "Poser ainsi",
     best: "Meilleures directions",
     rank: (rank) => `Direction ${rank}`,
     said: (layers, time, error) => `${counted(layers, LAYERS)}, ${time}, erreur ${error}`,

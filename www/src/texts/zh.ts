@@ -273,7 +273,7 @@ export const zh = ({ count: number }: Format): Texts => ({
     save: "保存权重",
     open: "载入权重",
   },
-  direction: {
+  orientation: {
     title: "成型方向",
     hint: "换一个方向摆放，层数可能更少，表面可能更光滑。",
     find: "寻找最佳方向",
@@ -308,7 +308,7 @@ export const zh = ({ count: number }: Format): Texts => ({
     roughness: "平均粗糙度",
     overhang: "悬垂面积",
     size: "尺寸",
-    stand: "这样摆放",
+    apply: "这样摆放",
     best: "最佳方向",
     rank: (rank) => `方向 ${rank}`,
     said: (layers, time, error) => `${number(layers)} 层，${time}，误差 ${error}`,

@@ -21,7 +21,7 @@ import { placeIn, watchPointer, type Point } from "./scene/pointer.js";
 import { Pointing, type Shown } from "./scene/pointing.js";
 import { layFlat, turned, UPRIGHT, type Rotation } from "./scene/pose.js";
 import { Printed } from "./steps/printed.js";
-import { Stage } from "./scene/scene.js";
+import { Scene } from "./scene/scene.js";
 import { contextOf, place } from "./scene/surface.js";
 import { ENGLISH, type ViewTexts } from "./texts.js";
 import { themeOf } from "./scene/theme.js";
@@ -95,7 +95,7 @@ export class CuspView extends LitElement {
   /** Whether there is no WebGL. */
   declare broken: boolean;
 
-  #stage: Stage | null = null;
+  #scene: Scene | null = null;
   #derived: Derived | null = null;
   #life = new AbortController();
   #frame: Frame | null = null;
@@ -110,8 +110,8 @@ export class CuspView extends LitElement {
   readonly #printed = new Printed({
     progress: (progress) => (this.building = progress),
     steps: (steps) => {
-      this.#stage?.model.setSteps(steps);
-      this.#stage?.invalidate();
+      this.#scene?.model.setSteps(steps);
+      this.#scene?.invalidate();
     },
   });
   readonly #reducedMotion = matchMedia("(prefers-reduced-motion: reduce)");
@@ -152,8 +152,8 @@ export class CuspView extends LitElement {
     const marked = this.layer === null ? undefined : this.thickness_mm[this.layer];
     return html`
       <div
-        class="stage"
-        part="stage"
+        class="scene"
+        part="scene"
         data-tool=${this.tool}
         tabindex="0"
         role="application"
@@ -164,11 +164,11 @@ export class CuspView extends LitElement {
       >
         <div class="cross"></div>
       </div>
-      <p class="hidden" id="state">
-        ${this.positions === null ? texts.empty : texts.state(this.#stage?.model.size_mm ?? [0, 0, 0], layers)}
+      <p class="visually-hidden" id="state">
+        ${this.positions === null ? texts.empty : texts.state(this.#scene?.model.size_mm ?? [0, 0, 0], layers)}
         ${this.#layerWords()}
       </p>
-      <p class="hidden" id="keys">${texts.keys[this.tool]}</p>
+      <p class="visually-hidden" id="keys">${texts.keys[this.tool]}</p>
       <span class="label" part="label" hidden>${this.#layerWords()}</span>
       ${this.showsLegend && layers > 0 && this.look === "thickness"
         ? legend({ palette: this.palette, limits: this.limits, marked_mm: marked ?? null, texts })
@@ -176,7 +176,7 @@ export class CuspView extends LitElement {
       ${this.look === "weights" && this.positions !== null ? heatLegend(texts) : nothing}
       ${this.positions === null || this.aligned
         ? nothing
-        : html`<span class="grid">${texts.grid(this.#stage?.plate.step_mm ?? 1)}</span>`}
+        : html`<span class="grid">${texts.grid(this.#scene?.plate.step_mm ?? 1)}</span>`}
       ${this.building === null
         ? nothing
         : html`<div class="building">
@@ -201,16 +201,16 @@ export class CuspView extends LitElement {
     this.#start();
   }
 
-  /** Before rendering, since what is rendered tells the size that the stage finds. */
+  /** Before rendering, since what is rendered tells the size that the scene finds. */
   override willUpdate(changed: PropertyValues<this>): void {
     // While the rings are held the pointer alone turns the model, not an answer to where it was before.
     if (this.#isHeld && this.#turned !== null) this.rotation = this.#turned;
-    if (this.#stage !== null) this.#show(this.#stage, (name) => changed.has(name));
+    if (this.#scene !== null) this.#show(this.#scene, (name) => changed.has(name));
   }
 
   /** Shows the whole model as at first. */
   reset(): void {
-    this.#stage?.cameras.reset();
+    this.#scene?.cameras.reset();
   }
 
   /** Takes the last stroke of the brush back. */
@@ -226,7 +226,7 @@ export class CuspView extends LitElement {
     const life = new AbortController();
     this.#life = life;
     const canvas = document.createElement("canvas");
-    const holder = this.renderRoot.querySelector<HTMLElement>(".stage");
+    const holder = this.renderRoot.querySelector<HTMLElement>(".scene");
     const context = contextOf(canvas);
     if (holder === null || context === null) {
       this.broken = true;
@@ -235,7 +235,7 @@ export class CuspView extends LitElement {
       return;
     }
     holder.prepend(canvas);
-    const stage = new Stage(
+    const scene = new Scene(
       canvas,
       context,
       {
@@ -245,14 +245,14 @@ export class CuspView extends LitElement {
       },
       (frame) => this.#drawn(frame),
     );
-    this.#stage = stage;
-    const pointing = new Pointing(stage, () => this.#shown(), {
+    this.#scene = scene;
+    const pointing = new Pointing(scene, () => this.#shown(), {
       height: (detail) => this.#tell<HeightDetail>("cusp-height", detail),
       layer: (layer) => this.#tell<number>("cusp-layer", layer),
       lay: (normal) => this.#rotate(layFlat(this.rotation, normal), true),
     });
     this.#pointing = pointing;
-    const painting = new Painting(stage, {
+    const painting = new Painting(scene, {
       changed: (facets) => this.#heat(facets),
       painted: (detail) => this.#tell<PaintDetail>("cusp-paint", detail),
     });
@@ -267,13 +267,13 @@ export class CuspView extends LitElement {
     holder.addEventListener("wheel", this.#wheel, { capture: true, signal: life.signal });
     this.renderRoot.addEventListener("transitionrun", this.#recolour, { signal: life.signal });
     this.#reducedMotion.addEventListener("change", this.#damp, { signal: life.signal });
-    const resized = new ResizeObserver(() => stage.setSize(holder.clientWidth, holder.clientHeight));
+    const resized = new ResizeObserver(() => scene.setSize(holder.clientWidth, holder.clientHeight));
     resized.observe(holder);
     life.signal.addEventListener("abort", () => resized.disconnect());
     this.#damp();
     this.#recolour();
-    this.#show(stage, () => true);
-    stage.setSize(holder.clientWidth, holder.clientHeight);
+    this.#show(scene, () => true);
+    scene.setSize(holder.clientWidth, holder.clientHeight);
     // The size and the grid were not known when the view was rendered.
     this.requestUpdate();
   }
@@ -283,8 +283,8 @@ export class CuspView extends LitElement {
     this.#printed.want(null);
     this.#derived?.dispose();
     this.#derived = null;
-    this.#stage?.dispose();
-    this.#stage = null;
+    this.#scene?.dispose();
+    this.#scene = null;
     this.#pointing = null;
     this.#painting = null;
     this.renderRoot.querySelector("canvas")?.remove();
@@ -293,24 +293,24 @@ export class CuspView extends LitElement {
     this.#turned = null;
   }
 
-  /** Puts the properties that have changed on the stage. */
-  #show(stage: Stage, has: (name: keyof CuspView) => boolean): void {
-    const { model } = stage;
-    if (has("plate")) stage.setVolume(this.plate);
+  /** Puts the properties that have changed on the scene. */
+  #show(scene: Scene, has: (name: keyof CuspView) => boolean): void {
+    const { model } = scene;
+    if (has("plate")) scene.setVolume(this.plate);
     if (has("positions")) {
       this.#derived?.dispose();
       this.#derived = this.positions === null ? null : new Derived(this.positions);
-      stage.setPositions(this.positions ?? new Float32Array(0), this.rotation, this.scale);
-    } else if (has("rotation") || has("scale")) stage.setPose(this.rotation, this.scale, !this.#isHeld);
+      scene.setPositions(this.positions ?? new Float32Array(0), this.rotation, this.scale);
+    } else if (has("rotation") || has("scale")) scene.setPose(this.rotation, this.scale, !this.#isHeld);
     if (has("z_mm")) model.setPlan(this.z_mm);
     if (has("limits")) model.setLimits(this.limits);
     if (has("palette")) model.setPalette(this.palette);
     if (has("look")) model.setLook(this.look);
     if (has("layer") || has("z_mm")) model.setBand(this.#band());
     if (has("aligned") || has("heights_mm") || has("inset")) {
-      stage.setAligned(this.aligned, this.heights_mm, this.inset);
+      scene.setAligned(this.aligned, this.heights_mm, this.inset);
     }
-    if (has("tool")) stage.setTool(this.tool);
+    if (has("tool")) scene.setTool(this.tool);
     if ((has("tool") || has("positions")) && this.tool !== "turn") void this.#prepare();
     if (has("tool") || has("positions")) this.#painting?.prepare(this.#derived, this.tool === "paint");
     if (this.#painting !== null) {
@@ -319,23 +319,23 @@ export class CuspView extends LitElement {
     }
     if ((["positions", "look", "heat", "saliency", "least"] as const).some(has)) this.#heat(null);
     if ((["positions", "rotation", "scale", "z_mm", "look"] as const).some(has)) this.#print();
-    stage.invalidate();
+    scene.invalidate();
   }
 
   /** What turning wants is worked out before the first turn. */
   async #prepare(): Promise<void> {
     const derived = this.#derived;
     const points = await derived?.points();
-    if (points != null && derived === this.#derived) this.#stage?.model.setPoints(points);
+    if (points != null && derived === this.#derived) this.#scene?.model.setPoints(points);
   }
 
   /** Shows what facets weigh now; null: all of them. */
   #heat(facets: Iterable<number> | null): void {
-    if (this.#stage === null || this.look !== "weights") return;
+    if (this.#scene === null || this.look !== "weights") return;
     const { heat, saliency, least } = this;
     const weights = this.#painting?.weights ?? null;
-    this.#stage.model.setHeat({ heat, weights, saliency, least }, facets);
-    this.#stage.invalidate();
+    this.#scene.model.setHeat({ heat, weights, saliency, least }, facets);
+    this.#scene.invalidate();
   }
 
   #shown(): Shown {
@@ -391,9 +391,9 @@ export class CuspView extends LitElement {
 
   readonly #key = (event: KeyboardEvent): void => {
     const action = pressed(event, this.tool);
-    if (action === null || this.#stage === null) return;
+    if (action === null || this.#scene === null) return;
     event.preventDefault();
-    const { cameras } = this.#stage;
+    const { cameras } = this.#scene;
     if (action.do === "turn-view") cameras.turn(action.right_deg, action.up_deg);
     else if (action.do === "zoom") cameras.zoom(action.factor);
     else if (action.do === "reset") cameras.reset();
@@ -408,13 +408,13 @@ export class CuspView extends LitElement {
   };
 
   readonly #wheel = (event: WheelEvent): void => {
-    const chosen = this.shadowRoot?.activeElement?.classList.contains("stage") === true;
+    const chosen = this.shadowRoot?.activeElement?.classList.contains("scene") === true;
     if (!chosen && !event.ctrlKey) event.stopPropagation();
   };
 
   /** Where frames take long, gliding on would last for seconds. */
   readonly #damp = (): void => {
-    this.#stage?.cameras.setDamping(this.#stage.isSmooth && !this.#reducedMotion.matches);
+    this.#scene?.cameras.setDamping(this.#scene.isSmooth && !this.#reducedMotion.matches);
   };
 
   readonly #recolour = (): void => {
@@ -423,15 +423,15 @@ export class CuspView extends LitElement {
       if (found === null) throw new Error(`the view has no probe of ${name}`);
       return found;
     };
-    this.#stage?.setTheme(themeOf({ ink: probe("ink"), accent: probe("accent"), bad: probe("bad") }));
+    this.#scene?.setTheme(themeOf({ ink: probe("ink"), accent: probe("accent"), bad: probe("bad") }));
   };
 
   /** What follows the picture: the label of the layer, and where heights are. */
   #drawn(frame: Frame | null): void {
     const label = this.renderRoot.querySelector<HTMLElement>(".label");
     const band = this.positions === null ? null : this.#band();
-    if (label !== null && this.#stage !== null) {
-      place(label, band === null ? null : this.#stage.edgeAt((band[0] + band[1]) / 2), this.clientWidth);
+    if (label !== null && this.#scene !== null) {
+      place(label, band === null ? null : this.#scene.edgeAt((band[0] + band[1]) / 2), this.clientWidth);
     }
     this.#tellCamera();
     if (frame?.top_px === this.#frame?.top_px && frame?.bottom_px === this.#frame?.bottom_px) return;
@@ -440,7 +440,7 @@ export class CuspView extends LitElement {
   }
 
   #tellCamera(): void {
-    const camera = this.#stage?.cameras.turned ?? null;
+    const camera = this.#scene?.cameras.turned ?? null;
     if (camera === null || String(camera) === String(this.#camera)) return;
     this.#camera = camera;
     this.#tell<Rotation>("cusp-camera", camera);

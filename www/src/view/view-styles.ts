@@ -1,6 +1,6 @@
 /** How the view looks around its canvas. Takes the page's custom properties, and does without them. */
 import { css } from "lit";
-import { hidden } from "./visually-hidden.js";
+import { visuallyHidden } from "./visually-hidden.js";
 
 export const viewStyles = css`
   :host {
@@ -28,21 +28,21 @@ export const viewStyles = css`
   *::after {
     box-sizing: border-box;
   }
-  .stage {
+  .scene {
     position: absolute;
     inset: 0;
     cursor: grab;
     user-select: none;
     -webkit-user-select: none;
   }
-  .stage:active {
+  .scene:active {
     cursor: grabbing;
   }
-  .stage[data-tool="flat"],
-  .stage[data-tool="paint"] {
+  .scene[data-tool="flat"],
+  .scene[data-tool="paint"] {
     cursor: crosshair;
   }
-  .stage:focus-visible {
+  .scene:focus-visible {
     outline: 3px solid var(--cusp-focus, Highlight);
     outline-offset: -3px;
     border-radius: 8px;
@@ -53,7 +53,7 @@ export const viewStyles = css`
     height: 100%;
     touch-action: pan-y;
   }
-  ${hidden}
+  ${visuallyHidden}
   /* What a face must lie under to be laid flat by keyboard. */
   .cross {
     display: none;
@@ -66,8 +66,8 @@ export const viewStyles = css`
       linear-gradient(currentColor, currentColor) center / 100% 2px no-repeat;
     pointer-events: none;
   }
-  .stage[data-tool="flat"]:focus-visible .cross,
-  .stage[data-tool="paint"]:focus-visible .cross {
+  .scene[data-tool="flat"]:focus-visible .cross,
+  .scene[data-tool="paint"]:focus-visible .cross {
     display: block;
   }
   .label {

@@ -1,8 +1,8 @@
 /** What is there for those who hear a page, and not for those who see it. */
 import { css } from "lit";
 
-export const hidden = css`
-  .hidden {
+export const visuallyHidden = css`
+  .visually-hidden {
     position: absolute;
     width: 1px;
     height: 1px;

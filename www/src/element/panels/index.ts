@@ -1,6 +1,6 @@
 /** The elements that an element is made of. */
 import { define } from "../define.js";
-import { CuspDirection } from "./orientation-panel.js";
+import { CuspOrientation } from "./orientation-panel.js";
 import { CuspSphere } from "./orientation-sphere.js";
 import { CuspModel } from "./model-view.js";
 import { CuspMask } from "./mask-view.js";
@@ -14,7 +14,7 @@ const PARTS = {
   "cusp-mask": CuspMask,
   "cusp-quality": CuspQuality,
   "cusp-model": CuspModel,
-  "cusp-direction": CuspDirection,
+  "cusp-orientation": CuspOrientation,
   "cusp-sphere": CuspSphere,
 } as const;
 
@@ -30,7 +30,7 @@ declare global {
     "cusp-mask": CuspMask;
     "cusp-quality": CuspQuality;
     "cusp-model": CuspModel;
-    "cusp-direction": CuspDirection;
+    "cusp-orientation": CuspOrientation;
     "cusp-sphere": CuspSphere;
   }
 }

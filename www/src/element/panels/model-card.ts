@@ -6,7 +6,7 @@ import type { Session } from "../state/session.js";
 
 export interface ModelActions {
   picked(event: Event): void;
-  turnTo(place: number): void;
+  openFile(place: number): void;
 }
 
 /** What there is to know of the model and its plan. */
@@ -16,7 +16,7 @@ export function warnings({ model, result }: Session, language: Language): readon
   return [...words].map((sentence) => html`<p class="warning">${sentence}</p>`);
 }
 
-export function modelCard(session: Session, language: Language, { picked, turnTo }: ModelActions): TemplateResult {
+export function modelCard(session: Session, language: Language, { picked, openFile }: ModelActions): TemplateResult {
   const { model, result, files, place } = session;
   const { texts, format } = language;
   if (model === null) return html``;
@@ -46,7 +46,7 @@ export function modelCard(session: Session, language: Language, { picked, turnTo
     ${files.length < 2
       ? nothing
       : html`<div class="files">
-          <button class="small" aria-label=${texts.open.previous} ?disabled=${place === 0} @click=${() => turnTo(place - 1)}>
+          <button class="small" aria-label=${texts.open.previous} ?disabled=${place === 0} @click=${() => openFile(place - 1)}>
             <span class="flip">‹</span>
           </button>
           <span class="quiet">${texts.open.place(format.count(place + 1), format.count(files.length))}</span>
@@ -54,14 +54,14 @@ export function modelCard(session: Session, language: Language, { picked, turnTo
             class="small"
             aria-label=${texts.open.next}
             ?disabled=${place === files.length - 1}
-            @click=${() => turnTo(place + 1)}
+            @click=${() => openFile(place + 1)}
           >
             <span class="flip">›</span>
           </button>
         </div>`}
     <div class="open-other">
       <label class="button small">
-        <input class="hidden" type="file" accept=".stl,model/stl" multiple @change=${picked} />${texts.open.another}
+        <input class="visually-hidden" type="file" accept=".stl,model/stl" multiple @change=${picked} />${texts.open.another}
       </label>
       <slot name="actions"></slot>
     </div>

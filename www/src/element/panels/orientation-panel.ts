@@ -6,9 +6,9 @@ import type { Candidate, Metric } from "../../api/wire.js";
 import { languageOf, type Language } from "../../texts/index.js";
 import { gradient, type PaletteName } from "../../view/legend/palette.js";
 import type { Rotation } from "../../view/scene/pose.js";
-import { directionStyles } from "../styles/orientation-styles.js";
+import { orientationStyles } from "../styles/orientation-styles.js";
 import { energyRange, type Looked } from "./orientation-sphere.js";
-import type { Aims, Directions } from "../state/orientation.js";
+import type { Aims, OrientationSearch } from "../state/orientation.js";
 import { METRICS } from "../state/metric.js";
 import { partFailure, partStyles, tellPartFailed } from "../parts/part.js";
 import { progressBar, progressStyles, type Busy } from "../parts/progress.js";
@@ -25,9 +25,9 @@ const STEPS = 20;
 const PICTURE_PX = 256;
 
 /** What of a search is on show. */
-export type Searched = Readonly<Pick<Directions, "aims" | "found" | "best" | "busy" | "isCurrent" | "isPossible" | "options">>;
+export type Searched = Readonly<Pick<OrientationSearch, "aims" | "found" | "best" | "busy" | "isCurrent" | "isPossible" | "options">>;
 
-export class CuspDirection extends LitElement {
+export class CuspOrientation extends LitElement {
   static override properties = {
     slicer: { attribute: false },
     searched: { attribute: false },
@@ -54,7 +54,7 @@ export class CuspDirection extends LitElement {
   /** Whether what draws the pictures could not be fetched. */
   declare isUnpictured: boolean;
 
-  #portraying: AbortController | null = null;
+  #drawing: AbortController | null = null;
 
   constructor() {
     super();
@@ -69,27 +69,27 @@ export class CuspDirection extends LitElement {
     this.isUnpictured = false;
   }
 
-  static override styles = [shared, progressStyles, partStyles, directionStyles];
+  static override styles = [shared, progressStyles, partStyles, orientationStyles];
 
   override firstUpdated(): void {
     // Pictures have the page's colours. A change of these is noticed as the start of a transition, whatever brought it about.
     this.renderRoot.addEventListener("transitionrun", ({ target }) => {
-      if ((target as Element).classList.contains("probe")) void this.#portray();
+      if ((target as Element).classList.contains("probe")) void this.#drawThumbnails();
     });
   }
 
   override disconnectedCallback(): void {
     super.disconnectedCallback();
-    this.#portraying?.abort();
+    this.#drawing?.abort();
   }
 
   override updated(changed: PropertyValues<this>): void {
-    if (changed.has("searched") && changed.get("searched")?.best !== this.searched?.best) void this.#portray();
+    if (changed.has("searched") && changed.get("searched")?.best !== this.searched?.best) void this.#drawThumbnails();
   }
 
   override render(): TemplateResult {
     const { searched, language } = this;
-    const { direction: words } = language.texts;
+    const { orientation: words } = language.texts;
     if (searched === null) return html`${nothing}`;
     const { found, busy, isCurrent, isPossible } = searched;
     return html`
@@ -106,13 +106,13 @@ export class CuspDirection extends LitElement {
       ${found !== null && busy === null && !isCurrent ? html`<p class="stale">${words.stale}</p>` : nothing}
       ${this.#aims(searched.aims)} ${busy === null ? nothing : this.#progress(busy, searched)}
       ${found === null ? nothing : this.#results(searched, found)}
-      <p class="hidden" role="status">${this.#announcement(searched)}</p>
+      <p class="visually-hidden" role="status">${this.#announcement(searched)}</p>
     `;
   }
 
   #aims({ alpha, cost, quality }: Aims): TemplateResult {
     const { texts, format } = this.language;
-    const { direction: words } = texts;
+    const { orientation: words } = texts;
     const choice = <T extends string>(
       name: string,
       value: T,
@@ -166,22 +166,22 @@ export class CuspDirection extends LitElement {
           .palette=${this.palette}
           .language=${this.language}
           @cusp-look=${(event: CustomEvent<Looked | null>) => (this.looked = event.detail)}
-          @cusp-stand=${(event: CustomEvent<Candidate>) => this.#stand(event.detail)}
+          @cusp-orient=${(event: CustomEvent<Candidate>) => this.#orient(event.detail)}
         ></cusp-sphere>
         ${this.#legend(found)} ${this.#figures(searched)}
       </div>
       <div class="best">
-        ${best.length > 0 ? html`<h4>${texts.direction.best}</h4>` : nothing}
-        ${this.isUnpictured && best.length > 0 ? partFailure(this.language, () => void this.#portray()) : nothing}
+        ${best.length > 0 ? html`<h4>${texts.orientation.best}</h4>` : nothing}
+        ${this.isUnpictured && best.length > 0 ? partFailure(this.language, () => void this.#drawThumbnails()) : nothing}
         ${best.map((candidate, i) => this.#choice(candidate, i, searched))}
-        ${!fits && busy === null ? html`<p class="quiet">${texts.direction.none}</p>` : nothing}
+        ${!fits && busy === null ? html`<p class="quiet">${texts.orientation.none}</p>` : nothing}
       </div>
     </div>`;
   }
 
   #legend({ candidates }: Found): TemplateResult {
     const { texts, format } = this.language;
-    const { direction: words } = texts;
+    const { orientation: words } = texts;
     const range = energyRange(candidates);
     const hasExcluded = candidates.some((candidate) => candidate !== null && candidate.excluded !== null);
     return html`<div class="legend">
@@ -203,7 +203,7 @@ export class CuspDirection extends LitElement {
   /** What is known of the direction that is pointed at. */
   #figures({ options }: Searched): TemplateResult {
     const { looked, language } = this;
-    const { direction: words } = language.texts;
+    const { orientation: words } = language.texts;
     if (looked === null) return html`<p class="looked quiet hint">${words.point}</p>`;
     const { candidate, isChosen } = looked;
     const rows = figureRows(candidate, options?.metric ?? this.metric, language);
@@ -211,7 +211,7 @@ export class CuspDirection extends LitElement {
       ${candidate.excluded === null ? nothing : html`<p class="why">${words.why[candidate.excluded]}</p>`}
       <dl>${rows.map(([name, value]) => html`<div><dt>${name}</dt><dd>${value}</dd></div>`)}</dl>
       ${isChosen && candidate.excluded === null
-        ? html`<button class="small" @click=${() => this.#stand(candidate)}>${words.stand}</button>`
+        ? html`<button class="small" @click=${() => this.#orient(candidate)}>${words.apply}</button>`
         : nothing}
     </div>`;
   }
@@ -225,19 +225,19 @@ export class CuspDirection extends LitElement {
     return html`<button
       class="pose"
       aria-pressed=${isApplied ? "true" : "false"}
-      @click=${() => this.#stand(candidate)}
+      @click=${() => this.#orient(candidate)}
     >
       <canvas width=${PICTURE_PX} height=${PICTURE_PX} aria-hidden="true"></canvas>
       <span class="rank" aria-hidden="true">${place + 1}</span>
-      <span class="hidden">${texts.direction.rank(format.count(place + 1))}:</span>
+      <span class="visually-hidden">${texts.orientation.rank(format.count(place + 1))}:</span>
       ${figures === null
         ? nothing
         : html`<span class="what">
             <strong>${format.count(figures.layers)} ${texts.plan.layers(figures.layers)}</strong>
             <span>${format.time(figures.print_time_s)}</span>
-            <span class="quiet">${texts.direction.error} ${error(figures.max_error, format)}</span>
-            <span class="quiet">${texts.direction.roughness} ${micrometres(figures.roughness_mm, language)}</span>
-            <span class="quiet">${texts.direction.overhang} ${format.area(figures.overhang_mm2)}</span>
+            <span class="quiet">${texts.orientation.error} ${error(figures.max_error, format)}</span>
+            <span class="quiet">${texts.orientation.roughness} ${micrometres(figures.roughness_mm, language)}</span>
+            <span class="quiet">${texts.orientation.overhang} ${format.area(figures.overhang_mm2)}</span>
           </span>`}
     </button>`;
   }
@@ -247,47 +247,47 @@ export class CuspDirection extends LitElement {
     const { texts, format } = language;
     if (looked !== null) {
       const { excluded, figures } = looked.candidate;
-      if (excluded !== null) return texts.direction.why[excluded];
+      if (excluded !== null) return texts.orientation.why[excluded];
       if (figures === null) return "";
       const error = METRICS[options?.metric ?? this.metric].error(figures.max_error, format);
-      return texts.direction.said(figures.layers, format.time(figures.print_time_s), error);
+      return texts.orientation.said(figures.layers, format.time(figures.print_time_s), error);
     }
     if (busy !== null) return texts.progress[busy.stage];
-    return found !== null && best.length > 0 ? texts.direction.found(format.count(found.candidates.length)) : "";
+    return found !== null && best.length > 0 ? texts.orientation.found(format.count(found.candidates.length)) : "";
   }
 
   /** Draws the best poses, with the model fetched for that and not kept. */
-  async #portray(): Promise<void> {
-    this.#portraying?.abort();
+  async #drawThumbnails(): Promise<void> {
+    this.#drawing?.abort();
     const { slicer, searched } = this;
     if (slicer === null || searched === null || searched.best.length === 0) return;
-    const portraying = new AbortController();
-    this.#portraying = portraying;
-    const { signal } = portraying;
+    const drawing = new AbortController();
+    this.#drawing = drawing;
+    const { signal } = drawing;
     // Without pictures there are still the numbers; a worker that broke says so elsewhere.
     const positions = await slicer.positions().catch(() => null);
     if (positions === null || signal.aborted) return;
-    const portraitist = await import("../../view/scene/thumbnails.js").catch((error: unknown) => {
+    const pictures = await import("../../view/scene/thumbnails.js").catch((error: unknown) => {
       tellPartFailed(this, "pictures", error);
       return null;
     });
-    this.isUnpictured = portraitist === null;
-    if (portraitist === null || signal.aborted) return;
+    this.isUnpictured = pictures === null;
+    if (pictures === null || signal.aborted) return;
     const canvases = [...this.renderRoot.querySelectorAll<HTMLCanvasElement>(".pose canvas")];
-    const portraits = searched.best.flatMap(({ rotation }, i) => {
+    const thumbnails = searched.best.flatMap(({ rotation }, i) => {
       const canvas = canvases[i];
       return canvas === undefined ? [] : [[canvas, rotation] as const];
     });
-    await portraitist.portray(positions, portraits, this, signal);
-    for (const [canvas] of portraits) canvas.dataset["drawn"] = "";
+    await pictures.drawThumbnails(positions, thumbnails, this, signal);
+    for (const [canvas] of thumbnails) canvas.dataset["drawn"] = "";
   }
 
   #aim(change: Partial<Aims>): void {
     this.#say<Partial<Aims>>("cusp-aims", change);
   }
 
-  #stand(candidate: Candidate): void {
-    this.#say<Candidate>("cusp-stand", candidate);
+  #orient(candidate: Candidate): void {
+    this.#say<Candidate>("cusp-orient", candidate);
   }
 
   #say<Detail>(type: string, detail: Detail): void {
@@ -302,7 +302,7 @@ function micrometres(mm: number, { format }: Language): string {
 /** What is known of a candidate: a name and a value each. */
 export function figureRows({ figures, size_mm, energy }: Candidate, metric: Metric, language: Language): [string, string][] {
   const { texts, format } = language;
-  const { direction: words } = texts;
+  const { orientation: words } = texts;
   const rows: [string, string][] = [];
   if (figures !== null) {
     rows.push(

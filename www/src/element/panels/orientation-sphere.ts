@@ -193,7 +193,7 @@ export class CuspSphere extends LitElement {
   }
 
   override render(): TemplateResult {
-    const { direction: words } = this.language.texts;
+    const { orientation: words } = this.language.texts;
     return html`<div
       class="pair"
       tabindex="0"
@@ -218,7 +218,7 @@ export class CuspSphere extends LitElement {
           <figcaption class="quiet">${words[side]}</figcaption>
         </figure>`,
       )}
-      <p class="hidden" id="keys">${words.keys}</p>
+      <p class="visually-hidden" id="keys">${words.keys}</p>
     </div>`;
   }
 
@@ -296,18 +296,18 @@ export class CuspSphere extends LitElement {
   #click(event: MouseEvent, side: Side): void {
     const candidate = this.#at(event, side);
     if (this.#isTouched && candidate !== this.chosen) this.chosen = candidate;
-    else this.#stand(candidate);
+    else this.#orient(candidate);
   }
 
-  #stand(candidate: Candidate | null): void {
+  #orient(candidate: Candidate | null): void {
     if (candidate === null || candidate.excluded !== null) return;
-    this.dispatchEvent(new CustomEvent<Candidate>("cusp-stand", { detail: candidate }));
+    this.dispatchEvent(new CustomEvent<Candidate>("cusp-orient", { detail: candidate }));
   }
 
   readonly #key = (event: KeyboardEvent): void => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const way = WAYS[event.key];
-    if (event.key === "Enter" || event.key === " ") this.#stand(this.chosen);
+    if (event.key === "Enter" || event.key === " ") this.#orient(this.chosen);
     else if (way === undefined) return;
     else this.#step(way);
     event.preventDefault();

@@ -127,7 +127,7 @@ export function paintTools(tools: PaintTools): TemplateResult {
       <label class="button small">
         ${words.open}
         <input
-          class="hidden"
+          class="visually-hidden"
           type="file"
           accept=".weights"
           @change=${({ target }: Event) => {

@@ -382,7 +382,7 @@ export class CuspSettings extends LitElement {
         ${choices.map(
           ([value, name]) => html`<label>
             <input
-              class="hidden"
+              class="visually-hidden"
               type="radio"
               name=${key}
               value=${value}

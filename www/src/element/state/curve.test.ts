@@ -34,8 +34,8 @@ function resultOf(plan: TradeoffPoint): Result {
 
 async function curveOf(points: TradeoffPoint[], plan: TradeoffPoint): Promise<Curve> {
   const curve = new Curve();
-  const client: Pick<Slicer, "tradeoff"> = { tradeoff: async () => ({ schema: SCHEMA, points }) };
-  await curve.fetch(client, resultOf(plan));
+  const slicer: Pick<Slicer, "tradeoff"> = { tradeoff: async () => ({ schema: SCHEMA, points }) };
+  await curve.fetch(slicer, resultOf(plan));
   return curve;
 }
 

@@ -25,12 +25,12 @@ export class Curve {
   }
 
   /** Whether there was a curve to fetch. Uniform plans have none. */
-  async fetch(client: Pick<Slicer, "tradeoff">, result: Result): Promise<boolean> {
+  async fetch(slicer: Pick<Slicer, "tradeoff">, result: Result): Promise<boolean> {
     const key = keyOf(result);
     if (result.report.planner === "uniform" || key === this.#of) return false;
     this.#of = key;
     const { tolerance: _, ...options } = result.options;
-    const { points } = await client.tradeoff(options, POINTS).catch((error: unknown) => {
+    const { points } = await slicer.tradeoff(options, POINTS).catch((error: unknown) => {
       // A plan may hold where no curve does; only a broken worker is news.
       if (asSlicerError(error).code === "crash" || isAbort(error)) throw error;
       return { points: null };

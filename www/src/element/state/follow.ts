@@ -9,15 +9,15 @@ export type Rotation = readonly [x: number, y: number, z: number, w: number];
 export class Follower {
   /** How the model is turned while it is held; null while it is not. */
   turning: Rotation | null = null;
-  readonly #client: Pick<Slicer, "glance">;
+  readonly #slicer: Pick<Slicer, "glance">;
   readonly #show: (shown: Shown) => void;
   #running = false;
   #next: Options | null = null;
   /** How often it was told to stop: what was asked for before is news no more. */
   #stops = 0;
 
-  constructor(client: Pick<Slicer, "glance">, show: (shown: Shown) => void) {
-    this.#client = client;
+  constructor(slicer: Pick<Slicer, "glance">, show: (shown: Shown) => void) {
+    this.#slicer = slicer;
     this.#show = show;
   }
 
@@ -36,7 +36,7 @@ export class Follower {
       for (let at: Options | null = this.#next; at !== null; at = this.#next) {
         this.#next = null;
         const stops = this.#stops;
-        const { report, profile } = await this.#client.glance(at);
+        const { report, profile } = await this.#slicer.glance(at);
         if (this.#stops === stops) this.#show(shownOf(report, profile, layerRange(at)));
       }
     } catch {

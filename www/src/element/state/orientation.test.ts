@@ -2,7 +2,7 @@ import { beforeEach, expect, test } from "vitest";
 import { SCHEMA, type OrientCall, type Orientation } from "../../api/index.js";
 import { SlicerError } from "../../api/error.js";
 import type { Candidate, Options, Search } from "../../api/wire.js";
-import { Directions, type Subject } from "./orientation.js";
+import { OrientationSearch, type Subject } from "./orientation.js";
 import { coloursOf, energyRange } from "../panels/orientation-sphere.js";
 import { figureRows } from "../panels/orientation-panel.js";
 import { moved, stepped } from "../parts/sphere-steps.js";
@@ -31,7 +31,7 @@ interface Asked {
 let asked: Asked[];
 let subject: Subject | null;
 let failures: unknown[];
-let directions: Directions;
+let directions: OrientationSearch;
 
 const settle = (): Promise<unknown> => new Promise((resolve) => setTimeout(resolve));
 const last = (): Asked => {
@@ -65,7 +65,7 @@ beforeEach(() => {
     progressed: () => undefined,
     failed: (error: unknown) => void failures.push(error),
   };
-  directions = new Directions(host, { orient });
+  directions = new OrientationSearch(host, { orient });
 });
 
 test("a search shows what is measured, how far it is, and at last the best", async () => {

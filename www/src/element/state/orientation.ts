@@ -15,7 +15,7 @@ export interface Subject {
   readonly weights: Float32Array | null;
 }
 
-export interface DirectionsHost {
+export interface OrientationHost {
   /** What a search would be about now; null if there is no model, or its settings make no sense. */
   subject(): Subject | null;
   changed(): void;
@@ -25,7 +25,7 @@ export interface DirectionsHost {
 
 const { alpha, cost, quality } = DEFAULT_SEARCH;
 
-export class Directions {
+export class OrientationSearch {
   aims: Aims = { alpha, cost, quality };
   /** What has been measured; null before a search. */
   found: Found | null = null;
@@ -33,8 +33,8 @@ export class Directions {
   best: readonly Candidate[] = [];
   /** How far the search is; null if none runs. */
   busy: Busy | null = null;
-  readonly #host: DirectionsHost;
-  readonly #client: Pick<Slicer, "orient">;
+  readonly #host: OrientationHost;
+  readonly #slicer: Pick<Slicer, "orient">;
   #of: Subject | null = null;
   /** The options that all this is of, in each pose that it was applied in. */
   #keys = new Set<string>();
@@ -42,9 +42,9 @@ export class Directions {
   #measured: readonly Candidate[] | null = null;
   #abort: AbortController | null = null;
 
-  constructor(host: DirectionsHost, client: Pick<Slicer, "orient">) {
+  constructor(host: OrientationHost, slicer: Pick<Slicer, "orient">) {
     this.#host = host;
-    this.#client = client;
+    this.#slicer = slicer;
   }
 
   /** Options that the figures on show are of. */
@@ -131,7 +131,7 @@ export class Directions {
       for (let aims: Aims | null = null; aims !== this.aims && (aims === null || this.isCurrent); ) {
         aims = this.aims;
         const measured = this.#measured ?? undefined;
-        const { candidates, best } = await this.#client.orient(options, aims, { ...call, measured });
+        const { candidates, best } = await this.#slicer.orient(options, aims, { ...call, measured });
         if (!isMine()) return;
         this.#measured = candidates;
         this.best = best;

@@ -15,8 +15,8 @@ function planOf(layers: number, height_mm = 10): Plan {
   return { schema: SCHEMA, report, profile: new Float32Array(1) };
 }
 
-/** A client whose answers the test gives, call by call. */
-class FakeClient {
+/** A slicer whose answers the test gives, call by call. */
+class FakeSlicer {
   readonly calls: { what: string; options?: Options; resolve(value: unknown): void; reject(error: unknown): void }[] = [];
   readonly masks: number[] = [];
 
@@ -37,7 +37,7 @@ class FakeClient {
     return { schema: SCHEMA, report: { layers: 99, z_mm: [0], thickness_mm: [] } as unknown as Glance, profile: new Float32Array() };
   };
   readonly painted: (Float32Array | null)[] = [];
-  readonly paint = async (weights: Float32Array | null): Promise<void> => void this.painted.push(weights);
+  readonly setWeights = async (weights: Float32Array | null): Promise<void> => void this.painted.push(weights);
   readonly weightsFile = async (weights: Float32Array): Promise<Blob> => new Blob([weights.slice()]);
   readonly readWeights = async (file: unknown): Promise<Float32Array> => {
     const bytes = await (file as Blob).arrayBuffer();
@@ -69,14 +69,14 @@ class FakeClient {
 const zip: PrintFile = { schema: SCHEMA, name: "a-cusp.zip", type: "application/zip", blob: new Blob(["zip"]), warnings: [] };
 const CUT = new SlicerError("stl-truncated", "", { line: 3, expected: "facet" });
 
-let client: FakeClient;
+let slicer: FakeSlicer;
 let session: Session;
 const settle = (): Promise<unknown> => vi.advanceTimersByTimeAsync(300);
 
 beforeEach(() => {
   vi.useFakeTimers();
-  client = new FakeClient();
-  session = new Session({ requestUpdate: () => undefined }, client);
+  slicer = new FakeSlicer();
+  session = new Session({ requestUpdate: () => undefined }, slicer);
 });
 
 afterEach(() => {
@@ -85,15 +85,15 @@ afterEach(() => {
 
 async function planned(layers = 10): Promise<void> {
   void session.open(new Blob(), "a.stl");
-  client.last.resolve(model);
+  slicer.last.resolve(model);
   await settle();
-  client.last.resolve(planOf(layers));
+  slicer.last.resolve(planOf(layers));
   await settle();
 }
 
 test("opening plans at once and looks at the middle", async () => {
   await planned();
-  expect(client.calls.map(({ what }) => what)).toEqual(["open", "plan"]);
+  expect(slicer.calls.map(({ what }) => what)).toEqual(["open", "plan"]);
   expect(session.result?.report.layers).toBe(10);
   expect(session.layer).toBe(5);
   expect(session.mask?.layer).toBe(5);
@@ -102,10 +102,10 @@ test("opening plans at once and looks at the middle", async () => {
 
 test("a new plan keeps the height that is looked at", async () => {
   await planned();
-  session.look(2);
+  session.selectLayer(2);
   session.change({ tolerances: { cusp: "0.05" } });
   await settle();
-  client.last.resolve(planOf(20));
+  slicer.last.resolve(planOf(20));
   await settle();
   expect(session.layer).toBe(4);
   expect(session.mask?.layer).toBe(4);
@@ -116,12 +116,12 @@ test("typing waits for a pause, and nonsense plans nothing and says so", async (
   session.change({ tolerances: { cusp: "0.0" } });
   session.change({ tolerances: { cusp: "0.05" } });
   await settle();
-  expect(client.calls).toHaveLength(3);
-  client.last.resolve(planOf(20));
+  expect(slicer.calls).toHaveLength(3);
+  slicer.last.resolve(planOf(20));
   await settle();
   session.change({ tolerances: { cusp: "x" } });
   await settle();
-  expect(client.calls).toHaveLength(3);
+  expect(slicer.calls).toHaveLength(3);
   expect(session.faults.tolerance).toBeDefined();
   expect(session.earlier).toBe(true);
   expect(session.result?.report.layers).toBe(20);
@@ -135,11 +135,11 @@ test("over the same rays the newest settings wait for the plan under way, and th
   await settle();
   session.change({ tolerances: { cusp: "0.07" } });
   await settle();
-  expect(client.calls).toHaveLength(3);
-  client.last.resolve(planOf(20));
+  expect(slicer.calls).toHaveLength(3);
+  slicer.last.resolve(planOf(20));
   await settle();
-  expect(client.last.options?.tolerance).toBe(0.07);
-  expect(client.calls).toHaveLength(4);
+  expect(slicer.last.options?.tolerance).toBe(0.07);
+  expect(slicer.calls).toHaveLength(4);
 });
 
 test("new rays end the plan under way", async () => {
@@ -148,8 +148,8 @@ test("new rays end the plan under way", async () => {
   await settle();
   session.change({ rays: "512" });
   await settle();
-  expect(client.last.options?.rays).toBe(512);
-  client.last.resolve(planOf(30));
+  expect(slicer.last.options?.rays).toBe(512);
+  slicer.last.resolve(planOf(30));
   await settle();
   expect(session.result?.report.layers).toBe(30);
   expect(session.failure).toBeNull();
@@ -159,11 +159,11 @@ test("a failed plan keeps the last good one and its masks, and says what happene
   await planned();
   session.change({ tolerances: { cusp: "0.02" } });
   await settle();
-  client.last.reject(new SlicerError("too-many-facets", "", { facets: 9 }));
+  slicer.last.reject(new SlicerError("too-many-facets", "", { facets: 9 }));
   await settle();
   expect(session.failure?.error).toMatchObject({ code: "too-many-facets" });
   expect(session.earlier).toBe(true);
-  session.look(1);
+  session.selectLayer(1);
   await settle();
   expect(session.mask?.layer).toBe(1);
   session.change({ tolerances: { cusp: "0.05" } });
@@ -173,7 +173,7 @@ test("a failed plan keeps the last good one and its masks, and says what happene
 test("a file that cannot be read leaves the open model alone", async () => {
   await planned();
   void session.open(new Blob(), "b.stl");
-  client.last.reject(CUT);
+  slicer.last.reject(CUT);
   await settle();
   expect(session.failure).toMatchObject({ error: { code: "stl-truncated" }, name: "b.stl" });
   expect(session.model?.name).toBe("a.stl");
@@ -182,7 +182,7 @@ test("a file that cannot be read leaves the open model alone", async () => {
 
 test("cancelling the first plan leaves a model that can be planned again", async () => {
   void session.open(new Blob(), "a.stl");
-  client.last.resolve(model);
+  slicer.last.resolve(model);
   await settle();
   session.cancel();
   await settle();
@@ -190,7 +190,7 @@ test("cancelling the first plan leaves a model that can be planned again", async
   expect(session.result).toBeNull();
   expect(session.failure).toBeNull();
   session.replan();
-  client.last.resolve(planOf(10));
+  slicer.last.resolve(planOf(10));
   await settle();
   expect(session.result?.report.layers).toBe(10);
 });
@@ -200,11 +200,11 @@ test("settings changed during a download wait for it", async () => {
   const download = session.export();
   session.change({ rays: "4096" });
   await settle();
-  expect(client.last.what).toBe("export");
-  client.last.resolve(zip);
+  expect(slicer.last.what).toBe("export");
+  slicer.last.resolve(zip);
   expect(await download).not.toBeNull();
   await settle();
-  expect(client.last.options?.rays).toBe(4096);
+  expect(slicer.last.options?.rays).toBe(4096);
 });
 
 test("settings changed while a file is read belong to it, or to the model before if it cannot be read", async () => {
@@ -212,59 +212,59 @@ test("settings changed while a file is read belong to it, or to the model before
   void session.open(new Blob(), "b.stl");
   session.change({ tolerances: { cusp: "0.05" } });
   await settle();
-  expect(client.last.what).toBe("open");
-  client.last.reject(CUT);
+  expect(slicer.last.what).toBe("open");
+  slicer.last.reject(CUT);
   await settle();
-  expect(client.last.options?.tolerance).toBe(0.05);
+  expect(slicer.last.options?.tolerance).toBe(0.05);
 });
 
 test("a zip is made once for each plan", async () => {
   await planned();
   const first = session.export();
-  client.last.resolve(zip);
+  slicer.last.resolve(zip);
   await settle();
   expect(await first).toMatchObject({ name: "a-cusp.zip" });
   const again = await session.export();
   expect(again?.blob.size).toBe(3);
-  expect(client.calls.filter(({ what }) => what === "export")).toHaveLength(1);
+  expect(slicer.calls.filter(({ what }) => what === "export")).toHaveLength(1);
 });
 
 test("masks: while one is fetched only the newest layer waits", async () => {
   await planned();
-  client.masks.length = 0;
-  for (let layer = 0; layer < 9; layer++) session.look(layer);
+  slicer.masks.length = 0;
+  for (let layer = 0; layer < 9; layer++) session.selectLayer(layer);
   await settle();
-  expect(client.masks).toEqual([0, 8]);
+  expect(slicer.masks).toEqual([0, 8]);
 });
 
 test("the tolerance that the core took is known where none is typed for that metric", async () => {
-  session = new Session({ requestUpdate: () => undefined }, client, { settings: { ...DEFAULT_SETTINGS, metric: "volume" } });
+  session = new Session({ requestUpdate: () => undefined }, slicer, { settings: { ...DEFAULT_SETTINGS, metric: "volume" } });
   expect(session.taken).toBeNull();
   await planned();
-  expect(client.last.options).not.toHaveProperty("tolerance");
+  expect(slicer.last.options).not.toHaveProperty("tolerance");
   expect(session.taken).toBe(12.5);
   session.change({ metric: "area" });
   expect(session.taken).toBeNull();
   session.change({ metric: "volume", tolerances: { volume: "20" } });
   await settle();
-  client.last.resolve(planOf(10));
+  slicer.last.resolve(planOf(10));
   await settle();
-  expect(client.last.options?.tolerance).toBe(20);
+  expect(slicer.last.options?.tolerance).toBe(20);
   expect(session.taken).toBeNull();
 });
 
 test("of several files the first is opened and the others wait; of none it says that none will do", async () => {
   void session.choose([new File([], "notes.txt"), new File([], "a.stl"), new File([], "b.stl")]);
-  client.last.resolve(model);
+  slicer.last.resolve(model);
   await settle();
   expect(session.files.map(({ name }) => name)).toEqual(["a.stl", "b.stl"]);
-  void session.turnTo(1);
-  client.last.resolve({ ...model, name: "b.stl" });
+  void session.openFile(1);
+  slicer.last.resolve({ ...model, name: "b.stl" });
   await settle();
   expect([session.model?.name, session.place]).toEqual(["b.stl", 1]);
   // The core looks inside and says what it is.
   void session.choose([new File([], "notes.txt")]);
-  client.last.reject(new SlicerError("stl-not-stl", ""));
+  slicer.last.reject(new SlicerError("stl-not-stl", ""));
   await settle();
   expect(session.failure).toMatchObject({ error: { code: "stl-not-stl" }, name: "notes.txt" });
   expect([session.model?.name, session.place, session.files.length]).toEqual(["b.stl", 1, 2]);
@@ -275,15 +275,15 @@ test("the curve is asked for once, as long as nothing but the tolerance changes"
   expect(session.curve).toHaveLength(3);
   session.change({ tolerances: { cusp: "0.05" } });
   await settle();
-  client.last.resolve(planOf(20));
+  slicer.last.resolve(planOf(20));
   await settle();
-  expect(client.curves).toHaveLength(1);
+  expect(slicer.curves).toHaveLength(1);
   session.change({ layerMax: "0.2" });
   await settle();
-  client.last.resolve(planOf(15));
+  slicer.last.resolve(planOf(15));
   await settle();
-  expect(client.curves.map(({ layer_max_mm }) => layer_max_mm)).toEqual([0.15, 0.2]);
-  expect(client.curves.every((options) => !("tolerance" in options))).toBe(true);
+  expect(slicer.curves.map(({ layer_max_mm }) => layer_max_mm)).toEqual([0.15, 0.2]);
+  expect(slicer.curves.every((options) => !("tolerance" in options))).toBe(true);
 });
 
 test("a quality is a place on the curve, taken when that is known", async () => {
@@ -291,15 +291,15 @@ test("a quality is a place on the curve, taken when that is known", async () => 
   await planned();
   expect(session.settings.tolerances.cusp).toBe("0.05");
   await settle();
-  expect(client.last.options?.tolerance).toBe(0.05);
-  client.last.resolve(planOf(20));
+  expect(slicer.last.options?.tolerance).toBe(0.05);
+  slicer.last.resolve(planOf(20));
   session.takePoint(2);
   await settle();
-  expect(client.last.options?.tolerance).toBe(0.15);
+  expect(slicer.last.options?.tolerance).toBe(0.15);
 });
 
 test("a plan without any error gives the least tolerance that can be asked for", async () => {
-  client.tolerances = [0];
+  slicer.tolerances = [0];
   session.quality = 0.5;
   await planned();
   expect(session.settings.tolerances.cusp).toBe("0.001");
@@ -310,15 +310,15 @@ test("settings go back and forth, and are planned each time", async () => {
   await planned();
   session.change({ height: "20" });
   await settle();
-  client.last.resolve(planOf(20));
+  slicer.last.resolve(planOf(20));
   await settle();
   session.undo();
   await settle();
-  expect(client.last.options).not.toHaveProperty("height_mm");
-  client.last.resolve(planOf(10));
+  expect(slicer.last.options).not.toHaveProperty("height_mm");
+  slicer.last.resolve(planOf(10));
   await settle();
   session.redo();
-  expect(client.last.options?.height_mm).toBe(20);
+  expect(slicer.last.options?.height_mm).toBe(20);
   expect([session.canUndo, session.canRedo]).toEqual([true, false]);
 });
 
@@ -326,12 +326,12 @@ test("while the model is turned glances are shown, the newest turn last; let go,
   await planned();
   for (let i = 1; i < 5; i++) session.turn([0, 0, i / 10, 1], false);
   await settle();
-  expect(client.glances.map(({ rotation }) => rotation?.[2])).toEqual([0.1, 0.4]);
+  expect(slicer.glances.map(({ rotation }) => rotation?.[2])).toEqual([0.1, 0.4]);
   expect(session.shown?.layers).toBe(99);
   session.turn([0, 0, 1, 0], true);
   await settle();
-  expect(client.last.options?.rotation).toEqual([0, 0, 1, 0]);
-  client.last.resolve(planOf(20));
+  expect(slicer.last.options?.rotation).toEqual([0, 0, 1, 0]);
+  slicer.last.resolve(planOf(20));
   await settle();
   expect(session.shown?.layers).toBe(20);
   session.undo();
@@ -339,47 +339,47 @@ test("while the model is turned glances are shown, the newest turn last; let go,
 });
 
 test("another model stands as in its file; the first one as the settings say", async () => {
-  session = new Session({ requestUpdate: () => undefined }, client, { settings: { ...DEFAULT_SETTINGS, rotation: "0,0,1,0" } });
+  session = new Session({ requestUpdate: () => undefined }, slicer, { settings: { ...DEFAULT_SETTINGS, rotation: "0,0,1,0" } });
   await planned();
-  expect(client.last.options?.rotation).toEqual([0, 0, 1, 0]);
+  expect(slicer.last.options?.rotation).toEqual([0, 0, 1, 0]);
   void session.open(new Blob(), "b.stl");
-  client.last.resolve({ ...model, name: "b.stl" });
+  slicer.last.resolve({ ...model, name: "b.stl" });
   await settle();
-  expect(client.last.options).not.toHaveProperty("rotation");
+  expect(slicer.last.options).not.toHaveProperty("rotation");
 });
 
 test("a stroke is followed by glances, and planned at its end though the options are the same", async () => {
   await planned();
-  const { length } = client.calls;
-  session.paint(Float32Array.of(0.5), false);
+  const { length } = slicer.calls;
+  session.setWeights(Float32Array.of(0.5), false);
   await settle();
-  expect(client.glances).toHaveLength(1);
+  expect(slicer.glances).toHaveLength(1);
   expect(session.shown?.layers).toBe(99);
-  expect(client.calls).toHaveLength(length);
+  expect(slicer.calls).toHaveLength(length);
   expect(session.isCurrent).toBe(false);
 
   const weights = Float32Array.of(0.25);
-  session.paint(weights, true);
-  expect(client.calls).toHaveLength(length + 1);
-  expect(client.last.what).toBe("plan");
-  client.last.resolve(planOf(7));
+  session.setWeights(weights, true);
+  expect(slicer.calls).toHaveLength(length + 1);
+  expect(slicer.last.what).toBe("plan");
+  slicer.last.resolve(planOf(7));
   await settle();
   expect(session.isCurrent).toBe(true);
   expect(session.shown?.layers).toBe(7);
-  expect(client.painted).toEqual([Float32Array.of(0.5), weights]);
+  expect(slicer.painted).toEqual([Float32Array.of(0.5), weights]);
 });
 
 test("what is painted while a plan is made is planned after it", async () => {
   await planned();
-  session.paint(Float32Array.of(0.5), true);
-  const first = client.last;
-  session.paint(Float32Array.of(0.25), true);
-  expect(client.last).toBe(first);
+  session.setWeights(Float32Array.of(0.5), true);
+  const first = slicer.last;
+  session.setWeights(Float32Array.of(0.25), true);
+  expect(slicer.last).toBe(first);
   first.resolve(planOf(8));
   await settle();
-  expect(client.last).not.toBe(first);
+  expect(slicer.last).not.toBe(first);
   expect(session.isCurrent).toBe(false);
-  client.last.resolve(planOf(7));
+  slicer.last.resolve(planOf(7));
   await settle();
   expect(session.isCurrent).toBe(true);
 });
@@ -388,10 +388,10 @@ test("weights are saved and come back from their file; a file that holds none is
   await planned();
   expect(await session.saveWeights()).toBeNull();
   const weights = Float32Array.of(0.25);
-  session.paint(weights, true);
+  session.setWeights(weights, true);
   const saved = await session.saveWeights();
   expect(saved?.name).toBe("a.weights");
-  session.paint(null, true);
+  session.setWeights(null, true);
   await session.openWeights(new File([saved?.blob ?? ""], "a.weights"));
   expect(session.weights).toEqual(weights);
   await session.openWeights(new File([], "b.weights"));
@@ -401,11 +401,11 @@ test("weights are saved and come back from their file; a file that holds none is
 
 test("another model is all alike", async () => {
   await planned();
-  session.paint(Float32Array.of(0.5), true);
-  client.last.resolve(planOf(9));
+  session.setWeights(Float32Array.of(0.5), true);
+  slicer.last.resolve(planOf(9));
   await settle();
   void session.open(new Blob(), "b.stl");
-  client.last.resolve(model);
+  slicer.last.resolve(model);
   await settle();
   expect(session.weights).toBeNull();
 });
@@ -415,33 +415,33 @@ test("standing as a candidate does is a step that can be undone; a height keeps 
   const stood: Candidate = {
     ...{ direction: [0, 0, 1], rotation: [1, 0, 0, 0], size_mm: [1, 2, 3.25], excluded: null, figures: null, energy: null },
   };
-  session.stand(stood);
+  session.orient(stood);
   expect(session.options).toMatchObject({ rotation: [1, 0, 0, 0] });
   expect(session.options?.height_mm).toBeUndefined();
   await settle();
-  expect(client.last).toMatchObject({ what: "plan", options: { rotation: [1, 0, 0, 0] } });
+  expect(slicer.last).toMatchObject({ what: "plan", options: { rotation: [1, 0, 0, 0] } });
   session.undo();
   expect(session.options?.rotation).toBeUndefined();
   session.change({ height: "20" });
-  session.stand(stood);
+  session.orient(stood);
   expect(session.options).toMatchObject({ rotation: [1, 0, 0, 0], height_mm: 3.25 });
 });
 
 test("a search goes on beside plans, and is forgotten with its model", async () => {
   await planned();
-  session.directions.start();
-  const search = client.last;
+  session.orientation.start();
+  const search = slicer.last;
   expect(search.what).toBe("orient");
   expect(session.busy).toBeNull();
   session.replan();
   session.cancel();
-  expect(session.directions.busy).not.toBeNull();
+  expect(session.orientation.busy).not.toBeNull();
   search.resolve({ schema: SCHEMA, candidates: [], best: [] });
   await settle();
-  expect(session.directions.isCurrent).toBe(true);
+  expect(session.orientation.isCurrent).toBe(true);
   session.change({ tolerances: { cusp: "0.05" } });
-  expect(session.directions.isCurrent).toBe(false);
+  expect(session.orientation.isCurrent).toBe(false);
   await planned();
-  expect(session.directions.found).toBeNull();
-  expect(session.directions.options).toBeNull();
+  expect(session.orientation.found).toBeNull();
+  expect(session.orientation.options).toBeNull();
 });

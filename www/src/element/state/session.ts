@@ -10,7 +10,7 @@ import { sameRays } from "../../api/wire.js";
 import type { Source } from "../../api/source.js";
 import { choose, weightsName } from "./choice.js";
 import { Curve } from "./curve.js";
-import { Directions } from "./orientation.js";
+import { OrientationSearch } from "./orientation.js";
 import { Follower, type Rotation } from "./follow.js";
 import { layerAt } from "../../view/scene/lookup.js";
 import { METRICS } from "./metric.js";
@@ -38,7 +38,7 @@ export interface Host {
   /** There is more to choose from. */
   offered?(): void;
   painted?(weights: Float32Array | null, isFinal: boolean): void;
-  directed?(candidate: Candidate): void;
+  oriented?(candidate: Candidate): void;
 }
 
 export interface Setup {
@@ -46,9 +46,9 @@ export interface Setup {
   backend?: Backend | null;
 }
 
-type Client = Pick<
+type SlicerCalls = Pick<
   Slicer,
-  "load" | "plan" | "orient" | "mask" | "export" | "tradeoff" | "glance" | "printers" | "warm" | "paint" | "weightsFile" | "readWeights"
+  "load" | "plan" | "orient" | "mask" | "export" | "tradeoff" | "glance" | "printers" | "warm" | "setWeights" | "weightsFile" | "readWeights"
 >;
 
 export class Session extends Preferences {
@@ -69,10 +69,10 @@ export class Session extends Preferences {
   files: readonly File[] = [];
   place = 0;
 
-  readonly directions: Directions;
+  readonly orientation: OrientationSearch;
 
   readonly #host: Host;
-  readonly #client: Client;
+  readonly #slicer: SlicerCalls;
   readonly #curve = new Curve();
   readonly #follower: Follower;
   /** What runs. `options` are those of a plan, and null for anything else. */
@@ -88,11 +88,11 @@ export class Session extends Preferences {
   #failed = false;
   #archive: { of: Result; file: PrintFile } | null = null;
 
-  constructor(host: Host, client: Client, { settings = DEFAULT_SETTINGS, backend = null }: Setup = {}) {
+  constructor(host: Host, slicer: SlicerCalls, { settings = DEFAULT_SETTINGS, backend = null }: Setup = {}) {
     super(settings, backend);
     this.#host = host;
-    this.#client = client;
-    this.directions = new Directions(
+    this.#slicer = slicer;
+    this.orientation = new OrientationSearch(
       {
         subject: () => {
           const { model, options, weights } = this;
@@ -102,9 +102,9 @@ export class Session extends Preferences {
         progressed: (busy) => this.#host.progressed?.(busy),
         failed: (error) => this.#fail(error, this.model?.name ?? "", this.settings),
       },
-      client,
+      slicer,
     );
-    this.#follower = new Follower(client, (shown) => {
+    this.#follower = new Follower(slicer, (shown) => {
       this.shown = shown;
       this.#changed();
     });
@@ -122,9 +122,9 @@ export class Session extends Preferences {
 
   /** Starts the worker and asks what there is to choose from. */
   start(): void {
-    this.#client.warm();
+    this.#slicer.warm();
     // A worker that does not start says so when it is asked for more than a list.
-    void this.#client.printers().then(
+    void this.#slicer.printers().then(
       (printers) => {
         this.printers = printers;
         this.#host.offered?.();
@@ -155,14 +155,14 @@ export class Session extends Preferences {
     if (files.length === 0) return null;
     const { files: before, place } = this;
     this.files = choose(files);
-    const model = await this.turnTo(0);
+    const model = await this.openFile(0);
     // What cannot be opened leaves what was there.
     if (model === null) [this.files, this.place] = [before, place];
     return model;
   }
 
   /** Opens another of the files that came together. */
-  async turnTo(place: number): Promise<Model | null> {
+  async openFile(place: number): Promise<Model | null> {
     const file = this.files[place];
     if (file === undefined) return null;
     this.place = place;
@@ -182,22 +182,22 @@ export class Session extends Preferences {
     this.change({ rotation: rotationText(rotation) });
   }
 
-  /** Stands the model as a candidate of {@link directions} does. */
-  stand(candidate: Candidate): void {
+  /** Stands the model as a candidate of {@link orientation} does. */
+  orient(candidate: Candidate): void {
     const { rotation, size_mm } = candidate;
     this.#follower.stop();
     // A height is that of the model as it stands: another pose must not change its scale.
     const height = this.settings.height.trim() === "" ? {} : { height: String(Number(size_mm[2].toFixed(6))) };
     this.change({ rotation: rotationText(rotation), ...height });
-    if (this.options !== null) this.directions.applied(this.options);
-    this.#host.directed?.(candidate);
+    if (this.options !== null) this.orientation.applied(this.options);
+    this.#host.oriented?.(candidate);
   }
 
   /** Follows weights that are painted: by glances during a stroke, by a plan at its end. */
-  paint(weights: Float32Array | null, isFinal: boolean): void {
+  setWeights(weights: Float32Array | null, isFinal: boolean): void {
     this.weights = weights;
     // Weights that the core refuses make the plan fail, which says so.
-    if (this.model !== null) this.#client.paint(weights).catch(() => undefined);
+    if (this.model !== null) this.#slicer.setWeights(weights).catch(() => undefined);
     this.#host.painted?.(weights, isFinal);
     const { options } = this;
     if (!isFinal) {
@@ -213,8 +213,8 @@ export class Session extends Preferences {
   async openWeights(file: File): Promise<void> {
     const { model } = this;
     try {
-      const weights = await this.#client.readWeights(file);
-      if (this.model === model) this.paint(weights, true);
+      const weights = await this.#slicer.readWeights(file);
+      if (this.model === model) this.setWeights(weights, true);
     } catch (error) {
       if (this.model === model && !isAbort(error)) this.#fail(error, file.name, this.settings);
       this.#changed();
@@ -225,7 +225,7 @@ export class Session extends Preferences {
   async saveWeights(): Promise<Download | null> {
     const { weights, model } = this;
     if (weights === null || model === null) return null;
-    return { name: weightsName(model.name), blob: await this.#client.weightsFile(weights) };
+    return { name: weightsName(model.name), blob: await this.#slicer.weightsFile(weights) };
   }
 
   /** Takes the tolerance of a point of the curve, as if it had been typed. */
@@ -287,13 +287,13 @@ export class Session extends Preferences {
     if (result === null || model === null || this.busy !== null) return null;
     if (this.#archive?.of === result) return this.#archive.file;
     this.failure = null;
-    const file = await this.#run("export", model.name, null, (watch) => this.#client.export(undefined, watch));
+    const file = await this.#run("export", model.name, null, (watch) => this.#slicer.export(undefined, watch));
     void this.#resume();
     if (file !== null) this.#archive = { of: result, file };
     return file;
   }
 
-  look(layer: number): void {
+  selectLayer(layer: number): void {
     if (this.result === null) return;
     this.layer = Math.min(Math.max(0, Math.round(layer)), this.result.report.layers - 1);
     this.#changed();
@@ -312,7 +312,7 @@ export class Session extends Preferences {
     this.failure = null;
     const shown = name ?? (source instanceof URL || typeof source === "string" ? String(source).split("/").at(-1) ?? "" : "");
     const model = await this.#run("open", shown, null, (watch) =>
-      this.#client.load(source, name === undefined ? watch : { ...watch, name }),
+      this.#slicer.load(source, name === undefined ? watch : { ...watch, name }),
     );
     if (model === null) {
       await this.#resume();
@@ -327,7 +327,7 @@ export class Session extends Preferences {
     this.#follower.stop();
     this.weights = null;
     this.mask = null;
-    this.directions.forget();
+    this.orientation.forget();
     this.#curve.forget();
     this.#host.loaded?.(model);
     this.replan();
@@ -360,7 +360,7 @@ export class Session extends Preferences {
     this.failure = null;
     this.#failed = true;
     const { weights } = this;
-    const plan = await this.#run("plan", model.name, options, (watch) => this.#client.plan(options, watch));
+    const plan = await this.#run("plan", model.name, options, (watch) => this.#slicer.plan(options, watch));
     if (plan !== null) this.#show(plan, options, weights);
     await this.#resume();
   }
@@ -471,7 +471,7 @@ export class Session extends Preferences {
   async #fetchMask(result: Result): Promise<boolean> {
     const { layer } = this;
     if (this.mask?.layer === layer && this.#maskOf === result) return false;
-    const mask = await this.#client.mask(layer);
+    const mask = await this.#slicer.mask(layer);
     if (this.result === result) {
       this.mask = mask;
       this.#maskOf = result;
@@ -482,7 +482,7 @@ export class Session extends Preferences {
 
   /** Whether there was a curve to fetch. */
   async #fetchCurve(result: Result): Promise<boolean> {
-    if (!(await this.#curve.fetch(this.#client, result))) return false;
+    if (!(await this.#curve.fetch(this.#slicer, result))) return false;
     this.#changed();
     this.#takeQuality();
     return true;

@@ -1,7 +1,7 @@
 /** How the panel of directions looks. */
 import { css } from "lit";
 
-export const directionStyles = css`
+export const orientationStyles = css`
   :host {
     display: block;
     min-width: 0;

@@ -1,6 +1,6 @@
 /** What the elements share: cards, buttons, focus, text that only screen readers get. */
 import { css } from "lit";
-import { hidden } from "../../view/visually-hidden.js";
+import { visuallyHidden } from "../../view/visually-hidden.js";
 
 export const shared = css`
   *,
@@ -36,7 +36,7 @@ export const shared = css`
   .figures {
     font-variant-numeric: tabular-nums;
   }
-  ${hidden}
+  ${visuallyHidden}
   button,
   .button {
     font: inherit;

@@ -1,5 +1,5 @@
 /** The brush in a person's hand: what pointer and keys do to weights. */
-import { Aim, type Aimed } from "../scene/raycast.js";
+import { Raycast, type RayHit } from "../scene/raycast.js";
 import { BRUSH, type Brush } from "./brush.js";
 import type { Derived } from "../steps/derived.js";
 import type { PaintDetail } from "../events.js";
@@ -7,7 +7,7 @@ import { Painter, mirrored, type Dab } from "./painter.js";
 import type { Point } from "../scene/pointer.js";
 import { extentOf, UPRIGHT, type Triple } from "../scene/pose.js";
 import { normalsOf, type Surface } from "./region.js";
-import type { Stage } from "../scene/scene.js";
+import type { Scene } from "../scene/scene.js";
 
 /** A mirrored place counts if the model comes at least this near to it, as a part of the brush's radius. */
 const MIRROR_WITHIN = 0.5;
@@ -22,26 +22,26 @@ export interface PaintingReports {
 interface Ready {
   readonly of: Derived;
   readonly painter: Painter;
-  readonly aim: Aim;
+  readonly raycast: Raycast;
   /** Middle of the model's x in its file, mm. */
   readonly middle_x: number;
 }
 
 export class Painting {
   brush: Brush = BRUSH;
-  readonly #stage: Stage;
+  readonly #scene: Scene;
   readonly #reports: PaintingReports;
   #ready: Ready | null = null;
   #asked: Derived | null = null;
   #preparing: Promise<void> = Promise.resolve();
   #weights: Float32Array | null = null;
   /** The pointer that paints, where it was seen last, and where its dabs were. */
-  #stroke: { readonly id: number; at: Point; last: Aimed | null; lastMirrored: Aimed | null } | null = null;
+  #stroke: { readonly id: number; at: Point; last: RayHit | null; lastMirrored: RayHit | null } | null = null;
   #frame = 0;
   #isOn = false;
 
-  constructor(stage: Stage, reports: PaintingReports) {
-    this.#stage = stage;
+  constructor(scene: Scene, reports: PaintingReports) {
+    this.#scene = scene;
     this.#reports = reports;
   }
 
@@ -65,7 +65,7 @@ export class Painting {
   prepare(derived: Derived | null, isOn: boolean): void {
     this.#isOn = isOn;
     if (this.#ready !== null && this.#ready.of !== derived) this.#ready = null;
-    if (!isOn) this.#stage.setFace(null);
+    if (!isOn) this.#scene.setFace(null);
     if (derived === null || !isOn || this.#asked === derived) return;
     this.#asked = derived;
     this.#preparing = this.#make(derived);
@@ -79,7 +79,7 @@ export class Painting {
     const { least, greatest } = extentOf(topology.points, UPRIGHT, 1);
     const known = this.#weights?.length === positions.length / 9 ? this.#weights : null;
     const painter = new Painter(surface, known, 1);
-    this.#ready = { of: derived, painter, aim: new Aim(positions), middle_x: (least[0] + greatest[0]) / 2 };
+    this.#ready = { of: derived, painter, raycast: new Raycast(positions), middle_x: (least[0] + greatest[0]) / 2 };
     this.#reports.changed(null);
   }
 
@@ -120,10 +120,10 @@ export class Painting {
   /** Shows what the brush would touch under a pointer that is not down. */
   hover(at: Point | null): void {
     if (!this.#isOn || this.#ready === null || this.#stroke !== null) return;
-    const aimed = at === null ? null : this.#aimed(at);
+    const hit = at === null ? null : this.#hitAt(at);
     const { painter } = this.#ready;
-    const scale = this.#stage.model.scale;
-    this.#stage.setFace(aimed === null ? null : painter.touched({ ...aimed, from: null }, this.brush, scale).facets);
+    const scale = this.#scene.model.scale;
+    this.#scene.setFace(hit === null ? null : painter.touched({ ...hit, from: null }, this.brush, scale).facets);
   }
 
   undo(): void {
@@ -144,9 +144,9 @@ export class Painting {
 
   /** Whether there is something to paint under the point. */
   #begin(id: number, at: Point): boolean {
-    if (!this.#isOn || this.#ready === null || this.#stroke !== null || this.#aimed(at) === null) return false;
+    if (!this.#isOn || this.#ready === null || this.#stroke !== null || this.#hitAt(at) === null) return false;
     this.#stroke = { id, at, last: null, lastMirrored: null };
-    this.#stage.setFace(null);
+    this.#scene.setFace(null);
     this.#follow();
     return true;
   }
@@ -158,8 +158,8 @@ export class Painting {
     if (this.#ready?.painter.end() === true) this.#tell(true);
   }
 
-  #aimed(at: Point): Aimed | null {
-    return this.#ready?.aim.cast(this.#stage.rayAt(...at)) ?? null;
+  #hitAt(at: Point): RayHit | null {
+    return this.#ready?.raycast.cast(this.#scene.rayAt(...at)) ?? null;
   }
 
   /** Paints up to where the pointer is. */
@@ -167,11 +167,11 @@ export class Painting {
     this.#frame = 0;
     const stroke = this.#stroke;
     if (stroke === null) return;
-    const aimed = this.#aimed(stroke.at);
-    const changed = this.#dab(aimed, stroke.last);
-    stroke.last = aimed;
+    const hit = this.#hitAt(stroke.at);
+    const changed = this.#dab(hit, stroke.last);
+    stroke.last = hit;
     if (this.brush.mirrors) {
-      const other = aimed === null ? null : this.#mirror(aimed.point);
+      const other = hit === null ? null : this.#mirror(hit.point);
       changed.push(...this.#dab(other, stroke.lastMirrored));
       stroke.lastMirrored = other;
     }
@@ -180,16 +180,16 @@ export class Painting {
     this.#tell(false);
   };
 
-  #dab(aimed: Aimed | null, last: Aimed | null): number[] {
-    if (aimed === null || this.#ready === null) return [];
-    const dab: Dab = { ...aimed, from: last?.point ?? null };
-    return this.#ready.painter.dab(dab, this.brush, this.#stage.model.scale);
+  #dab(hit: RayHit | null, last: RayHit | null): number[] {
+    if (hit === null || this.#ready === null) return [];
+    const dab: Dab = { ...hit, from: last?.point ?? null };
+    return this.#ready.painter.dab(dab, this.brush, this.#scene.model.scale);
   }
 
-  #mirror(point: Triple): Aimed | null {
+  #mirror(point: Triple): RayHit | null {
     if (this.#ready === null) return null;
-    const { aim, middle_x } = this.#ready;
-    return aim.nearest(mirrored(point, middle_x), (MIRROR_WITHIN * this.brush.size_mm) / 2 / this.#stage.model.scale);
+    const { raycast, middle_x } = this.#ready;
+    return raycast.nearest(mirrored(point, middle_x), (MIRROR_WITHIN * this.brush.size_mm) / 2 / this.#scene.model.scale);
   }
 
   #tell(final: boolean): void {

@@ -41,7 +41,7 @@ class CanvasLike extends WebGLRenderTarget {
   readonly isXRRenderTarget = true;
 }
 
-export class Aside {
+export class Offscreen {
   readonly #renderer: WebGLRenderer;
   readonly #target: CanvasLike;
   readonly #copy: Mesh<PlaneGeometry, RawShaderMaterial>;

@@ -5,7 +5,7 @@ import { layerAt } from "./lookup.js";
 import type { Point } from "./pointer.js";
 import type { Triple } from "./pose.js";
 import type { Tool } from "./keys.js";
-import type { Stage } from "./scene.js";
+import type { Scene } from "./scene.js";
 
 /** What the view is showing just now. */
 export interface Shown {
@@ -23,7 +23,7 @@ export interface PointingReports {
 }
 
 export class Pointing {
-  readonly #stage: Stage;
+  readonly #scene: Scene;
   readonly #shown: () => Shown;
   readonly #reports: PointingReports;
   #pointer: Point | null = null;
@@ -31,15 +31,15 @@ export class Pointing {
   #isOver = false;
   #marked: readonly number[] | null = null;
 
-  constructor(stage: Stage, shown: () => Shown, reports: PointingReports) {
-    this.#stage = stage;
+  constructor(scene: Scene, shown: () => Shown, reports: PointingReports) {
+    this.#scene = scene;
     this.#shown = shown;
     this.#reports = reports;
   }
 
   async clicked(at: Point): Promise<void> {
-    if (this.#stage.isHot) return;
-    const hit = await this.#stage.pick(...at);
+    if (this.#scene.isHot) return;
+    const hit = await this.#scene.pick(...at);
     if (hit === null) return;
     const { tool, z_mm } = this.#shown();
     if (tool === "flat") {
@@ -67,7 +67,7 @@ export class Pointing {
   }
 
   async #hover(at: Point | null): Promise<void> {
-    const hit = at === null ? null : await this.#stage.pick(...at);
+    const hit = at === null ? null : await this.#scene.pick(...at);
     const { tool, z_mm } = this.#shown();
     const layer = hit === null || z_mm.length < 2 ? null : layerAt(z_mm, hit.z_mm);
     if (hit !== null || this.#isOver) this.#reports.height({ z_mm: hit?.z_mm ?? null, layer });
@@ -79,6 +79,6 @@ export class Pointing {
 
   #mark(facets: readonly number[] | null): void {
     this.#marked = facets;
-    this.#stage.setFace(facets);
+    this.#scene.setFace(facets);
   }
 }

@@ -1,11 +1,11 @@
 import { Ray, Vector3 } from "three";
 import { expect, it } from "vitest";
-import { Aim } from "./raycast.js";
+import { Raycast } from "./raycast.js";
 import { ball, box } from "../fixtures.js";
 import { distanceToFacet } from "../paint/region.js";
 
 const positions = ball(10, 48);
-const aim = new Aim(positions);
+const raycast = new Raycast(positions);
 
 it("meets the near side of a ball, on the facet that it names", () => {
   for (const [x, z] of [
@@ -13,17 +13,17 @@ it("meets the near side of a ball, on the facet that it names", () => {
     [-4, 6],
     [7, -2.5],
   ] as const) {
-    const hit = aim.cast(new Ray(new Vector3(x, -50, z), new Vector3(0, 1, 0)));
+    const hit = raycast.cast(new Ray(new Vector3(x, -50, z), new Vector3(0, 1, 0)));
     if (hit === null) throw new Error("the ray missed");
     expect(hit.point[1]).toBeLessThan(0);
     expect(Math.hypot(...hit.point)).toBeCloseTo(10, 0);
     expect(distanceToFacet(positions, hit.facet, hit.point)).toBeLessThan(1e-4);
   }
-  expect(aim.cast(new Ray(new Vector3(11, -50, 0), new Vector3(0, 1, 0)))).toBeNull();
+  expect(raycast.cast(new Ray(new Vector3(11, -50, 0), new Vector3(0, 1, 0)))).toBeNull();
 });
 
 it("finds what is nearest, and nothing beyond the distance", () => {
-  const cube = new Aim(box([0, 0, 0], [2, 2, 2]));
+  const cube = new Raycast(box([0, 0, 0], [2, 2, 2]));
   expect(cube.nearest([1, 1, 2.5], 1)?.point).toEqual([1, 1, 2]);
   expect(cube.nearest([1, 1, 4], 1)).toBeNull();
 });

@@ -1,4 +1,4 @@
-/** The scene on its canvas. Draws when something has changed, and only then. */
+/** The view's scene on its canvas. Draws when something has changed, and only then. */
 import {
   BufferAttribute,
   BufferGeometry,
@@ -6,13 +6,13 @@ import {
   Mesh,
   MeshBasicMaterial,
   Raycaster,
-  Scene,
+  Scene as ThreeScene,
   Vector2,
   Vector3,
   type Ray,
   WebGLRenderer,
 } from "three";
-import { Aside } from "./offscreen.js";
+import { Offscreen } from "./offscreen.js";
 import { Cameras, type Frame, type Heights, type Inset } from "./cameras.js";
 import { Gizmo, type GizmoReports } from "./gizmo.js";
 import type { Tool } from "./keys.js";
@@ -44,15 +44,15 @@ export interface Theme {
 /** After a frame has been drawn. */
 export type Drawn = (frame: Frame | null) => void;
 
-export class Stage {
+export class Scene {
   readonly model = new Model();
   readonly cameras: Cameras;
   readonly plate: Plate;
   readonly #renderer: WebGLRenderer;
-  readonly #scene = new Scene();
+  readonly #scene = new ThreeScene();
   readonly #gizmo: Gizmo;
   readonly #picker = new Picker();
-  readonly #aside: Aside;
+  readonly #offscreen: Offscreen;
   readonly #face = new Mesh(
     new BufferGeometry(),
     new MeshBasicMaterial({
@@ -69,7 +69,7 @@ export class Stage {
   #inset: Inset = { top_px: 0, bottom_px: 0 };
   #size: readonly [number, number] = [0, 0];
   #asked = 0;
-  /** Whether something has changed since the picture that is being drawn aside. */
+  /** Whether something has changed since the picture that is being drawn offscreen. */
   #isStale = false;
   #isGone = false;
   #tool: Tool = "turn";
@@ -84,7 +84,7 @@ export class Stage {
   ) {
     this.#renderer = new WebGLRenderer({ canvas, context });
     this.#renderer.setClearColor(0x000000, 0);
-    this.#aside = new Aside(this.#renderer);
+    this.#offscreen = new Offscreen(this.#renderer);
     this.#drawn = drawn;
     this.cameras = new Cameras(canvas);
     this.cameras.controls.addEventListener("change", this.invalidate);
@@ -228,7 +228,7 @@ export class Stage {
     this.#gizmo.dispose();
     this.cameras.dispose();
     this.#picker.dispose();
-    this.#aside.dispose();
+    this.#offscreen.dispose();
     this.plate.dispose();
     this.model.dispose();
     this.#face.geometry.dispose();
@@ -253,7 +253,7 @@ export class Stage {
 
   #draw(): void {
     if (this.#size[0] === 0 || this.#renderer.getContext().isContextLost()) return;
-    this.#isStale = this.#aside.isBusy;
+    this.#isStale = this.#offscreen.isBusy;
     if (this.#isStale) return;
     const frame = this.cameras.prepare(this.#heights, this.#inset);
     this.#scene.updateMatrixWorld();
@@ -266,6 +266,6 @@ export class Stage {
     const free = (): void => {
       if (this.#isStale) this.invalidate();
     };
-    this.#aside.draw(this.#scene, this.cameras.current, () => this.#drawn(frame), free);
+    this.#offscreen.draw(this.#scene, this.cameras.current, () => this.#drawn(frame), free);
   }
 }

@@ -55,9 +55,9 @@ interface Studio {
  * @param positions nine numbers a facet, mm, in the file's pose
  * @param host whose text has the colour of the plate's lines
  */
-export async function portray(
+export async function drawThumbnails(
   positions: Float32Array,
-  portraits: readonly (readonly [HTMLCanvasElement, Rotation])[],
+  thumbnails: readonly (readonly [HTMLCanvasElement, Rotation])[],
   host: HTMLElement,
   signal: AbortSignal,
 ): Promise<void> {
@@ -67,7 +67,7 @@ export async function portray(
     model.setResin(theme.resin);
     model.setLook("printed");
     model.setPositions(positions, UPRIGHT, 1);
-    for (const [target, rotation] of portraits) {
+    for (const [target, rotation] of thumbnails) {
       await frame();
       if (signal.aborted) return;
       model.setPose(rotation, 1);
