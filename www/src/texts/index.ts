@@ -1,13 +1,13 @@
 /** The languages of the element: one catalogue each, held to the same keys by the compiler. */
-import * as de from "./de.js";
-import * as en from "./en.js";
-import * as es from "./es.js";
+import * as de from "./de/index.js";
+import * as en from "./en/index.js";
+import * as es from "./es/index.js";
 import { formatOf, type Format } from "./format.js";
-import * as fr from "./fr.js";
-import * as zh from "./zh.js";
+import * as fr from "./fr/index.js";
+import * as zh from "./zh/index.js";
 
 export type { Format } from "./format.js";
-export type { Words } from "./en.js";
+export type { Words } from "./en/problems.js";
 
 /** What every language has words for. */
 export type Texts = ReturnType<typeof en.en>;

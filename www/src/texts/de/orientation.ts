@@ -1,0 +1,48 @@
+import type { OrientationTexts } from "../en/orientation.js";
+import type { Format } from "../format.js";
+import { LAYERS } from "./nouns.js";
+
+export const orientation = ({ counted }: Format): OrientationTexts => ({
+  orientation: {
+    title: "Baurichtung",
+    hint: "Anders gedreht braucht das Modell vielleicht weniger Schichten oder wird glatter.",
+    find: "Beste Richtung suchen",
+    again: "Neu suchen",
+    stale: "Mit anderen Einstellungen gefunden als den gezeigten.",
+    cost: "Aufwand",
+    costs: { layers: "Schichten", time: "Druckzeit" },
+    quality: "Qualität",
+    qualities: { error: "Fehler", roughness: "Rauheit", overhang: "Überhang" },
+    balance: "Was mehr zählt",
+    fewer: { layers: "Weniger Schichten", time: "Schneller" },
+    better: { error: "Weniger Fehler", roughness: "Glatter", overhang: "Weniger Überhang" },
+    parts: (cost, costPart, quality, qualityPart) => `${cost} ${costPart}, ${quality} ${qualityPart}`,
+    sphere: "Kugel der Richtungen",
+    kind: "Gauß-Kugel",
+    keys: "Pfeiltasten gehen von Richtung zu Richtung. Die Eingabetaste stellt das Modell so hin.",
+    point: "Auf eine Richtung zeigen, um ihre Zahlen zu sehen; klicken, um das Modell so hinzustellen.",
+    front: "Vorn",
+    back: "Hinten",
+    energy: "Energie",
+    legend: "Energie: weniger ist besser",
+    excluded: "Passt nicht",
+    upright: "Oben, wie es steht",
+    why: {
+      "too-large": "Zu breit oder zu tief für den Drucker.",
+      "too-high": "Zu hoch für den Drucker.",
+      "no-plan": "Kein Plan hält die Toleranz ein.",
+    },
+    layers: "Schichten",
+    time: "Druckzeit",
+    error: "Größter Fehler",
+    roughness: "Mittlere Rauheit",
+    overhang: "Überhängende Fläche",
+    size: "Größe",
+    apply: "So hinstellen",
+    best: "Beste Richtungen",
+    rank: (rank) => `Richtung ${rank}`,
+    said: (layers, time, error) => `${counted(layers, LAYERS)}, ${time}, Fehler ${error}`,
+    found: (count) => `${count} Richtungen gemessen.`,
+    none: "Keine Richtung passt in den Drucker und hält die Toleranz ein.",
+  },
+});

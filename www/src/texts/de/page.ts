@@ -1,0 +1,56 @@
+import type { PageTexts } from "../en/page.js";
+
+export const page = (): PageTexts => ({
+  page: {
+    title: "Cusp: adaptive Schichten für den Resindruck",
+    tagline: "Dünne Schichten, wo die Oberfläche sie braucht, dicke, wo nicht.",
+    private: "Ihr Modell verlässt diesen Computer nie.",
+    drop: "Zum Öffnen loslassen",
+    languages: "Sprache",
+    noModel: "Kein Modell zur Hand?",
+    tryExample: "Das Beispiel ausprobieren",
+    example: "Beispiel",
+    points: [
+      ["So wenige Schichten wie möglich", "Unter allen Plänen innerhalb Ihrer Toleranz wird der kürzeste genommen."],
+      ["Keine Stufe zu hoch", "Die Toleranz gilt in jeder Schicht, nicht im Mittel."],
+      ["Eine Datei zum Drucken", "Für namentlich bekannte Drucker oder als Bilder der Schichten mit ihrer Dicke, in einem Zip."],
+    ],
+  },
+  open: {
+    region: "Modell öffnen",
+    drop: "STL hier ablegen",
+    choose: "Datei auswählen",
+    another: "Weitere öffnen",
+    opening: (name) => `${name} wird geöffnet`,
+    place: (place, total) => `Modell ${place} von ${total}`,
+    previous: "Voriges Modell",
+    next: "Nächstes Modell",
+  },
+  model: {
+    region: "Das Modell",
+    size: "Größe",
+    sizeHelp: "Breite × Tiefe × Höhe",
+    scaled: (from) => `skaliert von ${from}`,
+    facets: "Dreiecke",
+    surface: "Oberfläche",
+    closed: "Geschlossen",
+    open: "Nicht geschlossen",
+  },
+  progress: {
+    load: "Modell wird gelesen",
+    saliency: "Auffälliges wird gesucht",
+    ldi: "Strahlen werden geworfen",
+    profile: "Oberfläche wird gemessen",
+    plan: "Schichten werden geplant",
+    masks: "Masken werden gezeichnet",
+    directions: "Richtungen werden gemessen",
+    left: (seconds) => `noch etwa ${seconds}`,
+    cancel: "Abbrechen",
+  },
+  notices: {
+    cancelled: "Abgebrochen.",
+    exportCancelled: "Der Download wurde abgebrochen.",
+    partFailed: "Dieser Teil der Seite ließ sich nicht laden. Prüfen Sie die Verbindung und versuchen Sie es noch einmal; hilft das nicht, laden Sie die Seite neu.",
+    close: "Schließen",
+  },
+});

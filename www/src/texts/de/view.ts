@@ -1,0 +1,52 @@
+import type { ViewWords } from "../en/view.js";
+import type { Format } from "../format.js";
+import { LAYERS } from "./nouns.js";
+
+export const view = ({ counted }: Format): ViewWords => ({
+  view: {
+    region: "Das Modell in drei Dimensionen",
+    title: "Modell",
+    kind: "3-D-Ansicht",
+    keys: {
+      turn: "Pfeiltasten drehen die Ansicht, Plus und Minus vergrößern und verkleinern, 0 zeigt das ganze Modell.",
+      rotate: "Pfeiltasten, Bild auf und Bild ab drehen das Modell um 5°, mit der Umschalttaste um 1°.",
+      flat: "Eingabe legt die Fläche in der Mitte auf die Platte. Pfeiltasten drehen die Ansicht.",
+      paint: "Eingabe malt in der Mitte der Ansicht, Strg+Z nimmt es zurück. Pfeiltasten drehen die Ansicht.",
+    },
+    empty: "Noch kein Modell",
+    legend: "Schichtdicke (µm)",
+    heat: "Wie sehr es zählt",
+    layers: (count) => counted(count, LAYERS),
+    layer: (layer, height, thickness) => `Schicht ${layer} · ${height} · ${thickness}`,
+    grid: (step) => `Raster ${step}`,
+    building: (part) => `Stufen werden berechnet: ${part}`,
+    unavailable: "Dieser Browser zeigt keine 3-D-Ansicht: WebGL 2 ist abgeschaltet oder fehlt.",
+    tools: { turn: "Umsehen", rotate: "Modell drehen", flat: "Fläche hinlegen", paint: "Was zählt" },
+    printed: "Wie gedruckt",
+    safe: "Für Farbenblinde",
+    aligned: "Neben dem Profil",
+    upright: "Wie in der Datei",
+  },
+  paint: {
+    title: "Was zählt",
+    hint: "Die Toleranz gilt, wo das Gewicht 100 % ist. Was weniger zählt, darf dickere Schichten haben. Auf dem Modell wird gemalt; Ziehen daneben dreht die Ansicht.",
+    brush: "Pinsel",
+    modes: { less: "Zählt weniger", more: "Zählt mehr", erase: "Radieren", soften: "Weichzeichnen" },
+    size: "Größe (mm)",
+    strength: "Stärke",
+    fills: "Glatten Bereich füllen",
+    crease: "Bis zu Kanten von",
+    mirrors: "Links und rechts spiegeln",
+    base: "Gewicht ohne Farbe",
+    least: "Kleinstes Gewicht",
+    saliency: "Auffälliges zählt mehr",
+    show: "Zeigen",
+    colours: { paint: "Gemaltes Gewicht", saliency: "Auffälliges", product: "Gewicht, das zählt", layers: "Schichtdicke" },
+    finding: "Auffälliges wird gesucht",
+    undo: "Strich zurück",
+    redo: "Strich wiederholen",
+    clear: "Leeren",
+    save: "Gewichte speichern",
+    open: "Gewichte laden",
+  },
+});

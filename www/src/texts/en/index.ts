@@ -1,0 +1,23 @@
+import type { Format } from "../format.js";
+import { orientation } from "./orientation.js";
+import { page } from "./page.js";
+import { plan } from "./plan.js";
+import { problems } from "./problems.js";
+import { settings } from "./settings.js";
+import { view } from "./view.js";
+
+export const units = { hours: "h", minutes: "min" };
+
+/**
+ * Every sentence that a person sees or hears, in English. The other languages are held to the same keys by the compiler,
+ * part by part. Numbers come as text, already written for the language, except where a plural depends on them.
+ */
+export const en = (format: Format) => ({
+  language: "English",
+  ...page(),
+  ...settings(),
+  ...plan(format),
+  ...view(format),
+  ...orientation(format),
+  ...problems(format),
+});

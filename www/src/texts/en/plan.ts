@@ -1,0 +1,132 @@
+/** A plan and what it gains, its print file, the trade-off curve, the profile and the masks. */
+import type { Format } from "../format.js";
+import { LAYERS } from "./nouns.js";
+
+export const plan = ({ counted, plural }: Format) => ({
+  plan: {
+    region: "The plan",
+    layers: (count: number) => plural(count, LAYERS),
+    time: (time: string) => `about ${time} to print`,
+    resin: (ml: string) => `${ml} of resin`,
+    download: "Download print file",
+    earlier: "This is the last plan that worked, with the settings before the change.",
+    again: "Plan again",
+    none: "There is no plan for this model yet.",
+    make: "Plan the layers",
+    said: (count: number, time: string) =>
+      `${counted(count, LAYERS)} planned, about ${time} to print.`,
+    columns: { plan: "Plan", layers: "Layers", time: "Time", error: "Largest error" },
+    uniform: (thickness: string) => `Uniform ${thickness}`,
+    own: "This plan",
+    within: "within tolerance",
+    over: "over tolerance",
+  },
+  /** Before the download: what the file is, what the printer makes of it, and what nobody added to the model. */
+  file: {
+    kinds: {
+      png: "A zip of layer images.",
+      chitubox: "A ChiTuBox zip.",
+      uvj: "A UVJ file.",
+      sl1: "A Prusa SL1 file.",
+    },
+    direct: (printer: string) => `The ${printer} reads it directly.`,
+    convert: (printer: string, extensions: string) => `The ${printer} reads ${extensions}: convert it with UVtools first.`,
+    unreadable: (printer: string) => `The ${printer} cannot read it.`,
+    asIs: "The model prints as it is: no supports, not hollowed.",
+    together: (sentences: readonly string[]) => sentences.join(" "),
+  },
+  /** What the plan gains over uniform ones; `uniform` is a thickness, `figure` a number of layers or a time. */
+  gain: {
+    over: (error: string, tolerance: string) => `The error reaches ${error}, more than the ${tolerance} allowed.`,
+    isUniform: (tolerance: string) => `Uniform layers, within ${tolerance} all the way up. Adaptive ones may need fewer.`,
+    coarsest: {
+      layers: (uniform: string, tolerance: string) => `As few as uniform ${uniform}, and within ${tolerance} all the way up.`,
+      time: (uniform: string, tolerance: string) => `As quick as uniform ${uniform}, and within ${tolerance} all the way up.`,
+    },
+    nothing: {
+      layers: (uniform: string, figure: string) =>
+        `As many as uniform ${uniform} (${figure}): this tolerance leaves no room for thicker layers.`,
+      time: (uniform: string, figure: string) =>
+        `As slow as uniform ${uniform} (${figure}): this tolerance leaves no room for thicker layers.`,
+    },
+    saved: {
+      layers: (part: string, uniform: string, figure: string) => `${part} fewer than uniform ${uniform} (${figure})`,
+      time: (part: string, uniform: string, figure: string) => `${part} less time than uniform ${uniform} (${figure})`,
+    },
+    sameTolerance: (saved: string) => `${saved}, same tolerance.`,
+    onlyThis: (saved: string) => `${saved}, and it keeps the tolerance where that does not.`,
+    coarsestToo: (saved: string, uniform: string) => `${saved}, but uniform ${uniform} keeps the tolerance as well.`,
+  },
+  quality: {
+    title: "Quality",
+    hint: "Each point is the best plan for its deviation.",
+    quick: "Quicker",
+    fine: "Finer",
+    waiting: "Looking for the best plans",
+    said: (error: string, time: string, layers: number) =>
+      `Deviation ${error}, ${time}, ${counted(layers, LAYERS)}`,
+    axis: (metric: string) => `Print time over deviation (${metric})`,
+    finest: (uniform: string, time: string) => `Uniform ${uniform}, the finest: ${time}`,
+    coarsest: (uniform: string, time: string) => `Uniform ${uniform}, the coarsest: ${time}`,
+    same: (part: string, uniform: string) => `Same quality as uniform ${uniform}, ${part} less time.`,
+    near: (part: string, uniform: string, error: string, finest: string) =>
+      `${part} less time than uniform ${uniform}; the deviation is ${error} instead of ${finest}.`,
+    none: (uniform: string) => `As slow as uniform ${uniform}: give more room for thicker layers.`,
+    single: "Every quality gives this model the same layers.",
+  },
+  details: {
+    ran: (where: string, duration: string) => `Computed on ${where} in ${duration}`,
+    cpu: "the CPU",
+    gpu: (adapter: string | null) => (adapter === null ? "the GPU" : `the GPU (${adapter})`),
+    load: "Reading",
+    ldi: "Casting rays",
+    profile: "Measuring the surface",
+    plan: "Planning",
+    masks: "Masks",
+    meshError: "Largest error on the mesh",
+    rayError: "The same as rays see it",
+    cuspError: "Largest cusp height",
+    flats: "Planes at flats",
+    source: "Planned from",
+    exact: "Every facet",
+    sampled: "What rays see",
+    overhead: "Time between exposures",
+    mask: "Masks",
+    maskSize: (width: string, height: string, pitch: string) => `${width} × ${height} pixels of ${pitch}`,
+    bins: "Profile",
+    binSize: (count: string, bin: string) => `${count} intervals of ${bin}`,
+    hits: "Surface hits",
+  },
+  chart: {
+    region: "Profile",
+    title: "Profile and plan",
+    hint: "Click to see a layer. Drag to zoom.",
+    at: (height: string, density: string) => `At ${height}: ${density}`,
+    whole: "Whole model",
+    heights: "Height (mm)",
+    none: "No plan yet",
+    said: (axis: string, height: string, layers: number, least: string, most: string) =>
+      `Chart of the profile by height (${axis}), up to ${height}, over the ` +
+      `${counted(layers, LAYERS)} of the plan, ${least} to ${most} thick.`,
+  },
+  mask: {
+    region: "Layers",
+    title: "Mask of a layer",
+    layer: "Layer",
+    below: "Layer below",
+    above: "Layer above",
+    height: "Height",
+    thickness: "Thickness",
+    play: "Play",
+    pause: "Pause",
+    zoomIn: "Zoom in",
+    zoomOut: "Zoom out",
+    zoom: (times: string) => `${times} ×`,
+    wellHint: "Drag or use the arrow keys to move.",
+    picture: (said: string) => `Mask. ${said}`,
+    said: (layer: string, layers: string, height: string, thickness: string) =>
+      `Layer ${layer} of ${layers}, at ${height}, ${thickness} thick`,
+  },
+});
+
+export type PlanTexts = ReturnType<typeof plan>;

@@ -1,0 +1,6 @@
+/** What is counted: one, and several. */
+export const LAYERS = { one: "capa", other: "capas" };
+export const FACETS = { one: "faceta", other: "facetas" };
+export const OMITTED = { one: "omitida", other: "omitidas" };
+export const EDGES = { one: "arista", other: "aristas" };
+export const HOLES = { one: "agujero tapado", other: "agujeros tapados" };

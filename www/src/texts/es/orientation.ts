@@ -1,0 +1,48 @@
+import type { OrientationTexts } from "../en/orientation.js";
+import type { Format } from "../format.js";
+import { LAYERS } from "./nouns.js";
+
+export const orientation = ({ counted }: Format): OrientationTexts => ({
+  orientation: {
+    title: "Dirección de construcción",
+    hint: "Girado de otro modo, el modelo puede necesitar menos capas o quedar más liso.",
+    find: "Buscar la mejor dirección",
+    again: "Buscar de nuevo",
+    stale: "Hallado con otros ajustes que los mostrados.",
+    cost: "Coste",
+    costs: { layers: "Capas", time: "Tiempo" },
+    quality: "Calidad",
+    qualities: { error: "Error", roughness: "Rugosidad", overhang: "Voladizo" },
+    balance: "Lo que más cuenta",
+    fewer: { layers: "Menos capas", time: "Más rápido" },
+    better: { error: "Menos error", roughness: "Más liso", overhang: "Menos voladizo" },
+    parts: (cost, costPart, quality, qualityPart) => `${cost} ${costPart}, ${quality} ${qualityPart}`,
+    sphere: "Esfera de direcciones",
+    kind: "Esfera de Gauss",
+    keys: "Las flechas van de una dirección a otra. Intro coloca el modelo así.",
+    point: "Señale una dirección para ver sus cifras; haga clic para colocar el modelo así.",
+    front: "Delante",
+    back: "Detrás",
+    energy: "Energía",
+    legend: "Energía: menos es mejor",
+    excluded: "No cabe",
+    upright: "Arriba, como está",
+    why: {
+      "too-large": "Demasiado ancho o profundo para la impresora.",
+      "too-high": "Demasiado alto para la impresora.",
+      "no-plan": "Ningún plan cumple la tolerancia.",
+    },
+    layers: "Capas",
+    time: "Tiempo de impresión",
+    error: "Error máximo",
+    roughness: "Rugosidad media",
+    overhang: "Área en voladizo",
+    size: "Tamaño",
+    apply: "Colocar así",
+    best: "Mejores direcciones",
+    rank: (rank) => `Dirección ${rank}`,
+    said: (layers, time, error) => `${counted(layers, LAYERS)}, ${time}, error ${error}`,
+    found: (count) => `${count} direcciones medidas.`,
+    none: "Ninguna dirección cabe en la impresora y cumple la tolerancia.",
+  },
+});

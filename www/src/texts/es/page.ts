@@ -1,0 +1,56 @@
+import type { PageTexts } from "../en/page.js";
+
+export const page = (): PageTexts => ({
+  page: {
+    title: "Cusp: capas adaptativas para impresión en resina",
+    tagline: "Capas finas donde la superficie las necesita, gruesas donde no.",
+    private: "Su modelo nunca sale de este ordenador.",
+    drop: "Suelte para abrir",
+    languages: "Idioma",
+    noModel: "¿No tiene un modelo a mano?",
+    tryExample: "Probar el ejemplo",
+    example: "Ejemplo",
+    points: [
+      ["El mínimo de capas", "De todos los planes que respetan su tolerancia se toma el más corto."],
+      ["Ningún escalón de más", "La tolerancia se cumple en cada capa, no de media."],
+      ["Un archivo para imprimir", "Para impresoras conocidas, o como imágenes de las capas con su espesor, en un zip."],
+    ],
+  },
+  open: {
+    region: "Abrir un modelo",
+    drop: "Suelte un STL aquí",
+    choose: "Elegir un archivo",
+    another: "Abrir otro",
+    opening: (name) => `Abriendo ${name}`,
+    place: (place, total) => `Modelo ${place} de ${total}`,
+    previous: "Modelo anterior",
+    next: "Modelo siguiente",
+  },
+  model: {
+    region: "El modelo",
+    size: "Tamaño",
+    sizeHelp: "ancho × fondo × alto",
+    scaled: (from) => `escalado desde ${from}`,
+    facets: "Facetas",
+    surface: "Superficie",
+    closed: "Cerrada",
+    open: "No cerrada",
+  },
+  progress: {
+    load: "Leyendo el modelo",
+    saliency: "Buscando lo que destaca",
+    ldi: "Lanzando rayos",
+    profile: "Midiendo la superficie",
+    plan: "Planificando las capas",
+    masks: "Dibujando las máscaras",
+    directions: "Midiendo direcciones",
+    left: (seconds) => `quedan unos ${seconds}`,
+    cancel: "Cancelar",
+  },
+  notices: {
+    cancelled: "Cancelado.",
+    exportCancelled: "Se canceló la descarga.",
+    partFailed: "No se pudo cargar esta parte de la página. Compruebe la conexión e inténtelo de nuevo; si no ayuda, recargue la página.",
+    close: "Cerrar",
+  },
+});

@@ -1,0 +1,52 @@
+import type { ViewWords } from "../en/view.js";
+import type { Format } from "../format.js";
+import { LAYERS } from "./nouns.js";
+
+export const view = ({ counted }: Format): ViewWords => ({
+  view: {
+    region: "El modelo en tres dimensiones",
+    title: "Modelo",
+    kind: "Vista 3D",
+    keys: {
+      turn: "Las flechas giran la vista, más y menos acercan y alejan, 0 muestra todo el modelo.",
+      rotate: "Las flechas, Re Pág y Av Pág giran el modelo 5°, con Mayús 1°.",
+      flat: "Intro apoya en la base la cara del centro. Las flechas giran la vista.",
+      paint: "Intro pinta en el centro de la vista, Ctrl+Z lo deshace. Las flechas giran la vista.",
+    },
+    empty: "Aún no hay modelo",
+    legend: "Espesor de capa (µm)",
+    heat: "Cuánto importa",
+    layers: (count) => counted(count, LAYERS),
+    layer: (layer, height, thickness) => `Capa ${layer} · ${height} · ${thickness}`,
+    grid: (step) => `Cuadrícula ${step}`,
+    building: (part) => `Calculando los escalones: ${part}`,
+    unavailable: "Este navegador no muestra la vista 3D: WebGL 2 está desactivado o falta.",
+    tools: { turn: "Mirar alrededor", rotate: "Girar el modelo", flat: "Apoyar una cara", paint: "Qué importa" },
+    printed: "Como impreso",
+    safe: "Para daltónicos",
+    aligned: "Junto al perfil",
+    upright: "Como en el archivo",
+  },
+  paint: {
+    title: "Qué importa",
+    hint: "La tolerancia se cumple donde el peso es 100 %. Donde algo importa menos, las capas pueden ser más gruesas. Pinte sobre el modelo; arrastre a su lado para girar la vista.",
+    brush: "Pincel",
+    modes: { less: "Importa menos", more: "Importa más", erase: "Borrar", soften: "Suavizar" },
+    size: "Tamaño (mm)",
+    strength: "Intensidad",
+    fills: "Rellenar una zona lisa",
+    crease: "Hasta aristas de",
+    mirrors: "Reflejar izquierda y derecha",
+    base: "Peso sin pintar",
+    least: "Peso mínimo",
+    saliency: "Lo que destaca importa más",
+    show: "Mostrar",
+    colours: { paint: "Peso pintado", saliency: "Lo que destaca", product: "Peso que cuenta", layers: "Espesor de capa" },
+    finding: "Buscando lo que destaca",
+    undo: "Deshacer trazo",
+    redo: "Rehacer trazo",
+    clear: "Vaciar",
+    save: "Guardar pesos",
+    open: "Cargar pesos",
+  },
+});

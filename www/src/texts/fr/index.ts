@@ -1,0 +1,20 @@
+import type { Format } from "../format.js";
+import type { Texts } from "../index.js";
+import { orientation } from "./orientation.js";
+import { page } from "./page.js";
+import { plan } from "./plan.js";
+import { problems } from "./problems.js";
+import { settings } from "./settings.js";
+import { view } from "./view.js";
+
+export const units = { hours: "h", minutes: "min" };
+
+export const fr = (format: Format): Texts => ({
+  language: "Français",
+  ...page(),
+  ...settings(),
+  ...plan(format),
+  ...view(format),
+  ...orientation(format),
+  ...problems(format),
+});

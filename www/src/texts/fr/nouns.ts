@@ -1,0 +1,6 @@
+/** What is counted: one, and several. */
+export const LAYERS = { one: "couche", other: "couches" };
+export const FACETS = { one: "facette", other: "facettes" };
+export const OMITTED = { one: "omise", other: "omises" };
+export const EDGES = { one: "arête", other: "arêtes" };
+export const HOLES = { one: "trou bouché", other: "trous bouchés" };

@@ -1,0 +1,48 @@
+import type { OrientationTexts } from "../en/orientation.js";
+import type { Format } from "../format.js";
+import { LAYERS } from "./nouns.js";
+
+export const orientation = ({ counted }: Format): OrientationTexts => ({
+  orientation: {
+    title: "Direction de fabrication",
+    hint: "Tourné autrement, le modèle demande peut-être moins de couches ou sera plus lisse.",
+    find: "Chercher la meilleure direction",
+    again: "Chercher à nouveau",
+    stale: "Trouvé avec d’autres réglages que ceux affichés.",
+    cost: "Coût",
+    costs: { layers: "Couches", time: "Durée" },
+    quality: "Qualité",
+    qualities: { error: "Erreur", roughness: "Rugosité", overhang: "Surplomb" },
+    balance: "Ce qui compte le plus",
+    fewer: { layers: "Moins de couches", time: "Plus rapide" },
+    better: { error: "Moins d’erreur", roughness: "Plus lisse", overhang: "Moins de surplomb" },
+    parts: (cost, costPart, quality, qualityPart) => `${cost} ${costPart}, ${quality} ${qualityPart}`,
+    sphere: "Sphère des directions",
+    kind: "Sphère de Gauss",
+    keys: "Les flèches vont d’une direction à l’autre. Entrée pose le modèle ainsi.",
+    point: "Pointez une direction pour voir ses chiffres ; cliquez pour poser le modèle ainsi.",
+    front: "Avant",
+    back: "Arrière",
+    energy: "Énergie",
+    legend: "Énergie : moins vaut mieux",
+    excluded: "Ne convient pas",
+    upright: "Le haut actuel",
+    why: {
+      "too-large": "Trop large ou trop profond pour l’imprimante.",
+      "too-high": "Trop haut pour l’imprimante.",
+      "no-plan": "Aucun plan ne tient la tolérance.",
+    },
+    layers: "Couches",
+    time: "Durée d’impression",
+    error: "Erreur maximale",
+    roughness: "Rugosité moyenne",
+    overhang: "Surface en surplomb",
+    size: "Taille",
+    apply: "Poser ainsi",
+    best: "Meilleures directions",
+    rank: (rank) => `Direction ${rank}`,
+    said: (layers, time, error) => `${counted(layers, LAYERS)}, ${time}, erreur ${error}`,
+    found: (count) => `${count} directions mesurées.`,
+    none: "Aucune direction ne convient à l’imprimante et à la tolérance.",
+  },
+});

@@ -1,0 +1,56 @@
+import type { PageTexts } from "../en/page.js";
+
+export const page = (): PageTexts => ({
+  page: {
+    title: "Cusp : couches adaptatives pour l’impression en résine",
+    tagline: "Des couches fines là où la surface en a besoin, épaisses ailleurs.",
+    private: "Votre modèle ne quitte jamais cet ordinateur.",
+    drop: "Déposez pour ouvrir",
+    languages: "Langue",
+    noModel: "Pas de modèle sous la main ?",
+    tryExample: "Essayer l’exemple",
+    example: "Exemple",
+    points: [
+      ["Le moins de couches", "Parmi tous les plans qui respectent votre tolérance, le plus court est retenu."],
+      ["Aucune marche trop haute", "La tolérance tient dans chaque couche, pas en moyenne."],
+      ["Un fichier à imprimer", "Pour des imprimantes connues, ou en images des couches avec leur épaisseur, dans un zip."],
+    ],
+  },
+  open: {
+    region: "Ouvrir un modèle",
+    drop: "Déposez un STL ici",
+    choose: "Choisir un fichier",
+    another: "En ouvrir un autre",
+    opening: (name) => `Ouverture de ${name}`,
+    place: (place, total) => `Modèle ${place} sur ${total}`,
+    previous: "Modèle précédent",
+    next: "Modèle suivant",
+  },
+  model: {
+    region: "Le modèle",
+    size: "Taille",
+    sizeHelp: "largeur × profondeur × hauteur",
+    scaled: (from) => `mis à l’échelle depuis ${from}`,
+    facets: "Facettes",
+    surface: "Surface",
+    closed: "Fermée",
+    open: "Non fermée",
+  },
+  progress: {
+    load: "Lecture du modèle",
+    saliency: "Recherche de ce qui ressort",
+    ldi: "Lancer de rayons",
+    profile: "Mesure de la surface",
+    plan: "Planification des couches",
+    masks: "Dessin des masques",
+    directions: "Mesure des directions",
+    left: (seconds) => `encore ${seconds} environ`,
+    cancel: "Annuler",
+  },
+  notices: {
+    cancelled: "Annulé.",
+    exportCancelled: "Le téléchargement a été annulé.",
+    partFailed: "Cette partie de la page n’a pas pu être chargée. Vérifiez la connexion et réessayez ; si cela ne suffit pas, rechargez la page.",
+    close: "Fermer",
+  },
+});

@@ -1,0 +1,52 @@
+import type { ViewWords } from "../en/view.js";
+import type { Format } from "../format.js";
+import { LAYERS } from "./nouns.js";
+
+export const view = ({ counted }: Format): ViewWords => ({
+  view: {
+    region: "Le modèle en trois dimensions",
+    title: "Modèle",
+    kind: "Vue 3D",
+    keys: {
+      turn: "Les flèches tournent la vue, plus et moins zooment, 0 montre tout le modèle.",
+      rotate: "Les flèches, Page préc. et Page suiv. tournent le modèle de 5°, avec Maj de 1°.",
+      flat: "Entrée pose sur le plateau la face du milieu. Les flèches tournent la vue.",
+      paint: "Entrée peint au milieu de la vue, Ctrl+Z annule. Les flèches tournent la vue.",
+    },
+    empty: "Pas encore de modèle",
+    legend: "Épaisseur de couche (µm)",
+    heat: "Combien cela compte",
+    layers: (count) => counted(count, LAYERS),
+    layer: (layer, height, thickness) => `Couche ${layer} · ${height} · ${thickness}`,
+    grid: (step) => `Grille ${step}`,
+    building: (part) => `Calcul des marches : ${part}`,
+    unavailable: "Ce navigateur n’affiche pas la vue 3D : WebGL 2 est désactivé ou absent.",
+    tools: { turn: "Regarder autour", rotate: "Tourner le modèle", flat: "Poser une face", paint: "Ce qui compte" },
+    printed: "Comme imprimé",
+    safe: "Pour daltoniens",
+    aligned: "À côté du profil",
+    upright: "Comme dans le fichier",
+  },
+  paint: {
+    title: "Ce qui compte",
+    hint: "La tolérance est tenue là où le poids est de 100 %. Ce qui compte moins peut avoir des couches plus épaisses. Peignez sur le modèle ; glissez à côté pour tourner la vue.",
+    brush: "Pinceau",
+    modes: { less: "Compte moins", more: "Compte plus", erase: "Effacer", soften: "Adoucir" },
+    size: "Taille (mm)",
+    strength: "Force",
+    fills: "Remplir une zone lisse",
+    crease: "Jusqu’aux arêtes de",
+    mirrors: "Miroir gauche et droite",
+    base: "Poids sans peinture",
+    least: "Poids minimal",
+    saliency: "Ce qui ressort compte plus",
+    show: "Afficher",
+    colours: { paint: "Poids peint", saliency: "Ce qui ressort", product: "Poids qui compte", layers: "Épaisseur de couche" },
+    finding: "Recherche de ce qui ressort",
+    undo: "Annuler le trait",
+    redo: "Rétablir le trait",
+    clear: "Vider",
+    save: "Enregistrer les poids",
+    open: "Charger des poids",
+  },
+});

@@ -1,0 +1,56 @@
+import type { PageTexts } from "../en/page.js";
+
+export const page = (): PageTexts => ({
+  page: {
+    title: "Cusp：光固化打印的自适应分层",
+    tagline: "表面需要处用薄层，不需要处用厚层。",
+    private: "您的模型不会离开这台电脑。",
+    drop: "松开即可打开",
+    languages: "语言",
+    noModel: "手边没有模型？",
+    tryExample: "试试示例",
+    example: "示例",
+    points: [
+      ["层数最少", "在所有满足公差的方案中选取最短的一个。"],
+      ["没有过高的台阶", "每一层都满足公差，而不是平均满足。"],
+      ["可打印的文件", "适用于已知的打印机，或导出为带层厚的图像压缩包。"],
+    ],
+  },
+  open: {
+    region: "打开模型",
+    drop: "将 STL 拖放到此处",
+    choose: "选择文件",
+    another: "打开其他文件",
+    opening: (name) => `正在打开 ${name}`,
+    place: (place, total) => `第 ${place} 个模型，共 ${total} 个`,
+    previous: "上一个模型",
+    next: "下一个模型",
+  },
+  model: {
+    region: "模型",
+    size: "尺寸",
+    sizeHelp: "宽 × 深 × 高",
+    scaled: (from) => `由 ${from} 缩放`,
+    facets: "三角面",
+    surface: "表面",
+    closed: "封闭",
+    open: "不封闭",
+  },
+  progress: {
+    load: "正在读取模型",
+    saliency: "正在找出显眼之处",
+    ldi: "正在投射光线",
+    profile: "正在测量表面",
+    plan: "正在规划分层",
+    masks: "正在绘制掩膜",
+    directions: "正在测量各方向",
+    left: (seconds) => `约剩 ${seconds}`,
+    cancel: "取消",
+  },
+  notices: {
+    cancelled: "已取消。",
+    exportCancelled: "下载已取消。",
+    partFailed: "页面的这一部分无法加载。请检查网络连接后重试；如仍无效，请重新加载页面。",
+    close: "关闭",
+  },
+});
