@@ -7,20 +7,25 @@ import { LitElement, type PropertyValues, type TemplateResult } from "lit";
 import { SlicerError } from "../api/error.js";
 import { createSlicer, type Model, type Plan, type PrintFile, type Slicer } from "../api/index.js";
 import type { Source } from "../api/source.js";
-import type { Backend, Candidate, Format, Metric, Resin } from "../api/wire.js";
+import type { Backend, Format, Metric, Resin } from "../api/wire.js";
 import { languageOf, type Language } from "../texts/index.js";
-import { Attributes, settingsOf, type SettingName } from "./state/attributes.js";
+import { Attributes, settingsOf } from "./state/attributes.js";
+import { isFiles } from "./state/choice.js";
 import type { CuspSlicerEvents } from "./events.js";
+import { watchGestures } from "./gestures.js";
+import { langOf } from "./parts/lang.js";
+import { DECLARATIONS, type SettingName } from "./properties.js";
+import { Reports } from "./reports.js";
 import { template } from "./template.js";
 import { layoutStyles } from "./styles/layout.js";
 import { METRICS } from "./state/metric.js";
 import { PANELS, type Panel } from "./state/panel-names.js";
 import { definePanels } from "./panels/index.js";
 import { problemStyles } from "./parts/problem-box.js";
-import { progressStyles, standing } from "./parts/progress.js";
+import { progressStyles } from "./parts/progress.js";
 import type { Result } from "./state/result.js";
 import { saveFile } from "./parts/save-file.js";
-import { Session, type Host } from "./state/session.js";
+import { Session } from "./state/session.js";
 import { fromAddress, parse, toAddress } from "./state/settings.js";
 import { shared } from "./styles/shared.js";
 import { summaryStyles } from "./panels/summary.js";
@@ -28,28 +33,8 @@ import { thumbnailOf } from "./parts/thumbnail.js";
 
 export type State = "empty" | "busy" | "error" | "done" | "ready";
 
-interface Waiting {
-  resolve(result: Plan): void;
-  reject(error: unknown): void;
-}
-
-export class CuspSlicer extends LitElement implements Host {
-  static override properties = {
-    src: { type: String },
-    locale: given(),
-    panels: given(),
-    fixed: given(),
-    printer: given(),
-    resin: given(),
-    tolerance: given(),
-    layerMin: given("layer-min"),
-    layerMax: given("layer-max"),
-    metric: given(),
-    format: given(),
-    quality: given(),
-    backend: given(),
-    dragging: { state: true },
-  };
+export class CuspSlicer extends LitElement {
+  static override properties = { ...DECLARATIONS, dragging: { state: true } };
 
   /** Address of an STL, which is opened when it is set. */
   declare src: string | null;
@@ -60,12 +45,15 @@ export class CuspSlicer extends LitElement implements Host {
 
   /** What this element works with; a page may ask it for more than the element shows. */
   readonly slicer: Slicer = createSlicer();
-  readonly #session = new Session(this, this.slicer);
+  readonly #reports: Reports = new Reports(this, {
+    isCurrent: () => this.#session.isCurrent,
+    offered: () => this.#attributes.offered(),
+  });
+  readonly #session = new Session(this.#reports, this.slicer);
   readonly #attributes = new Attributes(this.#session, (error) => this.#misused(error));
   #locale: string | null = null;
   #panels: readonly Panel[] | null = null;
   #fixed: readonly SettingName[] | null = null;
-  #waiting: Waiting[] = [];
   #started = false;
 
   constructor() {
@@ -73,11 +61,13 @@ export class CuspSlicer extends LitElement implements Host {
     definePanels();
     this.src = null;
     this.dragging = false;
-    this.addEventListener("dragover", this.#dragOver);
-    this.addEventListener("dragleave", () => (this.dragging = false));
-    this.addEventListener("drop", this.#dropped);
-    this.addEventListener("paste", this.#pasted);
-    this.addEventListener("keydown", this.#key);
+    watchGestures(this, {
+      dragging: (isOver) => (this.dragging = isOver),
+      open: (files) => void this.#session.choose(files),
+      cancel: () => this.cancel(),
+      undo: () => this.undo(),
+      redo: () => this.redo(),
+    });
   }
 
   override connectedCallback(): void {
@@ -281,10 +271,9 @@ export class CuspSlicer extends LitElement implements Host {
     if (this.model === null) return Promise.reject(new SlicerError("no-model", "load a model first"));
     const { result } = this;
     if (result !== null && this.#session.isCurrent && this.state === "done") return Promise.resolve(result);
-    return new Promise((resolve, reject) => {
-      this.#waiting.push({ resolve, reject });
-      this.#session.replan();
-    });
+    const planned = this.#reports.nextPlan();
+    this.#session.replan();
+    return planned;
   }
 
   /** The print file of the plan that the settings give; nothing is saved. */
@@ -320,46 +309,6 @@ export class CuspSlicer extends LitElement implements Host {
 
   redo(): void {
     this.#session.redo();
-  }
-
-  /** @internal What the session tells. */
-  loaded(model: Model): void {
-    this.#tell("cusp-load", model);
-  }
-  /** @internal */
-  planned(result: Result): void {
-    if (this.#session.isCurrent) this.#settle(({ resolve }) => resolve(result));
-    this.#tell("cusp-plan", result);
-  }
-  /** @internal */
-  failed(error: SlicerError): void {
-    this.#settle(({ reject }) => reject(error));
-    this.#tell("cusp-error", error);
-  }
-  /** @internal */
-  offered(): void {
-    this.#attributes.offered();
-  }
-  /** @internal */
-  cancelled(): void {
-    this.#settle(({ reject }) => reject(new DOMException("cancelled", "AbortError")));
-  }
-  /** @internal */
-  progressed(busy: NonNullable<Session["busy"]>): void {
-    const { task, stage, fraction } = busy;
-    this.#tell("cusp-progress", { task, stage, fraction, ...standing(busy, performance.now()) });
-  }
-  /** @internal */
-  painted(weights: Float32Array | null, final: boolean): void {
-    this.#tell("cusp-paint", { weights, final });
-  }
-  /** @internal */
-  oriented(candidate: Candidate): void {
-    this.#tell("cusp-orientation", candidate);
-  }
-  /** @internal */
-  settingsChanged(): void {
-    this.#tell("cusp-change", { query: this.query });
   }
 
   override willUpdate(changed: PropertyValues<this>): void {
@@ -407,25 +356,12 @@ export class CuspSlicer extends LitElement implements Host {
   /** An attribute that makes no sense is its developer's affair: a customer sees nothing of it. */
   #misused(error: SlicerError): void {
     console.warn(`<cusp-slicer>: ${error.message}`, this);
-    this.#tell("cusp-error", error);
+    this.#reports.tell("cusp-error", error);
   }
 
   /** Why the last task came to nothing. */
   #reason(): unknown {
-    const { failure } = this.#session;
-    if (failure === null) return new DOMException("cancelled", "AbortError");
-    return failure.error;
-  }
-
-  #settle(tell: (waiting: Waiting) => void): void {
-    const waiting = this.#waiting;
-    this.#waiting = [];
-    waiting.forEach(tell);
-  }
-
-  #tell<Name extends keyof CuspSlicerEvents>(name: Name, detail: CuspSlicerEvents[Name]["detail"]): boolean {
-    const isCancelable = name === "cusp-export";
-    return this.dispatchEvent(new CustomEvent(name, { detail, bubbles: true, composed: true, cancelable: isCancelable }));
+    return this.#session.failure?.error ?? new DOMException("cancelled", "AbortError");
   }
 
   readonly #picked = (event: Event): void => {
@@ -439,42 +375,12 @@ export class CuspSlicer extends LitElement implements Host {
 
   readonly #save = async (): Promise<void> => {
     const download = await this.#session.export();
-    if (download !== null && this.#tell("cusp-export", download)) saveFile(download);
+    if (download !== null && this.#reports.tell("cusp-export", download)) saveFile(download);
   };
 
   readonly #saveWeights = async (): Promise<void> => {
     const download = await this.#session.saveWeights();
     if (download !== null) saveFile(download);
-  };
-
-  readonly #dragOver = (event: DragEvent): void => {
-    event.preventDefault();
-    this.dragging = event.dataTransfer?.types.includes("Files") ?? false;
-  };
-
-  readonly #dropped = (event: DragEvent): void => {
-    event.preventDefault();
-    this.dragging = false;
-    void this.#session.choose([...(event.dataTransfer?.files ?? [])]);
-  };
-
-  readonly #pasted = (event: ClipboardEvent): void => {
-    const files = [...(event.clipboardData?.files ?? [])];
-    if (files.length === 0) return;
-    event.preventDefault();
-    void this.#session.choose(files);
-  };
-
-  readonly #key = (event: KeyboardEvent): void => {
-    if (event.key === "Escape") return this.cancel();
-    const [origin] = event.composedPath();
-    // In a text field these keys are the browser's own.
-    if (!(event.ctrlKey || event.metaKey) || (origin instanceof HTMLInputElement && origin.type === "text")) return;
-    const key = event.key.toLowerCase();
-    if (key === "y" || (key === "z" && event.shiftKey)) this.redo();
-    else if (key === "z") this.undo();
-    else return;
-    event.preventDefault();
   };
 }
 
@@ -483,27 +389,6 @@ const THUMBNAIL_PX = 400;
 
 /** From this width on settings stand beside the results, and are open. */
 const WIDE_PX = 896;
-
-/** A property whose setter makes what it can of the attribute as it is written. */
-function given(attribute?: string) {
-  const converter = { fromAttribute: (text: string | null) => text };
-  return { noAccessor: true, converter, ...(attribute !== undefined && { attribute }) };
-}
-
-function isFiles(source: Source | readonly File[]): source is readonly File[] {
-  return Array.isArray(source);
-}
-
-/** The nearest `lang` around an element, through shadow roots. */
-function langOf(element: Element): string | null {
-  for (let at: Element | null = element; at !== null; ) {
-    const found: Element | null = at.closest("[lang]");
-    if (found !== null) return found.getAttribute("lang");
-    const root: Node = at.getRootNode();
-    at = root instanceof ShadowRoot ? root.host : null;
-  }
-  return null;
-}
 
 declare global {
   interface HTMLElementTagNameMap {

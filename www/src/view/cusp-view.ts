@@ -5,14 +5,14 @@
  * later only changes the colours. Import this module lazily; nothing else of the front-end loads three. Whoever imports it
  * defines the element, since a bundler may leave out what a module does beside its exports.
  */
-import { html, LitElement, nothing, type PropertyValues, type TemplateResult } from "lit";
+import type { PropertyValues, TemplateResult } from "lit";
 import type { Frame, Heights, Inset } from "./scene/cameras.js";
-import { BRUSH, type Brush } from "./paint/brush.js";
+import { BRUSH } from "./paint/brush.js";
 import { Derived } from "./steps/derived.js";
 import type { HeightDetail, PaintDetail, RotateDetail, ViewErrorDetail, ViewEvents } from "./events.js";
 import { pressed, type Tool } from "./scene/keys.js";
 import type { Heat } from "./paint/heat.js";
-import { heatLegend, legend, legendStyles } from "./legend/legend.js";
+import { legendStyles } from "./legend/legend.js";
 import type { Look } from "./scene/model.js";
 import { Painting } from "./paint/painting.js";
 import type { PaletteName } from "./legend/palette.js";
@@ -23,78 +23,56 @@ import { layFlat, turned, UPRIGHT, type Rotation } from "./scene/pose.js";
 import { Printed } from "./steps/printed.js";
 import { Scene } from "./scene/scene.js";
 import { contextOf, place } from "./scene/surface.js";
-import { ENGLISH, type ViewTexts } from "./texts.js";
+import { template } from "./template.js";
+import { ENGLISH } from "./texts.js";
 import { themeOf } from "./scene/theme.js";
 import { viewStyles } from "./view-styles.js";
+import { elementWith, given, own } from "./properties.js";
 
-export class CuspView extends LitElement {
-  static override properties = {
-    positions: { attribute: false },
-    rotation: { attribute: false },
-    scale: { type: Number },
-    z_mm: { attribute: false },
-    thickness_mm: { attribute: false },
-    limits: { attribute: false },
-    layer: { type: Number },
-    plate: { attribute: false },
-    look: { type: String },
-    palette: { type: String },
-    tool: { type: String },
-    aligned: { type: Boolean },
-    heights_mm: { attribute: false },
-    inset: { attribute: false },
-    weights: { attribute: false },
-    saliency: { attribute: false },
-    heat: { type: String },
-    least: { type: Number },
-    brush: { attribute: false },
-    showsLegend: { attribute: false },
-    texts: { attribute: false },
-    building: { state: true },
-    broken: { state: true },
-  };
-
+const PROPERTIES = {
   /** Nine numbers a facet, mm, in the file's pose; a new array is a new model. */
-  declare positions: Float32Array | null;
+  positions: given<Float32Array | null>(null),
   /** Turns the model before it is put on the plate. Ignored while the model is being dragged by its rings. */
-  declare rotation: Rotation;
+  rotation: given<Rotation>(UPRIGHT),
   /** What the file's lengths are multiplied by. */
-  declare scale: number;
+  scale: given(1),
   /** Layer boundaries from 0 to the top, mm; empty where there is no plan. */
-  declare z_mm: readonly number[];
+  z_mm: given<readonly number[]>([]),
   /** Of each layer. */
-  declare thickness_mm: readonly number[];
+  thickness_mm: given<readonly number[]>([]),
   /** Thicknesses at the ends of the colour scale, mm. */
-  declare limits: readonly [number, number];
+  limits: given<readonly [number, number]>([0, 0]),
   /** The layer looked at, counted from 0. */
-  declare layer: number | null;
+  layer: given<number | null>(null),
   /** The printer's build volume; without one the plate is a grid that fades. */
-  declare plate: BuildVolume | null;
-  declare look: Look;
-  declare palette: PaletteName;
-  declare tool: Tool;
+  plate: given<BuildVolume | null>(null),
+  look: given<Look>("thickness"),
+  palette: given<PaletteName>("classic"),
+  tool: given<Tool>("turn"),
   /** Looks from the front without perspective, so that a height is a row of pixels: see `cusp-frame`. */
-  declare aligned: boolean;
+  aligned: given(false),
   /** The heights shown when aligned; null for the whole model. */
-  declare heights_mm: Heights | null;
+  heights_mm: given<Heights | null>(null),
   /** Room above and below those heights when aligned. */
-  declare inset: Inset;
+  inset: given<Inset>({ top_px: 12, bottom_px: 12 }),
   /** How much each facet matters, 0 to 1, as painted; null: all 1. Ignored while a stroke is being painted. */
-  declare weights: Float32Array | null;
+  weights: given<Float32Array | null>(null),
   /** How much each facet stands out, 0 to 1; null: all 1. */
-  declare saliency: Float32Array | null;
+  saliency: given<Float32Array | null>(null),
   /** What the look `weights` shows. */
-  declare heat: Heat;
+  heat: given<Heat>("paint"),
   /** What a facet counts for at least, for showing the product. */
-  declare least: number;
-  declare brush: Brush;
-  declare showsLegend: boolean;
-  declare texts: ViewTexts;
+  least: given(0),
+  brush: given(BRUSH),
+  showsLegend: given(true),
+  texts: given(ENGLISH),
   /** Progress of the stair steps, 0 to 1; null when none are being worked out. */
-  declare building: number | null;
+  building: own<number | null>(null),
   /** Whether there is no WebGL. */
-  declare broken: boolean;
+  broken: own(false),
+};
 
+export class CuspView extends elementWith(PROPERTIES) {
   #scene: Scene | null = null;
   #derived: Derived | null = null;
   #life = new AbortController();
@@ -118,73 +96,13 @@ export class CuspView extends LitElement {
 
   static override styles = [viewStyles, legendStyles];
 
-  constructor() {
-    super();
-    this.positions = null;
-    this.rotation = UPRIGHT;
-    this.scale = 1;
-    this.z_mm = [];
-    this.thickness_mm = [];
-    this.limits = [0, 0];
-    this.layer = null;
-    this.plate = null;
-    this.look = "thickness";
-    this.palette = "classic";
-    this.tool = "turn";
-    this.aligned = false;
-    this.heights_mm = null;
-    this.inset = { top_px: 12, bottom_px: 12 };
-    this.weights = null;
-    this.saliency = null;
-    this.heat = "paint";
-    this.least = 0;
-    this.brush = BRUSH;
-    this.showsLegend = true;
-    this.texts = ENGLISH;
-    this.building = null;
-    this.broken = false;
-  }
-
   override render(): TemplateResult {
-    const { texts } = this;
-    if (this.broken) return html`<p class="unavailable">${texts.unavailable}</p>`;
-    const layers = this.thickness_mm.length;
-    const marked = this.layer === null ? undefined : this.thickness_mm[this.layer];
-    return html`
-      <div
-        class="scene"
-        part="scene"
-        data-tool=${this.tool}
-        tabindex="0"
-        role="application"
-        aria-roledescription=${texts.kind}
-        aria-label=${texts.name}
-        aria-describedby="state keys"
-        @keydown=${this.#key}
-      >
-        <div class="cross"></div>
-      </div>
-      <p class="visually-hidden" id="state">
-        ${this.positions === null ? texts.empty : texts.state(this.#scene?.model.size_mm ?? [0, 0, 0], layers)}
-        ${this.#layerWords()}
-      </p>
-      <p class="visually-hidden" id="keys">${texts.keys[this.tool]}</p>
-      <span class="label" part="label" hidden>${this.#layerWords()}</span>
-      ${this.showsLegend && layers > 0 && this.look === "thickness"
-        ? legend({ palette: this.palette, limits: this.limits, marked_mm: marked ?? null, texts })
-        : nothing}
-      ${this.look === "weights" && this.positions !== null ? heatLegend(texts) : nothing}
-      ${this.positions === null || this.aligned
-        ? nothing
-        : html`<span class="grid">${texts.grid(this.#scene?.plate.step_mm ?? 1)}</span>`}
-      ${this.building === null
-        ? nothing
-        : html`<div class="building">
-            ${texts.building(this.building)}
-            <progress aria-label=${texts.building(this.building)} max="1" value=${this.building}></progress>
-          </div>`}
-      <span class="probe ink"></span><span class="probe accent"></span><span class="probe bad"></span>
-    `;
+    return template(this, {
+      size_mm: this.#scene?.model.size_mm ?? [0, 0, 0],
+      step_mm: this.#scene?.plate.step_mm ?? 1,
+      layerWords: this.#layerWords(),
+      keyed: this.#key,
+    });
   }
 
   override connectedCallback(): void {

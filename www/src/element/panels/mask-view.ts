@@ -1,14 +1,15 @@
 /** A layer's mask on a canvas at any zoom, with the range input that goes through the layers, and play. */
-import { css, html, LitElement, nothing, type PropertyValues, type TemplateResult } from "lit";
+import { css, html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
 import type { Mask } from "../../api/index.js";
 import type { Report } from "../../api/wire.js";
-import { languageOf, type Language } from "../../texts/index.js";
+import { languageOf } from "../../texts/index.js";
 import { coverage, factorFor, wholeBytes } from "../parts/bitmap.js";
 import { css as cssColour, ofThickness } from "../../view/legend/palette.js";
 import { styled } from "../parts/styled.js";
 import { shared } from "../styles/shared.js";
-import { moved, WHOLE, windowOf, zoomed, type Place } from "../parts/window.js";
+import { moved, WHOLE, windowOf, zoomed } from "../parts/window.js";
+import { elementWith, given, own } from "../../view/properties.js";
 
 /** Least time between two layers when they are played; for those who want less motion. */
 const FRAME_MS = 60;
@@ -24,41 +25,22 @@ const ARROWS: Readonly<Record<string, readonly [number, number]>> = {
   ArrowDown: [0, STEP],
 };
 
-export class CuspMask extends LitElement {
-  static override properties = {
-    mask: { attribute: false },
-    report: { attribute: false },
-    limits: { attribute: false },
-    layer: { type: Number },
-    language: { attribute: false },
-    place: { state: true },
-    playing: { state: true },
-  };
+const PROPERTIES = {
+  mask: given<Mask | null>(null),
+  report: given<Report | null>(null),
+  limits: given<readonly [number, number]>([0, 0]),
+  layer: given(0),
+  language: given(languageOf()),
+  place: own(WHOLE),
+  playing: own(false),
+};
 
-  declare mask: Mask | null;
-  declare report: Report | null;
-  declare limits: readonly [number, number];
-  declare layer: number;
-  declare language: Language;
-  declare place: Place;
-  declare playing: boolean;
-
+export class CuspMask extends elementWith(PROPERTIES) {
   #resized: ResizeObserver | null = null;
   #timer: ReturnType<typeof setTimeout> | undefined;
   /** Where the pointer holds the picture. */
   #held: readonly [number, number] | null = null;
   readonly #calm = matchMedia("(prefers-reduced-motion: reduce)");
-
-  constructor() {
-    super();
-    this.mask = null;
-    this.report = null;
-    this.limits = [0, 0];
-    this.layer = 0;
-    this.language = languageOf();
-    this.place = WHOLE;
-    this.playing = false;
-  }
 
   static override styles = [
     shared,

@@ -1,5 +1,5 @@
 /** The model in three dimensions with its tools. The view itself, and three with it, is fetched when it is first shown. */
-import { css, html, LitElement, nothing, type PropertyValues, type TemplateResult } from "lit";
+import { css, html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import type { Model, Slicer } from "../../api/index.js";
 import type { Printer } from "../../api/wire.js";
 import { languageOf, type Language } from "../../texts/index.js";
@@ -9,150 +9,75 @@ import type { PaletteName } from "../../view/legend/palette.js";
 import type { BuildVolume } from "../../view/scene/plate.js";
 import type { Rotation } from "../../view/scene/pose.js";
 import { heightOf } from "../../view/scene/turn.js";
-import { BRUSH, rebased, type Brush } from "../../view/paint/brush.js";
+import { BRUSH, rebased } from "../../view/paint/brush.js";
 import type { CuspView } from "../../view/cusp-view.js";
 import type { PaintDetail, RotateDetail } from "../../view/events.js";
 import type { Tool } from "../../view/scene/keys.js";
 import type { ViewTexts } from "../../view/texts.js";
+import { viewTexts } from "../parts/view-texts.js";
 import type { Painted } from "../events.js";
 import { define } from "../define.js";
 import { partFailure, partStyles, tellPartFailed } from "../parts/part.js";
 import { paintStyles, paintTools, type Colours } from "./paint-tools.js";
 import type { PlotPlace } from "./profile-chart.js";
 import type { Shown } from "../state/result.js";
-import { DEFAULT_SETTINGS, type Settings } from "../state/settings.js";
+import { DEFAULT_SETTINGS } from "../state/settings.js";
 import { shared } from "../styles/shared.js";
+import { elementWith, given, own } from "../../view/properties.js";
 
-const MICROMETRES = 1000;
 /** Room around the model where there is no chart beside it. */
 const ALONE: Inset = { top_px: 12, bottom_px: 12 };
 /** The brush at first, as a part of the model's longest side. */
 const BRUSH_PART = 0.2;
 const TOOLS: readonly Tool[] = ["turn", "rotate", "flat", "paint"];
 
-/** What the view says, from the catalogue. */
-export function viewTexts({ texts: { view: words }, format }: Language): ViewTexts {
-  const micrometres = (mm: number): string => format.tick(Math.round(mm * MICROMETRES * 10) / 10);
-  return {
-    name: words.title,
-    kind: words.kind,
-    keys: words.keys,
-    state: (size_mm, layers) => format.dimensions(size_mm) + (layers > 0 ? `, ${words.layers(layers)}` : ""),
-    empty: words.empty,
-    legend: words.legend,
-    heat: words.heat,
-    weight: (weight) => format.percent(weight),
-    tick: micrometres,
-    layer: (layer, z_mm, thickness_mm) =>
-      words.layer(format.count(layer + 1), format.height(z_mm), `${micrometres(thickness_mm)}\u00a0µm`),
-    grid: (step_mm) => words.grid(format.fine(step_mm)),
-    building: (part) => words.building(format.percent(part)),
-    unavailable: words.unavailable,
-  };
-}
-
 export interface Scaled {
   readonly height_mm: number;
   readonly rotation: Rotation;
 }
 
-export class CuspModel extends LitElement {
-  static override properties = {
-    slicer: { attribute: false },
-    model: { attribute: false },
-    shown: { attribute: false },
-    layer: { type: Number },
-    rotation: { attribute: false },
-    scaled: { attribute: false, hasChanged: (a: unknown, b: unknown) => JSON.stringify(a) !== JSON.stringify(b) },
-    printer: { attribute: false },
-    language: { attribute: false },
-    plot: { attribute: false },
-    inset: { state: true },
-    positions: { state: true },
-    isThere: { state: true },
-    isMissing: { state: true },
-    tool: { state: true },
-    look: { state: true },
-    palette: { state: true },
-    aligned: { state: true },
-    settings: { attribute: false },
-    weights: { attribute: false },
-    saliency: { state: true },
-    isFinding: { state: true },
-    brush: { state: true },
-    colours: { state: true },
-    canUndo: { state: true },
-    canRedo: { state: true },
-  };
-
-  declare slicer: Slicer | null;
+const PROPERTIES = {
+  slicer: given<Slicer | null>(null),
   /** Positions are asked for when it is another. */
-  declare model: Model | null;
-  declare shown: Shown | null;
-  declare layer: number;
-  declare rotation: Rotation;
+  model: given<Model | null>(null),
+  shown: given<Shown | null>(null),
+  layer: given(0),
+  rotation: given<Rotation>([0, 0, 0, 1]),
   /** The height that the model is scaled to, and how it stands when it is that high; null for the file's own size. */
-  declare scaled: Scaled | null;
-  declare printer: Printer | null;
-  declare language: Language;
+  scaled: given<Scaled | null>(null, (a: unknown, b: unknown) => JSON.stringify(a) !== JSON.stringify(b)),
+  printer: given<Printer | null>(null),
+  language: given(languageOf()),
   /** Where the chart beside it shows which heights; null without a chart. */
-  declare plot: PlotPlace | null;
-  declare inset: Inset;
-  declare positions: Float32Array | null;
+  plot: given<PlotPlace | null>(null),
+  inset: own(ALONE),
+  positions: own<Float32Array | null>(null),
   /** Whether the view has been fetched. */
-  declare isThere: boolean;
+  isThere: own(false),
   /** Whether it could not be fetched. */
-  declare isMissing: boolean;
-  declare tool: Tool;
-  declare look: Look;
-  declare palette: PaletteName;
+  isMissing: own(false),
+  tool: own<Tool>("turn"),
+  look: own<Look>("thickness"),
+  palette: own<PaletteName>("classic"),
   /** Whether heights are to be where the chart has them, if it stands beside. */
-  declare aligned: boolean;
-  declare settings: Settings;
+  aligned: own(true),
+  settings: given(DEFAULT_SETTINGS),
   /** How much each facet matters; null: all alike. */
-  declare weights: Float32Array | null;
+  weights: given<Float32Array | null>(null),
   /** How much each facet stands out; null until somebody wants to see that. */
-  declare saliency: Float32Array | null;
-  declare isFinding: boolean;
-  declare brush: Brush;
-  declare colours: Colours;
-  declare canUndo: boolean;
-  declare canRedo: boolean;
+  saliency: own<Float32Array | null>(null),
+  isFinding: own(false),
+  brush: own(BRUSH),
+  colours: own<Colours>("product"),
+  canUndo: own(false),
+  canRedo: own(false),
+};
 
+export class CuspModel extends elementWith(PROPERTIES) {
   /** What the file's lengths are multiplied by. */
   #scale = 1;
   #texts: { of: Language; words: ViewTexts } | null = null;
   #asked: Model | null = null;
   readonly #resized = new ResizeObserver(() => this.requestUpdate());
-
-  constructor() {
-    super();
-    this.slicer = null;
-    this.model = null;
-    this.shown = null;
-    this.layer = 0;
-    this.rotation = [0, 0, 0, 1];
-    this.scaled = null;
-    this.printer = null;
-    this.language = languageOf();
-    this.plot = null;
-    this.inset = ALONE;
-    this.positions = null;
-    this.isThere = false;
-    this.isMissing = false;
-    this.tool = "turn";
-    this.look = "thickness";
-    this.palette = "classic";
-    this.aligned = true;
-    this.settings = DEFAULT_SETTINGS;
-    this.weights = null;
-    this.saliency = null;
-    this.isFinding = false;
-    this.brush = BRUSH;
-    this.colours = "product";
-    this.canUndo = false;
-    this.canRedo = false;
-  }
 
   static override styles = [
     shared,

@@ -1,5 +1,5 @@
 /** The search for the best direction: what counts, the sphere of energies, and the best ones to choose from. */
-import { html, LitElement, nothing, type PropertyValues, type TemplateResult } from "lit";
+import { html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
 import type { Found, Slicer } from "../../api/index.js";
 import type { Candidate, Metric } from "../../api/wire.js";
@@ -15,6 +15,7 @@ import { progressBar, progressStyles, type Busy } from "../parts/progress.js";
 import { rotationText } from "../state/settings.js";
 import { styled } from "../parts/styled.js";
 import { shared } from "../styles/shared.js";
+import { elementWith, given, own } from "../../view/properties.js";
 
 const COSTS: readonly Aims["cost"][] = ["layers", "time"];
 const QUALITIES: readonly Aims["quality"][] = ["error", "roughness", "overhang"];
@@ -27,47 +28,24 @@ const PICTURE_PX = 256;
 /** What of a search is on show. */
 export type Searched = Readonly<Pick<OrientationSearch, "aims" | "found" | "best" | "busy" | "isCurrent" | "isPossible" | "options">>;
 
-export class CuspOrientation extends LitElement {
-  static override properties = {
-    slicer: { attribute: false },
-    searched: { attribute: false },
-    metric: { type: String },
-    rotation: { attribute: false },
-    camera: { attribute: false },
-    palette: { type: String },
-    language: { attribute: false },
-    looked: { state: true },
-    isUnpictured: { state: true },
-  };
-
-  declare slicer: Slicer | null;
-  declare searched: Searched | null;
+const PROPERTIES = {
+  slicer: given<Slicer | null>(null),
+  searched: given<Searched | null>(null),
   /** What errors are measured by where the search does not say. */
-  declare metric: Metric;
-  declare rotation: Rotation;
+  metric: given<Metric>("cusp"),
+  rotation: given<Rotation>([0, 0, 0, 1]),
   /** How the view beside it looks at the model; null without one. */
-  declare camera: Rotation | null;
-  declare palette: PaletteName;
-  declare language: Language;
+  camera: given<Rotation | null>(null),
+  palette: given<PaletteName>("classic"),
+  language: given(languageOf()),
   /** The candidate that is pointed at. */
-  declare looked: Looked | null;
+  looked: own<Looked | null>(null),
   /** Whether what draws the pictures could not be fetched. */
-  declare isUnpictured: boolean;
+  isUnpictured: own(false),
+};
 
+export class CuspOrientation extends elementWith(PROPERTIES) {
   #drawing: AbortController | null = null;
-
-  constructor() {
-    super();
-    this.slicer = null;
-    this.searched = null;
-    this.metric = "cusp";
-    this.rotation = [0, 0, 0, 1];
-    this.camera = null;
-    this.palette = "classic";
-    this.language = languageOf();
-    this.looked = null;
-    this.isUnpictured = false;
-  }
 
   static override styles = [shared, progressStyles, partStyles, orientationStyles];
 

@@ -1,14 +1,15 @@
 /** Energies of all directions on a Gaussian sphere, from the front and from behind, turned as the model beside it is. */
-import { css, html, LitElement, nothing, svg, type PropertyValues, type SVGTemplateResult, type TemplateResult } from "lit";
+import { css, html, nothing, svg, type PropertyValues, type SVGTemplateResult, type TemplateResult } from "lit";
 import type { Found } from "../../api/index.js";
 import type { Candidate } from "../../api/wire.js";
-import { languageOf, type Language } from "../../texts/index.js";
+import { languageOf } from "../../texts/index.js";
 import { drawSphere, Nearest, placeOf, seenAt, type Place, type Side } from "../../view/gaussian.js";
 import { colourAt, type PaletteName, type Rgb } from "../../view/legend/palette.js";
 import type { Rotation, Triple } from "../../view/scene/pose.js";
 import { back, combined, FIRST_LOOK, lookFrom, turn } from "../../view/scene/turn.js";
 import { stepped, type Way } from "../parts/sphere-steps.js";
 import { shared } from "../styles/shared.js";
+import { elementWith, given, own } from "../../view/properties.js";
 
 /** Finer pixels than these are not seen. */
 const DENSITY_LIMIT = 2;
@@ -51,47 +52,26 @@ export function coloursOf(candidates: readonly (Candidate | null)[], palette: Pa
   });
 }
 
-export class CuspSphere extends LitElement {
-  static override properties = {
-    found: { attribute: false },
-    best: { attribute: false },
-    rotation: { attribute: false },
-    camera: { attribute: false },
-    palette: { type: String },
-    language: { attribute: false },
-    hovered: { state: true },
-    chosen: { state: true },
-  };
-
-  declare found: Found | null;
-  declare best: readonly Candidate[];
+const PROPERTIES = {
+  found: given<Found | null>(null),
+  best: given<readonly Candidate[]>([]),
   /** How the model is turned. */
-  declare rotation: Rotation;
+  rotation: given<Rotation>([0, 0, 0, 1]),
   /** How the view beside it looks at the model; null without one. */
-  declare camera: Rotation | null;
-  declare palette: PaletteName;
-  declare language: Language;
+  camera: given<Rotation | null>(null),
+  palette: given<PaletteName>("classic"),
+  language: given(languageOf()),
   /** Under the pointer. */
-  declare hovered: Candidate | null;
+  hovered: own<Candidate | null>(null),
   /** By keyboard, or by the first touch. */
-  declare chosen: Candidate | null;
+  chosen: own<Candidate | null>(null),
+};
 
+export class CuspSphere extends elementWith(PROPERTIES) {
   /** Whether the last press was a finger's: not every browser's click says so. */
   #isTouched = false;
   #nearest: { of: Float64Array; nearest: Nearest } | null = null;
   readonly #resized = new ResizeObserver(() => this.#draw());
-
-  constructor() {
-    super();
-    this.found = null;
-    this.best = [];
-    this.rotation = [0, 0, 0, 1];
-    this.camera = null;
-    this.palette = "classic";
-    this.language = languageOf();
-    this.hovered = null;
-    this.chosen = null;
-  }
 
   static override styles = [
     shared,

@@ -1,14 +1,15 @@
 /** Puts the chart of chart.ts on the page: size, colours, the marker of the layer looked at, clicks. */
-import { css, html, LitElement, unsafeCSS, type PropertyValues, type TemplateResult } from "lit";
+import { css, html, unsafeCSS, type PropertyValues, type TemplateResult } from "lit";
 import type uPlot from "uplot";
 import uplotStyles from "uplot/dist/uPlot.min.css?inline";
 import { chartData, chartOptions, type ChartData, type ChartTheme } from "../parts/chart.js";
 import { gradient } from "../../view/legend/palette.js";
-import { languageOf, type Language } from "../../texts/index.js";
+import { languageOf } from "../../texts/index.js";
 import { layerAt } from "../../view/scene/lookup.js";
 import { METRICS } from "../state/metric.js";
 import { partFailure, partStyles, tellPartFailed } from "../parts/part.js";
 import { shared } from "../styles/shared.js";
+import { elementWith, given, own } from "../../view/properties.js";
 
 /** Where the chart shows which heights. */
 export interface PlotPlace {
@@ -18,25 +19,18 @@ export interface PlotPlace {
   heights_mm: readonly [number, number];
 }
 
-export class CuspChart extends LitElement {
-  static override properties = {
-    data: { attribute: false },
-    layer: { type: Number },
-    language: { attribute: false },
-    zoomed: { state: true },
-    hovered: { state: true },
-    failed: { state: true },
-  };
-
-  declare data: ChartData | null;
-  declare layer: number;
-  declare language: Language;
-  declare zoomed: boolean;
+const PROPERTIES = {
+  data: given<ChartData | null>(null),
+  layer: given(0),
+  language: given(languageOf()),
+  zoomed: own(false),
   /** The bin under the pointer. */
-  declare hovered: number | null;
+  hovered: own<number | null>(null),
   /** Whether what draws could not be loaded. */
-  declare failed: boolean;
+  failed: own(false),
+};
 
+export class CuspChart extends elementWith(PROPERTIES) {
   /** What draws; null until it is loaded. */
   #library: typeof uPlot | null = null;
   #plot: uPlot | null = null;
@@ -44,16 +38,6 @@ export class CuspChart extends LitElement {
   #resized: ResizeObserver | null = null;
   readonly #dark = matchMedia("(prefers-color-scheme: dark)");
   readonly #redraw = (): void => this.#build();
-
-  constructor() {
-    super();
-    this.data = null;
-    this.layer = 0;
-    this.language = languageOf();
-    this.zoomed = false;
-    this.hovered = null;
-    this.failed = false;
-  }
 
   static override styles = [
     unsafeCSS(uplotStyles),

@@ -1,5 +1,5 @@
 /** The trade-off curve as a picture and a slider: one notch is one best plan, the quicker ones first. */
-import { css, html, LitElement, nothing, type TemplateResult } from "lit";
+import { css, html, nothing, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
 import type { TradeoffPoint } from "../../api/wire.js";
 import { languageOf, type Language } from "../../texts/index.js";
@@ -7,6 +7,7 @@ import { notchOf, placeAmong, type Planned } from "../state/curve.js";
 import { METRICS } from "../state/metric.js";
 import type { Result } from "../state/result.js";
 import { shared } from "../styles/shared.js";
+import { elementWith, given } from "../../view/properties.js";
 
 /** The picture's own units; it is stretched to its place. */
 const WIDTH = 400;
@@ -55,29 +56,16 @@ export function gainWords({ report, limits }: Pick<Result, "report" | "limits">,
   return texts.quality.near(part, uniform, error(report.max_error), error(finest.max_error));
 }
 
-export class CuspQuality extends LitElement {
-  static override properties = {
-    points: { attribute: false },
-    result: { attribute: false },
-    isFixed: { attribute: false },
-    language: { attribute: false },
-  };
-
+const PROPERTIES = {
   /** From the tightest tolerance to the loosest; null while they are looked for. */
-  declare points: readonly TradeoffPoint[] | null;
-  declare result: Result | null;
+  points: given<readonly TradeoffPoint[] | null>(null),
+  result: given<Result | null>(null),
   /** Whether the page alone decides the tolerance. */
-  declare isFixed: boolean;
-  declare language: Language;
+  isFixed: given(false),
+  language: given(languageOf()),
+};
 
-  constructor() {
-    super();
-    this.points = null;
-    this.result = null;
-    this.isFixed = false;
-    this.language = languageOf();
-  }
-
+export class CuspQuality extends elementWith(PROPERTIES) {
   static override styles = [
     shared,
     css`

@@ -1,15 +1,17 @@
 /** The settings as a form. It holds nothing: it shows what it is given and says what was typed. */
-import { css, html, LitElement, nothing, type PropertyValues, type TemplateResult } from "lit";
+import { html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
 import { DEFAULTS, type Format, type MeshInfo } from "../../api/wire.js";
-import { languageOf, type Language } from "../../texts/index.js";
+import { languageOf } from "../../texts/index.js";
 import { formatFor } from "../state/choice.js";
 import { METRIC_NAMES, METRICS } from "../state/metric.js";
 import type { Choice, Problem } from "../state/problem.js";
 import { problemBox, problemStyles } from "../parts/problem-box.js";
 import { DEFAULT_SETTINGS, faultWords, FORMATS, RAYS, usualTolerance, withTolerance } from "../state/settings.js";
 import type { Faults, Field, Offered, Settings } from "../state/settings.js";
+import { settingsStyles } from "../styles/settings-styles.js";
 import { shared } from "../styles/shared.js";
+import { elementWith, given } from "../../view/properties.js";
 
 /** Settings that are out of sight at first, unless they are changed. */
 const MORE = ["minimize", "snap", "step", "exposure", "bottomExposure", "bottomLayers"] as const;
@@ -21,165 +23,25 @@ export function hasPlace({ field }: Problem, { printer }: Settings, { printers }
   return field !== "rays" || printer === "";
 }
 
-export class CuspSettings extends LitElement {
-  static override properties = {
-    settings: { attribute: false },
-    faults: { attribute: false },
-    info: { attribute: false },
-    taken: { attribute: false },
-    offered: { attribute: false },
-    fixed: { attribute: false },
-    problem: { attribute: false },
-    language: { attribute: false },
-  };
-
-  declare settings: Settings;
-  declare faults: Faults;
-  declare info: MeshInfo | null;
+const PROPERTIES = {
+  settings: given(DEFAULT_SETTINGS),
+  faults: given<Faults>({}),
+  info: given<MeshInfo | null>(null),
   /** The tolerance that the core took where none is typed; null if it is not known. */
-  declare taken: number | null;
-  declare offered: Offered;
+  taken: given<number | null>(null),
+  offered: given<Offered>({ printers: [], resins: [] }),
   /** Settings that are shown and cannot be changed. */
-  declare fixed: ReadonlySet<keyof Settings>;
+  fixed: given<ReadonlySet<keyof Settings>>(new Set()),
   /** A failure that one of these settings caused; it is shown beside that. */
-  declare problem: Problem | null;
-  declare language: Language;
+  problem: given<Problem | null>(null),
+  language: given(languageOf()),
+};
+
+export class CuspSettings extends elementWith(PROPERTIES) {
   /** Whether more settings are open at first; null before there are any settings. */
   #moreAtFirst: boolean | null = null;
 
-  constructor() {
-    super();
-    this.settings = DEFAULT_SETTINGS;
-    this.faults = {};
-    this.info = null;
-    this.taken = null;
-    this.offered = { printers: [], resins: [] };
-    this.fixed = new Set();
-    this.problem = null;
-    this.language = languageOf();
-  }
-
-  static override styles = [
-    shared,
-    problemStyles,
-    css`
-      form,
-      .more {
-        display: grid;
-        gap: 1rem;
-      }
-      .more {
-        margin-top: 1rem;
-      }
-      details summary {
-        width: fit-content;
-        font-size: 0.875rem;
-        font-weight: 550;
-        cursor: pointer;
-      }
-      .pair {
-        display: grid;
-        grid-template-columns: 1fr 1fr;
-        gap: 0.75rem;
-      }
-      label,
-      legend {
-        display: block;
-        padding: 0;
-        font-size: 0.875rem;
-        font-weight: 550;
-      }
-      .field {
-        min-width: 0;
-      }
-      .box {
-        display: flex;
-        align-items: center;
-        margin-top: 0.25rem;
-        border: 1px solid var(--cusp-field);
-        border-radius: 8px;
-        background: var(--cusp-card);
-      }
-      .box:focus-within {
-        outline: 3px solid var(--cusp-focus);
-        outline-offset: 1px;
-      }
-      .box.wrong {
-        border-color: var(--cusp-bad);
-        box-shadow: inset 0 0 0 1px var(--cusp-bad);
-      }
-      input[type="text"],
-      select {
-        font: inherit;
-        font-variant-numeric: tabular-nums;
-        width: 100%;
-        min-width: 0;
-        min-height: 2.5rem;
-        padding: 0.25rem 0.625rem;
-        border: 0;
-        border-radius: 8px;
-        outline: none;
-        background: transparent;
-        color: inherit;
-      }
-      .box:has(:disabled) {
-        background: var(--cusp-page);
-      }
-      input:disabled,
-      select:disabled {
-        opacity: 1;
-        color: var(--cusp-quiet);
-        cursor: not-allowed;
-      }
-      option {
-        background: var(--cusp-card);
-        color: var(--cusp-text);
-      }
-      .unit {
-        padding-inline-end: 0.625rem;
-        color: var(--cusp-quiet);
-        font-size: 0.875rem;
-      }
-      .hint,
-      .fault {
-        margin-top: 0.25rem;
-        font-size: 0.8125rem;
-        line-height: 1.4;
-      }
-      .hint {
-        color: var(--cusp-quiet);
-      }
-      .fault {
-        color: var(--cusp-bad);
-      }
-      .choice {
-        display: grid;
-        grid-template-columns: 1fr 1fr;
-        margin-top: 0.25rem;
-        border: 1px solid var(--cusp-field);
-        border-radius: 8px;
-        overflow: hidden;
-      }
-      .choice:focus-within:has(:focus-visible) {
-        outline: 3px solid var(--cusp-focus);
-        outline-offset: 1px;
-      }
-      .choice label {
-        min-height: 2.5rem;
-        display: grid;
-        place-items: center;
-        text-align: center;
-        cursor: pointer;
-      }
-      .choice label:has(:checked) {
-        background: var(--cusp-accent);
-        color: var(--cusp-on-accent);
-      }
-      .problem {
-        margin: 0.5rem 0 0;
-      }
-    `,
-  ];
+  static override styles = [shared, problemStyles, settingsStyles];
 
   override willUpdate(changed: PropertyValues<this>): void {
     // What the address changes must be seen; afterwards it is the reader who opens and closes.

@@ -1,7 +1,8 @@
 import { beforeEach, expect, test } from "vitest";
 import type { SlicerError } from "../../api/error.js";
 import type { Printer } from "../../api/wire.js";
-import { Attributes, settingsOf, type SettingName } from "./attributes.js";
+import { Attributes, settingsOf } from "./attributes.js";
+import type { SettingName } from "../properties.js";
 import { Preferences } from "./preferences.js";
 import { DEFAULT_SETTINGS, fromAddress } from "./settings.js";
 

@@ -3,111 +3,21 @@
  * and the last good value stays.
  */
 import { SlicerError } from "../../api/error.js";
-import type { Backend } from "../../api/wire.js";
-import { METRIC_NAMES, METRICS } from "./metric.js";
-import { PANELS } from "./panel-names.js";
+import { ATTRIBUTES, SETTING_NAMES, SETTINGS, type SettingName } from "../properties.js";
+import { METRICS } from "./metric.js";
 import type { Preferences } from "./preferences.js";
-import { DEFAULT_SETTINGS, FORMATS, withTolerance, type Fault, type Settings } from "./settings.js";
-
-/** Attributes that are settings, with what they set. A metric comes before the tolerance that is in its unit. */
-const SETTINGS = {
-  printer: "printer",
-  format: "format",
-  resin: "resin",
-  metric: "metric",
-  tolerance: "tolerances",
-  "layer-max": "layerMax",
-  "layer-min": "layerMin",
-} as const satisfies Record<string, keyof Settings>;
-
-export type SettingName = keyof typeof SETTINGS;
-
-const SETTING_NAMES = Object.keys(SETTINGS) as SettingName[];
+import { noneOf, type Read, type Reader, type Wrong } from "./readers.js";
+import { DEFAULT_SETTINGS, withTolerance, type Fault, type Settings } from "./settings.js";
 
 /** What these attributes set. */
 export function settingsOf(names: readonly SettingName[]): ReadonlySet<keyof Settings> {
-  return new Set(names.map((name) => SETTINGS[name]));
+  return new Set(names.map((name) => SETTINGS[name].sets));
 }
 
-const BACKENDS = ["cpu", "gpu"] as const satisfies readonly Backend[];
+/** Attributes that are judged here. */
+type Name = { [N in keyof typeof ATTRIBUTES]: (typeof ATTRIBUTES)[N] extends { read: Reader<unknown> } ? N : never }[keyof typeof ATTRIBUTES];
 
-/** What was expected instead. */
-interface Wrong {
-  /** Ends a sentence that begins with the attribute. */
-  words: string;
-  /** Where there is a list to choose from. */
-  known?: readonly string[];
-}
-
-interface Read<T> {
-  /** Null where nothing was said; absent where what was said makes no sense. */
-  value?: T | null;
-  wrong?: Wrong;
-}
-
-type Reader<T> = (said: unknown) => Read<T>;
-
-const noneOf = (known: readonly string[]): Wrong => ({ words: `is none of ${known.join(", ")}`, known });
-
-const text: Reader<string> = (said) => (typeof said === "string" ? { value: said } : { wrong: { words: "is no text" } });
-
-const numberOf = (said: unknown): number => (typeof said === "string" ? Number(said) : typeof said === "number" ? said : Number.NaN);
-
-const number: Reader<number> = (said) => {
-  const value = numberOf(said);
-  return Number.isFinite(value) ? { value } : { wrong: { words: "is no number" } };
-};
-
-const fraction: Reader<number> = (said) => {
-  const value = numberOf(said);
-  return value >= 0 && value <= 1 ? { value } : { wrong: { words: "is no number from 0 to 1" } };
-};
-
-const languageTag: Reader<string> = (said) => {
-  try {
-    return { value: new Intl.Locale(String(said)).toString() };
-  } catch {
-    return { wrong: { words: "is no BCP 47 language tag" } };
-  }
-};
-
-const oneOf =
-  <T extends string>(known: readonly T[]): Reader<T> =>
-  (said) => {
-    const value = known.find((it) => it === said);
-    return value === undefined ? { wrong: noneOf(known) } : { value };
-  };
-
-/** Of several names those that are known count, unless none is. */
-const someOf =
-  <T extends string>(known: readonly T[]): Reader<readonly T[]> =>
-  (said) => {
-    const named = String(said).trim().split(/\s+/);
-    const value = known.filter((it) => named.includes(it));
-    const strange = named.filter((it) => !known.some((one) => one === it));
-    if (strange.length === 0) return { value };
-    const words = `names ${strange.join(", ")}, but there are only ${known.join(", ")}`;
-    return { wrong: { words, known }, ...(value.length > 0 && { value }) };
-  };
-
-const READERS = {
-  printer: text,
-  resin: text,
-  format: oneOf(FORMATS),
-  metric: oneOf(METRIC_NAMES),
-  tolerance: number,
-  "layer-min": number,
-  "layer-max": number,
-  quality: fraction,
-  backend: oneOf(BACKENDS),
-  locale: languageTag,
-  panels: someOf(PANELS),
-  fixed: someOf(SETTING_NAMES),
-};
-
-type Name = keyof typeof READERS;
-
-type Value<N extends Name> = (typeof READERS)[N] extends Reader<infer T> ? T : never;
+type Value<N extends Name> = (typeof ATTRIBUTES)[N]["read"] extends Reader<infer T> ? T : never;
 
 type Values = Partial<{ [N in SettingName]: Value<N> | null }>;
 
@@ -136,7 +46,7 @@ export class Attributes {
   /** What an attribute says; null where it says nothing, undefined where that makes no sense. */
   read<N extends Name>(name: N, said: unknown): Value<N> | null | undefined {
     if (said === null || said === undefined || (typeof said === "string" && said.trim() === "")) return null;
-    const { value, wrong } = READERS[name](said) as Read<Value<N>>;
+    const { value, wrong } = ATTRIBUTES[name].read(said) as Read<Value<N>>;
     if (wrong !== undefined) this.#note(name, said, wrong, value !== undefined);
     return value;
   }
@@ -159,7 +69,7 @@ export class Attributes {
     this.#turn = null;
     if (turn !== null) {
       for (const [name, said] of turn.said) {
-        this.#given.set(name, { said, before: pick(turn.base, SETTINGS[name]), after: pick(this.#preferences.settings, SETTINGS[name]) });
+        this.#given.set(name, { said, before: pick(turn.base, SETTINGS[name].sets), after: pick(this.#preferences.settings, SETTINGS[name].sets) });
       }
       this.#judge([...turn.said.keys()]);
     }
@@ -182,7 +92,7 @@ export class Attributes {
       this.#preferences.preset(given.before);
       // What was there before may have been given before anybody knew the names.
       const isNameless = wrong.known !== undefined && this.#wrong(name) !== null;
-      if (isNameless) this.#preferences.preset(pick(DEFAULT_SETTINGS, SETTINGS[name]));
+      if (isNameless) this.#preferences.preset(pick(DEFAULT_SETTINGS, SETTINGS[name].sets));
       this.#note(name, given.said, wrong, false);
     }
   }

@@ -1,5 +1,5 @@
 /** Which files of a drop or a file dialogue are taken, what is saved of a plan, and what files are called. */
-import { stemOf } from "../../api/source.js";
+import { stemOf, type Source } from "../../api/source.js";
 import type { Format, Printer } from "../../api/wire.js";
 
 export interface Named {
@@ -21,4 +21,8 @@ export const weightsName = (model: string): string => `${stemOf(model)}.weights`
 /** The format that settings stand for before there is a plan. */
 export function formatFor({ printer, format }: { printer: string; format: Format | "" }, printers: readonly Printer[]): Format {
   return format || printers.find(({ name }) => name === printer)?.format || "png";
+}
+
+export function isFiles(source: Source | readonly File[]): source is readonly File[] {
+  return Array.isArray(source);
 }

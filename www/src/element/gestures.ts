@@ -1,0 +1,42 @@
+/** What a person does to the whole element: drops and pastes files, and presses keys. */
+
+export interface Gestures {
+  /** Files are held over the element, or no more. */
+  dragging(isOver: boolean): void;
+  open(files: readonly File[]): void;
+  cancel(): void;
+  undo(): void;
+  redo(): void;
+}
+
+export function watchGestures(element: HTMLElement, gestures: Gestures): void {
+  element.addEventListener("dragover", (event) => {
+    event.preventDefault();
+    gestures.dragging(event.dataTransfer?.types.includes("Files") ?? false);
+  });
+  element.addEventListener("dragleave", () => gestures.dragging(false));
+  element.addEventListener("drop", (event) => {
+    event.preventDefault();
+    gestures.dragging(false);
+    gestures.open([...(event.dataTransfer?.files ?? [])]);
+  });
+  element.addEventListener("paste", (event) => {
+    const files = [...(event.clipboardData?.files ?? [])];
+    if (files.length === 0) return;
+    event.preventDefault();
+    gestures.open(files);
+  });
+  element.addEventListener("keydown", (event) => pressed(event, gestures));
+}
+
+function pressed(event: KeyboardEvent, { cancel, undo, redo }: Gestures): void {
+  if (event.key === "Escape") return cancel();
+  const [origin] = event.composedPath();
+  // In a text field these keys are the browser's own.
+  if (!(event.ctrlKey || event.metaKey) || (origin instanceof HTMLInputElement && origin.type === "text")) return;
+  const key = event.key.toLowerCase();
+  if (key === "y" || (key === "z" && event.shiftKey)) redo();
+  else if (key === "z") undo();
+  else return;
+  event.preventDefault();
+}

@@ -1,0 +1,10 @@
+/** The nearest `lang` around an element, through shadow roots. */
+export function langOf(element: Element): string | null {
+  for (let at: Element | null = element; at !== null; ) {
+    const found: Element | null = at.closest("[lang]");
+    if (found !== null) return found.getAttribute("lang");
+    const root: Node = at.getRootNode();
+    at = root instanceof ShadowRoot ? root.host : null;
+  }
+  return null;
+}

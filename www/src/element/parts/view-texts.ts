@@ -1,0 +1,25 @@
+/** What the 3-D view says, in the language of the element. */
+import type { Language } from "../../texts/index.js";
+import type { ViewTexts } from "../../view/texts.js";
+
+const MICROMETRES = 1000;
+
+export function viewTexts({ texts: { view: words }, format }: Language): ViewTexts {
+  const micrometres = (mm: number): string => format.tick(Math.round(mm * MICROMETRES * 10) / 10);
+  return {
+    name: words.title,
+    kind: words.kind,
+    keys: words.keys,
+    state: (size_mm, layers) => format.dimensions(size_mm) + (layers > 0 ? `, ${words.layers(layers)}` : ""),
+    empty: words.empty,
+    legend: words.legend,
+    heat: words.heat,
+    weight: (weight) => format.percent(weight),
+    tick: micrometres,
+    layer: (layer, z_mm, thickness_mm) =>
+      words.layer(format.count(layer + 1), format.height(z_mm), `${micrometres(thickness_mm)}\u00a0µm`),
+    grid: (step_mm) => words.grid(format.fine(step_mm)),
+    building: (part) => words.building(format.percent(part)),
+    unavailable: words.unavailable,
+  };
+}

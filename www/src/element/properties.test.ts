@@ -1,0 +1,29 @@
+import type { LitElement } from "lit";
+import { expect, expectTypeOf, test } from "vitest";
+import type { CuspSlicer } from "./cusp-slicer.js";
+import { DECLARATIONS, PROPERTIES, READ_ONLY, type PropertyName } from "./properties.js";
+
+type Same<A, B> = (<T>() => T extends A ? 1 : 2) extends <T>() => T extends B ? 1 : 2 ? true : false;
+
+type Own = Exclude<keyof CuspSlicer, keyof LitElement>;
+
+type IsReadOnly<Name extends Own> = Same<Pick<CuspSlicer, Name>, Readonly<Pick<CuspSlicer, Name>>>;
+
+/** Properties of the class itself: nothing that is called, and nothing for the page around the element alone. */
+type Properties = { [Name in Own]: CuspSlicer[Name] extends (...given: never) => unknown ? never : Name }[Own];
+
+type Settable = { [Name in Properties]: IsReadOnly<Name> extends true ? never : Name }[Properties];
+
+test("the list names every property that can be set, and every one that can only be read", () => {
+  // `dragging` is the element's own.
+  expectTypeOf<Exclude<Settable, "dragging">>().toEqualTypeOf<PropertyName>();
+  expectTypeOf<Exclude<Properties, Settable | "slicer">>().toEqualTypeOf<(typeof READ_ONLY)[number]>();
+});
+
+test("an attribute is its property with hyphens, and Lit is told of each", () => {
+  const hyphenated = (name: string): string => name.replaceAll(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`);
+  for (const [name, it] of Object.entries(PROPERTIES)) {
+    expect(it?.attribute ?? hyphenated(name)).toBe(hyphenated(name));
+    expect(name in DECLARATIONS).toBe(it !== null);
+  }
+});

@@ -1,0 +1,79 @@
+/**
+ * What a page may say of `<cusp-slicer>`, in one list: Lit's declarations, the judgement of attributes and the types for
+ * frameworks follow from it. Tests hold the class and the tables of docs/embed.md to it.
+ */
+import type { PropertyDeclaration } from "lit";
+import type { Backend } from "../api/wire.js";
+import { METRIC_NAMES } from "./state/metric.js";
+import { PANELS } from "./state/panel-names.js";
+import { fraction, languageTag, number, oneOf, someOf, text, type Reader } from "./state/readers.js";
+import { FORMATS, type Settings } from "./state/settings.js";
+
+/** A property that is an attribute as well. */
+interface Attribute {
+  readonly attribute: string;
+  /** What makes sense; an address is judged where it is opened. */
+  readonly read?: Reader<unknown>;
+  /** The setting that it is. */
+  readonly sets?: keyof Settings;
+}
+
+type Attributes = Readonly<Record<string, Attribute>>;
+
+/** A list of properties by their attributes. */
+type ByAttribute<List extends Attributes> = { readonly [Name in keyof List as List[Name]["attribute"]]: List[Name] };
+
+function byAttribute<List extends Attributes>(list: List): ByAttribute<List> {
+  return Object.fromEntries(Object.values(list).map((it) => [it.attribute, it])) as ByAttribute<List>;
+}
+
+/** A metric comes before the tolerance that is in its unit. */
+const SETTING_PROPERTIES = {
+  printer: { attribute: "printer", read: text, sets: "printer" },
+  format: { attribute: "format", read: oneOf(FORMATS), sets: "format" },
+  resin: { attribute: "resin", read: text, sets: "resin" },
+  metric: { attribute: "metric", read: oneOf(METRIC_NAMES), sets: "metric" },
+  tolerance: { attribute: "tolerance", read: number, sets: "tolerances" },
+  layerMax: { attribute: "layer-max", read: number, sets: "layerMax" },
+  layerMin: { attribute: "layer-min", read: number, sets: "layerMin" },
+} as const satisfies Attributes;
+
+/** Attributes that are settings. */
+export const SETTINGS = byAttribute(SETTING_PROPERTIES);
+
+export type SettingName = keyof typeof SETTINGS;
+
+export const SETTING_NAMES = Object.keys(SETTINGS) as SettingName[];
+
+const BACKENDS = ["cpu", "gpu"] as const satisfies readonly Backend[];
+
+const ATTRIBUTE_PROPERTIES = {
+  src: { attribute: "src" },
+  ...SETTING_PROPERTIES,
+  quality: { attribute: "quality", read: fraction },
+  fixed: { attribute: "fixed", read: someOf(SETTING_NAMES) },
+  locale: { attribute: "locale", read: languageTag },
+  panels: { attribute: "panels", read: someOf(PANELS) },
+  backend: { attribute: "backend", read: oneOf(BACKENDS) },
+} as const satisfies Attributes;
+
+export const ATTRIBUTES = byAttribute(ATTRIBUTE_PROPERTIES);
+
+/** Every property that can be set, with its attribute if it has one. */
+export const PROPERTIES = { ...ATTRIBUTE_PROPERTIES, weights: null, resins: null, query: null } as const;
+
+export type PropertyName = keyof typeof PROPERTIES;
+
+/** Properties that can only be read; `state` is reflected in an attribute of that name. */
+export const READ_ONLY = ["state", "model", "result"] as const;
+
+/** What Lit is told: all but `src` have setters of their own, which make what they can of an attribute as it is written. */
+export const DECLARATIONS: Readonly<Record<string, PropertyDeclaration>> = {
+  ...Object.fromEntries(
+    Object.entries(ATTRIBUTE_PROPERTIES).map(([name, { attribute }]) => [
+      name,
+      { attribute, noAccessor: true, converter: { fromAttribute: (text: string | null) => text } },
+    ]),
+  ),
+  src: { type: String },
+};

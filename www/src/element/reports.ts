@@ -1,0 +1,94 @@
+/** What a session tells, passed on: to the page as events, and to whoever waits for a plan. */
+import type { SlicerError } from "../api/error.js";
+import type { Model, Plan } from "../api/index.js";
+import type { Candidate } from "../api/wire.js";
+import type { CuspSlicerEvents } from "./events.js";
+import { standing, type Busy } from "./parts/progress.js";
+import type { Result } from "./state/result.js";
+import type { Host } from "./state/session.js";
+
+interface Waiting {
+  resolve(result: Plan): void;
+  reject(error: unknown): void;
+}
+
+/** What of an element speaks to its page. */
+type Speaker = Pick<HTMLElement, "dispatchEvent"> & { requestUpdate(): void; readonly query: string };
+
+interface Asked {
+  /** Whether the last plan is what the settings ask for. */
+  isCurrent(): boolean;
+  /** There is more to choose from. */
+  offered(): void;
+}
+
+export class Reports implements Host {
+  readonly #speaker: Speaker;
+  readonly #asked: Asked;
+  #waiting: Waiting[] = [];
+
+  constructor(speaker: Speaker, asked: Asked) {
+    this.#speaker = speaker;
+    this.#asked = asked;
+  }
+
+  /** The next plan that is what the settings ask for. */
+  nextPlan(): Promise<Plan> {
+    return new Promise((resolve, reject) => this.#waiting.push({ resolve, reject }));
+  }
+
+  /** Dispatches an event; false if the page prevents what would follow. */
+  tell<Name extends keyof CuspSlicerEvents>(name: Name, detail: CuspSlicerEvents[Name]["detail"]): boolean {
+    const isCancelable = name === "cusp-export";
+    return this.#speaker.dispatchEvent(new CustomEvent(name, { detail, bubbles: true, composed: true, cancelable: isCancelable }));
+  }
+
+  requestUpdate(): void {
+    this.#speaker.requestUpdate();
+  }
+
+  loaded(model: Model): void {
+    this.tell("cusp-load", model);
+  }
+
+  planned(result: Result): void {
+    if (this.#asked.isCurrent()) this.#settle(({ resolve }) => resolve(result));
+    this.tell("cusp-plan", result);
+  }
+
+  failed(error: SlicerError): void {
+    this.#settle(({ reject }) => reject(error));
+    this.tell("cusp-error", error);
+  }
+
+  offered(): void {
+    this.#asked.offered();
+  }
+
+  cancelled(): void {
+    this.#settle(({ reject }) => reject(new DOMException("cancelled", "AbortError")));
+  }
+
+  progressed(busy: Busy): void {
+    const { task, stage, fraction } = busy;
+    this.tell("cusp-progress", { task, stage, fraction, ...standing(busy, performance.now()) });
+  }
+
+  painted(weights: Float32Array | null, final: boolean): void {
+    this.tell("cusp-paint", { weights, final });
+  }
+
+  oriented(candidate: Candidate): void {
+    this.tell("cusp-orientation", candidate);
+  }
+
+  settingsChanged(): void {
+    this.tell("cusp-change", { query: this.#speaker.query });
+  }
+
+  #settle(tell: (waiting: Waiting) => void): void {
+    const waiting = this.#waiting;
+    this.#waiting = [];
+    waiting.forEach(tell);
+  }
+}

@@ -1,0 +1,60 @@
+/** What an attribute or a property may say, and what was expected of one that makes no sense. */
+
+/** What was expected instead. */
+export interface Wrong {
+  /** Ends a sentence that begins with the attribute. */
+  words: string;
+  /** Where there is a list to choose from. */
+  known?: readonly string[];
+}
+
+export interface Read<T> {
+  /** Null where nothing was said; absent where what was said makes no sense. */
+  value?: T | null;
+  wrong?: Wrong;
+}
+
+export type Reader<T> = (said: unknown) => Read<T>;
+
+export const noneOf = (known: readonly string[]): Wrong => ({ words: `is none of ${known.join(", ")}`, known });
+
+export const text: Reader<string> = (said) => (typeof said === "string" ? { value: said } : { wrong: { words: "is no text" } });
+
+const numberOf = (said: unknown): number => (typeof said === "string" ? Number(said) : typeof said === "number" ? said : Number.NaN);
+
+export const number: Reader<number> = (said) => {
+  const value = numberOf(said);
+  return Number.isFinite(value) ? { value } : { wrong: { words: "is no number" } };
+};
+
+export const fraction: Reader<number> = (said) => {
+  const value = numberOf(said);
+  return value >= 0 && value <= 1 ? { value } : { wrong: { words: "is no number from 0 to 1" } };
+};
+
+export const languageTag: Reader<string> = (said) => {
+  try {
+    return { value: new Intl.Locale(String(said)).toString() };
+  } catch {
+    return { wrong: { words: "is no BCP 47 language tag" } };
+  }
+};
+
+export const oneOf =
+  <T extends string>(known: readonly T[]): Reader<T> =>
+  (said) => {
+    const value = known.find((it) => it === said);
+    return value === undefined ? { wrong: noneOf(known) } : { value };
+  };
+
+/** Of several names those that are known count, unless none is. */
+export const someOf =
+  <T extends string>(known: readonly T[]): Reader<readonly T[]> =>
+  (said) => {
+    const named = String(said).trim().split(/\s+/);
+    const value = known.filter((it) => named.includes(it));
+    const strange = named.filter((it) => !known.some((one) => one === it));
+    if (strange.length === 0) return { value };
+    const words = `names ${strange.join(", ")}, but there are only ${known.join(", ")}`;
+    return { wrong: { words, known }, ...(value.length > 0 && { value }) };
+  };

@@ -1,0 +1,38 @@
+/** Elements that list each of their properties once: its name, its type, its first value, and who sets it. */
+import { LitElement, type PropertyDeclaration } from "lit";
+
+export interface Property<Value> {
+  readonly first: Value;
+  readonly declaration: PropertyDeclaration;
+}
+
+/** A property that the element's host sets, never by an attribute. */
+export function given<Value>(first: Value, hasChanged?: (value: unknown, before: unknown) => boolean): Property<Value> {
+  return { first, declaration: { attribute: false, ...(hasChanged !== undefined && { hasChanged }) } };
+}
+
+/** State that the element alone sets. */
+export function own<Value>(first: Value): Property<Value> {
+  return { first, declaration: { state: true } };
+}
+
+type List = Readonly<Record<string, Property<unknown>>>;
+
+type Values<L extends List> = { -readonly [Name in keyof L]: L[Name] extends Property<infer Value> ? Value : never };
+
+/** The class to extend: what Lit's own has, and the listed properties. */
+export type ElementWith<L extends List> = Pick<typeof LitElement, keyof typeof LitElement> & (new () => LitElement & Values<L>);
+
+/** @param list first values are shared by all elements of the class, so they must not be changed in place */
+export function elementWith<L extends List>(list: L): ElementWith<L> {
+  const each = Object.entries(list);
+  class Element extends LitElement {
+    static override properties = Object.fromEntries(each.map(([name, { declaration }]) => [name, declaration]));
+
+    constructor() {
+      super();
+      Object.assign(this, Object.fromEntries(each.map(([name, { first }]) => [name, first])));
+    }
+  }
+  return Element as unknown as ElementWith<L>;
+}
