@@ -17,3 +17,7 @@ export interface TemplateResult {
 export type CSSResult = CSSStyleSheet | { readonly cssText: string };
 export type CSSResultGroup = CSSResult | CSSResultGroup[];
 export declare const nothing: unique symbol;
+export interface PropertyDeclaration {
+  readonly attribute?: boolean | string;
+  readonly state?: boolean;
+}

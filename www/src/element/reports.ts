@@ -5,7 +5,7 @@ import type { Candidate } from "../api/wire.js";
 import type { CuspSlicerEvents } from "./events.js";
 import { standing, type Busy } from "./parts/progress.js";
 import type { Result } from "./state/result.js";
-import type { Host } from "./state/session.js";
+import type { Host } from "./state/host.js";
 
 interface Waiting {
   resolve(result: Plan): void;

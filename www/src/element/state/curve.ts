@@ -2,7 +2,10 @@
 import { asSlicerError, isAbort } from "../../api/error.js";
 import type { Slicer } from "../../api/index.js";
 import type { TradeoffPoint } from "../../api/wire.js";
+import { METRICS } from "./metric.js";
 import type { Result } from "./result.js";
+import * as round from "./round.js";
+import { withTolerance, type Settings } from "./settings.js";
 
 /** Points of the curve: one a notch of the quality slider. */
 const POINTS = 24;
@@ -89,4 +92,12 @@ export function placeAmong(points: readonly Planned[], plan: Planned): number {
 /** The notch that is nearest to a plan. */
 export function notchOf(points: readonly Planned[], plan: Planned): number {
   return Math.round(placeAmong(points, plan));
+}
+
+/** The change of settings that gives the plan of a point. */
+export function withPoint(settings: Settings, point: TradeoffPoint): Pick<Settings, "tolerances"> {
+  const { scale, tolerances } = METRICS[settings.metric];
+  // Where a plan has no error at all, its tolerance is less than any that can be asked for.
+  const tolerance = Math.max(round.up(point.tolerance * scale), tolerances[0]);
+  return withTolerance(settings, String(tolerance));
 }

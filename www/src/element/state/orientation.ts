@@ -3,6 +3,7 @@ import { isAbort } from "../../api/error.js";
 import type { Found, OrientCall, Slicer } from "../../api/index.js";
 import { DEFAULT_SEARCH, type Candidate, type Options, type Search } from "../../api/wire.js";
 import type { Busy } from "../parts/progress.js";
+import { rotationText, type Settings } from "./settings.js";
 
 /** What a direction is judged by. */
 export type Aims = Readonly<Required<Pick<Search, "alpha" | "cost" | "quality">>>;
@@ -154,4 +155,11 @@ export class OrientationSearch {
  */
 function keyOf({ rotation, height_mm, rays: _rays, backend: _backend, format: _format, ...options }: Options): string {
   return JSON.stringify(height_mm === undefined ? options : { ...options, height_mm, rotation });
+}
+
+/** The change of settings that puts the model in a candidate's pose. */
+export function withPose({ height }: Settings, { rotation, size_mm }: Candidate): Partial<Settings> {
+  // A height is that of the model as it stands: another pose must not change its scale.
+  const scaled = height.trim() === "" ? {} : { height: String(Number(size_mm[2].toFixed(6))) };
+  return { rotation: rotationText(rotation), ...scaled };
 }

@@ -3,64 +3,33 @@
  *
  * No DOM here: an element (or a test) hosts it, is told when something changed, and draws what it finds.
  */
-import { asSlicerError, isAbort, type SlicerError } from "../../api/error.js";
-import type { Model, Plan, Mask, PrintFile, Slicer, Watch } from "../../api/index.js";
-import type { Backend, Candidate, Options, TradeoffPoint } from "../../api/wire.js";
+import { asSlicerError, isAbort } from "../../api/error.js";
+import type { Model, Plan, Mask, PrintFile, Watch } from "../../api/index.js";
+import type { Candidate, Options, TradeoffPoint } from "../../api/wire.js";
 import { sameRays } from "../../api/wire.js";
 import type { Source } from "../../api/source.js";
+import { Beside } from "./beside.js";
 import { choose, weightsName } from "./choice.js";
-import { Curve } from "./curve.js";
-import { OrientationSearch } from "./orientation.js";
+import { Curve, withPoint } from "./curve.js";
+import type { Download, Host, Setup, SlicerCalls } from "./host.js";
+import { OrientationSearch, withPose, type Subject } from "./orientation.js";
 import { Follower, type Rotation } from "./follow.js";
 import { layerAt } from "../../view/scene/lookup.js";
-import { METRICS } from "./metric.js";
 import type { Failure } from "./problem.js";
 import type { Busy } from "../parts/progress.js";
 import { areSame, shownOf, type Result, type Shown } from "./result.js";
-import * as round from "./round.js";
-import { DEFAULT_SETTINGS, layerRange, rotationText, withTolerance, type Settings } from "./settings.js";
+import { Runner } from "./runner.js";
+import { DEFAULT_SETTINGS, layerRange, rotationText, type Settings } from "./settings.js";
 import { Preferences } from "./preferences.js";
-
-export interface Download {
-  name: string;
-  blob: Blob;
-}
-
-/** What a session tells its host, besides that something changed. */
-export interface Host {
-  requestUpdate(): void;
-  loaded?(model: Model): void;
-  planned?(result: Result): void;
-  failed?(error: SlicerError): void;
-  cancelled?(): void;
-  progressed?(busy: Busy): void;
-  settingsChanged?(settings: Settings): void;
-  /** There is more to choose from. */
-  offered?(): void;
-  painted?(weights: Float32Array | null, isFinal: boolean): void;
-  oriented?(candidate: Candidate): void;
-}
-
-export interface Setup {
-  settings?: Settings;
-  backend?: Backend | null;
-}
-
-type SlicerCalls = Pick<
-  Slicer,
-  "load" | "plan" | "orient" | "mask" | "export" | "tradeoff" | "glance" | "printers" | "warm" | "setWeights" | "weightsFile" | "readWeights"
->;
 
 export class Session extends Preferences {
   model: Model | null = null;
   result: Result | null = null;
-  busy: Busy | null = null;
   failure: Failure | null = null;
   /** Something worth saying that is no failure. */
   notice: "cancelled" | "exportCancelled" | null = null;
   /** The layer looked at, from 0. */
   layer = 0;
-  mask: Mask | null = null;
   /** How much each facet matters, 0 to 1, as painted; null: all alike. */
   weights: Float32Array | null = null;
   /** What charts and the view draw; null before there is a plan. */
@@ -74,14 +43,12 @@ export class Session extends Preferences {
   readonly #host: Host;
   readonly #slicer: SlicerCalls;
   readonly #curve = new Curve();
+  readonly #beside: Beside;
   readonly #follower: Follower;
-  /** What runs. `options` are those of a plan, and null for anything else. */
-  #task: { abort: AbortController; options: Options | null; weights: Float32Array | null } | null = null;
+  readonly #runner: Runner;
   #timer: ReturnType<typeof setTimeout> | undefined;
   /** Options to plan with when the task under way has ended. */
   #next: Options | null = null;
-  #idling = false;
-  #maskOf: Result | null = null;
   /** The weights that the result is of. */
   #weightsOf: Float32Array | null = null;
   /** Whether the newest plan asked for has not come about. */
@@ -92,22 +59,33 @@ export class Session extends Preferences {
     super(settings, backend);
     this.#host = host;
     this.#slicer = slicer;
-    this.orientation = new OrientationSearch(
-      {
-        subject: () => {
-          const { model, options, weights } = this;
-          return model === null || options === null ? null : { name: model.name, options, weights };
-        },
-        changed: () => this.#changed(),
-        progressed: (busy) => this.#host.progressed?.(busy),
-        failed: (error) => this.#fail(error, this.model?.name ?? "", this.settings),
-      },
-      slicer,
-    );
+    const reports = {
+      changed: () => this.#changed(),
+      progressed: (busy: Busy) => this.#host.progressed?.(busy),
+      failed: (error: unknown) => this.#fail(error, this.model?.name ?? "", this.settings),
+    };
+    const subject = (): Subject | null => {
+      const { model, options, weights } = this;
+      return model === null || options === null ? null : { name: model.name, options, weights };
+    };
+    this.orientation = new OrientationSearch({ ...reports, subject }, slicer);
+    this.#runner = new Runner(reports);
+    const isFree = (): boolean => this.#runner.task === null;
+    this.#beside = new Beside(this, { ...reports, isFree, curved: () => this.#takeQuality() }, slicer, this.#curve);
     this.#follower = new Follower(slicer, (shown) => {
       this.shown = shown;
       this.#changed();
     });
+  }
+
+  /** How far the task under way is; null if there is none. */
+  get busy(): Busy | null {
+    return this.#runner.busy;
+  }
+
+  /** The mask of the layer looked at, or of the one before while it is fetched. */
+  get mask(): Mask | null {
+    return this.#beside.mask;
   }
 
   /** The best plans of the model, from the tightest tolerance to the loosest; null until they are known. */
@@ -182,13 +160,10 @@ export class Session extends Preferences {
     this.change({ rotation: rotationText(rotation) });
   }
 
-  /** Stands the model as a candidate of {@link orientation} does. */
+  /** Takes the orientation of a candidate of {@link orientation}. */
   orient(candidate: Candidate): void {
-    const { rotation, size_mm } = candidate;
     this.#follower.stop();
-    // A height is that of the model as it stands: another pose must not change its scale.
-    const height = this.settings.height.trim() === "" ? {} : { height: String(Number(size_mm[2].toFixed(6))) };
-    this.change({ rotation: rotationText(rotation), ...height });
+    this.change(withPose(this.settings, candidate));
     if (this.options !== null) this.orientation.applied(this.options);
     this.#host.oriented?.(candidate);
   }
@@ -231,15 +206,7 @@ export class Session extends Preferences {
   /** Takes the tolerance of a point of the curve, as if it had been typed. */
   takePoint(index: number): void {
     const point = this.curve?.[index];
-    if (point !== undefined) this.change(this.#within(point));
-  }
-
-  /** The change of settings that gives the plan of a point. */
-  #within(point: TradeoffPoint): Partial<Settings> {
-    const { scale, tolerances } = METRICS[this.settings.metric];
-    // Where a plan has no error at all, its tolerance is less than any that can be asked for.
-    const tolerance = Math.max(round.up(point.tolerance * scale), tolerances[0]);
-    return withTolerance(this.settings, String(tolerance));
+    if (point !== undefined) this.change(withPoint(this.settings, point));
   }
 
   /** From 0, the quickest print worth having, to 1, the finest; at once or as soon as the curve is known. */
@@ -278,7 +245,7 @@ export class Session extends Preferences {
     this.notice = task === "export" ? "exportCancelled" : "cancelled";
     this.#host.cancelled?.();
     this.#changed();
-    void this.#idle();
+    void this.#beside.fetch();
   }
 
   /** Makes the print file of the result on show; null if cancelled or failed. */
@@ -297,7 +264,7 @@ export class Session extends Preferences {
     if (this.result === null) return;
     this.layer = Math.min(Math.max(0, Math.round(layer)), this.result.report.layers - 1);
     this.#changed();
-    void this.#idle();
+    void this.#beside.fetch();
   }
 
   dismiss(): void {
@@ -326,7 +293,7 @@ export class Session extends Preferences {
     this.shown = null;
     this.#follower.stop();
     this.weights = null;
-    this.mask = null;
+    this.#beside.mask = null;
     this.orientation.forget();
     this.#curve.forget();
     this.#host.loaded?.(model);
@@ -344,14 +311,15 @@ export class Session extends Preferences {
   async #plan(options: Options): Promise<void> {
     const { model } = this;
     if (model === null) return;
-    if (this.#task !== null) {
-      if (areSame(this.#task.options, options) && this.#task.weights === this.weights) {
+    const { task } = this.#runner;
+    if (task !== null) {
+      if (areSame(task.options, options) && task.weights === this.weights) {
         this.#next = null;
         return;
       }
       // A plan through other rays is not worth its time any more. Anything else may end first: a plan over the same
       // rays is nearly there, and what it has sampled serves the next one.
-      if (this.#task.options === null || sameRays(this.#task.options, options)) {
+      if (task.options === null || sameRays(task.options, options)) {
         this.#next = options;
         return;
       }
@@ -368,8 +336,8 @@ export class Session extends Preferences {
   /** Plans with the settings that came while something else was under way; else sees to what can wait. */
   async #resume(): Promise<void> {
     const next = this.#next;
-    if (this.#task !== null) return;
-    if (next === null) return this.#idle();
+    if (this.#runner.task !== null) return;
+    if (next === null) return this.#beside.fetch();
     this.#next = null;
     await this.#plan(next);
   }
@@ -386,40 +354,16 @@ export class Session extends Preferences {
     // Keep looking at the same height, or at the middle of a new model.
     this.layer = layerAt(report.z_mm, z === undefined ? report.height_mm / 2 : (z * report.height_mm) / (before?.height_mm ?? 1));
     if (before === undefined && this.notice === "cancelled") this.notice = null;
-    this.mask = before === undefined ? null : this.mask;
+    if (before === undefined) this.#beside.mask = null;
     this.#curve.fit(result);
     this.#host.planned?.(result);
     this.#changed();
   }
 
   /** Runs one task, with progress shown. Null if it was cancelled or failed; a failure is shown. */
-  async #run<T>(task: Busy["task"], name: string, options: Options | null, call: (watch: Watch) => Promise<T>): Promise<T | null> {
+  #run<T>(kind: Busy["task"], name: string, options: Options | null, call: (watch: Watch) => Promise<T>): Promise<T | null> {
     const { settings, weights } = this;
-    const mine = { abort: new AbortController(), options, weights };
-    this.#task = mine;
-    const busy: Busy = { task, name, stage: task === "export" ? "masks" : "load", fraction: 0, started_ms: performance.now() };
-    this.busy = busy;
-    this.#changed();
-    const onProgress: Watch["onProgress"] = (stage, fraction) => {
-      if (this.#task !== mine) return;
-      this.busy = { ...busy, stage, fraction };
-      this.#host.progressed?.(this.busy);
-      this.#changed();
-    };
-    try {
-      const value = await call({ signal: mine.abort.signal, onProgress });
-      // Something else may have begun while the answer was on its way.
-      return this.#task === mine ? value : null;
-    } catch (error) {
-      if (this.#task === mine && !isAbort(error)) this.#fail(error, name, settings);
-      return null;
-    } finally {
-      if (this.#task === mine) {
-        this.#task = null;
-        this.busy = null;
-        this.#changed();
-      }
-    }
+    return this.#runner.run({ kind, name, options, weights }, (error) => this.#fail(error, name, settings), call);
   }
 
   #fail(thrown: unknown, name: string, settings: Settings): void {
@@ -439,59 +383,13 @@ export class Session extends Preferences {
   #drop(): void {
     this.#forgetTimer();
     this.#next = null;
-    const task = this.#task;
-    this.#task = null;
-    this.busy = null;
-    task?.abort.abort();
-  }
-
-  /**
-   * Fetches what is shown beside a plan: the mask of the layer looked at, and when that is there the curve. One call at
-   * a time, and none while a task runs: the worker would not answer, and when it ends this is called again.
-   */
-  async #idle(): Promise<void> {
-    if (this.#idling) return;
-    this.#idling = true;
-    try {
-      while (this.result !== null && this.#task === null) {
-        const fetched = (await this.#fetchMask(this.result)) || (await this.#fetchCurve(this.result));
-        if (!fetched) break;
-      }
-    } catch (error) {
-      if (this.#task === null && this.model !== null && !isAbort(error)) {
-        this.#fail(error, this.model.name, this.settings);
-        this.#changed();
-      }
-    } finally {
-      this.#idling = false;
-    }
-  }
-
-  /** Whether there was a mask to fetch. The newest layer wins. */
-  async #fetchMask(result: Result): Promise<boolean> {
-    const { layer } = this;
-    if (this.mask?.layer === layer && this.#maskOf === result) return false;
-    const mask = await this.#slicer.mask(layer);
-    if (this.result === result) {
-      this.mask = mask;
-      this.#maskOf = result;
-      this.#changed();
-    }
-    return true;
-  }
-
-  /** Whether there was a curve to fetch. */
-  async #fetchCurve(result: Result): Promise<boolean> {
-    if (!(await this.#curve.fetch(this.#slicer, result))) return false;
-    this.#changed();
-    this.#takeQuality();
-    return true;
+    this.#runner.drop();
   }
 
   #takeQuality(): void {
     const index = this.#curve.takeWanted();
     const point = index === null ? undefined : this.curve?.[index];
-    if (point !== undefined) this.preset(this.#within(point));
+    if (point !== undefined) this.preset(withPoint(this.settings, point));
   }
 
   #changed(): void {

@@ -1,8 +1,8 @@
 import { expect, test } from "vitest";
-import { coverage, factorFor, wholeBytes } from "../parts/bitmap.js";
-import type { Rectangle } from "../parts/bitmap.js";
-import { moved, WHOLE, windowOf, zoomed } from "../parts/window.js";
-import { bands, densityEnd, type ChartData } from "../parts/chart.js";
+import { coverage, factorFor, wholeBytes } from "./bitmap.js";
+import type { Rectangle } from "./bitmap.js";
+import { moved, WHOLE, windowOf, zoomed } from "./window.js";
+import { bands, densityEnd, type ChartData } from "./chart.js";
 import * as colour from "../../view/legend/palette.js";
 import { layerAt } from "../../view/scene/lookup.js";
 

@@ -1,0 +1,65 @@
+/** A slicer for tests of the session: it answers what the test says, when the test says so. */
+import { SlicerError } from "../../api/error.js";
+import { SCHEMA, type GlancedPlan, type LoadCall, type Mask, type Model, type OrientCall, type Orientation, type Plan, type PrintFile, type Watch } from "../../api/index.js";
+import type { Glance, MeshInfo, Options, Report, Search, Tradeoff } from "../../api/wire.js";
+
+const info = { facets: 1, size_mm: [1, 1, 10], warnings: [] } as unknown as MeshInfo;
+export const model: Model = { schema: SCHEMA, name: "a.stl", file: new Blob(), info };
+
+export function planOf(layers: number, height_mm = 10): Plan {
+  const z_mm = Array.from({ length: layers + 1 }, (_, i) => (i * height_mm) / layers);
+  const mask = { width: 8, height: 1, pitch_mm: 1 };
+  const report = { layers, height_mm, z_mm, mask, metric: "volume", tolerance: 12.5, planner: "optimal" } as unknown as Report;
+  return { schema: SCHEMA, report, profile: new Float32Array(1) };
+}
+
+/** A slicer whose answers the test gives, call by call. */
+export class FakeSlicer {
+  readonly calls: { what: string; options?: Options; resolve(value: unknown): void; reject(error: unknown): void }[] = [];
+  readonly masks: number[] = [];
+
+  readonly warm = (): void => undefined;
+  readonly printers = async (): Promise<[]> => [];
+  readonly load = (_source: unknown, call: LoadCall = {}): Promise<Model> => this.#call("open", call);
+  readonly plan = (options: Options = {}, call: Watch = {}): Promise<Plan> => this.#call("plan", call, options);
+  readonly export = (_options?: Options, call: Watch = {}): Promise<PrintFile> => this.#call("export", call);
+  readonly orient = (options: Options = {}, _search?: Search, call: OrientCall = {}): Promise<Orientation> =>
+    this.#call("orient", call, options);
+  readonly mask = async (layer: number): Promise<Mask> => {
+    this.masks.push(layer);
+    return { layer, width: 8, height: 1, bits: Uint8Array.of(255) };
+  };
+  readonly glances: Options[] = [];
+  readonly glance = async (options: Options = {}): Promise<GlancedPlan> => {
+    this.glances.push(options);
+    return { schema: SCHEMA, report: { layers: 99, z_mm: [0], thickness_mm: [] } as unknown as Glance, profile: new Float32Array() };
+  };
+  readonly painted: (Float32Array | null)[] = [];
+  readonly setWeights = async (weights: Float32Array | null): Promise<void> => void this.painted.push(weights);
+  readonly weightsFile = async (weights: Float32Array): Promise<Blob> => new Blob([weights.slice()]);
+  readonly readWeights = async (file: unknown): Promise<Float32Array> => {
+    const bytes = await (file as Blob).arrayBuffer();
+    if (bytes.byteLength === 0) throw new SlicerError("weights-not-weights", "no weights");
+    return new Float32Array(bytes);
+  };
+  readonly curves: Options[] = [];
+  tolerances = [0.05, 0.1, 0.15];
+  readonly tradeoff = async (options: Options = {}): Promise<Tradeoff & { schema: 1 }> => {
+    this.curves.push(options);
+    const points = this.tolerances.map((tolerance) => ({ tolerance, layers: 1, max_error: tolerance, print_time_s: 1 }));
+    return { schema: SCHEMA, points };
+  };
+
+  get last(): (typeof this.calls)[number] {
+    const call = this.calls.at(-1);
+    if (call === undefined) throw new Error("nothing was asked");
+    return call;
+  }
+
+  #call<T>(what: string, watch: Pick<Watch, "signal">, options?: Options): Promise<T> {
+    return new Promise<T>((resolve, reject) => {
+      watch.signal?.addEventListener("abort", () => reject(watch.signal?.reason));
+      this.calls.push({ what, resolve: resolve as (value: unknown) => void, reject, ...(options && { options }) });
+    });
+  }
+}

@@ -1,0 +1,49 @@
+/** A report of which tests change what they look at. */
+import type { PlannerReport, Report } from "../../api/wire.js";
+
+export const uniform = (layers: number, max_error: number, print_time_s: number): PlannerReport => ({
+  planner: "uniform",
+  layers,
+  max_error,
+  print_time_s,
+});
+
+export function report(patch: Partial<Report>): Report {
+  return {
+    schema: 1,
+    stl: { bytes: 0, crc32: 0 },
+    options: {},
+    layers: 793,
+    height_mm: 60,
+    z_mm: [],
+    thickness_mm: [],
+    snapped_mm: [],
+    metric: "cusp",
+    unit: "mm",
+    source: "exact",
+    tolerance: 0.065,
+    max_error: 0.065,
+    sampled_error: 0.065,
+    max_error_mm: 0.065,
+    print_time_s: 9000,
+    planner: "optimal",
+    backend: "cpu",
+    adapter: null,
+    bins: 30_000,
+    bin_mm: 0.002,
+    facets: 69_451,
+    weights_crc32: null,
+    hits: 5_218_540,
+    uniform: { finest: uniform(1200, 0.05, 13_200), coarsest: uniform(400, 0.15, 5_538) },
+    exposure_s: [],
+    overhead_s: 7.6,
+    resin: {},
+    resin_ml: 44.4,
+    printer: null,
+    print_file: { format: "png", extension: "zip", media_type: "application/zip", is_read_by_printer: false },
+    mask: { width: 2048, height: 1588, pitch_mm: 0.0293, pitch_y_mm: 0.0293, antialias: 1, is_mirrored: false },
+    warnings: [],
+    timings_ms: { load: 0, ldi: 0, profile: 0, plan: 0, masks: 0, total: 0 },
+    ...patch,
+  };
+}

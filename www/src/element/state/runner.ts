@@ -1,0 +1,72 @@
+/** Runs at most one task at a time: how far it is, and what came of it. */
+import { isAbort } from "../../api/error.js";
+import type { Watch } from "../../api/index.js";
+import type { Options } from "../../api/wire.js";
+import type { Busy } from "../parts/progress.js";
+
+export interface RunnerHost {
+  changed(): void;
+  progressed(busy: Busy): void;
+}
+
+export interface Task {
+  readonly kind: Busy["task"];
+  /** What it is about, for people. */
+  readonly name: string;
+  /** Those of a plan; null for anything else. */
+  readonly options: Options | null;
+  readonly weights: Float32Array | null;
+}
+
+export class Runner {
+  /** How far the task is; null if none runs. */
+  busy: Busy | null = null;
+  readonly #host: RunnerHost;
+  #running: { readonly task: Task; readonly abort: AbortController } | null = null;
+
+  constructor(host: RunnerHost) {
+    this.#host = host;
+  }
+
+  get task(): Task | null {
+    return this.#running?.task ?? null;
+  }
+
+  /** What the call gives. Null if it failed, was dropped, or something else has begun meanwhile. */
+  async run<T>(task: Task, failed: (error: unknown) => void, call: (watch: Watch) => Promise<T>): Promise<T | null> {
+    const { kind, name } = task;
+    const mine = { task, abort: new AbortController() };
+    this.#running = mine;
+    const busy: Busy = { task: kind, name, stage: kind === "export" ? "masks" : "load", fraction: 0, started_ms: performance.now() };
+    this.busy = busy;
+    this.#host.changed();
+    const onProgress: Watch["onProgress"] = (stage, fraction) => {
+      if (this.#running !== mine) return;
+      this.busy = { ...busy, stage, fraction };
+      this.#host.progressed(this.busy);
+      this.#host.changed();
+    };
+    try {
+      const value = await call({ signal: mine.abort.signal, onProgress });
+      // Something else may have begun while the answer was on its way.
+      return this.#running === mine ? value : null;
+    } catch (error) {
+      if (this.#running === mine && !isAbort(error)) failed(error);
+      return null;
+    } finally {
+      if (this.#running === mine) {
+        this.#running = null;
+        this.busy = null;
+        this.#host.changed();
+      }
+    }
+  }
+
+  /** Abandons what is under way. */
+  drop(): void {
+    const running = this.#running;
+    this.#running = null;
+    this.busy = null;
+    running?.abort.abort();
+  }
+}

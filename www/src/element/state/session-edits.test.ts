@@ -1,0 +1,153 @@
+/** What a person does to the model itself: turning it, painting weights, and orienting it. */
+import { afterEach, beforeEach, expect, test, vi } from "vitest";
+import { SCHEMA } from "../../api/index.js";
+import type { Candidate } from "../../api/wire.js";
+import { FakeSlicer, model, planOf } from "./fake-slicer.js";
+import { Session } from "./session.js";
+import { DEFAULT_SETTINGS } from "./settings.js";
+
+let slicer: FakeSlicer;
+let session: Session;
+const settle = (): Promise<unknown> => vi.advanceTimersByTimeAsync(300);
+
+beforeEach(() => {
+  vi.useFakeTimers();
+  slicer = new FakeSlicer();
+  session = new Session({ requestUpdate: () => undefined }, slicer);
+});
+
+afterEach(() => {
+  vi.useRealTimers();
+});
+
+async function planned(layers = 10): Promise<void> {
+  void session.open(new Blob(), "a.stl");
+  slicer.last.resolve(model);
+  await settle();
+  slicer.last.resolve(planOf(layers));
+  await settle();
+}
+
+test("while the model is turned glances are shown, the newest turn last; let go, it is planned", async () => {
+  await planned();
+  for (let i = 1; i < 5; i++) session.turn([0, 0, i / 10, 1], false);
+  await settle();
+  expect(slicer.glances.map(({ rotation }) => rotation?.[2])).toEqual([0.1, 0.4]);
+  expect(session.shown?.layers).toBe(99);
+  session.turn([0, 0, 1, 0], true);
+  await settle();
+  expect(slicer.last.options?.rotation).toEqual([0, 0, 1, 0]);
+  slicer.last.resolve(planOf(20));
+  await settle();
+  expect(session.shown?.layers).toBe(20);
+  session.undo();
+  expect(session.settings.rotation).toBe("");
+});
+
+test("another model stands as in its file; the first one as the settings say", async () => {
+  session = new Session({ requestUpdate: () => undefined }, slicer, { settings: { ...DEFAULT_SETTINGS, rotation: "0,0,1,0" } });
+  await planned();
+  expect(slicer.last.options?.rotation).toEqual([0, 0, 1, 0]);
+  void session.open(new Blob(), "b.stl");
+  slicer.last.resolve({ ...model, name: "b.stl" });
+  await settle();
+  expect(slicer.last.options).not.toHaveProperty("rotation");
+});
+
+test("a stroke is followed by glances, and planned at its end though the options are the same", async () => {
+  await planned();
+  const { length } = slicer.calls;
+  session.setWeights(Float32Array.of(0.5), false);
+  await settle();
+  expect(slicer.glances).toHaveLength(1);
+  expect(session.shown?.layers).toBe(99);
+  expect(slicer.calls).toHaveLength(length);
+  expect(session.isCurrent).toBe(false);
+
+  const weights = Float32Array.of(0.25);
+  session.setWeights(weights, true);
+  expect(slicer.calls).toHaveLength(length + 1);
+  expect(slicer.last.what).toBe("plan");
+  slicer.last.resolve(planOf(7));
+  await settle();
+  expect(session.isCurrent).toBe(true);
+  expect(session.shown?.layers).toBe(7);
+  expect(slicer.painted).toEqual([Float32Array.of(0.5), weights]);
+});
+
+test("what is painted while a plan is made is planned after it", async () => {
+  await planned();
+  session.setWeights(Float32Array.of(0.5), true);
+  const first = slicer.last;
+  session.setWeights(Float32Array.of(0.25), true);
+  expect(slicer.last).toBe(first);
+  first.resolve(planOf(8));
+  await settle();
+  expect(slicer.last).not.toBe(first);
+  expect(session.isCurrent).toBe(false);
+  slicer.last.resolve(planOf(7));
+  await settle();
+  expect(session.isCurrent).toBe(true);
+});
+
+test("weights are saved and come back from their file; a file that holds none is a failure", async () => {
+  await planned();
+  expect(await session.saveWeights()).toBeNull();
+  const weights = Float32Array.of(0.25);
+  session.setWeights(weights, true);
+  const saved = await session.saveWeights();
+  expect(saved?.name).toBe("a.weights");
+  session.setWeights(null, true);
+  await session.openWeights(new File([saved?.blob ?? ""], "a.weights"));
+  expect(session.weights).toEqual(weights);
+  await session.openWeights(new File([], "b.weights"));
+  expect(session.failure).toMatchObject({ error: { code: "weights-not-weights" }, name: "b.weights" });
+  expect(session.weights).toEqual(weights);
+});
+
+test("another model is all alike", async () => {
+  await planned();
+  session.setWeights(Float32Array.of(0.5), true);
+  slicer.last.resolve(planOf(9));
+  await settle();
+  void session.open(new Blob(), "b.stl");
+  slicer.last.resolve(model);
+  await settle();
+  expect(session.weights).toBeNull();
+});
+
+test("standing as a candidate does is a step that can be undone; a height keeps its scale", async () => {
+  await planned();
+  const stood: Candidate = {
+    ...{ direction: [0, 0, 1], rotation: [1, 0, 0, 0], size_mm: [1, 2, 3.25], excluded: null, figures: null, energy: null },
+  };
+  session.orient(stood);
+  expect(session.options).toMatchObject({ rotation: [1, 0, 0, 0] });
+  expect(session.options?.height_mm).toBeUndefined();
+  await settle();
+  expect(slicer.last).toMatchObject({ what: "plan", options: { rotation: [1, 0, 0, 0] } });
+  session.undo();
+  expect(session.options?.rotation).toBeUndefined();
+  session.change({ height: "20" });
+  session.orient(stood);
+  expect(session.options).toMatchObject({ rotation: [1, 0, 0, 0], height_mm: 3.25 });
+});
+
+test("a search goes on beside plans, and is forgotten with its model", async () => {
+  await planned();
+  session.orientation.start();
+  const search = slicer.last;
+  expect(search.what).toBe("orient");
+  expect(session.busy).toBeNull();
+  session.replan();
+  session.cancel();
+  expect(session.orientation.busy).not.toBeNull();
+  search.resolve({ schema: SCHEMA, candidates: [], best: [] });
+  await settle();
+  expect(session.orientation.isCurrent).toBe(true);
+  session.change({ tolerances: { cusp: "0.05" } });
+  expect(session.orientation.isCurrent).toBe(false);
+  await planned();
+  expect(session.orientation.found).toBeNull();
+  expect(session.orientation.options).toBeNull();
+});
