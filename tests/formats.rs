@@ -489,7 +489,7 @@ fn printers_are_what_their_data_says() {
     );
     assert_near(report.resin_ml, 0.008, 2e-4);
     let code = |result: Result<Report, Error>| result.unwrap_err().code();
-    assert_eq!(code(on("no-such-printer", &cube)), "bad-options");
+    assert_eq!(code(on("no-such-printer", &cube)), "unknown-printer");
     assert_eq!(
         code(on(
             "shuffle",

@@ -566,3 +566,39 @@ fn a_goal_is_met_with_the_least_tolerance() {
     };
     assert_eq!(code(plan(&mut slicer, &both)), "several-targets");
 }
+
+/// A stage whose part of the options is the same keeps its result: another print file needs neither rays nor a plan.
+#[test]
+fn a_change_of_options_repeats_only_what_depends_on_it() {
+    let mut slicer = load(&solids::sphere(5.0, 12));
+    let first = plan(&mut slicer, &options()).unwrap();
+    let again = |slicer: &mut Slicer, options: &Options| {
+        let report = plan(slicer, options).unwrap();
+        let times = report.timings_ms.clone();
+        let ran = [times.ldi, times.profile, times.plan].map(|ms| ms > 0.0);
+        (ran, report)
+    };
+    let mirrored = Options {
+        format: Some(Format::Uvj),
+        mirror: Some(true),
+        ..options()
+    };
+    let (ran, report) = again(&mut slicer, &mirrored);
+    assert_eq!((ran, &report.z_mm), ([false; 3], &first.z_mm));
+    assert_eq!(report.print_file.format, Format::Uvj);
+    let looser = Options {
+        tolerance: Some(0.1),
+        ..options()
+    };
+    assert_eq!(again(&mut slicer, &looser).0, [false, false, true]);
+    let by_area = Options {
+        metric: Metric::Area,
+        ..options()
+    };
+    assert_eq!(again(&mut slicer, &by_area).0, [false, true, true]);
+    let finer = Options {
+        rays: 300,
+        ..options()
+    };
+    assert_eq!(again(&mut slicer, &finer).0, [true; 3]);
+}

@@ -1,18 +1,22 @@
 //! A job: options resolved once, then the stages in their order, each an immutable value.
 
 mod error;
+mod measured;
 mod options;
 mod options_error;
 mod orient;
-mod planning;
+mod planned;
 mod report;
 mod resolve;
+mod sampled;
 mod slicer;
+mod stage;
 mod verify;
 
 pub use error::Error;
 pub use options::*;
 pub use options_error::OptionsError;
 pub use report::*;
-pub use slicer::*;
+pub use slicer::Slicer;
+pub use stage::{Stage, StageProgress, Task};
 pub use verify::*;

@@ -1,8 +1,9 @@
 //! Searching for the best building direction (section 4.3).
 
-use super::planning::{Planning, shapes_of};
+use super::planned::{Planning, shapes_of};
 use super::resolve::Job;
-use super::slicer::{Slicer, Stage, StageProgress};
+use super::slicer::Slicer;
+use super::stage::{Stage, StageProgress};
 use super::{Error, Options, SCHEMA};
 use crate::grid::{Bins, GridError};
 use crate::ldi::LdiError;

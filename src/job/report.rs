@@ -6,8 +6,11 @@ use serde_json::Value;
 use tsify::Tsify;
 
 use super::Options;
+use super::planned::Planned;
+use super::resolve::Output;
 use crate::format::Format;
-use crate::model::{Mesh, ModelFile};
+use crate::mask::black_layers;
+use crate::model::{Mesh, ModelFile, weights};
 use crate::plan::tradeoff::TradeoffPoint;
 use crate::printer::Printer;
 use crate::profile::{Metric, Source};
@@ -329,5 +332,92 @@ impl Report {
             manifest.retain(|key, _| !OF_THE_MACHINE.contains(&&**key));
         }
         Ok(manifest)
+    }
+}
+
+/// Where a plan comes from, beside its stages.
+#[derive(Clone, Copy)]
+pub(super) struct Origin<'a> {
+    pub file: &'a ModelFile,
+    pub options: &'a Options,
+    pub painted: Option<&'a [f32]>,
+}
+
+/// The report of a plan that leaves as `output`.
+pub(super) fn report_of(
+    planned: &Planned,
+    output: &Output,
+    origin: Origin<'_>,
+    timings_ms: Timings,
+) -> Report {
+    let Planned {
+        of: measured,
+        layering,
+        plan,
+        findings,
+    } = planned;
+    let sampled = &measured.of;
+    let Origin {
+        file,
+        options,
+        painted,
+    } = origin;
+    let mut warnings = sampled.warnings.clone();
+    warnings.extend(findings.warnings.iter().cloned());
+    let black = black_layers(&sampled.solid, plan, sampled.sampling.samples);
+    if let Some(&lowest) = black.first() {
+        warnings.push(Warning::BlackLayers {
+            layers: black.len(),
+            from_mm: plan.z_mm()[lowest],
+        });
+    }
+    let thickness_mm = plan.thickness_mm();
+    Report {
+        schema: SCHEMA,
+        model: file.clone(),
+        options: options.without_backend(),
+        weights_crc32: painted.map(weights::crc_of),
+        layers: plan.layers(),
+        height_mm: sampled.height_mm,
+        z_mm: plan.z_mm(),
+        exposure_s: layering.resin.exposures_s(&thickness_mm),
+        overhead_s: layering.resin.overhead_s(),
+        resin: layering.resin.clone(),
+        thickness_mm,
+        resin_ml: sampled.solid.volume_mm3 / 1e3,
+        printer: output.printer.map(|printer| printer.name.to_owned()),
+        snapped_mm: findings.snapped_mm.clone(),
+        metric: layering.metric,
+        unit: layering.metric.unit().to_owned(),
+        source: layering.source,
+        planner: layering.planner.name().to_owned(),
+        tolerance: findings.tolerance,
+        max_error: findings.max_error,
+        sampled_error: findings.sampled_error,
+        max_error_mm: findings.max_error_mm,
+        print_time_s: findings.print_time_s,
+        backend: if sampled.adapter.is_some() {
+            "gpu"
+        } else {
+            "cpu"
+        }
+        .to_owned(),
+        adapter: sampled.adapter.clone(),
+        bins: plan.bins.count,
+        bin_mm: plan.bins.size_mm,
+        facets: sampled.mesh.surface_facets,
+        hits: sampled.ldi.hits.len(),
+        uniform: findings.uniform.clone(),
+        mask: MaskReport {
+            width: sampled.grid.width,
+            height: sampled.grid.height,
+            pitch_mm: sampled.grid.pitch_mm,
+            pitch_y_mm: sampled.grid.pitch_y_mm,
+            antialias: sampled.sampling.samples.sublayers,
+            is_mirrored: output.is_mirrored,
+        },
+        print_file: PrintFileReport::new(output.format, output.printer),
+        warnings,
+        timings_ms,
     }
 }

@@ -1,73 +1,27 @@
-//! The order of stages, and nothing else: the only module that knows it.
+//! The cache of stages: a loaded model, and the last result of each stage with what it was made from.
 
 use std::io::Write;
-use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use serde::Serialize;
 use web_time::Instant;
 
-use super::planning::{PlanReport, Planning, shapes_of};
-use super::report::mesh_warnings;
-use super::resolve::{Job, Layering, Sampling};
-use super::{
-    Backend, Comparison, Error, MaskReport, MeshInfo, Options, Preview, PrintFileReport, Report,
-    SCHEMA, Timings, Tradeoff,
-};
+use super::measured::Measured;
+use super::planned::{Planned, Planning, shapes_of};
+use super::report::{Origin, report_of};
+use super::resolve::{Job, Layering, Output, Sampling};
+use super::sampled::{Sampled, Sampler};
+use super::stage::{Stage, StageProgress, ms_since, report};
+use super::{Backend, Comparison, Error, MeshInfo, Options, Preview, Report, Timings, Tradeoff};
 use crate::archive::{self, ArchiveError, PrintJob};
-use crate::grid::{Bins, Grid};
-use crate::ldi::gpu::{self, Gpu};
-use crate::ldi::{Ldi, LdiError, Solid, cpu};
-use crate::mask::{MaskCursor, Masks, Side, black_layers};
+use crate::grid::Bins;
+use crate::ldi::LdiError;
+use crate::ldi::gpu::Gpu;
+use crate::mask::{MaskCursor, Masks, Side};
 use crate::model::read::stl;
-use crate::model::{Mesh, ModelFile, Pose};
-use crate::model::{saliency, weights};
+use crate::model::{Mesh, ModelFile, Pose, saliency, weights};
 use crate::orientation::Surface;
-use crate::plan::Plan;
 use crate::profile::facet_bins::FacetBins;
-use crate::profile::shapes::Shapes;
 use crate::profile::{Metric, Profile, Source, section};
-use crate::progress::Progress;
-use crate::warning::Warning;
-
-/// A part of the work, for showing progress.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
-#[serde(rename_all = "lowercase")]
-pub enum Stage {
-    /// Reading the STL.
-    Load,
-    /// Finding what stands out.
-    Saliency,
-    /// Searching for the best orientation.
-    Orientation,
-    /// Sampling the layered depth image.
-    Ldi,
-    /// Making the profile.
-    Profile,
-    /// Planning.
-    Plan,
-    /// Making and writing the masks.
-    Masks,
-}
-
-impl Stage {
-    /// The name of the stage, as in reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Load => "load",
-            Self::Saliency => "saliency",
-            Self::Orientation => "orientation",
-            Self::Ldi => "ldi",
-            Self::Profile => "profile",
-            Self::Plan => "plan",
-            Self::Masks => "masks",
-        }
-    }
-}
-
-/// Called with the stage at work and the fraction of it that is done; `Break` cancels.
-pub type StageProgress<'a> = dyn FnMut(Stage, f64) -> ControlFlow<()> + 'a;
 
 /// A loaded model on its way through the stages. Each keeps its result, so that a change of options
 /// repeats only what depends on it.
@@ -80,52 +34,22 @@ pub struct Slicer {
     /// How much each facet of the surface matters to the user.
     pub(super) painted: Option<Vec<f32>>,
     load_ms: f64,
-    /// What the last search for a GPU found, if it is still to be used.
-    gpu: Option<Result<Gpu, LdiError>>,
+    sampler: Sampler,
     /// The surface for being looked at along directions, and the pose whose height it is scaled to, if one is asked for.
     pub(super) surface: Option<(Option<Pose>, Surface)>,
     sampled: Option<Arc<Sampled>>,
-    measured: Option<Measured>,
-    planned: Option<Planned>,
+    measured: Option<Arc<Measured>>,
+    current: Option<Current>,
 }
 
-/// The model on the plate and its rays. Nothing in it changes, so that whoever holds it can be given no other rays.
+/// The last plan, and what leaves of it.
 #[derive(Debug)]
-struct Sampled {
-    sampling: Sampling,
-    mesh: Mesh,
-    height_mm: f64,
-    /// The masks' pixels; the LDI has rays only where the model is.
-    grid: Grid,
-    ldi: Ldi,
-    solid: Solid,
-    adapter: Option<String>,
-    warnings: Vec<Warning>,
-}
-
-/// What was measured of a sampled model last.
-#[derive(Debug)]
-struct Measured {
-    of: Arc<Sampled>,
-    shapes: Shapes,
-}
-
-/// What a plan is made from.
-#[derive(Clone, Copy)]
-struct Origin<'a> {
-    file: &'a ModelFile,
-    options: &'a Options,
-    painted: Option<&'a [f32]>,
-}
-
-/// A plan with the rays that it was made from: its masks are made from no others.
-#[derive(Debug)]
-struct Planned {
-    of: Arc<Sampled>,
-    job: Job,
-    plan: Plan,
+struct Current {
+    planned: Arc<Planned>,
+    output: Output,
     report: Report,
-    masks: Option<(Masks, MaskCursor)>,
+    /// Its masks as seen from above, kept for the next look at one, and where the last look was.
+    seen: Option<(Masks, MaskCursor)>,
 }
 
 impl Slicer {
@@ -145,27 +69,25 @@ impl Slicer {
             saliency: None,
             painted: None,
             load_ms: ms_since(clock),
-            gpu: None,
+            sampler: Sampler::default(),
             surface: None,
             sampled: None,
             measured: None,
-            planned: None,
+            current: None,
         })
     }
 
     /// Samples on `gpu` from now on, where the options do not ask for the CPU.
     #[must_use]
     pub fn with_gpu(mut self, gpu: Gpu) -> Self {
-        self.gpu = Some(Ok(gpu));
+        self.sampler.set_gpu(gpu);
         self
     }
 
     /// Searches for the GPU that the next plan with this `backend` would search for, so that the plan need not: drivers may
     /// write to stderr while they are asked, and the caller knows when. That plan says what was found.
     pub async fn open_gpu(&mut self, backend: Backend) {
-        if self.gpu.is_none() {
-            self.gpu = Some(search_gpu(backend).await);
-        }
+        self.sampler.open_gpu(backend).await;
     }
 
     /// Describes the model as it stands in its file.
@@ -299,39 +221,46 @@ impl Slicer {
         options: &Options,
         progress: &mut StageProgress<'_>,
     ) -> Result<&Report, Error> {
-        self.planned = None;
+        let last = self.current.take();
         let job = options.resolve()?;
+        // Rays that are of no more use make room for the new ones.
+        let last = last.filter(|last| last.planned.of.of.sampling == job.sampling);
         let mut timings = Timings {
             load: self.load_ms,
             ..Timings::default()
         };
         let measured = self.measure(&job, &mut timings, progress).await?;
 
-        let clock = Instant::now();
-        continue_or_cancel(progress(Stage::Plan, 0.0))?;
-        let planning = measured.planning(&job.layering);
-        let plan = planning.plan()?;
-        let figures = planning.report(&plan)?;
-        timings.plan = ms_since(clock);
-        continue_or_cancel(progress(Stage::Plan, 1.0))?;
+        report(progress, Stage::Plan, 0.0)?;
+        let holds = |planned: &Arc<Planned>| {
+            Arc::ptr_eq(&planned.of, &measured) && planned.layering == job.layering
+        };
+        let planned = match last.map(|last| last.planned).filter(holds) {
+            Some(planned) => planned,
+            None => {
+                let clock = Instant::now();
+                let planned = Planned::new(&measured, &job.layering)?;
+                timings.plan = ms_since(clock);
+                Arc::new(planned)
+            }
+        };
+        report(progress, Stage::Plan, 1.0)?;
 
         timings.sum_up();
-        let of = Arc::clone(&measured.of);
         self.load_ms = 0.0;
         let origin = Origin {
             file: &self.file,
             options,
             painted: self.painted.as_deref(),
         };
-        let report = of.report(origin, &job, &plan, figures, timings);
-        let planned = Planned {
-            of,
-            job,
-            plan,
+        let report = report_of(&planned, &job.output, origin, timings);
+        let current = Current {
+            planned,
+            output: job.output,
             report,
-            masks: None,
+            seen: None,
         };
-        Ok(&self.planned.insert(planned).report)
+        Ok(&self.current.insert(current).report)
     }
 
     /// Best plans for `points` tolerances, from the tightest that can be held to the loosest that saves a layer. Makes
@@ -348,9 +277,9 @@ impl Slicer {
         let job = options.resolve()?;
         let mut timings = Timings::default();
         let measured = self.measure(&job, &mut timings, progress).await?;
-        continue_or_cancel(progress(Stage::Plan, 0.0))?;
-        let points = measured.planning(&job.layering).tradeoff(points)?;
-        continue_or_cancel(progress(Stage::Plan, 1.0))?;
+        report(progress, Stage::Plan, 0.0)?;
+        let points = Planning::of(&measured, &job.layering).tradeoff(points)?;
+        report(progress, Stage::Plan, 1.0)?;
         Ok(Tradeoff { points })
     }
 
@@ -366,9 +295,9 @@ impl Slicer {
         let job = options.resolve()?;
         let mut timings = Timings::default();
         let measured = self.measure(&job, &mut timings, progress).await?;
-        continue_or_cancel(progress(Stage::Plan, 0.0))?;
-        let rows = measured.planning(&job.layering).compare()?;
-        continue_or_cancel(progress(Stage::Plan, 1.0))?;
+        report(progress, Stage::Plan, 0.0)?;
+        let rows = Planning::of(&measured, &job.layering).compare()?;
+        report(progress, Stage::Plan, 1.0)?;
         let metric = job.layering.metric;
         Ok(Comparison {
             facets: measured.of.mesh.surface_facets,
@@ -386,45 +315,22 @@ impl Slicer {
         job: &Job,
         timings: &mut Timings,
         progress: &mut StageProgress<'_>,
-    ) -> Result<&Measured, Error> {
-        let layering = &job.layering;
+    ) -> Result<Arc<Measured>, Error> {
+        let Job {
+            sampling, layering, ..
+        } = job;
         let weights = self.layering_weights(layering, progress)?;
-        let kept = self.sampled.take();
-        let sampled = if let Some(kept) = kept.filter(|kept| kept.sampling == job.sampling) {
-            kept
-        } else {
-            // Rays that nobody needs any more make room for the new ones.
-            self.measured = None;
-            Arc::new(self.sample(&job.sampling, timings, progress).await?)
-        };
-        self.sampled = Some(Arc::clone(&sampled));
+        let sampled = self.sample(sampling, timings, progress).await?;
 
+        report(progress, Stage::Profile, 0.0)?;
         let clock = Instant::now();
-        continue_or_cancel(progress(Stage::Profile, 0.0))?;
-        let bins = Bins::of_height(sampled.height_mm, layering.bin_mm)?;
         let kept = self.measured.take();
-        let mut is_new = false;
-        let mut shapes = kept
-            .filter(|kept| Arc::ptr_eq(&kept.of, &sampled) && kept.shapes.exact.bins == bins)
-            .map_or_else(
-                || {
-                    is_new = true;
-                    Shapes::new(&sampled.mesh, &sampled.ldi, bins)
-                },
-                |kept| kept.shapes,
-            );
-        if layering.metric.needs_areas() {
-            is_new |= shapes.add_areas(&sampled.mesh, &sampled.ldi);
-        }
-        let facet_bins = || FacetBins::of(&sampled.mesh, bins);
-        is_new |= shapes.weigh(facet_bins, Some(&sampled.ldi), layering.metric, weights);
-        if is_new {
+        let measured = Measured::new(&sampled, layering, weights, kept.clone())?;
+        if !kept.is_some_and(|kept| Arc::ptr_eq(&kept, &measured)) {
             timings.profile = ms_since(clock);
         }
-        Ok(self.measured.insert(Measured {
-            of: sampled,
-            shapes,
-        }))
+        self.measured = Some(Arc::clone(&measured));
+        Ok(measured)
     }
 
     async fn sample(
@@ -432,69 +338,20 @@ impl Slicer {
         sampling: &Sampling,
         timings: &mut Timings,
         progress: &mut StageProgress<'_>,
-    ) -> Result<Sampled, Error> {
-        let clock = Instant::now();
-        let mesh = self.model.on_plate(&sampling.pose)?;
-        let bounds = mesh.bounds();
-        let grid = sampling.grid(&bounds)?;
-        timings.load += ms_since(clock);
-
-        let clock = Instant::now();
-        let mut ldi_progress = |fraction| progress(Stage::Ldi, fraction);
-        let mut warnings = mesh_warnings(&mesh);
-        let rays = grid.refined(sampling.samples.rays()).around_model(&bounds);
-        rays.check_rays()?;
-        let on_gpu = self.sample_on_gpu(&mesh, &rays, sampling.backend, &mut ldi_progress);
-        let (ldi, adapter) = match on_gpu.await {
-            Ok((ldi, adapter)) => (ldi, Some(adapter)),
-            Err(error @ LdiError::Cancelled(_)) => return Err(error.into()),
-            Err(error) if sampling.backend == Backend::Gpu => return Err(error.into()),
-            Err(error) => {
-                warnings.extend(cpu_instead(&error));
-                (cpu::sample(&mesh, &rays, &mut ldi_progress)?, None)
-            }
-        };
-        if ldi.hits.is_empty() {
-            return Err(LdiError::NoHits {
-                pitch_mm: grid.pitch_mm,
-            }
-            .into());
+    ) -> Result<Arc<Sampled>, Error> {
+        if let Some(kept) = self
+            .sampled
+            .as_ref()
+            .filter(|kept| kept.sampling == *sampling)
+        {
+            return Ok(Arc::clone(kept));
         }
-        let unclosed = ldi.rays_through_holes(&mesh);
-        if unclosed > 0 {
-            let rays = ldi.rays();
-            warnings.push(Warning::UnclosedRays { unclosed, rays });
-        }
-        timings.ldi = ms_since(clock);
-        Ok(Sampled {
-            height_mm: sampling.height_mm(bounds.size().z),
-            sampling: sampling.clone(),
-            mesh,
-            grid,
-            solid: Solid::of(&ldi),
-            ldi,
-            adapter,
-            warnings,
-        })
-    }
-
-    /// The LDI by the GPU, and its name. A GPU that failed is not tried again.
-    async fn sample_on_gpu(
-        &mut self,
-        mesh: &Mesh,
-        rays: &Grid,
-        backend: Backend,
-        progress: &mut Progress<'_>,
-    ) -> Result<(Ldi, String), LdiError> {
-        let found = self.gpu.take_if(|_| backend != Backend::Cpu);
-        let gpu = match found {
-            Some(found) => found?,
-            None => search_gpu(backend).await?,
-        };
-        let ldi = gpu::sample(mesh, rays, &gpu, gpu::Tiling::default(), progress).await?;
-        let name = gpu.name().to_owned();
-        self.gpu = Some(Ok(gpu));
-        Ok((ldi, name))
+        // Rays that are of no more use make room for the new ones.
+        (self.sampled, self.measured) = (None, None);
+        let sampled = self
+            .sampler
+            .sample(&self.model, sampling, timings, progress);
+        Ok(Arc::clone(self.sampled.insert(Arc::new(sampled.await?))))
     }
 
     /// The profile of a metric in the bins that the last plan was made from, or was tried on if there is none.
@@ -502,11 +359,12 @@ impl Slicer {
     /// # Errors
     /// [`Error::NoPlan`], also for a metric of areas if no plan has needed them.
     pub fn profile(&self, metric: Metric, source: Source) -> Result<Profile, Error> {
-        let shapes = &self.measured.as_ref().ok_or(Error::NoPlan)?.shapes;
-        if metric.needs_areas() && shapes.of(source).areas_mm2.is_empty() {
-            return Err(Error::NoPlan);
-        }
-        Ok(shapes.profile(metric, source))
+        let planned = self.current.as_ref().map(|current| &current.planned.of);
+        let mut measured = planned.into_iter().chain(&self.measured);
+        let has_it =
+            |measured: &&Arc<Measured>| measured.shapes.has_areas() || !metric.needs_areas();
+        let measured = measured.find(has_it).ok_or(Error::NoPlan)?;
+        Ok(measured.shapes.profile(metric, source))
     }
 
     /// The mask of a layer of the last plan: see [`MaskCursor::whole`].
@@ -514,12 +372,12 @@ impl Slicer {
     /// # Errors
     /// [`Error::NoPlan`], [`Error::NoLayer`].
     pub fn mask(&mut self, layer: usize) -> Result<Vec<u8>, Error> {
-        let planned = self.planned.as_mut().ok_or(Error::NoPlan)?;
-        let layers = planned.plan.layers();
+        let current = self.current.as_mut().ok_or(Error::NoPlan)?;
+        let layers = current.planned.plan.layers();
         if layer >= layers {
             return Err(Error::NoLayer { layer, layers });
         }
-        let (masks, cursor) = planned.upright_masks();
+        let (masks, cursor) = current.seen();
         cursor.seek(masks, layer);
         Ok(cursor.whole(masks))
     }
@@ -535,59 +393,49 @@ impl Slicer {
         progress: &mut StageProgress<'_>,
     ) -> Result<(W, &Report), Error> {
         let clock = Instant::now();
-        let planned = self.planned.as_mut().ok_or(Error::NoPlan)?;
+        let current = self.current.as_mut().ok_or(Error::NoPlan)?;
         let mut mask_progress = |fraction| progress(Stage::Masks, fraction);
-        let output = planned.job.output.clone();
-        let mirrored;
-        let masks = if output.is_mirrored {
-            mirrored = planned.masks(Side::Below);
-            &mirrored
-        } else {
-            planned.upright_masks();
-            let upright = planned.masks.as_ref().ok_or(Error::NoPlan)?;
-            &upright.0
-        };
-        let report = &planned.report;
+        let is_mirrored = current.output.is_mirrored;
+        let mirrored = is_mirrored.then(|| current.planned.masks(Side::Below));
+        if !is_mirrored {
+            current.seen();
+        }
+        let Current {
+            planned,
+            output,
+            report,
+            seen,
+        } = current;
+        let masks = mirrored.as_ref().or(seen.as_ref().map(|seen| &seen.0));
+        let sampled = &planned.of.of;
         let job = PrintJob {
-            masks,
-            is_mirrored: output.is_mirrored,
+            masks: masks.ok_or(Error::NoPlan)?,
+            is_mirrored,
             plan: &planned.plan,
             height_mm: report.height_mm,
             exposure_s: &report.exposure_s,
-            resin: &planned.job.layering.resin,
+            resin: &planned.layering.resin,
             resin_ml: report.resin_ml,
             printer: output.printer,
-            mesh: &planned.of.mesh,
-            ldi: &planned.of.ldi,
+            mesh: &sampled.mesh,
+            ldi: &sampled.ldi,
             manifest: &report.manifest().map_err(ArchiveError::write)?,
         };
         let writer = archive::write(output.format, &job, writer, &mut mask_progress)?;
-        let report = &mut planned.report;
         report.timings_ms.masks = ms_since(clock);
         report.timings_ms.sum_up();
         Ok((writer, report))
     }
 }
 
-impl Planned {
-    fn masks(&self, side: Side) -> Masks {
-        let Sampled {
-            ldi,
-            grid,
-            sampling,
-            ..
-        } = &*self.of;
-        Masks::new(ldi, &self.plan, grid, sampling.samples, side)
-    }
-
-    /// The masks as seen from above, which are kept for the next one who looks, and where that one is.
-    fn upright_masks(&mut self) -> &mut (Masks, MaskCursor) {
-        let masks = self.masks.take().unwrap_or_else(|| {
-            let masks = self.masks(Side::Above);
+impl Current {
+    /// The masks as seen from above, and where the last look was.
+    fn seen(&mut self) -> &mut (Masks, MaskCursor) {
+        self.seen.get_or_insert_with(|| {
+            let masks = self.planned.masks(Side::Above);
             let cursor = masks.cursor();
             (masks, cursor)
-        });
-        self.masks.insert(masks)
+        })
     }
 }
 
@@ -598,126 +446,4 @@ fn positions(mesh: &Mesh) -> Vec<f32> {
         .flatten()
         .map(|&vertex| mesh.vertices[vertex as usize]);
     corners.flat_map(|corner| corner.to_array()).collect()
-}
-
-/// The GPU that a backend allows.
-async fn search_gpu(backend: Backend) -> Result<Gpu, LdiError> {
-    match backend {
-        Backend::Cpu => Err(LdiError::NoGpu {
-            reason: "the CPU was asked for".to_owned(),
-        }),
-        Backend::Gpu => Gpu::open(gpu::Adapters::Any).await,
-        Backend::Auto => Gpu::open(gpu::Adapters::Hardware).await,
-    }
-}
-
-impl Measured {
-    /// All that planning needs.
-    fn planning<'a>(&'a self, layering: &'a Layering) -> Planning<'a> {
-        Planning::new(self.of.height_mm, &self.shapes, layering)
-    }
-}
-
-impl Sampled {
-    fn report(
-        &self,
-        origin: Origin<'_>,
-        job: &Job,
-        plan: &Plan,
-        planned: PlanReport,
-        timings_ms: Timings,
-    ) -> Report {
-        let Job {
-            sampling,
-            layering,
-            output,
-        } = job;
-        let Origin {
-            file,
-            options,
-            painted,
-        } = origin;
-        let mut warnings = self.warnings.clone();
-        warnings.extend(planned.warnings);
-        let black = black_layers(&self.solid, plan, sampling.samples);
-        if let Some(&lowest) = black.first() {
-            warnings.push(Warning::BlackLayers {
-                layers: black.len(),
-                from_mm: plan.z_mm()[lowest],
-            });
-        }
-        let thickness_mm = plan.thickness_mm();
-        Report {
-            schema: SCHEMA,
-            model: file.clone(),
-            options: options.without_backend(),
-            weights_crc32: painted.map(weights::crc_of),
-            layers: plan.layers(),
-            height_mm: self.height_mm,
-            z_mm: plan.z_mm(),
-            exposure_s: layering.resin.exposures_s(&thickness_mm),
-            overhead_s: layering.resin.overhead_s(),
-            resin: layering.resin.clone(),
-            thickness_mm,
-            resin_ml: self.solid.volume_mm3 / 1e3,
-            printer: output.printer.map(|printer| printer.name.to_owned()),
-            snapped_mm: planned.snapped_mm,
-            metric: layering.metric,
-            unit: layering.metric.unit().to_owned(),
-            source: layering.source,
-            planner: layering.planner.name().to_owned(),
-            tolerance: planned.tolerance,
-            max_error: planned.max_error,
-            sampled_error: planned.sampled_error,
-            max_error_mm: planned.max_error_mm,
-            print_time_s: planned.print_time_s,
-            backend: if self.adapter.is_some() { "gpu" } else { "cpu" }.to_owned(),
-            adapter: self.adapter.clone(),
-            bins: plan.bins.count,
-            bin_mm: plan.bins.size_mm,
-            facets: self.mesh.surface_facets,
-            hits: self.ldi.hits.len(),
-            uniform: planned.uniform,
-            mask: MaskReport {
-                width: self.grid.width,
-                height: self.grid.height,
-                pitch_mm: self.grid.pitch_mm,
-                pitch_y_mm: self.grid.pitch_y_mm,
-                antialias: options.antialias,
-                is_mirrored: output.is_mirrored,
-            },
-            print_file: PrintFileReport::new(output.format, output.printer),
-            warnings,
-            timings_ms,
-        }
-    }
-}
-
-/// What to tell of a GPU that was to do the work and did not; nothing if there is none.
-fn cpu_instead(error: &LdiError) -> Option<Warning> {
-    match *error {
-        LdiError::NoGpu { .. } => None,
-        LdiError::GpuTooSmall {
-            needed_bytes,
-            limit_bytes,
-            ..
-        } => Some(Warning::GpuTooSmall {
-            needed_bytes,
-            limit_bytes,
-        }),
-        _ => Some(Warning::GpuFailed {
-            reason: error.to_string(),
-        }),
-    }
-}
-
-fn continue_or_cancel(flow: ControlFlow<()>) -> Result<(), LdiError> {
-    match flow {
-        ControlFlow::Continue(()) => Ok(()),
-        ControlFlow::Break(()) => Err(LdiError::Cancelled(crate::progress::Cancelled)),
-    }
-}
-
-fn ms_since(clock: Instant) -> f64 {
-    clock.elapsed().as_secs_f64() * 1e3
 }

@@ -1,7 +1,5 @@
 //! The shape of a model along z from both sources, facets and rays, under the weights of facets.
 
-use std::borrow::Borrow;
-
 use super::facet_bins::{FacetBins, Flat};
 use super::weighted::Weighted;
 use super::{LayerErrors, Metric, Profile, Shape, Source, section, steepest};
@@ -11,7 +9,7 @@ use crate::ldi::visibility::{Visibility, visibility};
 use crate::model::Mesh;
 
 /// The shape of a model from both sources.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Shapes {
     pub exact: Shape,
     pub sampled: Shape,
@@ -25,7 +23,7 @@ pub(crate) struct Shapes {
 }
 
 /// The shapes under weights.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Weighing {
     metric: Metric,
     weights: Vec<f32>,
@@ -34,17 +32,18 @@ struct Weighing {
 }
 
 impl Shapes {
-    pub fn new(mesh: &Mesh, ldi: &Ldi, bins: Bins) -> Self {
+    /// The shape of a sampled mesh, without areas of sections and with all facets alike.
+    pub fn new(facet_bins: &FacetBins, mesh: &Mesh, ldi: &Ldi) -> Self {
         let Visibility { hidden, overlaps } = visibility(mesh, ldi);
-        let facet_bins = FacetBins::of(mesh, bins);
+        let bins = facet_bins.bins;
         let shape = |steepest| Shape {
             bins,
             steepest,
             areas_mm2: Vec::new(),
         };
         Self {
-            exact: shape(steepest::exact(&facet_bins, &hidden)),
-            sampled: shape(steepest::sampled(&facet_bins, ldi, &hidden)),
+            exact: shape(steepest::exact(facet_bins, &hidden)),
+            sampled: shape(steepest::sampled(facet_bins, ldi, &hidden)),
             flats: facet_bins.flats_but(&hidden),
             hidden,
             overlaps,
@@ -70,34 +69,51 @@ impl Shapes {
         }
     }
 
-    /// Weighs the facets of the surface for a metric, or all alike; returns whether anything was measured for it, on the
-    /// facet bins that the shapes are of. Without an LDI what is exact stands for both sources.
-    pub fn weigh<R: Borrow<FacetBins>>(
-        &mut self,
-        facet_bins: impl FnOnce() -> R,
+    /// The height ranges of the shape.
+    pub fn bins(&self) -> Bins {
+        self.exact.bins
+    }
+
+    /// Whether the areas of sections are measured.
+    pub fn has_areas(&self) -> bool {
+        !self.sampled.areas_mm2.is_empty()
+    }
+
+    /// Whether the shape is weighted by these weights of facets for the metric; without weights, whether it is not weighted.
+    pub fn is_weighed(&self, metric: Metric, weights: Option<&[f32]>) -> bool {
+        match (&self.weighing, weights) {
+            (None, None) => true,
+            (Some(weighing), Some(weights)) => {
+                weighing.metric == metric && weighing.weights == weights
+            }
+            _ => false,
+        }
+    }
+
+    /// The shape with a weight for each facet of the surface under a metric, or without weights. Without an LDI, what is exact
+    /// stands for both sources.
+    pub fn weighed(
+        self,
+        facet_bins: &FacetBins,
         ldi: Option<&Ldi>,
         metric: Metric,
         weights: Option<Vec<f32>>,
-    ) -> bool {
-        let Some(weights) = weights else {
-            self.weighing = None;
-            return false;
-        };
-        let kept = self.weighing.as_ref();
-        if kept.is_some_and(|kept| kept.metric == metric && kept.weights == weights) {
-            return false;
+    ) -> Self {
+        if self.is_weighed(metric, weights.as_deref()) {
+            return self;
         }
-        let facet_bins = facet_bins();
-        let measure = |ldi| Weighted::new(facet_bins.borrow(), ldi, &self.hidden, metric, &weights);
-        let exact = measure(None);
-        let sampled = ldi.map_or_else(|| exact.clone(), |ldi| measure(Some(ldi)));
-        self.weighing = Some(Weighing {
-            metric,
-            weights,
-            exact,
-            sampled,
+        let weighing = weights.map(|weights| {
+            let measure = |ldi| Weighted::new(facet_bins, ldi, &self.hidden, metric, &weights);
+            let exact = measure(None);
+            let sampled = ldi.map_or_else(|| exact.clone(), |ldi| measure(Some(ldi)));
+            Weighing {
+                metric,
+                weights,
+                exact,
+                sampled,
+            }
         });
-        true
+        Self { weighing, ..self }
     }
 
     /// The profile of a metric, weighted if facets were weighed for it.
@@ -127,19 +143,16 @@ impl Shapes {
         })
     }
 
-    /// Measures the areas of sections as well, unless that was done; returns whether it was not.
-    pub fn add_areas(&mut self, mesh: &Mesh, ldi: &Ldi) -> bool {
-        if !self.sampled.areas_mm2.is_empty() {
-            return false;
-        }
-        let bins = self.exact.bins;
+    /// The shape with the areas of its sections.
+    pub fn with_areas(mut self, mesh: &Mesh, ldi: &Ldi) -> Self {
+        let bins = self.bins();
         self.sampled.areas_mm2 = section::sampled(ldi, bins);
         self.exact.areas_mm2 = if self.overlaps {
             self.sampled.areas_mm2.clone()
         } else {
             section::exact(mesh, &self.hidden, bins)
         };
-        true
+        self
     }
 
     pub fn of(&self, source: Source) -> &Shape {

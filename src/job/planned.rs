@@ -1,8 +1,11 @@
-//! From the shape of a model to a plan and its figures: which errors a planner sees, at which tolerance, with which
-//! snap planes.
+//! The layers of a measured model: the third stage. Which errors a planner sees, at which tolerance, with which snap planes.
 
+use std::sync::Arc;
+
+use super::measured::Measured;
 use super::resolve::{Layering, Target};
 use super::{Planner, PlannerReport, UniformReport};
+use crate::mask::{Masks, Side};
 use crate::plan::optimal::Objective;
 use crate::plan::tradeoff::{self, Goal, TradeoffPoint};
 use crate::plan::{Limits, Plan, PlanError, greedy, optimal, uniform};
@@ -12,8 +15,42 @@ use crate::profile::snap_planes::snap_planes;
 use crate::profile::{LayerErrors, Metric, Source};
 use crate::warning::Warning;
 
+/// A plan with what it was made from. Immutable and shared: its masks can be made from no rays but its own.
+#[derive(Debug)]
+pub struct Planned {
+    pub of: Arc<Measured>,
+    /// What it was planned by.
+    pub layering: Layering,
+    pub plan: Plan,
+    pub findings: Findings,
+}
+
+impl Planned {
+    /// Plans the layers.
+    ///
+    /// # Errors
+    /// [`PlanError`].
+    pub fn new(of: &Arc<Measured>, layering: &Layering) -> Result<Self, PlanError> {
+        let planning = Planning::of(of, layering);
+        let plan = planning.plan()?;
+        Ok(Self {
+            findings: planning.findings(&plan)?,
+            of: Arc::clone(of),
+            layering: layering.clone(),
+            plan,
+        })
+    }
+
+    /// The masks of its layers, seen from one side.
+    pub fn masks(&self, side: Side) -> Masks {
+        let sampled = &self.of.of;
+        let samples = sampled.sampling.samples;
+        Masks::new(&sampled.ldi, &self.plan, &sampled.grid, samples, side)
+    }
+}
+
 /// All that planners need to know about a model.
-pub(crate) struct Planning<'a> {
+pub struct Planning<'a> {
     shapes: &'a Shapes,
     layering: &'a Layering,
     height_mm: f64,
@@ -26,8 +63,9 @@ pub(crate) struct Planning<'a> {
     tolerance: Result<f64, PlanError>,
 }
 
-/// A plan's figures.
-pub(crate) struct PlanReport {
+/// What is found out about a plan beside its layers.
+#[derive(Debug)]
+pub struct Findings {
     pub snapped_mm: Vec<f64>,
     pub tolerance: f64,
     pub max_error: f64,
@@ -39,6 +77,12 @@ pub(crate) struct PlanReport {
 }
 
 impl<'a> Planning<'a> {
+    /// For a model that was sampled.
+    pub fn of(measured: &'a Measured, layering: &'a Layering) -> Self {
+        Self::new(measured.of.height_mm, &measured.shapes, layering)
+    }
+
+    /// For shapes of a model of this height.
     pub fn new(height_mm: f64, shapes: &'a Shapes, layering: &'a Layering) -> Self {
         let exact = shapes.errors(layering.metric, Source::Exact);
         let errors = match layering.source {
@@ -123,7 +167,7 @@ impl<'a> Planning<'a> {
         })
     }
 
-    pub fn report(&self, plan: &Plan) -> Result<PlanReport, PlanError> {
+    fn findings(&self, plan: &Plan) -> Result<Findings, PlanError> {
         let layering = self.layering;
         let (finest, coarsest) = match layering.planner {
             // They may be planned with no valid range; they then stand for both ends.
@@ -171,7 +215,7 @@ impl<'a> Planning<'a> {
             });
         }
         let cusp = self.shapes.exact.errors(Metric::Cusp);
-        Ok(PlanReport {
+        Ok(Findings {
             snapped_mm: plan
                 .snap_planes
                 .iter()
@@ -251,7 +295,6 @@ pub fn shapes_of<E>(
     } else {
         Vec::new()
     };
-    let mut shapes = Shapes::of_facets(facet_bins, areas_mm2);
-    shapes.weigh(|| facet_bins, None, layering.metric, weights);
-    Ok(shapes)
+    let shapes = Shapes::of_facets(facet_bins, areas_mm2);
+    Ok(shapes.weighed(facet_bins, None, layering.metric, weights))
 }

@@ -1,0 +1,62 @@
+//! The shape of a sampled model along z: the second stage.
+
+use std::cell::LazyCell;
+use std::sync::Arc;
+
+use super::Error;
+use super::resolve::Layering;
+use super::sampled::Sampled;
+use crate::grid::Bins;
+use crate::profile::facet_bins::FacetBins;
+use crate::profile::shapes::Shapes;
+
+/// What was measured of a sampled model. Immutable and shared, with the rays that it was measured on.
+#[derive(Debug)]
+pub struct Measured {
+    pub of: Arc<Sampled>,
+    pub shapes: Shapes,
+}
+
+impl Measured {
+    /// Measures what `layering` and the weights of facets need. What `kept` has of it is not measured again; if it has all, it
+    /// is the result.
+    ///
+    /// # Errors
+    /// [`Error::Grid`].
+    pub fn new(
+        of: &Arc<Sampled>,
+        layering: &Layering,
+        weights: Option<Vec<f32>>,
+        kept: Option<Arc<Self>>,
+    ) -> Result<Arc<Self>, Error> {
+        let Sampled { mesh, ldi, .. } = &**of;
+        let bins = Bins::of_height(of.height_mm, layering.bin_mm)?;
+        let metric = layering.metric;
+        let is_of_these =
+            |kept: &Arc<Self>| Arc::ptr_eq(&kept.of, of) && kept.shapes.bins() == bins;
+        let kept = kept.filter(is_of_these);
+        let has_areas = |shapes: &Shapes| shapes.has_areas() || !metric.needs_areas();
+        if let Some(kept) = &kept
+            && has_areas(&kept.shapes)
+            && kept.shapes.is_weighed(metric, weights.as_deref())
+        {
+            return Ok(Arc::clone(kept));
+        }
+        let facet_bins = LazyCell::new(|| FacetBins::of(mesh, bins));
+        let mut shapes = match kept {
+            Some(kept) => kept.shapes.clone(),
+            None => Shapes::new(&facet_bins, mesh, ldi),
+        };
+        if !has_areas(&shapes) {
+            shapes = shapes.with_areas(mesh, ldi);
+        }
+        Ok(Arc::new(Self {
+            of: Arc::clone(of),
+            shapes: if shapes.is_weighed(metric, weights.as_deref()) {
+                shapes
+            } else {
+                shapes.weighed(&facet_bins, Some(ldi), metric, weights)
+            },
+        }))
+    }
+}

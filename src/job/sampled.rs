@@ -1,0 +1,155 @@
+//! A model on the plate and its rays: the first stage.
+
+use web_time::Instant;
+
+use super::resolve::Sampling;
+use super::stage::{Stage, StageProgress, ms_since};
+use super::{Backend, Error, Timings};
+use crate::grid::Grid;
+use crate::job::report::mesh_warnings;
+use crate::ldi::gpu::{self, Gpu};
+use crate::ldi::{Ldi, LdiError, Solid, cpu};
+use crate::model::Mesh;
+use crate::progress::Progress;
+use crate::warning::Warning;
+
+/// The model on the plate and its rays. Immutable and shared: whoever holds it cannot be given other rays.
+#[derive(Debug)]
+pub struct Sampled {
+    /// What it was sampled by.
+    pub sampling: Sampling,
+    pub mesh: Mesh,
+    pub height_mm: f64,
+    /// The masks' pixels; the LDI has rays only where the model is.
+    pub grid: Grid,
+    pub ldi: Ldi,
+    pub solid: Solid,
+    /// The GPU, if one cast the rays.
+    pub adapter: Option<String>,
+    pub warnings: Vec<Warning>,
+}
+
+/// Samples models, and keeps the GPU between one and the next.
+#[derive(Debug, Default)]
+pub struct Sampler {
+    /// What the last search for a GPU found, if it is still to be used.
+    gpu: Option<Result<Gpu, LdiError>>,
+}
+
+impl Sampler {
+    /// Samples on `gpu` from now on, unless the CPU is asked for.
+    pub fn set_gpu(&mut self, gpu: Gpu) {
+        self.gpu = Some(Ok(gpu));
+    }
+
+    /// Searches for the GPU that `backend` allows, unless one was searched for.
+    pub async fn open_gpu(&mut self, backend: Backend) {
+        if self.gpu.is_none() {
+            self.gpu = Some(search_gpu(backend).await);
+        }
+    }
+
+    /// Poses and samples the model. The CPU stands in for a GPU that fails, unless the GPU was asked for.
+    ///
+    /// # Errors
+    /// [`Error::Mesh`], [`Error::Grid`], [`Error::Ldi`].
+    pub async fn sample(
+        &mut self,
+        model: &Mesh,
+        sampling: &Sampling,
+        timings: &mut Timings,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<Sampled, Error> {
+        let clock = Instant::now();
+        let mesh = model.on_plate(&sampling.pose)?;
+        let bounds = mesh.bounds();
+        let grid = sampling.grid(&bounds)?;
+        timings.load += ms_since(clock);
+
+        let clock = Instant::now();
+        let mut ldi_progress = |fraction| progress(Stage::Ldi, fraction);
+        let mut warnings = mesh_warnings(&mesh);
+        let rays = grid.refined(sampling.samples.rays()).around_model(&bounds);
+        rays.check_rays()?;
+        let on_gpu = self.sample_on_gpu(&mesh, &rays, sampling.backend, &mut ldi_progress);
+        let (ldi, adapter) = match on_gpu.await {
+            Ok((ldi, adapter)) => (ldi, Some(adapter)),
+            Err(error @ LdiError::Cancelled(_)) => return Err(error.into()),
+            Err(error) if sampling.backend == Backend::Gpu => return Err(error.into()),
+            Err(error) => {
+                warnings.extend(cpu_instead(&error));
+                (cpu::sample(&mesh, &rays, &mut ldi_progress)?, None)
+            }
+        };
+        if ldi.hits.is_empty() {
+            return Err(LdiError::NoHits {
+                pitch_mm: grid.pitch_mm,
+            }
+            .into());
+        }
+        let unclosed = ldi.rays_through_holes(&mesh);
+        if unclosed > 0 {
+            let rays = ldi.rays();
+            warnings.push(Warning::UnclosedRays { unclosed, rays });
+        }
+        timings.ldi = ms_since(clock);
+        Ok(Sampled {
+            height_mm: sampling.height_mm(bounds.size().z),
+            sampling: sampling.clone(),
+            mesh,
+            grid,
+            solid: Solid::of(&ldi),
+            ldi,
+            adapter,
+            warnings,
+        })
+    }
+
+    /// The LDI by the GPU, and its name. A GPU that failed is not tried again.
+    async fn sample_on_gpu(
+        &mut self,
+        mesh: &Mesh,
+        rays: &Grid,
+        backend: Backend,
+        progress: &mut Progress<'_>,
+    ) -> Result<(Ldi, String), LdiError> {
+        let found = self.gpu.take_if(|_| backend != Backend::Cpu);
+        let gpu = match found {
+            Some(found) => found?,
+            None => search_gpu(backend).await?,
+        };
+        let ldi = gpu::sample(mesh, rays, &gpu, gpu::Tiling::default(), progress).await?;
+        let name = gpu.name().to_owned();
+        self.gpu = Some(Ok(gpu));
+        Ok((ldi, name))
+    }
+}
+
+/// The GPU that a backend allows.
+async fn search_gpu(backend: Backend) -> Result<Gpu, LdiError> {
+    match backend {
+        Backend::Cpu => Err(LdiError::NoGpu {
+            reason: "the CPU was asked for".to_owned(),
+        }),
+        Backend::Gpu => Gpu::open(gpu::Adapters::Any).await,
+        Backend::Auto => Gpu::open(gpu::Adapters::Hardware).await,
+    }
+}
+
+/// What to tell of a GPU that was to do the work and did not; nothing if there is none.
+fn cpu_instead(error: &LdiError) -> Option<Warning> {
+    match *error {
+        LdiError::NoGpu { .. } => None,
+        LdiError::GpuTooSmall {
+            needed_bytes,
+            limit_bytes,
+            ..
+        } => Some(Warning::GpuTooSmall {
+            needed_bytes,
+            limit_bytes,
+        }),
+        _ => Some(Warning::GpuFailed {
+            reason: error.to_string(),
+        }),
+    }
+}
