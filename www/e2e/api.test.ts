@@ -74,7 +74,7 @@ test("from a file to a print file: by address, bytes, Blob; whole and in chunks 
       zip: String.fromCharCode(...whole.slice(0, 2)),
     };
   });
-  expect(found).toMatchObject({ schema: 1, names: ["ball.stl", "model.stl"], facets: (ball.length - 84) / 50, same: true, zip: "PK", points: 5 });
+  expect(found).toMatchObject({ schema: 2, names: ["ball.stl", "model.stl"], facets: (ball.length - 84) / 50, same: true, zip: "PK", points: 5 });
   expect(found.layers[0]).toBe(found.layers[1]);
   expect(found.bins[0]).toBe(found.bins[1]);
   expect(["cpu", "gpu"]).toContain(found.backend);
@@ -101,12 +101,12 @@ test("a call that is not awaited takes its place: the plan is of the model that 
     void slicer.load("goblet.stl");
     const [{ report }, { report: preview }, file] = await Promise.all([
       slicer.plan({ rays: 512, format: "uvj" }),
-      slicer.glance({ rays: 512 }),
+      slicer.preview({ rays: 512 }),
       slicer.export(),
     ]);
     slicer.dispose();
     const { name, type, warnings } = file;
-    return { bytes: report.stl.bytes, height_mm: preview.size_mm[2], file: { name, type }, isSame: warnings.length === report.warnings.length };
+    return { bytes: report.model.bytes, height_mm: preview.size_mm[2], file: { name, type }, isSame: warnings.length === report.warnings.length };
   });
   expect(found).toMatchObject({ bytes: goblet.byteLength, isSame: true });
   expect(found.height_mm).toBeGreaterThan(20.1);
@@ -245,12 +245,12 @@ test("a search for directions gives the same with any number of workers, and wit
   if (one === undefined) throw new Error("nothing was found");
   for (const other of others) expect(other).toEqual(one);
   expect(one.again).toEqual(one.best);
-  expect(one.schema).toBe(1);
+  expect(one.schema).toBe(2);
   expect(one.known).toBe(one.candidates.length);
   expect(one.candidates.length).toBeGreaterThanOrEqual(200);
   const [first] = one.best;
   expect(first?.energy).toBeLessThanOrEqual(Math.min(...one.candidates.map(({ energy }) => energy ?? Infinity)));
-  expect(one.layers).toBe(first?.figures?.layers);
+  expect(one.layers).toBe(first?.metrics?.layers);
 });
 
 test("a search is aborted, by its signal and with its slicer; what cannot be searched for has a code", async () => {

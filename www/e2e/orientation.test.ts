@@ -113,7 +113,7 @@ test("a best direction is applied by its button; the plan follows, and can be ta
   const page = await example();
   await page.evaluate(() => {
     document.querySelector("cusp-slicer")?.addEventListener("cusp-orientation", ({ detail }) => {
-      document.documentElement.dataset["promised"] = String(detail.figures?.layers);
+      document.documentElement.dataset["promised"] = String(detail.metrics?.layers);
     });
   });
   const before = await layers(page);
@@ -132,7 +132,7 @@ test("a best direction is applied by its button; the plan follows, and can be ta
   expect(await layers(page)).toBe(before);
 });
 
-test("pointing at a direction shows its figures, clicking it stands the model so", async () => {
+test("pointing at a direction shows its metrics, clicking it stands the model so", async () => {
   const page = await example();
   const before = await layers(page);
   await search(page);
@@ -176,7 +176,7 @@ test("by keyboard: arrow keys go over the sphere, Enter applies", async () => {
   expect(Math.abs((await layers(page)) - promised)).toBeLessThanOrEqual(1);
 });
 
-test("the first touch shows a direction's figures, the second applies it", async () => {
+test("the first touch shows a direction's metrics, the second applies it", async () => {
   const page = await example("", { hasTouch: true, viewport: { width: 390, height: 844 } });
   const before = await layers(page);
   await search(page);

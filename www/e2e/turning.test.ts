@@ -56,7 +56,7 @@ test("turned by keyboard, the model is planned anew as it stands; undo and a but
   expect(await layers(page)).toBe(lying);
 });
 
-test("while the model is held, numbers and profile follow by glances; let go, it is planned", async () => {
+test("while the model is held, numbers and profile follow by previews; let go, it is planned", async () => {
   const page = await example();
   const upright = await layers(page);
   const tell = (rotation: number[], final: boolean): Promise<void> =>
@@ -69,15 +69,15 @@ test("while the model is held, numbers and profile follow by glances; let go, it
     );
   await tell([Math.SQRT1_2, 0, 0, Math.SQRT1_2], false);
   await expect.poll(() => layers(page)).not.toBe(upright);
-  // A glance is no task: nothing is busy, and no plan was made.
+  // A preview is no task: nothing is busy, and no plan was made.
   await state(page, "done");
   expect(new URL(page.url()).searchParams.has("rotation")).toBe(false);
-  const glanced = await layers(page);
+  const previewed = await layers(page);
   await tell([Math.SQRT1_2, 0, 0, Math.SQRT1_2], true);
   await settled(page);
   expect(new URL(page.url()).searchParams.has("rotation")).toBe(true);
   // Planned by the same facets; rays only leave out those that lie inside.
-  expect(Math.abs((await layers(page)) - glanced)).toBeLessThan(0.02 * glanced);
+  expect(Math.abs((await layers(page)) - previewed)).toBeLessThan(0.02 * previewed);
 });
 
 test("beside the chart, heights are where the chart has them", async () => {

@@ -46,5 +46,5 @@ const { best }: Orientation = await slicer.orient(options, { alpha: 0.25, qualit
   signal,
   onCandidates: ({ directions, candidates }) => console.log(directions.length, candidates[0]?.excluded),
 });
-element.addEventListener("cusp-orientation", ({ detail }) => console.log(detail.rotation, best[0]?.figures?.layers));
+element.addEventListener("cusp-orientation", ({ detail }) => console.log(detail.rotation, best[0]?.metrics?.layers));
 console.log(plan.profile.length, new SlicerError("crash", "").detail);

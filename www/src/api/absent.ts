@@ -16,7 +16,7 @@ export function absentSlicer(): Slicer {
     export: reject,
     exportStream: () => new ReadableStream({ start: (controller) => controller.error(error()) }),
     positions: reject,
-    glance: reject,
+    preview: reject,
     saliency: reject,
     setWeights: reject,
     weightsFile: reject,

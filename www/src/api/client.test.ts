@@ -1,7 +1,7 @@
 import { beforeEach, expect, test } from "vitest";
 import { SlicerError } from "./error.js";
 import { Client, type About, type WorkerHandle, type Watch } from "./client.js";
-import type { CuspError, Glance, MeshInfo, OnProgress, Options, Profiled, Report, SlicerWorker } from "./wire.js";
+import type { CuspError, Preview, MeshInfo, OnProgress, Options, Profiled, Report, SlicerWorker } from "./wire.js";
 
 /** What the fake workers were asked, in order: `worker number: call`. */
 let log: string[];
@@ -20,7 +20,7 @@ class FakeWorker implements WorkerHandle {
   readonly remote: SlicerWorker = {
     boot: async (module) => {
       this.#say(module === null ? "boot, compiling" : "boot");
-      return {} as WebAssembly.Module;
+      return {};
     },
     open: async (file) => {
       this.opened = await file.text();
@@ -49,16 +49,16 @@ class FakeWorker implements WorkerHandle {
       return null;
     },
     positions: () => new Float32Array(9),
-    glance: () => ({}) as Profiled<Glance>,
+    preview: () => ({}) as Profiled<Preview>,
     saliency: () => new Float32Array(1),
     setWeights: () => undefined,
     weightsFile: () => new Uint8Array(1),
     readWeights: async () => new Float32Array(1),
     directions: () => new Float64Array(0),
     measureDirections: () => [],
-    rateDirections: () => ({ energies: [], scale: { cost: 1, quality: 1 }, minima: [] }),
+    rateCandidates: () => ({ energies: [], scale: { cost: 1, quality: 1 }, minima: [] }),
     refineDirection: (_options, _search, _scale, candidate) => candidate,
-    bestDirections: () => [],
+    bestCandidates: () => [],
     printers: () => [],
   };
 

@@ -2,7 +2,7 @@ import { expect, test } from "vitest";
 import { createSlicer, SCHEMA, type Slicer } from "./index.js";
 import { resolve } from "./source.js";
 import type { WorkerHandle } from "./client.js";
-import type { Glance, MeshInfo, Options, Profiled, Report, SlicerWorker } from "./wire.js";
+import type { Preview, MeshInfo, Options, Report, SlicerWorker } from "./wire.js";
 
 /** What the fakes report: masks are as wide as the tolerance says. */
 const reportOf = ({ tolerance = 9 }: Options): Report =>
@@ -20,7 +20,7 @@ function faked(): { slicer: Slicer; log: string[] } {
     const number = ++workers;
     const say = (what: string): void => void log.push(`${number}: ${what}`);
     const remote: SlicerWorker = {
-      boot: async () => ({}) as WebAssembly.Module,
+      boot: async () => ({}),
       open: async (file) => {
         say(`open ${await file.text()}`);
         return { facets: 1 } as MeshInfo;
@@ -44,7 +44,7 @@ function faked(): { slicer: Slicer; log: string[] } {
         say("positions");
         return new Float32Array(9);
       },
-      glance: () => ({ report: {} as Glance, profile: new Float32Array() }) as Profiled<Glance>,
+      preview: () => ({ report: {} as Preview, profile: new Float32Array() }),
       saliency: () => Float32Array.of(0.5),
       setWeights: (weights) => {
         say(`setWeights ${weights === null ? "none" : [...weights].join()}`);
@@ -54,9 +54,9 @@ function faked(): { slicer: Slicer; log: string[] } {
       readWeights: async (file) => Float32Array.from(new Uint8Array(await file.arrayBuffer()), (byte) => byte / 100),
       directions: () => new Float64Array(0),
       measureDirections: () => [],
-      rateDirections: () => ({ energies: [], scale: { cost: 1, quality: 1 }, minima: [] }),
+      rateCandidates: () => ({ energies: [], scale: { cost: 1, quality: 1 }, minima: [] }),
       refineDirection: (_options, _search, _scale, candidate) => candidate,
-      bestDirections: () => [],
+      bestCandidates: () => [],
       printers: () => [],
     };
     return { remote, terminate: () => say("ended"), onBroken: () => undefined };
@@ -72,7 +72,7 @@ test("results carry the version of their schema", async () => {
   expect(model.file).toBe(file);
   expect((await slicer.plan()).schema).toBe(SCHEMA);
   expect((await slicer.tradeoff()).schema).toBe(SCHEMA);
-  expect((await slicer.glance()).schema).toBe(SCHEMA);
+  expect((await slicer.preview()).schema).toBe(SCHEMA);
   expect(await slicer.mask(1)).toMatchObject({ layer: 1, width: 9, height: 2 });
 });
 
@@ -121,7 +121,7 @@ test("weights are copied, count for all that follows, and make a print file wort
   weights[0] = 0;
   await painted;
   await slicer.export({ tolerance: 1 });
-  await slicer.glance();
+  await slicer.preview();
   await slicer.setWeights(null);
   await slicer.export({ tolerance: 1 });
   const main = ["1: open a", "1: setWeights 0.5", "1: plan 1", "1: archive", "1: setWeights none", "1: plan 1", "1: archive"];
@@ -174,8 +174,7 @@ test("sources: files have names, bytes have none, addresses have the last part o
   expect(await resolve(new File([bytes], "a.stl"))).toMatchObject({ name: "a.stl" });
   expect((await resolve(bytes)).name).toBe("model.stl");
   expect(await (await resolve(bytes.buffer)).file.text()).toBe("solid");
-  const data = `data:,${"solid"}`;
-  expect(await (await resolve(data)).file.text()).toBe("solid");
+  expect(await (await resolve("data:,solid")).file.text()).toBe("solid");
 });
 
 test("an address that does not answer is an error with a code; an aborted one is an abort", async () => {

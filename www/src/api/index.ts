@@ -18,7 +18,7 @@ import { Client, spawnWorker, type About, type Compiled, type WorkerHandle, type
 import { orient, type OrientCall, type Oriented } from "./orient.js";
 import { Pool } from "./pool.js";
 import { resolve, stemOf, type Source } from "./source.js";
-import type { Comparison, Glance, MeshInfo, Options, Printer, Profiled, Report, Search, Tradeoff, Warning } from "./wire.js";
+import type { Comparison, Preview, MeshInfo, Options, Printer, Profiled, Report, SearchOptions, Tradeoff, Warning } from "./wire.js";
 
 export { ERROR_CODES, isAbort, SlicerError, type ErrorCode, type ErrorDetails } from "./error.js";
 export { WARNING_CODES, type WarningCode } from "./warning.js";
@@ -28,7 +28,7 @@ export type { Found, OrientCall } from "./orient.js";
 export type * from "./wire.js";
 
 /** The version of what results look like. It grows when a field goes or changes its meaning, not when one is added. */
-export const SCHEMA = 1;
+export const SCHEMA = 2;
 
 interface Versioned {
   /** See {@link SCHEMA}. */
@@ -47,10 +47,10 @@ export interface Model extends Versioned {
 export interface Plan extends Versioned, Profiled<Report> {}
 
 /** A plan by the facets alone, for following a model that is being turned. */
-export interface GlancedPlan extends Versioned, Profiled<Glance> {}
+export interface PreviewedPlan extends Versioned, Profiled<Preview> {}
 
 /** What a search for the best direction found. */
-export interface Orientation extends Versioned, Oriented {}
+export interface OrientationReport extends Versioned, Oriented {}
 
 /** The mask of a layer. */
 export interface Mask {
@@ -95,7 +95,7 @@ export interface Slicer {
    * of its own, so that nothing waits for it; what it finds does not depend on how many. A candidate's `rotation` is for
    * `options.rotation`, and with an `options.height_mm` its `size_mm[2]` is for that.
    */
-  orient(options?: Options, search?: Search, call?: OrientCall): Promise<Orientation>;
+  orient(options?: Options, search?: SearchOptions, call?: OrientCall): Promise<OrientationReport>;
   /** The print file of the last plan; with options that are not the last plan's, of a plan made for them first. */
   export(options?: Options, call?: Watch): Promise<PrintFile>;
   /** The same as it is made. The core does not wait for a slow reader: what is not read yet is kept in memory. */
@@ -103,7 +103,7 @@ export interface Slicer {
   /** Corners of all facets, nine numbers a facet, mm, as the file has them. */
   positions(call?: Watch): Promise<Float32Array>;
   /** A plan by the facets alone: milliseconds, and never behind another call but one of these two. */
-  glance(options?: Options, call?: Watch): Promise<GlancedPlan>;
+  preview(options?: Options, call?: Watch): Promise<PreviewedPlan>;
   /** How much each facet stands out, 0 to 1, in the order of `positions()`. Takes about a second for 80,000 facets. */
   saliency(call?: Watch): Promise<Float32Array>;
   /**
@@ -205,8 +205,8 @@ export function createSlicer(setup: Setup = {}): Slicer {
       });
     },
     positions: (call = {}) => side.ask(about, call, (remote) => remote.positions()),
-    async glance(options = {}, call = {}) {
-      return { schema: SCHEMA, ...(await side.ask(about, call, (remote) => remote.glance(options))) };
+    async preview(options = {}, call = {}) {
+      return { schema: SCHEMA, ...(await side.ask(about, call, (remote) => remote.preview(options))) };
     },
     saliency: (call = {}) => side.ask(about, call, (remote, progress) => remote.saliency(progress)),
     setWeights(weights, call = {}) {

@@ -2,7 +2,7 @@ import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import type { WorkerHandle } from "./client.js";
 import { createSlicer, type OrientCall, type Slicer } from "./index.js";
 import { workersFor } from "./pool.js";
-import type { Candidate, Glance, MeshInfo, Profiled, Report } from "./wire.js";
+import type { Candidate, Preview, MeshInfo, Profiled, Report } from "./wire.js";
 
 const COUNT = 100;
 const FACETS = 12;
@@ -12,7 +12,7 @@ const candidateAt = ([x = 0, y = 0, z = 0]: Iterable<number>): Candidate => ({
   rotation: [0, 0, 0, 1],
   size_mm: [1, 1, 1],
   excluded: null,
-  figures: { layers: x, print_time_s: 0, max_error: 0, roughness_mm: 0, overhang_mm2: 0 },
+  metrics: { layers: x, print_time_s: 0, max_error: 0, roughness_mm: 0, overhang_mm2: 0 },
   energy: null,
 });
 
@@ -53,7 +53,7 @@ function faked({ workers, slowness = () => 0, hangs, fails }: Setup): Faked {
       throw new Error("not asked for by a search");
     };
     const remote: WorkerHandle["remote"] = {
-      boot: async () => ({}) as WebAssembly.Module,
+      boot: async () => ({}),
       open: async (file) => work(`open ${await file.text()}`, { facets: FACETS } as MeshInfo),
       setWeights: (weights) => void log.push(`${number}: setWeights ${weights?.join() ?? "none"}`),
       directions: (_options, count) => Float64Array.from({ length: 3 * count }, (_, i) => (i % 3 === 0 ? i / 3 : 0)),
@@ -61,16 +61,16 @@ function faked({ workers, slowness = () => 0, hangs, fails }: Setup): Faked {
         const all = Array.from({ length: directions.length / 3 }, (_, i) => candidateAt(directions.subarray(3 * i)));
         return work("measure", all);
       },
-      rateDirections: (candidates) => {
+      rateCandidates: (candidates) => {
         const energies = candidates.map(({ direction: [x] }) => Math.abs(x - 42));
         const minima = energies.flatMap((energy, i) => (energy < 4 ? i : []));
         return work("rate", { energies, scale: { cost: 1, quality: 1 }, minima });
       },
       refineDirection: (_options, _search, _scale, candidate) =>
         work("refine", { ...candidate, energy: (candidate.energy ?? Infinity) / 2 }),
-      bestDirections: (rated) => rated.toSorted((a, b) => (a.energy ?? 0) - (b.energy ?? 0)).slice(0, 3),
+      bestCandidates: (rated) => rated.toSorted((a, b) => (a.energy ?? 0) - (b.energy ?? 0)).slice(0, 3),
       plan: async () => ({ report: {} as Report, profile: new Float32Array() }),
-      glance: () => ({}) as Profiled<Glance>,
+      preview: () => ({}) as Profiled<Preview>,
       ...{ tradeoff: unused, compare: unused, mask: unused, archive: unused, positions: unused, saliency: unused },
       ...{ weightsFile: unused, readWeights: unused, printers: unused },
     };
@@ -126,7 +126,7 @@ test("what is known comes as it is measured, all over the sphere, and progress g
     { workers: 2, slowness: () => 3 },
     {
       onProgress: (stage, fraction) => {
-        expect(stage).toBe("directions");
+        expect(stage).toBe("orientation");
         steps.push(fraction);
       },
       onCandidates: ({ directions, candidates }) => {

@@ -1,7 +1,7 @@
 /** The search for the direction that a model is best built in: over the whole sphere, then more finely around the best. */
 import type { About, Watch } from "./client.js";
 import type { Pool, Team } from "./pool.js";
-import { DEFAULT_SEARCH, type Candidate, type Options, type Search } from "./wire.js";
+import { DEFAULT_SEARCH, type Candidate, type Options, type SearchOptions } from "./wire.js";
 
 /** What is known while directions are measured. */
 export interface Found {
@@ -35,13 +35,13 @@ const REFINEMENT = 0.2;
 /** How often what is known is rated while directions are measured. */
 const RATINGS = 12;
 
-export function orient(pool: Pool, about: About, options: Options, wanted: Search, call: OrientCall): Promise<Oriented> {
+export function orient(pool: Pool, about: About, options: Options, wanted: SearchOptions, call: OrientCall): Promise<Oriented> {
   const search = { ...DEFAULT_SEARCH, ...wanted };
   return pool.run(about, call, async (team) => {
     const measured = call.measured === undefined ? await measure(team, options, search, call) : [...call.measured];
-    const { energies, scale, minima } = await team.ask((remote) => remote.rateDirections(measured, search));
+    const { energies, scale, minima } = await team.ask((remote) => remote.rateCandidates(measured, search));
     const candidates = rated(measured, energies);
-    call.onProgress?.("directions", 1 - REFINEMENT);
+    call.onProgress?.("orientation", 1 - REFINEMENT);
     call.onCandidates?.({ directions: directionsOf(candidates), candidates });
     const starts = minima.flatMap((index) => candidates[index] ?? []);
     const refined: Candidate[] = [];
@@ -51,16 +51,16 @@ export function orient(pool: Pool, about: About, options: Options, wanted: Searc
       (remote, start) => remote.refineDirection(options, search, scale, start),
       (candidate, index) => {
         refined[index] = candidate;
-        call.onProgress?.("directions", 1 - REFINEMENT * (1 - ++done / starts.length));
+        call.onProgress?.("orientation", 1 - REFINEMENT * (1 - ++done / starts.length));
       },
     );
-    const best = await team.ask((remote) => remote.bestDirections(refined));
+    const best = await team.ask((remote) => remote.bestCandidates(refined));
     return { candidates, best };
   });
 }
 
-async function measure(team: Team, options: Options, search: Required<Search>, call: OrientCall): Promise<Candidate[]> {
-  call.onProgress?.("directions", 0);
+async function measure(team: Team, options: Options, search: Required<SearchOptions>, call: OrientCall): Promise<Candidate[]> {
+  call.onProgress?.("orientation", 0);
   const directions = await team.ask((remote) => remote.directions(options, search.directions));
   const count = directions.length / 3;
   const found: (Candidate | null)[] = Array.from({ length: count }, () => null);
@@ -72,7 +72,7 @@ async function measure(team: Team, options: Options, search: Required<Search>, c
   const rate = async (): Promise<void> => {
     const now = [...found];
     const known = now.filter((candidate) => candidate !== null);
-    const { energies } = await team.ask((remote) => remote.rateDirections(known, search));
+    const { energies } = await team.ask((remote) => remote.rateCandidates(known, search));
     let next = 0;
     const candidates = now.map((it) => (it === null ? null : { ...it, energy: energies[next++] ?? null }));
     call.onCandidates?.({ directions, candidates });
@@ -84,7 +84,7 @@ async function measure(team: Team, options: Options, search: Required<Search>, c
     (candidates, index) => {
       for (const [i, place] of (places[index] ?? []).entries()) found[place] = candidates[i] ?? null;
       measured += candidates.length;
-      call.onProgress?.("directions", (1 - REFINEMENT) * (measured / count));
+      call.onProgress?.("orientation", (1 - REFINEMENT) * (measured / count));
       if (call.onCandidates === undefined || rating !== null || measured < toRate || measured === count) return;
       toRate = measured + count / RATINGS;
       rating = rate().finally(() => (rating = null));
@@ -92,6 +92,7 @@ async function measure(team: Team, options: Options, search: Required<Search>, c
       rating.catch(() => undefined);
     },
   );
+  // oxlint-disable-next-line typescript/await-thenable -- a callback has set it, which the compiler does not follow
   await rating;
   return found.flatMap((candidate) => candidate ?? []);
 }

@@ -3,19 +3,19 @@
  *
  * The types of the core are re-exported from the generated package, never copied: a change there is a type error here.
  */
-import type { Comparison, Glance, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff } from "../../pkg/cusp_slicer.js";
-import type { Candidate, Rating, Scale, Search } from "../../pkg/cusp_slicer.js";
+import type { Comparison, Preview, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff } from "../../pkg/cusp_slicer.js";
+import type { Candidate, Rating, Scale, SearchOptions } from "../../pkg/cusp_slicer.js";
 
-export type { Comparison, Glance, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff };
-export type { Candidate, Rating, Scale, Search };
+export type { Comparison, Preview, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff };
+export type { Candidate, Rating, Scale, SearchOptions };
 export type {
   Backend,
   CuspError,
   Exclusion,
   FileKind,
-  Figures,
   Format,
   HeightRange,
+  Metrics,
   Minimize,
   Planner,
   PlannerReport,
@@ -52,10 +52,10 @@ export interface SlicerWorker {
   /** The print file of the last plan: as a Blob, or if there is a port in chunks through that, and null at its end. */
   archive(progress: OnProgress, port: MessagePort | null): Blob | null;
   positions(): Float32Array;
-  glance(options: Options): Profiled<Glance>;
+  preview(options: Options): Profiled<Preview>;
   /** How much each facet stands out, 0 to 1. */
   saliency(progress: OnProgress): Float32Array;
-  /** How much each facet matters to later plans and glances, 0 to 1; null: all alike. */
+  /** How much each facet matters to later plans and previews, 0 to 1; null: all alike. */
   setWeights(weights: Float32Array | null): void;
   weightsFile(weights: Float32Array): Uint8Array;
   readWeights(file: Blob): Promise<Float32Array>;
@@ -63,9 +63,9 @@ export interface SlicerWorker {
   directions(options: Options, count: number): Float64Array;
   measureDirections(options: Options, directions: Float64Array): Candidate[];
   /** Candidates in the order of their directions. */
-  rateDirections(candidates: Candidate[], search: Search): Rating;
-  refineDirection(options: Options, search: Search, scale: Scale, candidate: Candidate): Candidate;
-  bestDirections(refined: Candidate[]): Candidate[];
+  rateCandidates(candidates: Candidate[], search: SearchOptions): Rating;
+  refineDirection(options: Options, search: SearchOptions, scale: Scale, candidate: Candidate): Candidate;
+  bestCandidates(refined: Candidate[]): Candidate[];
   printers(): Printer[];
 }
 
@@ -85,7 +85,7 @@ export const DEFAULTS = {
 } as const;
 
 /** What a search for directions asks for where nothing else is said. A test holds it against the core. */
-export const DEFAULT_SEARCH = { directions: 1000, alpha: 0.5, cost: "layers", quality: "error" } as const satisfies Search;
+export const DEFAULT_SEARCH = { directions: 1000, alpha: 0.5, cost: "layers", quality: "error" } as const satisfies SearchOptions;
 
 /**
  * Whether two sets of options look at the model through the same rays: then going from one to the other is a matter of

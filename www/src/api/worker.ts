@@ -1,6 +1,6 @@
 /** The worker: the only file that imports the WebAssembly package. One model is open at a time. */
 import * as Comlink from "comlink";
-import init, { best_directions, head_bytes, identify, printers, rate_directions, Slicer } from "../../pkg/cusp_slicer.js";
+import init, { best_candidates, head_bytes, identify, printers, rate_candidates, Slicer } from "../../pkg/cusp_slicer.js";
 import type { OnProgress, SlicerWorker } from "./wire.js";
 
 /** Parts of a print file beyond this many bytes are handed to the browser, which may keep them on disk. */
@@ -122,9 +122,9 @@ const api: SlicerWorker = {
     const positions = current().positions();
     return Comlink.transfer(positions, [positions.buffer]);
   },
-  glance(options) {
-    const report = current().glance(options);
-    const profile = current().glance_profile();
+  preview(options) {
+    const report = current().preview(options);
+    const profile = current().preview_profile();
     return Comlink.transfer({ report, profile }, [profile.buffer]);
   },
   saliency(progress) {
@@ -132,7 +132,7 @@ const api: SlicerWorker = {
     return Comlink.transfer(saliency, [saliency.buffer]);
   },
   setWeights(weights) {
-    current().paint(weights);
+    current().set_weights(weights);
   },
   weightsFile(weights) {
     const bytes = own(current().weights_file(weights));
@@ -147,9 +147,9 @@ const api: SlicerWorker = {
     return Comlink.transfer(directions, [directions.buffer]);
   },
   measureDirections: (options, directions) => current().measure_directions(options, directions),
-  rateDirections: rate_directions,
+  rateCandidates: rate_candidates,
   refineDirection: (options, search, scale, candidate) => current().refine_direction(options, search, scale, candidate),
-  bestDirections: best_directions,
+  bestCandidates: best_candidates,
   printers,
 };
 

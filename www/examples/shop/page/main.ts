@@ -106,8 +106,8 @@ async function order(): Promise<void> {
 
 /** The key of an order: the same one as long as the same thing is ordered and no answer says that it was taken. */
 function keyOf({ result, copies, price }: Offer): string {
-  const { stl, options, weights_crc32 } = result.report;
-  const what = JSON.stringify([stl, options, weights_crc32, copies, price.total_cents]);
+  const { model, options, weights_crc32 } = result.report;
+  const what = JSON.stringify([model, options, weights_crc32, copies, price.total_cents]);
   if (unanswered?.what !== what) unanswered = { what, key: crypto.randomUUID() };
   return unanswered.key;
 }

@@ -146,7 +146,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
           @cusp-look=${(event: CustomEvent<Looked | null>) => (this.looked = event.detail)}
           @cusp-orient=${(event: CustomEvent<Candidate>) => this.#orient(event.detail)}
         ></cusp-sphere>
-        ${this.#legend(found)} ${this.#figures(searched)}
+        ${this.#legend(found)} ${this.#metrics(searched)}
       </div>
       <div class="best">
         ${best.length > 0 ? html`<h4>${texts.orientation.best}</h4>` : nothing}
@@ -179,12 +179,12 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
   }
 
   /** What is known of the direction that is pointed at. */
-  #figures({ options }: Searched): TemplateResult {
+  #metrics({ options }: Searched): TemplateResult {
     const { looked, language } = this;
     const { orientation: words } = language.texts;
     if (looked === null) return html`<p class="looked quiet hint">${words.point}</p>`;
     const { candidate, isChosen } = looked;
-    const rows = figureRows(candidate, options?.metric ?? this.metric, language);
+    const rows = metricRows(candidate, options?.metric ?? this.metric, language);
     return html`<div class="looked figures" data-direction=${candidate.direction.join()}>
       ${candidate.excluded === null ? nothing : html`<p class="why">${words.why[candidate.excluded]}</p>`}
       <dl>${rows.map(([name, value]) => html`<div><dt>${name}</dt><dd>${value}</dd></div>`)}</dl>
@@ -197,7 +197,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
   #choice(candidate: Candidate, place: number, { options }: Searched): TemplateResult {
     const { language } = this;
     const { texts, format } = language;
-    const { figures } = candidate;
+    const { metrics } = candidate;
     const isApplied = rotationText(candidate.rotation) === rotationText(this.rotation);
     const { error } = METRICS[options?.metric ?? this.metric];
     return html`<button
@@ -208,14 +208,14 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
       <canvas width=${PICTURE_PX} height=${PICTURE_PX} aria-hidden="true"></canvas>
       <span class="rank" aria-hidden="true">${place + 1}</span>
       <span class="visually-hidden">${texts.orientation.rank(format.count(place + 1))}:</span>
-      ${figures === null
+      ${metrics === null
         ? nothing
         : html`<span class="what">
-            <strong>${format.count(figures.layers)} ${texts.plan.layers(figures.layers)}</strong>
-            <span>${format.time(figures.print_time_s)}</span>
-            <span class="quiet">${texts.orientation.error} ${error(figures.max_error, format)}</span>
-            <span class="quiet">${texts.orientation.roughness} ${micrometres(figures.roughness_mm, language)}</span>
-            <span class="quiet">${texts.orientation.overhang} ${format.area(figures.overhang_mm2)}</span>
+            <strong>${format.count(metrics.layers)} ${texts.plan.layers(metrics.layers)}</strong>
+            <span>${format.time(metrics.print_time_s)}</span>
+            <span class="quiet">${texts.orientation.error} ${error(metrics.max_error, format)}</span>
+            <span class="quiet">${texts.orientation.roughness} ${micrometres(metrics.roughness_mm, language)}</span>
+            <span class="quiet">${texts.orientation.overhang} ${format.area(metrics.overhang_mm2)}</span>
           </span>`}
     </button>`;
   }
@@ -224,11 +224,11 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
     const { looked, language } = this;
     const { texts, format } = language;
     if (looked !== null) {
-      const { excluded, figures } = looked.candidate;
+      const { excluded, metrics } = looked.candidate;
       if (excluded !== null) return texts.orientation.why[excluded];
-      if (figures === null) return "";
-      const error = METRICS[options?.metric ?? this.metric].error(figures.max_error, format);
-      return texts.orientation.said(figures.layers, format.time(figures.print_time_s), error);
+      if (metrics === null) return "";
+      const error = METRICS[options?.metric ?? this.metric].error(metrics.max_error, format);
+      return texts.orientation.said(metrics.layers, format.time(metrics.print_time_s), error);
     }
     if (busy !== null) return texts.progress[busy.stage];
     return found !== null && best.length > 0 ? texts.orientation.found(format.count(found.candidates.length)) : "";
@@ -278,17 +278,17 @@ function micrometres(mm: number, { format }: Language): string {
 }
 
 /** What is known of a candidate: a name and a value each. */
-export function figureRows({ figures, size_mm, energy }: Candidate, metric: Metric, language: Language): [string, string][] {
+export function metricRows({ metrics, size_mm, energy }: Candidate, metric: Metric, language: Language): [string, string][] {
   const { texts, format } = language;
   const { orientation: words } = texts;
   const rows: [string, string][] = [];
-  if (figures !== null) {
+  if (metrics !== null) {
     rows.push(
-      [words.layers, format.count(figures.layers)],
-      [words.time, format.time(figures.print_time_s)],
-      [words.error, METRICS[metric].error(figures.max_error, format)],
-      [words.roughness, micrometres(figures.roughness_mm, language)],
-      [words.overhang, format.area(figures.overhang_mm2)],
+      [words.layers, format.count(metrics.layers)],
+      [words.time, format.time(metrics.print_time_s)],
+      [words.error, METRICS[metric].error(metrics.max_error, format)],
+      [words.roughness, micrometres(metrics.roughness_mm, language)],
+      [words.overhang, format.area(metrics.overhang_mm2)],
     );
   }
   if (energy !== null) rows.push([words.energy, format.tick(energy)]);

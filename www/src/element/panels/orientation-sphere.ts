@@ -156,7 +156,7 @@ export class CuspSphere extends elementWith(PROPERTIES) {
 
   override willUpdate(changed: PropertyValues<this>): void {
     if (!changed.has("found")) return;
-    // What is looked at stays what it is, with its newest figures.
+    // What is looked at stays what it is, with its newest metrics.
     const newest = (it: Candidate | null): Candidate | null =>
       it === null ? null : (this.found?.candidates[this.#indexAt(it.direction) ?? -1] ?? null);
     this.hovered = newest(this.hovered);
@@ -272,7 +272,7 @@ export class CuspSphere extends elementWith(PROPERTIES) {
     if (event.pointerType !== "touch") this.hovered = this.#at(event, side);
   }
 
-  /** A finger cannot point without touching: its first touch shows the figures, the next one at the same place applies. */
+  /** A finger cannot point without touching: its first touch shows the metrics, the next one at the same place applies. */
   #click(event: MouseEvent, side: Side): void {
     const candidate = this.#at(event, side);
     if (this.#isTouched && candidate !== this.chosen) this.chosen = candidate;

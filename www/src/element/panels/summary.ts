@@ -137,7 +137,7 @@ export const summaryStyles = css`
   }
 `;
 
-/** `shown` is what is being looked at: a glance, while the model is turned. `note` comes first, if there is one; `action` stands beside the number: the download, and what to know before it. */
+/** `shown` is what is being looked at: a preview, while the model is turned. `note` comes first, if there is one; `action` stands beside the number: the download, and what to know before it. */
 export function summary(
   result: Result,
   shown: Pick<Shown, "layers" | "print_time_s">,

@@ -17,13 +17,13 @@ const ORDER: Record<Busy["task"], readonly Stage[]> = {
   open: ["load"],
   plan: ["load", "saliency", "ldi", "profile", "plan"],
   export: ["masks"],
-  orient: ["directions"],
+  orient: ["orientation"],
 };
 
 /** What part of a task its stages take: rays are most of a plan, on any model and machine. */
 const SHARE: Record<Stage, number> = {
   ...{ load: 0.05, saliency: 0.05, ldi: 0.7, profile: 0.1, plan: 0.1 },
-  ...{ masks: 1, directions: 1 },
+  ...{ masks: 1, orientation: 1 },
 };
 
 /** Before this much time, and this part, a guess of the rest would jump about. */

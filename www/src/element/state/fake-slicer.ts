@@ -1,7 +1,7 @@
 /** A slicer for tests of the session: it answers what the test says, when the test says so. */
 import { SlicerError } from "../../api/error.js";
-import { SCHEMA, type GlancedPlan, type LoadCall, type Mask, type Model, type OrientCall, type Orientation, type Plan, type PrintFile, type Watch } from "../../api/index.js";
-import type { Glance, MeshInfo, Options, Report, Search, Tradeoff } from "../../api/wire.js";
+import { SCHEMA, type PreviewedPlan, type LoadCall, type Mask, type Model, type OrientCall, type OrientationReport, type Plan, type PrintFile, type Watch } from "../../api/index.js";
+import type { Preview, MeshInfo, Options, Report, SearchOptions, Tradeoff } from "../../api/wire.js";
 
 const info = { facets: 1, size_mm: [1, 1, 10], warnings: [] } as unknown as MeshInfo;
 export const model: Model = { schema: SCHEMA, name: "a.stl", file: new Blob(), info };
@@ -23,16 +23,16 @@ export class FakeSlicer {
   readonly load = (_source: unknown, call: LoadCall = {}): Promise<Model> => this.#call("open", call);
   readonly plan = (options: Options = {}, call: Watch = {}): Promise<Plan> => this.#call("plan", call, options);
   readonly export = (_options?: Options, call: Watch = {}): Promise<PrintFile> => this.#call("export", call);
-  readonly orient = (options: Options = {}, _search?: Search, call: OrientCall = {}): Promise<Orientation> =>
+  readonly orient = (options: Options = {}, _search?: SearchOptions, call: OrientCall = {}): Promise<OrientationReport> =>
     this.#call("orient", call, options);
   readonly mask = async (layer: number): Promise<Mask> => {
     this.masks.push(layer);
     return { layer, width: 8, height: 1, bits: Uint8Array.of(255) };
   };
-  readonly glances: Options[] = [];
-  readonly glance = async (options: Options = {}): Promise<GlancedPlan> => {
-    this.glances.push(options);
-    return { schema: SCHEMA, report: { layers: 99, z_mm: [0], thickness_mm: [] } as unknown as Glance, profile: new Float32Array() };
+  readonly previews: Options[] = [];
+  readonly preview = async (options: Options = {}): Promise<PreviewedPlan> => {
+    this.previews.push(options);
+    return { schema: SCHEMA, report: { layers: 99, z_mm: [0], thickness_mm: [] } as unknown as Preview, profile: new Float32Array() };
   };
   readonly painted: (Float32Array | null)[] = [];
   readonly setWeights = async (weights: Float32Array | null): Promise<void> => void this.painted.push(weights);
@@ -44,7 +44,7 @@ export class FakeSlicer {
   };
   readonly curves: Options[] = [];
   tolerances = [0.05, 0.1, 0.15];
-  readonly tradeoff = async (options: Options = {}): Promise<Tradeoff & { schema: 1 }> => {
+  readonly tradeoff = async (options: Options = {}): Promise<Tradeoff & { schema: typeof SCHEMA }> => {
     this.curves.push(options);
     const points = this.tolerances.map((tolerance) => ({ tolerance, layers: 1, max_error: tolerance, print_time_s: 1 }));
     return { schema: SCHEMA, points };
@@ -59,7 +59,7 @@ export class FakeSlicer {
   #call<T>(what: string, watch: Pick<Watch, "signal">, options?: Options): Promise<T> {
     return new Promise<T>((resolve, reject) => {
       watch.signal?.addEventListener("abort", () => reject(watch.signal?.reason));
-      this.calls.push({ what, resolve: resolve as (value: unknown) => void, reject, ...(options && { options }) });
+      this.calls.push({ what, resolve, reject, ...(options && { options }) });
     });
   }
 }

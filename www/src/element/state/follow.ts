@@ -1,4 +1,4 @@
-/** Follows a model that is turned or painted, by glances: what the plan would be, by the facets alone. */
+/** Follows a model that is turned or painted, by previews: what the plan would be, by the facets alone. */
 import type { Slicer } from "../../api/index.js";
 import type { Options } from "../../api/wire.js";
 import { shownOf, type Shown } from "./result.js";
@@ -9,25 +9,25 @@ export type Rotation = readonly [x: number, y: number, z: number, w: number];
 export class Follower {
   /** How the model is turned while it is held; null while it is not. */
   turning: Rotation | null = null;
-  readonly #slicer: Pick<Slicer, "glance">;
+  readonly #slicer: Pick<Slicer, "preview">;
   readonly #show: (shown: Shown) => void;
   #running = false;
   #next: Options | null = null;
   /** How often it was told to stop: what was asked for before is news no more. */
   #stops = 0;
 
-  constructor(slicer: Pick<Slicer, "glance">, show: (shown: Shown) => void) {
+  constructor(slicer: Pick<Slicer, "preview">, show: (shown: Shown) => void) {
     this.#slicer = slicer;
     this.#show = show;
   }
 
-  /** Glances at the model as it is turned. */
+  /** Previews the model as it is turned. */
   turn(turning: Rotation, options: Options | null): void {
     this.turning = turning;
     if (options !== null) void this.follow({ ...options, rotation: [...turning] });
   }
 
-  /** Glances at the newest options, one at a time; those between are skipped. */
+  /** Previews the newest options, one at a time; those between are skipped. */
   async follow(options: Options): Promise<void> {
     this.#next = options;
     if (this.#running) return;
@@ -36,7 +36,7 @@ export class Follower {
       for (let at: Options | null = this.#next; at !== null; at = this.#next) {
         this.#next = null;
         const stops = this.#stops;
-        const { report, profile } = await this.#slicer.glance(at);
+        const { report, profile } = await this.#slicer.preview(at);
         if (this.#stops === stops) this.#show(shownOf(report, profile, layerRange(at)));
       }
     } catch {

@@ -1,10 +1,10 @@
 import { beforeEach, expect, test } from "vitest";
-import { SCHEMA, type OrientCall, type Orientation } from "../../api/index.js";
+import { SCHEMA, type OrientCall, type OrientationReport } from "../../api/index.js";
 import { SlicerError } from "../../api/error.js";
-import type { Candidate, Options, Search } from "../../api/wire.js";
+import type { Candidate, Options, SearchOptions } from "../../api/wire.js";
 import { OrientationSearch, type Subject } from "./orientation.js";
 import { coloursOf, energyRange } from "../panels/orientation-sphere.js";
-import { figureRows } from "../panels/orientation-panel.js";
+import { metricRows } from "../panels/orientation-panel.js";
 import { moved, stepped } from "../parts/sphere-steps.js";
 import { languageOf } from "../../texts/index.js";
 import { colourAt } from "../../view/legend/palette.js";
@@ -15,14 +15,14 @@ const candidate = (energy: number | null, patch: Partial<Candidate> = {}): Candi
   rotation: [0, 0, 0, 1],
   size_mm: [1, 2, 3],
   excluded: null,
-  figures: { layers: 1200, print_time_s: 3600, max_error: 0.06, roughness_mm: 0.0123, overhang_mm2: 50 },
+  metrics: { layers: 1200, print_time_s: 3600, max_error: 0.06, roughness_mm: 0.0123, overhang_mm2: 50 },
   energy,
   ...patch,
 });
 
 interface Asked {
   options: Options;
-  search: Search;
+  search: SearchOptions;
   call: OrientCall;
   answer(candidates: Candidate[], best?: Candidate[]): Promise<void>;
   refuse(error: unknown): Promise<void>;
@@ -44,7 +44,7 @@ beforeEach(() => {
   asked = [];
   failures = [];
   subject = { name: "a.stl", options: { tolerance: 0.05 }, weights: null };
-  const orient = (options: Options = {}, search: Search = {}, call: OrientCall = {}): Promise<Orientation> =>
+  const orient = (options: Options = {}, search: SearchOptions = {}, call: OrientCall = {}): Promise<OrientationReport> =>
     new Promise((resolve, reject) => {
       call.signal?.addEventListener("abort", () => reject(call.signal?.reason));
       asked.push({
@@ -70,8 +70,8 @@ beforeEach(() => {
 
 test("a search shows what is measured, how far it is, and at last the best", async () => {
   directions.start();
-  expect(directions.busy).toMatchObject({ task: "orient", stage: "directions" });
-  last().call.onProgress?.("directions", 0.5);
+  expect(directions.busy).toMatchObject({ task: "orient", stage: "orientation" });
+  last().call.onProgress?.("orientation", 0.5);
   const found = { directions: new Float64Array(6), candidates: [candidate(1), null] };
   last().call.onCandidates?.(found);
   expect(directions.busy).toMatchObject({ fraction: 0.5 });
@@ -111,7 +111,7 @@ test("a cancelled search keeps what it measured, and what comes late is no news"
   directions.cancel();
   expect(call.signal?.aborted).toBe(true);
   call.onCandidates?.({ directions: new Float64Array(3), candidates: [null] });
-  call.onProgress?.("directions", 1);
+  call.onProgress?.("orientation", 1);
   await settle();
   expect(directions.found).toBe(found);
   expect(directions.busy).toBeNull();
@@ -176,7 +176,7 @@ test("the greatest energy is red, the least blue, what does not fit grey, what i
 
 test("what is known of a candidate is told in the language; of one that does not fit its size", () => {
   const { format } = languageOf("en");
-  const rows = Object.fromEntries(figureRows(candidate(0.5), "cusp", languageOf("en")));
+  const rows = Object.fromEntries(metricRows(candidate(0.5), "cusp", languageOf("en")));
   expect(rows).toEqual({
     Layers: "1,200",
     "Print time": format.time(3600),
@@ -186,8 +186,8 @@ test("what is known of a candidate is told in the language; of one that does not
     Size: "1.0 × 2.0 × 3.0\u00a0mm",
     Energy: "0.5",
   });
-  const out = candidate(null, { figures: null, excluded: "too-large" });
-  expect(figureRows(out, "cusp", languageOf("en")).map(([name]) => name)).toEqual(["Size"]);
+  const out = candidate(null, { metrics: null, excluded: "too-large" });
+  expect(metricRows(out, "cusp", languageOf("en")).map(([name]) => name)).toEqual(["Size"]);
 });
 
 test("arrow keys go where they point, on either side, and around the rim", () => {

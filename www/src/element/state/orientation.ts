@@ -1,12 +1,12 @@
 /** The search for the best direction: what counts, what is known so far, and whether it still holds. */
 import { isAbort } from "../../api/error.js";
 import type { Found, OrientCall, Slicer } from "../../api/index.js";
-import { DEFAULT_SEARCH, type Candidate, type Options, type Search } from "../../api/wire.js";
+import { DEFAULT_SEARCH, type Candidate, type Options, type SearchOptions } from "../../api/wire.js";
 import type { Busy } from "../parts/progress.js";
 import { rotationText, type Settings } from "./settings.js";
 
 /** What a direction is judged by. */
-export type Aims = Readonly<Required<Pick<Search, "alpha" | "cost" | "quality">>>;
+export type Aims = Readonly<Required<Pick<SearchOptions, "alpha" | "cost" | "quality">>>;
 
 /** What a search depends on. */
 export interface Subject {
@@ -48,7 +48,7 @@ export class OrientationSearch {
     this.#slicer = slicer;
   }
 
-  /** Options that the figures on show are of. */
+  /** Options that the metrics on show are of. */
   get options(): Options | null {
     return this.#of?.options ?? null;
   }
@@ -126,7 +126,7 @@ export class OrientationSearch {
         this.#host.changed();
       },
     };
-    this.busy = { task: "orient", name, stage: "directions", fraction: 0, started_ms };
+    this.busy = { task: "orient", name, stage: "orientation", fraction: 0, started_ms };
     this.#host.changed();
     try {
       for (let aims: Aims | null = null; aims !== this.aims && (aims === null || this.isCurrent); ) {
@@ -150,7 +150,7 @@ export class OrientationSearch {
 }
 
 /**
- * What figures of all directions depend on: not on the pose, unless a height is asked for, which is that of the model as
+ * What metrics of all directions depend on: not on the pose, unless a height is asked for, which is that of the model as
  * it stands; nor on where rays are cast, how many, or the kind of file.
  */
 function keyOf({ rotation, height_mm, rays: _rays, backend: _backend, format: _format, ...options }: Options): string {

@@ -10,8 +10,8 @@ export const uniform = (layers: number, max_error: number, print_time_s: number)
 
 export function report(patch: Partial<Report>): Report {
   return {
-    schema: 1,
-    stl: { bytes: 0, crc32: 0 },
+    schema: 2,
+    model: { bytes: 0, crc32: 0 },
     options: {},
     layers: 793,
     height_mm: 60,

@@ -9,7 +9,7 @@ export interface Result extends Plan {
   limits: readonly [number, number];
 }
 
-/** What charts and the view draw: of the last plan, or of a glance while the model is turned. */
+/** What charts and the view draw: of the last plan, or of a preview while the model is turned. */
 export interface Shown {
   metric: Metric;
   /** Value of each bin: see `Plan`. */

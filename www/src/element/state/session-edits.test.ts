@@ -28,11 +28,11 @@ async function planned(layers = 10): Promise<void> {
   await settle();
 }
 
-test("while the model is turned glances are shown, the newest turn last; let go, it is planned", async () => {
+test("while the model is turned previews are shown, the newest turn last; let go, it is planned", async () => {
   await planned();
   for (let i = 1; i < 5; i++) session.turn([0, 0, i / 10, 1], false);
   await settle();
-  expect(slicer.glances.map(({ rotation }) => rotation?.[2])).toEqual([0.1, 0.4]);
+  expect(slicer.previews.map(({ rotation }) => rotation?.[2])).toEqual([0.1, 0.4]);
   expect(session.shown?.layers).toBe(99);
   session.turn([0, 0, 1, 0], true);
   await settle();
@@ -54,12 +54,12 @@ test("another model stands as in its file; the first one as the settings say", a
   expect(slicer.last.options).not.toHaveProperty("rotation");
 });
 
-test("a stroke is followed by glances, and planned at its end though the options are the same", async () => {
+test("a stroke is followed by previews, and planned at its end though the options are the same", async () => {
   await planned();
   const { length } = slicer.calls;
   session.setWeights(Float32Array.of(0.5), false);
   await settle();
-  expect(slicer.glances).toHaveLength(1);
+  expect(slicer.previews).toHaveLength(1);
   expect(session.shown?.layers).toBe(99);
   expect(slicer.calls).toHaveLength(length);
   expect(session.isCurrent).toBe(false);
@@ -119,7 +119,7 @@ test("another model is all alike", async () => {
 test("standing as a candidate does is a step that can be undone; a height keeps its scale", async () => {
   await planned();
   const stood: Candidate = {
-    ...{ direction: [0, 0, 1], rotation: [1, 0, 0, 0], size_mm: [1, 2, 3.25], excluded: null, figures: null, energy: null },
+    ...{ direction: [0, 0, 1], rotation: [1, 0, 0, 0], size_mm: [1, 2, 3.25], excluded: null, metrics: null, energy: null },
   };
   session.orient(stood);
   expect(session.options).toMatchObject({ rotation: [1, 0, 0, 0] });

@@ -153,7 +153,7 @@ export class Session extends Preferences {
     return this.#open(source, name);
   }
 
-  /** Follows a model that is turned: by glances while it is held, by a plan when it is let go. */
+  /** Follows a model that is turned: by previews while it is held, by a plan when it is let go. */
   turn(rotation: Rotation, isFinal: boolean): void {
     if (!isFinal) return this.#follower.turn(rotation, this.options);
     this.#follower.stop();
@@ -168,7 +168,7 @@ export class Session extends Preferences {
     this.#host.oriented?.(candidate);
   }
 
-  /** Follows weights that are painted: by glances during a stroke, by a plan at its end. */
+  /** Follows weights that are painted: by previews during a stroke, by a plan at its end. */
   setWeights(weights: Float32Array | null, isFinal: boolean): void {
     this.weights = weights;
     // Weights that the core refuses make the plan fail, which says so.

@@ -43,7 +43,7 @@ export const page = (): PageTexts => ({
     profile: "Oberfläche wird gemessen",
     plan: "Schichten werden geplant",
     masks: "Masken werden gezeichnet",
-    directions: "Richtungen werden gemessen",
+    orientation: "Richtungen werden gemessen",
     left: (seconds) => `noch etwa ${seconds}`,
     cancel: "Abbrechen",
   },

@@ -43,7 +43,7 @@ export const page = () => ({
     profile: "Measuring the surface",
     plan: "Planning the layers",
     masks: "Drawing the masks",
-    directions: "Measuring directions",
+    orientation: "Measuring directions",
     left: (seconds: string) => `about ${seconds} left`,
     cancel: "Cancel",
   },

@@ -43,7 +43,7 @@ export const page = (): PageTexts => ({
     profile: "Midiendo la superficie",
     plan: "Planificando las capas",
     masks: "Dibujando las máscaras",
-    directions: "Midiendo direcciones",
+    orientation: "Midiendo direcciones",
     left: (seconds) => `quedan unos ${seconds}`,
     cancel: "Cancelar",
   },

@@ -43,7 +43,7 @@ export const page = (): PageTexts => ({
     profile: "Mesure de la surface",
     plan: "Planification des couches",
     masks: "Dessin des masques",
-    directions: "Mesure des directions",
+    orientation: "Mesure des directions",
     left: (seconds) => `encore ${seconds} environ`,
     cancel: "Annuler",
   },

@@ -43,7 +43,7 @@ export const page = (): PageTexts => ({
     profile: "正在测量表面",
     plan: "正在规划分层",
     masks: "正在绘制掩膜",
-    directions: "正在测量各方向",
+    orientation: "正在测量各方向",
     left: (seconds) => `约剩 ${seconds}`,
     cancel: "取消",
   },
