@@ -3,7 +3,7 @@
 use anyhow::Result;
 
 use crate::{
-    modules,
+    modules, node,
     process::{self, cargo},
     project::Project,
     wasm,
@@ -12,7 +12,7 @@ use crate::{
 /// Runs all checks, each regardless of the others. Returns `false` if one failed;
 /// a check that cannot run has failed.
 pub fn run(project: &Project) -> bool {
-    let checks: [(&str, &dyn Fn() -> Result<()>); 5] = [
+    let checks: [(&str, &dyn Fn() -> Result<()>); 6] = [
         ("modules", &|| modules::check(project)),
         ("fmt", &|| {
             process::run(cargo(project).args(["fmt", "--all", "--check"]))
@@ -25,6 +25,7 @@ pub fn run(project: &Project) -> bool {
             )
         }),
         ("clippy for wasm", &|| wasm::clippy(project)),
+        ("oxlint", &|| oxlint(project)),
         ("doc", &|| {
             process::run(
                 cargo(project)
@@ -46,4 +47,13 @@ pub fn run(project: &Project) -> bool {
         println!("lint: FAILED: {}", failed.join(", "));
     }
     failed.is_empty()
+}
+
+/// Lints the TypeScript. Its rules know types, and without those that the wasm
+/// package declares they would report every value of them.
+fn oxlint(project: &Project) -> Result<()> {
+    if !project.www.join("pkg/cusp_slicer.d.ts").exists() {
+        wasm::build(project)?;
+    }
+    process::run(node::npm(project)?.args(["run", "--silent", "lint"]))
 }

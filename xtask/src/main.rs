@@ -57,7 +57,7 @@ enum Command {
         #[arg(value_name = "STEP")]
         steps: Vec<suite::Step>,
     },
-    /// Check formatting, lints (native and wasm), documentation and module cycles
+    /// Check formatting, lints (native, wasm and TypeScript), documentation and module cycles
     Lint,
     /// Build the wasm module and check its gzipped size against the budget
     Size,

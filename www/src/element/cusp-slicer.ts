@@ -324,8 +324,8 @@ export class CuspSlicer extends LitElement {
       isWide: this.clientWidth >= WIDE_PX,
       isDragging: this.dragging,
       picked: this.#picked,
-      save: this.#save,
-      saveWeights: this.#saveWeights,
+      save: () => void this.#save(),
+      saveWeights: () => void this.#saveWeights(),
     });
   }
 

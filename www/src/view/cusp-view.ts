@@ -72,6 +72,7 @@ const PROPERTIES = {
   broken: own(false),
 };
 
+// oxlint-disable-next-line typescript/no-unsafe-declaration-merging -- it only types listeners, which are the base's
 export class CuspView extends elementWith(PROPERTIES) {
   #scene: Scene | null = null;
   #derived: Derived | null = null;

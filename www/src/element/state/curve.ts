@@ -58,8 +58,9 @@ export class Curve {
 }
 
 /** What the curve depends on: all but the tolerance. */
-function keyOf({ options: { tolerance: _, ...options } }: Result): string {
-  return JSON.stringify(options);
+function keyOf({ options }: Result): string {
+  const { tolerance: _, ...others } = options;
+  return JSON.stringify(others);
 }
 
 /** What a plan comes to, whatever the tolerance that it was made for. */

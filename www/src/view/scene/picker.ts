@@ -47,7 +47,7 @@ export class Picker {
   async pick(
     renderer: WebGLRenderer,
     camera: PerspectiveCamera | OrthographicCamera,
-    model: Mesh<BufferGeometry>,
+    model: Mesh,
     [x, y]: readonly [number, number],
     [width, height]: readonly [number, number],
   ): Promise<Hit | null> {

@@ -90,7 +90,7 @@ describe("sections", () => {
   it("run round a hole the other way", () => {
     const tube = together(box([-5, -5, 0], [5, 5, 4]), insideOut(box([-2, -1, 1], [2, 1, 3])));
     const [contours = []] = sections(solid(tube), [2]);
-    expect(contours.map(signedArea).map(Math.round).toSorted()).toEqual([-8, 100].toSorted());
+    expect(contours.map(signedArea).map(Math.round).toSorted((a, b) => a - b)).toEqual([-8, 100]);
   });
 
   it("pass through points of the mesh without losing their way", () => {
