@@ -167,7 +167,7 @@ test("errors have codes of the list, and details", async () => {
     "nothing was thrown",
     "no-plan",
     ["infeasible", ["from_mm", "largest_layer_min_mm", "layer_min_mm", "least_tolerance", "to_mm", "tolerance"]],
-    ["bad-options", ["reason"]],
+    ["unknown-printer", ["known", "printer"]],
   ]);
 });
 
@@ -274,6 +274,6 @@ test("a search is aborted, by its signal and with its slicer; what cannot be sea
     names.push(await left);
     return { names, best: best.length };
   });
-  expect(found.names).toEqual(["no-model", "AbortError", "bad-options", "bad-options", "AbortError"]);
+  expect(found.names).toEqual(["no-model", "AbortError", "bad-options", "unknown-printer", "AbortError"]);
   expect(found.best).toBeGreaterThan(0);
 });

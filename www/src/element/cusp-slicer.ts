@@ -266,7 +266,7 @@ export class CuspSlicer extends LitElement {
     this.#attributes.settle();
     if (Object.keys(this.#session.faults).length > 0) {
       const reason = "a setting is out of range";
-      return Promise.reject(new SlicerError("bad-options", reason, { reason }));
+      return Promise.reject(new SlicerError("bad-options", reason, { system: reason }));
     }
     if (this.model === null) return Promise.reject(new SlicerError("no-model", "load a model first"));
     const { result } = this;
