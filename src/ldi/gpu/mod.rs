@@ -1,0 +1,55 @@
+//! The LDI on the GPU: shaders/sample.wgsl finds which facets each ray meets, shaders/scan.wgsl turns counts
+//! into compressed rows, and both are read back once for each tile.
+//!
+//! Coverage is decided by the same integers as in the CPU backend, and heights are computed by the same
+//! function, so that the two return the same [`Ldi`] to the last bit on every adapter.
+mod device;
+mod sampler;
+mod tiles;
+
+pub use device::{Adapters, Gpu};
+pub use tiles::Tiling;
+
+use self::sampler::Sampler;
+use super::projection::Projection;
+use super::{Ldi, LdiError};
+use crate::grid::Grid;
+use crate::model::Mesh;
+use crate::progress::{Progress, report};
+
+/// Samples `mesh`, which lies inside `grid` and above z = 0.
+///
+/// # Errors
+/// [`LdiError::GpuTooSmall`], [`LdiError::GpuFailed`], [`LdiError::OutOfMemory`], [`LdiError::TooManyFacets`],
+/// [`LdiError::Cancelled`].
+pub async fn sample(
+    mesh: &Mesh,
+    grid: &Grid,
+    gpu: &Gpu,
+    tiling: Tiling,
+    progress: &mut Progress<'_>,
+) -> Result<Ldi, LdiError> {
+    super::check_facets(mesh)?;
+    report(progress, 0.0)?;
+    let projection = Projection::new(mesh, grid);
+    let sampler = Sampler::new(gpu, mesh, &projection)?;
+
+    let side = tiling
+        .side
+        .clamp(1, gpu.device().limits().max_texture_dimension_2d);
+    let mut waiting = tiles::cut(grid, side);
+    waiting.reverse();
+    let mut sampled = Vec::new();
+    while let Some(region) = waiting.pop() {
+        match sampler.sample(region).await? {
+            Some(rays) => sampled.push((region, rays)),
+            // More rays or hits than a buffer can hold: halve the tile.
+            None => waiting.extend(region.halves().ok_or_else(|| LdiError::GpuFailed {
+                reason: "one ray has more hits than the GPU can store".to_owned(),
+            })?),
+        }
+        let done = sampled.len() as f64;
+        report(progress, 0.8 * done / (done + waiting.len() as f64))?;
+    }
+    tiles::join(&projection, grid, &sampled, progress)
+}

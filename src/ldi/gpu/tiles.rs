@@ -1,0 +1,144 @@
+//! The tiles of a grid: cutting a grid into them, and joining what was sampled on them.
+
+use super::device::gpu_failed;
+use crate::grid::Grid;
+use crate::ldi::projection::Projection;
+use crate::ldi::{Ldi, LdiError, assemble};
+use crate::progress::Progress;
+
+/// How large tiles are, and so how much memory sampling takes on the GPU.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Tiling {
+    /// Longest side of a tile in pixels, at most 4096: what the least that WebGPU promises can hold.
+    pub side: u32,
+}
+
+impl Default for Tiling {
+    /// Tiles of 4096 pixels a side: counts and offsets take 128 MiB.
+    fn default() -> Self {
+        Self { side: MAX_SIDE }
+    }
+}
+
+const MAX_SIDE: u32 = 4096;
+
+/// Part of the grid, in pixels.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Region {
+    pub(super) column: u32,
+    pub(super) row: u32,
+    pub(super) width: u32,
+    pub(super) height: u32,
+}
+
+impl Region {
+    pub(super) fn rays(self) -> usize {
+        self.width as usize * self.height as usize
+    }
+
+    /// Two parts of the region, or `None` if it is a single ray.
+    pub(super) fn halves(self) -> Option<[Self; 2]> {
+        let Self {
+            column,
+            row,
+            width,
+            height,
+        } = self;
+        if height > 1 {
+            let upper = height / 2;
+            let lower = height - upper;
+            Some([
+                Self {
+                    row: row + upper,
+                    height: lower,
+                    ..self
+                },
+                Self {
+                    height: upper,
+                    ..self
+                },
+            ])
+        } else if width > 1 {
+            let left = width / 2;
+            let right = width - left;
+            Some([
+                Self {
+                    column: column + left,
+                    width: right,
+                    ..self
+                },
+                Self {
+                    width: left,
+                    ..self
+                },
+            ])
+        } else {
+            None
+        }
+    }
+}
+
+/// The grid in parts of at most `side` pixels.
+pub(super) fn cut(grid: &Grid, side: u32) -> Vec<Region> {
+    let parts = |length: u32| {
+        let firsts = (0..length).step_by(side as usize);
+        firsts.map(move |first| (first, side.min(length - first)))
+    };
+    parts(grid.height)
+        .flat_map(|(row, height)| {
+            parts(grid.width).map(move |(column, width)| Region {
+                column,
+                row,
+                width,
+                height,
+            })
+        })
+        .collect()
+}
+
+/// The facets that the rays of a region meet, in compressed rows.
+pub(super) struct Meetings {
+    pub(super) offsets: Vec<u32>,
+    pub(super) facets: Vec<u32>,
+}
+
+/// Joins the tiles, computes heights and puts hits in order.
+pub(super) fn join(
+    projection: &Projection<'_>,
+    grid: &Grid,
+    sampled: &[(Region, Meetings)],
+    progress: &mut Progress<'_>,
+) -> Result<Ldi, LdiError> {
+    let mut offsets: Vec<u32> = assemble::zeroed(grid.pixels() + 1)?;
+    for (region, meetings) in sampled {
+        for row in 0..region.height {
+            let from = (row * region.width) as usize;
+            let to = ((region.row + row) * grid.width + region.column) as usize;
+            for column in 0..region.width as usize {
+                let [first, end] = [0, 1].map(|next| meetings.offsets[from + column + next]);
+                // More hits than 32 bits count would make offsets shrink.
+                offsets[to + column + 1] = end
+                    .checked_sub(first)
+                    .ok_or_else(|| gpu_failed("a tile has more hits than it can count"))?;
+            }
+        }
+    }
+    assemble::accumulate(&mut offsets)?;
+    let mut facets: Vec<u32> = assemble::zeroed(offsets[grid.pixels()] as usize)?;
+    for (region, meetings) in sampled {
+        for row in 0..region.height {
+            // A row of a tile is contiguous in both.
+            let from = (row * region.width) as usize;
+            let from = meetings.offsets[from]..meetings.offsets[from + region.width as usize];
+            let to = offsets[((region.row + row) * grid.width + region.column) as usize];
+            let row = &meetings.facets[from.start as usize..from.end as usize];
+            facets[to as usize..to as usize + row.len()].copy_from_slice(row);
+        }
+    }
+    let hits = assemble::hits_of_facets(projection, grid, &offsets, &facets, progress, [0.8, 1.0])?;
+    Ok(Ldi {
+        grid: *grid,
+        offsets,
+        hits,
+    })
+}
