@@ -3,50 +3,19 @@
 //! A planner sees the errors of layers and limits, and nothing else of the model.
 
 pub mod greedy;
+mod limits;
 pub mod optimal;
 pub mod segment;
 pub mod tradeoff;
 pub mod uniform;
 
-use std::ops::RangeInclusive;
+use serde::Serialize;
 
-use serde::{Deserialize, Serialize};
+pub use limits::{HeightRange, Limits};
 
-use crate::grid::{Bins, GridError, positive};
+use crate::grid::{Bins, GridError};
 use crate::profile::LayerErrors;
 use crate::resin::Resin;
-
-/// What every plan must keep to.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Limits {
-    /// Least layer thickness in millimetres, `t_min`.
-    pub layer_min_mm: f64,
-    /// Greatest layer thickness in millimetres, `t_max`.
-    pub layer_max_mm: f64,
-    /// Greatest error of a layer in the metric's unit, ε.
-    pub tolerance: f64,
-    /// Height ranges with a thickness of their own, which must not overlap. Their ends are planes.
-    pub ranges: Vec<HeightRange>,
-    /// Heights at which there must be a plane, in millimetres above the plate.
-    pub planes_mm: Vec<f64>,
-    /// What every height is a multiple of, in millimetres: the printer's motor step. A bin if absent.
-    pub step_mm: Option<f64>,
-}
-
-/// A thickness of its own between two heights.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
-#[serde(deny_unknown_fields)]
-pub struct HeightRange {
-    /// Where it begins, in millimetres above the plate.
-    pub from_mm: f64,
-    /// Where it ends.
-    pub to_mm: f64,
-    /// Least layer thickness in it.
-    pub layer_min_mm: f64,
-    /// Greatest layer thickness in it.
-    pub layer_max_mm: f64,
-}
 
 /// Why there is no plan.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
@@ -272,79 +241,4 @@ impl Plan {
     pub fn print_time_s(&self, resin: &Resin) -> f64 {
         resin.print_time_s(&self.thickness_mm())
     }
-}
-
-impl Limits {
-    /// Bins a unit of thickness: the motor step, or one.
-    ///
-    /// # Errors
-    /// [`PlanError::Grid`], [`PlanError::NotWholeBins`].
-    pub fn unit(&self, bins: Bins) -> Result<u32, PlanError> {
-        positive("the bin", bins.size_mm)?;
-        match self.step_mm {
-            None => Ok(1),
-            Some(step_mm) => Ok(whole_bins(bins, "the step", step_mm)?.min(MAX_UNIT) as u32),
-        }
-    }
-
-    /// A range of thicknesses in units, ⌈`t_min`/unit⌉ to ⌊`t_max`/unit⌋.
-    ///
-    /// # Errors
-    /// [`PlanError::Grid`], [`PlanError::NotWholeBins`], [`PlanError::EmptyRange`].
-    pub fn thickness(
-        &self,
-        bins: Bins,
-        layer_min_mm: f64,
-        layer_max_mm: f64,
-    ) -> Result<RangeInclusive<u32>, PlanError> {
-        positive("the least layer thickness", layer_min_mm)?;
-        positive("the greatest layer thickness", layer_max_mm)?;
-        let units = Bins {
-            count: bins.count,
-            size_mm: f64::from(self.unit(bins)?) * bins.size_mm,
-        };
-        let least = units.ceil(layer_min_mm).max(1.0);
-        let greatest = units.floor(layer_max_mm);
-        if least > greatest {
-            return Err(PlanError::EmptyRange {
-                layer_min_mm,
-                layer_max_mm,
-                step_mm: units.boundary_mm(1),
-            });
-        }
-        // The middle of a layer that is more than twice as thick as the model lies above it: no plan has such a layer.
-        let limit = 2.0 * bins.count as f64 + 1.0;
-        Ok(least.min(limit) as u32..=greatest.min(limit) as u32)
-    }
-
-    /// Finds what no model could make good.
-    ///
-    /// # Errors
-    /// [`PlanError`].
-    pub fn check(&self, bins: Bins) -> Result<(), PlanError> {
-        positive("the tolerance", self.tolerance)?;
-        self.thickness(bins, self.layer_min_mm, self.layer_max_mm)?;
-        for range in &self.ranges {
-            self.thickness(bins, range.layer_min_mm, range.layer_max_mm)?;
-        }
-        Ok(())
-    }
-}
-
-/// More bins than a motor step can have.
-const MAX_UNIT: f64 = (1 << 20) as f64;
-
-/// A length as a whole number of bins.
-fn whole_bins(bins: Bins, name: &'static str, length_mm: f64) -> Result<f64, PlanError> {
-    positive("the bin", bins.size_mm)?;
-    positive(name, length_mm)?;
-    let whole = bins.floor(length_mm);
-    if whole < 1.0 || bins.ceil(length_mm) > whole {
-        return Err(PlanError::NotWholeBins {
-            name,
-            length_mm,
-            bin_mm: bins.size_mm,
-        });
-    }
-    Ok(whole)
 }

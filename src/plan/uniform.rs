@@ -1,6 +1,7 @@
 //! Layers of one thickness, the plan that slicers make by default.
 
-use super::{Plan, PlanError, whole_bins};
+use super::limits::whole_bins;
+use super::{Plan, PlanError};
 use crate::grid::Bins;
 
 /// Layers of `layer_mm` each, from the plate to the top.
