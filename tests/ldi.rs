@@ -7,15 +7,19 @@ mod common;
 use std::ops::ControlFlow;
 
 use common::{assert_near, on_plate, oracle, sample, solids};
-use cusp_slicer::grid::Grid;
-use cusp_slicer::ldi::{Hit, Ldi, LdiError, cpu, for_each_solid_range};
-use cusp_slicer::model::Mesh;
+use cusp_slicer::grid::{Bins, Grid};
+use cusp_slicer::ldi::visibility::visibility;
+use cusp_slicer::ldi::{Hit, Ldi, LdiError, Solid, cpu, model_ranges, printed_ranges};
+use cusp_slicer::model::{FacetClass, FacetClasses, Mesh};
+use cusp_slicer::profile::facet_bins::FacetBins;
+use cusp_slicer::profile::section;
 use cusp_slicer::progress::{Cancelled, silent};
 use glam::Vec3;
 
 fn ranges(hits: &[Hit]) -> Vec<(f32, f32)> {
     let mut ranges = Vec::new();
-    for_each_solid_range(hits, |z_in, z_out| ranges.push((z_in, z_out)));
+    let classes = FacetClasses::of_model(u32::MAX as usize, u32::MAX as usize);
+    printed_ranges(hits, classes, |z_in, z_out| ranges.push((z_in, z_out)));
     ranges
 }
 
@@ -301,11 +305,11 @@ fn a_cavity_is_what_its_facets_say() {
 fn an_open_solid_counts_the_rays_through_its_holes() {
     let mut triangles = solids::cube(10.0);
     triangles.drain(0..2); // the bottom
-    let (mesh, ldi) = sample(&triangles, 32);
-    assert_eq!(ldi.rays_through_holes(&mesh), 32 * 32);
+    let (_, ldi) = sample(&triangles, 32);
+    assert_eq!(ldi.rays_through_holes(), 32 * 32);
     assert_eq!(ranges(ldi.ray(100)), [(0.0, 10.0)]);
-    let (mesh, ldi) = sample(&solids::cube(10.0), 32);
-    assert_eq!(ldi.rays_through_holes(&mesh), 0);
+    let (_, ldi) = sample(&solids::cube(10.0), 32);
+    assert_eq!(ldi.rays_through_holes(), 0);
 }
 
 #[test]
@@ -339,4 +343,69 @@ fn sampling_stops_when_asked() {
     });
     assert_eq!(result, Err(LdiError::Cancelled(Cancelled)));
     assert_eq!(calls, 2);
+}
+
+/// A cube of 10 mm with a void of 6 mm in its middle and a support of 2 mm through both: on the axis the support fills the void,
+/// beside it the void is empty, and the model alone knows neither.
+#[test]
+fn voids_are_left_out_of_the_model_and_supports_are_not() {
+    let cube = |side_mm: f32, z_mm: f32| {
+        let moved = solids::moved(&solids::cube(side_mm), Vec3::new(0.0, 0.0, z_mm));
+        Mesh::from_triangles(&moved).unwrap()
+    };
+    let model = on_plate(&solids::cube(10.0));
+    let middle = |mesh: Mesh| {
+        let bounds = mesh.bounds();
+        let shift = -(bounds.min + bounds.max).truncate() * 0.5;
+        let mut mesh = mesh;
+        for vertex in &mut mesh.vertices {
+            *vertex += shift.extend(0.0).as_vec3();
+        }
+        mesh
+    };
+    let low = |mesh: &Mesh, z_mm: f64| (z_mm - mesh.bounds().min.z) as f32;
+    let void = middle(cube(6.0, low(&cube(6.0, 0.0), 2.0)));
+    let support = middle(cube(2.0, low(&cube(2.0, 0.0), 3.0)));
+    let joined = model
+        .with(&support, FacetClass::Support)
+        .with(&void, FacetClass::Void);
+    let classes = (0..joined.facets.len() as u32).map(|facet| joined.classes.of(facet));
+    let counts = [
+        FacetClass::Surface,
+        FacetClass::Cap,
+        FacetClass::Void,
+        FacetClass::Support,
+    ]
+    .map(|class| classes.clone().filter(|&it| it == class).count());
+    assert_eq!(counts, [12, 0, 12, 12]);
+    assert_eq!(joined.bounds(), model.bounds());
+    assert_near(joined.volume_mm3(), 1000.0, 1e-3);
+
+    let grid = Grid::around(&joined.bounds(), 50).unwrap();
+    let ldi = cpu::sample(&joined, &grid, &mut silent).unwrap();
+    let look = |x: usize, printed: bool| {
+        let (mut ranges, ray) = (Vec::new(), ldi.ray(25 * 50 + x));
+        let emit = |z_in: f32, z_out: f32| ranges.push((z_in, z_out));
+        if printed {
+            printed_ranges(ray, ldi.classes, emit);
+        } else {
+            model_ranges(ray, ldi.classes, emit);
+        }
+        ranges
+    };
+    assert_eq!(look(25, true), [(0.0, 2.0), (3.0, 5.0), (8.0, 10.0)]);
+    assert_eq!(look(35, true), [(0.0, 2.0), (8.0, 10.0)]);
+    assert_eq!(look(45, true), [(0.0, 10.0)]);
+    for x in [25, 35, 45] {
+        assert_eq!(look(x, false), [(0.0, 10.0)]);
+    }
+    let alone = cpu::sample(&model, &grid, &mut silent).unwrap();
+    let bins = Bins::of_height(10.0, 0.01).unwrap();
+    let areas = |ldi: &Ldi| section::sampled(ldi, bins);
+    assert_eq!(areas(&ldi), areas(&alone));
+    let facet_bins = |mesh: &Mesh| FacetBins::of(mesh, bins);
+    assert_eq!(facet_bins(&joined).spans, facet_bins(&model).spans);
+    assert_eq!(visibility(&joined, &ldi), visibility(&model, &alone));
+    let printed_mm3 = Solid::of(&ldi).volume_mm3;
+    assert_near(printed_mm3, 1000.0 - 216.0 + 8.0, 1e-6);
 }

@@ -87,7 +87,7 @@ impl Sampler {
             }
             .into());
         }
-        let unclosed = ldi.rays_through_holes(&mesh);
+        let unclosed = ldi.rays_through_holes();
         if unclosed > 0 {
             let rays = ldi.rays();
             warnings.push(Warning::UnclosedRays { unclosed, rays });

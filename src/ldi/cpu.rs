@@ -51,6 +51,7 @@ pub fn sample(mesh: &Mesh, grid: &Grid, progress: &mut Progress<'_>) -> Result<L
         grid: *grid,
         offsets,
         hits,
+        classes: mesh.classes,
     })
 }
 

@@ -10,15 +10,17 @@ pub mod cpu;
 pub mod gpu;
 pub mod layout;
 pub mod projection;
+mod ranges;
 mod solid;
 pub mod visibility;
 
 use serde::Serialize;
 
+pub use ranges::{model_ranges, printed_ranges};
 pub use solid::Solid;
 
 use crate::grid::Grid;
-use crate::model::Mesh;
+use crate::model::{FacetClass, FacetClasses, Mesh};
 use crate::parallel;
 use crate::progress::Cancelled;
 
@@ -165,6 +167,8 @@ pub struct Ldi {
     pub offsets: Vec<u32>,
     /// Hits of all rays, within a ray by (height, facet).
     pub hits: Vec<Hit>,
+    /// What the facets of the sampled mesh belong to.
+    pub classes: FacetClasses,
 }
 
 impl Ldi {
@@ -186,19 +190,16 @@ impl Ldi {
         self.offsets.len() - 1
     }
 
-    /// Rays that pass a hole of `mesh`, the one that was sampled: without its caps they would not
-    /// close.
-    pub fn rays_through_holes(&self, mesh: &Mesh) -> usize {
-        if mesh.first_cap == mesh.facets.len() {
+    /// Number of rays that pass a hole of the sampled mesh: without its caps they would not close.
+    pub fn rays_through_holes(&self) -> usize {
+        let is_cap = |hit: &Hit| self.classes.of(hit.facet()) == FacetClass::Cap;
+        if !self.classes.has_caps() {
             return 0;
         }
-        let first_cap = mesh.first_cap as u32;
-        let passes_cap = |ray: &[u32]| {
-            let hits = &self.hits[ray[0] as usize..ray[1] as usize];
-            hits.iter().any(|hit| hit.facet() >= first_cap)
-        };
         parallel::map(self.chunks(), |offsets: &[u32]| {
-            offsets.windows(2).filter(|ray| passes_cap(ray)).count()
+            let rays = offsets.windows(2);
+            let hits = |ray: &[u32]| &self.hits[ray[0] as usize..ray[1] as usize];
+            rays.filter(|ray| hits(ray).iter().any(is_cap)).count()
         })
         .into_iter()
         .sum()
@@ -211,22 +212,4 @@ fn check_facets(mesh: &Mesh) -> Result<(), LdiError> {
         return Err(LdiError::TooManyFacets { facets });
     }
     Ok(())
-}
-
-/// Calls `emit` with every height range `z_in..z_out` in which a ray is inside the solid, upward.
-///
-/// Inside is a non-zero winding number, so overlapping bodies are a union, a cavity is what its facets say,
-/// and a body that is inside out counts like one that is not.
-pub fn for_each_solid_range(hits: &[Hit], mut emit: impl FnMut(f32, f32)) {
-    let mut winding = 0;
-    let mut z_in = 0.0;
-    for hit in hits {
-        let was_inside = winding != 0;
-        winding += hit.winding();
-        if !was_inside {
-            z_in = hit.z_mm;
-        } else if winding == 0 && z_in < hit.z_mm {
-            emit(z_in, hit.z_mm);
-        }
-    }
 }

@@ -12,7 +12,7 @@ use std::ops::Range;
 use glam::DVec2;
 
 use crate::grid::Grid;
-use crate::model::Mesh;
+use crate::model::{FacetClasses, Mesh};
 
 /// Lattice steps a pixel.
 pub const STEPS: i64 = 256;
@@ -47,6 +47,11 @@ impl<'a> Projection<'a> {
             positions,
             rows: grid.height,
         }
+    }
+
+    /// What the facets belong to.
+    pub fn classes(&self) -> FacetClasses {
+        self.mesh.classes
     }
 
     /// Number of facets.

@@ -1,6 +1,6 @@
 //! What the rays of an LDI are inside of: the solid's volume, and the heights at which any ray is in it.
 
-use super::{Ldi, for_each_solid_range};
+use super::{Ldi, printed_ranges};
 use crate::parallel;
 
 /// The solid as its rays see it.
@@ -21,7 +21,7 @@ impl Solid {
             let mut heights = Heights::default();
             for ray in offsets.windows(2) {
                 let hits = &ldi.hits[ray[0] as usize..ray[1] as usize];
-                for_each_solid_range(hits, |z_in, z_out| {
+                printed_ranges(hits, ldi.classes, |z_in, z_out| {
                     length_mm += f64::from(z_out) - f64::from(z_in);
                     heights.add(z_in, z_out);
                 });

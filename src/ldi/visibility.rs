@@ -22,7 +22,13 @@ const ON_SURFACE: u8 = 2;
 ///
 /// Cost: linear in hits, and in facets where bodies overlap.
 pub fn visibility(mesh: &Mesh, ldi: &Ldi) -> Visibility {
-    let is_simple = |offsets: &[u32]| all_rays(ldi, offsets, |hits| is_in_turn(hits, |_| true));
+    // Voids and supports are no part of the surface that profiles measure.
+    let model_end = mesh.classes.model_end();
+    let is_simple = |offsets: &[u32]| {
+        all_rays(ldi, offsets, |hits| {
+            is_in_turn(hits, |hit| hit.facet() < model_end)
+        })
+    };
     let chunks = ldi.chunks();
     if parallel::map(chunks.clone(), is_simple)
         .into_iter()
@@ -35,7 +41,7 @@ pub fn visibility(mesh: &Mesh, ldi: &Ldi) -> Visibility {
     }
     let mut seen = vec![0u8; mesh.facets.len()];
     for ray in 0..ldi.rays() {
-        look_along(ldi.ray(ray), &mut seen);
+        look_along(ldi.ray(ray), model_end, &mut seen);
     }
     let bodies = bodies(mesh);
     let mut body_seen = vec![0u8; mesh.vertices.len()];
@@ -52,7 +58,9 @@ pub fn visibility(mesh: &Mesh, ldi: &Ldi) -> Visibility {
     // Without the hidden facets, does every ray enter and leave one body after the other?
     let is_union = |offsets: &[u32]| {
         all_rays(ldi, offsets, |hits| {
-            is_in_turn(hits, |hit| !hidden[hit.facet() as usize])
+            is_in_turn(hits, |hit| {
+                hit.facet() < model_end && !hidden[hit.facet() as usize]
+            })
         })
     };
     let overlaps = is_open
@@ -83,17 +91,18 @@ fn is_in_turn(hits: &[Hit], counts: impl Fn(&Hit) -> bool) -> bool {
 
 /// Notes which facets of a ray are met, and which part inside from outside. Hits at one height count together: where
 /// bodies touch, neither of the two facets is on the surface.
-fn look_along(hits: &[Hit], seen: &mut [u8]) {
+fn look_along(hits: &[Hit], model_end: u32, seen: &mut [u8]) {
     let mut winding = 0;
     for group in hits.chunk_by(|a, b| a.z_mm == b.z_mm) {
         let was_inside = winding != 0;
-        winding += group.iter().map(|hit| hit.winding()).sum::<i32>();
+        let of_model = || group.iter().filter(|hit| hit.facet() < model_end);
+        winding += of_model().map(|hit| hit.winding()).sum::<i32>();
         let note = if was_inside == (winding != 0) && was_inside {
             MET
         } else {
             MET | ON_SURFACE
         };
-        for hit in group {
+        for hit in of_model() {
             seen[hit.facet() as usize] |= note;
         }
     }

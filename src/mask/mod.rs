@@ -13,7 +13,7 @@ pub use samples::{LEVELS, Samples};
 pub use window::{Side, Window};
 
 use crate::grid::Grid;
-use crate::ldi::{Ldi, Solid, for_each_solid_range};
+use crate::ldi::{Ldi, Solid, printed_ranges};
 use crate::parallel;
 use crate::plan::Plan;
 use samples::SublayerOf;
@@ -142,7 +142,7 @@ impl Band {
         for row in rows {
             for (column, &in_row) in place.columns.iter().enumerate() {
                 let pixel = place.rows[row] + in_row;
-                for_each_solid_range(ldi.ray(row * width + column), |z_in, z_out| {
+                printed_ranges(ldi.ray(row * width + column), ldi.classes, |z_in, z_out| {
                     let on = sublayer_of.first_above(z_in);
                     let off = sublayer_of.first_above(z_out);
                     if on == off {

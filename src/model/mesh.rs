@@ -4,6 +4,7 @@ use glam::{DVec3, Vec3};
 use rustc_hash::FxHashMap;
 use serde::Serialize;
 
+use super::class::{FacetClass, FacetClasses};
 use super::holes;
 use super::pose::{Pose, rotation_matrix};
 
@@ -77,13 +78,13 @@ impl Bounds {
 pub struct Mesh {
     /// Positions in millimetres, each once.
     pub vertices: Vec<Vec3>,
-    /// Three vertex indices a facet: first the surface, then what only closes it, which is slivers
-    /// without area and, from `first_cap` on, caps over holes.
+    /// Three vertex indices a facet, by class. After the facets of the surface that have an area, counted by
+    /// `surface_facets`, come slivers without one that join them.
     pub facets: Vec<[u32; 3]>,
     /// Number of facets of the surface, all with an area.
     pub surface_facets: usize,
-    /// The first facet that was added to close a hole.
-    pub first_cap: usize,
+    /// What the facets belong to.
+    pub classes: FacetClasses,
     /// Facets of the input that had no area.
     pub degenerate_facets: usize,
     /// Edges of the input that were not used equally often in both directions; 0 for a closed,
@@ -125,9 +126,9 @@ impl Mesh {
         }
         let mut mesh = Self {
             vertices,
+            classes: FacetClasses::of_model(first_cap, facets.len()),
             facets,
             surface_facets,
-            first_cap,
             degenerate_facets: triangles.len() - surface_facets,
             open_edges: open_edge_count,
             holes: loops.len(),
@@ -147,6 +148,21 @@ impl Mesh {
         self.facets[facet].map(|vertex| self.vertices[vertex as usize].as_dvec3())
     }
 
+    /// A copy with the facets of another mesh, holes closed, as a class of this one. Profiles, bounds and volume leave them out;
+    /// masks do not.
+    #[must_use]
+    pub fn with(&self, other: &Self, class: FacetClass) -> Self {
+        let mut joined = self.clone();
+        let first_vertex = self.vertices.len() as u32;
+        joined.vertices.extend(&other.vertices);
+        let facets = other.facets.iter();
+        let facets = facets.map(|corners| corners.map(|vertex| vertex + first_vertex));
+        let end = self.classes.end(class);
+        joined.facets.splice(end..end, facets);
+        joined.classes = self.classes.grown(class, other.facets.len());
+        joined
+    }
+
     /// The box around the surface.
     pub fn bounds(&self) -> Bounds {
         self.bounds_of(|vertex| self.vertices[vertex].as_dvec3())
@@ -162,11 +178,11 @@ impl Mesh {
         Bounds { min, max }
     }
 
-    /// Enclosed volume in mm³ by the divergence theorem, holes closed. Where bodies overlap, it counts
-    /// as often as they do.
+    /// Volume that the model encloses, in mm³, by the divergence theorem: holes closed, voids and supports left out. Where
+    /// bodies overlap, it counts as often as they do.
     pub fn volume_mm3(&self) -> f64 {
         let centre = (self.bounds().min + self.bounds().max) * 0.5;
-        let sixfold: f64 = (0..self.facets.len())
+        let sixfold: f64 = (0..self.classes.model_end() as usize)
             .map(|facet| {
                 let [a, b, c] = self.corners(facet).map(|corner| corner - centre);
                 a.dot(b.cross(c))

@@ -1,5 +1,6 @@
 //! The model: read from a file, welded to a closed mesh, posed on the plate, weighted by facet.
 
+mod class;
 mod file;
 mod holes;
 mod mesh;
@@ -8,6 +9,7 @@ pub mod read;
 pub mod saliency;
 pub mod weights;
 
+pub use class::{FacetClass, FacetClasses, Winding};
 pub use file::ModelFile;
 pub use mesh::{Bounds, Mesh, MeshError};
 pub use pose::Pose;

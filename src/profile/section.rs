@@ -4,7 +4,7 @@
 use glam::DVec2;
 
 use crate::grid::Bins;
-use crate::ldi::{Ldi, for_each_solid_range};
+use crate::ldi::{Ldi, model_ranges};
 use crate::model::Mesh;
 use crate::parallel;
 
@@ -21,7 +21,7 @@ pub fn sampled(ldi: &Ldi, bins: Bins) -> Vec<f64> {
         // How many rays enter less how many leave before the middle of each bin.
         let mut gains = vec![0i64; bins.count + 1];
         for ray in first..(first + step).min(ldi.rays()) {
-            for_each_solid_range(ldi.ray(ray), |z_in, z_out| {
+            model_ranges(ldi.ray(ray), ldi.classes, |z_in, z_out| {
                 gains[bins.middles_below(f64::from(z_in))] += 1;
                 gains[bins.middles_below(f64::from(z_out))] -= 1;
             });
@@ -45,7 +45,7 @@ pub fn sampled(ldi: &Ldi, bins: Bins) -> Vec<f64> {
 /// Cost: linear in facets times the logarithm of bins, and in bins.
 pub fn exact(mesh: &Mesh, hidden: &[bool], bins: Bins) -> Vec<f64> {
     let mut sums = QuadraticSums::new(bins.count);
-    for facet in 0..mesh.facets.len() {
+    for facet in 0..mesh.classes.model_end() as usize {
         if hidden.get(facet) == Some(&true) {
             continue;
         }

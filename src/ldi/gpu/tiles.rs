@@ -140,5 +140,6 @@ pub(super) fn join(
         grid: *grid,
         offsets,
         hits,
+        classes: projection.classes(),
     })
 }

@@ -1,0 +1,51 @@
+//! Where a ray is inside: the only rule that turns hits into height ranges.
+//!
+//! Inside is a non-zero winding number, so overlapping bodies are a union, a cavity is what its facets say, and a body that is
+//! inside out counts like one that is not.
+
+use super::Hit;
+use crate::model::{FacetClasses, Winding};
+
+/// Calls `emit` with every height range `z_in..z_out` in which a ray with these hits is inside what is printed, upward: see
+/// [`Winding::is_inside`].
+#[inline]
+pub fn printed_ranges(hits: &[Hit], classes: FacetClasses, emit: impl FnMut(f32, f32)) {
+    if classes.is_model_alone() {
+        let pass = |winding: &mut i32, hit: Hit| *winding += hit.winding();
+        return for_each_range(hits, pass, |winding| winding != 0, emit);
+    }
+    let pass = |winding: &mut Winding, hit: Hit| {
+        winding.pass(classes.of(hit.facet()), hit.winding());
+    };
+    for_each_range(hits, pass, Winding::is_inside, emit);
+}
+
+/// The same for the model alone, without its voids and supports.
+pub fn model_ranges(hits: &[Hit], classes: FacetClasses, emit: impl FnMut(f32, f32)) {
+    let end = classes.model_end();
+    let pass = |winding: &mut i32, hit: Hit| {
+        *winding += if hit.facet() < end { hit.winding() } else { 0 };
+    };
+    for_each_range(hits, pass, |winding| winding != 0, emit);
+}
+
+/// Calls `emit` with every height range in which `is_inside` holds of the winding that `pass` counts hit by hit, upward.
+#[inline]
+fn for_each_range<W: Copy + Default>(
+    hits: &[Hit],
+    pass: impl Fn(&mut W, Hit),
+    is_inside: impl Fn(W) -> bool,
+    mut emit: impl FnMut(f32, f32),
+) {
+    let mut winding = W::default();
+    let mut z_in = 0.0;
+    for &hit in hits {
+        let was_inside = is_inside(winding);
+        pass(&mut winding, hit);
+        match (was_inside, is_inside(winding)) {
+            (false, true) => z_in = hit.z_mm,
+            (true, false) if z_in < hit.z_mm => emit(z_in, hit.z_mm),
+            _ => {}
+        }
+    }
+}
