@@ -1,0 +1,37 @@
+//! `info` and `printers`.
+
+use tempfile::TempDir;
+
+use crate::common::{assert_near, binary_stl, solids};
+use crate::{cusp, json, model};
+
+#[test]
+fn info_describes_the_model() {
+    let folder = TempDir::new().unwrap();
+    let model = model(&folder, "box.stl", &binary_stl(&solids::cube(20.0)));
+    let info = json(&cusp(&["info", &model, "--json"]));
+    assert_eq!(
+        (&info["facets"], &info["vertices"]),
+        (&12.into(), &8.into())
+    );
+    assert_eq!(
+        (&info["closed"], &info["degenerate_facets"]),
+        (&true.into(), &0.into())
+    );
+    assert_near(info["volume_mm3"].as_f64().unwrap(), 8000.0, 1e-6);
+    let text = String::from_utf8(cusp(&["info", &model]).stdout).unwrap();
+    assert!(text.contains("20.000 × 20.000 × 20.000 mm"), "{text}");
+}
+
+#[test]
+fn printers_say_which_files_they_read() {
+    let text = String::from_utf8(cusp(&["printers"]).stdout).unwrap();
+    let line = |name: &str| text.lines().find(|line| line.starts_with(name)).unwrap();
+    assert!(line("name ").ends_with("format    reads"));
+    assert!(line("sl1s ").ends_with("sl1       sl1s"));
+    assert!(line("saturn-3-ultra ").ends_with("chitubox  goo by a converter"));
+    let json = json(&cusp(&["printers", "--json"]));
+    let printers = json.as_array().unwrap();
+    let saturn = printers.iter().find(|it| it["name"] == "saturn-3-ultra");
+    assert_eq!(saturn.unwrap()["reads"], serde_json::json!(["goo"]));
+}

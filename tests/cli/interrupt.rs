@@ -1,0 +1,93 @@
+//! Interrupts, as from a terminal.
+
+use std::io::{BufRead as _, BufReader};
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use tempfile::TempDir;
+
+use crate::common::{binary_stl, solids};
+use crate::{model, names};
+
+/// The command with signals as a terminal gives them: whatever runs the tests in the background may
+/// have the interrupt ignored, and a child inherits that.
+fn with_usual_signals() -> Command {
+    let cusp = env!("CARGO_BIN_EXE_cusp");
+    if cfg!(target_os = "linux") {
+        let mut command = Command::new("env");
+        command.args(["--default-signal", cusp]);
+        command
+    } else {
+        Command::new(cusp)
+    }
+}
+
+#[test]
+fn an_interrupt_stops_a_batch_in_which_a_model_is_bad() {
+    let folder = TempDir::new().unwrap();
+    let ball = model(&folder, "ball.stl", &binary_stl(&solids::sphere(10.0, 5)));
+    let absent = folder.path().join("absent.stl").display().to_string();
+    // So many directions take minutes.
+    let mut child = with_usual_signals()
+        .args(["orient", &absent, &ball, &ball, "--directions", "20000"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut words = BufReader::new(child.stderr.take().unwrap()).lines();
+    let first = words.next().unwrap().unwrap();
+    assert!(first.contains("absent.stl"), "{first}");
+    let process = child.id().to_string();
+    let kill = Command::new("kill").args(["-INT", &process]).status();
+    assert!(kill.unwrap().success());
+    let rest: Vec<String> = words.map(Result::unwrap).collect();
+    assert_eq!(rest, ["cusp: cancelled"]);
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130));
+    assert!(output.stdout.is_empty());
+}
+
+#[test]
+fn an_interrupt_leaves_the_old_file_and_no_other() {
+    let folder = TempDir::new().unwrap();
+    let ball = model(&folder, "ball.stl", &binary_stl(&solids::sphere(10.0, 4)));
+    let zip = model(&folder, "out.zip", b"precious");
+    // Tens of thousands of layers: writing them all takes many seconds.
+    let mut child = with_usual_signals()
+        .args(["slice", &ball, "-o", &zip, "--backend", "cpu"])
+        .args([
+            "--planner",
+            "uniform",
+            "--layer",
+            "0.0005",
+            "--bin",
+            "0.0005",
+        ])
+        .args(["--layer-min", "0.0005"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let is_writing = || {
+        std::fs::read_dir(folder.path()).unwrap().any(|entry| {
+            let entry = entry.unwrap();
+            let is_new = entry.path() != Path::new(&ball) && entry.path() != Path::new(&zip);
+            is_new && entry.metadata().is_ok_and(|file| file.len() > 0)
+        })
+    };
+    let clock = Instant::now();
+    while !is_writing() {
+        assert!(clock.elapsed() < Duration::from_mins(2), "never wrote");
+        assert_eq!(child.try_wait().unwrap(), None, "ended before it wrote");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    let process = child.id().to_string();
+    let kill = Command::new("kill").args(["-INT", &process]).status();
+    assert!(kill.unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "cusp: cancelled\n");
+    assert_eq!(output.status.code(), Some(130));
+    assert_eq!(names(&folder), ["ball.stl", "out.zip"]);
+    assert_eq!(std::fs::read(&zip).unwrap(), b"precious");
+}

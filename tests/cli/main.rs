@@ -1,0 +1,83 @@
+//! The command line as its users meet it: exit codes, one sentence of error, JSON, whole files.
+
+#![cfg(not(target_arch = "wasm32"))]
+
+#[path = "../common/mod.rs"]
+mod common;
+mod files;
+mod info;
+#[cfg(unix)]
+mod interrupt;
+mod orient;
+mod plan;
+mod usage;
+mod verify;
+
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+use common::{binary_stl, solids};
+use serde_json::Value;
+use tempfile::TempDir;
+
+fn cusp(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_cusp"))
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+/// Without a GPU, so that every machine does the same.
+fn on_cpu(arguments: &[&str]) -> Output {
+    cusp(&[arguments, &["--backend", "cpu"]].concat())
+}
+
+fn names(folder: &TempDir) -> Vec<String> {
+    let mut names: Vec<_> = std::fs::read_dir(folder.path())
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+fn sphere(folder: &TempDir) -> String {
+    model(folder, "ball.stl", &binary_stl(&solids::sphere(3.0, 4)))
+}
+
+fn model(folder: &TempDir, name: &str, bytes: &[u8]) -> String {
+    let path: PathBuf = folder.path().join(name);
+    std::fs::write(&path, bytes).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+/// A slab that stands on an edge, askew.
+fn slab(folder: &TempDir) -> String {
+    let mut slab = solids::cuboid(glam::Vec3::new(9.0, 7.0, 2.0));
+    let askew = glam::Quat::from_xyzw(0.3, -0.4, 0.1, 0.8).normalize();
+    for corner in slab.iter_mut().flatten() {
+        *corner = askew * *corner;
+    }
+    model(folder, "slab.stl", &binary_stl(&slab))
+}
+
+fn json(output: &Output) -> Value {
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+/// Asserts that a command fails with `code` and says `words` in one line, nothing on stdout.
+#[track_caller]
+fn assert_fails(output: &Output, code: i32, words: &str) {
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "{stderr}");
+    assert!(stderr.contains(words), "{stderr}");
+    assert!(output.stdout.is_empty());
+    if code == 1 {
+        assert_eq!(stderr.trim_end().lines().count(), 1, "{stderr}");
+    }
+}
