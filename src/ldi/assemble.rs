@@ -1,5 +1,4 @@
-//! What both backends share: compressed rows from counts, hits from facets, and the order of hits within a
-//! ray.
+//! Shared by both backends: offsets from counts, hits from facets, and the order of hits within a ray.
 
 use super::projection::{ProjectedFacet, Projection};
 use super::{CHUNK_RAYS, Hit, LdiError};
@@ -7,7 +6,8 @@ use crate::grid::Grid;
 use crate::parallel::map_in_groups;
 use crate::progress::Progress;
 
-/// Turns `offsets`, which holds the number of hits of ray i at i + 1 and 0 at 0, into offsets.
+/// Turns counts into offsets in place: on entry `offsets[i + 1]` is the number of hits of ray i, and
+/// `offsets[0]` is 0.
 ///
 /// # Errors
 /// [`LdiError::OutOfMemory`] if there are more hits than an offset can count.
@@ -23,12 +23,12 @@ pub(super) fn accumulate(offsets: &mut [u32]) -> Result<(), LdiError> {
     Ok(())
 }
 
-/// Room for `count` values, or an error instead of an abort.
+/// Allocates `count` zeroed values, and returns an error where `Vec` would abort.
 ///
 /// # Errors
 /// [`LdiError::OutOfMemory`].
 pub(super) fn zeroed<T: bytemuck::Zeroable>(count: usize) -> Result<Vec<T>, LdiError> {
-    // The system's zero pages: they are first touched by the threads that fill them.
+    // The system's zero pages: the threads that fill them are the first to touch them.
     bytemuck::allocation::try_zeroed_vec(count).map_err(|()| out_of_memory(count as u64))
 }
 
@@ -39,8 +39,8 @@ fn out_of_memory(hits: u64) -> LdiError {
     }
 }
 
-/// Cuts `hits` into chunks of whole rays, `chunk_rays` each: the offsets of the chunk's rays, one more than
-/// these, with their hits.
+/// Cuts `hits` into chunks of `chunk_rays` whole rays. Each chunk is the offsets of its rays, one more than
+/// there are rays, and their hits.
 pub(super) fn by_rays<'a>(
     offsets: &'a [u32],
     hits: &'a mut [Hit],
@@ -58,7 +58,8 @@ pub(super) fn by_rays<'a>(
     chunks
 }
 
-/// The hits of all rays with `facets`, which are in compressed rows, in any order within a ray.
+/// Computes the hits of all rays with `facets`, and sorts them within each ray. The facets are in compressed
+/// rows, in any order within a ray.
 ///
 /// # Errors
 /// [`LdiError::OutOfMemory`], [`LdiError::Cancelled`].
@@ -98,7 +99,7 @@ pub(super) fn hits_of_facets(
     Ok(hits)
 }
 
-/// Facets that were looked up not long ago: rays beside each other mostly meet the same ones.
+/// A direct-mapped cache of projected facets: neighbouring rays usually meet the same ones.
 struct RecentFacets<'a> {
     projection: &'a Projection<'a>,
     slots: Vec<(u32, Option<ProjectedFacet>)>,
@@ -123,7 +124,7 @@ impl<'a> RecentFacets<'a> {
     }
 }
 
-/// Puts the hits of consecutive rays in order; `offsets` may begin anywhere.
+/// Sorts the hits of each of some consecutive rays. `hits` begins with the hit at `offsets[0]`.
 pub(super) fn sort_rays(offsets: &[u32], hits: &mut [Hit]) {
     let base = offsets[0];
     for ray in offsets.windows(2) {

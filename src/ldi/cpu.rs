@@ -1,7 +1,7 @@
 //! The LDI by scanline on the CPU: count, then fill.
 //!
-//! Rows are taken in bands, each on its own thread natively. Cost is linear in facets, the rows that they
-//! span, and hits; memory is 8 bytes a hit and 4 a ray.
+//! Rows are processed in bands, in parallel natively. Cost: linear in facets, in the rows that they span,
+//! and in hits. Memory: 8 bytes per hit and 4 per ray.
 
 use super::projection::Projection;
 use super::{Hit, Ldi, LdiError, assemble};
@@ -10,7 +10,7 @@ use crate::model::Mesh;
 use crate::parallel::map_in_groups;
 use crate::progress::{Progress, report};
 
-/// Rows of a band: few enough that the cursors of its rays stay in the cache.
+/// Rows of a band: few enough for the cursors of its rays to stay in the cache.
 const BAND_ROWS: u32 = 32;
 
 /// Samples `mesh`, which lies inside `grid` and above z = 0.
@@ -55,7 +55,7 @@ pub fn sample(mesh: &Mesh, grid: &Grid, progress: &mut Progress<'_>) -> Result<L
     })
 }
 
-/// For every band, the facets that reach into it, in compressed rows.
+/// The facets that reach into each band, in compressed rows.
 struct FacetsByBand {
     starts: Vec<usize>,
     facets: Vec<u32>,
@@ -77,7 +77,7 @@ fn facets_by_band(projection: &Projection<'_>, grid: &Grid) -> FacetsByBand {
             (rows.start / BAND_ROWS) as usize..rows.end.div_ceil(BAND_ROWS) as usize
         }
     };
-    // One slot ahead, so that filling moves the start of each band to its place.
+    // Counts are stored one slot ahead: filling then advances each start to where it belongs.
     let mut starts = vec![0; bands + 2];
     for facet in 0..projection.facets() {
         for band in bands_of(facet) {
@@ -102,8 +102,8 @@ fn rows_of(band: usize, grid: &Grid) -> std::ops::Range<u32> {
     first..(first + BAND_ROWS).min(grid.height)
 }
 
-/// Writes the number of hits of every ray of a band: differences at the ends of spans first, then
-/// their running sum along each row.
+/// Writes the number of hits of every ray of a band: first the differences at the ends of spans, then
+/// their running sums along the rows.
 fn count_band(
     projection: &Projection<'_>,
     grid: &Grid,
@@ -135,7 +135,7 @@ fn count_band(
     }
 }
 
-/// Writes the hits of a band, within a ray in the order of facets.
+/// Writes the hits of a band. Within a ray they are in the order of facets.
 fn fill_band(
     projection: &Projection<'_>,
     grid: &Grid,

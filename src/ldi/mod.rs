@@ -1,9 +1,8 @@
-//! The layered depth image: for every ray parallel to z, the hits with the surface in order
+//! The layered depth image (LDI): for every ray parallel to z, its hits with the surface in order
 //! (section 3.2).
 //!
-//! Both backends sample the same mesh, the one that [`projection`] makes by moving every vertex
-//! sideways by at most 1/512 pixel, and return the same [`Ldi`]; nothing downstream can tell which one
-//! ran.
+//! Both backends sample the mesh that [`projection`] makes by moving every vertex sideways by at most
+//! 1/512 pixel, and both return the same [`Ldi`], so nothing downstream can tell which one ran.
 
 mod assemble;
 pub mod cpu;
@@ -24,7 +23,7 @@ use crate::model::{FacetClass, FacetClasses, Mesh};
 use crate::parallel;
 use crate::progress::Cancelled;
 
-/// Rays that one thread works on at a time.
+/// Rays that a thread processes at a time.
 const CHUNK_RAYS: usize = 1 << 16;
 
 /// Why no LDI could be made.
@@ -119,12 +118,12 @@ impl LdiError {
 pub struct Hit {
     /// Height above the plate in millimetres, never negative.
     pub z_mm: f32,
-    /// Facet in the upper 31 bits, 1 in the lowest if the ray leaves the solid there.
+    /// Facet in the upper 31 bits; the lowest bit is 1 if the ray leaves the solid here.
     surface: u32,
 }
 
 impl Hit {
-    /// Facets that an LDI can tell apart.
+    /// Number of facets that an LDI can index.
     pub const MAX_FACETS: u64 = 1 << 31;
 
     /// A hit at height `z_mm` with `facet`, an exit if the facet faces up.
@@ -145,13 +144,13 @@ impl Hit {
         self.surface & 1 == 1
     }
 
-    /// What a ray's winding number gains here: 1 at an entry, -1 at an exit.
+    /// The change of the ray's winding number here: 1 at an entry, -1 at an exit.
     pub fn winding(self) -> i32 {
         if self.is_exit() { -1 } else { 1 }
     }
 
-    /// Order along the ray: by height, then facet. Heights are not negative, so that their bits
-    /// are in order too.
+    /// Sort key along the ray: height, then facet. Heights are not negative, so their bits sort as
+    /// the heights do.
     fn key(self) -> u64 {
         u64::from(self.z_mm.to_bits()) << 32 | u64::from(self.surface)
     }
@@ -165,7 +164,7 @@ pub struct Ldi {
     /// The hits of ray i, which is column i mod width of row i div width, are
     /// `hits[offsets[i]..offsets[i + 1]]`.
     pub offsets: Vec<u32>,
-    /// Hits of all rays, within a ray by (height, facet).
+    /// Hits of all rays, sorted by (height, facet) within each ray.
     pub hits: Vec<Hit>,
     /// What the facets of the sampled mesh belong to.
     pub classes: FacetClasses,
@@ -177,7 +176,7 @@ impl Ldi {
         &self.hits[self.offsets[ray] as usize..self.offsets[ray + 1] as usize]
     }
 
-    /// The offsets of rays in chunks that are worth a thread each, with the one behind the last ray of each.
+    /// The offsets in chunks of [`CHUNK_RAYS`] rays, each followed by the offset where its last ray ends.
     fn chunks(&self) -> Vec<&[u32]> {
         (0..self.rays())
             .step_by(CHUNK_RAYS)
@@ -190,7 +189,7 @@ impl Ldi {
         self.offsets.len() - 1
     }
 
-    /// Number of rays that pass a hole of the sampled mesh: without its caps they would not close.
+    /// Number of rays that pass through a hole of the sampled mesh. Without the caps these rays would not close.
     pub fn rays_through_holes(&self) -> usize {
         let is_cap = |hit: &Hit| self.classes.of(hit.facet()) == FacetClass::Cap;
         if !self.classes.has_caps() {

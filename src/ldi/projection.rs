@@ -1,11 +1,10 @@
 //! The mesh as rays see it: corners on a fixed-point lattice of 1/256 pixel, and the rule by which a
 //! facet covers pixel centres.
 //!
-//! Coverage is decided in integers: a pixel centre on an edge or vertex shared by several facets
-//! belongs to exactly one of those that face the same way, whatever their order. The rule is the
-//! top-left rule of rasterisers (a centre on a left edge, or on a horizontal top edge, is covered; on a
-//! right or bottom edge it is not), and 1/256 pixel is the lattice of nearly all GPUs, so that the depth
-//! peeling backend covers the same pixels.
+//! Integers decide coverage. A pixel centre on an edge or vertex that several facets share belongs to
+//! exactly one of those that face the same way, whatever their order. The rule is the top-left rule of
+//! rasterisers: a centre on a left edge, or on a horizontal top edge, is covered; on a right or bottom
+//! edge it is not. The GPU backend evaluates the same rule in its fragment shader.
 
 use std::ops::Range;
 
@@ -14,18 +13,18 @@ use glam::DVec2;
 use crate::grid::Grid;
 use crate::model::{FacetClasses, Mesh};
 
-/// Lattice steps a pixel.
+/// Lattice steps per pixel.
 pub const STEPS: i64 = 256;
 /// From a pixel's corner to its centre, in lattice steps.
 const HALF: i64 = STEPS / 2;
 
-/// The vertices of a mesh over a grid: columns to the right and rows downward, in lattice steps.
+/// The vertices of a mesh over a grid, in lattice steps: columns to the right, rows downward.
 #[derive(Debug, Clone)]
 pub struct Projection<'a> {
     mesh: &'a Mesh,
     /// Position of each vertex, snapped to the nearest lattice point inside the grid.
     pub positions: Vec<[i32; 2]>,
-    /// The grid's rows; facets cover none outside.
+    /// Rows of the grid; facets cover none outside it.
     rows: u32,
 }
 
@@ -68,7 +67,7 @@ impl<'a> Projection<'a> {
         Some(ProjectedFacet::new(outline, corners, z))
     }
 
-    /// What a facet covers, or `None` if it is edge-on to the rays after snapping.
+    /// The outline of a facet, or `None` if it is edge-on to the rays after snapping.
     pub fn outline(&self, facet: usize) -> Option<Outline> {
         let vertices = self.mesh.facets[facet];
         Outline::of(vertices.map(|vertex| self.positions[vertex as usize].map(i64::from)))
@@ -82,14 +81,16 @@ impl<'a> Projection<'a> {
     }
 }
 
-/// The first pixel whose centre is at or after `position` lattice steps.
+/// The first pixel whose centre is at or beyond `position`, which is in lattice steps.
 fn first_centre(position: i64) -> i64 {
     -(HALF - position).div_euclid(STEPS)
 }
 
-/// ⌈numerator / denominator⌉ for a positive denominator, with what it is above the exact quotient:
-/// 0 ≤ remainder < denominator. Both are below 2⁵¹, so that the estimate in double precision, several
-/// times quicker than a division of integers, is at most one off.
+/// The quotient ⌈numerator / denominator⌉ for a positive denominator, and the remainder
+/// quotient · denominator − numerator: 0 ≤ remainder < denominator.
+///
+/// Both arguments must be below 2⁵¹ in magnitude. The estimate in double precision is then off by at most
+/// one, and several times faster than an integer division.
 fn ceil_div_rem(numerator: i64, denominator: i64) -> (i64, i64) {
     let mut quotient = (numerator as f64 / denominator as f64) as i64;
     let mut remainder = quotient * denominator - numerator;
@@ -103,12 +104,12 @@ fn ceil_div_rem(numerator: i64, denominator: i64) -> (i64, i64) {
     (quotient, remainder)
 }
 
-/// The outline of a facet that is not edge-on to the rays: which pixel centres it covers.
+/// The outline of a facet that is not edge-on to the rays. It decides which pixel centres the facet covers.
 #[derive(Debug, Clone, Copy)]
 pub struct Outline {
-    /// Corners by row, then column, in lattice steps.
+    /// Corners sorted by row, then column, in lattice steps.
     corners: [[i64; 2]; 3],
-    /// Twice the area with the sign of the facet's winding, in lattice steps squared.
+    /// Twice the signed area, in lattice steps squared. The sign is that of the facet's winding.
     area: i64,
     /// Whether the middle corner is left of the edge between the others.
     bend_is_left: bool,
@@ -138,7 +139,7 @@ impl Outline {
         })
     }
 
-    /// Calls `emit(row, columns)` for every row of `rows` in which pixel centres are covered.
+    /// Calls `emit(row, columns)` for every row of `rows` in which the facet covers pixel centres.
     pub fn for_each_span(&self, rows: Range<u32>, mut emit: impl FnMut(u32, Range<u32>)) {
         let [top, middle, bottom] = self.corners;
         let first = first_centre(top[1]).max(i64::from(rows.start));
@@ -172,9 +173,9 @@ impl Outline {
 /// A facet that is not edge-on to the rays, with its heights.
 #[derive(Debug, Clone, Copy)]
 pub struct ProjectedFacet {
-    /// Which pixel centres it covers.
+    /// The pixel centres that it covers.
     pub outline: Outline,
-    /// Height at the first corner, and its change a lattice step to the right and downward.
+    /// Height at the first corner, and its change per lattice step to the right and downward.
     z: f64,
     z_per_column: f64,
     z_per_row: f64,
@@ -193,7 +194,7 @@ impl ProjectedFacet {
         let [cx, cy] = [(c[0] - a[0]) as f64, (c[1] - a[1]) as f64];
         let z_per_column = (dzb * cy - dzc * by) / area as f64;
         let z_per_row = (dzc * bx - dzb * cx) / area as f64;
-        // Height is carried to the first corner in row order; a is where the plane is exact.
+        // The plane is exact at a; carry its height to the first corner in row order.
         let first = outline.corners[0];
         let z_first = heights[0]
             + (first[0] - a[0]) as f64 * z_per_column
@@ -228,18 +229,18 @@ impl ProjectedFacet {
 /// The heights of a facet along a row of pixels.
 #[derive(Debug, Clone, Copy)]
 pub struct RowHeights {
-    /// Height at the column of the facet's first corner, and its change a lattice step.
+    /// Height at the column of the facet's first corner, and its change per lattice step.
     z: f64,
     z_per_step: f64,
     z_range: [f64; 2],
-    /// The first pixel's centre as seen from that corner, in lattice steps.
+    /// Centre of the first pixel relative to that corner, in lattice steps.
     origin: i64,
 }
 
 impl RowHeights {
     /// Height over the pixel centre of a column, in millimetres.
     pub fn at(&self, column: u32) -> f32 {
-        // At most 2²³ lattice steps either way.
+        // At most 2²³ lattice steps in magnitude.
         let steps = (i64::from(column) * STEPS + self.origin) as i32;
         let z = self.z + f64::from(steps) * self.z_per_step;
         // By hand: `max` and `min` are library calls in wasm, `clamp` may panic.
@@ -254,11 +255,11 @@ impl RowHeights {
     }
 }
 
-/// Walks down an edge and knows, for each row, the first column whose centre is not left of it:
-/// an exact quotient kept up to date by adding quotient and remainder of the slope.
+/// Steps down an edge row by row, and gives the first column whose centre is not left of it. The
+/// quotient stays exact, because each step adds the quotient and the remainder of the slope.
 struct Edge {
     column: i64,
-    /// `column` · denominator less the exact crossing: 0 ≤ remainder < denominator.
+    /// `column` · denominator minus the exact numerator: 0 ≤ remainder < denominator.
     remainder: i64,
     denominator: i64,
     step: i64,

@@ -1,7 +1,7 @@
 //! Where a ray is inside: the only rule that turns hits into height ranges.
 //!
-//! Inside is a non-zero winding number, so overlapping bodies are a union, a cavity is what its facets say, and a body that is
-//! inside out counts like one that is not.
+//! Inside means a non-zero winding number: overlapping bodies are a union, the orientation of facets decides what is a cavity,
+//! and an inverted body counts like any other.
 
 use super::Hit;
 use crate::model::{FacetClasses, Winding};

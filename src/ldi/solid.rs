@@ -1,20 +1,20 @@
-//! What the rays of an LDI are inside of: the solid's volume, and the heights at which any ray is in it.
+//! The solid that an LDI encloses: its volume, and the heights at which any ray is inside it.
 
 use super::{Ldi, printed_ranges};
 use crate::parallel;
 
-/// The solid as its rays see it.
+/// The solid as sampled by rays.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solid {
-    /// Volume in mm³: the length of rays inside it times the area of a pixel.
+    /// Volume in mm³: the total length of rays inside, times the area of a pixel.
     pub volume_mm3: f64,
-    /// Heights at which at least one ray is inside, from an entry (included) to an exit (excluded): ranges that do not
-    /// touch, upward.
+    /// Heights in millimetres at which at least one ray is inside. Each range runs from an entry (included) to an exit
+    /// (excluded). Ranges are in ascending order and do not touch.
     pub heights_mm: Vec<(f32, f32)>,
 }
 
 impl Solid {
-    /// Measures the solid in one walk over all hits.
+    /// Measures the solid in one pass over all hits.
     pub fn of(ldi: &Ldi) -> Self {
         let parts = parallel::map(ldi.chunks(), |offsets: &[u32]| {
             let mut length_mm = 0.0;
@@ -46,16 +46,16 @@ impl Solid {
 /// A union of height ranges.
 #[derive(Default)]
 struct Heights {
-    /// Ranges as their bits, the lower end above the upper one: heights are not negative, so that these are in order.
+    /// Each range as bits, the lower end in the upper half. Heights are not negative, so keys sort as ranges do.
     keys: Vec<u64>,
-    /// The range that took the last ones in: most rays pass the same solid as the ray before.
+    /// The range that grew last: most rays pass through the same solid as the ray before.
     last: Option<(f32, f32)>,
-    /// How many keys there may be before they are merged.
+    /// Number of keys at which they are merged.
     limit: usize,
 }
 
 impl Heights {
-    /// Few enough to be sorted at once, and many enough to be worth it.
+    /// The lowest limit: few keys to sort, and enough to make sorting worthwhile.
     const LIMIT: usize = 1 << 10;
 
     fn add(&mut self, z_in: f32, z_out: f32) {
@@ -81,7 +81,7 @@ impl Heights {
         }
     }
 
-    /// Makes one range of those that overlap or touch.
+    /// Merges ranges that overlap or touch.
     fn merge(&mut self) {
         let ends = |key: u64| ((key >> 32) as u32, key as u32);
         self.keys.sort_unstable();
@@ -95,7 +95,7 @@ impl Heights {
         });
     }
 
-    /// The ranges, upward; no two touch.
+    /// The ranges in ascending order. No two touch.
     fn into_ranges(mut self) -> Vec<(f32, f32)> {
         let last = self.last.take();
         self.keep(last);
@@ -140,7 +140,7 @@ mod tests {
 
     #[test]
     fn many_ranges_in_any_order_are_merged() {
-        // Odd numbers in an order that goes to and fro: nothing touches until the even ones come.
+        // Ranges that start at even numbers, in a scrambled order: none touch until those between them are added.
         let at = |i: u32| (i * 7919 % 10_000) as f32;
         let odd: Vec<_> = (0..10_000)
             .map(|i| (2.0 * at(i), 2.0 * at(i) + 1.0))

@@ -1,4 +1,4 @@
-//! Which facets lie wholly inside the solid, where bodies overlap: they are no part of what is printed.
+//! Finds the facets that lie wholly inside the solid where bodies overlap. They are not part of the printed surface.
 
 use super::{Hit, Ldi};
 use crate::model::Mesh;
@@ -7,18 +7,19 @@ use crate::parallel;
 /// What an LDI shows about the facets of its mesh.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Visibility {
-    /// For each facet whether it is shown to be wholly inside: rays met it, and all of them inside the solid; or it
-    /// belongs to a body of which that is true. Empty if there is no such facet.
+    /// For each facet, whether rays show that it is wholly inside: at least one ray meets it, and all that do are inside
+    /// the solid there; or the same holds for its whole body. Empty if there is no such facet.
     pub hidden: Vec<bool>,
-    /// Whether bodies overlap without hiding whole facets, or one is inside out: the areas of sections are then not the
-    /// sum of what facets enclose.
+    /// Whether bodies overlap without hiding whole facets, or a body is inverted. The areas of sections are then not
+    /// the sum of what the facets enclose.
     pub overlaps: bool,
 }
 
 const MET: u8 = 1;
 const ON_SURFACE: u8 = 2;
 
-/// Looks along all rays of `ldi`, which was sampled from `mesh`. A facet that no ray met counts as visible.
+/// Finds the hidden facets of `mesh`, from which `ldi` was sampled. A facet that no ray meets counts as visible, unless
+/// its body is hidden.
 ///
 /// Cost: linear in hits, and in facets where bodies overlap.
 pub fn visibility(mesh: &Mesh, ldi: &Ldi) -> Visibility {
@@ -52,10 +53,10 @@ pub fn visibility(mesh: &Mesh, ldi: &Ldi) -> Visibility {
     let hidden: Vec<bool> = (0..seen.len())
         .map(|facet| seen[facet] == MET || is_hidden_body(facet))
         .collect();
-    // Without a part of its walls a body encloses nothing that could be measured.
+    // A body that has lost part of its walls encloses no measurable area.
     let is_open = (0..seen.len())
         .any(|facet| hidden[facet] && !is_hidden_body(facet) && mesh.n_z_squared(facet) < 1.0);
-    // Without the hidden facets, does every ray enter and leave one body after the other?
+    // Without the hidden facets, does every ray enter and leave one body after another?
     let is_union = |offsets: &[u32]| {
         all_rays(ldi, offsets, |hits| {
             is_in_turn(hits, |hit| {
@@ -70,14 +71,15 @@ pub fn visibility(mesh: &Mesh, ldi: &Ldi) -> Visibility {
     Visibility { hidden, overlaps }
 }
 
-/// Whether `holds` is true of every ray that the offsets bound.
+/// Whether `holds` is true for every ray that the offsets bound.
 fn all_rays(ldi: &Ldi, offsets: &[u32], holds: impl Fn(&[Hit]) -> bool) -> bool {
     offsets
         .windows(2)
         .all(|ray| holds(&ldi.hits[ray[0] as usize..ray[1] as usize]))
 }
 
-/// Whether the hits of a ray that count enter and leave one body after the other, with none touching the next.
+/// Whether those hits of a ray for which `counts` holds enter and leave one body after another, and no body touches the
+/// next.
 fn is_in_turn(hits: &[Hit], counts: impl Fn(&Hit) -> bool) -> bool {
     let mut winding = 0;
     let mut last_z_mm = -1.0;
@@ -89,8 +91,8 @@ fn is_in_turn(hits: &[Hit], counts: impl Fn(&Hit) -> bool) -> bool {
     })
 }
 
-/// Notes which facets of a ray are met, and which part inside from outside. Hits at one height count together: where
-/// bodies touch, neither of the two facets is on the surface.
+/// Marks the facets that a ray meets, and those that separate inside from outside. Hits at the same height count
+/// together: where bodies touch, neither of the two facets is on the surface.
 fn look_along(hits: &[Hit], model_end: u32, seen: &mut [u8]) {
     let mut winding = 0;
     for group in hits.chunk_by(|a, b| a.z_mm == b.z_mm) {
@@ -108,13 +110,13 @@ fn look_along(hits: &[Hit], model_end: u32, seen: &mut [u8]) {
     }
 }
 
-/// For each facet the number of its body: facets that share corners, directly or through others. The number is that of
-/// one of its vertices.
+/// The body of each facet, identified by the index of one of the body's vertices. Facets belong to one body if they
+/// share corners, directly or through other facets.
 fn bodies(mesh: &Mesh) -> Vec<u32> {
     let mut parents: Vec<u32> = (0..mesh.vertices.len() as u32).collect();
     let root = |parents: &mut Vec<u32>, mut vertex: u32| {
         while parents[vertex as usize] != vertex {
-            // Halving the way for those who come after.
+            // Path halving.
             let above = parents[parents[vertex as usize] as usize];
             parents[vertex as usize] = above;
             vertex = above;

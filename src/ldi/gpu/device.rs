@@ -1,4 +1,4 @@
-//! An open GPU: its device and queue, its buffers, and the errors that no call returns.
+//! An open GPU: device, queue, buffers, and the errors that the device reports asynchronously.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -10,13 +10,13 @@ pub(super) const WORD: u64 = 4;
 /// Which adapters may be used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Adapters {
-    /// Any, emulated ones included.
+    /// Any adapter, including software emulation.
     Any,
-    /// Only real GPUs: an emulated one is slower than the CPU backend.
+    /// Hardware only: an emulated GPU is slower than the CPU backend.
     Hardware,
 }
 
-/// An open GPU, which any number of meshes may be sampled on.
+/// An open GPU. Any number of meshes may be sampled on it.
 #[derive(Debug)]
 pub struct Gpu {
     name: String,
@@ -25,7 +25,7 @@ pub struct Gpu {
     failure: Failure,
 }
 
-/// The first error of a device that no call returned.
+/// The first error that a device reported through a callback, and that no call returned.
 #[derive(Debug, Clone, Default)]
 struct Failure(Arc<Mutex<Option<String>>>);
 
@@ -54,12 +54,12 @@ pub(super) fn gpu_failed(reason: impl std::fmt::Display) -> LdiError {
 }
 
 impl Gpu {
-    /// Opens the adapter that the system prefers for speed.
+    /// Opens the system's high-performance adapter.
     ///
     /// # Errors
-    /// [`LdiError::NoGpu`] if there is none of the kind asked for.
+    /// [`LdiError::NoGpu`] if there is no such adapter.
     pub async fn open(adapters: Adapters) -> Result<Self, LdiError> {
-        // OpenGL is left out: it adds no machine worth having and doubles the time of the search.
+        // Not OpenGL: it would double the time of the search, and adds no machine that is fast enough.
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
             backends: wgpu::Backends::PRIMARY,
             ..wgpu::InstanceDescriptor::new_without_display_handle()
@@ -85,8 +85,9 @@ impl Gpu {
         Ok(Self::with_device(name, device, queue))
     }
 
-    /// Uses a device that is open already and whose errors nobody else listens to; `name` is what reports
-    /// call it.
+    /// Uses a device that is already open. Reports call it `name`.
+    ///
+    /// Its callbacks for uncaptured errors and for its loss are replaced.
     pub fn with_device(name: String, device: wgpu::Device, queue: wgpu::Queue) -> Self {
         let failure = Failure::default();
         let of_device = failure.clone();
@@ -105,12 +106,12 @@ impl Gpu {
         }
     }
 
-    /// What reports call it.
+    /// The name of the adapter, as in reports.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The device, for instance to destroy it.
+    /// The device, for example to destroy it.
     pub fn device(&self) -> &wgpu::Device {
         &self.device
     }
@@ -136,8 +137,8 @@ impl Gpu {
         })
     }
 
-    /// A buffer with contents. They are written rather than mapped: mapping a buffer that there was no memory
-    /// for would panic.
+    /// A buffer with these contents. They are written through the queue, because mapping a buffer whose allocation
+    /// failed would panic.
     pub(super) fn filled_buffer(
         &self,
         label: &str,
@@ -150,7 +151,7 @@ impl Gpu {
         buffer
     }
 
-    /// Waits for the queue and copies words out of a buffer.
+    /// Waits for the queue and reads `words` 32-bit words of a buffer, starting at word `first`.
     pub(super) async fn read(
         &self,
         source: &wgpu::Buffer,
@@ -164,10 +165,10 @@ impl Gpu {
         self.queue.submit([encoder.finish()]);
         let (sender, receiver) = futures_channel::oneshot::channel();
         readback.map_async(wgpu::MapMode::Read, .., move |result| {
-            // The receiver is gone only if the whole job is.
+            // The receiver is dropped only with the whole job.
             let _ = sender.send(result);
         });
-        // Natively this waits; in the browser the event loop calls back.
+        // Blocks natively; in the browser the event loop calls back.
         self.device
             .poll(wgpu::PollType::wait_indefinitely())
             .map_err(gpu_failed)?;

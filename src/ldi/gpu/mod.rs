@@ -1,8 +1,8 @@
-//! The LDI on the GPU: shaders/sample.wgsl finds which facets each ray meets, shaders/scan.wgsl turns counts
-//! into compressed rows, and both are read back once for each tile.
+//! The LDI on the GPU: shaders/sample.wgsl finds the facets that each ray meets, shaders/scan.wgsl turns counts
+//! into offsets of compressed rows. Offsets and facets are read back once per tile.
 //!
-//! Coverage is decided by the same integers as in the CPU backend, and heights are computed by the same
-//! function, so that the two return the same [`Ldi`] to the last bit on every adapter.
+//! The same integers decide coverage as in the CPU backend, and the same function computes heights. The two
+//! backends therefore return the same [`Ldi`], bit for bit, on every adapter.
 mod device;
 mod sampler;
 mod tiles;
@@ -43,7 +43,7 @@ pub async fn sample(
     while let Some(region) = waiting.pop() {
         match sampler.sample(region).await? {
             Some(rays) => sampled.push((region, rays)),
-            // More rays or hits than a buffer can hold: halve the tile.
+            // More rays or hits than a buffer holds: halve the tile.
             None => waiting.extend(region.halves().ok_or_else(|| LdiError::GpuFailed {
                 reason: "one ray has more hits than the GPU can store".to_owned(),
             })?),

@@ -1,4 +1,4 @@
-//! The two passes over the mesh and the prefix sum between them, for one tile at a time.
+//! Samples one tile: two passes over the mesh, with a prefix sum between them.
 
 use super::device::{Gpu, WORD, gpu_failed};
 use super::tiles::{Meetings, Region};
@@ -7,10 +7,10 @@ use crate::ldi::layout::{SCAN_BLOCK, Tile};
 use crate::ldi::projection::{Projection, STEPS};
 use crate::model::Mesh;
 
-/// What passes draw on, since they must draw on something; nothing is written to it.
+/// Format of the render target. A render pass needs one, though these passes write nothing to it.
 const CANVAS: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
 
-/// What stays the same for all tiles.
+/// The mesh and the pipelines on the GPU, shared by all tiles.
 pub(super) struct Sampler<'a> {
     gpu: &'a Gpu,
     vertices: u32,
@@ -67,7 +67,7 @@ impl<'a> Sampler<'a> {
         })
     }
 
-    /// The meetings of one tile, or `None` if they do not fit into a buffer.
+    /// The facets that the rays of one tile meet, or `None` if they do not fit into a buffer.
     pub(super) async fn sample(&self, region: Region) -> Result<Option<Meetings>, LdiError> {
         let Gpu { device, queue, .. } = self.gpu;
         let rays = region.rays() as u64;
@@ -129,7 +129,7 @@ impl<'a> Sampler<'a> {
             offsets: self.gpu.read(&offsets, 0, rays + 1).await?,
             facets: self.gpu.read(&facets, 0, hits).await?,
         };
-        // A device that was lost may map zeros.
+        // Buffers of a lost device may read as zeros.
         self.gpu.check()?;
         if u64::from(meetings.offsets[rays as usize]) != hits {
             return Err(gpu_failed("it returned offsets that do not add up"));
@@ -163,7 +163,7 @@ impl<'a> Sampler<'a> {
         pass.draw(0..self.vertices, 0..1);
     }
 
-    /// Writes the exclusive prefix sum of `counts` to `offsets`, and its total behind it.
+    /// Writes the exclusive prefix sum of `counts` to `offsets`, followed by the total.
     fn scan(
         &self,
         encoder: &mut wgpu::CommandEncoder,

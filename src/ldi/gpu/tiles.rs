@@ -1,4 +1,4 @@
-//! The tiles of a grid: cutting a grid into them, and joining what was sampled on them.
+//! Cuts a grid into tiles, and joins what was sampled on them.
 
 use super::device::gpu_failed;
 use crate::grid::Grid;
@@ -6,15 +6,15 @@ use crate::ldi::projection::Projection;
 use crate::ldi::{Ldi, LdiError, assemble};
 use crate::progress::Progress;
 
-/// How large tiles are, and so how much memory sampling takes on the GPU.
+/// The size of tiles, which bounds the GPU memory that sampling takes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Tiling {
-    /// Longest side of a tile in pixels, at most 4096: what the least that WebGPU promises can hold.
+    /// Longest side of a tile in pixels, at most 4096: the default limits of WebGPU hold such a tile.
     pub side: u32,
 }
 
 impl Default for Tiling {
-    /// Tiles of 4096 pixels a side: counts and offsets take 128 MiB.
+    /// Tiles of 4096 × 4096 pixels. Counts and offsets of one take 128 MiB.
     fn default() -> Self {
         Self { side: MAX_SIDE }
     }
@@ -22,7 +22,7 @@ impl Default for Tiling {
 
 const MAX_SIDE: u32 = 4096;
 
-/// Part of the grid, in pixels.
+/// A rectangle of the grid, in pixels.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Region {
     pub(super) column: u32,
@@ -36,7 +36,7 @@ impl Region {
         self.width as usize * self.height as usize
     }
 
-    /// Two parts of the region, or `None` if it is a single ray.
+    /// The region in two halves, or `None` if it is a single ray.
     pub(super) fn halves(self) -> Option<[Self; 2]> {
         let Self {
             column,
@@ -78,7 +78,7 @@ impl Region {
     }
 }
 
-/// The grid in parts of at most `side` pixels.
+/// Cuts the grid into regions of at most `side` × `side` pixels.
 pub(super) fn cut(grid: &Grid, side: u32) -> Vec<Region> {
     let parts = |length: u32| {
         let firsts = (0..length).step_by(side as usize);
@@ -96,13 +96,14 @@ pub(super) fn cut(grid: &Grid, side: u32) -> Vec<Region> {
         .collect()
 }
 
-/// The facets that the rays of a region meet, in compressed rows.
+/// The facets that the rays of a region meet, in compressed rows: those of ray i are
+/// `facets[offsets[i]..offsets[i + 1]]`, in any order.
 pub(super) struct Meetings {
     pub(super) offsets: Vec<u32>,
     pub(super) facets: Vec<u32>,
 }
 
-/// Joins the tiles, computes heights and puts hits in order.
+/// Joins the tiles, computes heights and sorts the hits of each ray.
 pub(super) fn join(
     projection: &Projection<'_>,
     grid: &Grid,
@@ -116,7 +117,7 @@ pub(super) fn join(
             let to = ((region.row + row) * grid.width + region.column) as usize;
             for column in 0..region.width as usize {
                 let [first, end] = [0, 1].map(|next| meetings.offsets[from + column + next]);
-                // More hits than 32 bits count would make offsets shrink.
+                // Offsets that overflow 32 bits would decrease.
                 offsets[to + column + 1] = end
                     .checked_sub(first)
                     .ok_or_else(|| gpu_failed("a tile has more hits than it can count"))?;
@@ -127,7 +128,7 @@ pub(super) fn join(
     let mut facets: Vec<u32> = assemble::zeroed(offsets[grid.pixels()] as usize)?;
     for (region, meetings) in sampled {
         for row in 0..region.height {
-            // A row of a tile is contiguous in both.
+            // The hits of a tile's row are contiguous in the tile and in the grid.
             let from = (row * region.width) as usize;
             let from = meetings.offsets[from]..meetings.offsets[from + region.width as usize];
             let to = offsets[((region.row + row) * grid.width + region.column) as usize];
