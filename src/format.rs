@@ -1,8 +1,8 @@
-//! Kinds of print files: what they are called, and what leaves with them. [`crate::archive`] writes them.
+//! Print formats: names, file extensions and media types. [`crate::archive`] writes the files.
 
 use serde::{Deserialize, Serialize};
 
-/// A file that printers or other programs take.
+/// A print format: a kind of file that printers or other programs read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
@@ -20,7 +20,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// What the name of such a file ends with, without a dot.
+    /// The file extension, without a dot.
     pub fn extension(self) -> &'static str {
         match self {
             Self::Png | Self::Chitubox => "zip",
@@ -29,7 +29,7 @@ impl Format {
         }
     }
 
-    /// The media type of such a file. A zip with an extension of its own is no `application/zip`, or browsers would
+    /// The media type. A zip with an extension of its own is not declared as `application/zip`, because browsers might
     /// unpack or rename it.
     pub fn media_type(self) -> &'static str {
         match self {

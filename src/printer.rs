@@ -1,43 +1,43 @@
-//! Printers as data.
+//! Known printers, as data.
 
 use serde::Serialize;
 
 use crate::format::Format;
 
-/// A resin printer: its screen, its volume and the file that it takes.
+/// A resin printer: its screen, its build volume and the file that it takes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct Printer {
-    /// What users call it, for `--printer`.
+    /// Its name in options, as in `--printer NAME`.
     pub name: &'static str,
-    /// What its maker calls it.
+    /// Make and model.
     pub model: &'static str,
     /// Columns and rows of the masks.
     pub pixels: [u32; 2],
-    /// Sides of a pixel in x and y.
+    /// Sides of a pixel in x and y, in micrometres.
     pub pitch_um: [f64; 2],
-    /// What it can print, in x, y and z.
+    /// Build volume in x, y and z, in millimetres.
     pub volume_mm: [f64; 3],
-    /// Whether masks are mirrored left to right, because the screen is seen from above and lights from below.
+    /// Whether masks are mirrored left to right, because the screen lights the resin from below.
     pub is_mirrored: bool,
-    /// Least and greatest layer thickness.
+    /// Minimum and maximum layer thickness in millimetres.
     pub layer_mm: [f64; 2],
-    /// What heights are multiples of.
+    /// Motor step in millimetres: every height is a multiple of it.
     pub step_mm: f64,
-    /// The print file to make for it: one that it reads, or one from which other programs make that.
+    /// The print format to write for it: one that it reads, or one that other programs convert to one that it reads.
     pub format: Format,
     /// Whether it reads `format` without a converter.
     pub reads_format: bool,
-    /// Extensions of the files that it reads, the usual one first.
+    /// Extensions of the files that it reads, the most common first.
     pub reads: &'static [&'static str],
 }
 
-/// What presets whose makers name no limits allow.
+/// Layer thicknesses of printers whose makers state no limits.
 const ANY_LAYER_MM: [f64; 2] = [0.01, 0.2];
-/// The step of common z drives.
+/// The motor step of common z drives.
 const USUAL_STEP_MM: f64 = 0.002;
 
-/// A printer whose own file other programs make from the zip of `ChiTuBox`.
+/// A printer whose own format other programs write from a `ChiTuBox` zip.
 const fn converted(
     name: &'static str,
     model: &'static str,
@@ -61,7 +61,7 @@ const fn converted(
     }
 }
 
-/// All printers that are known by name.
+/// All printers known by name.
 pub const PRINTERS: &[Printer] = &[
     converted(
         "mars-4-ultra",
@@ -145,7 +145,7 @@ pub const PRINTERS: &[Printer] = &[
     },
 ];
 
-/// The printer of a name.
+/// The printer with this name.
 pub fn named(name: &str) -> Option<&'static Printer> {
     PRINTERS.iter().find(|printer| printer.name == name)
 }

@@ -1,44 +1,47 @@
-//! How long a layer takes: its exposure by thickness (Jacobs' working curve) and what comes with every layer.
+//! How long a layer takes: an exposure that depends on its thickness (Jacobs' working curve), and a fixed time for the
+//! moves between layers.
 
 use serde::{Deserialize, Serialize};
 
 use crate::grid::{GridError, positive};
 
-/// A resin on a printer. Cure depth is layer thickness and overcure together, so that the exposure grows with
+/// A resin on a printer.
+///
+/// The cure depth is the layer thickness plus a fixed overcure, so the exposure is proportional to
 /// exp(thickness / penetration depth).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(default, deny_unknown_fields)]
 pub struct Resin {
-    /// What it is called.
+    /// Name of the resin.
     pub name: String,
-    /// The layer thickness that `exposure_s` is for.
+    /// The layer thickness, in millimetres, to which `exposure_s` applies.
     pub layer_mm: f64,
-    /// Seconds of exposure of such a layer.
+    /// Exposure of a layer of that thickness, in seconds.
     pub exposure_s: f64,
-    /// Penetration depth of the light, Dp: published profiles of resins fit 0.1 to 0.19 mm.
+    /// Penetration depth of the light, Dp, in millimetres. Published resin profiles fit 0.1 to 0.19 mm.
     pub penetration_mm: f64,
-    /// Measured pairs of thickness in mm and exposure in s, by thickness; they replace the curve. Between two of them the
-    /// exposure is interpolated, beyond them it is that of the nearest.
+    /// Measured pairs of thickness in mm and exposure in s, sorted by thickness. If there are any, they replace the
+    /// curve: exposures are interpolated linearly between them, and constant beyond them.
     pub exposures: Vec<[f64; 2]>,
-    /// Layers at the bottom that hold the model on the plate.
+    /// Number of bottom layers, which hold the model on the plate.
     pub bottom_layers: usize,
-    /// Seconds of exposure of these.
+    /// Exposure of a bottom layer, in seconds.
     pub bottom_exposure_s: f64,
-    /// Seconds that every layer rests besides the moves.
+    /// Rest per layer in seconds, in addition to the moves.
     pub wait_s: f64,
-    /// By how much the model is lifted after a layer.
+    /// Height by which the model is lifted after a layer, in millimetres.
     pub lift_mm: f64,
-    /// How fast it is lifted, in millimetres a minute.
+    /// Speed of the lift, in millimetres per minute.
     pub lift_mm_min: f64,
-    /// How fast it returns, in millimetres a minute.
+    /// Speed of the return, in millimetres per minute.
     pub return_mm_min: f64,
-    /// Mass of the cured resin.
+    /// Density of the cured resin, in grams per millilitre.
     pub density_g_ml: f64,
 }
 
 impl Default for Resin {
-    /// What is common: 3 s for 0.05 mm, four layers of 30 s at the bottom.
+    /// Common values: 3 s for a layer of 0.05 mm, and four bottom layers of 30 s.
     fn default() -> Self {
         Self {
             name: "resin".to_owned(),
@@ -58,7 +61,7 @@ impl Default for Resin {
 }
 
 impl Resin {
-    /// Returns the resin if all its numbers are usable.
+    /// Checks that every number is within its bounds.
     ///
     /// # Errors
     /// [`GridError::BadLength`], [`GridError::BadTime`].
@@ -94,7 +97,7 @@ impl Resin {
         Ok(())
     }
 
-    /// Seconds of exposure of a layer of `thickness_mm` above the bottom, to the nearest millisecond.
+    /// Exposure of a layer of `thickness_mm` above the bottom layers, in seconds, rounded to the millisecond.
     pub fn exposure_s(&self, thickness_mm: f64) -> f64 {
         let above = self
             .exposures
@@ -112,22 +115,22 @@ impl Resin {
                 low[1] + (high[1] - low[1]) * part
             }
         };
-        // More than a day is as good as a day.
+        // Capped at 100,000 s, more than a day.
         (exposure_s * 1e3).min(1e8).round() / 1e3
     }
 
-    /// Seconds between the exposures of two layers: lift, return and rest.
+    /// Time between the exposures of two layers, in seconds: lift, return and rest.
     pub fn overhead_s(&self) -> f64 {
         let moves_min = self.lift_mm / self.lift_mm_min + self.lift_mm / self.return_mm_min;
         self.wait_s + moves_min * 60.0
     }
 
-    /// Time that a layer of `thickness_mm` above the bottom takes, in whole microseconds, so that sums are exact.
+    /// Time of a layer of `thickness_mm` above the bottom layers, in whole microseconds, so that sums are exact.
     pub fn layer_us(&self, thickness_mm: f64) -> u64 {
         ((self.exposure_s(thickness_mm) + self.overhead_s()) * 1e6 + 0.5) as u64
     }
 
-    /// Seconds of exposure of every layer of a plan.
+    /// Exposure of each layer in seconds, given the thicknesses from the plate upward.
     pub fn exposures_s(&self, thickness_mm: &[f64]) -> Vec<f64> {
         thickness_mm
             .iter()
@@ -142,7 +145,7 @@ impl Resin {
             .collect()
     }
 
-    /// Time that layers of these thicknesses take together, in seconds, bottom included.
+    /// Total time of layers of these thicknesses, in seconds, bottom layers included.
     pub fn print_time_s(&self, thickness_mm: &[f64]) -> f64 {
         let exposures_s = self.exposures_s(thickness_mm);
         let overhead_us = (self.overhead_s() * 1e6 + 0.5) as u64;
@@ -153,11 +156,11 @@ impl Resin {
     }
 }
 
-/// e to the power of x, by basic arithmetic alone: libraries differ in the last digits, and plans must not.
+/// e to the power of x, by basic arithmetic alone: libraries differ in the last digits, which would make plans differ.
 fn exp(x: f64) -> f64 {
     const HALVINGS: i32 = 10;
     let small = x / f64::from(1 << HALVINGS);
-    // The series is exact to the last digits below about 1/20, which is |x| < 50.
+    // The series is accurate to the last digits for |small| below about 1/20, that is for |x| < 50.
     let mut term = 1.0;
     let mut sum = 1.0;
     for n in 1..16 {

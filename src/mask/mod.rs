@@ -1,8 +1,8 @@
-//! Layer masks: which pixels are lit (section 3.4), one mask in memory at a time.
+//! Layer masks: which pixels are lit (section 3.4).
 //!
-//! From layer to layer only those pixels change whose surface lies between the two sampling
-//! heights. All masks together are therefore a list of changes, sorted by layer, as long as the list of
-//! hits; no mask is ever computed from scratch.
+//! From one layer to the next, a pixel changes only if its ray meets the surface between the two
+//! sampling heights. All masks together are therefore a list of changes, sorted by layer and at most as
+//! long as the list of hits. No mask is computed from scratch, and only one is in memory at a time.
 
 mod samples;
 mod window;
@@ -19,7 +19,7 @@ use crate::plan::Plan;
 use samples::SublayerOf;
 use window::Place;
 
-/// Rows of rays whose changes are sorted together, by one thread.
+/// Rows of rays whose changes one thread sorts together.
 const BAND_ROWS: usize = 128;
 
 /// The masks of all layers of a plan.
@@ -29,31 +29,32 @@ pub struct Masks {
     pub grid: Grid,
     /// What the light of a pixel is averaged over.
     pub samples: Samples,
-    /// The part of the pixels that the model is in; all others are dark in every layer.
+    /// The part of the mask that the model covers. All pixels outside it are dark in every layer.
     pub window: Window,
     layers: usize,
-    /// Changes from the topmost rows down.
+    /// Changes by bands of rows, from the top row down.
     bands: Vec<Band>,
 }
 
-/// What changes between layers in some rows.
+/// The changes between layers in a band of rows.
 #[derive(Debug, Clone, PartialEq)]
 struct Band {
     /// The changes of layer k are those from `starts[k]` to `starts[k + 1]`.
     starts: Vec<u32>,
-    /// Pixels of the window that change from the layer below.
+    /// Pixels of the window that differ from the layer below, sorted by layer.
     pixels: Vec<u32>,
-    /// By how many samples each changes; empty where a pixel has one, which can but flip.
+    /// The change of each in lit samples. Empty if pixels have a single sample, which can only flip.
     by: Vec<i8>,
 }
 
 impl Masks {
-    /// The masks of `plan` on `grid`, of whose samples the rays of `ldi` are all or a part ([`Grid::refined`]): a sample
-    /// is lit where the middle of its part of the layer lies inside the solid, from an entry (included) to an exit
-    /// (excluded).
+    /// The masks of `plan` on `grid`. The rays of `ldi` are those of [`Grid::refined`], or a part of them.
     ///
-    /// Cost: linear in rays and hits; memory is 4 bytes a change, of which there are at most as many as hits, or with
-    /// several samples 5 bytes and twice as many.
+    /// A sample is lit where the middle of its part of the layer lies inside the solid, from an entry (included) to an
+    /// exit (excluded).
+    ///
+    /// Cost: linear in rays and hits. Memory: with one sample per pixel, 4 bytes per change and at most one change per
+    /// hit; with several, 5 bytes per change and at most two changes per hit.
     pub fn new(ldi: &Ldi, plan: &Plan, grid: &Grid, samples: Samples, side: Side) -> Self {
         let sublayer_of = SublayerOf::new(plan, samples.sublayers);
         let layers = plan.layers();
@@ -98,10 +99,10 @@ impl Masks {
     }
 }
 
-/// The layers of `plan` in whose masks no pixel has any light, from 0: those with no sampled height at which the solid
-/// has a section ([`Solid::heights_mm`]).
+/// Indices of the layers of `plan`, from 0, whose masks are black: no ray is inside the solid at any of the layer's
+/// sampling heights ([`Solid::heights_mm`]).
 ///
-/// Cost: linear in layers and height ranges; no mask is made.
+/// Cost: linear in layers and height ranges. No mask is computed.
 pub fn black_layers(solid: &Solid, plan: &Plan, samples: Samples) -> Vec<usize> {
     let sublayer_of = SublayerOf::new(plan, samples.sublayers);
     let parts = samples.sublayers;
@@ -119,7 +120,7 @@ pub fn black_layers(solid: &Solid, plan: &Plan, samples: Samples) -> Vec<usize> 
     black.into_iter().map(|layer| layer as usize).collect()
 }
 
-/// A pixel of the window and how many more of its samples a layer has lit than the one below.
+/// A pixel of the window, and the number of its samples that a layer lights more (or fewer) than the layer below.
 struct Change {
     layer: u32,
     pixel: u32,
@@ -127,7 +128,7 @@ struct Change {
 }
 
 impl Band {
-    /// Finds the changes, counts those of each layer, then puts them in their places.
+    /// Finds the changes and sorts them by layer with a counting sort.
     fn new(
         ldi: &Ldi,
         sublayer_of: &SublayerOf,
@@ -162,9 +163,9 @@ impl Band {
                 });
             }
         }
-        // What goes dark above the last layer is of no interest.
+        // Changes above the last layer belong to no mask.
         changes.retain(|change| (change.layer as usize) < layers);
-        // One slot ahead, so that filling moves the start of each layer to its place.
+        // Counts are stored one slot ahead: filling then advances each start to where it belongs.
         let mut starts = vec![0u32; layers + 2];
         for change in &changes {
             starts[change.layer as usize + 2] += 1;
@@ -192,16 +193,16 @@ impl Band {
     }
 }
 
-/// The light in the window of a mask, row by row.
+/// Which pixels of a mask's window are lit, row by row.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Light {
-    /// One bit a pixel, most significant first; 1 is lit.
+    /// One bit per pixel, most significant first; 1 is lit.
     Bits(Vec<u8>),
-    /// Lit samples of each pixel, a byte each.
+    /// One byte per pixel: the number of its lit samples.
     Samples(Vec<u8>),
 }
 
-/// The mask of one layer, movable to any other: changes work both ways.
+/// The mask of one layer. It moves to any other layer, since changes apply in both directions.
 #[derive(Debug, Clone)]
 pub struct MaskCursor {
     light: Light,
@@ -210,8 +211,9 @@ pub struct MaskCursor {
 }
 
 impl MaskCursor {
-    /// Moves to a layer of `masks`, the ones that this cursor was made from, at a cost of the pixels
-    /// that change on the way.
+    /// Moves to another layer. `masks` must be those that made this cursor.
+    ///
+    /// Cost: linear in the pixels that change on the way.
     pub fn seek(&mut self, masks: &Masks, layer: usize) {
         while self.layer < layer {
             self.layer += 1;
@@ -228,8 +230,8 @@ impl MaskCursor {
         &self.light
     }
 
-    /// The whole mask: one bit a pixel, most significant first, rows padded to whole bytes; 1 is lit, with several
-    /// samples at least half.
+    /// The whole mask: one bit per pixel, most significant first, rows padded to whole bytes. 1 is lit; a pixel of
+    /// several samples counts as lit if at least half of them are.
     pub fn whole(&self, masks: &Masks) -> Vec<u8> {
         let Masks { grid, window, .. } = masks;
         let row_bytes = row_bytes(grid);
@@ -256,7 +258,7 @@ impl MaskCursor {
         whole
     }
 
-    /// Number of pixels with any light.
+    /// Number of pixels with at least one lit sample.
     pub fn lit_pixels(&self) -> u64 {
         self.lit_pixels
     }
@@ -291,7 +293,7 @@ impl MaskCursor {
     }
 }
 
-/// Bytes of a row of a one-bit mask.
+/// Bytes per row of a one-bit mask.
 pub fn row_bytes(grid: &Grid) -> usize {
     grid.width.div_ceil(8) as usize
 }

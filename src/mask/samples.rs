@@ -1,4 +1,4 @@
-//! What the light of a pixel is averaged over: rays beside each other, and parts of a layer above each other.
+//! Samples of a pixel for anti-aliasing: several rays side by side, and several heights within a layer.
 
 use crate::plan::Plan;
 
@@ -8,23 +8,23 @@ pub const LEVELS: [u32; 4] = [1, 2, 4, 8];
 /// Samples of each pixel of a layer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Samples {
-    /// Rays of a pixel beside each other in x.
+    /// Rays per pixel in x.
     pub columns: u32,
-    /// Rays of a pixel beside each other in y.
+    /// Rays per pixel in y.
     pub rows: u32,
-    /// Parts of a layer, each sampled in its middle.
+    /// Equal parts of a layer's thickness, each sampled at its middle.
     pub sublayers: u32,
 }
 
 impl Samples {
-    /// A ray through the centre of each pixel, sampled in the middle of a layer.
+    /// One ray through the centre of each pixel, sampled at the middle of the layer.
     pub const ONE: Self = Self {
         columns: 1,
         rows: 1,
         sublayers: 1,
     };
 
-    /// As many rays, and as many parts of a layer, as the level says; `None` for one that is not in [`LEVELS`].
+    /// A level of n has n rays per pixel and n parts of a layer. `None` if the level is not in [`LEVELS`].
     pub fn of_level(level: u32) -> Option<Self> {
         let [columns, rows] = match level {
             1 => [1, 1],
@@ -40,18 +40,18 @@ impl Samples {
         })
     }
 
-    /// Rays of a pixel in x and y.
+    /// Rays per pixel in x and y.
     pub fn rays(self) -> [u32; 2] {
         [self.columns, self.rows]
     }
 
-    /// Samples of a pixel in all: 1 to 64.
+    /// Total number of samples per pixel: 1 to 64.
     pub fn total(self) -> u32 {
         self.columns * self.rows * self.sublayers
     }
 }
 
-/// Finds the first part of a layer whose middle is at or above a height.
+/// Finds the first sublayer whose middle is at or above a height.
 pub(super) struct SublayerOf {
     middles_mm: Vec<f64>,
     /// For every bin, a lower bound of the answer for heights in it.
@@ -66,7 +66,7 @@ impl SublayerOf {
         let mut sublayer = 0;
         let first = (0..=top)
             .map(|bin| {
-                // One bin lower than need be, to be safe from rounding in the division below.
+                // One bin of margin for rounding in the division in `first_above`.
                 let floor_mm = (f64::from(bin) - 1.0) * plan.bins.size_mm;
                 while middles_mm
                     .get(sublayer as usize)

@@ -1,48 +1,48 @@
-//! The part of a mask that the model is in.
+//! The part of a mask that the model covers.
 
 use super::Samples;
 use crate::grid::Grid;
 
-/// A part of a mask, in whole bytes of its one-bit rows.
+/// A rectangular part of a mask, in whole bytes of its one-bit rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Window {
-    /// Bytes of a row left of the part.
+    /// Bytes of each row to the left of the window.
     pub first_byte: usize,
-    /// Rows above the part.
+    /// Rows above the window.
     pub first_row: usize,
-    /// Bytes of a row of the part.
+    /// Bytes of each row in the window.
     pub row_bytes: usize,
-    /// Rows of the part.
+    /// Rows in the window.
     pub rows: usize,
 }
 
 impl Window {
-    /// Pixels of a row of the part. The last ones may lie beyond the mask.
+    /// Pixels per row of the window. The last ones may lie beyond the mask.
     pub fn row_pixels(&self) -> usize {
         self.row_bytes * 8
     }
 }
 
-/// Which way masks are seen.
+/// The side from which masks are seen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
     /// From above: x grows to the right.
     Above,
-    /// Left and right exchanged, as screens that light the resin from below want it.
+    /// From below, mirrored left to right, for screens that light the resin from below.
     Below,
 }
 
-/// The pixels of the window that rays belong to.
+/// Maps rays to pixels of the window.
 pub(super) struct Place {
     pub window: Window,
-    /// For every column of rays, the pixel in its row of the window.
+    /// For each column of rays, its pixel within a row of the window.
     pub columns: Vec<u32>,
-    /// For every row of rays, the first pixel of its row of the window.
+    /// For each row of rays, the first pixel of its row of the window.
     pub rows: Vec<u32>,
 }
 
 impl Place {
-    /// `rays` are all or a part of the rays of `grid`, of which each pixel has several.
+    /// `rays` is the grid of the rays, which covers all or a part of `grid`; each pixel has one or more of them.
     pub fn new(rays: &Grid, grid: &Grid, samples: Samples, side: Side) -> Self {
         let [first_column, first_row] = grid.refined(samples.rays()).offset_of(rays);
         let column = |ray: u32| {

@@ -1,30 +1,30 @@
-//! A surface as metrics see it along z: which bins its facets meet and how steep they are.
+//! The facets of a surface by bins: which bins each one meets, and how steep it is.
 
 use crate::grid::Bins;
 use crate::model::Mesh;
 
-/// A facet is horizontal if `n_z²` of its normal is at least this: within 0.06°.
+/// A facet is horizontal if `n_z²` of its unit normal is at least this, that is, within 0.06°.
 const HORIZONTAL: f32 = 1.0 - 1e-6;
 
-/// The facets of a surface along z, in their order. What only closes a surface has no part in it.
+/// The facets of a surface along z, in the mesh's order. Caps and slivers, which only close the surface, are left out.
 #[derive(Debug, Clone)]
 pub struct FacetBins {
-    /// The height ranges that `spans` speaks of.
+    /// The bins that `spans` indexes.
     pub bins: Bins,
     /// The first and the last bin that each facet meets.
     pub spans: Vec<[u32; 2]>,
-    /// `n_z²` of the unit normal of each facet: 1 where it is horizontal.
+    /// `n_z²` of the unit normal of each facet: 1 if the facet is horizontal, 0 if it is vertical.
     pub n_z_squared: Vec<f32>,
-    /// Those that are horizontal.
+    /// The horizontal facets.
     pub flats: Vec<Flat>,
 }
 
 /// A horizontal facet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Flat {
-    /// Its number.
+    /// Index of the facet.
     pub facet: u32,
-    /// The boundary of bins that is nearest to it.
+    /// The nearest boundary of bins.
     pub boundary: u32,
     /// Its area in mm².
     pub area_mm2: f64,
@@ -47,7 +47,8 @@ impl FacetBins {
         )
     }
 
-    /// The facet bins of facets over vertices of these heights, with the `n_z²` of each, and for horizontal ones the area in mm².
+    /// The facet bins of any facets, given the heights of vertices, a function for the `n_z²` of a facet, and one for the
+    /// area in mm² of a horizontal facet.
     pub(crate) fn new(
         bins: Bins,
         facets: &[[u32; 3]],
@@ -83,14 +84,14 @@ impl FacetBins {
         }
     }
 
-    /// The horizontal facets but those that `hidden` names; it may be empty.
+    /// The horizontal facets that are not hidden. An empty `hidden` hides none.
     pub fn flats_but(&self, hidden: &[bool]) -> Vec<Flat> {
         let is_seen = |flat: &&Flat| hidden.get(flat.facet as usize) != Some(&true);
         self.flats.iter().filter(is_seen).copied().collect()
     }
 }
 
-/// Places of the squares of horizontal facets. Most models have few: blocks without any are passed over at once.
+/// Indices of horizontal facets. Most models have few, so whole blocks without any are skipped.
 fn horizontal(n_z_squared: &[f32]) -> impl Iterator<Item = usize> {
     const BLOCK: usize = 64;
     let is_horizontal = |square: &&f32| **square >= HORIZONTAL;

@@ -1,4 +1,4 @@
-//! Metric profiles: error density along z, one value a bin (section 3.1), from two sources and for four metrics.
+//! Metric profiles: the error density along z, one value per bin (section 3.1), for four metrics and from two sources.
 
 pub mod area;
 pub mod cusp;
@@ -44,7 +44,7 @@ impl Metric {
         }
     }
 
-    /// Whether it is made of the areas of sections.
+    /// Whether it is computed from the areas of sections.
     pub fn needs_areas(self) -> bool {
         matches!(self, Self::Area | Self::Volume)
     }
@@ -58,7 +58,7 @@ impl Metric {
         }
     }
 
-    /// An error or tolerance for people: to four digits with its unit, a fraction as a percentage.
+    /// Formats an error or tolerance with its unit, to at most four decimals; a fraction is shown as a percentage.
     pub fn format(self, error: f64) -> String {
         let (number, unit) = match self {
             Self::Area => (error * 100.0, "%"),
@@ -72,7 +72,7 @@ impl Metric {
         format!("{number:.decimals$} {unit}")
     }
 
-    /// The error that a layer may have where nobody says.
+    /// The default tolerance, in the metric's unit.
     pub fn default_tolerance(self) -> f64 {
         match self {
             Self::Cusp => cusp::DEFAULT_TOLERANCE_MM,
@@ -96,20 +96,20 @@ pub enum Source {
     Sampled,
 }
 
-/// The shape of a model along z, which all metrics are made from.
+/// The shape of a model along z, from which all metrics are computed.
 #[derive(Debug, Clone)]
 pub struct Shape {
-    /// The height ranges that the values speak of.
+    /// The bins that the values belong to.
     pub bins: Bins,
     /// The largest `n_z²` of each bin: see [`steepest`].
     pub steepest: Vec<f32>,
-    /// The area of the section at the middle of each bin in mm²: see [`section`]. Empty where neither the area nor the
-    /// volume deviation is asked for.
+    /// The area of the section at the middle of each bin, in mm²: see [`section`]. Empty unless the metric is the area
+    /// or volume deviation.
     pub areas_mm2: Vec<f64>,
 }
 
 impl Shape {
-    /// The profile of a metric, for which areas must be there if it is made of them.
+    /// The profile of a metric. A metric of areas needs [`Self::areas_mm2`].
     pub fn profile(&self, metric: Metric) -> Profile {
         let density = match metric {
             Metric::Cusp => cusp::density(&self.steepest),
@@ -134,21 +134,21 @@ impl Shape {
 
 /// The density of deviation errors along the height of a model, φ̃ (section 3.1).
 ///
-/// The error of a layer is the sum of the densities of its bins times the bin size (eq. 1), but for the volume deviation,
-/// whose profile is the area of sections (eq. 17).
+/// The error of a layer is the sum of the densities of its bins times the bin size (eq. 1). The volume deviation is the
+/// exception: its profile is the area of sections (eq. 17).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
-    /// The height ranges that `density` speaks of.
+    /// The bins that `density` belongs to.
     pub bins: Bins,
-    /// φ̃, one value a bin from the plate upward: error a millimetre of thickness, or mm² for the volume deviation.
+    /// φ̃, one value per bin from the plate upward: error per millimetre of thickness, or mm² for the volume deviation.
     pub density: Vec<f32>,
 }
 
-/// Steps of an error sum a bin of density 1: about the precision of a density.
+/// Steps of an error sum per bin of density 1, about the precision of a density.
 const STEPS_PER_BIN: f64 = 1e7;
 
 impl Profile {
-    /// The running error sum, from which the error of any layer follows in constant time.
+    /// The running sum of errors, which gives the error of any layer in constant time.
     pub fn error_sum(&self) -> ErrorSum {
         let mut total = 0;
         let mut sums = Vec::with_capacity(self.density.len() + 1);
@@ -164,7 +164,7 @@ impl Profile {
     }
 }
 
-/// Errors below each bin boundary, counted in whole ten-millionths of a bin: sums are exact.
+/// The error below each bin boundary, in whole ten-millionths of a bin of density 1, so that sums are exact.
 #[derive(Debug, Clone)]
 pub struct ErrorSum {
     bins: Bins,
@@ -172,19 +172,19 @@ pub struct ErrorSum {
 }
 
 impl ErrorSum {
-    /// Error of the layer between two boundaries in steps, `ε_k` of eq. 1.
+    /// The error of the layer between two boundaries in steps, `ε_k` of eq. 1.
     pub fn steps_between(&self, lower: u32, upper: u32) -> u64 {
         self.steps_below(upper) - self.steps_below(lower)
     }
 
-    /// Error of all that is below a boundary. There is none above the last bin.
+    /// The error of everything below a boundary, in steps. Above the last bin nothing is added.
     pub fn steps_below(&self, boundary: u32) -> u64 {
         self.sums[(boundary as usize).min(self.bins.count)]
     }
 }
 
-/// The errors of layers as planners see them: in whole steps, so that every planner on every machine agrees whether a
-/// layer is within tolerance.
+/// The errors of layers as planners see them. They are whole steps, so every planner on every machine agrees on whether
+/// a layer is within tolerance.
 #[derive(Debug, Clone)]
 pub enum LayerErrors {
     /// A sum over the bins of the layer.
@@ -194,7 +194,7 @@ pub enum LayerErrors {
 }
 
 impl LayerErrors {
-    /// The bins that layers are made of.
+    /// The bins that layers consist of.
     pub fn bins(&self) -> Bins {
         match self {
             Self::Sum(errors) => errors.bins,
@@ -202,12 +202,12 @@ impl LayerErrors {
         }
     }
 
-    /// Error of the layer between two boundaries in steps. There is none above the last bin.
+    /// The error of the layer between two boundaries, in steps. Above the last bin nothing is added.
     pub fn steps_between(&self, lower: u32, upper: u32) -> u64 {
         self.steps_added(lower, lower, upper)
     }
 
-    /// What the bins from `from` to `to` add to the error of a layer from `lower` on.
+    /// The steps that the bins from `from` to `to` add to the error of a layer that begins at `lower`.
     pub fn steps_added(&self, lower: u32, from: u32, to: u32) -> u64 {
         match self {
             Self::Sum(errors) => errors.steps_between(from, to),

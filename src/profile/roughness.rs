@@ -1,26 +1,26 @@
-//! The surface roughness Ra (eq. 7 to 10): the density is the largest 1 / sin θ of the surface in each bin, where θ is
-//! the angle between its normal and z, and the error of a layer is in millimetres.
+//! The surface roughness Ra (eq. 7 to 10). The density is the largest 1 / sin θ of the surface in each bin, where θ is
+//! the angle between its normal and z. The error of a layer is in millimetres.
 //!
-//! An upright wall has density 1: its layers are as rough as they are thick.
+//! A vertical wall has density 1: the error of a layer is its thickness.
 
 use super::steepest::densities;
 
-/// The error that a layer may have where nobody says, in millimetres: as rough as walls in layers of 0.1 mm.
+/// The default tolerance in millimetres: the roughness of a vertical wall in layers of 0.1 mm.
 pub const DEFAULT_TOLERANCE_MM: f64 = 0.1;
 
-/// The greatest density. The formula has no bound: a level surface has sin θ = 0. Surfaces less than 30° from level
-/// count as if they were at 30°, so that layers of 0.05 mm keep the default tolerance everywhere.
+/// The maximum density. The formula is unbounded: sin θ is 0 for a horizontal surface. Surfaces less than 30° from
+/// horizontal count as if they were at 30°, so layers of 0.05 mm stay within the default tolerance everywhere.
 pub const CAP: f32 = 2.0;
 
-/// The densities of bins from the largest `n_z²` of each; 0 where there is no surface.
+/// The density of each bin from its largest `n_z²`; 0 where there is no surface.
 pub fn density(steepest: &[f32]) -> Vec<f32> {
     densities(steepest, density_of)
 }
 
-/// The density of a surface by its `n_z²`.
+/// The density of a surface with this `n_z²`.
 pub(crate) fn density_of(square: f32) -> f32 {
     let sine_square = 1.0 - square;
-    // Worked out before it is known to be wanted, so that many go at once.
+    // Computed unconditionally, so that the compiler can vectorise.
     let density = 1.0 / sine_square.sqrt();
     if sine_square * (CAP * CAP) <= 1.0 {
         CAP

@@ -1,5 +1,5 @@
-//! Areas of horizontal sections at the middle of each bin, sampled (eq. 13) or in closed form: what the area and the
-//! volume deviation are made of.
+//! Areas of horizontal sections at the middle of each bin, sampled (eq. 13) or in closed form. The area and volume
+//! deviations are computed from them.
 
 use glam::DVec2;
 
@@ -8,17 +8,18 @@ use crate::ldi::{Ldi, model_ranges};
 use crate::model::Mesh;
 use crate::parallel;
 
-/// Rays that are worth a thread of their own.
+/// Minimum number of rays per thread.
 const CHUNK_RAYS: usize = 1 << 18;
 
-/// The area of the section at the middle of each bin in mm²: lit pixels times the area of one (eq. 13).
+/// The area of the section at the middle of each bin in mm²: the number of rays inside, times the area of a pixel
+/// (eq. 13).
 ///
 /// Cost: linear in rays, hits and bins.
 pub fn sampled(ldi: &Ldi, bins: Bins) -> Vec<f64> {
     let step = CHUNK_RAYS.max(ldi.rays() / 16);
     let firsts = (0..ldi.rays()).step_by(step).collect();
     let parts = parallel::map(firsts, |first: usize| {
-        // How many rays enter less how many leave before the middle of each bin.
+        // Rays that enter minus rays that leave, between the middle of the bin below and that of this bin.
         let mut gains = vec![0i64; bins.count + 1];
         for ray in first..(first + step).min(ldi.rays()) {
             model_ranges(ldi.ray(ray), ldi.classes, |z_in, z_out| {
@@ -38,9 +39,11 @@ pub fn sampled(ldi: &Ldi, bins: Bins) -> Vec<f64> {
         .collect()
 }
 
-/// The area of the section at the middle of each bin in mm², from the facets: each adds a quadratic of height
-/// between its corners (Green's theorem). Facets that `hidden` names have no part; it may be empty. Where bodies
-/// overlap without hiding whole facets, areas count as often as there are bodies.
+/// The area of the section at the middle of each bin in mm², from the facets: each adds a quadratic function of height
+/// between its corners (Green's theorem).
+///
+/// Hidden facets are left out; an empty `hidden` hides none. Where bodies overlap without hiding whole facets, the
+/// overlap counts once per body.
 ///
 /// Cost: linear in facets times the logarithm of bins, and in bins.
 pub fn exact(mesh: &Mesh, hidden: &[bool], bins: Bins) -> Vec<f64> {
@@ -50,7 +53,7 @@ pub fn exact(mesh: &Mesh, hidden: &[bool], bins: Bins) -> Vec<f64> {
             continue;
         }
         let [a, b, c] = mesh.corners(facet);
-        // Which way along the section the facet has the solid on its left.
+        // The direction along the section in which the solid lies to the left of the facet.
         let normal = (b - a).cross(c - a);
         let mut corners = [a, b, c];
         corners.sort_unstable_by(|p, q| p.z.total_cmp(&q.z));
@@ -84,7 +87,7 @@ pub fn exact(mesh: &Mesh, hidden: &[bool], bins: Bins) -> Vec<f64> {
     }
     let mut areas = sums.into_values();
     for area in &mut areas {
-        // What rounding leaves of nothing.
+        // Rounding may leave an empty section slightly negative.
         if *area < 0.0 {
             *area = 0.0;
         }
@@ -92,7 +95,7 @@ pub fn exact(mesh: &Mesh, hidden: &[bool], bins: Bins) -> Vec<f64> {
     areas
 }
 
-/// Where an edge is at a height.
+/// An edge of a facet: its x and y as a function of height.
 struct Edge {
     from: glam::DVec3,
     slope: DVec2,
@@ -111,14 +114,14 @@ impl Edge {
     }
 }
 
-/// Sums of quadratics that were given to ranges of places.
+/// Sums of quadratics over ranges of indices.
 ///
-/// A range is cut into blocks of 2^k places, at most two of a size. Each block keeps its sum as a quadratic of the
-/// distance from its first place, and hands it down to its halves in the end. So nothing is ever taken away again, and
-/// sums are as exact as their terms.
+/// A range is cut into blocks of 2^k indices, at most two of each size. Each block keeps its sum as a quadratic of the
+/// distance from its first index; in the end every block pushes its sum down to its halves. Nothing is ever subtracted,
+/// so sums are as exact as their terms.
 struct QuadraticSums {
     count: usize,
-    /// Blocks as a binary tree: block 1 is all, blocks 2i and 2i + 1 are the halves of i.
+    /// Blocks as a binary tree: block 1 is the whole, blocks 2i and 2i + 1 are the halves of block i.
     blocks: Vec<[f64; 3]>,
 }
 
@@ -130,8 +133,8 @@ impl QuadraticSums {
         }
     }
 
-    /// Adds to the places of a range what `quadratic` gives for the first place of each block: value, slope and
-    /// curve a place.
+    /// Adds a quadratic to a range. `quadratic` gives its three coefficients relative to the first index of a block:
+    /// value, linear and quadratic term per index.
     fn add(&mut self, range: std::ops::Range<usize>, quadratic: impl Fn(usize) -> [f64; 3]) {
         let leaves = self.blocks.len() / 2;
         let (mut low, mut high) = (range.start + leaves, range.end + leaves);

@@ -1,4 +1,4 @@
-//! The shape of a model along z from both sources, facets and rays, under the weights of facets.
+//! The shape of a model along z from both sources, facets and rays, with optional weights of facets.
 
 use super::facet_bins::{FacetBins, Flat};
 use super::weighted::Weighted;
@@ -15,9 +15,9 @@ pub(crate) struct Shapes {
     pub sampled: Shape,
     /// Horizontal facets that are not hidden.
     pub flats: Vec<Flat>,
-    /// Facets wholly inside the solid.
+    /// For each facet, whether it lies wholly inside the solid; may be empty.
     hidden: Vec<bool>,
-    /// Whether bodies overlap in a way that only rays can sort out.
+    /// Whether bodies overlap in a way that only rays can resolve.
     pub overlaps: bool,
     weighing: Option<Weighing>,
 }
@@ -51,8 +51,8 @@ impl Shapes {
         }
     }
 
-    /// The shape of facets alone, where there are no rays: it stands for both sources, and no facet is known to be hidden.
-    /// `areas_mm2` may be empty if the metric is not made of them.
+    /// The shape from facets alone, without rays. It serves as both sources, and no facet counts as hidden. `areas_mm2`
+    /// may be empty if the metric does not need areas.
     pub fn of_facets(facet_bins: &FacetBins, areas_mm2: Vec<f64>) -> Self {
         let exact = Shape {
             bins: facet_bins.bins,
@@ -116,7 +116,7 @@ impl Shapes {
         Self { weighing, ..self }
     }
 
-    /// The profile of a metric, weighted if facets were weighed for it.
+    /// The profile of a metric, weighted if weights are set for it.
     pub fn profile(&self, metric: Metric, source: Source) -> Profile {
         let shape = self.of(source);
         match self.weighted(metric, source) {
@@ -125,7 +125,7 @@ impl Shapes {
         }
     }
 
-    /// The errors of layers, weighted if facets were weighed for the metric.
+    /// The errors of layers, weighted if weights are set for the metric.
     pub fn errors(&self, metric: Metric, source: Source) -> LayerErrors {
         let shape = self.of(source);
         match self.weighted(metric, source) {

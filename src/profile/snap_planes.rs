@@ -1,14 +1,14 @@
-//! Heights at which a plane is worth having: flats, so that they print at their true height, and sharp changes of the
-//! profile (section 3.3).
+//! Heights that deserve a plane (section 3.3): flats, so that they print at their true height, and sharp changes of the
+//! profile.
 
 use super::facet_bins::Flat;
 use crate::grid::Bins;
 
-/// Difference of the cusp height densities of neighbouring bins from which on a change is sharp.
+/// A change is sharp if the cusp height densities of neighbouring bins differ by more than this.
 pub const SHARP: f32 = 0.5;
 
-/// Boundaries of bins where a plane is wished for, the most important first: horizontal facets that together have at
-/// least `flat_area_mm2` at one height, by area; then changes of `cusp_density` by more than [`SHARP`], by size.
+/// Boundaries of bins that deserve a plane, the most important first: heights at which horizontal facets have a total
+/// area of at least `flat_area_mm2`, by area; then changes of `cusp_density` by more than [`SHARP`], by size.
 pub fn snap_planes(
     flats: &[Flat],
     cusp_density: &[f32],
@@ -30,7 +30,7 @@ pub fn snap_planes(
         .collect()
 }
 
-/// The boundaries nearest to horizontal facets, upward, and the area of these in mm².
+/// The boundaries nearest to horizontal facets, in ascending order, and the total area of those facets in mm².
 fn levels(flats: &[Flat], bins: Bins) -> Vec<(u32, f64)> {
     let mut flats = flats.to_vec();
     flats.sort_by_key(|flat| flat.boundary);

@@ -1,20 +1,22 @@
-//! The steepest surface of each bin, from which the cusp height and the roughness follow: the largest
-//! `n_z²`, sampled by rays or exact over all facets.
+//! The largest `n_z²` of the surface in each bin, sampled by rays or exact over all facets. The cusp height and the
+//! roughness are computed from it.
 //!
-//! Squares, because a division a facet is cheaper than a square root as well, and no less exact.
+//! Squares avoid a square root per facet and are no less exact.
 
 use super::facet_bins::FacetBins;
 use crate::ldi::{Hit, Ldi};
 use crate::parallel;
 
-/// What a bin without any surface has.
+/// The value of a bin without any surface.
 pub const NO_SURFACE: f32 = -1.0;
 
-/// Hits that are worth a thread of their own.
+/// Minimum number of hits per thread.
 const CHUNK_HITS: usize = 1 << 18;
 
-/// For each bin the largest `n_z²` over the hits in it (eq. 5), [`NO_SURFACE`] where there are none. `facet_bins` is that of
-/// the mesh that `ldi` was sampled from. Facets that `hidden` names have no part; it may be empty.
+/// For each bin the largest `n_z²` over the hits in it (eq. 5), [`NO_SURFACE`] if there are none.
+///
+/// `facet_bins` must be those of the mesh that `ldi` was sampled from. Hidden facets are left out; an empty `hidden`
+/// hides none.
 ///
 /// Cost: linear in hits.
 pub fn sampled(facet_bins: &FacetBins, ldi: &Ldi, hidden: &[bool]) -> Vec<f32> {
@@ -23,7 +25,7 @@ pub fn sampled(facet_bins: &FacetBins, ldi: &Ldi, hidden: &[bool]) -> Vec<f32> {
     })
 }
 
-/// The same of any value of facets that is not negative.
+/// [`sampled`] for any value of facets that is not negative.
 pub(super) fn sampled_maxima(
     facet_bins: &FacetBins,
     ldi: &Ldi,
@@ -47,7 +49,7 @@ pub(super) fn sampled_maxima(
     let parts = parallel::map(chunks, |hits: &[Hit]| {
         let mut maxima = vec![NO_SURFACE; bins.count];
         for hit in hits {
-            // Facets beyond these only close the surface.
+            // The facets after these only close the surface.
             if let Some(&value) = values.get(hit.facet() as usize) {
                 raise(&mut maxima[bins.of(f64::from(hit.z_mm))], value);
             }
@@ -63,15 +65,15 @@ pub(super) fn sampled_maxima(
     maxima
 }
 
-/// For each bin the largest `n_z²` over all facets whose height range meets it, [`NO_SURFACE`] where there are none.
-/// Facets that `hidden` names have no part; it may be empty.
+/// For each bin the largest `n_z²` over all facets whose height range meets it, [`NO_SURFACE`] if there are none.
+/// Hidden facets are left out; an empty `hidden` hides none.
 ///
 /// Cost: linear in facets and bins, times the logarithm of the bins that the longest facet spans.
 pub fn exact(facet_bins: &FacetBins, hidden: &[bool]) -> Vec<f32> {
     exact_maxima(facet_bins, hidden, |facet| facet_bins.n_z_squared[facet])
 }
 
-/// The same of any value of facets that is not negative.
+/// [`exact`] for any value of facets that is not negative.
 pub(super) fn exact_maxima(
     facet_bins: &FacetBins,
     hidden: &[bool],
@@ -88,7 +90,7 @@ pub(super) fn exact_maxima(
     maxima.into_values()
 }
 
-/// What metrics make of maxima: nothing where there is no surface.
+/// The density of each bin from its maximum: 0 where there is no surface, otherwise `of` the maximum.
 pub(super) fn densities(maxima: &[f32], of: impl Fn(f32) -> f32) -> Vec<f32> {
     let values = maxima.iter();
     values
@@ -96,20 +98,22 @@ pub(super) fn densities(maxima: &[f32], of: impl Fn(f32) -> f32) -> Vec<f32> {
         .collect()
 }
 
-/// By hand: `max` is a library call in wasm. Always written, since whether a value grows is hard to foretell.
+/// Raises `value` to `other` if that is larger. By hand, because `max` is a library call in wasm. It always stores, because
+/// a branch would be hard to predict.
 fn raise(value: &mut f32, other: f32) {
     *value = if *value < other { other } else { *value };
 }
 
-/// The maximum of values that were given to ranges of places: two writes a range, then one pass down.
+/// For each index, the maximum of the values given to ranges that contain it: two writes per range, then one pass down.
 struct RangeMaxima {
     count: usize,
-    /// One level of `count` places after another. Level k at i is the maximum of ranges that cover the 2^k places from i on.
+    /// One level of `count` values after another. Value i of level k is the maximum over ranges that contain the 2^k
+    /// indices from i on.
     levels: Vec<f32>,
 }
 
 impl RangeMaxima {
-    /// For ranges of at most `longest` of `count` places.
+    /// For ranges of at most `longest` among `count` indices.
     fn new(count: usize, longest: u32) -> Self {
         let levels = longest.ilog2() as usize + 1;
         Self {
@@ -141,7 +145,7 @@ impl RangeMaxima {
             }
         }
         self.levels.truncate(count);
-        // What is kept must not hold on to all levels.
+        // Release the memory of the other levels.
         self.levels.shrink_to_fit();
         self.levels
     }

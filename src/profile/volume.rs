@@ -1,19 +1,18 @@
-//! The volume deviation (eq. 15 to 20): what lies between the model and a layer that has the model's section at its
-//! lowest bin throughout, in mm³.
+//! The volume deviation (eq. 15 to 20): the volume, in mm³, between the model and a layer that has the section of its
+//! lowest bin throughout.
 //!
-//! The error of a layer depends on where the layer begins, so that there is no density to add up: planners measure
-//! each layer. It is bounded by the layer's volume and the model's, and needs no cap.
+//! The error of a layer depends on where the layer begins, so there is no density to add up, and planners measure each
+//! layer. The volumes of the layer and the model bound the error, so it needs no cap.
 
 use crate::grid::Bins;
 
-/// The error that a layer may have where nobody says, in mm³, unless the model needs more: see
-/// [`crate::job::Options::tolerance`].
+/// The default tolerance in mm³, unless the model needs more: see [`crate::job::Options::tolerance`].
 pub const DEFAULT_TOLERANCE_MM3: f64 = 1.0;
 
-/// Steps a mm² of the areas: sums are of whole numbers, so that all machines agree.
+/// Steps of areas per mm². Sums are of whole numbers, so all machines agree.
 const STEPS_PER_MM2: f64 = 1e6;
 
-/// The areas of sections, φ of eq. 17, from which the error of any layer follows.
+/// The areas of sections, φ of eq. 17, which determine the error of any layer.
 #[derive(Debug, Clone)]
 pub struct VolumeError {
     pub(super) bins: Bins,
@@ -37,7 +36,7 @@ impl VolumeError {
         }
     }
 
-    /// The same with deviations multiplied by the weight of the bin that they are in, 0 to 1.
+    /// As [`Self::new`], with the deviation in each bin multiplied by the bin's weight, 0 to 1.
     pub fn weighted(areas_mm2: &[f64], weights: Vec<f32>, bins: Bins) -> Self {
         let parts = |weight| (f64::from(weight) * WEIGHT_ONE + 0.5) as u64;
         Self {
@@ -46,12 +45,12 @@ impl VolumeError {
         }
     }
 
-    /// Area of a bin in steps; nothing lies above the last one.
+    /// Area of a bin in steps; 0 above the last bin.
     fn area(&self, bin: u32) -> i64 {
         self.areas.get(bin as usize).copied().unwrap_or(0)
     }
 
-    /// What the bin from `bin` to `bin + 1` adds to the error of a layer from `lower` on (eq. 20).
+    /// The steps that the bin from `bin` to `bin + 1` adds to the error of a layer that begins at `lower` (eq. 20).
     pub(super) fn steps_of(&self, lower: u32, bin: u32) -> u64 {
         let steps = self.area(bin).abs_diff(self.area(lower));
         match self.weights.get(bin as usize) {
@@ -60,7 +59,7 @@ impl VolumeError {
         }
     }
 
-    /// Steps a mm³.
+    /// Steps of errors per mm³.
     pub(super) fn steps_per_mm3(&self) -> f64 {
         STEPS_PER_MM2 / self.bins.size_mm
     }

@@ -1,5 +1,5 @@
-//! Profiles of models whose facets matter differently (section 4.2): the densities of a facet are multiplied by its weight, 0
-//! to 1, so that the tolerance holds where the weight is 1 and is loosened elsewhere.
+//! Profiles weighted by facet (section 4.2). The density of a facet is multiplied by its weight, 0 to 1: the tolerance
+//! holds where the weight is 1, and a facet of weight w may exceed it by a factor of 1/w.
 
 use super::facet_bins::FacetBins;
 use super::steepest::{self, NO_SURFACE};
@@ -7,15 +7,15 @@ use super::volume::VolumeError;
 use super::{LayerErrors, Metric, Profile, Shape, area, cusp, roughness};
 use crate::ldi::Ldi;
 
-/// The largest weighted density of each bin (eq. 21, 22), or for metrics of areas, which belong to no facet, the largest
-/// weight (eq. 23, 24); negative where there is no surface.
+/// For each bin the largest weighted density (eq. 21, 22), negative where there is no surface. The area and volume
+/// deviations belong to no facet; for these it is the largest weight (eq. 23, 24).
 #[derive(Debug, Clone)]
 pub struct Weighted {
     metric: Metric,
     values: Vec<f32>,
 }
 
-/// What a facet counts for under a metric.
+/// The value of a facet under a metric: its weighted density, or its weight.
 fn value_of(facet_bins: &FacetBins, metric: Metric, weights: &[f32]) -> impl Fn(usize) -> f32 {
     move |facet| {
         let (weight, square) = (weights[facet], facet_bins.n_z_squared[facet]);
@@ -28,8 +28,8 @@ fn value_of(facet_bins: &FacetBins, metric: Metric, weights: &[f32]) -> impl Fn(
 }
 
 impl Weighted {
-    /// Over the hits of an LDI in each bin; without one over all facets whose height range meets it. `weights` has one for
-    /// each facet of the surface.
+    /// Takes maxima over the hits in each bin, or without an LDI over all facets whose height range meets the bin.
+    /// `weights` has one value per facet of the surface.
     pub fn new(
         facet_bins: &FacetBins,
         ldi: Option<&Ldi>,
@@ -45,9 +45,10 @@ impl Weighted {
         Self { metric, values }
     }
 
-    /// The weighted profile of the metric. Of the volume deviation it is the areas: weights come in where a layer deviates
-    /// from its base. Multiplying the areas themselves, as eq. 24 has it, would find errors on an upright prism wherever its
-    /// weight changes.
+    /// The weighted profile of the metric.
+    ///
+    /// For the volume deviation it is the unweighted areas; the weights apply to a layer's deviation from its base.
+    /// Multiplying the areas themselves, as eq. 24 does, would find errors on an upright prism wherever its weight changes.
     pub fn profile(&self, shape: &Shape) -> Profile {
         let density = match self.metric {
             Metric::Cusp | Metric::Roughness => steepest::densities(&self.values, |value| value),
@@ -78,7 +79,7 @@ impl Weighted {
         }
     }
 
-    /// The largest weight of each bin; where no surface says, 1.
+    /// The largest weight of each bin; 1 where there is no surface.
     fn weights(&self) -> impl Iterator<Item = f32> {
         let values = self.values.iter();
         values.map(|&value| if value == NO_SURFACE { 1.0 } else { value })
