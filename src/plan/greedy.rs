@@ -1,23 +1,23 @@
-//! Planners that look no further than the next layer, for comparison: they may exceed the tolerance, and need more
-//! layers than the optimal one.
+//! Greedy planners, for comparison. They look no further than the next layer, so they may exceed the tolerance or use more
+//! layers than the optimal planner.
 
 use super::segment::{Segment, Segments};
 use super::{Limits, Plan, PlanError};
 use crate::profile::LayerErrors;
 
-/// What a greedy planner looks at.
+/// What a greedy planner sees.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sight {
-    /// The profile: as many bins as stay within tolerance (section 3.3).
+    /// The profile: a layer takes as many bins as stay within tolerance (section 3.3).
     Profile,
-    /// The surface at the current plane alone, taken as straight from there on (\[3\] of the paper).
+    /// Only the surface at the current plane, extrapolated with its slope there (\[3\] of the paper).
     Plane,
 }
 
-/// Layer by layer upward, each as thick as the tolerance allows by what `sight` shows, but within the limits.
+/// Plans layer by layer upward. Each layer is as thick as `sight` suggests for the tolerance, clamped to the limits.
 ///
 /// # Errors
-/// [`PlanError`] for limits that contradict each other.
+/// [`PlanError`] if the limits are contradictory.
 pub fn plan(
     errors: &LayerErrors,
     limits: &Limits,
@@ -55,7 +55,7 @@ fn thickest_within(errors: &LayerErrors, segment: &Segment, plane: u32, toleranc
     (1..=greatest).take_while(is_within).last().unwrap_or(0)
 }
 
-/// The thickness whose error would be the tolerance if the surface went on as in the bin above the plane.
+/// The thickness whose error would equal the tolerance if the surface continued as in the bin above the plane.
 fn thickest_straight(errors: &LayerErrors, segment: &Segment, plane: u32, tolerance: u64) -> u32 {
     let lower = segment.boundary(plane);
     let bins = match errors {
@@ -63,7 +63,7 @@ fn thickest_straight(errors: &LayerErrors, segment: &Segment, plane: u32, tolera
             let a_bin = sum.steps_between(lower, lower + 1).max(1);
             tolerance as f64 / a_bin as f64
         }
-        // A section that grows by a each bin has the error a · n² / 2 after n bins.
+        // A section that grows by a per bin has an error of a · n² / 2 after n bins.
         LayerErrors::Volume(_) => {
             let a_bin = errors.steps_between(lower, lower + 2).max(1);
             (2.0 * tolerance as f64 / a_bin as f64).sqrt()
@@ -72,15 +72,15 @@ fn thickest_straight(errors: &LayerErrors, segment: &Segment, plane: u32, tolera
     (bins / f64::from(segment.unit)).min(f64::from(u32::MAX)) as u32
 }
 
-/// The thickness nearest to the one wanted, rather below than above, with which the rest of the segment can still be
-/// filled.
+/// The largest thickness, at most `wanted`, that leaves a rest of the segment that layers can fill; if there is none, the
+/// smallest above `wanted`.
 fn nearest_that_fits(segment: &Segment, plane: u32, wanted: u32) -> u32 {
     let rest = segment.units - plane;
     let (least, greatest) = (*segment.thickness.start(), *segment.thickness.end());
     let wanted = wanted.clamp(least, greatest);
     let fits = |units: &u32| *units <= rest && segment.can_fill(rest - units);
     let below = (least..=wanted).rev().find(fits);
-    // A segment that can be filled can be filled from one of these.
+    // Since the segment can be filled, one of these exists.
     below
         .or_else(|| (wanted..=greatest).find(fits))
         .unwrap_or(rest)

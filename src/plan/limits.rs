@@ -1,4 +1,4 @@
-//! What a plan must keep to: layer thicknesses, tolerance and mandatory planes.
+//! The limits of a plan: layer thicknesses, tolerance, mandatory planes and motor step.
 
 use std::ops::RangeInclusive;
 
@@ -7,40 +7,40 @@ use serde::{Deserialize, Serialize};
 use super::PlanError;
 use crate::grid::{Bins, positive};
 
-/// What every plan must keep to.
+/// The limits that every plan must respect.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Limits {
-    /// Least layer thickness in millimetres, `t_min`.
+    /// Minimum layer thickness in millimetres, `t_min`.
     pub layer_min_mm: f64,
-    /// Greatest layer thickness in millimetres, `t_max`.
+    /// Maximum layer thickness in millimetres, `t_max`.
     pub layer_max_mm: f64,
-    /// Greatest error of a layer in the metric's unit, ε.
+    /// Maximum error of a layer in the metric's unit, ε.
     pub tolerance: f64,
-    /// Height ranges with a thickness of their own, which must not overlap. Their ends are planes.
+    /// Height ranges with layer thicknesses of their own. They must not overlap; their ends are planes.
     pub ranges: Vec<HeightRange>,
     /// Heights at which there must be a plane, in millimetres above the plate.
     pub planes_mm: Vec<f64>,
-    /// What every height is a multiple of, in millimetres: the printer's motor step. A bin if absent.
+    /// The printer's motor step in millimetres: every height is a multiple of it. One bin if absent.
     pub step_mm: Option<f64>,
 }
 
-/// A thickness of its own between two heights.
+/// A height range with layer thicknesses of its own, all in millimetres.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(deny_unknown_fields)]
 pub struct HeightRange {
-    /// Where it begins, in millimetres above the plate.
+    /// Where it begins, above the plate.
     pub from_mm: f64,
-    /// Where it ends.
+    /// Where it ends, above the plate.
     pub to_mm: f64,
-    /// Least layer thickness in it.
+    /// Minimum layer thickness within it.
     pub layer_min_mm: f64,
-    /// Greatest layer thickness in it.
+    /// Maximum layer thickness within it.
     pub layer_max_mm: f64,
 }
 
 impl Limits {
-    /// Bins a unit of thickness: the motor step, or one.
+    /// The unit of thickness in bins: the motor step, or 1.
     ///
     /// # Errors
     /// [`PlanError::Grid`], [`PlanError::NotWholeBins`].
@@ -52,7 +52,7 @@ impl Limits {
         }
     }
 
-    /// A range of thicknesses in units, ⌈`t_min`/unit⌉ to ⌊`t_max`/unit⌋.
+    /// A range of layer thicknesses in units: ⌈`t_min`/unit⌉ to ⌊`t_max`/unit⌋.
     ///
     /// # Errors
     /// [`PlanError::Grid`], [`PlanError::NotWholeBins`], [`PlanError::EmptyRange`].
@@ -77,12 +77,12 @@ impl Limits {
                 step_mm: units.boundary_mm(1),
             });
         }
-        // The middle of a layer that is more than twice as thick as the model lies above it: no plan has such a layer.
+        // The middle of a layer more than twice as thick as the model is high lies above the model, so no plan has one.
         let limit = 2.0 * bins.count as f64 + 1.0;
         Ok(least.min(limit) as u32..=greatest.min(limit) as u32)
     }
 
-    /// Finds what no model could make good.
+    /// Checks everything that does not depend on the model.
     ///
     /// # Errors
     /// [`PlanError`].
@@ -96,10 +96,10 @@ impl Limits {
     }
 }
 
-/// More bins than a motor step can have.
+/// An upper bound on the bins of a motor step.
 const MAX_UNIT: f64 = (1 << 20) as f64;
 
-/// A length as a whole number of bins.
+/// A length as a whole number of bins, which it must be.
 pub(super) fn whole_bins(bins: Bins, name: &'static str, length_mm: f64) -> Result<f64, PlanError> {
     positive("the bin", bins.size_mm)?;
     positive(name, length_mm)?;

@@ -1,6 +1,6 @@
-//! Layer plans: where the planes between layers lie (section 3.3).
+//! Layer plans: the heights of the planes between layers (section 3.3).
 //!
-//! A planner sees the errors of layers and limits, and nothing else of the model.
+//! A planner sees limits and the errors of layers, and nothing else of the model.
 
 pub mod greedy;
 mod limits;
@@ -172,14 +172,14 @@ impl PlanError {
     }
 }
 
-/// Layers from the plate upward.
+/// The layers of a print, from the plate upward.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
-    /// What the boundaries count.
+    /// The bins that boundaries count.
     pub bins: Bins,
     /// Boundaries of layers in bins: 0, then the top of each layer.
     pub boundaries: Vec<u32>,
-    /// Those of them that are where the caller wished for a plane.
+    /// The boundaries that are snap planes, in ascending order.
     pub snap_planes: Vec<u32>,
 }
 
@@ -189,7 +189,7 @@ impl Plan {
         self.boundaries.len() - 1
     }
 
-    /// Height of every boundary in millimetres, one more than there are layers.
+    /// Height of each boundary in millimetres, one more than there are layers.
     pub fn z_mm(&self) -> Vec<f64> {
         self.boundaries
             .iter()
@@ -197,7 +197,7 @@ impl Plan {
             .collect()
     }
 
-    /// Thickness of every layer in millimetres.
+    /// Thickness of each layer in millimetres.
     pub fn thickness_mm(&self) -> Vec<f64> {
         self.boundaries
             .windows(2)
@@ -205,12 +205,12 @@ impl Plan {
             .collect()
     }
 
-    /// Height of the middle of every layer in millimetres, where its mask is sampled.
+    /// Height of the middle of each layer in millimetres, where its mask is sampled.
     pub fn middle_mm(&self) -> Vec<f64> {
         self.middles_of_parts_mm(1)
     }
 
-    /// Heights of the middles of so many equal parts of every layer, in millimetres.
+    /// Divides each layer into `parts` equal parts, and returns the heights of their middles in millimetres.
     pub fn middles_of_parts_mm(&self, parts: u32) -> Vec<f64> {
         let halves = 2 * u64::from(parts);
         let layers = self.boundaries.windows(2);
@@ -225,19 +225,19 @@ impl Plan {
             .collect()
     }
 
-    /// The largest error of a layer, in steps of `errors`.
+    /// The largest error of any layer, in steps of `errors`.
     pub fn max_error_steps(&self, errors: &LayerErrors) -> u64 {
         let layers = self.boundaries.windows(2);
         let steps = layers.map(|layer| errors.steps_between(layer[0], layer[1]));
         steps.max().unwrap_or(0)
     }
 
-    /// The largest error of a layer, in the metric's unit.
+    /// The largest error of any layer, in the metric's unit.
     pub fn max_error(&self, errors: &LayerErrors) -> f64 {
         errors.to_value(self.max_error_steps(errors))
     }
 
-    /// The time that the layers take together, in seconds.
+    /// Total time of all layers, in seconds.
     pub fn print_time_s(&self, resin: &Resin) -> f64 {
         resin.print_time_s(&self.thickness_mm())
     }

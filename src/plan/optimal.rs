@@ -1,30 +1,31 @@
-//! The fewest layers within tolerance, or the shortest print, by dynamic programming (Procedure 1).
+//! The fewest layers within tolerance, or the shortest print time, by dynamic programming (Procedure 1).
 
 use super::segment::{Segment, Segments};
 use super::{Limits, Plan, PlanError, tradeoff};
 use crate::profile::{ErrorSum, LayerErrors};
 use crate::resin::Resin;
 
-/// What is to be as little as possible.
+/// What a plan minimises.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Objective<'a> {
     /// The number of layers, K.
     Layers,
-    /// The time that the layers take together.
+    /// The print time.
     Time(&'a Resin),
 }
 
-/// Plans the fewest layers, or the shortest time, with all errors within the tolerance; among those plans one whose
-/// largest error is the least.
+/// Plans the fewest layers, or the shortest time, such that no layer exceeds the tolerance. Among those plans it returns
+/// one with the smallest maximum error.
 ///
-/// There is a plane at each of `snap_planes`, boundaries of bins in the order of their importance, unless layers do not add
-/// up or exceed the tolerance beside it.
+/// `snap_planes` are boundaries of bins, the most important first. Each becomes a plane, unless layers cannot add up to
+/// the heights beside it or would exceed the tolerance there.
 ///
-/// Cost: linear in bins, whatever the range of thicknesses, for the fewest layers under an additive metric; bins times
-/// thicknesses otherwise.
+/// Cost: for the fewest layers under an additive metric, linear in bins, whatever the range of thicknesses; otherwise bins
+/// times thicknesses.
 ///
 /// # Errors
-/// [`PlanError`]; [`PlanError::Infeasible`] names the height that cannot be passed, and what would do.
+/// [`PlanError::Infeasible`] names the heights where no plan is within tolerance, and limits that would have one. Other
+/// [`PlanError`]s are for contradictory limits.
 pub fn plan(
     errors: &LayerErrors,
     limits: &Limits,
@@ -51,21 +52,21 @@ pub fn plan(
     }
 }
 
-/// Where a plan cannot go on.
+/// Where no plan is within tolerance.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Blocked {
     /// The segment that cannot be filled within tolerance.
     pub segment: Segment,
-    /// The highest plane that layers can reach in it, a boundary of bins.
+    /// The highest plane in it that layers can reach, as a boundary of bins.
     pub reached: u32,
-    /// The top of the thinnest layer from there.
+    /// The top of the thinnest layer above that plane.
     pub next: u32,
 }
 
-/// The best plan whose errors are at most so many steps, or where there is none.
+/// The best plan whose layers have errors of at most `tolerance` steps, or the place that makes it impossible.
 ///
 /// # Errors
-/// [`PlanError`] for limits that no tolerance makes good.
+/// [`PlanError`] if the limits allow no plan at any tolerance.
 pub fn within(
     errors: &LayerErrors,
     limits: &Limits,
@@ -84,7 +85,7 @@ pub fn within(
                 boundaries.extend(table.planes().map(|plane| segment.boundary(plane)));
                 continue;
             }
-            // Wishes give way to the tolerance.
+            // The tolerance takes precedence: drop the snap planes beside this segment, and start again.
             let beside = [segment.lower, segment.upper()];
             let (given_up, kept): (Vec<u32>, Vec<u32>) = laid_out
                 .snap_planes
@@ -129,12 +130,12 @@ fn fill(
     }
 }
 
-/// The arrays of Procedure 1, as figure 3 shows them, for the planes of a segment.
+/// The arrays of Procedure 1 for the planes of a segment, as in figure 3.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
-    /// K\[p\]: the least cost up to plane p, layers or microseconds; [`Self::NO_PLAN`] where no plan reaches it.
+    /// K\[p\]: the minimum cost up to plane p, in layers or microseconds; [`Self::NO_PLAN`] if no plan reaches it.
     pub cost: Vec<u64>,
-    /// The least largest error in steps of the plans of that cost.
+    /// The smallest maximum error, in steps, among the plans of that cost.
     pub worst: Vec<u64>,
     /// D\[p\]: the plane below p in the best plan up to p.
     pub below: Vec<u32>,
@@ -164,7 +165,7 @@ impl Table {
         reached.unwrap_or(0) as u32
     }
 
-    /// Lines 8 to 11 of Procedure 1: the planes of the best plan but the lowest, upward.
+    /// Lines 8 to 11 of Procedure 1: the planes of the best plan in ascending order, without plane 0.
     fn planes(&self) -> impl Iterator<Item = u32> {
         let top = self.cost.len() as u32 - 1;
         let downward = std::iter::successors(Some(top), |&plane| Some(self.below[plane as usize]));
@@ -174,23 +175,25 @@ impl Table {
     }
 }
 
-/// A plane that may be the best one below the planes to come.
+/// A plane that may be the best one below some later plane.
 #[derive(Clone, Copy)]
 struct Candidate {
     plane: u32,
     layers: u64,
     worst: u64,
-    /// Error of all that is below it.
+    /// The error of everything below it.
     steps_below: u64,
 }
 
-/// Lines 1 to 7 of Procedure 1 under an additive metric: the fewest layers to every plane, and among those plans the
-/// least largest error.
+/// Lines 1 to 7 of Procedure 1 under an additive metric: the fewest layers up to every plane, and among those plans the
+/// smallest maximum error.
 ///
-/// The inner loop is replaced by a queue. No density is negative, so the lowest plane within tolerance only moves up;
-/// and a plane is of no more use once a higher one has no more layers below it, nor a larger error. What is left in the
-/// queue grows upward in layers, then in error. Of the candidates with the fewest layers, the error of the layer on top
-/// shrinks upward, so that the best is where the two errors cross; that place only moves up too.
+/// A queue replaces the inner loop. No density is negative, so the lowest plane within tolerance only moves up. A plane is
+/// obsolete once a higher one has neither more layers below it nor, at equal layers, a larger error. The candidates that
+/// remain increase upward in layers, then in error.
+///
+/// Among the candidates with the fewest layers, the error below the candidate increases upward and that of the layer on
+/// top decreases. The best candidate is where the two cross, and that place also only moves up.
 pub fn fill_fewest(errors: &ErrorSum, segment: &Segment, tolerance: u64) -> Table {
     let mut table = Table::new(segment.units);
     let (least, greatest) = (*segment.thickness.start(), *segment.thickness.end());
@@ -250,8 +253,8 @@ pub fn fill_fewest(errors: &ErrorSum, segment: &Segment, tolerance: u64) -> Tabl
     table
 }
 
-/// The least cost to every plane under any metric, where a layer costs `cost_of` its thickness in units, and among
-/// those plans the least largest error.
+/// The minimum cost up to every plane under any metric, and among those plans the smallest maximum error. A layer costs
+/// `cost_of` its thickness in units.
 pub fn fill_cheapest(
     errors: &LayerErrors,
     segment: &Segment,
@@ -272,7 +275,7 @@ pub fn fill_cheapest(
             let upper = lower + thickness * segment.unit;
             error += errors.steps_added(lower, measured, upper);
             measured = upper;
-            // Errors of thicker layers are no less.
+            // Thicker layers have errors at least as large.
             if error > tolerance {
                 break;
             }

@@ -1,66 +1,68 @@
-//! Where planes must be, and the segments between them, which planners fill one by one (section 3.3).
+//! Mandatory planes, and the segments between them, which planners fill one by one (section 3.3).
 
 use std::ops::RangeInclusive;
 
 use super::{Limits, PlanError};
 use crate::grid::Bins;
 
-/// A height range between two planes that every plan has, to be filled with layers.
+/// A height range between two mandatory planes, to be filled with layers.
 ///
-/// Layers are counted in units of `unit` bins: plane p of the segment is at boundary `lower + p · unit`.
+/// Heights in it are in units of `unit` bins: plane p of the segment is at boundary `lower + p · unit`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Segment {
-    /// The plane below, a boundary of bins.
+    /// The plane below, as a boundary of bins.
     pub lower: u32,
     /// Height in units.
     pub units: u32,
-    /// Bins a unit.
+    /// Bins per unit.
     pub unit: u32,
-    /// Thickness of layers in units, least to greatest.
+    /// Minimum and maximum layer thickness in units.
     pub thickness: RangeInclusive<u32>,
 }
 
 impl Segment {
-    /// The boundary of plane `p`, from 0 to [`Self::units`].
+    /// The boundary of bins at plane `p`, from 0 to [`Self::units`].
     pub fn boundary(&self, p: u32) -> u32 {
         self.lower + p * self.unit
     }
 
-    /// The plane above, a boundary of bins.
+    /// The plane above, as a boundary of bins.
     pub fn upper(&self) -> u32 {
         self.boundary(self.units)
     }
 
-    /// Whether layers of the range can add up to `units`.
+    /// Whether layers within the thickness range can add up to `units`.
     pub fn can_fill(&self, units: u32) -> bool {
         let fewest = units.div_ceil(*self.thickness.end());
         u64::from(fewest) * u64::from(*self.thickness.start()) <= u64::from(units)
     }
 }
 
-/// The segments of a plan, upward, and what became of the snap planes.
+/// The segments of a plan, and the snap planes that it keeps.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Segments {
     /// Segments from the plate upward.
     pub segments: Vec<Segment>,
-    /// The wished planes that are kept: boundaries of bins, upward.
+    /// The snap planes that are kept, as boundaries of bins in ascending order.
     pub snap_planes: Vec<u32>,
 }
 
 impl Segments {
-    /// Lays out the segments of a model of so many bins.
+    /// Lays out the segments of a model of `bins`.
     ///
-    /// Planes are at the plate, at the ends of the height ranges and where the user asks for one; then at each of
-    /// `snap_planes`, in this order, as long as the layers still add up between them. The top is moved to the nearest height
-    /// that layers add up to, by at most half the least thickness, of equal ones to the lower; snap planes do not move it.
+    /// Mandatory planes are the plate, the ends of height ranges and [`Limits::planes_mm`]. Snap planes are added in their
+    /// order, unless layers could no longer add up to the heights beside them.
+    ///
+    /// The top moves to the nearest height that layers add up to, the lower one of two equally near. It moves by less
+    /// than half the minimum thickness. Snap planes do not affect it.
     ///
     /// # Errors
-    /// [`PlanError`]: limits out of order, or planes between which no layers fit.
+    /// [`PlanError`] if the limits are contradictory, or if no layers fit between two mandatory planes.
     pub fn new(bins: Bins, limits: &Limits, snap_planes: &[u32]) -> Result<Self, PlanError> {
         let layout = Layout::new(bins, limits)?;
         let mut planes = layout.demanded_planes(limits)?;
         let top = layout.top(planes[planes.len() - 1])?;
-        // Fails here if the demanded planes alone leave a gap that no layers fill.
+        // The mandatory planes alone may leave a gap that no layers fill.
         for segment in &layout.segments(&planes, top) {
             if !segment.can_fill(segment.units) {
                 return Err(layout.do_not_fit(segment));
@@ -75,7 +77,7 @@ impl Segments {
             if plane >= top {
                 continue;
             }
-            // Only the two segments beside the new plane can become too small.
+            // Only the two segments beside the new plane change.
             let above = planes.get(place).copied().unwrap_or(top);
             let beside = layout.segments(&[planes[place - 1], plane], above);
             if beside.iter().all(|segment| segment.can_fill(segment.units)) {
@@ -91,13 +93,13 @@ impl Segments {
     }
 }
 
-/// What the limits say in bins.
+/// The limits in bins and units.
 struct Layout {
     bins: Bins,
     unit: u32,
-    /// Thickness in units everywhere but in the ranges.
+    /// Layer thickness in units, outside the height ranges.
     thickness: RangeInclusive<u32>,
-    /// Height ranges in boundaries, with their thickness in units, upward.
+    /// Height ranges in ascending order: first and last boundary, and layer thickness in units.
     ranges: Vec<(u32, u32, RangeInclusive<u32>)>,
 }
 
@@ -127,18 +129,19 @@ impl Layout {
         Ok(layout)
     }
 
-    /// The nearest boundary that is a whole number of units up.
+    /// The nearest boundary that is a whole number of units above the plate.
     fn round(&self, boundary: u32) -> u32 {
         (boundary + self.unit / 2) / self.unit * self.unit
     }
 
     fn plane_at(&self, z_mm: f64) -> u32 {
-        // Far above any model is as good as infinite.
+        // Clamped far above any model, to avoid overflow.
         let units = z_mm / self.bins.size_mm / f64::from(self.unit) + 0.5;
         units.clamp(0.0, f64::from(u32::MAX / 2 / self.unit)) as u32 * self.unit
     }
 
-    /// The plate, the ends of ranges below the top and the planes that the user asks for, upward.
+    /// The mandatory planes below the top, in ascending order: the plate, the ends of ranges, and the planes that the
+    /// limits name.
     fn demanded_planes(&self, limits: &Limits) -> Result<Vec<u32>, PlanError> {
         let top = self.bins.count as u32;
         let mut planes = vec![0];
@@ -148,7 +151,7 @@ impl Layout {
         planes.retain(|&plane| plane < top);
         for &z_mm in &limits.planes_mm {
             let plane = self.plane_at(z_mm);
-            // No number is at the plate as well.
+            // A NaN casts to plane 0.
             if z_mm <= 0.0 || plane == 0 || plane > top {
                 let height_mm = self.bins.boundary_mm(top);
                 return Err(PlanError::BadPlane { z_mm, height_mm });
@@ -168,14 +171,14 @@ impl Layout {
         range.map_or(&self.thickness, |range| &range.2).clone()
     }
 
-    /// The top of a plan whose last plane but the top is `below`.
+    /// The top of a plan whose highest mandatory plane is `below`.
     fn top(&self, below: u32) -> Result<u32, PlanError> {
         let thickness = self.thickness_above(below);
         let (least, greatest) = (u64::from(*thickness.start()), u64::from(*thickness.end()));
         let unit = f64::from(self.unit);
         let rest = f64::from(self.bins.count as u32 - below) / unit;
         let exact = rest.ceil();
-        // Without a motor step the top is a boundary and mostly in reach; with one, the nearest unit is.
+        // The usual case: without a motor step the top is a whole number of units above, and layers add up to it.
         let layers = (exact / greatest as f64).ceil();
         if rest == exact && layers * least as f64 <= exact {
             return Ok(below + exact as u32 * self.unit);

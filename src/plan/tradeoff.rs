@@ -1,4 +1,4 @@
-//! The other way round: from layers or time to the tolerance, and the curve of all three.
+//! The inverse problem: the tolerance that gives a number of layers or a print time, and the trade-off curve of all three.
 
 use serde::Serialize;
 
@@ -13,28 +13,28 @@ use crate::resin::Resin;
 pub struct TradeoffPoint {
     /// The tolerance, in the metric's unit.
     pub tolerance: f64,
-    /// Layers of the best plan.
+    /// Number of layers of the best plan.
     pub layers: usize,
     /// Its largest error, in the metric's unit.
     pub max_error: f64,
-    /// Its time in seconds.
+    /// Its print time in seconds.
     pub print_time_s: f64,
 }
 
-/// What a plan must come to.
+/// What a plan must achieve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Goal {
-    /// At most so many layers.
+    /// At most this number of layers.
     Layers(usize),
-    /// At most so many seconds.
+    /// At most this print time in seconds.
     Time(f64),
 }
 
-/// Best plans for `points` tolerances, from the least that there is a plan for to the least of the plan with the fewest
-/// layers, closer together at the lower end.
+/// The best plans for `points` tolerances. They run from the smallest tolerance with a plan to the largest error of the
+/// best plan without a tolerance, and are closer together at the lower end.
 ///
 /// # Errors
-/// [`PlanError`] for limits that no tolerance makes good.
+/// [`PlanError`] if the limits allow no plan at any tolerance.
 pub fn curve(
     errors: &LayerErrors,
     limits: &Limits,
@@ -54,7 +54,7 @@ pub fn curve(
     let last = points.max(2) - 1;
     let mut curve = Vec::with_capacity(last + 1);
     for point in 0..=last {
-        // Closer together where tolerances are tight, and by basic arithmetic alone.
+        // Quadratic spacing: closer together where tolerances are tight, and basic arithmetic alone.
         let part = point as f64 / last as f64;
         let tolerance = least + ((most - least) as f64 * (part * part)) as u64;
         let Some(plan) = best_within(errors, limits, snap_planes, objective, tolerance)? else {
@@ -70,10 +70,10 @@ pub fn curve(
     Ok(curve)
 }
 
-/// The least tolerance whose best plan meets the goal, in the metric's unit, rounded up to six digits.
+/// The smallest tolerance whose best plan meets the goal, in the metric's unit, rounded up to six significant digits.
 ///
 /// # Errors
-/// [`PlanError::OutOfReach`] if none does; [`PlanError`] for limits that no tolerance makes good.
+/// [`PlanError::OutOfReach`] if no plan meets it; another [`PlanError`] if the limits allow no plan at any tolerance.
 pub fn tolerance_for(
     errors: &LayerErrors,
     limits: &Limits,
@@ -81,7 +81,7 @@ pub fn tolerance_for(
     resin: &Resin,
     goal: Goal,
 ) -> Result<f64, PlanError> {
-    // The shortest time needs its own objective, or a looser tolerance might take longer.
+    // A time needs its own objective: with the fewest layers, a looser tolerance might take longer.
     let objective = match goal {
         Goal::Layers(_) => Objective::Layers,
         Goal::Time(_) => Objective::Time(resin),
@@ -114,7 +114,7 @@ pub fn tolerance_for(
     Ok(round_up(errors.to_value(least)))
 }
 
-/// The least tolerance for which there is a plan, in the metric's unit, rounded up to six digits.
+/// The smallest tolerance for which there is a plan, in the metric's unit, rounded up to six significant digits.
 pub fn least_tolerance(
     errors: &LayerErrors,
     limits: &Limits,
@@ -128,7 +128,7 @@ pub fn least_tolerance(
     Some(round_up(errors.to_value(least.ok()?)))
 }
 
-/// The largest least layer thickness, below that of `limits`, for which there is a plan within their tolerance.
+/// The largest minimum layer thickness, below that of `limits`, for which there is a plan within the tolerance.
 pub fn largest_layer_min_mm(
     errors: &LayerErrors,
     limits: &Limits,
@@ -148,7 +148,7 @@ pub fn largest_layer_min_mm(
     if present < 2 || !has_plan(1) {
         return None;
     }
-    // Thinner layers allow all that thicker ones do.
+    // A lower minimum allows every plan that a higher one does.
     let (mut good, mut bad) = (1, present);
     while bad - good > 1 {
         let middle = good + (bad - good) / 2;
@@ -171,7 +171,8 @@ fn best_within(
     Ok(optimal::within(errors, limits, snap_planes, objective, tolerance)?.ok())
 }
 
-/// The least number up to `most`, for which it holds, for which `holds` does; it then holds for all larger ones.
+/// The smallest number for which `holds` is true, by bisection. It must be true for `most`, and monotonic: if it is true
+/// for a number, then for all larger ones.
 fn least_steps(
     most: u64,
     mut holds: impl FnMut(u64) -> Result<bool, PlanError>,
@@ -188,7 +189,7 @@ fn least_steps(
     Ok(high)
 }
 
-/// The number rounded up to six digits, so that it is short and still enough.
+/// Rounds up to six significant digits: short, and still sufficient as a tolerance.
 fn round_up(value: f64) -> f64 {
     if value <= 0.0 {
         return value;

@@ -1,4 +1,4 @@
-//! Layers of one thickness, the plan that slicers make by default.
+//! Layers of one thickness: the plan that most slicers make.
 
 use super::limits::whole_bins;
 use super::{Plan, PlanError};
@@ -6,8 +6,8 @@ use crate::grid::Bins;
 
 /// Layers of `layer_mm` each, from the plate to the top.
 ///
-/// The last layer is the last one whose middle, where its mask is sampled, lies below the top, so that
-/// the printed height differs from the model's by at most half a layer.
+/// The last layer is the last one whose middle, where its mask is sampled, lies below the top. The printed
+/// height therefore differs from the model's by at most half a layer.
 ///
 /// # Errors
 /// [`PlanError::Grid`], [`PlanError::NotWholeBins`], [`PlanError::LayerTooThick`].
@@ -28,7 +28,7 @@ pub fn plan(bins: Bins, height_mm: f64, layer_mm: f64) -> Result<Plan, PlanError
     })
 }
 
-/// A thickness as a whole number of bins.
+/// A layer thickness as a whole number of bins, which it must be.
 ///
 /// # Errors
 /// [`PlanError::Grid`], [`PlanError::NotWholeBins`].
