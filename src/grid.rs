@@ -1,23 +1,23 @@
-//! Pixels and bins to millimetres and back: the only place where units convert.
+//! Pixels and bins to millimetres and back: the only place that converts units.
 
 use glam::DVec2;
 use serde::Serialize;
 
 use crate::model::Bounds;
 
-/// Longest side of a mask in pixels.
+/// Maximum side of a mask in pixels.
 pub const MAX_SIDE: u32 = 1 << 15;
-/// Most pixels of a mask.
+/// Maximum number of pixels of a mask.
 pub const MAX_PIXELS: u64 = 1 << 28;
-/// Most bins of a profile.
+/// Maximum number of bins of a profile.
 const MAX_BINS: f64 = 2_000_000.0;
 
-/// Lengths closer than this part of a bin are taken as equal, so that 0.05 mm is 25 bins of
+/// Lengths that differ by less than this fraction of a bin count as equal, so that 0.05 mm is 25 bins of
 /// 0.002 mm although neither is a binary fraction.
 const BIN_SLACK: f64 = 1e-3;
-/// Heights come from single precision: they are off by up to this part of themselves.
+/// Relative error of heights, which come from single precision.
 const HEIGHT_SLACK: f64 = 1.0 / (1 << 23) as f64;
-/// Bins by which a quotient of lengths may be off.
+/// Absolute error, in bins, of a quotient of lengths.
 const ROUNDING_SLACK: f64 = 1e-9;
 
 /// Why pixels or bins cannot be laid out.
@@ -138,9 +138,9 @@ pub fn positive(name: &'static str, value_mm: f64) -> Result<f64, GridError> {
     }
 }
 
-/// The pixels of a mask on the plate; also the rays of an LDI, one through each pixel centre.
+/// The pixels of a mask on the plate, or the rays of an LDI, one through each pixel centre.
 ///
-/// Row 0 is the one with the largest y, as in an image; x grows with the column.
+/// Row 0 has the largest y, as in an image; x grows with the column.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grid {
     /// Columns.
@@ -151,12 +151,12 @@ pub struct Grid {
     pub pitch_mm: f64,
     /// Side of a pixel in y, in millimetres.
     pub pitch_y_mm: f64,
-    /// The corner of pixel (0, 0) with least x and largest y.
+    /// The corner of pixel (0, 0) with the smallest x and the largest y, in millimetres.
     pub corner_mm: DVec2,
 }
 
 impl Grid {
-    /// A grid that just covers the model, with `rays` pixels along its longer horizontal side.
+    /// A grid of square pixels that just covers the model, with `rays` pixels along its longer horizontal side.
     ///
     /// # Errors
     /// [`GridError::BadSize`].
@@ -171,7 +171,7 @@ impl Grid {
         Self::of_pitch(bounds, size.x.max(size.y) / f64::from(rays))
     }
 
-    /// A grid of given pitch that just covers the model.
+    /// A grid of square pixels of this pitch that just covers the model.
     ///
     /// # Errors
     /// [`GridError::BadSize`], [`GridError::BadLength`].
@@ -183,7 +183,7 @@ impl Grid {
         Self::centred(bounds, pixels(size.x), pixels(size.y), pitch_mm)
     }
 
-    /// A grid of given pixels and pitch in x and y, with the model's bounding box in its middle.
+    /// A grid with these numbers of pixels and this pitch in x and y, centred on the model's bounding box.
     ///
     /// # Errors
     /// [`GridError::BadSize`], [`GridError::BadLength`], [`GridError::ModelTooLarge`].
@@ -201,7 +201,7 @@ impl Grid {
                 model_mm_y: model.y,
                 grid_mm_x: covered.x,
                 grid_mm_y: covered.y,
-                // Rounded down at the fourth decimal, the last that the message shows.
+                // Rounded down to four decimals, as the message shows it.
                 fitting_scale: ((covered.x / model.x).min(covered.y / model.y) * 1e4).floor() / 1e4,
             });
         }
@@ -241,7 +241,7 @@ impl Grid {
         DVec2::new(self.pitch_mm, self.pitch_y_mm)
     }
 
-    /// Whether there can be so many rays.
+    /// Checks that a ray through each pixel is within the limits.
     ///
     /// # Errors
     /// [`GridError::TooFine`].
@@ -253,7 +253,8 @@ impl Grid {
         Ok(())
     }
 
-    /// The part of the grid that covers the model, with a margin for rounding: only there can rays meet it.
+    /// The part of the grid that covers the model, with a margin of a pixel for rounding. No ray outside it meets the
+    /// model.
     #[must_use]
     pub fn around_model(&self, bounds: &Bounds) -> Self {
         let first = self.to_pixels(DVec2::new(bounds.min.x, bounds.max.y));
@@ -273,13 +274,13 @@ impl Grid {
         }
     }
 
-    /// Column and row of the first pixel of `part`, which [`Self::around_model`] made.
+    /// Column and row of the first pixel of `part`, a result of [`Self::around_model`].
     pub fn offset_of(&self, part: &Self) -> [u32; 2] {
         let offset = self.to_pixels(part.corner_mm).round();
         [offset.x as u32, offset.y as u32]
     }
 
-    /// The grid with each pixel cut into so many in x and y.
+    /// The grid with each pixel divided into `columns` × `rows` smaller ones.
     #[must_use]
     pub fn refined(&self, [columns, rows]: [u32; 2]) -> Self {
         Self {
@@ -291,12 +292,12 @@ impl Grid {
         }
     }
 
-    /// Number of pixels, and of rays.
+    /// Number of pixels or rays.
     pub fn pixels(&self) -> usize {
         self.width as usize * self.height as usize
     }
 
-    /// The point x, y in pixels: columns to the right and rows downward from the corner.
+    /// A point in pixels, columns to the right and rows downward from the corner, given x and y in millimetres.
     pub fn to_pixels(&self, point_mm: DVec2) -> DVec2 {
         DVec2::new(
             (point_mm.x - self.corner_mm.x) / self.pitch_mm,
@@ -322,7 +323,7 @@ pub struct Bins {
 }
 
 impl Bins {
-    /// The bins of a model of `height_mm`; the last one may rise above it.
+    /// The bins of a model of `height_mm`. The last one may extend above it.
     ///
     /// # Errors
     /// [`GridError::BadLength`], [`GridError::TooManyBins`].
@@ -342,11 +343,11 @@ impl Bins {
         })
     }
 
-    /// The bin, from 0, that holds height `z_mm`; heights outside belong to the first and last bin.
+    /// The bin, from 0, that contains the height `z_mm`. Heights below or above all bins belong to the first or last.
     pub fn of(&self, z_mm: f64) -> usize {
         let bins = z_mm / self.size_mm;
         let position = bins - height_slack(bins);
-        // Rounded up by hand: `ceil` is a library call on processors of the oldest kind.
+        // Rounded up by hand: `ceil` is a library call on x86-64 without SSE 4.1.
         let below = position as usize;
         let bin = below + usize::from(position > below as f64);
         bin.clamp(1, self.count) - 1
@@ -369,24 +370,24 @@ impl Bins {
         (bin as f64 + 0.5) * self.size_mm
     }
 
-    /// Height of a boundary in millimetres, to the nearest millionth of a micrometre, so that 51
-    /// bins of 0.002 mm are 0.102 mm and not 0.10200000000000001.
+    /// Height of a boundary in millimetres, rounded to the picometre, so that 51 bins of 0.002 mm are 0.102 mm and not
+    /// 0.10200000000000001.
     pub fn boundary_mm(&self, boundary: u32) -> f64 {
         (f64::from(boundary) * self.size_mm * 1e9).round() / 1e9
     }
 
-    /// Least number of bins at least as long as `length_mm`, ⌈length/b⌉.
+    /// The smallest number of bins that is at least as long as `length_mm`, ⌈length/b⌉.
     pub fn ceil(&self, length_mm: f64) -> f64 {
         (length_mm / self.size_mm - BIN_SLACK).ceil()
     }
 
-    /// Greatest number of bins at most as long as `length_mm`, ⌊length/b⌋.
+    /// The largest number of bins that is at most as long as `length_mm`, ⌊length/b⌋.
     pub fn floor(&self, length_mm: f64) -> f64 {
         (length_mm / self.size_mm + BIN_SLACK).floor()
     }
 }
 
-/// By how many bins a height, itself in bins, may be off and still be at a boundary.
+/// The error, in bins, up to which a height of `bins` bins counts as exact.
 fn height_slack(bins: f64) -> f64 {
     bins * HEIGHT_SLACK + ROUNDING_SLACK
 }

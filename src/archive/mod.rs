@@ -1,4 +1,4 @@
-//! Print files, one file a format, from masks, plan and exposures.
+//! Print files from masks, plan and exposures. Each format has a source file of its own.
 
 pub mod png;
 mod preview;
@@ -29,14 +29,14 @@ fn encoder(format: Format) -> &'static dyn Encoder {
     }
 }
 
-/// What tells formats apart. A zip of masks is a [`zip::Container`] instead, in a [`zip::Zip`].
+/// What differs between formats. A zip of masks implements [`zip::Container`] instead, and [`zip::Zip`] encodes it.
 trait Encoder {
     /// Refuses a plan that the format cannot express.
     fn check(&self, _job: &PrintJob<'_>) -> Result<(), ArchiveError> {
         Ok(())
     }
 
-    /// Writes the file from its beginning to its end. Fails with [`ArchiveError::AllBlack`] if no mask is lit.
+    /// Writes the file sequentially, without seeking. Fails with [`ArchiveError::AllBlack`] if every mask is black.
     fn encode(
         &self,
         job: &PrintJob<'_>,
@@ -92,7 +92,7 @@ impl ArchiveError {
         }
     }
 
-    /// The error of a write that failed.
+    /// Wraps the error of a failed write.
     pub(crate) fn write(error: impl std::fmt::Display) -> Self {
         Self::Write {
             reason: error.to_string(),
@@ -106,43 +106,43 @@ impl From<std::io::Error> for ArchiveError {
     }
 }
 
-/// What a print file is made from.
+/// Everything that goes into a print file.
 #[derive(Clone, Copy)]
 pub struct PrintJob<'a> {
-    /// The masks, seen from the side that the printer lights from.
+    /// The masks, as the printer shows them.
     pub masks: &'a Masks,
-    /// Whether that is from below: rows run from right to left.
+    /// Whether they are mirrored left to right, for a printer that lights the resin from below.
     pub is_mirrored: bool,
     /// The plan.
     pub plan: &'a Plan,
-    /// Height of the model in millimetres; the plan's top may differ by part of a layer.
+    /// Height of the model in millimetres. The plan's top may differ from it by part of a layer.
     pub height_mm: f64,
-    /// Seconds of exposure of each layer.
+    /// Exposure of each layer in seconds.
     pub exposure_s: &'a [f64],
     /// The resin.
     pub resin: &'a Resin,
-    /// Resin that the model takes, in millilitres.
+    /// Volume of resin in the model, in millilitres.
     pub resin_ml: f64,
-    /// The printer, if one was named.
+    /// The printer, if the job names one.
     pub printer: Option<&'a Printer>,
     /// The model, for previews.
     pub mesh: &'a Mesh,
-    /// The rays that it was sampled along.
+    /// The hits of the model's rays, for previews.
     pub ldi: &'a Ldi,
-    /// An object that describes the whole job, for formats of ours.
+    /// An object that describes the whole job, for Cusp's own formats.
     pub manifest: &'a Value,
 }
 
 impl PrintJob<'_> {
-    /// Time that the layers take, in seconds.
+    /// Total time of all layers, in seconds.
     fn print_time_s(&self) -> f64 {
         self.plan.print_time_s(self.resin)
     }
 }
 
-/// Writes a print file from its beginning to its end, and returns the writer.
+/// Writes a print file sequentially, without seeking, and returns the writer.
 ///
-/// The bytes depend on the job alone, not on threads or machine.
+/// The bytes depend on the job alone, not on the number of threads or the machine.
 ///
 /// # Errors
 /// [`ArchiveError`].
@@ -159,7 +159,7 @@ pub fn write<W: Write>(
     Ok(writer)
 }
 
-/// Text of numbers without idle digits: to a thousandth of the unit.
+/// Formats a number to at most three decimals, without trailing zeros.
 fn thousandths(value: f64) -> String {
     let text = format!("{value:.3}");
     let text = text.trim_end_matches('0').trim_end_matches('.');

@@ -1,4 +1,4 @@
-//! A mask as a PNG, at a cost of the pixels where it changes.
+//! Encodes masks as PNG, at a cost proportional to the runs of equal pixels.
 
 use super::runs::RunWriter;
 use crate::mask::{Light, MaskCursor, Masks, row_bytes};
@@ -6,16 +6,16 @@ use crate::mask::{Light, MaskCursor, Masks, row_bytes};
 /// How pixels are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Depth {
-    /// One bit a pixel.
+    /// One bit per pixel.
     Bit,
-    /// A byte a pixel, 255 for a lit one: what most printers' own formats ask for.
+    /// One byte per pixel, 255 if it is lit, as most printers' formats require.
     Grey,
 }
 
 /// The mask at a cursor as a greyscale PNG. The bytes depend on the mask alone.
 ///
-/// Rows are written as they are: filters that look at other pixels make more runs, not fewer, and with none the dark
-/// pixels around a model are one run from row to row.
+/// Rows have no filter. Filters make more runs, not fewer; without one, the dark pixels around a model form one run that
+/// continues from row to row.
 pub fn encode(masks: &Masks, mask: &MaskCursor, depth: Depth) -> Vec<u8> {
     let Masks {
         grid,
@@ -23,7 +23,7 @@ pub fn encode(masks: &Masks, mask: &MaskCursor, depth: Depth) -> Vec<u8> {
         samples,
         ..
     } = masks;
-    // Bytes that eight pixels become.
+    // Bytes per eight pixels.
     let scale = match depth {
         Depth::Bit => 1,
         Depth::Grey => 8,
@@ -33,12 +33,12 @@ pub fn encode(masks: &Masks, mask: &MaskCursor, depth: Depth) -> Vec<u8> {
         Depth::Grey => grid.width as usize,
     };
     let left = window.first_byte * scale;
-    // Pixels of the last byte beyond the mask do not exist.
+    // The last byte of the window may have pixels beyond the mask.
     let inside = (window.row_bytes * scale).min(row_length - left);
     let right = row_length - left - inside;
 
     let mut stream = RunWriter::default();
-    // Before each row a byte says that it has no filter.
+    // A byte before each row names its filter: 0 is none.
     stream.run(0, ((1 + row_length) * window.first_row) as u64);
     match mask.light() {
         Light::Bits(bits) => {
@@ -70,7 +70,7 @@ pub fn encode(masks: &Masks, mask: &MaskCursor, depth: Depth) -> Vec<u8> {
     wrap([grid.width, grid.height], depth, &stream.finish())
 }
 
-/// Writes a row of bits with a byte a pixel, as long as there is room for them.
+/// Writes a row of bits as one byte per pixel, `room` pixels at most.
 fn write_grey(stream: &mut RunWriter, row: &[u8], mut room: u64) {
     let mut grey = |value: u8, count: u64| {
         let count = count.min(room);
@@ -89,7 +89,7 @@ fn write_grey(stream: &mut RunWriter, row: &[u8], mut room: u64) {
     });
 }
 
-/// Calls `emit` with every run of equal bytes: the byte, and how many there are.
+/// Calls `emit(byte, count)` for every run of equal bytes.
 fn for_each_run(bytes: &[u8], mut emit: impl FnMut(u8, u64)) {
     const WORD: usize = 8;
     let mut first = 0;
@@ -108,7 +108,7 @@ fn for_each_run(bytes: &[u8], mut emit: impl FnMut(u8, u64)) {
     }
 }
 
-/// The file around a zlib stream of so many columns and rows.
+/// Wraps the zlib stream of an image of `width` × `height` pixels in a PNG file.
 pub(super) fn wrap([width, height]: [u32; 2], depth: Depth, stream: &[u8]) -> Vec<u8> {
     const GREYSCALE: u8 = 0;
     let bits = match depth {
@@ -118,7 +118,7 @@ pub(super) fn wrap([width, height]: [u32; 2], depth: Depth, stream: &[u8]) -> Ve
     let mut header = [0; 13];
     header[..4].copy_from_slice(&width.to_be_bytes());
     header[4..8].copy_from_slice(&height.to_be_bytes());
-    // The usual compression, the usual filters, no interlacing.
+    // Deflate, the standard filters, no interlacing.
     header[8..].copy_from_slice(&[bits, GREYSCALE, 0, 0, 0]);
     let mut bytes = Vec::with_capacity(stream.len() + 64);
     bytes.extend(b"\x89PNG\r\n\x1a\n");

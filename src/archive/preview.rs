@@ -1,22 +1,22 @@
-//! The model seen from above, for the previews that printers show.
+//! Draws the model as seen from above, for the previews that printers show.
 
 use super::png::{self, Depth};
 use super::runs::RunWriter;
 use crate::ldi::Ldi;
 use crate::model::Mesh;
 
-/// How bright each pixel of a model is, seen from above: lit from the left and behind, brighter higher up.
+/// The model seen from above, as the brightness of each pixel: lit from the left and behind, and brighter higher up.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Look {
     width: usize,
     height: usize,
-    /// Rows from the largest y downward; 0 where there is no model.
+    /// Row by row from the largest y; 0 outside the model.
     brightness: Vec<u8>,
 }
 
-/// Filter of a row that is written as the differences from pixel to pixel.
+/// The PNG filter that stores each pixel as its difference from the one to the left.
 const LEFT: u8 = 1;
-/// Pixels of the longer side at most: more than any preview has.
+/// Maximum pixels of the longer side: more than any preview has.
 const LONGEST: u32 = 1024;
 
 impl Look {
@@ -45,7 +45,7 @@ impl Look {
         }
     }
 
-    /// A greyscale PNG of this size with the model in its middle, as large as fits.
+    /// A greyscale PNG of this size, with the model centred and scaled to fit.
     pub fn png(&self, width: u32, height: u32) -> Vec<u8> {
         let scale =
             (self.width as f64 / f64::from(width)).max(self.height as f64 / f64::from(height));

@@ -1,11 +1,11 @@
-//! A zlib stream of bytes that come in long runs, at a cost of the runs: each is taken as a whole, and costs a byte for
-//! 258 bytes.
+//! Writes zlib streams of data that consists of long runs. Time is proportional to the number of runs; a run takes one byte
+//! of the stream per 258 bytes of data.
 //!
-//! Masks of today's screens are tens of millions of pixels, nearly all of them like their neighbours. Libraries look at every
+//! Masks of today's screens have tens of millions of pixels, nearly all equal to their neighbours. Libraries look at every
 //! byte; this writer is told about runs.
 //!
-//! Its prefix code is always the same, and gives every token whole bytes: so what repeats in a mask repeats in the bytes
-//! of its stream as well, and deflating them once more, as zips do, finds it.
+//! Its prefix code is constant, and every token takes whole bytes. So whatever repeats in a mask also repeats in the bytes
+//! of its stream, where a second pass of deflate, as zips do, finds it.
 
 use std::sync::LazyLock;
 
@@ -21,12 +21,12 @@ const SHORTEST_SYMBOL: usize = 257;
 const LONGEST_SYMBOL: usize = 285;
 /// Literals, end and lengths.
 const SYMBOLS: usize = 286;
-/// Literals that rows of one-bit pixels hardly have, as several runs begin within such a byte. Their codes are longer than a
-/// byte, because there is no room for all.
+/// Literals that are rare in rows of one-bit pixels, because several runs begin within such a byte. Their codes are longer
+/// than a byte: there are not enough short codes for all.
 const RARE: [std::ops::Range<usize>; 2] = [0xa0..0xaa, 0xaa..0xb6];
 const ADLER_MODULUS: u64 = 65_521;
 
-/// The bytes of a zlib stream, gathered as runs.
+/// Writes a zlib stream run by run.
 #[derive(Debug)]
 pub struct RunWriter {
     bits: BitWriter,
@@ -49,7 +49,7 @@ impl Default for RunWriter {
 }
 
 impl RunWriter {
-    /// Adds a byte so many times.
+    /// Adds `count` equal bytes.
     pub fn run(&mut self, byte: u8, count: u64) {
         if byte != self.byte {
             self.end_run();
@@ -96,7 +96,7 @@ struct Adler {
 }
 
 impl Adler {
-    /// n times the byte v add n · v to the first sum, and n · a + v · n (n + 1) / 2 to the second.
+    /// n bytes of value v add n · v to the first sum, and n · a + v · n (n + 1) / 2 to the second.
     fn run(&mut self, byte: u8, count: u64) {
         let value = u64::from(byte);
         let triangle = if count.is_multiple_of(2) {
@@ -114,22 +114,22 @@ impl Adler {
     }
 }
 
-/// Bits of a token.
+/// The bits of a token, first bit lowest.
 #[derive(Debug, Clone, Copy, Default)]
 struct Word {
     bits: u32,
     count: u32,
 }
 
-/// What every stream has in common.
+/// The code that all streams share.
 static CODE: LazyLock<Code> = LazyLock::new(Code::new);
 
 struct Code {
     /// The head of a stream, up to its first token.
     head: BitWriter,
-    /// Symbols; those of matches with the distance behind them.
+    /// The words of all symbols; those of matches include the distance.
     words: Vec<Word>,
-    /// Matches of 3 to 257 bytes.
+    /// The words of matches of 3 to 257 bytes.
     matches: Vec<Word>,
 }
 
@@ -137,7 +137,7 @@ impl Code {
     fn new() -> Self {
         let lengths = code_lengths();
         let mut words = words(&lengths);
-        // The only distance has a code of one bit, which is 0.
+        // The only distance has a one-bit code, 0.
         for word in &mut words[SHORTEST_SYMBOL..] {
             word.count += 1;
         }
@@ -145,7 +145,7 @@ impl Code {
             let (symbol, extra, extra_bits) = length_symbol(length);
             let Word { bits, count } = words[symbol];
             Word {
-                // Extra bits stand between the symbol and its distance.
+                // Extra bits come between the symbol and the distance.
                 bits: bits | u32::from(extra) << (count - 1),
                 count: count + extra_bits,
             }
@@ -158,8 +158,8 @@ impl Code {
     }
 }
 
-/// Lengths of the codes of all symbols. A literal takes eight bits, the longest match and its distance as well; a shorter one
-/// takes eight or sixteen with its extra bits. What little is left goes to rare literals and to the end.
+/// Code lengths of all symbols. A literal takes eight bits; so does the longest match with its distance. Shorter matches
+/// take eight or sixteen bits, extra bits and distance included. The codes that are left go to rare literals and the end.
 fn code_lengths() -> [u8; SYMBOLS] {
     let mut lengths = [8; SYMBOLS];
     lengths[RARE[0].clone()].fill(11);
@@ -173,7 +173,7 @@ fn code_lengths() -> [u8; SYMBOLS] {
     lengths
 }
 
-/// Symbol of a match length below the longest, its extra bits and how many they are (RFC 1951, 3.2.5).
+/// The symbol of a match length below the longest, its extra bits, and their number (RFC 1951, 3.2.5).
 fn length_symbol(length: u16) -> (usize, u16, u32) {
     let offset = length - SHORTEST as u16;
     if offset < 8 {
@@ -186,7 +186,7 @@ fn length_symbol(length: u16) -> (usize, u16, u32) {
     (symbol, offset & ((1 << extra_bits) - 1), extra_bits)
 }
 
-/// The canonical code of these lengths, with the first bit lowest (RFC 1951, 3.2.2).
+/// The canonical prefix code of these lengths, with the first bit lowest (RFC 1951, 3.2.2).
 fn words(lengths: &[u8]) -> Vec<Word> {
     let mut words = vec![Word::default(); lengths.len()];
     let mut code = 0u16;
@@ -204,9 +204,9 @@ fn words(lengths: &[u8]) -> Vec<Word> {
     words
 }
 
-/// The head of a zlib stream of one block with a code of its own (RFC 1951, 3.2.7), in whole bytes.
+/// The head of a zlib stream of one dynamic block (RFC 1951, 3.2.7), in whole bytes.
 fn head(lengths: &[u8; SYMBOLS]) -> BitWriter {
-    /// Says that the last length comes 3 to 6 times more.
+    /// Repeats the previous length 3 to 6 times.
     const REPEAT: usize = 16;
     const ORDER: [usize; 19] = [
         16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15,
@@ -222,7 +222,7 @@ fn head(lengths: &[u8; SYMBOLS]) -> BitWriter {
 
     let mut bits = BitWriter::default();
     let number = |bits, count| Word { bits, count };
-    // Deflate with the smallest window, as nothing reaches back further than a byte.
+    // Deflate with the smallest window that zlib allows: matches reach back a single byte.
     bits.write(number(0x1d08, 16));
     bits.write(number(0b101, 3));
     bits.write(number(SYMBOLS as u32 - 257, 5));
@@ -249,7 +249,7 @@ fn head(lengths: &[u8; SYMBOLS]) -> BitWriter {
     bits
 }
 
-/// Bits, lowest first.
+/// Writes bits, lowest first.
 #[derive(Debug, Clone, Default)]
 struct BitWriter {
     bytes: Vec<u8>,
@@ -268,7 +268,7 @@ impl BitWriter {
         }
     }
 
-    /// Adds a word of eight bits so many times.
+    /// Adds a word of eight bits `times` times.
     fn repeat(&mut self, word: Word, times: u64) {
         if self.count.is_multiple_of(8) {
             let whole = self.count as usize / 8;

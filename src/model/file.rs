@@ -1,13 +1,13 @@
-//! What a model's file is known by.
+//! The identity of a model's file.
 
 use serde::{Deserialize, Serialize};
 
-/// What a model's file is known by.
+/// Identifies the file of a model by its length and checksum.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct ModelFile {
-    /// Its length.
+    /// Length in bytes.
     pub bytes: usize,
-    /// Its CRC-32, as zips have it.
+    /// CRC-32 of the contents, as in zips.
     pub crc32: u32,
 }

@@ -1,9 +1,9 @@
-//! Finding the holes of a mesh and closing them.
+//! Finds the holes of a mesh and closes them.
 //!
-//! The edges that facets use more often in one direction than in the other form closed loops, whatever
-//! the mesh: each facet's own edges do. Closing every loop therefore balances every edge, and then
-//! every ray enters as often as it leaves. Where facets disagree about inside and outside, loops
-//! run twice around the patch that is turned over, and closing them puts it right.
+//! The edges that facets use more often in one direction than in the other form closed loops in any mesh,
+//! because the edges of each facet do. Closing every loop therefore balances every edge, and then every
+//! ray enters as often as it leaves. Around a patch of flipped facets the loops run twice, and closing
+//! them corrects the winding.
 
 use glam::Vec3;
 use rustc_hash::FxHashMap;
@@ -11,9 +11,10 @@ use rustc_hash::FxHashMap;
 /// An edge that facets leave open, in the direction in which a cap must use it.
 type OpenEdge = (u32, u32);
 
-/// Every edge whose uses in the two directions differ, as often as they differ, by vertex.
+/// Every edge that is used more often in one direction than in the other, repeated by the difference, in
+/// order of its lower vertex.
 ///
-/// Edges are bucketed by their lower vertex with a counting sort: linear, and no hashing.
+/// A counting sort puts edges into buckets by their lower vertex: linear, and without hashing.
 pub(super) fn open_edges(vertex_count: usize, facets: &[[u32; 3]]) -> Vec<OpenEdge> {
     let edges = || {
         facets
@@ -21,7 +22,7 @@ pub(super) fn open_edges(vertex_count: usize, facets: &[[u32; 3]]) -> Vec<OpenEd
             .flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)])
             .filter(|(start, end)| start != end)
     };
-    // One slot ahead, so that filling moves the start of each bucket to its place.
+    // Counts are stored one slot ahead: filling then advances each start to where it belongs.
     let mut starts = vec![0usize; vertex_count + 2];
     for (start, end) in edges() {
         starts[start.min(end) as usize + 2] += 1;
@@ -54,11 +55,11 @@ pub(super) fn open_edges(vertex_count: usize, facets: &[[u32; 3]]) -> Vec<OpenEd
     open
 }
 
-/// The loops that open edges form; no loop passes a vertex twice.
+/// The loops that open edges form. No loop passes through a vertex twice.
 pub(super) fn loops(mut open: Vec<OpenEdge>) -> Vec<Vec<u32>> {
     open.sort_unstable();
     let leaving = |vertex: u32| open.partition_point(|edge| edge.0 < vertex);
-    // How many of the edges that leave a vertex are spent, at the first of them.
+    // The number of edges leaving a vertex that are already in a loop or the path, at the index of the first of them.
     let mut spent = vec![0usize; open.len()];
     let mut loops = Vec::new();
     let mut path: Vec<u32> = Vec::new();
@@ -90,7 +91,7 @@ pub(super) fn loops(mut open: Vec<OpenEdge>) -> Vec<Vec<u32>> {
     loops
 }
 
-/// Facets that close a loop: a fan around its centroid, which is added to `vertices`.
+/// Closes a loop by a fan around its centroid, which is added to `vertices`. A triangle needs no centroid.
 pub(super) fn cap(hole: &[u32], vertices: &mut Vec<Vec3>, facets: &mut Vec<[u32; 3]>) {
     if let &[a, b, c] = hole {
         facets.push([a, b, c]);

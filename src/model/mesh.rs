@@ -1,4 +1,4 @@
-//! A triangle mesh in millimetres, with the report of its health that users see first.
+//! A triangle mesh in millimetres, and the defects found while it was built.
 
 use glam::{DVec3, Vec3};
 use rustc_hash::FxHashMap;
@@ -58,9 +58,9 @@ impl MeshError {
 /// The axis-aligned box around a mesh, in millimetres.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Bounds {
-    /// Least x, y and z.
+    /// Smallest x, y and z.
     pub min: DVec3,
-    /// Greatest x, y and z.
+    /// Largest x, y and z.
     pub max: DVec3,
 }
 
@@ -71,12 +71,12 @@ impl Bounds {
     }
 }
 
-/// Facets over shared vertices; counter-clockwise corners seen from outside.
+/// Facets over shared vertices. Corners are counter-clockwise as seen from outside.
 ///
-/// The facets together are always closed: every edge is used equally often in both directions.
+/// All facets together are always closed: every edge is used equally often in both directions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mesh {
-    /// Positions in millimetres, each once.
+    /// Distinct positions in millimetres.
     pub vertices: Vec<Vec3>,
     /// Three vertex indices a facet, by class. After the facets of the surface that have an area, counted by
     /// `surface_facets`, come slivers without one that join them.
@@ -90,21 +90,21 @@ pub struct Mesh {
     /// Edges of the input that were not used equally often in both directions; 0 for a closed,
     /// consistently oriented mesh.
     pub open_edges: usize,
-    /// Holes that were closed: loops of open edges.
+    /// Number of holes, that is, loops of open edges, that were closed.
     pub holes: usize,
-    /// Whether all facets of the input faced inward, and were turned over.
+    /// Whether the input was inside out as a whole, so that all facets were flipped.
     pub was_inside_out: bool,
 }
 
 impl Mesh {
-    /// Joins equal corners, sorts out facets without area, closes holes, and turns the mesh over if
-    /// it is inside out as a whole.
+    /// Welds equal corners, separates facets without area, closes holes, and flips all facets if the mesh
+    /// is inside out as a whole.
     ///
-    /// Vertices are joined when their coordinates are the same numbers (-0 equals 0). A hole is closed by
-    /// a fan around the centroid of its loop.
+    /// Corners are welded if their coordinates are equal numbers (-0 equals 0). A hole is closed by a fan
+    /// around the centroid of its loop.
     ///
     /// # Errors
-    /// [`MeshError::NoArea`] when no facet has an area.
+    /// [`MeshError::NoArea`] if no facet has an area.
     pub fn from_triangles(triangles: &[[Vec3; 3]]) -> Result<Self, MeshError> {
         let (mut vertices, welded) = weld(triangles);
         let (mut facets, flat): (Vec<_>, Vec<_>) = welded
@@ -168,7 +168,7 @@ impl Mesh {
         self.bounds_of(|vertex| self.vertices[vertex].as_dvec3())
     }
 
-    /// The box around the surface with its vertices elsewhere.
+    /// The bounding box of the surface, with vertices at the positions that `place` gives.
     fn bounds_of(&self, place: impl Fn(usize) -> DVec3) -> Bounds {
         let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for &vertex in self.facets[..self.surface_facets].iter().flatten() {
@@ -196,7 +196,7 @@ impl Mesh {
         self.open_edges == 0
     }
 
-    /// `n_z²` of a facet's unit normal: 1 for a horizontal facet, 0 for a vertical one and for one without area.
+    /// `n_z²` of a facet's unit normal: 1 for a horizontal facet, 0 for a vertical one or one without area.
     pub fn n_z_squared(&self, facet: usize) -> f32 {
         let [a, b, c] = self.corners(facet);
         let normal = (b - a).cross(c - a);
@@ -209,7 +209,7 @@ impl Mesh {
         }
     }
 
-    /// A copy standing on the plate in this pose: lowest point at z = 0, centred on x = y = 0.
+    /// A copy that stands on the plate in this pose, with its lowest point at z = 0, centred on x = y = 0.
     ///
     /// # Errors
     /// [`MeshError::ZeroHeight`], [`MeshError::BadHeight`], [`MeshError::BadRotation`], [`MeshError::Overflow`].
@@ -252,8 +252,8 @@ impl Mesh {
     }
 }
 
-/// Gives equal corners one index, in order of first use. Corners of facets with fewer than three
-/// different positions are kept here and dropped by the caller.
+/// Gives equal corners one index, in order of first use. Facets with fewer than three distinct corners
+/// are kept here; the caller drops them.
 fn weld(triangles: &[[Vec3; 3]]) -> (Vec<Vec3>, Vec<[u32; 3]>) {
     let mut index_of = FxHashMap::default();
     index_of.reserve(triangles.len() / 2);
@@ -262,7 +262,7 @@ fn weld(triangles: &[[Vec3; 3]]) -> (Vec<Vec3>, Vec<[u32; 3]>) {
         .iter()
         .map(|corners| {
             corners.map(|corner| {
-                // Adding zero turns -0 into 0, so that the two are one key.
+                // Adding zero turns -0 into 0, so that both have the same key.
                 let corner = corner + Vec3::ZERO;
                 *index_of
                     .entry(corner.to_array().map(f32::to_bits))
@@ -276,8 +276,8 @@ fn weld(triangles: &[[Vec3; 3]]) -> (Vec<Vec3>, Vec<[u32; 3]>) {
     (vertices, facets)
 }
 
-/// Adds those of the facets without area that lie between facets of the surface: they keep these
-/// joined when vertices are snapped. The others are strays.
+/// Adds those facets without area that lie between facets of the surface. They keep the surface closed
+/// when vertices are snapped. The others are dropped.
 fn keep_joining_slivers(facets: &mut Vec<[u32; 3]>, flat: Vec<[u32; 3]>, vertex_count: usize) {
     let mut is_on_surface = vec![false; vertex_count];
     for &vertex in facets.iter().flatten() {

@@ -1,4 +1,4 @@
-//! How a model stands on the plate.
+//! The pose of a model on the plate.
 
 use glam::{DMat3, DQuat, DVec3};
 
@@ -7,14 +7,14 @@ use super::MeshError;
 /// How a model stands on the plate.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Pose {
-    /// A quaternion x, y, z, w that turns it from how it stands in its file, of any length but 0.
+    /// A rotation from the pose in the file: a quaternion x, y, z, w of any length except 0.
     pub rotation: Option<[f64; 4]>,
-    /// The height to which it is then scaled evenly.
+    /// The height in millimetres to which the model is then scaled uniformly.
     pub height_mm: Option<f64>,
 }
 
 impl Pose {
-    /// As in the file, scaled evenly to a height.
+    /// The pose in the file, scaled uniformly to a height.
     pub fn of_height(height_mm: f64) -> Self {
         Self {
             rotation: None,
@@ -22,7 +22,7 @@ impl Pose {
         }
     }
 
-    /// The unit vector of the model as it stands in its file that points up from the plate.
+    /// The direction that points up from the plate, as a unit vector in the coordinates of the file.
     ///
     /// # Errors
     /// [`MeshError::BadRotation`].
@@ -35,7 +35,7 @@ impl Pose {
     }
 }
 
-/// The rotation by a quaternion x, y, z, w of any length but 0.
+/// The rotation matrix of a quaternion x, y, z, w of any length except 0.
 pub(crate) fn rotation_matrix(rotation: [f64; 4]) -> Result<DMat3, MeshError> {
     let quaternion = DQuat::from_array(rotation);
     let length = quaternion.length();

@@ -1,9 +1,9 @@
-//! Mesh saliency: how much each facet stands out from what is around it, after Lee, Varshney and Jacobs, *Mesh Saliency*
-//! (2005), as section 4.2 weights facets.
+//! Mesh saliency: how much each facet stands out from its surroundings, after Lee, Varshney and Jacobs, *Mesh Saliency*
+//! (2005). Section 4.2 uses it to weight facets.
 //!
-//! Mean curvature is averaged around each vertex at a finer and a coarser scale; where the two differ, something stands out. It
-//! differs from the article in one thing: averages are weighted by area, so that they do not depend on how finely a surface
-//! is divided.
+//! Mean curvature is averaged around each vertex at a finer and a coarser scale; a difference between the two is salient.
+//! Unlike in the article, averages are weighted by area, so that they do not depend on how finely a surface is
+//! triangulated.
 
 use glam::{DVec3, IVec3};
 use rustc_hash::FxHashMap;
@@ -12,23 +12,23 @@ use crate::model::Mesh;
 use crate::parallel::map_in_groups;
 use crate::progress::{Cancelled, Progress, report};
 
-/// The unit of scales, as a part of the diagonal of the model's bounding box.
+/// The unit of scales, as a fraction of the diagonal of the model's bounding box.
 const UNIT: f64 = 0.003;
-/// Finer scales, in units. Each is compared with its double.
+/// The finer scales, in units. Each is compared with the scale twice as coarse.
 const SCALES: [usize; 5] = [2, 3, 4, 5, 6];
-/// All scales that averages are taken at, in units.
+/// All scales at which averages are taken, in units.
 const AVERAGES: [usize; 8] = [12, 10, 8, 6, 5, 4, 3, 2];
-/// Averages reach so many times their scale.
+/// Radius of an average, as a multiple of its scale.
 const REACH: f64 = 2.0;
-/// Vertices that are averaged in a row.
+/// Number of vertices that a thread processes at a time.
 const CHUNK: usize = 512;
 
-/// The saliency of each facet of the surface, 0 to 1: the most salient has 1. All are 0 where nothing stands out.
+/// The saliency of each facet of the surface, 0 to 1. The most salient facet has 1; all have 0 if none stands out.
 ///
 /// Cost: linear in vertices.
 ///
 /// # Errors
-/// [`Cancelled`] if `progress` asks for it.
+/// [`Cancelled`] if `progress` cancels.
 pub fn saliency(mesh: &Mesh, progress: &mut Progress<'_>) -> Result<Vec<f32>, Cancelled> {
     report(progress, 0.0)?;
     let unit_mm = mesh.bounds().size().length() * UNIT;
@@ -72,19 +72,19 @@ fn greatest(values: &[f64]) -> f64 {
     most
 }
 
-/// Vertices with what is averaged, those of the surface only, sorted by cell.
+/// The curvature and area at every vertex. Vertices that are not on the surface have no area.
 struct Surface {
     points: Vec<DVec3>,
     /// Mean curvature, positive where the surface is convex, in 1/mm.
     curvature: Vec<f64>,
-    /// A third of the area of the facets around, in mm².
+    /// A third of the area of the facets around each vertex, in mm².
     area: Vec<f64>,
 }
 
 impl Surface {
-    /// Mean curvature by Taubin's estimator: normal curvatures along the edges around a vertex, weighted by the
-    /// areas of the facets that they belong to. It asks for no order of facets around a vertex, so that open meshes and
-    /// edges of many facets are as good as any.
+    /// Mean curvature by Taubin's estimator: the mean of the normal curvatures along the edges around a vertex, weighted
+    /// by the areas of their facets. It does not depend on the order of facets around a vertex, so it works on open meshes
+    /// and on edges with more than two facets.
     fn new(mesh: &Mesh) -> Self {
         let count = mesh.vertices.len();
         let points: Vec<DVec3> = mesh
@@ -167,7 +167,7 @@ impl Surface {
     }
 }
 
-/// What vertices add to averages.
+/// The contribution of one or more vertices to averages.
 #[derive(Clone, Copy)]
 struct Sample {
     point: DVec3,
@@ -176,7 +176,7 @@ struct Sample {
     bent: f64,
 }
 
-/// What is averaged at one scale: vertices, those together that are close beside it, by the cell that they are in.
+/// The samples of one scale, by cell. Vertices that are close together, relative to the scale, share a sample.
 struct Scale {
     samples: Vec<Sample>,
     ranges: FxHashMap<IVec3, (u32, u32)>,
@@ -184,8 +184,8 @@ struct Scale {
 }
 
 impl Scale {
-    /// Cells are as wide as the scale, and within each so many parts a side are one sample at most: so the cost does not grow
-    /// with the square of the vertices of a model.
+    /// Cells are as wide as the scale, with this number of parts per side and at most one sample in each part. This keeps
+    /// the cost from growing with the square of the number of vertices.
     const PARTS: i32 = 4;
 
     fn new(surface: &Surface, sigma_mm: f64) -> Self {
@@ -259,7 +259,7 @@ impl Scale {
 
 /// Gaussian weights.
 struct Kernel {
-    /// exp(−2 i / [`STEPS`](Self::STEPS)): the weight at a part i of the square of a scale's reach.
+    /// The weight at i / [`STEPS`](Self::STEPS) of the squared radius: exp(−2 i / [`STEPS`](Self::STEPS)).
     weights: Vec<f64>,
 }
 
@@ -267,11 +267,11 @@ impl Kernel {
     const STEPS: usize = 2048;
 
     fn new() -> Self {
-        // exp by its series, in basic arithmetic alone: the same on every machine.
+        // exp by its series, with basic arithmetic alone: the same on every machine.
         let step = REACH * REACH * 0.5 / Self::STEPS as f64;
         let ratio = 1.0 - step * (1.0 - step / 2.0 * (1.0 - step / 3.0 * (1.0 - step / 4.0)));
         let mut weight = 1.0;
-        // One more, where rounding up leads.
+        // One more, in case an index is rounded up.
         let weights = (0..=Self::STEPS).map(|_| {
             let this = weight;
             weight *= ratio;
@@ -283,7 +283,7 @@ impl Kernel {
     }
 }
 
-/// The article's non-linear suppression: scales with one high peak count for more than those with many alike.
+/// The article's non-linear suppression: a scale with one high peak counts for more than one with many similar peaks.
 fn suppress(mesh: &Mesh, values: &mut [f64]) {
     let most = greatest(values);
     if most <= 0.0 {
@@ -300,7 +300,7 @@ fn suppress(mesh: &Mesh, values: &mut [f64]) {
             is_peak[other] &= values[other] > values[one];
         }
     }
-    // All peaks but the highest, which is 1.
+    // All peaks except the highest, which is 1.
     let (mut sum, mut count) = (0.0, 0u32);
     for (&value, _) in values.iter().zip(is_peak).filter(|it| it.1) {
         if value > 0.0 && value < 1.0 {

@@ -1,5 +1,5 @@
-//! The zip of `ChiTuBox`: `1.png` upward and run.gcode, in which every layer has its own height and exposure. A dozen printers
-//! take it, and other programs convert it.
+//! The zip of `ChiTuBox`: masks `1.png` and so on, and run.gcode, which gives each layer its own height and exposure. A
+//! dozen printers read it, and other programs convert it.
 
 use std::fmt::Write as _;
 
@@ -36,7 +36,7 @@ fn run_gcode(job: &PrintJob<'_>, layers: &[LayerEntry]) -> String {
         |printer| printer.volume_mm,
     );
     let mm = thousandths;
-    // The thickness of most layers stands for all where a program asks for one.
+    // Some keys hold a single thickness for all layers: the middle layer's.
     let middle = layers.get(layers.len() / 2);
     let usual_mm = middle.map_or(resin.layer_mm, |layer| layer.thickness_mm);
     let head = [
@@ -66,7 +66,7 @@ fn run_gcode(job: &PrintJob<'_>, layers: &[LayerEntry]) -> String {
             .to_owned(),
         ),
         ("normalExposureTime", mm(resin.exposure_s(usual_mm))),
-        // The misspelt twin is what some readers look for.
+        // Some readers look for the misspelt key.
         ("bottomLayExposureTime", mm(resin.bottom_exposure_s)),
         ("bottomLayerExposureTime", mm(resin.bottom_exposure_s)),
         ("normalDropSpeed", mm(resin.return_mm_min)),
@@ -89,7 +89,7 @@ fn run_gcode(job: &PrintJob<'_>, layers: &[LayerEntry]) -> String {
         let _ = writeln!(text, ";{key}:{value}");
     }
     text.push_str("\n;START_GCODE_BEGIN\nG21;\nG90;\nM106 S0;\nM17;\nG28 Z0;\n;START_GCODE_END\n");
-    // Readers take a layer without a lift for a wait.
+    // Readers take a layer without a lift for a pause.
     let lift_mm = resin.lift_mm.max(0.1);
     for (index, layer) in layers.iter().enumerate() {
         let _ = write!(

@@ -1,7 +1,7 @@
-//! Print files that are zips of masks, one file a format.
+//! Print files that are zips of masks. Each format has a source file of its own.
 //!
-//! A format says how masks are named and stored and which other files there are; this module encodes the masks on all
-//! cores and writes the zip.
+//! A format decides how masks are named and stored, and which other files the zip holds. This module encodes the masks on
+//! all cores and writes the zip.
 
 pub mod chitubox;
 pub mod png;
@@ -31,23 +31,23 @@ pub struct LayerEntry {
     pub z_mm: f64,
     /// Thickness of the layer in millimetres.
     pub thickness_mm: f64,
-    /// Seconds of exposure.
+    /// Exposure in seconds.
     pub exposure_s: f64,
-    /// White pixels of the mask.
+    /// Number of pixels of the mask that are not black.
     pub lit_pixels: u64,
 }
 
 /// Name and contents of a file in a zip.
 pub type File = (String, Vec<u8>);
 
-/// What tells formats apart.
+/// What differs between formats.
 pub trait Container: Sync {
     /// Refuses a plan that the format cannot express.
     fn check(&self, _job: &PrintJob<'_>) -> Result<(), ArchiveError> {
         Ok(())
     }
 
-    /// How masks are stored whose pixels are either lit or dark; all others are grey.
+    /// How masks without anti-aliasing are stored. Masks with it are always grey.
     fn depth(&self) -> Depth {
         Depth::Grey
     }
@@ -55,14 +55,14 @@ pub trait Container: Sync {
     /// The name of a layer's mask.
     fn mask_name(&self, layer: usize) -> String;
 
-    /// The files beside the masks.
+    /// The files besides the masks.
     fn files(&self, job: &PrintJob<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError>;
 }
 
-/// The encoder of a container.
+/// Encodes a container.
 pub struct Zip<C>(pub C);
 
-/// Layers that one thread encodes in a row; the mask is copied once for each such run.
+/// Number of consecutive layers that one thread encodes. The mask is copied once for each such run.
 const RUN: usize = 8;
 
 impl<C: Container> Encoder for Zip<C> {
@@ -70,7 +70,7 @@ impl<C: Container> Encoder for Zip<C> {
         self.0.check(job)
     }
 
-    /// Whatever their number and size, files are written right: from 65,535 files or 4 GiB on by the rules of zip64.
+    /// There is no limit on the number and size of files: from 65,535 files or 4 GiB on, the zip is a zip64.
     fn encode(
         &self,
         job: &PrintJob<'_>,
@@ -127,14 +127,14 @@ impl<C: Container> Encoder for Zip<C> {
     }
 }
 
-/// When all files were made, as far as the zip says: the first moment that a zip can name. With the time of day the same plan
-/// would give other bytes every time.
+/// The modification time of all files: the earliest that a zip can store. With the real time, the same plan would give
+/// different bytes each time.
 const MODIFIED: UtcDateTime = match UtcDateTime::from_components(1980, 1, 1, 0, 0, 0, 0) {
     Some(date) => date,
     None => unreachable!(),
 };
 
-/// Adds a file.
+/// Adds a file to the zip.
 fn add<W: Write>(
     zip: &mut ZipArchiveWriter<W>,
     name: &str,
@@ -151,19 +151,19 @@ fn add<W: Write>(
     Ok(())
 }
 
-/// A file as it stands in a zip.
+/// A file as stored in a zip.
 struct Deflated {
     bytes: Vec<u8>,
     crc: u32,
     length: u64,
 }
 
-/// Deflates file after file.
+/// Deflates one file after another.
 struct Deflater(Compress);
 
 impl Deflater {
-    /// Streams of masks repeat themselves at short distances, which the fourth level finds: the first takes a quarter of
-    /// the time, but leaves a sixth more.
+    /// Streams of masks repeat at short distances, which level 4 finds. Level 1 takes a quarter of the time, but leaves
+    /// files a sixth larger.
     const LEVEL: u32 = 4;
 
     fn new() -> Self {

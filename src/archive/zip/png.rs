@@ -1,7 +1,7 @@
-//! A zip of one-bit PNG masks with a manifest: the default download.
+//! A zip of one-bit PNG masks with a manifest: the default format.
 //!
-//! `layers/00000.png` upward from the plate, white where the resin is cured, row 0 at the largest y;
-//! `manifest.json` is the job's manifest with an entry for every layer.
+//! The masks are `layers/00000.png` and so on, from the plate upward: white where the resin is cured, row 0 at the largest
+//! y. `manifest.json` is the job's manifest with an entry for each layer.
 
 use serde_json::json;
 

@@ -1,4 +1,4 @@
-//! Prusa's SL1 and SL1S: config.ini and prusaslicer.ini with one thickness for all layers.
+//! Prusa's SL1 and SL1S: config.ini and prusaslicer.ini, with one thickness for all layers.
 
 use std::fmt::Write as _;
 
@@ -8,12 +8,12 @@ use crate::archive::{ArchiveError, PrintJob, thousandths};
 
 pub struct Sl1;
 
-/// What masks are named after.
+/// The name of the job, which begins the names of masks.
 const JOB: &str = "cusp";
 
 impl Container for Sl1 {
     fn check(&self, job: &PrintJob<'_>) -> Result<(), ArchiveError> {
-        // The first layer may differ.
+        // The thickness of the first layer may differ.
         let mut later = job.plan.thickness_mm().into_iter().skip(1);
         let second = later.next();
         if later.any(|thickness_mm| Some(thickness_mm) != second) {
@@ -73,7 +73,7 @@ fn config(job: &PrintJob<'_>, layers: &[LayerEntry]) -> String {
         ("jobDir", JOB.to_owned()),
         ("layerHeight", thousandths(layer_mm)),
         ("materialName", name),
-        // No layers between slow and fast: bottom layers are exposed alike.
+        // No transition layers: all bottom layers have the same exposure.
         ("numFade", "0".to_owned()),
         ("numFast", (layers.len() - slow).to_string()),
         ("numSlow", slow.to_string()),
@@ -92,7 +92,7 @@ fn config(job: &PrintJob<'_>, layers: &[LayerEntry]) -> String {
 
 fn prusaslicer(job: &PrintJob<'_>) -> String {
     let grid = &job.masks.grid;
-    // The screen is named by its sides as it lies; masks stand upright.
+    // The display's sides are given in landscape; masks are in portrait.
     let is_portrait = grid.height > grid.width;
     let (long, short) = if is_portrait {
         ((grid.height, grid.pitch_y_mm), (grid.width, grid.pitch_mm))

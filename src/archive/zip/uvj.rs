@@ -1,4 +1,4 @@
-//! UVJ: config.json with a height and an exposure for every layer, masks in `slice/`.
+//! UVJ: config.json with a height and an exposure for each layer, and masks in `slice/`.
 
 use serde_json::{Value, json};
 
@@ -8,7 +8,7 @@ use crate::archive::{ArchiveError, PrintJob};
 
 pub struct Uvj;
 
-/// By how much a step may exceed the nominal layer height for a reader that checks it.
+/// The factor by which a layer may exceed the nominal layer height in readers that check it.
 const STEP_ROOM: f64 = 1.5;
 
 impl Container for Uvj {
