@@ -1,0 +1,188 @@
+//! Limits: mandatory planes, height ranges, the motor step, snap planes, and limits that contradict each other.
+
+use cusp_slicer::grid::Bins;
+use cusp_slicer::plan::optimal::{self, Objective};
+use cusp_slicer::plan::segment::Segments;
+use cusp_slicer::plan::{HeightRange, Limits, PlanError, uniform};
+use cusp_slicer::profile::{LayerErrors, Profile};
+
+use crate::{bins, limits, plan, sum};
+
+#[test]
+fn planes_and_ranges_are_kept() {
+    let limits = Limits {
+        ranges: vec![
+            HeightRange {
+                from_mm: 0.0,
+                to_mm: 12.0,
+                layer_min_mm: 4.0,
+                layer_max_mm: 4.0,
+            },
+            HeightRange {
+                from_mm: 40.0,
+                to_mm: 99.0,
+                layer_min_mm: 1.0,
+                layer_max_mm: 2.0,
+            },
+        ],
+        planes_mm: vec![21.0, 33.3],
+        ..limits(2.0, 8.0, 100.0)
+    };
+    let plan = plan(&[0.5; 50], &limits).unwrap();
+    assert_eq!(plan.boundaries[..4], [0, 4, 8, 12]);
+    for plane in [21, 33, 40, 50] {
+        assert!(plan.boundaries.contains(&plane), "{plane}: {plan:?}");
+    }
+    let layers = plan.boundaries.windows(2);
+    let mut above_40 = layers.filter(|layer| layer[0] >= 40);
+    assert!(above_40.all(|layer| layer[1] - layer[0] <= 2));
+}
+
+#[test]
+fn heights_are_multiples_of_the_motor_step() {
+    // 11 bins of 0.004 mm are 0.044 mm: no whole number of steps of 0.01 mm.
+    let density = vec![0.3f32; 1111];
+    let profile = Profile {
+        bins: Bins::of_height(4.444, 0.004).unwrap(),
+        density,
+    };
+    let errors = LayerErrors::Sum(profile.error_sum());
+    let limits = Limits {
+        step_mm: Some(0.02),
+        planes_mm: vec![1.234],
+        ..limits(0.05, 0.15, 0.04)
+    };
+    let plan = optimal::plan(&errors, &limits, &[600], Objective::Layers).unwrap();
+    assert!(plan.boundaries.iter().all(|boundary| boundary % 5 == 0));
+    assert!(
+        plan.boundaries.contains(&310),
+        "1.24 mm is nearest to the plane asked for"
+    );
+    assert_eq!(plan.snap_planes, [600]);
+    assert_eq!(plan.z_mm().last(), Some(&4.44));
+    let uneven = Limits {
+        step_mm: Some(0.01),
+        ..limits
+    };
+    let result = optimal::plan(&errors, &uneven, &[], Objective::Layers);
+    assert!(
+        matches!(result, Err(PlanError::NotWholeBins { .. })),
+        "{result:?}"
+    );
+}
+
+#[test]
+fn wishes_are_granted_in_order_and_give_way() {
+    let plain = limits(3.0, 6.0, 100.0);
+    let segments = Segments::new(bins(30), &plain, &[10, 12, 25, 2, 29]).unwrap();
+    // 12 is too near to 10, 2 to the plate and 29 to the top.
+    assert_eq!(segments.snap_planes, [10, 25]);
+    assert_eq!(segments.segments.len(), 3);
+
+    // The layers from 0 to 10 would be 3 to 4 bins: too much where the profile is 1.
+    let mut density = [0.1; 30];
+    density[..10].fill(1.0);
+    let tight = limits(3.0, 6.0, 3.0);
+    assert!(optimal::plan(&sum(&density), &tight, &[], Objective::Layers).is_ok());
+    let plan = optimal::plan(&sum(&density), &tight, &[10, 20], Objective::Layers).unwrap();
+    assert_eq!(plan.snap_planes, [20]);
+}
+
+#[test]
+fn a_top_that_layers_do_not_add_up_to_is_moved_by_at_most_half_a_layer() {
+    for (height, expected) in [(11, 10), (12, 10), (13, 15), (14, 15), (15, 15), (3, 5)] {
+        let plan = plan(&vec![0.1; height], &limits(5.0, 5.0, 1.0)).unwrap();
+        assert_eq!(plan.boundaries[plan.layers()], expected, "{height}");
+    }
+    let result = plan(&[0.1; 2], &limits(5.0, 5.0, 1.0));
+    assert!(
+        matches!(result, Err(PlanError::LayersDoNotFit { .. })),
+        "{result:?}"
+    );
+}
+
+#[test]
+fn planes_between_which_no_layers_fit_are_told() {
+    let crowded = Limits {
+        planes_mm: vec![10.0, 12.0],
+        ..limits(3.0, 6.0, 100.0)
+    };
+    let result = plan(&[0.1; 30], &crowded);
+    let Err(PlanError::LayersDoNotFit { from_mm, to_mm, .. }) = result else {
+        panic!("{result:?}");
+    };
+    assert_eq!((from_mm, to_mm), (10.0, 12.0));
+    for z_mm in [-1.0, 0.2, 31.0, f64::NAN] {
+        let outside = Limits {
+            planes_mm: vec![z_mm],
+            ..limits(3.0, 6.0, 100.0)
+        };
+        let result = plan(&[0.1; 30], &outside);
+        assert!(
+            matches!(result, Err(PlanError::BadPlane { .. })),
+            "{z_mm}: {result:?}"
+        );
+    }
+    let range = |from_mm, to_mm| HeightRange {
+        from_mm,
+        to_mm,
+        layer_min_mm: 3.0,
+        layer_max_mm: 6.0,
+    };
+    for ranges in [
+        vec![range(5.0, 5.0)],
+        vec![range(9.0, 5.0)],
+        vec![range(0.0, 10.0), range(9.0, 20.0)],
+        vec![range(-3.0, 6.0)],
+        vec![range(f64::NAN, 6.0)],
+    ] {
+        let wrong = Limits {
+            ranges: ranges.clone(),
+            ..limits(3.0, 6.0, 100.0)
+        };
+        let result = plan(&[0.1; 30], &wrong);
+        assert!(
+            matches!(result, Err(PlanError::BadRange { .. })),
+            "{ranges:?}: {result:?}"
+        );
+    }
+}
+
+#[test]
+fn limits_far_beyond_the_model_are_no_trouble() {
+    let wide = limits(1.0, 1e12, 1e12);
+    assert_eq!(plan(&[0.1; 10], &wide).unwrap().boundaries, [0, 10]);
+    let thick = plan(&[0.1; 10], &limits(1e9, 1e12, 1e12));
+    assert!(
+        matches!(thick, Err(PlanError::LayersDoNotFit { .. })),
+        "{thick:?}"
+    );
+    let too_thick = uniform::plan(bins(10), 10.0, 1e9);
+    assert!(
+        matches!(too_thick, Err(PlanError::LayerTooThick { .. })),
+        "{too_thick:?}"
+    );
+}
+
+#[test]
+fn limits_are_checked() {
+    let density = [0.1; 10];
+    for wrong in [
+        limits(0.0, 5.0, 1.0),
+        limits(1.0, f64::NAN, 1.0),
+        limits(1.0, 5.0, -1.0),
+    ] {
+        let result = plan(&density, &wrong);
+        assert!(
+            matches!(result, Err(PlanError::Grid(_))),
+            "{wrong:?}: {result:?}"
+        );
+    }
+    for empty in [limits(5.0, 4.0, 1.0), limits(1.2, 1.8, 1.0)] {
+        let result = plan(&density, &empty);
+        assert!(
+            matches!(result, Err(PlanError::EmptyRange { .. })),
+            "{empty:?}: {result:?}"
+        );
+    }
+}

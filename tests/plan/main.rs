@@ -1,0 +1,108 @@
+//! Planners, against closed forms and naive oracles.
+
+#![cfg(not(target_arch = "wasm32"))]
+
+mod baselines;
+#[path = "../common/mod.rs"]
+mod common;
+mod limits;
+mod optimal;
+mod tradeoff;
+
+use cusp_slicer::grid::Bins;
+use cusp_slicer::plan::optimal::Objective;
+use cusp_slicer::plan::segment::Segment;
+use cusp_slicer::plan::{Limits, Plan, PlanError};
+use cusp_slicer::profile::volume::VolumeError;
+use cusp_slicer::profile::{ErrorSum, LayerErrors, Profile};
+use cusp_slicer::resin::Resin;
+
+const FIGURE_3: [f32; 8] = [0.2, 0.2, 0.2, 0.3, 0.4, 0.1, 0.2, 0.2];
+
+/// Bins of 1 mm.
+fn bins(count: usize) -> Bins {
+    Bins {
+        count,
+        size_mm: 1.0,
+    }
+}
+
+fn error_sum(density: &[f32]) -> ErrorSum {
+    Profile {
+        bins: bins(density.len()),
+        density: density.to_vec(),
+    }
+    .error_sum()
+}
+
+fn sum(density: &[f32]) -> LayerErrors {
+    LayerErrors::Sum(error_sum(density))
+}
+
+fn volume(areas_mm2: &[f64]) -> LayerErrors {
+    LayerErrors::Volume(VolumeError::new(areas_mm2, bins(areas_mm2.len())))
+}
+
+fn limits(layer_min_mm: f64, layer_max_mm: f64, tolerance: f64) -> Limits {
+    Limits {
+        layer_min_mm,
+        layer_max_mm,
+        tolerance,
+        ..Limits::default()
+    }
+}
+
+/// A resin without bottom layers, and with `overhead_s` between layers.
+fn resin(layer_mm: f64, exposure_s: f64, penetration_mm: f64, overhead_s: f64) -> Resin {
+    Resin {
+        layer_mm,
+        exposure_s,
+        penetration_mm,
+        wait_s: overhead_s,
+        lift_mm: 0.0,
+        bottom_layers: 0,
+        ..Resin::default()
+    }
+}
+
+fn segment(units: usize, thickness: (u32, u32)) -> Segment {
+    Segment {
+        lower: 0,
+        units: units as u32,
+        unit: 1,
+        thickness: thickness.0..=thickness.1,
+    }
+}
+
+fn plan(density: &[f32], limits: &Limits) -> Result<Plan, PlanError> {
+    cusp_slicer::plan::optimal::plan(&sum(density), limits, &[], Objective::Layers)
+}
+
+/// Tenths, so that sums often hit the tolerance exactly.
+fn random_tenths(random: &mut fastrand::Rng, count: usize) -> Vec<u64> {
+    let is_flat = random.bool();
+    (0..count)
+        .map(|_| {
+            if is_flat && random.bool() {
+                0
+            } else {
+                random.u64(0..=10)
+            }
+        })
+        .collect()
+}
+
+fn in_tenths(tenths: &[u64]) -> Vec<f32> {
+    tenths.iter().map(|&tenths| tenths as f32 / 10.0).collect()
+}
+
+/// Every metric's errors of a random model.
+fn random_errors(random: &mut fastrand::Rng, count: usize) -> (LayerErrors, String) {
+    if random.bool() {
+        let tenths = random_tenths(random, count);
+        (sum(&in_tenths(&tenths)), format!("{tenths:?}"))
+    } else {
+        let areas: Vec<f64> = (0..count).map(|_| f64::from(random.u32(0..=9))).collect();
+        (volume(&areas), format!("{areas:?}"))
+    }
+}

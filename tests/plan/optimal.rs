@@ -1,0 +1,221 @@
+//! The optimal planner: the paper's example and its procedure, brute force over all sets of planes for every metric,
+//! constraint and objective, and planted optima.
+
+use cusp_slicer::plan::HeightRange;
+use cusp_slicer::plan::optimal::{self, Objective, Table, fill_cheapest, fill_fewest};
+use cusp_slicer::profile::LayerErrors;
+
+use crate::common::{assert_near, oracle, oracle::Rules};
+use crate::{
+    FIGURE_3, bins, error_sum, in_tenths, limits, plan, random_errors, random_tenths, resin,
+    segment, sum, volume,
+};
+
+#[test]
+fn figure_3_has_its_k_d_and_s() {
+    let errors = sum(&FIGURE_3);
+    let table = fill_fewest(
+        &error_sum(&FIGURE_3),
+        &segment(8, (2, 3)),
+        errors.to_steps(0.6),
+    );
+    let none = Table::NO_PLAN;
+    assert_eq!(table.cost, [0, none, 1, 1, 2, none, 3, none, 4]);
+    assert_eq!(table.below, [0, 0, 0, 0, 2, 0, 4, 0, 6]);
+    let plan = plan(&FIGURE_3, &limits(2.0, 3.0, 0.6)).unwrap();
+    assert_eq!(plan.boundaries, [0, 2, 4, 6, 8]);
+    assert_eq!(plan.z_mm(), [0.0, 2.0, 4.0, 6.0, 8.0]);
+    assert_eq!(plan.thickness_mm(), [2.0; 4]);
+    assert_eq!(plan.middle_mm(), [1.0, 3.0, 5.0, 7.0]);
+    assert_near(plan.max_error(&errors), 0.5, 1e-6);
+}
+
+#[test]
+fn the_linear_planner_has_the_k_of_procedure_1_written_literally() {
+    let mut random = fastrand::Rng::with_seed(41);
+    for _ in 0..3000 {
+        let count = random.usize(1..=80);
+        let tenths = random_tenths(&mut random, count);
+        let least = random.usize(1..=6);
+        let greatest = least + random.usize(0..=20);
+        let tolerance = random.u64(0..=60);
+        let errors = error_sum(&in_tenths(&tenths));
+        let steps = LayerErrors::Sum(errors.clone()).to_steps(tolerance as f64 / 10.0);
+        let segment = segment(count, (least as u32, greatest as u32));
+        let table = fill_fewest(&errors, &segment, steps);
+        let (k, _) = oracle::procedure_1(&tenths, (least, greatest), tolerance);
+        assert_eq!(table.cost, k, "{tenths:?} {least} {greatest} {tolerance}");
+    }
+}
+
+#[test]
+fn the_linear_planner_has_the_least_largest_error_of_all_plans_as_short() {
+    let mut random = fastrand::Rng::with_seed(43);
+    for round in 0..3000 {
+        let count = random.usize(1..=120);
+        let density = if round % 2 == 0 {
+            in_tenths(&random_tenths(&mut random, count))
+        } else {
+            (0..count).map(|_| random.f32()).collect()
+        };
+        let least = random.u32(1..=6);
+        let segment = segment(count, (least, least + random.u32(0..=20)));
+        let errors = error_sum(&density);
+        let all = LayerErrors::Sum(errors.clone());
+        let tolerance = all.to_steps(random.f64() * 8.0);
+        let found = fill_fewest(&errors, &segment, tolerance);
+        let expected = fill_cheapest(&all, &segment, tolerance, |_| 1);
+        assert_eq!(
+            found.cost, expected.cost,
+            "{density:?} {segment:?} {tolerance}"
+        );
+        for plane in 0..=count {
+            if found.cost[plane] != Table::NO_PLAN {
+                assert_eq!(
+                    found.worst[plane], expected.worst[plane],
+                    "plane {plane}: {density:?} {segment:?} {tolerance}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn no_set_of_planes_is_better() {
+    let resin = resin(1.0, 1.0, 2.0, 3.0);
+    let mut random = fastrand::Rng::with_seed(3);
+    let (mut feasible, mut infeasible) = (0, 0);
+    for _ in 0..6000 {
+        let count = random.usize(1..=12);
+        let (errors, text) = random_errors(&mut random, count);
+        let least = random.usize(1..=3);
+        let greatest = least + random.usize(0..=3);
+        let tolerance = f64::from(random.u32(1..=30)) / 10.0;
+        let mut limits = limits(least as f64, greatest as f64, tolerance);
+        let mut rules = Rules::plain(count, (least, greatest));
+        if random.u8(0..4) == 0 && count.is_multiple_of(2) {
+            limits.step_mm = Some(2.0);
+            rules.step = 2;
+        }
+        if random.u8(0..4) == 0 && count > 2 {
+            let plane = random.usize(1..count) / rules.step * rules.step;
+            if plane > 0 {
+                limits.planes_mm = vec![plane as f64];
+                rules.planes = vec![plane];
+            }
+        }
+        if random.u8(0..4) == 0 && count > 4 {
+            let (from, to) = (2, 4);
+            let (least, greatest) = (random.usize(1..=2), random.usize(2..=3));
+            limits.ranges = vec![HeightRange {
+                from_mm: from as f64,
+                to_mm: to as f64,
+                layer_min_mm: least as f64,
+                layer_max_mm: greatest as f64,
+            }];
+            rules.planes.extend([from, to]);
+            rules.thickness[from..to].fill((least, greatest));
+        }
+        let is_time = random.bool();
+        let objective = if is_time {
+            Objective::Time(&resin)
+        } else {
+            Objective::Layers
+        };
+        let expected = oracle::best_plan(
+            count,
+            &rules,
+            errors.to_steps(tolerance),
+            |lower, upper| errors.steps_between(lower as u32, upper as u32),
+            |thickness| {
+                if is_time {
+                    resin.layer_us(thickness as f64)
+                } else {
+                    1
+                }
+            },
+        );
+        let found = optimal::plan(&errors, &limits, &[], objective);
+        match (&found, expected) {
+            (Ok(plan), Some((cost, worst))) => {
+                feasible += 1;
+                let found_cost = match objective {
+                    Objective::Layers => plan.layers() as u64,
+                    Objective::Time(resin) => (plan.print_time_s(resin) * 1e6).round() as u64,
+                };
+                assert_eq!(
+                    (found_cost, plan.max_error_steps(&errors)),
+                    (cost, worst),
+                    "{text} {limits:?} {plan:?}"
+                );
+            }
+            // Where no layers add up to the top, the top is moved: the oracle does not know that.
+            (Ok(plan), None) => assert_ne!(
+                plan.boundaries[plan.layers()] as usize,
+                count,
+                "{text} {limits:?} {plan:?}"
+            ),
+            (Err(_), None) => infeasible += 1,
+            (Err(error), Some(_)) => panic!("{text} {limits:?}: {error:?}"),
+        }
+    }
+    assert!(
+        feasible > 2000 && infeasible > 500,
+        "{feasible} feasible, {infeasible} not"
+    );
+}
+
+#[test]
+fn the_volume_of_a_layer_is_measured_from_its_lowest_bin() {
+    // Literally eq. 20, for every pair of planes.
+    let areas = [4.0, 4.5, 3.0, 0.0, 7.0, 7.0];
+    let errors = volume(&areas);
+    for l in 0..areas.len() {
+        for i in l..=areas.len() {
+            let expected: f64 = (l + 1..=i).map(|j| (areas[j - 1] - areas[l]).abs()).sum();
+            let steps = errors.steps_between(l as u32, i as u32);
+            assert_near(errors.to_value(steps), expected, 1e-9);
+        }
+    }
+}
+
+#[test]
+fn a_planted_plan_is_found_again() {
+    // Each layer's bins add up to just the tolerance, so that no plane can move.
+    let mut random = fastrand::Rng::with_seed(11);
+    let mut density = Vec::new();
+    let mut planted = vec![0u32];
+    for _ in 0..200 {
+        let bins = [5, 8, 10][random.usize(0..3)];
+        density.extend((0..bins).map(|_| 1.0 / bins as f32));
+        planted.push(planted.last().unwrap() + bins);
+    }
+    let plan = plan(&density, &limits(4.0, 15.0, 1.0)).unwrap();
+    assert_eq!(plan.boundaries, planted);
+}
+
+#[test]
+fn of_plans_as_short_the_one_with_the_least_error_is_taken() {
+    // Two layers are needed; procedure 1 puts the plane at 2, where the upper layer has error 6.
+    let plan = plan(&[1.0; 8], &limits(1.0, 6.0, 6.0)).unwrap();
+    assert_eq!(plan.boundaries, [0, 4, 8]);
+}
+
+#[test]
+fn the_shortest_time_is_not_the_fewest_layers_where_exposures_grow_fast() {
+    let errors = sum(&[0.1; 60]);
+    let resin = resin(1.0, 1.0, 1.5, 2.0);
+    let all = limits(1.0, 6.0, 100.0);
+    let fewest = optimal::plan(&errors, &all, &[], Objective::Layers).unwrap();
+    let quickest = optimal::plan(&errors, &all, &[], Objective::Time(&resin)).unwrap();
+    assert!(quickest.layers() > fewest.layers());
+    assert!(quickest.print_time_s(&resin) < fewest.print_time_s(&resin));
+}
+
+#[test]
+fn a_million_bins_and_thicknesses_of_any_number_of_them_take_one_pass() {
+    // Procedure 1 written literally would look at 10^12 pairs of planes.
+    let density = vec![1e-4; 1_000_000];
+    let plan = plan(&density, &limits(1.0, 1e6, 10.0)).unwrap();
+    assert_eq!(plan.layers(), 10);
+}
