@@ -7,8 +7,8 @@ use cusp_slicer::profile::LayerErrors;
 
 use crate::common::{assert_near, oracle, oracle::Rules};
 use crate::{
-    FIGURE_3, bins, error_sum, in_tenths, limits, plan, random_errors, random_tenths, resin,
-    segment, sum, volume,
+    FIGURE_3, error_sum, in_tenths, limits, plan, random_errors, random_tenths, resin, segment,
+    sum, volume,
 };
 
 #[test]
