@@ -8,13 +8,13 @@ mod common;
 use std::io::Cursor;
 use std::ops::ControlFlow;
 
-use common::{binary_stl, quiet, solids};
+use common::{assert_near, binary_stl, quiet, solids};
 use cusp_slicer::Error;
 use cusp_slicer::format::Format;
 use cusp_slicer::job::Report;
 use cusp_slicer::job::{Backend, Minimize, Options, Planner, Snap};
 use cusp_slicer::job::{Slicer, Stage};
-use cusp_slicer::plan::HeightRange;
+use cusp_slicer::plan::{HeightRange, PlanError};
 use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::warning::Warning;
 use glam::Vec3;
@@ -601,4 +601,41 @@ fn a_change_of_options_repeats_only_what_depends_on_it() {
         ..options()
     };
     assert_eq!(again(&mut slicer, &finer).0, [true; 3]);
+}
+
+/// What an error offers can be typed, and works.
+#[test]
+fn a_thinner_least_thickness_is_whole_micrometres_and_holds() {
+    let mut slicer = load(&solids::cone(5.0, 3.0, 64));
+    let mut found = 0;
+    for (layer_min_mm, layer_max_mm, step_mm) in [
+        (0.05, 0.15, None),
+        (0.055, 0.15, None),
+        (0.055, 0.155, None),
+        (0.05, 0.15, Some(0.0025)),
+    ] {
+        let options = Options {
+            layer_min_mm,
+            layer_max_mm,
+            step_mm,
+            tolerance: Some(0.03),
+            ..options()
+        };
+        let error = plan(&mut slicer, &options).unwrap_err();
+        let Error::Plan(PlanError::Infeasible {
+            largest_layer_min_mm: Some(offer_mm),
+            ..
+        }) = error
+        else {
+            panic!("{error:?}");
+        };
+        assert_near(offer_mm * 1e3, (offer_mm * 1e3).round(), 1e-6);
+        let taken = Options {
+            layer_min_mm: offer_mm,
+            ..options
+        };
+        plan(&mut slicer, &taken).unwrap();
+        found += 1;
+    }
+    assert_eq!(found, 4);
 }

@@ -118,7 +118,7 @@ async fn check_plan_and_masks() {
         let (bytes, _) = slicer.write_archive(Vec::new(), &mut quiet).unwrap();
         fingerprint(&bytes)
     };
-    assert_eq!(archive(&mut slicer), 0xa2ac_35ae_7ae8_8e83);
+    assert_eq!(archive(&mut slicer), 0x6026_a0cb_86af_1fb4);
     let grey = Options {
         antialias: 4,
         printer: Some("sl1s".to_owned()),

@@ -240,6 +240,8 @@ pub struct Preview {
     pub print_time_s: f64,
     /// Height of a bin of the profile.
     pub bin_mm: f64,
+    /// The thinnest and the thickest layer that a plan may have: whole motor steps, if there is one.
+    pub layer_range_mm: [f64; 2],
 }
 
 /// A plan and how it came about: what `--json` prints and the page shows.
@@ -300,6 +302,8 @@ pub struct Report {
     pub bins: usize,
     /// Height of a bin.
     pub bin_mm: f64,
+    /// The thinnest and the thickest layer that a plan may have: whole motor steps, if there is one.
+    pub layer_range_mm: [f64; 2],
     /// Facets that were sampled.
     pub facets: usize,
     /// Hits of the LDI.
@@ -405,6 +409,7 @@ pub(super) fn report_of(
         adapter: sampled.adapter.clone(),
         bins: plan.bins.count,
         bin_mm: plan.bins.size_mm,
+        layer_range_mm: layering.layer_range_mm(plan.bins),
         facets: sampled.mesh.surface_facets,
         hits: sampled.ldi.hits.len(),
         uniform: findings.uniform.clone(),

@@ -111,6 +111,31 @@ impl Options {
         })
     }
 
+    /// The error of a plan with numbers that people can type: a thinner least thickness is one of whole micrometres, at which the
+    /// bins, and so the answer, stay the same.
+    pub(crate) fn typeable(&self, mut error: PlanError) -> PlanError {
+        if let PlanError::Infeasible {
+            largest_layer_min_mm: largest_mm,
+            ..
+        } = &mut error
+        {
+            let bin_mm_at = |layer_min_mm: f64| {
+                let options = Self {
+                    layer_min_mm,
+                    ..self.clone()
+                };
+                options.resolve().ok().map(|job| job.layering.bin_mm)
+            };
+            let bin_mm = bin_mm_at(self.layer_min_mm);
+            *largest_mm = largest_mm.and_then(|largest_mm| {
+                let below_um = (largest_mm * 1e3 + ROUNDING).floor();
+                let mut choices_mm = [below_um, below_um - 1.0].map(|um| um / 1e3).into_iter();
+                choices_mm.find(|&mm| mm > 0.0 && bin_mm_at(mm) == bin_mm)
+            });
+        }
+        error
+    }
+
     /// Finds what no model could make good.
     ///
     /// # Errors
@@ -264,7 +289,9 @@ impl Options {
             }
             Some(_) => BIN_MM,
             None => {
-                let mut thicknesses = self.thicknesses_mm().into_iter().flatten();
+                // Uniform layers are compared with the thinnest and the thickest that the options allow.
+                let all = [self.layer_min_mm, self.layer_max_mm];
+                let mut thicknesses = self.thicknesses_mm().into_iter().flatten().chain(all);
                 let is_whole = thicknesses.all(|thickness_mm| is_multiple(thickness_mm, BIN_MM));
                 if is_whole { BIN_MM } else { BIN_MM / 2.0 }
             }
@@ -318,6 +345,24 @@ impl Layering {
         Limits {
             tolerance,
             ..self.limits.clone()
+        }
+    }
+
+    /// Thinnest and thickest layer that a plan in these bins may have, in millimetres: whole motor steps, where there is one.
+    pub fn layer_range_mm(&self, bins: Bins) -> [f64; 2] {
+        let Limits {
+            layer_min_mm,
+            layer_max_mm,
+            ..
+        } = self.limits;
+        let limits = &self.limits;
+        let range = limits.thickness(bins, layer_min_mm, layer_max_mm);
+        match (range, limits.unit(bins)) {
+            (Ok(range), Ok(unit)) => {
+                [*range.start(), *range.end()].map(|units| bins.boundary_mm(units * unit))
+            }
+            // Uniform layers may lie outside a range that holds no thickness.
+            _ => [layer_min_mm, layer_max_mm],
         }
     }
 

@@ -207,6 +207,7 @@ impl Slicer {
             max_error: planning.max_error(&plan),
             print_time_s: plan.print_time_s(&layering.resin),
             bin_mm: bins.size_mm,
+            layer_range_mm: layering.layer_range_mm(bins),
         };
         Ok((preview, shapes.profile(layering.metric, Source::Exact)))
     }
@@ -239,7 +240,8 @@ impl Slicer {
             Some(planned) => planned,
             None => {
                 let clock = Instant::now();
-                let planned = Planned::new(&measured, &job.layering)?;
+                let planned = Planned::new(&measured, &job.layering)
+                    .map_err(|error| options.typeable(error))?;
                 timings.plan = ms_since(clock);
                 Arc::new(planned)
             }

@@ -6,14 +6,13 @@ import { DEFAULT_SEARCH, DEFAULTS } from "./wire.js";
 
 test("the defaults that forms show are the core's", async () => {
   initSync({ module: await readFile(new URL("../../pkg/cusp_slicer_bg.wasm", import.meta.url)) });
-  const { tolerance, bin_mm, ...shown } = DEFAULTS;
+  const { tolerance, ...shown } = DEFAULTS;
   expect(defaults()).toMatchObject(shown);
   const slicer = new Slicer(binaryStl(exampleTriangles()));
   // What volume takes depends on the model.
   for (const metric of ["cusp", "roughness", "area"] as const) {
     const report = await slicer.plan({ metric, rays: 64, backend: "cpu" }, () => undefined);
     expect(report.tolerance, metric).toBe(tolerance[metric]);
-    expect(report.bin_mm, metric).toBe(bin_mm);
   }
   slicer.free();
 });

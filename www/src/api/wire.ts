@@ -76,7 +76,6 @@ export const DEFAULTS = {
   layer_max_mm: 0.15,
   /** In the metric's unit: mm, mm, a part of one, mm³. The core allows more for volume where a model needs more. */
   tolerance: { cusp: 0.065, roughness: 0.1, area: 0.1, volume: 1 } satisfies Record<Metric, number>,
-  bin_mm: 0.002,
   metric: "cusp",
   minimize: "layers",
   snap: "auto",

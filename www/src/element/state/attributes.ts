@@ -149,8 +149,6 @@ function said(fault: Fault, scale: number): string {
   switch (fault.kind) {
     case "upsideDown":
       return "leaves no layer thickness between layer-min and layer-max";
-    case "bins":
-      return "is no whole number of micrometres";
     case "whole":
       return "is no whole number";
     default:

@@ -2,7 +2,6 @@
 import type { Slicer } from "../../api/index.js";
 import type { Options } from "../../api/wire.js";
 import { shownOf, type Shown } from "./result.js";
-import { layerRange } from "./settings.js";
 
 export type Rotation = readonly [x: number, y: number, z: number, w: number];
 
@@ -37,7 +36,7 @@ export class Follower {
         this.#next = null;
         const stops = this.#stops;
         const { report, profile } = await this.#slicer.preview(at);
-        if (this.#stops === stops) this.#show(shownOf(report, profile, layerRange(at)));
+        if (this.#stops === stops) this.#show(shownOf(report, profile));
       }
     } catch {
       // Where no plan holds there is nothing to follow; the plan will say so when the model is let go.

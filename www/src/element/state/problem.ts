@@ -4,7 +4,7 @@ import type { FileKind, Warning } from "../../api/wire.js";
 import type { Language, Texts } from "../../texts/index.js";
 import { METRICS } from "./metric.js";
 import * as round from "./round.js";
-import { binOf, parse, withTolerance, type Field, type Settings } from "./settings.js";
+import { parse, withTolerance, type Field, type Settings } from "./settings.js";
 
 /** A change of settings that may well help, offered as a button. */
 export interface Offer {
@@ -174,7 +174,7 @@ function infeasible(error: Infeasible, settings: Settings, language: Language, f
     offers.push({ label, change: withTolerance(settings, String(short)) });
   }
   const largest = fixed.has("layerMin") ? null : error.detail.largest_layer_min_mm;
-  if (largest !== null) offers.push(layersFrom(thinEnough(largest, settings), language));
+  if (largest !== null) offers.push(layersFrom(largest, language));
 
   const place = texts.infeasible.where(
     format.bareHeight(error.detail.from_mm),
@@ -190,16 +190,6 @@ function infeasible(error: Infeasible, settings: Settings, language: Language, f
     offers,
     field: "tolerance",
   };
-}
-
-/**
- * A thinnest layer, in mm, that is at most the largest one that the core says will do. That holds for the bins that it
- * looked at, so where this thickness would bring other bins, one that does not is taken.
- */
-function thinEnough(largest_mm: number, settings: Settings): number {
-  const below = round.micrometreBelow(largest_mm);
-  const sameBins = binOf({ ...settings, layerMin: String(below) }) === binOf(settings);
-  return sameBins ? below : round.micrometreBelow(below - 0.001);
 }
 
 const layersFrom = (mm: number, { texts, format }: Language): Offer => ({

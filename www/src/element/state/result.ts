@@ -1,6 +1,6 @@
 /** What came of settings: a plan with the options it was made for, and what is drawn of it. */
 import type { Plan } from "../../api/index.js";
-import type { Metric, Options } from "../../api/wire.js";
+import type { Metric, Options, Preview, Report } from "../../api/wire.js";
 
 /** A plan with the options it was made for. */
 export interface Result extends Plan {
@@ -24,11 +24,8 @@ export interface Shown {
   print_time_s: number;
 }
 
-export function shownOf(
-  { metric, bin_mm, z_mm, thickness_mm, layers, print_time_s }: Omit<Shown, "profile" | "limits">,
-  profile: Float32Array,
-  limits: Shown["limits"],
-): Shown {
+export function shownOf(report: Report | Preview, profile: Float32Array): Shown {
+  const { metric, bin_mm, z_mm, thickness_mm, layers, print_time_s, layer_range_mm: limits } = report;
   return { metric, bin_mm, z_mm, thickness_mm, layers, print_time_s, profile, limits };
 }
 

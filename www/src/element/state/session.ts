@@ -19,7 +19,7 @@ import type { Failure } from "./problem.js";
 import type { Busy } from "../parts/progress.js";
 import { areSame, shownOf, type Result, type Shown } from "./result.js";
 import { Runner } from "./runner.js";
-import { DEFAULT_SETTINGS, layerRange, rotationText, type Settings } from "./settings.js";
+import { DEFAULT_SETTINGS, rotationText, type Settings } from "./settings.js";
 import { Preferences } from "./preferences.js";
 
 export class Session extends Preferences {
@@ -347,10 +347,10 @@ export class Session extends Preferences {
     this.#failed = false;
     const before = this.result?.report;
     const z = before?.z_mm[this.layer];
-    const result = { ...plan, options, limits: layerRange(options) };
+    const result = { ...plan, options, limits: report.layer_range_mm };
     this.result = result;
     this.#weightsOf = weights;
-    this.shown = shownOf(report, plan.profile, result.limits);
+    this.shown = shownOf(report, plan.profile);
     // Keep looking at the same height, or at the middle of a new model.
     this.layer = layerAt(report.z_mm, z === undefined ? report.height_mm / 2 : (z * report.height_mm) / (before?.height_mm ?? 1));
     if (before === undefined && this.notice === "cancelled") this.notice = null;

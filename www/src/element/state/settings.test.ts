@@ -6,7 +6,6 @@ import {
   DEFAULT_SETTINGS,
   faultWords,
   fromAddress,
-  layerRange,
   parse,
   quaternion,
   rotationText,
@@ -111,30 +110,10 @@ test("the uniform thickness counts only for the uniform planner", () => {
   expect(options({ planner: "uniform", uniform: "0.1" })).toMatchObject({ planner: { kind: "uniform", layer_mm: 0.1 } });
 });
 
-test("bins are halved where a thickness is no whole number of them, and no further", () => {
-  expect(options({ layerMin: "0.025" })).toMatchObject({ bin_mm: 0.001 });
-  expect(options({ planner: "uniform", uniform: "0.035" })).toMatchObject({ bin_mm: 0.001 });
-  expect(options({ uniform: "0.035" })).not.toHaveProperty("bin_mm");
-  expect(faults({ layerMax: "0.1005" }).layerMax).toMatch(/0.001 mm/);
-});
-
-test.each([
-  ["0.01", undefined],
-  ["0.0025", 0.00125],
-  ["0.00125", 0.00125],
-  ["0.003", 0.0015],
-])("with a motor step of %s mm the bin divides it", (step, bin_mm) => {
-  const found = options({ step }) as { step_mm: number; bin_mm?: number };
-  expect(found.step_mm).toBe(Number(step));
-  expect(found.bin_mm).toBe(bin_mm);
-});
-
-test("with a motor step the range need not be whole bins: layers are whole steps within it", () => {
-  expect(faults({ step: "0.0025", layerMin: "0.0525" })).toEqual({});
-  const [least, most] = layerRange({ layer_min_mm: 0.05, layer_max_mm: 0.15, step_mm: 0.02 });
-  expect(least).toBeCloseTo(0.06);
-  expect(most).toBeCloseTo(0.14);
-  expect(layerRange({ layer_min_mm: 0.05, layer_max_mm: 0.15, step_mm: 0.01 })[0]).toBeCloseTo(0.05);
+test("bins are the core's to choose", () => {
+  for (const patch of [{ layerMin: "0.025" }, { planner: "uniform", uniform: "0.0355" }, { step: "0.0025" }] as const) {
+    expect(options(patch)).not.toHaveProperty("bin_mm");
+  }
 });
 
 test("what only adaptive plans have is neither judged nor sent for uniform ones", () => {

@@ -57,7 +57,7 @@ export type Field = keyof Lengths | keyof Curing | "tolerance";
 /** What is wrong with a field. */
 export type Fault =
   | { kind: "number" | "range"; value: number | null; least: number; most: number; unit: string }
-  | { kind: "upsideDown" | "bins" | "whole" };
+  | { kind: "upsideDown" | "whole" };
 
 export type Faults = Partial<Record<Field, Fault>>;
 
@@ -207,7 +207,7 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
     options.planner = { kind: planner };
     options.minimize = settings.minimize;
     options.snap = settings.snap;
-    if (hasStep(settings)) options.step_mm = read("step", settings.step, THINNEST_MM, THICKEST_MM);
+    if (planner === "optimal" && settings.step.trim() !== "") options.step_mm = read("step", settings.step, THINNEST_MM, THICKEST_MM);
   }
   // The range also sets the two uniform plans that the result is compared with, so it counts for either planner.
   const min = (options.layer_min_mm = layer("layerMin"));
@@ -234,14 +234,6 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
   const rotation = quaternion(settings.rotation);
   if (rotation !== null) options.rotation = rotation;
 
-  const bin_mm = binOf(settings);
-  if (bin_mm !== DEFAULTS.bin_mm) options.bin_mm = bin_mm;
-  if (!hasStep(settings)) {
-    for (const field of thicknesses(settings)) {
-      if (!isMultiple(parse(settings[field]) ?? 0, bin_mm)) faults[field] ??= { kind: "bins" };
-    }
-  }
-
   return Object.keys(faults).length === 0 ? { ok: true, options } : { ok: false, faults };
 }
 
@@ -255,33 +247,6 @@ export function faultWords(fault: Fault, { texts: { faults }, format }: Language
   const asMicrometres = value / 1000;
   const isSlip = unit === "mm" && value > most && asMicrometres >= least && most < TALLEST_MM;
   return isSlip ? `${words} ${faults.micrometres(format.tick(value), format.tick(asMicrometres))}` : words;
-}
-
-/** Whether heights are to be whole motor steps. Uniform layers are as thick as they are said to be. */
-const hasStep = ({ planner, step }: Settings): boolean => planner === "optimal" && step.trim() !== "";
-
-/** The thicknesses that must be whole bins where there is no motor step. */
-const thicknesses = ({ planner }: Settings): ("layerMin" | "layerMax" | "uniform")[] =>
-  planner === "uniform" ? ["layerMin", "layerMax", "uniform"] : ["layerMin", "layerMax"];
-
-/**
- * The bin to plan in, in mm: the usual one; half of it where a thickness needs that; with a motor step the largest one,
- * up to the usual, that divides it.
- */
-export function binOf(settings: Settings): number {
-  if (hasStep(settings)) {
-    const step = parse(settings.step) ?? 0;
-    return step < THINNEST_MM ? DEFAULTS.bin_mm : step / Math.ceil(step / DEFAULTS.bin_mm - ROUNDING);
-  }
-  const isWhole = thicknesses(settings).every((field) => isMultiple(parse(settings[field]) ?? 0, DEFAULTS.bin_mm));
-  return isWhole ? DEFAULTS.bin_mm : DEFAULTS.bin_mm / 2;
-}
-
-/** Thinnest and thickest layer of a plan in mm: whole motor steps, where there is one. */
-export function layerRange({ layer_min_mm = 0, layer_max_mm = 0, step_mm }: Options): [number, number] {
-  if (step_mm === undefined) return [layer_min_mm, layer_max_mm];
-  const [least, most] = [Math.ceil(layer_min_mm / step_mm - ROUNDING), Math.floor(layer_max_mm / step_mm + ROUNDING)];
-  return [least * step_mm, most * step_mm];
 }
 
 /** A number as people type it, with a point or a comma; null if it is none. */
@@ -302,12 +267,4 @@ export function quaternion(text: string): [number, number, number, number] | nul
 export function rotationText(rotation: readonly number[]): string {
   const text = rotation.map((part) => String(Number(part.toFixed(6)) + 0)).join();
   return text === "0,0,0,1" ? "" : text;
-}
-
-/** What a quotient of decimals may be off by. */
-const ROUNDING = 1e-6;
-
-function isMultiple(value: number, step: number): boolean {
-  const times = value / step;
-  return Math.abs(times - Math.round(times)) < ROUNDING;
 }

@@ -61,7 +61,6 @@ export const settings = (): SettingsTexts => ({
     between: (least, most, unit) => `${least} bis ${most}${unit}`,
     micrometres: (typed, mm) => `${typed} µm sind ${mm} mm.`,
     upsideDown: "Die dickste Schicht darf nicht dünner sein als die dünnste.",
-    bins: "Nur Vielfache von 0,001 mm.",
     whole: "Geben Sie eine ganze Zahl ein.",
   },
   metrics: {

@@ -61,7 +61,6 @@ export const settings = () => ({
     between: (least: string, most: string, unit: string) => `${least} to ${most}${unit}`,
     micrometres: (typed: string, mm: string) => `${typed} µm is ${mm} mm.`,
     upsideDown: "The thickest layer must not be thinner than the thinnest.",
-    bins: "Use steps of 0.001 mm.",
     whole: "Enter a whole number.",
   },
   metrics: {

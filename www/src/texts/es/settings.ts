@@ -61,7 +61,6 @@ export const settings = (): SettingsTexts => ({
     between: (least, most, unit) => `${least} y ${most}${unit}`,
     micrometres: (typed, mm) => `${typed} µm son ${mm} mm.`,
     upsideDown: "La capa más gruesa no puede ser más fina que la más fina.",
-    bins: "Use múltiplos de 0,001 mm.",
     whole: "Escriba un número entero.",
   },
   metrics: {

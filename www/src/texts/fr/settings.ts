@@ -61,7 +61,6 @@ export const settings = (): SettingsTexts => ({
     between: (least, most, unit) => `de ${least} à ${most}${unit}`,
     micrometres: (typed, mm) => `${typed} µm font ${mm} mm.`,
     upsideDown: "La couche la plus épaisse ne peut être plus fine que la plus fine.",
-    bins: "Utilisez des multiples de 0,001 mm.",
     whole: "Entrez un nombre entier.",
   },
   metrics: {

@@ -61,7 +61,6 @@ export const settings = (): SettingsTexts => ({
     between: (least, most, unit) => `${least} 到 ${most}${unit}`,
     micrometres: (typed, mm) => `${typed} µm 即 ${mm} mm。`,
     upsideDown: "最厚层不能比最薄层薄。",
-    bins: "请使用 0.001 mm 的整数倍。",
     whole: "请输入整数。",
   },
   metrics: {
