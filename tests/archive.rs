@@ -1,4 +1,4 @@
-//! The zip of masks, read back with other libraries.
+//! The zip of masks, read back with independent libraries.
 
 #![cfg(not(target_arch = "wasm32"))]
 
@@ -19,7 +19,7 @@ fn slice(triangles: &solids::Triangles, options: &Options) -> (Slicer, Vec<u8>, 
     let (writer, report) = slicer
         .write_archive(Cursor::new(Vec::new()), &mut quiet)
         .unwrap();
-    // Through text, as the manifest goes.
+    // Through text, as the manifest is written.
     let report = serde_json::from_str(&serde_json::to_string(report).unwrap()).unwrap();
     (slicer, writer.into_inner(), report)
 }
@@ -70,7 +70,7 @@ fn the_manifest_repeats_the_report() {
     let (_, bytes, mut report) = slice(&solids::cone(2.0, 3.0, 16), &options());
     let mut zip = zip::ZipArchive::new(Cursor::new(bytes)).unwrap();
     let mut manifest: Value = serde_json::from_slice(&file(&mut zip, "manifest.json")).unwrap();
-    // What differs from machine to machine is left out.
+    // Without the parts that differ between machines.
     for key in ["timings_ms", "backend", "adapter"] {
         assert!(manifest.get(key).is_none(), "{key}");
         report.as_object_mut().unwrap().remove(key);
@@ -151,7 +151,7 @@ fn an_open_model_slices_with_a_warning() {
     assert_eq!(codes, ["open-mesh", "unclosed-rays"]);
 }
 
-/// Offsets beyond 4 GiB, by the same calls as print files are written with, in a file that is a hole up to there.
+/// Offsets beyond 4 GiB, written by the calls that write print files, in a sparse file.
 #[test]
 fn zips_beyond_four_gibibytes_are_read_by_another_library() {
     const OFFSET: u64 = 5 << 30;

@@ -1,5 +1,5 @@
-//! Print files of every format: masks decoded by another library, a strict reader of run.gcode written from what its
-//! readers are known to trip over, and plans that a format cannot express.
+//! Print files of every format: masks decoded by an independent library, a reader of run.gcode as strict as any known one,
+//! and plans that a format cannot express.
 
 #![cfg(not(target_arch = "wasm32"))]
 
@@ -27,7 +27,7 @@ type Zip = zip::ZipArchive<Cursor<Vec<u8>>>;
 
 fn options(format: Format) -> Options {
     Options {
-        // No whole number of bytes, and more than the model needs.
+        // Rows are not whole bytes, and the plate is larger than the model.
         pixels: Some([301, 150]),
         pitch_mm: Some(0.03),
         pitch_y_mm: Some(0.05),
@@ -58,7 +58,7 @@ fn text(zip: &mut Zip, name: &str) -> String {
     String::from_utf8(file(zip, name)).unwrap()
 }
 
-/// Width, height and a brightness a pixel.
+/// Width, height, and the brightness of each pixel.
 fn decode(png: &[u8]) -> (u32, u32, Vec<u8>) {
     let mut decoder = png::Decoder::new(Cursor::new(png));
     decoder.set_transformations(png::Transformations::EXPAND);
@@ -83,7 +83,7 @@ fn mask_name(format: Format, layer: usize) -> String {
 
 #[test]
 fn every_format_has_every_mask_as_it_is_or_mirrored() {
-    // A ball and a small cone beside it, so that left and right differ.
+    // A ball with a small cone beside it, so that left and right differ.
     let mut model = solids::sphere(2.0, 4);
     let cone = solids::cone(0.7, 2.0, 12);
     model.extend(solids::moved(&cone, glam::Vec3::new(3.0, 1.0, -1.0)));
@@ -191,7 +191,7 @@ struct GcodeLayer {
     exposure_ms: f64,
 }
 
-/// Reads run.gcode as strictly as the strictest of its readers, and gives its header and layers.
+/// Reads run.gcode as strictly as the strictest of its readers, and returns its header and layers.
 fn read_gcode(text: &str) -> (std::collections::HashMap<String, String>, Vec<GcodeLayer>) {
     let mut header = std::collections::HashMap::new();
     let mut lines = text.lines().filter(|line| !line.is_empty()).peekable();
@@ -207,7 +207,7 @@ fn read_gcode(text: &str) -> (std::collections::HashMap<String, String>, Vec<Gco
         assert_eq!(lines.next(), Some(command));
     }
     assert_eq!(lines.next(), Some(";START_GCODE_END"));
-    // Z, then F, in millimetres and millimetres a minute.
+    // Z, then F, in millimetres and millimetres per minute.
     let read_move = |line: &str| -> f64 {
         let words = line
             .strip_prefix("G0 Z")
@@ -271,7 +271,7 @@ fn run_gcode_has_a_height_and_an_exposure_for_every_layer() {
     );
     let mut last_mm = 0.0;
     for (index, layer) in layers.iter().enumerate() {
-        // Readers round heights to a micrometre and refuse any that does not rise.
+        // Readers round heights to a micrometre, and refuse a height that is not above the one before.
         assert!((layer.z_mm * 1e3).round() > (last_mm * 1e3f64).round());
         last_mm = layer.z_mm;
         assert_near(layer.z_mm, report.z_mm[index + 1], 1e-9);
@@ -390,7 +390,7 @@ fn sl1_takes_uniform_layers_alone() {
 fn exposures_follow_the_curve_or_the_table() {
     let resin = Resin::default();
     assert_eq!(resin.exposure_s(0.05), 3.0);
-    // Jacobs: as much longer as exp(thickness / penetration) says.
+    // Jacobs: the exposure is proportional to exp(thickness / penetration).
     assert_near(resin.exposure_s(0.1), 3.0 * (0.05f64 / 0.15).exp(), 1e-3);
     assert_near(
         resin.overhead_s(),
@@ -481,7 +481,7 @@ fn printers_are_what_their_data_says() {
         (mask.pitch_mm, mask.pitch_y_mm, mask.is_mirrored),
         (0.019, 0.024, true)
     );
-    // Rays only where the model is: 105 columns and 83 rows, two hits each.
+    // Rays only over the model: 105 columns and 83 rows, two hits per ray.
     assert!(
         (2 * 100 * 80..2 * 110 * 90).contains(&report.hits),
         "{}",
@@ -522,7 +522,7 @@ fn a_stream_of_runs_is_what_another_library_inflates() {
             stream.run(byte, count as u64);
             expected.extend(std::iter::repeat_n(byte, count));
         }
-        // Many literals of very different frequency make long codes.
+        // Literals of very different frequencies, which would give a fitted code long words.
         if round % 10 == 0 {
             for byte in 0..=255u8 {
                 for _ in 0..1u32 << (byte % 13) {
@@ -545,7 +545,7 @@ fn a_stream_of_runs_is_what_another_library_inflates() {
 fn dark_pixels_cost_next_to_nothing() {
     let mut stream = RunWriter::default();
     stream.run(0, 11_520 * 5_120);
-    // A byte for 258, and hardly anything once they are deflated again.
+    // One byte per 258, and almost nothing once deflated again.
     let bytes = stream.finish();
     assert!((228_000..229_000).contains(&bytes.len()), "{}", bytes.len());
     let mut twice = flate2::write::DeflateEncoder::new(Vec::new(), flate2::Compression::fast());

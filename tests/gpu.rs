@@ -1,5 +1,5 @@
-//! The GPU backend against the CPU's, solid by solid, on whatever adapter wgpu finds: the same LDI to the
-//! last bit. Reported as ignored where there is none.
+//! The GPU backend against the CPU backend, on whatever adapter wgpu finds: the same LDI, bit for bit, for
+//! every solid. Without an adapter the tests are reported as ignored.
 
 mod common;
 
@@ -15,7 +15,7 @@ use cusp_slicer::progress::silent;
 use cusp_slicer::warning::Warning;
 use libtest_mimic::{Arguments, Completion, Failed, Trial};
 
-/// Samples on both backends; the pixels lie `shift` pixels off those that just cover the model.
+/// Samples on both backends, on a grid shifted by `shift` pixels from the one that just covers the model.
 fn compare(
     triangles: &solids::Triangles,
     rays: u32,
@@ -75,12 +75,12 @@ fn tests() -> Vec<(String, Test)> {
     ));
     tests.push((
         "a lost device hands its work to the cpu".to_owned(),
-        Box::new(|| lose(pollster::block_on(Gpu::open(gpu::Adapters::Any))?)),
+        Box::new(|| lose_device(pollster::block_on(Gpu::open(gpu::Adapters::Any))?)),
     ));
     tests.push((
-        // As it does where there is not enough memory for a buffer.
+        // As it does if a buffer does not fit into its memory.
         "a gpu that reports an error hands its work to the cpu".to_owned(),
-        Box::new(|| upset(pollster::block_on(Gpu::open(gpu::Adapters::Any))?)),
+        Box::new(|| report_an_error(pollster::block_on(Gpu::open(gpu::Adapters::Any))?)),
     ));
     tests.push((
         "a gpu with small buffers hands its work to the cpu".to_owned(),
@@ -101,7 +101,8 @@ fn tests() -> Vec<(String, Test)> {
     tests
 }
 
-/// The same solid as it stands, mirrored, turned, with its facets in another order, and between pixels.
+/// Adds a test for the solid itself, and one each with the solid mirrored, rotated, shuffled, and shifted by a fraction
+/// of a pixel.
 fn add_variants(
     tests: &mut Vec<(String, Test)>,
     name: &str,
@@ -139,8 +140,8 @@ fn with_buffers_of(bytes: u64) -> Result<Gpu, Failed> {
     Ok(Gpu::with_device(adapter.get_info().name, device, queue))
 }
 
-/// Makes the device report an error that no call returns, in the middle of the job.
-fn upset(gpu: Gpu) -> Result<(), Failed> {
+/// Makes the device report an uncaptured error in the middle of the job.
+fn report_an_error(gpu: Gpu) -> Result<(), Failed> {
     let device = gpu.device().clone();
     let mut progress = move |stage: Stage, _: f64| {
         if stage == Stage::Ldi {
@@ -156,8 +157,8 @@ fn upset(gpu: Gpu) -> Result<(), Failed> {
     plans_with_warning(gpu, is_gpu_failed, &mut progress)
 }
 
-/// Takes the device away in the middle of the job.
-fn lose(gpu: Gpu) -> Result<(), Failed> {
+/// Destroys the device in the middle of the job.
+fn lose_device(gpu: Gpu) -> Result<(), Failed> {
     let device = gpu.device().clone();
     let mut progress = move |stage: Stage, _: f64| {
         if stage == Stage::Ldi {
@@ -168,7 +169,7 @@ fn lose(gpu: Gpu) -> Result<(), Failed> {
     plans_with_warning(gpu, is_gpu_failed, &mut progress)
 }
 
-/// The plan must be the CPU's, with that warning, once: the GPU is not tried again.
+/// The plan must be the CPU's, with the expected warning exactly once: the GPU is not tried again.
 fn plans_with_warning(
     gpu: Gpu,
     is_wanted: fn(&Warning) -> bool,
@@ -196,7 +197,7 @@ fn plans_with_warning(
     if (found.backend.as_str(), &found.z_mm, found.hits) != ("cpu", &expected.z_mm, expected.hits) {
         return Err("the plan is not the CPU's".into());
     }
-    // What happened on this machine leaves no trace in the print file.
+    // The failure leaves no trace in the print file.
     let (expected, _) = on_cpu.write_archive(Vec::new(), &mut quiet)?;
     let (found, _) = slicer.write_archive(Vec::new(), &mut quiet)?;
     if found != expected {

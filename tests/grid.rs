@@ -1,4 +1,4 @@
-//! Pixels and bins: lengths that are no binary fractions still count as users expect.
+//! Pixels and bins: decimal lengths, which are not binary fractions, still give the counts that users expect.
 
 #![cfg(not(target_arch = "wasm32"))]
 

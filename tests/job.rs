@@ -1,5 +1,4 @@
-//! The stages together: what holds whatever the options, cancelling in every stage, and output that would be
-//! useless.
+//! The stages together: what holds for any options, cancellation in every stage, and useless output.
 
 #![cfg(not(target_arch = "wasm32"))]
 
@@ -131,7 +130,7 @@ fn options_that_no_model_could_make_good_are_refused_before_sampling() {
     }
 }
 
-/// Without a height of bins: that of most thicknesses, half of it where a thickness needs that, and a part of the step.
+/// Without `bin_mm`, bins are 2 µm, or 1 µm if a thickness needs that, or a whole fraction of the motor step.
 #[test]
 fn bins_follow_from_the_step_or_the_thicknesses() {
     let mut slicer = load(&solids::cube(2.0));
@@ -176,7 +175,7 @@ fn bins_follow_from_the_step_or_the_thicknesses() {
                 let steps = z_mm / step_mm;
                 assert!(
                     (steps - steps.round()).abs() < 1e-6,
-                    "{z_mm} is no multiple of {step_mm}"
+                    "{z_mm} is not a multiple of {step_mm}"
                 );
             }
         }
@@ -367,7 +366,7 @@ fn looking_at_other_plans_leaves_the_plan_and_its_masks_alone() {
         let found = slicer.write_archive(Vec::new(), &mut quiet).unwrap().0;
         assert!(found == expected, "{name}");
 
-        // A plan whose masks nobody has looked at yet.
+        // A plan whose masks were not requested yet.
         plan(&mut slicer, &planned).unwrap();
         pollster::block_on(slicer.tradeoff(&look, 3, &mut quiet)).unwrap();
         let found = slicer.write_archive(Vec::new(), &mut quiet).unwrap().0;
@@ -409,7 +408,7 @@ fn the_plan_warns_of_exactly_the_layers_whose_masks_are_black() {
                 _ => None,
             })
             .collect();
-        // What the masks themselves say.
+        // The masks themselves.
         let written = slicer.write_archive(Vec::new(), &mut quiet).unwrap().0;
         let mut zip = zip::ZipArchive::new(Cursor::new(written)).unwrap();
         let manifest = zip.by_name("manifest.json").unwrap();
@@ -491,7 +490,7 @@ fn the_tolerance_holds_on_every_solid_under_every_metric() {
 
 #[test]
 fn a_sampled_plan_that_fails_on_the_mesh_says_so() {
-    // A thin upright slab under a steep roof, between the rays: they never see the roof.
+    // A tiny cone between the rays, on top of a cube: no ray sees its slope.
     let mut triangles = solids::cube(10.0);
     let spike = solids::cone(0.02, 0.03, 8);
     triangles.extend(solids::moved(&spike, Vec3::new(5.04, 5.04, 10.0)));
@@ -521,7 +520,7 @@ fn a_sampled_plan_that_fails_on_the_mesh_says_so() {
 
 #[test]
 fn flats_print_at_their_true_height() {
-    // A step at a height that the fewest layers would not meet.
+    // A step at a height where the fewest layers would have no plane.
     let mut stairs = solids::cuboid(Vec3::new(10.0, 10.0, 3.334));
     stairs.extend(solids::moved(
         &solids::cuboid(Vec3::new(4.0, 4.0, 6.0)),

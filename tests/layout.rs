@@ -1,4 +1,4 @@
-//! The shaders' data layouts and constants against the Rust ones that go with them.
+//! The data layouts and constants of the shaders against those in Rust.
 
 #![cfg(not(target_arch = "wasm32"))]
 
@@ -15,7 +15,7 @@ fn parse(source: &str) -> Module {
     naga::front::wgsl::parse_str(source).unwrap()
 }
 
-/// Names and offsets of the members of a struct, and its size.
+/// Names and offsets of the members of a shader's struct, and its size.
 fn layout(module: &Module, name: &str) -> (Vec<(String, usize)>, usize) {
     let (_, found) = module
         .types
@@ -23,7 +23,7 @@ fn layout(module: &Module, name: &str) -> (Vec<(String, usize)>, usize) {
         .find(|(_, found)| found.name.as_deref() == Some(name))
         .unwrap();
     let TypeInner::Struct { members, span } = &found.inner else {
-        panic!("{name} is no struct")
+        panic!("{name} is not a struct")
     };
     let members = members
         .iter()

@@ -23,7 +23,7 @@ fn ranges(hits: &[Hit]) -> Vec<(f32, f32)> {
     ranges
 }
 
-/// Rays that leave the solid less often than they enter it, or more often.
+/// Number of rays that do not leave the solid as often as they enter it.
 fn unclosed_rays(ldi: &Ldi) -> usize {
     let winding = |ray| ldi.ray(ray).iter().map(|hit| hit.winding()).sum::<i32>();
     (0..ldi.rays()).filter(|&ray| winding(ray) != 0).count()
@@ -88,7 +88,7 @@ fn every_solid_agrees_with_a_naive_intersector() {
     }
 }
 
-/// Facets met by the rays of `chosen`, against the naive intersector; returns how many were compared.
+/// Compares the facets that the rays of `chosen` meet with the naive intersector. Returns the number of rays compared.
 fn compare_facets(
     name: &str,
     mesh: &Mesh,
@@ -156,8 +156,8 @@ fn hits_are_ordered_and_balanced_on_every_ray() {
 
 #[test]
 fn a_centre_on_a_shared_edge_or_corner_belongs_to_one_facet() {
-    // Corners at -4 and 4 with pixel centres at whole millimetres: borders and diagonals of the
-    // square all run through centres. The top-left rule keeps two sides of four.
+    // Corners are at -4 and 4 and pixel centres at whole millimetres, so the square's sides and diagonals
+    // run through centres. The top-left rule keeps two of the four sides.
     let mesh = on_plate(&solids::cube(8.0));
     let grid = Grid::plate(&mesh.bounds(), [9, 9], [1.0; 2]).unwrap();
     let ldi = cpu::sample(&mesh, &grid, &mut silent).unwrap();
@@ -183,7 +183,7 @@ fn facets_in_another_order_give_the_same_heights() {
     };
     for (name, triangles) in solids::all() {
         if name == "doubled sphere" || name == "stacked cubes" || name == "frame" {
-            // Coincident facets are ordered by index, so that order is not kept.
+            // Coincident facets are ordered by index, which shuffling changes.
             continue;
         }
         let (_, ldi) = sample(&triangles, 100);
@@ -193,7 +193,7 @@ fn facets_in_another_order_give_the_same_heights() {
     }
 }
 
-/// A solid without any symmetry, whose corners are on no lattice: two tilted tetrahedra that overlap.
+/// A solid without symmetry and with corners off any lattice: two tilted tetrahedra that overlap.
 fn crooked() -> solids::Triangles {
     let tetrahedron = |[a, b, c, d]: [[f32; 3]; 4]| {
         let [a, b, c, d] = [a, b, c, d].map(Vec3::from);
@@ -216,7 +216,7 @@ fn crooked() -> solids::Triangles {
     .concat()
 }
 
-/// Asserts that ray (column, row) of `one` meets what ray `place(column, row)` of `other` meets.
+/// Asserts that ray (column, row) of `one` has the hits of ray `place(column, row)` of `other`.
 #[track_caller]
 fn assert_same_rays(one: &Ldi, other: &Ldi, place: impl Fn(u32, u32) -> (u32, u32)) {
     assert_eq!(one.hits.len(), other.hits.len());
@@ -243,7 +243,7 @@ fn a_mirrored_or_turned_solid_has_mirrored_or_turned_hits() {
     let (_, mirrored) = sample(&solids::mirrored(&crooked()), 131);
     assert_same_rays(&ldi, &mirrored, |column, row| (width - 1 - column, row));
 
-    // Counter-clockwise from above: +x becomes +y, which is up in an image, and +y becomes -x.
+    // A rotation counter-clockwise from above: +x becomes +y, which is up in an image, and +y becomes -x.
     let (_, turned) = sample(&solids::turned(&crooked()), 131);
     assert_eq!((turned.grid.width, turned.grid.height), (height, width));
     assert_same_rays(&ldi, &turned, |column, row| (row, width - 1 - column));

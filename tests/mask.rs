@@ -1,4 +1,4 @@
-//! Masks: areas and volumes of solids in closed form, and every pixel against a naive look along its
+//! Masks: areas and volumes of solids in closed form, and every pixel against a naive walk along its
 //! ray.
 
 #![cfg(not(target_arch = "wasm32"))]
@@ -20,7 +20,7 @@ use glam::Vec3;
 /// Area of a solid's section at a height.
 type Area = Box<dyn Fn(f64) -> f64>;
 
-/// Uniform layers of `layer_mm` over bins a fifth of that.
+/// Uniform layers of `layer_mm`, each of five bins.
 fn plan(height_mm: f64, layer_mm: f64) -> Plan {
     let bins = Bins::of_height(height_mm, layer_mm / 5.0).unwrap();
     uniform::plan(bins, height_mm, layer_mm).unwrap()
@@ -77,7 +77,7 @@ fn areas_have_their_closed_forms() {
 fn the_volume_of_all_masks_is_that_of_the_mesh() {
     for (name, triangles) in solids::all() {
         if name == "overlapping spheres" || name == "doubled sphere" || name == "inverted sphere" {
-            continue; // their mesh volume is not that of the union
+            continue; // the volume of their mesh is not that of the union
         }
         let (mesh, ldi) = sample(&triangles, 600);
         let plan = plan(mesh.bounds().size().z, 0.1);
@@ -132,7 +132,7 @@ fn overlapping_spheres_have_the_volume_of_their_union() {
 
 #[test]
 fn a_png_shows_the_plate_from_above_with_y_upward() {
-    // An L: a long arm along +x at the least y, a short one from its left end along +y.
+    // An L: a long arm along +x at the smallest y, and a short one from its left end along +y.
     let mut triangles = solids::cuboid(Vec3::new(10.0, 3.0, 1.0));
     triangles.extend(solids::moved(
         &solids::cuboid(Vec3::new(3.0, 5.0, 1.0)),
@@ -163,13 +163,13 @@ fn a_png_shows_the_plate_from_above_with_y_upward() {
     let (top, bottom, left, right) = (0, 31, 0, 39);
     assert!(
         is_lit(top, left),
-        "end of the short arm: least x, largest y"
+        "end of the short arm: smallest x, largest y"
     );
     assert!(!is_lit(top, right), "beside the short arm: nothing");
-    assert!(is_lit(bottom, left), "corner of the L: least x, least y");
+    assert!(is_lit(bottom, left), "corner of the L: smallest x and y");
     assert!(
         is_lit(bottom, right),
-        "end of the long arm: largest x, least y"
+        "end of the long arm: largest x, smallest y"
     );
     for row in 0..32 {
         for column in 0..40 {
@@ -188,7 +188,7 @@ fn every_pixel_agrees_with_a_look_along_its_ray() {
         let masks = Masks::new(&ldi, &plan, &ldi.grid, Samples::ONE, Side::Above);
         let middles = plan.middle_mm();
         let mut cursor = masks.cursor();
-        // Down, up and across, since a cursor moves both ways.
+        // Downward, then in random order, since a cursor moves in both directions.
         let mut layers: Vec<usize> = (0..masks.layers()).rev().chain(0..masks.layers()).collect();
         fastrand::Rng::with_seed(5).shuffle(&mut layers[masks.layers()..]);
         for layer in layers {
@@ -231,7 +231,7 @@ fn holes_leave_no_streaks() {
             .zip(bits(&found_cursor))
             .map(|(expected, found)| (expected ^ found).count_ones())
             .sum();
-        // A facet of the sphere is 20 pixels wide and its cap lies at most a tenth of a pixel off.
+        // A facet of the sphere is 20 pixels wide, and its cap is off by at most a tenth of a pixel.
         assert!(differing <= 60, "layer {layer}: {differing} pixels");
     }
 }
@@ -277,14 +277,14 @@ fn rays_around_the_model_give_the_masks_of_the_whole_plate() {
     assert!(masks(&grid) == masks(&part));
 }
 
-/// Grey by its definition: every ray of a pixel looked along at the middle of every part of a layer.
+/// Grey by its definition: each ray of a pixel, sampled at the middle of each part of a layer.
 #[test]
 fn grey_is_the_part_of_samples_inside() {
     for (name, triangles) in solids::all() {
         let mesh = on_plate(&triangles);
         let size = mesh.bounds().size();
         let pitch_mm = size.x.max(size.y) / 23.0;
-        // Off the middle by a part of a pixel, so that pixels at both ends have but some of their rays over the model.
+        // Off centre by a fraction of a pixel, so that pixels at both ends have only some of their rays over the model.
         let grid = Grid::plate(&mesh.bounds(), [45, 38], [pitch_mm, pitch_mm * 0.9]).unwrap();
         let plan = plan(size.z, size.z / 7.0);
         for level in LEVELS {
@@ -353,7 +353,7 @@ fn grey_is_the_part_of_samples_inside() {
     }
 }
 
-/// Light is volume: within a thousandth of the mesh's own at 2048 pixels, and with grey at far fewer.
+/// Lit pixels add up to the volume of the mesh: within a thousandth at 2048 pixels, and with grey at far fewer.
 #[test]
 fn light_adds_up_to_the_volume_of_closed_models() {
     let cases = [

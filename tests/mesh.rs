@@ -1,4 +1,4 @@
-//! The mesh and its report: volumes in closed form, faults planted and found.
+//! The mesh: volumes in closed form, and defects planted and found.
 
 #![cfg(not(target_arch = "wasm32"))]
 
@@ -46,7 +46,7 @@ fn solids_are_closed_and_share_corners() {
     assert_eq!(on_plate(&solids::cube(1.0)).vertices.len(), 8);
 }
 
-/// Edges that are not used equally often in both directions, counted the slow way.
+/// Number of edges that are not used equally often in both directions, counted naively.
 fn unbalanced_edges(mesh: &Mesh) -> usize {
     let mut uses = std::collections::HashMap::<[u32; 2], i32>::new();
     for &[a, b, c] in &mesh.facets {
@@ -82,7 +82,7 @@ fn a_flipped_facet_is_put_right() {
     let whole = Mesh::from_triangles(&triangles).unwrap();
     triangles[100].swap(0, 1);
     let mesh = Mesh::from_triangles(&triangles).unwrap();
-    // Each of its three edges is used twice in one direction; two caps take its place.
+    // Each of its three edges is used twice in the same direction, and two caps correct that.
     assert_eq!((mesh.open_edges, mesh.holes), (6, 2));
     assert_eq!(unbalanced_edges(&mesh), 0);
     assert_near(mesh.volume_mm3(), whole.volume_mm3(), 1e-9);
@@ -112,7 +112,7 @@ fn whatever_is_missing_or_flipped_the_mesh_is_closed_in_the_end() {
 fn a_hole_with_a_long_border_is_closed_by_a_fan() {
     let quarter = 20_000;
     let mut triangles = solids::cylinder(8.0, 12.0, quarter);
-    // Of every four facets the second is of the top.
+    // The second of every four facets belongs to the top.
     let mut index = 0;
     triangles.retain(|_| {
         index += 1;
@@ -144,7 +144,7 @@ fn facets_without_area_are_dropped_and_open_nothing() {
     let mut triangles = solids::cube(2.0);
     let [a, b, c] = triangles[0];
     let middle = (a + b) / 2.0;
-    // The facet's edge a–b is split, and a sliver fills the gap to the neighbour's whole edge.
+    // Split the facet's edge a–b, and fill the gap to the neighbour's unsplit edge with a sliver.
     triangles[0] = [a, middle, c];
     triangles.push([middle, b, c]);
     triangles.push([a, b, middle]);
@@ -224,7 +224,7 @@ fn steepness_is_the_vertical_part_of_the_normal() {
         facets.map(|facet| mesh.n_z_squared(facet)).collect()
     };
     let cone = steepness(&on_plate(&solids::cone(3.0, 4.0, 16)));
-    // All sides of the cone lean alike up to the polygon's flattening.
+    // The facets of the side have the same slope, up to the error of the polygon.
     let least = cone.into_iter().fold(1.0f32, f32::min);
     assert_near(f64::from(least), 0.36, 2e-3);
     let cube = steepness(&on_plate(&solids::cube(1.0)));

@@ -19,7 +19,7 @@ fn bins_of(mesh: &Mesh, bin_mm: f64) -> Bins {
     Bins::of_height(mesh.bounds().size().z, bin_mm).unwrap()
 }
 
-/// Exact and sampled.
+/// The exact and the sampled shape.
 fn shapes(triangles: &solids::Triangles, bin_mm: f64) -> [Shape; 2] {
     let (mesh, ldi) = sample(triangles, 500);
     let bins = bins_of(&mesh, bin_mm);
@@ -63,7 +63,7 @@ fn upright_walls_are_as_rough_as_layers_are_thick_and_flats_are_capped() {
     let [exact, sampled] = densities(&solids::cylinder(8.0, 10.0, 32), 0.1, Metric::Roughness);
     assert_eq!((exact[0], exact[99]), (roughness::CAP, roughness::CAP));
     assert!(exact[1..99].iter().all(|&density| density == 1.0));
-    // Rays never meet upright walls.
+    // Rays never meet vertical walls.
     assert!(sampled[1..99].iter().all(|&density| density == 0.0));
 }
 
@@ -86,7 +86,7 @@ fn a_cone_has_the_densities_of_its_slope_everywhere() {
             }
         }
     }
-    // A is proportional to the square of the distance from the tip, s, so that |A'| / A is 2 / s.
+    // A is proportional to the square of s, the distance from the tip, so |A'| / A is 2 / s.
     let [exact, _] = densities(&cone, 0.01, Metric::Area);
     for bin in (0..780).step_by(39) {
         let below_tip = 8.0 - (bin as f64 + 1.0) * 0.01;
@@ -100,7 +100,7 @@ fn a_cone_has_the_densities_of_its_slope_everywhere() {
 fn a_sphere_has_the_density_of_its_height() {
     for density in densities(&solids::sphere(10.0, 7), 0.2, Metric::Cusp) {
         for (bin, &density) in density.iter().enumerate() {
-            // The largest |n_z| in a bin is at its end away from the middle.
+            // The largest |n_z| in a bin is at the end farther from the middle of the sphere.
             let ends = [bin as f64, bin as f64 + 1.0].map(|end| (end * 0.2 - 10.0).abs() / 10.0);
             assert_near(f64::from(density), ends[0].max(ends[1]), 0.012);
         }
@@ -109,7 +109,7 @@ fn a_sphere_has_the_density_of_its_height() {
 
 #[test]
 fn a_symmetric_solid_has_a_symmetric_profile() {
-    // Bins of a number that no vertex of the sphere lies on.
+    // A number of bins such that no vertex of the sphere lies on a boundary.
     let [exact, _] = shapes(&solids::sphere(10.0, 6), 20.0 / 777.0);
     for metric in [Metric::Cusp, Metric::Roughness, Metric::Volume] {
         let density = exact.profile(metric).density;
@@ -163,13 +163,13 @@ fn the_sampled_profile_is_never_above_the_exact_one() {
 fn exact_areas_are_those_of_every_section() {
     for (name, triangles) in solids::all() {
         let mesh = on_plate(&triangles);
-        // A number of bins that is no power of two, and one bin.
+        // One bin, and a number of bins that is not a power of two.
         for count in [1.0, 357.0] {
             let bins = bins_of(&mesh, mesh.bounds().size().z / count);
             let areas_mm2 = section::exact(&mesh, &[], bins);
             let most = areas_mm2.iter().copied().fold(0.0, f64::max);
             for (bin, &found) in areas_mm2.iter().enumerate() {
-                // Half a bin's rounding off a level facet there may be none or all.
+                // Near a horizontal facet, rounding may decide whether the whole area counts.
                 let expected = oracle::section_mm2(&mesh, bins.middle_mm(bin));
                 assert!(
                     (found - expected).abs() < 1e-9 * most,
@@ -205,7 +205,7 @@ fn what_lies_wholly_inside_has_no_part() {
     assert!(!found.overlaps);
     let ball = outer.len()..mesh.surface_facets;
     assert!(!found.hidden[..ball.start].contains(&true));
-    // The poles' facets are met, some of the equator's are not: they follow their body.
+    // Rays meet the facets at the poles, but not all at the equator: those count as hidden like their body.
     assert!(!found.hidden[ball].contains(&false));
 
     let bins = bins_of(&mesh, 0.1);
@@ -285,7 +285,7 @@ fn errors_of_layers_are_sums_of_densities() {
     assert_near(error(0, 5), 0.19, 1e-7);
     assert_near(error(1, 4), 0.14, 1e-7);
     assert_near(error(2, 3), 0.0, 0.0);
-    // Nothing lies above the last bin.
+    // Nothing is added above the last bin.
     assert_near(error(4, 9), 0.03, 1e-7);
     assert_eq!(errors.to_steps(errors.to_value(1234)), 1234);
 
@@ -293,7 +293,7 @@ fn errors_of_layers_are_sums_of_densities() {
     let error = |lower, upper| errors.to_value(errors.steps_between(lower, upper));
     assert_near(error(0, 3), 0.2, 1e-9);
     assert_near(error(1, 5), 0.6, 1e-9);
-    // Above the model there is nothing to print: all of the layer is too much.
+    // Above the model there is no section, so the whole layer is excess.
     assert_near(error(4, 6), 0.1, 1e-9);
 
     let area = shape.profile(Metric::Area);

@@ -1,4 +1,4 @@
-//! Reading STL: good files of every kind, and an error with its place for every bad one.
+//! Reading STL: valid files of every kind, and an error with its position for every invalid one.
 
 #![cfg(not(target_arch = "wasm32"))]
 
@@ -280,7 +280,7 @@ fn files_of_other_kinds_are_named_by_their_first_bytes() {
             assert!(message.contains(kind.name()), "{message}");
         }
     }
-    // Words alone are no reason.
+    // Keywords alone do not make it another kind.
     for text in ["vase", "v", "# nothing", "plywood", "solids"] {
         assert_eq!(FileKind::of(text.as_bytes()), None, "{text}");
     }

@@ -1,5 +1,5 @@
-//! Print files as other programs read them, and masks as another slicer makes them. A program that is not on this machine
-//! leaves its tests ignored, by name.
+//! Print files as other programs read them, and masks as another slicer makes them. If a program is not installed, its
+//! tests are reported as ignored.
 
 mod common;
 #[path = "common/peer.rs"]
@@ -18,7 +18,7 @@ use cusp_slicer::job::{Backend, Options, Planner};
 use libtest_mimic::{Arguments, Completion, Failed, Trial};
 use tempfile::TempDir;
 
-/// Decodes every mask of a print file with zlib alone and counts its lit pixels: one line a mask, in the zip's order.
+/// Decodes every mask of a print file with zlib alone and counts its lit pixels: one line per mask, in the zip's order.
 const DECODE: &str = r"
 import struct, sys, zipfile, zlib
 with zipfile.ZipFile(sys.argv[1]) as archive:
@@ -45,7 +45,7 @@ with zipfile.ZipFile(sys.argv[1]) as archive:
             print(len(rows) - rows.count(0))
 ";
 
-/// The programs that tests need, and how to ask whether they are there.
+/// The programs that tests need, each with an argument that shows whether it is installed.
 const PYTHON: (&str, &str) = ("python3", "--version");
 const PNGCHECK: (&str, &str) = ("pngcheck", "-h");
 const UNZIP: (&str, &str) = ("unzip", "-v");
@@ -71,7 +71,7 @@ fn tests() -> Vec<(&'static str, (&'static str, &'static str), Test)> {
     ]
 }
 
-/// Slices into a file of that folder.
+/// Slices into a file in a folder.
 fn slice(
     folder: &Path,
     triangles: &solids::Triangles,
@@ -87,7 +87,7 @@ fn slice(
     Ok((path, report))
 }
 
-/// Every format with and without grey, of a solid of many contours.
+/// Slices a solid with many contours into every format, with and without grey, and passes each file to `look`.
 fn print_files(
     mut look: impl FnMut(&Path, &Path, &Report) -> Result<(), Failed>,
 ) -> Result<(), Failed> {
@@ -119,7 +119,7 @@ fn succeeds(command: &mut Command) -> Result<Output, Failed> {
     Err(format!("{command:?}: {}", String::from_utf8_lossy(&said)).into())
 }
 
-/// Lit pixels of the masks of a print file, as Python decodes them.
+/// The number of lit pixels of each mask of a print file, as Python decodes it.
 fn lit_pixels(path: &Path) -> Result<Vec<u64>, Failed> {
     let output = succeeds(Command::new(PYTHON.0).arg("-c").arg(DECODE).arg(path))?;
     let text = String::from_utf8(output.stdout)?;
@@ -135,7 +135,7 @@ fn python_reads_every_mask() -> Result<(), Failed> {
         let Ok(mut zip) = zip::ZipArchive::new(File::open(path)?) else {
             return Err("no zip".into());
         };
-        // The manifest, where there is one, has the same numbers.
+        // The manifest, if there is one, has the same numbers.
         let Ok(manifest) = zip.by_name("manifest.json") else {
             return Ok(());
         };
@@ -154,7 +154,7 @@ fn python_reads_every_mask() -> Result<(), Failed> {
     })
 }
 
-/// Beyond 65,535 files zip64 begins.
+/// With more than 65,535 files, the zip is a zip64.
 fn python_reads_70_000_layers() -> Result<(), Failed> {
     let options = Options {
         rays: 3,
@@ -204,12 +204,12 @@ fn unzip_finds_nothing() -> Result<(), Failed> {
     print_files(|path, _, _| succeeds(Command::new(UNZIP.0).arg("-tq").arg(path)).map(|_| ()))
 }
 
-/// Another slicer cuts the mesh at the middle of each layer and fills the contours. At most one lit pixel in a thousand may
+/// PrusaSlicer cuts the mesh at the middle of each layer and fills the contours. At most one lit pixel in a thousand may
 /// differ, and only on a contour.
 fn masks_are_those_of_prusa_slicer() -> Result<(), Failed> {
     const PIXELS: u32 = 2048;
     const SIDE_MM: f64 = 16.0;
-    // Contours within contours, and beside each other.
+    // Contours inside each other, and side by side.
     let mut hollow = solids::sphere(5.0, 6);
     hollow.extend(solids::inverted(&solids::sphere(3.7, 6)));
     let cone = solids::cone(2.0, 9.0, 30);

@@ -1,4 +1,4 @@
-//! Saliency against its definition and its invariances; weights in profiles, plans and files.
+//! Saliency, against its definition and invariances; weights in profiles, plans and files.
 
 #![cfg(not(target_arch = "wasm32"))]
 
@@ -24,7 +24,7 @@ const METRICS: [Metric; 4] = [
     Metric::Volume,
 ];
 
-/// A ball whose surface bulges out and in around the direction x, within about a third of it.
+/// A ball with bumps and dents within 37° of the direction x.
 fn bumpy_ball(levels: u32) -> solids::Triangles {
     let mut ball = solids::sphere(10.0, levels);
     for corner in ball.iter_mut().flatten() {
@@ -87,7 +87,7 @@ fn size_and_pose_do_not_matter() {
     ] {
         let changed: solids::Triangles = ball.iter().map(|facet| facet.map(change)).collect();
         let found = facets(&changed);
-        // A turned box has another diagonal, which is the unit of scales; a ball's hardly has.
+        // Scales depend on the diagonal of the bounding box, which a rotation changes, though little for a ball.
         let off = expected.iter().zip(&found).map(|(a, b)| (a - b).abs());
         let off: Vec<f32> = off.collect();
         let worst = off.iter().copied().fold(0.0, f32::max);
@@ -104,7 +104,7 @@ fn size_and_pose_do_not_matter() {
     }
 }
 
-/// The article's steps one after the other, each as it is written: all pairs of vertices, exp of the library.
+/// The article's steps one by one, as printed: all pairs of vertices, and the library's exp.
 fn naive(mesh: &Mesh) -> Vec<f64> {
     let points: Vec<DVec3> = mesh
         .vertices
@@ -236,7 +236,7 @@ fn options(metric: Metric) -> Options {
     Options {
         rays: 203,
         metric,
-        // Wishes depend on heights alone, and would hide what weights do.
+        // Snap planes depend on heights alone, and would hide the effect of weights.
         snap: Snap::Off,
         backend: Backend::Cpu,
         ..Options::default()
@@ -287,7 +287,7 @@ fn weight_1_changes_nothing_and_weight_one_half_doubles_the_tolerance() {
             if source == Source::Exact {
                 let slack = 1e-3 * doubled.max_error;
                 assert_near(2.0 * half.max_error, doubled.max_error, slack);
-                // The true cusp height is told whatever the weights.
+                // The reported cusp height is the true one, whatever the weights.
                 assert_near(half.max_error_mm, doubled.max_error_mm, 2e-3);
             }
             let is_fewer = half.layers < plain.layers;
@@ -301,12 +301,12 @@ fn the_plan_changes_where_weights_do_and_nowhere_else() {
     let triangles = solids::sphere(8.0, 6);
     let mut slicer = Slicer::load(&binary_stl(&triangles)).unwrap();
     let options = Options {
-        // Planned on its own on either side, so that layers below do not give way to those above.
+        // The parts below and above are planned independently, so layers below do not depend on those above.
         planes_mm: vec![10.5],
         ..options(Metric::Cusp)
     };
     let plain = plan(&mut slicer, &options);
-    // The file is stood on the plate: heights in it are 8 mm less.
+    // Heights in the file are 8 mm less than on the plate.
     let paint = |facet: &[Vec3; 3]| if middle(facet).z > 3.0 { 0.4 } else { 1.0 };
     slicer
         .set_weights(Some(triangles.iter().map(paint).collect()))
@@ -320,7 +320,7 @@ fn the_plan_changes_where_weights_do_and_nowhere_else() {
     // On a facet of weight 0.4 the error is at most 2.5 times the tolerance.
     assert!(painted.max_error_mm > 0.065 && painted.max_error_mm <= 0.065 / 0.4);
     assert!(painted.max_error <= 0.065);
-    // A preview agrees, and the least weight bounds what is loosened.
+    // A preview agrees, and the minimum weight bounds the loosening.
     assert_eq!(slicer.preview(&options).unwrap().0.z_mm, painted.z_mm);
     let bounded = Options {
         weight_min: 0.9,
@@ -352,7 +352,7 @@ fn weights_are_the_product_of_paint_and_saliency() {
     for (facet, weight) in found.into_iter().enumerate() {
         assert_eq!(weight, (saliency[facet] * paint[facet]).max(0.1));
     }
-    // More layers at the bumps than a ball without weights on its tolerance has; fewer in all.
+    // Fewer layers in total than without weights.
     slicer.set_weights(None).unwrap();
     let salient = plan(&mut slicer, &options);
     let plain = plan(&mut slicer, &self::options(Metric::Cusp));

@@ -1,4 +1,5 @@
-//! Plans that come back are made anew: an honest one passes, and a lie in any place is found. Poses turn the answer.
+//! Submitted plans are verified by planning again: an honest one passes, and any false value is found. Also previews and
+//! rotations.
 
 #![cfg(not(target_arch = "wasm32"))]
 
@@ -29,7 +30,7 @@ fn planned(triangles: &solids::Triangles, options: &Options) -> (Slicer, Report)
     (slicer, report)
 }
 
-/// Makes the plan anew from what was sent.
+/// Plans again with the submitted options, and compares.
 fn verify(sent: &Value, triangles: &solids::Triangles) -> Result<(), VerifyError> {
     let mut slicer = Slicer::load(&binary_stl(triangles)).unwrap();
     let claim = Claim::read(&sent.to_string(), slicer.model_file())?;
@@ -44,7 +45,7 @@ fn an_honest_plan_passes_and_a_lie_anywhere_is_found() {
     let honest = serde_json::to_value(&report).unwrap();
     assert_eq!(verify(&honest, &model), Ok(()));
 
-    // As a browser prints it: whole numbers without a point, absent options left out, other times.
+    // As a browser prints it: whole numbers without a decimal point, no absent options, other timings.
     let text = honest.to_string().replace(".0,", ",").replace(".0]", "]");
     let mut browsers: Value = serde_json::from_str(&text).unwrap();
     browsers["timings_ms"]["ldi"] = json!(123.0);
@@ -127,7 +128,7 @@ fn a_plan_that_breaks_its_tolerance_does_not_pass() {
 }
 
 #[test]
-fn a_glance_is_the_plan_where_no_facet_is_hidden() {
+fn a_preview_is_the_plan_where_no_facet_is_hidden() {
     let single = ["cube", "sphere", "cylinder", "cone", "inverted sphere"];
     for (name, triangles) in solids::all() {
         let (mut slicer, _) = planned(&triangles, &options());
@@ -167,7 +168,7 @@ fn a_glance_is_the_plan_where_no_facet_is_hidden() {
 fn a_rotation_turns_the_model() {
     let half = std::f64::consts::FRAC_1_SQRT_2;
     let brick = solids::cuboid(glam::Vec3::new(3.0, 4.0, 5.0));
-    // About x by 90°, given at three times its length, and twice about y by 90°.
+    // 90° about x by a quaternion of length 3, 90° about y, and 180° about y.
     for (rotation, size_mm) in [
         ([3.0 * half, 0.0, 0.0, 3.0 * half], [3.0, 5.0, 4.0]),
         ([0.0, half, 0.0, half], [5.0, 4.0, 3.0]),
@@ -184,7 +185,7 @@ fn a_rotation_turns_the_model() {
         }
         assert_near(report.resin_ml, 0.06, 1e-3);
     }
-    // A cone on its head has the layers of one on its base, from the top down.
+    // An upside-down cone has the layers of an upright one in reverse.
     let cone = solids::cone(3.0, 6.0, 30);
     let upright = Options {
         rotation: None,

@@ -1,5 +1,5 @@
-//! The same results natively and in the browser: one body runs in both, against one recorded
-//! fingerprint.
+//! The same results natively and in the browser: each test runs in both, against the same recorded
+//! fingerprints.
 
 mod common;
 
@@ -172,7 +172,7 @@ async fn the_plan_and_the_masks_are_the_recorded_ones() {
     check_plan_and_masks().await;
 }
 
-/// The browser under test is started with WebGPU on, so that a missing adapter is a failure.
+/// The browser under test is started with WebGPU enabled, so a missing adapter is a failure.
 #[cfg(target_arch = "wasm32")]
 #[wasm_bindgen_test]
 async fn gpu_equals_cpu_in_the_browser() {
@@ -195,7 +195,7 @@ async fn gpu_equals_cpu_in_the_browser() {
     }
 }
 
-/// A device that is lost in the middle of a job hands the work to the CPU; nothing hangs.
+/// If a device is lost in the middle of a job, the CPU takes over; nothing hangs.
 #[cfg(target_arch = "wasm32")]
 #[wasm_bindgen_test]
 async fn a_lost_device_hands_its_work_to_the_cpu() {
@@ -222,7 +222,7 @@ async fn a_lost_device_hands_its_work_to_the_cpu() {
     assert_eq!(report.backend, "cpu");
 }
 
-/// `auto` leaves an emulated adapter alone.
+/// `auto` does not use an emulated adapter.
 #[cfg(target_arch = "wasm32")]
 #[wasm_bindgen_test]
 async fn an_emulated_adapter_is_no_hardware() {

@@ -1,4 +1,4 @@
-//! The files that `slice` writes, replaces or refuses to touch.
+//! The files that `slice` writes, replaces, or refuses to write.
 
 use tempfile::TempDir;
 
@@ -28,7 +28,7 @@ fn slice_writes_a_whole_zip_and_nothing_else() {
     let archive = zip::ZipArchive::new(std::fs::File::open(&zip).unwrap()).unwrap();
     assert_eq!(archive.len() as u64, report["layers"].as_u64().unwrap() + 1);
     assert_eq!(names(&folder), ["ball.stl", "out.zip"]);
-    // A closed model gives no warning, and a pipe is no place for a progress bar.
+    // A closed model gives no warning, and there is no progress bar in a pipe.
     assert_eq!(String::from_utf8_lossy(&output.stderr), "");
 }
 

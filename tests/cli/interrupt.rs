@@ -1,4 +1,4 @@
-//! Interrupts, as from a terminal.
+//! Interrupts from a terminal.
 
 use std::io::{BufRead as _, BufReader};
 use std::path::Path;
@@ -10,9 +10,9 @@ use tempfile::TempDir;
 use crate::common::{binary_stl, solids};
 use crate::{model, names};
 
-/// The command with signals as a terminal gives them: whatever runs the tests in the background may
-/// have the interrupt ignored, and a child inherits that.
-fn with_usual_signals() -> Command {
+/// The command with default signal handling, as from a terminal. A program that runs the tests in the background may
+/// ignore interrupts, and children inherit that.
+fn with_default_signals() -> Command {
     let cusp = env!("CARGO_BIN_EXE_cusp");
     if cfg!(target_os = "linux") {
         let mut command = Command::new("env");
@@ -28,8 +28,8 @@ fn an_interrupt_stops_a_batch_in_which_a_model_is_bad() {
     let folder = TempDir::new().unwrap();
     let ball = model(&folder, "ball.stl", &binary_stl(&solids::sphere(10.0, 5)));
     let absent = folder.path().join("absent.stl").display().to_string();
-    // So many directions take minutes.
-    let mut child = with_usual_signals()
+    // This search takes minutes.
+    let mut child = with_default_signals()
         .args(["orient", &absent, &ball, &ball, "--directions", "20000"])
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
@@ -53,8 +53,8 @@ fn an_interrupt_leaves_the_old_file_and_no_other() {
     let folder = TempDir::new().unwrap();
     let ball = model(&folder, "ball.stl", &binary_stl(&solids::sphere(10.0, 4)));
     let zip = model(&folder, "out.zip", b"precious");
-    // Tens of thousands of layers: writing them all takes many seconds.
-    let mut child = with_usual_signals()
+    // Writing tens of thousands of layers takes many seconds.
+    let mut child = with_default_signals()
         .args(["slice", &ball, "-o", &zip, "--backend", "cpu"])
         .args([
             "--planner",

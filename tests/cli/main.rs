@@ -1,4 +1,4 @@
-//! The command line as its users meet it: exit codes, one sentence of error, JSON, whole files.
+//! The command line as users see it: exit codes, one-line errors, JSON, and complete files.
 
 #![cfg(not(target_arch = "wasm32"))]
 
@@ -27,7 +27,7 @@ fn cusp(arguments: &[&str]) -> Output {
         .unwrap()
 }
 
-/// Without a GPU, so that every machine does the same.
+/// Runs on the CPU, so that every machine gives the same result.
 fn on_cpu(arguments: &[&str]) -> Output {
     cusp(&[arguments, &["--backend", "cpu"]].concat())
 }
@@ -51,7 +51,7 @@ fn model(folder: &TempDir, name: &str, bytes: &[u8]) -> String {
     path.to_str().unwrap().to_owned()
 }
 
-/// A slab that stands on an edge, askew.
+/// A slab tilted off every axis.
 fn slab(folder: &TempDir) -> String {
     let mut slab = solids::cuboid(glam::Vec3::new(9.0, 7.0, 2.0));
     let askew = glam::Quat::from_xyzw(0.3, -0.4, 0.1, 0.8).normalize();
@@ -70,7 +70,8 @@ fn json(output: &Output) -> Value {
     serde_json::from_slice(&output.stdout).unwrap()
 }
 
-/// Asserts that a command fails with `code` and says `words` in one line, nothing on stdout.
+/// Asserts that a command fails with exit code `code`, writes `words` to stderr, and nothing to stdout. With code 1,
+/// stderr must be a single line.
 #[track_caller]
 fn assert_fails(output: &Output, code: i32, words: &str) {
     let stderr = String::from_utf8_lossy(&output.stderr);

@@ -33,7 +33,7 @@ fn orient_finds_the_best_direction_and_applies_it() {
     assert!(best["energy"].as_f64() < found["now"]["energy"].as_f64());
     let plan = json(&on_cpu(&["plan", &flat, "--json"]));
     assert_eq!(plan["layers"], best["metrics"]["layers"]);
-    // The rotation that it gives says the same.
+    // Planning with the rotation that it reports gives the same.
     let rotation: Vec<String> = best["rotation"]
         .as_array()
         .unwrap()
@@ -151,13 +151,13 @@ fn a_bad_model_does_not_stop_the_others_of_a_batch() {
     for how in [&[][..], &["--json"], &["--shard", "1/1"]] {
         assert_only_bad(&orient(&models, how), &good(how), &bad);
     }
-    // The same models are bad when parts are merged.
+    // Merging reports the same bad models.
     let part = model(&folder, "part.jsonl", good(&["--shard", "1/1"]).as_bytes());
     let merged = orient(&models, &["--json", "--merge", &part]);
     assert_only_bad(&merged, &good(&["--json"]), &bad);
     assert_only_bad(&orient(&[&absent], &[]), "", &bad[1..]);
 
-    // Weights belong to one model.
+    // A weights file belongs to one model.
     let weights = folder.path().join("slab.weights").display().to_string();
     assert!(cusp(&["saliency", &slab, "-o", &weights]).status.success());
     let weighed = ["--json", "--weights", &weights];
@@ -169,7 +169,7 @@ fn a_bad_model_does_not_stop_the_others_of_a_batch() {
         &[(&ball, "slab.weights: these weights are for another mesh")],
     );
 
-    // What is wrong for every model is said once.
+    // An error that concerns every model is reported once.
     for (how, words) in [
         (["--layer-min", "0.2"], "cusp: no whole number of steps"),
         (["--printer", "none"], "cusp: there is no printer none"),
@@ -183,7 +183,8 @@ fn a_bad_model_does_not_stop_the_others_of_a_batch() {
     }
 }
 
-/// Asserts that a batch gives `stdout`, and that these models are bad, for reasons with these words.
+/// Asserts that a batch writes `stdout` and reports exactly these bad models, each with an error that contains the text
+/// beside it.
 #[track_caller]
 fn assert_only_bad(output: &Output, stdout: &str, bad: &[(&str, &str)]) {
     assert_eq!(String::from_utf8_lossy(&output.stdout), stdout);

@@ -1,4 +1,4 @@
-//! Help, exit codes, and what is on stderr.
+//! Help, exit codes and stderr.
 
 use std::process::Command;
 
@@ -127,7 +127,7 @@ fn a_file_of_another_kind_is_named() {
     }
 }
 
-/// Mesa complains about a display that nobody asked for, wherever there is none.
+/// Without a display, Mesa would complain on stderr although nobody asked for one.
 #[test]
 fn nothing_but_our_own_words_is_on_stderr() {
     let folder = TempDir::new().unwrap();
@@ -155,7 +155,7 @@ fn nothing_but_our_own_words_is_on_stderr() {
             let (code, words) = without_display(&[command, &closed, "--backend", backend]);
             match code {
                 Some(0) => assert_eq!(words, "", "{command} {backend}"),
-                // There may be no GPU, nor a driver that emulates one.
+                // There may be neither a GPU nor a driver that emulates one.
                 _ => assert!(
                     backend == "gpu" && words.contains("no usable GPU"),
                     "{words}"
@@ -164,7 +164,7 @@ fn nothing_but_our_own_words_is_on_stderr() {
             assert!(words.lines().count() <= 1, "{words}");
         }
     }
-    // Words of our own still come through after the search.
+    // Cusp's own messages still get through after the search.
     let (code, words) = without_display(&["plan", &open, "--backend", "auto"]);
     assert_eq!(code, Some(0), "{words}");
     assert!(!words.is_empty());

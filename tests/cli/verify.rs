@@ -1,4 +1,4 @@
-//! `verify`, and what plans, print files and their checks must agree on.
+//! `verify`, and what it must agree on with `plan` and `slice`.
 
 use glam::Vec3;
 use serde_json::Value;
@@ -94,7 +94,7 @@ fn weights_go_from_file_to_plan_and_back_through_verify() {
         "0.5",
         "--json",
     ]);
-    // What the file says is what the model's own saliency says.
+    // The weights file gives the same plan as `--saliency`.
     assert_eq!(json(&weighted)["z_mm"], json(&salient)["z_mm"]);
     assert!(json(&weighted)["layers"].as_u64() < plain["layers"].as_u64());
     assert_eq!(plain["weights_crc32"], Value::Null);

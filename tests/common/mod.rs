@@ -1,9 +1,9 @@
-//! Solids with closed forms, naive oracles and small helpers, shared by the suites.
+//! Shared by the suites: solids with closed forms, naive oracles and small helpers.
 
 #![allow(
     dead_code,
     unused_imports,
-    reason = "every suite uses its own part of this module"
+    reason = "each suite uses a different part of this module"
 )]
 
 pub mod oracle;
@@ -20,7 +20,7 @@ use cusp_slicer::model::{Mesh, Pose};
 use cusp_slicer::progress::silent;
 use glam::Vec3;
 
-/// A mesh on the plate, made from triangles.
+/// A mesh of these triangles, on the plate.
 pub fn on_plate(triangles: &[[Vec3; 3]]) -> Mesh {
     Mesh::from_triangles(triangles)
         .unwrap()
@@ -28,7 +28,7 @@ pub fn on_plate(triangles: &[[Vec3; 3]]) -> Mesh {
         .unwrap()
 }
 
-/// A mesh on the plate and its LDI of `rays` along the longer side, sampled on the CPU.
+/// A mesh on the plate, and its LDI with `rays` rays along the longer side, sampled on the CPU.
 pub fn sample(triangles: &[[Vec3; 3]], rays: u32) -> (Mesh, Ldi) {
     let mesh = on_plate(triangles);
     let grid = Grid::around(&mesh.bounds(), rays).unwrap();
@@ -36,7 +36,7 @@ pub fn sample(triangles: &[[Vec3; 3]], rays: u32) -> (Mesh, Ldi) {
     (mesh, ldi)
 }
 
-/// A grid around the model whose pixels lie `shift` pixels off those that just cover it.
+/// A grid around the model, shifted by `shift` pixels from the grid that just covers it.
 pub fn shifted_grid(mesh: &Mesh, rays: u32, shift: [f64; 2]) -> Grid {
     let grid = Grid::around(&mesh.bounds(), rays).unwrap();
     Grid {
@@ -48,7 +48,7 @@ pub fn shifted_grid(mesh: &Mesh, rays: u32, shift: [f64; 2]) -> Grid {
     }
 }
 
-/// A progress callback of the pipeline that shows nothing.
+/// A progress callback of a slicer that shows nothing and never cancels.
 pub fn quiet(_stage: Stage, _fraction: f64) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }
@@ -62,7 +62,7 @@ pub fn assert_near(actual: f64, expected: f64, tolerance: f64) {
     );
 }
 
-/// A 64-bit FNV-1a hash, for comparing results between machines.
+/// A 64-bit FNV-1a hash, to compare results between machines.
 pub fn fingerprint(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)

@@ -1,17 +1,17 @@
-//! Naive implementations that are obviously right, to hold the real ones against.
+//! Naive implementations that are obviously correct, to test the real ones against.
 
 use cusp_slicer::grid::{Bins, Grid};
 use cusp_slicer::model::Mesh;
 
-/// What a ray meets, found by looking at every facet in double precision.
+/// The hits of a ray, found by intersecting it with every facet in double precision.
 pub struct NaiveRay {
-    /// Facets and heights, upward.
+    /// Facets and heights, in ascending order of height.
     pub hits: Vec<(u32, f64)>,
-    /// Whether the ray passes so close to an edge that rounding decides on which side.
+    /// Whether the ray passes so close to an edge that rounding decides the side.
     pub is_near_edge: bool,
 }
 
-/// Meets the ray through a pixel centre with every facet; `near` is in pixels.
+/// Intersects the ray through a pixel centre with every facet. Closer than `near` pixels counts as near an edge.
 pub fn cast(mesh: &Mesh, grid: &Grid, column: u32, row: u32, near: f64) -> NaiveRay {
     let centre = grid.centre_mm(column, row);
     let mut ray = NaiveRay {
@@ -22,7 +22,7 @@ pub fn cast(mesh: &Mesh, grid: &Grid, column: u32, row: u32, near: f64) -> Naive
         let corners = mesh.corners(facet);
         let flat = corners.map(|corner| corner.truncate() - centre);
         let area = (flat[1] - flat[0]).perp_dot(flat[2] - flat[0]);
-        // Distances of the ray from the edges' lines, positive on the facet's side.
+        // Signed distances of the ray from the lines through the edges, positive on the facet's side.
         let distance = |i: usize| {
             let (from, to) = (flat[i], flat[(i + 1) % 3]);
             let length = (to - from).length();
@@ -44,19 +44,19 @@ pub fn cast(mesh: &Mesh, grid: &Grid, column: u32, row: u32, near: f64) -> Naive
     ray
 }
 
-/// What a plan may look like, by bins.
+/// The constraints of a plan, in bins.
 #[derive(Debug, Clone)]
 pub struct Rules {
-    /// Thickness of layers, least and greatest, for the layer above each boundary.
+    /// Minimum and maximum thickness of the layer above each boundary.
     pub thickness: Vec<(usize, usize)>,
     /// Boundaries at which there must be a plane.
     pub planes: Vec<usize>,
-    /// What every boundary is a multiple of.
+    /// Every boundary is a multiple of this.
     pub step: usize,
 }
 
 impl Rules {
-    /// The same thickness everywhere and nothing else.
+    /// The same thickness range everywhere, and no other constraint.
     pub fn plain(bins: usize, thickness: (usize, usize)) -> Self {
         Self {
             thickness: vec![thickness; bins],
@@ -66,8 +66,8 @@ impl Rules {
     }
 }
 
-/// The least (cost, largest error) of all plans, by trying every set of planes. `error` and `cost` are those of the
-/// layer between two boundaries.
+/// The smallest (cost, maximum error) of all plans, found by trying every set of planes. `error` is that of the layer
+/// between two boundaries, `cost` that of a layer of a thickness.
 pub fn best_plan<E: PartialOrd + Copy + Default>(
     bins: usize,
     rules: &Rules,
@@ -103,7 +103,8 @@ pub fn best_plan<E: PartialOrd + Copy + Default>(
     best
 }
 
-/// K and D by lines 1 to 7 of Procedure 1 as the paper has them, sums and all; `u64::MAX` is ∞ and D of such a plane 0.
+/// K and D by lines 1 to 7 of Procedure 1 as printed in the paper, including the sums. ∞ is `u64::MAX`; D of such a plane
+/// is 0.
 pub fn procedure_1(
     density: &[u64],
     thickness: (usize, usize),
@@ -126,8 +127,8 @@ pub fn procedure_1(
     (k, d)
 }
 
-/// The largest |`n_z`| of the facets whose height range meets each bin, by looking at every facet for every bin; -1
-/// where there are none.
+/// The largest |`n_z`| of the facets whose height range meets each bin, found by a loop over every facet and bin; -1 if
+/// there are none.
 pub fn steepest(mesh: &Mesh, bins: Bins, counts: impl Fn(usize) -> bool) -> Vec<f64> {
     (0..bins.count)
         .map(|bin| {
@@ -146,7 +147,7 @@ pub fn steepest(mesh: &Mesh, bins: Bins, counts: impl Fn(usize) -> bool) -> Vec<
         .collect()
 }
 
-/// Area of the section at a height in mm²: the facets' lines of section, summed up by Green's theorem.
+/// Area of the section at a height, in mm²: the segments in which facets meet the plane, summed by Green's theorem.
 pub fn section_mm2(mesh: &Mesh, z_mm: f64) -> f64 {
     let mut twice = 0.0;
     for facet in 0..mesh.facets.len() {
@@ -156,7 +157,7 @@ pub fn section_mm2(mesh: &Mesh, z_mm: f64) -> f64 {
             .filter(|&i| is_above[i] != is_above[(i + 1) % 3])
             .map(|i| {
                 let (a, b) = (corners[i], corners[(i + 1) % 3]);
-                // Where the edge goes up the section leaves the facet, for counter-clockwise corners.
+                // With counter-clockwise corners, the section leaves the facet at the edge that goes up.
                 let point = a + (b - a) * ((z_mm - a.z) / (b.z - a.z));
                 (is_above[i], point.truncate())
             })

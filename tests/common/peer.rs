@@ -1,12 +1,12 @@
-//! `prusa-slicer` on the same model, pixels and layers, as an independent maker of masks.
+//! Runs `prusa-slicer` on the same model, pixels and layers, as an independent source of masks.
 
 use std::fs;
 use std::io::Cursor;
 use std::path::Path;
 use std::process::Command;
 
-/// Writes its settings to `folder`, and gives the command that slices `model` into the SL1 file `output`: uniform layers of
-/// 0.05 mm on a square of so many pixels, with the model's middle in its own.
+/// Writes settings to `folder`, and returns the command that slices `model` into the SL1 file `output`: uniform layers of
+/// 0.05 mm, on a square screen of `side_mm` and `pixels` a side, with the model centred.
 pub fn prusa_slicer(
     model: &Path,
     output: &Path,
@@ -37,7 +37,7 @@ pub fn prusa_slicer(
     peer
 }
 
-/// The masks of an SL1 file from the plate upward, a byte a pixel.
+/// The masks of an SL1 file from the plate upward, one byte per pixel.
 pub fn sl1_masks(path: &Path) -> Vec<Vec<u8>> {
     let mut zip = zip::ZipArchive::new(fs::File::open(path).expect("a file")).expect("a zip");
     let mut names: Vec<String> = zip

@@ -1,4 +1,4 @@
-//! The planners that are there for comparison: greedy and uniform.
+//! The planners for comparison: greedy and uniform.
 
 use cusp_slicer::grid::Bins;
 use cusp_slicer::plan::greedy::{self, Sight};
@@ -10,7 +10,7 @@ use crate::{FIGURE_3, limits, random_errors, sum};
 
 #[test]
 fn greedy_planners_fill_every_segment_and_may_exceed_the_tolerance() {
-    // The text of section 3.3: three bins first, and then 0.7 cannot be avoided.
+    // As in the text of section 3.3: after a first layer of three bins, an error of 0.7 is unavoidable.
     let errors = sum(&FIGURE_3);
     let greedy = greedy::plan(&errors, &limits(2.0, 3.0, 0.6), &[], Sight::Profile).unwrap();
     assert_eq!(greedy.boundaries[..3], [0, 3, 5]);

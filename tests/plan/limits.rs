@@ -40,7 +40,7 @@ fn planes_and_ranges_are_kept() {
 
 #[test]
 fn heights_are_multiples_of_the_motor_step() {
-    // 11 bins of 0.004 mm are 0.044 mm: no whole number of steps of 0.01 mm.
+    // 1.234 mm is not a multiple of the step, and a step of 0.01 mm is not a whole number of bins of 0.004 mm.
     let density = vec![0.3f32; 1111];
     let profile = Profile {
         bins: Bins::of_height(4.444, 0.004).unwrap(),
@@ -56,7 +56,7 @@ fn heights_are_multiples_of_the_motor_step() {
     assert!(plan.boundaries.iter().all(|boundary| boundary % 5 == 0));
     assert!(
         plan.boundaries.contains(&310),
-        "1.24 mm is nearest to the plane asked for"
+        "1.24 mm is the step nearest to 1.234 mm"
     );
     assert_eq!(plan.snap_planes, [600]);
     assert_eq!(plan.z_mm().last(), Some(&4.44));
@@ -72,14 +72,14 @@ fn heights_are_multiples_of_the_motor_step() {
 }
 
 #[test]
-fn wishes_are_granted_in_order_and_give_way() {
+fn snap_planes_are_taken_in_order_and_give_way() {
     let plain = limits(3.0, 6.0, 100.0);
     let segments = Segments::new(bins(30), &plain, &[10, 12, 25, 2, 29]).unwrap();
     // 12 is too near to 10, 2 to the plate and 29 to the top.
     assert_eq!(segments.snap_planes, [10, 25]);
     assert_eq!(segments.segments.len(), 3);
 
-    // The layers from 0 to 10 would be 3 to 4 bins: too much where the profile is 1.
+    // From 0 to 10, some layer would take 4 bins: too much where the density is 1.
     let mut density = [0.1; 30];
     density[..10].fill(1.0);
     let tight = limits(3.0, 6.0, 3.0);

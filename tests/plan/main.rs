@@ -52,7 +52,7 @@ fn limits(layer_min_mm: f64, layer_max_mm: f64, tolerance: f64) -> Limits {
     }
 }
 
-/// A resin without bottom layers, and with `overhead_s` between layers.
+/// A resin without bottom layers, with `overhead_s` between layers.
 fn resin(layer_mm: f64, exposure_s: f64, penetration_mm: f64, overhead_s: f64) -> Resin {
     Resin {
         layer_mm,
@@ -78,7 +78,7 @@ fn plan(density: &[f32], limits: &Limits) -> Result<Plan, PlanError> {
     cusp_slicer::plan::optimal::plan(&sum(density), limits, &[], Objective::Layers)
 }
 
-/// Tenths, so that sums often hit the tolerance exactly.
+/// Random densities in tenths, so that sums often equal the tolerance.
 fn random_tenths(random: &mut fastrand::Rng, count: usize) -> Vec<u64> {
     let is_flat = random.bool();
     (0..count)
@@ -96,7 +96,7 @@ fn in_tenths(tenths: &[u64]) -> Vec<f32> {
     tenths.iter().map(|&tenths| tenths as f32 / 10.0).collect()
 }
 
-/// Every metric's errors of a random model.
+/// Errors of a random model under a random metric, with a description of the model.
 fn random_errors(random: &mut fastrand::Rng, count: usize) -> (LayerErrors, String) {
     if random.bool() {
         let tenths = random_tenths(random, count);

@@ -149,7 +149,7 @@ fn no_set_of_planes_is_better() {
                     "{text} {limits:?} {plan:?}"
                 );
             }
-            // Where no layers add up to the top, the top is moved: the oracle does not know that.
+            // If no layers add up to the top, the planner moves it, but the oracle does not.
             (Ok(plan), None) => assert_ne!(
                 plan.boundaries[plan.layers()] as usize,
                 count,
@@ -167,7 +167,7 @@ fn no_set_of_planes_is_better() {
 
 #[test]
 fn the_volume_of_a_layer_is_measured_from_its_lowest_bin() {
-    // Literally eq. 20, for every pair of planes.
+    // Eq. 20 as printed, for every pair of planes.
     let areas = [4.0, 4.5, 3.0, 0.0, 7.0, 7.0];
     let errors = volume(&areas);
     for l in 0..areas.len() {
@@ -181,7 +181,7 @@ fn the_volume_of_a_layer_is_measured_from_its_lowest_bin() {
 
 #[test]
 fn a_planted_plan_is_found_again() {
-    // Each layer's bins add up to just the tolerance, so that no plane can move.
+    // The errors of each layer's bins add up to exactly the tolerance, so no plane can move.
     let mut random = fastrand::Rng::with_seed(11);
     let mut density = Vec::new();
     let mut planted = vec![0u32];
@@ -196,7 +196,7 @@ fn a_planted_plan_is_found_again() {
 
 #[test]
 fn of_plans_as_short_the_one_with_the_least_error_is_taken() {
-    // Two layers are needed; procedure 1 puts the plane at 2, where the upper layer has error 6.
+    // Two layers are needed. Procedure 1 puts the plane at 2, which gives the upper layer an error of 6.
     let plan = plan(&[1.0; 8], &limits(1.0, 6.0, 6.0)).unwrap();
     assert_eq!(plan.boundaries, [0, 4, 8]);
 }
@@ -214,7 +214,7 @@ fn the_shortest_time_is_not_the_fewest_layers_where_exposures_grow_fast() {
 
 #[test]
 fn a_million_bins_and_thicknesses_of_any_number_of_them_take_one_pass() {
-    // Procedure 1 written literally would look at 10^12 pairs of planes.
+    // The literal Procedure 1 would look at 10^12 pairs of planes.
     let density = vec![1e-4; 1_000_000];
     let plan = plan(&density, &limits(1.0, 1e6, 10.0)).unwrap();
     assert_eq!(plan.layers(), 10);

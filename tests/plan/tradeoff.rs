@@ -24,7 +24,7 @@ fn an_infeasible_profile_names_the_heights_and_what_would_do() {
         panic!("{:?}", plan(&density, &limits));
     };
     assert_eq!((from_mm, to_mm), (17.0, 19.0));
-    // Of three bins in a row, two are in one layer of two.
+    // Of the three bins with density 1, two are always in the same layer.
     assert_near(least_tolerance, 2.0, 0.0);
     let with = |tolerance| Limits {
         tolerance,
