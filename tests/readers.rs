@@ -204,7 +204,7 @@ fn unzip_finds_nothing() -> Result<(), Failed> {
     print_files(|path, _, _| succeeds(Command::new(UNZIP.0).arg("-tq").arg(path)).map(|_| ()))
 }
 
-/// PrusaSlicer cuts the mesh at the middle of each layer and fills the contours. At most one lit pixel in a thousand may
+/// `prusa-slicer` cuts the mesh at the middle of each layer and fills the contours. At most one lit pixel in a thousand may
 /// differ, and only on a contour.
 fn masks_are_those_of_prusa_slicer() -> Result<(), Failed> {
     const PIXELS: u32 = 2048;
