@@ -92,7 +92,7 @@ fn config(job: &PrintJob<'_>, layers: &[LayerEntry]) -> String {
 
 fn prusaslicer(job: &PrintJob<'_>) -> String {
     let grid = &job.masks.grid;
-    // The display's sides are given in landscape; masks are in portrait.
+    // The display's sides are given in landscape, even where masks are in portrait.
     let is_portrait = grid.height > grid.width;
     let (long, short) = if is_portrait {
         ((grid.height, grid.pitch_y_mm), (grid.width, grid.pitch_mm))
