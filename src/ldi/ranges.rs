@@ -1,4 +1,4 @@
-//! Where a ray is inside: the only rule that turns hits into height ranges.
+//! The only rule that turns the hits of a ray into the height ranges in which the ray is inside.
 //!
 //! Inside means a non-zero winding number: overlapping bodies are a union, the orientation of facets decides what is a cavity,
 //! and an inverted body counts like any other.
@@ -6,8 +6,8 @@
 use super::Hit;
 use crate::model::{FacetClasses, Winding};
 
-/// Calls `emit` with every height range `z_in..z_out` in which a ray with these hits is inside what is printed, upward: see
-/// [`Winding::is_inside`].
+/// Calls `emit(z_in, z_out)` for every height range in which a ray with these hits is inside the printed solid, from the
+/// plate upward: see [`Winding::is_inside`].
 #[inline]
 pub fn printed_ranges(hits: &[Hit], classes: FacetClasses, emit: impl FnMut(f32, f32)) {
     if classes.is_model_alone() {
@@ -20,7 +20,7 @@ pub fn printed_ranges(hits: &[Hit], classes: FacetClasses, emit: impl FnMut(f32,
     for_each_range(hits, pass, Winding::is_inside, emit);
 }
 
-/// The same for the model alone, without its voids and supports.
+/// [`printed_ranges`] for the model alone, without voids and supports.
 pub fn model_ranges(hits: &[Hit], classes: FacetClasses, emit: impl FnMut(f32, f32)) {
     let end = classes.model_end();
     let pass = |winding: &mut i32, hit: Hit| {
@@ -29,7 +29,8 @@ pub fn model_ranges(hits: &[Hit], classes: FacetClasses, emit: impl FnMut(f32, f
     for_each_range(hits, pass, |winding| winding != 0, emit);
 }
 
-/// Calls `emit` with every height range in which `is_inside` holds of the winding that `pass` counts hit by hit, upward.
+/// Calls `emit` for every height range in which `is_inside` holds for the winding number, which `pass` updates at each
+/// hit.
 #[inline]
 fn for_each_range<W: Copy + Default>(
     hits: &[Hit],

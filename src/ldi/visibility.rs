@@ -23,7 +23,7 @@ const ON_SURFACE: u8 = 2;
 ///
 /// Cost: linear in hits, and in facets where bodies overlap.
 pub fn visibility(mesh: &Mesh, ldi: &Ldi) -> Visibility {
-    // Voids and supports are no part of the surface that profiles measure.
+    // Voids and supports do not belong to the surface that profiles measure.
     let model_end = mesh.classes.model_end();
     let is_simple = |offsets: &[u32]| {
         all_rays(ldi, offsets, |hits| {

@@ -1,29 +1,30 @@
-//! What facets belong to, and how that decides where the printed solid is.
+//! Classes of facets, and how they decide which points are printed.
 
-/// What a facet belongs to. A mesh holds its facets in this order.
+/// The class of a facet: what it belongs to. A mesh stores its facets in this order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum FacetClass {
     /// The surface of the model. Profiles measure these facets alone.
     Surface,
     /// A flat cap that closes a hole of the surface.
     Cap,
-    /// The wall of a void inside the model: the surface of the body that is left out.
+    /// The wall of a void in the model: the surface of a body that is not printed.
     Void,
-    /// A support.
+    /// The surface of a support.
     Support,
 }
 
 /// The facets of a mesh by class.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FacetClasses {
-    /// The first cap, void wall and support, or the end of the class before where there is none.
+    /// Index of the first cap, void and support facet. If a class is empty, it is the end of the class before.
     starts: [u32; 3],
     /// Number of facets.
     count: u32,
 }
 
 impl FacetClasses {
-    /// Facets of a model: the first `caps_from` are of the surface, the others, up to `count`, are caps.
+    /// The classes of a model without voids and supports: the facets before `caps_from` are surface, the others, up to
+    /// `count`, are caps.
     pub fn of_model(caps_from: usize, count: usize) -> Self {
         Self {
             starts: [caps_from as u32, count as u32, count as u32],
@@ -42,7 +43,7 @@ impl FacetClasses {
         }
     }
 
-    /// The first facet that is no part of the model itself: neither surface nor cap.
+    /// The first facet after those of the model itself, which are surface or caps.
     pub fn model_end(self) -> u32 {
         self.starts[1]
     }
@@ -62,7 +63,7 @@ impl FacetClasses {
         *self.starts.get(class as usize).unwrap_or(&self.count) as usize
     }
 
-    /// The classes after `count` facets were inserted at the end of one.
+    /// The classes after `count` facets are inserted at the end of `class`.
     pub(super) fn grown(mut self, class: FacetClass, count: usize) -> Self {
         for start in &mut self.starts[class as usize..] {
             *start += count as u32;
@@ -72,7 +73,7 @@ impl FacetClasses {
     }
 }
 
-/// The winding numbers of a point on a ray, by what the facets below it belong to.
+/// The winding numbers of a point on a ray, one for each kind of body: model, void and support.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Winding {
     model: i32,
@@ -90,7 +91,7 @@ impl Winding {
         }
     }
 
-    /// Whether the point is printed: inside the model and in no void, or inside a support.
+    /// Whether the point is printed: inside the model and not inside a void, or inside a support.
     pub fn is_inside(self) -> bool {
         (self.model != 0 && self.void == 0) || self.support != 0
     }

@@ -78,8 +78,8 @@ impl Bounds {
 pub struct Mesh {
     /// Distinct positions in millimetres.
     pub vertices: Vec<Vec3>,
-    /// Three vertex indices a facet, by class. After the facets of the surface that have an area, counted by
-    /// `surface_facets`, come slivers without one that join them.
+    /// Three vertex indices per facet, sorted by class. Within the surface, `surface_facets` facets with an area come
+    /// first, then slivers without area that join them.
     pub facets: Vec<[u32; 3]>,
     /// Number of facets of the surface, all with an area.
     pub surface_facets: usize,
@@ -148,8 +148,8 @@ impl Mesh {
         self.facets[facet].map(|vertex| self.vertices[vertex as usize].as_dvec3())
     }
 
-    /// A copy with the facets of another mesh, holes closed, as a class of this one. Profiles, bounds and volume leave them out;
-    /// masks do not.
+    /// A copy with the facets of another mesh, caps included, added to a class of this one. They count in masks, but not in
+    /// profiles, bounds and volume.
     #[must_use]
     pub fn with(&self, other: &Self, class: FacetClass) -> Self {
         let mut joined = self.clone();
@@ -163,7 +163,7 @@ impl Mesh {
         joined
     }
 
-    /// The box around the surface.
+    /// The bounding box of the surface.
     pub fn bounds(&self) -> Bounds {
         self.bounds_of(|vertex| self.vertices[vertex].as_dvec3())
     }
@@ -178,8 +178,8 @@ impl Mesh {
         Bounds { min, max }
     }
 
-    /// Volume that the model encloses, in mm³, by the divergence theorem: holes closed, voids and supports left out. Where
-    /// bodies overlap, it counts as often as they do.
+    /// Volume enclosed by the model in mm³, by the divergence theorem, with holes closed and without voids and supports.
+    /// Where bodies overlap, the overlap counts once per body.
     pub fn volume_mm3(&self) -> f64 {
         let centre = (self.bounds().min + self.bounds().max) * 0.5;
         let sixfold: f64 = (0..self.classes.model_end() as usize)

@@ -22,7 +22,7 @@ pub(crate) struct Shapes {
     weighing: Option<Weighing>,
 }
 
-/// The shapes under weights.
+/// The weighted values of one metric.
 #[derive(Debug, Clone)]
 struct Weighing {
     metric: Metric,
@@ -32,7 +32,7 @@ struct Weighing {
 }
 
 impl Shapes {
-    /// The shape of a sampled mesh, without areas of sections and with all facets alike.
+    /// The shape of a sampled mesh, without areas of sections and without weights.
     pub fn new(facet_bins: &FacetBins, mesh: &Mesh, ldi: &Ldi) -> Self {
         let Visibility { hidden, overlaps } = visibility(mesh, ldi);
         let bins = facet_bins.bins;
@@ -69,17 +69,17 @@ impl Shapes {
         }
     }
 
-    /// The height ranges of the shape.
+    /// The bins of the shape.
     pub fn bins(&self) -> Bins {
         self.exact.bins
     }
 
-    /// Whether the areas of sections are measured.
+    /// Whether the areas of sections have been measured.
     pub fn has_areas(&self) -> bool {
         !self.sampled.areas_mm2.is_empty()
     }
 
-    /// Whether the shape is weighted by these weights of facets for the metric; without weights, whether it is not weighted.
+    /// Whether the shape has exactly these weights of facets for this metric. `None` asks whether it has no weights.
     pub fn is_weighed(&self, metric: Metric, weights: Option<&[f32]>) -> bool {
         match (&self.weighing, weights) {
             (None, None) => true,
@@ -90,8 +90,8 @@ impl Shapes {
         }
     }
 
-    /// The shape with a weight for each facet of the surface under a metric, or without weights. Without an LDI, what is exact
-    /// stands for both sources.
+    /// The shape with these weights, one per facet of the surface, for a metric; `None` removes all weights. Without an LDI,
+    /// the exact values serve as both sources.
     pub fn weighed(
         self,
         facet_bins: &FacetBins,
