@@ -4,6 +4,7 @@ use glam::DVec2;
 use serde::Serialize;
 
 use crate::model::Bounds;
+use crate::quantity::{Quantity, QuantityError};
 
 /// Maximum side of a mask in pixels.
 pub const MAX_SIDE: u32 = 1 << 15;
@@ -26,24 +27,6 @@ const ROUNDING_SLACK: f64 = 1e-9;
 #[serde(tag = "code", content = "detail")]
 #[non_exhaustive]
 pub enum GridError {
-    /// A length that must be positive and finite is not.
-    #[error("{name} must be a positive number of millimetres, not {value_mm}")]
-    #[serde(rename = "bad-length")]
-    BadLength {
-        /// Name of the option.
-        name: &'static str,
-        /// Its value.
-        value_mm: f64,
-    },
-    /// A time that must be a number of seconds is none.
-    #[error("the {name} must be a number of seconds from 0, not {value_s}")]
-    #[serde(rename = "bad-time")]
-    BadTime {
-        /// Name of the option.
-        name: &'static str,
-        /// Its value.
-        value_s: f64,
-    },
     /// No pixels, or more than masks can have.
     #[error(
         "a mask of {width} × {height} pixels is not possible: at least 1 × 1, at most 32768 a \
@@ -109,32 +92,23 @@ pub enum GridError {
         /// Height of a bin.
         bin_mm: f64,
     },
+    /// A length is out of bounds.
+    #[error(transparent)]
+    #[serde(untagged)]
+    Quantity(#[from] QuantityError),
 }
 
 impl GridError {
     /// Stable name of the error for programs.
     pub fn code(&self) -> &'static str {
         match self {
-            Self::BadLength { .. } => "bad-length",
-            Self::BadTime { .. } => "bad-time",
+            Self::Quantity(error) => error.code(),
             Self::BadSize { .. } => "grid-bad-size",
             Self::TooFine { .. } => "grid-too-fine",
             Self::ModelTooLarge { .. } => "model-too-large",
             Self::ModelTooHigh { .. } => "model-too-high",
             Self::TooManyBins { .. } => "too-many-bins",
         }
-    }
-}
-
-/// Returns `value_mm` if it is positive and finite.
-///
-/// # Errors
-/// [`GridError::BadLength`] with `name` otherwise.
-pub fn positive(name: &'static str, value_mm: f64) -> Result<f64, GridError> {
-    if value_mm.is_finite() && value_mm > 0.0 {
-        Ok(value_mm)
-    } else {
-        Err(GridError::BadLength { name, value_mm })
     }
 }
 
@@ -174,9 +148,9 @@ impl Grid {
     /// A grid of square pixels of this pitch that just covers the model.
     ///
     /// # Errors
-    /// [`GridError::BadSize`], [`GridError::BadLength`].
+    /// [`GridError::BadSize`], [`GridError::Quantity`].
     pub fn of_pitch(bounds: &Bounds, pitch_mm: f64) -> Result<Self, GridError> {
-        positive("the pitch", pitch_mm)?;
+        Quantity::Pitch.check(pitch_mm)?;
         let size = bounds.size();
         let pixels = |length_mm: f64| (length_mm / pitch_mm - BIN_SLACK).ceil().max(1.0) as u64;
         let pitch_mm = DVec2::splat(pitch_mm);
@@ -186,10 +160,10 @@ impl Grid {
     /// A grid with these numbers of pixels and this pitch in x and y, centred on the model's bounding box.
     ///
     /// # Errors
-    /// [`GridError::BadSize`], [`GridError::BadLength`], [`GridError::ModelTooLarge`].
+    /// [`GridError::BadSize`], [`GridError::Quantity`], [`GridError::ModelTooLarge`].
     pub fn plate(bounds: &Bounds, pixels: [u32; 2], pitch_mm: [f64; 2]) -> Result<Self, GridError> {
         for side_mm in pitch_mm {
-            positive("the pitch", side_mm)?;
+            Quantity::Pitch.check(side_mm)?;
         }
         let pitch_mm = DVec2::from_array(pitch_mm);
         let model = bounds.size();
@@ -326,9 +300,9 @@ impl Bins {
     /// The bins of a model of `height_mm`. The last one may extend above it.
     ///
     /// # Errors
-    /// [`GridError::BadLength`], [`GridError::TooManyBins`].
+    /// [`GridError::Quantity`], [`GridError::TooManyBins`].
     pub fn of_height(height_mm: f64, bin_mm: f64) -> Result<Self, GridError> {
-        positive("the bin", bin_mm)?;
+        Quantity::Bin.check(bin_mm)?;
         let bins = Self {
             count: 0,
             size_mm: bin_mm,

@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::grid::{GridError, positive};
+use crate::quantity::{Quantity, QuantityError};
 
 /// A resin on a printer.
 ///
@@ -64,34 +64,31 @@ impl Resin {
     /// Checks that every number is within its bounds.
     ///
     /// # Errors
-    /// [`GridError::BadLength`], [`GridError::BadTime`].
-    pub fn check(&self) -> Result<(), GridError> {
-        for (name, value_mm) in [
-            ("the resin's layer", self.layer_mm),
-            ("the resin's penetration depth", self.penetration_mm),
-            ("the lift's speed", self.lift_mm_min),
-            ("the return's speed", self.return_mm_min),
-            ("the resin's density", self.density_g_ml),
-        ] {
-            positive(name, value_mm)?;
-        }
-        let exposures = self.exposures.iter().map(|pair| ("exposure", pair[1]));
-        let times = [
-            ("exposure", self.exposure_s),
-            ("exposure of the bottom", self.bottom_exposure_s),
-            ("rest between layers", self.wait_s),
-            ("lift", self.lift_mm),
+    /// [`QuantityError`].
+    pub fn check(&self) -> Result<(), QuantityError> {
+        let exposures = self.exposures.iter();
+        let exposures = exposures.map(|pair| (Quantity::Exposure, pair[1]));
+        let quantities = [
+            (Quantity::ResinLayer, self.layer_mm),
+            (Quantity::Penetration, self.penetration_mm),
+            (Quantity::LiftSpeed, self.lift_mm_min),
+            (Quantity::ReturnSpeed, self.return_mm_min),
+            (Quantity::Density, self.density_g_ml),
+            (Quantity::Exposure, self.exposure_s),
+            (Quantity::BottomExposure, self.bottom_exposure_s),
+            (Quantity::Wait, self.wait_s),
+            (Quantity::Lift, self.lift_mm),
         ];
-        for (name, value_s) in times.into_iter().chain(exposures) {
-            if !(value_s.is_finite() && value_s >= 0.0) {
-                return Err(GridError::BadTime { name, value_s });
-            }
+        for (quantity, value) in quantities.into_iter().chain(exposures) {
+            quantity.check(value)?;
         }
         for pair in self.exposures.windows(2) {
-            if pair[0][0] >= pair[1][0] {
-                let value_mm = pair[1][0];
-                let name = "a thickness above the one before it";
-                return Err(GridError::BadLength { name, value_mm });
+            let (previous_mm, next_mm) = (pair[0][0], pair[1][0]);
+            if previous_mm >= next_mm {
+                return Err(QuantityError::BadExposures {
+                    previous_mm,
+                    next_mm,
+                });
             }
         }
         Ok(())

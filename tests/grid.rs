@@ -81,12 +81,12 @@ fn sizes_and_lengths_are_checked() {
     for pitch_mm in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(matches!(
             Grid::plate(&bounds, [10, 10], [pitch_mm; 2]),
-            Err(GridError::BadLength { .. })
+            Err(GridError::Quantity(_))
         ));
     }
     assert!(matches!(
         Bins::of_height(1.0, 0.0),
-        Err(GridError::BadLength { .. })
+        Err(GridError::Quantity(_))
     ));
     assert!(matches!(
         Bins::of_height(1e9, 1e-3),

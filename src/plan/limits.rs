@@ -5,7 +5,8 @@ use std::ops::RangeInclusive;
 use serde::{Deserialize, Serialize};
 
 use super::PlanError;
-use crate::grid::{Bins, positive};
+use crate::grid::Bins;
+use crate::quantity::Quantity;
 
 /// The limits that every plan must respect.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -43,27 +44,27 @@ impl Limits {
     /// The unit of thickness in bins: the motor step, or 1.
     ///
     /// # Errors
-    /// [`PlanError::Grid`], [`PlanError::NotWholeBins`].
+    /// [`PlanError::Quantity`], [`PlanError::NotWholeBins`].
     pub fn unit(&self, bins: Bins) -> Result<u32, PlanError> {
-        positive("the bin", bins.size_mm)?;
+        Quantity::Bin.check(bins.size_mm)?;
         match self.step_mm {
             None => Ok(1),
-            Some(step_mm) => Ok(whole_bins(bins, "the step", step_mm)?.min(MAX_UNIT) as u32),
+            Some(step_mm) => Ok(whole_bins(bins, Quantity::Step, step_mm)?.min(MAX_UNIT) as u32),
         }
     }
 
     /// A range of layer thicknesses in units: ⌈`t_min`/unit⌉ to ⌊`t_max`/unit⌋.
     ///
     /// # Errors
-    /// [`PlanError::Grid`], [`PlanError::NotWholeBins`], [`PlanError::EmptyRange`].
+    /// [`PlanError::Quantity`], [`PlanError::NotWholeBins`], [`PlanError::EmptyRange`].
     pub fn thickness(
         &self,
         bins: Bins,
         layer_min_mm: f64,
         layer_max_mm: f64,
     ) -> Result<RangeInclusive<u32>, PlanError> {
-        positive("the least layer thickness", layer_min_mm)?;
-        positive("the greatest layer thickness", layer_max_mm)?;
+        Quantity::LayerMin.check(layer_min_mm)?;
+        Quantity::LayerMax.check(layer_max_mm)?;
         let units = Bins {
             count: bins.count,
             size_mm: f64::from(self.unit(bins)?) * bins.size_mm,
@@ -87,7 +88,7 @@ impl Limits {
     /// # Errors
     /// [`PlanError`].
     pub fn check(&self, bins: Bins) -> Result<(), PlanError> {
-        positive("the tolerance", self.tolerance)?;
+        Quantity::Tolerance.check(self.tolerance)?;
         self.thickness(bins, self.layer_min_mm, self.layer_max_mm)?;
         for range in &self.ranges {
             self.thickness(bins, range.layer_min_mm, range.layer_max_mm)?;
@@ -100,13 +101,13 @@ impl Limits {
 const MAX_UNIT: f64 = (1 << 20) as f64;
 
 /// A length as a whole number of bins, which it must be.
-pub(super) fn whole_bins(bins: Bins, name: &'static str, length_mm: f64) -> Result<f64, PlanError> {
-    positive("the bin", bins.size_mm)?;
-    positive(name, length_mm)?;
+pub(super) fn whole_bins(bins: Bins, quantity: Quantity, length_mm: f64) -> Result<f64, PlanError> {
+    Quantity::Bin.check(bins.size_mm)?;
+    quantity.check(length_mm)?;
     let whole = bins.floor(length_mm);
     if whole < 1.0 || bins.ceil(length_mm) > whole {
         return Err(PlanError::NotWholeBins {
-            name,
+            quantity,
             length_mm,
             bin_mm: bins.size_mm,
         });

@@ -13,8 +13,9 @@ use serde::Serialize;
 
 pub use limits::{HeightRange, Limits};
 
-use crate::grid::{Bins, GridError};
+use crate::grid::Bins;
 use crate::profile::LayerErrors;
+use crate::quantity::{Quantity, QuantityError};
 use crate::resin::Resin;
 
 /// Why there is no plan.
@@ -39,12 +40,13 @@ pub enum PlanError {
     },
     /// A length that is no whole number of bins.
     #[error(
-        "{name} {length_mm} mm is no whole number of bins of {bin_mm} mm; choose a bin that divides it"
+        "{} of {length_mm} mm is no whole number of bins of {bin_mm} mm; choose a bin that divides it",
+        quantity.noun()
     )]
     #[serde(rename = "not-whole-bins")]
     NotWholeBins {
         /// Which length.
-        name: &'static str,
+        quantity: Quantity,
         /// The length asked for.
         length_mm: f64,
         /// Bin size.
@@ -121,10 +123,10 @@ pub enum PlanError {
         /// What the thickest layers take, in words.
         least: String,
     },
-    /// A limit is no positive number.
+    /// A limit, or a number of the resin, is out of bounds.
     #[error(transparent)]
     #[serde(untagged)]
-    Grid(#[from] GridError),
+    Quantity(#[from] QuantityError),
 }
 
 fn infeasible_message(error: &PlanError) -> String {
@@ -159,7 +161,7 @@ impl PlanError {
     /// Stable name of the error for programs.
     pub fn code(&self) -> &'static str {
         match self {
-            Self::Grid(error) => error.code(),
+            Self::Quantity(error) => error.code(),
             Self::EmptyRange { .. } => "layer-range-empty",
             Self::NotWholeBins { .. } => "not-whole-bins",
             Self::BadRange { .. } => "bad-range",

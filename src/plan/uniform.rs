@@ -3,6 +3,7 @@
 use super::limits::whole_bins;
 use super::{Plan, PlanError};
 use crate::grid::Bins;
+use crate::quantity::Quantity;
 
 /// Layers of `layer_mm` each, from the plate to the top.
 ///
@@ -10,7 +11,7 @@ use crate::grid::Bins;
 /// height therefore differs from the model's by at most half a layer.
 ///
 /// # Errors
-/// [`PlanError::Grid`], [`PlanError::NotWholeBins`], [`PlanError::LayerTooThick`].
+/// [`PlanError::Quantity`], [`PlanError::NotWholeBins`], [`PlanError::LayerTooThick`].
 pub fn plan(bins: Bins, height_mm: f64, layer_mm: f64) -> Result<Plan, PlanError> {
     let thickness = thickness_in_bins(bins, layer_mm)?;
     if 0.5 * thickness * bins.size_mm >= height_mm {
@@ -31,7 +32,7 @@ pub fn plan(bins: Bins, height_mm: f64, layer_mm: f64) -> Result<Plan, PlanError
 /// A layer thickness as a whole number of bins, which it must be.
 ///
 /// # Errors
-/// [`PlanError::Grid`], [`PlanError::NotWholeBins`].
+/// [`PlanError::Quantity`], [`PlanError::NotWholeBins`].
 pub fn thickness_in_bins(bins: Bins, layer_mm: f64) -> Result<f64, PlanError> {
-    whole_bins(bins, "the layer thickness", layer_mm)
+    whole_bins(bins, Quantity::Layer, layer_mm)
 }

@@ -174,7 +174,7 @@ fn limits_are_checked() {
     ] {
         let result = plan(&density, &wrong);
         assert!(
-            matches!(result, Err(PlanError::Grid(_))),
+            matches!(result, Err(PlanError::Quantity(_))),
             "{wrong:?}: {result:?}"
         );
     }

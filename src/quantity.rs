@@ -1,0 +1,206 @@
+//! Numbers that users give, each with its unit and its bound, so that errors can name them.
+
+use serde::Serialize;
+
+/// A number that users give.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum Quantity {
+    /// Side of a pixel.
+    Pitch,
+    /// Height of a bin.
+    Bin,
+    /// What every height is a multiple of.
+    Step,
+    /// Thickness of uniform layers.
+    Layer,
+    /// Least layer thickness.
+    LayerMin,
+    /// Greatest layer thickness.
+    LayerMax,
+    /// Greatest error of a layer.
+    Tolerance,
+    /// The layer thickness that a resin's exposure is for.
+    ResinLayer,
+    /// Penetration depth of the light.
+    Penetration,
+    /// Exposure of a layer.
+    Exposure,
+    /// Exposure of a layer at the bottom.
+    BottomExposure,
+    /// Rest of every layer.
+    Wait,
+    /// By how much the model is lifted after a layer.
+    Lift,
+    /// How fast it is lifted.
+    LiftSpeed,
+    /// How fast it returns.
+    ReturnSpeed,
+    /// Mass of the cured resin.
+    Density,
+}
+
+/// What a quantity is measured in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[non_exhaustive]
+pub enum Unit {
+    /// Lengths.
+    #[serde(rename = "mm")]
+    Millimetre,
+    /// Times.
+    #[serde(rename = "s")]
+    Second,
+    /// Speeds.
+    #[serde(rename = "mm/min")]
+    MillimetrePerMinute,
+    /// Densities.
+    #[serde(rename = "g/ml")]
+    GramPerMillilitre,
+    /// Tolerances: see [`crate::profile::Metric::unit`].
+    #[serde(rename = "")]
+    OfMetric,
+}
+
+impl Unit {
+    /// Its symbol; empty for that of the metric.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::Millimetre => "mm",
+            Self::Second => "s",
+            Self::MillimetrePerMinute => "mm/min",
+            Self::GramPerMillilitre => "g/ml",
+            Self::OfMetric => "",
+        }
+    }
+}
+
+impl Quantity {
+    /// What it is measured in.
+    pub fn unit(self) -> Unit {
+        match self {
+            Self::Tolerance => Unit::OfMetric,
+            Self::Exposure | Self::BottomExposure | Self::Wait => Unit::Second,
+            Self::LiftSpeed | Self::ReturnSpeed => Unit::MillimetrePerMinute,
+            Self::Density => Unit::GramPerMillilitre,
+            _ => Unit::Millimetre,
+        }
+    }
+
+    /// Whether it may be 0; if not, it must be greater.
+    pub fn may_be_zero(self) -> bool {
+        self.unit() == Unit::Second || self == Self::Lift
+    }
+
+    /// What the terminal calls it.
+    pub fn noun(self) -> &'static str {
+        match self {
+            Self::Pitch => "the pixel pitch",
+            Self::Bin => "the bin height",
+            Self::Step => "the motor step",
+            Self::Layer => "the layer thickness",
+            Self::LayerMin => "the least layer thickness",
+            Self::LayerMax => "the greatest layer thickness",
+            Self::Tolerance => "the tolerance",
+            Self::ResinLayer => "the resin's layer thickness",
+            Self::Penetration => "the penetration depth",
+            Self::Exposure => "the exposure",
+            Self::BottomExposure => "the bottom exposure",
+            Self::Wait => "the wait between layers",
+            Self::Lift => "the lift height",
+            Self::LiftSpeed => "the lift speed",
+            Self::ReturnSpeed => "the return speed",
+            Self::Density => "the resin density",
+        }
+    }
+
+    /// Returns `value` if it is a finite number within bounds.
+    ///
+    /// # Errors
+    /// [`QuantityError::BadTime`] for times, [`QuantityError::BadLength`] for all others.
+    pub fn check(self, value: f64) -> Result<f64, QuantityError> {
+        let (unit, may_be_zero) = (self.unit(), self.may_be_zero());
+        if value.is_finite() && (value > 0.0 || may_be_zero && value == 0.0) {
+            return Ok(value);
+        }
+        let quantity = self;
+        Err(match unit {
+            Unit::Second => QuantityError::BadTime {
+                quantity,
+                value_s: value,
+            },
+            _ => QuantityError::BadLength {
+                quantity,
+                value,
+                unit,
+                may_be_zero,
+            },
+        })
+    }
+}
+
+/// Why a number cannot be used.
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(tag = "code", content = "detail")]
+#[non_exhaustive]
+pub enum QuantityError {
+    /// A length, speed, density or tolerance that is out of bounds.
+    #[error("{}", out_of_bounds(*quantity, *value))]
+    #[serde(rename = "bad-length")]
+    BadLength {
+        /// What it is.
+        quantity: Quantity,
+        /// Its value.
+        value: f64,
+        /// The unit of its value.
+        unit: Unit,
+        /// Whether it may be 0; if not, it must be greater.
+        may_be_zero: bool,
+    },
+    /// A time that is no number from 0.
+    #[error("{}", out_of_bounds(*quantity, *value_s))]
+    #[serde(rename = "bad-time")]
+    BadTime {
+        /// What it is.
+        quantity: Quantity,
+        /// Its value in seconds.
+        value_s: f64,
+    },
+    /// Measured exposures that are not in order of thickness.
+    #[error(
+        "measured exposures must be in order of thickness, each thicker than the one before, but {next_mm} mm follows \
+         {previous_mm} mm"
+    )]
+    #[serde(rename = "bad-exposures")]
+    BadExposures {
+        /// A thickness.
+        previous_mm: f64,
+        /// The one after it.
+        next_mm: f64,
+    },
+}
+
+impl QuantityError {
+    /// Stable name of the error for programs.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::BadLength { .. } => "bad-length",
+            Self::BadTime { .. } => "bad-time",
+            Self::BadExposures { .. } => "bad-exposures",
+        }
+    }
+}
+
+fn out_of_bounds(quantity: Quantity, value: f64) -> String {
+    let bound = if quantity.may_be_zero() {
+        "0 or more"
+    } else {
+        "greater than 0"
+    };
+    let (noun, unit) = (quantity.noun(), quantity.unit().symbol());
+    let gap = if unit.is_empty() { "" } else { " " };
+    format!("{noun} must be {bound}, not {value}{gap}{unit}")
+}
