@@ -4,122 +4,18 @@
 //! file are ignored, since many exporters write zeros or NaN there: orientation comes from the order of
 //! the corners.
 
-use glam::Vec3;
-use serde::Serialize;
+mod error;
 
-use crate::model::read::kind::{FileKind, HEAD_BYTES};
+use glam::Vec3;
+
+use super::kind::{FileKind, HEAD_BYTES};
+
+pub use error::{Expected, StlError};
 
 /// Bytes before the first facet of a binary STL: an 80 byte header and the facet count.
 const BINARY_HEADER_BYTES: usize = 84;
 /// Bytes of one facet of a binary STL: normal, three corners, attribute word.
 const BINARY_FACET_BYTES: usize = 50;
-
-/// Why bytes could not be read as an STL.
-#[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
-#[serde(tag = "code", content = "detail")]
-#[non_exhaustive]
-pub enum StlError {
-    /// The file has no bytes at all.
-    #[error("the file is empty; export the model again as STL")]
-    #[serde(rename = "stl-empty")]
-    Empty,
-    /// Neither a binary STL nor text in ASCII or UTF-8 that begins with `solid`.
-    #[error("this is no STL file; export the model as binary or ASCII STL")]
-    #[serde(rename = "stl-not-stl")]
-    NotStl,
-    /// A file of another kind.
-    #[error("this is a {} file, no STL; {}", kind.name(), kind.advice())]
-    #[serde(rename = "other-file-kind")]
-    OtherKind {
-        /// What it is.
-        kind: FileKind,
-    },
-    /// A binary STL that ends before the facets which its header announces.
-    #[error(
-        "the STL is cut short: its header announces {declared_facets} facets, which need \
-         {expected_bytes} bytes, but the file ends at byte {found_bytes}; copy or export it again"
-    )]
-    #[serde(rename = "stl-truncated")]
-    Truncated {
-        /// Facet count in the header.
-        declared_facets: u64,
-        /// Length that this count needs.
-        expected_bytes: u64,
-        /// Length of the file.
-        found_bytes: u64,
-    },
-    /// A binary STL with more facets than its header announces.
-    #[error(
-        "the facet count is wrong: the header at byte 80 announces {declared_facets} facets, \
-         but {found_facets} follow; export the model again"
-    )]
-    #[serde(rename = "stl-wrong-facet-count")]
-    WrongFacetCount {
-        /// Facet count in the header.
-        declared_facets: u64,
-        /// Whole facets in the file.
-        found_facets: u64,
-    },
-    /// A coordinate of a binary STL is NaN or infinite.
-    #[error("the coordinate at byte {byte} (facet {facet}) is not a finite number")]
-    #[serde(rename = "stl-not-finite")]
-    NotFiniteBinary {
-        /// Offset of the coordinate in the file.
-        byte: u64,
-        /// Facet it belongs to, from 0.
-        facet: u64,
-    },
-    /// A coordinate of an ASCII STL is NaN or infinite.
-    #[error("line {line}: `{text}` is not a finite number")]
-    #[serde(rename = "stl-not-finite")]
-    NotFiniteText {
-        /// Line in the file, from 1.
-        line: u64,
-        /// The offending word.
-        text: String,
-    },
-    /// A line of an ASCII STL that does not belong there.
-    #[error("line {line}: expected {expected}, found `{found}`")]
-    #[serde(rename = "stl-syntax")]
-    Syntax {
-        /// Line in the file, from 1.
-        line: u64,
-        /// What the grammar asks for at this place.
-        expected: &'static str,
-        /// The word that stands there.
-        found: String,
-    },
-    /// An ASCII STL that ends inside a solid.
-    #[error("the STL is cut short: it ends at line {line}, where {expected} should follow")]
-    #[serde(rename = "stl-truncated")]
-    EndOfText {
-        /// Last line of the file, from 1.
-        line: u64,
-        /// What the grammar asks for at the end.
-        expected: &'static str,
-    },
-    /// A well-formed STL without facets.
-    #[error("the STL holds no facets; export the model again")]
-    #[serde(rename = "stl-no-facets")]
-    NoFacets,
-}
-
-impl StlError {
-    /// Stable name of the error for programs.
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Empty => "stl-empty",
-            Self::NotStl => "stl-not-stl",
-            Self::OtherKind { .. } => "other-file-kind",
-            Self::Truncated { .. } | Self::EndOfText { .. } => "stl-truncated",
-            Self::WrongFacetCount { .. } => "stl-wrong-facet-count",
-            Self::NotFiniteBinary { .. } | Self::NotFiniteText { .. } => "stl-not-finite",
-            Self::Syntax { .. } => "stl-syntax",
-            Self::NoFacets => "stl-no-facets",
-        }
-    }
-}
 
 /// Reads the triangles of a binary or ASCII STL, corners in file order.
 ///
@@ -306,7 +202,7 @@ impl<'a> Words<'a> {
         }
     }
 
-    fn expect(&mut self, words: &[&str], expected: &'static str) -> Result<(), StlError> {
+    fn expect(&mut self, words: &[&str], expected: Expected) -> Result<(), StlError> {
         words.iter().try_for_each(|wanted| match self.next() {
             Some(word) if is(word, wanted) => Ok(()),
             Some(word) => Err(self.syntax(expected, word)),
@@ -314,7 +210,7 @@ impl<'a> Words<'a> {
         })
     }
 
-    fn number(&mut self, expected: &'static str) -> Result<f32, StlError> {
+    fn number(&mut self, expected: Expected) -> Result<f32, StlError> {
         let word = self.next().ok_or_else(|| self.end(expected))?;
         let text = String::from_utf8_lossy(word);
         let value: f32 = text.parse().map_err(|_| self.syntax(expected, word))?;
@@ -328,7 +224,7 @@ impl<'a> Words<'a> {
         }
     }
 
-    fn syntax(&self, expected: &'static str, found: &[u8]) -> StlError {
+    fn syntax(&self, expected: Expected, found: &[u8]) -> StlError {
         StlError::Syntax {
             line: self.line,
             expected,
@@ -336,7 +232,7 @@ impl<'a> Words<'a> {
         }
     }
 
-    fn end(&self, expected: &'static str) -> StlError {
+    fn end(&self, expected: Expected) -> StlError {
         StlError::EndOfText {
             line: self.line,
             expected,
@@ -377,42 +273,45 @@ fn is(word: &[u8], keyword: &str) -> bool {
 }
 
 fn read_ascii(bytes: &[u8]) -> Result<Vec<[Vec3; 3]>, StlError> {
-    const FACET: &str = "`facet` or `endsolid`";
     let mut words = Words::new(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes));
     let mut triangles = Vec::new();
-    words.expect(&["solid"], "`solid`")?;
+    words.expect(&["solid"], Expected::Solid)?;
     words.skip_name();
     loop {
-        let word = words.next().ok_or_else(|| words.end(FACET))?;
+        let word = words
+            .next()
+            .ok_or_else(|| words.end(Expected::FacetOrEndsolid))?;
         if is(word, "endsolid") {
             words.skip_closing_name();
             match words.next() {
                 None => return Ok(triangles),
                 Some(word) if is(word, "solid") => words.skip_name(),
-                Some(word) => return Err(words.syntax("`solid` or the end of the file", word)),
+                Some(word) => return Err(words.syntax(Expected::SolidOrEnd, word)),
             }
         } else if is(word, "facet") {
             triangles.push(read_ascii_facet(&mut words)?);
         } else {
-            return Err(words.syntax(FACET, word));
+            return Err(words.syntax(Expected::FacetOrEndsolid, word));
         }
     }
 }
 
 fn read_ascii_facet(words: &mut Words<'_>) -> Result<[Vec3; 3], StlError> {
-    words.expect(&["normal"], "`normal`")?;
+    words.expect(&["normal"], Expected::Normal)?;
     for _ in 0..3 {
-        words.next().ok_or_else(|| words.end("a normal"))?;
+        words
+            .next()
+            .ok_or_else(|| words.end(Expected::NormalNumber))?;
     }
-    words.expect(&["outer", "loop"], "`outer loop`")?;
+    words.expect(&["outer", "loop"], Expected::OuterLoop)?;
     let mut corners = [Vec3::ZERO; 3];
     for corner in &mut corners {
-        words.expect(&["vertex"], "`vertex`")?;
+        words.expect(&["vertex"], Expected::Vertex)?;
         for axis in 0..3 {
-            corner[axis] = words.number("a coordinate")?;
+            corner[axis] = words.number(Expected::Coordinate)?;
         }
     }
-    words.expect(&["endloop"], "`endloop`")?;
-    words.expect(&["endfacet"], "`endfacet`")?;
+    words.expect(&["endloop"], Expected::Endloop)?;
+    words.expect(&["endfacet"], Expected::Endfacet)?;
     Ok(corners)
 }

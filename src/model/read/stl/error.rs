@@ -1,0 +1,157 @@
+//! Why bytes are no usable STL.
+
+use serde::Serialize;
+
+use crate::model::read::kind::FileKind;
+
+/// What the grammar of a text STL asks for at some place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum Expected {
+    /// The beginning of a solid.
+    Solid,
+    /// Another solid, or the end of the file.
+    SolidOrEnd,
+    /// A facet, or the end of the solid.
+    FacetOrEndsolid,
+    /// The word before a normal.
+    Normal,
+    /// A number of a normal.
+    NormalNumber,
+    /// The words before the corners.
+    OuterLoop,
+    /// The word before a corner.
+    Vertex,
+    /// A number of a corner.
+    Coordinate,
+    /// The word behind the corners.
+    Endloop,
+    /// The end of a facet.
+    Endfacet,
+}
+
+impl std::fmt::Display for Expected {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Solid => "`solid`",
+            Self::SolidOrEnd => "`solid` or the end of the file",
+            Self::FacetOrEndsolid => "`facet` or `endsolid`",
+            Self::Normal => "`normal`",
+            Self::NormalNumber => "a number of the normal",
+            Self::OuterLoop => "`outer loop`",
+            Self::Vertex => "`vertex`",
+            Self::Coordinate => "a coordinate",
+            Self::Endloop => "`endloop`",
+            Self::Endfacet => "`endfacet`",
+        })
+    }
+}
+
+/// Why bytes could not be read as an STL.
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(tag = "code", content = "detail")]
+#[non_exhaustive]
+pub enum StlError {
+    /// The file has no bytes at all.
+    #[error("the file is empty; export the model again as STL")]
+    #[serde(rename = "stl-empty")]
+    Empty,
+    /// Neither a binary STL nor text in ASCII or UTF-8 that begins with `solid`.
+    #[error("this is no STL file; export the model as binary or ASCII STL")]
+    #[serde(rename = "stl-not-stl")]
+    NotStl,
+    /// A file of another kind.
+    #[error("this is a {} file, no STL; {}", kind.name(), kind.advice())]
+    #[serde(rename = "other-file-kind")]
+    OtherKind {
+        /// What it is.
+        kind: FileKind,
+    },
+    /// A binary STL that ends before the facets which its header announces.
+    #[error(
+        "the STL is cut short: its header announces {declared_facets} facets, which need \
+         {expected_bytes} bytes, but the file ends at byte {found_bytes}; copy or export it again"
+    )]
+    #[serde(rename = "stl-truncated")]
+    Truncated {
+        /// Facet count in the header.
+        declared_facets: u64,
+        /// Length that this count needs.
+        expected_bytes: u64,
+        /// Length of the file.
+        found_bytes: u64,
+    },
+    /// A binary STL with more facets than its header announces.
+    #[error(
+        "the facet count is wrong: the header at byte 80 announces {declared_facets} facets, \
+         but {found_facets} follow; export the model again"
+    )]
+    #[serde(rename = "stl-wrong-facet-count")]
+    WrongFacetCount {
+        /// Facet count in the header.
+        declared_facets: u64,
+        /// Whole facets in the file.
+        found_facets: u64,
+    },
+    /// A coordinate of a binary STL is NaN or infinite.
+    #[error("the coordinate at byte {byte} (facet {facet}) is not a finite number")]
+    #[serde(rename = "stl-not-finite")]
+    NotFiniteBinary {
+        /// Offset of the coordinate in the file.
+        byte: u64,
+        /// Facet it belongs to, from 0.
+        facet: u64,
+    },
+    /// A coordinate of an ASCII STL is NaN or infinite.
+    #[error("line {line}: `{text}` is not a finite number")]
+    #[serde(rename = "stl-not-finite")]
+    NotFiniteText {
+        /// Line in the file, from 1.
+        line: u64,
+        /// The offending word.
+        text: String,
+    },
+    /// A line of an ASCII STL that does not belong there.
+    #[error("line {line}: expected {expected}, found `{found}`")]
+    #[serde(rename = "stl-syntax")]
+    Syntax {
+        /// Line in the file, from 1.
+        line: u64,
+        /// What the grammar asks for at this place.
+        expected: Expected,
+        /// The word that stands there.
+        found: String,
+    },
+    /// An ASCII STL that ends inside a solid.
+    #[error("the STL is cut short: it ends at line {line}, where {expected} should follow")]
+    #[serde(rename = "stl-truncated")]
+    EndOfText {
+        /// Last line of the file, from 1.
+        line: u64,
+        /// What the grammar asks for at the end.
+        expected: Expected,
+    },
+    /// A well-formed STL without facets.
+    #[error("the STL holds no facets; export the model again")]
+    #[serde(rename = "stl-no-facets")]
+    NoFacets,
+}
+
+impl StlError {
+    /// Stable name of the error for programs.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Empty => "stl-empty",
+            Self::NotStl => "stl-not-stl",
+            Self::OtherKind { .. } => "other-file-kind",
+            Self::Truncated { .. } | Self::EndOfText { .. } => "stl-truncated",
+            Self::WrongFacetCount { .. } => "stl-wrong-facet-count",
+            Self::NotFiniteBinary { .. } | Self::NotFiniteText { .. } => "stl-not-finite",
+            Self::Syntax { .. } => "stl-syntax",
+            Self::NoFacets => "stl-no-facets",
+        }
+    }
+}
