@@ -14,10 +14,10 @@ use crate::warning::Warning;
 #[non_exhaustive]
 pub enum VerifyError {
     /// The file is no report of a plan.
-    #[error("it is no plan as `cusp plan --json` prints it: {reason}")]
+    #[error("it is no plan as `cusp plan --json` prints it: {system}")]
     NotAPlan {
-        /// What is wrong with it.
-        reason: String,
+        /// What the parser said.
+        system: String,
     },
     /// The report is of a version with other names or meanings.
     #[error("it has schema {found}, and this program knows {SCHEMA}; use the version that made it")]
@@ -40,15 +40,17 @@ pub enum VerifyError {
     OtherWeights,
     /// The model and the options give something else.
     #[error(
-        "it is not what the model and its options give: {key} is {claimed}, but should be {found}"
+        "it is not what the model and its options give: {key} is {}, but should be {}",
+        in_short(claimed),
+        in_short(found)
     )]
     Differs {
         /// The first place that differs.
         key: String,
         /// What the plan says there.
-        claimed: String,
+        claimed: Value,
         /// What it should say.
-        found: String,
+        found: Value,
     },
     /// The plan is right, but its layers leave larger errors than the tolerance.
     #[error("its largest error is {max_error}, more than the tolerance of {tolerance}")]
@@ -80,7 +82,7 @@ impl Claim {
     /// [`VerifyError::NotAPlan`], [`VerifyError::OtherSchema`], [`VerifyError::OtherModel`].
     pub fn read(json: &str, model: &ModelFile) -> Result<Self, VerifyError> {
         let not_a_plan = |error: serde_json::Error| VerifyError::NotAPlan {
-            reason: error.to_string(),
+            system: error.to_string(),
         };
         let report: Value = serde_json::from_str(json).map_err(not_a_plan)?;
         let found = report["schema"].as_u64().unwrap_or(u64::from(SCHEMA));
@@ -118,7 +120,7 @@ impl Claim {
         let text = serde_json::to_string(made);
         let value = text.and_then(|text| serde_json::from_str(&text));
         let expected: Value = value.map_err(|error| VerifyError::NotAPlan {
-            reason: error.to_string(),
+            system: error.to_string(),
         })?;
         for (key, expected) in expected.as_object().into_iter().flatten() {
             // Of the warnings some are about the machine; all that count here follow from the rest of the report.
@@ -171,8 +173,8 @@ fn compare(key: &str, claimed: &Value, expected: &Value) -> Result<(), VerifyErr
         _ if claimed == expected => Ok(()),
         _ => Err(VerifyError::Differs {
             key: key.to_owned(),
-            claimed: in_short(claimed),
-            found: in_short(expected),
+            claimed: claimed.clone(),
+            found: expected.clone(),
         }),
     }
 }

@@ -58,7 +58,7 @@ pub enum MergeError {
     #[error("shard {shard} was measured by version {theirs}, and this is {ours}; measure it again")]
     OtherVersion {
         /// Which part.
-        shard: String,
+        shard: Shard,
         /// Its version.
         theirs: String,
         /// This version.
@@ -70,7 +70,7 @@ pub enum MergeError {
     )]
     OtherOptions {
         /// Which part.
-        shard: String,
+        shard: Shard,
     },
     /// A direction is in two parts.
     #[error(
@@ -80,9 +80,9 @@ pub enum MergeError {
         /// The direction's place, from 0.
         place: usize,
         /// A part that it is in.
-        first: String,
+        first: Shard,
         /// Another one.
-        second: String,
+        second: Shard,
     },
     /// A part does not hold what it says.
     #[error(
@@ -90,7 +90,7 @@ pub enum MergeError {
     )]
     Damaged {
         /// Which part.
-        shard: String,
+        shard: Shard,
     },
     /// Directions are in no part.
     #[error(
@@ -130,7 +130,7 @@ pub fn merge(
         return Err(MergeError::None);
     }
     for part in ours {
-        let shard = part.shard.to_string();
+        let shard = part.shard;
         if part.version != whole.version {
             return Err(MergeError::OtherVersion {
                 shard,
@@ -151,7 +151,7 @@ pub fn merge(
             if let Some((first, _)) = found[place].replace((part.shard, candidate)) {
                 return Err(MergeError::Duplicate {
                     place,
-                    first: first.to_string(),
+                    first,
                     second: shard,
                 });
             }
