@@ -20,6 +20,16 @@ pub enum Format {
 }
 
 impl Format {
+    /// The name of the format, as in options.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Png => "png",
+            Self::Chitubox => "chitubox",
+            Self::Uvj => "uvj",
+            Self::Sl1 => "sl1",
+        }
+    }
+
     /// The file extension, without a dot.
     pub fn extension(self) -> &'static str {
         match self {

@@ -98,20 +98,6 @@ pub enum GridError {
     Quantity(#[from] QuantityError),
 }
 
-impl GridError {
-    /// Stable name of the error for programs.
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Quantity(error) => error.code(),
-            Self::BadSize { .. } => "grid-bad-size",
-            Self::TooFine { .. } => "grid-too-fine",
-            Self::ModelTooLarge { .. } => "model-too-large",
-            Self::ModelTooHigh { .. } => "model-too-high",
-            Self::TooManyBins { .. } => "too-many-bins",
-        }
-    }
-}
-
 /// The pixels of a mask on the plate, or the rays of an LDI, one through each pixel centre.
 ///
 /// Row 0 has the largest y, as in an image; x grows with the column.

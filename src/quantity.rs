@@ -183,17 +183,6 @@ pub enum QuantityError {
     },
 }
 
-impl QuantityError {
-    /// Stable name of the error for programs.
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::BadLength { .. } => "bad-length",
-            Self::BadTime { .. } => "bad-time",
-            Self::BadExposures { .. } => "bad-exposures",
-        }
-    }
-}
-
 fn out_of_bounds(quantity: Quantity, value: f64) -> String {
     let bound = if quantity.may_be_zero() {
         "0 or more"

@@ -2,12 +2,13 @@
 
 use serde::Serialize;
 
+use crate::ldi::GpuFault;
 use crate::profile::Metric;
 
 /// Something that the user should know although the work went on: a stable code and its details. Its text is one
 /// sentence for people.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]
 #[serde(tag = "code", content = "detail", rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Warning {
@@ -78,7 +79,9 @@ pub enum Warning {
     /// The GPU failed; the CPU did its work.
     GpuFailed {
         /// What went wrong.
-        reason: String,
+        fault: GpuFault,
+        /// What the system said, untranslated; absent where it said nothing.
+        system: Option<String>,
     },
 }
 
@@ -118,11 +121,14 @@ impl std::fmt::Display for Warning {
                 metric.format(*max_error)
             ),
             Self::ToleranceExceededOnMesh {
-                metric, max_error, ..
+                metric,
+                tolerance,
+                max_error,
             } => write!(
                 f,
-                "on the mesh itself the error reaches {}, more than the tolerance: rays miss a part of the surface",
-                metric.format(*max_error)
+                "on the mesh itself the error reaches {}, more than the tolerance of {}: rays miss a part of the surface",
+                metric.format(*max_error),
+                metric.format(*tolerance)
             ),
             Self::SampledSections => f.write_str(
                 "the surface crosses itself, so that areas of sections are counted along rays",
@@ -144,8 +150,9 @@ impl std::fmt::Display for Warning {
                 f,
                 "the CPU did the work of the GPU: the mesh needs a buffer of {needed_bytes} bytes, and the GPU offers {limit_bytes}"
             ),
-            Self::GpuFailed { reason } => {
-                write!(f, "the CPU did the work of the GPU: {reason}")
+            Self::GpuFailed { fault, system } => {
+                let fault = fault.in_words(system.as_deref());
+                write!(f, "the CPU did the work of the GPU, which failed: {fault}")
             }
         }
     }

@@ -209,7 +209,7 @@ fn plans_with_warning(
 fn main() {
     let arguments = Arguments::from_args();
     let missing = match pollster::block_on(Gpu::open(gpu::Adapters::Any)) {
-        Err(LdiError::NoGpu { reason }) => Some(reason),
+        Err(LdiError::NoGpu { system }) => Some(system),
         _ => None,
     };
     let trials = tests()

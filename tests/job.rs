@@ -34,7 +34,7 @@ fn plan(slicer: &mut Slicer, options: &Options) -> Result<Report, Error> {
     pollster::block_on(slicer.plan(options, &mut quiet)).cloned()
 }
 
-fn code<T: std::fmt::Debug>(result: Result<T, Error>) -> &'static str {
+fn code<T: std::fmt::Debug>(result: Result<T, Error>) -> String {
     result.unwrap_err().code()
 }
 
@@ -273,7 +273,7 @@ fn a_printer_prints_neither_thinner_nor_thicker_nor_finer_than_it_can() {
         ),
     ] {
         let found = options.check().map_err(|error| error.code());
-        assert_eq!(found, Err(expected), "{options:?}");
+        assert_eq!(found, Err(expected.to_owned()), "{options:?}");
     }
 }
 

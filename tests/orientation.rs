@@ -607,22 +607,20 @@ fn searches_end_when_nobody_wants_them() {
         directions: 0,
         ..SearchOptions::default()
     };
-    for search in [
-        none,
-        SearchOptions {
-            alpha: 1.1,
-            ..SearchOptions::default()
-        },
-    ] {
+    let beyond = SearchOptions {
+        alpha: 1.1,
+        ..SearchOptions::default()
+    };
+    for (search, code) in [(none, "bad-directions"), (beyond, "bad-alpha")] {
         let error = slicer.orient(&options(), &search, &mut quiet).unwrap_err();
-        assert_eq!(error.code(), "bad-options");
+        assert_eq!(error.code(), code);
     }
     let unknown = Options {
         printer: Some("none".to_owned()),
         ..options()
     };
     let error = slicer.orient(&unknown, &few(5), &mut quiet).unwrap_err();
-    assert_eq!(error.code(), "bad-options");
+    assert_eq!(error.code(), "unknown-printer");
 }
 
 fn parts(model: &solids::Triangles, count: usize) -> Vec<Part> {

@@ -25,7 +25,7 @@ fn resin_refusal(set: impl FnOnce(&mut Resin)) -> String {
 #[test]
 fn numbers_of_layers_are_refused_by_name_bound_and_unit() {
     assert_eq!(
-        refusal(|options| options.bin_mm = 0.0),
+        refusal(|options| options.bin_mm = Some(0.0)),
         "the bin height must be greater than 0, not 0 mm"
     );
     assert_eq!(

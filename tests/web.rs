@@ -227,5 +227,8 @@ async fn a_lost_device_hands_its_work_to_the_cpu() {
 #[wasm_bindgen_test]
 async fn an_emulated_adapter_is_no_hardware() {
     let found = Gpu::open(gpu::Adapters::Hardware).await;
-    assert!(matches!(found, Err(LdiError::NoGpu { .. })), "{found:?}");
+    assert!(
+        matches!(found, Err(LdiError::GpuEmulated { .. })),
+        "{found:?}"
+    );
 }

@@ -64,38 +64,29 @@ pub enum ArchiveError {
     AllBlack,
     /// The format has one thickness for all layers, and the plan has several.
     #[error(
-        "{format} files have one thickness for all layers, and this plan has several; choose the format chitubox, uvj or \
-         png, or the uniform planner"
+        "{} files have one thickness for all layers, and this plan has several; choose the format chitubox, uvj or \
+         png, or the uniform planner",
+        format.name()
     )]
     #[serde(rename = "uniform-only")]
     UniformOnly {
         /// The format asked for.
-        format: &'static str,
+        format: Format,
     },
     /// Bytes could not be written: the disk is full, say.
-    #[error("the print file could not be written: {reason}")]
+    #[error("the print file could not be written: {system}")]
     #[serde(rename = "archive-write")]
     Write {
-        /// What the system said.
-        reason: String,
+        /// What the system said, untranslated.
+        system: String,
     },
 }
 
 impl ArchiveError {
-    /// Stable name of the error for programs.
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Cancelled(_) => "cancelled",
-            Self::AllBlack => "all-black",
-            Self::UniformOnly { .. } => "uniform-only",
-            Self::Write { .. } => "archive-write",
-        }
-    }
-
     /// Wraps the error of a failed write.
     pub(crate) fn write(error: impl std::fmt::Display) -> Self {
         Self::Write {
-            reason: error.to_string(),
+            system: error.to_string(),
         }
     }
 }

@@ -65,19 +65,10 @@ pub enum Error {
 }
 
 impl Error {
-    /// Stable name of the error for programs.
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Stl(error) => error.code(),
-            Self::Mesh(error) => error.code(),
-            Self::Grid(error) => error.code(),
-            Self::Weights(error) => error.code(),
-            Self::Ldi(error) => error.code(),
-            Self::Plan(error) => error.code(),
-            Self::Archive(error) => error.code(),
-            Self::Options(error) => error.code(),
-            Self::NoLayer { .. } => "no-layer",
-            Self::NoPlan => "no-plan",
-        }
+    /// Stable name of the error for programs: the code that it is serialised with.
+    pub fn code(&self) -> String {
+        let serialised = serde_json::to_value(self).unwrap_or_default();
+        let code = serialised["code"].as_str();
+        code.unwrap_or_default().to_owned()
     }
 }

@@ -44,6 +44,22 @@ pub enum OptionsError {
         /// The weight asked for.
         weight_min: f64,
     },
+    /// A search of too few directions, or of too many.
+    #[error("a search looks along 1 to {most} directions, not {directions}")]
+    #[serde(rename = "bad-directions")]
+    BadDirections {
+        /// The number asked for.
+        directions: usize,
+        /// The greatest number.
+        most: usize,
+    },
+    /// The weight of the cost in a search is not from 0 to 1.
+    #[error("alpha must be from 0 to 1, not {alpha}")]
+    #[serde(rename = "bad-alpha")]
+    BadAlpha {
+        /// The weight asked for.
+        alpha: f64,
+    },
     /// More than one of tolerance, number of layers and time is given.
     #[error("give a tolerance, the most layers or the longest time, and only one of them")]
     #[serde(rename = "several-targets")]
@@ -80,20 +96,4 @@ pub enum OptionsError {
         /// The step asked for.
         step_mm: f64,
     },
-}
-
-impl OptionsError {
-    /// Stable name of the error for programs.
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Unreadable { .. } => "bad-options",
-            Self::UnknownPrinter { .. } => "unknown-printer",
-            Self::PixelsWithoutPitch => "pixels-without-pitch",
-            Self::BadAntialias { .. } => "bad-antialias",
-            Self::BadWeightMin { .. } => "bad-weight-min",
-            Self::SeveralTargets => "several-targets",
-            Self::PrinterLayers { .. } => "printer-layers",
-            Self::PrinterStep { .. } => "printer-step",
-        }
-    }
 }

@@ -172,7 +172,7 @@ impl Slicer {
         search: &SearchOptions,
         parts: &[Part],
     ) -> Result<Vec<Candidate>, MergeError> {
-        search.check()?;
+        search.check().map_err(Error::from)?;
         let directions = self.directions(options, search.directions)?;
         // A model that no shard could measure has the same fault here, rather than no part.
         self.check_for_all_directions(&options.resolve()?)?;

@@ -8,7 +8,7 @@ use super::{Backend, Error, Timings};
 use crate::grid::Grid;
 use crate::job::report::mesh_warnings;
 use crate::ldi::gpu::{self, Gpu};
-use crate::ldi::{Ldi, LdiError, Solid, cpu};
+use crate::ldi::{GpuFault, Ldi, LdiError, Solid, cpu};
 use crate::model::Mesh;
 use crate::progress::Progress;
 use crate::warning::Warning;
@@ -128,8 +128,9 @@ impl Sampler {
 /// The GPU that a backend allows.
 async fn search_gpu(backend: Backend) -> Result<Gpu, LdiError> {
     match backend {
+        // Nobody sees it: the CPU was asked for.
         Backend::Cpu => Err(LdiError::NoGpu {
-            reason: "the CPU was asked for".to_owned(),
+            system: String::new(),
         }),
         Backend::Gpu => Gpu::open(gpu::Adapters::Any).await,
         Backend::Auto => Gpu::open(gpu::Adapters::Hardware).await,
@@ -138,8 +139,8 @@ async fn search_gpu(backend: Backend) -> Result<Gpu, LdiError> {
 
 /// What to tell of a GPU that was to do the work and did not; nothing if there is none.
 fn cpu_instead(error: &LdiError) -> Option<Warning> {
+    let failed = |fault, system| Some(Warning::GpuFailed { fault, system });
     match *error {
-        LdiError::NoGpu { .. } => None,
         LdiError::GpuTooSmall {
             needed_bytes,
             limit_bytes,
@@ -148,8 +149,8 @@ fn cpu_instead(error: &LdiError) -> Option<Warning> {
             needed_bytes,
             limit_bytes,
         }),
-        _ => Some(Warning::GpuFailed {
-            reason: error.to_string(),
-        }),
+        LdiError::GpuFailed { fault, ref system } => failed(fault, system.clone()),
+        LdiError::OutOfMemory { .. } => failed(GpuFault::OutOfMemory, None),
+        _ => None,
     }
 }

@@ -26,9 +26,41 @@ use crate::progress::Cancelled;
 /// Rays that a thread processes at a time.
 const CHUNK_RAYS: usize = 1 << 16;
 
+/// What went wrong on a GPU.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum GpuFault {
+    /// The system reported an error.
+    Error,
+    /// The device was lost: unplugged, reset or destroyed.
+    DeviceLost,
+    /// Hits do not fit into its buffers, even a tile at a time.
+    TooManyHits,
+    /// It returned offsets that do not add up.
+    BadOffsets,
+    /// What it sampled did not fit into memory.
+    OutOfMemory,
+}
+
+impl GpuFault {
+    /// The fault, and what the system said of it.
+    pub(crate) fn in_words(self, system: Option<&str>) -> String {
+        let fault = match self {
+            Self::Error => "the system reports an error",
+            Self::DeviceLost => "the device was lost",
+            Self::TooManyHits => "the model has more surface points than its buffers hold",
+            Self::BadOffsets => "it returned offsets that do not add up",
+            Self::OutOfMemory => "there was not enough memory",
+        };
+        system.map_or_else(|| fault.to_owned(), |system| format!("{fault} ({system})"))
+    }
+}
+
 /// Why no LDI could be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]
 #[serde(tag = "code", content = "detail")]
 #[non_exhaustive]
 pub enum LdiError {
@@ -68,12 +100,19 @@ pub enum LdiError {
         /// Side of a pixel.
         pitch_mm: f64,
     },
-    /// No GPU adapter, or none of the kind asked for.
-    #[error("no usable GPU: {reason}")]
+    /// No GPU was found, or it could not be opened.
+    #[error("no usable GPU: {system}")]
     #[serde(rename = "no-gpu")]
     NoGpu {
-        /// What is missing.
-        reason: String,
+        /// What the system said, untranslated.
+        system: String,
+    },
+    /// Only hardware was asked for, and the GPU is emulated.
+    #[error("no usable GPU: {adapter} is emulated in software")]
+    #[serde(rename = "gpu-emulated")]
+    GpuEmulated {
+        /// Its name.
+        adapter: String,
     },
     /// The mesh does not fit into the buffers that the GPU offers.
     #[error(
@@ -89,27 +128,14 @@ pub enum LdiError {
         limit_bytes: u64,
     },
     /// The GPU failed while it was used.
-    #[error("the GPU failed: {reason}")]
+    #[error("the GPU failed: {}", fault.in_words(system.as_deref()))]
     #[serde(rename = "gpu-failed")]
     GpuFailed {
-        /// What the driver said.
-        reason: String,
+        /// What went wrong.
+        fault: GpuFault,
+        /// What the system said, untranslated; absent where it said nothing.
+        system: Option<String>,
     },
-}
-
-impl LdiError {
-    /// Stable name of the error for programs.
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Cancelled(_) => "cancelled",
-            Self::OutOfMemory { .. } => "out-of-memory",
-            Self::TooManyFacets { .. } => "too-many-facets",
-            Self::NoHits { .. } => "no-hits",
-            Self::NoGpu { .. } => "no-gpu",
-            Self::GpuTooSmall { .. } => "gpu-too-small",
-            Self::GpuFailed { .. } => "gpu-failed",
-        }
-    }
 }
 
 /// A point where a ray meets the surface.

@@ -42,19 +42,6 @@ pub enum MeshError {
     Overflow,
 }
 
-impl MeshError {
-    /// Stable name of the error for programs.
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::NoArea { .. } => "mesh-no-area",
-            Self::ZeroHeight => "mesh-zero-height",
-            Self::BadHeight { .. } => "bad-height",
-            Self::BadRotation => "bad-rotation",
-            Self::Overflow => "mesh-overflow",
-        }
-    }
-}
-
 /// The axis-aligned box around a mesh, in millimetres.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Bounds {

@@ -43,17 +43,6 @@ pub enum WeightsError {
     },
 }
 
-impl WeightsError {
-    /// Stable name of the error for programs.
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::NotWeights => "weights-not-weights",
-            Self::OtherMesh { .. } => "weights-other-mesh",
-            Self::OutOfRange { .. } => "weights-out-of-range",
-        }
-    }
-}
-
 /// Makes sure that there is a weight from 0 to 1 for every facet.
 ///
 /// # Errors

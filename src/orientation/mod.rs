@@ -20,6 +20,8 @@ use tsify::Tsify;
 pub use energy::{best, rate, refine};
 pub(crate) use surface::{Placement, Surface};
 
+use crate::job::OptionsError;
+
 /// What is searched for.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
@@ -52,18 +54,17 @@ pub const MAX_DIRECTIONS: usize = 100_000;
 
 impl SearchOptions {
     /// Finds what cannot be searched for.
-    pub(crate) fn check(&self) -> Result<(), crate::job::Error> {
-        let reason = if !(1..=MAX_DIRECTIONS).contains(&self.directions) {
-            format!(
-                "there can be 1 to {MAX_DIRECTIONS} directions, not {}",
-                self.directions
-            )
-        } else if !(0.0..=1.0).contains(&self.alpha) {
-            format!("alpha must be from 0 to 1, not {}", self.alpha)
-        } else {
-            return Ok(());
-        };
-        Err(crate::job::OptionsError::Unreadable { system: reason }.into())
+    pub(crate) fn check(&self) -> Result<(), OptionsError> {
+        if !(1..=MAX_DIRECTIONS).contains(&self.directions) {
+            return Err(OptionsError::BadDirections {
+                directions: self.directions,
+                most: MAX_DIRECTIONS,
+            });
+        }
+        if !(0.0..=1.0).contains(&self.alpha) {
+            return Err(OptionsError::BadAlpha { alpha: self.alpha });
+        }
+        Ok(())
     }
 }
 

@@ -114,14 +114,23 @@ pub enum PlanError {
         /// The greatest layer thickness there.
         layer_max_mm: f64,
     },
-    /// No tolerance gives a plan with so few layers or so short a print.
-    #[error("no plan has {wanted}; at the least it takes {least}")]
+    /// No tolerance gives a plan with so few layers.
+    #[error("no plan has at most {layers} layers; at the least it takes {least_layers}")]
     #[serde(rename = "out-of-reach")]
-    OutOfReach {
-        /// What was asked for, in words.
-        wanted: String,
-        /// What the thickest layers take, in words.
-        least: String,
+    LayersOutOfReach {
+        /// The layers asked for.
+        layers: usize,
+        /// What the thickest layers come to.
+        least_layers: usize,
+    },
+    /// No tolerance gives a plan with so short a print.
+    #[error("no plan prints in at most {time_s} s; at the least it takes {least_time_s} s")]
+    #[serde(rename = "out-of-reach")]
+    TimeOutOfReach {
+        /// The time asked for, in seconds.
+        time_s: f64,
+        /// What the fastest plan takes, in whole seconds that are enough.
+        least_time_s: f64,
     },
     /// A limit, or a number of the resin, is out of bounds.
     #[error(transparent)]
@@ -155,23 +164,6 @@ fn infeasible_message(error: &PlanError) -> String {
         "no plan keeps every layer's error within {tolerance}: from z = {from_mm} to {to_mm} mm even a layer of \
          {layer_min_mm} mm exceeds it; {ways}"
     )
-}
-
-impl PlanError {
-    /// Stable name of the error for programs.
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Quantity(error) => error.code(),
-            Self::EmptyRange { .. } => "layer-range-empty",
-            Self::NotWholeBins { .. } => "not-whole-bins",
-            Self::BadRange { .. } => "bad-range",
-            Self::BadPlane { .. } => "bad-plane",
-            Self::LayerTooThick { .. } => "layer-too-thick",
-            Self::Infeasible { .. } => "infeasible",
-            Self::LayersDoNotFit { .. } => "layers-do-not-fit",
-            Self::OutOfReach { .. } => "out-of-reach",
-        }
-    }
 }
 
 /// The layers of a print, from the plate upward.

@@ -35,20 +35,26 @@ pub fn plan(
     let bins = errors.bins();
     limits.check(bins)?;
     let tolerance = errors.to_steps(limits.tolerance);
-    match within(errors, limits, snap_planes, objective, tolerance)? {
-        Ok(plan) => Ok(plan),
-        Err(blocked) => {
-            let mm = |boundary| bins.boundary_mm(boundary);
-            let unit = blocked.segment.unit;
-            Err(PlanError::Infeasible {
-                from_mm: mm(blocked.reached),
-                to_mm: mm(blocked.next),
-                tolerance: limits.tolerance,
-                layer_min_mm: mm(blocked.segment.thickness.start() * unit),
-                least_tolerance: tradeoff::least_tolerance(errors, limits, objective),
-                largest_layer_min_mm: tradeoff::largest_layer_min_mm(errors, limits, objective),
-            })
-        }
+    within(errors, limits, snap_planes, objective, tolerance)?
+        .map_err(|blocked| infeasible(&blocked, errors, limits, objective))
+}
+
+/// Where there is no plan, and what would do.
+pub(super) fn infeasible(
+    blocked: &Blocked,
+    errors: &LayerErrors,
+    limits: &Limits,
+    objective: Objective<'_>,
+) -> PlanError {
+    let mm = |boundary| errors.bins().boundary_mm(boundary);
+    let thinnest = blocked.segment.thickness.start() * blocked.segment.unit;
+    PlanError::Infeasible {
+        from_mm: mm(blocked.reached),
+        to_mm: mm(blocked.next),
+        tolerance: limits.tolerance,
+        layer_min_mm: mm(thinnest),
+        least_tolerance: tradeoff::least_tolerance(errors, limits, objective),
+        largest_layer_min_mm: tradeoff::largest_layer_min_mm(errors, limits, objective),
     }
 }
 

@@ -73,7 +73,8 @@ pub fn curve(
 /// The smallest tolerance whose best plan meets the goal, in the metric's unit, rounded up to six significant digits.
 ///
 /// # Errors
-/// [`PlanError::OutOfReach`] if no plan meets it; another [`PlanError`] if the limits allow no plan at any tolerance.
+/// [`PlanError::LayersOutOfReach`] or [`PlanError::TimeOutOfReach`] if no plan meets it; another [`PlanError`] if the limits
+/// allow no plan at any tolerance.
 pub fn tolerance_for(
     errors: &LayerErrors,
     limits: &Limits,
@@ -90,22 +91,21 @@ pub fn tolerance_for(
         Goal::Layers(layers) => plan.layers() <= layers,
         Goal::Time(time_s) => plan.print_time_s(resin) <= time_s,
     };
-    let loosest = best_within(errors, limits, snap_planes, objective, u64::MAX)?;
-    let Some(loosest) = loosest.as_ref().filter(|plan| meets(plan)) else {
-        let (wanted, least) = match (goal, loosest) {
-            (Goal::Layers(layers), plan) => (
-                format!("at most {layers} layers"),
-                plan.map_or(String::new(), |plan| format!("{} layers", plan.layers())),
-            ),
-            (Goal::Time(time_s), plan) => (
-                format!("a time of at most {time_s} s"),
-                plan.map_or(String::new(), |plan| {
-                    format!("{} s", plan.print_time_s(resin).ceil())
-                }),
-            ),
-        };
-        return Err(PlanError::OutOfReach { wanted, least });
-    };
+    // No error is that large: there is a plan wherever layers add up.
+    let loosest = optimal::within(errors, limits, snap_planes, objective, u64::MAX)?
+        .map_err(|blocked| optimal::infeasible(&blocked, errors, limits, objective))?;
+    if !meets(&loosest) {
+        return Err(match goal {
+            Goal::Layers(layers) => PlanError::LayersOutOfReach {
+                layers,
+                least_layers: loosest.layers(),
+            },
+            Goal::Time(time_s) => PlanError::TimeOutOfReach {
+                time_s,
+                least_time_s: loosest.print_time_s(resin).ceil(),
+            },
+        });
+    }
     let most = loosest.max_error_steps(errors);
     let least = least_steps(most, |tolerance| {
         let plan = best_within(errors, limits, snap_planes, objective, tolerance)?;

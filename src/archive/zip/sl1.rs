@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use super::{Container, File, LayerEntry};
 use crate::archive::preview::Look;
 use crate::archive::{ArchiveError, PrintJob, thousandths};
+use crate::format::Format;
 
 pub struct Sl1;
 
@@ -17,7 +18,9 @@ impl Container for Sl1 {
         let mut later = job.plan.thickness_mm().into_iter().skip(1);
         let second = later.next();
         if later.any(|thickness_mm| Some(thickness_mm) != second) {
-            return Err(ArchiveError::UniformOnly { format: "sl1" });
+            return Err(ArchiveError::UniformOnly {
+                format: Format::Sl1,
+            });
         }
         Ok(())
     }

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::ldi::LdiError;
+use crate::ldi::{GpuFault, LdiError};
 
 /// Bytes of a count, an offset or a facet.
 pub(super) const WORD: u64 = 4;
@@ -27,29 +27,42 @@ pub struct Gpu {
 
 /// The first error that a device reported through a callback, and that no call returned.
 #[derive(Debug, Clone, Default)]
-struct Failure(Arc<Mutex<Option<String>>>);
+struct Failure(Arc<Mutex<Option<LdiError>>>);
 
 impl Failure {
-    fn note(&self, reason: &str) {
+    fn note(&self, fault: GpuFault, system: String) {
         let mut slot = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        slot.get_or_insert_with(|| reason.to_owned());
+        slot.get_or_insert(LdiError::GpuFailed {
+            fault,
+            system: Some(system),
+        });
     }
 
-    fn get(&self) -> Option<String> {
+    fn get(&self) -> Option<LdiError> {
         let slot = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         slot.clone()
     }
 }
 
-fn no_gpu(reason: impl std::fmt::Display) -> LdiError {
+fn no_gpu(error: impl std::fmt::Display) -> LdiError {
     LdiError::NoGpu {
-        reason: reason.to_string(),
+        system: error.to_string(),
     }
 }
 
-pub(super) fn gpu_failed(reason: impl std::fmt::Display) -> LdiError {
+/// The error of a fault that the system said nothing about.
+pub(super) fn failed(fault: GpuFault) -> LdiError {
     LdiError::GpuFailed {
-        reason: reason.to_string(),
+        fault,
+        system: None,
+    }
+}
+
+/// The error of a call that failed.
+fn call_failed(error: impl std::fmt::Display) -> LdiError {
+    LdiError::GpuFailed {
+        fault: GpuFault::Error,
+        system: Some(error.to_string()),
     }
 }
 
@@ -57,7 +70,7 @@ impl Gpu {
     /// Opens the system's high-performance adapter.
     ///
     /// # Errors
-    /// [`LdiError::NoGpu`] if there is no such adapter.
+    /// [`LdiError::NoGpu`] if there is no such adapter, [`LdiError::GpuEmulated`].
     pub async fn open(adapters: Adapters) -> Result<Self, LdiError> {
         // Not OpenGL: it would double the time of the search, and adds no machine that is fast enough.
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
@@ -78,7 +91,7 @@ impl Gpu {
             info.name
         };
         if adapters == Adapters::Hardware && info.device_type == wgpu::DeviceType::Cpu {
-            return Err(no_gpu(format!("{name} is emulated in software")));
+            return Err(LdiError::GpuEmulated { adapter: name });
         }
         let descriptor = wgpu::DeviceDescriptor::default();
         let (device, queue) = adapter.request_device(&descriptor).await.map_err(no_gpu)?;
@@ -92,11 +105,11 @@ impl Gpu {
         let failure = Failure::default();
         let of_device = failure.clone();
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
-            of_device.note(&error.to_string());
+            of_device.note(GpuFault::Error, error.to_string());
         }));
         let of_device = failure.clone();
         device.set_device_lost_callback(move |reason, message| {
-            of_device.note(&format!("the device was lost ({reason:?}): {message}"));
+            of_device.note(GpuFault::DeviceLost, format!("{reason:?}: {message}"));
         });
         Self {
             name,
@@ -118,7 +131,7 @@ impl Gpu {
 
     pub(super) fn check(&self) -> Result<(), LdiError> {
         match self.failure.get() {
-            Some(reason) => Err(gpu_failed(reason)),
+            Some(error) => Err(error),
             None => Ok(()),
         }
     }
@@ -171,11 +184,11 @@ impl Gpu {
         // Blocks natively; in the browser the event loop calls back.
         self.device
             .poll(wgpu::PollType::wait_indefinitely())
-            .map_err(gpu_failed)?;
+            .map_err(call_failed)?;
         let mapped = receiver.await;
         self.check()?;
-        mapped.map_err(gpu_failed)?.map_err(gpu_failed)?;
-        let bytes = readback.get_mapped_range(..).map_err(gpu_failed)?;
+        mapped.map_err(call_failed)?.map_err(call_failed)?;
+        let bytes = readback.get_mapped_range(..).map_err(call_failed)?;
         Ok(bytemuck::cast_slice(&bytes[..(words * WORD) as usize]).to_vec())
     }
 }

@@ -10,9 +10,10 @@ mod tiles;
 pub use device::{Adapters, Gpu};
 pub use tiles::Tiling;
 
+use self::device::failed;
 use self::sampler::Sampler;
 use super::projection::Projection;
-use super::{Ldi, LdiError};
+use super::{GpuFault, Ldi, LdiError};
 use crate::grid::Grid;
 use crate::model::Mesh;
 use crate::progress::{Progress, report};
@@ -44,9 +45,11 @@ pub async fn sample(
         match sampler.sample(region).await? {
             Some(rays) => sampled.push((region, rays)),
             // More rays or hits than a buffer holds: halve the tile.
-            None => waiting.extend(region.halves().ok_or_else(|| LdiError::GpuFailed {
-                reason: "one ray has more hits than the GPU can store".to_owned(),
-            })?),
+            None => waiting.extend(
+                region
+                    .halves()
+                    .ok_or_else(|| failed(GpuFault::TooManyHits))?,
+            ),
         }
         let done = sampled.len() as f64;
         report(progress, 0.8 * done / (done + waiting.len() as f64))?;

@@ -1,10 +1,10 @@
 //! Samples one tile: two passes over the mesh, with a prefix sum between them.
 
-use super::device::{Gpu, WORD, gpu_failed};
+use super::device::{Gpu, WORD, failed};
 use super::tiles::{Meetings, Region};
-use crate::ldi::LdiError;
 use crate::ldi::layout::{SCAN_BLOCK, Tile};
 use crate::ldi::projection::{Projection, STEPS};
+use crate::ldi::{GpuFault, LdiError};
 use crate::model::Mesh;
 
 /// Format of the render target. A render pass needs one, though these passes write nothing to it.
@@ -132,7 +132,7 @@ impl<'a> Sampler<'a> {
         // Buffers of a lost device may read as zeros.
         self.gpu.check()?;
         if u64::from(meetings.offsets[rays as usize]) != hits {
-            return Err(gpu_failed("it returned offsets that do not add up"));
+            return Err(failed(GpuFault::BadOffsets));
         }
         Ok(Some(meetings))
     }

@@ -1,9 +1,9 @@
 //! Cuts a grid into tiles, and joins what was sampled on them.
 
-use super::device::gpu_failed;
+use super::device::failed;
 use crate::grid::Grid;
 use crate::ldi::projection::Projection;
-use crate::ldi::{Ldi, LdiError, assemble};
+use crate::ldi::{GpuFault, Ldi, LdiError, assemble};
 use crate::progress::Progress;
 
 /// The size of tiles, which bounds the GPU memory that sampling takes.
@@ -120,7 +120,7 @@ pub(super) fn join(
                 // Offsets that overflow 32 bits would decrease.
                 offsets[to + column + 1] = end
                     .checked_sub(first)
-                    .ok_or_else(|| gpu_failed("a tile has more hits than it can count"))?;
+                    .ok_or_else(|| failed(GpuFault::TooManyHits))?;
             }
         }
     }

@@ -139,19 +139,3 @@ pub enum StlError {
     #[serde(rename = "stl-no-facets")]
     NoFacets,
 }
-
-impl StlError {
-    /// Stable name of the error for programs.
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Empty => "stl-empty",
-            Self::NotStl => "stl-not-stl",
-            Self::OtherKind { .. } => "other-file-kind",
-            Self::Truncated { .. } | Self::EndOfText { .. } => "stl-truncated",
-            Self::WrongFacetCount { .. } => "stl-wrong-facet-count",
-            Self::NotFiniteBinary { .. } | Self::NotFiniteText { .. } => "stl-not-finite",
-            Self::Syntax { .. } => "stl-syntax",
-            Self::NoFacets => "stl-no-facets",
-        }
-    }
-}
