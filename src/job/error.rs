@@ -72,3 +72,6 @@ impl Error {
         code.unwrap_or_default().to_owned()
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,282 @@
+//! Every error and warning is data: its details are numbers and names, and its sentence has them all.
+
+use serde::Serialize;
+use serde_json::Value;
+
+use super::Error;
+use crate::archive::ArchiveError;
+use crate::format::Format;
+use crate::grid::GridError;
+use crate::job::OptionsError;
+use crate::ldi::{GpuFault, LdiError};
+use crate::model::MeshError;
+use crate::model::read::kind::FileKind;
+use crate::model::read::stl::{Expected, StlError};
+use crate::model::weights::WeightsError;
+use crate::plan::PlanError;
+use crate::profile::Metric;
+use crate::progress::Cancelled;
+use crate::quantity::{Quantity, QuantityError, Unit};
+use crate::warning::Warning;
+
+/// Makes one of each variant that does not hold another error; the compiler asks for those that are missing.
+macro_rules! one_of_each {
+    ($type:ident except [$($holder:ident),*]: $($variant:ident $fields:tt,)*) => {{
+        let _ = |it: $type| match it {
+            $($type::$variant { .. } => (),)*
+            $($type::$holder(..) => (),)*
+        };
+        vec![$($type::$variant $fields),*]
+    }};
+}
+
+fn stl_errors() -> Vec<StlError> {
+    one_of_each!(StlError except []:
+        Empty {},
+        NotStl {},
+        OtherKind { kind: FileKind::ThreeMf },
+        Truncated { declared_facets: 12, expected_bytes: 684, found_bytes: 350 },
+        WrongFacetCount { declared_facets: 12, found_facets: 34 },
+        NotFiniteBinary { byte: 96, facet: 7 },
+        NotFiniteText { line: 5, text: "inf".to_owned() },
+        Syntax { line: 6, expected: Expected::Coordinate, found: "1,5".to_owned() },
+        EndOfText { line: 8, expected: Expected::Endloop },
+        NoFacets {},
+    )
+}
+
+fn mesh_errors() -> Vec<MeshError> {
+    one_of_each!(MeshError except []:
+        NoArea { facets: 12 },
+        ZeroHeight {},
+        BadHeight { height_mm: -3.5 },
+        BadRotation {},
+        Overflow {},
+    )
+}
+
+fn quantity_errors() -> Vec<QuantityError> {
+    one_of_each!(QuantityError except []:
+        BadLength {
+            quantity: Quantity::LiftSpeed,
+            value: -2.5,
+            unit: Unit::MillimetrePerMinute,
+            may_be_zero: false,
+        },
+        BadTime { quantity: Quantity::Wait, value_s: -1.5 },
+        BadExposures { previous_mm: 0.1, next_mm: 0.05 },
+    )
+}
+
+fn grid_errors() -> Vec<GridError> {
+    one_of_each!(GridError except [Quantity]:
+        BadSize { width: 40_000, height: 123 },
+        TooFine { width: 50_000, height: 456 },
+        ModelTooLarge {
+            model_mm_x: 200.5,
+            model_mm_y: 100.25,
+            grid_mm_x: 143.75,
+            grid_mm_y: 89.5,
+            fitting_scale: 0.7125,
+        },
+        ModelTooHigh { model_mm_z: 300.5, printer_mm_z: 180.25, fitting_scale: 0.5998 },
+        TooManyBins { height_mm: 5000.5, bin_mm: 0.001 },
+    )
+}
+
+fn weights_errors() -> Vec<WeightsError> {
+    one_of_each!(WeightsError except []:
+        NotWeights {},
+        OtherMesh { weights_facets: 12, mesh_facets: 34 },
+        OutOfRange { facet: 7, weight: 1.5 },
+    )
+}
+
+fn ldi_errors() -> Vec<LdiError> {
+    one_of_each!(LdiError except []:
+        Cancelled (Cancelled),
+        OutOfMemory { hits: 123, needed_bytes: 984 },
+        TooManyFacets { facets: 3_000_000_000 },
+        NoHits { pitch_mm: 0.05 },
+        NoGpu { system: "No adapter was found.".to_owned() },
+        GpuEmulated { adapter: "llvmpipe (LLVM 19)".to_owned() },
+        GpuTooSmall { facets: 12, needed_bytes: 345, limit_bytes: 234 },
+        GpuFailed { fault: GpuFault::DeviceLost, system: Some("It was unplugged.".to_owned()) },
+    )
+}
+
+fn plan_errors() -> Vec<PlanError> {
+    one_of_each!(PlanError except [Quantity]:
+        EmptyRange { layer_min_mm: 0.051, layer_max_mm: 0.053, step_mm: 0.01 },
+        NotWholeBins { quantity: Quantity::Step, length_mm: 0.013, bin_mm: 0.002 },
+        BadRange { from_mm: 5.5, to_mm: 2.5 },
+        BadPlane { z_mm: 12.5, height_mm: 10.25 },
+        LayerTooThick { layer_mm: 5.5, height_mm: 2.25 },
+        Infeasible {
+            from_mm: 12.34,
+            to_mm: 12.39,
+            tolerance: 0.02,
+            layer_min_mm: 0.05,
+            least_tolerance: Some(0.0487),
+            largest_layer_min_mm: Some(0.024),
+        },
+        LayersDoNotFit { from_mm: 1.5, to_mm: 1.625, layer_min_mm: 0.1, layer_max_mm: 0.12 },
+        LayersOutOfReach { layers: 10, least_layers: 67 },
+        TimeOutOfReach { time_s: 60.5, least_time_s: 1234.0 },
+    )
+}
+
+fn archive_errors() -> Vec<ArchiveError> {
+    one_of_each!(ArchiveError except []:
+        Cancelled (Cancelled),
+        AllBlack {},
+        UniformOnly { format: Format::Sl1 },
+        Write { system: "No space left on device.".to_owned() },
+    )
+}
+
+fn options_errors() -> Vec<OptionsError> {
+    one_of_each!(OptionsError except []:
+        Unreadable { system: "unknown field `rayz`".to_owned() },
+        UnknownPrinter { printer: "mine".to_owned(), known: vec!["shuffle", "sl1s"] },
+        PixelsWithoutPitch {},
+        BadAntialias { antialias: 3 },
+        BadWeightMin { weight_min: 1.5 },
+        BadDirections { directions: 0, most: 100_000 },
+        BadAlpha { alpha: 1.5 },
+        SeveralTargets {},
+        PrinterLayers {
+            model: "Phrozen Shuffle",
+            printer_min_mm: 0.01,
+            printer_max_mm: 0.3,
+            layer_min_mm: 0.005,
+            layer_max_mm: 0.5,
+        },
+        PrinterStep { model: "Phrozen Shuffle", printer_step_mm: 0.01, step_mm: 0.015 },
+    )
+}
+
+fn errors() -> Vec<Error> {
+    let mut errors = one_of_each!(Error except [Options, Stl, Mesh, Grid, Weights, Ldi, Plan, Archive]:
+        NoLayer { layer: 12, layers: 10 },
+        NoPlan {},
+    );
+    errors.extend(options_errors().into_iter().map(Error::from));
+    errors.extend(stl_errors().into_iter().map(Error::from));
+    errors.extend(mesh_errors().into_iter().map(Error::from));
+    for error in quantity_errors() {
+        errors.push(Error::Grid(error.clone().into()));
+        errors.push(Error::Plan(error.into()));
+    }
+    errors.extend(grid_errors().into_iter().map(Error::from));
+    errors.extend(weights_errors().into_iter().map(Error::from));
+    errors.extend(ldi_errors().into_iter().map(Error::from));
+    errors.extend(plan_errors().into_iter().map(Error::from));
+    errors.extend(archive_errors().into_iter().map(Error::from));
+    errors
+}
+
+fn warnings() -> Vec<Warning> {
+    let metric = Metric::Cusp;
+    one_of_each!(Warning except []:
+        DegenerateFacets { facets: 12 },
+        InsideOut {},
+        OpenMesh { open_edges: 12, holes: 3 },
+        UnclosedRays { unclosed: 12, rays: 345 },
+        ToleranceExceeded { planner: "greedy".to_owned(), metric, tolerance: 0.05, max_error: 0.0712 },
+        ToleranceExceededOnMesh { metric, tolerance: 0.05, max_error: 0.0712 },
+        SampledSections {},
+        TopMoved { top_mm: 9.95, height_mm: 10.025 },
+        BlackLayers { layers: 12, from_mm: 1.25 },
+        GpuTooSmall { needed_bytes: 345, limit_bytes: 234 },
+        GpuFailed { fault: GpuFault::Error, system: Some("Out of memory.".to_owned()) },
+    )
+}
+
+/// Keys of what is shown as it is in every language: what the system said, and names.
+const VERBATIM: [&str; 5] = ["system", "adapter", "model", "printer", "known"];
+
+/// Finds what a sentence must have: numbers, and what is shown as it is. Fails on prose.
+fn collect(key: &str, value: &Value, found: &mut Vec<String>) {
+    match value {
+        Value::Number(number) => found.push(number.as_i64().map_or_else(
+            || number.as_f64().unwrap_or_default().to_string(),
+            |number| number.to_string(),
+        )),
+        Value::String(text) if VERBATIM.contains(&key) => found.push(text.clone()),
+        Value::String(text) => assert!(!text.contains(' '), "{key} holds prose: {text}"),
+        Value::Array(items) => items.iter().for_each(|item| collect(key, item, found)),
+        Value::Object(fields) => {
+            for (key, value) in fields {
+                collect(key, value, found);
+            }
+        }
+        Value::Bool(_) | Value::Null => (),
+    }
+}
+
+fn check(coded: &impl Serialize, sentence: &str) {
+    let value = serde_json::to_value(coded).unwrap();
+    let code = value["code"].as_str().unwrap_or_default();
+    let is_kebab = |letter: char| letter.is_ascii_lowercase() || letter == '-';
+    assert!(!code.is_empty() && code.chars().all(is_kebab), "{value}");
+    let mut keys = value.as_object().unwrap().keys();
+    assert!(keys.all(|key| key == "code" || key == "detail"), "{value}");
+    let mut found = Vec::new();
+    collect("", &value["detail"], &mut found);
+    for part in found {
+        assert!(sentence.contains(&part), "{part} is not in: {sentence}");
+    }
+}
+
+#[test]
+fn details_hold_no_prose_and_sentences_hold_the_figures() {
+    for error in errors() {
+        check(&error, &error.to_string());
+        let value = serde_json::to_value(&error).unwrap();
+        assert_eq!(error.code(), value["code"].as_str().unwrap());
+    }
+    for warning in warnings() {
+        check(&warning, &warning.to_string());
+    }
+}
+
+/// One of each error and warning with its sentence, which the front-end's catalogues are tested with.
+fn samples() -> String {
+    fn sample(coded: &impl Serialize, sentence: String) -> Value {
+        let mut sample = serde_json::to_value(coded).unwrap();
+        sample["message"] = sentence.into();
+        sample
+    }
+    let samples = serde_json::json!({
+        "errors": errors().iter().map(|it| sample(it, it.to_string())).collect::<Vec<_>>(),
+        "warnings": warnings().iter().map(|it| sample(it, it.to_string())).collect::<Vec<_>>(),
+    });
+    serde_json::to_string_pretty(&samples).unwrap() + "\n"
+}
+
+/// With `CUSP_BLESS=1` writes the file.
+#[test]
+fn the_samples_that_catalogues_are_tested_with_are_these() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/problems.json");
+    if std::env::var_os("CUSP_BLESS").is_some() {
+        std::fs::write(path, samples()).unwrap();
+    }
+    let recorded = std::fs::read_to_string(path).unwrap_or_default();
+    assert!(recorded == samples(), "run again with CUSP_BLESS=1: {path}");
+}
+
+#[test]
+fn words_of_errors_are_those_they_are_serialised_with() {
+    for format in [Format::Png, Format::Chitubox, Format::Uvj, Format::Sl1] {
+        assert_eq!(serde_json::to_value(format).unwrap(), format.name());
+    }
+    for unit in [
+        Unit::Millimetre,
+        Unit::Second,
+        Unit::MillimetrePerMinute,
+        Unit::GramPerMillilitre,
+    ] {
+        assert_eq!(serde_json::to_value(unit).unwrap(), unit.symbol());
+    }
+}
