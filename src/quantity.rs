@@ -16,11 +16,11 @@ pub enum Quantity {
     Step,
     /// Thickness of uniform layers.
     Layer,
-    /// Least layer thickness.
+    /// Minimum layer thickness.
     LayerMin,
-    /// Greatest layer thickness.
+    /// Maximum layer thickness.
     LayerMax,
-    /// Greatest error of a layer.
+    /// Maximum error of a layer.
     Tolerance,
     /// The layer thickness that a resin's exposure is for.
     ResinLayer,
@@ -101,8 +101,8 @@ impl Quantity {
             Self::Bin => "the bin height",
             Self::Step => "the motor step",
             Self::Layer => "the layer thickness",
-            Self::LayerMin => "the least layer thickness",
-            Self::LayerMax => "the greatest layer thickness",
+            Self::LayerMin => "the minimum layer thickness",
+            Self::LayerMax => "the maximum layer thickness",
             Self::Tolerance => "the tolerance",
             Self::ResinLayer => "the resin's layer thickness",
             Self::Penetration => "the penetration depth",

@@ -23,15 +23,13 @@ use crate::profile::{Metric, Source};
 
 /// What every function here throws: code and typed details of an [`Error`], and one sentence for people with what to do.
 ///
-/// The types of errors that others hold are generated; those that hold them are put together here.
+/// The types of all errors are generated. Those that hold another are serialised as that one, which `tsify` does not see.
 #[wasm_bindgen(typescript_custom_section)]
-const CUSP_ERROR: &str = r#"
-type OwnError = { code: "no-plan" } | { code: "no-layer"; detail: { layer: number; layers: number } };
-export type CoreError =
-    | OwnError | OptionsError | StlError | MeshError | GridError | WeightsError | LdiError | ArchiveError
-    | Exclude<PlanError, { code: "Grid" }>;
+const CUSP_ERROR: &str = r"
+type Flat<E> = E extends { detail: infer Held extends { code: string } } ? Flat<Held> : E;
+export type CoreError = Flat<NestedError>;
 export type CuspError = CoreError & { message: string };
-"#;
+";
 
 fn to_js(value: &impl Serialize) -> JsValue {
     let serializer = serde_wasm_bindgen::Serializer::json_compatible();

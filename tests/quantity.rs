@@ -30,11 +30,11 @@ fn numbers_of_layers_are_refused_by_name_bound_and_unit() {
     );
     assert_eq!(
         refusal(|options| options.layer_min_mm = -0.05),
-        "the least layer thickness must be greater than 0, not -0.05 mm"
+        "the minimum layer thickness must be greater than 0, not -0.05 mm"
     );
     assert_eq!(
         refusal(|options| options.layer_max_mm = f64::INFINITY),
-        "the greatest layer thickness must be greater than 0, not inf mm"
+        "the maximum layer thickness must be greater than 0, not inf mm"
     );
     assert_eq!(
         refusal(|options| options.step_mm = Some(0.0)),

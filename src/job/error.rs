@@ -14,6 +14,11 @@ use crate::plan::PlanError;
 /// Any error of the library. Its text is one sentence that says what to do; serialised, it is its
 /// code with the object of its typed details.
 #[derive(Debug, thiserror::Error, Serialize)]
+#[cfg_attr(
+    target_arch = "wasm32",
+    derive(tsify::Tsify),
+    tsify(rename = "NestedError")
+)]
 #[serde(tag = "code", content = "detail")]
 #[non_exhaustive]
 pub enum Error {
