@@ -29,8 +29,7 @@ const ROUNDING_SLACK: f64 = 1e-9;
 pub enum GridError {
     /// No pixels, or more than masks can have.
     #[error(
-        "a mask of {width} × {height} pixels is not possible: at least 1 × 1, at most 32768 a \
-         side and 268 million in all"
+        "a mask of {width} × {height} pixels is not possible: there can be 1 to {max_side} a side, and {max_pixels} in all"
     )]
     #[serde(rename = "grid-bad-size")]
     BadSize {
@@ -38,11 +37,15 @@ pub enum GridError {
         width: u64,
         /// Pixels in y.
         height: u64,
+        /// Maximum number in x and y.
+        max_side: u32,
+        /// Maximum number in all.
+        max_pixels: u64,
     },
     /// More rays than there can be, several to a pixel.
     #[error(
-        "anti-aliasing asks for {width} × {height} rays, and there can be 32768 a side and 268 million in all; choose a \
-         lower level"
+        "anti-aliasing asks for {width} × {height} rays, and there can be {max_side} a side, and {max_pixels} in all; choose \
+         a lower level"
     )]
     #[serde(rename = "grid-too-fine")]
     TooFine {
@@ -50,6 +53,10 @@ pub enum GridError {
         width: u32,
         /// Rays in y.
         height: u32,
+        /// Maximum number in x and y.
+        max_side: u32,
+        /// Maximum number in all.
+        max_pixels: u64,
     },
     /// The model is wider or deeper than the grid.
     #[error(
@@ -98,6 +105,15 @@ pub enum GridError {
     Quantity(#[from] QuantityError),
 }
 
+fn bad_size(width: u64, height: u64) -> GridError {
+    GridError::BadSize {
+        width,
+        height,
+        max_side: MAX_SIDE,
+        max_pixels: MAX_PIXELS,
+    }
+}
+
 /// The pixels of a mask on the plate, or the rays of an LDI, one through each pixel centre.
 ///
 /// Row 0 has the largest y, as in an image; x grows with the column.
@@ -123,10 +139,7 @@ impl Grid {
     pub fn around(bounds: &Bounds, rays: u32) -> Result<Self, GridError> {
         let size = bounds.size();
         if rays == 0 {
-            return Err(GridError::BadSize {
-                width: 0,
-                height: 0,
-            });
+            return Err(bad_size(0, 0));
         }
         Self::of_pitch(bounds, size.x.max(size.y) / f64::from(rays))
     }
@@ -176,7 +189,7 @@ impl Grid {
     ) -> Result<Self, GridError> {
         let side = 1..=u64::from(MAX_SIDE);
         if !side.contains(&width) || !side.contains(&height) || width * height > MAX_PIXELS {
-            return Err(GridError::BadSize { width, height });
+            return Err(bad_size(width, height));
         }
         let middle = (bounds.min + bounds.max) * 0.5;
         Ok(Self {
@@ -208,7 +221,12 @@ impl Grid {
     pub fn check_rays(&self) -> Result<(), GridError> {
         let (width, height) = (self.width, self.height);
         if width.max(height) > MAX_SIDE || self.pixels() as u64 > MAX_PIXELS {
-            return Err(GridError::TooFine { width, height });
+            return Err(GridError::TooFine {
+                width,
+                height,
+                max_side: MAX_SIDE,
+                max_pixels: MAX_PIXELS,
+            });
         }
         Ok(())
     }

@@ -107,7 +107,7 @@ impl std::fmt::Display for Warning {
             ),
             Self::UnclosedRays { unclosed, rays } => write!(
                 f,
-                "{unclosed} of {rays} rays did not close, because they pass holes of the mesh; flat caps close them"
+                "{unclosed} of {rays} rays pass holes of the mesh, which flat caps close; look at the masks"
             ),
             Self::ToleranceExceeded {
                 planner,
@@ -116,9 +116,9 @@ impl std::fmt::Display for Warning {
                 max_error,
             } => write!(
                 f,
-                "{planner} layers exceed the tolerance of {}: their largest error is {}",
-                metric.format(*tolerance),
-                metric.format(*max_error)
+                "the error reaches {}, more than the tolerance of {}, which the {planner} planner does not keep to",
+                metric.format(*max_error),
+                metric.format(*tolerance)
             ),
             Self::ToleranceExceededOnMesh {
                 metric,
@@ -139,7 +139,8 @@ impl std::fmt::Display for Warning {
             ),
             Self::BlackLayers { layers, from_mm } => write!(
                 f,
-                "{} of the plan {} black, from {from_mm:.3} mm up; look at the masks there",
+                "{} of the plan {} black, from {from_mm:.3} mm up: parts hang in the air, or are thinner than a pixel; look at the \
+                 masks there",
                 counted(*layers, "layer"),
                 if *layers == 1 { "is" } else { "are" },
             ),

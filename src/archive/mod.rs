@@ -64,8 +64,8 @@ pub enum ArchiveError {
     AllBlack,
     /// The format has one thickness for all layers, and the plan has several.
     #[error(
-        "{} files have one thickness for all layers, and this plan has several; choose the format chitubox, uvj or \
-         png, or the uniform planner",
+        "{} files have one thickness for all layers, and this plan has several; choose another format, or the uniform \
+         planner",
         format.name()
     )]
     #[serde(rename = "uniform-only")]

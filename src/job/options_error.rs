@@ -31,14 +31,16 @@ pub enum OptionsError {
     #[serde(rename = "pixels-without-pitch")]
     PixelsWithoutPitch,
     /// There is no such level of anti-aliasing.
-    #[error("anti-aliasing has the levels 1, 2, 4 and 8, not {antialias}")]
+    #[error("anti-aliasing has the levels {known:?}, not {antialias}")]
     #[serde(rename = "bad-antialias")]
     BadAntialias {
         /// The level asked for.
         antialias: u32,
+        /// The levels there are.
+        known: [u32; 4],
     },
     /// The least weight is not from 0 to 1.
-    #[error("the least weight must be from 0 to 1, not {weight_min}")]
+    #[error("the minimum weight must be from 0 to 1, not {weight_min}")]
     #[serde(rename = "bad-weight-min")]
     BadWeightMin {
         /// The weight asked for.

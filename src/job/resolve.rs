@@ -7,7 +7,7 @@
 use super::{Backend, Error, Minimize, Options, OptionsError, Planner, Snap};
 use crate::format::Format;
 use crate::grid::{Bins, Grid, GridError};
-use crate::mask::Samples;
+use crate::mask::{LEVELS, Samples};
 use crate::model::{Bounds, Pose};
 use crate::plan::optimal::Objective;
 use crate::plan::{Limits, PlanError, uniform};
@@ -176,6 +176,7 @@ impl Options {
             greatest_height_mm: printer.map(|printer| printer.volume_mm[2]),
             samples: Samples::of_level(self.antialias).ok_or(OptionsError::BadAntialias {
                 antialias: self.antialias,
+                known: LEVELS,
             })?,
             backend: self.backend,
         })

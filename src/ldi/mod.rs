@@ -81,14 +81,13 @@ pub enum LdiError {
         needed_bytes: u64,
     },
     /// More facets than an index can hold.
-    #[error(
-        "{facets} facets are too many; at most {} can be sliced",
-        Hit::MAX_FACETS
-    )]
+    #[error("{facets} facets are too many; at most {most} can be sliced")]
     #[serde(rename = "too-many-facets")]
     TooManyFacets {
         /// Facets of the mesh.
         facets: u64,
+        /// The maximum number.
+        most: u64,
     },
     /// No ray meets the model.
     #[error(
@@ -234,7 +233,10 @@ impl Ldi {
 fn check_facets(mesh: &Mesh) -> Result<(), LdiError> {
     let facets = mesh.facets.len() as u64;
     if facets > Hit::MAX_FACETS {
-        return Err(LdiError::TooManyFacets { facets });
+        return Err(LdiError::TooManyFacets {
+            facets,
+            most: Hit::MAX_FACETS,
+        });
     }
     Ok(())
 }

@@ -26,7 +26,7 @@ pub enum MeshError {
     #[serde(rename = "mesh-zero-height")]
     ZeroHeight,
     /// The requested height is not a positive number.
-    #[error("the height must be a positive number of millimetres, not {height_mm}")]
+    #[error("the height must be greater than 0, not {height_mm} mm")]
     #[serde(rename = "bad-height")]
     BadHeight {
         /// The height asked for.

@@ -22,8 +22,8 @@ pub enum WeightsError {
     NotWeights,
     /// The weights were made for another mesh.
     #[error(
-        "these weights are for another mesh, of {weights_facets} facets; this one has {mesh_facets}. Paint it anew, or take the \
-         model that they were made for"
+        "these weights are for another mesh, of {weights_facets} facets; this one has {mesh_facets}; paint it again, or open \
+         the model that they were made for"
     )]
     #[serde(rename = "weights-other-mesh")]
     OtherMesh {

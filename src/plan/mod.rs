@@ -115,7 +115,7 @@ pub enum PlanError {
         layer_max_mm: f64,
     },
     /// No tolerance gives a plan with so few layers.
-    #[error("no plan has at most {layers} layers; at the least it takes {least_layers}")]
+    #[error("no plan has at most {layers} layers; it takes at least {least_layers}")]
     #[serde(rename = "out-of-reach")]
     LayersOutOfReach {
         /// The layers asked for.
@@ -124,7 +124,7 @@ pub enum PlanError {
         least_layers: usize,
     },
     /// No tolerance gives a plan with so short a print.
-    #[error("no plan prints in at most {time_s} s; at the least it takes {least_time_s} s")]
+    #[error("no plan prints in at most {time_s} s; it takes at least {least_time_s} s")]
     #[serde(rename = "out-of-reach")]
     TimeOutOfReach {
         /// The time asked for, in seconds.
@@ -152,7 +152,8 @@ fn infeasible_message(error: &PlanError) -> String {
     };
     let ways = [
         least_tolerance.map(|tolerance| format!("raise the tolerance to {tolerance}")),
-        largest_layer_min_mm.map(|layer_mm| format!("lower the least thickness to {layer_mm} mm")),
+        largest_layer_min_mm
+            .map(|layer_mm| format!("lower the minimum thickness to {layer_mm} mm")),
     ];
     let ways: Vec<String> = ways.into_iter().flatten().collect();
     let ways = if ways.is_empty() {

@@ -70,8 +70,8 @@ fn quantity_errors() -> Vec<QuantityError> {
 
 fn grid_errors() -> Vec<GridError> {
     one_of_each!(GridError except [Quantity]:
-        BadSize { width: 40_000, height: 123 },
-        TooFine { width: 50_000, height: 456 },
+        BadSize { width: 40_000, height: 123, max_side: 32_768, max_pixels: 268_435_456 },
+        TooFine { width: 50_000, height: 456, max_side: 32_768, max_pixels: 268_435_456 },
         ModelTooLarge {
             model_mm_x: 200.5,
             model_mm_y: 100.25,
@@ -96,7 +96,7 @@ fn ldi_errors() -> Vec<LdiError> {
     one_of_each!(LdiError except []:
         Cancelled (Cancelled),
         OutOfMemory { hits: 123, needed_bytes: 984 },
-        TooManyFacets { facets: 3_000_000_000 },
+        TooManyFacets { facets: 3_000_000_000, most: 2_147_483_648 },
         NoHits { pitch_mm: 0.05 },
         NoGpu { system: "No adapter was found.".to_owned() },
         GpuEmulated { adapter: "llvmpipe (LLVM 19)".to_owned() },
@@ -140,7 +140,7 @@ fn options_errors() -> Vec<OptionsError> {
         Unreadable { system: "unknown field `rayz`".to_owned() },
         UnknownPrinter { printer: "mine".to_owned(), known: vec!["shuffle", "sl1s"] },
         PixelsWithoutPitch {},
-        BadAntialias { antialias: 3 },
+        BadAntialias { antialias: 3, known: [1, 2, 4, 8] },
         BadWeightMin { weight_min: 1.5 },
         BadDirections { directions: 0, most: 100_000 },
         BadAlpha { alpha: 1.5 },
