@@ -15,8 +15,9 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use cusp_slicer::job::Options;
+use cusp_slicer::job::OrientationReport;
 use cusp_slicer::job::Slicer;
-use cusp_slicer::orientation::{OrientationReport, SearchOptions};
+use cusp_slicer::orientation::SearchOptions;
 
 /// The time budget of one row; its first run may exceed it.
 const BUDGET_S: f64 = 4.0;

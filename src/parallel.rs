@@ -19,6 +19,18 @@ pub(crate) fn map<T: Send, R: Send>(items: Vec<T>, work: impl Fn(T) -> R + Sync 
     items.into_iter().map(work).collect()
 }
 
+/// How many items are worked on at a time.
+#[cfg(not(target_arch = "wasm32"))]
+pub(crate) fn threads() -> usize {
+    rayon::current_num_threads()
+}
+
+/// How many items are worked on at a time.
+#[cfg(target_arch = "wasm32")]
+pub(crate) fn threads() -> usize {
+    1
+}
+
 /// Makes glibc's allocator keep freed memory for the next item of work; with other allocators it does nothing.
 ///
 /// glibc returns a large block to the system when it is freed, and the next allocation starts from zeroed pages again.

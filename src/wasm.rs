@@ -17,7 +17,7 @@ use crate::job::{Comparison, MeshInfo, Preview, Report, Tradeoff};
 use crate::model::read::kind::HEAD_BYTES;
 use crate::model::read::stl;
 use crate::model::weights;
-use crate::orientation::{self, Candidate, Rating, Scale, SearchOptions};
+use crate::orientation::{Candidate, Search, SearchOptions, Task, TaskResult};
 use crate::printer::PRINTERS;
 use crate::profile::{Metric, Source};
 
@@ -98,47 +98,84 @@ pub fn defaults() -> JsValue {
     to_js(&Options::default())
 }
 
-/// Energies of candidates, in their order; some may still be missing.
-///
-/// # Errors
-/// Throws a `CuspError`.
-#[expect(
-    clippy::needless_pass_by_value,
-    reason = "values from JavaScript come by value"
-)]
+/// A search for the best orientation: it says what to measure next, and measures nothing itself. Several slicers with the
+/// same model and options may run its tasks.
 #[wasm_bindgen]
-pub fn rate_candidates(
-    candidates: Vec<Ts<Candidate>>,
-    search: Ts<SearchOptions>,
-) -> Result<Ts<Rating>, JsValue> {
-    let search = search.to_rust().map_err(throw_conversion)?;
-    orientation::rate(&to_rust(&candidates)?, &search)
-        .into_ts()
-        .map_err(throw_conversion)
+pub struct OrientationSearch {
+    search: Search,
 }
 
-/// The best of candidates that finer searches found, and the best of those that differ from it: three at most.
-///
-/// # Errors
-/// Throws a `CuspError`.
-#[expect(
-    clippy::needless_pass_by_value,
-    reason = "values from JavaScript come by value"
-)]
 #[wasm_bindgen]
-pub fn best_candidates(refined: Vec<Ts<Candidate>>) -> Result<Vec<Ts<Candidate>>, JsValue> {
-    to_ts(&orientation::best(&to_rust(&refined)?))
+impl OrientationSearch {
+    /// A search of candidates that were measured before: they are rated again, and the best of them refined.
+    ///
+    /// # Errors
+    /// Throws a `CuspError`.
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "values from JavaScript come by value"
+    )]
+    pub fn of_measured(
+        search: Ts<SearchOptions>,
+        candidates: Vec<Ts<Candidate>>,
+    ) -> Result<OrientationSearch, JsValue> {
+        let options = search.to_rust().map_err(throw_conversion)?;
+        let search = Search::of_measured(options, to_rust(&candidates)?);
+        search.map(|search| Self { search }).map_err(throw)
+    }
+
+    /// The directions to measure first, three numbers each.
+    pub fn directions(&self) -> Vec<f64> {
+        self.search.directions().as_flattened().to_vec()
+    }
+
+    /// How many of them are measured.
+    pub fn measured(&self) -> usize {
+        self.search.measured()
+    }
+
+    /// Up to `most` tasks that nobody has; none while the next ones depend on results that are still out.
+    #[wasm_bindgen(unchecked_return_type = "Task[]")]
+    pub fn next_tasks(&mut self, most: usize) -> JsValue {
+        to_js(&self.search.next_tasks(most))
+    }
+
+    /// Takes the candidates of a task's directions. Tasks may come in any order.
+    ///
+    /// # Errors
+    /// Throws a `CuspError`.
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "values from JavaScript come by value"
+    )]
+    pub fn accept(&mut self, task: usize, candidates: Vec<Ts<Candidate>>) -> Result<(), JsValue> {
+        let result = TaskResult {
+            number: task,
+            candidates: to_rust(&candidates)?,
+        };
+        self.search.accept(result).map_err(throw)
+    }
+
+    /// How much is done, 0 to 1.
+    pub fn progress(&self) -> f64 {
+        self.search.progress()
+    }
+
+    /// One for each direction, null before it is measured. Energies are relative to what has been measured so far.
+    #[wasm_bindgen(unchecked_return_type = "(Candidate | null)[]")]
+    pub fn rated(&self) -> JsValue {
+        to_js(&self.search.rated())
+    }
+
+    /// The best candidates that differ from each other, the best first: three at most. Null before all is done.
+    #[wasm_bindgen(unchecked_return_type = "Candidate[] | null")]
+    pub fn best(&self) -> JsValue {
+        to_js(&self.search.best())
+    }
 }
 
 fn to_rust(candidates: &[Ts<Candidate>]) -> Result<Vec<Candidate>, JsValue> {
     let candidates = candidates.iter().map(Ts::to_rust);
-    candidates
-        .collect::<Result<_, _>>()
-        .map_err(throw_conversion)
-}
-
-fn to_ts(candidates: &[Candidate]) -> Result<Vec<Ts<Candidate>>, JsValue> {
-    let candidates = candidates.iter().map(Tsify::into_ts);
     candidates
         .collect::<Result<_, _>>()
         .map_err(throw_conversion)
@@ -219,8 +256,7 @@ impl Slicer {
         preview.into_ts().map_err(throw_conversion)
     }
 
-    /// The directions of a search: so many unit vectors spread evenly, the axes, and those of the model's largest flats, three
-    /// numbers each.
+    /// A search along directions spread evenly, the axes, and those of the model's largest flats.
     ///
     /// # Errors
     /// Throws a `CuspError`.
@@ -228,57 +264,41 @@ impl Slicer {
         clippy::needless_pass_by_value,
         reason = "values from JavaScript come by value"
     )]
-    pub fn directions(&mut self, options: Ts<Options>, count: usize) -> Result<Vec<f64>, JsValue> {
-        let options = options.to_rust().map_err(throw_conversion)?;
-        let directions = self.slicer.directions(&options, count).map_err(throw)?;
-        Ok(directions.into_iter().flatten().collect())
-    }
-
-    /// Measures directions, three numbers each, in their order.
-    ///
-    /// # Errors
-    /// Throws a `CuspError`.
-    #[expect(
-        clippy::needless_pass_by_value,
-        reason = "values from JavaScript come by value"
-    )]
-    pub fn measure_directions(
-        &mut self,
-        options: Ts<Options>,
-        directions: &[f64],
-    ) -> Result<Vec<Ts<Candidate>>, JsValue> {
-        let options = options.to_rust().map_err(throw_conversion)?;
-        let (directions, _) = directions.as_chunks::<3>();
-        let mut silent = |_, _| ControlFlow::Continue(());
-        let measured = self
-            .slicer
-            .measure_directions(&options, directions, &mut silent);
-        to_ts(&measured.map_err(throw)?)
-    }
-
-    /// The best direction near a rated candidate, by a finer search.
-    ///
-    /// # Errors
-    /// Throws a `CuspError`.
-    #[expect(
-        clippy::needless_pass_by_value,
-        reason = "values from JavaScript come by value"
-    )]
-    pub fn refine_direction(
+    pub fn search(
         &mut self,
         options: Ts<Options>,
         search: Ts<SearchOptions>,
-        scale: Ts<Scale>,
-        candidate: Ts<Candidate>,
-    ) -> Result<Ts<Candidate>, JsValue> {
+    ) -> Result<OrientationSearch, JsValue> {
         let options = options.to_rust().map_err(throw_conversion)?;
         let search = search.to_rust().map_err(throw_conversion)?;
-        let scale = scale.to_rust().map_err(throw_conversion)?;
-        let candidate = candidate.to_rust().map_err(throw_conversion)?;
-        let refined = self
-            .slicer
-            .refine_direction(&options, &search, &scale, &candidate);
-        refined.map_err(throw)?.into_ts().map_err(throw_conversion)
+        let search = self.slicer.search(&options, &search);
+        search
+            .map(|search| OrientationSearch { search })
+            .map_err(throw)
+    }
+
+    /// Measures the directions of a task, three numbers each, and returns their candidates.
+    ///
+    /// # Errors
+    /// Throws a `CuspError`.
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "values from JavaScript come by value"
+    )]
+    #[wasm_bindgen(unchecked_return_type = "Candidate[]")]
+    pub fn evaluate(
+        &mut self,
+        options: Ts<Options>,
+        directions: &[f64],
+    ) -> Result<JsValue, JsValue> {
+        let options = options.to_rust().map_err(throw_conversion)?;
+        let (directions, _) = directions.as_chunks::<3>();
+        let task = Task {
+            number: 0,
+            directions: directions.to_vec(),
+        };
+        let result = self.slicer.evaluate(&options, task).map_err(throw)?;
+        Ok(to_js(&result.candidates))
     }
 
     /// The profile of the last preview, as that of a plan.

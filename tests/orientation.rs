@@ -7,12 +7,12 @@ mod common;
 use std::ops::ControlFlow;
 
 use common::{assert_near, binary_stl, quiet, solids};
-use cusp_slicer::job::{Options, Snap};
-use cusp_slicer::job::{Slicer, Stage};
+use cusp_slicer::Error;
+use cusp_slicer::job::{Options, OrientationPart, OrientationReport, Slicer, Snap, Stage};
 use cusp_slicer::model::Pose;
-use cusp_slicer::orientation::shard::{MergeError, Part, Shard};
+use cusp_slicer::orientation::shard::{MergeError, Shard};
 use cusp_slicer::orientation::{
-    Candidate, Cost, Exclusion, Metrics, OrientationReport, Quality, SearchOptions, best, rate,
+    Candidate, Cost, Exclusion, Metrics, Quality, Search, SearchOptions, Task, minima,
 };
 use cusp_slicer::profile::Metric;
 use glam::{DQuat, DVec3, Quat, Vec3};
@@ -52,15 +52,18 @@ fn orient(
     slicer.orient(options, search, &mut quiet).unwrap()
 }
 
-fn measure(slicer: &mut Slicer, options: &Options, directions: &[DVec3]) -> Vec<Candidate> {
-    let directions: Vec<[f64; 3]> = directions.iter().map(DVec3::to_array).collect();
-    slicer
-        .measure_directions(options, &directions, &mut quiet)
-        .unwrap()
+fn measure(slicer: &mut Slicer, options: &Options, directions: &[[f64; 3]]) -> Vec<Candidate> {
+    let task = Task {
+        number: 0,
+        directions: directions.to_vec(),
+    };
+    slicer.evaluate(options, task).unwrap().candidates
 }
 
 fn metrics(slicer: &mut Slicer, options: &Options, direction: DVec3) -> Metrics {
-    measure(slicer, options, &[direction])[0].metrics.unwrap()
+    measure(slicer, options, &[direction.to_array()])[0]
+        .metrics
+        .unwrap()
 }
 
 /// Some rotation that has nothing to do with any axis or lattice.
@@ -143,9 +146,7 @@ fn candidates_are_what_a_glance_in_their_pose_shows() {
             tolerance: (metric == Metric::Volume).then_some(3.0),
             ..options()
         };
-        let found = slicer
-            .measure_directions(&options, &directions, &mut quiet)
-            .unwrap();
+        let found = measure(&mut slicer, &options, &directions);
         for candidate in found {
             let there = Options {
                 rotation: Some(candidate.rotation),
@@ -179,13 +180,9 @@ fn weights_count_facet_by_facet() {
         .map(|corners| if corners[0].x > 0.0 { 1.0 } else { 0.3 });
     slicer.set_weights(Some(weights.collect())).unwrap();
     let directions = slicer.directions(&options(), 20).unwrap();
-    let found = slicer
-        .measure_directions(&options(), &directions, &mut quiet)
-        .unwrap();
+    let found = measure(&mut slicer, &options(), &directions);
     slicer.set_weights(None).unwrap();
-    let plain = slicer
-        .measure_directions(&options(), &directions, &mut quiet)
-        .unwrap();
+    let plain = measure(&mut slicer, &options(), &directions);
     slicer.set_weights(Some(vec![1.0; model.len()])).unwrap();
     let mut fewer = 0;
     for (candidate, plain) in found.iter().zip(&plain) {
@@ -281,7 +278,7 @@ fn roughness_is_that_of_every_facet_in_its_layers() {
         DVec3::new(0.6, 0.0, -0.8),
         DVec3::ONE.normalize(),
     ] {
-        let candidate = &measure(&mut slicer, &options(), &[direction])[0];
+        let candidate = &measure(&mut slicer, &options(), &[direction.to_array()])[0];
         let rotation = Some(candidate.rotation);
         let there = Options {
             rotation,
@@ -448,9 +445,7 @@ fn alpha_and_the_terms_do_what_they_say() {
     let model = bean();
     let mut slicer = slicer(&model);
     let directions = slicer.directions(&options(), 200).unwrap();
-    let candidates = slicer
-        .measure_directions(&options(), &directions, &mut quiet)
-        .unwrap();
+    let candidates = measure(&mut slicer, &options(), &directions);
     let mut search = |alpha, cost, quality| {
         let search = SearchOptions {
             alpha,
@@ -458,8 +453,9 @@ fn alpha_and_the_terms_do_what_they_say() {
             quality,
             ..few(200)
         };
+        let search = Search::of_measured(search, candidates.clone()).unwrap();
         slicer
-            .choose(&options(), &search, candidates.clone(), &mut quiet)
+            .finish_search(&options(), search, &mut quiet)
             .unwrap()
     };
     let least = |found: &OrientationReport, of: fn(&Metrics) -> f64| {
@@ -494,7 +490,6 @@ fn alpha_and_the_terms_do_what_they_say() {
 #[test]
 fn minima_have_no_better_neighbour() {
     let found = orient(&bean(), &options(), &few(300));
-    let rating = rate(&found.candidates, &few(300));
     let reach = 1.5 * (4.0 * std::f64::consts::PI / 300.0).sqrt();
     let place = |index: usize| DVec3::from_array(found.candidates[index].direction);
     let energy = |index: usize| found.candidates[index].energy.unwrap();
@@ -509,9 +504,10 @@ fn minima_have_no_better_neighbour() {
         })
         .collect();
     naive.sort_by(|&a, &b| energy(a).total_cmp(&energy(b)));
-    naive.truncate(rating.minima.len());
+    let minima = minima(&found.candidates, &few(300));
+    naive.truncate(minima.len());
     assert!(naive.len() >= 2);
-    assert_eq!(rating.minima, naive);
+    assert_eq!(minima, naive);
     // The best are apart, and in order.
     for (i, first) in found.best.iter().enumerate() {
         for second in &found.best[i + 1..] {
@@ -520,7 +516,6 @@ fn minima_have_no_better_neighbour() {
             assert!(first.energy <= second.energy);
         }
     }
-    assert!(best(&[]).is_empty());
 }
 
 #[test]
@@ -532,7 +527,7 @@ fn what_does_not_fit_is_excluded_and_what_fits_askew_is_turned() {
         ..options()
     };
     let mut rod = slicer(&solids::cuboid(Vec3::new(155.0, 4.0, 4.0)));
-    let lying = &measure(&mut rod, &plate, &[DVec3::Z])[0];
+    let lying = &measure(&mut rod, &plate, &[DVec3::Z.to_array()])[0];
     assert_eq!(lying.excluded, None);
     assert!(lying.size_mm[0] <= 143.0 && lying.size_mm[1] <= 89.0);
     let there = Options {
@@ -543,7 +538,11 @@ fn what_does_not_fit_is_excluded_and_what_fits_askew_is_turned() {
     assert_eq!(planned.layers, lying.metrics.unwrap().layers);
 
     let mut longer = slicer(&solids::cuboid(Vec3::new(175.0, 4.0, 4.0)));
-    let found = measure(&mut longer, &plate, &[DVec3::Z, DVec3::X]);
+    let found = measure(
+        &mut longer,
+        &plate,
+        &[DVec3::Z, DVec3::X].map(|it| it.to_array()),
+    );
     assert_eq!(found[0].excluded, Some(Exclusion::TooLarge));
     assert_eq!((found[0].metrics, found[0].energy), (None, None));
     assert_eq!(found[1].excluded, None);
@@ -558,7 +557,7 @@ fn what_does_not_fit_is_excluded_and_what_fits_askew_is_turned() {
     assert!(found.best.is_empty());
     assert_eq!(found.now.excluded, Some(Exclusion::TooLarge));
     assert_eq!(
-        measure(&mut tower, &printer, &[DVec3::X])[0].excluded,
+        measure(&mut tower, &printer, &[DVec3::X.to_array()])[0].excluded,
         Some(Exclusion::TooHigh)
     );
 
@@ -623,7 +622,7 @@ fn searches_end_when_nobody_wants_them() {
     assert_eq!(error.code(), "unknown-printer");
 }
 
-fn parts(model: &solids::Triangles, count: usize) -> Vec<Part> {
+fn parts(model: &solids::Triangles, count: usize) -> Vec<OrientationPart> {
     (1..=count)
         .map(|number| {
             let mut slicer = slicer(model);
@@ -636,10 +635,17 @@ fn parts(model: &solids::Triangles, count: usize) -> Vec<Part> {
         .collect()
 }
 
-fn merge(parts: &[Part], options: &Options) -> Result<OrientationReport, MergeError> {
+fn merge(parts: &[OrientationPart], options: &Options) -> Result<OrientationReport, Error> {
     let mut slicer = slicer(&bean());
-    let candidates = slicer.merge_shards(options, &few(50), parts)?;
-    Ok(slicer.choose(options, &few(50), candidates, &mut quiet)?)
+    let search = slicer.merge_shards(options, &few(50), parts)?;
+    slicer.finish_search(options, search, &mut quiet)
+}
+
+fn merge_error(parts: &[OrientationPart], options: &Options) -> MergeError {
+    match merge(parts, options) {
+        Err(Error::Merge(error)) => error,
+        other => panic!("{other:?}"),
+    }
 }
 
 #[test]
@@ -657,7 +663,7 @@ fn shards_make_the_same_whole_in_any_order() {
 #[test]
 fn shards_that_do_not_make_a_whole_are_refused() {
     let all = parts(&bean(), 3);
-    let missing = merge(&all[..2], &options()).unwrap_err();
+    let missing = merge_error(&all[..2], &options());
     assert!(
         matches!(
             missing,
@@ -670,29 +676,29 @@ fn shards_that_do_not_make_a_whole_are_refused() {
         "{missing}"
     );
     let twice = [&all[..], &all[..1]].concat();
-    let twice = merge(&twice, &options()).unwrap_err();
+    let twice = merge_error(&twice, &options());
     assert!(
         matches!(twice, MergeError::Duplicate { place: 0, .. }),
         "{twice}"
     );
     // Parts of another division overlap.
     let mixed = [&all[..1], &parts(&bean(), 2)[..]].concat();
-    let mixed = merge(&mixed, &options()).unwrap_err();
+    let mixed = merge_error(&mixed, &options());
     assert!(matches!(mixed, MergeError::Duplicate { .. }), "{mixed}");
     let other = Options {
         tolerance: Some(0.1),
         ..options()
     };
-    let other = merge(&all, &other).unwrap_err();
+    let other = merge_error(&all, &other);
     assert!(matches!(other, MergeError::OtherOptions { .. }), "{other}");
     let mut old = all.clone();
     old[1].version = "0.0.1".to_owned();
-    let old = merge(&old, &options()).unwrap_err();
+    let old = merge_error(&old, &options());
     assert!(matches!(old, MergeError::OtherVersion { .. }), "{old}");
     let mut damaged = all.clone();
     damaged[1].candidates.swap(0, 1);
-    let damaged = merge(&damaged, &options()).unwrap_err();
+    let damaged = merge_error(&damaged, &options());
     assert!(matches!(damaged, MergeError::Damaged { .. }), "{damaged}");
-    let none = merge(&parts(&solids::cube(3.0), 1), &options()).unwrap_err();
+    let none = merge_error(&parts(&solids::cube(3.0), 1), &options());
     assert!(matches!(none, MergeError::None), "{none}");
 }

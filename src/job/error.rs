@@ -9,6 +9,9 @@ use crate::ldi::LdiError;
 use crate::model::MeshError;
 use crate::model::read::stl::StlError;
 use crate::model::weights::WeightsError;
+use crate::orientation::SearchError;
+#[cfg(not(target_arch = "wasm32"))]
+use crate::orientation::shard::MergeError;
 use crate::plan::PlanError;
 
 /// Any error of the library. Its text is one sentence that says what to do; serialised, it is its
@@ -67,6 +70,15 @@ pub enum Error {
     #[error(transparent)]
     #[serde(untagged)]
     Archive(#[from] ArchiveError),
+    /// There is no such search, or it was given what is not its own.
+    #[error(transparent)]
+    #[serde(untagged)]
+    Search(#[from] SearchError),
+    /// Parts of a search do not make a whole.
+    #[cfg(not(target_arch = "wasm32"))]
+    #[error(transparent)]
+    #[serde(untagged)]
+    Merge(#[from] MergeError),
 }
 
 impl Error {

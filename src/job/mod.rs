@@ -16,6 +16,9 @@ mod verify;
 pub use error::Error;
 pub use options::*;
 pub use options_error::OptionsError;
+#[cfg(not(target_arch = "wasm32"))]
+pub use orient::OrientationPart;
+pub use orient::OrientationReport;
 pub use report::*;
 pub use slicer::Slicer;
 pub use stage::{Stage, StageProgress, Task};

@@ -46,22 +46,6 @@ pub enum OptionsError {
         /// The weight asked for.
         weight_min: f64,
     },
-    /// A search of too few directions, or of too many.
-    #[error("a search looks along 1 to {most} directions, not {directions}")]
-    #[serde(rename = "bad-directions")]
-    BadDirections {
-        /// The number asked for.
-        directions: usize,
-        /// The greatest number.
-        most: usize,
-    },
-    /// The weight of the cost in a search is not from 0 to 1.
-    #[error("alpha must be from 0 to 1, not {alpha}")]
-    #[serde(rename = "bad-alpha")]
-    BadAlpha {
-        /// The weight asked for.
-        alpha: f64,
-    },
     /// More than one of tolerance, number of layers and time is given.
     #[error("give a tolerance, the most layers or the longest time, and only one of them")]
     #[serde(rename = "several-targets")]

@@ -1,4 +1,6 @@
-//! Searching for the best building direction (section 4.3).
+//! The search for the best orientation (section 4.3): what [`Search`] asks for is measured here.
+
+use serde::Serialize;
 
 use super::planned::{Planning, shapes_of};
 use super::resolve::Job;
@@ -9,28 +11,49 @@ use crate::grid::{Bins, GridError};
 use crate::ldi::LdiError;
 #[cfg(not(target_arch = "wasm32"))]
 use crate::model::weights;
-use crate::model::{Bounds, Mesh, Pose};
+use crate::model::{Bounds, Mesh, ModelFile, Pose};
 #[cfg(not(target_arch = "wasm32"))]
-use crate::orientation::shard::{MergeError, Part, Shard, merge};
+use crate::orientation::shard::{self, Shard};
 use crate::orientation::{
-    Candidate, Exclusion, Metrics, OrientationReport, Placement, Scale, SearchOptions, Surface,
-    best, rate, refine,
+    Candidate, Exclusion, Metrics, Placement, Scale, Search, SearchOptions, SearchResult, Surface,
+    Task, TaskResult,
 };
 use crate::parallel;
 use crate::profile::section;
+use crate::progress::report;
 
-/// Directions that a thread is given at once.
-const BATCH: usize = 4;
+/// Tasks that a thread has at once: more than one, so that few threads wait for the last of them.
+const TASKS: usize = 2;
 
-/// What finer searches take of all the time, about.
-const REFINEMENT: f64 = 0.2;
+/// What a search has found, with what it was about.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct OrientationReport {
+    /// The version of this object: [`SCHEMA`].
+    pub schema: u32,
+    /// The file that the model was read from.
+    pub model: ModelFile,
+    /// What was searched for.
+    pub search: SearchOptions,
+    /// What energies are relative to.
+    pub scale: Scale,
+    /// The model as it stands now.
+    pub now: Candidate,
+    /// The best direction and up to two others that are good in another way, the best first.
+    pub best: Vec<Candidate>,
+    /// All directions of the first look.
+    pub candidates: Vec<Candidate>,
+}
+
+/// The part of a search that one machine measured.
+#[cfg(not(target_arch = "wasm32"))]
+pub type OrientationPart = shard::Part<Options>;
 
 /// What measuring a direction needs.
 struct Evaluator<'a> {
     model: &'a Mesh,
-    table: &'a Surface,
+    surface: &'a Surface,
     job: Job,
-    /// Of facets as the table has them.
+    /// Of facets as the surface has them.
     weights: Option<Vec<f32>>,
 }
 
@@ -42,66 +65,58 @@ impl Slicer {
     /// no best one.
     ///
     /// # Errors
-    /// [`Error::Options`], [`Error::Mesh`], [`Error::Plan`] for options that no direction makes good; [`Error::Ldi`] if
-    /// `progress` cancels.
+    /// [`Error::Search`], [`Error::Options`], [`Error::Mesh`], [`Error::Plan`] for options that no direction makes good;
+    /// [`Error::Ldi`] if `progress` cancels.
     pub fn orient(
         &mut self,
         options: &Options,
         search: &SearchOptions,
         progress: &mut StageProgress<'_>,
     ) -> Result<OrientationReport, Error> {
-        search.check()?;
-        let directions = self.directions(options, search.directions)?;
-        let candidates =
-            self.measure_directions(options, &directions, &mut |stage, fraction| {
-                progress(stage, fraction * (1.0 - REFINEMENT))
-            })?;
-        self.choose(options, search, candidates, progress)
+        let search = self.search(options, search)?;
+        self.finish_search(options, search, progress)
     }
 
-    /// The rest of a search whose directions have been measured, wherever that was: all of [`Self::directions`] in their
-    /// order.
+    /// A search that has yet to be run, by [`Self::finish_search`] or task by task.
     ///
     /// # Errors
     /// Those of [`Self::orient`].
-    pub fn choose(
+    pub fn search(&mut self, options: &Options, search: &SearchOptions) -> Result<Search, Error> {
+        let directions = self.directions_of(options, search)?;
+        Ok(Search::new(*search, directions)?)
+    }
+
+    /// Runs all tasks that are left of a search for the same model and options, on all threads.
+    ///
+    /// # Errors
+    /// Those of [`Self::orient`].
+    pub fn finish_search(
         &mut self,
         options: &Options,
-        search: &SearchOptions,
-        mut candidates: Vec<Candidate>,
+        mut search: Search,
         progress: &mut StageProgress<'_>,
     ) -> Result<OrientationReport, Error> {
-        search.check()?;
-        let rating = rate(&candidates, search);
-        for (candidate, energy) in candidates.iter_mut().zip(rating.energies) {
-            candidate.energy = energy;
-        }
-        let bench = self.bench(options, progress)?;
-        let mut now = bench.measure(bench.job.sampling.pose.up()?);
-        now.energy = search.energy(&now, &rating.scale);
-        let mut refined = Vec::with_capacity(rating.minima.len());
-        parallel::map_in_groups(
-            rating.minima.iter(),
-            |&index| bench.refine(search, &rating.scale, &candidates[index]),
-            |found| {
-                refined.push(found);
-                Ok::<_, LdiError>(())
-            },
-            &mut |fraction| progress(Stage::Orientation, 1.0 - REFINEMENT * (1.0 - fraction)),
-            [0.0, 1.0],
-        )?;
+        let evaluator = self.evaluator(options, progress)?;
+        let mut now = evaluator.measure(evaluator.job.sampling.pose.up()?);
+        let SearchResult {
+            best,
+            scale,
+            candidates,
+        } = evaluator.run(&mut search, progress)?;
+        let options = *search.options();
+        now.energy = options.energy(&now, &scale);
         Ok(OrientationReport {
             schema: SCHEMA,
             model: self.file.clone(),
-            search: *search,
-            scale: rating.scale,
+            search: options,
+            scale,
             now,
-            best: best(&refined),
+            best,
             candidates,
         })
     }
 
-    /// The directions of a search: so many unit vectors spread evenly, the axes, and those of the model's largest flats.
+    /// The directions of a search: `count` unit vectors spread evenly, the axes, and those of the model's largest flats.
     ///
     /// # Errors
     /// [`Error::Mesh`].
@@ -109,32 +124,23 @@ impl Slicer {
         Ok(self.surface(&options.resolve()?)?.directions(count))
     }
 
-    /// Measures directions, in their order.
+    fn directions_of(
+        &mut self,
+        options: &Options,
+        search: &SearchOptions,
+    ) -> Result<Vec<[f64; 3]>, Error> {
+        // Before there are more directions than memory.
+        search.check()?;
+        self.directions(options, search.directions)
+    }
+
+    /// Runs a task of a search.
     ///
     /// # Errors
     /// Those of [`Self::orient`].
-    pub fn measure_directions(
-        &mut self,
-        options: &Options,
-        directions: &[[f64; 3]],
-        progress: &mut StageProgress<'_>,
-    ) -> Result<Vec<Candidate>, Error> {
-        let bench = self.bench(options, progress)?;
-        let mut candidates = Vec::with_capacity(directions.len());
-        parallel::map_in_groups(
-            directions.chunks(BATCH),
-            |batch| {
-                let measured = batch.iter().map(|&direction| bench.measure(direction));
-                measured.collect::<Vec<_>>()
-            },
-            |batch| {
-                candidates.extend(batch);
-                Ok::<_, LdiError>(())
-            },
-            &mut |fraction| progress(Stage::Orientation, fraction),
-            [0.0, 1.0],
-        )?;
-        Ok(candidates)
+    pub fn evaluate(&mut self, options: &Options, task: Task) -> Result<TaskResult, Error> {
+        let mut silent = |_, _| std::ops::ControlFlow::Continue(());
+        Ok(self.evaluator(options, &mut silent)?.evaluate(task))
     }
 
     /// Measures the directions of a shard of a search.
@@ -148,32 +154,35 @@ impl Slicer {
         search: &SearchOptions,
         shard: Shard,
         progress: &mut StageProgress<'_>,
-    ) -> Result<Part, Error> {
-        search.check()?;
-        let directions = self.directions(options, search.directions)?;
-        let places: Vec<usize> = shard.places(directions.len()).collect();
-        let ours: Vec<[f64; 3]> = places.iter().map(|&place| directions[place]).collect();
-        let candidates = self.measure_directions(options, &ours, progress)?;
-        Ok(Part {
-            places,
+    ) -> Result<OrientationPart, Error> {
+        let directions = self.directions_of(options, search)?;
+        let total = directions.len();
+        let mut search = Search::of_shard(*search, directions, shard)?;
+        let evaluator = self.evaluator(options, progress)?;
+        let mut candidates = evaluator.run(&mut search, progress)?.candidates;
+        for candidate in &mut candidates {
+            // Energies are relative to all directions.
+            candidate.energy = None;
+        }
+        Ok(OrientationPart {
+            places: shard.places(total).collect(),
             candidates,
-            ..self.part(options, shard, directions.len())
+            ..self.part(options, shard, total)
         })
     }
 
-    /// Puts together what was measured in shards, for [`Self::choose`]. Parts of other models are left aside.
+    /// The search whose directions were measured in shards. Parts of other models are left aside.
     ///
     /// # Errors
-    /// [`MergeError`].
+    /// [`Error::Merge`], and those of [`Self::orient`].
     #[cfg(not(target_arch = "wasm32"))]
     pub fn merge_shards(
         &mut self,
         options: &Options,
         search: &SearchOptions,
-        parts: &[Part],
-    ) -> Result<Vec<Candidate>, MergeError> {
-        search.check().map_err(Error::from)?;
-        let directions = self.directions(options, search.directions)?;
+        parts: &[OrientationPart],
+    ) -> Result<Search, Error> {
+        let directions = self.directions_of(options, search)?;
         // A model that no shard could measure has the same fault here, rather than no part.
         self.check_for_all_directions(&options.resolve()?)?;
         let none = Shard {
@@ -181,13 +190,14 @@ impl Slicer {
             count: 0,
         };
         let whole = self.part(options, none, directions.len());
-        merge(parts, &whole, &directions)
+        let candidates = shard::merge(parts, &whole, &directions)?;
+        Ok(Search::of_measured(*search, candidates)?)
     }
 
     /// A part with nothing in it.
     #[cfg(not(target_arch = "wasm32"))]
-    fn part(&self, options: &Options, shard: Shard, directions: usize) -> Part {
-        Part {
+    fn part(&self, options: &Options, shard: Shard, directions: usize) -> OrientationPart {
+        OrientationPart {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             model: self.file.clone(),
             options: options.without_backend(),
@@ -199,31 +209,15 @@ impl Slicer {
         }
     }
 
-    /// The best direction near a rated candidate, by a finer search.
-    ///
-    /// # Errors
-    /// Those of [`Self::orient`].
-    pub fn refine_direction(
-        &mut self,
-        options: &Options,
-        search: &SearchOptions,
-        scale: &Scale,
-        candidate: &Candidate,
-    ) -> Result<Candidate, Error> {
-        search.check()?;
-        let bench = self.bench(options, &mut |_, _| std::ops::ControlFlow::Continue(()))?;
-        Ok(bench.refine(search, scale, candidate))
-    }
-
     fn surface(&mut self, job: &Job) -> Result<&Surface, Error> {
         // How the model stands matters only to a height.
         let pose = job.sampling.pose;
         let scaled = pose.height_mm.map(|_| pose);
-        let table = match self.surface.take().filter(|kept| kept.0 == scaled) {
+        let surface = match self.surface.take().filter(|kept| kept.0 == scaled) {
             Some(kept) => kept,
             None => (scaled, Surface::new(&self.model, self.scale(scaled)?)),
         };
-        Ok(&self.surface.insert(table).1)
+        Ok(&self.surface.insert(surface).1)
     }
 
     /// By how much the model is scaled to have its height in a pose.
@@ -249,7 +243,7 @@ impl Slicer {
         }
     }
 
-    fn bench<'a>(
+    fn evaluator<'a>(
         &'a mut self,
         options: &Options,
         progress: &mut StageProgress<'_>,
@@ -258,25 +252,52 @@ impl Slicer {
         self.check_for_all_directions(&job)?;
         self.surface(&job)?;
         let weights = self.layering_weights(&job.layering, progress)?;
-        let table = &self.surface.as_ref().ok_or(Error::NoPlan)?.1;
+        let surface = &self.surface.as_ref().ok_or(Error::NoPlan)?.1;
         #[cfg(not(target_arch = "wasm32"))]
         parallel::keep_memory();
         Ok(Evaluator {
             model: &self.model,
-            table,
+            surface,
             job,
-            weights: weights.map(|weights| table.arranged(&weights)),
+            weights: weights.map(|weights| surface.arranged(&weights)),
         })
     }
 }
 
 impl Evaluator<'_> {
+    /// Runs all tasks of a search.
+    fn run(
+        &self,
+        search: &mut Search,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<SearchResult, Error> {
+        let mut progress = |fraction| progress(Stage::Orientation, fraction);
+        loop {
+            if let Some(result) = search.result() {
+                return Ok(result);
+            }
+            let tasks = search.next_tasks(TASKS * parallel::threads());
+            for result in parallel::map(tasks, |task| self.evaluate(task)) {
+                search.accept(result)?;
+            }
+            report(&mut progress, search.progress()).map_err(LdiError::from)?;
+        }
+    }
+
+    /// Runs a task.
+    fn evaluate(&self, task: Task) -> TaskResult {
+        TaskResult {
+            number: task.number,
+            candidates: parallel::map(task.directions, |direction| self.measure(direction)),
+        }
+    }
+
     fn measure(&self, direction: [f64; 3]) -> Candidate {
         let fits = |bounds: &Bounds| match self.job.sampling.grid(bounds) {
             Err(error) => exclusion(&error).map_or(Ok(()), Err),
             Ok(_) => Ok(()),
         };
-        let (placement, mut excluded) = self.table.place(direction, fits);
+        let (placement, mut excluded) = self.surface.place(direction, fits);
         let mut metrics = None;
         if excluded.is_none() {
             metrics = self.metrics(&placement);
@@ -297,7 +318,7 @@ impl Evaluator<'_> {
         let layering = &self.job.layering;
         let height_mm = placement.size_mm[2];
         let bins = Bins::of_height(height_mm, layering.bin_mm).ok()?;
-        let facet_bins = self.table.facet_bins(placement, bins);
+        let facet_bins = self.surface.facet_bins(placement, bins);
         let areas_mm2 = || {
             let pose = Pose {
                 rotation: Some(placement.rotation),
@@ -312,15 +333,9 @@ impl Evaluator<'_> {
         let max_error = planning.max_error(&plan);
         let print_time_s = plan.print_time_s(&layering.resin);
         Some(
-            self.table
+            self.surface
                 .metrics(placement, &facet_bins, &plan, max_error, print_time_s),
         )
-    }
-
-    fn refine(&self, search: &SearchOptions, scale: &Scale, candidate: &Candidate) -> Candidate {
-        refine(candidate, search, scale, |direction| {
-            self.measure(direction)
-        })
     }
 }
 

@@ -1,15 +1,17 @@
 //! The best building direction (section 4.3): a search on the Gaussian sphere for the way up that prints in the fewest layers
 //! with the least error.
 //!
-//! Directions are measured one by one, by profile and plan alone: no copy of the mesh, no rays. Energies follow
-//! from all the metrics together ([`rate`]), the most promising directions are searched around more finely
-//! ([`refine`]), and the [`best`] are those that differ. Every step is a function of the ones before: who does them, on how
-//! many threads, workers or machines, makes no difference.
+//! Directions are measured one by one, by profile and plan alone: no copy of the mesh, no rays. Energies follow from all the
+//! metrics together, rings of directions around the local [`minima`] refine these, and the best are those that differ.
+//! [`Search`] is the driver: it says what to measure next, and does no work and no I/O of its own. Threads, workers and
+//! machines run its tasks; who runs which, and when, makes no difference.
 
 pub(crate) mod directions;
 mod energy;
+mod error;
 mod order;
-#[cfg(not(target_arch = "wasm32"))]
+mod refine;
+mod search;
 pub mod shard;
 mod surface;
 
@@ -17,10 +19,10 @@ use serde::{Deserialize, Serialize};
 #[cfg(target_arch = "wasm32")]
 use tsify::Tsify;
 
-pub use energy::{best, rate, refine};
+pub use energy::minima;
+pub use error::SearchError;
+pub use search::{Search, SearchResult, Task, TaskResult};
 pub(crate) use surface::{Placement, Surface};
-
-use crate::job::OptionsError;
 
 /// What is searched for.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -54,15 +56,15 @@ pub const MAX_DIRECTIONS: usize = 100_000;
 
 impl SearchOptions {
     /// Finds what cannot be searched for.
-    pub(crate) fn check(&self) -> Result<(), OptionsError> {
+    pub(crate) fn check(&self) -> Result<(), SearchError> {
         if !(1..=MAX_DIRECTIONS).contains(&self.directions) {
-            return Err(OptionsError::BadDirections {
+            return Err(SearchError::Directions {
                 directions: self.directions,
                 most: MAX_DIRECTIONS,
             });
         }
         if !(0.0..=1.0).contains(&self.alpha) {
-            return Err(OptionsError::BadAlpha { alpha: self.alpha });
+            return Err(SearchError::Alpha { alpha: self.alpha });
         }
         Ok(())
     }
@@ -153,35 +155,4 @@ pub struct Scale {
     pub cost: f64,
     /// The largest quality figure: the metric's unit, mm, or mm².
     pub quality: f64,
-}
-
-/// The energies of candidates, in their order, and what follows from them.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(Tsify), tsify(missing_as_null))]
-pub struct Rating {
-    /// F of each candidate; absent for those that are excluded.
-    pub energies: Vec<Option<f64>>,
-    /// What they are relative to.
-    pub scale: Scale,
-    /// The candidates that are worth a finer search around them, the best first: local minima.
-    pub minima: Vec<usize>,
-}
-
-/// What a search has found.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct OrientationReport {
-    /// The version of this object: [`crate::job::SCHEMA`].
-    pub schema: u32,
-    /// The file that the model was read from.
-    pub model: crate::model::ModelFile,
-    /// What was searched for.
-    pub search: SearchOptions,
-    /// What energies are relative to.
-    pub scale: Scale,
-    /// The model as it stands now.
-    pub now: Candidate,
-    /// The best direction and up to two others that are good in another way, the best first.
-    pub best: Vec<Candidate>,
-    /// All directions of the first look.
-    pub candidates: Vec<Candidate>,
 }

@@ -3,7 +3,6 @@
 use serde::{Deserialize, Serialize};
 
 use super::Candidate;
-use crate::job::Options;
 use crate::model::ModelFile;
 
 /// Which part of a search one machine measures: of all directions in their order each `count`th, from the `number`th on. So
@@ -23,16 +22,16 @@ impl Shard {
     }
 }
 
-/// What was measured of one model.
+/// What was measured of one model, with the caller's own type of options.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Part {
+pub struct Part<O> {
     /// The version of the library that measured it.
     pub version: String,
     /// The file that the model was read from.
     pub model: ModelFile,
-    /// What was asked for but for what rates directions.
-    pub options: Options,
-    /// CRC-32 of the weights that the user gave to facets, if any: see [`crate::job::Report::weights_crc32`].
+    /// What was asked for, except what rates directions.
+    pub options: O,
+    /// CRC-32 of the weights that the user gave to facets, if any.
     pub weights_crc32: Option<u32>,
     /// Which part it is.
     pub shard: Shard,
@@ -45,17 +44,17 @@ pub struct Part {
 }
 
 /// Why parts do not make a whole.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
+#[serde(tag = "code", content = "detail")]
 #[non_exhaustive]
 pub enum MergeError {
-    /// The model or the options are not good for a search.
-    #[error(transparent)]
-    SearchOptions(#[from] crate::job::Error),
     /// No part is of this model, with these weights.
     #[error("no part is of this model with these weights")]
+    #[serde(rename = "merge-none")]
     None,
     /// A part was measured by another version of the library.
     #[error("shard {shard} was measured by version {theirs}, and this is {ours}; measure it again")]
+    #[serde(rename = "merge-version")]
     OtherVersion {
         /// Which part.
         shard: Shard,
@@ -68,6 +67,7 @@ pub enum MergeError {
     #[error(
         "shard {shard} was measured with other options; give the same ones here and for all shards"
     )]
+    #[serde(rename = "merge-options")]
     OtherOptions {
         /// Which part.
         shard: Shard,
@@ -76,6 +76,7 @@ pub enum MergeError {
     #[error(
         "direction {place} was measured twice, in shards {first} and {second}; leave one of them out"
     )]
+    #[serde(rename = "merge-duplicate")]
     Duplicate {
         /// The direction's place, from 0.
         place: usize,
@@ -88,6 +89,7 @@ pub enum MergeError {
     #[error(
         "shard {shard} is damaged: its places and its candidates do not belong together; measure it again"
     )]
+    #[serde(rename = "merge-damaged")]
     Damaged {
         /// Which part.
         shard: Shard,
@@ -96,6 +98,7 @@ pub enum MergeError {
     #[error(
         "{missing} of {total} directions are missing, the first is {first}; is a shard missing?"
     )]
+    #[serde(rename = "merge-gap")]
     Gap {
         /// How many.
         missing: usize,
@@ -117,14 +120,14 @@ impl std::fmt::Display for Shard {
 ///
 /// # Errors
 /// [`MergeError`].
-pub fn merge(
-    parts: &[Part],
-    whole: &Part,
+pub fn merge<O: PartialEq>(
+    parts: &[Part<O>],
+    whole: &Part<O>,
     directions: &[[f64; 3]],
 ) -> Result<Vec<Candidate>, MergeError> {
     let mut found: Vec<Option<(Shard, &Candidate)>> = vec![None; directions.len()];
     let is_ours =
-        |part: &&Part| part.model == whole.model && part.weights_crc32 == whole.weights_crc32;
+        |part: &&Part<O>| part.model == whole.model && part.weights_crc32 == whole.weights_crc32;
     let mut ours = parts.iter().filter(is_ours).peekable();
     if ours.peek().is_none() {
         return Err(MergeError::None);

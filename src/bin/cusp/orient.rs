@@ -5,11 +5,9 @@ use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use cusp_slicer::job::Options;
-use cusp_slicer::job::Slicer;
+use cusp_slicer::job::{Options, OrientationPart, OrientationReport, Slicer};
 use cusp_slicer::model::Pose;
-use cusp_slicer::orientation::shard::Part;
-use cusp_slicer::orientation::{Candidate, Exclusion, OrientationReport};
+use cusp_slicer::orientation::{Candidate, Exclusion};
 use stl_io::{Normal, Triangle, Vertex};
 
 use crate::arguments::Orienting;
@@ -66,7 +64,7 @@ pub fn orient(orienting: &Orienting) -> Result<(), Failure> {
 struct Task<'a> {
     options: Options,
     weights: Option<WeightsFile<'a>>,
-    parts: Vec<Part>,
+    parts: Vec<OrientationPart>,
     /// The file to write: as the user named it, and where it is.
     target: Option<(&'a Path, PathBuf)>,
 }
@@ -88,10 +86,8 @@ impl Task<'_> {
         let found = if orienting.merge.is_empty() {
             slicer.orient(options, &search, &mut progress)
         } else {
-            let candidates = slicer
-                .merge_shards(options, &search, &self.parts)
-                .map_err(|error| in_file(model, &error))?;
-            slicer.choose(options, &search, candidates, &mut progress)
+            let merged = slicer.merge_shards(options, &search, &self.parts);
+            merged.and_then(|search| slicer.finish_search(options, search, &mut progress))
         };
         let found = found.map_err(|error| Failure::in_file(model, &error))?;
         if let (Some(number), Some((output, place))) = (orienting.apply, &self.target) {
@@ -110,7 +106,7 @@ impl Task<'_> {
 }
 
 /// Reads the parts to merge: one JSON object per line.
-fn read_parts(orienting: &Orienting) -> Result<Vec<Part>, Failure> {
+fn read_parts(orienting: &Orienting) -> Result<Vec<OrientationPart>, Failure> {
     let mut parts = Vec::new();
     for path in &orienting.merge {
         let text = fs::read_to_string(path).map_err(|error| in_file(path, &error))?;

@@ -13,6 +13,8 @@ use crate::model::MeshError;
 use crate::model::read::kind::FileKind;
 use crate::model::read::stl::{Expected, StlError};
 use crate::model::weights::WeightsError;
+use crate::orientation::SearchError;
+use crate::orientation::shard::{MergeError, Shard};
 use crate::plan::PlanError;
 use crate::profile::Metric;
 use crate::progress::Cancelled;
@@ -142,8 +144,6 @@ fn options_errors() -> Vec<OptionsError> {
         PixelsWithoutPitch {},
         BadAntialias { antialias: 3, known: [1, 2, 4, 8] },
         BadWeightMin { weight_min: 1.5 },
-        BadDirections { directions: 0, most: 100_000 },
-        BadAlpha { alpha: 1.5 },
         SeveralTargets {},
         PrinterLayers {
             model: "Phrozen Shuffle",
@@ -156,8 +156,29 @@ fn options_errors() -> Vec<OptionsError> {
     )
 }
 
+fn search_errors() -> Vec<SearchError> {
+    one_of_each!(SearchError except []:
+        Directions { directions: 0, most: 100_000 },
+        Alpha { alpha: 1.5 },
+        Task { task: 7 },
+        Candidate { place: 12 },
+    )
+}
+
+fn merge_errors() -> Vec<MergeError> {
+    let [shard, second] = [1, 2].map(|number| Shard { number, count: 3 });
+    one_of_each!(MergeError except []:
+        None {},
+        OtherVersion { shard, theirs: "0.0.9".to_owned(), ours: "0.1.0".to_owned() },
+        OtherOptions { shard },
+        Duplicate { place: 12, first: shard, second },
+        Damaged { shard },
+        Gap { missing: 4, total: 30, first: 17 },
+    )
+}
+
 fn errors() -> Vec<Error> {
-    let mut errors = one_of_each!(Error except [Options, Stl, Mesh, Grid, Weights, Ldi, Plan, Archive]:
+    let mut errors = one_of_each!(Error except [Options, Stl, Mesh, Grid, Weights, Ldi, Plan, Archive, Search, Merge]:
         NoLayer { layer: 12, layers: 10 },
         NoPlan {},
     );
@@ -173,6 +194,8 @@ fn errors() -> Vec<Error> {
     errors.extend(ldi_errors().into_iter().map(Error::from));
     errors.extend(plan_errors().into_iter().map(Error::from));
     errors.extend(archive_errors().into_iter().map(Error::from));
+    errors.extend(search_errors().into_iter().map(Error::from));
+    errors.extend(merge_errors().into_iter().map(Error::from));
     errors
 }
 
@@ -194,7 +217,9 @@ fn warnings() -> Vec<Warning> {
 }
 
 /// Keys of what is shown as it is in every language: what the system said, and names.
-const VERBATIM: [&str; 5] = ["system", "adapter", "model", "printer", "known"];
+const VERBATIM: [&str; 7] = [
+    "system", "adapter", "model", "printer", "known", "theirs", "ours",
+];
 
 /// Finds what a sentence must have: numbers, and what is shown as it is. Fails on prose.
 fn collect(key: &str, value: &Value, found: &mut Vec<String>) {

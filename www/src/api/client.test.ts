@@ -54,11 +54,9 @@ class FakeWorker implements WorkerHandle {
     setWeights: () => undefined,
     weightsFile: () => new Uint8Array(1),
     readWeights: async () => new Float32Array(1),
-    directions: () => new Float64Array(0),
-    measureDirections: () => [],
-    rateCandidates: () => ({ energies: [], scale: { cost: 1, quality: 1 }, minima: [] }),
-    refineDirection: (_options, _search, _scale, candidate) => candidate,
-    bestCandidates: () => [],
+    startSearch: () => new Float64Array(0),
+    advanceSearch: () => ({ tasks: [], measured: 0, progress: 0, rated: null, result: null }),
+    evaluate: () => [],
     printers: () => [],
   };
 

@@ -52,11 +52,9 @@ function faked(): { slicer: Slicer; log: string[] } {
       },
       weightsFile: (weights) => Uint8Array.from(weights, (weight) => 100 * weight),
       readWeights: async (file) => Float32Array.from(new Uint8Array(await file.arrayBuffer()), (byte) => byte / 100),
-      directions: () => new Float64Array(0),
-      measureDirections: () => [],
-      rateCandidates: () => ({ energies: [], scale: { cost: 1, quality: 1 }, minima: [] }),
-      refineDirection: (_options, _search, _scale, candidate) => candidate,
-      bestCandidates: () => [],
+      startSearch: () => new Float64Array(0),
+      advanceSearch: () => ({ tasks: [], measured: 0, progress: 0, rated: null, result: null }),
+      evaluate: () => [],
       printers: () => [],
     };
     return { remote, terminate: () => say("ended"), onBroken: () => undefined };

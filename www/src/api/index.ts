@@ -15,10 +15,10 @@
  */
 import { absentSlicer } from "./absent.js";
 import { Client, spawnWorker, type About, type Compiled, type WorkerHandle, type Planned, type Wanted, type Watch } from "./client.js";
-import { orient, type OrientCall, type Oriented } from "./orient.js";
+import { orient, type OrientCall } from "./orient.js";
 import { Pool } from "./pool.js";
 import { resolve, stemOf, type Source } from "./source.js";
-import type { Comparison, Preview, MeshInfo, Options, Printer, Profiled, Report, SearchOptions, Tradeoff, Warning } from "./wire.js";
+import type { Comparison, Preview, MeshInfo, Options, Printer, Profiled, Report, SearchOptions, SearchResult, Tradeoff, Warning } from "./wire.js";
 
 export { ERROR_CODES, isAbort, SlicerError, type ErrorCode, type ErrorDetails } from "./error.js";
 export { WARNING_CODES, type WarningCode } from "./warning.js";
@@ -50,7 +50,7 @@ export interface Plan extends Versioned, Profiled<Report> {}
 export interface PreviewedPlan extends Versioned, Profiled<Preview> {}
 
 /** What a search for the best direction found. */
-export interface OrientationReport extends Versioned, Oriented {}
+export interface OrientationReport extends Versioned, SearchResult {}
 
 /** The mask of a layer. */
 export interface Mask {

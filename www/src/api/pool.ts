@@ -20,15 +20,29 @@ export function workersFor({ file, facets }: Pick<Subject, "file" | "facets">, m
   return Math.max(1, Math.min(most, MOST_WORKERS, fitting));
 }
 
+/** Tasks to run next; no result before all are done. */
+export interface Step<Task> {
+  tasks: Task[];
+  result: unknown;
+}
+
+type Outcome<Next extends Step<unknown>> = NonNullable<Next["result"]>;
+
+/** Work whose tasks one worker hands out and any worker runs. */
+export interface Sharing<Task, Result, Next extends Step<Task>> {
+  /** Takes results, in any order, for up to `most` further tasks. */
+  exchange: (remote: Remote, results: Result[], most: number) => Next | Promise<Next>;
+  run: (remote: Remote, tasks: Task[]) => Result[] | Promise<Result[]>;
+  /** Told of each exchange. */
+  onStep: (step: Next) => void;
+}
+
 /** Workers that all hold one model, while a task of the pool runs. */
 export interface Team {
+  /** Asks the first worker, always the same one. */
   ask<T>(question: (remote: Remote) => T | Promise<T>): Promise<T>;
-  /** Has each part done by whoever is free, and takes the answers as they come. The first failure ends it. */
-  share<Part, T>(
-    parts: readonly Part[],
-    question: (remote: Remote, part: Part) => T | Promise<T>,
-    take: (answer: T, index: number) => void,
-  ): Promise<void>;
+  /** Runs tasks until there is a result; exchanges are the first worker's. The first failure ends it. */
+  share<Task, Result, Next extends Step<Task>>(sharing: Sharing<Task, Result, Next>): Promise<Outcome<Next>>;
 }
 
 export class Pool {
@@ -79,27 +93,68 @@ export class Pool {
     const workers = workersFor(subject, this.#most);
     const about = Promise.resolve(subject);
     const client = (place: number): Client => (this.#clients[place] ??= this.#start());
+    const ask = <T>(place: number, question: (remote: Remote) => T | Promise<T>): Promise<T> =>
+      client(place).ask(about, watch, question);
     return {
-      ask: (question) => client(0).ask(about, watch, question),
-      async share(parts, question, take) {
-        let next = 0;
-        let isFailed = false;
-        const work = async (mine: Client): Promise<void> => {
-          while (!isFailed && next < parts.length) {
-            const index = next++;
-            const part = parts[index] as (typeof parts)[number];
-            const answer = await mine.ask(about, watch, (remote) => question(remote, part));
-            if (!isFailed) take(answer, index);
-          }
-        };
-        const working = Array.from({ length: Math.min(workers, parts.length) }, (_, place) => work(client(place)));
-        try {
-          await Promise.all(working);
-        } catch (error) {
-          isFailed = true;
-          throw error;
-        }
-      },
+      ask: (question) => ask(0, question),
+      share: (sharing) => share(workers, ask, sharing),
     };
   }
+}
+
+/** Tasks at hand for each worker while the first one is busy, and cannot hand out others. */
+const STOCK = 4;
+
+/** Messages that the tasks at hand are spread over, for each worker: few, as they take time, and yet all end together. */
+const MESSAGES = 2;
+
+function share<Task, Result, Next extends Step<Task>>(
+  workers: number,
+  ask: <T>(worker: number, question: (remote: Remote) => T | Promise<T>) => Promise<T>,
+  { exchange, run, onStep }: Sharing<Task, Result, Next>,
+): Promise<Outcome<Next>> {
+  return new Promise((resolve, reject) => {
+    const tasks: Task[] = [];
+    let results: Result[] = [];
+    const idle = Array.from({ length: workers }, (_, worker) => worker);
+    let isOver = false;
+
+    const fail = (error: unknown): void => {
+      isOver = true;
+      reject(error);
+    };
+    const refill = async (): Promise<void> => {
+      const given = results;
+      results = [];
+      const step = await ask(0, (remote) => exchange(remote, given, STOCK * workers - tasks.length));
+      if (isOver) return;
+      onStep(step);
+      if (step.result !== null) return resolve(step.result as Outcome<Next>);
+      tasks.push(...step.tasks);
+      free(0);
+    };
+    const work = async (worker: number, given: Task[]): Promise<void> => {
+      const done = await ask(worker, (remote) => run(remote, given));
+      results.push(...done);
+      free(worker);
+    };
+    const free = (worker: number): void => {
+      idle.push(worker);
+      idle.sort((a, b) => a - b);
+      if (!isOver) advance();
+    };
+    /** Others go first: everyone waits for the first worker, which runs single tasks while there is nothing to exchange. */
+    const advance = (): void => {
+      while (tasks.length > 0 && idle.length > 0 && (idle[0] !== 0 || idle.length > 1)) {
+        const given = tasks.splice(0, Math.ceil(tasks.length / (MESSAGES * workers)));
+        work(idle.pop() as number, given).catch(fail);
+      }
+      if (idle[0] !== 0 || (results.length === 0 && tasks.length === 0)) return;
+      idle.shift();
+      const next = results.length > 0 ? refill() : work(0, tasks.splice(0, workers === 1 ? STOCK / MESSAGES : 1));
+      next.catch(fail);
+    };
+    idle.shift();
+    refill().catch(fail);
+  });
 }

@@ -4,10 +4,10 @@
  * The types of the core are re-exported from the generated package, never copied: a change there is a type error here.
  */
 import type { Comparison, Preview, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff } from "../../pkg/cusp_slicer.js";
-import type { Candidate, Rating, Scale, SearchOptions } from "../../pkg/cusp_slicer.js";
+import type { Candidate, SearchOptions, Task } from "../../pkg/cusp_slicer.js";
 
 export type { Comparison, Preview, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff };
-export type { Candidate, Rating, Scale, SearchOptions };
+export type { Candidate, SearchOptions, Task };
 export type {
   Backend,
   CuspError,
@@ -38,6 +38,34 @@ export interface Profiled<R> {
   profile: Float32Array;
 }
 
+/** What was measured for a task: a candidate for each of its directions, in their order. */
+export interface TaskResult {
+  number: number;
+  candidates: Candidate[];
+}
+
+/** What a search found. */
+export interface SearchResult {
+  /** One for each direction, rated. */
+  candidates: Candidate[];
+  /** The best ones that differ from each other, the best first: three at most. */
+  best: Candidate[];
+}
+
+/** Where a search is. */
+export interface SearchStep {
+  /** To be run by any worker; none while they depend on results that are still out. */
+  tasks: Task[];
+  /** How many directions are measured. */
+  measured: number;
+  /** 0 to 1. */
+  progress: number;
+  /** One for each direction, null before it is measured; null if no rating was asked for. */
+  rated: (Candidate | null)[] | null;
+  /** Null before all is done. */
+  result: SearchResult | null;
+}
+
 /** What the worker offers through comlink. Everything it throws is an `Error` or a plain `CuspError`. */
 export interface SlicerWorker {
   /** Starts the core. `null` compiles it; the compiled module comes back so that the next worker need not. */
@@ -59,13 +87,15 @@ export interface SlicerWorker {
   setWeights(weights: Float32Array | null): void;
   weightsFile(weights: Float32Array): Uint8Array;
   readWeights(file: Blob): Promise<Float32Array>;
-  /** Unit vectors in the file's frame, three numbers each: so many evenly over the sphere, then the model's own flats. */
-  directions(options: Options, count: number): Float64Array;
-  measureDirections(options: Options, directions: Float64Array): Candidate[];
-  /** Candidates in the order of their directions. */
-  rateCandidates(candidates: Candidate[], search: SearchOptions): Rating;
-  refineDirection(options: Options, search: SearchOptions, scale: Scale, candidate: Candidate): Candidate;
-  bestCandidates(refined: Candidate[]): Candidate[];
+  /**
+   * Starts a search, which this worker holds until the next one, with candidates that were measured before if there are
+   * any. Returns its directions: unit vectors in the file's frame, three numbers each.
+   */
+  startSearch(options: Options, search: SearchOptions, measured: readonly Candidate[] | null): Float64Array;
+  /** Hands the search the results of tasks, and takes up to `most` others; rates from so many measured directions on. */
+  advanceSearch(results: TaskResult[], most: number, rateFrom: number): SearchStep;
+  /** Runs tasks of a search, whichever worker holds that. */
+  evaluate(options: Options, tasks: Task[]): TaskResult[];
   printers(): Printer[];
 }
 
@@ -82,9 +112,6 @@ export const DEFAULTS = {
   saliency: false,
   weight_min: 0.25,
 } as const;
-
-/** What a search for directions asks for where nothing else is said. A test holds it against the core. */
-export const DEFAULT_SEARCH = { directions: 1000, alpha: 0.5, cost: "layers", quality: "error" } as const satisfies SearchOptions;
 
 /**
  * Whether two sets of options look at the model through the same rays: then going from one to the other is a matter of

@@ -1,12 +1,13 @@
 /** The worker: the only file that imports the WebAssembly package. One model is open at a time. */
 import * as Comlink from "comlink";
-import init, { best_candidates, head_bytes, identify, printers, rate_candidates, Slicer } from "../../pkg/cusp_slicer.js";
-import type { OnProgress, SlicerWorker } from "./wire.js";
+import init, { head_bytes, identify, OrientationSearch, printers, Slicer } from "../../pkg/cusp_slicer.js";
+import type { Candidate, OnProgress, SlicerWorker } from "./wire.js";
 
 /** Parts of a print file beyond this many bytes are handed to the browser, which may keep them on disk. */
 const BLOB_PART_BYTES = 8 << 20;
 
 let slicer: Slicer | null = null;
+let search: OrientationSearch | null = null;
 let memory: WebAssembly.Memory | null = null;
 
 /** The open model. The other side opens one before it asks for anything of it. */
@@ -142,14 +143,27 @@ const api: SlicerWorker = {
     const weights = current().read_weights(await bytesOf(file));
     return Comlink.transfer(weights, [weights.buffer]);
   },
-  directions(options, count) {
-    const directions = current().directions(options, count);
+  startSearch(options, wanted, measured) {
+    const started = measured === null ? current().search(options, wanted) : OrientationSearch.of_measured(wanted, [...measured]);
+    search?.free();
+    search = started;
+    const directions = search.directions();
     return Comlink.transfer(directions, [directions.buffer]);
   },
-  measureDirections: (options, directions) => current().measure_directions(options, directions),
-  rateCandidates: rate_candidates,
-  refineDirection: (options, search, scale, candidate) => current().refine_direction(options, search, scale, candidate),
-  bestCandidates: best_candidates,
+  advanceSearch(results, most, rateFrom) {
+    if (search === null) throw new Error("no search was started");
+    for (const { number, candidates } of results) search.accept(number, candidates);
+    const tasks = search.next_tasks(most);
+    const measured = search.measured();
+    const rated = measured >= rateFrom ? search.rated() : null;
+    const best = search.best();
+    const result = best === null ? null : { best, candidates: search.rated().filter((candidate) => candidate !== null) };
+    return { tasks, measured, progress: search.progress(), rated, result };
+  },
+  evaluate(options, tasks) {
+    const measure = (directions: [number, number, number][]): Candidate[] => current().evaluate(options, Float64Array.from(directions.flat()));
+    return tasks.map(({ number, directions }) => ({ number, candidates: measure(directions) }));
+  },
   printers,
 };
 

@@ -1,7 +1,7 @@
 /** The search for the best direction: what counts, what is known so far, and whether it still holds. */
 import { isAbort } from "../../api/error.js";
 import type { Found, OrientCall, Slicer } from "../../api/index.js";
-import { DEFAULT_SEARCH, type Candidate, type Options, type SearchOptions } from "../../api/wire.js";
+import type { Candidate, Options, SearchOptions } from "../../api/wire.js";
 import type { Busy } from "../parts/progress.js";
 import { rotationText, type Settings } from "./settings.js";
 
@@ -24,10 +24,11 @@ export interface OrientationHost {
   failed(error: unknown): void;
 }
 
-const { alpha, cost, quality } = DEFAULT_SEARCH;
+/** The core's own, which the panel shows before the worker is there. A test holds them against the core. */
+export const DEFAULT_AIMS: Aims = { alpha: 0.5, cost: "layers", quality: "error" };
 
 export class OrientationSearch {
-  aims: Aims = { alpha, cost, quality };
+  aims = DEFAULT_AIMS;
   /** What has been measured; null before a search. */
   found: Found | null = null;
   /** The best that differ from each other, the best first; empty until they are known. */

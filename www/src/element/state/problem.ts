@@ -61,6 +61,8 @@ const KINDS: Readonly<Record<Exclude<ErrorCode, "infeasible" | "other-file-kind"
   "printer-layers": "badOptions",
   "printer-step": "badOptions",
   "bad-attribute": "badOptions",
+  "search-directions": "badOptions",
+  "search-alpha": "badOptions",
   "grid-bad-size": "tooFine",
   "grid-too-fine": "tooFine",
   "too-many-bins": "tooFine",
@@ -93,6 +95,8 @@ const KINDS: Readonly<Record<Exclude<ErrorCode, "infeasible" | "other-file-kind"
   "weights-not-weights": "notWeights",
   "weights-other-mesh": "otherMesh",
   "weights-out-of-range": "notWeights",
+  "search-task": "other",
+  "search-candidate": "other",
   "archive-write": "other",
   cancelled: "other",
 };

@@ -1,0 +1,18 @@
+import { readFile } from "node:fs/promises";
+import { expect, test } from "vitest";
+import { initSync, OrientationSearch, type Candidate, type SearchOptions } from "../../../pkg/cusp_slicer.js";
+import { DEFAULT_AIMS } from "./orientation.js";
+
+test("the aims that the panel shows first are the core's", async () => {
+  initSync({ module: await readFile(new URL("../../../pkg/cusp_slicer_bg.wasm", import.meta.url)) });
+  // Of two candidates with metrics like these, no other aims have the same energies.
+  const candidates = [1, 2].map((part): Candidate => {
+    const metrics = { layers: 10, print_time_s: 10 * part, max_error: 1 / part, roughness_mm: 1 / part ** 2, overhang_mm2: 1 / part ** 3 };
+    return { direction: [0, 0, 1], rotation: [0, 0, 0, 1], size_mm: [1, 1, 1], excluded: null, metrics, energy: null };
+  });
+  const energies = (search: SearchOptions): unknown => OrientationSearch.of_measured(search, candidates).rated().map((it) => it?.energy);
+  expect(energies(DEFAULT_AIMS)).toEqual(energies({}));
+  for (const other of [{ alpha: 0.4 }, { cost: "time" }, { quality: "roughness" }, { quality: "overhang" }] as const) {
+    expect(energies({ ...DEFAULT_AIMS, ...other })).not.toEqual(energies({}));
+  }
+});
