@@ -110,13 +110,13 @@ impl std::fmt::Display for Warning {
                 "{unclosed} of {rays} rays pass holes of the mesh, which flat caps close; look at the masks"
             ),
             Self::ToleranceExceeded {
-                planner,
                 metric,
                 tolerance,
                 max_error,
+                ..
             } => write!(
                 f,
-                "the error reaches {}, more than the tolerance of {}, which the {planner} planner does not keep to",
+                "the error reaches {}, more than the tolerance of {}",
                 metric.format(*max_error),
                 metric.format(*tolerance)
             ),

@@ -6,7 +6,7 @@ mod common;
 
 use common::{binary_stl, solids};
 use cusp_slicer::model::read::kind::{FileKind, HEAD_BYTES};
-use cusp_slicer::model::read::stl::{Encoding, Expected, StlError, identify, read};
+use cusp_slicer::model::read::stl::{Encoding, StlError, StlExpected, identify, read};
 
 const ASCII: &str = "solid part one
   facet normal 0 0 1
@@ -75,7 +75,7 @@ fn any_line_end_ends_a_line() {
             with("1e1", "wide"),
             StlError::Syntax {
                 line: 5,
-                expected: Expected::Coordinate,
+                expected: StlExpected::Coordinate,
                 found: "wide".into()
             },
             "{end:?}"
@@ -84,7 +84,7 @@ fn any_line_end_ends_a_line() {
             with("endsolid part one\n", ""),
             StlError::EndOfText {
                 line: 8,
-                expected: Expected::FacetOrEndsolid
+                expected: StlExpected::FacetOrEndsolid
             },
             "{end:?}"
         );
@@ -105,7 +105,7 @@ fn a_whole_file_may_stand_on_one_line() {
         read(line.replacen("1e1", "wide", 1).as_bytes()),
         Err(StlError::Syntax {
             line: 1,
-            expected: Expected::Coordinate,
+            expected: StlExpected::Coordinate,
             found: "wide".into()
         })
     );
@@ -170,7 +170,7 @@ fn bad_text_is_named_by_line() {
         with("1e1", "wide"),
         Err(StlError::Syntax {
             line: 5,
-            expected: Expected::Coordinate,
+            expected: StlExpected::Coordinate,
             found: "wide".into()
         })
     );
@@ -185,7 +185,7 @@ fn bad_text_is_named_by_line() {
         with("endloop", "endfacet"),
         Err(StlError::Syntax {
             line: 7,
-            expected: Expected::Endloop,
+            expected: StlExpected::Endloop,
             found: "endfacet".into()
         })
     );
@@ -194,7 +194,7 @@ fn bad_text_is_named_by_line() {
         read(cut.as_bytes()),
         Err(StlError::EndOfText {
             line: 7,
-            expected: Expected::Endloop
+            expected: StlExpected::Endloop
         })
     );
     assert_eq!(

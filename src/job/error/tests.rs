@@ -11,7 +11,7 @@ use crate::job::OptionsError;
 use crate::ldi::{GpuFault, LdiError};
 use crate::model::MeshError;
 use crate::model::read::kind::FileKind;
-use crate::model::read::stl::{Expected, StlError};
+use crate::model::read::stl::{StlError, StlExpected};
 use crate::model::weights::WeightsError;
 use crate::orientation::SearchError;
 use crate::orientation::shard::{MergeError, Shard};
@@ -41,8 +41,8 @@ fn stl_errors() -> Vec<StlError> {
         WrongFacetCount { declared_facets: 12, found_facets: 34 },
         NotFiniteBinary { byte: 96, facet: 7 },
         NotFiniteText { line: 5, text: "inf".to_owned() },
-        Syntax { line: 6, expected: Expected::Coordinate, found: "1,5".to_owned() },
-        EndOfText { line: 8, expected: Expected::Endloop },
+        Syntax { line: 6, expected: StlExpected::Coordinate, found: "1,5".to_owned() },
+        EndOfText { line: 8, expected: StlExpected::Endloop },
         NoFacets {},
     )
 }

@@ -9,7 +9,7 @@ use crate::model::read::kind::FileKind;
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
-pub enum Expected {
+pub enum StlExpected {
     /// The beginning of a solid.
     Solid,
     /// Another solid, or the end of the file.
@@ -32,7 +32,7 @@ pub enum Expected {
     Endfacet,
 }
 
-impl std::fmt::Display for Expected {
+impl std::fmt::Display for StlExpected {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
             Self::Solid => "`solid`",
@@ -97,7 +97,9 @@ pub enum StlError {
         found_facets: u64,
     },
     /// A coordinate of a binary STL is NaN or infinite.
-    #[error("the coordinate at byte {byte} (facet {facet}) is not a finite number")]
+    #[error(
+        "the coordinate at byte {byte} (facet {facet}) is not a finite number; export the model again"
+    )]
     #[serde(rename = "stl-not-finite")]
     NotFiniteBinary {
         /// Offset of the coordinate in the file.
@@ -106,7 +108,7 @@ pub enum StlError {
         facet: u64,
     },
     /// A coordinate of an ASCII STL is NaN or infinite.
-    #[error("line {line}: `{text}` is not a finite number")]
+    #[error("line {line}: `{text}` is not a finite number; export the model again")]
     #[serde(rename = "stl-not-finite")]
     NotFiniteText {
         /// Line in the file, from 1.
@@ -115,13 +117,13 @@ pub enum StlError {
         text: String,
     },
     /// A line of an ASCII STL that does not belong there.
-    #[error("line {line}: expected {expected}, found `{found}`")]
+    #[error("line {line}: expected {expected}, found `{found}`; export the model again")]
     #[serde(rename = "stl-syntax")]
     Syntax {
         /// Line in the file, from 1.
         line: u64,
         /// What the grammar asks for at this place.
-        expected: Expected,
+        expected: StlExpected,
         /// The word that stands there.
         found: String,
     },
@@ -132,7 +134,7 @@ pub enum StlError {
         /// Last line of the file, from 1.
         line: u64,
         /// What the grammar asks for at the end.
-        expected: Expected,
+        expected: StlExpected,
     },
     /// A well-formed STL without facets.
     #[error("the STL holds no facets; export the model again")]

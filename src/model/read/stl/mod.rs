@@ -10,7 +10,7 @@ use glam::Vec3;
 
 use super::kind::{FileKind, HEAD_BYTES};
 
-pub use error::{Expected, StlError};
+pub use error::{StlError, StlExpected};
 
 /// Bytes before the first facet of a binary STL: an 80 byte header and the facet count.
 const BINARY_HEADER_BYTES: usize = 84;
@@ -202,7 +202,7 @@ impl<'a> Words<'a> {
         }
     }
 
-    fn expect(&mut self, words: &[&str], expected: Expected) -> Result<(), StlError> {
+    fn expect(&mut self, words: &[&str], expected: StlExpected) -> Result<(), StlError> {
         words.iter().try_for_each(|wanted| match self.next() {
             Some(word) if is(word, wanted) => Ok(()),
             Some(word) => Err(self.syntax(expected, word)),
@@ -210,7 +210,7 @@ impl<'a> Words<'a> {
         })
     }
 
-    fn number(&mut self, expected: Expected) -> Result<f32, StlError> {
+    fn number(&mut self, expected: StlExpected) -> Result<f32, StlError> {
         let word = self.next().ok_or_else(|| self.end(expected))?;
         let text = String::from_utf8_lossy(word);
         let value: f32 = text.parse().map_err(|_| self.syntax(expected, word))?;
@@ -224,7 +224,7 @@ impl<'a> Words<'a> {
         }
     }
 
-    fn syntax(&self, expected: Expected, found: &[u8]) -> StlError {
+    fn syntax(&self, expected: StlExpected, found: &[u8]) -> StlError {
         StlError::Syntax {
             line: self.line,
             expected,
@@ -232,7 +232,7 @@ impl<'a> Words<'a> {
         }
     }
 
-    fn end(&self, expected: Expected) -> StlError {
+    fn end(&self, expected: StlExpected) -> StlError {
         StlError::EndOfText {
             line: self.line,
             expected,
@@ -275,43 +275,43 @@ fn is(word: &[u8], keyword: &str) -> bool {
 fn read_ascii(bytes: &[u8]) -> Result<Vec<[Vec3; 3]>, StlError> {
     let mut words = Words::new(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes));
     let mut triangles = Vec::new();
-    words.expect(&["solid"], Expected::Solid)?;
+    words.expect(&["solid"], StlExpected::Solid)?;
     words.skip_name();
     loop {
         let word = words
             .next()
-            .ok_or_else(|| words.end(Expected::FacetOrEndsolid))?;
+            .ok_or_else(|| words.end(StlExpected::FacetOrEndsolid))?;
         if is(word, "endsolid") {
             words.skip_closing_name();
             match words.next() {
                 None => return Ok(triangles),
                 Some(word) if is(word, "solid") => words.skip_name(),
-                Some(word) => return Err(words.syntax(Expected::SolidOrEnd, word)),
+                Some(word) => return Err(words.syntax(StlExpected::SolidOrEnd, word)),
             }
         } else if is(word, "facet") {
             triangles.push(read_ascii_facet(&mut words)?);
         } else {
-            return Err(words.syntax(Expected::FacetOrEndsolid, word));
+            return Err(words.syntax(StlExpected::FacetOrEndsolid, word));
         }
     }
 }
 
 fn read_ascii_facet(words: &mut Words<'_>) -> Result<[Vec3; 3], StlError> {
-    words.expect(&["normal"], Expected::Normal)?;
+    words.expect(&["normal"], StlExpected::Normal)?;
     for _ in 0..3 {
         words
             .next()
-            .ok_or_else(|| words.end(Expected::NormalNumber))?;
+            .ok_or_else(|| words.end(StlExpected::NormalNumber))?;
     }
-    words.expect(&["outer", "loop"], Expected::OuterLoop)?;
+    words.expect(&["outer", "loop"], StlExpected::OuterLoop)?;
     let mut corners = [Vec3::ZERO; 3];
     for corner in &mut corners {
-        words.expect(&["vertex"], Expected::Vertex)?;
+        words.expect(&["vertex"], StlExpected::Vertex)?;
         for axis in 0..3 {
-            corner[axis] = words.number(Expected::Coordinate)?;
+            corner[axis] = words.number(StlExpected::Coordinate)?;
         }
     }
-    words.expect(&["endloop"], Expected::Endloop)?;
-    words.expect(&["endfacet"], Expected::Endfacet)?;
+    words.expect(&["endloop"], StlExpected::Endloop)?;
+    words.expect(&["endfacet"], StlExpected::Endfacet)?;
     Ok(corners)
 }
