@@ -1,6 +1,6 @@
 /** The package's types as a page written in TypeScript uses them; compiled, never run. */
-import { createSlicer, ERROR_CODES, SlicerError, WARNING_CODES } from "cusp-slicer";
-import type { ErrorCode, Options, Orientation, Plan, PrintFile, Slicer } from "cusp-slicer";
+import { createSlicer, SlicerError } from "cusp-slicer";
+import type { ErrorCode, ErrorDetails, Options, Orientation, Plan, PrintFile, Slicer, WarningCode } from "cusp-slicer";
 import "cusp-slicer/element";
 import { CuspSlicer } from "cusp-slicer/element-class";
 
@@ -16,7 +16,8 @@ element.addEventListener("cusp-plan", ({ detail }) => {
 });
 element.addEventListener("cusp-error", ({ detail }) => {
   const code: ErrorCode = detail.code;
-  console.log(ERROR_CODES[code]);
+  const place: ErrorDetails["infeasible"]["from_mm"] = 1;
+  console.log(code, place);
 });
 // A code tells what its details are.
 element.addEventListener("cusp-error", ({ detail: error }) => {
@@ -34,8 +35,8 @@ await slicer.load(new URL("a.stl", location.href), { signal, onProgress: (stage,
 const plan: Plan = await slicer.plan(options, { signal });
 const { name, type, blob, warnings }: PrintFile = await slicer.export();
 for (const warning of warnings) {
-  const meaning: string = WARNING_CODES[warning.code];
-  if (warning.code === "black-layers") console.log(meaning, warning.detail.layers + warning.detail.from_mm);
+  const code: WarningCode = warning.code;
+  if (warning.code === "black-layers") console.log(code, warning.detail.layers + warning.detail.from_mm);
 }
 const picture: Blob = await element.thumbnail(200);
 console.log(name.length, type.length, blob.size, picture.size);

@@ -180,7 +180,7 @@ test("a call that has not begun can be cancelled without ending the worker", asy
 test("an error of the core keeps its code and details, and the worker; masks go back to the last good plan", async () => {
   await caller.open(new Blob(["a"]), watch());
   await caller.plan({ tolerance: 1 }, watch());
-  const failure: CuspError = { code: "too-many-facets", message: "no", detail: { facets: 2 } };
+  const failure: CuspError = { code: "too-many-facets", message: "no", detail: { facets: 2, most: 1 } };
   worker(1).failure = failure;
   const running = caller.plan({ tolerance: 2 }, watch());
   await expect(running).rejects.toBeInstanceOf(SlicerError);

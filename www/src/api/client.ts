@@ -6,7 +6,7 @@
  * of, and made again where a fresh worker is asked for its masks.
  */
 import * as Comlink from "comlink";
-import { isAbort, ofCore, SlicerError } from "./error.js";
+import { isAbort, ofCore, said, SlicerError } from "./error.js";
 import type { Comparison, MeshInfo, OnProgress, Options, Printer, Profiled, Report, SlicerWorker, Tradeoff } from "./wire.js";
 
 /** A worker as it is seen from this side: what it answers at once there takes its time here. */
@@ -345,5 +345,6 @@ export function untilAborted<T>(answer: Promise<T>, signal: AbortSignal | undefi
 export const disposed = (): DOMException => new DOMException("the slicer was disposed of", "AbortError");
 
 function broke(code: "crash" | "start-failed", cause: unknown): SlicerError {
-  return new SlicerError(code, cause instanceof Error ? cause.message : String(cause));
+  const system = said(cause);
+  return new SlicerError(code, system, { system });
 }

@@ -20,8 +20,8 @@ import { Pool } from "./pool.js";
 import { resolve, stemOf, type Source } from "./source.js";
 import type { Comparison, Preview, MeshInfo, Options, Printer, Profiled, Report, SearchOptions, SearchResult, Tradeoff, Warning } from "./wire.js";
 
-export { ERROR_CODES, isAbort, SlicerError, type ErrorCode, type ErrorDetails } from "./error.js";
-export { WARNING_CODES, type WarningCode } from "./warning.js";
+export { isAbort, SlicerError, type ErrorCode, type ErrorDetails } from "./error.js";
+export type { WarningCode, WarningDetails } from "./warning.js";
 export type { Source } from "./source.js";
 export type { Watch } from "./client.js";
 export type { Found, OrientCall } from "./orient.js";

@@ -1,5 +1,5 @@
 /** The ways a model can be given, made one: a Blob with a name. */
-import { isAbort, SlicerError } from "./error.js";
+import { isAbort, said, SlicerError } from "./error.js";
 
 /** A file, bytes, or an address: text is taken for one, relative to the page. */
 export type Source = Blob | ArrayBuffer | ArrayBufferView | URL | string;
@@ -45,7 +45,7 @@ async function download(address: URL | string, signal?: AbortSignal): Promise<Bl
     });
   } catch (error) {
     if (error instanceof SlicerError || isAbort(error) || signal?.aborted === true) throw error;
-    const message = error instanceof Error ? error.message : String(error);
-    throw new SlicerError("fetch-failed", `the model could not be fetched (${message})`);
+    const system = said(error);
+    throw new SlicerError("fetch-failed", `the model could not be fetched (${system})`, { system });
   }
 }

@@ -14,14 +14,18 @@ export type {
   Exclusion,
   FileKind,
   Format,
+  GpuFault,
   HeightRange,
   Metrics,
   Minimize,
   Planner,
   PlannerReport,
+  Quantity,
   Resin,
   Snap,
+  StlExpected,
   TradeoffPoint,
+  Unit,
   Warning,
 } from "../../pkg/cusp_slicer.js";
 

@@ -265,8 +265,8 @@ export class CuspSlicer extends LitElement {
   plan(): Promise<Plan> {
     this.#attributes.settle();
     if (Object.keys(this.#session.faults).length > 0) {
-      const reason = "a setting is out of range";
-      return Promise.reject(new SlicerError("bad-options", reason, { system: reason }));
+      const system = Object.keys(this.#session.faults).join(", ");
+      return Promise.reject(new SlicerError("bad-options", `settings are out of range: ${system}`, { system }));
     }
     if (this.model === null) return Promise.reject(new SlicerError("no-model", "load a model first"));
     const { result } = this;

@@ -1,5 +1,7 @@
 /** Numbers as a language writes them. Lengths come in mm, times in s. */
 
+import type { Metric, Unit } from "../api/wire.js";
+
 /** How a language writes hours and minutes after a number. */
 export interface TimeUnits {
   hours: string;
@@ -32,6 +34,16 @@ export function formatOf(locale: string, { hours, minutes }: TimeUnits) {
   const size = (value: number): string => number(value, { minimumFractionDigits: 1, maximumFractionDigits: 1 });
   /** A number on an axis, or as it was typed. */
   const tick = (value: number): string => number(value, { maximumFractionDigits: 3 });
+  /** A number as it is, to six decimals. */
+  const exact = (value: number): string => number(value, { maximumFractionDigits: 6 });
+  const fine = (mm: number): string => `${tick(mm)}\u00a0mm`;
+  const percent = (value: number, decimals = 0): string => number(value, { style: "percent", maximumFractionDigits: decimals });
+  const volume = (mm3: number): string => `${number(mm3, { maximumSignificantDigits: 4 })}\u00a0mm³`;
+  /** An error or a tolerance with the unit of its metric. */
+  const error = (metric: Metric, value: number): string => {
+    if (metric === "area") return percent(value, 2);
+    return metric === "volume" ? volume(value) : fine(value);
+  };
   const micrometres = { minimumFractionDigits: 3, maximumFractionDigits: 3 };
 
   return {
@@ -41,16 +53,23 @@ export function formatOf(locale: string, { hours, minutes }: TimeUnits) {
     counted,
     size,
     tick,
+    exact,
+    error,
+    /** A length as it is: `0.0125 mm`. */
+    mm: (value: number): string => `${exact(value)}\u00a0mm`,
+    /** A number as it is with its unit; without one it is in that of a metric. */
+    measure: (value: number, unit: Unit, metric: Metric = "cusp"): string =>
+      unit === "" ? error(metric, value) : `${exact(value)}\u00a0${unit}`,
     /** A thickness, tolerance or error with its unit, to the micrometre, no idle zeros: `0.05 mm`. */
-    fine: (mm: number): string => `${tick(mm)}\u00a0mm`,
+    fine,
     /** A height on the model with its unit, always to the micrometre, so that it does not jump about: `12.340 mm`. */
     height: (mm: number): string => `${number(mm, micrometres)}\u00a0mm`,
     /** The same without its unit. */
     bareHeight: (mm: number): string => number(mm, micrometres),
     /** A part of one: `34 %` or `34%`, as the language has it, with so many decimals at most. */
-    percent: (value: number, decimals = 0): string => number(value, { style: "percent", maximumFractionDigits: decimals }),
+    percent,
     /** A volume: `11.26 mm³`. */
-    volume: (mm3: number): string => `${number(mm3, { maximumSignificantDigits: 4 })}\u00a0mm³`,
+    volume,
     /** An amount of resin: `44.4 ml`. */
     millilitres: (ml: number): string => `${number(ml, { maximumSignificantDigits: 3 })}\u00a0ml`,
     /** A time of a machine: `7.6 s`. */

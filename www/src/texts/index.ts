@@ -7,7 +7,6 @@ import * as fr from "./fr/index.js";
 import * as zh from "./zh/index.js";
 
 export type { Format } from "./format.js";
-export type { Words } from "./en/problems.js";
 
 /** What every language has words for. */
 export type Texts = ReturnType<typeof en.en>;

@@ -1,14 +1,14 @@
 /** Parts that are fetched when they are first shown, and what a panel says where one cannot be had. */
 import { css, html, type TemplateResult } from "lit";
-import { SlicerError } from "../../api/error.js";
+import { said, SlicerError } from "../../api/error.js";
 import type { Language } from "../../texts/index.js";
 
 /** The 3-D view; the pictures of the best directions; the chart of the profile. */
 export type Part = "view" | "pictures" | "chart";
 
 export function partError(part: Part, cause: unknown): SlicerError {
-  const message = cause instanceof Error ? cause.message : String(cause);
-  return new SlicerError("part-failed", `a part of the page could not be loaded: ${part} (${message})`, { part });
+  const system = said(cause);
+  return new SlicerError("part-failed", `a part of the page could not be loaded: ${part} (${system})`, { part, system });
 }
 
 /** Tells the page. The panel's event passes for one of the element, whose plan is as good as before. */

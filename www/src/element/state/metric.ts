@@ -20,22 +20,25 @@ export interface Measure {
 }
 
 const plainTick = (value: number, format: Format): string => format.tick(value);
+const errorOf =
+  (metric: Metric) =>
+  (value: number, format: Format): string =>
+    format.error(metric, value);
 const length = {
   unit: "mm",
   scale: 1,
-  error: (value: number, format: Format) => format.fine(value),
   tick: plainTick,
   density: plainTick,
 };
 
 export const METRICS: Readonly<Record<Metric, Measure>> = {
-  cusp: { ...length, tolerances: [0.001, 1], bound: 1 },
-  roughness: { ...length, tolerances: [0.001, 2], bound: 2 },
+  cusp: { ...length, error: errorOf("cusp"), tolerances: [0.001, 1], bound: 1 },
+  roughness: { ...length, error: errorOf("roughness"), tolerances: [0.001, 2], bound: 2 },
   area: {
     unit: "%",
     scale: 100,
     tolerances: [0.1, 200],
-    error: (value, format) => format.percent(value, 2),
+    error: errorOf("area"),
     tick: (value, format) => format.percent(value),
     density: (value, format) => format.percent(value, 1),
     bound: 2,
@@ -44,7 +47,7 @@ export const METRICS: Readonly<Record<Metric, Measure>> = {
     unit: "mm³",
     scale: 1,
     tolerances: [0.001, 1_000_000],
-    error: (value, format) => format.volume(value),
+    error: errorOf("volume"),
     tick: plainTick,
     density: (value, format) => format.area(value),
     bound: null,

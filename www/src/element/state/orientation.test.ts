@@ -120,7 +120,7 @@ test("a cancelled search keeps what it measured, and what comes late is no news"
 
 test("an error ends the search and is told", async () => {
   directions.start();
-  const error = new SlicerError("crash", "no");
+  const error = new SlicerError("crash", "no", { system: "no" });
   await last().refuse(error);
   expect(failures).toEqual([error]);
   expect(directions.busy).toBeNull();

@@ -1,6 +1,7 @@
 /** Failures in words: what happened, where it belongs, and what would mend it. */
-import type { ErrorCode, SlicerError } from "../../api/error.js";
-import type { FileKind, Warning } from "../../api/wire.js";
+import type { ErrorCode, ErrorDetails, SlicerError } from "../../api/error.js";
+import type { WarningCode, WarningDetails } from "../../api/warning.js";
+import type { Warning } from "../../api/wire.js";
 import type { Language, Texts } from "../../texts/index.js";
 import { METRICS } from "./metric.js";
 import * as round from "./round.js";
@@ -37,26 +38,30 @@ export interface Failure {
 
 type Kind = keyof Texts["problems"];
 
-const KINDS: Readonly<Record<Exclude<ErrorCode, "infeasible" | "other-file-kind">, Kind>> = {
+const KINDS: Readonly<Record<ErrorCode, Kind>> = {
   "stl-empty": "empty",
   "stl-no-facets": "empty",
   "stl-truncated": "cutShort",
   "stl-not-stl": "notStl",
+  "other-file-kind": "notStl",
   "stl-wrong-facet-count": "damaged",
   "stl-not-finite": "damaged",
   "stl-syntax": "damaged",
   "mesh-no-area": "unusable",
   "mesh-zero-height": "unusable",
   "mesh-overflow": "unusable",
-  "bad-height": "badOptions",
+  "bad-height": "badValue",
   "bad-rotation": "badOptions",
-  "bad-length": "badOptions",
-  "bad-time": "badTime",
+  "bad-length": "badValue",
+  "bad-time": "badValue",
+  "bad-exposures": "badValue",
+  "bad-directions": "badValue",
+  "bad-alpha": "badValue",
   "bad-options": "badOptions",
   "unknown-printer": "badOptions",
   "pixels-without-pitch": "badOptions",
-  "bad-antialias": "badOptions",
-  "bad-weight-min": "badOptions",
+  "bad-antialias": "badValue",
+  "bad-weight-min": "badValue",
   "several-targets": "badOptions",
   "printer-layers": "badOptions",
   "printer-step": "badOptions",
@@ -76,10 +81,12 @@ const KINDS: Readonly<Record<Exclude<ErrorCode, "infeasible" | "other-file-kind"
   "layers-do-not-fit": "doNotFit",
   "bad-range": "badRange",
   "bad-plane": "badPlane",
+  infeasible: "infeasible",
   "out-of-reach": "outOfReach",
   "no-hits": "noHits",
   "all-black": "allBlack",
   "no-gpu": "gpu",
+  "gpu-emulated": "gpu",
   "gpu-failed": "gpu",
   "gpu-too-small": "gpuTooSmall",
   "uniform-only": "uniformOnly",
@@ -109,6 +116,7 @@ const FIELDS: Partial<Record<Kind, Problem["field"]>> = {
   noHits: "rays",
   rangeEmpty: "layerMax",
   doNotFit: "layerMin",
+  infeasible: "tolerance",
   layerTooThick: "layerMax",
   uniformOnly: "format",
 };
@@ -125,25 +133,22 @@ export function explain(failure: Failure, language: Language, fixed: ReadonlySet
 }
 
 function describe(failure: Failure, language: Language, fixed: ReadonlySet<keyof Settings>): Problem {
-  const { error, name } = failure;
+  const { error, name, settings } = failure;
   const { texts } = language;
-  const { code } = error;
-  if (error.code === "infeasible") return infeasible(error, failure.settings, language, fixed);
-  if (error.code === "other-file-kind") return otherKind(error.detail.kind, name, texts);
   const kind = KINDS[error.code];
-  const [title, text] = texts.problems[kind](name, sentence(error.message));
-  return { code, title, text, offers: offersFor(kind, error, failure, language), field: FIELDS[kind] ?? null };
+  const text = sentenceOf(error, settings, texts);
+  const problem = { code: error.code, title: texts.problems[kind](name), field: FIELDS[kind] ?? null };
+  if (error.code === "infeasible") return { ...problem, ...waysOut(error, text, settings, language, fixed) };
+  return { ...problem, text, offers: offersFor(kind, error, failure, language) };
 }
 
-/** What people call a kind of file. */
-const FILE_KINDS: Readonly<Record<FileKind, string>> = {
-  ...{ "3mf": "3MF", amf: "AMF", obj: "OBJ", ply: "PLY", step: "STEP", gltf: "glTF" },
-  ...{ zip: "ZIP", gzip: "gzip", html: "HTML" },
-};
-
-function otherKind(kind: FileKind, name: string, { otherKind: words }: Texts): Problem {
-  const text = kind === "html" ? words.page : kind === "zip" || kind === "gzip" ? words.packed : words.model;
-  return { code: "other-file-kind", title: words.title(name, FILE_KINDS[kind]), text, offers: [], field: null };
+/** What the catalogue says of a failure. */
+function sentenceOf<Code extends ErrorCode>(
+  { code, detail }: { code: Code; detail: ErrorDetails[Code] },
+  { metric }: Settings,
+  { errors }: Texts,
+): string {
+  return errors[code](detail, metric);
 }
 
 function offersFor(kind: Kind, error: SlicerError, failure: Failure, language: Language): Offer[] {
@@ -165,35 +170,30 @@ function offersFor(kind: Kind, error: SlicerError, failure: Failure, language: L
 
 type Infeasible = Extract<SlicerError, { code: "infeasible" }>;
 
-/** The core knows where it fails and what would do: here that is put in words. */
-function infeasible(error: Infeasible, settings: Settings, language: Language, fixed: ReadonlySet<keyof Settings>): Problem {
+/** Adds to the place where no plan keeps the tolerance what would do: the core knows, and here it is offered. */
+function waysOut(
+  { detail }: Infeasible,
+  place: string,
+  settings: Settings,
+  language: Language,
+  fixed: ReadonlySet<keyof Settings>,
+): Pick<Problem, "text" | "offers"> {
   const { texts, format } = language;
   const { scale, error: written } = METRICS[settings.metric];
   const offers: Offer[] = [];
 
-  const least = fixed.has("tolerances") ? null : error.detail.least_tolerance;
+  const least = fixed.has("tolerances") ? null : detail.least_tolerance;
   if (least !== null) {
     const short = round.up(least * scale);
     const label = texts.offers.tolerance(written(short / scale, format));
     offers.push({ label, change: withTolerance(settings, String(short)) });
   }
-  const largest = fixed.has("layerMin") ? null : error.detail.largest_layer_min_mm;
+  const largest = fixed.has("layerMin") ? null : detail.largest_layer_min_mm;
   if (largest !== null) offers.push(layersFrom(largest, language));
 
-  const place = texts.infeasible.where(
-    format.bareHeight(error.detail.from_mm),
-    format.height(error.detail.to_mm),
-    format.fine(error.detail.layer_min_mm),
-  );
   const way = least === null ? (largest === null ? "neither" : "thinner") : largest === null ? "larger" : "either";
   const isClosed = way === "neither" && fixed.has("layerMin");
-  return {
-    code: error.code,
-    title: texts.infeasible.title(written(error.detail.tolerance, format)),
-    text: isClosed ? place : `${place} ${texts.infeasible[way]}`,
-    offers,
-    field: "tolerance",
-  };
+  return { text: isClosed ? place : `${place} ${texts.infeasible[way]}`, offers };
 }
 
 const layersFrom = (mm: number, { texts, format }: Language): Offer => ({
@@ -232,36 +232,9 @@ function uniformOr(settings: Settings, { texts, format }: Language): Offer[] {
   ];
 }
 
-/** Makes a message of the core, which is lower case and without a full stop, a sentence. */
-export function sentence(message: string): string {
-  const tidy = message.trim();
-  if (tidy === "") return "";
-  return tidy.charAt(0).toUpperCase() + tidy.slice(1) + (/[.!?]$/.test(tidy) ? "" : ".");
+/** A warning in words. */
+export function warningWords(warning: Warning, { texts }: Language): string {
+  return warningOf(warning.code, "detail" in warning ? warning.detail : null, texts);
 }
 
-/** A warning in words. */
-export function warningWords(warning: Warning, { texts: { warnings: words }, format }: Language): string {
-  switch (warning.code) {
-    case "degenerate-facets":
-      return words[warning.code](warning.detail.facets);
-    case "open-mesh":
-      return words[warning.code](warning.detail.open_edges, warning.detail.holes);
-    case "unclosed-rays":
-      return words[warning.code](format.count(warning.detail.unclosed), format.count(warning.detail.rays));
-    case "tolerance-exceeded":
-    case "tolerance-exceeded-on-mesh": {
-      const { metric, max_error, tolerance } = warning.detail;
-      return words[warning.code](METRICS[metric].error(max_error, format), METRICS[metric].error(tolerance, format));
-    }
-    case "top-moved":
-      return words[warning.code](format.height(warning.detail.top_mm), format.height(warning.detail.height_mm));
-    case "black-layers":
-      return words[warning.code](warning.detail.layers, format.height(warning.detail.from_mm));
-    case "gpu-failed":
-      return words[warning.code](warning.detail.reason);
-    case "inside-out":
-    case "sampled-sections":
-    case "gpu-too-small":
-      return words[warning.code]();
-  }
-}
+const warningOf = <Code extends WarningCode>(code: Code, detail: WarningDetails[Code], { warnings }: Texts): string => warnings[code](detail);

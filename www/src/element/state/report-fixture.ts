@@ -31,6 +31,7 @@ export function report(patch: Partial<Report>): Report {
     adapter: null,
     bins: 30_000,
     bin_mm: 0.002,
+    layer_range_mm: [0.05, 0.15],
     facets: 69_451,
     weights_crc32: null,
     hits: 5_218_540,

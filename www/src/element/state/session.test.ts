@@ -6,7 +6,7 @@ import { Session } from "./session.js";
 import { DEFAULT_SETTINGS } from "./settings.js";
 
 const zip: PrintFile = { schema: SCHEMA, name: "a-cusp.zip", type: "application/zip", blob: new Blob(["zip"]), warnings: [] };
-const CUT = new SlicerError("stl-truncated", "", { line: 3, expected: "facet" });
+const CUT = new SlicerError("stl-truncated", "", { line: 3, expected: "facet-or-endsolid" });
 
 let slicer: FakeSlicer;
 let session: Session;
@@ -98,7 +98,7 @@ test("a failed plan keeps the last good one and its masks, and says what happene
   await planned();
   session.change({ tolerances: { cusp: "0.02" } });
   await settle();
-  slicer.last.reject(new SlicerError("too-many-facets", "", { facets: 9 }));
+  slicer.last.reject(new SlicerError("too-many-facets", "", { facets: 9, most: 8 }));
   await settle();
   expect(session.failure?.error).toMatchObject({ code: "too-many-facets" });
   expect(session.earlier).toBe(true);

@@ -1,0 +1,149 @@
+import type { Format } from "../format.js";
+import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type GpuFaults, type QuantityNouns, type StlNouns } from "../sentences.js";
+import { FACETS } from "./nouns.js";
+
+const QUANTITIES: QuantityNouns = {
+  pitch: "Der Pixelabstand",
+  bin: "Die Höhe der Intervalle",
+  step: "Der Motorschritt",
+  layer: "Die Schichtdicke",
+  "layer-min": "Die kleinste Schichtdicke",
+  "layer-max": "Die größte Schichtdicke",
+  tolerance: "Die Toleranz",
+  "resin-layer": "Die Schichtdicke des Harzes",
+  penetration: "Die Eindringtiefe",
+  exposure: "Die Belichtung",
+  "bottom-exposure": "Die Belichtung der Bodenschichten",
+  wait: "Die Wartezeit zwischen Schichten",
+  lift: "Die Hubhöhe",
+  "lift-speed": "Die Hubgeschwindigkeit",
+  "return-speed": "Die Rückfahrgeschwindigkeit",
+  density: "Die Dichte des Harzes",
+};
+
+const EXPECTED: StlNouns = {
+  ...STL_KEYWORDS,
+  "solid-or-end": "`solid` oder das Ende der Datei",
+  "facet-or-endsolid": "`facet` oder `endsolid`",
+  "normal-number": "eine Zahl der Normalen",
+  coordinate: "eine Koordinate",
+};
+
+export const FAULTS: GpuFaults = {
+  error: "das System meldet einen Fehler",
+  "device-lost": "das Gerät ging verloren",
+  "too-many-hits": "das Modell hat mehr Oberflächenpunkte, als ihre Puffer fassen",
+  "bad-offsets": "sie lieferte Positionen, die nicht zusammenpassen",
+  "out-of-memory": "der Speicher reichte nicht",
+};
+
+export const errors = ({ count, counted, exact, mm, measure, error }: Format): ErrorSentences => ({
+  "stl-empty": () => "Die Datei ist leer; exportieren Sie das Modell noch einmal als STL.",
+  "stl-not-stl": () => "Das ist keine STL-Datei; exportieren Sie das Modell als binäres oder Text-STL.",
+  "other-file-kind": ({ kind }) =>
+    `Das ist eine ${FILE_KINDS[kind]}-Datei, kein STL; ${adviceOn(kind, {
+      model: "exportieren Sie das Modell als STL",
+      packed: "entpacken Sie sie, und öffnen Sie das STL darin",
+      page: "laden Sie das Modell selbst herunter; vielleicht verlangt die Adresse eine Anmeldung, oder sie führt zu einer Seite über das Modell",
+    })}.`,
+  "stl-truncated": (detail) =>
+    "line" in detail
+      ? `Das STL ist abgeschnitten: Es endet in Zeile ${count(detail.line)}, wo ${EXPECTED[detail.expected]} folgen müsste.`
+      : `Das STL ist abgeschnitten: Sein Kopf kündigt ${counted(detail.declared_facets, FACETS)} an, wofür ${count(detail.expected_bytes)} Byte nötig sind, ` +
+        `aber die Datei endet bei Byte ${count(detail.found_bytes)}; kopieren oder exportieren Sie sie noch einmal.`,
+  "stl-wrong-facet-count": ({ declared_facets, found_facets }) =>
+    `Die Zahl der Dreiecke stimmt nicht: Der Kopf kündigt bei Byte 80 ${counted(declared_facets, FACETS)} an, es folgen aber ${count(found_facets)}; exportieren Sie das Modell noch einmal.`,
+  "stl-not-finite": (detail) =>
+    "line" in detail
+      ? `Zeile ${count(detail.line)}: \`${detail.text}\` ist keine endliche Zahl; exportieren Sie das Modell noch einmal.`
+      : `Die Koordinate bei Byte ${count(detail.byte)} (Dreieck ${count(detail.facet)}) ist keine endliche Zahl; exportieren Sie das Modell noch einmal.`,
+  "stl-syntax": ({ line, expected, found }) =>
+    `Zeile ${count(line)}: ${EXPECTED[expected]} erwartet, \`${found}\` gefunden; exportieren Sie das Modell noch einmal.`,
+  "stl-no-facets": () => "Das STL enthält keine Dreiecke; exportieren Sie das Modell noch einmal.",
+  "mesh-no-area": ({ facets }) => `Keines der Dreiecke (${count(facets)}) hat eine Fläche; exportieren Sie das Modell noch einmal.`,
+  "mesh-zero-height": () => "Das Modell hat keine Höhe; ist es flach, oder liegt es in der Ebene z = konstant?",
+  "mesh-overflow": () => "Das Modell ist zu groß: Bei dieser Höhe lassen sich seine Koordinaten nicht mehr berechnen.",
+  "bad-height": ({ height_mm }) => `Die Höhe muss größer als 0 sein, nicht ${mm(height_mm)}.`,
+  "bad-rotation": () => "Die Drehung muss ein Quaternion x, y, z, w sein, dessen Länge nicht 0 ist.",
+  "bad-length": ({ quantity, value, unit, may_be_zero }, metric) =>
+    `${QUANTITIES[quantity]} muss ${may_be_zero ? "0 oder größer" : "größer als 0"} sein, nicht ${measure(value, unit, metric)}.`,
+  "bad-time": ({ quantity, value_s }) => `${QUANTITIES[quantity]} muss 0 oder größer sein, nicht ${measure(value_s, "s")}.`,
+  "bad-exposures": ({ previous_mm, next_mm }) =>
+    `Gemessene Belichtungen müssen nach der Dicke geordnet sein, jede dicker als die vorige; auf ${mm(previous_mm)} folgt aber ${mm(next_mm)}.`,
+  "bad-options": ({ system }) => `Die Optionen lassen sich nicht lesen: ${ended(system)}`,
+  "unknown-printer": ({ printer, known }) => `Es gibt keinen Drucker ${printer}; bekannt sind ${known.join(", ")}.`,
+  "pixels-without-pitch": () =>
+    "Pixel und ihr Abstand in x und y gehören zusammen; geben Sie beides an, oder einen Abstand für x und y.",
+  "bad-antialias": ({ antialias, known }) => `Die Kantenglättung hat die Stufen ${known.join(", ")}, nicht ${exact(antialias)}.`,
+  "bad-weight-min": ({ weight_min }) => `Das kleinste Gewicht muss zwischen 0 und 1 liegen, nicht bei ${exact(weight_min)}.`,
+  "bad-directions": ({ directions, most }) => `Eine Suche prüft 1 bis ${count(most)} Richtungen, nicht ${count(directions)}.`,
+  "bad-alpha": ({ alpha }) => `Alpha muss zwischen 0 und 1 liegen, nicht bei ${exact(alpha)}.`,
+  "several-targets": () => "Geben Sie eine Toleranz, die höchste Zahl von Schichten oder die längste Zeit an, und nur eines davon.",
+  "printer-layers": ({ model, printer_min_mm, printer_max_mm, layer_min_mm, layer_max_mm }) =>
+    `Der ${model} druckt Schichten von ${exact(printer_min_mm)} bis ${mm(printer_max_mm)}, nicht von ${exact(layer_min_mm)} bis ${mm(layer_max_mm)}; ` +
+    "bleiben Sie in diesen Grenzen, oder wählen Sie einen anderen Drucker.",
+  "printer-step": ({ model, printer_step_mm, step_mm }) =>
+    `Der ${model} fährt in Schritten von ${mm(printer_step_mm)}, und ${mm(step_mm)} sind keine ganze Zahl davon; wählen Sie ein Vielfaches von ${mm(printer_step_mm)}.`,
+  "grid-bad-size": ({ width, height, max_side, max_pixels }) =>
+    `Eine Maske von ${count(width)} × ${count(height)} Pixeln ist nicht möglich: je Seite 1 bis ${count(max_side)}, insgesamt höchstens ${count(max_pixels)}.`,
+  "grid-too-fine": ({ width, height, max_side, max_pixels }) =>
+    `Die Kantenglättung verlangt ${count(width)} × ${count(height)} Strahlen, möglich sind ${count(max_side)} je Seite und ${count(max_pixels)} insgesamt; wählen Sie eine niedrigere Stufe.`,
+  "model-too-large": ({ model_mm_x, model_mm_y, grid_mm_x, grid_mm_y, fitting_scale }) =>
+    `Das Modell misst ${exact(model_mm_x)} × ${mm(model_mm_y)}, das Bild des Druckers nur ${exact(grid_mm_x)} × ${mm(grid_mm_y)}; mit dem Maßstab ${exact(fitting_scale)} passt es.`,
+  "model-too-high": ({ model_mm_z, printer_mm_z, fitting_scale }) =>
+    `Das Modell ist ${mm(model_mm_z)} hoch, der Drucker druckt aber nur ${mm(printer_mm_z)}; mit dem Maßstab ${exact(fitting_scale)} passt es.`,
+  "too-many-bins": ({ height_mm, bin_mm }) =>
+    `${mm(height_mm)} in Intervallen von ${mm(bin_mm)} sind zu viele; wählen Sie ein größeres Intervall.`,
+  "not-whole-bins": ({ quantity, length_mm, bin_mm }) =>
+    `${QUANTITIES[quantity]} von ${mm(length_mm)} ist keine ganze Zahl von Intervallen zu ${mm(bin_mm)}; wählen Sie ein Intervall, das darin aufgeht.`,
+  "layer-range-empty": ({ layer_min_mm, layer_max_mm, step_mm }) =>
+    `Keine ganze Zahl von Schritten zu ${mm(step_mm)} liegt zwischen den Schichtdicken ${exact(layer_min_mm)} und ${mm(layer_max_mm)}; ` +
+    "erweitern Sie den Bereich, oder wählen Sie einen kleineren Schritt.",
+  "layer-too-thick": ({ layer_mm, height_mm }) => `Schichten von ${mm(layer_mm)} sind zu dick für ein Modell von ${mm(height_mm)} Höhe.`,
+  "layers-do-not-fit": ({ from_mm, to_mm, layer_min_mm, layer_max_mm }) =>
+    `Schichten von ${exact(layer_min_mm)} bis ${mm(layer_max_mm)} ergeben nicht die Höhe von ${exact(from_mm)} bis ${mm(to_mm)}; ` +
+    "erweitern Sie den Bereich der Dicken, oder verschieben Sie die Ebenen.",
+  "bad-range": ({ from_mm, to_mm }) =>
+    `Der Höhenbereich von ${exact(from_mm)} bis ${mm(to_mm)} ist leer oder überlappt einen anderen; geben Sie Bereiche aufsteigend und getrennt an.`,
+  "bad-plane": ({ z_mm, height_mm }) => `Bei ${mm(z_mm)} kann in einem Modell von ${mm(height_mm)} Höhe keine Ebene liegen.`,
+  infeasible: ({ from_mm, to_mm, tolerance, layer_min_mm }, metric) =>
+    `Kein Plan hält den Fehler jeder Schicht unter ${error(metric, tolerance)}: Von z = ${exact(from_mm)} bis ${mm(to_mm)} überschreitet ihn selbst eine Schicht von ${mm(layer_min_mm)}.`,
+  "out-of-reach": (detail) =>
+    "layers" in detail
+      ? `Kein Plan hat höchstens ${count(detail.layers)} Schichten; mindestens ${count(detail.least_layers)} sind nötig.`
+      : `Kein Plan druckt in höchstens ${measure(detail.time_s, "s")}; mindestens ${measure(detail.least_time_s, "s")} sind nötig.`,
+  "no-plan": () => "Es gibt noch keinen Plan; erstellen Sie zuerst einen.",
+  "no-layer": ({ layer, layers }) => `Es gibt keine Schicht ${count(layer)}; der Plan hat ${count(layers)}, gezählt ab 0.`,
+  "no-hits": ({ pitch_mm }) =>
+    `Kein Pixel von ${mm(pitch_mm)} trifft das Modell, das dafür zu klein oder zu dünn ist; wählen Sie kleinere Pixel.`,
+  "too-many-facets": ({ facets, most }) => `${count(facets)} Dreiecke sind zu viele; höchstens ${count(most)} lassen sich schneiden.`,
+  "out-of-memory": ({ hits, needed_bytes }) =>
+    `Das Modell braucht ${count(needed_bytes)} Byte für ${count(hits)} Oberflächenpunkte bei dieser Auflösung, mehr als vorhanden sind; wählen Sie weniger Strahlen.`,
+  "no-gpu": ({ system }) => `Keine nutzbare GPU: ${ended(system)}`,
+  "gpu-emulated": ({ adapter }) => `Keine nutzbare GPU: ${adapter} wird von Software nachgebildet.`,
+  "gpu-too-small": ({ facets, needed_bytes, limit_bytes }) =>
+    `${counted(facets, FACETS)} brauchen einen GPU-Puffer von ${count(needed_bytes)} Byte, und diese GPU bietet ${count(limit_bytes)}; benutzen Sie die CPU.`,
+  "gpu-failed": ({ fault, system }) => `Die GPU hat versagt: ${FAULTS[fault]}${system === null ? "" : ` (${system})`}.`,
+  "all-black": () =>
+    "Alle Masken sind schwarz: Das Modell umschließt nichts, was die Mitte einer Schicht trifft; prüfen Sie das Modell, oder wählen Sie dünnere Schichten.",
+  "uniform-only": ({ format }) =>
+    `${format}-Dateien haben eine Dicke für alle Schichten, und dieser Plan hat mehrere; wählen Sie ein anderes Format oder gleichmäßige Schichten.`,
+  "weights-not-weights": () => "Das ist keine Datei mit Gewichten: Sie beginnt nicht mit CUSPWT01 oder ist abgeschnitten.",
+  "weights-other-mesh": ({ weights_facets, mesh_facets }) =>
+    `Diese Gewichte gehören zu einem anderen Netz aus ${count(weights_facets)} Dreiecken; dieses hat ${count(mesh_facets)}; ` +
+    "bemalen Sie es noch einmal, oder öffnen Sie das Modell, für das sie gemacht wurden.",
+  "weights-out-of-range": ({ facet, weight }) => `Das Gewicht von Dreieck ${count(facet)} ist ${exact(weight)}; Gewichte liegen zwischen 0 und 1.`,
+  "archive-write": ({ system }) => `Die Druckdatei ließ sich nicht schreiben: ${ended(system)}`,
+  cancelled: () => "Abgebrochen.",
+  "bad-attribute": ({ attribute, value, known }) =>
+    `Das Attribut ${attribute} kann nicht ${String(value)} sein${known === undefined ? "" : `; bekannt sind ${known.join(", ")}`}.`,
+  "part-failed": ({ part, system }) => `Ein Teil der Seite ließ sich nicht laden: ${part} (${system}).`,
+  "no-browser": () => "Hier ist kein Browser; rufen Sie das auf der Seite auf.",
+  "no-model": () => "Es gibt noch kein Modell; öffnen Sie zuerst eines.",
+  "file-unreadable": () => "Vielleicht wurde die Datei verschoben, geändert oder gesperrt. Wählen Sie sie noch einmal.",
+  "fetch-failed": (detail) =>
+    "status" in detail ? `Unter dieser Adresse kam keine Datei (HTTP ${detail.status}).` : `Die Adresse hat nicht geantwortet (${detail.system}).`,
+  "start-failed": ({ system }) => `Laden Sie die Seite neu. Hilft das nicht, ist dieser Browser vielleicht zu alt für WebAssembly. (${system})`,
+  crash: ({ system }) =>
+    `Vielleicht reichte der Speicher nicht. Er ist neu gestartet: Versuchen Sie es noch einmal, bei einem großen Modell mit weniger Strahlen. (${system})`,
+});

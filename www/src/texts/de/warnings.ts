@@ -1,0 +1,26 @@
+import type { Format } from "../format.js";
+import type { WarningSentences } from "../sentences.js";
+import { FAULTS } from "./errors.js";
+import { LAYERS, FACETS, EDGES, HOLES } from "./nouns.js";
+
+export const warnings = ({ count, counted, mm, height, error }: Format): WarningSentences => ({
+  "degenerate-facets": ({ facets }) => `${counted(facets, FACETS)} ohne Fläche weggelassen.`,
+  "inside-out": () => "Das Netz war von innen nach außen gekehrt und wurde umgedreht.",
+  "open-mesh": ({ open_edges, holes }) =>
+    `Das Netz ist nicht geschlossen: ${counted(open_edges, EDGES)} ohne Gegenstück, ${counted(holes, HOLES)} eben geschlossen. Sehen Sie sich die Masken an.`,
+  "unclosed-rays": ({ unclosed, rays }) =>
+    `${count(unclosed)} von ${count(rays)} Strahlen gehen durch Löcher des Netzes, die eben geschlossen sind. Sehen Sie sich die Masken an.`,
+  "tolerance-exceeded": ({ metric, tolerance, max_error }) =>
+    `Der Fehler erreicht ${error(metric, max_error)}, mehr als die Toleranz von ${error(metric, tolerance)}.`,
+  "tolerance-exceeded-on-mesh": ({ metric, tolerance, max_error }) =>
+    `Am Netz selbst erreicht der Fehler ${error(metric, max_error)}, mehr als die Toleranz von ${error(metric, tolerance)}: Strahlen verfehlen einen Teil der Oberfläche.`,
+  "sampled-sections": () => "Die Oberfläche schneidet sich selbst; Querschnitte werden entlang von Strahlen gezählt.",
+  "top-moved": ({ top_mm, height_mm }) =>
+    `Der Druck endet bei ${mm(top_mm)}, weil die Schichten nicht genau ${mm(height_mm)} ergeben.`,
+  "black-layers": ({ layers, from_mm }) =>
+    `${counted(layers, LAYERS)} des Plans ohne belichteten Pixel, ab ${height(from_mm)}: Teile schweben in der Luft oder sind dünner als ein Pixel. Sehen Sie sich dort die Masken an.`,
+  "gpu-too-small": ({ needed_bytes, limit_bytes }) =>
+    `Die CPU hat die Arbeit der GPU übernommen: Das Netz braucht einen Puffer von ${count(needed_bytes)} Byte, und die GPU bietet ${count(limit_bytes)}.`,
+  "gpu-failed": ({ fault, system }) =>
+    `Die CPU hat die Arbeit der GPU übernommen, die versagt hat: ${FAULTS[fault]}${system === null ? "" : ` (${system})`}.`,
+});

@@ -1,0 +1,148 @@
+/** Sentences on failures, as the command line says them. */
+import type { Format } from "../format.js";
+import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type GpuFaults, type QuantityNouns, type StlNouns } from "../sentences.js";
+import { FACETS } from "./nouns.js";
+
+const QUANTITIES: QuantityNouns = {
+  pitch: "The pixel pitch",
+  bin: "The bin height",
+  step: "The motor step",
+  layer: "The layer thickness",
+  "layer-min": "The minimum layer thickness",
+  "layer-max": "The maximum layer thickness",
+  tolerance: "The tolerance",
+  "resin-layer": "The resin's layer thickness",
+  penetration: "The penetration depth",
+  exposure: "The exposure",
+  "bottom-exposure": "The bottom exposure",
+  wait: "The wait between layers",
+  lift: "The lift height",
+  "lift-speed": "The lift speed",
+  "return-speed": "The return speed",
+  density: "The resin density",
+};
+
+const EXPECTED: StlNouns = {
+  ...STL_KEYWORDS,
+  "solid-or-end": "`solid` or the end of the file",
+  "facet-or-endsolid": "`facet` or `endsolid`",
+  "normal-number": "a number of the normal",
+  coordinate: "a coordinate",
+};
+
+export const FAULTS: GpuFaults = {
+  error: "the system reports an error",
+  "device-lost": "the device was lost",
+  "too-many-hits": "the model has more surface points than its buffers hold",
+  "bad-offsets": "it returned offsets that do not add up",
+  "out-of-memory": "there was not enough memory",
+};
+
+export const errors = ({ count, counted, exact, mm, measure, error }: Format): ErrorSentences => ({
+  "stl-empty": () => "The file is empty; export the model again as STL.",
+  "stl-not-stl": () => "This is no STL file; export the model as binary or ASCII STL.",
+  "other-file-kind": ({ kind }) =>
+    `This is a ${FILE_KINDS[kind]} file, no STL; ${adviceOn(kind, {
+      model: "export the model as STL",
+      packed: "unpack it, and open the STL inside",
+      page: "download the model itself; the address may need a login, or lead to a page about the model",
+    })}.`,
+  "stl-truncated": (detail) =>
+    "line" in detail
+      ? `The STL is cut short: it ends at line ${count(detail.line)}, where ${EXPECTED[detail.expected]} should follow.`
+      : `The STL is cut short: its header announces ${counted(detail.declared_facets, FACETS)}, which need ${count(detail.expected_bytes)} bytes, ` +
+        `but the file ends at byte ${count(detail.found_bytes)}; copy or export it again.`,
+  "stl-wrong-facet-count": ({ declared_facets, found_facets }) =>
+    `The facet count is wrong: the header at byte 80 announces ${counted(declared_facets, FACETS)}, but ${count(found_facets)} follow; export the model again.`,
+  "stl-not-finite": (detail) =>
+    "line" in detail
+      ? `Line ${count(detail.line)}: \`${detail.text}\` is not a finite number; export the model again.`
+      : `The coordinate at byte ${count(detail.byte)} (facet ${count(detail.facet)}) is not a finite number; export the model again.`,
+  "stl-syntax": ({ line, expected, found }) =>
+    `Line ${count(line)}: expected ${EXPECTED[expected]}, found \`${found}\`; export the model again.`,
+  "stl-no-facets": () => "The STL holds no facets; export the model again.",
+  "mesh-no-area": ({ facets }) => `None of the ${counted(facets, FACETS)} has an area; export the model again.`,
+  "mesh-zero-height": () => "The model has no height; is it flat, or lying in the plane z = constant?",
+  "mesh-overflow": () => "The model is too large: at this height its coordinates exceed what can be computed.",
+  "bad-height": ({ height_mm }) => `The height must be greater than 0, not ${mm(height_mm)}.`,
+  "bad-rotation": () => "The rotation must be a quaternion x, y, z, w whose length is not zero.",
+  "bad-length": ({ quantity, value, unit, may_be_zero }, metric) =>
+    `${QUANTITIES[quantity]} must be ${may_be_zero ? "0 or more" : "greater than 0"}, not ${measure(value, unit, metric)}.`,
+  "bad-time": ({ quantity, value_s }) => `${QUANTITIES[quantity]} must be 0 or more, not ${measure(value_s, "s")}.`,
+  "bad-exposures": ({ previous_mm, next_mm }) =>
+    `Measured exposures must be in order of thickness, each thicker than the one before, but ${mm(next_mm)} follows ${mm(previous_mm)}.`,
+  "bad-options": ({ system }) => `The options cannot be read: ${ended(system)}`,
+  "unknown-printer": ({ printer, known }) => `There is no printer ${printer}; known are ${known.join(", ")}.`,
+  "pixels-without-pitch": () => "Pixels and their pitch in x and y belong together; give both, or one pitch for x and y.",
+  "bad-antialias": ({ antialias, known }) => `Anti-aliasing has the levels ${known.join(", ")}, not ${exact(antialias)}.`,
+  "bad-weight-min": ({ weight_min }) => `The minimum weight must be from 0 to 1, not ${exact(weight_min)}.`,
+  "bad-directions": ({ directions, most }) => `A search looks along 1 to ${count(most)} directions, not ${count(directions)}.`,
+  "bad-alpha": ({ alpha }) => `Alpha must be from 0 to 1, not ${exact(alpha)}.`,
+  "several-targets": () => "Give a tolerance, the most layers or the longest time, and only one of them.",
+  "printer-layers": ({ model, printer_min_mm, printer_max_mm, layer_min_mm, layer_max_mm }) =>
+    `The ${model} prints layers of ${exact(printer_min_mm)} to ${mm(printer_max_mm)}, not ${exact(layer_min_mm)} to ${mm(layer_max_mm)}; ` +
+    "stay within its limits, or choose another printer.",
+  "printer-step": ({ model, printer_step_mm, step_mm }) =>
+    `The ${model} moves in steps of ${mm(printer_step_mm)}, and ${mm(step_mm)} is not a whole number of them; use a multiple of ${mm(printer_step_mm)}.`,
+  "grid-bad-size": ({ width, height, max_side, max_pixels }) =>
+    `A mask of ${count(width)} × ${count(height)} pixels is not possible: there can be 1 to ${count(max_side)} a side, and ${count(max_pixels)} in all.`,
+  "grid-too-fine": ({ width, height, max_side, max_pixels }) =>
+    `Anti-aliasing asks for ${count(width)} × ${count(height)} rays, and there can be ${count(max_side)} a side, and ${count(max_pixels)} in all; choose a lower level.`,
+  "model-too-large": ({ model_mm_x, model_mm_y, grid_mm_x, grid_mm_y, fitting_scale }) =>
+    `The model is ${exact(model_mm_x)} × ${mm(model_mm_y)}, but the grid covers only ${exact(grid_mm_x)} × ${mm(grid_mm_y)}; a scale of ${exact(fitting_scale)} fits.`,
+  "model-too-high": ({ model_mm_z, printer_mm_z, fitting_scale }) =>
+    `The model is ${mm(model_mm_z)} high, but the printer only prints ${mm(printer_mm_z)}; a scale of ${exact(fitting_scale)} fits.`,
+  "too-many-bins": ({ height_mm, bin_mm }) => `${mm(height_mm)} in bins of ${mm(bin_mm)} are too many; choose a larger bin.`,
+  "not-whole-bins": ({ quantity, length_mm, bin_mm }) =>
+    `${QUANTITIES[quantity]} of ${mm(length_mm)} is no whole number of bins of ${mm(bin_mm)}; choose a bin that divides it.`,
+  "layer-range-empty": ({ layer_min_mm, layer_max_mm, step_mm }) =>
+    `No whole number of steps of ${mm(step_mm)} lies between the layer thicknesses ${exact(layer_min_mm)} and ${mm(layer_max_mm)}; ` +
+    "widen the range or choose a smaller step.",
+  "layer-too-thick": ({ layer_mm, height_mm }) => `Layers of ${mm(layer_mm)} are too thick for a model that is ${mm(height_mm)} high.`,
+  "layers-do-not-fit": ({ from_mm, to_mm, layer_min_mm, layer_max_mm }) =>
+    `Layers of ${exact(layer_min_mm)} to ${mm(layer_max_mm)} do not add up to the height from ${exact(from_mm)} to ${mm(to_mm)}; ` +
+    "widen the range of thicknesses or move the planes.",
+  "bad-range": ({ from_mm, to_mm }) =>
+    `The height range from ${exact(from_mm)} to ${mm(to_mm)} is empty or overlaps another; give ranges upward and apart.`,
+  "bad-plane": ({ z_mm, height_mm }) => `There can be no plane at ${mm(z_mm)} in a model that is ${mm(height_mm)} high.`,
+  infeasible: ({ from_mm, to_mm, tolerance, layer_min_mm }, metric) =>
+    `No plan keeps every layer's error within ${error(metric, tolerance)}: from z = ${exact(from_mm)} to ${mm(to_mm)} even a layer of ${mm(layer_min_mm)} exceeds it.`,
+  "out-of-reach": (detail) =>
+    "layers" in detail
+      ? `No plan has at most ${count(detail.layers)} layers; it takes at least ${count(detail.least_layers)}.`
+      : `No plan prints in at most ${measure(detail.time_s, "s")}; it takes at least ${measure(detail.least_time_s, "s")}.`,
+  "no-plan": () => "There is no plan yet; make one first.",
+  "no-layer": ({ layer, layers }) => `There is no layer ${count(layer)}; the plan has ${count(layers)}, from 0.`,
+  "no-hits": ({ pitch_mm }) =>
+    `No pixel of ${mm(pitch_mm)} meets the model, which is too small or too thin for them; choose smaller pixels.`,
+  "too-many-facets": ({ facets, most }) => `${count(facets)} facets are too many; at most ${count(most)} can be sliced.`,
+  "out-of-memory": ({ hits, needed_bytes }) =>
+    `The model needs ${count(needed_bytes)} bytes for ${count(hits)} surface points at this resolution, more than there is; choose fewer rays.`,
+  "no-gpu": ({ system }) => `No usable GPU: ${ended(system)}`,
+  "gpu-emulated": ({ adapter }) => `No usable GPU: ${adapter} is emulated in software.`,
+  "gpu-too-small": ({ facets, needed_bytes, limit_bytes }) =>
+    `${counted(facets, FACETS)} need a GPU buffer of ${count(needed_bytes)} bytes, and this GPU offers ${count(limit_bytes)}; use the CPU.`,
+  "gpu-failed": ({ fault, system }) => `The GPU failed: ${FAULTS[fault]}${system === null ? "" : ` (${system})`}.`,
+  "all-black": () =>
+    "All masks are black: the model encloses nothing that the middle of a layer meets; check the model, or choose thinner layers.",
+  "uniform-only": ({ format }) =>
+    `${format} files have one thickness for all layers, and this plan has several; choose another format, or the uniform planner.`,
+  "weights-not-weights": () => "This is no file of weights: it does not begin with CUSPWT01, or is cut short.",
+  "weights-other-mesh": ({ weights_facets, mesh_facets }) =>
+    `These weights are for another mesh, of ${counted(weights_facets, FACETS)}; this one has ${count(mesh_facets)}; ` +
+    "paint it again, or open the model that they were made for.",
+  "weights-out-of-range": ({ facet, weight }) => `The weight of facet ${count(facet)} is ${exact(weight)}, and weights are 0 to 1.`,
+  "archive-write": ({ system }) => `The print file could not be written: ${ended(system)}`,
+  cancelled: () => "Cancelled.",
+  "bad-attribute": ({ attribute, value, known }) =>
+    `The attribute ${attribute} cannot be ${String(value)}${known === undefined ? "" : `; known are ${known.join(", ")}`}.`,
+  "part-failed": ({ part, system }) => `A part of the page could not be loaded: ${part} (${system}).`,
+  "no-browser": () => "There is no browser here; call this in the page.",
+  "no-model": () => "There is no model yet; open one first.",
+  "file-unreadable": () => "It may have been moved, changed or locked. Choose it again.",
+  "fetch-failed": (detail) =>
+    "status" in detail ? `The address did not answer with a file (HTTP ${detail.status}).` : `The address did not answer (${detail.system}).`,
+  "start-failed": ({ system }) => `Reload the page. If that does not help, this browser may be too old for WebAssembly. (${system})`,
+  crash: ({ system }) =>
+    `It may have run out of memory. It has been restarted: try again, with fewer rays if the model is large. (${system})`,
+});

@@ -1,0 +1,26 @@
+/** Sentences on what users should know although the work went on, as the command line says them. */
+import type { Format } from "../format.js";
+import type { WarningSentences } from "../sentences.js";
+import { FAULTS } from "./errors.js";
+import { LAYERS, FACETS, EDGES, HOLES } from "./nouns.js";
+
+export const warnings = ({ count, counted, mm, height, error }: Format): WarningSentences => ({
+  "degenerate-facets": ({ facets }) => `${counted(facets, FACETS)} without area left out.`,
+  "inside-out": () => "The mesh was inside out, and was turned over.",
+  "open-mesh": ({ open_edges, holes }) =>
+    `The mesh is not closed: ${counted(open_edges, EDGES)} without a partner, ${counted(holes, HOLES)} closed by flat caps; look at the masks.`,
+  "unclosed-rays": ({ unclosed, rays }) =>
+    `${count(unclosed)} of ${count(rays)} rays pass holes of the mesh, which flat caps close; look at the masks.`,
+  "tolerance-exceeded": ({ metric, tolerance, max_error }) =>
+    `The error reaches ${error(metric, max_error)}, more than the tolerance of ${error(metric, tolerance)}.`,
+  "tolerance-exceeded-on-mesh": ({ metric, tolerance, max_error }) =>
+    `On the mesh itself the error reaches ${error(metric, max_error)}, more than the tolerance of ${error(metric, tolerance)}: rays miss a part of the surface.`,
+  "sampled-sections": () => "The surface crosses itself, so that areas of sections are counted along rays.",
+  "top-moved": ({ top_mm, height_mm }) => `The print ends at ${mm(top_mm)}, since layers do not add up to ${mm(height_mm)}.`,
+  "black-layers": ({ layers, from_mm }) =>
+    `${counted(layers, LAYERS)} of the plan ${layers === 1 ? "is" : "are"} black, from ${height(from_mm)} up: parts hang in the air, or are thinner than a pixel; look at the masks there.`,
+  "gpu-too-small": ({ needed_bytes, limit_bytes }) =>
+    `The CPU did the work of the GPU: the mesh needs a buffer of ${count(needed_bytes)} bytes, and the GPU offers ${count(limit_bytes)}.`,
+  "gpu-failed": ({ fault, system }) =>
+    `The CPU did the work of the GPU, which failed: ${FAULTS[fault]}${system === null ? "" : ` (${system})`}.`,
+});

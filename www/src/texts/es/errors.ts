@@ -1,0 +1,150 @@
+import type { Format } from "../format.js";
+import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type GpuFaults, type QuantityNouns, type StlNouns } from "../sentences.js";
+import { FACETS } from "./nouns.js";
+
+const QUANTITIES: QuantityNouns = {
+  pitch: "El paso de los píxeles",
+  bin: "La altura de los intervalos",
+  step: "El paso del motor",
+  layer: "El espesor de capa",
+  "layer-min": "El espesor de capa mínimo",
+  "layer-max": "El espesor de capa máximo",
+  tolerance: "La tolerancia",
+  "resin-layer": "El espesor de capa de la resina",
+  penetration: "La profundidad de penetración",
+  exposure: "La exposición",
+  "bottom-exposure": "La exposición de las capas de base",
+  wait: "La espera entre capas",
+  lift: "La altura de elevación",
+  "lift-speed": "La velocidad de elevación",
+  "return-speed": "La velocidad de retorno",
+  density: "La densidad de la resina",
+};
+
+const EXPECTED: StlNouns = {
+  ...STL_KEYWORDS,
+  "solid-or-end": "`solid` o el final del archivo",
+  "facet-or-endsolid": "`facet` o `endsolid`",
+  "normal-number": "un número de la normal",
+  coordinate: "una coordenada",
+};
+
+export const FAULTS: GpuFaults = {
+  error: "el sistema informa de un error",
+  "device-lost": "se perdió el dispositivo",
+  "too-many-hits": "el modelo tiene más puntos de superficie de los que caben en sus búferes",
+  "bad-offsets": "devolvió posiciones que no cuadran",
+  "out-of-memory": "no hubo memoria suficiente",
+};
+
+export const errors = ({ count, counted, exact, mm, measure, error }: Format): ErrorSentences => ({
+  "stl-empty": () => "El archivo está vacío; exporte el modelo de nuevo como STL.",
+  "stl-not-stl": () => "No es un archivo STL; exporte el modelo como STL binario o de texto.",
+  "other-file-kind": ({ kind }) =>
+    `Es un archivo ${FILE_KINDS[kind]}, no un STL; ${adviceOn(kind, {
+      model: "exporte el modelo como STL",
+      packed: "descomprímalo y abra el STL que contiene",
+      page: "descargue el modelo mismo; quizá la dirección pida iniciar sesión o lleve a una página sobre él",
+    })}.`,
+  "stl-truncated": (detail) =>
+    "line" in detail
+      ? `El STL está cortado: termina en la línea ${count(detail.line)}, donde debería seguir ${EXPECTED[detail.expected]}.`
+      : `El STL está cortado: su cabecera anuncia ${counted(detail.declared_facets, FACETS)}, que ocupan ${count(detail.expected_bytes)} bytes, ` +
+        `pero el archivo termina en el byte ${count(detail.found_bytes)}; cópielo o expórtelo de nuevo.`,
+  "stl-wrong-facet-count": ({ declared_facets, found_facets }) =>
+    `El número de facetas no es correcto: la cabecera anuncia ${counted(declared_facets, FACETS)} en el byte 80, pero siguen ${count(found_facets)}; exporte el modelo de nuevo.`,
+  "stl-not-finite": (detail) =>
+    "line" in detail
+      ? `Línea ${count(detail.line)}: \`${detail.text}\` no es un número finito; exporte el modelo de nuevo.`
+      : `La coordenada en el byte ${count(detail.byte)} (faceta ${count(detail.facet)}) no es un número finito; exporte el modelo de nuevo.`,
+  "stl-syntax": ({ line, expected, found }) =>
+    `Línea ${count(line)}: se esperaba ${EXPECTED[expected]}, pero hay \`${found}\`; exporte el modelo de nuevo.`,
+  "stl-no-facets": () => "El STL no contiene facetas; exporte el modelo de nuevo.",
+  "mesh-no-area": ({ facets }) => `Ninguna faceta tiene área (de ${count(facets)}); exporte el modelo de nuevo.`,
+  "mesh-zero-height": () => "El modelo no tiene altura; ¿es plano, o está tendido en el plano z = constante?",
+  "mesh-overflow": () => "El modelo es demasiado grande: a esta altura no se puede calcular con sus coordenadas.",
+  "bad-height": ({ height_mm }) => `La altura debe ser mayor que 0, no ${mm(height_mm)}.`,
+  "bad-rotation": () => "El giro debe ser un cuaternión x, y, z, w cuya longitud no sea cero.",
+  "bad-length": ({ quantity, value, unit, may_be_zero }, metric) =>
+    `${QUANTITIES[quantity]} debe ser ${may_be_zero ? "0 o más" : "mayor que 0"}, no ${measure(value, unit, metric)}.`,
+  "bad-time": ({ quantity, value_s }) => `${QUANTITIES[quantity]} debe ser 0 o más, no ${measure(value_s, "s")}.`,
+  "bad-exposures": ({ previous_mm, next_mm }) =>
+    `Las exposiciones medidas deben ir en orden de espesor, cada una más gruesa que la anterior, pero ${mm(next_mm)} sigue a ${mm(previous_mm)}.`,
+  "bad-options": ({ system }) => `No se pueden leer las opciones: ${ended(system)}`,
+  "unknown-printer": ({ printer, known }) => `No hay ninguna impresora ${printer}; se conocen ${known.join(", ")}.`,
+  "pixels-without-pitch": () => "Los píxeles y su paso en x e y van juntos; indique ambos, o un solo paso para x e y.",
+  "bad-antialias": ({ antialias, known }) => `El suavizado tiene los niveles ${known.join(", ")}, no ${exact(antialias)}.`,
+  "bad-weight-min": ({ weight_min }) => `El peso mínimo debe estar entre 0 y 1, no ser ${exact(weight_min)}.`,
+  "bad-directions": ({ directions, most }) => `Una búsqueda mira de 1 a ${count(most)} direcciones, no ${count(directions)}.`,
+  "bad-alpha": ({ alpha }) => `Alfa debe estar entre 0 y 1, no ser ${exact(alpha)}.`,
+  "several-targets": () => "Indique una tolerancia, el máximo de capas o el tiempo más largo, y solo una de las tres cosas.",
+  "printer-layers": ({ model, printer_min_mm, printer_max_mm, layer_min_mm, layer_max_mm }) =>
+    `La ${model} imprime capas de ${exact(printer_min_mm)} a ${mm(printer_max_mm)}, no de ${exact(layer_min_mm)} a ${mm(layer_max_mm)}; ` +
+    "quédese dentro de sus límites o elija otra impresora.",
+  "printer-step": ({ model, printer_step_mm, step_mm }) =>
+    `La ${model} se mueve en pasos de ${mm(printer_step_mm)}, y ${mm(step_mm)} no es un número entero de ellos; use un múltiplo de ${mm(printer_step_mm)}.`,
+  "grid-bad-size": ({ width, height, max_side, max_pixels }) =>
+    `Una máscara de ${count(width)} × ${count(height)} píxeles no es posible: puede haber de 1 a ${count(max_side)} por lado, y ${count(max_pixels)} en total.`,
+  "grid-too-fine": ({ width, height, max_side, max_pixels }) =>
+    `El suavizado pide ${count(width)} × ${count(height)} rayos, y puede haber ${count(max_side)} por lado, y ${count(max_pixels)} en total; elija un nivel más bajo.`,
+  "model-too-large": ({ model_mm_x, model_mm_y, grid_mm_x, grid_mm_y, fitting_scale }) =>
+    `El modelo mide ${exact(model_mm_x)} × ${mm(model_mm_y)}, pero la cuadrícula solo cubre ${exact(grid_mm_x)} × ${mm(grid_mm_y)}; cabe con una escala de ${exact(fitting_scale)}.`,
+  "model-too-high": ({ model_mm_z, printer_mm_z, fitting_scale }) =>
+    `El modelo tiene ${mm(model_mm_z)} de alto, pero la impresora solo imprime ${mm(printer_mm_z)}; cabe con una escala de ${exact(fitting_scale)}.`,
+  "too-many-bins": ({ height_mm, bin_mm }) =>
+    `${mm(height_mm)} en intervalos de ${mm(bin_mm)} son demasiados; elija un intervalo más grande.`,
+  "not-whole-bins": ({ quantity, length_mm, bin_mm }) =>
+    `${QUANTITIES[quantity]} de ${mm(length_mm)} no es un número entero de intervalos de ${mm(bin_mm)}; elija un intervalo que lo divida.`,
+  "layer-range-empty": ({ layer_min_mm, layer_max_mm, step_mm }) =>
+    `Ningún número entero de pasos de ${mm(step_mm)} está entre los espesores ${exact(layer_min_mm)} y ${mm(layer_max_mm)}; ` +
+    "amplíe el intervalo o elija un paso más pequeño.",
+  "layer-too-thick": ({ layer_mm, height_mm }) =>
+    `Las capas de ${mm(layer_mm)} son demasiado gruesas para un modelo de ${mm(height_mm)} de alto.`,
+  "layers-do-not-fit": ({ from_mm, to_mm, layer_min_mm, layer_max_mm }) =>
+    `Las capas de ${exact(layer_min_mm)} a ${mm(layer_max_mm)} no suman la altura de ${exact(from_mm)} a ${mm(to_mm)}; ` +
+    "amplíe el intervalo de espesores o mueva los planos.",
+  "bad-range": ({ from_mm, to_mm }) =>
+    `El intervalo de altura de ${exact(from_mm)} a ${mm(to_mm)} está vacío o se solapa con otro; indique intervalos ascendentes y separados.`,
+  "bad-plane": ({ z_mm, height_mm }) => `No puede haber un plano a ${mm(z_mm)} en un modelo de ${mm(height_mm)} de alto.`,
+  infeasible: ({ from_mm, to_mm, tolerance, layer_min_mm }, metric) =>
+    `Ningún plan mantiene el error de cada capa dentro de ${error(metric, tolerance)}: de z = ${exact(from_mm)} a ${mm(to_mm)} lo supera incluso una capa de ${mm(layer_min_mm)}.`,
+  "out-of-reach": (detail) =>
+    "layers" in detail
+      ? `Ningún plan tiene como máximo ${count(detail.layers)} capas; hacen falta al menos ${count(detail.least_layers)}.`
+      : `Ningún plan imprime en ${measure(detail.time_s, "s")} como máximo; hacen falta al menos ${measure(detail.least_time_s, "s")}.`,
+  "no-plan": () => "Aún no hay plan; haga uno primero.",
+  "no-layer": ({ layer, layers }) => `No hay capa ${count(layer)}; el plan tiene ${count(layers)}, desde 0.`,
+  "no-hits": ({ pitch_mm }) =>
+    `Ningún píxel de ${mm(pitch_mm)} toca el modelo, que es demasiado pequeño o fino para ellos; elija píxeles más pequeños.`,
+  "too-many-facets": ({ facets, most }) => `${count(facets)} facetas son demasiadas; se pueden cortar ${count(most)} como máximo.`,
+  "out-of-memory": ({ hits, needed_bytes }) =>
+    `El modelo necesita ${count(needed_bytes)} bytes para ${count(hits)} puntos de superficie a esta resolución, más de los que hay; elija menos rayos.`,
+  "no-gpu": ({ system }) => `No hay una GPU utilizable: ${ended(system)}`,
+  "gpu-emulated": ({ adapter }) => `No hay una GPU utilizable: ${adapter} está emulada por software.`,
+  "gpu-too-small": ({ facets, needed_bytes, limit_bytes }) =>
+    `${counted(facets, FACETS)} necesitan un búfer de GPU de ${count(needed_bytes)} bytes, y esta GPU ofrece ${count(limit_bytes)}; use la CPU.`,
+  "gpu-failed": ({ fault, system }) => `La GPU falló: ${FAULTS[fault]}${system === null ? "" : ` (${system})`}.`,
+  "all-black": () =>
+    "Todas las máscaras son negras: el modelo no encierra nada que la mitad de una capa encuentre; revise el modelo o elija capas más finas.",
+  "uniform-only": ({ format }) =>
+    `Los archivos ${format} tienen un solo espesor para todas las capas, y este plan tiene varios; elija otro formato o capas uniformes.`,
+  "weights-not-weights": () => "No es un archivo de pesos: no empieza por CUSPWT01, o está cortado.",
+  "weights-other-mesh": ({ weights_facets, mesh_facets }) =>
+    `Estos pesos son de otra malla, de ${counted(weights_facets, FACETS)}; esta tiene ${count(mesh_facets)}; ` +
+    "píntela de nuevo o abra el modelo para el que se hicieron.",
+  "weights-out-of-range": ({ facet, weight }) => `El peso de la faceta ${count(facet)} es ${exact(weight)}, y los pesos van de 0 a 1.`,
+  "archive-write": ({ system }) => `No se pudo escribir el archivo de impresión: ${ended(system)}`,
+  cancelled: () => "Cancelado.",
+  "bad-attribute": ({ attribute, value, known }) =>
+    `El atributo ${attribute} no puede ser ${String(value)}${known === undefined ? "" : `; se conocen ${known.join(", ")}`}.`,
+  "part-failed": ({ part, system }) => `No se pudo cargar una parte de la página: ${part} (${system}).`,
+  "no-browser": () => "Aquí no hay navegador; llame a esto en la página.",
+  "no-model": () => "Aún no hay modelo; abra uno primero.",
+  "file-unreadable": () => "Quizá se movió, cambió o está bloqueado. Elíjalo de nuevo.",
+  "fetch-failed": (detail) =>
+    "status" in detail ? `En esa dirección no había un archivo (HTTP ${detail.status}).` : `La dirección no respondió (${detail.system}).`,
+  "start-failed": ({ system }) =>
+    `Recargue la página. Si no ayuda, quizá este navegador es demasiado antiguo para WebAssembly. (${system})`,
+  crash: ({ system }) =>
+    `Quizá se agotó la memoria. Se ha reiniciado: inténtelo de nuevo, con menos rayos si el modelo es grande. (${system})`,
+});

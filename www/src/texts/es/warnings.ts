@@ -1,0 +1,26 @@
+import type { Format } from "../format.js";
+import type { WarningSentences } from "../sentences.js";
+import { FAULTS } from "./errors.js";
+import { LAYERS, FACETS, OMITTED, EDGES, HOLES } from "./nouns.js";
+
+export const warnings = ({ count, counted, plural, mm, height, error }: Format): WarningSentences => ({
+  "degenerate-facets": ({ facets }) => `${counted(facets, FACETS)} sin área, ${plural(facets, OMITTED)}.`,
+  "inside-out": () => "La malla estaba del revés y se le dio la vuelta.",
+  "open-mesh": ({ open_edges, holes }) =>
+    `La malla no está cerrada: ${counted(open_edges, EDGES)} sin pareja, ${counted(holes, HOLES)} con planos. Mire las máscaras.`,
+  "unclosed-rays": ({ unclosed, rays }) =>
+    `${count(unclosed)} de ${count(rays)} rayos atraviesan agujeros de la malla, tapados con planos. Mire las máscaras.`,
+  "tolerance-exceeded": ({ metric, tolerance, max_error }) =>
+    `El error llega a ${error(metric, max_error)}, más que la tolerancia de ${error(metric, tolerance)}.`,
+  "tolerance-exceeded-on-mesh": ({ metric, tolerance, max_error }) =>
+    `En la propia malla el error llega a ${error(metric, max_error)}, más que la tolerancia de ${error(metric, tolerance)}: los rayos no ven una parte de la superficie.`,
+  "sampled-sections": () => "La superficie se cruza consigo misma; las secciones se cuentan a lo largo de rayos.",
+  "top-moved": ({ top_mm, height_mm }) =>
+    `La impresión termina en ${mm(top_mm)}, porque las capas no suman exactamente ${mm(height_mm)}.`,
+  "black-layers": ({ layers, from_mm }) =>
+    `${counted(layers, LAYERS)} del plan sin ningún píxel iluminado, desde ${height(from_mm)}: hay partes en el aire o más finas que un píxel. Mire ahí las máscaras.`,
+  "gpu-too-small": ({ needed_bytes, limit_bytes }) =>
+    `La CPU hizo el trabajo de la GPU: la malla necesita un búfer de ${count(needed_bytes)} bytes, y la GPU ofrece ${count(limit_bytes)}.`,
+  "gpu-failed": ({ fault, system }) =>
+    `La CPU hizo el trabajo de la GPU, que falló: ${FAULTS[fault]}${system === null ? "" : ` (${system})`}.`,
+});

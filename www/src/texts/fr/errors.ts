@@ -1,0 +1,150 @@
+import type { Format } from "../format.js";
+import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type GpuFaults, type QuantityNouns, type StlNouns } from "../sentences.js";
+import { FACETS } from "./nouns.js";
+
+const QUANTITIES: QuantityNouns = {
+  pitch: "Le pas des pixels",
+  bin: "La hauteur des intervalles",
+  step: "Le pas du moteur",
+  layer: "L’épaisseur de couche",
+  "layer-min": "L’épaisseur de couche minimale",
+  "layer-max": "L’épaisseur de couche maximale",
+  tolerance: "La tolérance",
+  "resin-layer": "L’épaisseur de couche de la résine",
+  penetration: "La profondeur de pénétration",
+  exposure: "L’exposition",
+  "bottom-exposure": "L’exposition des premières couches",
+  wait: "L’attente entre les couches",
+  lift: "La hauteur de levée",
+  "lift-speed": "La vitesse de levée",
+  "return-speed": "La vitesse de retour",
+  density: "La densité de la résine",
+};
+
+const EXPECTED: StlNouns = {
+  ...STL_KEYWORDS,
+  "solid-or-end": "`solid` ou la fin du fichier",
+  "facet-or-endsolid": "`facet` ou `endsolid`",
+  "normal-number": "un nombre de la normale",
+  coordinate: "une coordonnée",
+};
+
+export const FAULTS: GpuFaults = {
+  error: "le système signale une erreur",
+  "device-lost": "l’appareil a été perdu",
+  "too-many-hits": "le modèle a plus de points de surface que ses tampons n’en contiennent",
+  "bad-offsets": "il a rendu des positions incohérentes",
+  "out-of-memory": "la mémoire n’a pas suffi",
+};
+
+export const errors = ({ count, counted, exact, mm, measure, error }: Format): ErrorSentences => ({
+  "stl-empty": () => "Le fichier est vide ; exportez à nouveau le modèle en STL.",
+  "stl-not-stl": () => "Ce n’est pas un fichier STL ; exportez le modèle en STL binaire ou texte.",
+  "other-file-kind": ({ kind }) =>
+    `C’est un fichier ${FILE_KINDS[kind]}, pas un STL ; ${adviceOn(kind, {
+      model: "exportez le modèle en STL",
+      packed: "décompressez-le et ouvrez le STL qu’il contient",
+      page: "téléchargez le modèle lui-même ; l’adresse demande peut-être une connexion, ou mène à une page sur le modèle",
+    })}.`,
+  "stl-truncated": (detail) =>
+    "line" in detail
+      ? `Le STL est tronqué : il finit à la ligne ${count(detail.line)}, où ${EXPECTED[detail.expected]} devrait suivre.`
+      : `Le STL est tronqué : son en-tête annonce ${counted(detail.declared_facets, FACETS)}, soit ${count(detail.expected_bytes)} octets, ` +
+        `mais le fichier finit à l’octet ${count(detail.found_bytes)} ; copiez-le ou exportez-le à nouveau.`,
+  "stl-wrong-facet-count": ({ declared_facets, found_facets }) =>
+    `Le nombre de facettes est faux : l’en-tête en annonce ${count(declared_facets)} à l’octet 80, mais ${count(found_facets)} suivent ; exportez à nouveau le modèle.`,
+  "stl-not-finite": (detail) =>
+    "line" in detail
+      ? `Ligne ${count(detail.line)} : \`${detail.text}\` n’est pas un nombre fini ; exportez à nouveau le modèle.`
+      : `La coordonnée à l’octet ${count(detail.byte)} (facette ${count(detail.facet)}) n’est pas un nombre fini ; exportez à nouveau le modèle.`,
+  "stl-syntax": ({ line, expected, found }) =>
+    `Ligne ${count(line)} : ${EXPECTED[expected]} attendu, \`${found}\` trouvé ; exportez à nouveau le modèle.`,
+  "stl-no-facets": () => "Le STL ne contient pas de facettes ; exportez à nouveau le modèle.",
+  "mesh-no-area": ({ facets }) => `Aucune facette n’a d’aire (sur ${count(facets)}) ; exportez à nouveau le modèle.`,
+  "mesh-zero-height": () => "Le modèle n’a pas de hauteur ; est-il plat, ou couché dans le plan z = constante ?",
+  "mesh-overflow": () => "Le modèle est trop grand : à cette hauteur, ses coordonnées dépassent ce qui se calcule.",
+  "bad-height": ({ height_mm }) => `La hauteur doit être supérieure à 0, pas ${mm(height_mm)}.`,
+  "bad-rotation": () => "La rotation doit être un quaternion x, y, z, w de longueur non nulle.",
+  "bad-length": ({ quantity, value, unit, may_be_zero }, metric) =>
+    `${QUANTITIES[quantity]} doit valoir ${may_be_zero ? "0 ou plus" : "plus de 0"}, pas ${measure(value, unit, metric)}.`,
+  "bad-time": ({ quantity, value_s }) => `${QUANTITIES[quantity]} doit valoir 0 ou plus, pas ${measure(value_s, "s")}.`,
+  "bad-exposures": ({ previous_mm, next_mm }) =>
+    `Les expositions mesurées doivent être dans l’ordre des épaisseurs, chacune plus épaisse que la précédente, mais ${mm(next_mm)} suit ${mm(previous_mm)}.`,
+  "bad-options": ({ system }) => `Les options sont illisibles : ${ended(system)}`,
+  "unknown-printer": ({ printer, known }) => `Il n’y a pas d’imprimante ${printer} ; sont connues ${known.join(", ")}.`,
+  "pixels-without-pitch": () => "Les pixels et leur pas en x et y vont ensemble ; donnez les deux, ou un seul pas pour x et y.",
+  "bad-antialias": ({ antialias, known }) => `L’anticrénelage a les niveaux ${known.join(", ")}, pas ${exact(antialias)}.`,
+  "bad-weight-min": ({ weight_min }) => `Le poids minimal doit être entre 0 et 1, pas ${exact(weight_min)}.`,
+  "bad-directions": ({ directions, most }) => `Une recherche examine de 1 à ${count(most)} directions, pas ${count(directions)}.`,
+  "bad-alpha": ({ alpha }) => `Alpha doit être entre 0 et 1, pas ${exact(alpha)}.`,
+  "several-targets": () => "Donnez une tolérance, le plus grand nombre de couches ou la plus longue durée, et une seule des trois.",
+  "printer-layers": ({ model, printer_min_mm, printer_max_mm, layer_min_mm, layer_max_mm }) =>
+    `La ${model} imprime des couches de ${exact(printer_min_mm)} à ${mm(printer_max_mm)}, pas de ${exact(layer_min_mm)} à ${mm(layer_max_mm)} ; ` +
+    "restez dans ces limites, ou choisissez une autre imprimante.",
+  "printer-step": ({ model, printer_step_mm, step_mm }) =>
+    `La ${model} avance par pas de ${mm(printer_step_mm)}, et ${mm(step_mm)} n’en est pas un nombre entier ; prenez un multiple de ${mm(printer_step_mm)}.`,
+  "grid-bad-size": ({ width, height, max_side, max_pixels }) =>
+    `Un masque de ${count(width)} × ${count(height)} pixels n’est pas possible : il peut y en avoir de 1 à ${count(max_side)} par côté, et ${count(max_pixels)} en tout.`,
+  "grid-too-fine": ({ width, height, max_side, max_pixels }) =>
+    `L’anticrénelage demande ${count(width)} × ${count(height)} rayons, et il peut y en avoir ${count(max_side)} par côté, et ${count(max_pixels)} en tout ; choisissez un niveau plus bas.`,
+  "model-too-large": ({ model_mm_x, model_mm_y, grid_mm_x, grid_mm_y, fitting_scale }) =>
+    `Le modèle mesure ${exact(model_mm_x)} × ${mm(model_mm_y)}, mais la grille ne couvre que ${exact(grid_mm_x)} × ${mm(grid_mm_y)} ; une échelle de ${exact(fitting_scale)} convient.`,
+  "model-too-high": ({ model_mm_z, printer_mm_z, fitting_scale }) =>
+    `Le modèle a ${mm(model_mm_z)} de haut, mais l’imprimante n’imprime que ${mm(printer_mm_z)} ; une échelle de ${exact(fitting_scale)} convient.`,
+  "too-many-bins": ({ height_mm, bin_mm }) =>
+    `${mm(height_mm)} en intervalles de ${mm(bin_mm)}, c’est trop ; choisissez un intervalle plus grand.`,
+  "not-whole-bins": ({ quantity, length_mm, bin_mm }) =>
+    `${QUANTITIES[quantity]} de ${mm(length_mm)} n’est pas un nombre entier d’intervalles de ${mm(bin_mm)} ; choisissez un intervalle qui le divise.`,
+  "layer-range-empty": ({ layer_min_mm, layer_max_mm, step_mm }) =>
+    `Aucun nombre entier de pas de ${mm(step_mm)} n’est entre les épaisseurs ${exact(layer_min_mm)} et ${mm(layer_max_mm)} ; ` +
+    "élargissez l’intervalle ou choisissez un pas plus petit.",
+  "layer-too-thick": ({ layer_mm, height_mm }) =>
+    `Des couches de ${mm(layer_mm)} sont trop épaisses pour un modèle de ${mm(height_mm)} de haut.`,
+  "layers-do-not-fit": ({ from_mm, to_mm, layer_min_mm, layer_max_mm }) =>
+    `Des couches de ${exact(layer_min_mm)} à ${mm(layer_max_mm)} ne font pas la hauteur de ${exact(from_mm)} à ${mm(to_mm)} ; ` +
+    "élargissez l’intervalle d’épaisseurs ou déplacez les plans.",
+  "bad-range": ({ from_mm, to_mm }) =>
+    `L’intervalle de hauteur de ${exact(from_mm)} à ${mm(to_mm)} est vide ou en chevauche un autre ; donnez des intervalles croissants et séparés.`,
+  "bad-plane": ({ z_mm, height_mm }) => `Il ne peut y avoir de plan à ${mm(z_mm)} dans un modèle de ${mm(height_mm)} de haut.`,
+  infeasible: ({ from_mm, to_mm, tolerance, layer_min_mm }, metric) =>
+    `Aucun plan ne garde l’erreur de chaque couche sous ${error(metric, tolerance)} : de z = ${exact(from_mm)} à ${mm(to_mm)}, même une couche de ${mm(layer_min_mm)} la dépasse.`,
+  "out-of-reach": (detail) =>
+    "layers" in detail
+      ? `Aucun plan n’a au plus ${count(detail.layers)} couches ; il en faut au moins ${count(detail.least_layers)}.`
+      : `Aucun plan n’imprime en au plus ${measure(detail.time_s, "s")} ; il faut au moins ${measure(detail.least_time_s, "s")}.`,
+  "no-plan": () => "Il n’y a pas encore de plan ; faites-en un d’abord.",
+  "no-layer": ({ layer, layers }) => `Il n’y a pas de couche ${count(layer)} ; le plan en a ${count(layers)}, à partir de 0.`,
+  "no-hits": ({ pitch_mm }) =>
+    `Aucun pixel de ${mm(pitch_mm)} ne touche le modèle, trop petit ou trop fin pour eux ; choisissez des pixels plus petits.`,
+  "too-many-facets": ({ facets, most }) => `${count(facets)} facettes, c’est trop ; ${count(most)} au plus peuvent être tranchées.`,
+  "out-of-memory": ({ hits, needed_bytes }) =>
+    `Le modèle demande ${count(needed_bytes)} octets pour ${count(hits)} points de surface à cette résolution, plus qu’il n’y en a ; choisissez moins de rayons.`,
+  "no-gpu": ({ system }) => `Pas de GPU utilisable : ${ended(system)}`,
+  "gpu-emulated": ({ adapter }) => `Pas de GPU utilisable : ${adapter} est émulé par logiciel.`,
+  "gpu-too-small": ({ facets, needed_bytes, limit_bytes }) =>
+    `${counted(facets, FACETS)} demandent un tampon de GPU de ${count(needed_bytes)} octets, et ce GPU en offre ${count(limit_bytes)} ; utilisez le CPU.`,
+  "gpu-failed": ({ fault, system }) => `Le GPU a échoué : ${FAULTS[fault]}${system === null ? "" : ` (${system})`}.`,
+  "all-black": () =>
+    "Tous les masques sont noirs : le modèle n’enferme rien que le milieu d’une couche rencontre ; vérifiez le modèle, ou choisissez des couches plus fines.",
+  "uniform-only": ({ format }) =>
+    `Les fichiers ${format} ont une seule épaisseur pour toutes les couches, et ce plan en a plusieurs ; choisissez un autre format, ou des couches uniformes.`,
+  "weights-not-weights": () => "Ce n’est pas un fichier de poids : il ne commence pas par CUSPWT01, ou il est tronqué.",
+  "weights-other-mesh": ({ weights_facets, mesh_facets }) =>
+    `Ces poids sont d’un autre maillage, de ${counted(weights_facets, FACETS)} ; celui-ci en a ${count(mesh_facets)} ; ` +
+    "peignez-le à nouveau, ou ouvrez le modèle pour lequel ils ont été faits.",
+  "weights-out-of-range": ({ facet, weight }) =>
+    `Le poids de la facette ${count(facet)} est ${exact(weight)}, et les poids vont de 0 à 1.`,
+  "archive-write": ({ system }) => `Le fichier d’impression n’a pas pu être écrit : ${ended(system)}`,
+  cancelled: () => "Annulé.",
+  "bad-attribute": ({ attribute, value, known }) =>
+    `L’attribut ${attribute} ne peut être ${String(value)}${known === undefined ? "" : ` ; sont connus ${known.join(", ")}`}.`,
+  "part-failed": ({ part, system }) => `Une partie de la page n’a pas pu être chargée : ${part} (${system}).`,
+  "no-browser": () => "Il n’y a pas de navigateur ici ; appelez cela dans la page.",
+  "no-model": () => "Il n’y a pas encore de modèle ; ouvrez-en un d’abord.",
+  "file-unreadable": () => "Il a peut-être été déplacé, modifié ou verrouillé. Choisissez-le à nouveau.",
+  "fetch-failed": (detail) =>
+    "status" in detail ? `Aucun fichier à cette adresse (HTTP ${detail.status}).` : `L’adresse n’a pas répondu (${detail.system}).`,
+  "start-failed": ({ system }) => `Rechargez la page. Sinon, ce navigateur est peut-être trop ancien pour WebAssembly. (${system})`,
+  crash: ({ system }) =>
+    `La mémoire a peut-être manqué. Il a redémarré : réessayez, avec moins de rayons si le modèle est grand. (${system})`,
+});

@@ -1,0 +1,26 @@
+import type { Format } from "../format.js";
+import type { WarningSentences } from "../sentences.js";
+import { FAULTS } from "./errors.js";
+import { LAYERS, FACETS, OMITTED, EDGES, HOLES } from "./nouns.js";
+
+export const warnings = ({ count, counted, plural, mm, height, error }: Format): WarningSentences => ({
+  "degenerate-facets": ({ facets }) => `${counted(facets, FACETS)} sans aire, ${plural(facets, OMITTED)}.`,
+  "inside-out": () => "Le maillage était à l’envers et a été retourné.",
+  "open-mesh": ({ open_edges, holes }) =>
+    `Le maillage n’est pas fermé : ${counted(open_edges, EDGES)} sans vis-à-vis, ${counted(holes, HOLES)} à plat. Regardez les masques.`,
+  "unclosed-rays": ({ unclosed, rays }) =>
+    `${count(unclosed)} rayons sur ${count(rays)} traversent des trous du maillage, bouchés à plat. Regardez les masques.`,
+  "tolerance-exceeded": ({ metric, tolerance, max_error }) =>
+    `L’erreur atteint ${error(metric, max_error)}, plus que la tolérance de ${error(metric, tolerance)}.`,
+  "tolerance-exceeded-on-mesh": ({ metric, tolerance, max_error }) =>
+    `Sur le maillage même l’erreur atteint ${error(metric, max_error)}, plus que la tolérance de ${error(metric, tolerance)} : les rayons manquent une partie de la surface.`,
+  "sampled-sections": () => "La surface se croise ; les sections sont comptées le long des rayons.",
+  "top-moved": ({ top_mm, height_mm }) =>
+    `L’impression finit à ${mm(top_mm)}, car les couches ne font pas exactement ${mm(height_mm)}.`,
+  "black-layers": ({ layers, from_mm }) =>
+    `${counted(layers, LAYERS)} du plan sans pixel éclairé, à partir de ${height(from_mm)} : des parties flottent en l’air ou sont plus fines qu’un pixel. Regardez-y les masques.`,
+  "gpu-too-small": ({ needed_bytes, limit_bytes }) =>
+    `Le CPU a fait le travail du GPU : le maillage demande un tampon de ${count(needed_bytes)} octets, et le GPU en offre ${count(limit_bytes)}.`,
+  "gpu-failed": ({ fault, system }) =>
+    `Le CPU a fait le travail du GPU, qui a échoué : ${FAULTS[fault]}${system === null ? "" : ` (${system})`}.`,
+});

@@ -1,0 +1,104 @@
+/** Every code in every language, with the details and sentences that the core has recorded. */
+import { readFile } from "node:fs/promises";
+import { expect, test } from "vitest";
+import type { ErrorDetails } from "../api/error.js";
+import { languageOf, LANGUAGES, type Format, type LanguageCode } from "./index.js";
+
+interface Sample {
+  code: string;
+  detail?: Record<string, unknown>;
+  /** What the command line says. */
+  message: string;
+}
+
+type Sentences = Readonly<Record<string, (detail: unknown, metric: string) => string>>;
+
+const core = JSON.parse(await readFile(new URL("../../../tests/problems.json", import.meta.url), "utf8")) as {
+  errors: Sample[];
+  warnings: Sample[];
+};
+
+/** Errors of this side alone. */
+const OWN: { [Code in keyof ErrorDetails]?: ErrorDetails[Code] } = {
+  "bad-attribute": { attribute: "metric", value: "beauty", known: ["cusp", "area"] },
+  "no-model": null,
+  "file-unreadable": null,
+  "fetch-failed": { status: 404 },
+  "start-failed": { system: "no WebAssembly" },
+  "part-failed": { part: "view", system: "404" },
+  "no-browser": null,
+  crash: { system: "unreachable" },
+};
+
+const own = Object.entries(OWN).map(([code, detail]) => ({ code, ...(detail !== null && { detail: detail as Record<string, unknown> }) }));
+
+const sentencesOf = (code: LanguageCode): { format: Format; errors: Sentences; warnings: Sentences } => {
+  const { format, texts } = languageOf(code);
+  return { format, errors: texts.errors as unknown as Sentences, warnings: texts.warnings as unknown as Sentences };
+};
+
+/** Details that offers show, or that no reader cares for. */
+const UNSAID = ["least_tolerance", "largest_layer_min_mm", "may_be_zero", "planner"];
+/** Words that a catalogue translates. */
+const TRANSLATED = ["kind", "expected", "quantity", "fault", "metric", "unit"];
+
+/** Whether a sentence has a figure as the language writes it, or a name as it is. */
+function says(sentence: string, value: unknown, format: Format): boolean {
+  if (Array.isArray(value)) return value.every((item) => says(sentence, item, format));
+  if (typeof value !== "number") return sentence.includes(String(value));
+  return [format.exact, format.bareHeight, format.tick].some((write) => sentence.includes(write(value)));
+}
+
+function check(sentence: string, detail: Record<string, unknown> | undefined, format: Format): void {
+  expect(sentence).toMatch(/[.?!。？！）)]$/u);
+  expect(sentence).not.toMatch(/undefined|NaN|\bnull\b|\[object/u);
+  for (const [key, value] of Object.entries(detail ?? {})) {
+    if (UNSAID.includes(key) || TRANSLATED.includes(key)) continue;
+    expect(says(sentence, value, format), `${key}: ${String(value)} in: ${sentence}`).toBe(true);
+  }
+}
+
+test("the core and this side together have every code, and nobody has another", () => {
+  const { errors, warnings } = sentencesOf("en");
+  const codes = (samples: { code: string }[]): string[] => [...new Set(samples.map(({ code }) => code))].sort();
+  expect(Object.keys(errors).sort()).toEqual(codes([...core.errors, ...own]));
+  expect(Object.keys(warnings).sort()).toEqual(codes(core.warnings));
+});
+
+test.each(LANGUAGES)("every failure and warning is a sentence with its figures: %s", (language) => {
+  const { format, errors, warnings } = sentencesOf(language);
+  for (const { code, detail } of [...core.errors, ...own]) check(errors[code]?.(detail ?? null, "cusp") ?? "", detail, format);
+  for (const { code, detail } of core.warnings) check(warnings[code]?.(detail ?? null, "cusp") ?? "", detail, format);
+});
+
+test("no two languages say the same", () => {
+  for (const { code, detail } of [...core.errors, ...core.warnings]) {
+    const said = LANGUAGES.map((language) => {
+      const { errors, warnings } = sentencesOf(language);
+      return (errors[code] ?? warnings[code])?.(detail ?? null, "cusp");
+    });
+    expect(new Set(said).size, code).toBe(LANGUAGES.length);
+  }
+});
+
+/** A sentence without what the two sides write differently: its figures, its capital and its full stop. */
+const bare = (sentence: string): string =>
+  sentence
+    .toLowerCase()
+    .replace(/[\d.,]*\d/gu, "#")
+    .replaceAll("\u00a0", " ")
+    .replace(/[[\]]/gu, "")
+    .replace(/\.$/u, "");
+
+test("in English the page says what the command line says", () => {
+  const { errors, warnings } = sentencesOf("en");
+  for (const { code, detail, message } of core.errors) {
+    const said = bare(errors[code]?.(detail ?? null, "cusp") ?? "");
+    // What would help is offered.
+    if (code === "infeasible") expect(said).toContain("even a layer of # mm exceeds it");
+    else expect(said).toBe(bare(message));
+  }
+  for (const { code, detail, message } of core.warnings) {
+    expect(bare(warnings[code]?.(detail ?? null, "cusp") ?? "")).toBe(bare(message));
+  }
+});

@@ -1,0 +1,139 @@
+import type { Format } from "../format.js";
+import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type GpuFaults, type QuantityNouns, type StlNouns } from "../sentences.js";
+
+const QUANTITIES: QuantityNouns = {
+  pitch: "像素间距",
+  bin: "区间高度",
+  step: "电机步距",
+  layer: "层厚",
+  "layer-min": "最小层厚",
+  "layer-max": "最大层厚",
+  tolerance: "公差",
+  "resin-layer": "树脂的层厚",
+  penetration: "透射深度",
+  exposure: "曝光时间",
+  "bottom-exposure": "底层曝光时间",
+  wait: "层间等待时间",
+  lift: "抬升高度",
+  "lift-speed": "抬升速度",
+  "return-speed": "回程速度",
+  density: "树脂密度",
+};
+
+const EXPECTED: StlNouns = {
+  ...STL_KEYWORDS,
+  "solid-or-end": "`solid` 或文件结尾",
+  "facet-or-endsolid": "`facet` 或 `endsolid`",
+  "normal-number": "法线的一个数",
+  coordinate: "一个坐标",
+};
+
+export const FAULTS: GpuFaults = {
+  error: "系统报告错误",
+  "device-lost": "设备丢失",
+  "too-many-hits": "模型的表面点超出其缓冲区",
+  "bad-offsets": "返回的偏移量不一致",
+  "out-of-memory": "内存不足",
+};
+
+export const errors = ({ count, exact, mm, measure, error }: Format): ErrorSentences => ({
+  "stl-empty": () => "文件是空的；请重新将模型导出为 STL。",
+  "stl-not-stl": () => "这不是 STL 文件；请将模型导出为二进制或文本 STL。",
+  "other-file-kind": ({ kind }) =>
+    `这是 ${FILE_KINDS[kind]} 文件，不是 STL；${adviceOn(kind, {
+      model: "请将模型导出为 STL",
+      packed: "请先解压，再打开其中的 STL",
+      page: "请下载模型本身；该地址可能需要登录，或指向介绍模型的页面",
+    })}。`,
+  "stl-truncated": (detail) =>
+    "line" in detail
+      ? `STL 不完整：文件止于第 ${count(detail.line)} 行，其后应为${EXPECTED[detail.expected]}。`
+      : `STL 不完整：文件头声明 ${count(detail.declared_facets)} 个三角面，需要 ${count(detail.expected_bytes)} 字节，` +
+        `但文件止于第 ${count(detail.found_bytes)} 字节；请重新复制或导出。`,
+  "stl-wrong-facet-count": ({ declared_facets, found_facets }) =>
+    `三角面数有误：文件头第 80 字节处声明 ${count(declared_facets)} 个，但其后有 ${count(found_facets)} 个；请重新导出模型。`,
+  "stl-not-finite": (detail) =>
+    "line" in detail
+      ? `第 ${count(detail.line)} 行：\`${detail.text}\` 不是有限数；请重新导出模型。`
+      : `第 ${count(detail.byte)} 字节处的坐标（三角面 ${count(detail.facet)}）不是有限数；请重新导出模型。`,
+  "stl-syntax": ({ line, expected, found }) =>
+    `第 ${count(line)} 行：应为${EXPECTED[expected]}，却是 \`${found}\`；请重新导出模型。`,
+  "stl-no-facets": () => "STL 中没有三角面；请重新导出模型。",
+  "mesh-no-area": ({ facets }) => `${count(facets)} 个三角面都没有面积；请重新导出模型。`,
+  "mesh-zero-height": () => "模型没有高度；它是平的，还是躺在 z = 常数的平面上？",
+  "mesh-overflow": () => "模型过大：在此高度下其坐标超出可计算范围。",
+  "bad-height": ({ height_mm }) => `高度必须大于 0，而不是 ${mm(height_mm)}。`,
+  "bad-rotation": () => "旋转必须是长度不为零的四元数 x, y, z, w。",
+  "bad-length": ({ quantity, value, unit, may_be_zero }, metric) =>
+    `${QUANTITIES[quantity]}必须${may_be_zero ? "不小于 0" : "大于 0"}，而不是 ${measure(value, unit, metric)}。`,
+  "bad-time": ({ quantity, value_s }) => `${QUANTITIES[quantity]}必须不小于 0，而不是 ${measure(value_s, "s")}。`,
+  "bad-exposures": ({ previous_mm, next_mm }) =>
+    `测得的曝光必须按厚度排列，后一项比前一项厚，但 ${mm(previous_mm)} 之后是 ${mm(next_mm)}。`,
+  "bad-options": ({ system }) => `无法读取选项：${ended(system)}`,
+  "unknown-printer": ({ printer, known }) => `没有名为 ${printer} 的打印机；已知的有 ${known.join(", ")}。`,
+  "pixels-without-pitch": () => "像素与其 x、y 间距须一并给出；请两者都给，或给出 x、y 共用的一个间距。",
+  "bad-antialias": ({ antialias, known }) => `抗锯齿级别有 ${known.join(", ")}，没有 ${exact(antialias)}。`,
+  "bad-weight-min": ({ weight_min }) => `最小权重必须在 0 到 1 之间，而不是 ${exact(weight_min)}。`,
+  "bad-directions": ({ directions, most }) => `一次搜索可查看 1 到 ${count(most)} 个方向，而不是 ${count(directions)} 个。`,
+  "bad-alpha": ({ alpha }) => `alpha 必须在 0 到 1 之间，而不是 ${exact(alpha)}。`,
+  "several-targets": () => "请给出公差、最多层数或最长时间，且只给其中一项。",
+  "printer-layers": ({ model, printer_min_mm, printer_max_mm, layer_min_mm, layer_max_mm }) =>
+    `${model} 可打印 ${exact(printer_min_mm)} 到 ${mm(printer_max_mm)} 的层，而不是 ${exact(layer_min_mm)} 到 ${mm(layer_max_mm)}；` +
+    "请留在此范围内，或选择其他打印机。",
+  "printer-step": ({ model, printer_step_mm, step_mm }) =>
+    `${model} 的步距为 ${mm(printer_step_mm)}，${mm(step_mm)} 不是其整数倍；请使用 ${mm(printer_step_mm)} 的倍数。`,
+  "grid-bad-size": ({ width, height, max_side, max_pixels }) =>
+    `不可能有 ${count(width)} × ${count(height)} 像素的掩膜：每边可有 1 到 ${count(max_side)} 个，总共至多 ${count(max_pixels)} 个。`,
+  "grid-too-fine": ({ width, height, max_side, max_pixels }) =>
+    `抗锯齿需要 ${count(width)} × ${count(height)} 条光线，而每边至多 ${count(max_side)} 条，总共至多 ${count(max_pixels)} 条；请选择更低的级别。`,
+  "model-too-large": ({ model_mm_x, model_mm_y, grid_mm_x, grid_mm_y, fitting_scale }) =>
+    `模型为 ${exact(model_mm_x)} × ${mm(model_mm_y)}，而画面只有 ${exact(grid_mm_x)} × ${mm(grid_mm_y)}；按 ${exact(fitting_scale)} 的比例可放下。`,
+  "model-too-high": ({ model_mm_z, printer_mm_z, fitting_scale }) =>
+    `模型高 ${mm(model_mm_z)}，而打印机只能打印 ${mm(printer_mm_z)}；按 ${exact(fitting_scale)} 的比例可放下。`,
+  "too-many-bins": ({ height_mm, bin_mm }) => `${mm(height_mm)} 按 ${mm(bin_mm)} 划分的区间过多；请选择更大的区间。`,
+  "not-whole-bins": ({ quantity, length_mm, bin_mm }) =>
+    `${QUANTITIES[quantity]} ${mm(length_mm)} 不是区间 ${mm(bin_mm)} 的整数倍；请选择能整除它的区间。`,
+  "layer-range-empty": ({ layer_min_mm, layer_max_mm, step_mm }) =>
+    `层厚 ${exact(layer_min_mm)} 与 ${mm(layer_max_mm)} 之间没有整数个 ${mm(step_mm)} 的步距；请扩大范围，或选择更小的步距。`,
+  "layer-too-thick": ({ layer_mm, height_mm }) => `${mm(layer_mm)} 的层对高 ${mm(height_mm)} 的模型来说太厚。`,
+  "layers-do-not-fit": ({ from_mm, to_mm, layer_min_mm, layer_max_mm }) =>
+    `${exact(layer_min_mm)} 到 ${mm(layer_max_mm)} 的层无法凑成从 ${exact(from_mm)} 到 ${mm(to_mm)} 的高度；请扩大层厚范围，或移动分层面。`,
+  "bad-range": ({ from_mm, to_mm }) =>
+    `从 ${exact(from_mm)} 到 ${mm(to_mm)} 的高度范围为空，或与另一范围重叠；请自下而上给出互不重叠的范围。`,
+  "bad-plane": ({ z_mm, height_mm }) => `高 ${mm(height_mm)} 的模型中，${mm(z_mm)} 处不能有分层面。`,
+  infeasible: ({ from_mm, to_mm, tolerance, layer_min_mm }, metric) =>
+    `没有方案能使每层误差不超过 ${error(metric, tolerance)}：从 z = ${exact(from_mm)} 到 ${mm(to_mm)}，即使一层只有 ${mm(layer_min_mm)} 也会超出。`,
+  "out-of-reach": (detail) =>
+    "layers" in detail
+      ? `没有至多 ${count(detail.layers)} 层的方案；至少需要 ${count(detail.least_layers)} 层。`
+      : `没有能在 ${measure(detail.time_s, "s")} 内打印的方案；至少需要 ${measure(detail.least_time_s, "s")}。`,
+  "no-plan": () => "还没有方案；请先制定一个。",
+  "no-layer": ({ layer, layers }) => `没有第 ${count(layer)} 层；方案有 ${count(layers)} 层，从 0 数起。`,
+  "no-hits": ({ pitch_mm }) => `没有 ${mm(pitch_mm)} 的像素碰到模型，模型对它们来说太小或太薄；请选择更小的像素。`,
+  "too-many-facets": ({ facets, most }) => `${count(facets)} 个三角面过多；至多可切 ${count(most)} 个。`,
+  "out-of-memory": ({ hits, needed_bytes }) =>
+    `在此分辨率下，模型的 ${count(hits)} 个表面点需要 ${count(needed_bytes)} 字节，超出现有内存；请减少光线。`,
+  "no-gpu": ({ system }) => `没有可用的 GPU：${ended(system)}`,
+  "gpu-emulated": ({ adapter }) => `没有可用的 GPU：${adapter} 由软件模拟。`,
+  "gpu-too-small": ({ facets, needed_bytes, limit_bytes }) =>
+    `${count(facets)} 个三角面需要 ${count(needed_bytes)} 字节的 GPU 缓冲区，而此 GPU 只有 ${count(limit_bytes)}；请使用 CPU。`,
+  "gpu-failed": ({ fault, system }) => `GPU 出错：${FAULTS[fault]}${system === null ? "" : `（${system}）`}。`,
+  "all-black": () => "所有掩膜都是黑的：模型没有包围层中间所遇的任何部分；请检查模型，或选择更薄的层。",
+  "uniform-only": ({ format }) => `${format} 文件的所有层只有一种厚度，而本方案有多种；请选择其他格式，或使用均匀分层。`,
+  "weights-not-weights": () => "这不是权重文件：开头不是 CUSPWT01，或文件不完整。",
+  "weights-other-mesh": ({ weights_facets, mesh_facets }) =>
+    `这些权重属于另一个有 ${count(weights_facets)} 个三角面的网格；当前网格有 ${count(mesh_facets)} 个；请重新涂绘，或打开制作权重时所用的模型。`,
+  "weights-out-of-range": ({ facet, weight }) => `三角面 ${count(facet)} 的权重是 ${exact(weight)}，而权重在 0 到 1 之间。`,
+  "archive-write": ({ system }) => `无法写入打印文件：${ended(system)}`,
+  cancelled: () => "已取消。",
+  "bad-attribute": ({ attribute, value, known }) =>
+    `属性 ${attribute} 不能是 ${String(value)}${known === undefined ? "" : `；已知的有 ${known.join(", ")}`}。`,
+  "part-failed": ({ part, system }) => `页面的一部分无法加载：${part}（${system}）。`,
+  "no-browser": () => "这里没有浏览器；请在页面中调用。",
+  "no-model": () => "还没有模型；请先打开一个。",
+  "file-unreadable": () => "文件可能已被移动、更改或锁定。请重新选择。",
+  "fetch-failed": (detail) =>
+    "status" in detail ? `该地址没有返回文件（HTTP ${detail.status}）。` : `该地址没有回应（${detail.system}）。`,
+  "start-failed": ({ system }) => `请重新加载页面。若无效，此浏览器可能过旧，不支持 WebAssembly。（${system}）`,
+  crash: ({ system }) => `可能内存不足。程序已重新启动：请再试一次，模型较大时请减少光线。（${system}）`,
+});

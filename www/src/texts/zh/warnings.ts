@@ -1,0 +1,22 @@
+import type { Format } from "../format.js";
+import type { WarningSentences } from "../sentences.js";
+import { FAULTS } from "./errors.js";
+
+export const warnings = ({ count, mm, height, error }: Format): WarningSentences => ({
+  "degenerate-facets": ({ facets }) => `已略去 ${count(facets)} 个没有面积的三角面。`,
+  "inside-out": () => "网格内外颠倒，已翻转。",
+  "open-mesh": ({ open_edges, holes }) =>
+    `网格不封闭：${count(open_edges)} 条边没有对边，${count(holes)} 个孔洞已用平面封上。请查看掩膜。`,
+  "unclosed-rays": ({ unclosed, rays }) => `${count(rays)} 条光线中有 ${count(unclosed)} 条穿过用平面封上的孔洞。请查看掩膜。`,
+  "tolerance-exceeded": ({ metric, tolerance, max_error }) =>
+    `误差达到 ${error(metric, max_error)}，超过公差 ${error(metric, tolerance)}。`,
+  "tolerance-exceeded-on-mesh": ({ metric, tolerance, max_error }) =>
+    `网格上的误差达到 ${error(metric, max_error)}，超过公差 ${error(metric, tolerance)}：光线未见到部分表面。`,
+  "sampled-sections": () => "表面自相交；截面沿光线计数。",
+  "top-moved": ({ top_mm, height_mm }) => `打印止于 ${mm(top_mm)}，因为各层无法恰好凑成 ${mm(height_mm)}。`,
+  "black-layers": ({ layers, from_mm }) =>
+    `方案中自 ${height(from_mm)} 起有 ${count(layers)} 层没有任何曝光像素：部分结构悬空，或比像素还薄。请查看该处的掩膜。`,
+  "gpu-too-small": ({ needed_bytes, limit_bytes }) =>
+    `由 CPU 代替 GPU 计算：网格需要 ${count(needed_bytes)} 字节的缓冲区，而 GPU 只有 ${count(limit_bytes)}。`,
+  "gpu-failed": ({ fault, system }) => `GPU 出错，由 CPU 代为计算：${FAULTS[fault]}${system === null ? "" : `（${system}）`}。`,
+});
