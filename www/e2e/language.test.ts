@@ -61,7 +61,9 @@ const drawn = (page: Page): Promise<number | null> =>
     return pixels?.filter((value, i) => i % 4 === 3 && value > 0).length ?? null;
   });
 
-const expectChart = (page: Page): Promise<void> => expect.poll(() => drawn(page)).toBeGreaterThan(10_000);
+async function expectChart(page: Page): Promise<void> {
+  await expect.poll(() => drawn(page)).toBeGreaterThan(10_000);
+}
 
 for (const language of ["C", "en-US@posix"]) {
   test(`the page shows a plan and its chart where the language is ${language}`, async () => {

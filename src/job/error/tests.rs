@@ -273,8 +273,11 @@ fn samples() -> String {
         sample["message"] = sentence.into();
         sample
     }
+    // Shards are merged on the command line only.
+    let errors = errors().into_iter();
+    let errors = errors.filter(|error| !matches!(error, Error::Merge(_)));
     let samples = serde_json::json!({
-        "errors": errors().iter().map(|it| sample(it, it.to_string())).collect::<Vec<_>>(),
+        "errors": errors.map(|it| sample(&it, it.to_string())).collect::<Vec<_>>(),
         "warnings": warnings().iter().map(|it| sample(it, it.to_string())).collect::<Vec<_>>(),
     });
     serde_json::to_string_pretty(&samples).unwrap() + "\n"

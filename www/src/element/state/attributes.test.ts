@@ -40,7 +40,6 @@ test.each([
   ["tolerance", -0.05],
   ["layer-min", "7"],
   ["layer-min", "0.2"],
-  ["layer-min", "0.0503"],
   ["layer-max", "thick"],
   ["layer-max", 0.02],
   ["printer", 7],

@@ -66,8 +66,6 @@ const KINDS: Readonly<Record<ErrorCode, Kind>> = {
   "printer-layers": "badOptions",
   "printer-step": "badOptions",
   "bad-attribute": "badOptions",
-  "search-directions": "badOptions",
-  "search-alpha": "badOptions",
   "grid-bad-size": "tooFine",
   "grid-too-fine": "tooFine",
   "too-many-bins": "tooFine",

@@ -78,6 +78,8 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
   "bad-weight-min": ({ weight_min }) => `Das kleinste Gewicht muss zwischen 0 und 1 liegen, nicht bei ${exact(weight_min)}.`,
   "bad-directions": ({ directions, most }) => `Eine Suche prüft 1 bis ${count(most)} Richtungen, nicht ${count(directions)}.`,
   "bad-alpha": ({ alpha }) => `Alpha muss zwischen 0 und 1 liegen, nicht bei ${exact(alpha)}.`,
+  "search-task": ({ task }) => `Das Ergebnis der Aufgabe ${exact(task)} gehört zu keiner offenen Aufgabe; geben Sie jedes Ergebnis einmal ab.`,
+  "search-candidate": ({ place }) => `Kandidat ${exact(place)} wurde nicht für seine Richtung gemessen.`,
   "several-targets": () => "Geben Sie eine Toleranz, die höchste Zahl von Schichten oder die längste Zeit an, und nur eines davon.",
   "printer-layers": ({ model, printer_min_mm, printer_max_mm, layer_min_mm, layer_max_mm }) =>
     `Der ${model} druckt Schichten von ${exact(printer_min_mm)} bis ${mm(printer_max_mm)}, nicht von ${exact(layer_min_mm)} bis ${mm(layer_max_mm)}; ` +

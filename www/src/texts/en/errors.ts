@@ -78,6 +78,8 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
   "bad-weight-min": ({ weight_min }) => `The minimum weight must be from 0 to 1, not ${exact(weight_min)}.`,
   "bad-directions": ({ directions, most }) => `A search looks along 1 to ${count(most)} directions, not ${count(directions)}.`,
   "bad-alpha": ({ alpha }) => `Alpha must be from 0 to 1, not ${exact(alpha)}.`,
+  "search-task": ({ task }) => `Task ${exact(task)} is not out: hand in each task's result once.`,
+  "search-candidate": ({ place }) => `Candidate ${exact(place)} is not one that was measured for its direction.`,
   "several-targets": () => "Give a tolerance, the most layers or the longest time, and only one of them.",
   "printer-layers": ({ model, printer_min_mm, printer_max_mm, layer_min_mm, layer_max_mm }) =>
     `The ${model} prints layers of ${exact(printer_min_mm)} to ${mm(printer_max_mm)}, not ${exact(layer_min_mm)} to ${mm(layer_max_mm)}; ` +

@@ -77,6 +77,8 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
   "bad-weight-min": ({ weight_min }) => `El peso mínimo debe estar entre 0 y 1, no ser ${exact(weight_min)}.`,
   "bad-directions": ({ directions, most }) => `Una búsqueda mira de 1 a ${count(most)} direcciones, no ${count(directions)}.`,
   "bad-alpha": ({ alpha }) => `Alfa debe estar entre 0 y 1, no ser ${exact(alpha)}.`,
+  "search-task": ({ task }) => `El resultado de la tarea ${exact(task)} no es de ninguna tarea abierta; entregue cada resultado una vez.`,
+  "search-candidate": ({ place }) => `El candidato ${exact(place)} no se midió para su dirección.`,
   "several-targets": () => "Indique una tolerancia, el máximo de capas o el tiempo más largo, y solo una de las tres cosas.",
   "printer-layers": ({ model, printer_min_mm, printer_max_mm, layer_min_mm, layer_max_mm }) =>
     `La ${model} imprime capas de ${exact(printer_min_mm)} a ${mm(printer_max_mm)}, no de ${exact(layer_min_mm)} a ${mm(layer_max_mm)}; ` +

@@ -77,6 +77,8 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
   "bad-weight-min": ({ weight_min }) => `Le poids minimal doit être entre 0 et 1, pas ${exact(weight_min)}.`,
   "bad-directions": ({ directions, most }) => `Une recherche examine de 1 à ${count(most)} directions, pas ${count(directions)}.`,
   "bad-alpha": ({ alpha }) => `Alpha doit être entre 0 et 1, pas ${exact(alpha)}.`,
+  "search-task": ({ task }) => `Le résultat de la tâche ${exact(task)} ne correspond à aucune tâche en cours ; remettez chaque résultat une seule fois.`,
+  "search-candidate": ({ place }) => `Le candidat ${exact(place)} n’a pas été mesuré pour sa direction.`,
   "several-targets": () => "Donnez une tolérance, le plus grand nombre de couches ou la plus longue durée, et une seule des trois.",
   "printer-layers": ({ model, printer_min_mm, printer_max_mm, layer_min_mm, layer_max_mm }) =>
     `La ${model} imprime des couches de ${exact(printer_min_mm)} à ${mm(printer_max_mm)}, pas de ${exact(layer_min_mm)} à ${mm(layer_max_mm)} ; ` +

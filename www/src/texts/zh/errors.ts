@@ -76,6 +76,8 @@ export const errors = ({ count, exact, mm, measure, error }: Format): ErrorSente
   "bad-weight-min": ({ weight_min }) => `最小权重必须在 0 到 1 之间，而不是 ${exact(weight_min)}。`,
   "bad-directions": ({ directions, most }) => `一次搜索可查看 1 到 ${count(most)} 个方向，而不是 ${count(directions)} 个。`,
   "bad-alpha": ({ alpha }) => `alpha 必须在 0 到 1 之间，而不是 ${exact(alpha)}。`,
+  "search-task": ({ task }) => `任务 ${exact(task)} 的结果不属于任何未完成的任务；每个结果只应提交一次。`,
+  "search-candidate": ({ place }) => `候选 ${exact(place)} 不是按其方向测量的。`,
   "several-targets": () => "请给出公差、最多层数或最长时间，且只给其中一项。",
   "printer-layers": ({ model, printer_min_mm, printer_max_mm, layer_min_mm, layer_max_mm }) =>
     `${model} 可打印 ${exact(printer_min_mm)} 到 ${mm(printer_max_mm)} 的层，而不是 ${exact(layer_min_mm)} 到 ${mm(layer_max_mm)}；` +
