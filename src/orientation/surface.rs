@@ -41,7 +41,7 @@ pub(crate) struct Surface {
     /// Unit normals of facets, one list an axis.
     normals: [Vec<f32>; 3],
     areas_mm2: Vec<f32>,
-    surface_mm2: f64,
+    total_mm2: f64,
 }
 
 /// A model as it stands in a direction.
@@ -100,7 +100,7 @@ impl Surface {
             vertices_mm,
             facets,
             normals,
-            surface_mm2: areas_mm2.iter().copied().map(f64::from).sum(),
+            total_mm2: areas_mm2.iter().copied().map(f64::from).sum(),
             areas_mm2,
         }
     }
@@ -140,7 +140,7 @@ impl Surface {
         }
         let is_axis = |normal: DVec3| normal.abs().max_element() >= AXIS;
         flats.retain(|&(normal, area_mm2)| {
-            area_mm2 >= FLAT_PART * self.surface_mm2 && !is_axis(normal)
+            area_mm2 >= FLAT_PART * self.total_mm2 && !is_axis(normal)
         });
         let largest = ascending(flats.iter().map(|(_, area_mm2)| -area_mm2)).into_iter();
         largest.take(FLATS).map(|flat| flats[flat].0).collect()
@@ -264,7 +264,7 @@ impl Surface {
             layers: plan.layers(),
             print_time_s,
             max_error,
-            roughness_mm: roughness / self.surface_mm2 * facet_bins.bins.size_mm,
+            roughness_mm: roughness / self.total_mm2 * facet_bins.bins.size_mm,
             overhang_mm2,
         }
     }
