@@ -22,10 +22,10 @@ use crate::resin::Resin;
 /// The encoder of a format.
 fn encoder(format: Format) -> &'static dyn Encoder {
     match format {
-        Format::Png => &zip::Zip(zip::png::Png),
-        Format::Chitubox => &zip::Zip(zip::chitubox::Chitubox),
-        Format::Uvj => &zip::Zip(zip::uvj::Uvj),
-        Format::Sl1 => &zip::Zip(zip::sl1::Sl1),
+        Format::Png => &zip::Zip(&zip::png::Png),
+        Format::Chitubox => &zip::Zip(&zip::chitubox::Chitubox),
+        Format::Uvj => &zip::Zip(&zip::uvj::Uvj),
+        Format::Sl1 => &zip::Zip(&zip::sl1::Sl1),
     }
 }
 

@@ -327,11 +327,10 @@ impl Report {
     /// # Errors
     /// None that a report causes.
     pub(crate) fn manifest(&self) -> Result<Value, serde_json::Error> {
-        let mut report = self.clone();
-        report
-            .warnings
-            .retain(|warning| !warning.is_of_the_machine());
-        let mut manifest = serde_json::to_value(report)?;
+        let mut manifest = serde_json::to_value(self)?;
+        let warnings = self.warnings.iter();
+        let warnings = warnings.filter(|warning| !warning.is_of_the_machine());
+        manifest["warnings"] = serde_json::to_value(warnings.collect::<Vec<_>>())?;
         if let Some(manifest) = manifest.as_object_mut() {
             manifest.retain(|key, _| !OF_THE_MACHINE.contains(&&**key));
         }

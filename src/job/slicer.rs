@@ -236,15 +236,14 @@ impl Slicer {
         let holds = |planned: &Arc<Planned>| {
             Arc::ptr_eq(&planned.of, &measured) && planned.layering == job.layering
         };
-        let planned = match last.map(|last| last.planned).filter(holds) {
-            Some(planned) => planned,
-            None => {
-                let clock = Instant::now();
-                let planned = Planned::new(&measured, &job.layering)
-                    .map_err(|error| options.typeable(error))?;
-                timings.plan = ms_since(clock);
-                Arc::new(planned)
-            }
+        let planned = if let Some(kept) = last.map(|last| last.planned).filter(holds) {
+            kept
+        } else {
+            let clock = Instant::now();
+            let planned = Planned::new(&measured, &job.layering);
+            let planned = planned.map_err(|error| options.typeable(error))?;
+            timings.plan = ms_since(clock);
+            Arc::new(planned)
         };
         report(progress, Stage::Plan, 1.0)?;
 

@@ -60,12 +60,12 @@ pub trait Container: Sync {
 }
 
 /// Encodes a container.
-pub struct Zip<C>(pub C);
+pub struct Zip(pub &'static dyn Container);
 
 /// Number of consecutive layers that one thread encodes. The mask is copied once for each such run.
 const RUN: usize = 8;
 
-impl<C: Container> Encoder for Zip<C> {
+impl Encoder for Zip {
     fn check(&self, job: &PrintJob<'_>) -> Result<(), ArchiveError> {
         self.0.check(job)
     }
@@ -77,7 +77,7 @@ impl<C: Container> Encoder for Zip<C> {
         writer: &mut dyn Write,
         progress: &mut Progress<'_>,
     ) -> Result<(), ArchiveError> {
-        let container = &self.0;
+        let container = self.0;
         let PrintJob {
             masks,
             plan,

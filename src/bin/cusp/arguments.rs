@@ -223,7 +223,7 @@ fn tolerance_help() -> String {
         Metric::Area,
         Metric::Volume,
     ]
-    .map(|metric| metric.default_tolerance());
+    .map(Metric::default_tolerance);
     format!(
         "Largest error of a layer, in the metric's unit [default: {cusp} mm of cusp height, {roughness} mm of roughness, \
          {area} of the area, {volume} mm³ of volume or the smallest tolerance that the model allows]"
