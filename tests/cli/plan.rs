@@ -206,7 +206,7 @@ fn the_trade_off_and_the_comparison_are_shown_and_agree_with_plans() {
     assert_fails(
         &on_cpu(&["plan", &ball, "--max-layers", "39"]),
         1,
-        "at the least it takes 40 layers",
+        "it takes at least 40",
     );
 
     let comparison = json(&on_cpu(&["compare", &ball, "--json"]));

@@ -274,6 +274,6 @@ test("a search is aborted, by its signal and with its slicer; what cannot be sea
     names.push(await left);
     return { names, best: best.length };
   });
-  expect(found.names).toEqual(["no-model", "AbortError", "search-alpha", "unknown-printer", "AbortError"]);
+  expect(found.names).toEqual(["no-model", "AbortError", "bad-alpha", "unknown-printer", "AbortError"]);
   expect(found.best).toBeGreaterThan(0);
 });

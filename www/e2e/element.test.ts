@@ -139,7 +139,7 @@ test("a part that hangs in the air is warned of, in words and in the plan, whate
   const page = await start(`<cusp-slicer id="a" src="floating.stl" locale="en" panels="plan"></cusp-slicer>`);
   await done(page, "a");
   const [said] = await page.locator("#a .warning").allInnerTexts();
-  expect(said).toMatch(/^\d+ layers without a lit pixel, from 6\.\d+\u00a0mm up/);
+  expect(said).toMatch(/^\d+ layers of the plan are black, from 6\.\d+\u00a0mm up/);
   const warnings = await page.evaluate(async () => {
     const element = document.querySelector<CuspSlicer>("#a");
     return [element?.result?.report.warnings, (await element?.export())?.warnings];
@@ -344,7 +344,11 @@ test("a part that cannot be fetched says so in its panel and to the page, and co
       .filter(([, name]) => name === "cusp-error")
       .map(([id, , { code, detail }]) => ({ id, code, detail })),
   );
-  const expected = ["view", "chart", "pictures"].map((part) => ({ id: "a", code: "part-failed", detail: { part } }));
+  const expected = ["view", "chart", "pictures"].map((part) => ({
+    id: "a",
+    code: "part-failed",
+    detail: { part, system: expect.stringMatching(/^Failed to fetch/) as string },
+  }));
   expect(errors).toHaveLength(expected.length);
   expect(errors).toEqual(expect.arrayContaining(expected));
   // The plan is as good as before.
