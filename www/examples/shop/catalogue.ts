@@ -55,7 +55,6 @@ export const FIXED = {
   antialias: 1,
   layer_min_mm: 0.05,
   layer_max_mm: 0.15,
-  bin_mm: 0.002,
   ranges: [],
   planes_mm: [],
   snap: "auto",
