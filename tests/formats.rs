@@ -341,7 +341,7 @@ fn sl1_takes_uniform_layers_alone() {
     assert_eq!(error.code(), "uniform-only");
     let said = error.to_string();
     assert!(
-        ["chitubox", "uvj", "png", "uniform"]
+        ["sl1", "another format", "uniform planner"]
             .iter()
             .all(|it| said.contains(it)),
         "{said}"
