@@ -569,7 +569,7 @@ fn a_goal_is_met_with_the_least_tolerance() {
 /// A stage whose part of the options is the same keeps its result: another print file needs neither rays nor a plan.
 #[test]
 fn a_change_of_options_repeats_only_what_depends_on_it() {
-    let mut slicer = load(&solids::sphere(5.0, 12));
+    let mut slicer = load(&solids::sphere(5.0, 4));
     let first = plan(&mut slicer, &options()).unwrap();
     let again = |slicer: &mut Slicer, options: &Options| {
         let report = plan(slicer, options).unwrap();
