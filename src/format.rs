@@ -20,6 +20,9 @@ pub enum Format {
 }
 
 impl Format {
+    /// The formats that have a thickness for every layer.
+    pub const VARIABLE: [Self; 3] = [Self::Chitubox, Self::Uvj, Self::Png];
+
     /// The name of the format, as in options.
     pub fn name(self) -> &'static str {
         match self {

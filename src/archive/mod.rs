@@ -64,14 +64,17 @@ pub enum ArchiveError {
     AllBlack,
     /// The format has one thickness for all layers, and the plan has several.
     #[error(
-        "{} files have one thickness for all layers, and this plan has several; choose another format, or the uniform \
-         planner",
-        format.name()
+        "{} files have one thickness for all layers, and this plan has several; choose {}, or the \
+         uniform planner",
+        format.name(),
+        others.map(Format::name).join(", ")
     )]
     #[serde(rename = "uniform-only")]
     UniformOnly {
         /// The format asked for.
         format: Format,
+        /// The formats that have several.
+        others: [Format; 3],
     },
     /// Bytes could not be written: the disk is full, say.
     #[error("the print file could not be written: {system}")]

@@ -20,6 +20,7 @@ impl Container for Sl1 {
         if later.any(|thickness_mm| Some(thickness_mm) != second) {
             return Err(ArchiveError::UniformOnly {
                 format: Format::Sl1,
+                others: Format::VARIABLE,
             });
         }
         Ok(())

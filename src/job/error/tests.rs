@@ -132,7 +132,7 @@ fn archive_errors() -> Vec<ArchiveError> {
     one_of_each!(ArchiveError except []:
         Cancelled (Cancelled),
         AllBlack {},
-        UniformOnly { format: Format::Sl1 },
+        UniformOnly { format: Format::Sl1, others: Format::VARIABLE },
         Write { system: "No space left on device.".to_owned() },
     )
 }

@@ -90,7 +90,7 @@ test.each([
 
 /** A model of which a half fits. */
 const TOO_LARGE = failed("model-too-large", { model_mm_x: 2, model_mm_y: 2, grid_mm_x: 1.0024, grid_mm_y: 2, fitting_scale: 0.5012 });
-const UNIFORM_ONLY = failed("uniform-only", { format: "sl1" });
+const UNIFORM_ONLY = failed("uniform-only", { format: "sl1", others: ["chitubox", "uvj", "png"] });
 
 test("out of memory offers half the rays, down to the least there is", () => {
   const error = failed("out-of-memory", { hits: 1, needed_bytes: 8 });

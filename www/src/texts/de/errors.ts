@@ -128,8 +128,8 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
   "gpu-failed": ({ fault, system }) => `Die GPU hat versagt: ${FAULTS[fault]}${system === null ? "" : ` (${system})`}.`,
   "all-black": () =>
     "Alle Masken sind schwarz: Das Modell umschließt nichts, was die Mitte einer Schicht trifft; prüfen Sie das Modell, oder wählen Sie dünnere Schichten.",
-  "uniform-only": ({ format }) =>
-    `${format}-Dateien haben eine Dicke für alle Schichten, und dieser Plan hat mehrere; wählen Sie ein anderes Format oder gleichmäßige Schichten.`,
+  "uniform-only": ({ format, others }) =>
+    `${format}-Dateien haben eine Dicke für alle Schichten, und dieser Plan hat mehrere; wählen Sie ${others.join(", ")} oder gleichmäßige Schichten.`,
   "weights-not-weights": () => "Das ist keine Datei mit Gewichten: Sie beginnt nicht mit CUSPWT01 oder ist abgeschnitten.",
   "weights-other-mesh": ({ weights_facets, mesh_facets }) =>
     `Diese Gewichte gehören zu einem anderen Netz aus ${count(weights_facets)} Dreiecken; dieses hat ${count(mesh_facets)}; ` +

@@ -127,8 +127,8 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
   "gpu-failed": ({ fault, system }) => `The GPU failed: ${FAULTS[fault]}${system === null ? "" : ` (${system})`}.`,
   "all-black": () =>
     "All masks are black: the model encloses nothing that the middle of a layer meets; check the model, or choose thinner layers.",
-  "uniform-only": ({ format }) =>
-    `${format} files have one thickness for all layers, and this plan has several; choose another format, or the uniform planner.`,
+  "uniform-only": ({ format, others }) =>
+    `${format} files have one thickness for all layers, and this plan has several; choose ${others.join(", ")}, or the uniform planner.`,
   "weights-not-weights": () => "This is no file of weights: it does not begin with CUSPWT01, or is cut short.",
   "weights-other-mesh": ({ weights_facets, mesh_facets }) =>
     `These weights are for another mesh, of ${counted(weights_facets, FACETS)}; this one has ${count(mesh_facets)}; ` +

@@ -128,8 +128,8 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
   "gpu-failed": ({ fault, system }) => `La GPU falló: ${FAULTS[fault]}${system === null ? "" : ` (${system})`}.`,
   "all-black": () =>
     "Todas las máscaras son negras: el modelo no encierra nada que la mitad de una capa encuentre; revise el modelo o elija capas más finas.",
-  "uniform-only": ({ format }) =>
-    `Los archivos ${format} tienen un solo espesor para todas las capas, y este plan tiene varios; elija otro formato o capas uniformes.`,
+  "uniform-only": ({ format, others }) =>
+    `Los archivos ${format} tienen un solo espesor para todas las capas, y este plan tiene varios; elija ${others.join(", ")} o capas uniformes.`,
   "weights-not-weights": () => "No es un archivo de pesos: no empieza por CUSPWT01, o está cortado.",
   "weights-other-mesh": ({ weights_facets, mesh_facets }) =>
     `Estos pesos son de otra malla, de ${counted(weights_facets, FACETS)}; esta tiene ${count(mesh_facets)}; ` +

@@ -128,8 +128,8 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
   "gpu-failed": ({ fault, system }) => `Le GPU a échoué : ${FAULTS[fault]}${system === null ? "" : ` (${system})`}.`,
   "all-black": () =>
     "Tous les masques sont noirs : le modèle n’enferme rien que le milieu d’une couche rencontre ; vérifiez le modèle, ou choisissez des couches plus fines.",
-  "uniform-only": ({ format }) =>
-    `Les fichiers ${format} ont une seule épaisseur pour toutes les couches, et ce plan en a plusieurs ; choisissez un autre format, ou des couches uniformes.`,
+  "uniform-only": ({ format, others }) =>
+    `Les fichiers ${format} ont une seule épaisseur pour toutes les couches, et ce plan en a plusieurs ; choisissez ${others.join(", ")}, ou des couches uniformes.`,
   "weights-not-weights": () => "Ce n’est pas un fichier de poids : il ne commence pas par CUSPWT01, ou il est tronqué.",
   "weights-other-mesh": ({ weights_facets, mesh_facets }) =>
     `Ces poids sont d’un autre maillage, de ${counted(weights_facets, FACETS)} ; celui-ci en a ${count(mesh_facets)} ; ` +

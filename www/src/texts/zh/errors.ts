@@ -121,7 +121,7 @@ export const errors = ({ count, exact, mm, measure, error }: Format): ErrorSente
     `${count(facets)} 个三角面需要 ${count(needed_bytes)} 字节的 GPU 缓冲区，而此 GPU 只有 ${count(limit_bytes)}；请使用 CPU。`,
   "gpu-failed": ({ fault, system }) => `GPU 出错：${FAULTS[fault]}${system === null ? "" : `（${system}）`}。`,
   "all-black": () => "所有掩膜都是黑的：模型没有包围层中间所遇的任何部分；请检查模型，或选择更薄的层。",
-  "uniform-only": ({ format }) => `${format} 文件的所有层只有一种厚度，而本方案有多种；请选择其他格式，或使用均匀分层。`,
+  "uniform-only": ({ format, others }) => `${format} 文件的所有层只有一种厚度，而本方案有多种；请选择 ${others.join(", ")}，或使用均匀分层。`,
   "weights-not-weights": () => "这不是权重文件：开头不是 CUSPWT01，或文件不完整。",
   "weights-other-mesh": ({ weights_facets, mesh_facets }) =>
     `这些权重属于另一个有 ${count(weights_facets)} 个三角面的网格；当前网格有 ${count(mesh_facets)} 个；请重新涂绘，或打开制作权重时所用的模型。`,
