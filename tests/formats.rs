@@ -341,7 +341,7 @@ fn sl1_takes_uniform_layers_alone() {
     assert_eq!(error.code(), "uniform-only");
     let said = error.to_string();
     assert!(
-        ["sl1", "another format", "uniform planner"]
+        ["chitubox", "uvj", "png", "uniform"]
             .iter()
             .all(|it| said.contains(it)),
         "{said}"
