@@ -14,9 +14,7 @@ use std::fs;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use cusp_slicer::job::Options;
-use cusp_slicer::job::OrientationReport;
-use cusp_slicer::job::Slicer;
+use cusp_slicer::job::{Options, OrientationReport, Slicer};
 use cusp_slicer::orientation::SearchOptions;
 
 /// The time budget of one row; its first run may exceed it.

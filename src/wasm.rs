@@ -10,10 +10,9 @@ use serde::Serialize;
 use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
-use crate::job::Error;
-use crate::job::Options;
-use crate::job::{self, OptionsError, Stage};
-use crate::job::{Comparison, MeshInfo, Preview, Report, Tradeoff};
+use crate::job::{
+    self, Comparison, Error, MeshInfo, Options, OptionsError, Preview, Report, Stage, Tradeoff,
+};
 use crate::model::read::kind::HEAD_BYTES;
 use crate::model::read::stl;
 use crate::model::weights;

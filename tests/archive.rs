@@ -8,8 +8,7 @@ use std::io::{Cursor, Read, Seek, SeekFrom, Write};
 
 use common::{binary_stl, quiet, solids};
 use cusp_slicer::format::Format;
-use cusp_slicer::job::Slicer;
-use cusp_slicer::job::{Backend, Options, Planner};
+use cusp_slicer::job::{Backend, Options, Planner, Slicer};
 use cusp_slicer::warning::Warning;
 use serde_json::Value;
 

@@ -7,8 +7,7 @@ use std::ops::ControlFlow;
 
 use common::{binary_stl, on_plate, quiet, shifted_grid, solids};
 use cusp_slicer::grid::Grid;
-use cusp_slicer::job::{Backend, Options};
-use cusp_slicer::job::{Slicer, Stage, StageProgress};
+use cusp_slicer::job::{Backend, Options, Slicer, Stage, StageProgress};
 use cusp_slicer::ldi::gpu::{self, Gpu};
 use cusp_slicer::ldi::{LdiError, cpu};
 use cusp_slicer::progress::silent;

@@ -12,9 +12,7 @@ use std::process::{Command, Output};
 
 use common::{binary_stl, quiet, solids};
 use cusp_slicer::format::Format;
-use cusp_slicer::job::Report;
-use cusp_slicer::job::Slicer;
-use cusp_slicer::job::{Backend, Options, Planner};
+use cusp_slicer::job::{Backend, Options, Planner, Report, Slicer};
 use libtest_mimic::{Arguments, Completion, Failed, Trial};
 use tempfile::TempDir;
 

@@ -7,9 +7,7 @@ mod common;
 use std::ops::ControlFlow;
 
 use common::{assert_near, binary_stl, quiet, solids};
-use cusp_slicer::job::Report;
-use cusp_slicer::job::Slicer;
-use cusp_slicer::job::{Backend, Options, Snap};
+use cusp_slicer::job::{Backend, Options, Report, Slicer, Snap};
 use cusp_slicer::model::Mesh;
 use cusp_slicer::model::saliency::saliency;
 use cusp_slicer::model::weights::{self, WeightsError};

@@ -6,10 +6,7 @@
 mod common;
 
 use common::{assert_near, binary_stl, quiet, solids};
-use cusp_slicer::job::Report;
-use cusp_slicer::job::Slicer;
-use cusp_slicer::job::{Backend, Options, Planner};
-use cusp_slicer::job::{Claim, VerifyError};
+use cusp_slicer::job::{Backend, Claim, Options, Planner, Report, Slicer, VerifyError};
 use cusp_slicer::profile::Metric;
 use serde_json::{Value, json};
 

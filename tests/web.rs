@@ -8,10 +8,9 @@ use common::shifted_grid;
 use common::{binary_stl, fingerprint, on_plate, quiet, solids};
 use cusp_slicer::format::Format;
 use cusp_slicer::grid::Grid;
-use cusp_slicer::job::Slicer;
 #[cfg(target_arch = "wasm32")]
 use cusp_slicer::job::Stage;
-use cusp_slicer::job::{Backend, Minimize, Options};
+use cusp_slicer::job::{Backend, Minimize, Options, Slicer};
 use cusp_slicer::ldi::cpu;
 #[cfg(target_arch = "wasm32")]
 use cusp_slicer::ldi::{

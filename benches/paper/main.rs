@@ -20,8 +20,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use cusp_slicer::grid::Bins;
-use cusp_slicer::job::{Backend, Options};
-use cusp_slicer::job::{Slicer, Stage};
+use cusp_slicer::job::{Backend, Options, Slicer, Stage};
 use cusp_slicer::model::read::stl;
 use cusp_slicer::model::{Mesh, Pose};
 use cusp_slicer::plan::Limits;

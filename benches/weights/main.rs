@@ -18,9 +18,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
-use cusp_slicer::job::Report;
-use cusp_slicer::job::{Backend, Options};
-use cusp_slicer::job::{Slicer, Stage};
+use cusp_slicer::job::{Backend, Options, Report, Slicer, Stage};
 use cusp_slicer::model::Mesh;
 use cusp_slicer::model::saliency::saliency;
 use cusp_slicer::progress::silent;

@@ -123,8 +123,8 @@ pub struct PrintJob<'a> {
     pub mesh: &'a Mesh,
     /// The hits of the model's rays, for previews.
     pub ldi: &'a Ldi,
-    /// An object that describes the whole job, for Cusp's own formats.
-    pub manifest: &'a Value,
+    /// Makes an object that describes the whole job, for formats of our own.
+    pub manifest: &'a dyn Fn() -> Result<Value, serde_json::Error>,
 }
 
 impl PrintJob<'_> {

@@ -21,5 +21,5 @@ pub use orient::OrientationPart;
 pub use orient::OrientationReport;
 pub use report::*;
 pub use slicer::Slicer;
-pub use stage::{Stage, StageProgress, Task};
+pub use stage::{Stage, StageProgress};
 pub use verify::*;

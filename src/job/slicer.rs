@@ -12,7 +12,7 @@ use super::resolve::{Job, Layering, Output, Sampling};
 use super::sampled::{Sampled, Sampler};
 use super::stage::{Stage, StageProgress, ms_since, report};
 use super::{Backend, Comparison, Error, MeshInfo, Options, Preview, Report, Timings, Tradeoff};
-use crate::archive::{self, ArchiveError, PrintJob};
+use crate::archive::{self, PrintJob};
 use crate::grid::Bins;
 use crate::ldi::LdiError;
 use crate::ldi::gpu::Gpu;
@@ -233,17 +233,17 @@ impl Slicer {
         let measured = self.measure(&job, &mut timings, progress).await?;
 
         report(progress, Stage::Plan, 0.0)?;
-        let holds = |planned: &Arc<Planned>| {
+        let holds = |Current { planned, .. }: &Current| {
             Arc::ptr_eq(&planned.of, &measured) && planned.layering == job.layering
         };
-        let planned = if let Some(kept) = last.map(|last| last.planned).filter(holds) {
-            kept
+        let (planned, seen) = if let Some(kept) = last.filter(holds) {
+            (kept.planned, kept.seen)
         } else {
             let clock = Instant::now();
             let planned = Planned::new(&measured, &job.layering);
             let planned = planned.map_err(|error| options.typeable(error))?;
             timings.plan = ms_since(clock);
-            Arc::new(planned)
+            (Arc::new(planned), None)
         };
         report(progress, Stage::Plan, 1.0)?;
 
@@ -259,7 +259,7 @@ impl Slicer {
             planned,
             output: job.output,
             report,
-            seen: None,
+            seen,
         };
         Ok(&self.current.insert(current).report)
     }
@@ -420,7 +420,7 @@ impl Slicer {
             printer: output.printer,
             mesh: &sampled.mesh,
             ldi: &sampled.ldi,
-            manifest: &report.manifest().map_err(ArchiveError::write)?,
+            manifest: &|| report.manifest(),
         };
         let writer = archive::write(output.format, &job, writer, &mut mask_progress)?;
         report.timings_ms.masks = ms_since(clock);

@@ -1,4 +1,4 @@
-//! The stages of the work, their order and their share of a task's time.
+//! The stages of the work, and progress through them.
 
 use std::ops::ControlFlow;
 
@@ -46,50 +46,6 @@ impl Stage {
 
 /// Called with the stage at work and the fraction of it that is done; `Break` cancels.
 pub type StageProgress<'a> = dyn FnMut(Stage, f64) -> ControlFlow<()> + 'a;
-
-/// Something that a user waits for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Task {
-    /// Reading a model.
-    Load,
-    /// Planning layers, with everything that a plan needs.
-    Plan,
-    /// Writing a print file.
-    Export,
-    /// Searching for the best orientation.
-    Orient,
-}
-
-impl Task {
-    /// The stages of the task in their order, each with its share of the time. Shares add up to 1: rays are most of a plan,
-    /// whatever the model and the machine.
-    pub fn stages(self) -> &'static [(Stage, f64)] {
-        match self {
-            Self::Load => &[(Stage::Load, 1.0)],
-            Self::Plan => &[
-                (Stage::Load, 0.05),
-                (Stage::Saliency, 0.05),
-                (Stage::Ldi, 0.7),
-                (Stage::Profile, 0.1),
-                (Stage::Plan, 0.1),
-            ],
-            Self::Export => &[(Stage::Masks, 1.0)],
-            Self::Orient => &[(Stage::Saliency, 0.05), (Stage::Orientation, 0.95)],
-        }
-    }
-
-    /// How much of the task is done, from 0 to 1, when `fraction` of a stage is; `None` for a stage of another task.
-    pub fn done(self, stage: Stage, fraction: f64) -> Option<f64> {
-        let mut before = 0.0;
-        for &(other, share) in self.stages() {
-            if other == stage {
-                return Some(before + share * fraction.clamp(0.0, 1.0));
-            }
-            before += share;
-        }
-        None
-    }
-}
 
 /// Reports that `fraction` of a stage is done, and turns a wish to stop into an error.
 pub(super) fn report(

@@ -99,9 +99,6 @@ impl Shapes {
         metric: Metric,
         weights: Option<Vec<f32>>,
     ) -> Self {
-        if self.is_weighed(metric, weights.as_deref()) {
-            return self;
-        }
         let weighing = weights.map(|weights| {
             let measure = |ldi| Weighted::new(facet_bins, ldi, &self.hidden, metric, &weights);
             let exact = measure(None);

@@ -21,7 +21,7 @@ impl Container for Png {
     }
 
     fn files(&self, job: &PrintJob<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
-        let mut manifest = job.manifest.clone();
+        let mut manifest = (job.manifest)().map_err(ArchiveError::write)?;
         manifest["layer_files"] = json!(layers);
         let json = serde_json::to_vec(&manifest).map_err(ArchiveError::write)?;
         Ok(vec![("manifest.json".to_owned(), json)])

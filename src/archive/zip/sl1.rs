@@ -34,7 +34,10 @@ impl Container for Sl1 {
         let look = Look::new(job.mesh, job.ldi);
         Ok(vec![
             ("config.ini".to_owned(), config(job, layers).into_bytes()),
-            ("prusaslicer.ini".to_owned(), prusaslicer(job).into_bytes()),
+            (
+                "prusaslicer.ini".to_owned(),
+                prusaslicer(job, layers).into_bytes(),
+            ),
             (
                 "thumbnail/thumbnail400x400.png".to_owned(),
                 look.png(400, 400),
@@ -55,14 +58,14 @@ fn ini(pairs: &[(&str, String)]) -> String {
     text
 }
 
-fn layer_mm(job: &PrintJob<'_>) -> f64 {
-    let thickness_mm = job.plan.thickness_mm();
-    *thickness_mm.get(1).unwrap_or(&thickness_mm[0])
+/// The thickness of all layers but the first.
+fn layer_mm(layers: &[LayerEntry]) -> f64 {
+    layers.get(1).unwrap_or(&layers[0]).thickness_mm
 }
 
 fn config(job: &PrintJob<'_>, layers: &[LayerEntry]) -> String {
     let resin = job.resin;
-    let layer_mm = layer_mm(job);
+    let layer_mm = layer_mm(layers);
     let slow = resin.bottom_layers.min(layers.len());
     let name = resin.name.replace(['\n', '\r'], " ");
     ini(&[
@@ -94,7 +97,8 @@ fn config(job: &PrintJob<'_>, layers: &[LayerEntry]) -> String {
     ])
 }
 
-fn prusaslicer(job: &PrintJob<'_>) -> String {
+fn prusaslicer(job: &PrintJob<'_>, layers: &[LayerEntry]) -> String {
+    let layer_mm = layer_mm(layers);
     let grid = &job.masks.grid;
     // The display's sides are given in landscape, even where masks are in portrait.
     let is_portrait = grid.height > grid.width;
@@ -116,15 +120,9 @@ fn prusaslicer(job: &PrintJob<'_>) -> String {
             "display_orientation",
             if is_portrait { "portrait" } else { "landscape" }.to_owned(),
         ),
-        ("layer_height", thousandths(layer_mm(job))),
-        (
-            "initial_layer_height",
-            thousandths(job.plan.thickness_mm()[0]),
-        ),
-        (
-            "exposure_time",
-            thousandths(job.resin.exposure_s(layer_mm(job))),
-        ),
+        ("layer_height", thousandths(layer_mm)),
+        ("initial_layer_height", thousandths(layers[0].thickness_mm)),
+        ("exposure_time", thousandths(job.resin.exposure_s(layer_mm))),
         (
             "initial_exposure_time",
             thousandths(job.resin.bottom_exposure_s),

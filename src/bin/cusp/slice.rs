@@ -4,9 +4,7 @@ use std::fmt::Write as _;
 use std::io::BufWriter;
 use std::path::Path;
 
-use cusp_slicer::job::Options;
-use cusp_slicer::job::Report;
-use cusp_slicer::job::{Slicer, StageProgress};
+use cusp_slicer::job::{Options, Report, Slicer, StageProgress};
 
 use crate::arguments::Slicing;
 use crate::files::{Failure, file_beside, in_file, keep, load_weighted, place_for};

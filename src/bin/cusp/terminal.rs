@@ -4,8 +4,7 @@ use std::io::{self, IsTerminal, Write as _};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use cusp_slicer::job::Backend;
-use cusp_slicer::job::{Slicer, Stage};
+use cusp_slicer::job::{Backend, Slicer, Stage};
 use cusp_slicer::warning::Warning;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use serde::Serialize;

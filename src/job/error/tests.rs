@@ -283,15 +283,15 @@ fn samples() -> String {
     serde_json::to_string_pretty(&samples).unwrap() + "\n"
 }
 
-/// With `CUSP_BLESS=1` writes the file.
+/// With `BLESS=1` writes the file.
 #[test]
 fn the_samples_that_catalogues_are_tested_with_are_these() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/problems.json");
-    if std::env::var_os("CUSP_BLESS").is_some() {
+    if std::env::var_os("BLESS").is_some() {
         std::fs::write(path, samples()).unwrap();
     }
     let recorded = std::fs::read_to_string(path).unwrap_or_default();
-    assert!(recorded == samples(), "run again with CUSP_BLESS=1: {path}");
+    assert!(recorded == samples(), "run again with BLESS=1: {path}");
 }
 
 #[test]

@@ -1,32 +1,10 @@
 /** What a person does to the model itself: turning it, painting weights, and orienting it. */
-import { afterEach, beforeEach, expect, test, vi } from "vitest";
+import { expect, test } from "vitest";
 import { SCHEMA } from "../../api/index.js";
 import type { Candidate } from "../../api/wire.js";
-import { FakeSlicer, model, planOf } from "./fake-slicer.js";
-import { Session } from "./session.js";
+import { model, planOf } from "./fake-slicer.js";
+import { planned, session, settle, slicer, start } from "./session-fixture.js";
 import { DEFAULT_SETTINGS } from "./settings.js";
-
-let slicer: FakeSlicer;
-let session: Session;
-const settle = (): Promise<unknown> => vi.advanceTimersByTimeAsync(300);
-
-beforeEach(() => {
-  vi.useFakeTimers();
-  slicer = new FakeSlicer();
-  session = new Session({ requestUpdate: () => undefined }, slicer);
-});
-
-afterEach(() => {
-  vi.useRealTimers();
-});
-
-async function planned(layers = 10): Promise<void> {
-  void session.open(new Blob(), "a.stl");
-  slicer.last.resolve(model);
-  await settle();
-  slicer.last.resolve(planOf(layers));
-  await settle();
-}
 
 test("while the model is turned previews are shown, the newest turn last; let go, it is planned", async () => {
   await planned();
@@ -45,7 +23,7 @@ test("while the model is turned previews are shown, the newest turn last; let go
 });
 
 test("another model stands as in its file; the first one as the settings say", async () => {
-  session = new Session({ requestUpdate: () => undefined }, slicer, { settings: { ...DEFAULT_SETTINGS, rotation: "0,0,1,0" } });
+  start({ settings: { ...DEFAULT_SETTINGS, rotation: "0,0,1,0" } });
   await planned();
   expect(slicer.last.options?.rotation).toEqual([0, 0, 1, 0]);
   void session.open(new Blob(), "b.stl");

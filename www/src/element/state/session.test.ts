@@ -1,34 +1,12 @@
-import { afterEach, beforeEach, expect, test, vi } from "vitest";
+import { expect, test } from "vitest";
 import { SlicerError } from "../../api/error.js";
 import { SCHEMA, type PrintFile } from "../../api/index.js";
-import { FakeSlicer, model, planOf } from "./fake-slicer.js";
-import { Session } from "./session.js";
+import { model, planOf } from "./fake-slicer.js";
+import { planned, session, settle, slicer, start } from "./session-fixture.js";
 import { DEFAULT_SETTINGS } from "./settings.js";
 
 const zip: PrintFile = { schema: SCHEMA, name: "a-cusp.zip", type: "application/zip", blob: new Blob(["zip"]), warnings: [] };
 const CUT = new SlicerError("stl-truncated", "", { line: 3, expected: "facet-or-endsolid" });
-
-let slicer: FakeSlicer;
-let session: Session;
-const settle = (): Promise<unknown> => vi.advanceTimersByTimeAsync(300);
-
-beforeEach(() => {
-  vi.useFakeTimers();
-  slicer = new FakeSlicer();
-  session = new Session({ requestUpdate: () => undefined }, slicer);
-});
-
-afterEach(() => {
-  vi.useRealTimers();
-});
-
-async function planned(layers = 10): Promise<void> {
-  void session.open(new Blob(), "a.stl");
-  slicer.last.resolve(model);
-  await settle();
-  slicer.last.resolve(planOf(layers));
-  await settle();
-}
 
 test("opening plans at once and looks at the middle", async () => {
   await planned();
@@ -177,7 +155,7 @@ test("masks: while one is fetched only the newest layer waits", async () => {
 });
 
 test("the tolerance that the core took is known where none is typed for that metric", async () => {
-  session = new Session({ requestUpdate: () => undefined }, slicer, { settings: { ...DEFAULT_SETTINGS, metric: "volume" } });
+  start({ settings: { ...DEFAULT_SETTINGS, metric: "volume" } });
   expect(session.taken).toBeNull();
   await planned();
   expect(slicer.last.options).not.toHaveProperty("tolerance");

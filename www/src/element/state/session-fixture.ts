@@ -1,0 +1,33 @@
+/** A session on a slicer that answers when it is told to, under fake timers. */
+import { afterEach, beforeEach, vi } from "vitest";
+import { FakeSlicer, model, planOf } from "./fake-slicer.js";
+import { Session } from "./session.js";
+
+export let slicer: FakeSlicer;
+export let session: Session;
+
+export const settle = (): Promise<unknown> => vi.advanceTimersByTimeAsync(300);
+
+/** Starts a new session, as its element would with these options. */
+export function start(options?: ConstructorParameters<typeof Session>[2]): void {
+  session = new Session({ requestUpdate: () => undefined }, slicer, options);
+}
+
+beforeEach(() => {
+  vi.useFakeTimers();
+  slicer = new FakeSlicer();
+  start();
+});
+
+afterEach(() => {
+  vi.useRealTimers();
+});
+
+/** Opens a model and lets it be planned. */
+export async function planned(layers = 10): Promise<void> {
+  void session.open(new Blob(), "a.stl");
+  slicer.last.resolve(model);
+  await settle();
+  slicer.last.resolve(planOf(layers));
+  await settle();
+}
