@@ -39,7 +39,7 @@ async function works(folder: string, ownGlobals: (name: string) => boolean = () 
   await writeFile(join(folder, "ball.stl"), sphere(10, 96).bytes);
   await visit(browser, await serveFolder(folder), async ({ page, globals }) => {
     const headless = await page.waitForSelector("body[data-headless]", { timeout: 30_000 });
-    expect(await headless.getAttribute("data-headless")).toMatch(/^1 ball.stl \d{3} (cpu|gpu) true$/);
+    expect(await headless.getAttribute("data-headless")).toMatch(/^2 ball.stl \d{3} (cpu|gpu) true$/);
     expect(globals.filter((name) => !ownGlobals(name))).toEqual([]);
   });
 }
