@@ -1,6 +1,6 @@
 /** The package's types as a page written in TypeScript uses them; compiled, never run. */
 import { createSlicer, SlicerError } from "cusp-slicer";
-import type { ErrorCode, ErrorDetails, Options, Orientation, Plan, PrintFile, Slicer, WarningCode } from "cusp-slicer";
+import type { ErrorCode, ErrorDetails, Options, OrientationReport, Plan, PrintFile, Slicer, WarningCode } from "cusp-slicer";
 import "cusp-slicer/element";
 import { CuspSlicer } from "cusp-slicer/element-class";
 
@@ -43,9 +43,9 @@ console.log(name.length, type.length, blob.size, picture.size);
 // @ts-expect-error Workers are the package's own affair.
 createSlicer({ spawn: () => new Worker("worker.js") });
 await slicer.exportStream(options).pipeTo(new WritableStream<Uint8Array>());
-const { best }: Orientation = await slicer.orient(options, { alpha: 0.25, quality: "overhang" }, {
+const { best }: OrientationReport = await slicer.orient(options, { alpha: 0.25, quality: "overhang" }, {
   signal,
   onCandidates: ({ directions, candidates }) => console.log(directions.length, candidates[0]?.excluded),
 });
 element.addEventListener("cusp-orientation", ({ detail }) => console.log(detail.rotation, best[0]?.metrics?.layers));
-console.log(plan.profile.length, new SlicerError("crash", "").detail);
+console.log(plan.profile.length, new SlicerError("crash", "", { system: "unreachable" }).detail.system);
