@@ -52,12 +52,17 @@ fn throw_conversion(error: impl std::fmt::Display) -> JsValue {
     })
 }
 
-/// Calls a JavaScript function with the stage and the fraction done. There is no return path: a
-/// page cancels by ending the worker.
+/// Calls a JavaScript function with the stage, the fraction of the stage that is done and that of the whole task. A page
+/// cancels by ending the worker.
 fn progress_to(callback: &Function) -> impl FnMut(Stage, f64) -> ControlFlow<()> {
     move |stage, fraction| {
         // A failing callback must not fail the job.
-        let _ = callback.call2(&JsValue::NULL, &stage.name().into(), &fraction.into());
+        let _ = callback.call3(
+            &JsValue::NULL,
+            &stage.name().into(),
+            &fraction.into(),
+            &stage.done(fraction).into(),
+        );
         ControlFlow::Continue(())
     }
 }
@@ -206,7 +211,9 @@ impl Slicer {
     /// None that a valid model causes.
     pub fn saliency(
         &mut self,
-        #[wasm_bindgen(unchecked_param_type = "(stage: Stage, fraction: number) => void")]
+        #[wasm_bindgen(
+            unchecked_param_type = "(stage: Stage, fraction: number, done: number) => void"
+        )]
         progress: &Function,
     ) -> Result<Vec<f32>, JsValue> {
         let saliency = self.slicer.saliency(&mut progress_to(progress));
@@ -320,7 +327,9 @@ impl Slicer {
     pub async fn plan(
         &mut self,
         options: Ts<Options>,
-        #[wasm_bindgen(unchecked_param_type = "(stage: Stage, fraction: number) => void")]
+        #[wasm_bindgen(
+            unchecked_param_type = "(stage: Stage, fraction: number, done: number) => void"
+        )]
         progress: Function,
     ) -> Result<Ts<Report>, JsValue> {
         let options = options.to_rust().map_err(throw_conversion)?;
@@ -339,7 +348,9 @@ impl Slicer {
         &mut self,
         options: Ts<Options>,
         points: usize,
-        #[wasm_bindgen(unchecked_param_type = "(stage: Stage, fraction: number) => void")]
+        #[wasm_bindgen(
+            unchecked_param_type = "(stage: Stage, fraction: number, done: number) => void"
+        )]
         progress: Function,
     ) -> Result<Ts<Tradeoff>, JsValue> {
         let options = options.to_rust().map_err(throw_conversion)?;
@@ -355,7 +366,9 @@ impl Slicer {
     pub async fn compare(
         &mut self,
         options: Ts<Options>,
-        #[wasm_bindgen(unchecked_param_type = "(stage: Stage, fraction: number) => void")]
+        #[wasm_bindgen(
+            unchecked_param_type = "(stage: Stage, fraction: number, done: number) => void"
+        )]
         progress: Function,
     ) -> Result<Ts<Comparison>, JsValue> {
         let options = options.to_rust().map_err(throw_conversion)?;
@@ -399,7 +412,9 @@ impl Slicer {
     pub fn archive(
         &mut self,
         #[wasm_bindgen(unchecked_param_type = "(chunk: Uint8Array) => void")] take: &Function,
-        #[wasm_bindgen(unchecked_param_type = "(stage: Stage, fraction: number) => void")]
+        #[wasm_bindgen(
+            unchecked_param_type = "(stage: Stage, fraction: number, done: number) => void"
+        )]
         progress: &Function,
     ) -> Result<(), JsValue> {
         let chunks = Chunks { take, thrown: None };

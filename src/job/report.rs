@@ -11,6 +11,7 @@ use super::resolve::Output;
 use crate::format::Format;
 use crate::mask::black_layers;
 use crate::model::{Mesh, ModelFile, weights};
+use crate::orientation;
 use crate::plan::tradeoff::TradeoffPoint;
 use crate::printer::Printer;
 use crate::profile::{Metric, Source};
@@ -49,6 +50,8 @@ pub struct MeshInfo {
     pub open_edges: usize,
     /// Holes, which were closed by flat caps.
     pub holes: usize,
+    /// Memory that a search of directions takes at its peak on one thread, in bytes.
+    pub search_bytes: usize,
     /// What the user should know.
     pub warnings: Vec<Warning>,
 }
@@ -70,6 +73,7 @@ impl MeshInfo {
             closed: mesh.is_closed(),
             open_edges: mesh.open_edges,
             holes: mesh.holes,
+            search_bytes: orientation::search_bytes(mesh),
             warnings: mesh_warnings(mesh),
         }
     }

@@ -42,7 +42,27 @@ impl Stage {
             Self::Masks => "masks",
         }
     }
+
+    /// How much of the whole task is done, 0 to 1, once `fraction` of this stage is. Reading, searching and writing are
+    /// tasks of one stage each.
+    pub fn done(self, fraction: f64) -> f64 {
+        let fraction = fraction.clamp(0.0, 1.0);
+        let Some(place) = PLANNING.iter().position(|&(stage, _)| stage == self) else {
+            return fraction;
+        };
+        let before: f64 = PLANNING[..place].iter().map(|&(_, share)| share).sum();
+        before + PLANNING[place].1 * fraction
+    }
 }
+
+/// The stages of planning in order, and the share of the time that each takes: rays take most of it, on any model and
+/// machine.
+const PLANNING: [(Stage, f64); 4] = [
+    (Stage::Saliency, 0.0625),
+    (Stage::Ldi, 0.75),
+    (Stage::Profile, 0.0625),
+    (Stage::Plan, 0.125),
+];
 
 /// Called with the stage at work and the fraction of it that is done; `Break` cancels.
 pub type StageProgress<'a> = dyn FnMut(Stage, f64) -> ControlFlow<()> + 'a;
@@ -62,4 +82,28 @@ pub(super) fn report(
 /// Milliseconds since `clock` was started.
 pub(super) fn ms_since(clock: Instant) -> f64 {
     clock.elapsed().as_secs_f64() * 1e3
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn planning_runs_from_zero_to_one_without_a_gap() {
+        let mut done = 0.0;
+        for (stage, _) in PLANNING {
+            assert_eq!(stage.done(0.0).to_bits(), f64::to_bits(done), "{stage:?}");
+            assert!(stage.done(0.5) > done);
+            done = stage.done(1.0);
+        }
+        assert_eq!(done.to_bits(), 1f64.to_bits());
+    }
+
+    #[test]
+    fn a_stage_that_is_a_task_by_itself_counts_alone() {
+        for stage in [Stage::Load, Stage::Orientation, Stage::Masks] {
+            assert_eq!(stage.done(0.25).to_bits(), 0.25f64.to_bits());
+            assert_eq!(stage.done(7.0).to_bits(), 1f64.to_bits());
+        }
+    }
 }

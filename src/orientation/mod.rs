@@ -22,7 +22,7 @@ use tsify::Tsify;
 pub use energy::minima;
 pub use error::SearchError;
 pub use search::{Search, SearchResult, Task, TaskResult};
-pub(crate) use surface::{Placement, Surface};
+pub(crate) use surface::{Placement, Surface, search_bytes};
 
 /// What is searched for.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

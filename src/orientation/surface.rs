@@ -29,6 +29,18 @@ const TOLD_APART: usize = 64;
 /// −`n_z` from which on a facet needs support: it faces down at less than 45° from level.
 const OVERHANG: f32 = std::f32::consts::FRAC_1_SQRT_2;
 
+/// Bytes of memory that a search takes for each facet of the model, on one thread: in the mesh, the surface, and the
+/// direction at work.
+const FACET_BYTES: usize = 128;
+
+/// The same for each vertex.
+const VERTEX_BYTES: usize = 54;
+
+/// Memory that a search of directions takes at its peak on one thread, in bytes; a test measures it.
+pub(crate) fn search_bytes(mesh: &Mesh) -> usize {
+    FACET_BYTES * mesh.surface_facets + VERTEX_BYTES * mesh.vertices.len()
+}
+
 /// The surface of a model, at the scale that it is printed at.
 #[derive(Debug)]
 pub(crate) struct Surface {

@@ -120,7 +120,7 @@ impl Bar {
     pub fn report(&self, stage: Stage, fraction: f64) -> ControlFlow<()> {
         self.bar.set_message(stage.name());
         let steps = self.bar.length().unwrap_or_default() as f64;
-        self.bar.set_position((fraction * steps) as u64);
+        self.bar.set_position((stage.done(fraction) * steps) as u64);
         if is_interrupted() {
             ControlFlow::Break(())
         } else {

@@ -25,10 +25,10 @@ class FakeWorker implements WorkerHandle {
     open: async (file) => {
       this.opened = await file.text();
       await this.#work(`open ${this.opened}`);
-      return { facets: 1 } as MeshInfo;
+      return { facets: 1, search_bytes: 200 } as MeshInfo;
     },
     plan: async (options, progress) => {
-      progress("ldi", 0.5);
+      progress("ldi", 0.5, 0.4);
       await this.#work(`plan ${options.tolerance} of ${this.opened}`);
       this.planned = options;
       return { report: {} } as Profiled<Report>;
@@ -92,7 +92,7 @@ class Caller {
     const opened = this.client.open(Promise.resolve(file), watch);
     const before = this.about;
     this.about = opened.then(
-      ({ facets }) => ({ name: "", file, facets, weights: null }),
+      ({ search_bytes }) => ({ name: "", file, search_bytes, weights: null }),
       () => before,
     );
     return opened;
@@ -141,8 +141,8 @@ test("a warm worker is the one that works, and it is started once", async () => 
 test("progress comes through", async () => {
   const stages: string[] = [];
   await caller.open(new Blob(["a"]), watch());
-  await caller.plan({}, watch(undefined, (stage, fraction) => stages.push(`${stage} ${fraction}`)));
-  expect(stages).toEqual(["ldi 0.5"]);
+  await caller.plan({}, watch(undefined, (stage, fraction, done) => stages.push(`${stage} ${fraction} ${done}`)));
+  expect(stages).toEqual(["ldi 0.5 0.4"]);
 });
 
 test("cancelling a plan ends the worker; the next one is given module, file and the last good plan", async () => {
@@ -274,7 +274,7 @@ test("each call takes its place when it is made: a file that is still fetched ho
   let arrive: (file: Blob) => void = () => undefined;
   const file = new Promise<Blob>((resolve) => (arrive = resolve));
   const opened = caller.client.open(file, watch());
-  const about = opened.then(async ({ facets }) => ({ name: "", file: await file, facets, weights: null }));
+  const about = opened.then(async ({ search_bytes }) => ({ name: "", file: await file, search_bytes, weights: null }));
   const planned = caller.client.plan(about, { tolerance: 1 }, watch());
   await new Promise((resolve) => setTimeout(resolve));
   arrive(new Blob(["b"]));

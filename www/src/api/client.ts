@@ -68,7 +68,8 @@ export type Weights = Float32Array | null;
 export interface Subject {
   readonly name: string;
   readonly file: Blob;
-  readonly facets: number;
+  /** Memory that a search takes in each worker, beside the file: the core knows. */
+  readonly search_bytes: number;
   readonly weights: Weights;
 }
 
@@ -265,9 +266,9 @@ export class Client {
       const life = this.#live();
       const abort = (): void => life.end(signal?.reason);
       signal?.addEventListener("abort", abort, { once: true });
-      const progress = Comlink.proxy<OnProgress>((stage, fraction) => {
+      const progress = Comlink.proxy<OnProgress>((stage, fraction, done) => {
         // What was on its way when the call was stopped is news no more.
-        if (signal?.aborted !== true) onProgress?.(stage, fraction);
+        if (signal?.aborted !== true) onProgress?.(stage, fraction, done);
       });
       try {
         return await Promise.race([life.booted.then(() => task(life, needs, progress)), life.fate]);

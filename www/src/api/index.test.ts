@@ -23,7 +23,7 @@ function faked(): { slicer: Slicer; log: string[] } {
       boot: async () => ({}),
       open: async (file) => {
         say(`open ${await file.text()}`);
-        return { facets: 1 } as MeshInfo;
+        return { facets: 1, search_bytes: 200 } as MeshInfo;
       },
       plan: async (options) => {
         say(`plan ${options.tolerance}`);

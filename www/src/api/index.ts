@@ -159,7 +159,7 @@ export function createSlicer(setup: Setup = {}): Slicer {
       const opened = main.open(named.then(({ file }) => file), call);
       const loaded = Promise.all([named, opened]).then(([it, info]) => ({ ...it, name: name ?? it.name, info }));
       about = loaded.then(
-        ({ name, file, info }) => ({ name, file, facets: info.facets, weights: null }),
+        ({ name, file, info }) => ({ name, file, search_bytes: info.search_bytes, weights: null }),
         () => before,
       );
       return { schema: SCHEMA, ...(await loaded) };

@@ -117,7 +117,7 @@ function faked({ workers, slowness = () => 0, hangs, fails, within = 4 }: Setup)
       boot: async () => ({}),
       open: async (file) => {
         const text = await file.text();
-        return work(`open ${text}`, () => ({ facets: FACETS }) as MeshInfo);
+        return work(`open ${text}`, () => ({ facets: FACETS, search_bytes: 0 }) as MeshInfo);
       },
       setWeights: (weights) => void log.push(`${number}: setWeights ${weights?.join() ?? "none"}`),
       startSearch: (_options, { directions = COUNT }, measured) => {
@@ -302,9 +302,9 @@ test("workers that nobody needs are ended after a while, and on request", async 
 });
 
 test("a large model has fewer workers, and none has none", () => {
-  const of = (facets: number, most = 64): number => workersFor({ file: new Blob([]), facets }, most);
+  const of = (search_bytes: number, most = 64): number => workersFor({ file: new Blob([]), search_bytes }, most);
   expect(of(1000)).toBe(8);
   expect(of(1000, 2)).toBe(2);
-  expect(of(1_500_000)).toBe(2);
-  expect(of(50_000_000)).toBe(1);
+  expect(of(250e6)).toBe(2);
+  expect(of(8e9)).toBe(1);
 });

@@ -24,7 +24,7 @@ const RATINGS = 12;
 export function orient(pool: Pool, about: About, options: Options, search: SearchOptions, call: OrientCall): Promise<SearchResult> {
   const { onProgress, onCandidates } = call;
   return pool.run(about, call, async (team) => {
-    onProgress?.("orientation", 0);
+    onProgress?.("orientation", 0, 0);
     const directions = await team.ask((remote) => remote.startSearch(options, search, call.measured ?? null));
     const count = directions.length / 3;
     let rateFrom = onCandidates === undefined ? Infinity : 1;
@@ -32,7 +32,7 @@ export function orient(pool: Pool, about: About, options: Options, search: Searc
       exchange: (remote, results: TaskResult[], most) => remote.advanceSearch(results, most, rateFrom),
       run: (remote, tasks: Task[]) => remote.evaluate(options, tasks),
       onStep: ({ progress, measured, rated }: SearchStep) => {
-        onProgress?.("orientation", progress);
+        onProgress?.("orientation", progress, progress);
         if (rated === null) return;
         rateFrom = measured === count ? Infinity : Math.min(count, measured + count / RATINGS);
         onCandidates?.({ directions, candidates: rated });

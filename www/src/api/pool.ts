@@ -6,8 +6,6 @@ const MOST_WORKERS = 8;
 
 /** What the models in all workers together may take. */
 const MEMORY_BYTES = 512 << 20;
-/** What a facet takes in the core, in the model and in what is worked out of it once, beside its bytes of the file. */
-const FACET_BYTES = 160;
 
 /** Without work for so long, workers are ended. */
 const IDLE_MS = 10_000;
@@ -15,8 +13,8 @@ const IDLE_MS = 10_000;
 type Signal = Pick<Watch, "signal">;
 
 /** How many workers a model is worth. */
-export function workersFor({ file, facets }: Pick<Subject, "file" | "facets">, most: number): number {
-  const fitting = Math.floor(MEMORY_BYTES / (FACET_BYTES * facets + file.size));
+export function workersFor({ file, search_bytes }: Pick<Subject, "file" | "search_bytes">, most: number): number {
+  const fitting = Math.floor(MEMORY_BYTES / (search_bytes + file.size));
   return Math.max(1, Math.min(most, MOST_WORKERS, fitting));
 }
 

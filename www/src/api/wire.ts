@@ -29,8 +29,8 @@ export type {
   Warning,
 } from "../../pkg/cusp_slicer.js";
 
-/** Told as a stage advances; `fraction` is 0 to 1 within the stage. */
-export type OnProgress = (stage: Stage, fraction: number) => void;
+/** Told as a stage advances: `fraction` is 0 to 1 within the stage, `done` within the whole task. */
+export type OnProgress = (stage: Stage, fraction: number, done: number) => void;
 
 /** A report, and the profile that it was planned by. */
 export interface Profiled<R> {

@@ -40,8 +40,8 @@ async function bytesOf(file: Blob): Promise<Uint8Array> {
 
 /** The core is given a plain function: what comlink hands over is a proxy that answers to every property. */
 function plain(progress: OnProgress): OnProgress {
-  return (stage, fraction) => {
-    progress(stage, fraction);
+  return (stage, fraction, done) => {
+    progress(stage, fraction, done);
   };
 }
 
@@ -82,7 +82,7 @@ const api: SlicerWorker = {
     return compiled;
   },
   async open(file, progress) {
-    progress("load", 0);
+    progress("load", 0, 0);
     // What is no STL is refused before it takes memory.
     identify(await bytesOf(file.slice(0, head_bytes())), file.size);
     const opened = new Slicer(await bytesOf(file));

@@ -3,7 +3,7 @@ import type { SlicerError } from "../api/error.js";
 import type { Model, Plan } from "../api/index.js";
 import type { Candidate } from "../api/wire.js";
 import type { CuspSlicerEvents } from "./events.js";
-import { standing, type Busy } from "./parts/progress.js";
+import { secondsLeft, type Busy } from "./parts/progress.js";
 import type { Result } from "./state/result.js";
 import type { Host } from "./state/host.js";
 
@@ -70,8 +70,8 @@ export class Reports implements Host {
   }
 
   progressed(busy: Busy): void {
-    const { task, stage, fraction } = busy;
-    this.tell("cusp-progress", { task, stage, fraction, ...standing(busy, performance.now()) });
+    const { task, stage, fraction, done } = busy;
+    this.tell("cusp-progress", { task, stage, fraction, done, left_s: secondsLeft(busy, performance.now()) });
   }
 
   painted(weights: Float32Array | null, final: boolean): void {

@@ -71,7 +71,7 @@ beforeEach(() => {
 test("a search shows what is measured, how far it is, and at last the best", async () => {
   directions.start();
   expect(directions.busy).toMatchObject({ task: "orient", stage: "orientation" });
-  last().call.onProgress?.("orientation", 0.5);
+  last().call.onProgress?.("orientation", 0.5, 0.5);
   const found = { directions: new Float64Array(6), candidates: [candidate(1), null] };
   last().call.onCandidates?.(found);
   expect(directions.busy).toMatchObject({ fraction: 0.5 });
@@ -111,7 +111,7 @@ test("a cancelled search keeps what it measured, and what comes late is no news"
   directions.cancel();
   expect(call.signal?.aborted).toBe(true);
   call.onCandidates?.({ directions: new Float64Array(3), candidates: [null] });
-  call.onProgress?.("orientation", 1);
+  call.onProgress?.("orientation", 1, 1);
   await settle();
   expect(directions.found).toBe(found);
   expect(directions.busy).toBeNull();

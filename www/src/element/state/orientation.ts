@@ -2,7 +2,7 @@
 import { isAbort } from "../../api/error.js";
 import type { Found, OrientCall, Slicer } from "../../api/index.js";
 import type { Candidate, Options, SearchOptions } from "../../api/wire.js";
-import type { Busy } from "../parts/progress.js";
+import { advanced, type Busy } from "../parts/progress.js";
 import { rotationText, type Settings } from "./settings.js";
 
 /** What a direction is judged by. */
@@ -112,13 +112,14 @@ export class OrientationSearch {
     this.#abort = abort;
     const isMine = (): boolean => this.#abort === abort;
     const { name, options } = subject;
-    const started_ms = performance.now();
+    let busy: Busy = { task: "orient", name, stage: "orientation", fraction: 0, done: 0, started_ms: performance.now() };
     const call: OrientCall = {
       signal: abort.signal,
-      onProgress: (stage, fraction) => {
+      onProgress: (stage, fraction, done) => {
         if (!isMine()) return;
-        this.busy = { task: "orient", name, stage, fraction, started_ms };
-        this.#host.progressed(this.busy);
+        busy = advanced(busy, { stage, fraction, done }, performance.now());
+        this.busy = busy;
+        this.#host.progressed(busy);
         this.#host.changed();
       },
       onCandidates: (found) => {
@@ -127,7 +128,7 @@ export class OrientationSearch {
         this.#host.changed();
       },
     };
-    this.busy = { task: "orient", name, stage: "orientation", fraction: 0, started_ms };
+    this.busy = busy;
     this.#host.changed();
     try {
       for (let aims: Aims | null = null; aims !== this.aims && (aims === null || this.isCurrent); ) {

@@ -2,7 +2,7 @@
 import { isAbort } from "../../api/error.js";
 import type { Watch } from "../../api/index.js";
 import type { Options } from "../../api/wire.js";
-import type { Busy } from "../parts/progress.js";
+import { advanced, type Busy } from "../parts/progress.js";
 
 export interface RunnerHost {
   changed(): void;
@@ -37,13 +37,15 @@ export class Runner {
     const { kind, name } = task;
     const mine = { task, abort: new AbortController() };
     this.#running = mine;
-    const busy: Busy = { task: kind, name, stage: kind === "export" ? "masks" : "load", fraction: 0, started_ms: performance.now() };
+    const stage = kind === "export" ? "masks" : "load";
+    let busy: Busy = { task: kind, name, stage, fraction: 0, done: 0, started_ms: performance.now() };
     this.busy = busy;
     this.#host.changed();
-    const onProgress: Watch["onProgress"] = (stage, fraction) => {
+    const onProgress: Watch["onProgress"] = (stage, fraction, done) => {
       if (this.#running !== mine) return;
-      this.busy = { ...busy, stage, fraction };
-      this.#host.progressed(this.busy);
+      busy = advanced(busy, { stage, fraction, done }, performance.now());
+      this.busy = busy;
+      this.#host.progressed(busy);
       this.#host.changed();
     };
     try {
