@@ -20,6 +20,7 @@ pub use options_error::OptionsError;
 pub use orient::OrientationPart;
 pub use orient::OrientationReport;
 pub use report::*;
+pub use resolve::BIN_MM;
 pub use slicer::Slicer;
 pub use stage::{Stage, StageProgress};
 pub use verify::*;

@@ -300,8 +300,8 @@ impl Options {
     }
 }
 
-/// Height of a bin that holds most thicknesses that people ask for.
-const BIN_MM: f64 = 0.002;
+/// The default height of a bin; it divides most thicknesses that people ask for.
+pub const BIN_MM: f64 = 0.002;
 
 /// How far from a whole number a quotient may be for rounding to be the reason.
 const ROUNDING: f64 = 1e-6;

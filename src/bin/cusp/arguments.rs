@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, ValueEnum};
 use cusp_slicer::format::Format;
-use cusp_slicer::job::{Backend, Minimize, Options, Planner, Snap};
+use cusp_slicer::job::{BIN_MM, Backend, Minimize, Options, Planner, Snap};
 use cusp_slicer::mask::LEVELS;
 use cusp_slicer::orientation::shard::Shard;
 use cusp_slicer::orientation::{Cost, MAX_DIRECTIONS, Quality, SearchOptions};
@@ -41,9 +41,7 @@ pub struct Choices {
     /// Printer by name, which sets pixels, pitch, mirroring and format: see `cusp printers`
     #[arg(long, value_name = "NAME", help_heading = "Printer")]
     printer: Option<String>,
-    /// Columns and rows of the masks, with the model at the centre [default: the model's bounding box at 2048 pixels along
-    /// its longer side]
-    #[arg(long, value_name = "WxH", value_parser = pixels, requires = "pitch", help_heading = "Printer")]
+    #[arg(long, value_name = "WxH", value_parser = pixels, help = pixels_help(), requires = "pitch", help_heading = "Printer")]
     pixels: Option<[u32; 2]>,
     /// Pixel size, or pixel sizes in x and y: 0.019 or 0.019x0.024
     #[arg(long, value_name = "MM", value_parser = pitch, help_heading = "Printer")]
@@ -126,8 +124,7 @@ pub struct Choices {
     /// Whether to put planes at flats and sharp changes
     #[arg(long, value_enum, default_value_t = Options::default().snap, help_heading = "Layers")]
     snap: Snap,
-    /// Height of a bin of the profile [default: 0.002, or what the step or a thickness needs]
-    #[arg(long, value_name = "MM", value_parser = length, help_heading = "Layers")]
+    #[arg(long, value_name = "MM", value_parser = length, help = bin_help(), help_heading = "Layers")]
     bin: Option<f64>,
     /// Where to sample the model
     #[arg(long, value_enum, default_value_t = Options::default().backend, help_heading = "Machine")]
@@ -227,6 +224,20 @@ fn tolerance_help() -> String {
     format!(
         "Largest error of a layer, in the metric's unit [default: {cusp} mm of cusp height, {roughness} mm of roughness, \
          {area} of the area, {volume} mm³ of volume or the smallest tolerance that the model allows]"
+    )
+}
+
+fn pixels_help() -> String {
+    let rays = Options::default().rays;
+    format!(
+        "Columns and rows of the masks, with the model at the centre [default: the model's bounding box at {rays} pixels \
+         along its longer side]"
+    )
+}
+
+fn bin_help() -> String {
+    format!(
+        "Height of a bin of the profile [default: {BIN_MM}, or what the step or a thickness needs]"
     )
 }
 

@@ -1,0 +1,71 @@
+//! The defaults that documents name are the library's.
+
+#![cfg(not(target_arch = "wasm32"))]
+
+use cusp_slicer::job::Options;
+use cusp_slicer::orientation::SearchOptions;
+use cusp_slicer::profile::Metric;
+
+const CLI: &str = include_str!("../docs/cli.md");
+const EMBED: &str = include_str!("../docs/embed.md");
+
+/// The line of a table that begins with this cell.
+fn row<'a>(document: &'a str, cell: &str) -> &'a str {
+    let start = format!("| {cell}");
+    let mut rows = document.lines().filter(|line| line.starts_with(&start));
+    rows.next().unwrap_or_else(|| panic!("no row {start}"))
+}
+
+fn assert_says(text: &str, said: &str) {
+    assert!(text.contains(said), "`{said}` is missing in: {text}");
+}
+
+/// The default tolerance as documents write it.
+fn tolerance(metric: Metric) -> String {
+    let tolerance = metric.default_tolerance();
+    match metric {
+        Metric::Cusp | Metric::Roughness => format!("{tolerance} mm"),
+        Metric::Area => format!("{tolerance}"),
+        Metric::Volume => format!("{tolerance} mm³"),
+    }
+}
+
+const METRICS: [(Metric, &str); 4] = [
+    (Metric::Cusp, "cusp"),
+    (Metric::Roughness, "roughness"),
+    (Metric::Area, "area"),
+    (Metric::Volume, "volume"),
+];
+
+#[test]
+fn the_command_lines_document_names_the_defaults_of_the_library() {
+    for (metric, name) in METRICS {
+        let row = row(CLI, &format!("`--metric {name}`"));
+        let (_, said) = row.split_once("default ").unwrap();
+        let said = said.trim_start_matches("tolerance is ");
+        assert!(said.starts_with(&tolerance(metric)), "{row}");
+    }
+    let options = Options::default();
+    let (min_mm, max_mm) = (options.layer_min_mm, options.layer_max_mm);
+    let thickness = format!("`--layer-min {min_mm}`, `--layer-max {max_mm}`");
+    assert_says(row(CLI, &thickness), "these are the defaults");
+    let directions = SearchOptions::default().directions;
+    let thousands = format!("{},{:03}", directions / 1000, directions % 1000);
+    assert_says(CLI, &format!("evaluates {thousands} directions"));
+}
+
+#[test]
+fn the_elements_document_names_the_defaults_of_the_library() {
+    let options = Options::default();
+    for (metric, name) in METRICS {
+        let said = format!("{} for `{name}`", tolerance(metric));
+        assert_says(row(EMBED, "`tolerance`"), &said);
+        let is_default = row(EMBED, "`metric`").contains(&format!("`{name}` (the default)"));
+        assert_eq!(is_default, metric == options.metric, "{name}");
+    }
+    let (min_mm, max_mm) = (options.layer_min_mm, options.layer_max_mm);
+    let said = format!("by default {min_mm} and {max_mm} mm");
+    assert_says(row(EMBED, "`layer-min`, `layer-max`"), &said);
+    let said = format!("`weight_min` ({} by default)", options.weight_min);
+    assert_says(EMBED, &said);
+}
