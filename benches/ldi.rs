@@ -12,7 +12,7 @@ use std::time::Instant;
 use cusp_slicer::grid::Grid;
 use cusp_slicer::ldi::gpu::{self, Gpu};
 use cusp_slicer::ldi::{Hit, Ldi, cpu};
-use cusp_slicer::model::read::stl;
+use cusp_slicer::model::read;
 use cusp_slicer::model::{Mesh, Pose};
 use cusp_slicer::progress::silent;
 use glam::Vec3;
@@ -88,7 +88,7 @@ fn main() {
         .skip(1)
         .filter(|argument| !argument.starts_with('-'));
     let named =
-        named.map(|path| Mesh::from_triangles(&stl::read(&std::fs::read(path).unwrap()).unwrap()));
+        named.map(|path| Mesh::from_triangles(&read::read(&std::fs::read(path).unwrap()).unwrap()));
     let models = named.map(|mesh| mesh.unwrap().on_plate(&Pose::of_height(60.0)));
     for mesh in models.chain(
         generated

@@ -17,7 +17,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use cusp_slicer::model::read::stl;
+use cusp_slicer::model::read;
 use cusp_slicer::model::{Mesh, Pose};
 
 const ROUNDS: usize = 5;
@@ -93,7 +93,7 @@ fn main() {
 /// Slices a model in uniform layers with cusp and, `with_peer`, with `prusa-slicer`, alternating each round.
 fn compare(path: &Path, folder: &Path, with_peer: bool) {
     let bytes = fs::read(path).expect("a model to read");
-    let mesh = Mesh::from_triangles(&stl::read(&bytes).expect("an STL"))
+    let mesh = Mesh::from_triangles(&read::read(&bytes).expect("an STL"))
         .and_then(|mesh| mesh.on_plate(&Pose::of_height(HEIGHT_MM)))
         .expect("a mesh");
     let size = mesh.bounds().size();

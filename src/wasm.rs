@@ -13,8 +13,7 @@ use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 use crate::job::{
     self, Comparison, Error, MeshInfo, Options, OptionsError, Preview, Report, Stage, Tradeoff,
 };
-use crate::model::read::kind::HEAD_BYTES;
-use crate::model::read::stl;
+use crate::model::read::{self, HEAD_BYTES};
 use crate::model::weights;
 use crate::orientation::{Candidate, Search, SearchOptions, Task, TaskResult};
 use crate::printer::PRINTERS;
@@ -74,14 +73,13 @@ pub struct Slicer {
     preview_density: Vec<f32>,
 }
 
-/// Says whether a file is an STL, by its first bytes and its length, before it is read.
+/// Says whether a file can be a model, by its first bytes and its length, before it is read.
 ///
 /// # Errors
 /// Throws a `CuspError` that names what it is instead.
 #[wasm_bindgen]
 pub fn identify(head: &[u8], length: f64) -> Result<(), JsValue> {
-    stl::identify(head, length as u64).map_err(throw)?;
-    Ok(())
+    read::identify(head, length as u64).map_err(throw)
 }
 
 /// Bytes that [`identify`] wants.

@@ -5,8 +5,10 @@
 mod common;
 
 use common::{binary_stl, solids};
-use cusp_slicer::model::read::kind::{FileKind, HEAD_BYTES};
-use cusp_slicer::model::read::stl::{Encoding, StlError, StlExpected, identify, read};
+use cusp_slicer::model::read::kind::FileKind;
+use cusp_slicer::model::read::stl::{StlError, StlExpected};
+use cusp_slicer::model::read::{HEAD_BYTES, ReadError, identify, read as any};
+use glam::Vec3;
 
 const ASCII: &str = "solid part one
   facet normal 0 0 1
@@ -18,6 +20,14 @@ const ASCII: &str = "solid part one
   endfacet
 endsolid part one
 ";
+
+/// Reads an STL; panics if the file is taken for something else.
+fn read(bytes: &[u8]) -> Result<Vec<[Vec3; 3]>, StlError> {
+    any(bytes).map_err(|error| match error {
+        ReadError::Stl(error) => error,
+        other => panic!("{other}"),
+    })
+}
 
 #[test]
 fn binary_files_give_the_corners_that_another_library_wrote() {
@@ -123,8 +133,8 @@ fn names_may_be_words_of_the_grammar() {
 #[test]
 fn bad_binary_files_are_told_apart() {
     let good = binary_stl(&solids::cube(2.0));
-    assert_eq!(read(&[]), Err(StlError::Empty));
-    assert_eq!(read(&good[..40]), Err(StlError::NotStl));
+    assert_eq!(any(&[]), Err(ReadError::Empty));
+    assert_eq!(any(&good[..40]), Err(ReadError::UnknownKind));
     assert_eq!(
         read(&good[..good.len() - 20]),
         Err(StlError::Truncated {
@@ -234,14 +244,14 @@ fn text_in_utf_16_is_no_stl() {
     for to_bytes in [u16::to_le_bytes, u16::to_be_bytes] {
         let text = format!("\u{feff}{ASCII}");
         let bytes: Vec<u8> = text.encode_utf16().flat_map(to_bytes).collect();
-        assert_eq!(read(&bytes), Err(StlError::NotStl));
+        assert_eq!(any(&bytes), Err(ReadError::UnknownKind));
     }
 }
 
 #[test]
 fn other_text_is_no_stl() {
     let text = "A letter about solids.\n".repeat(20);
-    assert_eq!(read(text.as_bytes()), Err(StlError::NotStl));
+    assert_eq!(any(text.as_bytes()), Err(ReadError::UnknownKind));
 }
 
 #[test]
@@ -274,8 +284,8 @@ fn files_of_other_kinds_are_named_by_their_first_bytes() {
         for length in [head.len(), 2000] {
             let mut file = head.to_vec();
             file.resize(length, b' ');
-            let error = read(&file).unwrap_err();
-            assert_eq!(error, StlError::OtherKind { kind }, "{head:?}");
+            let error = any(&file).unwrap_err();
+            assert_eq!(error, ReadError::OtherKind { kind }, "{head:?}");
             let message = error.to_string();
             assert!(message.contains(kind.name()), "{message}");
         }
@@ -300,8 +310,11 @@ fn a_binary_file_whose_length_is_right_is_an_stl_whatever_its_header_says() {
 fn the_head_of_a_file_is_enough_to_refuse_it() {
     let bytes = binary_stl(&solids::sphere(3.0, 6));
     let head = &bytes[..HEAD_BYTES];
-    assert_eq!(identify(head, bytes.len() as u64), Ok(Encoding::Binary));
-    assert_eq!(identify(ASCII.as_bytes(), 1 << 40), Ok(Encoding::Text));
+    assert_eq!(identify(head, bytes.len() as u64), Ok(()));
+    assert_eq!(identify(ASCII.as_bytes(), 1 << 40), Ok(()));
     let cut = identify(head, bytes.len() as u64 - 51);
-    assert!(matches!(cut, Err(StlError::Truncated { .. })), "{cut:?}");
+    assert!(
+        matches!(cut, Err(ReadError::Stl(StlError::Truncated { .. }))),
+        "{cut:?}"
+    );
 }

@@ -21,7 +21,7 @@ use std::time::Instant;
 
 use cusp_slicer::grid::Bins;
 use cusp_slicer::job::{Backend, Options, Slicer, Stage};
-use cusp_slicer::model::read::stl;
+use cusp_slicer::model::read;
 use cusp_slicer::model::{Mesh, Pose};
 use cusp_slicer::plan::Limits;
 use cusp_slicer::plan::optimal::{self, Objective};
@@ -57,7 +57,7 @@ fn models() -> Vec<Model> {
         .filter(|argument| !argument.starts_with('-'))
         .map(|path| {
             let bytes = std::fs::read(&path).expect("a model to read");
-            let facets = stl::read(&bytes).expect("an STL").len();
+            let facets = read::read(&bytes).expect("an STL").len();
             let name = Path::new(&path).file_stem().unwrap_or_default();
             Model {
                 name: name.to_string_lossy().into_owned(),
@@ -150,7 +150,7 @@ fn table_2(models: &[Model], text: &mut String) {
                 .expect("a plan")
                 .layers;
         });
-        let mesh = Mesh::from_triangles(&stl::read(&model.bytes).expect("an STL"))
+        let mesh = Mesh::from_triangles(&read::read(&model.bytes).expect("an STL"))
             .and_then(|mesh| mesh.on_plate(&Pose::of_height(model.height_mm)))
             .expect("a mesh");
         let plan = seconds(|| {

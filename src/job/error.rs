@@ -7,7 +7,7 @@ use crate::archive::ArchiveError;
 use crate::grid::GridError;
 use crate::ldi::LdiError;
 use crate::model::MeshError;
-use crate::model::read::stl::StlError;
+use crate::model::read::ReadError;
 use crate::model::weights::WeightsError;
 use crate::orientation::SearchError;
 #[cfg(not(target_arch = "wasm32"))]
@@ -42,10 +42,10 @@ pub enum Error {
     #[error(transparent)]
     #[serde(untagged)]
     Options(#[from] OptionsError),
-    /// The bytes are no usable STL.
+    /// The file could not be read as a model.
     #[error(transparent)]
     #[serde(untagged)]
-    Stl(#[from] StlError),
+    Read(#[from] ReadError),
     /// The triangles are no usable mesh.
     #[error(transparent)]
     #[serde(untagged)]

@@ -17,8 +17,7 @@ use crate::grid::Bins;
 use crate::ldi::LdiError;
 use crate::ldi::gpu::Gpu;
 use crate::mask::{MaskCursor, Masks, Side};
-use crate::model::read::stl;
-use crate::model::{Mesh, ModelFile, Pose, saliency, weights};
+use crate::model::{Mesh, ModelFile, Pose, read, saliency, weights};
 use crate::orientation::Surface;
 use crate::profile::facet_bins::FacetBins;
 use crate::profile::{Metric, Profile, Source, section};
@@ -53,13 +52,13 @@ struct Current {
 }
 
 impl Slicer {
-    /// Reads an STL.
+    /// Reads a model.
     ///
     /// # Errors
-    /// [`Error::Stl`], [`Error::Mesh`].
+    /// [`Error::Read`], [`Error::Mesh`].
     pub fn load(bytes: &[u8]) -> Result<Self, Error> {
         let clock = Instant::now();
-        let model = Mesh::from_triangles(&stl::read(bytes)?)?;
+        let model = Mesh::from_triangles(&read::read(bytes)?)?;
         Ok(Self {
             model,
             file: ModelFile {

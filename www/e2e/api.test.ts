@@ -161,7 +161,7 @@ test("errors have codes and details", async () => {
   });
   expect(codes).toEqual([
     "no-model",
-    "stl-not-stl",
+    "unknown-file-kind",
     ["other-file-kind", ["kind"]],
     ["fetch-failed", ["status"]],
     "nothing was thrown",

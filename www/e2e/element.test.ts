@@ -135,7 +135,7 @@ test("methods: load, plan, export, cancel", async () => {
     };
   });
   expect(found).toMatchObject({
-    errors: ["no-model", "no-plan", "stl-not-stl", "bad-options"],
+    errors: ["no-model", "no-plan", "unknown-file-kind", "bad-options"],
     model: "ball.stl",
     file: ["ball-cusp.zip", true],
     cancelled: "AbortError",

@@ -10,6 +10,7 @@ use crate::grid::GridError;
 use crate::job::OptionsError;
 use crate::ldi::{GpuFault, LdiError};
 use crate::model::MeshError;
+use crate::model::read::ReadError;
 use crate::model::read::kind::FileKind;
 use crate::model::read::stl::{StlError, StlExpected};
 use crate::model::weights::WeightsError;
@@ -32,11 +33,18 @@ macro_rules! one_of_each {
     }};
 }
 
+fn read_errors() -> Vec<ReadError> {
+    let mut errors = one_of_each!(ReadError except [Stl]:
+        Empty {},
+        OtherKind { kind: FileKind::ThreeMf },
+        UnknownKind {},
+    );
+    errors.extend(stl_errors().into_iter().map(ReadError::from));
+    errors
+}
+
 fn stl_errors() -> Vec<StlError> {
     one_of_each!(StlError except []:
-        Empty {},
-        NotStl {},
-        OtherKind { kind: FileKind::ThreeMf },
         Truncated { declared_facets: 12, expected_bytes: 684, found_bytes: 350 },
         WrongFacetCount { declared_facets: 12, found_facets: 34 },
         NotFiniteBinary { byte: 96, facet: 7 },
@@ -178,12 +186,12 @@ fn merge_errors() -> Vec<MergeError> {
 }
 
 fn errors() -> Vec<Error> {
-    let mut errors = one_of_each!(Error except [Options, Stl, Mesh, Grid, Weights, Ldi, Plan, Archive, Search, Merge]:
+    let mut errors = one_of_each!(Error except [Options, Read, Mesh, Grid, Weights, Ldi, Plan, Archive, Search, Merge]:
         NoLayer { layer: 12, layers: 10 },
         NoPlan {},
     );
     errors.extend(options_errors().into_iter().map(Error::from));
-    errors.extend(stl_errors().into_iter().map(Error::from));
+    errors.extend(read_errors().into_iter().map(Error::from));
     errors.extend(mesh_errors().into_iter().map(Error::from));
     for error in quantity_errors() {
         errors.push(Error::Grid(error.clone().into()));

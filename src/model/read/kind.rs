@@ -2,9 +2,6 @@
 
 use serde::Serialize;
 
-/// Bytes from the beginning of a file that tell its kind.
-pub const HEAD_BYTES: usize = 1 << 16;
-
 /// A kind of file that is no STL.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]

@@ -1,4 +1,63 @@
-//! Model files, one file a format.
+//! Model files, one file a format. A format is told by content, never by a file's name.
 
+mod error;
 pub mod kind;
 pub mod stl;
+
+use glam::Vec3;
+
+pub use error::ReadError;
+use kind::FileKind;
+
+/// Bytes from the beginning of a file that tell its kind.
+pub const HEAD_BYTES: usize = 1 << 16;
+
+/// The corners of triangles, in file order.
+pub type Triangles = Vec<[Vec3; 3]>;
+
+/// A format that models come in.
+struct Format {
+    /// Whether a file with these first bytes and this length is written in it.
+    is: fn(head: &[u8], length: u64) -> bool,
+    /// Reads such a file.
+    read: fn(bytes: &[u8]) -> Result<Triangles, ReadError>,
+}
+
+const FORMATS: [Format; 1] = [Format {
+    is: stl::is_stl,
+    read: |bytes| Ok(stl::read(bytes)?),
+}];
+
+/// Reads the triangles of a model.
+///
+/// # Errors
+/// [`ReadError`], with the byte offset or the line where reading failed.
+pub fn read(bytes: &[u8]) -> Result<Triangles, ReadError> {
+    let head = &bytes[..bytes.len().min(HEAD_BYTES)];
+    (format_of(head, bytes.len() as u64)?.read)(bytes)
+}
+
+/// Checks by the first [`HEAD_BYTES`] of a file and its length that it can be a model, so that other files are refused before
+/// they are read.
+///
+/// # Errors
+/// [`ReadError`], which names what the file is instead.
+pub fn identify(head: &[u8], length: u64) -> Result<(), ReadError> {
+    format_of(head, length).map(|_| ())
+}
+
+fn format_of(head: &[u8], length: u64) -> Result<&'static Format, ReadError> {
+    if length == 0 {
+        return Err(ReadError::Empty);
+    }
+    let mut formats = FORMATS.iter();
+    if let Some(format) = formats.find(|format| (format.is)(head, length)) {
+        return Ok(format);
+    }
+    if let Some(kind) = FileKind::of(head) {
+        return Err(ReadError::OtherKind { kind });
+    }
+    // A binary STL has no signature: an unknown file may be one of the wrong length.
+    let damage = stl::wrong_length(head, length);
+    Err(damage.map_or(ReadError::UnknownKind, ReadError::Stl))
+}

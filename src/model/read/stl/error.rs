@@ -2,8 +2,6 @@
 
 use serde::Serialize;
 
-use crate::model::read::kind::FileKind;
-
 /// What the grammar of a text STL asks for at some place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
@@ -55,21 +53,6 @@ impl std::fmt::Display for StlExpected {
 #[serde(tag = "code", content = "detail")]
 #[non_exhaustive]
 pub enum StlError {
-    /// The file has no bytes at all.
-    #[error("the file is empty; export the model again as STL")]
-    #[serde(rename = "stl-empty")]
-    Empty,
-    /// Neither a binary STL nor text in ASCII or UTF-8 that begins with `solid`.
-    #[error("this is no STL file; export the model as binary or ASCII STL")]
-    #[serde(rename = "stl-not-stl")]
-    NotStl,
-    /// A file of another kind.
-    #[error("this is a {} file, no STL; {}", kind.name(), kind.advice())]
-    #[serde(rename = "other-file-kind")]
-    OtherKind {
-        /// What it is.
-        kind: FileKind,
-    },
     /// A binary STL that ends before the facets which its header announces.
     #[error(
         "the STL is cut short: its header announces {declared_facets} facets, which need \

@@ -8,8 +8,6 @@ mod error;
 
 use glam::Vec3;
 
-use super::kind::{FileKind, HEAD_BYTES};
-
 pub use error::{StlError, StlExpected};
 
 /// Bytes before the first facet of a binary STL: an 80 byte header and the facet count.
@@ -26,11 +24,11 @@ const BINARY_FACET_BYTES: usize = 50;
 ///
 /// # Errors
 /// [`StlError`], with the byte offset or the line where reading failed.
-pub fn read(bytes: &[u8]) -> Result<Vec<[Vec3; 3]>, StlError> {
-    let head = &bytes[..bytes.len().min(HEAD_BYTES)];
-    let triangles = match identify(head, bytes.len() as u64)? {
-        Encoding::Binary => read_binary(bytes)?,
-        Encoding::Text => read_ascii(bytes)?,
+pub(super) fn read(bytes: &[u8]) -> Result<Vec<[Vec3; 3]>, StlError> {
+    let triangles = if is_binary(bytes, bytes.len() as u64) {
+        read_binary(bytes)?
+    } else {
+        read_ascii(bytes)?
     };
     if triangles.is_empty() {
         return Err(StlError::NoFacets);
@@ -38,59 +36,42 @@ pub fn read(bytes: &[u8]) -> Result<Vec<[Vec3; 3]>, StlError> {
     Ok(triangles)
 }
 
-/// The two ways to write an STL.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Encoding {
-    /// Facets of 50 bytes.
-    Binary,
-    /// Words.
-    Text,
+/// Whether a file with these first bytes and this length is an STL.
+pub(super) fn is_stl(head: &[u8], length: u64) -> bool {
+    is_binary(head, length) || looks_like_text(head)
 }
 
-/// Tells from the first [`HEAD_BYTES`] of a file and its length whether it is an STL and how it is written: enough to
-/// refuse what is none before it is read.
-///
-/// # Errors
-/// [`StlError::Empty`], [`StlError::NotStl`], [`StlError::OtherKind`], [`StlError::Truncated`],
-/// [`StlError::WrongFacetCount`].
-pub fn identify(head: &[u8], length: u64) -> Result<Encoding, StlError> {
-    if length == 0 {
-        return Err(StlError::Empty);
-    }
-    let declared = declared_facets(head);
-    let fits = declared.is_some_and(|count| {
+fn is_binary(head: &[u8], length: u64) -> bool {
+    declared_facets(head).is_some_and(|count| {
         let expected = binary_length(count);
         (expected..expected + BINARY_FACET_BYTES as u64).contains(&length)
-    });
-    if fits {
-        return Ok(Encoding::Binary);
-    }
-    if looks_like_text(head) {
-        return Ok(Encoding::Text);
-    }
-    if let Some(kind) = FileKind::of(head) {
-        return Err(StlError::OtherKind { kind });
-    }
-    let declared = declared.ok_or(StlError::NotStl)?;
+    })
+}
+
+/// What is wrong with a file that has the bytes of a binary STL, but not the length. `None` for text, and for what is too
+/// short to have a facet count.
+pub(super) fn wrong_length(head: &[u8], length: u64) -> Option<StlError> {
+    let declared = declared_facets(head)?;
     let is_utf16 = head.starts_with(b"\xff\xfe") || head.starts_with(b"\xfe\xff");
     let is_text = head
         .iter()
         .take(1024)
         .all(|byte| byte.is_ascii_graphic() || byte.is_ascii_whitespace() || !byte.is_ascii());
-    let found = (length - BINARY_HEADER_BYTES as u64) / BINARY_FACET_BYTES as u64;
     if is_text || is_utf16 {
-        return Err(StlError::NotStl);
+        return None;
     }
-    if declared > found {
-        return Err(StlError::Truncated {
+    let found = (length - BINARY_HEADER_BYTES as u64) / BINARY_FACET_BYTES as u64;
+    Some(if declared > found {
+        StlError::Truncated {
             declared_facets: declared,
             expected_bytes: binary_length(declared),
             found_bytes: length,
-        });
-    }
-    Err(StlError::WrongFacetCount {
-        declared_facets: declared,
-        found_facets: found,
+        }
+    } else {
+        StlError::WrongFacetCount {
+            declared_facets: declared,
+            found_facets: found,
+        }
     })
 }
 

@@ -39,10 +39,10 @@ export interface Failure {
 type Kind = keyof Texts["problems"];
 
 const KINDS: Readonly<Record<ErrorCode, Kind>> = {
-  "stl-empty": "empty",
+  "file-empty": "empty",
   "stl-no-facets": "empty",
   "stl-truncated": "cutShort",
-  "stl-not-stl": "notStl",
+  "unknown-file-kind": "notStl",
   "other-file-kind": "notStl",
   "stl-wrong-facet-count": "damaged",
   "stl-not-finite": "damaged",

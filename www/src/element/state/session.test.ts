@@ -181,9 +181,9 @@ test("of several files the first is opened and the others wait; of none it says 
   expect([session.model?.name, session.place]).toEqual(["b.stl", 1]);
   // The core looks inside and says what it is.
   void session.choose([new File([], "notes.txt")]);
-  slicer.last.reject(new SlicerError("stl-not-stl", ""));
+  slicer.last.reject(new SlicerError("unknown-file-kind", ""));
   await settle();
-  expect(session.failure).toMatchObject({ error: { code: "stl-not-stl" }, name: "notes.txt" });
+  expect(session.failure).toMatchObject({ error: { code: "unknown-file-kind" }, name: "notes.txt" });
   expect([session.model?.name, session.place, session.files.length]).toEqual(["b.stl", 1, 2]);
 });
 

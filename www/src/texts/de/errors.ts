@@ -38,8 +38,8 @@ export const FAULTS: GpuFaults = {
 };
 
 export const errors = ({ count, counted, exact, mm, measure, error }: Format): ErrorSentences => ({
-  "stl-empty": () => "Die Datei ist leer; exportieren Sie das Modell noch einmal als STL.",
-  "stl-not-stl": () => "Das ist keine STL-Datei; exportieren Sie das Modell als binäres oder Text-STL.",
+  "file-empty": () => "Die Datei ist leer; exportieren Sie das Modell noch einmal als STL.",
+  "unknown-file-kind": () => "Das ist keine STL-Datei; exportieren Sie das Modell als binäres oder Text-STL.",
   "other-file-kind": ({ kind }) =>
     `Das ist eine ${FILE_KINDS[kind]}-Datei, kein STL; ${adviceOn(kind, {
       model: "exportieren Sie das Modell als STL",

@@ -39,8 +39,8 @@ export const FAULTS: GpuFaults = {
 };
 
 export const errors = ({ count, counted, exact, mm, measure, error }: Format): ErrorSentences => ({
-  "stl-empty": () => "The file is empty; export the model again as STL.",
-  "stl-not-stl": () => "This is no STL file; export the model as binary or ASCII STL.",
+  "file-empty": () => "The file is empty; export the model again as STL.",
+  "unknown-file-kind": () => "This is no STL file; export the model as binary or ASCII STL.",
   "other-file-kind": ({ kind }) =>
     `This is a ${FILE_KINDS[kind]} file, no STL; ${adviceOn(kind, {
       model: "export the model as STL",

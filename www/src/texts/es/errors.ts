@@ -38,8 +38,8 @@ export const FAULTS: GpuFaults = {
 };
 
 export const errors = ({ count, counted, exact, mm, measure, error }: Format): ErrorSentences => ({
-  "stl-empty": () => "El archivo está vacío; exporte el modelo de nuevo como STL.",
-  "stl-not-stl": () => "No es un archivo STL; exporte el modelo como STL binario o de texto.",
+  "file-empty": () => "El archivo está vacío; exporte el modelo de nuevo como STL.",
+  "unknown-file-kind": () => "No es un archivo STL; exporte el modelo como STL binario o de texto.",
   "other-file-kind": ({ kind }) =>
     `Es un archivo ${FILE_KINDS[kind]}, no un STL; ${adviceOn(kind, {
       model: "exporte el modelo como STL",

@@ -38,8 +38,8 @@ export const FAULTS: GpuFaults = {
 };
 
 export const errors = ({ count, counted, exact, mm, measure, error }: Format): ErrorSentences => ({
-  "stl-empty": () => "Le fichier est vide ; exportez à nouveau le modèle en STL.",
-  "stl-not-stl": () => "Ce n’est pas un fichier STL ; exportez le modèle en STL binaire ou texte.",
+  "file-empty": () => "Le fichier est vide ; exportez à nouveau le modèle en STL.",
+  "unknown-file-kind": () => "Ce n’est pas un fichier STL ; exportez le modèle en STL binaire ou texte.",
   "other-file-kind": ({ kind }) =>
     `C’est un fichier ${FILE_KINDS[kind]}, pas un STL ; ${adviceOn(kind, {
       model: "exportez le modèle en STL",

@@ -37,8 +37,8 @@ export const FAULTS: GpuFaults = {
 };
 
 export const errors = ({ count, exact, mm, measure, error }: Format): ErrorSentences => ({
-  "stl-empty": () => "文件是空的；请重新将模型导出为 STL。",
-  "stl-not-stl": () => "这不是 STL 文件；请将模型导出为二进制或文本 STL。",
+  "file-empty": () => "文件是空的；请重新将模型导出为 STL。",
+  "unknown-file-kind": () => "这不是 STL 文件；请将模型导出为二进制或文本 STL。",
   "other-file-kind": ({ kind }) =>
     `这是 ${FILE_KINDS[kind]} 文件，不是 STL；${adviceOn(kind, {
       model: "请将模型导出为 STL",

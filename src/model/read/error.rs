@@ -1,0 +1,33 @@
+//! Why a file could not be read as a model.
+
+use serde::Serialize;
+
+use super::kind::FileKind;
+use super::stl::StlError;
+
+/// Why a file could not be read as a model.
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(tag = "code", content = "detail")]
+#[non_exhaustive]
+pub enum ReadError {
+    /// The file has no bytes.
+    #[error("the file is empty; export the model again as STL")]
+    #[serde(rename = "file-empty")]
+    Empty,
+    /// A file of another known kind.
+    #[error("this is a {} file, no STL; {}", kind.name(), kind.advice())]
+    #[serde(rename = "other-file-kind")]
+    OtherKind {
+        /// What it is.
+        kind: FileKind,
+    },
+    /// A file of no known kind.
+    #[error("this is no STL file; export the model as binary or ASCII STL")]
+    #[serde(rename = "unknown-file-kind")]
+    UnknownKind,
+    /// An STL that is damaged.
+    #[error(transparent)]
+    #[serde(untagged)]
+    Stl(#[from] StlError),
+}
