@@ -1,16 +1,14 @@
 //! The zip of masks, read back with independent libraries.
 
-#![cfg(not(target_arch = "wasm32"))]
-
-mod common;
-
 use std::io::{Cursor, Read, Seek, SeekFrom, Write};
 
-use common::{binary_stl, quiet, solids};
+use crate::common::{binary_stl, quiet, solids};
 use cusp_slicer::format::Format;
 use cusp_slicer::job::{Backend, Options, Planner, Slicer};
 use cusp_slicer::warning::Warning;
 use serde_json::Value;
+
+use crate::file;
 
 fn slice(triangles: &solids::Triangles, options: &Options) -> (Slicer, Vec<u8>, Value) {
     let mut slicer = Slicer::load(&binary_stl(triangles)).unwrap();
@@ -29,12 +27,6 @@ fn options() -> Options {
         backend: Backend::Cpu,
         ..Options::default()
     }
-}
-
-fn file(zip: &mut zip::ZipArchive<Cursor<Vec<u8>>>, name: &str) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    zip.by_name(name).unwrap().read_to_end(&mut bytes).unwrap();
-    bytes
 }
 
 #[test]

@@ -1,12 +1,8 @@
 //! The search as a state machine, over candidates with a closed form: any order of results gives the same.
 
-#![cfg(not(target_arch = "wasm32"))]
-
-mod common;
-
 use std::f64::consts::PI;
 
-use common::assert_near;
+use crate::common::assert_near;
 use cusp_slicer::Error;
 use cusp_slicer::orientation::shard::Shard;
 use cusp_slicer::orientation::{

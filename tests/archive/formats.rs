@@ -1,27 +1,19 @@
 //! Print files of every format: masks decoded by an independent library, a reader of run.gcode as strict as any known one,
 //! and plans that a format cannot express.
 
-#![cfg(not(target_arch = "wasm32"))]
-
-mod common;
-
-use std::io::{Cursor, Read};
-use std::ops::ControlFlow;
-
-use common::{assert_near, binary_stl, on_plate, quiet, solids};
+use crate::common::{assert_near, binary_stl, on_plate, quiet, solids};
 use cusp_slicer::Error;
-use cusp_slicer::archive::runs::RunWriter;
 use cusp_slicer::format::Format;
 use cusp_slicer::grid::{Bins, Grid};
 use cusp_slicer::job::{Backend, Options, Planner, Report, Slicer};
 use cusp_slicer::ldi::cpu;
 use cusp_slicer::mask::{Light, Masks, Samples, Side};
 use cusp_slicer::plan::uniform;
-use cusp_slicer::printer::{PRINTERS, named};
-use cusp_slicer::resin::Resin;
 use serde_json::Value;
+use std::io::Cursor;
+use std::ops::ControlFlow;
 
-type Zip = zip::ZipArchive<Cursor<Vec<u8>>>;
+use crate::{Zip, file, text};
 
 fn options(format: Format) -> Options {
     Options {
@@ -41,19 +33,6 @@ fn slice(triangles: &solids::Triangles, options: &Options) -> Result<(Slicer, Re
     let (writer, report) = slicer.write_archive(Cursor::new(Vec::new()), &mut quiet)?;
     let (zip, report) = (zip::ZipArchive::new(writer).unwrap(), report.clone());
     Ok((slicer, report, zip))
-}
-
-fn file(zip: &mut Zip, name: &str) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    zip.by_name(name)
-        .unwrap_or_else(|_| panic!("{name}"))
-        .read_to_end(&mut bytes)
-        .unwrap();
-    bytes
-}
-
-fn text(zip: &mut Zip, name: &str) -> String {
-    String::from_utf8(file(zip, name)).unwrap()
 }
 
 /// Width, height, and the brightness of each pixel.
@@ -110,6 +89,19 @@ fn every_format_has_every_mask_as_it_is_or_mirrored() {
                     );
                 }
             }
+        }
+    }
+}
+
+#[test]
+fn every_entry_is_dated_the_first_of_january_1980() {
+    for format in [Format::Png, Format::Chitubox, Format::Uvj] {
+        let (_, _, mut zip) = slice(&solids::cube(2.0), &options(format)).unwrap();
+        assert!(!zip.is_empty());
+        for entry in 0..zip.len() {
+            let date = zip.by_index(entry).unwrap().last_modified().unwrap();
+            assert_eq!(date, zip::DateTime::default(), "{format:?}");
+            assert!(date.is_valid());
         }
     }
 }
@@ -382,172 +374,4 @@ fn sl1_takes_uniform_layers_alone() {
         })
         .count();
     assert_eq!(masks, report.layers);
-}
-
-#[test]
-fn exposures_follow_the_curve_or_the_table() {
-    let resin = Resin::default();
-    assert_eq!(resin.exposure_s(0.05), 3.0);
-    // Jacobs: the exposure is proportional to exp(thickness / penetration).
-    assert_near(resin.exposure_s(0.1), 3.0 * (0.05f64 / 0.15).exp(), 1e-3);
-    assert_near(
-        resin.overhead_s(),
-        1.0 + 60.0 * (5.0 / 65.0 + 5.0 / 150.0),
-        1e-9,
-    );
-    let measured = Resin {
-        exposures: vec![[0.05, 2.0], [0.1, 3.0]],
-        ..resin.clone()
-    };
-    let exposures =
-        [0.02, 0.05, 0.075, 0.1, 0.2].map(|thickness_mm| measured.exposure_s(thickness_mm));
-    assert_eq!(exposures, [2.0, 2.0, 2.5, 3.0, 3.0]);
-    assert_eq!(
-        resin.exposures_s(&[0.05; 6]),
-        [30.0, 30.0, 30.0, 30.0, 3.0, 3.0]
-    );
-    assert_near(
-        resin.print_time_s(&[0.05; 6]),
-        126.0 + 6.0 * resin.overhead_s(),
-        1e-4,
-    );
-    for wrong in [
-        Resin {
-            exposure_s: f64::NAN,
-            ..resin.clone()
-        },
-        Resin {
-            penetration_mm: 0.0,
-            ..resin.clone()
-        },
-        Resin {
-            exposures: vec![[0.1, 2.0], [0.1, 3.0]],
-            ..resin.clone()
-        },
-        Resin {
-            exposures: vec![[0.1, -2.0]],
-            ..resin
-        },
-    ] {
-        assert!(wrong.check().is_err(), "{wrong:?}");
-    }
-}
-
-#[test]
-fn printers_are_what_their_data_says() {
-    for printer in PRINTERS {
-        assert_eq!(named(printer.name), Some(printer));
-        for axis in 0..2 {
-            let side_mm = f64::from(printer.pixels[axis]) * printer.pitch_um[axis] / 1e3;
-            assert_near(side_mm, printer.volume_mm[axis], 0.005);
-        }
-        assert!(!printer.reads.is_empty(), "{}", printer.name);
-        for extension in printer.reads {
-            assert!(
-                extension
-                    .bytes()
-                    .all(|it| it.is_ascii_lowercase() || it.is_ascii_digit()),
-                "{extension}"
-            );
-        }
-    }
-    let direct = PRINTERS.iter().filter(|printer| printer.reads_format);
-    let direct: Vec<_> = direct
-        .map(|printer| (printer.name, printer.format, printer.reads))
-        .collect();
-    assert_eq!(
-        direct,
-        [
-            ("sl1s", Format::Sl1, &["sl1s"][..]),
-            ("shuffle", Format::Chitubox, &["zip"][..]),
-        ]
-    );
-    let on = |name: &str, triangles: &solids::Triangles| {
-        let mut slicer = Slicer::load(&binary_stl(triangles)).unwrap();
-        let options = Options {
-            printer: Some(name.to_owned()),
-            backend: Backend::Cpu,
-            ..Options::default()
-        };
-        pollster::block_on(slicer.plan(&options, &mut quiet)).cloned()
-    };
-    let cube = solids::cube(2.0);
-    let report = on("saturn-3-ultra", &cube).unwrap();
-    let mask = &report.mask;
-    assert_eq!((mask.width, mask.height), (11520, 5120));
-    assert_eq!(
-        (mask.pitch_mm, mask.pitch_y_mm, mask.is_mirrored),
-        (0.019, 0.024, true)
-    );
-    // Rays only over the model: 105 columns and 83 rows, two hits per ray.
-    assert!(
-        (2 * 100 * 80..2 * 110 * 90).contains(&report.hits),
-        "{}",
-        report.hits
-    );
-    assert_near(report.resin_ml, 0.008, 2e-4);
-    let code = |result: Result<Report, Error>| result.unwrap_err().code();
-    assert_eq!(code(on("no-such-printer", &cube)), "unknown-printer");
-    assert_eq!(
-        code(on(
-            "shuffle",
-            &solids::cuboid(glam::Vec3::new(70.0, 5.0, 5.0))
-        )),
-        "model-too-large"
-    );
-    assert_eq!(
-        code(on(
-            "shuffle",
-            &solids::cuboid(glam::Vec3::new(5.0, 5.0, 201.0))
-        )),
-        "model-too-high"
-    );
-}
-
-#[test]
-fn a_stream_of_runs_is_what_another_library_inflates() {
-    let mut random = fastrand::Rng::with_seed(29);
-    for round in 0..300 {
-        let mut stream = RunWriter::default();
-        let mut expected = Vec::new();
-        for _ in 0..random.usize(0..200) {
-            let byte = if random.bool() { 0 } else { random.u8(..) };
-            let count = match random.u8(0..10) {
-                0 => random.usize(250..270),
-                1 => random.usize(0..100_000),
-                _ => random.usize(0..12),
-            };
-            stream.run(byte, count as u64);
-            expected.extend(std::iter::repeat_n(byte, count));
-        }
-        // Literals of very different frequencies, which would give a fitted code long words.
-        if round % 10 == 0 {
-            for byte in 0..=255u8 {
-                for _ in 0..1u32 << (byte % 13) {
-                    stream.run(byte, 1);
-                    stream.run(255 - byte, 1);
-                    expected.extend([byte, 255 - byte]);
-                }
-            }
-        }
-        let bytes = stream.finish();
-        let mut found = Vec::new();
-        flate2::read::ZlibDecoder::new(bytes.as_slice())
-            .read_to_end(&mut found)
-            .unwrap();
-        assert!(found == expected, "round {round}");
-    }
-}
-
-#[test]
-fn dark_pixels_cost_next_to_nothing() {
-    let mut stream = RunWriter::default();
-    stream.run(0, 11_520 * 5_120);
-    // One byte per 258, and almost nothing once deflated again.
-    let bytes = stream.finish();
-    assert!((228_000..229_000).contains(&bytes.len()), "{}", bytes.len());
-    let mut twice = flate2::write::DeflateEncoder::new(Vec::new(), flate2::Compression::fast());
-    std::io::Write::write_all(&mut twice, &bytes).unwrap();
-    let twice = twice.finish().unwrap().len();
-    assert!(twice < 1_500, "{twice}");
 }

@@ -1,0 +1,26 @@
+//! Print files, read back with independent libraries.
+
+#![cfg(not(target_arch = "wasm32"))]
+
+#[path = "../common/mod.rs"]
+mod common;
+mod formats;
+mod png_zip;
+mod runs;
+
+use std::io::{Cursor, Read};
+
+type Zip = zip::ZipArchive<Cursor<Vec<u8>>>;
+
+fn file(zip: &mut Zip, name: &str) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    zip.by_name(name)
+        .unwrap_or_else(|_| panic!("{name}"))
+        .read_to_end(&mut bytes)
+        .unwrap();
+    bytes
+}
+
+fn text(zip: &mut Zip, name: &str) -> String {
+    String::from_utf8(file(zip, name)).unwrap()
+}

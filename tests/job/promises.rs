@@ -1,0 +1,204 @@
+//! What a plan promises: tolerances, targets, true heights, and warnings where it cannot.
+
+use crate::common::{quiet, solids};
+use cusp_slicer::job::{Minimize, Options, Snap};
+use cusp_slicer::profile::{Metric, Source};
+use cusp_slicer::warning::Warning;
+use glam::Vec3;
+use std::io::Cursor;
+
+use crate::{code, load, options, plan};
+
+#[test]
+fn output_that_would_be_black_is_an_error() {
+    let mut thin = load(&solids::cuboid(Vec3::new(1e5, 1e-3, 1.0)));
+    assert_eq!(code(plan(&mut thin, &options())), "no-hits");
+    let mut low = load(&solids::cuboid(Vec3::new(1.0, 1.0, 0.4)));
+    let coarse = Options {
+        bin_mm: Some(1.0),
+        layer_min_mm: 1.0,
+        layer_max_mm: 1.0,
+        tolerance: Some(10.0),
+        ..options()
+    };
+    plan(&mut low, &coarse).unwrap();
+    let result = low.write_archive(Cursor::new(Vec::new()), &mut quiet);
+    assert_eq!(code(result.map(|_| ())), "all-black");
+}
+
+/// A model, the level of anti-aliasing, and whether there are black layers.
+type BlackCase = (&'static str, solids::Triangles, u32, bool);
+
+#[test]
+fn the_plan_warns_of_exactly_the_layers_whose_masks_are_black() {
+    let floating = || {
+        let mut plate = solids::cuboid(Vec3::new(6.0, 6.0, 1.0));
+        let ball = solids::sphere(2.0, 4);
+        plate.extend(solids::moved(&ball, Vec3::new(3.0, 3.0, 6.0)));
+        plate
+    };
+    let cases: [BlackCase; 4] = [
+        // The tip is thinner than a pixel.
+        ("tip", solids::cone(3.0, 4.0, 16), 1, true),
+        ("floating", floating(), 1, true),
+        ("floating, grey", floating(), 4, true),
+        ("cube", solids::cube(3.0), 1, false),
+    ];
+    for (name, model, antialias, has_black) in cases {
+        let mut slicer = load(&model);
+        let options = Options {
+            rays: 8,
+            antialias,
+            ..options()
+        };
+        let report = plan(&mut slicer, &options).unwrap();
+        let warned: Vec<_> = report
+            .warnings
+            .iter()
+            .filter_map(|warning| match *warning {
+                Warning::BlackLayers { layers, from_mm } => Some((layers, from_mm)),
+                _ => None,
+            })
+            .collect();
+        // The masks themselves.
+        let written = slicer.write_archive(Vec::new(), &mut quiet).unwrap().0;
+        let mut zip = zip::ZipArchive::new(Cursor::new(written)).unwrap();
+        let manifest = zip.by_name("manifest.json").unwrap();
+        let manifest: serde_json::Value = serde_json::from_reader(manifest).unwrap();
+        let black: Vec<usize> = manifest["layer_files"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .enumerate()
+            .filter(|(_, layer)| layer["lit_pixels"] == 0)
+            .map(|(layer, _)| layer)
+            .collect();
+        let expected: Vec<_> = black
+            .first()
+            .map(|&lowest| (black.len(), report.z_mm[lowest]))
+            .into_iter()
+            .collect();
+        assert_eq!(warned, expected, "{name}");
+        assert_eq!(!black.is_empty(), has_black, "{name}");
+    }
+}
+
+#[test]
+fn the_tolerance_holds_on_every_solid_under_every_metric() {
+    for (name, triangles) in solids::all() {
+        let mut slicer = load(&triangles);
+        for metric in [
+            Metric::Cusp,
+            Metric::Roughness,
+            Metric::Area,
+            Metric::Volume,
+        ] {
+            for minimize in [Minimize::Layers, Minimize::Time] {
+                let options = Options {
+                    metric,
+                    minimize,
+                    ..options()
+                };
+                let report = match plan(&mut slicer, &options) {
+                    Ok(report) => report,
+                    Err(error) => panic!("{name}, {metric:?}: {error}"),
+                };
+                let room = 1.0 + 1e-6;
+                assert!(
+                    report.max_error <= report.tolerance * room,
+                    "{name}, {metric:?}"
+                );
+                if metric == Metric::Cusp {
+                    assert_eq!(report.max_error, report.max_error_mm);
+                    assert!(report.sampled_error <= report.max_error * room, "{name}");
+                }
+                assert!(
+                    report.layers <= report.uniform.finest.layers,
+                    "{name}, {metric:?}"
+                );
+                assert!(
+                    report.layers >= report.uniform.coarsest.layers,
+                    "{name}, {metric:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_sampled_plan_that_fails_on_the_mesh_says_so() {
+    // A tiny cone between the rays, on top of a cube: no ray sees its slope.
+    let mut triangles = solids::cube(10.0);
+    let spike = solids::cone(0.02, 0.03, 8);
+    triangles.extend(solids::moved(&spike, Vec3::new(5.04, 5.04, 10.0)));
+    triangles.extend(solids::moved(
+        &solids::cuboid(Vec3::new(1.0, 1.0, 3.0)),
+        Vec3::new(1.0, 1.0, 10.0),
+    ));
+    let mut slicer = load(&triangles);
+    let sampled = Options {
+        source: Source::Sampled,
+        tolerance: Some(0.02),
+        layer_min_mm: 0.1,
+        bin_mm: Some(0.01),
+        snap: Snap::Off,
+        ..options()
+    };
+    let report = plan(&mut slicer, &sampled).unwrap();
+    assert!(report.sampled_error <= 0.02 + 1e-9);
+    assert!(report.max_error > 0.02);
+    assert!(
+        report
+            .warnings
+            .iter()
+            .any(|warning| matches!(warning, Warning::ToleranceExceededOnMesh { .. }))
+    );
+}
+
+#[test]
+fn flats_print_at_their_true_height() {
+    // A step at a height where the fewest layers would have no plane.
+    let mut stairs = solids::cuboid(Vec3::new(10.0, 10.0, 3.334));
+    stairs.extend(solids::moved(
+        &solids::cuboid(Vec3::new(4.0, 4.0, 6.0)),
+        Vec3::new(3.0, 3.0, 0.0),
+    ));
+    let mut slicer = load(&stairs);
+    let snapped = plan(&mut slicer, &options()).unwrap();
+    assert_eq!(snapped.snapped_mm, [3.334]);
+    assert!(snapped.z_mm.contains(&3.334));
+    let off = Options {
+        snap: Snap::Off,
+        ..options()
+    };
+    assert_eq!(plan(&mut slicer, &off).unwrap().snapped_mm, [0.0; 0]);
+    let large = Options {
+        flat_area_mm2: 90.0,
+        ..options()
+    };
+    // The flat is 84 mm², but the profile still changes sharply there.
+    assert_eq!(plan(&mut slicer, &large).unwrap().snapped_mm.len(), 1);
+}
+
+#[test]
+fn a_goal_is_met_with_the_least_tolerance() {
+    let mut slicer = load(&solids::sphere(3.0, 5));
+    let usual = plan(&mut slicer, &options()).unwrap();
+    let few = Options {
+        max_layers: Some(usual.layers - 5),
+        ..options()
+    };
+    let report = plan(&mut slicer, &few).unwrap();
+    assert!(report.layers <= usual.layers - 5 && report.tolerance > 0.065);
+    let quick = Options {
+        max_time_s: Some(usual.print_time_s * 0.9),
+        ..options()
+    };
+    let report = plan(&mut slicer, &quick).unwrap();
+    assert!(report.print_time_s <= usual.print_time_s * 0.9);
+    let both = Options {
+        tolerance: Some(0.1),
+        ..few
+    };
+    assert_eq!(code(plan(&mut slicer, &both)), "several-targets");
+}

@@ -1,0 +1,219 @@
+//! What is measured in one orientation, against closed forms and naive oracles.
+
+use crate::common::{assert_near, solids};
+use cusp_slicer::job::{Options, Snap};
+use cusp_slicer::model::Pose;
+use cusp_slicer::profile::Metric;
+use glam::{DQuat, DVec3, Vec3};
+
+use crate::{METRICS, bean, few, measure, metrics, options, orient, slicer};
+
+#[test]
+fn candidates_are_what_a_preview_in_their_pose_shows() {
+    let model = bean();
+    let mut slicer = slicer(&model);
+    let directions = slicer.directions(&options(), 12).unwrap();
+    for metric in METRICS {
+        let options = Options {
+            metric,
+            height_mm: Some(9.0),
+            tolerance: (metric == Metric::Volume).then_some(3.0),
+            ..options()
+        };
+        let found = measure(&mut slicer, &options, &directions);
+        for candidate in found {
+            let there = Options {
+                rotation: Some(candidate.rotation),
+                height_mm: Some(candidate.size_mm[2]),
+                ..options.clone()
+            };
+            let (preview, _) = slicer.preview(&there).unwrap();
+            let metrics = candidate.metrics.unwrap();
+            assert!(metrics.layers.abs_diff(preview.layers) <= 1);
+            assert_near(
+                metrics.max_error,
+                preview.max_error,
+                0.02 * preview.max_error,
+            );
+            for (ours, theirs) in candidate.size_mm.into_iter().zip(preview.size_mm) {
+                assert_near(ours, theirs, 1e-5);
+            }
+            // The rotation turns the direction upright.
+            let up = DQuat::from_array(candidate.rotation) * DVec3::from_array(candidate.direction);
+            assert_near(up.z, 1.0, 1e-12);
+        }
+    }
+}
+
+#[test]
+fn weights_count_facet_by_facet() {
+    let model = bean();
+    let mut slicer = slicer(&model);
+    let weights = model
+        .iter()
+        .map(|corners| if corners[0].x > 0.0 { 1.0 } else { 0.3 });
+    slicer.set_weights(Some(weights.collect())).unwrap();
+    let directions = slicer.directions(&options(), 20).unwrap();
+    let found = measure(&mut slicer, &options(), &directions);
+    slicer.set_weights(None).unwrap();
+    let plain = measure(&mut slicer, &options(), &directions);
+    slicer.set_weights(Some(vec![1.0; model.len()])).unwrap();
+    let mut fewer = 0;
+    for (candidate, plain) in found.iter().zip(&plain) {
+        let layers = candidate.metrics.unwrap().layers;
+        assert!(layers <= plain.metrics.unwrap().layers);
+        fewer += usize::from(layers < plain.metrics.unwrap().layers);
+    }
+    assert!(fewer > 5, "{fewer}");
+    let weights = model
+        .iter()
+        .map(|corners| if corners[0].x > 0.0 { 1.0 } else { 0.3 });
+    slicer.set_weights(Some(weights.collect())).unwrap();
+    for candidate in found {
+        let options = Options {
+            rotation: Some(candidate.rotation),
+            ..options()
+        };
+        let (preview, _) = slicer.preview(&options).unwrap();
+        assert!(candidate.metrics.unwrap().layers.abs_diff(preview.layers) <= 1);
+    }
+}
+
+#[test]
+fn overhangs_have_closed_forms() {
+    let (side, height) = (10.0, 12.0);
+    let mut tower = slicer(&solids::cuboid(Vec3::new(side, side, height)));
+    let at = |degrees: f64| {
+        let (sine, cosine) = degrees.to_radians().sin_cos();
+        DVec3::new(0.0, -sine, cosine)
+    };
+    let [side, height] = [f64::from(side), f64::from(height)];
+    for (degrees, expected) in [
+        // On its base, on a side, and on its top.
+        (0.0, 0.0),
+        (90.0, 0.0),
+        (180.0, 0.0),
+        // The base, less than 45° from level, is in the air; then the side is.
+        (30.0, side * side),
+        (60.0, side * height),
+    ] {
+        let found = metrics(&mut tower, &options(), at(degrees));
+        assert_near(found.overhang_mm2, expected, 1e-3);
+    }
+    // A cone of 60° to level on its tip needs none for its side, but for its base when it lies.
+    let mut cone = slicer(&solids::cone(5.0, 5.0 * 3f64.sqrt(), 16));
+    assert_near(
+        metrics(&mut cone, &options(), -DVec3::Z).overhang_mm2,
+        0.0,
+        1e-9,
+    );
+    assert_near(
+        metrics(&mut cone, &options(), DVec3::Z).overhang_mm2,
+        0.0,
+        1e-9,
+    );
+    let mut flat = slicer(&solids::cone(8.0, 4.0, 16));
+    assert!(metrics(&mut flat, &options(), -DVec3::Z).overhang_mm2 > 200.0);
+}
+
+/// The mean roughness of a surface by going over every facet, and along its height in small steps.
+fn naive_roughness(corners: &[f32], z_mm: &[f64]) -> f64 {
+    let (mut sum, mut surface) = (0.0, 0.0);
+    for facet in corners.chunks_exact(9) {
+        let corner = |i: usize| Vec3::from_slice(&facet[3 * i..]).as_dvec3();
+        let [a, b, c] = [corner(0), corner(1), corner(2)];
+        let normal = (b - a).cross(c - a);
+        let area = normal.length() / 2.0;
+        let sine = (1.0 - (normal.z / normal.length()).powi(2)).max(0.0).sqrt();
+        let rough = if sine < 0.5 { 2.0 } else { 1.0 / sine };
+        let (low, high) = (a.z.min(b.z).min(c.z), a.z.max(b.z).max(c.z));
+        let steps = 200;
+        let thickness: f64 = (0..steps)
+            .map(|step| {
+                let z = low + (high - low) * (f64::from(step) + 0.5) / f64::from(steps);
+                let above = z_mm.partition_point(|&plane| plane <= z);
+                let above = above.clamp(1, z_mm.len() - 1);
+                z_mm[above] - z_mm[above - 1]
+            })
+            .sum();
+        sum += area * rough * thickness / f64::from(steps);
+        surface += area;
+    }
+    sum / surface
+}
+
+#[test]
+fn roughness_is_that_of_every_facet_in_its_layers() {
+    let model = bean();
+    let mut slicer = slicer(&model);
+    for direction in [
+        DVec3::Z,
+        DVec3::X,
+        DVec3::new(0.6, 0.0, -0.8),
+        DVec3::ONE.normalize(),
+    ] {
+        let candidate = &measure(&mut slicer, &options(), &[direction.to_array()])[0];
+        let rotation = Some(candidate.rotation);
+        let there = Options {
+            rotation,
+            ..options()
+        };
+        let (preview, _) = slicer.preview(&there).unwrap();
+        let pose = Pose {
+            rotation,
+            height_mm: None,
+        };
+        let corners = slicer.positions_on_plate(&pose).unwrap();
+        let naive = naive_roughness(&corners, &preview.z_mm);
+        let found = candidate.metrics.unwrap().roughness_mm;
+        assert_near(found, naive, 0.01 * naive);
+    }
+}
+
+#[test]
+fn a_ball_is_the_same_from_everywhere() {
+    let levels = 5;
+    let found = orient(&solids::sphere(10.0, levels), &options(), &few(300));
+    let layers: Vec<usize> = found
+        .candidates
+        .iter()
+        .map(|candidate| candidate.metrics.unwrap().layers)
+        .collect();
+    let (least, most) = (layers.iter().min().unwrap(), layers.iter().max().unwrap());
+    // Facets stand for the surface within their own angle, here up to 90° / 2^levels, and so do slopes and the layers
+    // that these allow, which are about the height over the tolerance near the poles.
+    let angle = 90f64.to_radians() / f64::from(1 << levels);
+    let discretisation = 2.0 * 10.0 * angle / 0.065;
+    assert!(
+        ((most - least) as f64) < discretisation / 2.0,
+        "{least} to {most}"
+    );
+    assert!((most - least) * 20 < *least, "{least} to {most}");
+    assert!(found.candidates.iter().all(|it| it.excluded.is_none()));
+}
+
+#[test]
+fn upside_down_a_model_has_as_many_layers() {
+    let mut slicer = slicer(&bean());
+    let directions = slicer.directions(&options(), 60).unwrap();
+    for metric in [Metric::Cusp, Metric::Roughness, Metric::Area] {
+        let options = Options {
+            metric,
+            tolerance: Some(if metric == Metric::Cusp { 0.065 } else { 0.2 }),
+            snap: Snap::Off,
+            ..options()
+        };
+        for &direction in &directions {
+            let direction = DVec3::from_array(direction);
+            let [up, down] =
+                [direction, -direction].map(|direction| metrics(&mut slicer, &options, direction));
+            // Bins are counted from the plate, so that the same surface lies otherwise in them.
+            assert!(
+                up.layers.abs_diff(down.layers) <= 2,
+                "{metric:?} {direction}: {} and {}",
+                up.layers,
+                down.layers
+            );
+        }
+    }
+}

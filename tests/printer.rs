@@ -1,0 +1,132 @@
+//! Printers and resins as data: plates, what printers refuse, exposures.
+
+#![cfg(not(target_arch = "wasm32"))]
+
+mod common;
+
+use common::{assert_near, binary_stl, quiet, solids};
+use cusp_slicer::Error;
+use cusp_slicer::format::Format;
+use cusp_slicer::job::{Backend, Options, Report, Slicer};
+use cusp_slicer::printer::{PRINTERS, named};
+use cusp_slicer::resin::Resin;
+
+#[test]
+fn exposures_follow_the_curve_or_the_table() {
+    let resin = Resin::default();
+    assert_eq!(resin.exposure_s(0.05), 3.0);
+    // Jacobs: the exposure is proportional to exp(thickness / penetration).
+    assert_near(resin.exposure_s(0.1), 3.0 * (0.05f64 / 0.15).exp(), 1e-3);
+    assert_near(
+        resin.overhead_s(),
+        1.0 + 60.0 * (5.0 / 65.0 + 5.0 / 150.0),
+        1e-9,
+    );
+    let measured = Resin {
+        exposures: vec![[0.05, 2.0], [0.1, 3.0]],
+        ..resin.clone()
+    };
+    let exposures =
+        [0.02, 0.05, 0.075, 0.1, 0.2].map(|thickness_mm| measured.exposure_s(thickness_mm));
+    assert_eq!(exposures, [2.0, 2.0, 2.5, 3.0, 3.0]);
+    assert_eq!(
+        resin.exposures_s(&[0.05; 6]),
+        [30.0, 30.0, 30.0, 30.0, 3.0, 3.0]
+    );
+    assert_near(
+        resin.print_time_s(&[0.05; 6]),
+        126.0 + 6.0 * resin.overhead_s(),
+        1e-4,
+    );
+    for wrong in [
+        Resin {
+            exposure_s: f64::NAN,
+            ..resin.clone()
+        },
+        Resin {
+            penetration_mm: 0.0,
+            ..resin.clone()
+        },
+        Resin {
+            exposures: vec![[0.1, 2.0], [0.1, 3.0]],
+            ..resin.clone()
+        },
+        Resin {
+            exposures: vec![[0.1, -2.0]],
+            ..resin
+        },
+    ] {
+        assert!(wrong.check().is_err(), "{wrong:?}");
+    }
+}
+
+#[test]
+fn printers_are_what_their_data_says() {
+    for printer in PRINTERS {
+        assert_eq!(named(printer.name), Some(printer));
+        for axis in 0..2 {
+            let side_mm = f64::from(printer.pixels[axis]) * printer.pitch_um[axis] / 1e3;
+            assert_near(side_mm, printer.volume_mm[axis], 0.005);
+        }
+        assert!(!printer.reads.is_empty(), "{}", printer.name);
+        for extension in printer.reads {
+            assert!(
+                extension
+                    .bytes()
+                    .all(|it| it.is_ascii_lowercase() || it.is_ascii_digit()),
+                "{extension}"
+            );
+        }
+    }
+    let direct = PRINTERS.iter().filter(|printer| printer.reads_format);
+    let direct: Vec<_> = direct
+        .map(|printer| (printer.name, printer.format, printer.reads))
+        .collect();
+    assert_eq!(
+        direct,
+        [
+            ("sl1s", Format::Sl1, &["sl1s"][..]),
+            ("shuffle", Format::Chitubox, &["zip"][..]),
+        ]
+    );
+    let on = |name: &str, triangles: &solids::Triangles| {
+        let mut slicer = Slicer::load(&binary_stl(triangles)).unwrap();
+        let options = Options {
+            printer: Some(name.to_owned()),
+            backend: Backend::Cpu,
+            ..Options::default()
+        };
+        pollster::block_on(slicer.plan(&options, &mut quiet)).cloned()
+    };
+    let cube = solids::cube(2.0);
+    let report = on("saturn-3-ultra", &cube).unwrap();
+    let mask = &report.mask;
+    assert_eq!((mask.width, mask.height), (11520, 5120));
+    assert_eq!(
+        (mask.pitch_mm, mask.pitch_y_mm, mask.is_mirrored),
+        (0.019, 0.024, true)
+    );
+    // Rays only over the model: 105 columns and 83 rows, two hits per ray.
+    assert!(
+        (2 * 100 * 80..2 * 110 * 90).contains(&report.hits),
+        "{}",
+        report.hits
+    );
+    assert_near(report.resin_ml, 0.008, 2e-4);
+    let code = |result: Result<Report, Error>| result.unwrap_err().code();
+    assert_eq!(code(on("no-such-printer", &cube)), "unknown-printer");
+    assert_eq!(
+        code(on(
+            "shuffle",
+            &solids::cuboid(glam::Vec3::new(70.0, 5.0, 5.0))
+        )),
+        "model-too-large"
+    );
+    assert_eq!(
+        code(on(
+            "shuffle",
+            &solids::cuboid(glam::Vec3::new(5.0, 5.0, 201.0))
+        )),
+        "model-too-high"
+    );
+}
