@@ -7,12 +7,10 @@ use std::ops::ControlFlow;
 
 use js_sys::{Function, Reflect, Uint8Array};
 use serde::Serialize;
-use tsify::{Ts, Tsify};
+use tsify::Ts;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
-use crate::job::{
-    self, Comparison, Error, MeshInfo, Options, OptionsError, Preview, Report, Stage, Tradeoff,
-};
+use crate::job::{self, Error, Options, OptionsError, Stage};
 use crate::model::read::{self, HEAD_BYTES};
 use crate::model::weights;
 use crate::orientation::{Candidate, Search, SearchOptions, Task, TaskResult};
@@ -29,10 +27,12 @@ export type CoreError = Flat<NestedError>;
 export type CuspError = CoreError & { message: string };
 ";
 
+/// Hands a value over as JSON, whose writer the manifest needs anyway; a second one for JavaScript's objects would only make
+/// the module larger.
 fn to_js(value: &impl Serialize) -> JsValue {
-    let serializer = serde_wasm_bindgen::Serializer::json_compatible();
-    // Fails only on maps with keys that are no strings, which no error has.
-    value.serialize(&serializer).unwrap_or(JsValue::NULL)
+    // Fails only on maps with keys that are no strings, which nothing here has.
+    let json = serde_json::to_string(value).unwrap_or_default();
+    js_sys::JSON::parse(&json).unwrap_or(JsValue::NULL)
 }
 
 fn throw(error: impl Into<Error>) -> JsValue {
@@ -253,11 +253,12 @@ impl Slicer {
         clippy::needless_pass_by_value,
         reason = "values from JavaScript come by value"
     )]
-    pub fn preview(&mut self, options: Ts<Options>) -> Result<Ts<Preview>, JsValue> {
+    #[wasm_bindgen(unchecked_return_type = "Preview")]
+    pub fn preview(&mut self, options: Ts<Options>) -> Result<JsValue, JsValue> {
         let options = options.to_rust().map_err(throw_conversion)?;
         let (preview, profile) = self.slicer.preview(&options).map_err(throw)?;
         self.preview_density = profile.density;
-        preview.into_ts().map_err(throw_conversion)
+        Ok(to_js(&preview))
     }
 
     /// A search along directions spread evenly, the axes, and those of the model's largest flats.
@@ -311,17 +312,16 @@ impl Slicer {
     }
 
     /// Describes the model as it stands in its file.
-    ///
-    /// # Errors
-    /// None that a valid model causes.
-    pub fn info(&self) -> Result<Ts<MeshInfo>, JsValue> {
-        self.slicer.info().into_ts().map_err(throw_conversion)
+    #[wasm_bindgen(unchecked_return_type = "MeshInfo")]
+    pub fn info(&self) -> JsValue {
+        to_js(&self.slicer.info())
     }
 
     /// Plans the layers.
     ///
     /// # Errors
     /// Throws a `CuspError`.
+    #[wasm_bindgen(unchecked_return_type = "Report")]
     pub async fn plan(
         &mut self,
         options: Ts<Options>,
@@ -329,19 +329,20 @@ impl Slicer {
             unchecked_param_type = "(stage: Stage, fraction: number, done: number) => void"
         )]
         progress: Function,
-    ) -> Result<Ts<Report>, JsValue> {
+    ) -> Result<JsValue, JsValue> {
         let options = options.to_rust().map_err(throw_conversion)?;
         let report = self
             .slicer
             .plan(&options, &mut progress_to(&progress))
             .await;
-        report.map_err(throw)?.into_ts().map_err(throw_conversion)
+        Ok(to_js(report.map_err(throw)?))
     }
 
     /// Best plans for `points` tolerances, from the tightest that can be held to the loosest that saves a layer.
     ///
     /// # Errors
     /// Throws a `CuspError`.
+    #[wasm_bindgen(unchecked_return_type = "Tradeoff")]
     pub async fn tradeoff(
         &mut self,
         options: Ts<Options>,
@@ -350,17 +351,18 @@ impl Slicer {
             unchecked_param_type = "(stage: Stage, fraction: number, done: number) => void"
         )]
         progress: Function,
-    ) -> Result<Ts<Tradeoff>, JsValue> {
+    ) -> Result<JsValue, JsValue> {
         let options = options.to_rust().map_err(throw_conversion)?;
         let mut progress = progress_to(&progress);
         let curve = self.slicer.tradeoff(&options, points, &mut progress).await;
-        curve.map_err(throw)?.into_ts().map_err(throw_conversion)
+        Ok(to_js(&curve.map_err(throw)?))
     }
 
     /// The plans of all planners side by side.
     ///
     /// # Errors
     /// Throws a `CuspError`.
+    #[wasm_bindgen(unchecked_return_type = "Comparison")]
     pub async fn compare(
         &mut self,
         options: Ts<Options>,
@@ -368,14 +370,11 @@ impl Slicer {
             unchecked_param_type = "(stage: Stage, fraction: number, done: number) => void"
         )]
         progress: Function,
-    ) -> Result<Ts<Comparison>, JsValue> {
+    ) -> Result<JsValue, JsValue> {
         let options = options.to_rust().map_err(throw_conversion)?;
         let mut progress = progress_to(&progress);
         let comparison = self.slicer.compare(&options, &mut progress).await;
-        comparison
-            .map_err(throw)?
-            .into_ts()
-            .map_err(throw_conversion)
+        Ok(to_js(&comparison.map_err(throw)?))
     }
 
     /// The profile of a metric at the last plan's bins, from the plate upward: error density, or areas in mm² for the

@@ -30,20 +30,21 @@ pub(super) fn open_edges(vertex_count: usize, facets: &[[u32; 3]]) -> Vec<OpenEd
     for vertex in 2..starts.len() {
         starts[vertex] += starts[vertex - 1];
     }
-    let mut uses = vec![(0u32, false); starts[vertex_count + 1]];
+    // The higher vertex, and whether the edge goes up to it, in one number: all keys are sorted by the same code.
+    let mut uses = vec![0u64; starts[vertex_count + 1]];
     for (start, end) in edges() {
         let slot = &mut starts[start.min(end) as usize + 1];
-        uses[*slot] = (start.max(end), start < end);
+        uses[*slot] = u64::from(start.max(end)) << 1 | u64::from(start < end);
         *slot += 1;
     }
     let mut open = Vec::new();
     for low in 0..vertex_count {
         let bucket = &mut uses[starts[low]..starts[low + 1]];
         bucket.sort_unstable();
-        for edge in bucket.chunk_by(|left, right| left.0 == right.0) {
-            let upward = edge.iter().filter(|(_, is_upward)| *is_upward).count();
+        for edge in bucket.chunk_by(|left, right| left >> 1 == right >> 1) {
+            let upward = edge.iter().filter(|&one| one & 1 == 1).count();
             let downward = edge.len() - upward;
-            let (low, high) = (low as u32, edge[0].0);
+            let (low, high) = (low as u32, (edge[0] >> 1) as u32);
             let missing = if upward > downward {
                 (high, low)
             } else {
@@ -56,8 +57,16 @@ pub(super) fn open_edges(vertex_count: usize, facets: &[[u32; 3]]) -> Vec<OpenEd
 }
 
 /// The loops that open edges form. No loop passes through a vertex twice.
-pub(super) fn loops(mut open: Vec<OpenEdge>) -> Vec<Vec<u32>> {
-    open.sort_unstable();
+pub(super) fn loops(open: &[OpenEdge]) -> Vec<Vec<u32>> {
+    let keys = open.iter();
+    let mut keys: Vec<u64> = keys
+        .map(|&(start, end)| u64::from(start) << 32 | u64::from(end))
+        .collect();
+    keys.sort_unstable();
+    let open: Vec<OpenEdge> = keys
+        .into_iter()
+        .map(|key| ((key >> 32) as u32, key as u32))
+        .collect();
     let leaving = |vertex: u32| open.partition_point(|edge| edge.0 < vertex);
     // The number of edges leaving a vertex that are already in a loop or the path, at the index of the first of them.
     let mut spent = vec![0usize; open.len()];

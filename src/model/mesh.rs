@@ -107,7 +107,7 @@ impl Mesh {
         let first_cap = facets.len();
         let open_edges = holes::open_edges(vertices.len(), &facets);
         let open_edge_count = open_edges.len();
-        let loops = holes::loops(open_edges);
+        let loops = holes::loops(&open_edges);
         for hole in &loops {
             holes::cap(hole, &mut vertices, &mut facets);
         }

@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use super::directions::spacing;
-use super::order::ascending;
 use super::{Candidate, Cost, Metrics, Quality, Scale, SearchOptions};
+use crate::order::ascending;
 
 /// Refinements at most.
 const MINIMA: usize = 5;
@@ -84,13 +84,11 @@ pub fn minima(candidates: &[Candidate], search: &SearchOptions) -> Vec<usize> {
                 || key < (energy_of(other), other)
         })
     };
-    let mut minima: Vec<usize> = order
-        .iter()
-        .enumerate()
-        .filter(is_minimum)
-        .map(|(_, &index)| index)
-        .collect();
-    minima.sort_unstable();
+    let mut minima = vec![false; candidates.len()];
+    for (_, &index) in order.iter().enumerate().filter(is_minimum) {
+        minima[index] = true;
+    }
+    let minima: Vec<usize> = (0..minima.len()).filter(|&index| minima[index]).collect();
     let energy = |&index: &usize| energy_of(index).unwrap_or(f64::INFINITY);
     let best = ascending(minima.iter().map(energy)).into_iter();
     best.take(MINIMA).map(|place| minima[place]).collect()

@@ -9,7 +9,6 @@
 pub(crate) mod directions;
 mod energy;
 mod error;
-mod order;
 mod refine;
 mod search;
 pub mod shard;

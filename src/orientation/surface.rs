@@ -3,10 +3,10 @@
 use glam::{DVec3, Vec3};
 
 use super::directions::{about_z, lattice, unit, upright};
-use super::order::ascending;
 use super::{Exclusion, Metrics};
 use crate::grid::Bins;
 use crate::model::{Bounds, Mesh, rotation_matrix};
+use crate::order::ascending;
 use crate::plan::Plan;
 use crate::profile::facet_bins::FacetBins;
 use crate::profile::roughness;

@@ -4,6 +4,7 @@ use std::ops::RangeInclusive;
 
 use super::{Limits, PlanError};
 use crate::grid::Bins;
+use crate::order::ascending;
 
 /// A height range between two mandatory planes, to be filled with layers.
 ///
@@ -113,9 +114,8 @@ impl Layout {
             thickness,
             ranges: Vec::new(),
         };
-        let mut ranges = limits.ranges.clone();
-        ranges.sort_by(|a, b| a.from_mm.total_cmp(&b.from_mm));
-        for range in ranges {
+        for place in ascending(limits.ranges.iter().map(|range| range.from_mm)) {
+            let range = &limits.ranges[place];
             let (from_mm, to_mm) = (range.from_mm, range.to_mm);
             let is_ordered = from_mm >= 0.0 && to_mm > from_mm;
             let ends = [from_mm, to_mm].map(|z_mm| layout.plane_at(z_mm));

@@ -1,7 +1,7 @@
 //! Areas of horizontal sections at the middle of each bin, sampled (eq. 13) or in closed form. The area and volume
 //! deviations are computed from them.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use crate::grid::Bins;
 use crate::ldi::{Ldi, model_ranges};
@@ -55,9 +55,7 @@ pub fn exact(mesh: &Mesh, hidden: &[bool], bins: Bins) -> Vec<f64> {
         let [a, b, c] = mesh.corners(facet);
         // The direction along the section in which the solid lies to the left of the facet.
         let normal = (b - a).cross(c - a);
-        let mut corners = [a, b, c];
-        corners.sort_unstable_by(|p, q| p.z.total_cmp(&q.z));
-        let [low, middle, high] = corners;
+        let [low, middle, high] = upward([a, b, c]);
         let first = bins.middles_below(low.z);
         let end = bins.middles_below(high.z);
         if first == end {
@@ -93,6 +91,20 @@ pub fn exact(mesh: &Mesh, hidden: &[bool], bins: Bins) -> Vec<f64> {
         }
     }
     areas
+}
+
+/// Corners from the lowest up; of equal ones the first comes first.
+fn upward([mut low, mut middle, mut high]: [DVec3; 3]) -> [DVec3; 3] {
+    if middle.z < low.z {
+        std::mem::swap(&mut low, &mut middle);
+    }
+    if high.z < middle.z {
+        std::mem::swap(&mut middle, &mut high);
+        if middle.z < low.z {
+            std::mem::swap(&mut low, &mut middle);
+        }
+    }
+    [low, middle, high]
 }
 
 /// An edge of a facet: its x and y as a function of height.

@@ -3,6 +3,7 @@
 
 use super::facet_bins::Flat;
 use crate::grid::Bins;
+use crate::order::ascending;
 
 /// A change is sharp if the cusp height densities of neighbouring bins differ by more than this.
 pub const SHARP: f32 = 0.5;
@@ -17,23 +18,25 @@ pub fn snap_planes(
 ) -> Vec<u32> {
     let mut flats = levels(flats, bins);
     flats.retain(|&(_, area_mm2)| area_mm2 >= flat_area_mm2);
-    flats.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
     let changes = cusp_density.windows(2).zip(1u32..);
-    let mut sharp: Vec<(u32, f32)> = changes
+    let sharp: Vec<(u32, f64)> = changes
         .map(|(pair, boundary)| (boundary, (pair[1] - pair[0]).abs()))
         .filter(|&(_, change)| change > SHARP)
+        .map(|(boundary, change)| (boundary, f64::from(change)))
         .collect();
-    sharp.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
-    let flats = flats.into_iter().map(|(boundary, _)| boundary);
-    flats
-        .chain(sharp.into_iter().map(|(boundary, _)| boundary))
-        .collect()
+    [largest_first(&flats), largest_first(&sharp)].concat()
+}
+
+/// Boundaries by what they are worth, of equals the lowest first. They come in ascending order.
+fn largest_first(boundaries: &[(u32, f64)]) -> Vec<u32> {
+    let order = ascending(boundaries.iter().map(|&(_, worth)| -worth));
+    order.into_iter().map(|place| boundaries[place].0).collect()
 }
 
 /// The boundaries nearest to horizontal facets, in ascending order, and the total area of those facets in mm².
 fn levels(flats: &[Flat], bins: Bins) -> Vec<(u32, f64)> {
-    let mut flats = flats.to_vec();
-    flats.sort_by_key(|flat| flat.boundary);
+    let order = ascending(flats.iter().map(|flat| f64::from(flat.boundary)));
+    let flats: Vec<&Flat> = order.into_iter().map(|place| &flats[place]).collect();
     flats
         .chunk_by(|a, b| a.boundary == b.boundary)
         .map(|level| {

@@ -17,7 +17,7 @@ const root = fileURLToPath(new URL("..", import.meta.url));
 const out = join(root, "dist-package");
 
 /** What everything but three may come to, gzipped. */
-const LIMIT_BYTES = 520_000;
+const LIMIT_BYTES = 500_000;
 
 const ENTRIES = {
   index: "src/api/index.ts",
