@@ -1,5 +1,5 @@
-//! Directions on the unit sphere: evenly spread, around one another, and turned upright. By basic arithmetic and square
-//! roots alone, so that they are the same on every machine.
+//! Directions on the unit sphere: a lattice, rings around a direction, and rotations that turn one upright. Only basic
+//! arithmetic and square roots are used, so the results are the same on every machine.
 
 use std::f64::consts::PI;
 
@@ -8,10 +8,10 @@ use glam::{DQuat, DVec3};
 /// Cosine and sine of the golden angle, (3 − √5) · π.
 const GOLDEN: [f64; 2] = [-0.737_368_878_078_319_9, 0.675_490_294_261_523_8];
 
-/// Cosine and sine of half of 15°.
+/// Cosine and sine of 7.5°, half the step of [`about_z`].
 const HALF_STEP: [f64; 2] = [0.991_444_861_373_810_4, 0.130_526_192_220_051_6];
 
-/// Directions spread evenly over the sphere, from the one nearest +z to the one nearest −z: a Fibonacci lattice.
+/// A Fibonacci lattice: `count` directions spread evenly over the sphere, in descending order of z.
 pub fn lattice(count: usize) -> Vec<DVec3> {
     let [cosine, sine] = GOLDEN;
     let (mut x, mut y) = (1.0f64, 0.0f64);
@@ -28,12 +28,12 @@ pub fn lattice(count: usize) -> Vec<DVec3> {
         .collect()
 }
 
-/// The usual distance between neighbours of so many directions, in radians: each has an equal part of the sphere.
+/// Typical distance, in radians, between neighbours among `count` directions that share the sphere equally.
 pub fn spacing(count: usize) -> f64 {
     (4.0 * PI / count.max(1) as f64).sqrt()
 }
 
-/// Six directions around one, at a distance in radians.
+/// Six directions in a ring around `direction`, at about `distance` radians.
 pub fn around(direction: DVec3, distance: f64) -> [DVec3; 6] {
     let [x, y, z] = direction.to_array().map(f64::abs);
     let axis = if x <= y && x <= z {
@@ -58,14 +58,14 @@ pub fn around(direction: DVec3, distance: f64) -> [DVec3; 6] {
     .map(|step| unit(direction + step))
 }
 
-/// The direction of a vector that is not 0.
+/// The unit vector along `vector`, which must not be 0.
 pub fn unit(vector: DVec3) -> DVec3 {
     vector / vector.length()
 }
 
-/// The rotation that turns a direction to +z by the shortest way.
+/// The shortest rotation that turns `direction` to +z.
 pub fn upright(direction: DVec3) -> DQuat {
-    // Opposite to +z every way is as short.
+    // From −z all half-turns are equally short; this is the one about x.
     if direction.z <= -1.0 + 1e-12 {
         return DQuat::from_xyzw(1.0, 0.0, 0.0, 0.0);
     }
@@ -73,7 +73,7 @@ pub fn upright(direction: DVec3) -> DQuat {
     turn / turn.length()
 }
 
-/// Rotations about z by 0 to 165° in steps of 15°, first those by right angles.
+/// Rotations about z by 0° to 165° in steps of 15°; 0° and 90° come first.
 pub fn about_z() -> impl Iterator<Item = DQuat> {
     let [cosine, sine] = HALF_STEP;
     let mut turn = DQuat::IDENTITY;

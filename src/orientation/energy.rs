@@ -1,4 +1,4 @@
-//! Energies of directions (eq. 25), their local minima, and the best that differ.
+//! Energies of candidates (eq. 25), their local minima, and the best distinct candidates.
 
 use glam::DVec3;
 
@@ -6,16 +6,16 @@ use super::directions::spacing;
 use super::{Candidate, Cost, Metrics, Quality, Scale, SearchOptions};
 use crate::order::ascending;
 
-/// Refinements at most.
+/// Maximum number of refinements.
 const MINIMA: usize = 5;
 
-/// Distance in spacings up to which directions are neighbours: the next ones all around, and not those behind them.
+/// Directions up to this many spacings apart are neighbours: the adjacent ones all around, but not those beyond them.
 const NEIGHBOURS: f64 = 1.5;
 
-/// How many directions are shown as the best.
+/// Maximum number of best candidates.
 const BEST: usize = 3;
 
-/// The cosine of the angle from which on directions are different choices: 20°.
+/// Cosine of the minimum angle between distinct directions, 20°.
 const DISTINCT: f64 = 0.939_692_620_785_908_4;
 
 impl SearchOptions {
@@ -32,7 +32,7 @@ impl SearchOptions {
         [cost, quality]
     }
 
-    /// The energy of a candidate, relative to what all have at most (eq. 25).
+    /// The energy of a candidate, relative to the largest terms of all candidates (eq. 25). `None` without metrics.
     pub(crate) fn energy(&self, candidate: &Candidate, scale: &Scale) -> Option<f64> {
         let [cost, quality] = self.terms(candidate.metrics.as_ref()?);
         let part = |value: f64, most: f64| if most > 0.0 { value / most } else { 0.0 };
@@ -42,8 +42,7 @@ impl SearchOptions {
     }
 }
 
-/// Sets the energies of candidates, relative to those given: of all directions of a search, or of those that have been
-/// measured so far. Returns what they are relative to.
+/// Sets the energies of candidates relative to the largest terms among them, and returns these terms.
 pub(super) fn rate<'a>(
     candidates: impl IntoIterator<Item = &'a mut Candidate>,
     search: &SearchOptions,
@@ -64,11 +63,11 @@ pub(super) fn rate<'a>(
     scale
 }
 
-/// The local minima that are worth a refinement: rated candidates with no better neighbour, the best first. Of equal
-/// neighbours the first one stands for all.
+/// Indices of the local minima to refine, best first: rated candidates without a better neighbour, at most five. Among
+/// neighbours of equal energy, only the first counts.
 pub fn minima(candidates: &[Candidate], search: &SearchOptions) -> Vec<usize> {
     let reach = NEIGHBOURS * spacing(search.directions);
-    // Neighbours are near in z: they are looked for among those only.
+    // Neighbours are close in z, so only candidates in that range are compared.
     let z_of = |index: usize| candidates[index].direction[2];
     let mut order = ascending((0..candidates.len()).map(z_of));
     let energy_of = |index: usize| candidates[index].energy;
@@ -94,8 +93,7 @@ pub fn minima(candidates: &[Candidate], search: &SearchOptions) -> Vec<usize> {
     best.take(MINIMA).map(|place| minima[place]).collect()
 }
 
-/// The best of the candidates that refinements found, and the best of those that are at least 20° away from it and from each
-/// other: three at most.
+/// The best refined candidates, best first and at least 20° apart: three at most.
 pub(super) fn best(refined: &[Candidate]) -> Vec<Candidate> {
     let energies = refined
         .iter()

@@ -1,41 +1,41 @@
-//! Why there is no search, or why a search refuses what it is given.
+//! Why a search cannot start, or rejects its input.
 
 use serde::Serialize;
 
-/// Why there is no search, or why a search refuses what it is given.
+/// Why a search cannot start, or rejects its input.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(tag = "code", content = "detail")]
 #[non_exhaustive]
 pub enum SearchError {
-    /// A search of no directions, or of too many.
+    /// No directions, or too many.
     #[error("a search looks along 1 to {most} directions, not {directions}")]
     #[serde(rename = "bad-directions")]
     Directions {
-        /// The number asked for.
+        /// Requested number.
         directions: usize,
-        /// The greatest number.
+        /// Maximum number.
         most: usize,
     },
-    /// The weight of the cost is not from 0 to 1.
+    /// The weight of the cost, α, is not from 0 to 1.
     #[error("alpha must be from 0 to 1, not {alpha}")]
     #[serde(rename = "bad-alpha")]
     Alpha {
-        /// What was asked for.
+        /// Requested weight.
         alpha: f64,
     },
-    /// A result of a task that is not out: never handed out, put back, or accepted before.
+    /// A result for a task that is not outstanding: never handed out, put back, or already accepted.
     #[error("task {task} is not out: hand in each task's result once")]
     #[serde(rename = "search-task")]
     Task {
-        /// The task's number.
+        /// Number of the task.
         task: usize,
     },
-    /// A candidate that is none of the direction it should be, or that no measurement gives.
+    /// A candidate for the wrong direction, or one that no measurement can return.
     #[error("candidate {place} is not one that was measured for its direction")]
     #[serde(rename = "search-candidate")]
     Candidate {
-        /// Its place among those given, from 0.
+        /// Its index among the given candidates, from 0.
         place: usize,
     },
 }

@@ -1,10 +1,10 @@
-//! The best building direction (section 4.3): a search on the Gaussian sphere for the way up that prints in the fewest layers
-//! with the least error.
+//! The best orientation (section 4.3): a search on the Gaussian sphere for the building direction with few layers and a
+//! small error.
 //!
-//! Directions are measured one by one, by profile and plan alone: no copy of the mesh, no rays. Energies follow from all the
-//! metrics together, rings of directions around the local [`minima`] refine these, and the best are those that differ.
-//! [`Search`] is the driver: it says what to measure next, and does no work and no I/O of its own. Threads, workers and
-//! machines run its tasks; who runs which, and when, makes no difference.
+//! Each direction is measured by profile and plan alone, without rays or a copy of the mesh. The metrics of all candidates
+//! together determine their energies. Rings of directions then refine the local [`minima`], and the best distinct candidates
+//! are the result. [`Search`] drives this as a state machine: it hands out directions to measure, and does no work or I/O
+//! itself. Threads, workers or machines run its tasks in any order, and the result is the same.
 
 pub(crate) mod directions;
 mod energy;
@@ -23,19 +23,19 @@ pub use error::SearchError;
 pub use search::{Search, SearchResult, Task, TaskResult};
 pub(crate) use surface::{Placement, Surface, search_bytes};
 
-/// What is searched for.
+/// Options of the orientation search.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 #[serde(default, deny_unknown_fields)]
 pub struct SearchOptions {
-    /// How many directions are looked along, spread evenly over the sphere. The axes of the file, and those that lay a large flat
-    /// of the model on the plate or turn it up, come on top.
+    /// Number of directions to measure, spread evenly over the sphere. The axes of the file and the normals of large flats
+    /// are added, each in both senses.
     pub directions: usize,
-    /// How much the cost counts against the quality, α of eq. 25, from 0 to 1.
+    /// Weight of the cost against the quality, α of eq. 25, from 0 to 1.
     pub alpha: f64,
-    /// What the first term of the energy is.
+    /// The first term of the energy.
     pub cost: Cost,
-    /// What the second term is.
+    /// The second term of the energy.
     pub quality: Quality,
 }
 
@@ -50,11 +50,11 @@ impl Default for SearchOptions {
     }
 }
 
-/// The most directions of a search.
+/// Maximum of [`SearchOptions::directions`].
 pub const MAX_DIRECTIONS: usize = 100_000;
 
 impl SearchOptions {
-    /// Finds what cannot be searched for.
+    /// Checks the number of directions and α.
     pub(crate) fn check(&self) -> Result<(), SearchError> {
         if !(1..=MAX_DIRECTIONS).contains(&self.directions) {
             return Err(SearchError::Directions {
@@ -69,7 +69,7 @@ impl SearchOptions {
     }
 }
 
-/// What printing in a direction costs.
+/// The cost of an orientation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
@@ -78,80 +78,80 @@ pub enum Cost {
     /// The number of layers, K.
     #[default]
     Layers,
-    /// The time that they take.
+    /// The print time.
     Time,
 }
 
-/// What printing in a direction does to the surface; less is better.
+/// The quality of the surface in an orientation; less is better.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 #[serde(rename_all = "lowercase")]
 pub enum Quality {
-    /// The largest error of a layer, max `ε_k`: the geometric error of table 3. Plans keep it below the tolerance, and mostly
-    /// near it.
+    /// The largest error of a layer, max `ε_k`: the geometric error of table 3. Plans keep it within the tolerance, and
+    /// usually close to it.
     #[default]
     Error,
-    /// The roughness of the surface on average.
+    /// The mean roughness of the surface.
     Roughness,
     /// The area that would need support.
     Overhang,
 }
 
-/// A way to stand on the plate.
+/// An orientation with its metrics.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify), tsify(missing_as_null))]
 pub struct Candidate {
-    /// The unit vector that points up from the plate, as the model stands in its file.
+    /// The unit vector that points up from the plate, in the frame of the file.
     pub direction: [f64; 3],
-    /// The quaternion x, y, z, w that turns the model so.
+    /// The rotation from the pose in the file: a quaternion x, y, z, w.
     pub rotation: [f64; 4],
-    /// Extent of the model when it stands so.
+    /// Extent of the model in this orientation, in x, y and z.
     pub size_mm: [f64; 3],
-    /// Why it cannot be printed so, if it cannot.
+    /// Why the orientation cannot be printed; absent if it can.
     pub excluded: Option<Exclusion>,
-    /// What printing it so gives; absent if it is excluded.
+    /// Metrics of the orientation; absent if it is excluded.
     pub metrics: Option<Metrics>,
-    /// F of eq. 25, from 0 to 1; absent before it is rated, and if it is excluded.
+    /// F of eq. 25, from 0 to 1; absent if not rated yet, or if excluded.
     pub energy: Option<f64>,
 }
 
-/// Why a direction is no choice.
+/// Why an orientation cannot be printed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 #[serde(rename_all = "kebab-case")]
 pub enum Exclusion {
-    /// The model is wider or deeper than the plate, however it is turned on it.
+    /// The model is wider or deeper than the plate, however it is rotated about z.
     TooLarge,
-    /// It is higher than the printer prints.
+    /// The model is higher than the printer's build volume.
     TooHigh,
-    /// There is no plan within tolerance.
+    /// No plan keeps the tolerance.
     NoPlan,
 }
 
-/// What printing in a direction gives.
+/// Metrics of an orientation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 pub struct Metrics {
-    /// Layers of the plan, K.
+    /// Number of layers, K.
     pub layers: usize,
-    /// Time that they take.
+    /// Print time.
     pub print_time_s: f64,
     /// The largest error of a layer, in the metric's unit.
     pub max_error: f64,
-    /// The roughness Ra of the surface on average by area, each facet by its angle (eq. 7) and the thickness of the layers
-    /// that it meets.
+    /// Mean roughness Ra, weighted by area. That of a facet follows from its angle (eq. 7) and the mean thickness of the
+    /// layers that it meets.
     pub roughness_mm: f64,
-    /// Area that faces down at less than 45° from level and is not on the plate: what would need support.
+    /// Area that faces down at less than 45° from level and is not on the plate: it would need support.
     pub overhang_mm2: f64,
 }
 
-/// What the terms of energies are relative to: the largest of all directions.
+/// What the terms of energies are relative to: the largest terms of all directions.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 pub struct Scale {
     /// The largest cost: layers, or seconds.
     pub cost: f64,
-    /// The largest quality figure: the metric's unit, mm, or mm².
+    /// The largest quality figure, in the metric's unit, mm or mm².
     pub quality: f64,
 }

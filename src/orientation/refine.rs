@@ -1,17 +1,17 @@
-//! The finer search around a local minimum: rings of directions, in ever smaller steps.
+//! Refinement of a local minimum: rings of directions, in ever smaller steps.
 
 use glam::DVec3;
 
 use super::directions::{around, spacing};
 use super::{Candidate, Scale, SearchOptions};
 
-/// A refinement ends when its steps are smaller than this, in radians: 0.2°.
+/// A refinement ends when its step is smaller than this, in radians: 0.2°.
 const FINEST: f64 = 0.0035;
 
-/// Measurements of a refinement at most.
+/// Number of measurements after which a refinement ends.
 const MEASUREMENTS: usize = 60;
 
-/// A refinement under way: the next ring lies around the best candidate so far.
+/// A refinement in progress. The next ring lies around the best candidate so far.
 #[derive(Debug, Clone)]
 pub(super) struct Refinement {
     pub best: Candidate,
@@ -20,7 +20,7 @@ pub(super) struct Refinement {
 }
 
 impl Refinement {
-    /// Starts at a rated candidate, with half the spacing of the first look.
+    /// Starts at a rated candidate, with a step of half the spacing of the first pass.
     pub fn new(start: Candidate, options: &SearchOptions) -> Self {
         Self {
             best: start,
@@ -59,7 +59,7 @@ impl Refinement {
         self.step < FINEST || self.measured >= MEASUREMENTS
     }
 
-    /// How much of it is done, 0 to 1, by the most that it may measure.
+    /// Progress, 0 to 1, relative to the maximum number of measurements.
     pub fn progress(&self) -> f64 {
         if self.is_done() {
             1.0

@@ -1,4 +1,4 @@
-//! The search as a state machine: it hands out tasks, accepts their results in any order, and has the result in the end.
+//! The search as a state machine: it hands out tasks, accepts their results in any order, and returns the result at the end.
 
 use std::collections::VecDeque;
 
@@ -11,56 +11,56 @@ use super::refine::Refinement;
 use super::shard::Shard;
 use super::{Candidate, Scale, SearchError, SearchOptions};
 
-/// Directions of a task of the first look: few, so that all workers end together, and enough to be worth a message.
+/// Directions per task of the first pass: few enough for all workers to finish together, and enough to be worth a message.
 const CHUNK: usize = 8;
 
-/// The part of the time that refinements take, about.
+/// Approximate share of the time that refinements take.
 const REFINEMENT: f64 = 0.2;
 
-/// Directions to measure, for whoever is free.
+/// Directions to measure, on any thread, worker or machine.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 pub struct Task {
-    /// What its result is known by.
+    /// Identifies the task. Its result has the same number.
     pub number: usize,
     /// Unit vectors that point up from the plate, in the frame of the file.
     pub directions: Vec<[f64; 3]>,
 }
 
-/// What was measured for a task.
+/// The result of a task.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TaskResult {
-    /// The task's number.
+    /// Number of the task.
     pub number: usize,
-    /// One for each of its directions, in their order.
+    /// One candidate per direction of the task, in the same order.
     pub candidates: Vec<Candidate>,
 }
 
-/// What a search finds.
+/// The result of a search.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SearchResult {
     /// See [`Search::best`].
     pub best: Vec<Candidate>,
     /// What energies are relative to.
     pub scale: Scale,
-    /// All directions of the first look, rated.
+    /// The rated candidates of the first pass, one per direction.
     pub candidates: Vec<Candidate>,
 }
 
 /// What a task is for.
 #[derive(Debug, Clone)]
 enum Purpose {
-    /// The first look, at directions in these places.
+    /// Measures the directions with these indices, in the first pass.
     Measure(Vec<usize>),
-    /// The next ring of a refinement, by its place.
+    /// Measures the next ring of the refinement with this index.
     Refine(usize),
 }
 
-/// A search for the best directions. It measures nothing itself: tasks may go to threads, workers or machines, in any number
+/// A search for the best orientations. It measures nothing itself: threads, workers or machines run its tasks, in any number
 /// and order, and the result is the same to the last bit.
 ///
-/// First all directions are measured, then rings around the local minima of the energy (eq. 25), each of which depends on the
-/// one before.
+/// The first pass measures all directions. Refinements then measure rings around the local minima of the energy (eq. 25);
+/// each ring depends on the one before.
 ///
 /// ```
 /// # use cusp_slicer::orientation::{Candidate, Search, SearchOptions, Task, TaskResult};
@@ -77,23 +77,23 @@ enum Purpose {
 pub struct Search {
     options: SearchOptions,
     directions: Vec<[f64; 3]>,
-    /// One for each direction, once it is measured; rated once all are.
+    /// The candidate of each direction, once measured; rated once all are.
     found: Vec<Option<Candidate>>,
-    /// How many are found, and how many are to be.
+    /// Number of directions measured so far, and number to measure.
     measured: [usize; 2],
-    /// Whether minima are refined: not in a shard, which knows only its own directions.
+    /// Whether minima are refined. In a shard they are not, because it has only some of the directions.
     refines: bool,
-    /// Tasks that nobody has.
+    /// Tasks that are waiting to be handed out.
     waiting: VecDeque<Purpose>,
-    /// Tasks that were handed out, by their numbers; `None` where nobody has them any more.
+    /// Tasks that were handed out, by number. `None` once accepted or put back.
     out: Vec<Option<Purpose>>,
-    /// How many somebody has.
+    /// Number of outstanding tasks.
     open: usize,
     /// Known once all directions are measured.
     rated: Option<Rated>,
 }
 
-/// What follows from all candidates of the first look.
+/// What follows from the candidates of the first pass.
 #[derive(Debug, Clone)]
 struct Rated {
     scale: Scale,
@@ -101,7 +101,7 @@ struct Rated {
 }
 
 impl Search {
-    /// A search along directions.
+    /// A search over these directions.
     ///
     /// # Errors
     /// [`SearchError::Directions`], [`SearchError::Alpha`].
@@ -113,7 +113,7 @@ impl Search {
         Self::of(options, directions, whole, true)
     }
 
-    /// A search that only measures the directions of a shard: it refines nothing, and its result has no best.
+    /// A search that only measures the directions of a shard. It refines nothing, so its result has no best candidates.
     ///
     /// # Errors
     /// Those of [`Self::new`].
@@ -133,7 +133,7 @@ impl Search {
     ) -> Result<Self, SearchError> {
         options.check()?;
         let places: Vec<usize> = shard.places(directions.len()).collect();
-        // Each chunk lies all over the sphere, so that it fills everywhere at once.
+        // Each chunk covers the whole sphere, so that partial results do too.
         let chunks = places.len().div_ceil(CHUNK);
         let chunk = |first| places.iter().copied().skip(first).step_by(chunks).collect();
         let mut search = Self {
@@ -151,8 +151,8 @@ impl Search {
         Ok(search)
     }
 
-    /// A search whose directions have been measured before, in shards or by a search with other options: these are rated, and
-    /// the minima refined.
+    /// A search whose directions are already measured, in shards or by a search with other options. It rates these
+    /// candidates and refines the minima.
     ///
     /// # Errors
     /// Those of [`Self::new`], and [`SearchError::Candidate`].
@@ -172,23 +172,23 @@ impl Search {
         Ok(search)
     }
 
-    /// What is searched for.
+    /// The options of the search.
     pub fn options(&self) -> &SearchOptions {
         &self.options
     }
 
-    /// The directions of the first look.
+    /// The directions of the first pass.
     pub fn directions(&self) -> &[[f64; 3]] {
         &self.directions
     }
 
-    /// How many of them are measured.
+    /// Number of directions that are measured.
     pub fn measured(&self) -> usize {
         self.measured[0]
     }
 
-    /// Up to `most` tasks that nobody has. There are none while the next ones depend on results that are still out, and at the
-    /// end: see [`Self::is_done`].
+    /// Hands out up to `most` tasks. There are none while the next ones depend on outstanding results, and at the end: see
+    /// [`Self::is_done`].
     pub fn next_tasks(&mut self, most: usize) -> Vec<Task> {
         let mut tasks = Vec::new();
         while tasks.len() < most
@@ -204,7 +204,7 @@ impl Search {
         tasks
     }
 
-    /// Takes the result of a task that is out. After an error the task is still out.
+    /// Accepts the result of an outstanding task. After an error the task is still outstanding.
     ///
     /// # Errors
     /// [`SearchError::Task`], [`SearchError::Candidate`].
@@ -242,7 +242,7 @@ impl Search {
         Ok(())
     }
 
-    /// Has a task that is out handed out again, under another number: whoever had it is lost.
+    /// Puts back an outstanding task, for example after losing its worker. It is handed out again under another number.
     ///
     /// # Errors
     /// [`SearchError::Task`].
@@ -252,7 +252,7 @@ impl Search {
         Ok(())
     }
 
-    /// Takes a task from whoever has it.
+    /// Removes an outstanding task, and returns its purpose.
     fn take(&mut self, task: usize) -> Result<Purpose, SearchError> {
         let taken = self.out.get_mut(task).and_then(Option::take);
         let taken = taken.ok_or(SearchError::Task { task })?;
@@ -260,7 +260,7 @@ impl Search {
         Ok(taken)
     }
 
-    /// How much is done, 0 to 1. It never falls.
+    /// Progress, 0 to 1. It never decreases.
     pub fn progress(&self) -> f64 {
         let [measured, total] = self.measured;
         let measured = measured as f64 / total.max(1) as f64;
@@ -274,12 +274,13 @@ impl Search {
         }
     }
 
-    /// Whether no task is left, in here or out there.
+    /// Whether no task is waiting or outstanding.
     pub fn is_done(&self) -> bool {
         self.waiting.is_empty() && self.open == 0
     }
 
-    /// One for each direction, as soon as it is measured. Energies are relative to what has been measured so far.
+    /// The candidate of each direction, `None` until it is measured. Energies are relative to the candidates measured so
+    /// far.
     pub fn rated(&self) -> Vec<Option<Candidate>> {
         let mut found = self.found.clone();
         if self.rated.is_none() {
@@ -288,14 +289,14 @@ impl Search {
         found
     }
 
-    /// The best direction and up to two others that are good in another way, the best first; `None` before all is done.
+    /// Up to three candidates, best first and at least 20° apart. `None` until all tasks are done.
     pub fn best(&self) -> Option<Vec<Candidate>> {
         let rated = self.rated.as_ref().filter(|_| self.is_done())?;
         let refined: Vec<Candidate> = rated.refinements.iter().map(|it| it.best.clone()).collect();
         Some(best(&refined))
     }
 
-    /// What was found; `None` before all is done.
+    /// The result. `None` until all tasks are done.
     pub fn result(&self) -> Option<SearchResult> {
         Some(SearchResult {
             best: self.best()?,
@@ -314,7 +315,7 @@ impl Search {
         }
     }
 
-    /// Rates the candidates, and starts the refinements, once every direction is measured.
+    /// Once every direction is measured, rates the candidates and starts the refinements.
     fn rate_if_measured(&mut self) {
         let [measured, total] = self.measured;
         if measured < total {
@@ -335,7 +336,7 @@ impl Search {
     }
 }
 
-/// Whether a measurement gives such a candidate: with metrics, or with a reason why there are none.
+/// Whether a measurement can return this candidate: it has either metrics or a reason why it is excluded.
 fn is_measured(candidate: &Candidate) -> bool {
     candidate.excluded.is_none() == candidate.metrics.is_some()
 }

@@ -1,54 +1,54 @@
-//! A search in parts, for more than one machine: each measures some of the directions, and the parts are put together again.
+//! Searches in shards: each machine measures some of the directions, and their parts are merged.
 
 use serde::{Deserialize, Serialize};
 
 use super::Candidate;
 use crate::model::ModelFile;
 
-/// Which part of a search one machine measures: of all directions in their order each `count`th, from the `number`th on. So
-/// all parts are spread over the whole sphere and take about as long.
+/// A shard of a search: every `count`th direction, from the `number`th on. All shards therefore cover the whole sphere and
+/// take about equally long.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Shard {
     /// From 1 to `count`.
     pub number: usize,
-    /// How many parts there are.
+    /// Number of shards.
     pub count: usize,
 }
 
 impl Shard {
-    /// The places of its directions among `total`, upward.
+    /// Indices of its directions among `total`, in ascending order.
     pub fn places(self, total: usize) -> impl Iterator<Item = usize> {
         (self.number.saturating_sub(1)..total).step_by(self.count.max(1))
     }
 }
 
-/// What was measured of one model, with the caller's own type of options.
+/// The measurements of one shard for one model. The options `O` are the caller's.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Part<O> {
     /// The version of the library that measured it.
     pub version: String,
     /// The file that the model was read from.
     pub model: ModelFile,
-    /// What was asked for, except what rates directions.
+    /// The options, except those that only rate candidates.
     pub options: O,
-    /// CRC-32 of the weights that the user gave to facets, if any.
+    /// CRC-32 of the user's weights of facets, if any.
     pub weights_crc32: Option<u32>,
-    /// Which part it is.
+    /// The shard that was measured.
     pub shard: Shard,
-    /// How many directions there are in all.
+    /// Number of directions of all shards.
     pub directions: usize,
-    /// The place of each candidate among them.
+    /// Index of each candidate's direction.
     pub places: Vec<usize>,
-    /// What was measured there.
+    /// The candidates, in the order of `places`.
     pub candidates: Vec<Candidate>,
 }
 
-/// Why parts do not make a whole.
+/// Why parts cannot be merged.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
 #[serde(tag = "code", content = "detail")]
 #[non_exhaustive]
 pub enum MergeError {
-    /// No part is of this model, with these weights.
+    /// No part is for this model with these weights.
     #[error("no part is of this model with these weights")]
     #[serde(rename = "merge-none")]
     None,
@@ -56,11 +56,11 @@ pub enum MergeError {
     #[error("shard {shard} was measured by version {theirs}, and this is {ours}; measure it again")]
     #[serde(rename = "merge-version")]
     OtherVersion {
-        /// Which part.
+        /// Shard of the part.
         shard: Shard,
-        /// Its version.
+        /// The version that measured it.
         theirs: String,
-        /// This version.
+        /// The version of this library.
         ours: String,
     },
     /// A part was measured with other options.
@@ -69,7 +69,7 @@ pub enum MergeError {
     )]
     #[serde(rename = "merge-options")]
     OtherOptions {
-        /// Which part.
+        /// Shard of the part.
         shard: Shard,
     },
     /// A direction is in two parts.
@@ -78,33 +78,33 @@ pub enum MergeError {
     )]
     #[serde(rename = "merge-duplicate")]
     Duplicate {
-        /// The direction's place, from 0.
+        /// Index of the direction, from 0.
         place: usize,
-        /// A part that it is in.
+        /// Shard of one of the parts.
         first: Shard,
-        /// Another one.
+        /// Shard of the other part.
         second: Shard,
     },
-    /// A part does not hold what it says.
+    /// The indices and the candidates of a part do not match.
     #[error(
         "shard {shard} is damaged: its places and its candidates do not belong together; measure it again"
     )]
     #[serde(rename = "merge-damaged")]
     Damaged {
-        /// Which part.
+        /// Shard of the part.
         shard: Shard,
     },
-    /// Directions are in no part.
+    /// Some directions are in no part.
     #[error(
         "{missing} of {total} directions are missing, the first is {first}; is a shard missing?"
     )]
     #[serde(rename = "merge-gap")]
     Gap {
-        /// How many.
+        /// Number of missing directions.
         missing: usize,
-        /// How many there should be.
+        /// Number of all directions.
         total: usize,
-        /// The place of the first one, from 0.
+        /// Index of the first missing direction, from 0.
         first: usize,
     },
 }
@@ -115,8 +115,9 @@ impl std::fmt::Display for Shard {
     }
 }
 
-/// Puts the parts of a search together: all directions that `whole` names, each measured once and as `whole` says, whose own
-/// places and candidates do not matter. Parts of other models, or with other weights, are left aside.
+/// Merges the parts of a search into one candidate per direction. Each direction must be in exactly one part, measured by
+/// the version and with the options of `whole`, whose own indices and candidates are not used. Parts for other models or
+/// weights are ignored.
 ///
 /// # Errors
 /// [`MergeError`].

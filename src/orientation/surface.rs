@@ -1,4 +1,4 @@
-//! A model made ready for being looked at along many directions: what does not depend on the direction is computed once.
+//! The surface of a model, prepared for measuring many directions: what does not depend on the direction is computed once.
 
 use glam::{DVec3, Vec3};
 
@@ -11,52 +11,50 @@ use crate::plan::Plan;
 use crate::profile::facet_bins::FacetBins;
 use crate::profile::roughness;
 
-/// Flats of a model that are laid on the plate, and turned up, at most.
+/// Maximum number of flats whose normals are added to the directions.
 const FLATS: usize = 16;
 
-/// A flat counts from this part of the surface on.
+/// Minimum area of such a flat, as a fraction of the surface.
 const FLAT_PART: f64 = 0.02;
 
-/// The cosine of the angle within which facets belong to one flat: 0.26°.
+/// Cosine of the angle within which facets belong to one flat, 0.26°.
 const SAME_FLAT: f64 = 1.0 - 1e-5;
 
-/// The cosine of the angle within which a flat is along an axis: that of what single precision leaves of none.
+/// Cosine of the angle within which a flat is perpendicular to an axis: only the rounding of single precision is allowed.
 const AXIS: f64 = 1.0 - 1e-12;
 
-/// Different flats that are told apart, from the largest facet on.
+/// Number of flats that are distinguished, from the largest facet down.
 const TOLD_APART: usize = 64;
 
-/// −`n_z` from which on a facet needs support: it faces down at less than 45° from level.
+/// −`n_z` above which a facet needs support: it faces down at less than 45° from level.
 const OVERHANG: f32 = std::f32::consts::FRAC_1_SQRT_2;
 
-/// Bytes of memory that a search takes for each facet of the model, on one thread: in the mesh, the surface, and the
-/// direction at work.
+/// Bytes per facet that a search takes on one thread: in the mesh, the surface, and the current placement.
 const FACET_BYTES: usize = 128;
 
-/// The same for each vertex.
+/// Bytes per vertex that a search takes on one thread.
 const VERTEX_BYTES: usize = 54;
 
-/// Memory that a search of directions takes at its peak on one thread, in bytes; a test measures it.
+/// Peak memory of an orientation search on one thread, in bytes. tests/memory.rs measures it.
 pub(crate) fn search_bytes(mesh: &Mesh) -> usize {
     FACET_BYTES * mesh.surface_facets + VERTEX_BYTES * mesh.vertices.len()
 }
 
-/// The surface of a model, at the scale that it is printed at.
+/// The surface of a model, at the scale at which it is printed.
 #[derive(Debug)]
 pub(crate) struct Surface {
-    /// The facets of the mesh in the order that they have here: neighbours follow each other, so that what is looked up for
-    /// one is at hand for the next.
+    /// For each facet, its index in the mesh. Neighbouring facets are close together, so that their data is in the cache.
     order: Vec<usize>,
-    /// Coordinates of the vertices of the surface, one list an axis.
+    /// Coordinates of the vertices of the surface, one list per axis.
     vertices_mm: [Vec<f64>; 3],
     facets: Vec<[u32; 3]>,
-    /// Unit normals of facets, one list an axis.
+    /// Unit normals of facets, one list per axis.
     normals: [Vec<f32>; 3],
     areas_mm2: Vec<f32>,
     total_mm2: f64,
 }
 
-/// A model as it stands in a direction.
+/// A model in one orientation.
 #[derive(Debug)]
 pub(crate) struct Placement {
     /// A quaternion x, y, z, w.
@@ -64,12 +62,12 @@ pub(crate) struct Placement {
     /// `n_z` of the unit normal of each facet.
     n_z: Vec<f32>,
     pub size_mm: [f64; 3],
-    /// Of each vertex above the plate, as a mesh in this pose has them.
+    /// Height of each vertex above the plate, as in a mesh in this pose.
     heights_mm: Vec<f32>,
 }
 
 impl Surface {
-    /// The surface of a mesh, scaled.
+    /// The surface of `mesh`, scaled by `scale`.
     pub fn new(mesh: &Mesh, scale: f64) -> Self {
         let order = neighbours_together(mesh);
         let mut number_of = vec![u32::MAX; mesh.vertices.len()];
@@ -97,7 +95,7 @@ impl Surface {
             let normal = (b - a).cross(c - a);
             let length = normal.length();
             areas_mm2.push((length * scale * scale / 2.0) as f32);
-            // What is too small for its square to be a number counts as upright, as in a mesh.
+            // A facet so small that its normal underflows counts as vertical, as in a mesh.
             let normal = if length > 0.0 {
                 normal / length
             } else {
@@ -117,14 +115,14 @@ impl Surface {
         }
     }
 
-    /// Values of the facets of the mesh, in the order that facets have here.
+    /// Rearranges one value per facet of the mesh into the order of facets here.
     pub fn arranged(&self, values: &[f32]) -> Vec<f32> {
         let order = self.order.iter();
         order.map(|&facet| values[facet]).collect()
     }
 
-    /// So many directions spread evenly; behind them the axes of the file, which designers build along, and those that lay the
-    /// largest flats of the model on the plate or turn them up.
+    /// `count` directions spread evenly, followed by the axes of the file, along which models are usually designed, and the
+    /// normals of the largest flats, each in both senses.
     pub fn directions(&self, count: usize) -> Vec<[f64; 3]> {
         let mut directions = lattice(count);
         for axis in DVec3::AXES.into_iter().chain(self.flats()) {
@@ -138,7 +136,7 @@ impl Surface {
         unit(Vec3::new(x[facet], y[facet], z[facet]).as_dvec3())
     }
 
-    /// Normals of the largest flats that are along no axis, the largest first; one for those that face each other.
+    /// Normals of the largest flats that are not perpendicular to an axis, largest first. Parallel flats count as one.
     fn flats(&self) -> Vec<DVec3> {
         let mut flats: Vec<(DVec3, f64)> = Vec::new();
         for facet in ascending(self.areas_mm2.iter().map(|&area_mm2| f64::from(-area_mm2))) {
@@ -158,8 +156,8 @@ impl Surface {
         largest.take(FLATS).map(|flat| flats[flat].0).collect()
     }
 
-    /// Stands the model on the plate with a direction upward, turned about it so that it fits, if that can be: `fits` says whether
-    /// a box does.
+    /// Places the model on the plate with `direction` up, at the first rotation about z at which its bounding box `fits`. If
+    /// it fits at none, also returns why.
     pub fn place(
         &self,
         direction: [f64; 3],
@@ -183,7 +181,7 @@ impl Surface {
     }
 
     fn turned(&self, rotation: [f64; 4]) -> (Placement, Bounds) {
-        // The quaternions of this module have a length.
+        // No quaternion of this module is 0, so there is always a matrix.
         let matrix = rotation_matrix(rotation).unwrap_or_default();
         let along = [0, 1, 2].map(|axis| self.places_along(matrix.row(axis)));
         let [x, y, z] = along.each_ref().map(|places| range(places));
@@ -225,18 +223,18 @@ impl Surface {
             .collect()
     }
 
-    /// The facet bins of the surface as it stands.
+    /// The facet bins of the surface in a placement.
     pub fn facet_bins(&self, placement: &Placement, bins: Bins) -> FacetBins {
         let square = |facet: usize| {
             let square = placement.n_z[facet] * placement.n_z[facet];
-            // Single precision may go a little beyond.
+            // Rounding may exceed 1 slightly.
             if square > 1.0 { 1.0 } else { square }
         };
         let area = |facet: usize| f64::from(self.areas_mm2[facet]);
         FacetBins::new(bins, &self.facets, &placement.heights_mm, square, area)
     }
 
-    /// What a plan gives as the model stands.
+    /// The metrics of a plan in a placement.
     pub fn metrics(
         &self,
         placement: &Placement,
@@ -245,8 +243,8 @@ impl Surface {
         max_error: f64,
         print_time_s: f64,
     ) -> Metrics {
-        // Thicknesses of the layers that bins belong to, summed up: in bins. A plan may end a little below the model's top, or
-        // above it.
+        // For each bin, the thickness in bins of the layer that it belongs to, as running sums. The top of a plan may be
+        // slightly below or above that of the model.
         let mut sums = Vec::with_capacity(facet_bins.bins.count + 1);
         let mut sum = 0.0;
         for pair in plan.boundaries.windows(2) {
@@ -282,11 +280,11 @@ impl Surface {
     }
 }
 
-/// The facets of the surface of a mesh along a curve that fills space (Morton's).
+/// Indices of the surface facets of a mesh along a space-filling curve (Morton order).
 fn neighbours_together(mesh: &Mesh) -> Vec<usize> {
     let bounds = mesh.bounds();
     let cells = 1023.0 / bounds.size().max_element();
-    // The ten bits of a number, two places apart.
+    // Moves the ten bits of a number three places apart.
     let spread = |number: f64| {
         let number = number as u32;
         (0..10).fold(0, |all, bit| all | (number >> bit & 1) << (3 * bit))
@@ -299,9 +297,10 @@ fn neighbours_together(mesh: &Mesh) -> Vec<usize> {
     ascending(keys)
 }
 
-/// The least and the greatest of some numbers.
+/// The minimum and maximum of some numbers.
 fn range(numbers: &[f64]) -> [f64; 2] {
-    // By hand and in lanes: `min` and `max` are library calls in wasm, and one after another they wait for each other.
+    // By hand, because `min` and `max` are library calls in wasm; in lanes, because each comparison in a single chain would
+    // wait for the one before.
     let mut least = [f64::INFINITY; 4];
     let mut greatest = [f64::NEG_INFINITY; 4];
     let lanes = numbers.chunks_exact(4);
