@@ -1,4 +1,4 @@
-//! Any error of the library, with a stable code and typed details for programs.
+//! All errors of the library as one type, with a stable code and typed details for programs.
 
 use serde::Serialize;
 
@@ -14,8 +14,8 @@ use crate::orientation::SearchError;
 use crate::orientation::shard::MergeError;
 use crate::plan::PlanError;
 
-/// Any error of the library. Its text is one sentence that says what to do; serialised, it is its
-/// code with the object of its typed details.
+/// Any error of the library. `Display` writes one sentence that says what to do; serialised, an error is its code and an
+/// object of typed details.
 #[derive(Debug, thiserror::Error, Serialize)]
 #[cfg_attr(
     target_arch = "wasm32",
@@ -29,12 +29,12 @@ pub enum Error {
     #[error("there is no layer {layer}; the plan has {layers}, from 0")]
     #[serde(rename = "no-layer")]
     NoLayer {
-        /// The layer asked for, from 0.
+        /// The requested layer, from 0.
         layer: usize,
-        /// Layers of the plan.
+        /// Number of layers of the plan.
         layers: usize,
     },
-    /// Masks were asked for before there was a plan.
+    /// Masks, a profile or a print file were requested before a plan was made.
     #[error("there is no plan yet; make one first")]
     #[serde(rename = "no-plan")]
     NoPlan,
@@ -46,7 +46,7 @@ pub enum Error {
     #[error(transparent)]
     #[serde(untagged)]
     Read(#[from] ReadError),
-    /// The triangles are no usable mesh.
+    /// The triangles do not form a usable mesh.
     #[error(transparent)]
     #[serde(untagged)]
     Mesh(#[from] MeshError),
@@ -54,7 +54,7 @@ pub enum Error {
     #[error(transparent)]
     #[serde(untagged)]
     Grid(#[from] GridError),
-    /// The weights are none, or those of another mesh.
+    /// The weights are invalid, or belong to another mesh.
     #[error(transparent)]
     #[serde(untagged)]
     Weights(#[from] WeightsError),
@@ -62,7 +62,7 @@ pub enum Error {
     #[error(transparent)]
     #[serde(untagged)]
     Ldi(#[from] LdiError),
-    /// There is no plan.
+    /// Planning failed.
     #[error(transparent)]
     #[serde(untagged)]
     Plan(#[from] PlanError),
@@ -70,11 +70,11 @@ pub enum Error {
     #[error(transparent)]
     #[serde(untagged)]
     Archive(#[from] ArchiveError),
-    /// There is no such search, or it was given what is not its own.
+    /// The options of a search are invalid, or it rejected a result.
     #[error(transparent)]
     #[serde(untagged)]
     Search(#[from] SearchError),
-    /// Parts of a search do not make a whole.
+    /// The parts of a search cannot be merged.
     #[cfg(not(target_arch = "wasm32"))]
     #[error(transparent)]
     #[serde(untagged)]
@@ -82,7 +82,7 @@ pub enum Error {
 }
 
 impl Error {
-    /// Stable name of the error for programs: the code that it is serialised with.
+    /// The stable code of the error, as serialised.
     pub fn code(&self) -> String {
         let serialised = serde_json::to_value(self).unwrap_or_default();
         let code = serialised["code"].as_str();

@@ -10,7 +10,7 @@ use crate::grid::Bins;
 use crate::profile::facet_bins::FacetBins;
 use crate::profile::shapes::Shapes;
 
-/// What was measured of a sampled model. Immutable and shared, with the rays that it was measured on.
+/// The measured shape of a sampled model, with the rays that it was measured on. Immutable and shared.
 #[derive(Debug)]
 pub struct Measured {
     pub of: Arc<Sampled>,
@@ -18,8 +18,8 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// Measures what `layering` and the weights of facets need. What `kept` has of it is not measured again; if it has all, it
-    /// is the result.
+    /// Measures what `layering` and the weights of facets need. Reuses what `kept` has of it, and returns `kept` itself if
+    /// nothing is missing.
     ///
     /// # Errors
     /// [`Error::Grid`].

@@ -1,4 +1,4 @@
-//! A job: options resolved once, then the stages in their order, each an immutable value.
+//! A job: options are resolved once, then the stages run in order. The result of each is an immutable value.
 
 mod error;
 mod measured;

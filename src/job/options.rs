@@ -1,4 +1,4 @@
-//! What to slice and how, as users say it.
+//! What to slice and how, as users specify it.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,10 +13,10 @@ use crate::resin::Resin;
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "lowercase")]
 pub enum Backend {
-    /// The GPU, unless there is none or it is emulated in software.
+    /// A hardware GPU if there is one, otherwise the CPU.
     #[default]
     Auto,
-    /// The GPU, or an error.
+    /// A GPU, even if emulated in software; fails if there is none.
     Gpu,
     /// The CPU.
     Cpu,
@@ -36,12 +36,12 @@ pub enum Planner {
     Local,
     /// Layers of one thickness, whatever their error.
     Uniform {
-        /// That thickness in millimetres.
+        /// Layer thickness in millimetres.
         layer_mm: f64,
     },
-    /// Uniform layers of the least thickness.
+    /// Uniform layers of the minimum thickness.
     Finest,
-    /// Uniform layers of the greatest thickness.
+    /// Uniform layers of the maximum thickness.
     Coarsest,
 }
 
@@ -59,29 +59,29 @@ impl Planner {
     }
 }
 
-/// What the optimal plan has least of.
+/// What the optimal planner minimizes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "lowercase")]
 pub enum Minimize {
-    /// Layers.
+    /// The number of layers.
     #[default]
     Layers,
-    /// Time: exposures and what comes with each layer.
+    /// The print time: exposures, and the fixed time of each layer.
     Time,
 }
 
-/// Whether planes go where flats and sharp changes are.
+/// Whether to put planes at flats and sharp changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "lowercase")]
 pub enum Snap {
-    /// Wherever layers add up and stay within tolerance beside them.
+    /// Wherever the layers beside them add up and stay within tolerance.
     #[default]
     Auto,
-    /// Only where that is best.
+    /// Never: the planner alone chooses the planes.
     Off,
 }
 
@@ -90,63 +90,66 @@ pub enum Snap {
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(default, deny_unknown_fields)]
 pub struct Options {
-    /// Turn the model from how it stands in its file: a quaternion x, y, z, w of any length but 0.
+    /// Rotation from the pose in the file: a quaternion x, y, z, w of any length except 0.
     pub rotation: Option<[f64; 4]>,
-    /// Scale the model evenly to this height; its own height if absent.
+    /// Height to which the model is scaled uniformly; not scaled if absent.
     pub height_mm: Option<f64>,
-    /// A printer known by name: see [`crate::printer::PRINTERS`]. It gives all that is absent below.
+    /// Name of a known printer: see [`crate::printer::PRINTERS`]. It provides pixels, pitch, mirroring, format and step
+    /// where these are absent.
     pub printer: Option<String>,
-    /// Columns and rows of the masks, with the model in the middle; needs `pitch_mm`.
+    /// Columns and rows of the masks, with the model at the centre; needs `pitch_mm`, unless a printer provides it.
     pub pixels: Option<[u32; 2]>,
-    /// Side of a pixel in x; alone, with as many pixels as cover the model.
+    /// Side of a pixel in x. Without `pixels` and a printer, the masks have as many pixels as cover the model.
     pub pitch_mm: Option<f64>,
-    /// Side of a pixel in y; that in x if absent.
+    /// Side of a pixel in y; `pitch_mm` if absent.
     pub pitch_y_mm: Option<f64>,
-    /// Whether print files have their masks mirrored left to right, as printers want them whose screen lights from below.
+    /// Whether print files have their masks mirrored left to right, for printers whose screen lights the resin from below.
     pub mirror: Option<bool>,
-    /// The print file.
+    /// Format of the print file.
     pub format: Option<Format>,
-    /// Pixels along the model's longer horizontal side where neither is given.
+    /// Pixels along the model's longer horizontal side, where neither pixels nor a pitch are known.
     pub rays: u32,
-    /// Rays of a pixel, and parts of a layer, that its grey is averaged over: 1, 2, 4 or 8. With 1 pixels are lit or dark.
+    /// Anti-aliasing level, 1, 2, 4 or 8: the number of rays per pixel, and of heights per layer, over which grey is
+    /// averaged. At 1, pixels are either lit or dark.
     pub antialias: u32,
-    /// Least layer thickness.
+    /// Minimum layer thickness.
     pub layer_min_mm: f64,
-    /// Greatest layer thickness.
+    /// Maximum layer thickness.
     pub layer_max_mm: f64,
-    /// Greatest error of a layer in the metric's unit: mm, mm, a fraction or mm³. If absent 0.065 mm of cusp height,
-    /// 0.1 mm of roughness, 0.1 of the area, or 1 mm³ and as much more as the model needs.
+    /// Maximum error of a layer, in the metric's unit: mm, mm, a fraction or mm³. If absent, 0.065 mm of cusp height, 0.1 mm
+    /// of roughness, 0.1 of the area, or 1 mm³ of volume; if no plan keeps that volume, the smallest tolerance that a plan
+    /// keeps.
     pub tolerance: Option<f64>,
-    /// Find the least tolerance that needs at most so many layers.
+    /// Find the smallest tolerance that needs at most this many layers.
     pub max_layers: Option<usize>,
-    /// Find the least tolerance that takes at most so many seconds.
+    /// Find the smallest tolerance that prints in at most this many seconds.
     pub max_time_s: Option<f64>,
-    /// Height of a bin of the profile; if absent 2 µm, or what the step or a thickness needs.
+    /// Height of a bin of the profile. If absent, 2 µm, or less if the step or a thickness needs it.
     pub bin_mm: Option<f64>,
-    /// What every height is a multiple of: the printer's motor step, or a bin if absent and no printer is named.
+    /// Motor step: every height is a multiple of it. If absent, the printer's, or one bin if there is no printer.
     pub step_mm: Option<f64>,
     /// Height ranges with a layer thickness of their own.
     pub ranges: Vec<HeightRange>,
     /// Heights at which there must be a plane.
     pub planes_mm: Vec<f64>,
-    /// Whether planes go where flats and sharp changes are.
+    /// Whether to put planes at flats and sharp changes.
     pub snap: Snap,
-    /// Area in mm² from which on a flat is worth a plane.
+    /// Minimum area, in mm², of a flat that gets a plane.
     pub flat_area_mm2: f64,
     /// What the error measures.
     pub metric: Metric,
     /// What errors are measured on.
     pub source: Source,
-    /// Whether facets count by how much they stand out: see [`crate::model::saliency`].
+    /// Whether to weight facets by saliency, how much they stand out: see [`crate::model::saliency`].
     pub saliency: bool,
-    /// What facets count for at least, 0 to 1, where some count for less than others. The error of a facet may be as many
-    /// times the tolerance as its weight goes into 1.
+    /// Smallest weight of a facet, 0 to 1, if facets are weighted. A facet of weight w may exceed the tolerance by a factor
+    /// of 1/w.
     pub weight_min: f64,
     /// How layers are chosen.
     pub planner: Planner,
-    /// What the optimal plan has least of.
+    /// What the optimal planner minimizes.
     pub minimize: Minimize,
-    /// How layers are exposed and how long that takes.
+    /// The resin: exposures, and the time between them.
     pub resin: Resin,
     /// Where the LDI is sampled.
     pub backend: Backend,
@@ -189,7 +192,7 @@ impl Default for Options {
 }
 
 impl Options {
-    /// The same wherever rays are cast, which decides nothing.
+    /// These options with the default backend, since the backend does not affect a plan.
     pub(crate) fn without_backend(&self) -> Self {
         Self {
             backend: Backend::default(),

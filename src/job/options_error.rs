@@ -2,13 +2,13 @@
 
 use serde::Serialize;
 
-/// Options that contradict each other, or that no printer or format can follow.
+/// Options that cannot be read, are out of bounds, contradict each other, or exceed what the printer can do.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(tag = "code", content = "detail")]
 #[non_exhaustive]
 pub enum OptionsError {
-    /// They are not of the type of options: an unknown key, or a value of another type.
+    /// The options do not have the right type: an unknown key, or a value of another type.
     #[error("the options cannot be read: {system}")]
     #[serde(rename = "bad-options")]
     Unreadable {
@@ -19,9 +19,9 @@ pub enum OptionsError {
     #[error("there is no printer {printer}; known are {}", known.join(", "))]
     #[serde(rename = "unknown-printer")]
     UnknownPrinter {
-        /// The name asked for.
+        /// The requested name.
         printer: String,
-        /// The names there are.
+        /// The known names.
         known: Vec<&'static str>,
     },
     /// Pixels are given without their pitch, or different pitches in x and y without pixels.
@@ -30,56 +30,56 @@ pub enum OptionsError {
     )]
     #[serde(rename = "pixels-without-pitch")]
     PixelsWithoutPitch,
-    /// There is no such level of anti-aliasing.
+    /// The anti-aliasing level does not exist.
     #[error("anti-aliasing has the levels {known:?}, not {antialias}")]
     #[serde(rename = "bad-antialias")]
     BadAntialias {
-        /// The level asked for.
+        /// The requested level.
         antialias: u32,
-        /// The levels there are.
+        /// The known levels.
         known: [u32; 4],
     },
-    /// The least weight is not from 0 to 1.
+    /// The minimum weight is not from 0 to 1.
     #[error("the minimum weight must be from 0 to 1, not {weight_min}")]
     #[serde(rename = "bad-weight-min")]
     BadWeightMin {
-        /// The weight asked for.
+        /// The requested weight.
         weight_min: f64,
     },
     /// More than one of tolerance, number of layers and time is given.
     #[error("give a tolerance, the most layers or the longest time, and only one of them")]
     #[serde(rename = "several-targets")]
     SeveralTargets,
-    /// The printer cannot make layers of a thickness that the options allow.
+    /// The options allow layer thicknesses that the printer cannot print.
     #[error(
         "the {model} prints layers of {printer_min_mm} to {printer_max_mm} mm, not {layer_min_mm} to {layer_max_mm} mm; \
          stay within its limits, or choose another printer"
     )]
     #[serde(rename = "printer-layers")]
     PrinterLayers {
-        /// What its maker calls the printer.
+        /// Make and model of the printer.
         model: &'static str,
-        /// Least thickness that it prints.
+        /// Minimum layer thickness of the printer.
         printer_min_mm: f64,
-        /// Greatest thickness that it prints.
+        /// Maximum layer thickness of the printer.
         printer_max_mm: f64,
-        /// Least thickness asked for: of all layers, of a height range, or of uniform layers.
+        /// Requested minimum thickness: of all layers, of a height range, or of uniform layers.
         layer_min_mm: f64,
-        /// Greatest thickness asked for there.
+        /// Requested maximum thickness of the same layers.
         layer_max_mm: f64,
     },
-    /// Heights are to be multiples of what is no whole number of the printer's motor steps.
+    /// The requested step is not a whole number of the printer's motor steps.
     #[error(
         "the {model} moves in steps of {printer_step_mm} mm, and {step_mm} mm is not a whole number of them; use a multiple \
          of {printer_step_mm} mm"
     )]
     #[serde(rename = "printer-step")]
     PrinterStep {
-        /// What its maker calls the printer.
+        /// Make and model of the printer.
         model: &'static str,
-        /// Its motor step.
+        /// Motor step of the printer.
         printer_step_mm: f64,
-        /// The step asked for.
+        /// The requested step.
         step_mm: f64,
     },
 }

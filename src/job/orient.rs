@@ -1,4 +1,4 @@
-//! The search for the best orientation (section 4.3): what [`Search`] asks for is measured here.
+//! Runs the orientation search (section 4.3): measures the directions that [`Search`] hands out.
 
 use serde::Serialize;
 
@@ -22,25 +22,25 @@ use crate::parallel;
 use crate::profile::section;
 use crate::progress::report;
 
-/// Tasks that a thread has at once: more than one, so that few threads wait for the last of them.
+/// Tasks per thread and round: more than one, so that few threads are idle at the end of a round.
 const TASKS: usize = 2;
 
-/// What a search has found, with what it was about.
+/// The result of an orientation search, with the model and the search options.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct OrientationReport {
     /// The version of this object: [`SCHEMA`].
     pub schema: u32,
     /// The file that the model was read from.
     pub model: ModelFile,
-    /// What was searched for.
+    /// The options of the search.
     pub search: SearchOptions,
     /// What energies are relative to.
     pub scale: Scale,
-    /// The model as it stands now.
+    /// The candidate for the current orientation.
     pub now: Candidate,
-    /// The best direction and up to two others that are good in another way, the best first.
+    /// Up to three candidates, best first and at least 20° apart.
     pub best: Vec<Candidate>,
-    /// All directions of the first look.
+    /// The candidates of the first pass, one per direction.
     pub candidates: Vec<Candidate>,
 }
 
@@ -48,25 +48,26 @@ pub struct OrientationReport {
 #[cfg(not(target_arch = "wasm32"))]
 pub type OrientationPart = shard::Part<Options>;
 
-/// What measuring a direction needs.
+/// Everything that measuring a direction needs.
 struct Evaluator<'a> {
     model: &'a Mesh,
     surface: &'a Surface,
     job: Job,
-    /// Of facets as the surface has them.
+    /// Weights of facets, in the order of `surface`.
     weights: Option<Vec<f32>>,
 }
 
 impl Slicer {
-    /// Searches for the best direction to print the model in. Where the model stands now matters only if the options give
-    /// a height, which is then the one as it stands now. Makes no plan, and leaves the last one.
+    /// Searches for the best orientation of the model. The rotation in the options is the current orientation. The search
+    /// does not depend on it, unless the options give a height: the model is then scaled to have that height in the current
+    /// orientation. The last plan is kept.
     ///
-    /// Directions that the model does not fit the printer in, or that have no plan within tolerance, are excluded; there may be
-    /// no best one.
+    /// Directions in which the model does not fit the printer, or no plan keeps the tolerance, are excluded. If all are,
+    /// there is no best candidate.
     ///
     /// # Errors
-    /// [`Error::Search`], [`Error::Options`], [`Error::Mesh`], [`Error::Plan`] for options that no direction makes good;
-    /// [`Error::Ldi`] if `progress` cancels.
+    /// [`Error::Search`], [`Error::Options`], [`Error::Mesh`], [`Error::Grid`] or [`Error::Plan`] if the options are invalid
+    /// in every direction; [`Error::Ldi`] if `progress` cancels.
     pub fn orient(
         &mut self,
         options: &Options,
@@ -77,7 +78,7 @@ impl Slicer {
         self.finish_search(options, search, progress)
     }
 
-    /// A search that has yet to be run, by [`Self::finish_search`] or task by task.
+    /// Creates a search, to be run by [`Self::finish_search`] or task by task.
     ///
     /// # Errors
     /// Those of [`Self::orient`].
@@ -86,7 +87,7 @@ impl Slicer {
         Ok(Search::new(*search, directions)?)
     }
 
-    /// Runs all tasks that are left of a search for the same model and options, on all threads.
+    /// Runs the remaining tasks of a search on all threads. The search must be for this model and these options.
     ///
     /// # Errors
     /// Those of [`Self::orient`].
@@ -116,7 +117,8 @@ impl Slicer {
         })
     }
 
-    /// The directions of a search: `count` unit vectors spread evenly, the axes, and those of the model's largest flats.
+    /// The directions of a search: `count` unit vectors spread evenly, the axes, and the normals of the model's largest
+    /// flats.
     ///
     /// # Errors
     /// [`Error::Mesh`].
@@ -129,12 +131,12 @@ impl Slicer {
         options: &Options,
         search: &SearchOptions,
     ) -> Result<Vec<[f64; 3]>, Error> {
-        // Before there are more directions than memory.
+        // Checked first, so that too many directions do not exhaust the memory.
         search.check()?;
         self.directions(options, search.directions)
     }
 
-    /// Runs a task of a search.
+    /// Measures the directions of a task.
     ///
     /// # Errors
     /// Those of [`Self::orient`].
@@ -161,7 +163,7 @@ impl Slicer {
         let evaluator = self.evaluator(options, progress)?;
         let mut candidates = evaluator.run(&mut search, progress)?.candidates;
         for candidate in &mut candidates {
-            // Energies are relative to all directions.
+            // Energies are relative to all directions, and a shard has only some.
             candidate.energy = None;
         }
         Ok(OrientationPart {
@@ -171,7 +173,7 @@ impl Slicer {
         })
     }
 
-    /// The search whose directions were measured in shards. Parts of other models are left aside.
+    /// Merges the parts of a search into one whose directions are all measured. Ignores parts for other models or weights.
     ///
     /// # Errors
     /// [`Error::Merge`], and those of [`Self::orient`].
@@ -183,7 +185,7 @@ impl Slicer {
         parts: &[OrientationPart],
     ) -> Result<Search, Error> {
         let directions = self.directions_of(options, search)?;
-        // A model that no shard could measure has the same fault here, rather than no part.
+        // Options that are invalid in every direction made every shard fail. Report that, rather than missing parts.
         self.check_for_all_directions(&options.resolve()?)?;
         let none = Shard {
             number: 0,
@@ -194,7 +196,7 @@ impl Slicer {
         Ok(Search::of_measured(*search, candidates)?)
     }
 
-    /// A part with nothing in it.
+    /// An empty part.
     #[cfg(not(target_arch = "wasm32"))]
     fn part(&self, options: &Options, shard: Shard, directions: usize) -> OrientationPart {
         OrientationPart {
@@ -210,7 +212,7 @@ impl Slicer {
     }
 
     fn surface(&mut self, job: &Job) -> Result<&Surface, Error> {
-        // How the model stands matters only to a height.
+        // The pose matters only if it has a height to scale to.
         let pose = job.sampling.pose;
         let scaled = pose.height_mm.map(|_| pose);
         let surface = match self.surface.take().filter(|kept| kept.0 == scaled) {
@@ -220,12 +222,12 @@ impl Slicer {
         Ok(&self.surface.insert(surface).1)
     }
 
-    /// By how much the model is scaled to have its height in a pose.
+    /// The factor that scales the model to the height of a pose; 1 without one.
     fn scale(&self, scaled: Option<Pose>) -> Result<f64, Error> {
         let Some((pose, height_mm)) = scaled.and_then(|pose| Some((pose, pose.height_mm?))) else {
             return Ok(1.0);
         };
-        // Whether the height is one is for `on_plate` to say.
+        // This call returns the error of an invalid height.
         self.model.on_plate(&pose)?;
         let unscaled = Pose {
             height_mm: None,
@@ -235,7 +237,7 @@ impl Slicer {
         Ok(height_mm / size.z)
     }
 
-    /// Finds what is wrong in every direction, which is an error, and not a reason to exclude one.
+    /// Checks for what is invalid in every direction. It is an error, not a reason to exclude a direction.
     fn check_for_all_directions(&self, job: &Job) -> Result<(), Error> {
         match job.sampling.grid(&self.model.bounds()) {
             Err(error) if exclusion(&error).is_none() => Err(error.into()),
@@ -265,7 +267,7 @@ impl Slicer {
 }
 
 impl Evaluator<'_> {
-    /// Runs all tasks of a search.
+    /// Runs a search to its end.
     fn run(
         &self,
         search: &mut Search,
@@ -284,7 +286,6 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Runs a task.
     fn evaluate(&self, task: Task) -> TaskResult {
         TaskResult {
             number: task.number,
@@ -313,7 +314,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `None` if there is no plan.
+    /// `None` if no plan keeps the tolerance.
     fn metrics(&self, placement: &Placement) -> Option<Metrics> {
         let layering = &self.job.layering;
         let height_mm = placement.size_mm[2];
@@ -339,7 +340,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// Why a model cannot be printed as it stands, if that is what an error says.
+/// The exclusion that an error means: the model does not fit the printer in this orientation. `None` for other errors.
 fn exclusion(error: &GridError) -> Option<Exclusion> {
     match error {
         GridError::ModelTooLarge { .. } | GridError::BadSize { .. } => Some(Exclusion::TooLarge),

@@ -1,4 +1,5 @@
-//! The layers of a measured model: the third stage. Which errors a planner sees, at which tolerance, with which snap planes.
+//! The layers of a measured model: the third stage. This module chooses the errors, the tolerance and the snap planes that a
+//! planner gets.
 
 use std::sync::Arc;
 
@@ -15,11 +16,11 @@ use crate::profile::snap_planes::snap_planes;
 use crate::profile::{LayerErrors, Metric, Source};
 use crate::warning::Warning;
 
-/// A plan with what it was made from. Immutable and shared: its masks can be made from no rays but its own.
+/// A plan with what it was made from. Immutable and shared, so its masks always come from its own rays.
 #[derive(Debug)]
 pub struct Planned {
     pub of: Arc<Measured>,
-    /// What it was planned by.
+    /// What it was planned with.
     pub layering: Layering,
     pub plan: Plan,
     pub findings: Findings,
@@ -41,7 +42,7 @@ impl Planned {
         })
     }
 
-    /// The masks of its layers, seen from one side.
+    /// The masks of the plan, seen from one side.
     pub fn masks(&self, side: Side) -> Masks {
         let sampled = &self.of.of;
         let samples = sampled.sampling.samples;
@@ -49,21 +50,21 @@ impl Planned {
     }
 }
 
-/// All that planners need to know about a model.
+/// Everything that planners need to know about a model.
 pub struct Planning<'a> {
     shapes: &'a Shapes,
     layering: &'a Layering,
     height_mm: f64,
-    /// Errors under the metric, of the source that plans are made from.
+    /// Errors of layers under the metric, from the source that plans are made from.
     errors: LayerErrors,
-    /// The same of the exact shape, for reports.
+    /// Errors of layers under the metric, from the exact shape, for reports.
     exact: LayerErrors,
     snap_planes: Vec<u32>,
-    /// The tolerance that the options give or ask to find, or why there is none.
+    /// The tolerance that the options give or ask to find, or the error if none can be found.
     tolerance: Result<f64, PlanError>,
 }
 
-/// What is found out about a plan beside its layers.
+/// What is known about a plan besides its layers.
 #[derive(Debug)]
 pub struct Findings {
     pub snapped_mm: Vec<f64>,
@@ -77,12 +78,12 @@ pub struct Findings {
 }
 
 impl<'a> Planning<'a> {
-    /// For a model that was sampled.
+    /// For a sampled model.
     pub fn of(measured: &'a Measured, layering: &'a Layering) -> Self {
         Self::new(measured.of.height_mm, &measured.shapes, layering)
     }
 
-    /// For shapes of a model of this height.
+    /// For the shapes of a model of this height.
     pub fn new(height_mm: f64, shapes: &'a Shapes, layering: &'a Layering) -> Self {
         let exact = shapes.errors(layering.metric, Source::Exact);
         let errors = match layering.source {
@@ -126,7 +127,7 @@ impl<'a> Planning<'a> {
         let greedily = |sight| greedy::plan(errors, &self.limits()?, snap_planes, sight);
         match planner {
             Planner::Optimal => {
-                // The time is what a longest time is about.
+                // A target of time minimizes time, whatever the options minimize.
                 let objective = match self.layering.target {
                     Target::Time(_) => Objective::Time(&self.layering.resin),
                     _ => self.layering.objective(),
@@ -170,7 +171,7 @@ impl<'a> Planning<'a> {
     fn findings(&self, plan: &Plan) -> Result<Findings, PlanError> {
         let layering = self.layering;
         let (finest, coarsest) = match layering.planner {
-            // They may be planned with no valid range; they then stand for both ends.
+            // Uniform layers may be planned without a valid range of thicknesses. They then stand for both ends.
             Planner::Uniform { .. } if layering.limits(1.0).check(plan.bins).is_err() => {
                 (layering.planner, layering.planner)
             }
@@ -259,7 +260,7 @@ impl<'a> Planning<'a> {
     }
 }
 
-/// The tolerance that is asked for, or is to be found.
+/// The tolerance of the target, given or found.
 fn tolerance(
     errors: &LayerErrors,
     snap_planes: &[u32],
@@ -283,7 +284,7 @@ fn tolerance(
     tradeoff::tolerance_for(errors, &limits, snap_planes, &layering.resin, goal)
 }
 
-/// The shapes of facets alone under the metric and weights; asks for the areas of sections where the metric needs them.
+/// The shapes from facets alone, weighted for the metric. Calls `areas_mm2` only if the metric needs the areas of sections.
 pub fn shapes_of<E>(
     facet_bins: &FacetBins,
     areas_mm2: impl FnOnce() -> Result<Vec<f64>, E>,

@@ -1,4 +1,4 @@
-//! What leaves the library as data: the report of a plan and of a mesh, with units in names.
+//! The data that leaves the library: reports on plans and meshes, with units in the names of fields.
 
 use serde::Serialize;
 use serde_json::Value;
@@ -18,41 +18,41 @@ use crate::profile::{Metric, Source};
 use crate::resin::Resin;
 use crate::warning::Warning;
 
-/// Least and greatest coordinates.
+/// Smallest and largest coordinates.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 pub struct BoundsReport {
-    /// Least x, y and z in millimetres.
+    /// Smallest x, y and z in millimetres.
     pub min: [f64; 3],
-    /// Greatest x, y and z in millimetres.
+    /// Largest x, y and z in millimetres.
     pub max: [f64; 3],
 }
 
-/// A mesh as it stands in its file.
+/// A mesh in the frame of its file.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 pub struct MeshInfo {
-    /// Facets with an area.
+    /// Number of facets with an area.
     pub facets: usize,
-    /// Facets without one, which were dropped.
+    /// Number of facets of the file without an area.
     pub degenerate_facets: usize,
-    /// Different corners, and the middles of caps over holes.
+    /// Number of distinct vertices, including the centroids of caps over holes.
     pub vertices: usize,
-    /// The box around the model.
+    /// The bounding box of the model.
     pub bounds_mm: BoundsReport,
     /// Extent in x, y and z.
     pub size_mm: [f64; 3],
-    /// Enclosed volume, holes closed.
+    /// Enclosed volume, with holes closed.
     pub volume_mm3: f64,
-    /// Whether every edge joins facets that agree about inside and outside.
+    /// Whether the mesh is closed and consistently oriented.
     pub closed: bool,
-    /// Edges where that is not so.
+    /// Number of edges that are open or inconsistently oriented.
     pub open_edges: usize,
-    /// Holes, which were closed by flat caps.
+    /// Number of holes that were closed by flat caps.
     pub holes: usize,
-    /// Memory that a search of directions takes at its peak on one thread, in bytes.
+    /// Peak memory of an orientation search on one thread, in bytes.
     pub search_bytes: usize,
-    /// What the user should know.
+    /// Warnings.
     pub warnings: Vec<Warning>,
 }
 
@@ -79,7 +79,7 @@ impl MeshInfo {
     }
 }
 
-/// What the user should know about a mesh.
+/// The warnings about a mesh.
 pub fn mesh_warnings(mesh: &Mesh) -> Vec<Warning> {
     let mut warnings = Vec::new();
     if mesh.degenerate_facets > 0 {
@@ -99,13 +99,13 @@ pub fn mesh_warnings(mesh: &Mesh) -> Vec<Warning> {
     warnings
 }
 
-/// The version of reports: it grows when a name or a meaning changes, not when something is added.
+/// The schema version of reports. It increases when a name or a meaning changes, not when something is added.
 pub const SCHEMA: u32 = 2;
 
-/// Keys of a report that tell how a plan came about, not what it is: they differ from machine to machine.
+/// Keys of a report that depend on the machine, not on the plan.
 pub(crate) const OF_THE_MACHINE: [&str; 3] = ["timings_ms", "backend", "adapter"];
 
-/// The masks' pixels.
+/// The pixels of the masks.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 pub struct MaskReport {
@@ -117,23 +117,23 @@ pub struct MaskReport {
     pub pitch_mm: f64,
     /// Side of a pixel in y.
     pub pitch_y_mm: f64,
-    /// Level of anti-aliasing; 1 is none.
+    /// Level of anti-aliasing; 1 means none.
     pub antialias: u32,
-    /// Whether print files have them mirrored left to right.
+    /// Whether print files have the masks mirrored left to right.
     pub is_mirrored: bool,
 }
 
-/// The kind of a print file.
+/// The format of a print file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 pub struct PrintFileReport {
-    /// The format asked for, or the printer's own.
+    /// The requested format, or the printer's.
     pub format: Format,
-    /// What its name ends with, without a dot: what the printer looks for if it reads the file, else the format's own.
+    /// File extension, without a dot: the one that the printer expects if it reads the format, otherwise the format's own.
     pub extension: String,
     /// Its media type.
     pub media_type: String,
-    /// Whether the printer, if one was named, reads it without a converter.
+    /// Whether a printer is named and reads the format without a converter.
     pub is_read_by_printer: bool,
 }
 
@@ -151,17 +151,17 @@ impl PrintFileReport {
     }
 }
 
-/// What uniform layers would give within the same range of thicknesses.
+/// Uniform layers within the same range of thicknesses, for comparison.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 pub struct UniformReport {
-    /// Layers of the least thickness.
+    /// Layers of the minimum thickness.
     pub finest: PlannerReport,
-    /// Layers of the greatest thickness.
+    /// Layers of the maximum thickness.
     pub coarsest: PlannerReport,
 }
 
-/// What a planner makes of a model.
+/// The result of a planner.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 pub struct PlannerReport {
@@ -171,7 +171,7 @@ pub struct PlannerReport {
     pub layers: usize,
     /// The largest exact error of a layer, in the metric's unit.
     pub max_error: f64,
-    /// Time that the layers take.
+    /// Print time.
     pub print_time_s: f64,
 }
 
@@ -179,15 +179,15 @@ pub struct PlannerReport {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 pub struct Comparison {
-    /// Facets of the model.
+    /// Number of facets of the model.
     pub facets: usize,
-    /// Its height.
+    /// Height of the model.
     pub height_mm: f64,
-    /// What errors measure.
+    /// The metric of the errors.
     pub metric: Metric,
-    /// Their unit.
+    /// The unit of the errors.
     pub unit: String,
-    /// One row a planner, from the coarsest to the finest.
+    /// One row per planner, from the coarsest to the finest.
     pub rows: Vec<PlannerReport>,
 }
 
@@ -195,15 +195,15 @@ pub struct Comparison {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 pub struct Tradeoff {
-    /// Its points, from the tightest tolerance to the loosest.
+    /// Its points, from the smallest tolerance to the largest.
     pub points: Vec<TradeoffPoint>,
 }
 
-/// Wall-clock times of the stages; 0 for a stage whose earlier result still held.
+/// Wall-clock times of the stages, in milliseconds; 0 for a stage whose result was reused.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 pub struct Timings {
-    /// Reading the STL, mesh and its placement.
+    /// Reading the STL, building the mesh and placing it.
     pub load: f64,
     /// Sampling the layered depth image.
     pub ldi: f64,
@@ -213,18 +213,18 @@ pub struct Timings {
     pub plan: f64,
     /// Making and writing the masks.
     pub masks: f64,
-    /// All of these.
+    /// The sum of these.
     pub total: f64,
 }
 
 impl Timings {
-    /// Brings `total` up to date.
+    /// Updates `total`.
     pub fn sum_up(&mut self) {
         self.total = self.load + self.ldi + self.profile + self.plan + self.masks;
     }
 }
 
-/// What a model gives in a pose without being sampled: for following live while it is turned.
+/// The plan of a model in a pose, made without sampling: fast enough to follow a rotation live.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 pub struct Preview {
@@ -232,7 +232,7 @@ pub struct Preview {
     pub layers: usize,
     /// Extent of the model in x, y and z.
     pub size_mm: [f64; 3],
-    /// Boundaries of layers, from 0 upward: one more than there are layers.
+    /// Heights of layer boundaries, from 0 upward: one more than there are layers.
     pub z_mm: Vec<f64>,
     /// Thickness of each layer.
     pub thickness_mm: Vec<f64>,
@@ -240,96 +240,96 @@ pub struct Preview {
     pub metric: Metric,
     /// The largest error of a layer, in the metric's unit.
     pub max_error: f64,
-    /// Time that the layers take.
+    /// Print time.
     pub print_time_s: f64,
     /// Height of a bin of the profile.
     pub bin_mm: f64,
-    /// The thinnest and the thickest layer that a plan may have: whole motor steps, if there is one.
+    /// Minimum and maximum layer thickness of a plan, in whole motor steps if there is one.
     pub layer_range_mm: [f64; 2],
 }
 
-/// A plan and how it came about: what `--json` prints and the page shows.
+/// A plan and how it was made: what `--json` prints and the page shows.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify), tsify(missing_as_null))]
 pub struct Report {
-    /// The version of this object: [`SCHEMA`].
+    /// The schema version of this object: [`SCHEMA`].
     pub schema: u32,
     /// The file that the model was read from.
     pub model: ModelFile,
-    /// What was asked for, with which the same file gives the same plan again.
+    /// The options. With these, the same file gives the same plan again.
     pub options: Options,
-    /// CRC-32 of the weights that the user gave to facets, as little-endian single precision numbers, if any.
+    /// CRC-32 of the user's weights of facets, as little-endian single-precision numbers, if any.
     pub weights_crc32: Option<u32>,
     /// Number of layers.
     pub layers: usize,
     /// Height of the model.
     pub height_mm: f64,
-    /// Boundaries of layers, from 0 upward: one more than there are layers.
+    /// Heights of layer boundaries, from 0 upward: one more than there are layers.
     pub z_mm: Vec<f64>,
     /// Thickness of each layer.
     pub thickness_mm: Vec<f64>,
-    /// Seconds of exposure of each layer.
+    /// Exposure of each layer.
     pub exposure_s: Vec<f64>,
-    /// Seconds between the exposures of two layers.
+    /// Time between the exposures of two layers.
     pub overhead_s: f64,
-    /// The resin that both follow from.
+    /// The resin, which determines both.
     pub resin: Resin,
-    /// Resin that the model takes.
+    /// Volume of resin in the model.
     pub resin_ml: f64,
     /// The printer, if one was named.
     pub printer: Option<String>,
-    /// Heights of the planes that are at flats and sharp changes.
+    /// Heights of the planes at flats and sharp changes.
     pub snapped_mm: Vec<f64>,
     /// What the error measures.
     pub metric: Metric,
     /// The unit of tolerance and errors: `mm`, `mm³`, or empty for a fraction.
     pub unit: String,
-    /// What the plan was made from.
+    /// The source of the errors that the plan was made with.
     pub source: Source,
     /// The planner that ran.
     pub planner: String,
-    /// The tolerance asked for or found, in the metric's unit.
+    /// The requested or found tolerance, in the metric's unit.
     pub tolerance: f64,
-    /// The largest error of a layer under the exact profile, in the metric's unit; of a facet's error its weight counts.
+    /// The largest error of a layer under the exact profile, in the metric's unit; weighted if facets have weights.
     pub max_error: f64,
     /// The largest error of a layer under the sampled profile, in the metric's unit.
     pub sampled_error: f64,
     /// The largest cusp height of a layer under the exact profile, whatever the metric.
     pub max_error_mm: f64,
-    /// Time that the layers take.
+    /// Print time.
     pub print_time_s: f64,
     /// Where the LDI was sampled, `cpu` or `gpu`.
     pub backend: String,
     /// The GPU, if one was used.
     pub adapter: Option<String>,
-    /// Bins of the profile.
+    /// Number of bins of the profile.
     pub bins: usize,
     /// Height of a bin.
     pub bin_mm: f64,
-    /// The thinnest and the thickest layer that a plan may have: whole motor steps, if there is one.
+    /// Minimum and maximum layer thickness of a plan, in whole motor steps if there is one.
     pub layer_range_mm: [f64; 2],
-    /// Facets that were sampled.
+    /// Number of facets that were sampled.
     pub facets: usize,
-    /// Hits of the LDI.
+    /// Number of hits of the LDI.
     pub hits: usize,
     /// Uniform layers for comparison.
     pub uniform: UniformReport,
-    /// The masks' pixels.
+    /// The pixels of the masks.
     pub mask: MaskReport,
-    /// The print file that the plan is exported as.
+    /// The format in which the plan is exported.
     pub print_file: PrintFileReport,
-    /// What the user should know.
+    /// Warnings.
     pub warnings: Vec<Warning>,
-    /// Milliseconds spent.
+    /// Times of the stages.
     pub timings_ms: Timings,
 }
 
 impl Report {
-    /// The report without what differs from machine to machine, times and where rays were cast: the same plan gives the
-    /// same manifest everywhere.
+    /// The report without timings and backend, which depend on the machine: the same plan gives the same manifest
+    /// everywhere.
     ///
     /// # Errors
-    /// None that a report causes.
+    /// [`serde_json::Error`], which no report causes.
     pub(crate) fn manifest(&self) -> Result<Value, serde_json::Error> {
         let mut manifest = serde_json::to_value(self)?;
         let warnings = self.warnings.iter();
@@ -342,7 +342,7 @@ impl Report {
     }
 }
 
-/// Where a plan comes from, beside its stages.
+/// What a plan comes from, besides its stages.
 #[derive(Clone, Copy)]
 pub(super) struct Origin<'a> {
     pub file: &'a ModelFile,
@@ -350,7 +350,7 @@ pub(super) struct Origin<'a> {
     pub painted: Option<&'a [f32]>,
 }
 
-/// The report of a plan that leaves as `output`.
+/// The report of a plan that is exported as `output`.
 pub(super) fn report_of(
     planned: &Planned,
     output: &Output,

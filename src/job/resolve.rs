@@ -1,8 +1,7 @@
-//! What options come to: every default of metric, printer and format settled and checked, once. Nobody behind
-//! [`Options::resolve`] looks an option up.
+//! Resolves options into a job: every default of metric, printer and format is settled and checked, once. No stage behind
+//! [`Options::resolve`] reads an option.
 //!
-//! The parts are what the stages work from. Being comparable, a part is also the key under which its stage's result is
-//! kept.
+//! Stages work from the parts of the job. The parts are comparable, so they are also the keys under which results are kept.
 
 use super::{Backend, Error, Minimize, Options, OptionsError, Planner, Snap};
 use crate::format::Format;
@@ -15,7 +14,7 @@ use crate::printer::{self, PRINTERS, Printer};
 use crate::profile::{Metric, Source};
 use crate::resin::Resin;
 
-/// What is to be done.
+/// Resolved options.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Job {
     pub sampling: Sampling,
@@ -23,12 +22,12 @@ pub(crate) struct Job {
     pub output: Output,
 }
 
-/// What the LDI depends on, beside the model.
+/// What the LDI depends on, besides the model.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Sampling {
     pub pose: Pose,
     pub raster: Raster,
-    /// What the printer's volume is high.
+    /// Height of the printer's build volume.
     pub greatest_height_mm: Option<f64>,
     pub samples: Samples,
     pub backend: Backend,
@@ -37,18 +36,18 @@ pub(crate) struct Sampling {
 /// How the masks' pixels are laid out.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Raster {
-    /// So many along the model's longer side.
+    /// This many along the model's longer horizontal side.
     Around { pixels: u32 },
     /// As many of this pitch as cover the model.
     OfPitch { pitch_mm: f64 },
-    /// Those of a plate, with the model in the middle.
+    /// Those of a plate, with the model at the centre.
     Plate {
         pixels: [u32; 2],
         pitch_mm: [f64; 2],
     },
 }
 
-/// What the plan depends on, beside the rays.
+/// What the plan depends on, besides the rays.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Layering {
     pub bin_mm: f64,
@@ -57,29 +56,29 @@ pub(crate) struct Layering {
     pub planner: Planner,
     pub target: Target,
     pub minimize: Minimize,
-    /// What plans keep to, whatever the tolerance.
+    /// The limits of plans, except for the tolerance.
     limits: Limits,
-    /// The area in mm² from which on a flat is worth a plane; nothing if no planes go to flats and sharp changes.
+    /// Minimum area, in mm², of a flat that gets a plane. `None` if no planes are put at flats and sharp changes.
     pub snap_mm2: Option<f64>,
     pub saliency: bool,
     pub weight_min: f64,
     pub resin: Resin,
 }
 
-/// Which tolerance a plan keeps.
+/// The tolerance that a plan keeps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Target {
     /// This one, in the metric's unit.
     Tolerance(f64),
-    /// This one, and as much more as the model needs.
+    /// This one, or the smallest that a plan keeps if that is larger.
     AtLeast(f64),
-    /// The least that needs at most so many layers.
+    /// The smallest that needs at most this many layers.
     Layers(usize),
-    /// The least that takes at most so many seconds.
+    /// The smallest that prints in at most this many seconds.
     Time(f64),
 }
 
-/// What the print file depends on, beside the plan and the rays.
+/// What the print file depends on, besides the plan and the rays.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Output {
     pub format: Format,
@@ -88,7 +87,7 @@ pub(crate) struct Output {
 }
 
 impl Options {
-    /// Settles and checks everything that no model is needed for.
+    /// Settles and checks everything that does not depend on the model.
     ///
     /// # Errors
     /// [`Error::Options`], [`Error::Plan`].
@@ -111,8 +110,8 @@ impl Options {
         })
     }
 
-    /// The error of a plan with numbers that people can type: a thinner least thickness is one of whole micrometres, at which the
-    /// bins, and so the answer, stay the same.
+    /// Rounds the minimum thickness that an error suggests down to whole micrometres, so that people can type it. Bins must
+    /// stay the same, or the suggestion might not hold; if they do not, it is dropped.
     pub(crate) fn typeable(&self, mut error: PlanError) -> PlanError {
         if let PlanError::Infeasible {
             largest_layer_min_mm: largest_mm,
@@ -136,7 +135,7 @@ impl Options {
         error
     }
 
-    /// Finds what no model could make good.
+    /// Checks everything that does not depend on the model.
     ///
     /// # Errors
     /// [`Error::Options`], [`Error::Plan`].
@@ -194,13 +193,13 @@ impl Options {
             (Some(tolerance), None, None) => Target::Tolerance(tolerance),
             (None, Some(layers), None) => Target::Layers(layers),
             (None, None, Some(time_s)) => Target::Time(time_s),
-            // No volume suits all models.
+            // No default volume suits all models.
             (None, None, None) if self.metric == Metric::Volume => Target::AtLeast(usual),
             (None, None, None) => Target::Tolerance(usual),
             _ => return Err(OptionsError::SeveralTargets.into()),
         };
         let step_mm = match self.planner {
-            // Uniform layers are as thick as they are said to be.
+            // Uniform layers have the thickness that is given, not a multiple of the step.
             Planner::Uniform { .. } => None,
             _ => self.step_mm.or(printer.map(|printer| printer.step_mm)),
         };
@@ -240,7 +239,7 @@ impl Options {
         Ok(layering)
     }
 
-    /// Finds layers and steps that the printer cannot make.
+    /// Checks that the printer can make the layers and the step.
     fn check_printer(&self, printer: Option<&Printer>) -> Result<(), OptionsError> {
         let Some(printer) = printer else {
             return Ok(());
@@ -269,7 +268,8 @@ impl Options {
         }
     }
 
-    /// Least and greatest thickness wherever the options give them: uniform layers, or all layers and those of height ranges.
+    /// Minimum and maximum thickness wherever the options give them: of uniform layers, or of all layers and of each height
+    /// range.
     fn thicknesses_mm(&self) -> Vec<[f64; 2]> {
         if let Planner::Uniform { layer_mm } = self.planner {
             return vec![[layer_mm; 2]];
@@ -280,17 +280,17 @@ impl Options {
         all.chain(ranges).collect()
     }
 
-    /// The height of a bin where the options give none: with a step the largest one up to [`BIN_MM`] that divides it, without
-    /// one half of that if a thickness needs it.
+    /// The default height of a bin. With a step, it is the largest height up to [`BIN_MM`] that divides the step; otherwise
+    /// [`BIN_MM`], or half of it if a thickness needs that.
     fn usual_bin_mm(&self, step_mm: Option<f64>) -> f64 {
         match step_mm {
-            // What is no step is refused where it is used.
+            // An invalid step is rejected where it is used.
             Some(step_mm) if step_mm >= ROUNDING => {
                 step_mm / (step_mm / BIN_MM - ROUNDING).ceil().max(1.0)
             }
             Some(_) => BIN_MM,
             None => {
-                // Uniform layers are compared with the thinnest and the thickest that the options allow.
+                // Uniform layers are compared with those of the minimum and maximum thickness.
                 let all = [self.layer_min_mm, self.layer_max_mm];
                 let mut thicknesses = self.thicknesses_mm().into_iter().flatten().chain(all);
                 let is_whole = thicknesses.all(|thickness_mm| is_multiple(thickness_mm, BIN_MM));
@@ -300,10 +300,10 @@ impl Options {
     }
 }
 
-/// The default height of a bin; it divides most thicknesses that people ask for.
+/// The default height of a bin in millimetres. It divides most layer thicknesses in use.
 pub const BIN_MM: f64 = 0.002;
 
-/// How far from a whole number a quotient may be for rounding to be the reason.
+/// A quotient this close to a whole number counts as whole.
 const ROUNDING: f64 = 1e-6;
 
 fn is_multiple(length_mm: f64, of_mm: f64) -> bool {
@@ -312,10 +312,10 @@ fn is_multiple(length_mm: f64, of_mm: f64) -> bool {
 }
 
 impl Sampling {
-    /// The masks' pixels around a model of these bounds.
+    /// The pixels of the masks for a model of these bounds.
     ///
     /// # Errors
-    /// [`GridError`]; among these that the model does not fit the printer.
+    /// [`GridError`], also if the model does not fit the printer.
     pub fn grid(&self, bounds: &Bounds) -> Result<Grid, GridError> {
         let grid = match self.raster {
             Raster::Plate { pixels, pitch_mm } => Grid::plate(bounds, pixels, pitch_mm)?,
@@ -333,7 +333,7 @@ impl Sampling {
         }
     }
 
-    /// The height as asked for, or as the file has it without the noise of single precision.
+    /// The requested height, or `size_mm` rounded to the nanometre, which removes the noise of single precision.
     pub fn height_mm(&self, size_mm: f64) -> f64 {
         let asked_mm = self.pose.height_mm;
         asked_mm.unwrap_or_else(|| (size_mm * 1e6).round() / 1e6)
@@ -341,7 +341,7 @@ impl Sampling {
 }
 
 impl Layering {
-    /// What plans keep to within `tolerance`.
+    /// The limits of plans with this tolerance.
     pub fn limits(&self, tolerance: f64) -> Limits {
         Limits {
             tolerance,
@@ -349,7 +349,8 @@ impl Layering {
         }
     }
 
-    /// Thinnest and thickest layer that a plan in these bins may have, in millimetres: whole motor steps, where there is one.
+    /// Minimum and maximum layer thickness of a plan in these bins, in millimetres: rounded inward to whole motor steps, or
+    /// to whole bins if there is no step.
     pub fn layer_range_mm(&self, bins: Bins) -> [f64; 2] {
         let Limits {
             layer_min_mm,
@@ -362,12 +363,12 @@ impl Layering {
             (Ok(range), Ok(unit)) => {
                 [*range.start(), *range.end()].map(|units| bins.boundary_mm(units * unit))
             }
-            // Uniform layers may lie outside a range that holds no thickness.
+            // Uniform layers may be planned with a range that holds no thickness.
             _ => [layer_min_mm, layer_max_mm],
         }
     }
 
-    /// What plans have least of.
+    /// What plans minimize.
     pub fn objective(&self) -> Objective<'_> {
         match self.minimize {
             Minimize::Layers => Objective::Layers,

@@ -13,43 +13,43 @@ use crate::model::Mesh;
 use crate::progress::Progress;
 use crate::warning::Warning;
 
-/// The model on the plate and its rays. Immutable and shared: whoever holds it cannot be given other rays.
+/// The model on the plate and its rays. Immutable and shared, so its rays never change.
 #[derive(Debug)]
 pub struct Sampled {
-    /// What it was sampled by.
+    /// What it was sampled with.
     pub sampling: Sampling,
     pub mesh: Mesh,
     pub height_mm: f64,
-    /// The masks' pixels; the LDI has rays only where the model is.
+    /// The pixels of the masks. The LDI has rays only where the model is.
     pub grid: Grid,
     pub ldi: Ldi,
     pub solid: Solid,
-    /// The GPU, if one cast the rays.
+    /// Name of the GPU, if it was used.
     pub adapter: Option<String>,
     pub warnings: Vec<Warning>,
 }
 
-/// Samples models, and keeps the GPU between one and the next.
+/// Samples models, and keeps the GPU open between them.
 #[derive(Debug, Default)]
 pub struct Sampler {
-    /// What the last search for a GPU found, if it is still to be used.
+    /// The GPU to use next, or why the last search found none. `None` before a search and after a failure.
     gpu: Option<Result<Gpu, LdiError>>,
 }
 
 impl Sampler {
-    /// Samples on `gpu` from now on, unless the CPU is asked for.
+    /// Samples on `gpu` from now on, unless the backend is the CPU.
     pub fn set_gpu(&mut self, gpu: Gpu) {
         self.gpu = Some(Ok(gpu));
     }
 
-    /// Searches for the GPU that `backend` allows, unless one was searched for.
+    /// Searches for a GPU that `backend` allows, unless a search has already been made.
     pub async fn open_gpu(&mut self, backend: Backend) {
         if self.gpu.is_none() {
             self.gpu = Some(search_gpu(backend).await);
         }
     }
 
-    /// Poses and samples the model. The CPU stands in for a GPU that fails, unless the GPU was asked for.
+    /// Poses and samples the model. If the GPU fails, the CPU is used instead, unless `backend` requires the GPU.
     ///
     /// # Errors
     /// [`Error::Mesh`], [`Error::Grid`], [`Error::Ldi`].
@@ -105,7 +105,7 @@ impl Sampler {
         })
     }
 
-    /// The LDI by the GPU, and its name. A GPU that failed is not tried again.
+    /// Samples on the GPU, and returns the LDI and the GPU's name. A GPU that fails is closed.
     async fn sample_on_gpu(
         &mut self,
         mesh: &Mesh,
@@ -125,10 +125,10 @@ impl Sampler {
     }
 }
 
-/// The GPU that a backend allows.
+/// Opens a GPU that `backend` allows.
 async fn search_gpu(backend: Backend) -> Result<Gpu, LdiError> {
     match backend {
-        // Nobody sees it: the CPU was asked for.
+        // Never shown, because the CPU was requested.
         Backend::Cpu => Err(LdiError::NoGpu {
             system: String::new(),
         }),
@@ -137,7 +137,7 @@ async fn search_gpu(backend: Backend) -> Result<Gpu, LdiError> {
     }
 }
 
-/// What to tell of a GPU that was to do the work and did not; nothing if there is none.
+/// The warning about a GPU that was found but failed; `None` if none was found.
 fn cpu_instead(error: &LdiError) -> Option<Warning> {
     let failed = |fault, system| Some(Warning::GpuFailed { fault, system });
     match *error {

@@ -22,32 +22,31 @@ use crate::orientation::Surface;
 use crate::profile::facet_bins::FacetBins;
 use crate::profile::{Metric, Profile, Source, section};
 
-/// A loaded model on its way through the stages. Each keeps its result, so that a change of options
-/// repeats only what depends on it.
+/// A loaded model with the results of the stages. A change of options repeats only the stages that depend on it.
 #[derive(Debug)]
 pub struct Slicer {
     pub(super) model: Mesh,
     pub(super) file: ModelFile,
-    /// How much each facet of the surface stands out, once that was asked for.
+    /// Saliency of each facet of the surface, once computed.
     saliency: Option<Vec<f32>>,
-    /// How much each facet of the surface matters to the user.
+    /// The user's weight of each facet of the surface, if set.
     pub(super) painted: Option<Vec<f32>>,
     load_ms: f64,
     sampler: Sampler,
-    /// The surface for being looked at along directions, and the pose whose height it is scaled to, if one is asked for.
+    /// The surface for orientation searches, and the pose to whose height it is scaled, if it has one.
     pub(super) surface: Option<(Option<Pose>, Surface)>,
     sampled: Option<Arc<Sampled>>,
     measured: Option<Arc<Measured>>,
     current: Option<Current>,
 }
 
-/// The last plan, and what leaves of it.
+/// The last plan, with its output and its report.
 #[derive(Debug)]
 struct Current {
     planned: Arc<Planned>,
     output: Output,
     report: Report,
-    /// Its masks as seen from above, kept for the next look at one, and where the last look was.
+    /// The masks seen from above, kept for the next call of [`Slicer::mask`], and a cursor at the last layer that was read.
     seen: Option<(Masks, MaskCursor)>,
 }
 
@@ -76,35 +75,36 @@ impl Slicer {
         })
     }
 
-    /// Samples on `gpu` from now on, where the options do not ask for the CPU.
+    /// Samples on `gpu` from now on, unless the options ask for the CPU.
     #[must_use]
     pub fn with_gpu(mut self, gpu: Gpu) -> Self {
         self.sampler.set_gpu(gpu);
         self
     }
 
-    /// Searches for the GPU that the next plan with this `backend` would search for, so that the plan need not: drivers may
-    /// write to stderr while they are asked, and the caller knows when. That plan says what was found.
+    /// Searches in advance for the GPU that the next plan with this `backend` would search for. Drivers may write to stderr
+    /// during a search, and here a caller can silence them. The plan reports what was found.
     pub async fn open_gpu(&mut self, backend: Backend) {
         self.sampler.open_gpu(backend).await;
     }
 
-    /// Describes the model as it stands in its file.
+    /// Describes the model in the frame of its file.
     pub fn info(&self) -> MeshInfo {
         MeshInfo::of(&self.model)
     }
 
-    /// What the model's file is known by.
+    /// The identity of the model's file.
     pub fn model_file(&self) -> &ModelFile {
         &self.file
     }
 
-    /// Corners of the facets of the surface, nine numbers a facet, in millimetres as they stand in the file.
+    /// Vertex positions of the surface facets, nine numbers per facet, in millimetres, in the file's frame.
     pub fn positions(&self) -> Vec<f32> {
         positions(&self.model)
     }
 
-    /// The same as the model stands on the plate, upward from z = 0 and centred on x = y = 0.
+    /// Vertex positions of the surface facets, nine numbers per facet, in millimetres, with the model on the plate in this
+    /// pose: its lowest point at z = 0, and centred on x = y = 0.
     ///
     /// # Errors
     /// [`Error::Mesh`].
@@ -112,7 +112,7 @@ impl Slicer {
         Ok(positions(&self.model.on_plate(pose)?))
     }
 
-    /// Says how much each facet of the surface matters, from 0 to 1; all alike if that is absent. Later plans follow it.
+    /// Sets a weight from 0 to 1 for each facet of the surface, or removes all weights. Later plans use them.
     ///
     /// # Errors
     /// [`Error::Weights`].
@@ -124,7 +124,7 @@ impl Slicer {
         Ok(())
     }
 
-    /// How much each facet of the surface stands out, from 0 to 1; the same in every pose.
+    /// The saliency of each facet of the surface, 0 to 1: how much it stands out. It is the same in every pose.
     ///
     /// # Errors
     /// [`Error::Ldi`] if `progress` cancels.
@@ -139,11 +139,11 @@ impl Slicer {
         Ok(self.saliency.insert(saliency))
     }
 
-    /// What each facet of the surface counts for: the product of paint and saliency (section 4.2), at least the least weight.
-    /// `None` if all count alike.
+    /// The weight of each facet of the surface: the product of the user's weight and of saliency (section 4.2), as far as
+    /// these are set, but at least the minimum weight. `None` if neither is set.
     ///
     /// # Errors
-    /// Those of [`Self::saliency`].
+    /// [`Error::Options`], [`Error::Plan`], and those of [`Self::saliency`].
     pub fn weights(
         &mut self,
         options: &Options,
@@ -163,7 +163,7 @@ impl Slicer {
         Ok(self.known_weights(layering))
     }
 
-    /// The same without computing any saliency that is not there yet.
+    /// The weights from what is known. Saliency that is not computed yet is left out.
     fn known_weights(&self, layering: &Layering) -> Option<Vec<f32>> {
         let saliency = self.saliency.as_ref().filter(|_| layering.saliency);
         if saliency.is_none() && self.painted.is_none() {
@@ -178,8 +178,8 @@ impl Slicer {
         Some((0..self.model.surface_facets).map(weight).collect())
     }
 
-    /// The plan of the model in a pose and its profile, from the facets alone: no rays, so that facets inside the solid
-    /// count as well. Makes no plan, and leaves the last one.
+    /// Plans the model in its pose from the facets alone, and returns the plan with the exact profile. Without rays, facets
+    /// inside the solid count as well. The last plan is kept.
     ///
     /// # Errors
     /// [`Error::Mesh`], [`Error::Grid`], [`Error::Plan`], [`Error::Options`].
@@ -211,8 +211,8 @@ impl Slicer {
         Ok((preview, shapes.profile(layering.metric, Source::Exact)))
     }
 
-    /// Samples the model, makes its profile and plans its layers; repeats only what the options
-    /// change. After an error the last plan is gone, the LDI is kept where it still holds.
+    /// Samples the model, makes its profile and plans its layers. Repeats only what a change of options affects. After an
+    /// error there is no plan; the LDI is kept if it is still valid.
     ///
     /// # Errors
     /// Any [`Error`] of these stages.
@@ -223,7 +223,7 @@ impl Slicer {
     ) -> Result<&Report, Error> {
         let last = self.current.take();
         let job = options.resolve()?;
-        // Rays that are of no more use make room for the new ones.
+        // Old rays are freed before new ones are sampled.
         let last = last.filter(|last| last.planned.of.of.sampling == job.sampling);
         let mut timings = Timings {
             load: self.load_ms,
@@ -263,8 +263,8 @@ impl Slicer {
         Ok(&self.current.insert(current).report)
     }
 
-    /// Best plans for `points` tolerances, from the tightest that can be held to the loosest that saves a layer. Makes
-    /// no plan, and leaves the last one.
+    /// The best plans for `points` tolerances, from the smallest that a plan keeps to the largest that makes a difference.
+    /// The last plan is kept.
     ///
     /// # Errors
     /// Any [`Error`] of sampling and planning.
@@ -283,7 +283,7 @@ impl Slicer {
         Ok(Tradeoff { points })
     }
 
-    /// The plans of all planners side by side (table 3). Makes no plan, and leaves the last one.
+    /// Compares the plans of five planners, from the coarsest to the finest (table 3). The last plan is kept.
     ///
     /// # Errors
     /// Any [`Error`] of sampling and planning.
@@ -308,8 +308,8 @@ impl Slicer {
         })
     }
 
-    /// Samples the model and measures its shape, unless what is there still holds. Leaves the last plan, which has the rays
-    /// that it was made from.
+    /// Samples the model and measures its shape, or reuses results that are still valid. The last plan keeps the rays that
+    /// it was made from.
     async fn measure(
         &mut self,
         job: &Job,
@@ -346,7 +346,7 @@ impl Slicer {
         {
             return Ok(Arc::clone(kept));
         }
-        // Rays that are of no more use make room for the new ones.
+        // Old rays are freed before new ones are sampled.
         (self.sampled, self.measured) = (None, None);
         let sampled = self
             .sampler
@@ -354,10 +354,10 @@ impl Slicer {
         Ok(Arc::clone(self.sampled.insert(Arc::new(sampled.await?))))
     }
 
-    /// The profile of a metric in the bins that the last plan was made from, or was tried on if there is none.
+    /// The profile of a metric, in the bins of the last plan, or of the last measurement if there is no plan.
     ///
     /// # Errors
-    /// [`Error::NoPlan`], also for a metric of areas if no plan has needed them.
+    /// [`Error::NoPlan`], also for a metric of areas if no plan has measured them.
     pub fn profile(&self, metric: Metric, source: Source) -> Result<Profile, Error> {
         let planned = self.current.as_ref().map(|current| &current.planned.of);
         let mut measured = planned.into_iter().chain(&self.measured);
@@ -382,8 +382,8 @@ impl Slicer {
         Ok(cursor.whole(masks))
     }
 
-    /// Writes the print file of the last plan in the format that its options ask for, and returns the report with the
-    /// time that this took.
+    /// Writes the print file of the last plan in the format of its options. Returns the writer, and the report with the time
+    /// that this took.
     ///
     /// # Errors
     /// [`Error::NoPlan`], [`Error::Archive`].
@@ -429,7 +429,7 @@ impl Slicer {
 }
 
 impl Current {
-    /// The masks as seen from above, and where the last look was.
+    /// The masks seen from above, and a cursor at the last layer that was read.
     fn seen(&mut self) -> &mut (Masks, MaskCursor) {
         self.seen.get_or_insert_with(|| {
             let masks = self.planned.masks(Side::Above);
@@ -439,7 +439,7 @@ impl Current {
     }
 }
 
-/// Corners of the facets of the surface, nine numbers a facet.
+/// Vertex positions of the surface facets, nine numbers per facet.
 fn positions(mesh: &Mesh) -> Vec<f32> {
     let facets = mesh.facets[..mesh.surface_facets].iter();
     let corners = facets

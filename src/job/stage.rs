@@ -1,4 +1,4 @@
-//! The stages of the work, and progress through them.
+//! The stages of a job, and progress through them.
 
 use std::ops::ControlFlow;
 
@@ -8,14 +8,14 @@ use web_time::Instant;
 use crate::ldi::LdiError;
 use crate::progress::Cancelled;
 
-/// A part of the work, for showing progress.
+/// A stage of a job, for showing progress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "lowercase")]
 pub enum Stage {
     /// Reading the model.
     Load,
-    /// Finding what stands out.
+    /// Computing saliency.
     Saliency,
     /// Searching for the best orientation.
     Orientation,
@@ -43,8 +43,8 @@ impl Stage {
         }
     }
 
-    /// How much of the whole task is done, 0 to 1, once `fraction` of this stage is. Reading, searching and writing are
-    /// tasks of one stage each.
+    /// The fraction of the whole task that is done, 0 to 1, when `fraction` of this stage is done. Reading, searching and
+    /// writing are tasks of one stage each.
     pub fn done(self, fraction: f64) -> f64 {
         let fraction = fraction.clamp(0.0, 1.0);
         let Some(place) = PLANNING.iter().position(|&(stage, _)| stage == self) else {
@@ -55,7 +55,7 @@ impl Stage {
     }
 }
 
-/// The stages of planning in order, and the share of the time that each takes: rays take most of it, on any model and
+/// The stages of planning in order, with the share of the time that each takes. Rays take most of it, on any model and
 /// machine.
 const PLANNING: [(Stage, f64); 4] = [
     (Stage::Saliency, 0.0625),
@@ -64,10 +64,10 @@ const PLANNING: [(Stage, f64); 4] = [
     (Stage::Plan, 0.125),
 ];
 
-/// Called with the stage at work and the fraction of it that is done; `Break` cancels.
+/// Called with the current stage and the fraction of it that is done. [`ControlFlow::Break`] cancels.
 pub type StageProgress<'a> = dyn FnMut(Stage, f64) -> ControlFlow<()> + 'a;
 
-/// Reports that `fraction` of a stage is done, and turns a wish to stop into an error.
+/// Reports that `fraction` of a stage is done, and turns a cancellation into an error.
 pub(super) fn report(
     progress: &mut StageProgress<'_>,
     stage: Stage,

@@ -1,5 +1,5 @@
-//! Whether a plan that somebody sent is the one that its model and options give: what a shop asks before it accepts the
-//! work of a customer's browser.
+//! Checks that a submitted plan is the one that its model and options give. A shop needs this before it accepts a plan from
+//! a customer's browser.
 
 use serde::Deserialize;
 use serde_json::Value;
@@ -9,20 +9,20 @@ use super::{Options, Report, SCHEMA};
 use crate::model::ModelFile;
 use crate::warning::Warning;
 
-/// Why a plan is not accepted.
+/// Why a plan is rejected.
 #[derive(Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum VerifyError {
-    /// The file is no report of a plan.
+    /// The file is not the report of a plan.
     #[error("it is no plan as `cusp plan --json` prints it: {system}")]
     NotAPlan {
         /// What the parser said.
         system: String,
     },
-    /// The report is of a version with other names or meanings.
+    /// The report has another schema version, with other names or meanings.
     #[error("it has schema {found}, and this program knows {SCHEMA}; use the version that made it")]
     OtherSchema {
-        /// Its version.
+        /// Schema version of the report.
         found: u64,
     },
     /// The plan was made from another file.
@@ -30,29 +30,29 @@ pub enum VerifyError {
     OtherModel {
         /// Length of that model's file.
         bytes: usize,
-        /// Its CRC-32.
+        /// CRC-32 of that model's file.
         crc32: u32,
     },
-    /// The plan was made with other weights of facets, or with some where none are given.
+    /// The plan was made with other weights of facets than were given here.
     #[error(
         "it was made with other weights of facets; give the file of weights that it was made with"
     )]
     OtherWeights,
-    /// The model and the options give something else.
+    /// The model and the options give another plan.
     #[error(
         "it is not what the model and its options give: {key} is {}, but should be {}",
         in_short(claimed),
         in_short(found)
     )]
     Differs {
-        /// The first place that differs.
+        /// Path of the first difference, such as `z_mm[3]`.
         key: String,
-        /// What the plan says there.
+        /// The value in the plan.
         claimed: Value,
-        /// What it should say.
+        /// The value that is correct.
         found: Value,
     },
-    /// The plan is right, but its layers leave larger errors than the tolerance.
+    /// The plan matches, but its largest error exceeds the tolerance.
     #[error("its largest error is {max_error}, more than the tolerance of {tolerance}")]
     ToleranceExceeded {
         /// The largest error, in the metric's unit.
@@ -62,7 +62,7 @@ pub enum VerifyError {
     },
 }
 
-/// A plan as somebody sent it.
+/// A submitted plan.
 #[derive(Debug, Clone)]
 pub struct Claim {
     report: Value,
@@ -76,7 +76,7 @@ struct Head {
 }
 
 impl Claim {
-    /// Reads the JSON of a report, or the manifest of a print file, and makes sure that it is about this model.
+    /// Reads the JSON of a report, or the manifest of a print file, and checks that it is for this model.
     ///
     /// # Errors
     /// [`VerifyError::NotAPlan`], [`VerifyError::OtherSchema`], [`VerifyError::OtherModel`].
@@ -102,13 +102,13 @@ impl Claim {
         Ok(Self { report, options })
     }
 
-    /// The options that the plan claims to be made with.
+    /// The options that the plan claims to have been made with.
     pub fn options(&self) -> &Options {
         &self.options
     }
 
-    /// Compares the plan with the one that was made anew with [`Self::options`]; then asks whether the tolerance
-    /// holds on the mesh.
+    /// Compares the plan with `made`, which was planned again with [`Self::options`]. Then checks that the tolerance holds
+    /// on the mesh.
     ///
     /// # Errors
     /// [`VerifyError::OtherWeights`], [`VerifyError::Differs`], [`VerifyError::ToleranceExceeded`].
@@ -116,14 +116,14 @@ impl Claim {
         if self.report["weights_crc32"].as_u64() != made.weights_crc32.map(u64::from) {
             return Err(VerifyError::OtherWeights);
         }
-        // Through text, as the claim went, so that both had their numbers read alike.
+        // A round trip through text, like that of the claim, so that both have their numbers parsed alike.
         let text = serde_json::to_string(made);
         let value = text.and_then(|text| serde_json::from_str(&text));
         let expected: Value = value.map_err(|error| VerifyError::NotAPlan {
             system: error.to_string(),
         })?;
         for (key, expected) in expected.as_object().into_iter().flatten() {
-            // Of the warnings some are about the machine; all that count here follow from the rest of the report.
+            // Some warnings are about the machine; the others follow from the rest of the report.
             if !OF_THE_MACHINE.contains(&key.as_str()) && key != "warnings" {
                 compare(key, &self.report[key], expected)?;
             }
@@ -143,7 +143,7 @@ impl Claim {
     }
 }
 
-/// Finds the first place where two values differ. 5 and 5.0 are the same number, and what is absent is null.
+/// Finds the first difference between two values. 5 and 5.0 are equal, and so are an absent value and null.
 fn compare(key: &str, claimed: &Value, expected: &Value) -> Result<(), VerifyError> {
     match (claimed, expected) {
         (Value::Object(claimed), Value::Object(expected)) => {

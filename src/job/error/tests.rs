@@ -1,4 +1,4 @@
-//! Every error and warning is data: its details are numbers and names, and its sentence has them all.
+//! Errors and warnings are data: their details hold numbers and names, and their sentences contain all of these.
 
 use serde::Serialize;
 use serde_json::Value;
@@ -22,7 +22,7 @@ use crate::progress::Cancelled;
 use crate::quantity::{Quantity, QuantityError, Unit};
 use crate::warning::Warning;
 
-/// Makes one of each variant that does not hold another error; the compiler asks for those that are missing.
+/// Makes one value of each variant that does not hold another error. A missing variant does not compile.
 macro_rules! one_of_each {
     ($type:ident except [$($holder:ident),*]: $($variant:ident $fields:tt,)*) => {{
         let _ = |it: $type| match it {
@@ -224,12 +224,12 @@ fn warnings() -> Vec<Warning> {
     )
 }
 
-/// Keys of what is shown as it is in every language: what the system said, and names.
+/// Keys of text that is shown untranslated in every language: messages of the system, and names.
 const VERBATIM: [&str; 7] = [
     "system", "adapter", "model", "printer", "known", "theirs", "ours",
 ];
 
-/// Finds what a sentence must have: numbers, and what is shown as it is. Fails on prose.
+/// Collects what a sentence must contain: numbers, and untranslated text. Fails on other prose.
 fn collect(key: &str, value: &Value, found: &mut Vec<String>) {
     match value {
         Value::Number(number) => found.push(number.as_i64().map_or_else(
@@ -274,7 +274,7 @@ fn details_hold_no_prose_and_sentences_hold_the_figures() {
     }
 }
 
-/// One of each error and warning with its sentence, which the front-end's catalogues are tested with.
+/// One of each error and warning with its sentence. The front-end's catalogues are tested against them.
 fn samples() -> String {
     fn sample(coded: &impl Serialize, sentence: String) -> Value {
         let mut sample = serde_json::to_value(coded).unwrap();
@@ -291,7 +291,7 @@ fn samples() -> String {
     serde_json::to_string_pretty(&samples).unwrap() + "\n"
 }
 
-/// With `BLESS=1` writes the file.
+/// `BLESS=1` rewrites the file.
 #[test]
 fn the_samples_that_catalogues_are_tested_with_are_these() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/problems.json");
