@@ -29,10 +29,10 @@ pub enum MeshError {
     #[error("the height must be greater than 0, not {height_mm} mm")]
     #[serde(rename = "bad-height")]
     BadHeight {
-        /// The height asked for.
+        /// The requested height.
         height_mm: f64,
     },
-    /// The rotation is no quaternion of a length.
+    /// The rotation is not a quaternion of a finite length greater than 0.
     #[error("the rotation must be a quaternion x, y, z, w whose length is not zero")]
     #[serde(rename = "bad-rotation")]
     BadRotation,

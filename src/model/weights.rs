@@ -1,12 +1,12 @@
 //! How much each facet matters, from 0 to 1 (section 4.2): read from and written to a small file.
 //!
-//! The file is bound to its mesh: eight bytes `CUSPWT01`, the number of facets and the CRC-32 of their corners as single
-//! precision numbers (both 32 bits), then one single precision weight a facet, all with the least byte first. Facets are those
-//! with an area, in the order of the STL.
+//! The file is bound to its mesh. It holds the eight bytes `CUSPWT01`, the number of facets and the CRC-32 of their corners
+//! as single-precision numbers (32 bits each), then one single-precision weight per facet, all little-endian. The facets are
+//! those with an area, in the order of the STL.
 
 use serde::Serialize;
 
-/// The first bytes of a file of weights, with the version of the format.
+/// The first bytes of a file of weights, which include the version of the format.
 const MAGIC: &[u8; 8] = b"CUSPWT01";
 const HEAD_BYTES: usize = 16;
 
@@ -16,7 +16,7 @@ const HEAD_BYTES: usize = 16;
 #[serde(tag = "code", content = "detail")]
 #[non_exhaustive]
 pub enum WeightsError {
-    /// The bytes are no file of weights.
+    /// The bytes are not a file of weights.
     #[error("this is no file of weights: it does not begin with CUSPWT01, or is cut short")]
     #[serde(rename = "weights-not-weights")]
     NotWeights,
@@ -32,7 +32,7 @@ pub enum WeightsError {
         /// Facets of the mesh.
         mesh_facets: usize,
     },
-    /// A weight is no number from 0 to 1.
+    /// A weight is not a number from 0 to 1.
     #[error("the weight of facet {facet} is {weight}, and weights are 0 to 1")]
     #[serde(rename = "weights-out-of-range")]
     OutOfRange {
@@ -43,7 +43,7 @@ pub enum WeightsError {
     },
 }
 
-/// Makes sure that there is a weight from 0 to 1 for every facet.
+/// Checks that there is a weight from 0 to 1 for every facet.
 ///
 /// # Errors
 /// [`WeightsError::OtherMesh`], [`WeightsError::OutOfRange`].
@@ -66,7 +66,7 @@ pub fn check(weights: &[f32], facets: usize) -> Result<(), WeightsError> {
     }
 }
 
-/// The file of the weights of the mesh with these corners, nine numbers a facet.
+/// The file of these weights, for the mesh with these corners, nine numbers per facet.
 pub fn to_bytes(weights: &[f32], corners: &[f32]) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(HEAD_BYTES + 4 * weights.len());
     bytes.extend(MAGIC);
@@ -76,7 +76,7 @@ pub fn to_bytes(weights: &[f32], corners: &[f32]) -> Vec<u8> {
     bytes
 }
 
-/// The weights in a file, which must be those of the mesh with these corners.
+/// The weights in a file, which must be for the mesh with these corners.
 ///
 /// # Errors
 /// [`WeightsError`].
@@ -105,7 +105,7 @@ pub fn from_bytes(bytes: &[u8], corners: &[f32]) -> Result<Vec<f32>, WeightsErro
     Ok(weights)
 }
 
-/// The CRC-32 of numbers, each as four bytes, the least first.
+/// The CRC-32 of numbers as little-endian bytes.
 pub(crate) fn crc_of(numbers: &[f32]) -> u32 {
     let bytes: Vec<u8> = numbers
         .iter()

@@ -19,10 +19,10 @@ pub enum ReadError {
     #[error("this is a {} file, no STL; {}", kind.name(), kind.advice())]
     #[serde(rename = "other-file-kind")]
     OtherKind {
-        /// What it is.
+        /// The kind of the file.
         kind: FileKind,
     },
-    /// A file of no known kind.
+    /// A file of an unknown kind.
     #[error("this is no STL file; export the model as binary or ASCII STL")]
     #[serde(rename = "unknown-file-kind")]
     UnknownKind,

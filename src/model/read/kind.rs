@@ -1,8 +1,9 @@
-//! Files that people take for models that can be read, told by their first bytes, so that an error can name them.
+//! Kinds of files that are not STL but are often opened as models. They are recognised by their first bytes, so that errors
+//! can name them.
 
 use serde::Serialize;
 
-/// A kind of file that is no STL.
+/// A kind of file other than STL.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "lowercase")]
@@ -23,14 +24,14 @@ pub enum FileKind {
     Gltf,
     /// Another zip.
     Zip,
-    /// Something that gzip has packed.
+    /// A file compressed by gzip.
     Gzip,
     /// A web page.
     Html,
 }
 
 impl FileKind {
-    /// What people call it.
+    /// Its usual name.
     pub fn name(self) -> &'static str {
         match self {
             Self::ThreeMf => "3MF",
@@ -45,7 +46,7 @@ impl FileKind {
         }
     }
 
-    /// What to do with it instead.
+    /// What the user can do with it instead.
     pub(crate) fn advice(self) -> &'static str {
         match self {
             Self::Zip | Self::Gzip => "unpack it, and open the STL inside",
@@ -56,7 +57,7 @@ impl FileKind {
         }
     }
 
-    /// The kind of a file that begins with these bytes; `None` for one that is not known here, an STL among them.
+    /// The kind of a file that begins with these bytes. `None` for STL and for unknown kinds.
     pub fn of(head: &[u8]) -> Option<Self> {
         if head.starts_with(b"PK\x03\x04") {
             return Some(Self::of_zip(head));
@@ -88,7 +89,7 @@ impl FileKind {
         is_obj(text).then_some(Self::Obj)
     }
 
-    /// Names of files stand in a zip as they are.
+    /// The kind of a zip, by the file names in it, which zips do not compress.
     fn of_zip(head: &[u8]) -> Self {
         if contains(head, b".amf") {
             Self::Amf
@@ -100,7 +101,7 @@ impl FileKind {
     }
 }
 
-/// Whether the first line that is neither empty nor a comment is one that OBJ files have.
+/// Whether the first line that is neither empty nor a comment begins with a word of OBJ, and goes on after it.
 fn is_obj(text: &[u8]) -> bool {
     const WORDS: [&[u8]; 9] = [
         b"v", b"vn", b"vt", b"f", b"o", b"g", b"s", b"mtllib", b"usemtl",

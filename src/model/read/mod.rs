@@ -1,4 +1,4 @@
-//! Model files, one file a format. A format is told by content, never by a file's name.
+//! Model files. Each format has a source file of its own, and is recognised by content, never by the file's name.
 
 mod error;
 pub mod kind;
@@ -9,17 +9,17 @@ use glam::Vec3;
 pub use error::ReadError;
 use kind::FileKind;
 
-/// Bytes from the beginning of a file that tell its kind.
+/// Number of bytes at the beginning of a file that are enough to tell its kind.
 pub const HEAD_BYTES: usize = 1 << 16;
 
 /// The corners of triangles, in file order.
 pub type Triangles = Vec<[Vec3; 3]>;
 
-/// A format that models come in.
+/// A format of model files.
 struct Format {
-    /// Whether a file with these first bytes and this length is written in it.
+    /// Whether a file with these first bytes and this length has the format.
     is: fn(head: &[u8], length: u64) -> bool,
-    /// Reads such a file.
+    /// Reads a file of the format.
     read: fn(bytes: &[u8]) -> Result<Triangles, ReadError>,
 }
 
@@ -37,8 +37,8 @@ pub fn read(bytes: &[u8]) -> Result<Triangles, ReadError> {
     (format_of(head, bytes.len() as u64)?.read)(bytes)
 }
 
-/// Checks by the first [`HEAD_BYTES`] of a file and its length that it can be a model, so that other files are refused before
-/// they are read.
+/// Checks by the first [`HEAD_BYTES`] of a file and its length that it can be a model, so that other files are rejected
+/// before they are read.
 ///
 /// # Errors
 /// [`ReadError`], which names what the file is instead.

@@ -1,8 +1,8 @@
-//! Why bytes are no usable STL.
+//! Why bytes are not a usable STL.
 
 use serde::Serialize;
 
-/// What the grammar of a text STL asks for at some place.
+/// What the grammar of ASCII STL expects at some place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "kebab-case")]
@@ -16,15 +16,15 @@ pub enum StlExpected {
     FacetOrEndsolid,
     /// The word before a normal.
     Normal,
-    /// A number of a normal.
+    /// A component of a normal.
     NormalNumber,
     /// The words before the corners.
     OuterLoop,
     /// The word before a corner.
     Vertex,
-    /// A number of a corner.
+    /// A coordinate of a corner.
     Coordinate,
-    /// The word behind the corners.
+    /// The word after the corners.
     Endloop,
     /// The end of a facet.
     Endfacet,
@@ -53,7 +53,7 @@ impl std::fmt::Display for StlExpected {
 #[serde(tag = "code", content = "detail")]
 #[non_exhaustive]
 pub enum StlError {
-    /// A binary STL that ends before the facets which its header announces.
+    /// A binary STL that ends before all facets that its header announces.
     #[error(
         "the STL is cut short: its header announces {declared_facets} facets, which need \
          {expected_bytes} bytes, but the file ends at byte {found_bytes}; copy or export it again"
@@ -99,15 +99,15 @@ pub enum StlError {
         /// The offending word.
         text: String,
     },
-    /// A line of an ASCII STL that does not belong there.
+    /// A word of an ASCII STL that the grammar does not expect there.
     #[error("line {line}: expected {expected}, found `{found}`; export the model again")]
     #[serde(rename = "stl-syntax")]
     Syntax {
         /// Line in the file, from 1.
         line: u64,
-        /// What the grammar asks for at this place.
+        /// What the grammar expects at this place.
         expected: StlExpected,
-        /// The word that stands there.
+        /// The word found instead.
         found: String,
     },
     /// An ASCII STL that ends inside a solid.
@@ -116,7 +116,7 @@ pub enum StlError {
     EndOfText {
         /// Last line of the file, from 1.
         line: u64,
-        /// What the grammar asks for at the end.
+        /// What the grammar expects at the end.
         expected: StlExpected,
     },
     /// A well-formed STL without facets.

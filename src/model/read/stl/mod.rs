@@ -17,10 +17,9 @@ const BINARY_FACET_BYTES: usize = 50;
 
 /// Reads the triangles of a binary or ASCII STL, corners in file order.
 ///
-/// A file whose length fits the facet count at byte 80 is binary whatever its header says, since
-/// many binary files begin with `solid`. ASCII may hold several solids; keywords are matched without
-/// regard to case, lines end with LF, CR or both, and a whole file may stand on one line: the name of a
-/// solid ends with its line or before `facet normal`.
+/// A file whose length matches the facet count at byte 80 is binary, whatever its header says, since many binary files begin
+/// with `solid`. ASCII may hold several solids. Keywords are matched without regard to case, and lines end with LF, CR or
+/// both. A whole file may be on one line: the name of a solid ends with its line or before `facet normal`.
 ///
 /// # Errors
 /// [`StlError`], with the byte offset or the line where reading failed.
@@ -48,8 +47,8 @@ fn is_binary(head: &[u8], length: u64) -> bool {
     })
 }
 
-/// What is wrong with a file that has the bytes of a binary STL, but not the length. `None` for text, and for what is too
-/// short to have a facet count.
+/// The error of a binary STL whose length does not match its facet count. `None` for text, and for files too short to have a
+/// facet count.
 pub(super) fn wrong_length(head: &[u8], length: u64) -> Option<StlError> {
     let declared = declared_facets(head)?;
     let is_utf16 = head.starts_with(b"\xff\xfe") || head.starts_with(b"\xfe\xff");
@@ -119,7 +118,7 @@ fn read_binary(bytes: &[u8]) -> Result<Vec<[Vec3; 3]>, StlError> {
         .collect()
 }
 
-/// The words of an ASCII STL with the line each stands on.
+/// The words of an ASCII STL, and the line of each.
 struct Words<'a> {
     rest: &'a [u8],
     line: u64,
@@ -141,7 +140,7 @@ impl<'a> Words<'a> {
             let is_line_end = *byte == b'\n' || *byte == b'\r';
             let length = 1 + usize::from(self.rest.starts_with(b"\r\n"));
             self.rest = &self.rest[length..];
-            // The end of the last line begins no other.
+            // The end of the last line does not begin another.
             self.line += u64::from(is_line_end && !self.rest.is_empty());
         }
         let (word, rest) = split_word(self.rest);
@@ -149,16 +148,16 @@ impl<'a> Words<'a> {
         (!word.is_empty()).then_some(word)
     }
 
-    /// Skips the name after `solid`, which is free text: it ends with its line, or before `facet
-    /// normal` or `endsolid` where a file has no line ends to speak of.
+    /// Skips the name after `solid`, which is free text. It ends with its line, or before `facet normal` or `endsolid` in a
+    /// file that is on one line.
     fn skip_name(&mut self) {
         self.is_run_on = self.skip_free_text(|word, after| {
             is(word, "endsolid") || is(word, "facet") && is(split_word(after).0, "normal")
         });
     }
 
-    /// Skips the name after `endsolid`: it ends with its line, or before `solid` in a file whose
-    /// names do not end with their lines. Elsewhere `solid` is a name like any other.
+    /// Skips the name after `endsolid`. It ends with its line, or before `solid` in a file whose names do not end with their
+    /// lines. In other files `solid` may be part of the name.
     fn skip_closing_name(&mut self) {
         if self.is_run_on {
             self.skip_free_text(|word, _| is(word, "solid"));
@@ -167,8 +166,7 @@ impl<'a> Words<'a> {
         }
     }
 
-    /// Skips words up to one that `is_end`, given what follows it on its line, and returns whether
-    /// there was one before the line end.
+    /// Skips words until `is_end` holds for one and the rest of its line, and returns whether it did before the line ended.
     fn skip_free_text(&mut self, is_end: impl Fn(&[u8], &[u8]) -> bool) -> bool {
         loop {
             self.rest = trim_blanks(self.rest);
@@ -221,21 +219,21 @@ impl<'a> Words<'a> {
     }
 }
 
-/// Splits at the first white space, if need be after no byte at all.
+/// Splits at the first white space. The word may be empty.
 fn split_word(bytes: &[u8]) -> (&[u8], &[u8]) {
     let end = bytes.iter().position(u8::is_ascii_whitespace);
     bytes.split_at(end.unwrap_or(bytes.len()))
 }
 
-/// Without the white space at the start that ends no line.
+/// Removes white space from the start, except for line ends.
 fn trim_blanks(bytes: &[u8]) -> &[u8] {
     let is_blank = |byte: &u8| byte.is_ascii_whitespace() && !matches!(byte, b'\n' | b'\r');
     let start = bytes.iter().position(|byte| !is_blank(byte));
     &bytes[start.unwrap_or(bytes.len())..]
 }
 
-/// A word as errors show it: its first 40 characters, those that do not print escaped, since bytes
-/// of a file must not steer a terminal.
+/// A word as errors show it: its first 40 characters. Those that do not print are escaped, so that bytes of a file cannot
+/// control a terminal.
 fn quoted(word: &[u8]) -> String {
     // No character takes more than four bytes.
     let text = String::from_utf8_lossy(&word[..word.len().min(160)]);
