@@ -1,4 +1,4 @@
-//! What users ask for, as arguments.
+//! The arguments of commands.
 
 use std::fs;
 use std::path::PathBuf;
@@ -212,7 +212,7 @@ impl Choices {
     }
 }
 
-/// The help of `--tolerance`, with the defaults that the library has.
+/// The help of `--tolerance`, with the library's defaults.
 fn tolerance_help() -> String {
     let [cusp, roughness, area, volume] = [
         Metric::Cusp,

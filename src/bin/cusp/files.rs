@@ -1,4 +1,4 @@
-//! Reads models, and writes files that are complete or not at all.
+//! Reads models, and writes files either completely or not at all.
 
 use std::fs;
 use std::io;
@@ -15,7 +15,7 @@ use crate::arguments::Choices;
 /// Why a command failed.
 pub struct Failure {
     pub exit_code: u8,
-    /// What to tell the user; `None` if that has been done.
+    /// The message for the user; `None` if it has already been shown.
     pub message: Option<String>,
 }
 
@@ -29,7 +29,7 @@ impl From<String> for Failure {
 }
 
 impl Failure {
-    /// A failure of the library that concerns a file. An interrupt concerns none.
+    /// A failure of the library that concerns a file. An interrupt does not name the file.
     pub fn in_file(path: &Path, error: &cusp_slicer::Error) -> Self {
         if error.code() == "cancelled" {
             Self::interrupted()
@@ -102,7 +102,7 @@ pub fn load_painted(model: &Path, weights: Option<&WeightsFile<'_>>) -> Result<S
 
 /// The file to write for `output`: itself, or the target of a link, so that links stay links.
 ///
-/// Fails with a sentence if no file can be written there, so that the user learns it before the work.
+/// Fails with a sentence if no file can be written there, so that the user learns it before any work is done.
 pub fn place_for(output: &Path, model: &Path) -> Result<PathBuf, String> {
     match fs::metadata(output) {
         Ok(found) if found.is_dir() => Err("is a folder; name a file in it".to_owned()),

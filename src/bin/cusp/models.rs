@@ -1,4 +1,4 @@
-//! Commands that plan nothing: describing models, saliency, printers.
+//! Commands without a plan: describing models, saliency, printers.
 
 use std::fmt::Write as _;
 use std::io::Write as _;

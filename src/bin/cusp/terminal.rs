@@ -52,14 +52,14 @@ pub fn duration(seconds: f64) -> String {
 
 /// From here on, Ctrl-C sets a flag instead of killing the process, so that temporary files are removed.
 ///
-/// An interrupt or hang-up that is already ignored, as under `nohup`, stays ignored: hence `try`, and hence a failure does no
-/// harm.
+/// An interrupt or hang-up that is already ignored, as under `nohup`, stays ignored. That is why this uses `try`, and why a
+/// failure is harmless.
 pub fn stop_on_interrupt() {
     let _ = ctrlc::try_set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed));
 }
 
-/// Searches for the GPU that the next plan may use, and silences drivers meanwhile. Mesa, for one, complains about a missing
-/// display although nothing is displayed; the result of the search says what matters.
+/// Searches for the GPU that the next plan may use, and silences drivers meanwhile. Mesa, for example, complains about a
+/// missing display although nothing is displayed. The plan reports what the search found.
 pub fn open_gpu(slicer: &mut Slicer, backend: Backend) {
     #[cfg(unix)]
     let _silence = Silence::begin();
