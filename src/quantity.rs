@@ -1,4 +1,4 @@
-//! Numbers that users give, each with its unit and its bound, so that errors can name them.
+//! Numbers that users give, with their units and bounds, so that errors can name them.
 
 use serde::Serialize;
 
@@ -12,7 +12,7 @@ pub enum Quantity {
     Pitch,
     /// Height of a bin.
     Bin,
-    /// What every height is a multiple of.
+    /// Motor step: every height is a multiple of it.
     Step,
     /// Thickness of uniform layers.
     Layer,
@@ -22,27 +22,27 @@ pub enum Quantity {
     LayerMax,
     /// Maximum error of a layer.
     Tolerance,
-    /// The layer thickness that a resin's exposure is for.
+    /// Layer thickness to which the resin's exposure applies.
     ResinLayer,
     /// Penetration depth of the light.
     Penetration,
     /// Exposure of a layer.
     Exposure,
-    /// Exposure of a layer at the bottom.
+    /// Exposure of a bottom layer.
     BottomExposure,
-    /// Rest of every layer.
+    /// Rest per layer, in addition to the moves.
     Wait,
-    /// By how much the model is lifted after a layer.
+    /// Height by which the model is lifted after a layer.
     Lift,
-    /// How fast it is lifted.
+    /// Speed of the lift.
     LiftSpeed,
-    /// How fast it returns.
+    /// Speed of the return.
     ReturnSpeed,
-    /// Mass of the cured resin.
+    /// Density of the cured resin.
     Density,
 }
 
-/// What a quantity is measured in.
+/// The unit of a quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[non_exhaustive]
@@ -65,7 +65,7 @@ pub enum Unit {
 }
 
 impl Unit {
-    /// Its symbol; empty for that of the metric.
+    /// The symbol of the unit; empty for [`Self::OfMetric`].
     pub fn symbol(self) -> &'static str {
         match self {
             Self::Millimetre => "mm",
@@ -78,7 +78,7 @@ impl Unit {
 }
 
 impl Quantity {
-    /// What it is measured in.
+    /// The unit of the quantity.
     pub fn unit(self) -> Unit {
         match self {
             Self::Tolerance => Unit::OfMetric,
@@ -89,12 +89,12 @@ impl Quantity {
         }
     }
 
-    /// Whether it may be 0; if not, it must be greater.
+    /// Whether 0 is allowed; if not, the value must be greater.
     pub fn may_be_zero(self) -> bool {
         self.unit() == Unit::Second || self == Self::Lift
     }
 
-    /// What the terminal calls it.
+    /// Its name in sentences for the terminal.
     pub fn noun(self) -> &'static str {
         match self {
             Self::Pitch => "the pixel pitch",
@@ -151,20 +151,20 @@ pub enum QuantityError {
     #[error("{}", out_of_bounds(*quantity, *value))]
     #[serde(rename = "bad-length")]
     BadLength {
-        /// What it is.
+        /// The quantity.
         quantity: Quantity,
         /// Its value.
         value: f64,
-        /// The unit of its value.
+        /// Unit of the value.
         unit: Unit,
-        /// Whether it may be 0; if not, it must be greater.
+        /// Whether 0 is allowed; if not, the value must be greater.
         may_be_zero: bool,
     },
-    /// A time that is no number from 0.
+    /// A time that is negative or not a finite number.
     #[error("{}", out_of_bounds(*quantity, *value_s))]
     #[serde(rename = "bad-time")]
     BadTime {
-        /// What it is.
+        /// The quantity.
         quantity: Quantity,
         /// Its value in seconds.
         value_s: f64,
@@ -178,7 +178,7 @@ pub enum QuantityError {
     BadExposures {
         /// A thickness.
         previous_mm: f64,
-        /// The one after it.
+        /// The thickness after it, which is not larger.
         next_mm: f64,
     },
 }

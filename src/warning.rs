@@ -1,12 +1,12 @@
-//! What users should know although the work went on.
+//! Warnings: what users should know although the job went on.
 
 use serde::Serialize;
 
 use crate::ldi::GpuFault;
 use crate::profile::Metric;
 
-/// Something that the user should know although the work went on: a stable code and its details. Its text is one
-/// sentence for people.
+/// Something that the user should know although the job went on: a stable code and typed details. `Display` writes one
+/// sentence.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]
 #[serde(tag = "code", content = "detail", rename_all = "kebab-case")]
@@ -14,10 +14,10 @@ use crate::profile::Metric;
 pub enum Warning {
     /// Facets without an area were dropped.
     DegenerateFacets {
-        /// How many.
+        /// Number of such facets.
         facets: usize,
     },
-    /// The whole mesh was inside out, and was turned over.
+    /// The whole mesh was inside out, so all facets were flipped.
     InsideOut,
     /// The mesh has edges without a partner; its holes were closed by flat caps.
     OpenMesh {
@@ -26,14 +26,14 @@ pub enum Warning {
         /// Holes that were closed.
         holes: usize,
     },
-    /// Rays pass holes of the mesh, and close only by the caps over them.
+    /// Rays pass through holes of the mesh, and are closed by the caps alone.
     UnclosedRays {
-        /// How many.
+        /// Number of such rays.
         unclosed: usize,
-        /// Of how many rays.
+        /// Number of all rays.
         rays: usize,
     },
-    /// Layers exceed the tolerance, since the planner does not look at it.
+    /// Layers exceed the tolerance, which this planner does not guarantee.
     ToleranceExceeded {
         /// Name of the planner.
         planner: String,
@@ -44,7 +44,7 @@ pub enum Warning {
         /// The largest error, in the metric's unit.
         max_error: f64,
     },
-    /// Layers keep the tolerance where rays see the surface, and exceed it elsewhere.
+    /// Layers keep the tolerance on the sampled surface, but exceed it on the mesh.
     ToleranceExceededOnMesh {
         /// What the tolerance and the error measure.
         metric: Metric,
@@ -53,30 +53,30 @@ pub enum Warning {
         /// The largest error, in the metric's unit.
         max_error: f64,
     },
-    /// The surface crosses itself, so that areas of sections are counted along rays.
+    /// The surface intersects itself, so the areas of sections are measured by rays.
     SampledSections,
-    /// Layers do not add up to the model's height, and the top was moved.
+    /// Layers do not add up to the model's height, so the top was moved.
     TopMoved {
         /// Where the print ends, in millimetres.
         top_mm: f64,
         /// Height of the model in millimetres.
         height_mm: f64,
     },
-    /// Masks of layers without any light.
+    /// The masks of some layers are black.
     BlackLayers {
-        /// How many.
+        /// Number of black layers.
         layers: usize,
-        /// Bottom of the lowest, in millimetres above the plate.
+        /// Bottom of the lowest one, in millimetres above the plate.
         from_mm: f64,
     },
-    /// The mesh does not fit into the buffers of the GPU; the CPU did its work.
+    /// The mesh does not fit into the buffers of the GPU; the CPU was used instead.
     GpuTooSmall {
-        /// Bytes that the mesh takes.
+        /// Bytes that the mesh needs.
         needed_bytes: u64,
-        /// The largest buffer.
+        /// Size of the largest buffer in bytes.
         limit_bytes: u64,
     },
-    /// The GPU failed; the CPU did its work.
+    /// The GPU failed; the CPU was used instead.
     GpuFailed {
         /// What went wrong.
         fault: GpuFault,
@@ -86,7 +86,7 @@ pub enum Warning {
 }
 
 impl Warning {
-    /// Whether it tells of the machine and not of the plan: another machine may not have it.
+    /// Whether it depends on the machine, not on the plan.
     pub(crate) fn is_of_the_machine(&self) -> bool {
         matches!(self, Self::GpuTooSmall { .. } | Self::GpuFailed { .. })
     }

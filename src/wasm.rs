@@ -17,9 +17,10 @@ use crate::orientation::{Candidate, Search, SearchOptions, Task, TaskResult};
 use crate::printer::PRINTERS;
 use crate::profile::{Metric, Source};
 
-/// What every function here throws: code and typed details of an [`Error`], and one sentence for people with what to do.
+/// What every function here throws: the code and the typed details of an [`Error`], and one sentence that says what to do.
 ///
-/// The types of all errors are generated. Those that hold another are serialised as that one, which `tsify` does not see.
+/// The types of all errors are generated. An error that holds another is serialised as that one, which `tsify` does not see;
+/// `Flat` corrects for it.
 #[wasm_bindgen(typescript_custom_section)]
 const CUSP_ERROR: &str = r"
 type Flat<E> = E extends { detail: infer Held extends { code: string } } ? Flat<Held> : E;
@@ -27,10 +28,10 @@ export type CoreError = Flat<NestedError>;
 export type CuspError = CoreError & { message: string };
 ";
 
-/// Hands a value over as JSON, whose writer the manifest needs anyway; a second one for JavaScript's objects would only make
-/// the module larger.
+/// Converts a value by way of JSON. The manifest needs a JSON writer anyway; a second writer for JavaScript objects would
+/// make the module larger.
 fn to_js(value: &impl Serialize) -> JsValue {
-    // Fails only on maps with keys that are no strings, which nothing here has.
+    // Fails only on maps whose keys are not strings, and no value here has one.
     let json = serde_json::to_string(value).unwrap_or_default();
     js_sys::JSON::parse(&json).unwrap_or(JsValue::NULL)
 }
@@ -39,20 +40,20 @@ fn throw(error: impl Into<Error>) -> JsValue {
     let error = error.into();
     let message = error.to_string();
     let thrown = to_js(&error);
-    // Fails only on what is no object.
+    // Fails only on values that are not objects.
     let _ = Reflect::set(&thrown, &"message".into(), &message.into());
     thrown
 }
 
-/// Values that do not fit their type: options that are none, mostly.
+/// The error of a value that does not fit its type: usually malformed options.
 fn throw_conversion(error: impl std::fmt::Display) -> JsValue {
     throw(OptionsError::Unreadable {
         system: error.to_string(),
     })
 }
 
-/// Calls a JavaScript function with the stage, the fraction of the stage that is done and that of the whole task. A page
-/// cancels by ending the worker.
+/// Calls a JavaScript function with the stage, the fraction of the stage that is done, and the fraction of the whole task.
+/// It never cancels: a page terminates the worker instead.
 fn progress_to(callback: &Function) -> impl FnMut(Stage, f64) -> ControlFlow<()> {
     move |stage, fraction| {
         // A failing callback must not fail the job.
@@ -66,14 +67,14 @@ fn progress_to(callback: &Function) -> impl FnMut(Stage, f64) -> ControlFlow<()>
     }
 }
 
-/// A loaded model; a change of options repeats only what depends on it.
+/// A loaded model. A change of options repeats only what depends on it.
 #[wasm_bindgen]
 pub struct Slicer {
     slicer: job::Slicer,
     preview_density: Vec<f32>,
 }
 
-/// Says whether a file can be a model, by its first bytes and its length, before it is read.
+/// Checks by the first bytes and the length of a file that it can be a model, before it is read.
 ///
 /// # Errors
 /// Throws a `CuspError` that names what it is instead.
@@ -82,26 +83,26 @@ pub fn identify(head: &[u8], length: f64) -> Result<(), JsValue> {
     read::identify(head, length as u64).map_err(throw)
 }
 
-/// Bytes that [`identify`] wants.
+/// Number of bytes that [`identify`] needs.
 #[wasm_bindgen]
 pub fn head_bytes() -> usize {
     HEAD_BYTES
 }
 
-/// The printers that are known by name.
+/// The printers known by name.
 #[wasm_bindgen(unchecked_return_type = "Printer[]")]
 pub fn printers() -> JsValue {
     to_js(&PRINTERS)
 }
 
-/// Options as they are where nothing is said.
+/// The default options.
 #[wasm_bindgen(unchecked_return_type = "Required<Options>")]
 pub fn defaults() -> JsValue {
     to_js(&Options::default())
 }
 
-/// A search for the best orientation: it says what to measure next, and measures nothing itself. Several slicers with the
-/// same model and options may run its tasks.
+/// A search for the best orientation. It hands out directions to measure, and measures nothing itself. Several slicers with
+/// the same model and options may run its tasks.
 #[wasm_bindgen]
 pub struct OrientationSearch {
     search: Search,
@@ -109,7 +110,7 @@ pub struct OrientationSearch {
 
 #[wasm_bindgen]
 impl OrientationSearch {
-    /// A search of candidates that were measured before: they are rated again, and the best of them refined.
+    /// A search whose candidates are already measured. It rates them again and refines the best.
     ///
     /// # Errors
     /// Throws a `CuspError`.
@@ -131,18 +132,18 @@ impl OrientationSearch {
         self.search.directions().as_flattened().to_vec()
     }
 
-    /// How many of them are measured.
+    /// Number of directions that are measured.
     pub fn measured(&self) -> usize {
         self.search.measured()
     }
 
-    /// Up to `most` tasks that nobody has; none while the next ones depend on results that are still out.
+    /// Hands out up to `most` tasks. There are none while the next ones depend on outstanding results, and at the end.
     #[wasm_bindgen(unchecked_return_type = "Task[]")]
     pub fn next_tasks(&mut self, most: usize) -> JsValue {
         to_js(&self.search.next_tasks(most))
     }
 
-    /// Takes the candidates of a task's directions. Tasks may come in any order.
+    /// Accepts the candidates of a task, one per direction. Tasks may be accepted in any order.
     ///
     /// # Errors
     /// Throws a `CuspError`.
@@ -158,18 +159,18 @@ impl OrientationSearch {
         self.search.accept(result).map_err(throw)
     }
 
-    /// How much is done, 0 to 1.
+    /// Progress, 0 to 1.
     pub fn progress(&self) -> f64 {
         self.search.progress()
     }
 
-    /// One for each direction, null before it is measured. Energies are relative to what has been measured so far.
+    /// The candidate of each direction, null until it is measured. Energies are relative to the candidates measured so far.
     #[wasm_bindgen(unchecked_return_type = "(Candidate | null)[]")]
     pub fn rated(&self) -> JsValue {
         to_js(&self.search.rated())
     }
 
-    /// The best candidates that differ from each other, the best first: three at most. Null before all is done.
+    /// Up to three candidates, best first and at least 20° apart. Null until all tasks are done.
     #[wasm_bindgen(unchecked_return_type = "Candidate[] | null")]
     pub fn best(&self) -> JsValue {
         to_js(&self.search.best())
@@ -188,7 +189,7 @@ impl Slicer {
     /// Reads an STL, binary or ASCII.
     ///
     /// # Errors
-    /// Throws a `CuspError` if the bytes are no usable STL.
+    /// Throws a `CuspError` if the bytes are not a usable STL.
     #[wasm_bindgen(constructor)]
     pub fn new(stl: &[u8]) -> Result<Slicer, JsValue> {
         let slicer = job::Slicer::load(stl).map_err(throw)?;
@@ -198,15 +199,15 @@ impl Slicer {
         })
     }
 
-    /// Corners of the facets, nine numbers a facet, in millimetres as they stand in the file.
+    /// Vertex positions of the surface facets, nine numbers per facet, in millimetres, in the file's frame.
     pub fn positions(&self) -> Vec<f32> {
         self.slicer.positions()
     }
 
-    /// How much each facet stands out, from 0 to 1.
+    /// The saliency of each facet, 0 to 1: how much it stands out.
     ///
     /// # Errors
-    /// None that a valid model causes.
+    /// Throws a `CuspError` if it is cancelled, which `progress` cannot do.
     pub fn saliency(
         &mut self,
         #[wasm_bindgen(
@@ -218,7 +219,7 @@ impl Slicer {
         Ok(saliency.map_err(throw)?.to_vec())
     }
 
-    /// Says how much each facet matters, from 0 to 1; all alike if that is absent. Later plans and previews follow it.
+    /// Sets a weight from 0 to 1 for each facet, or removes all weights. Later plans and previews use them.
     ///
     /// # Errors
     /// Throws a `CuspError`.
@@ -226,17 +227,17 @@ impl Slicer {
         self.slicer.set_weights(weights).map_err(throw)
     }
 
-    /// A file of weights of this model.
+    /// These weights as a file for this model.
     ///
     /// # Errors
-    /// Throws a `CuspError` if there is not one from 0 to 1 for every facet.
+    /// Throws a `CuspError` unless there is a weight from 0 to 1 for every facet.
     pub fn weights_file(&self, weights: &[f32]) -> Result<Vec<u8>, JsValue> {
         let corners = self.slicer.positions();
         weights::check(weights, corners.len() / 9).map_err(throw)?;
         Ok(weights::to_bytes(weights, &corners))
     }
 
-    /// The weights in a file, which must be one of this model.
+    /// The weights in a file, which must be for this model.
     ///
     /// # Errors
     /// Throws a `CuspError`.
@@ -244,8 +245,8 @@ impl Slicer {
         weights::from_bytes(file, &self.slicer.positions()).map_err(throw)
     }
 
-    /// The plan of the model in a pose, from the facets alone, in a few milliseconds: for following live while it is
-    /// turned. Leaves the last plan.
+    /// Plans the model in its pose from the facets alone, in a few milliseconds: fast enough to follow a rotation live. The
+    /// last plan is kept.
     ///
     /// # Errors
     /// Throws a `CuspError`.
@@ -261,7 +262,7 @@ impl Slicer {
         Ok(to_js(&preview))
     }
 
-    /// A search along directions spread evenly, the axes, and those of the model's largest flats.
+    /// A search over directions spread evenly, the axes, and the normals of the model's largest flats.
     ///
     /// # Errors
     /// Throws a `CuspError`.
@@ -306,12 +307,12 @@ impl Slicer {
         Ok(to_js(&result.candidates))
     }
 
-    /// The profile of the last preview, as that of a plan.
+    /// The profile of the last preview, in the same form as [`Self::profile`].
     pub fn preview_profile(&self) -> Vec<f32> {
         self.preview_density.clone()
     }
 
-    /// Describes the model as it stands in its file.
+    /// Describes the model in the frame of its file.
     #[wasm_bindgen(unchecked_return_type = "MeshInfo")]
     pub fn info(&self) -> JsValue {
         to_js(&self.slicer.info())
@@ -338,7 +339,7 @@ impl Slicer {
         Ok(to_js(report.map_err(throw)?))
     }
 
-    /// Best plans for `points` tolerances, from the tightest that can be held to the loosest that saves a layer.
+    /// The best plans for `points` tolerances, from the smallest that a plan keeps to the largest that makes a difference.
     ///
     /// # Errors
     /// Throws a `CuspError`.
@@ -358,7 +359,7 @@ impl Slicer {
         Ok(to_js(&curve.map_err(throw)?))
     }
 
-    /// The plans of all planners side by side.
+    /// Compares the plans of five planners, from the coarsest to the finest.
     ///
     /// # Errors
     /// Throws a `CuspError`.
@@ -377,7 +378,7 @@ impl Slicer {
         Ok(to_js(&comparison.map_err(throw)?))
     }
 
-    /// The profile of a metric at the last plan's bins, from the plate upward: error density, or areas in mm² for the
+    /// The profile of a metric in the bins of the last plan, from the plate upward: error density, or areas in mm² for the
     /// volume deviation.
     ///
     /// # Errors
@@ -392,8 +393,8 @@ impl Slicer {
         Ok(self.slicer.profile(metric, source).map_err(throw)?.density)
     }
 
-    /// The mask of a layer, from 0: one bit a pixel, most significant first, rows from the largest y
-    /// downward and padded to whole bytes; 1 is lit.
+    /// The mask of a layer, from 0: one bit per pixel, most significant first, rows from the largest y downward and padded
+    /// to whole bytes. 1 is lit.
     ///
     /// # Errors
     /// Throws a `CuspError` if there is no plan or no such layer.
@@ -401,8 +402,7 @@ impl Slicer {
         self.slicer.mask(layer).map_err(throw)
     }
 
-    /// Writes the print file of the last plan, in the format that its options ask for: `take` is called with one chunk
-    /// after another.
+    /// Writes the print file of the last plan in the format of its options, by calling `take` with one chunk after another.
     ///
     /// # Errors
     /// Throws a `CuspError`, or what `take` throws.
@@ -430,13 +430,13 @@ impl Slicer {
     }
 }
 
-/// Bytes that a print file is handed out by.
+/// Size of these chunks in bytes.
 const CHUNK_BYTES: usize = 1 << 18;
 
 /// A writer that calls a JavaScript function.
 struct Chunks<'a> {
     take: &'a Function,
-    /// What that function has thrown.
+    /// What that function threw.
     thrown: Option<JsValue>,
 }
 

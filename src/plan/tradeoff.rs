@@ -91,7 +91,7 @@ pub fn tolerance_for(
         Goal::Layers(layers) => plan.layers() <= layers,
         Goal::Time(time_s) => plan.print_time_s(resin) <= time_s,
     };
-    // No error is that large: there is a plan wherever layers add up.
+    // No error is this large, so there is a plan wherever layers add up.
     let loosest = optimal::within(errors, limits, snap_planes, objective, u64::MAX)?
         .map_err(|blocked| optimal::infeasible(&blocked, errors, limits, objective))?;
     if !meets(&loosest) {
