@@ -1,4 +1,4 @@
-//! The defaults that documents name are the library's.
+//! The defaults in the documents are the library's.
 
 #![cfg(not(target_arch = "wasm32"))]
 
@@ -9,7 +9,7 @@ use cusp_slicer::profile::Metric;
 const CLI: &str = include_str!("../docs/cli.md");
 const EMBED: &str = include_str!("../docs/embed.md");
 
-/// The line of a table that begins with this cell.
+/// The row of a table that begins with this cell.
 fn row<'a>(document: &'a str, cell: &str) -> &'a str {
     let start = format!("| {cell}");
     let mut rows = document.lines().filter(|line| line.starts_with(&start));
@@ -20,7 +20,7 @@ fn assert_says(text: &str, said: &str) {
     assert!(text.contains(said), "`{said}` is missing in: {text}");
 }
 
-/// The default tolerance as documents write it.
+/// The default tolerance as the documents write it.
 fn tolerance(metric: Metric) -> String {
     let tolerance = metric.default_tolerance();
     match metric {

@@ -1,4 +1,4 @@
-//! Memory, by an allocator that counts.
+//! Memory, measured by a counting allocator.
 #![cfg(not(target_arch = "wasm32"))]
 
 mod common;
@@ -12,10 +12,10 @@ use peak_alloc::PeakAlloc;
 #[global_allocator]
 static ALLOCATOR: PeakAlloc = PeakAlloc;
 
-/// The only test of its binary, so that nobody else allocates beside it.
+/// The only test in its binary, so that nothing else allocates at the same time.
 #[test]
 fn a_search_takes_the_memory_that_the_description_of_a_model_says() {
-    // Large enough for its working memory to exceed the block by which `keep_memory` teaches the allocator.
+    // Large enough for its working memory to exceed the block that `keep_memory` allocates and frees.
     let welded = solids::sphere(20.0, 8);
     let loose = apart(&welded);
     for (name, triangles) in [("welded", welded), ("loose", loose)] {
@@ -42,7 +42,7 @@ fn a_search_takes_the_memory_that_the_description_of_a_model_says() {
     }
 }
 
-/// The same triangles, none of which touches another.
+/// The same triangles, shrunk so that none touches another.
 fn apart(triangles: &[[Vec3; 3]]) -> Vec<[Vec3; 3]> {
     let shrunk = |&[a, b, c]: &[Vec3; 3]| {
         let middle = (a + b + c) / 3.0;

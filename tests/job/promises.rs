@@ -1,4 +1,4 @@
-//! What a plan promises: tolerances, targets, true heights, and warnings where it cannot.
+//! What a plan guarantees: tolerances, targets and true heights, with warnings where it cannot.
 
 use crate::common::{quiet, solids};
 use cusp_slicer::job::{Minimize, Options, Snap};
@@ -26,7 +26,7 @@ fn output_that_would_be_black_is_an_error() {
     assert_eq!(code(result.map(|_| ())), "all-black");
 }
 
-/// A model, the level of anti-aliasing, and whether there are black layers.
+/// A model, its anti-aliasing level, and whether it has black layers.
 type BlackCase = (&'static str, solids::Triangles, u32, bool);
 
 #[test]

@@ -1,4 +1,4 @@
-//! What options come to, and what is refused before any work.
+//! How options are resolved, and which are rejected before any work is done.
 
 use crate::common::{assert_near, solids};
 use cusp_slicer::Error;
@@ -234,7 +234,7 @@ fn any_height_takes_layers_that_divide_it() {
     }
 }
 
-/// What an error offers can be typed, and works.
+/// The minimum thickness that an error suggests can be typed, and has a plan.
 #[test]
 fn a_thinner_least_thickness_is_whole_micrometres_and_holds() {
     let mut slicer = load(&solids::cone(5.0, 3.0, 64));

@@ -16,7 +16,7 @@ use crate::{
 fn directions_are_spread_evenly() {
     let mut slicer = slicer(&solids::sphere(5.0, 3));
     let directions = slicer.directions(&options(), 500).unwrap();
-    // The axes of the file come on top; a ball has no flats.
+    // The axes of the file are added; a ball has no flats.
     assert_eq!(directions.len(), 506);
     let directions: Vec<DVec3> = directions.into_iter().map(DVec3::from_array).collect();
     let even = &directions[..500];
@@ -29,7 +29,7 @@ fn directions_are_spread_evenly() {
             .fold(f64::INFINITY, f64::min);
         assert!((0.75 * usual..1.1 * usual).contains(&nearest), "{nearest}");
     }
-    // No direction anywhere is far from all of them.
+    // No part of the sphere is far from all of them.
     for axis in [DVec3::X, DVec3::NEG_Y, DVec3::Z, DVec3::ONE.normalize()] {
         let nearest = even.iter().map(|it| it.distance(axis));
         assert!(nearest.fold(f64::INFINITY, f64::min) < usual);
@@ -64,7 +64,7 @@ fn a_tilted_cylinder_is_found_again() {
     let disc = turned(&solids::cylinder(15.0, 3.0, 16), tilt());
     let found = orient(&disc, &options(), &few(400));
     assert!(degrees_off(&found.best[0], tilt() * Vec3::Z) < 2.0);
-    // For the fewest layers a rod lies, whichever way it is rolled.
+    // With the fewest layers a rod lies down, however it is rolled.
     let rod = turned(&solids::cylinder(2.0, 30.0, 16), tilt());
     let layers = SearchOptions {
         alpha: 1.0,
@@ -84,7 +84,7 @@ fn what_has_no_flats_is_found_by_the_finer_search() {
     let found = orient(&ellipsoid, &options(), &few(300));
     let axis = tilt() * Vec3::Z;
     assert!(degrees_off(&found.best[0], axis) < 2.0);
-    // The first look alone is as coarse as its spacing.
+    // The first pass alone is only as accurate as its spacing.
     let coarse = found
         .candidates
         .iter()
@@ -108,7 +108,7 @@ fn turning_the_model_turns_the_answer() {
             .best
             .iter()
             .map(|candidate| degrees_between(DVec3::from_array(candidate.direction), expected));
-        // The valley is flat: energies in it differ by less than the finest step of layers.
+        // The minimum is flat: energies around it differ by less than one layer does.
         assert!(any.fold(f64::INFINITY, f64::min) < 3.0);
     }
 }
@@ -213,7 +213,7 @@ fn minima_have_no_better_neighbour() {
     naive.truncate(minima.len());
     assert!(naive.len() >= 2);
     assert_eq!(minima, naive);
-    // The best are apart, and in order.
+    // The best candidates are distinct, and in order.
     for (i, first) in found.best.iter().enumerate() {
         for second in &found.best[i + 1..] {
             let [a, b] = [first, second].map(|it| DVec3::from_array(it.direction));
@@ -225,7 +225,7 @@ fn minima_have_no_better_neighbour() {
 
 #[test]
 fn what_does_not_fit_is_excluded_and_what_fits_askew_is_turned() {
-    // As long as the plate's diagonal allows, and longer than its sides.
+    // Longer than the sides of the plate, but shorter than its diagonal.
     let plate = Options {
         pixels: Some([1430, 890]),
         pitch_mm: Some(0.1),
@@ -256,7 +256,7 @@ fn what_does_not_fit_is_excluded_and_what_fits_askew_is_turned() {
         printer: Some("saturn-3-ultra".to_owned()),
         ..Options::default()
     };
-    // Too long for the plate, too long for the height, and too long for both together.
+    // Too long for the plate, for the height, and for the diagonal.
     let mut tower = slicer(&solids::cuboid(Vec3::new(400.0, 4.0, 4.0)));
     let found = tower.orient(&printer, &few(50), &mut quiet).unwrap();
     assert!(found.best.is_empty());

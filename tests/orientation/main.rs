@@ -1,4 +1,4 @@
-//! Orientations: directions, what is measured in each, the search, and the best ones on models with a known answer.
+//! Orientations: directions, metrics, the search, and the best orientations of models with a known answer.
 
 #![cfg(not(target_arch = "wasm32"))]
 
@@ -64,7 +64,7 @@ fn metrics(slicer: &mut Slicer, options: &Options, direction: DVec3) -> Metrics 
         .unwrap()
 }
 
-/// Some rotation that has nothing to do with any axis or lattice.
+/// A rotation that is aligned with no axis or lattice.
 fn tilt() -> Quat {
     Quat::from_xyzw(0.31, -0.44, 0.12, 0.83).normalize()
 }
@@ -75,7 +75,7 @@ fn turned(triangles: &solids::Triangles, rotation: Quat) -> solids::Triangles {
     facets.map(|corners| corners.each_ref().map(turn)).collect()
 }
 
-/// An ellipsoid with a bump on one side: smooth, and without any symmetry but one.
+/// An ellipsoid with a bump on one side: smooth, and with only one symmetry.
 fn bean() -> solids::Triangles {
     let mut ball = solids::sphere(1.0, 4);
     for corner in ball.iter_mut().flatten() {
@@ -89,7 +89,7 @@ fn degrees_between(a: DVec3, b: DVec3) -> f64 {
     a.angle_between(b).to_degrees()
 }
 
-/// The angle between a candidate's direction and an axis, whichever way this points.
+/// The angle between a candidate's direction and an axis of either sense.
 fn degrees_off(candidate: &Candidate, axis: Vec3) -> f64 {
     let angle = degrees_between(DVec3::from_array(candidate.direction), axis.as_dvec3());
     angle.min(180.0 - angle)

@@ -1,4 +1,4 @@
-//! What is measured in one orientation, against closed forms and naive oracles.
+//! The metrics of one orientation, against closed forms and naive oracles.
 
 use crate::common::{assert_near, solids};
 use cusp_slicer::job::{Options, Snap};
@@ -93,14 +93,14 @@ fn overhangs_have_closed_forms() {
         (0.0, 0.0),
         (90.0, 0.0),
         (180.0, 0.0),
-        // The base, less than 45° from level, is in the air; then the side is.
+        // The base is an overhang, at less than 45° from level; then a side is.
         (30.0, side * side),
         (60.0, side * height),
     ] {
         let found = metrics(&mut tower, &options(), at(degrees));
         assert_near(found.overhang_mm2, expected, 1e-3);
     }
-    // A cone of 60° to level on its tip needs none for its side, but for its base when it lies.
+    // A cone whose side is at 60° to level needs no support, neither on its tip nor on its base.
     let mut cone = slicer(&solids::cone(5.0, 5.0 * 3f64.sqrt(), 16));
     assert_near(
         metrics(&mut cone, &options(), -DVec3::Z).overhang_mm2,
@@ -116,7 +116,7 @@ fn overhangs_have_closed_forms() {
     assert!(metrics(&mut flat, &options(), -DVec3::Z).overhang_mm2 > 200.0);
 }
 
-/// The mean roughness of a surface by going over every facet, and along its height in small steps.
+/// The mean roughness of a surface, facet by facet and in small steps along its height.
 fn naive_roughness(corners: &[f32], z_mm: &[f64]) -> f64 {
     let (mut sum, mut surface) = (0.0, 0.0);
     for facet in corners.chunks_exact(9) {
@@ -180,8 +180,8 @@ fn a_ball_is_the_same_from_everywhere() {
         .map(|candidate| candidate.metrics.unwrap().layers)
         .collect();
     let (least, most) = (layers.iter().min().unwrap(), layers.iter().max().unwrap());
-    // Facets stand for the surface within their own angle, here up to 90° / 2^levels, and so do slopes and the layers
-    // that these allow, which are about the height over the tolerance near the poles.
+    // Facets approximate the slope of the surface to within their own angle, here up to 90° / 2^levels. The number of
+    // layers, about the height over the tolerance near the poles, varies accordingly.
     let angle = 90f64.to_radians() / f64::from(1 << levels);
     let discretisation = 2.0 * 10.0 * angle / 0.065;
     assert!(
@@ -207,7 +207,7 @@ fn upside_down_a_model_has_as_many_layers() {
             let direction = DVec3::from_array(direction);
             let [up, down] =
                 [direction, -direction].map(|direction| metrics(&mut slicer, &options, direction));
-            // Bins are counted from the plate, so that the same surface lies otherwise in them.
+            // Bins are counted from the plate, so the inverted surface lies in them differently.
             assert!(
                 up.layers.abs_diff(down.layers) <= 2,
                 "{metric:?} {direction}: {} and {}",

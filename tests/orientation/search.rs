@@ -1,4 +1,4 @@
-//! The search as a state machine, over candidates with a closed form: any order of results gives the same.
+//! The search as a state machine, on candidates with a closed form: results in any order give the same outcome.
 
 use std::f64::consts::PI;
 
@@ -28,7 +28,7 @@ fn options() -> SearchOptions {
     }
 }
 
-/// Directions all over the sphere.
+/// Directions spread over the whole sphere.
 fn directions(count: usize) -> Vec<[f64; 3]> {
     let direction = |i: usize| {
         let z = 1.0 - (2 * i + 1) as f64 / count as f64;
@@ -39,7 +39,8 @@ fn directions(count: usize) -> Vec<[f64; 3]> {
     (0..count).map(direction).collect()
 }
 
-/// A valley around the planted direction, a shallower one opposite, a third across, and a cap where nothing fits.
+/// A valley around the planted direction, a shallower one opposite, a third perpendicular to it, and a cap of excluded
+/// directions.
 fn measure(direction: [f64; 3]) -> Candidate {
     let at = DVec3::from_array(direction);
     let near = |to: DVec3, depth: f64| depth * (8.0 * (at.dot(to) - 1.0)).exp();
@@ -74,7 +75,7 @@ fn search() -> Search {
     Search::new(options(), directions(COUNT)).unwrap()
 }
 
-/// Runs a search one task after another.
+/// Runs a search one task at a time.
 fn run(mut search: Search) -> SearchResult {
     loop {
         if let Some(result) = search.result() {
@@ -114,7 +115,7 @@ fn any_order_of_results_gives_the_same_result() {
             if rng.u8(0..8) > 0 {
                 search.accept(evaluate(task)).unwrap();
             } else {
-                // Whoever had it is lost, or late.
+                // The worker is lost, or its result comes too late.
                 search.put_back(task.number).unwrap();
                 let number = task.number;
                 let late = search.accept(evaluate(task));
@@ -195,7 +196,7 @@ fn what_is_known_so_far_is_rated_by_itself() {
                 .is_none_or(|it| it.direction == *direction)
         );
     }
-    // At the end they are those of the result.
+    // At the end, the rated candidates are those of the result.
     let result = run(search.clone());
     assert_eq!(search.next_tasks(0), []);
     let last = Search::of_measured(options(), result.candidates.clone()).unwrap();
@@ -213,7 +214,7 @@ fn candidates_of_another_search_are_rated_without_being_measured() {
     };
     let mut again = Search::of_measured(other, before).unwrap();
     assert_eq!((again.measured(), again.progress()), (COUNT, 0.8));
-    // Rings of the refinements are all that is measured.
+    // Only the rings of the refinements are measured.
     let tasks = again.next_tasks(usize::MAX);
     assert!(tasks.len() <= 5 && tasks.iter().all(|task| task.directions.len() == 6));
     for task in tasks {
@@ -310,7 +311,7 @@ fn candidates_that_are_not_of_the_task_are_refused() {
     let bad = bad(&|it| it[2].metrics = None).candidates;
     let error = Search::of_measured(options(), bad).unwrap_err();
     assert_eq!(Error::from(error).code(), "search-candidate");
-    // The task is still out.
+    // The task is still outstanding.
     search.accept(good).unwrap();
     assert_eq!(search.measured(), last + 1);
 }

@@ -1,4 +1,4 @@
-//! Searches in shards.
+//! Orientation searches in shards.
 
 use crate::common::{quiet, solids};
 use cusp_slicer::Error;
@@ -13,7 +13,7 @@ fn parts(model: &solids::Triangles, count: usize) -> Vec<OrientationPart> {
             let mut slicer = slicer(model);
             let shard = Shard { number, count };
             let part = slicer.measure_shard(&options(), &few(50), shard, &mut quiet);
-            // As other machines send it.
+            // Through JSON, as between machines.
             let json = serde_json::to_string(&part.unwrap()).unwrap();
             serde_json::from_str(&json).unwrap()
         })
@@ -39,7 +39,7 @@ fn shards_make_the_same_whole_in_any_order() {
     for count in [1, 3, 100] {
         let mut parts = parts(&bean(), count);
         parts.reverse();
-        // Parts of another model are left aside.
+        // Parts for another model are ignored.
         parts.extend(self::parts(&solids::cube(3.0), 2));
         assert_eq!(merge(&parts, &options()).unwrap(), whole);
     }
@@ -66,7 +66,7 @@ fn shards_that_do_not_make_a_whole_are_refused() {
         matches!(twice, MergeError::Duplicate { place: 0, .. }),
         "{twice}"
     );
-    // Parts of another division overlap.
+    // Parts of searches with different numbers of shards overlap.
     let mixed = [&all[..1], &parts(&bean(), 2)[..]].concat();
     let mixed = merge_error(&mixed, &options());
     assert!(matches!(mixed, MergeError::Duplicate { .. }), "{mixed}");
