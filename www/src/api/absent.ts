@@ -1,4 +1,4 @@
-/** The slicer where there are no workers, as on a server that renders a page: it does nothing, and every call rejects. */
+/** The slicer without workers, as in server-side rendering: it does nothing, and every call rejects with `no-browser`. */
 import { SlicerError } from "./error.js";
 import type { Slicer } from "./index.js";
 

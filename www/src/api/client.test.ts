@@ -3,11 +3,11 @@ import { SlicerError } from "./error.js";
 import { Client, type About, type WorkerHandle, type Watch } from "./client.js";
 import type { CuspError, Preview, MeshInfo, OnProgress, Options, Profiled, Report, SlicerWorker } from "./wire.js";
 
-/** What the fake workers were asked, in order: `worker number: call`. */
+/** The calls to the fake workers, in order: `worker number: call`. */
 let log: string[];
 let workers: FakeWorker[];
 
-/** A worker whose next call can be told to hang, as a long computation does, or to fail. */
+/** A worker that can be told to hang, like a long computation, or to fail. */
 class FakeWorker implements WorkerHandle {
   readonly number = workers.push(this);
   terminated = false;
@@ -79,7 +79,7 @@ class FakeWorker implements WorkerHandle {
   }
 }
 
-/** A client as it is used: what is asked is about the model that was opened last. */
+/** Uses a client as `createSlicer()` does: calls are about the last opened model. */
 class Caller {
   readonly client: Client;
   about: About = Promise.resolve(null);
@@ -130,7 +130,7 @@ async function hung(call: (watch: Watch) => Promise<unknown>): Promise<void> {
   await outcome;
 }
 
-test("a warm worker is the one that works, and it is started once", async () => {
+test("warm() starts the worker that later calls use, and only that one", async () => {
   caller.client.warm();
   await caller.open(new Blob(["a"]), watch());
   await caller.plan({ tolerance: 1 }, watch());
@@ -138,14 +138,14 @@ test("a warm worker is the one that works, and it is started once", async () => 
   expect(log).toEqual(["1: boot, compiling", "1: open a", "1: plan 1 of a", "1: mask 3 of 1"]);
 });
 
-test("progress comes through", async () => {
+test("progress is reported", async () => {
   const stages: string[] = [];
   await caller.open(new Blob(["a"]), watch());
   await caller.plan({}, watch(undefined, (stage, fraction, done) => stages.push(`${stage} ${fraction} ${done}`)));
   expect(stages).toEqual(["ldi 0.5 0.4"]);
 });
 
-test("cancelling a plan ends the worker; the next one is given module, file and the last good plan", async () => {
+test("cancelling a plan terminates the worker; the next one gets the module, the file and the last good plan", async () => {
   await caller.open(new Blob(["a"]), watch());
   await caller.plan({ tolerance: 1 }, watch());
   worker(1).hang = true;
@@ -156,7 +156,7 @@ test("cancelling a plan ends the worker; the next one is given module, file and 
   expect(log).toEqual(["2: boot", "2: open a", "2: plan 1 of a", "2: mask 0 of 1"]);
 });
 
-test("cancelling while a file is read keeps the one before", async () => {
+test("cancelling while a file is read keeps the previous model", async () => {
   await caller.open(new Blob(["a"]), watch());
   worker(1).hang = true;
   await hung((watch) => caller.open(new Blob(["b"]), watch));
@@ -165,7 +165,7 @@ test("cancelling while a file is read keeps the one before", async () => {
   expect(log).toEqual(["2: boot", "2: open a", "2: plan 1 of a"]);
 });
 
-test("a call that has not begun can be cancelled without ending the worker", async () => {
+test("a queued call can be cancelled without terminating the worker", async () => {
   await caller.open(new Blob(["a"]), watch());
   const abort = new AbortController();
   const first = caller.plan({ tolerance: 1 }, watch());
@@ -177,7 +177,7 @@ test("a call that has not begun can be cancelled without ending the worker", asy
   expect(log.at(-1)).toBe("1: plan 1 of a");
 });
 
-test("an error of the core keeps its code and details, and the worker; masks go back to the last good plan", async () => {
+test("an error from the core keeps its code, its details and the worker; masks come from the last good plan", async () => {
   await caller.open(new Blob(["a"]), watch());
   await caller.plan({ tolerance: 1 }, watch());
   const failure: CuspError = { code: "too-many-facets", message: "no", detail: { facets: 2, most: 1 } };
@@ -191,7 +191,7 @@ test("an error of the core keeps its code and details, and the worker; masks go 
   expect(log).toEqual(["1: plan 1 of a", "1: mask 0 of 1"]);
 });
 
-test("a core that breaks is replaced", async () => {
+test("a core that crashes is replaced", async () => {
   await caller.open(new Blob(["a"]), watch());
   worker(1).failure = new WebAssembly.RuntimeError("unreachable");
   await expect(caller.plan({}, watch())).rejects.toMatchObject({ code: "crash", message: "unreachable" });
@@ -201,7 +201,7 @@ test("a core that breaks is replaced", async () => {
   expect(log).toEqual(["2: boot", "2: open a", "2: plan 1 of a"]);
 });
 
-test("a core that does not start says so, and the next call tries again", async () => {
+test("a core that does not start rejects with start-failed, and the next call tries again", async () => {
   const starts: WorkerHandle[] = [];
   const failing = new Caller(() => {
     const handle = new FakeWorker();
@@ -214,7 +214,7 @@ test("a core that does not start says so, and the next call tries again", async 
   expect(log).toEqual(["2: boot, compiling", "2: open a"]);
 });
 
-test("a worker that breaks by itself fails the call that waits for it", async () => {
+test("an error event from the worker fails the pending call", async () => {
   await caller.open(new Blob(["a"]), watch());
   worker(1).hang = true;
   const running = caller.plan({}, watch());
@@ -223,7 +223,7 @@ test("a worker that breaks by itself fails the call that waits for it", async ()
   await expect(running).rejects.toMatchObject({ code: "crash", message: "no script" });
 });
 
-test("a call that waits for another is cancelled at once, not when its turn comes", async () => {
+test("a queued call is cancelled at once, not when its turn comes", async () => {
   await caller.open(new Blob(["a"]), watch());
   worker(1).hang = true;
   const first = caller.plan({}, watch());
@@ -235,7 +235,7 @@ test("a call that waits for another is cancelled at once, not when its turn come
   expect(worker(1).terminated).toBe(false);
 });
 
-test("looking at other plans leaves the plan with the core, whatever rays they are over", async () => {
+test("a trade-off leaves the core's plan in place, with the same rays or others", async () => {
   await caller.open(new Blob(["a"]), watch());
   await caller.plan({ tolerance: 1, rays: 512 }, watch());
   log = [];
@@ -251,7 +251,7 @@ test("looking at other plans leaves the plan with the core, whatever rays they a
   ]);
 });
 
-test("a print file comes whole, or chunk by chunk in order", async () => {
+test("a print file arrives whole, or chunk by chunk in order", async () => {
   await caller.open(new Blob(["a"]), watch());
   await caller.plan({}, watch());
   expect(await (await caller.client.archive(null, watch())).blob.text()).toBe("zip");
@@ -260,7 +260,7 @@ test("a print file comes whole, or chunk by chunk in order", async () => {
   expect(chunks).toEqual(["z", "ip"]);
 });
 
-test("asked too early, it says what is missing; disposed of, it works no more", async () => {
+test("a call made too early says what is missing; calls after dispose() reject", async () => {
   await expect(caller.plan({}, watch())).rejects.toMatchObject({ code: "no-model" });
   await caller.open(new Blob(["a"]), watch());
   await expect(caller.client.mask(0)).rejects.toMatchObject({ code: "no-plan" });
@@ -269,7 +269,7 @@ test("asked too early, it says what is missing; disposed of, it works no more", 
   expect(workers).toHaveLength(1);
 });
 
-test("each call takes its place when it is made: a file that is still fetched holds the calls after it", async () => {
+test("calls run in the order they are made: a file still being fetched holds up later calls", async () => {
   await caller.open(new Blob(["a"]), watch());
   let arrive: (file: Blob) => void = () => undefined;
   const file = new Promise<Blob>((resolve) => (arrive = resolve));
@@ -282,7 +282,7 @@ test("each call takes its place when it is made: a file that is still fetched ho
   expect(log.slice(2)).toEqual(["1: open b", "1: plan 1 of b"]);
 });
 
-test("a fetch that is cancelled leaves the worker alone", async () => {
+test("cancelling a fetch does not terminate the worker", async () => {
   await caller.open(new Blob(["a"]), watch());
   const abort = new AbortController();
   const opened = caller.client.open(new Promise(() => undefined), watch(abort.signal));
@@ -291,7 +291,7 @@ test("a fetch that is cancelled leaves the worker alone", async () => {
   expect(worker(1).terminated).toBe(false);
 });
 
-test("a signal that times out is an abort, and so is one with a reason of its own", async () => {
+test("a timeout is an abort, and so is a signal with a custom reason", async () => {
   await caller.open(new Blob(["a"]), watch());
   worker(1).hang = true;
   await expect(caller.plan({}, watch(AbortSignal.timeout(5)))).rejects.toMatchObject({ name: "TimeoutError" });

@@ -1,33 +1,33 @@
 /**
- * One worker after another, as one: what calls are about is brought to whichever worker answers them.
+ * The worker client: presents one worker after another as one, and brings each of them the subject of a call.
  *
- * WebAssembly cannot be interrupted, so cancelling terminates the worker. Each call therefore says what it is about: the model
- * and the weights of its facets, as they stood when the call was made. The last plan that worked is kept with what it was made
- * of, and made again where a fresh worker is asked for its masks.
+ * WebAssembly cannot be interrupted, so cancelling terminates the worker. Each call therefore carries its subject: the model
+ * and its facet weights at the time of the call. The last successful plan is kept with its subject and options, and replayed
+ * when a fresh worker is asked for its masks.
  */
 import * as Comlink from "comlink";
 import { isAbort, ofCore, said, SlicerError } from "./error.js";
 import type { Comparison, MeshInfo, OnProgress, Options, Printer, Profiled, Report, SlicerWorker, Tradeoff } from "./wire.js";
 
-/** A worker as it is seen from this side: what it answers at once there takes its time here. */
+/** The worker's interface as seen from this side, where every method may return a promise. */
 export type Remote = {
   [Name in keyof SlicerWorker]: (
     ...given: Parameters<SlicerWorker[Name]>
   ) => ReturnType<SlicerWorker[Name]> | Promise<Awaited<ReturnType<SlicerWorker[Name]>>>;
 };
 
-/** What a {@link Client} needs of a worker; the tests give a fake. */
+/** What a {@link Client} needs of a worker; tests pass a fake. */
 export interface WorkerHandle {
   remote: Remote;
   /** Ends the worker at once, whatever it is doing. */
   terminate(): void;
-  /** Calls back if the worker breaks outside of any call, such as when its script cannot be loaded. */
+  /** Calls back if the worker breaks outside a call, such as when its script cannot be loaded. */
   onBroken(callback: (message: string) => void): void;
 }
 
-/** How a call is watched and stopped. */
+/** Progress and cancellation of a call. */
 export interface Watch {
-  /** Aborts the call, within a tenth of a second whatever it is doing; what was there before it stays. */
+  /** Aborts the call within 0.1 s at any stage; the previous model and plan stay. */
   signal?: AbortSignal | undefined;
   onProgress?: OnProgress | undefined;
 }
@@ -44,12 +44,12 @@ export function spawnWorker(): WorkerHandle {
   };
 }
 
-/** Where clients keep the compiled module, which is the same for all. */
+/** Holds the compiled module, which all clients share. */
 export interface Compiled {
   module: WebAssembly.Module | null;
 }
 
-/** A live worker: `fate` rejects when it is ended, so that no call on it waits for ever. */
+/** A running worker. `fate` rejects when the worker is terminated, so that no call waits for ever. */
 interface Life {
   handle: WorkerHandle;
   booted: Promise<unknown>;
@@ -57,33 +57,33 @@ interface Life {
   end(reason: unknown): void;
   file: Blob | null;
   weights: Weights;
-  /** What the plan that the core holds was made for; null if nobody knows. */
+  /** The plan that the core holds; null if there is none or it is unknown. */
   planned: Planned | null;
 }
 
-/** How much each facet matters, 0 to 1; null: all alike. */
+/** How much each facet matters, 0 to 1; null: all equally. */
 export type Weights = Float32Array | null;
 
-/** What a call is about: a model, and the weights of its facets. */
+/** What a call is about: a model and the weights of its facets. */
 export interface Subject {
   readonly name: string;
   readonly file: Blob;
-  /** Memory that a search takes in each worker, beside the file: the core knows. */
+  /** Memory in bytes that a search takes in each worker besides the file, as the core reports it. */
   readonly search_bytes: number;
   readonly weights: Weights;
 }
 
-/** A subject that calls made earlier may still have to settle; null if no model was loaded. */
+/** The subject of a call, resolved once earlier calls have settled; null if no model is loaded. */
 export type About = Promise<Subject | null>;
 
-/** A plan that worked, and what it was made of. */
+/** A successful plan with its subject and options. */
 export interface Planned {
   readonly subject: Subject;
   readonly options: Options;
   readonly report: Report;
 }
 
-/** The plan that a print file is asked for: the last one, or one for these options. */
+/** The plan to export: one for these options; null: the last one. */
 export type Wanted = { about: About; options: Options } | null;
 
 const silent: OnProgress = () => undefined;
@@ -93,7 +93,7 @@ export class Client {
   readonly #compiled: Compiled;
   #life: Life | null = null;
   #planned: Planned | null = null;
-  /** Calls run one at a time: the core takes no second call while one is waiting for the GPU. */
+  /** Calls run one at a time: the core accepts no second call while one is waiting for the GPU. */
   #queue: Promise<unknown> = Promise.resolve();
   #disposed = false;
 
@@ -102,12 +102,12 @@ export class Client {
     this.#compiled = compiled;
   }
 
-  /** Starts the worker before it is needed. Failures show in the first real call. */
+  /** Starts the worker before it is needed. The first real call reports a failure. */
   warm(): void {
     if (!this.#disposed) this.#live().booted.catch(() => undefined);
   }
 
-  /** Opens a model when its file is there. If that fails or is cancelled, the one before stays. */
+  /** Opens a model once its file has arrived. On failure or abort, the previous model stays. */
   open(file: Promise<Blob>, watch: Watch): Promise<MeshInfo> {
     return this.#run(watch, file, async (life, file, progress) => {
       const info = await life.handle.remote.open(file, progress);
@@ -118,12 +118,12 @@ export class Client {
     });
   }
 
-  /** Has the core take the subject's weights now, or refuse them. */
+  /** Sends the subject's weights to the core now; rejects if it refuses them. */
   setWeights(about: About, watch: Watch): Promise<void> {
     return this.#about(about, watch, () => Promise.resolve());
   }
 
-  /** Plans the layers. If that fails or is cancelled, masks and print file still belong to the plan before. */
+  /** Plans the layers. On failure or abort, masks and print file still belong to the previous plan. */
   plan(about: About, options: Options, watch: Watch): Promise<Profiled<Report>> {
     return this.#about(about, watch, (life, progress, subject) => this.#plan(life, subject, options, progress));
   }
@@ -144,7 +144,7 @@ export class Client {
     });
   }
 
-  /** The print file of the plan that is wanted, and that plan. */
+  /** The print file of the wanted plan, and that plan. */
   archive(wanted: Wanted, watch: Watch): Promise<{ blob: Blob; of: Planned }> {
     return this.#run(watch, wanted?.about ?? null, async (life, subject, progress) => {
       const of = await this.#planFor(life, subject, wanted?.options, progress);
@@ -153,7 +153,7 @@ export class Client {
     });
   }
 
-  /** The same, chunk by chunk. The core does not wait for a slow taker. */
+  /** Passes the print file of the wanted plan to `take`, chunk by chunk. The core does not wait for a slow consumer. */
   archiveTo(wanted: Wanted, take: (chunk: Uint8Array) => void, watch: Watch): Promise<void> {
     return this.#run(watch, wanted?.about ?? null, async (life, subject, progress) => {
       await this.#planFor(life, subject, wanted?.options, progress);
@@ -173,7 +173,7 @@ export class Client {
     });
   }
 
-  /** Asks what depends on nothing but the subject; the last plan stays, with its masks. */
+  /** Runs a query that depends only on the subject; the last plan and its masks stay. */
   ask<T>(about: About, watch: Watch, question: (remote: Remote, progress: OnProgress) => T | Promise<T>): Promise<T> {
     return this.#about(about, watch, async (life, progress) => question(life.handle.remote, progress));
   }
@@ -182,26 +182,26 @@ export class Client {
     return this.#run({}, null, (life) => Promise.resolve(life.handle.remote.printers()));
   }
 
-  /** Ends the worker until the next call, which brings back what was there. */
+  /** Terminates the worker. The next call starts another and restores the model, weights and plan that it needs. */
   rest(): void {
     this.#life?.end(new DOMException("the slicer was sent to rest", "AbortError"));
   }
 
-  /** Ends the worker for good. */
+  /** Terminates the worker for good: later calls reject with an `AbortError`. */
   dispose(): void {
     this.#disposed = true;
     this.#life?.end(disposed());
   }
 
   async #plan(life: Life, subject: Subject, options: Options, progress: OnProgress): Promise<Profiled<Report>> {
-    // Until it succeeds nobody knows which plan the core holds.
+    // Until this succeeds, the core's plan is unknown.
     life.planned = null;
     const plan = await life.handle.remote.plan(options, progress);
     life.planned = this.#planned = { subject, options, report: plan.report };
     return plan;
   }
 
-  /** Brings the core the subject's file and weights. */
+  /** Opens the subject's file and sets its weights, unless the worker already has them. */
   async #bring(life: Life, { file, weights }: Subject): Promise<void> {
     const { remote } = life.handle;
     if (life.file !== file) {
@@ -215,7 +215,7 @@ export class Client {
     life.weights = weights;
   }
 
-  /** Brings back the last plan that worked. */
+  /** Replays the last successful plan, unless the worker already holds it. Throws `no-plan` if there is none. */
   async #restorePlan(life: Life, progress: OnProgress): Promise<Planned> {
     const planned = this.#planned;
     if (planned === null) throw new SlicerError("no-plan", "plan the layers first");
@@ -226,7 +226,7 @@ export class Client {
     return planned;
   }
 
-  /** Makes the plan that options ask for, unless it is the last one, which serves also where there are none. */
+  /** Plans for these options, unless the last plan is for them; without options, the last plan serves. */
   async #planFor(life: Life, subject: Subject | null, options: Options | undefined, progress: OnProgress): Promise<Planned> {
     if (options === undefined) return this.#restorePlan(life, progress);
     const now = present(subject);
@@ -238,7 +238,7 @@ export class Client {
     return this.#restorePlan(life, progress);
   }
 
-  /** Runs a task on a worker that has what the call is about. */
+  /** Runs a task on a worker that holds the subject. */
   #about<T>(
     about: About,
     watch: Watch,
@@ -251,13 +251,13 @@ export class Client {
     });
   }
 
-  /** Takes a place in the queue at once; there it waits for what it needs, then for the worker. */
+  /** Enqueues a task at once. When its turn comes, it waits for `needed`, then for the worker. */
   #run<N, T>(
     { signal, onProgress }: Watch,
     needed: Promise<N> | null,
     task: (life: Life, needed: N, progress: OnProgress) => Promise<T>,
   ): Promise<T> {
-    // What fails before its turn is told at its turn.
+    // If `needed` rejects early, the call reports it when its turn comes.
     needed?.catch(() => undefined);
     const result = this.#queue.then(async () => {
       signal?.throwIfAborted();
@@ -267,7 +267,7 @@ export class Client {
       const abort = (): void => life.end(signal?.reason);
       signal?.addEventListener("abort", abort, { once: true });
       const progress = Comlink.proxy<OnProgress>((stage, fraction, done) => {
-        // What was on its way when the call was stopped is news no more.
+        // Ignore progress that arrives after an abort.
         if (signal?.aborted !== true) onProgress?.(stage, fraction, done);
       });
       try {
@@ -278,14 +278,14 @@ export class Client {
         signal?.removeEventListener("abort", abort);
       }
     });
-    // The next call waits for the end of this one, not for its answer, which may be large: it is not held here.
+    // The next call waits for this one to settle. The queue does not hold the result, which may be large.
     const forget = (): void => undefined;
     this.#queue = result.then(forget, forget);
-    // A call that waits for another need not wait to be cancelled.
+    // A queued call rejects on abort at once, before its turn.
     return untilAborted(result, signal);
   }
 
-  /** Errors that are described pass; anything else means that the core broke, and a broken core is not asked again. */
+  /** Passes on aborts and the core's own errors. Anything else means that the core broke, so its worker is terminated. */
   #understand(error: unknown, life: Life, signal: AbortSignal | undefined): unknown {
     if (isAbort(error, signal)) return error;
     const described = ofCore(error);
@@ -324,13 +324,13 @@ export class Client {
   }
 }
 
-/** The subject of a call that needs one. */
+/** The subject of a call that needs one. Throws `no-model` if it is null. */
 export function present(subject: Subject | null): Subject {
   if (subject === null) throw new SlicerError("no-model", "load a model first");
   return subject;
 }
 
-/** The answer, but for a signal that aborts before it is there. */
+/** Settles as `answer` does, or rejects with the signal's reason if that aborts first. */
 export function untilAborted<T>(answer: Promise<T>, signal: AbortSignal | undefined): Promise<T> {
   if (signal === undefined) return answer;
   const aborted = new Promise<never>((_, reject) => {

@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { ofCore, SlicerError } from "./error.js";
 
-test("what the core describes becomes an error with its code and details; anything else does not", () => {
+test("an error from the core keeps its code and details; any other value gives null", () => {
   const error = ofCore({ code: "infeasible", message: "no", detail: { from_mm: 1 } });
   expect(error).toBeInstanceOf(SlicerError);
   expect(error).toMatchObject({ code: "infeasible", message: "no", detail: { from_mm: 1 } });

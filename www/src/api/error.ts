@@ -1,27 +1,27 @@
 /** Failures as data: a code for programs, a sentence for people, and typed details. */
 import type { CoreError } from "../../pkg/cusp_slicer.js";
 
-/** Errors that only this side gives, with their details. Like the core's, a code once published keeps its meaning. */
+/** Errors raised on this side of the worker, with their details. As with the core's, a published code keeps its meaning. */
 interface OwnDetails {
-  /** An attribute or property of the element makes no sense; where there is a list, `known` is what there is. */
+  /** An attribute or property of the element is invalid; `known` lists the valid names, if there is a list. */
   "bad-attribute": { attribute: string; value: unknown; known?: readonly string[] };
-  /** A plan or a figure was asked for before a model was loaded. */
+  /** A call that needs a model was made before one was loaded. */
   "no-model": null;
   /** The bytes of the file could not be read. */
   "file-unreadable": null;
-  /** The model's address did not answer with a file, or not at all. */
+  /** The model's URL returned an HTTP error, or could not be reached. */
   "fetch-failed": { status: number } | SystemDetail;
   /** The worker or the WebAssembly module could not be started. */
   "start-failed": SystemDetail;
-  /** A part of the element could not be loaded; what is on show stays. */
+  /** A part of the element that is fetched when first shown could not be loaded; the rest of the element stays. */
   "part-failed": SystemDetail & { part: string };
-  /** There is no browser, such as on a server: nothing can be sliced there. */
+  /** There is no browser, as on a server: nothing can be sliced. */
   "no-browser": null;
-  /** The worker broke down; the next call starts another. */
+  /** The worker crashed; the next call starts another. */
   crash: SystemDetail;
 }
 
-/** What the browser, the network or the worker said, untranslated. */
+/** The message of the browser, the network or the worker, untranslated. */
 interface SystemDetail {
   system: string;
 }
@@ -33,17 +33,17 @@ export type ErrorDetails = { [E in CoreError as E["code"]]: DetailOf<E> } & OwnD
 
 export type ErrorCode = keyof ErrorDetails;
 
-/** One kind of error: its code tells what its details are. */
+/** An error whose code determines the type of its details. */
 interface SlicerErrorOf<Code extends ErrorCode> extends Error {
   readonly name: "SlicerError";
   readonly code: Code;
-  /** Typed details of the code, such as `least_tolerance`; null where there are none. */
+  /** Details of the code, such as `least_tolerance`; null if it has none. */
   readonly detail: ErrorDetails[Code];
 }
 
 /**
- * What every call rejects with, except for an abort, which is the signal's reason. A union over all codes: after
- * `error.code === "infeasible"`, `error.detail.least_tolerance` is known to be there.
+ * What every call rejects with, except on an abort, which rejects with the signal's reason. A union over all codes: once
+ * `error.code === "infeasible"` is checked, TypeScript knows `error.detail.least_tolerance`.
  */
 export type SlicerError = { [Code in ErrorCode]: SlicerErrorOf<Code> }[ErrorCode];
 
@@ -68,28 +68,28 @@ export const SlicerError = class SlicerError extends Error {
   }
 } as unknown as SlicerErrorConstructor;
 
-/** Whether a call was stopped: by its `signal` for whatever reason, or by one that timed out or was aborted. */
+/** Whether an error is an abort: the reason of `signal`, or any `AbortError` or `TimeoutError`. */
 export function isAbort(error: unknown, signal?: AbortSignal): boolean {
   if (signal?.aborted === true && error === signal.reason) return true;
   return error instanceof DOMException && (error.name === "AbortError" || error.name === "TimeoutError");
 }
 
-/** What the core threw, if it is an error that it describes: it crosses to this side as a plain object. */
+/** Converts an error from the core, which crosses to this side as a plain object; null for any other value. */
 export function ofCore(value: unknown): SlicerError | null {
   if (value instanceof SlicerError) return value;
   if (typeof value !== "object" || value === null || value instanceof Error) return null;
   const { code, message, detail } = value as Record<string, unknown>;
   if (typeof code !== "string" || typeof message !== "string") return null;
-  // What the core throws is what its types say.
+  // The core's types tie the detail to the code.
   return new SlicerError(code as "no-plan", message, (detail ?? null) as null);
 }
 
-/** Anything that was thrown as one of these errors; what nobody described means that something broke. */
+/** Any thrown value as a `SlicerError`; an unknown one becomes a `crash`. */
 export function asSlicerError(error: unknown): SlicerError {
   if (error instanceof SlicerError) return error;
   const system = said(error);
   return new SlicerError("crash", system, { system });
 }
 
-/** What an error that nobody described says of itself. */
+/** The message of any thrown value. */
 export const said = (error: unknown): string => (error instanceof Error ? error.message : String(error));

@@ -4,7 +4,7 @@ import { resolve } from "./source.js";
 import type { WorkerHandle } from "./client.js";
 import type { Preview, MeshInfo, Options, Report, SlicerWorker } from "./wire.js";
 
-/** What the fakes report: masks are as wide as the tolerance says. */
+/** A fake report: the width of its masks is the tolerance. */
 const reportOf = ({ tolerance = 9 }: Options): Report =>
   ({
     mask: { width: tolerance, height: 2 },
@@ -12,7 +12,7 @@ const reportOf = ({ tolerance = 9 }: Options): Report =>
     warnings: [{ code: "inside-out" }],
   }) as unknown as Report;
 
-/** A slicer over fake workers, and what these were asked. */
+/** A slicer over fake workers, and a log of their calls. */
 function faked(): { slicer: Slicer; log: string[] } {
   const log: string[] = [];
   let workers = 0;
@@ -62,7 +62,7 @@ function faked(): { slicer: Slicer; log: string[] } {
   return { slicer: createSlicer({ spawn }), log };
 }
 
-test("results carry the version of their schema", async () => {
+test("results carry the schema version", async () => {
   const { slicer } = faked();
   const file = new Blob(["a"]);
   const model = await slicer.load(file, { name: "a.stl" });
@@ -74,7 +74,7 @@ test("results carry the version of their schema", async () => {
   expect(await slicer.mask(1)).toMatchObject({ layer: 1, width: 9, height: 2 });
 });
 
-test("a print file is of the last plan, or of one made for the options that it is asked with", async () => {
+test("export() uses the last plan, or makes one for the given options", async () => {
   const { slicer, log } = faked();
   await slicer.load(new Blob(["a"]));
   await slicer.export({ tolerance: 1 });
@@ -84,7 +84,7 @@ test("a print file is of the last plan, or of one made for the options that it i
   expect(log).toEqual(["1: open a", "1: plan 1", "1: archive", "1: archive", "1: archive", "1: plan 2", "1: archive"]);
 });
 
-test("a stream gives the chunks as they come", async () => {
+test("a stream delivers the chunks in order", async () => {
   const { slicer } = faked();
   await slicer.load(new Blob(["a"]));
   const chunks: number[][] = [];
@@ -92,7 +92,7 @@ test("a stream gives the chunks as they come", async () => {
   expect(chunks).toEqual([[1], [2, 3]]);
 });
 
-test("a stream that fails says why, and one that nobody wants any more ends the worker", async () => {
+test("a stream that fails reports its error, and the slicer works on after a stream is cancelled", async () => {
   const { slicer, log } = faked();
   await expect(slicer.exportStream({}).getReader().read()).rejects.toMatchObject({ code: "no-model" });
   await slicer.load(new Blob(["a"]));
@@ -101,7 +101,7 @@ test("a stream that fails says why, and one that nobody wants any more ends the 
   expect(await (await slicer.export({})).blob.text()).toBe("zip");
 });
 
-test("live figures have a worker of their own, which reads the model when first asked", async () => {
+test("positions come from a worker of their own, which reads the model on first use", async () => {
   const { slicer, log } = faked();
   await slicer.load(new Blob(["a"]));
   expect(log).toEqual(["1: open a"]);
@@ -111,7 +111,7 @@ test("live figures have a worker of their own, which reads the model when first 
   expect(log).toEqual(["1: open a", "2: open a", "2: positions", "1: open b", "2: open b", "2: positions"]);
 });
 
-test("weights are copied, count for all that follows, and make a print file worth a plan", async () => {
+test("weights are copied, apply to all later calls, and make export() plan again", async () => {
   const { slicer, log } = faked();
   await slicer.load(new Blob(["a"]));
   const weights = Float32Array.of(0.5);
@@ -127,7 +127,7 @@ test("weights are copied, count for all that follows, and make a print file wort
   expect(log.filter((line) => line.startsWith("2"))).toEqual(["2: open a", "2: setWeights 0.5"]);
 });
 
-test("weights that the core refuses are dropped, and a model that is opened has none", async () => {
+test("weights that the core refuses are dropped, and a newly opened model has none", async () => {
   const { slicer, log } = faked();
   await slicer.load(new Blob(["a"]));
   await slicer.setWeights(Float32Array.of(0.5));
@@ -138,14 +138,14 @@ test("weights that the core refuses are dropped, and a model that is opened has 
   expect(log).toEqual(["1: open a", "1: setWeights 0.5", "1: setWeights 2", "1: plan 1", "1: open b", "1: plan 1"]);
 });
 
-test("a print file is of the weights that its plan was made for, even from a fresh worker", async () => {
+test("a print file uses the weights of its plan, even from a fresh worker", async () => {
   const { slicer, log } = faked();
   await slicer.load(new Blob(["a"]));
   await slicer.setWeights(Float32Array.of(0.25));
   await slicer.plan({ tolerance: 1 });
   await slicer.setWeights(null);
   slicer.rest();
-  // The print file is of the last plan, so that comes back with the weights that it was made for.
+  // The print file is of the last plan, which is replayed with its own weights.
   await slicer.export();
   await slicer.plan({ tolerance: 2 });
   const after = log.slice(log.indexOf("1: ended"));
@@ -159,7 +159,7 @@ test("a print file is of the weights that its plan was made for, even from a fre
   ]);
 });
 
-test("weights go into a file and come back", async () => {
+test("weights are written to a file and read back", async () => {
   const { slicer } = faked();
   await slicer.load(new Blob(["a"]));
   const file = await slicer.weightsFile(Float32Array.of(0.5, 1));
@@ -167,7 +167,7 @@ test("weights go into a file and come back", async () => {
   expect(await slicer.saliency()).toEqual(Float32Array.of(0.5));
 });
 
-test("sources: files have names, bytes have none, addresses have the last part of their path", async () => {
+test("sources: files keep their name, bytes get a default one, URLs are fetched", async () => {
   const bytes = new TextEncoder().encode("solid");
   expect(await resolve(new File([bytes], "a.stl"))).toMatchObject({ name: "a.stl" });
   expect((await resolve(bytes)).name).toBe("model.stl");
@@ -175,13 +175,13 @@ test("sources: files have names, bytes have none, addresses have the last part o
   expect(await (await resolve("data:,solid")).file.text()).toBe("solid");
 });
 
-test("an address that does not answer is an error with a code; an aborted one is an abort", async () => {
+test("a fetch that fails rejects with fetch-failed; an aborted one rejects with an abort", async () => {
   await expect(resolve("nonsense:x")).rejects.toMatchObject({ code: "fetch-failed" });
   const signal = AbortSignal.abort();
   await expect(resolve("data:,x", signal)).rejects.toMatchObject({ name: "AbortError" });
 });
 
-test("a print file has a name, a type and what there is to know", async () => {
+test("a print file has a name, a media type and warnings", async () => {
   const { slicer } = faked();
   await slicer.load(new Blob(["a"]), { name: "cup.STL" });
   const { blob, ...file } = await slicer.export({});
@@ -194,7 +194,7 @@ test("a print file has a name, a type and what there is to know", async () => {
   expect(blob.type).toBe(file.type);
 });
 
-test("a call that is not awaited takes its place: what follows is about the model that it loads", async () => {
+test("calls keep their order without await: those after a load use its model", async () => {
   const { slicer, log } = faked();
   await slicer.load(new Blob(["a"]));
   const address = URL.createObjectURL(new Blob(["b"]));
@@ -202,7 +202,7 @@ test("a call that is not awaited takes its place: what follows is about the mode
   void slicer.plan({ tolerance: 1 });
   void slicer.positions();
   const file = slicer.export({ tolerance: 2 });
-  // Made after that export, which it must not change.
+  // Called after that export, which it must not change.
   void slicer.plan({ tolerance: 3 });
   const mask = slicer.mask(0);
   void slicer.load(new Blob(["c"]));
@@ -215,7 +215,7 @@ test("a call that is not awaited takes its place: what follows is about the mode
   expect(log).toContain(`${positions}: open b`);
 });
 
-test("weights count for the calls made after them, and a model that cannot be loaded changes nothing", async () => {
+test("weights apply to the calls made after them, and a failed load changes nothing", async () => {
   const { slicer, log } = faked();
   await slicer.load(new Blob(["a"]));
   void slicer.plan({ tolerance: 1 });

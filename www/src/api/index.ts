@@ -1,5 +1,5 @@
 /**
- * The headless slicer: models in, plans, masks and print files out. It works in a worker of its own, sends
+ * The headless slicer: models in, plans, masks and print files out. It runs in workers of its own, sends
  * nothing anywhere, and needs neither WebGPU nor cross-origin isolation.
  *
  *     const slicer = createSlicer();
@@ -8,10 +8,10 @@
  *     const { name, blob } = await slicer.export();
  *     slicer.dispose();
  *
- * Lengths are in mm, times in s. A call takes its place when it is made: it is about the model that the last `load()` before it
- * opens, and the weights of the last `setWeights()`, whether or not these were awaited. Every call rejects with a `SlicerError`, or with
- * the signal's reason if it was aborted; the model and the plan before it stay. Where there is no browser, as on a server that
- * renders a page, a slicer can be made, and its calls reject with `no-browser`.
+ * Lengths are in mm, times in s. A call takes its place in the queue when it is made: it uses the model of the last `load()`
+ * and the weights of the last `setWeights()` before it, awaited or not. Every call rejects with a `SlicerError`, or with the
+ * signal's reason if it was aborted; the previous model and plan stay. Without a browser, as in server-side rendering, a slicer
+ * can be created, but its calls reject with `no-browser`.
  */
 import { absentSlicer } from "./absent.js";
 import { Client, spawnWorker, type About, type Compiled, type WorkerHandle, type Planned, type Wanted, type Watch } from "./client.js";
@@ -27,7 +27,7 @@ export type { Watch } from "./client.js";
 export type { Found, OrientCall } from "./orient.js";
 export type * from "./wire.js";
 
-/** The version of what results look like. It grows when a field goes or changes its meaning, not when one is added. */
+/** The version of the result format. It increases when a field is removed or changes its meaning, not when one is added. */
 export const SCHEMA = 2;
 
 interface Versioned {
@@ -35,108 +35,114 @@ interface Versioned {
   schema: typeof SCHEMA;
 }
 
-/** A model as it stands in its file. */
+/** A model as read from its file. */
 export interface Model extends Versioned {
   name: string;
-  /** What it was read from, for a page that sends a model along with its plan. */
+  /** The file that it was read from, for a page that sends a model along with its plan. */
   file: Blob;
   info: MeshInfo;
 }
 
-/** A plan. `report.backend` says what cast the rays, `cpu` or `gpu`; `report.adapter` which GPU. */
+/** A plan. `report.backend` says what cast the rays, `cpu` or `gpu`, and `report.adapter` which GPU. */
 export interface Plan extends Versioned, Profiled<Report> {}
 
-/** A plan by the facets alone, for following a model that is being turned. */
+/** A plan from the facets alone, for live updates while a model is being turned. */
 export interface PreviewedPlan extends Versioned, Profiled<Preview> {}
 
-/** What a search for the best direction found. */
+/** The result of an orientation search. */
 export interface OrientationReport extends Versioned, SearchResult {}
 
 /** The mask of a layer. */
 export interface Mask {
-  /** From 0, the one on the plate. */
+  /** Counted from 0, the layer on the plate. */
   layer: number;
   /** In pixels. */
   width: number;
   height: number;
-  /** One bit a pixel, rows from the top, most significant bit first, ⌈width / 8⌉ bytes a row; 1 is lit. */
+  /** One bit per pixel, rows from the top, most significant bit first, ⌈width / 8⌉ bytes per row; 1 is lit. */
   bits: Uint8Array;
 }
 
 /** A print file. */
 export interface PrintFile extends Versioned {
-  /** What to save it as: the model's name with the format's extension. */
+  /** The name to save it under: that of the model, `-cusp`, and the format's extension, as in `cup-cusp.uvj`. */
   name: string;
-  /** Its media type: `application/zip`, or `application/octet-stream` where the extension is the format's own. */
+  /** Its media type: `application/zip`, or `application/octet-stream` if the format has an extension of its own. */
   type: string;
   blob: Blob;
-  /** What the user should know of the plan. */
+  /** The warnings of its plan. */
   warnings: Warning[];
 }
 
 export interface LoadCall extends Watch {
-  /** What the model is called, where the source has no name. */
+  /** The model's name; that of the source if absent. */
   name?: string;
 }
 
 export interface Slicer {
-  /** Reads an STL, binary or text. */
+  /** Reads an STL, binary or ASCII. */
   load(source: Source, call?: LoadCall): Promise<Model>;
-  /** Plans the layers of the model. A change of options repeats only what depends on it. */
+  /** Plans the layers of the model. A change of options recomputes only what depends on it. */
   plan(options?: Options, call?: Watch): Promise<Plan>;
-  /** The mask of a layer of the last plan, from 0. */
+  /** The mask of a layer of the last plan, counted from 0. */
   mask(layer: number, call?: Watch): Promise<Mask>;
-  /** Best plans for so many tolerances, from the tightest that can be held to the loosest that saves a layer. */
+  /** The best plans for `points` tolerances (40 by default), from the tightest feasible to the loosest that saves a layer. */
   tradeoff(options?: Options, points?: number, call?: Watch): Promise<Tradeoff & Versioned>;
   /** The plans of all planners side by side. */
   compare(options?: Options, call?: Watch): Promise<Comparison & Versioned>;
   /**
-   * The directions that the model is best built in, by layers or time against the quality of the surface. It has workers
-   * of its own, so that nothing waits for it; what it finds does not depend on how many. A candidate's `rotation` is for
-   * `options.rotation`, and with an `options.height_mm` its `size_mm[2]` is for that.
+   * Searches for the best orientations, weighing layers or print time against surface quality. It runs in workers of its
+   * own, so that no other call waits for it; the result does not depend on their number. To plan for a candidate, set
+   * `options.rotation` to its `rotation` and, if the options have a `height_mm`, set that to its `size_mm[2]`.
    */
   orient(options?: Options, search?: SearchOptions, call?: OrientCall): Promise<OrientationReport>;
-  /** The print file of the last plan; with options that are not the last plan's, of a plan made for them first. */
+  /** The print file of the last plan. With options, that of a plan for those, made first unless it is the last one. */
   export(options?: Options, call?: Watch): Promise<PrintFile>;
-  /** The same as it is made. The core does not wait for a slow reader: what is not read yet is kept in memory. */
+  /**
+   * The print file of the same plan as {@link export}, as a stream of its chunks. The core does not wait for a slow reader:
+   * unread chunks stay in memory. Cancelling the stream aborts the call.
+   */
   exportStream(options?: Options, call?: Watch): ReadableStream<Uint8Array>;
-  /** Corners of all facets, nine numbers a facet, mm, as the file has them. */
+  /** The corners of all facets in mm, nine numbers per facet, in the file's frame. */
   positions(call?: Watch): Promise<Float32Array>;
-  /** A plan by the facets alone: milliseconds, and never behind another call but one of these two. */
+  /**
+   * A plan from the facets alone, in milliseconds. It shares a worker with `positions()`, `saliency()` and the calls for
+   * weight files, and does not wait for other plans.
+   */
   preview(options?: Options, call?: Watch): Promise<PreviewedPlan>;
   /** How much each facet stands out, 0 to 1, in the order of `positions()`. Takes about a second for 80,000 facets. */
   saliency(call?: Watch): Promise<Float32Array>;
   /**
-   * How much each facet matters, 0 to 1 in the order of `positions()`, to all that is asked from now on; null: all alike.
-   * The tolerance holds where that is 1 and is loosened elsewhere, never more than `options.weight_min` allows. Weights
-   * are copied, and belong to the model that is open. Resolves once they are taken.
+   * Sets how much each facet matters to all later calls, 0 to 1 in the order of `positions()`; null: all equally. The
+   * tolerance holds where the weight is 1 and is looser elsewhere, never more than `options.weight_min` allows. Weights are
+   * copied, and belong to the open model. Resolves once the core has accepted them; if it refuses, the previous weights stay.
    */
   setWeights(weights: Float32Array | null, call?: Watch): Promise<void>;
-  /** A small file of weights that is bound to the model. */
+  /** A small file of these weights, bound to the open model. */
   weightsFile(weights: Float32Array, call?: Watch): Promise<Blob>;
-  /** The weights of such a file, which must be of the model that is open; `paint` makes them count. */
+  /** Reads the weights of such a file, which must belong to the open model; `setWeights()` applies them. */
   readWeights(file: Source, call?: Watch): Promise<Float32Array>;
-  /** Printers known by name, for `options.printer`. */
+  /** The known printers, whose names `options.printer` accepts. */
   printers(): Promise<Printer[]>;
   /** Starts the worker before it is needed. */
   warm(): void;
-  /** Ends the workers until the next call, which brings model and plan back; calls under way reject with an `AbortError`. */
+  /** Terminates the workers: running calls reject with an `AbortError`. The next call restores the model and the plan. */
   rest(): void;
-  /** Ends the workers for good; calls under way reject with an `AbortError`. */
+  /** Terminates the workers for good: running and later calls reject with an `AbortError`. */
   dispose(): void;
 }
 
 export interface Setup {
-  /** @internal Makes a worker; tests give a fake. */
+  /** @internal Starts a worker; tests pass a fake. */
   spawn?: () => WorkerHandle;
-  /** How many workers a search for directions may have at most; as many as there are cores if absent. */
+  /** The most workers that an orientation search may use; by default the number of cores. */
   workers?: number;
 }
 
-/** How many points a trade-off curve has if nothing else is said. */
+/** The default number of points on a trade-off curve. */
 const CURVE_POINTS = 40;
 
-/** Where the number of cores is not told. */
+/** The number of workers if the browser does not report its cores. */
 const FEW_WORKERS = 2;
 
 export function createSlicer(setup: Setup = {}): Slicer {
@@ -144,10 +150,10 @@ export function createSlicer(setup: Setup = {}): Slicer {
   if (spawn === spawnWorker && globalThis.Worker === undefined) return absentSlicer();
   const compiled: Compiled = { module: null };
   const main = new Client(spawn, compiled);
-  // Live figures must not wait for a plan that takes seconds: they have a worker, which starts when first asked.
+  // Previews must not wait for a plan that takes seconds: they have a worker of their own, which starts on first use.
   const side = new Client(spawn, compiled);
   const pool = new Pool(() => new Client(spawn, compiled), workers);
-  /** What a call that is made now is about, once the loads before it have ended. */
+  /** The subject of a call made now, resolved once earlier loads have settled. */
   let about: About = Promise.resolve(null);
 
   const wanted = (options: Options | undefined): Wanted => (options === undefined ? null : { about, options });
@@ -191,7 +197,7 @@ export function createSlicer(setup: Setup = {}): Slicer {
       return new ReadableStream<Uint8Array>({
         async start(controller) {
           try {
-            // Chunks that were on their way when nobody wanted them any more go nowhere.
+            // Drop chunks that arrive after an abort.
             const take = (chunk: Uint8Array): void => {
               if (!signal.aborted) controller.enqueue(chunk);
             };
@@ -215,7 +221,7 @@ export function createSlicer(setup: Setup = {}): Slicer {
       const painted = (about = before.then((subject) => (subject === null ? null : { ...subject, weights: own })));
       const taken = main.setWeights(painted, call);
       taken.catch(() => {
-        // Weights that were refused count for nothing that is asked from now on.
+        // Refused weights do not apply to later calls.
         if (about === painted) about = before;
       });
       return taken;

@@ -20,34 +20,34 @@ interface Faked {
   slicer: Slicer;
   /** `worker: call`. */
   log: string[];
-  /** Workers that are there. */
+  /** The numbers of the running workers. */
   live: Set<number>;
 }
 
 interface Setup {
   workers: number;
-  /** Milliseconds that a worker takes for a call, except where it only says what is next. */
+  /** Milliseconds that a worker takes for a call, except for `advance`. */
   slowness?: (worker: number) => number;
-  /** Calls that never end. */
+  /** A call that never ends, by its name. */
   hangs?: string;
   /** A call of this worker that fails, by its name. */
   fails?: readonly [worker: number, call: string];
-  /** Directions less than this from 42 are refined. */
+  /** Directions closer than this to 42 are refined. */
   within?: number;
 }
 
-/** Tasks from this number on refine the direction of their number less this. */
+/** Task `REFINING + i` refines direction i. */
 const REFINING = 1000;
-/** Directions of a task. */
+/** Directions per task. */
 const CHUNK = 10;
 
-/** A search of a fake core. The energy of direction i is how far i is from 42, and refining halves that. */
+/** The search of a fake core. The energy of direction i is |i - 42|, and refining halves it. */
 class FakeSearch {
   readonly #found: (Candidate | null)[];
   readonly #refined: Candidate[] = [];
   readonly #within: number;
   #waiting: Task[];
-  /** Tasks that are out. */
+  /** The number of outstanding tasks. */
   #out = 0;
 
   constructor(count: number, within: number, measured: readonly Candidate[] | null) {
@@ -161,21 +161,21 @@ afterEach(() => {
   vi.useRealTimers();
 });
 
-test("candidates come in the order of their directions, rated, and the best of refined ones first", async () => {
+test("candidates are rated and in the order of directions; the best are refined, lowest energy first", async () => {
   const { found } = await searched({ workers: 2 });
   expect(found.candidates.map(({ direction: [x] }) => x)).toEqual([...Array(COUNT).keys()]);
   expect(found.candidates.map(({ energy }) => energy)).toEqual([...Array(COUNT).keys()].map((x) => Math.abs(x - 42)));
   expect(found.best.map(({ energy }) => energy)).toEqual([0, 0.5, 0.5]);
 });
 
-test("the answer does not depend on the number of workers, nor on their speed", async () => {
+test("the result depends neither on the number of workers nor on their speed", async () => {
   const speeds = [() => 0, (worker: number) => 4 * worker, (worker: number) => 22 - 5 * worker];
   const answers = [];
   for (const workers of [1, 2, 3]) {
     for (const slowness of speeds) {
       const { found, log } = await searched({ workers, slowness });
       answers.push(JSON.stringify(found));
-      // The first worker is the one that plans.
+      // The first worker is the one for plans.
       expect(workersOf(log, "measure").size).toBe(workers);
       expect(log.filter((line) => line.startsWith("1: "))).toEqual(["1: open a"]);
     }
@@ -183,7 +183,7 @@ test("the answer does not depend on the number of workers, nor on their speed", 
   expect(new Set(answers).size).toBe(1);
 });
 
-test("what is known comes as it is measured, and progress goes up to its end", async () => {
+test("candidates are reported as they are measured, and progress rises to 1", async () => {
   const steps: number[] = [];
   const known: number[] = [];
   await searched(
@@ -209,7 +209,7 @@ test("what is known comes as it is measured, and progress goes up to its end", a
   expect(steps).toEqual(steps.toSorted((a, b) => a - b));
 });
 
-test("candidates at hand are rated and refined without being measured again", async () => {
+test("candidates of an earlier search are rated and refined without being measured again", async () => {
   const { slicer, log, found } = await searched({ workers: 2 });
   log.length = 0;
   const again = await slicer.orient({}, { directions: COUNT, alpha: 1 }, { measured: found.candidates });
@@ -218,7 +218,7 @@ test("candidates at hand are rated and refined without being measured again", as
   expect(workersOf(log, "refine").size).toBeGreaterThan(0);
 });
 
-test.each(["measure", "refine", "advance", "open a"])("an abort during %s ends the workers at once, and the next search starts others", async (hangs) => {
+test.each(["measure", "refine", "advance", "open a"])("an abort during %s terminates the busy workers, not the main one", async (hangs) => {
   const { slicer, live, log } = faked({ workers: 2, hangs: hangs === "open a" ? "nothing" : hangs });
   await slicer.load(new Blob(["a"]));
   const before = [...live];
@@ -228,13 +228,13 @@ test.each(["measure", "refine", "advance", "open a"])("an abort during %s ends t
   await vi.waitFor(() => expect(workersOf(log, hangs).size).toBeGreaterThan(0));
   abort.abort();
   await outcome;
-  // Workers that were not asked anything may stay.
+  // Workers without a call may stay.
   const busy = new Set(log.filter((line) => line.endsWith(hangs)).map((line) => Number(line.split(":")[0])));
   for (const worker of live) if (!before.includes(worker)) expect(busy).not.toContain(worker);
   expect(before.every((worker) => live.has(worker))).toBe(true);
 });
 
-test("the worker that holds the search runs its tasks if nobody else is free", async () => {
+test("the worker that holds the search runs tasks only if no other worker is free", async () => {
   const { log } = await searched({ workers: 3, within: 1 });
   // Workers 2 to 4 are the pool's, and 2 is asked first.
   expect(workersOf(log, "advance")).toEqual(new Set(["2"]));
@@ -243,7 +243,7 @@ test("the worker that holds the search runs its tasks if nobody else is free", a
   expect(workersOf(log, "refine")).not.toContain("2");
 });
 
-test("a search that waits for another is aborted without it", async () => {
+test("aborting a queued search leaves the running one alone", async () => {
   const { slicer, live } = faked({ workers: 1, hangs: "measure" });
   await slicer.load(new Blob(["a"]));
   const first = slicer.orient();
@@ -260,7 +260,7 @@ test("a search that waits for another is aborted without it", async () => {
   expect(live.size).toBe(0);
 });
 
-test.each(["measure", "refine"])("an error in one worker, during %s, is the search's", async (call) => {
+test.each(["measure", "refine"])("an error in one worker during %s fails the search", async (call) => {
   const it = faked({ workers: 3, fails: [3, call], slowness: () => 5 });
   await it.slicer.load(new Blob(["a"]));
   let told = 0;
@@ -271,7 +271,7 @@ test.each(["measure", "refine"])("an error in one worker, during %s, is the sear
   expect(told).toBe(before);
 });
 
-test("each worker has the model and the weights of the time of the call, whatever comes later", async () => {
+test("each worker uses the model and the weights at the time of the call, whatever changes later", async () => {
   const { slicer, log } = faked({ workers: 2, slowness: () => 3 });
   await expect(slicer.orient()).rejects.toMatchObject({ code: "no-model" });
   await slicer.load(new Blob(["a"]));
@@ -290,7 +290,7 @@ test("each worker has the model and the weights of the time of the call, whateve
   expect(log.filter((line) => /^[23]: (open|setWeights)/.test(line)).toSorted().filter((line) => line.includes("b"))).toEqual(["2: open b", "3: open b"]);
 });
 
-test("workers that nobody needs are ended after a while, and on request", async () => {
+test("idle workers are terminated after a while, and on request", async () => {
   const { slicer, live } = await searched({ workers: 2 });
   expect(live.size).toBe(3);
   await vi.advanceTimersByTimeAsync(60_000);
@@ -301,7 +301,7 @@ test("workers that nobody needs are ended after a while, and on request", async 
   expect(live.size).toBe(0);
 });
 
-test("a large model has fewer workers, and none has none", () => {
+test("a large model gets fewer workers, but at least one", () => {
   const of = (search_bytes: number, most = 64): number => workersFor({ file: new Blob([]), search_bytes }, most);
   expect(of(1000)).toBe(8);
   expect(of(1000, 2)).toBe(2);

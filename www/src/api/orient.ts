@@ -3,22 +3,22 @@ import type { About, Watch } from "./client.js";
 import type { Pool } from "./pool.js";
 import type { Candidate, Options, SearchOptions, SearchResult, SearchStep, Task, TaskResult } from "./wire.js";
 
-/** What is known while directions are measured. */
+/** Intermediate results of a search, while directions are measured. */
 export interface Found {
   /** Unit vectors in the file's frame, three numbers each. */
   directions: Float64Array;
-  /** One for each direction; null where it has not been measured yet. Energies are relative to what has been. */
+  /** One per direction; null until it is measured. Energies are relative to the directions measured so far. */
   candidates: readonly (Candidate | null)[];
 }
 
 export interface OrientCall extends Watch {
-  /** Told now and then as directions are measured, and once all are. */
+  /** Called repeatedly as directions are measured, and once all are. */
   onCandidates?: ((found: Found) => void) | undefined;
-  /** Candidates of an earlier search with the same model and options: they are rated again, and not measured again. */
+  /** Candidates of an earlier search with the same model and options: they are rated again without being measured again. */
   measured?: readonly Candidate[] | undefined;
 }
 
-/** How often `onCandidates` is told, about. */
+/** About how often `onCandidates` is called. */
 const RATINGS = 12;
 
 export function orient(pool: Pool, about: About, options: Options, search: SearchOptions, call: OrientCall): Promise<SearchResult> {

@@ -1,24 +1,24 @@
-/** Several workers for work that comes in many parts: each holds the model, and whichever is free takes the next part. */
+/** A pool of workers for work that splits into many tasks: each holds the model, and a free one takes the next tasks. */
 import { disposed, present, untilAborted, type About, type Client, type Remote, type Subject, type Watch } from "./client.js";
 
-/** More share the work no better, and each holds the model. */
+/** More workers are no faster, and each holds the model. */
 const MOST_WORKERS = 8;
 
-/** What the models in all workers together may take. */
+/** The memory that searches in all workers together may take. */
 const MEMORY_BYTES = 512 << 20;
 
-/** Without work for so long, workers are ended. */
+/** Workers are terminated after this long without work. */
 const IDLE_MS = 10_000;
 
 type Signal = Pick<Watch, "signal">;
 
-/** How many workers a model is worth. */
+/** The number of workers for a model: up to `most`, fewer for a large model, at least one. */
 export function workersFor({ file, search_bytes }: Pick<Subject, "file" | "search_bytes">, most: number): number {
   const fitting = Math.floor(MEMORY_BYTES / (search_bytes + file.size));
   return Math.max(1, Math.min(most, MOST_WORKERS, fitting));
 }
 
-/** Tasks to run next; no result before all are done. */
+/** Tasks to run next; `result` is null until all are done. */
 export interface Step<Task> {
   tasks: Task[];
   result: unknown;
@@ -28,18 +28,18 @@ type Outcome<Next extends Step<unknown>> = NonNullable<Next["result"]>;
 
 /** Work whose tasks one worker hands out and any worker runs. */
 export interface Sharing<Task, Result, Next extends Step<Task>> {
-  /** Takes results, in any order, for up to `most` further tasks. */
+  /** Delivers results, in any order, and returns up to `most` further tasks. */
   exchange: (remote: Remote, results: Result[], most: number) => Next | Promise<Next>;
   run: (remote: Remote, tasks: Task[]) => Result[] | Promise<Result[]>;
-  /** Told of each exchange. */
+  /** Called after each exchange. */
   onStep: (step: Next) => void;
 }
 
-/** Workers that all hold one model, while a task of the pool runs. */
+/** Workers that hold the same model while the pool runs a task. */
 export interface Team {
-  /** Asks the first worker, always the same one. */
+  /** Runs a query on the first worker, which is always the same one. */
   ask<T>(question: (remote: Remote) => T | Promise<T>): Promise<T>;
-  /** Runs tasks until there is a result; exchanges are the first worker's. The first failure ends it. */
+  /** Runs tasks until there is a result. The first worker does the exchanges. Rejects with the first failure. */
   share<Task, Result, Next extends Step<Task>>(sharing: Sharing<Task, Result, Next>): Promise<Outcome<Next>>;
 }
 
@@ -52,7 +52,7 @@ export class Pool {
   #timer: ReturnType<typeof setTimeout> | undefined;
   #isDisposed = false;
 
-  /** @param start gives a worker's client; workers start when they are first needed */
+  /** @param start creates a client, whose worker starts when first needed */
   constructor(start: () => Client, most: number) {
     this.#start = start;
     this.#most = most;
@@ -74,13 +74,13 @@ export class Pool {
     return untilAborted(result, signal);
   }
 
-  /** Ends the workers until they are needed again. */
+  /** Terminates the workers until they are needed again. */
   rest(): void {
     clearTimeout(this.#timer);
     for (const client of this.#clients) client.rest();
   }
 
-  /** Ends the workers for good. */
+  /** Terminates the workers for good: later calls reject with an `AbortError`. */
   dispose(): void {
     this.#isDisposed = true;
     clearTimeout(this.#timer);
@@ -100,10 +100,10 @@ export class Pool {
   }
 }
 
-/** Tasks at hand for each worker while the first one is busy, and cannot hand out others. */
+/** Tasks in stock per worker, for the time that the first worker is busy and cannot hand out more. */
 const STOCK = 4;
 
-/** Messages that the tasks at hand are spread over, for each worker: few, as they take time, and yet all end together. */
+/** Messages per worker that the stock is spread over: few, as each takes time, but enough for all to finish together. */
 const MESSAGES = 2;
 
 function share<Task, Result, Next extends Step<Task>>(
@@ -141,7 +141,10 @@ function share<Task, Result, Next extends Step<Task>>(
       idle.sort((a, b) => a - b);
       if (!isOver) advance();
     };
-    /** Others go first: everyone waits for the first worker, which runs single tasks while there is nothing to exchange. */
+    /**
+     * Gives tasks to the other workers first. All of them wait for the first worker's exchanges, so it runs only a few tasks
+     * at a time, and only while there are no results to exchange.
+     */
     const advance = (): void => {
       while (tasks.length > 0 && idle.length > 0 && (idle[0] !== 0 || idle.length > 1)) {
         const given = tasks.splice(0, Math.ceil(tasks.length / (MESSAGES * workers)));

@@ -1,12 +1,12 @@
-/** The ways a model can be given, made one: a Blob with a name. */
+/** Turns each way of passing a model into a Blob with a name. */
 import { isAbort, said, SlicerError } from "./error.js";
 
-/** A file, bytes, or an address: text is taken for one, relative to the page. */
+/** A file, bytes, or a URL; a string is a URL relative to the page. */
 export type Source = Blob | ArrayBuffer | ArrayBufferView | URL | string;
 
 export interface Named {
   file: Blob;
-  /** The file's name; the last part of an address; `model.stl` for bytes. */
+  /** The file's name, or the last part of a URL's path; `model.stl` if there is neither. */
   name: string;
 }
 
@@ -15,7 +15,7 @@ const NAMELESS = "model.stl";
 /** A model's name without its extension. */
 export const stemOf = (model: string): string => model.replace(/\.stl$/i, "").trim() || "model";
 
-/** Fetches what is an address, with nothing but the address sent. */
+/** The source as a named Blob. Fetches a URL; rejects with `fetch-failed`, or with the signal's reason on an abort. */
 export async function resolve(source: Source, signal?: AbortSignal): Promise<Named> {
   if (source instanceof File) return { file: source, name: source.name };
   if (source instanceof Blob) return { file: source, name: NAMELESS };

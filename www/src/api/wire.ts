@@ -1,5 +1,5 @@
 /**
- * What crosses between a page and the worker, and the defaults both sides assume.
+ * The types that cross between a page and the worker, and the defaults that both sides assume.
  *
  * The types of the core are re-exported from the generated package, never copied: a change there is a type error here.
  */
@@ -29,10 +29,10 @@ export type {
   Warning,
 } from "../../pkg/cusp_slicer.js";
 
-/** Told as a stage advances: `fraction` is 0 to 1 within the stage, `done` within the whole task. */
+/** Called as a stage advances: `fraction` is 0 to 1 within the stage, `done` within the whole task. */
 export type OnProgress = (stage: Stage, fraction: number, done: number) => void;
 
-/** A report, and the profile that it was planned by. */
+/** A report, and the profile that the plan was made from. */
 export interface Profiled<R> {
   report: R;
   /**
@@ -42,73 +42,73 @@ export interface Profiled<R> {
   profile: Float32Array;
 }
 
-/** What was measured for a task: a candidate for each of its directions, in their order. */
+/** The result of a task: a candidate for each of its directions, in their order. */
 export interface TaskResult {
   number: number;
   candidates: Candidate[];
 }
 
-/** What a search found. */
+/** The result of a search. */
 export interface SearchResult {
   /** One for each direction, rated. */
   candidates: Candidate[];
-  /** The best ones that differ from each other, the best first: three at most. */
+  /** The best candidates that differ from each other, best first; at most three. */
   best: Candidate[];
 }
 
-/** Where a search is. */
+/** The state of a search. */
 export interface SearchStep {
-  /** To be run by any worker; none while they depend on results that are still out. */
+  /** Tasks for any worker; empty while the next ones depend on outstanding results. */
   tasks: Task[];
-  /** How many directions are measured. */
+  /** The number of directions measured so far. */
   measured: number;
   /** 0 to 1. */
   progress: number;
-  /** One for each direction, null before it is measured; null if no rating was asked for. */
+  /** One per direction, null until it is measured; null as a whole if no rating was requested. */
   rated: (Candidate | null)[] | null;
-  /** Null before all is done. */
+  /** Null until the search is done. */
   result: SearchResult | null;
 }
 
-/** What the worker offers through comlink. Everything it throws is an `Error` or a plain `CuspError`. */
+/** The worker's interface through comlink. Everything it throws is an `Error` or a plain `CuspError`. */
 export interface SlicerWorker {
-  /** Starts the core. `null` compiles it; the compiled module comes back so that the next worker need not. */
+  /** Starts the core from its compiled module, or compiles it if that is null. Returns the module for the next worker. */
   boot(module: WebAssembly.Module | null): Promise<WebAssembly.Module>;
-  /** Reads a model. The one that was open stays open if this fails. */
+  /** Reads a model. If this fails, the previous one stays open. */
   open(file: Blob, progress: OnProgress): Promise<MeshInfo>;
   plan(options: Options, progress: OnProgress): Promise<Profiled<Report>>;
   tradeoff(options: Options, points: number, progress: OnProgress): Promise<Tradeoff>;
   compare(options: Options, progress: OnProgress): Promise<Comparison>;
-  /** One bit a pixel, rows from the top, most significant bit first, ⌈width / 8⌉ bytes a row. */
+  /** One bit per pixel, rows from the top, most significant bit first, ⌈width / 8⌉ bytes per row. */
   mask(layer: number): Uint8Array;
-  /** The print file of the last plan: as a Blob, or if there is a port in chunks through that, and null at its end. */
+  /** The print file of the last plan as a Blob. With a port, posts its chunks there, then null, and returns null. */
   archive(progress: OnProgress, port: MessagePort | null): Blob | null;
   positions(): Float32Array;
   preview(options: Options): Profiled<Preview>;
   /** How much each facet stands out, 0 to 1. */
   saliency(progress: OnProgress): Float32Array;
-  /** How much each facet matters to later plans and previews, 0 to 1; null: all alike. */
+  /** Sets how much each facet matters to later plans and previews, 0 to 1; null: all equally. */
   setWeights(weights: Float32Array | null): void;
   weightsFile(weights: Float32Array): Uint8Array;
   readWeights(file: Blob): Promise<Float32Array>;
   /**
-   * Starts a search, which this worker holds until the next one, with candidates that were measured before if there are
-   * any. Returns its directions: unit vectors in the file's frame, three numbers each.
+   * Starts a search, which this worker holds until the next one; `measured` are the candidates of an earlier search to reuse.
+   * Returns its directions: unit vectors in the file's frame, three numbers each.
    */
   startSearch(options: Options, search: SearchOptions, measured: readonly Candidate[] | null): Float64Array;
-  /** Hands the search the results of tasks, and takes up to `most` others; rates from so many measured directions on. */
+  /** Delivers results and takes up to `most` new tasks. Rates candidates once `rateFrom` directions are measured. */
   advanceSearch(results: TaskResult[], most: number, rateFrom: number): SearchStep;
-  /** Runs tasks of a search, whichever worker holds that. */
+  /** Runs tasks of a search that this or another worker holds. */
   evaluate(options: Options, tasks: Task[]): TaskResult[];
   printers(): Printer[];
 }
 
-/** The core's own defaults, which a form shows before the worker is there. A test holds them against the core. */
+/** The core's own defaults, which a form shows before the worker has started. A test compares them with the core. */
 export const DEFAULTS = {
   rays: 2048,
   layer_min_mm: 0.05,
   layer_max_mm: 0.15,
-  /** In the metric's unit: mm, mm, a part of one, mm³. The core allows more for volume where a model needs more. */
+  /** In the metric's unit: mm, mm, a fraction, mm³. For volume, the core allows more if the model needs it. */
   tolerance: { cusp: 0.065, roughness: 0.1, area: 0.1, volume: 1 } satisfies Record<Metric, number>,
   metric: "cusp",
   minimize: "layers",
@@ -118,8 +118,8 @@ export const DEFAULTS = {
 } as const;
 
 /**
- * Whether two sets of options look at the model through the same rays: then going from one to the other is a matter of
- * milliseconds and not worth interrupting.
+ * Whether two sets of options cast the same rays. If so, planning for one after the other takes milliseconds and is not worth
+ * interrupting.
  */
 export function sameRays(a: Options, b: Options): boolean {
   return (

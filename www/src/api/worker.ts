@@ -3,21 +3,21 @@ import * as Comlink from "comlink";
 import init, { head_bytes, identify, OrientationSearch, printers, Slicer } from "../../pkg/cusp_slicer.js";
 import type { Candidate, OnProgress, SlicerWorker } from "./wire.js";
 
-/** Parts of a print file beyond this many bytes are handed to the browser, which may keep them on disk. */
+/** Chunks of a print file are merged into a Blob at this many bytes; the browser may keep that on disk. */
 const BLOB_PART_BYTES = 8 << 20;
 
 let slicer: Slicer | null = null;
 let search: OrientationSearch | null = null;
 let memory: WebAssembly.Memory | null = null;
 
-/** The open model. The other side opens one before it asks for anything of it. */
+/** The open model. The client opens one before any call that needs it. */
 function current(): Slicer {
   if (slicer === null) throw new Error("no model is open");
   return slicer;
 }
 
 async function compile(): Promise<WebAssembly.Module> {
-  // Spelled out like this, bundlers find the file and give it a place of its own.
+  // Bundlers recognise this exact form and emit the file.
   const response = await fetch(new URL("../../pkg/cusp_slicer_bg.wasm", import.meta.url));
   if (!response.ok) throw new Error(`the slicer could not be loaded (HTTP ${response.status})`);
   // Streaming needs the right content type, which plain file hosts do not always send.
@@ -38,20 +38,20 @@ async function bytesOf(file: Blob): Promise<Uint8Array> {
   }
 }
 
-/** The core is given a plain function: what comlink hands over is a proxy that answers to every property. */
+/** Wraps a callback for the core in a plain function: the one from comlink is a proxy, which has every property. */
 function plain(progress: OnProgress): OnProgress {
   return (stage, fraction, done) => {
     progress(stage, fraction, done);
   };
 }
 
-/** Bytes that may be transferred: those that lie in the core's own memory are copied out of it. */
+/** Bytes that can be transferred: a view of the core's memory, or of a larger buffer, is copied. */
 function own(bytes: Uint8Array): Uint8Array<ArrayBuffer> {
   const isShared = bytes.buffer === memory?.buffer || bytes.byteLength !== bytes.buffer.byteLength;
   return isShared ? bytes.slice() : (bytes as Uint8Array<ArrayBuffer>);
 }
 
-/** Takes chunks and makes a Blob of them without ever having them in one array. */
+/** Collects chunks into a Blob without ever holding all of them in one array. */
 class BlobSink {
   #done = new Blob([]);
   #parts: Uint8Array<ArrayBuffer>[] = [];
@@ -83,7 +83,7 @@ const api: SlicerWorker = {
   },
   async open(file, progress) {
     progress("load", 0, 0);
-    // What is no STL is refused before it takes memory.
+    // Reject a file that is no STL before reading all of it.
     identify(await bytesOf(file.slice(0, head_bytes())), file.size);
     const opened = new Slicer(await bytesOf(file));
     slicer?.free();
@@ -167,5 +167,5 @@ const api: SlicerWorker = {
   printers,
 };
 
-// A server that imports every entry has nothing to listen to.
+// On a server that imports every entry there is nothing to listen to.
 if (globalThis.addEventListener !== undefined) Comlink.expose(api);
