@@ -1,7 +1,8 @@
 /**
- * `<cusp-slicer>`: a look at a model, a choice of quality, a time, an amount of resin and a print file.
+ * `<cusp-slicer>`: shows a model in its layers, a choice of quality, the print time and the amount of resin, and makes the
+ * print file.
  *
- * Everything is worked out in the customer's browser. See docs/embed.md for attributes, events, colours and parts.
+ * Everything runs in the customer's browser. See docs/embed.md for attributes, events, colours and parts.
  */
 import { LitElement, type PropertyValues, type TemplateResult } from "lit";
 import { SlicerError } from "../api/error.js";
@@ -36,14 +37,14 @@ export type State = "empty" | "busy" | "error" | "done" | "ready";
 export class CuspSlicer extends LitElement {
   static override properties = { ...DECLARATIONS, dragging: { state: true } };
 
-  /** Address of an STL, which is opened when it is set. */
+  /** URL of an STL, opened when set. */
   declare src: string | null;
   /** @internal */
   declare dragging: boolean;
 
   static override styles = [shared, summaryStyles, progressStyles, problemStyles, layoutStyles];
 
-  /** What this element works with; a page may ask it for more than the element shows. */
+  /** The headless slicer behind the element; a page may call it for more than the element shows. */
   readonly slicer: Slicer = createSlicer();
   readonly #reports: Reports = new Reports(this, {
     isCurrent: () => this.#session.isCurrent,
@@ -78,7 +79,7 @@ export class CuspSlicer extends LitElement {
 
   override disconnectedCallback(): void {
     super.disconnectedCallback();
-    // Something that is only moved is back before this.
+    // An element that was only moved is connected again by now.
     queueMicrotask(() => {
       if (this.isConnected) return;
       this.cancel();
@@ -94,17 +95,17 @@ export class CuspSlicer extends LitElement {
     return result !== null ? "done" : model !== null ? "ready" : "empty";
   }
 
-  /** The model that is open. */
+  /** The open model; null if there is none. */
   get model(): Model | null {
     return this.#session.model;
   }
 
-  /** The last plan that worked. */
+  /** The last successful plan; null if there is none. */
   get result(): Result | null {
     return this.#session.result;
   }
 
-  /** BCP 47; if absent, that of the nearest `lang`, or what the browser prefers. */
+  /** BCP 47 language tag; if null, the nearest `lang`, then the browser's languages. */
   get locale(): string | null {
     return this.#locale;
   }
@@ -115,7 +116,10 @@ export class CuspSlicer extends LitElement {
     this.requestUpdate();
   }
 
-  /** What is shown, separated by blanks: open, model, settings, plan, view, profile, orientation, quality, layers. All if absent. */
+  /**
+   * The panels to show, separated by spaces: open, model, settings, plan, view, profile, orientation, quality, layers. Null
+   * shows all.
+   */
   get panels(): string | null {
     return this.#panels?.join(" ") ?? null;
   }
@@ -127,8 +131,8 @@ export class CuspSlicer extends LitElement {
   }
 
   /**
-   * Attributes that the page alone decides, separated by blanks: printer, format, resin, metric, tolerance, layer-min,
-   * layer-max. They are shown and cannot be changed; undo, offers and the property `query` leave them alone.
+   * Attributes that only the page may change, separated by spaces: printer, format, resin, metric, tolerance, layer-min,
+   * layer-max. The form shows them read-only; undo, offers and the property `query` leave them alone.
    */
   get fixed(): string | null {
     return this.#fixed?.join(" ") ?? null;
@@ -149,7 +153,7 @@ export class CuspSlicer extends LitElement {
     this.#attributes.set("printer", printer);
   }
 
-  /** Name of one of {@link resins}; empty for the usual one. */
+  /** Name of one of {@link resins}; empty for the default one. */
   get resin(): string {
     return this.#session.settings.resin;
   }
@@ -157,7 +161,10 @@ export class CuspSlicer extends LitElement {
     this.#attributes.set("resin", resin);
   }
 
-  /** Greatest error of a layer in the metric's unit: mm, mm, a part of one, mm³. Null for the usual one. */
+  /**
+   * Largest error of a layer in the metric's unit: mm (cusp, roughness), a fraction (area) or mm³ (volume). Null for the
+   * default.
+   */
   get tolerance(): number | null {
     const { metric, tolerances } = this.#session.settings;
     const typed = parse(tolerances[metric] ?? "");
@@ -167,7 +174,7 @@ export class CuspSlicer extends LitElement {
     this.#attributes.set("tolerance", tolerance);
   }
 
-  /** Least layer thickness, mm. */
+  /** Minimum layer thickness in mm. */
   get layerMin(): number {
     return parse(this.#session.settings.layerMin) ?? Number.NaN;
   }
@@ -175,7 +182,7 @@ export class CuspSlicer extends LitElement {
     this.#attributes.set("layer-min", mm);
   }
 
-  /** Greatest layer thickness, mm. */
+  /** Maximum layer thickness in mm. */
   get layerMax(): number {
     return parse(this.#session.settings.layerMax) ?? Number.NaN;
   }
@@ -183,7 +190,7 @@ export class CuspSlicer extends LitElement {
     this.#attributes.set("layer-max", mm);
   }
 
-  /** What the tolerance measures. */
+  /** The metric of the tolerance. */
   get metric(): Metric {
     return this.#session.settings.metric;
   }
@@ -191,7 +198,7 @@ export class CuspSlicer extends LitElement {
     this.#attributes.set("metric", metric);
   }
 
-  /** The print file; null for the printer's own. */
+  /** The format of the print file; null for the printer's own. */
   get format(): Format | null {
     const { format } = this.#session.settings;
     return format === "" ? null : format;
@@ -201,8 +208,8 @@ export class CuspSlicer extends LitElement {
   }
 
   /**
-   * A place on the trade-off curve instead of a tolerance, from 0, the quickest print worth having, to 1, the finest.
-   * Null before the curve is known.
+   * Instead of a tolerance, a point on the trade-off curve from 0, the fastest print worth having, to 1, the finest.
+   * Null until the curve is known.
    */
   get quality(): number | null {
     return this.#session.quality;
@@ -212,7 +219,7 @@ export class CuspSlicer extends LitElement {
     if (read !== undefined) this.#session.quality = read;
   }
 
-  /** Where rays are cast: `cpu`, `gpu`, or null for the best there is. */
+  /** Where rays are cast: `cpu`, `gpu`, or null for the best available. */
   get backend(): Backend | null {
     return this.#session.backend;
   }
@@ -223,7 +230,7 @@ export class CuspSlicer extends LitElement {
     this.#session.replan();
   }
 
-  /** How much each facet matters, 0 to 1 in the order of `slicer.positions()`; null: all alike. The plan follows. */
+  /** How much each facet matters, 0 to 1 in the order of `slicer.positions()`; null: all equally. Setting it plans again. */
   get weights(): Float32Array | null {
     return this.#session.weights;
   }
@@ -241,7 +248,7 @@ export class CuspSlicer extends LitElement {
     this.requestUpdate();
   }
 
-  /** All settings as the query of an address, such as `metric=area&tolerance=5`: what is default is left out. */
+  /** All settings as a URL query, such as `metric=area&tolerance=5`; defaults are left out. */
   get query(): string {
     return toAddress(this.#session.settings);
   }
@@ -251,7 +258,7 @@ export class CuspSlicer extends LitElement {
   }
 
   /**
-   * Opens a model, or the first of several; the plan follows by itself.
+   * Opens a model, or the first of several files, and starts to plan it.
    *
    * @throws SlicerError; an `AbortError` if it was cancelled, or if another model was opened meanwhile.
    */
@@ -261,7 +268,10 @@ export class CuspSlicer extends LitElement {
     throw this.#reason();
   }
 
-  /** The plan that the settings give, once it is there. */
+  /**
+   * Resolves with the plan for the settings. Rejects with `bad-options` if a setting is invalid, with `no-model` if no model
+   * is open, with an `AbortError` if it was cancelled, or with the error of the plan.
+   */
   plan(): Promise<Plan> {
     this.#attributes.settle();
     if (Object.keys(this.#session.faults).length > 0) {
@@ -276,7 +286,10 @@ export class CuspSlicer extends LitElement {
     return planned;
   }
 
-  /** The print file of the plan that the settings give; nothing is saved. */
+  /**
+   * Resolves with the print file of the plan for the settings, without saving it. Rejects with `no-plan` if no model is open,
+   * otherwise as {@link plan} does.
+   */
   async export(): Promise<PrintFile> {
     if (this.model !== null) await this.plan();
     const download = await this.#session.export();
@@ -285,10 +298,10 @@ export class CuspSlicer extends LitElement {
   }
 
   /**
-   * A square PNG of the model in the layers of its plan, on a transparent ground: for a basket, or a list of orders. Rejects with
-   * `part-failed` where the 3-D view cannot be loaded or there is no WebGL.
+   * A square PNG of the model in the layers of its plan, on a transparent background, for a basket or a list of orders.
+   * Rejects with `part-failed` if the renderer cannot be loaded or there is no WebGL.
    *
-   * @param size_px of each side, 16 to 2048
+   * @param size_px length of each side in pixels, clamped to 16 to 2048
    */
   async thumbnail(size_px = THUMBNAIL_PX): Promise<Blob> {
     await this.plan();
@@ -297,7 +310,7 @@ export class CuspSlicer extends LitElement {
     return thumbnailOf(this.slicer, result, size_px);
   }
 
-  /** Stops what is under way within a tenth of a second, a search for directions too; the last plan stays. */
+  /** Stops the running task and an orientation search within 0.1 s; the last plan stays. */
   cancel(): void {
     this.#session.cancel();
     this.#session.orientation.cancel();
@@ -332,7 +345,7 @@ export class CuspSlicer extends LitElement {
   override updated(): void {
     const before = this.getAttribute("state");
     this.setAttribute("state", this.state);
-    // Whoever pressed a button of the empty element, which is gone now, must not be left nowhere.
+    // The button that opened the model is gone, and the focus with it: move the focus to the model's name.
     const root = this.renderRoot as ShadowRoot;
     if (before === "busy" && root.activeElement === null && this.#orphaned && this.model !== null) {
       this.#orphaned = false;
@@ -340,10 +353,10 @@ export class CuspSlicer extends LitElement {
     }
   }
 
-  /** Whether the focus was on something of the empty element when a model was opened from there. */
+  /** Whether a model was opened with a button of the empty element, so that the focus will be lost. */
   #orphaned = false;
 
-  /** @internal Called by whoever opens a model by a button that goes when the model comes. */
+  /** @internal Called before a model is opened with a button that disappears once it is open. */
   willOrphan(): void {
     this.#orphaned = this.model === null;
   }
@@ -353,13 +366,13 @@ export class CuspSlicer extends LitElement {
     return languageOf(...locales.filter((locale) => locale !== null));
   }
 
-  /** An attribute that makes no sense is its developer's affair: a customer sees nothing of it. */
+  /** An invalid attribute concerns the page's developer: the element does not show it to customers. */
   #misused(error: SlicerError): void {
     console.warn(`<cusp-slicer>: ${error.message}`, this);
     this.#reports.tell("cusp-error", error);
   }
 
-  /** Why the last task came to nothing. */
+  /** Why the last task gave no result. */
   #reason(): unknown {
     return this.#session.failure?.error ?? new DOMException("cancelled", "AbortError");
   }
@@ -367,7 +380,7 @@ export class CuspSlicer extends LitElement {
   readonly #picked = (event: Event): void => {
     const input = event.target as HTMLInputElement;
     const files = [...(input.files ?? [])];
-    // So that choosing the same file again is a change.
+    // Choosing the same file again must fire a change event.
     input.value = "";
     if (files.length > 0) this.willOrphan();
     void this.#session.choose(files);
@@ -384,10 +397,10 @@ export class CuspSlicer extends LitElement {
   };
 }
 
-/** Pixels of each side of a thumbnail if nothing else is said. */
+/** The default side length of a thumbnail in pixels. */
 const THUMBNAIL_PX = 400;
 
-/** From this width on settings stand beside the results, and are open. */
+/** From this width on, the settings are beside the results and expanded. */
 const WIDE_PX = 896;
 
 declare global {

@@ -1,6 +1,6 @@
 /**
- * Makes an element known to the browser, unless it is: two copies of this package may be on one page. On a server, where
- * there are no elements, it does nothing.
+ * Registers a custom element unless its name is taken: a page may hold two copies of this package. On a server, without
+ * custom elements, it does nothing.
  */
 export function define(name: string, element: CustomElementConstructor): void {
   if (globalThis.customElements === undefined || customElements.get(name) !== undefined) return;

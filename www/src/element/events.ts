@@ -1,4 +1,4 @@
-/** What an element tells its page. None of these events bubbles out of a shadow root of the page's own. */
+/** The events that the element fires for its page. They bubble, and cross the shadow roots around the element. */
 import type { SlicerError } from "../api/error.js";
 import type { Model, Plan, PrintFile } from "../api/index.js";
 import type { Candidate, Stage } from "../api/wire.js";
@@ -10,36 +10,36 @@ export interface ProgressDetail {
   fraction: number;
   /** 0 to 1 within the task. */
   done: number;
-  /** Seconds that the task will yet take; null where nobody can know. */
+  /** Estimated seconds left; null while it is too early to tell. */
   left_s: number | null;
 }
 
 export interface ChangeDetail {
-  /** The settings as the query of an address: see the property `query`. */
+  /** The settings as a URL query: see the property `query`. */
   query: string;
 }
 
 export interface Painted {
-  /** How much each facet matters, 0 to 1; null: all alike. */
+  /** How much each facet matters, 0 to 1; null: all equally. */
   weights: Float32Array | null;
-  /** False while a stroke of the brush goes on. */
+  /** False while a brush stroke continues. */
   final: boolean;
 }
 
 export interface CuspSlicerEvents {
   /** A model was read. */
   "cusp-load": CustomEvent<Model>;
-  /** There is a new plan. */
+  /** A new plan is ready. */
   "cusp-plan": CustomEvent<Plan>;
   "cusp-progress": CustomEvent<ProgressDetail>;
-  /** A print file was asked for by its button. Unless this is prevented, the browser saves it. */
+  /** The download button was pressed. Cancelable: `preventDefault()` keeps the browser from saving the print file. */
   "cusp-export": CustomEvent<PrintFile>;
-  /** Something failed; the element shows it as well, unless it is a `bad-attribute`, which is for the page's developer. */
+  /** Something failed. The element shows it too, except for a `bad-attribute`, which concerns the page's developer. */
   "cusp-error": CustomEvent<SlicerError>;
-  /** A person or a program changed how much facets matter. */
+  /** The user or a script changed the weights. */
   "cusp-paint": CustomEvent<Painted>;
-  /** A person chose a direction to build in; the plan follows. */
+  /** The user chose an orientation; the plan follows. */
   "cusp-orientation": CustomEvent<Candidate>;
-  /** A person or a program changed the settings. */
+  /** The user or a script changed the settings. */
   "cusp-change": CustomEvent<ChangeDetail>;
 }

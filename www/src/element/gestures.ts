@@ -1,7 +1,7 @@
-/** What a person does to the whole element: drops and pastes files, and presses keys. */
+/** Gestures on the whole element: dropping and pasting files, and keyboard shortcuts. */
 
 export interface Gestures {
-  /** Files are held over the element, or no more. */
+  /** Files are dragged over the element, or have left it. */
   dragging(isOver: boolean): void;
   open(files: readonly File[]): void;
   cancel(): void;
@@ -32,7 +32,7 @@ export function watchGestures(element: HTMLElement, gestures: Gestures): void {
 function pressed(event: KeyboardEvent, { cancel, undo, redo }: Gestures): void {
   if (event.key === "Escape") return cancel();
   const [origin] = event.composedPath();
-  // In a text field these keys are the browser's own.
+  // In a text field, the browser handles these keys.
   if (!(event.ctrlKey || event.metaKey) || (origin instanceof HTMLInputElement && origin.type === "text")) return;
   const key = event.key.toLowerCase();
   if (key === "y" || (key === "z" && event.shiftKey)) redo();

@@ -1,4 +1,4 @@
-/** The tables of docs/embed.md against the lists that the element goes by. */
+/** Compares the tables of docs/embed.md with the element's own lists. */
 import { readFile } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
 import { expect, test } from "vitest";
@@ -20,7 +20,7 @@ function rowsOf(heading: string): string[][] {
   return lines.slice(0, end).map((line) => line.split("|").slice(1, -1).map((cell) => cell.trim()));
 }
 
-/** What a cell has between backticks. */
+/** The texts between backticks in a cell. */
 const codesIn = (cell = ""): string[] => [...cell.matchAll(/`([^`]+)`/g)].map(([, code = ""]) => code);
 
 const rows = rowsOf("attribute | property |");
@@ -43,7 +43,7 @@ test.each([
   ["format", FORMATS],
   ["panels", PANELS],
   ["fixed", SETTING_NAMES],
-])("the guide lists all that %s may be", (attribute, known) => {
+])("the guide lists all values of %s", (attribute, known) => {
   const row = rows.find(([attributes]) => codesIn(attributes).includes(attribute));
   const told = codesIn(row?.[2]).flatMap((code) => code.split(" "));
   expect(told.toSorted()).toEqual([...known].toSorted());

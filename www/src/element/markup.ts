@@ -1,6 +1,6 @@
 /**
- * The element in the markup of frameworks: what can be set there, and what can be listened to. All of that follows from
- * the list of properties and from the events, so that nothing is listed twice.
+ * Types for the element in the markup of frameworks: its properties, attributes and listeners. They derive from the list of
+ * properties and from the events, so that nothing is listed twice.
  */
 import type { CuspSlicer } from "./cusp-slicer.js";
 import type { CuspSlicerEvents } from "./events.js";
@@ -16,7 +16,7 @@ export type CuspSlicerAttributes = {
   [Name in PropertyName as Name | AttributeOf<Name>]?: Written<CuspSlicer[Name]> | undefined;
 };
 
-/** Listeners, by what a framework writes before an event's name. */
+/** Listeners, with the prefix that a framework puts before an event's name. */
 export type CuspSlicerListeners<Prefix extends string> = {
   [Name in keyof CuspSlicerEvents as `${Prefix}${Name}`]?: ((event: CuspSlicerEvents[Name]) => void) | undefined;
 };

@@ -9,18 +9,18 @@ type Own = Exclude<keyof CuspSlicer, keyof LitElement>;
 
 type IsReadOnly<Name extends Own> = Same<Pick<CuspSlicer, Name>, Readonly<Pick<CuspSlicer, Name>>>;
 
-/** Properties of the class itself: nothing that is called, and nothing for the page around the element alone. */
+/** Properties of the class itself, without its methods. */
 type Properties = { [Name in Own]: CuspSlicer[Name] extends (...given: never) => unknown ? never : Name }[Own];
 
 type Settable = { [Name in Properties]: IsReadOnly<Name> extends true ? never : Name }[Properties];
 
-test("the list names every property that can be set, and every one that can only be read", () => {
-  // `dragging` is the element's own.
+test("the lists name every settable property and every read-only one", () => {
+  // `dragging` is internal.
   expectTypeOf<Exclude<Settable, "dragging">>().toEqualTypeOf<PropertyName>();
   expectTypeOf<Exclude<Properties, Settable | "slicer">>().toEqualTypeOf<(typeof READ_ONLY)[number]>();
 });
 
-test("an attribute is its property with hyphens, and Lit is told of each", () => {
+test("an attribute is its property's name with hyphens, and is declared to Lit", () => {
   const hyphenated = (name: string): string => name.replaceAll(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`);
   for (const [name, it] of Object.entries(PROPERTIES)) {
     expect(it?.attribute ?? hyphenated(name)).toBe(hyphenated(name));

@@ -1,6 +1,6 @@
 /**
- * What a page may say of `<cusp-slicer>`, in one list: Lit's declarations, the judgement of attributes and the types for
- * frameworks follow from it. Tests hold the class and the tables of docs/embed.md to it.
+ * The one list of what a page may set on `<cusp-slicer>`: Lit's declarations, the checks of attributes and the types for
+ * frameworks derive from it. Tests compare the class and the tables of docs/embed.md with it.
  */
 import type { PropertyDeclaration } from "lit";
 import type { Backend } from "../api/wire.js";
@@ -9,25 +9,25 @@ import { PANELS } from "./state/panel-names.js";
 import { fraction, languageTag, number, oneOf, someOf, text, type Reader } from "./state/readers.js";
 import { FORMATS, type Settings } from "./state/settings.js";
 
-/** A property that is an attribute as well. */
+/** A property that is also an attribute. */
 interface Attribute {
   readonly attribute: string;
-  /** What makes sense; an address is judged where it is opened. */
+  /** Reads and checks a value; absent for a URL, which is checked when it is opened. */
   readonly read?: Reader<unknown>;
-  /** The setting that it is. */
+  /** The setting that it sets. */
   readonly sets?: keyof Settings;
 }
 
 type Attributes = Readonly<Record<string, Attribute>>;
 
-/** A list of properties by their attributes. */
+/** A list of properties, keyed by attribute. */
 type ByAttribute<List extends Attributes> = { readonly [Name in keyof List as List[Name]["attribute"]]: List[Name] };
 
 function byAttribute<List extends Attributes>(list: List): ByAttribute<List> {
   return Object.fromEntries(Object.values(list).map((it) => [it.attribute, it])) as ByAttribute<List>;
 }
 
-/** A metric comes before the tolerance that is in its unit. */
+/** The metric comes before the tolerance, which is in its unit. */
 const SETTING_PROPERTIES = {
   printer: { attribute: "printer", read: text, sets: "printer" },
   format: { attribute: "format", read: oneOf(FORMATS), sets: "format" },
@@ -67,7 +67,7 @@ export type PropertyName = keyof typeof PROPERTIES;
 /** Properties that can only be read; `state` is reflected in an attribute of that name. */
 export const READ_ONLY = ["state", "model", "result"] as const;
 
-/** What Lit is told: all but `src` have setters of their own, which make what they can of an attribute as it is written. */
+/** Declarations for Lit. All except `src` have setters of their own, which receive an attribute's text unconverted. */
 export const DECLARATIONS: Readonly<Record<string, PropertyDeclaration>> = {
   ...Object.fromEntries(
     Object.entries(ATTRIBUTE_PROPERTIES).map(([name, { attribute }]) => [

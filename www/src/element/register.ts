@@ -1,4 +1,4 @@
-/** Makes `<cusp-slicer>` known to the browser. */
+/** Registers `<cusp-slicer>`. */
 import { CuspSlicer } from "./cusp-slicer.js";
 import { define } from "./define.js";
 

@@ -1,4 +1,4 @@
-/** What a session tells, passed on: to the page as events, and to whoever waits for a plan. */
+/** Passes on what a session reports: to the page as events, and to calls that wait for a plan. */
 import type { SlicerError } from "../api/error.js";
 import type { Model, Plan } from "../api/index.js";
 import type { Candidate } from "../api/wire.js";
@@ -12,13 +12,13 @@ interface Waiting {
   reject(error: unknown): void;
 }
 
-/** What of an element speaks to its page. */
+/** The part of an element that reports use. */
 type Speaker = Pick<HTMLElement, "dispatchEvent"> & { requestUpdate(): void; readonly query: string };
 
 interface Asked {
-  /** Whether the last plan is what the settings ask for. */
+  /** Whether the last plan is for the current settings. */
   isCurrent(): boolean;
-  /** There is more to choose from. */
+  /** The list of printers has arrived. */
   offered(): void;
 }
 
@@ -32,12 +32,12 @@ export class Reports implements Host {
     this.#asked = asked;
   }
 
-  /** The next plan that is what the settings ask for. */
+  /** Resolves with the next plan for the current settings; rejects if one fails or is cancelled. */
   nextPlan(): Promise<Plan> {
     return new Promise((resolve, reject) => this.#waiting.push({ resolve, reject }));
   }
 
-  /** Dispatches an event; false if the page prevents what would follow. */
+  /** Dispatches an event; returns false if the page called `preventDefault()`. */
   tell<Name extends keyof CuspSlicerEvents>(name: Name, detail: CuspSlicerEvents[Name]["detail"]): boolean {
     const isCancelable = name === "cusp-export";
     return this.#speaker.dispatchEvent(new CustomEvent(name, { detail, bubbles: true, composed: true, cancelable: isCancelable }));

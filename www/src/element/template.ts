@@ -1,4 +1,4 @@
-/** What an element looks like, as a function of what its session says. */
+/** The element's template, as a function of its session. */
 import { html, nothing, type TemplateResult } from "lit";
 import type { Slicer } from "../api/index.js";
 import type { Candidate } from "../api/wire.js";
@@ -70,7 +70,7 @@ function notice({ session, language: { texts } }: Drawn): TemplateResult | typeo
   </section>`;
 }
 
-/** Before there is a model. */
+/** The element before a model is open. */
 function start({ session, language, panels, picked }: Drawn): TemplateResult {
   const { busy } = session;
   const { texts } = language;
@@ -245,18 +245,18 @@ function results(drawn: Drawn, result: Result): TemplateResult {
   `;
 }
 
-/** The session tells it again, of the element. */
+/** The session reports the weights, and the element fires the event again. */
 function painted(session: Session, event: CustomEvent<Painted>): void {
   session.setWeights(event.detail.weights, event.detail.final);
 }
 
-/** Tells the view where the chart beside it shows which heights. */
+/** Passes the chart's position and heights to the view beside it. */
 function placed({ target, detail }: CustomEvent<PlotPlace>): void {
   const view = beside(target, "cusp-model");
   if (view !== null) view.plot = detail;
 }
 
-/** Tells the sphere of directions how the view beside it looks at the model. */
+/** Passes the view's camera to the orientation panel beside it. */
 function seen({ target, detail }: CustomEvent<Rotation>): void {
   const panel = beside(target, "cusp-orientation");
   if (panel !== null) panel.camera = detail;
@@ -277,24 +277,24 @@ function searchedOf({ orientation: { aims, found, best, busy, isCurrent, isPossi
 
 const rotations = new Map<string, Rotation>();
 
-/** Made once, since another array would be another rotation. */
+/** Cached, since a new array would count as a new rotation. */
 function rotationOf(text: string): Rotation {
   let rotation = rotations.get(text);
   if (rotation === undefined) rotations.set(text, (rotation = quaternion(text) ?? UPRIGHT));
   return rotation;
 }
 
-/** A height that is asked for is that of the model as it stands, or as it is being turned. */
+/** A requested height is that of the model in its pose, or in the one that it is being turned to. */
 function scaledOf({ result, turning, shown }: Session): Scaled | null {
   if (result?.options.height_mm === undefined) return null;
   const height_mm = turning === null ? result.report.height_mm : (shown?.z_mm.at(-1) ?? result.report.height_mm);
   return { height_mm, rotation: turning ?? result.options.rotation ?? UPRIGHT };
 }
 
-/** Said of a result that the settings on show did not give. */
+/** The note on a result that is not for the settings shown. */
 function earlier({ session, problem, language: { texts } }: Drawn): TemplateResult | typeof nothing {
   if (!session.earlier) return nothing;
-  // Without a fault or a problem it was cancelled, and only then would trying again help.
+  // Without a fault or a problem, the plan was cancelled: only then does trying again help.
   const again = Object.keys(session.faults).length === 0 && problem === null;
   return html`<p class="earlier">
     ${texts.plan.earlier}
@@ -302,7 +302,7 @@ function earlier({ session, problem, language: { texts } }: Drawn): TemplateResu
   </p>`;
 }
 
-/** Spoken: what began, what came of it; not every step. */
+/** For screen readers: the start and the outcome of a task, not every step. */
 function announcement({ session, language }: Drawn): string {
   const { busy, result, notice, earlier } = session;
   const { texts, format } = language;
@@ -313,7 +313,7 @@ function announcement({ session, language }: Drawn): string {
   return `${texts.plan.said(layers, format.time(print_time_s))} ${sentence(result, language)}`;
 }
 
-/** A vase cut into layers, the sign over the drop zone. */
+/** The icon above the drop zone: a vase in layers. */
 const layersPicture = html`<svg viewBox="0 0 64 56" width="80" height="70" aria-hidden="true">
   <rect x="22" y="2" width="20" height="3" fill="#c82a36" />
   <rect x="17" y="6" width="30" height="3" fill="#ef6c48" />
