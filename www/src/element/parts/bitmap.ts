@@ -1,9 +1,9 @@
-/** Packed masks (one bit a pixel, most significant first, rows padded to whole bytes) made smaller for the screen. */
+/** Scales packed masks down for the screen: one bit per pixel, most significant first, rows padded to whole bytes. */
 
 export interface Coverage {
   width: number;
   height: number;
-  /** For each pixel the part of it that is lit, 0 to 255. */
+  /** The lit fraction of each pixel, 0 to 255. */
   values: Uint8ClampedArray;
 }
 
@@ -14,14 +14,14 @@ export interface Rectangle {
   height: number;
 }
 
-/** How many pixels of a mask can be one on the screen, where `scale` of them are: 1, 2, 4 or 8. */
+/** How many mask pixels per side to merge into one, at `scale` screen pixels per mask pixel: 1, 2, 4 or 8. */
 export function factorFor(scale: number): number {
   let factor = 1;
   while (factor < 8 && 2 * factor * scale <= 1) factor *= 2;
   return factor;
 }
 
-/** The part of a mask that holds `part` and begins at whole bytes, so that it can be merged by any factor. */
+/** `part` extended to multiples of 8 pixels, within the mask, so that it can be merged by any factor. */
 export function wholeBytes({ x, y, width, height }: Rectangle, maskWidth: number, maskHeight: number): Rectangle {
   const down = (value: number): number => Math.max(0, Math.floor(value / 8) * 8);
   const [left, top] = [down(x), down(y)];
@@ -38,7 +38,7 @@ const BITS = Uint8Array.from({ length: 256 }, (_, byte) => {
 
 /**
  * A part of a mask with blocks of `factor` × `factor` pixels merged. `factor` is 1, 2, 4 or 8 and `part.x` a multiple of
- * 8, so that no block splits a byte. Cost: the bytes of the part.
+ * 8, so that no block straddles two bytes. Cost: linear in the bytes of the part.
  */
 export function coverage(bits: Uint8Array, maskWidth: number, part: Rectangle, factor: number): Coverage {
   const stride = Math.ceil(maskWidth / 8);

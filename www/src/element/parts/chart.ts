@@ -1,8 +1,8 @@
 /**
- * The profile and the plan as a uPlot chart: height upwards, the metric's density to the right, the layers as bands of colour.
+ * The profile and the plan as a uPlot chart: height up, the metric's density to the right, the layers as bands of colour.
  *
- * uPlot's x is the axis that the data is sorted by, which here is the height: turning that scale upright (`ori: 1`) and
- * the density level (`ori: 0`) gives the paper's figure with uPlot's own decimation, zoom and cursor still working.
+ * uPlot's x is the axis that the data is sorted by, which here is the height. Making that scale vertical (`ori: 1`) and the
+ * density horizontal (`ori: 0`) gives the paper's figure, and keeps uPlot's own decimation, zoom and cursor.
  */
 import type uPlot from "uplot";
 import { css, ofThickness } from "../../view/legend/palette.js";
@@ -11,7 +11,7 @@ import { layerAt } from "../../view/scene/lookup.js";
 import { METRICS } from "../state/metric.js";
 import type { Shown } from "../state/result.js";
 
-/** What the chart is drawn from. */
+/** The data of the chart. */
 export type ChartData = Omit<Shown, "layers" | "print_time_s">;
 
 export interface ChartTheme {
@@ -19,48 +19,48 @@ export interface ChartTheme {
   /** Axis labels. */
   text: string;
   grid: string;
-  /** What the bands fade into beyond the profile. */
+  /** The colour that the bands fade into beyond the profile. */
   paper: string;
-  /** Between layers, where they are tall enough to tell apart. */
+  /** The line between layers that are tall enough to tell apart. */
   seam: string;
   font: string;
 }
 
-/** Rows of pixels that share a colour: the mean thickness of the layers they meet. */
+/** Rows of pixels with the same colour: that of the mean thickness of the layers they cross. */
 export interface Band {
   row: number;
   rows: number;
   thickness_mm: number;
 }
 
-/** Layers lower than this on the screen run together without a seam. */
+/** Layers lower than this on the screen have no seam. */
 const SEAM_FROM_PX = 5;
 
-/** Part of a row of pixels that rounding may get wrong. */
+/** Allowance for rounding, as a fraction of a pixel row. */
 const EDGE = 1e-6;
 
-/** How much of its colour a band keeps beyond the profile. */
+/** Opacity of a band beyond the profile. */
 const FADED = 0.45;
 
-/** Room beyond the greatest value, so that its line is seen. */
+/** Factor beyond the greatest value, so that its line is visible. */
 const MARGIN = 1.01;
 
 const QUARTERS = [0, 0.25, 0.5, 0.75, 1];
 
-/** Where the axis of the densities ends. */
+/** The end of the density axis: just beyond the metric's bound, or else beyond the greatest value of the profile. */
 export function densityEnd({ metric, profile }: ChartData): number {
   const end = METRICS[metric].bound ?? profile.reduce((most, value) => Math.max(most, value), 0);
   return end > 0 ? end * MARGIN : 1;
 }
 
-/** The bin centres as heights, and the densities, as uPlot wants them. */
+/** The heights of the bin centres in mm and the densities, in uPlot's format. */
 export function chartData({ profile, bin_mm }: ChartData): uPlot.AlignedData {
   return [Float64Array.from(profile, (_, i) => (i + 0.5) * bin_mm), profile];
 }
 
 /**
- * The plan as `rows` rows of pixels from the height `top` down to `bottom`; rows above or below the model are left out.
- * Cost: the layers in range plus the rows.
+ * The plan as `rows` rows of pixels from the height `top` down to `bottom`, in mm; rows above or below the model are left
+ * out. Cost: linear in the layers in range plus the rows.
  */
 export function bands(data: ChartData, top: number, bottom: number, rows: number): Band[] {
   const { z_mm, thickness_mm } = data;
@@ -83,7 +83,7 @@ export function bands(data: ChartData, top: number, bottom: number, rows: number
   return out;
 }
 
-/** The whole plot as a strip one pixel wide, to be repeated sideways: so the bands can fill any shape. */
+/** The bands of the whole plot as a pattern one pixel wide, repeated sideways, so that they can fill any shape. */
 function bandPattern(u: uPlot, data: ChartData, theme: ChartTheme): CanvasPattern | string {
   const { bbox } = u;
   const { min, max } = u.scales["x"] ?? {};
@@ -106,7 +106,7 @@ function bandPattern(u: uPlot, data: ChartData, theme: ChartTheme): CanvasPatter
   return u.ctx.createPattern(strip, "repeat-x") ?? "transparent";
 }
 
-/** Full colour lies under the profile; beyond it the same bands go on, faded into the paper. */
+/** Fills the plot with the bands, faded into the paper; the profile is filled with them in full colour later. */
 function drawFaded(u: uPlot, pattern: CanvasPattern | string, theme: ChartTheme): void {
   const { ctx, bbox } = u;
   ctx.save();
@@ -118,7 +118,7 @@ function drawFaded(u: uPlot, pattern: CanvasPattern | string, theme: ChartTheme)
   ctx.restore();
 }
 
-/** Everything uPlot needs for a chart of this size in CSS pixels. */
+/** The uPlot options for a chart of this size in CSS pixels. */
 export function chartOptions(
   data: ChartData,
   theme: ChartTheme,
@@ -144,7 +144,7 @@ export function chartOptions(
     legend: { show: false },
     cursor: { x: true, y: false, points: { show: false }, drag: { x: true, y: false, setScale: true, dist: 6 } },
     scales: {
-      // Points stand in the middle of their bins; the axis goes on to the ends of the first and the last.
+      // Points are at bin centres; the axis extends to the outer edges of the first and the last bin.
       x: {
         time: false,
         ori: 1,
@@ -161,7 +161,7 @@ export function chartOptions(
         side: 2,
         label: texts.metrics[data.metric].axis,
         size: 30,
-        // Where the end is known, quarters of it; else uPlot finds round numbers.
+        // Quarters of the bound, if there is one; otherwise uPlot picks round numbers.
         ...(bound !== null && { splits: QUARTERS.map((part) => part * bound) }),
         values: (_u, ticks) => ticks.map((value) => tick(value, format)),
       },

@@ -1,4 +1,4 @@
-/** What somebody should know before the download: what the file is, what the printer makes of it, and what nobody added. */
+/** The line at the download button: what the file is, whether the printer reads it, and that the model prints as it is. */
 import type { Printer } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
 import type { Result } from "../state/result.js";
@@ -11,7 +11,7 @@ export function fileWords({ report }: Pick<Result, "report">, printers: readonly
     if (format === "sl1" && report.planner !== "uniform") return [texts.settings.formatUniform];
     if (printer === undefined) return [];
     if (isRead) return [words.direct(printer.model)];
-    // No converter reads the images alone.
+    // No converter reads a zip of images alone.
     if (format === "png") return [words.unreadable(printer.model)];
     return [words.convert(printer.model, either(printer.reads.map((extension) => `.${extension}`)))];
   };

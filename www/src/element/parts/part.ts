@@ -1,9 +1,9 @@
-/** Parts that are fetched when they are first shown, and what a panel says where one cannot be had. */
+/** Parts that are fetched when first shown, and what a panel shows if one cannot be loaded. */
 import { css, html, type TemplateResult } from "lit";
 import { said, SlicerError } from "../../api/error.js";
 import type { Language } from "../../texts/index.js";
 
-/** The 3-D view; the pictures of the best directions; the chart of the profile. */
+/** The 3-D view; the pictures of the best orientations; the chart of the profile. */
 export type Part = "view" | "pictures" | "chart";
 
 export function partError(part: Part, cause: unknown): SlicerError {
@@ -11,7 +11,7 @@ export function partError(part: Part, cause: unknown): SlicerError {
   return new SlicerError("part-failed", `a part of the page could not be loaded: ${part} (${system})`, { part, system });
 }
 
-/** Tells the page. The panel's event passes for one of the element, whose plan is as good as before. */
+/** Fires `cusp-error` from the panel. It reaches the page as an event of the element, whose plan stays. */
 export function tellPartFailed(panel: HTMLElement, part: Part, cause: unknown): void {
   const detail = partError(part, cause);
   panel.dispatchEvent(new CustomEvent("cusp-error", { detail, bubbles: true, composed: true }));

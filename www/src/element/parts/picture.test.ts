@@ -6,7 +6,7 @@ import { bands, densityEnd, type ChartData } from "./chart.js";
 import * as colour from "../../view/legend/palette.js";
 import { layerAt } from "../../view/scene/lookup.js";
 
-/** What `coverage` must find, one pixel at a time. */
+/** A reference for `coverage`, one pixel at a time. */
 function naive(bits: Uint8Array, width: number, height: number, part: Rectangle, factor: number): number[] {
   const stride = Math.ceil(width / 8);
   const lit = (x: number, y: number): number =>
@@ -43,22 +43,22 @@ test.each([
   expect([...got.values]).toEqual(naive(BITS, MASK_WIDTH, MASK_HEIGHT, part, factor));
 });
 
-test("pixels are merged only as long as none on the screen goes without", () => {
+test("pixels are merged only while the merged ones are no larger than screen pixels", () => {
   expect([2, 1, 0.6, 0.5, 0.3, 0.25, 0.1, 0.01].map(factorFor)).toEqual([1, 1, 1, 2, 2, 4, 8, 8]);
 });
 
-test("a part in whole bytes holds the part, within the mask", () => {
+test("wholeBytes() extends a part to whole bytes, within the mask", () => {
   expect(wholeBytes({ x: 9, y: 3, width: 10, height: 6 }, 37, 29)).toEqual({ x: 8, y: 0, width: 16, height: 16 });
   expect(wholeBytes({ x: -4, y: -9, width: 99, height: 99 }, 37, 29)).toEqual({ x: 0, y: 0, width: 37, height: 29 });
 });
 
-test("the whole mask fits the screen in its true proportions", () => {
+test("the whole mask fits the screen with its true proportions", () => {
   const { part, scale } = windowOf(WHOLE, [100, 50], [400, 400], 2);
   expect(scale).toEqual([4, 8]);
   expect(part).toEqual({ x: 0, y: 0, width: 100, height: 50 });
 });
 
-test("zoomed in, the middle stays where it is, and the edges of the mask are not passed", () => {
+test("zooming keeps the centre, and moving stops at the edges of the mask", () => {
   const twice = zoomed({ zoom: 1, centre: [0.5, 0.5] }, 2);
   expect(windowOf(twice, [100, 100], [100, 100], 1).part).toEqual({ x: 25, y: 25, width: 50, height: 50 });
   const corner = moved(moved(twice, [9, 0]), [0, -9]);
@@ -66,7 +66,7 @@ test("zoomed in, the middle stays where it is, and the edges of the mask are not
   expect(zoomed(corner, 0.5)).toEqual(WHOLE);
 });
 
-test("thin is red, thick is blue, and what lies outside the scale is clamped", () => {
+test("thin is red, thick is blue, and values outside the scale are clamped", () => {
   const [thin, thick] = [colour.ofThickness("classic", 0.05, [0.05, 0.15]), colour.ofThickness("classic", 0.15, [0.05, 0.15])];
   expect(thin[0]).toBeGreaterThan(2 * thin[2]);
   expect(thick[2]).toBeGreaterThan(2 * thick[0]);
@@ -88,21 +88,21 @@ const data: ChartData = {
   limits: [0.1, 0.2],
 };
 
-test("rows of one thickness join into a band; from the top down", () => {
+test("rows of the same thickness join into a band, from the top down", () => {
   expect(bands(data, 0.4, 0, 8)).toEqual([
     { row: 0, rows: 4, thickness_mm: 0.2 },
     { row: 4, rows: 4, thickness_mm: 0.1 },
   ]);
 });
 
-test("a row over several layers has their mean, and rows off the model have none", () => {
+test("a row across several layers has their mean, and rows outside the model are left out", () => {
   const [only, ...others] = bands(data, 0.8, 0, 2);
   expect(others).toEqual([]);
   expect(only?.row).toBe(1);
   expect(only?.thickness_mm).toBeCloseTo(0.4 / 3);
 });
 
-test("the axis ends where the metric's densities do, or at the largest area of this model", () => {
+test("the axis ends at the metric's bound, or at the largest area of the model", () => {
   const end = (metric: ChartData["metric"], ...profile: number[]): number =>
     densityEnd({ ...data, metric, profile: Float32Array.from(profile) });
   expect(end("cusp", 0.5)).toBeCloseTo(1, 1);

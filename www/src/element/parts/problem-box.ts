@@ -1,4 +1,4 @@
-/** A failure on the screen: what happened, and the buttons that mend it. */
+/** The box that shows a failure: what happened, and a button for each offer. */
 import { css, html, nothing, type TemplateResult } from "lit";
 import type { Language } from "../../texts/index.js";
 import type { Problem } from "../state/problem.js";

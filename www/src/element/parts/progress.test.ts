@@ -3,14 +3,14 @@ import { advanced, secondsLeft, type Busy } from "./progress.js";
 
 const START: Busy = { task: "export", name: "", stage: "masks", fraction: 0, done: 0, started_ms: 0 };
 
-test("the time left is guessed from what is done, not before there is something to go by", () => {
+test("the time left is estimated from progress, once there is enough of it", () => {
   const at = (done: number, now_ms: number): number | null => secondsLeft({ ...START, done }, now_ms);
   expect(at(0.25, 5000)).toBe(15);
   expect(at(0.25, 500)).toBeNull();
   expect(at(0.01, 5000)).toBeNull();
 });
 
-test("an export that has to bring back a plan is timed from its own beginning", () => {
+test("an export that first replays a plan is timed from its own start", () => {
   const planned = advanced(START, { stage: "plan", fraction: 1, done: 1 }, 8000);
   expect(planned.started_ms).toBe(0);
   const writing = advanced(planned, { stage: "masks", fraction: 0, done: 0 }, 9000);

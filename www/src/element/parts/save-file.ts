@@ -1,6 +1,6 @@
-/** Has the browser save a file. */
+/** Saves a file through the browser. */
 
-/** Long enough for a browser to take hold of it. */
+/** Long enough for the browser to have started saving. */
 const SAVED_MS = 60_000;
 
 export function saveFile({ name, blob }: { name: string; blob: Blob }): void {

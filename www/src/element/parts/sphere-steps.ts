@@ -1,13 +1,13 @@
-/** From one direction of the sphere to the next by arrow key. */
+/** Moves from one direction on the sphere to the next by arrow key. */
 import type { Triple } from "../../view/scene/pose.js";
 
 export type Way = "left" | "right" | "up" | "down";
 
-/** How far a step looks for another direction at a time, degrees. */
+/** Increment in degrees by which a step looks for the next direction. */
 const LOOK_DEG = 2;
 const RADIANS = Math.PI / 180;
 
-/** A direction of the viewer's frame, so many degrees farther: around its vertical, or up and down at the same side. */
+/** A direction in the viewer's frame, moved by `degrees`: around the vertical, or up or down as far as the pole. */
 export function moved([x, y, z]: Triple, way: Way, degrees: number): Triple {
   const angle = degrees * RADIANS;
   if (way === "left" || way === "right") {
@@ -20,13 +20,13 @@ export function moved([x, y, z]: Triple, way: Way, degrees: number): Triple {
   return [Math.cos(turned) * Math.sin(around), Math.sin(turned), Math.cos(turned) * Math.cos(around)];
 }
 
-/** From the top or the bottom, where turning around the vertical leads nowhere, down to a side. */
+/** Moves away from the top or the bottom, where rotating about the vertical has no effect, to one side. */
 function aside([, y]: Triple, way: Way, degrees: number): Triple {
   const angle = degrees * RADIANS;
   return [way === "left" ? -Math.sin(angle) : Math.sin(angle), Math.sign(y) * Math.cos(angle), 0];
 }
 
-/** The first other direction that way; the same if there is none. */
+/** The index of the first other direction that way; that of `from` if there is none. */
 export function stepped(from: Triple, way: Way, indexOf: (seen: Triple) => number): number {
   const start = indexOf(from);
   const isAcross = way === "left" || way === "right";

@@ -1,15 +1,20 @@
-/** A small picture of a model in the layers of its plan, for places that have no room for an element. */
+/** A small picture of a model in the layers of its plan, for places without room for an element. */
 import type { Slicer } from "../../api/index.js";
 import { heightOf, UPRIGHT } from "../../view/scene/turn.js";
 import { partError } from "./part.js";
 import type { Result } from "../state/result.js";
 import { quaternion } from "../state/settings.js";
 
-/** Pixels of each side. */
+/** Limits of the side length in pixels. */
 const LEAST_PX = 16;
 const MOST_PX = 2048;
 
-/** @param size_px of each side, brought into 16 to 2048 */
+/**
+ * A PNG of the model in the layers of a plan. Rejects with `part-failed` if the renderer cannot be loaded or there is no
+ * WebGL.
+ *
+ * @param size_px length of each side in pixels, clamped to 16 to 2048
+ */
 export async function thumbnailOf(slicer: Pick<Slicer, "positions">, { report, options, limits }: Result, size_px: number): Promise<Blob> {
   const drawing = import("../../view/scene/thumbnails.js").catch((cause: unknown) => {
     throw partError("pictures", cause);

@@ -1,4 +1,4 @@
-/** What the 3-D view says, in the language of the element. */
+/** The texts of the 3-D view, in the element's language. */
 import type { Language } from "../../texts/index.js";
 import type { ViewTexts } from "../../view/texts.js";
 

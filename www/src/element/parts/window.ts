@@ -1,10 +1,10 @@
-/** Which part of a mask is on the screen, and how large: zoom and place as numbers. */
+/** Zoom and position of a mask: which part of it is on the screen, and at what scale. */
 import type { Rectangle } from "./bitmap.js";
 
 export interface Place {
   /** 1 shows the whole mask. */
   zoom: number;
-  /** What is in the middle, as parts of width and height. */
+  /** The point at the centre of the screen, as fractions of width and height. */
   centre: readonly [number, number];
 }
 
@@ -13,13 +13,13 @@ export const WHOLE: Place = { zoom: 1, centre: [0.5, 0.5] };
 const MOST_ZOOM = 64;
 
 export interface Window {
-  /** What is seen of the mask, in its pixels; may reach beyond its edges. */
+  /** The visible part of the mask, in its pixels; may extend beyond its edges. */
   part: Rectangle;
-  /** Screen pixels of a mask's pixel, sideways and upright. */
+  /** Screen pixels per mask pixel, horizontally and vertically. */
   scale: readonly [number, number];
 }
 
-/** `pitch` is how much taller than wide the mask's pixels are. */
+/** The visible part of a mask on a screen. `pitch` is the height of a mask pixel divided by its width. */
 export function windowOf(place: Place, mask: readonly [number, number], screen: readonly [number, number], pitch: number): Window {
   const fit = Math.min(screen[0] / mask[0], screen[1] / (mask[1] * pitch));
   const scale = [fit * place.zoom, fit * place.zoom * pitch] as const;
@@ -32,13 +32,13 @@ export function windowOf(place: Place, mask: readonly [number, number], screen: 
   };
 }
 
-/** Twice as large, or half. */
+/** Multiplies the zoom, within 1 to 64. */
 export function zoomed({ zoom, centre }: Place, times: number): Place {
   const next = Math.min(MOST_ZOOM, Math.max(1, zoom * times));
   return next === 1 ? WHOLE : { zoom: next, centre };
 }
 
-/** Moved by parts of what is seen, not beyond the edges. */
+/** Moves by fractions of the visible part, up to the edges of the mask. */
 export function moved({ zoom, centre: [x, y] }: Place, [dx, dy]: readonly [number, number]): Place {
   const inside = (value: number): number => Math.min(1 - 0.5 / zoom, Math.max(0.5 / zoom, value));
   return { zoom, centre: [inside(x + dx / zoom), inside(y + dy / zoom)] };
