@@ -1,4 +1,4 @@
-/** The elements that an element is made of. */
+/** The custom elements of the panels. */
 import { define } from "../define.js";
 import { CuspOrientation } from "./orientation-panel.js";
 import { CuspSphere } from "./orientation-sphere.js";
@@ -18,7 +18,7 @@ const PARTS = {
   "cusp-sphere": CuspSphere,
 } as const;
 
-/** Makes the parts known to the browser, once, and not before an element is made. */
+/** Registers the panels' elements once. Called when an element is created, not when this file is imported. */
 export function definePanels(): void {
   for (const [name, part] of Object.entries(PARTS)) define(name, part);
 }

@@ -1,4 +1,4 @@
-/** A layer's mask on a canvas at any zoom, with the range input that goes through the layers, and play. */
+/** A layer's mask on a canvas that zooms, with a slider through the layers and a play button. */
 import { css, html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
 import type { Mask } from "../../api/index.js";
@@ -11,11 +11,11 @@ import { shared } from "../styles/shared.js";
 import { moved, WHOLE, windowOf, zoomed } from "../parts/window.js";
 import { elementWith, given, own } from "../../view/properties.js";
 
-/** Least time between two layers when they are played; for those who want less motion. */
+/** Minimum time between two layers during playback, normally and with reduced motion. */
 const FRAME_MS = 60;
 const CALM_FRAME_MS = 400;
 
-/** How far an arrow key moves the picture, as a part of what is seen. */
+/** How far an arrow key moves the picture, as a fraction of the visible part. */
 const STEP = 0.125;
 
 const ARROWS: Readonly<Record<string, readonly [number, number]>> = {
@@ -38,7 +38,7 @@ const PROPERTIES = {
 export class CuspMask extends elementWith(PROPERTIES) {
   #resized: ResizeObserver | null = null;
   #timer: ReturnType<typeof setTimeout> | undefined;
-  /** Where the pointer holds the picture. */
+  /** The last position of the pointer that drags the picture, in client pixels; null while none does. */
   #held: readonly [number, number] | null = null;
   readonly #calm = matchMedia("(prefers-reduced-motion: reduce)");
 
@@ -263,7 +263,7 @@ export class CuspMask extends elementWith(PROPERTIES) {
       const [x, y] = [(whole.x - part.x) * scale[0], (whole.y - part.y) * scale[1]];
       pen.drawImage(picture, x, y, picture.width * factor * scale[0], picture.height * factor * scale[1]);
     }
-    // Says which layer the picture is of, which may lag behind the slider.
+    // The layer of the picture, which may lag behind the slider.
     canvas.dataset["layer"] = String(mask.layer);
   }
 
@@ -278,12 +278,12 @@ export class CuspMask extends elementWith(PROPERTIES) {
   readonly #toggle = (): void => {
     if (this.playing) return this.#stop();
     this.playing = true;
-    // From the top it begins again.
+    // At the top layer, playback starts again from the first.
     if (this.layer >= (this.report?.layers ?? 1) - 1) this.#go(0);
     else this.#next();
   };
 
-  /** Goes on to the layer above once this one is on show. */
+  /** Schedules the layer above, now that this one is painted. */
   #next(): void {
     clearTimeout(this.#timer);
     if (this.layer >= (this.report?.layers ?? 1) - 1) return this.#stop();
@@ -329,7 +329,7 @@ function pictureOf({ width, height, values }: ReturnType<typeof coverage>): HTML
   picture.width = width;
   picture.height = height;
   const image = new ImageData(width, height);
-  // One word a pixel: opaque grey reads the same in any byte order but for the alpha, and browsers are little-endian.
+  // One word per pixel. Grey is the same in any byte order; alpha is the high byte, as browsers are little-endian.
   const words = new Uint32Array(image.data.buffer);
   for (let i = 0; i < values.length; i++) words[i] = 0xff000000 | ((values[i] ?? 0) * 0x010101);
   picture.getContext("2d")?.putImageData(image, 0, 0);

@@ -1,4 +1,4 @@
-/** What is known of the model that is open. */
+/** The card of the open model. */
 import { html, nothing, type TemplateResult } from "lit";
 import type { Language } from "../../texts/index.js";
 import { warningWords } from "../state/problem.js";
@@ -9,7 +9,7 @@ export interface ModelActions {
   openFile(place: number): void;
 }
 
-/** What there is to know of the model and its plan. */
+/** The warnings of the model and its plan, each once. */
 export function warnings({ model, result }: Session, language: Language): readonly TemplateResult[] {
   const all = [...(model?.info.warnings ?? []), ...(result?.report.warnings ?? [])];
   const words = new Set(all.map((it) => warningWords(it, language)));

@@ -1,4 +1,4 @@
-/** The model in three dimensions with its tools. The view itself, and three with it, is fetched when it is first shown. */
+/** The 3-D view of the model and its tools. The view itself, and three.js with it, is fetched when first shown. */
 import { css, html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import type { Model, Slicer } from "../../api/index.js";
 import type { Printer } from "../../api/wire.js";
@@ -25,9 +25,9 @@ import { DEFAULT_SETTINGS } from "../state/settings.js";
 import { shared } from "../styles/shared.js";
 import { elementWith, given, own } from "../../view/properties.js";
 
-/** Room around the model where there is no chart beside it. */
+/** Room around the model without a chart beside it. */
 const ALONE: Inset = { top_px: 12, bottom_px: 12 };
-/** The brush at first, as a part of the model's longest side. */
+/** Initial size of the brush, as a fraction of the model's longest side. */
 const BRUSH_PART = 0.2;
 const TOOLS: readonly Tool[] = ["turn", "rotate", "flat", "paint"];
 
@@ -38,16 +38,16 @@ export interface Scaled {
 
 const PROPERTIES = {
   slicer: given<Slicer | null>(null),
-  /** Positions are asked for when it is another. */
+  /** A different model has its positions fetched. */
   model: given<Model | null>(null),
   shown: given<Shown | null>(null),
   layer: given(0),
   rotation: given<Rotation>([0, 0, 0, 1]),
-  /** The height that the model is scaled to, and how it stands when it is that high; null for the file's own size. */
+  /** The height that the model is scaled to, and the pose in which it has that height; null for the file's own size. */
   scaled: given<Scaled | null>(null, (a: unknown, b: unknown) => JSON.stringify(a) !== JSON.stringify(b)),
   printer: given<Printer | null>(null),
   language: given(languageOf()),
-  /** Where the chart beside it shows which heights; null without a chart. */
+  /** The position and heights of the chart beside it; null without a chart. */
   plot: given<PlotPlace | null>(null),
   inset: own(ALONE),
   positions: own<Float32Array | null>(null),
@@ -58,12 +58,12 @@ const PROPERTIES = {
   tool: own<Tool>("turn"),
   look: own<Look>("thickness"),
   palette: own<PaletteName>("classic"),
-  /** Whether heights are to be where the chart has them, if it stands beside. */
+  /** Whether to align heights with the chart, if that is beside the view. */
   aligned: own(true),
   settings: given(DEFAULT_SETTINGS),
-  /** How much each facet matters; null: all alike. */
+  /** How much each facet matters; null: all equally. */
   weights: given<Float32Array | null>(null),
-  /** How much each facet stands out; null until somebody wants to see that. */
+  /** How much each facet stands out; null until it is needed. */
   saliency: own<Float32Array | null>(null),
   isFinding: own(false),
   brush: own(BRUSH),
@@ -73,7 +73,7 @@ const PROPERTIES = {
 };
 
 export class CuspModel extends elementWith(PROPERTIES) {
-  /** What the file's lengths are multiplied by. */
+  /** The factor from the file's lengths to those of the model. */
   #scale = 1;
   #texts: { of: Language; words: ViewTexts } | null = null;
   #asked: Model | null = null;
@@ -134,7 +134,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
   }
 
   override updated(): void {
-    // Where the view lies is known when it is laid out.
+    // The position of the view is known only after layout.
     const inset = this.#beside();
     const { top_px, bottom_px } = this.inset;
     if (inset.top_px !== top_px || inset.bottom_px !== bottom_px) this.inset = inset;
@@ -144,7 +144,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
     const { shown, language, tool } = this;
     const canAlign = this.inset !== ALONE;
     const isPainting = tool === "paint";
-    // From the side alone nobody could paint a top.
+    // An aligned view shows the model from the side only, so its top could not be painted.
     const isBeside = canAlign && this.aligned && !isPainting;
     const showsHeat = isPainting && this.colours !== "layers";
     const heat = this.colours === "layers" ? "paint" : this.colours;
@@ -216,7 +216,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
     this.#say<PaletteName>("cusp-palette", this.palette);
   };
 
-  /** Whether what stands out counts. */
+  /** Whether saliency counts in the plan. */
   get #counts(): boolean {
     return this.settings.saliency === "on";
   }
@@ -257,7 +257,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
     this.#scale = own_mm > 0 ? (scaled?.height_mm ?? own_mm) / own_mm : 1;
   }
 
-  /** The model's longest side as it stands, mm; a brush wider than that is of no use. */
+  /** The model's longest side at its current scale, mm: the maximum size of the brush. */
   get #reach(): number {
     return this.#scale * Math.max(...(this.model?.info.size_mm ?? [1]));
   }
@@ -267,12 +267,12 @@ export class CuspModel extends elementWith(PROPERTIES) {
     this.#tell(event);
   };
 
-  /** Works out what stands out. */
+  /** Fetches the saliency of the model. */
   async #find(): Promise<void> {
     const { model, slicer } = this;
     if (slicer === null) return;
     this.isFinding = true;
-    // Without it there is nothing more to see; a worker that broke says so elsewhere.
+    // Without saliency there is nothing to show; a broken worker is reported elsewhere.
     const saliency = await slicer.saliency().catch(() => new Float32Array(0));
     this.isFinding = false;
     if (this.model === model) this.saliency = saliency;
@@ -282,7 +282,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
     this.dispatchEvent(new CustomEvent<Detail>(type, { detail }));
   }
 
-  /** Room that puts heights where the chart has them, if it stands beside and not above or below. */
+  /** Room around the model that aligns heights with the chart, if the chart is beside the view and not above or below it. */
   #beside(): Inset {
     const view = this.renderRoot.querySelector("cusp-view")?.getBoundingClientRect();
     const plot = this.plot?.over.getBoundingClientRect();
@@ -291,13 +291,13 @@ export class CuspModel extends elementWith(PROPERTIES) {
     return isBeside ? { top_px: plot.top - view.top, bottom_px: view.bottom - plot.bottom } : ALONE;
   }
 
-  /** Made once a language: another object would be another language to the view. */
+  /** Cached per language: a new object would count as a change of the texts. */
   #words(): ViewTexts {
     if (this.#texts?.of !== this.language) this.#texts = { of: this.language, words: viewTexts(this.language) };
     return this.#texts.words;
   }
 
-  /** What the view tells goes on as it is; its events do not bubble. */
+  /** Fires an event of the view again from here, since those do not bubble. */
   #tell<Detail>({ type, detail }: CustomEvent<Detail>): void {
     this.#say(type, detail);
   }
@@ -314,7 +314,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
     this.brush = BRUSH;
     this.canUndo = this.canRedo = false;
     if (model === null || slicer === null) return;
-    // Without them there is an empty view; a worker that broke says so elsewhere.
+    // Without positions the view is empty; a broken worker is reported elsewhere.
     const positions = await slicer.positions().catch(() => null);
     if (this.#asked !== model) return;
     this.positions = positions;

@@ -1,4 +1,4 @@
-/** The search for the best direction: what counts, the sphere of energies, and the best ones to choose from. */
+/** The orientation panel: the aims of the search, the sphere of energies, and the best orientations to choose from. */
 import { html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
 import type { Found, Slicer } from "../../api/index.js";
@@ -20,27 +20,27 @@ import { elementWith, given, own } from "../../view/properties.js";
 const COSTS: readonly Aims["cost"][] = ["layers", "time"];
 const QUALITIES: readonly Aims["quality"][] = ["error", "roughness", "overhang"];
 const MICROMETRES = 1000;
-/** Steps of the slider from one end to the other. */
+/** Number of steps of the slider. */
 const STEPS = 20;
-/** Pixels of a small picture; it is shown at half of that. */
+/** Side length of a thumbnail in pixels; it is shown at half that size. */
 const PICTURE_PX = 256;
 
-/** What of a search is on show. */
+/** The part of a search that the panel shows. */
 export type Searched = Readonly<Pick<OrientationSearch, "aims" | "found" | "best" | "busy" | "isCurrent" | "isPossible" | "options">>;
 
 const PROPERTIES = {
   slicer: given<Slicer | null>(null),
   searched: given<Searched | null>(null),
-  /** What errors are measured by where the search does not say. */
+  /** The metric of errors if the search's options name none. */
   metric: given<Metric>("cusp"),
   rotation: given<Rotation>([0, 0, 0, 1]),
-  /** How the view beside it looks at the model; null without one. */
+  /** The rotation of the camera in the view beside it; null without a view. */
   camera: given<Rotation | null>(null),
   palette: given<PaletteName>("classic"),
   language: given(languageOf()),
-  /** The candidate that is pointed at. */
+  /** The candidate that is pointed at, or chosen on the sphere. */
   looked: own<Looked | null>(null),
-  /** Whether what draws the pictures could not be fetched. */
+  /** Whether the code that draws the thumbnails could not be fetched. */
   isUnpictured: own(false),
 };
 
@@ -50,7 +50,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
   static override styles = [shared, progressStyles, partStyles, orientationStyles];
 
   override firstUpdated(): void {
-    // Pictures have the page's colours. A change of these is noticed as the start of a transition, whatever brought it about.
+    // Thumbnails have the page's colours. Any change of those starts a transition on the probe.
     this.renderRoot.addEventListener("transitionrun", ({ target }) => {
       if ((target as Element).classList.contains("probe")) void this.#drawThumbnails();
     });
@@ -123,7 +123,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
     </div>`;
   }
 
-  /** A rating of what is measured already shows no bar: it is there before one could read it. */
+  /** The progress bar; it appears late while candidates are only rated again, which is usually done before. */
   #progress(busy: Busy, { best }: Searched): TemplateResult {
     return html`<div class=${best.length > 0 ? "again quick" : "again"}>
       ${progressBar(busy, this.language, () => this.#say("cusp-search-cancel", null))}
@@ -178,7 +178,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
     </div>`;
   }
 
-  /** What is known of the direction that is pointed at. */
+  /** The metrics of the candidate that is pointed at, or chosen on the sphere. */
   #metrics({ options }: Searched): TemplateResult {
     const { looked, language } = this;
     const { orientation: words } = language.texts;
@@ -234,7 +234,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
     return found !== null && best.length > 0 ? texts.orientation.found(format.count(found.candidates.length)) : "";
   }
 
-  /** Draws the best poses, with the model fetched for that and not kept. */
+  /** Draws the best poses. The model's positions are fetched for this and not kept. */
   async #drawThumbnails(): Promise<void> {
     this.#drawing?.abort();
     const { slicer, searched } = this;
@@ -242,7 +242,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
     const drawing = new AbortController();
     this.#drawing = drawing;
     const { signal } = drawing;
-    // Without pictures there are still the numbers; a worker that broke says so elsewhere.
+    // Without thumbnails there are still the metrics; a broken worker is reported elsewhere.
     const positions = await slicer.positions().catch(() => null);
     if (positions === null || signal.aborted) return;
     const pictures = await import("../../view/scene/thumbnails.js").catch((error: unknown) => {
@@ -277,7 +277,7 @@ function micrometres(mm: number, { format }: Language): string {
   return `${format.tick(Math.round(mm * MICROMETRES * 10) / 10)}\u00a0µm`;
 }
 
-/** What is known of a candidate: a name and a value each. */
+/** The metrics, energy and size of a candidate that are known, as pairs of name and value. */
 export function metricRows({ metrics, size_mm, energy }: Candidate, metric: Metric, language: Language): [string, string][] {
   const { texts, format } = language;
   const { orientation: words } = texts;

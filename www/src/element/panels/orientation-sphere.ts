@@ -1,4 +1,4 @@
-/** Energies of all directions on a Gaussian sphere, from the front and from behind, turned as the model beside it is. */
+/** The energies of all directions on a Gaussian sphere, from the front and from behind, turned with the model beside it. */
 import { css, html, nothing, svg, type PropertyValues, type SVGTemplateResult, type TemplateResult } from "lit";
 import type { Found } from "../../api/index.js";
 import type { Candidate } from "../../api/wire.js";
@@ -11,16 +11,16 @@ import { stepped, type Way } from "../parts/sphere-steps.js";
 import { shared } from "../styles/shared.js";
 import { elementWith, given, own } from "../../view/properties.js";
 
-/** Finer pixels than these are not seen. */
+/** Limit of the device pixel ratio to draw at: finer pixels are not visible. */
 const DENSITY_LIMIT = 2;
 
-/** What cannot be printed has no colour of the scale; this grey is told from both cards. */
+/** The grey of excluded directions, outside the colour scale; visible on light and dark cards. */
 const EXCLUDED: Rgb = [138, 143, 152];
 
-/** A mark this near to the pointer is meant, in radii of the sphere. */
+/** Distance within which the pointer hits a mark, in radii of the sphere. */
 const MARK_REACH = 0.1;
 
-/** A candidate that is looked at. */
+/** The candidate whose metrics are shown. */
 export interface Looked {
   readonly candidate: Candidate;
   /** Whether it stays when the pointer leaves. */
@@ -31,16 +31,16 @@ const SIDES: readonly Side[] = ["front", "back"];
 
 const WAYS: Readonly<Record<string, Way>> = { ArrowLeft: "left", ArrowRight: "right", ArrowUp: "up", ArrowDown: "down" };
 
-/** Until the model's view says how it is looked at, and where there is none. */
+/** The camera until the view beside the sphere reports its own, and without a view. */
 const FIRST_CAMERA = lookFrom(FIRST_LOOK);
 
-/** Least and greatest energy of what there is; null if there is none. */
+/** Lowest and highest energy of the candidates; null if none is rated. */
 export function energyRange(candidates: readonly (Candidate | null)[]): readonly [number, number] | null {
   const energies = candidates.flatMap((candidate) => candidate?.energy ?? []);
   return energies.length === 0 ? null : [Math.min(...energies), Math.max(...energies)];
 }
 
-/** The colour of each candidate: red where the energy is greatest, blue where it is least; null where it is not known. */
+/** The colour of each candidate: warm for the highest energy, cold for the lowest, grey if excluded; null if unknown. */
 export function coloursOf(candidates: readonly (Candidate | null)[], palette: PaletteName): (Rgb | null)[] {
   const [least, greatest] = energyRange(candidates) ?? [0, 0];
   const span = greatest - least;
@@ -55,20 +55,20 @@ export function coloursOf(candidates: readonly (Candidate | null)[], palette: Pa
 const PROPERTIES = {
   found: given<Found | null>(null),
   best: given<readonly Candidate[]>([]),
-  /** How the model is turned. */
+  /** The rotation of the model. */
   rotation: given<Rotation>([0, 0, 0, 1]),
-  /** How the view beside it looks at the model; null without one. */
+  /** The rotation of the camera in the view beside it; null without a view. */
   camera: given<Rotation | null>(null),
   palette: given<PaletteName>("classic"),
   language: given(languageOf()),
-  /** Under the pointer. */
+  /** The candidate under the pointer. */
   hovered: own<Candidate | null>(null),
-  /** By keyboard, or by the first touch. */
+  /** The candidate chosen by keyboard, or by the first tap. */
   chosen: own<Candidate | null>(null),
 };
 
 export class CuspSphere extends elementWith(PROPERTIES) {
-  /** Whether the last press was a finger's: not every browser's click says so. */
+  /** Whether the last press was a touch: not every browser's click event says so. */
   #isTouched = false;
   #nearest: { of: Float64Array; nearest: Nearest } | null = null;
   readonly #resized = new ResizeObserver(() => this.#draw());
@@ -156,7 +156,7 @@ export class CuspSphere extends elementWith(PROPERTIES) {
 
   override willUpdate(changed: PropertyValues<this>): void {
     if (!changed.has("found")) return;
-    // What is looked at stays what it is, with its newest metrics.
+    // The hovered and the chosen candidate stay, with their newest metrics.
     const newest = (it: Candidate | null): Candidate | null =>
       it === null ? null : (this.found?.candidates[this.#indexAt(it.direction) ?? -1] ?? null);
     this.hovered = newest(this.hovered);
@@ -202,7 +202,7 @@ export class CuspSphere extends elementWith(PROPERTIES) {
     </div>`;
   }
 
-  /** Turns directions of the file's frame into the viewer's: right, up, towards the viewer. */
+  /** The rotation from the file's frame to the viewer's: right, up, towards the viewer. */
   get #facing(): Rotation {
     return combined(this.rotation, back(this.camera ?? FIRST_CAMERA));
   }
@@ -216,7 +216,7 @@ export class CuspSphere extends elementWith(PROPERTIES) {
     const ring = (x: number, y: number, radius: number): SVGTemplateResult =>
       svg`<circle class="halo" cx=${x} cy=${y} r=${radius} /><circle cx=${x} cy=${y} r=${radius} />`;
     const up = at(turn(back(this.camera ?? FIRST_CAMERA), [0, 0, 1]), (x, y) => {
-      // Longer than the mark of a best one, which may be at the same place.
+      // Longer than the mark of a best candidate, which may be at the same place.
       const cross = `M${x - 14} ${y}h28M${x} ${y - 14}v28`;
       return svg`<g class="up"><path class="halo" d=${cross} /><path d=${cross} /></g>`;
     });
@@ -254,7 +254,7 @@ export class CuspSphere extends elementWith(PROPERTIES) {
     }
   }
 
-  /** The candidate at the pointer: one of the best, if that is meant. */
+  /** The candidate at the pointer, which is a best one near its mark; null outside the sphere. */
   #at({ currentTarget, clientX, clientY }: MouseEvent, side: Side): Candidate | null {
     const { left, top, width } = (currentTarget as HTMLElement).getBoundingClientRect();
     const place: Place = [(2 * (clientX - left)) / width - 1, 1 - (2 * (clientY - top)) / width];
@@ -272,7 +272,7 @@ export class CuspSphere extends elementWith(PROPERTIES) {
     if (event.pointerType !== "touch") this.hovered = this.#at(event, side);
   }
 
-  /** A finger cannot point without touching: its first touch shows the metrics, the next one at the same place applies. */
+  /** A touch cannot hover: the first tap shows the metrics, and a second one on the same candidate applies it. */
   #click(event: MouseEvent, side: Side): void {
     const candidate = this.#at(event, side);
     if (this.#isTouched && candidate !== this.chosen) this.chosen = candidate;

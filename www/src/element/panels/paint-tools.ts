@@ -1,23 +1,23 @@
-/** What a person paints with: the brush, what is shown of the weights, and their file. */
+/** The tools for painting weights: the brush, what the colours show, and weight files. */
 import { css, html, type TemplateResult } from "lit";
 import type { Language } from "../../texts/index.js";
 import type { Brush, BrushMode } from "../../view/paint/brush.js";
 import type { Heat } from "../../view/paint/heat.js";
 import { WEIGHT_STEPS, type Settings } from "../state/settings.js";
 
-/** What colours the model while it is painted: weights, or the layers that come of them. */
+/** What the colours of the model show while it is painted: weights, or the resulting layers. */
 export type Colours = Heat | "layers";
 
 export interface PaintTools {
   readonly brush: Brush;
   readonly colours: Colours;
   readonly settings: Pick<Settings, "saliency" | "weightMin">;
-  /** Whether what stands out is being worked out just now. */
+  /** Whether saliency is being computed. */
   readonly isFinding: boolean;
   readonly canUndo: boolean;
   readonly canRedo: boolean;
   readonly isPainted: boolean;
-  /** Greatest size of the brush, mm. */
+  /** Maximum size of the brush, mm. */
   readonly most_mm: number;
   readonly language: Language;
   brushed(change: Partial<Brush>): void;
@@ -34,10 +34,10 @@ const MODES: readonly BrushMode[] = ["less", "more", "erase", "soften"];
 const COLOURS: readonly Colours[] = ["paint", "saliency", "product", "layers"];
 const CREASES = [10, 20, 30, 45, 60] as const;
 
-/** The brush's size goes in so many steps, fine at the small end. */
+/** Steps of the brush's size, finer at the small end. */
 const SIZE_STEPS = 100;
 
-/** Least part of the greatest size. */
+/** Minimum size of the brush, as a fraction of the maximum. */
 const FINEST = 0.01;
 
 const sizeAt = (step: number, most_mm: number): number => most_mm * FINEST ** (1 - step / SIZE_STEPS);
@@ -133,7 +133,7 @@ export function paintTools(tools: PaintTools): TemplateResult {
           @change=${({ target }: Event) => {
             const input = target as HTMLInputElement;
             const [file] = input.files ?? [];
-            // So that choosing the same file again is a change.
+            // Choosing the same file again must fire a change event.
             input.value = "";
             if (file !== undefined) tools.open(file);
           }}

@@ -1,4 +1,4 @@
-/** Puts the chart of chart.ts on the page: size, colours, the marker of the layer looked at, clicks. */
+/** Puts the chart of chart.ts on the page: its size and colours, the marker of the selected layer, and clicks. */
 import { css, html, unsafeCSS, type PropertyValues, type TemplateResult } from "lit";
 import type uPlot from "uplot";
 import uplotStyles from "uplot/dist/uPlot.min.css?inline";
@@ -11,9 +11,9 @@ import { partFailure, partStyles, tellPartFailed } from "../parts/part.js";
 import { shared } from "../styles/shared.js";
 import { elementWith, given, own } from "../../view/properties.js";
 
-/** Where the chart shows which heights. */
+/** The position of the chart and the heights that it shows. */
 export interface PlotPlace {
-  /** Its upper and lower edge are those of the heights. */
+  /** The plot area; the heights span it from its lower to its upper edge. */
   over: HTMLElement;
   /** Lowest and highest, mm. */
   heights_mm: readonly [number, number];
@@ -26,12 +26,12 @@ const PROPERTIES = {
   zoomed: own(false),
   /** The bin under the pointer. */
   hovered: own<number | null>(null),
-  /** Whether what draws could not be loaded. */
+  /** Whether uPlot could not be loaded. */
   failed: own(false),
 };
 
 export class CuspChart extends elementWith(PROPERTIES) {
-  /** What draws; null until it is loaded. */
+  /** uPlot; null until it is loaded. */
   #library: typeof uPlot | null = null;
   #plot: uPlot | null = null;
   #marker: HTMLElement | null = null;
@@ -148,7 +148,7 @@ export class CuspChart extends elementWith(PROPERTIES) {
       ({ default: this.#library } = await import("uplot"));
       this.failed = false;
     } catch (error) {
-      // Not there, or not able to start in this browser. Everything else works without it.
+      // uPlot could not be fetched, or does not start in this browser. Everything else works without it.
       this.failed = true;
       tellPartFailed(this, "chart", error);
       return;
@@ -166,7 +166,7 @@ export class CuspChart extends elementWith(PROPERTIES) {
     return frame;
   }
 
-  /** What is under the pointer, or what can be done with it. */
+  /** The value under the pointer, or a hint at what the pointer can do. */
   #hint(): string {
     const { data, hovered } = this;
     const density = hovered === null ? undefined : data?.profile[hovered];
@@ -176,7 +176,7 @@ export class CuspChart extends elementWith(PROPERTIES) {
     return texts.chart.at(format.height((hovered + 0.5) * data.bin_mm), texts.metrics[data.metric].density(value));
   }
 
-  /** The chart for those who cannot see it. */
+  /** The chart in words, for screen readers. */
   #words(): string {
     const { texts, format } = this.language;
     if (this.data === null) return texts.chart.none;
@@ -199,7 +199,7 @@ export class CuspChart extends elementWith(PROPERTIES) {
     const whole = data.profile.length * data.bin_mm;
     options.hooks = {
       ...options.hooks,
-      // Drawing is when the scales are settled, after the first time as after a zoom.
+      // When uPlot draws, initially or after a zoom, its scales are settled.
       draw: [
         (u) => {
           const { min, max } = u.scales["x"] ?? {};
@@ -223,7 +223,7 @@ export class CuspChart extends elementWith(PROPERTIES) {
     this.#mark();
   };
 
-  /** Says where which heights are, for what stands beside the chart at the same scale. */
+  /** Reports the chart's position and heights to the view beside it, which aligns with them. */
   #place(heights_mm: readonly [number, number]): void {
     if (this.#plot === null) return;
     const detail: PlotPlace = { over: this.#plot.over, heights_mm };
@@ -256,7 +256,7 @@ export class CuspChart extends elementWith(PROPERTIES) {
 
   #theme(): ChartTheme {
     const style = getComputedStyle(this);
-    // A canvas takes no `light-dark()`: let an element work out what a property comes to.
+    // A canvas does not accept `light-dark()`: let an element resolve each custom property.
     const probe = document.createElement("span");
     this.#frame.append(probe);
     const colour = (name: string): string => {

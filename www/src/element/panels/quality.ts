@@ -1,4 +1,4 @@
-/** The trade-off curve as a picture and a slider: one notch is one best plan, the quicker ones first. */
+/** The trade-off curve as a picture and a slider: each notch is a best plan, fastest first. */
 import { css, html, nothing, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
 import type { TradeoffPoint } from "../../api/wire.js";
@@ -9,7 +9,7 @@ import type { Result } from "../state/result.js";
 import { shared } from "../styles/shared.js";
 import { elementWith, given } from "../../view/properties.js";
 
-/** The picture's own units; it is stretched to its place. */
+/** The picture's own units; it is stretched to fit its box. */
 const WIDTH = 400;
 const HEIGHT = 120;
 const MARGIN = 12;
@@ -28,7 +28,8 @@ export interface Picture {
 }
 
 /**
- * Where everything stands: each point over its notch, finer to the right, longer upwards; what is no point between those that its error lies between.
+ * Positions in the picture: each point above its notch, finer plans to the right, longer print times at the top. A plan that
+ * is not a point lies between the two points whose errors enclose its own.
  */
 export function pictureOf(points: readonly Planned[], { report }: Pick<Result, "report">): Picture {
   const { finest, coarsest } = report.uniform;
@@ -42,7 +43,7 @@ export function pictureOf(points: readonly Planned[], { report }: Pick<Result, "
   return { dots, own: mark(report), finest: mark(finest), coarsest: mark(coarsest) };
 }
 
-/** What the plan gains over the finest uniform one, and what it gives for that. */
+/** What the plan gains over the finest uniform one, and at what cost, in a sentence. */
 export function gainWords({ report, limits }: Pick<Result, "report" | "limits">, { texts, format }: Language): string {
   const { finest } = report.uniform;
   const uniform = format.fine(limits[0]);
@@ -50,17 +51,17 @@ export function gainWords({ report, limits }: Pick<Result, "report" | "limits">,
   if (saved < 0.005) return texts.quality.none(uniform);
   const part = format.percent(saved);
   const error = (value: number): string => METRICS[report.metric].error(value, format);
-  // What reads the same is the same.
+  // Errors that read the same count as the same.
   const isSame = report.max_error <= finest.max_error || error(report.max_error) === error(finest.max_error);
   if (isSame) return texts.quality.same(part, uniform);
   return texts.quality.near(part, uniform, error(report.max_error), error(finest.max_error));
 }
 
 const PROPERTIES = {
-  /** From the tightest tolerance to the loosest; null while they are looked for. */
+  /** From the tightest tolerance to the loosest; null while they are being computed. */
   points: given<readonly TradeoffPoint[] | null>(null),
   result: given<Result | null>(null),
-  /** Whether the page alone decides the tolerance. */
+  /** Whether only the page may change the tolerance. */
   isFixed: given(false),
   language: given(languageOf()),
 };

@@ -1,4 +1,4 @@
-/** The settings as a form. It holds nothing: it shows what it is given and says what was typed. */
+/** The settings as a form. It keeps no settings: it shows those that it is given, and reports what is typed. */
 import { html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
 import { DEFAULTS, type Format, type MeshInfo } from "../../api/wire.js";
@@ -13,10 +13,10 @@ import { settingsStyles } from "../styles/settings-styles.js";
 import { shared } from "../styles/shared.js";
 import { elementWith, given } from "../../view/properties.js";
 
-/** Settings that are out of sight at first, unless they are changed. */
+/** Settings that are hidden at first, unless one differs from its default. */
 const MORE = ["minimize", "snap", "step", "exposure", "bottomExposure", "bottomLayers"] as const;
 
-/** Whether the form has a place beside which a failure can be shown. */
+/** Whether the form shows the field of a problem, so that the problem can be shown beside it. */
 export function hasPlace({ field }: Problem, { printer }: Settings, { printers }: Offered): boolean {
   if (field === null) return false;
   if (field === "printer") return printers.length > 0;
@@ -27,24 +27,24 @@ const PROPERTIES = {
   settings: given(DEFAULT_SETTINGS),
   faults: given<Faults>({}),
   info: given<MeshInfo | null>(null),
-  /** The tolerance that the core took where none is typed; null if it is not known. */
+  /** The tolerance that the core chose because none is typed; null if unknown. */
   taken: given<number | null>(null),
   offered: given<Offered>({ printers: [], resins: [] }),
-  /** Settings that are shown and cannot be changed. */
+  /** Settings that are shown read-only. */
   fixed: given<ReadonlySet<keyof Settings>>(new Set()),
-  /** A failure that one of these settings caused; it is shown beside that. */
+  /** A failure that one of these settings caused, to be shown beside that setting. */
   problem: given<Problem | null>(null),
   language: given(languageOf()),
 };
 
 export class CuspSettings extends elementWith(PROPERTIES) {
-  /** Whether more settings are open at first; null before there are any settings. */
+  /** Whether the hidden settings are expanded at first; null before any settings are given. */
   #moreAtFirst: boolean | null = null;
 
   static override styles = [shared, problemStyles, settingsStyles];
 
   override willUpdate(changed: PropertyValues<this>): void {
-    // What the address changes must be seen; afterwards it is the reader who opens and closes.
+    // Settings changed by the URL must be visible. After that, the user expands and collapses them.
     if (!changed.has("settings") || this.#moreAtFirst !== null) return;
     this.#moreAtFirst = MORE.some((key) => this.settings[key] !== DEFAULT_SETTINGS[key]);
   }
@@ -100,7 +100,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     `;
   }
 
-  /** The print file that these settings give. */
+  /** The print format that these settings give. */
   get #file(): Format {
     const { printer, format } = this.settings;
     return formatFor({ printer, format }, this.offered.printers);
@@ -129,7 +129,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     return this.#select("printer", texts.settings.printer, [["", texts.settings.noPrinter], ...models], hint);
   }
 
-  /** What few people need. */
+  /** Settings that few users need. */
   #more(isUniform: boolean): TemplateResult {
     const words = this.language.texts.settings;
     return html`<details ?open=${this.#moreAtFirst}>
@@ -227,7 +227,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     </div>`;
   }
 
-  /** What is said below a field: first why it cannot be changed, if so. */
+  /** The hint below a field; if that is fixed, it starts with why. */
   #hint(hint: string, isFixed: boolean): string {
     return isFixed ? `${this.language.texts.settings.fixed} ${hint}`.trim() : hint;
   }
@@ -258,7 +258,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     </fieldset>`;
   }
 
-  /** What went wrong because of this field, with what would mend it. */
+  /** The problem that this field caused, with its offers. */
   #beside(field: Problem["field"]): TemplateResult | typeof nothing {
     const { problem, language } = this;
     if (problem === null || problem.field !== field) return nothing;

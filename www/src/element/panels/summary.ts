@@ -1,4 +1,4 @@
-/** The result in one look: the number of layers, the time they take, what that saves, and the two uniform plans beside it. */
+/** The result at a glance: the number of layers, the print time, what that saves, and the two uniform plans to compare. */
 import { css, html, nothing, type TemplateResult } from "lit";
 import type { Language } from "../../texts/index.js";
 import { rows, sentence } from "../state/comparison.js";
@@ -137,7 +137,10 @@ export const summaryStyles = css`
   }
 `;
 
-/** `shown` is what is being looked at: a preview, while the model is turned. `note` comes first, if there is one; `action` stands beside the number: the download, and what to know before it. */
+/**
+ * The summary of a result. `shown` has the figures to show: those of a preview while the model is being turned. `note` comes
+ * first, if there is one; `action` is beside the number of layers: the download button and the line about the file.
+ */
 export function summary(
   result: Result,
   shown: Pick<Shown, "layers" | "print_time_s">,
@@ -195,7 +198,7 @@ export function summary(
 
 const STAGES = ["load", "ldi", "profile", "plan", "masks"] as const;
 
-/** How the result came about, for those who want to know. */
+/** How the result was computed, in a section that is collapsed at first. */
 export function details({ report }: Result, { texts: { details: words }, format }: Language): TemplateResult {
   const { mask, metric, timings_ms } = report;
   const error = (value: number): string => METRICS[metric].error(value, format);
