@@ -26,7 +26,7 @@ beforeEach(() => {
   attributes = new Attributes(wishes, (error) => told.push(error));
 });
 
-/** What the page's developer is told by now. */
+/** The errors reported to the page's developer since the last call. */
 function details(): unknown[] {
   attributes.settle();
   return told.splice(0).map(({ code, detail }) => ({ code, ...detail }));
@@ -43,7 +43,7 @@ test.each([
   ["layer-max", "thick"],
   ["layer-max", 0.02],
   ["printer", 7],
-] as const)("%s of %j makes no sense: it is told, and the last good value stays", (name, said) => {
+] as const)("%s of %j is invalid: it is reported, and the last good value stays", (name, said) => {
   for (const [name, good] of [["tolerance", "0.06"], ["layer-min", 0.04], ["layer-max", "0.1"], ["printer", "p"]] as const) {
     attributes.set(name, good);
   }
@@ -55,7 +55,7 @@ test.each([
   expect(wishes.faults).toEqual({});
 });
 
-test("the sentence names attribute, value and what was expected", () => {
+test("the message names the attribute, the value and what was expected", () => {
   for (const [name, said] of [["metric", "cups"], ["tolerance", "abc"], ["layer-min", "7"]] as const) attributes.set(name, said);
   attributes.settle();
   expect(told.map(({ message }) => message)).toEqual([
@@ -69,13 +69,13 @@ test.each([
   ["metric", "cups", ["cusp", "roughness", "area", "volume"]],
   ["format", "zip", ["png", "chitubox", "uvj", "sl1"]],
   ["backend", "auto", ["cpu", "gpu"]],
-] as const)("%s is one of a list, which is told", (attribute, value, known) => {
+] as const)("%s must be one of a list, which the error names", (attribute, value, known) => {
   expect(attributes.read(attribute, value)).toBeUndefined();
   expect(details()).toEqual([{ code: "bad-attribute", attribute, value, known }]);
   expect(attributes.read(attribute, known[1])).toBe(known[1]);
 });
 
-test("of several panels those that are known count; where none is, nothing changes", () => {
+test("the known ones of several panels apply; if none is known, nothing changes", () => {
   expect(attributes.read("panels", " layers  plan ")).toEqual(["plan", "layers"]);
   expect(details()).toEqual([]);
   expect(attributes.read("panels", "plan foo")).toEqual(["plan"]);
@@ -88,12 +88,12 @@ test.each([
   ["quality", 1.5],
   ["locale", "not a locale"],
   ["fixed", "weights"],
-] as const)("%s of %j makes no sense", (attribute, value) => {
+] as const)("%s of %j is invalid", (attribute, value) => {
   expect(attributes.read(attribute, value)).toBeUndefined();
   expect(details()).toMatchObject([{ code: "bad-attribute", attribute, value }]);
 });
 
-test("what is absent or empty is the usual, and no mistake", () => {
+test("an absent or empty attribute means the default, and is not an error", () => {
   for (const [name, value] of [["metric", "area"], ["tolerance", "0.2"], ["layer-min", "0.02"], ["format", "uvj"]] as const) {
     attributes.set(name, value);
   }
@@ -104,7 +104,7 @@ test("what is absent or empty is the usual, and no mistake", () => {
 });
 
 test.each([[["metric", "tolerance"]], [["tolerance", "metric"]]] as [SettingName[]][])(
-  "a tolerance is in the unit of the metric that comes with it, in any order: %j",
+  "a tolerance is in the unit of the metric that is set with it, in either order: %j",
   (names) => {
     const said = { metric: "area", tolerance: "0.2" } as Record<SettingName, string>;
     for (const name of names) attributes.set(name, said[name]);
@@ -115,7 +115,7 @@ test.each([[["metric", "tolerance"]], [["tolerance", "metric"]]] as [SettingName
 );
 
 test.each([[["layer-min", "layer-max"]], [["layer-max", "layer-min"]]] as [SettingName[]][])(
-  "a range is judged when both of its ends are there, in any order: %j",
+  "a range is checked once both its ends are set, in either order: %j",
   (names) => {
     const set = (least: number, most: number): void => {
       for (const name of names) attributes.set(name, name === "layer-min" ? least : most);
@@ -130,7 +130,7 @@ test.each([[["layer-min", "layer-max"]], [["layer-max", "layer-min"]]] as [Setti
   },
 );
 
-test("a printer is known or not when the list is there", () => {
+test("a printer is checked once the list has arrived", () => {
   attributes.set("printer", "saturn");
   expect(details()).toEqual([]);
   wishes.printers = [printer("mars", 0.01), printer("saturn", 0.03)];
@@ -141,7 +141,7 @@ test("a printer is known or not when the list is there", () => {
   expect(wishes.settings.printer).toBe("saturn");
 });
 
-test("two printers of which nobody knew that they are none leave no printer", () => {
+test("two unknown printers set before the list arrives leave no printer", () => {
   attributes.set("printer", "jupiter");
   attributes.settle();
   attributes.set("printer", "neptune");
@@ -152,7 +152,7 @@ test("two printers of which nobody knew that they are none leave no printer", ()
   expect(wishes.settings.printer).toBe("");
 });
 
-test("a range that the printer cannot do is told when the printer is known; what was typed meanwhile stays", () => {
+test("a range outside the printer's is reported once the printer is known; what was typed meanwhile stays", () => {
   attributes.set("printer", "saturn");
   attributes.set("layer-min", "0.02");
   attributes.set("layer-max", "0.5");
@@ -164,7 +164,7 @@ test("a range that the printer cannot do is told when the printer is known; what
   expect(wishes.settings).toMatchObject({ printer: "saturn", layerMin: "0.05", layerMax: "0.18" });
 });
 
-test("what a customer types is the form's to judge", () => {
+test("a fault that a customer typed is not reported to the developer", () => {
   attributes.set("layer-min", "0.04");
   attributes.settle();
   wishes.change({ layerMin: "x" });
@@ -173,7 +173,7 @@ test("what a customer types is the form's to judge", () => {
   expect(wishes.faults).toHaveProperty("layerMin");
 });
 
-test("a resin is one of the page's, once there are any", () => {
+test("a resin must be one of the page's, once there are any", () => {
   attributes.set("resin", "grey");
   wishes.resins = [{ name: "grey" }, { name: "black" }];
   attributes.offered();
@@ -182,7 +182,7 @@ test("a resin is one of the page's, once there are any", () => {
   expect(wishes.settings.resin).toBe("grey");
 });
 
-test("what is fixed is the page's alone: no change, address or undo touches it", () => {
+test("only the page changes what is fixed: edits, queries and undo do not", () => {
   wishes.change({ height: "10" });
   wishes.fixed = settingsOf(["printer", "format", "layer-min"]);
   attributes.set("printer", "mars");

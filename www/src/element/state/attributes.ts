@@ -1,6 +1,6 @@
 /**
- * What a page says of an element by attributes and properties: what makes sense is taken; of the rest its developer is told,
- * and the last good value stays.
+ * Reads what a page sets on an element by attributes and properties. Valid values are applied; the rest is reported to the
+ * page's developer, and the last good value stays.
  */
 import { SlicerError } from "../../api/error.js";
 import { ATTRIBUTES, SETTING_NAMES, SETTINGS, type SettingName } from "../properties.js";
@@ -9,12 +9,12 @@ import type { Preferences } from "./preferences.js";
 import { noneOf, type Read, type Reader, type Wrong } from "./readers.js";
 import { DEFAULT_SETTINGS, withTolerance, type Fault, type Settings } from "./settings.js";
 
-/** What these attributes set. */
+/** The settings that these attributes set. */
 export function settingsOf(names: readonly SettingName[]): ReadonlySet<keyof Settings> {
   return new Set(names.map((name) => SETTINGS[name].sets));
 }
 
-/** Attributes that are judged here. */
+/** Attributes that are checked here. */
 type Name = { [N in keyof typeof ATTRIBUTES]: (typeof ATTRIBUTES)[N] extends { read: Reader<unknown> } ? N : never }[keyof typeof ATTRIBUTES];
 
 type Value<N extends Name> = (typeof ATTRIBUTES)[N]["read"] extends Reader<infer T> ? T : never;
@@ -31,19 +31,19 @@ interface Given {
 export class Attributes {
   readonly #preferences: Preferences;
   readonly #tell: (error: SlicerError) => void;
-  /** Settings given since the page's script has begun; in whatever order they come, they count together. */
+  /** Settings given since the page's script began; they are checked together, in whatever order they were set. */
   #turn: { base: Settings; said: Map<SettingName, unknown>; values: Values } | null = null;
   #given = new Map<SettingName, Given>();
   #errors: SlicerError[] = [];
   #isScheduled = false;
 
-  /** @param tell is given what makes no sense, once the script that said it has ended */
+  /** @param tell receives an error for each invalid value, once the script that set it has ended */
   constructor(preferences: Preferences, tell: (error: SlicerError) => void) {
     this.#preferences = preferences;
     this.#tell = tell;
   }
 
-  /** What an attribute says; null where it says nothing, undefined where that makes no sense. */
+  /** The value of an attribute; null if it is absent or empty, undefined if it is invalid. Faults are reported. */
   read<N extends Name>(name: N, said: unknown): Value<N> | null | undefined {
     if (said === null || said === undefined || (typeof said === "string" && said.trim() === "")) return null;
     const { value, wrong } = ATTRIBUTES[name].read(said) as Read<Value<N>>;
@@ -51,7 +51,7 @@ export class Attributes {
     return value;
   }
 
-  /** Takes a setting. */
+  /** Applies a setting. */
   set(name: SettingName, said: unknown): void {
     const value = this.read(name, said);
     if (value === undefined) return;
@@ -63,7 +63,7 @@ export class Attributes {
     this.#schedule();
   }
 
-  /** Judges what was given until now; by itself that happens when the page's script has ended. */
+  /** Checks what was given so far. Called automatically once the page's script has ended. */
   settle(): void {
     const turn = this.#turn;
     this.#turn = null;
@@ -76,7 +76,7 @@ export class Attributes {
     for (const error of this.#errors.splice(0)) this.#tell(error);
   }
 
-  /** Judges again what depends on the printers and resins that there are, since these have come. */
+  /** Checks the settings again, with the lists of printers and resins that have arrived. */
   offered(): void {
     this.settle();
     this.#judge(SETTING_NAMES);
@@ -90,20 +90,20 @@ export class Attributes {
       if (given === undefined || wrong === null || !this.#holds(given)) continue;
       this.#given.delete(name);
       this.#preferences.preset(given.before);
-      // What was there before may have been given before anybody knew the names.
+      // The previous name may itself have been set before the list arrived.
       const isNameless = wrong.known !== undefined && this.#wrong(name) !== null;
       if (isNameless) this.#preferences.preset(pick(DEFAULT_SETTINGS, SETTINGS[name].sets));
       this.#note(name, given.said, wrong, false);
     }
   }
 
-  /** Whether nobody has changed it since. */
+  /** Whether the setting is still as given. */
   #holds({ after }: Given): boolean {
     const { settings } = this.#preferences;
     return (Object.keys(after) as (keyof Settings)[]).every((key) => settings[key] === after[key]);
   }
 
-  /** What is wrong with a setting beside the others. */
+  /** What is wrong with a setting, given the others; null if it is valid. */
   #wrong(name: SettingName): Wrong | null {
     const { faults, settings, printers, resins } = this.#preferences;
     const within = (fault: Fault | undefined, scale = 1): Wrong | null => (fault === undefined ? null : { words: said(fault, scale) });
@@ -140,7 +140,7 @@ export class Attributes {
   }
 }
 
-/** A name that is none of those known; where none is known yet any will do. */
+/** What is wrong with an unknown name; while the list has not arrived, any name passes. */
 function unknown(name: string, known: readonly string[]): Wrong | null {
   return name === "" || known.length === 0 || known.includes(name) ? null : noneOf(known);
 }
@@ -160,7 +160,7 @@ function pick<Key extends keyof Settings>(settings: Settings, key: Key): Pick<Se
   return { [key]: settings[key] } as Pick<Settings, Key>;
 }
 
-/** The change of settings that these values mean; null is the usual. */
+/** The change of settings that these values make; null means the default. */
 function patchOf(values: Values, base: Settings): Partial<Settings> {
   const { printer, resin, format, metric, tolerance } = values;
   const [thinnest, thickest] = [values["layer-min"], values["layer-max"]];

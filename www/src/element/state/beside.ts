@@ -1,20 +1,20 @@
-/** What is shown beside a plan: the mask of the layer looked at, and when that is there the trade-off curve. */
+/** Fetches what is shown beside a plan: the mask of the selected layer, then the trade-off curve. */
 import { isAbort } from "../../api/error.js";
 import type { Mask, Slicer } from "../../api/index.js";
 import type { Curve } from "./curve.js";
 import type { Result } from "./result.js";
 
-/** The plan on show, and the layer looked at. */
+/** The plan shown and the selected layer. */
 export interface Looked {
   readonly result: Result | null;
   readonly layer: number;
 }
 
 export interface BesideHost {
-  /** Whether nothing else is under way. */
+  /** Whether no task is running. */
   isFree(): boolean;
   changed(): void;
-  /** The curve has come. */
+  /** The curve has arrived. */
   curved(): void;
   failed(error: unknown): void;
 }
@@ -36,8 +36,8 @@ export class Beside {
   }
 
   /**
-   * Fetches what is missing. One call at a time, and none while a task runs: the worker would not answer, and when it ends
-   * this is called again.
+   * Fetches what is missing, one call at a time. Does nothing while a task runs: the worker would not answer, and this is
+   * called again when the task ends.
    */
   async fetch(): Promise<void> {
     if (this.#isFetching) return;
@@ -59,7 +59,7 @@ export class Beside {
     }
   }
 
-  /** Whether there was a mask to fetch. The newest layer wins. */
+  /** Fetches the mask of the newest selected layer; false if there was none to fetch. */
   async #fetchMask(result: Result): Promise<boolean> {
     const { layer } = this.#looked;
     if (this.mask?.layer === layer && this.#maskOf === result) return false;
@@ -72,7 +72,7 @@ export class Beside {
     return true;
   }
 
-  /** Whether there was a curve to fetch. */
+  /** Fetches the trade-off curve; false if there was none to fetch. */
   async #fetchCurve(result: Result): Promise<boolean> {
     if (!(await this.#curve.fetch(this.#slicer, result))) return false;
     this.#host.changed();

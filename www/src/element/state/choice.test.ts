@@ -7,12 +7,12 @@ import { report } from "./report-fixture.js";
 
 test.each([
   [[], []],
-  // The core looks inside and says what it is.
+  // The core inspects the content and reports what it is.
   [["a.txt", "b.3mf"], ["a.txt"]],
   [["A.STL"], ["A.STL"]],
   [["model"], ["model"]],
   [["notes.txt", "b.stl", "c.stl"], ["b.stl", "c.stl"]],
-])("of %j the STLs are taken", (names, taken) => {
+])("of %j, the STLs are taken", (names, taken) => {
   expect(choose(names.map((name) => ({ name }))).map(({ name }) => name)).toEqual(taken);
 });
 
@@ -27,7 +27,7 @@ const PRINTERS = (
   ...{ pixels: [100, 100], pitch_um: [50, 50], volume_mm: [5, 5, 5], layer_mm: [0.02, 0.2], is_mirrored: true, step_mm: 0.002 },
 }));
 
-test("the format that settings stand for is the printer's own, if none is chosen", () => {
+test("the format is the printer's own if none is chosen", () => {
   expect(formatFor({ printer: "", format: "" }, PRINTERS)).toBe("png");
   expect(formatFor({ printer: "sl1s", format: "" }, PRINTERS)).toBe("sl1");
   expect(formatFor({ printer: "sl1s", format: "uvj" }, PRINTERS)).toBe("uvj");
@@ -46,7 +46,7 @@ test.each<[string, { printer?: string; format?: PrintFormat }, Report["planner"]
     "optimal",
     "A Prusa SL1 file. This file has one thickness for all layers: choose uniform ones for it.",
   ],
-])("before the download, %s: what the file is and what it needs", (_name, options, planner, said) => {
+])("the line at the download, %s: what the file is and what it needs", (_name, options, planner, said) => {
   const printer = PRINTERS.find(({ name }) => name === options.printer);
   const format = options.format ?? printer?.format ?? "png";
   const is_read_by_printer = printer?.reads_format === true && printer.format === format;

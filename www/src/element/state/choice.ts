@@ -1,4 +1,4 @@
-/** Which files of a drop or a file dialogue are taken, what is saved of a plan, and what files are called. */
+/** Which files of a drop or a file dialog are opened, the default print format, and the names of weight files. */
 import { stemOf, type Source } from "../../api/source.js";
 import type { Format, Printer } from "../../api/wire.js";
 
@@ -9,16 +9,16 @@ export interface Named {
 /** By its name alone; a name without any extension is given the benefit of the doubt. */
 const isStl = (name: string): boolean => /\.stl$/i.test(name) || !/\.[a-z0-9]+$/i.test(name);
 
-/** The STLs of several files. If none has the name of one, the first: the core looks inside and says what it is. */
+/** The STLs of several files. If no name looks like one, the first file: the core inspects it and reports what it is. */
 export function choose<T extends Named>(files: readonly T[]): readonly T[] {
   const stls = files.filter(({ name }) => isStl(name));
   return stls.length > 0 ? stls : files.slice(0, 1);
 }
 
-/** What a file of weights is called: `bunny.stl` gives `bunny.weights`. */
+/** The name of a model's weight file: `bunny.stl` gives `bunny.weights`. */
 export const weightsName = (model: string): string => `${stemOf(model)}.weights`;
 
-/** The format that settings stand for before there is a plan. */
+/** The print format that settings give before there is a plan. */
 export function formatFor({ printer, format }: { printer: string; format: Format | "" }, printers: readonly Printer[]): Format {
   return format || printers.find(({ name }) => name === printer)?.format || "png";
 }

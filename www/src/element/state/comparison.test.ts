@@ -22,13 +22,13 @@ test("a plan that gains nothing says so", () => {
   expect(sentence(compared({ print_time_s: 13_200 }, { minimize: "time" }))).toMatch(/^As slow as uniform 0.05/);
 });
 
-test("a plan as short as the coarsest, where that holds", () => {
+test("a plan as short as the coarsest uniform plan, if that keeps the tolerance", () => {
   const both = { finest: uniform(1200, 0.01, 13_200), coarsest: uniform(400, 0.03, 5_538) };
   expect(sentence(compared({ layers: 400, uniform: both }))).toMatch(/^As few as uniform 0.15/);
   expect(sentence(compared({ print_time_s: 5_538, uniform: both }, { minimize: "time" }))).toMatch(/^As quick as uniform 0.15/);
 });
 
-test("a plan that is longer than the coarsest, which holds too, does not hide that", () => {
+test("a plan longer than a coarsest uniform plan that keeps the tolerance too says so", () => {
   const both = { finest: uniform(1200, 0.01, 13_200), coarsest: uniform(792, 0.03, 5_538) };
   expect(sentence(compared({ uniform: both }))).toMatch(/^34% fewer than .*, but uniform 0.15\u00a0mm keeps the tolerance as well\.$/);
 });
@@ -40,6 +40,6 @@ test("a uniform plan over the tolerance says by how much, in the unit of its met
   expect(sentence(compared({ ...over, metric: "volume", max_error: 11.26 }))).toMatch(/reaches 11.26\u00a0mm³/);
 });
 
-test("the coarsest row says that it breaks the tolerance; rounding of sums does not count", () => {
+test("the coarsest row is over the tolerance; rounding of sums does not count as over", () => {
   expect(rows(compared({ max_error: 0.0650000001 })).map(({ holds }) => holds)).toEqual([true, true, false]);
 });

@@ -1,4 +1,4 @@
-/** The plan against the two uniform plans it competes with, as rows and as one sentence. */
+/** Compares the plan with two uniform plans, as rows and as one sentence. */
 import type { Report } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
 import { METRICS } from "./metric.js";
@@ -18,7 +18,7 @@ export interface Row {
   holds: boolean;
 }
 
-/** Room for the rounding of a sum of bins, as a part of the tolerance. */
+/** Allowance for rounding in a sum of bins, as a fraction of the tolerance. */
 const SLACK = 1e-6;
 
 /** Finest uniform plan, this plan, coarsest uniform plan. */

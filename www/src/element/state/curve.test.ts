@@ -9,10 +9,10 @@ const point = (tolerance: number, layers: number, max_error: number, print_time_
   ...{ tolerance, layers, max_error, print_time_s },
 });
 
-/** What `cusp tradeoff --points 5` says of an upright prism 20 mm high, by cusp height: only its flats have an error. */
+/** The output of `cusp tradeoff --points 5` for an upright prism 20 mm high, by cusp height: only its flats have an error. */
 const PRISM = Array.from({ length: 5 }, () => point(0.002, 134, 0.002, 1920));
 
-/** The first points of the same by roughness. */
+/** The first points for the same prism, by roughness. */
 const ROUGH = [
   point(0.052, 385, 0.052, 4200),
   point(0.05219, 385, 0.052, 4200),
@@ -39,7 +39,7 @@ async function curveOf(points: TradeoffPoint[], plan: TradeoffPoint): Promise<Cu
   return curve;
 }
 
-test("a prism has one plan and so one notch, wherever its tolerance is", async () => {
+test("a prism has one plan and so one notch, whatever its tolerance", async () => {
   const curve = await curveOf(PRISM, point(0.065, 134, 0.002, 1920));
   expect(curve.points).toEqual([PRISM[0]]);
   for (const wanted of [0, 0.5, 1]) {
@@ -49,7 +49,7 @@ test("a prism has one plan and so one notch, wherever its tolerance is", async (
   expect(curve.placeOf(point(0.065, 134, 0.002, 1920))).toBe(1);
 });
 
-test("tolerances of the same plan are one notch, that of the tightest", () => {
+test("tolerances with the same plan share one notch, that of the tightest", () => {
   expect(merged(ROUGH).map(({ tolerance }) => tolerance)).toEqual([0.052, 0.05496, 0.05663]);
   expect(merged([])).toEqual([]);
 });
@@ -60,7 +60,7 @@ test.each([
   [point(0.0559, 371, 0.054, 4080), 1],
   [point(9, 358, 0.056, 3960), 0],
   [point(0.0545, 371, 0.0545, 4090), 1],
-])("slider and dot stand at the same notch, by the plan and not by its tolerance: %j", (plan, notch) => {
+])("slider and dot are at the same notch, by the plan and not by its tolerance: %j", (plan, notch) => {
   const points = merged(ROUGH);
   expect(notchOf(points, plan)).toBe(notch);
   const { dots, own } = pictureOf(points, resultOf(plan));
@@ -68,13 +68,13 @@ test.each([
   expect(nearest.indexOf(Math.min(...nearest))).toBe(notch);
 });
 
-test("plans of the same error and other times have notches of their own", () => {
+test("plans with the same error and different times have separate notches", () => {
   const points = [point(0.05, 300, 0.05, 3000), point(0.06, 290, 0.05, 2900), point(0.07, 200, 0.07, 2000)];
   expect(merged(points)).toEqual(points);
   expect(points.map((plan) => notchOf(points, plan))).toEqual([2, 1, 0]);
 });
 
-test("the finer of two plans is further along; what is finer or coarser than all stands at an end", () => {
+test("finer plans are further along; those finer or coarser than all points are at an end", () => {
   const points = [0.0625, 0.125, 0.25].map((error, i) => point(error, 1, error, 300 - 100 * i));
   const at = (max_error: number): number => placeAmong(points, point(max_error, 7, max_error, 1));
   expect([0.01, 0.09375, 0.125, 0.1875, 9].map(at)).toEqual([2, 1.5, 1, 0.5, 0]);

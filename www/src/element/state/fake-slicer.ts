@@ -1,4 +1,4 @@
-/** A slicer for tests of the session: it answers what the test says, when the test says so. */
+/** A fake slicer for tests of the session. */
 import { SlicerError } from "../../api/error.js";
 import { SCHEMA, type PreviewedPlan, type LoadCall, type Mask, type Model, type OrientCall, type OrientationReport, type Plan, type PrintFile, type Watch } from "../../api/index.js";
 import type { Preview, MeshInfo, Options, Report, SearchOptions, Tradeoff } from "../../api/wire.js";
@@ -13,7 +13,7 @@ export function planOf(layers: number, height_mm = 10): Plan {
   return { schema: SCHEMA, report, profile: new Float32Array(1) };
 }
 
-/** A slicer whose answers the test gives, call by call. */
+/** A slicer whose calls the test resolves or rejects one by one. */
 export class FakeSlicer {
   readonly calls: { what: string; options?: Options; resolve(value: unknown): void; reject(error: unknown): void }[] = [];
   readonly masks: number[] = [];

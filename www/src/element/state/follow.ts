@@ -1,4 +1,4 @@
-/** Follows a model that is turned or painted, by previews: what the plan would be, by the facets alone. */
+/** Follows a model that is being turned or painted with previews: plans from the facets alone. */
 import type { Slicer } from "../../api/index.js";
 import type { Options } from "../../api/wire.js";
 import { shownOf, type Shown } from "./result.js";
@@ -6,13 +6,13 @@ import { shownOf, type Shown } from "./result.js";
 export type Rotation = readonly [x: number, y: number, z: number, w: number];
 
 export class Follower {
-  /** How the model is turned while it is held; null while it is not. */
+  /** The rotation of the model while the user is turning it; null otherwise. */
   turning: Rotation | null = null;
   readonly #slicer: Pick<Slicer, "preview">;
   readonly #show: (shown: Shown) => void;
   #running = false;
   #next: Options | null = null;
-  /** How often it was told to stop: what was asked for before is news no more. */
+  /** Number of stops: previews requested before the last one are ignored. */
   #stops = 0;
 
   constructor(slicer: Pick<Slicer, "preview">, show: (shown: Shown) => void) {
@@ -26,7 +26,7 @@ export class Follower {
     if (options !== null) void this.follow({ ...options, rotation: [...turning] });
   }
 
-  /** Previews the newest options, one at a time; those between are skipped. */
+  /** Previews the newest options, one at a time; intermediate ones are skipped. */
   async follow(options: Options): Promise<void> {
     this.#next = options;
     if (this.#running) return;
@@ -39,13 +39,13 @@ export class Follower {
         if (this.#stops === stops) this.#show(shownOf(report, profile));
       }
     } catch {
-      // Where no plan holds there is nothing to follow; the plan will say so when the model is let go.
+      // Without a feasible plan there is nothing to show; the plan made when the model is released reports that.
     } finally {
       this.#running = false;
     }
   }
 
-  /** The model was let go. */
+  /** Ends the previews, as when the model is released. */
   stop(): void {
     this.turning = null;
     this.#next = null;

@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { History } from "./history.js";
 
-test("steps go back and forth, and a change forgets what was taken back", () => {
+test("steps are undone and redone, and a change clears what was undone", () => {
   const history = new History<number>();
   expect([history.canUndo, history.undo(0)]).toEqual([false, null]);
   history.note(1, "a", 0);
@@ -14,7 +14,7 @@ test("steps go back and forth, and a change forgets what was taken back", () => 
   expect(history.undo(4)).toBe(2);
 });
 
-test("what is typed in one go is one step", () => {
+test("typing without a pause is one step", () => {
   const history = new History<string>();
   history.note("", "height", 0);
   history.note("6", "height", 300);

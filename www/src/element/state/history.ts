@@ -1,6 +1,6 @@
-/** What was there before, and what was taken back: undo and redo of any value. */
+/** Undo and redo of any value. */
 
-/** Changes of one kind within this time are one step back, as the letters of a word are. */
+/** Changes of one kind within this time of each other are one step, like the letters of a word. */
 const TOGETHER_MS = 1000;
 const MOST_STEPS = 100;
 
@@ -17,7 +17,7 @@ export class History<T> {
     return this.#future.length > 0;
   }
 
-  /** Notes that `before` is about to be changed; `kind` says what of it, so that typing goes back as a whole. */
+  /** Records the value before a change; quick changes of the same `kind`, such as typing, are undone together. */
   note(before: T, kind: string, now_ms: number): void {
     const isMore = this.#last?.kind === kind && now_ms - this.#last.at_ms < TOGETHER_MS;
     this.#last = { kind, at_ms: now_ms };
@@ -25,7 +25,7 @@ export class History<T> {
     if (!isMore) this.#past = [...this.#past, before].slice(-MOST_STEPS);
   }
 
-  /** What to go back to from `now`; null if there is nothing. */
+  /** The value to go back to from `now`; null if there is none. */
   undo(now: T): T | null {
     const before = this.#past.pop();
     if (before === undefined) return null;

@@ -1,4 +1,4 @@
-/** What a session is given: whom it tells, what it works with, and what it begins with. */
+/** What a session is given: its host, the slicer that it calls, and its initial settings. */
 import type { SlicerError } from "../../api/error.js";
 import type { Model, Slicer } from "../../api/index.js";
 import type { Backend, Candidate } from "../../api/wire.js";
@@ -6,7 +6,7 @@ import type { Busy } from "../parts/progress.js";
 import type { Result } from "./result.js";
 import type { Settings } from "./settings.js";
 
-/** What a session tells its host, besides that something changed. */
+/** What a session reports to its host. */
 export interface Host {
   requestUpdate(): void;
   loaded?(model: Model): void;
@@ -15,7 +15,7 @@ export interface Host {
   cancelled?(): void;
   progressed?(busy: Busy): void;
   settingsChanged?(settings: Settings): void;
-  /** There is more to choose from. */
+  /** The list of printers has arrived. */
   offered?(): void;
   painted?(weights: Float32Array | null, isFinal: boolean): void;
   oriented?(candidate: Candidate): void;

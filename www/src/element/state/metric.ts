@@ -1,13 +1,13 @@
-/** The measures of error: their units, and how their values are written. Their names are in the catalogues. */
+/** The metrics: their units, and how their values are written. Their names are in the text catalogues. */
 import type { Metric } from "../../api/wire.js";
 import type { Format } from "../../texts/index.js";
 
 export interface Measure {
-  /** What tolerances are typed in. */
+  /** The unit that tolerances are typed in. */
   unit: string;
-  /** How many of that unit the core's own unit is. */
+  /** The factor from the core's unit to that unit. */
   scale: number;
-  /** Least and greatest tolerance that makes sense, in that unit: none is above what layers of 1 mm can come to. */
+  /** Smallest and largest valid tolerance, in that unit: the largest is not above what layers of 1 mm can reach. */
   tolerances: readonly [number, number];
   /** An error or a tolerance with its unit. */
   error(value: number, format: Format): string;
@@ -15,7 +15,7 @@ export interface Measure {
   tick(value: number, format: Format): string;
   /** A value of the profile with its unit. */
   density(value: number, format: Format): string;
-  /** The greatest value that a profile can have; null where that depends on the model. */
+  /** The greatest value that a profile can have; null if it depends on the model. */
   bound: number | null;
 }
 

@@ -3,9 +3,9 @@ import { expect, test } from "vitest";
 import { initSync, OrientationSearch, type Candidate, type SearchOptions } from "../../../pkg/cusp_slicer.js";
 import { DEFAULT_AIMS } from "./orientation.js";
 
-test("the aims that the panel shows first are the core's", async () => {
+test("the initial aims of the panel are the core's defaults", async () => {
   initSync({ module: await readFile(new URL("../../../pkg/cusp_slicer_bg.wasm", import.meta.url)) });
-  // Of two candidates with metrics like these, no other aims have the same energies.
+  // Any other aims give two candidates with metrics like these different energies.
   const candidates = [1, 2].map((part): Candidate => {
     const metrics = { layers: 10, print_time_s: 10 * part, max_error: 1 / part, roughness_mm: 1 / part ** 2, overhang_mm2: 1 / part ** 3 };
     return { direction: [0, 0, 1], rotation: [0, 0, 0, 1], size_mm: [1, 1, 1], excluded: null, metrics, energy: null };

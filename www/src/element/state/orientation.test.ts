@@ -68,7 +68,7 @@ beforeEach(() => {
   directions = new OrientationSearch(host, { orient });
 });
 
-test("a search shows what is measured, how far it is, and at last the best", async () => {
+test("a search shows measured candidates, its progress, and finally the best", async () => {
   directions.start();
   expect(directions.busy).toMatchObject({ task: "orient", stage: "orientation" });
   last().call.onProgress?.("orientation", 0.5, 0.5);
@@ -82,13 +82,13 @@ test("a search shows what is measured, how far it is, and at last the best", asy
   expect(directions.isCurrent).toBe(true);
 });
 
-test("without a model, or with settings that make no sense, there is no search", () => {
+test("without a model, or with invalid settings, no search starts", () => {
   subject = null;
   directions.start();
   expect(asked).toEqual([]);
 });
 
-test("what counts is rated anew with what is measured; what came meanwhile is rated at the end, once", async () => {
+test("new aims rate the measured candidates again; aims changed during a search are rated once, at its end", async () => {
   directions.start();
   const measured = [candidate(1), candidate(2)];
   directions.aim({ alpha: 0.3 });
@@ -103,7 +103,7 @@ test("what counts is rated anew with what is measured; what came meanwhile is ra
   expect(last().call.measured).toBe(measured);
 });
 
-test("a cancelled search keeps what it measured, and what comes late is no news", async () => {
+test("a cancelled search keeps what it measured, and ignores late results", async () => {
   directions.start();
   const { call } = last();
   const found = { directions: new Float64Array(3), candidates: [candidate(1)] };
@@ -118,7 +118,7 @@ test("a cancelled search keeps what it measured, and what comes late is no news"
   expect(failures).toEqual([]);
 });
 
-test("an error ends the search and is told", async () => {
+test("an error ends the search and is reported", async () => {
   directions.start();
   const error = new SlicerError("crash", "no", { system: "no" });
   await last().refuse(error);
@@ -126,7 +126,7 @@ test("an error ends the search and is told", async () => {
   expect(directions.busy).toBeNull();
 });
 
-test("it is out of date when something changes that it depends on, and only then", async () => {
+test("a search is outdated when something changes that it depends on, and only then", async () => {
   directions.start();
   await last().answer([candidate(1)]);
   const given = subject;
@@ -145,7 +145,7 @@ test("it is out of date when something changes that it depends on, and only then
   expect(isCurrent({})).toBe(true);
 });
 
-test("a height is that of the pose: out of date when turned otherwise, not when a direction is applied", async () => {
+test("a height belongs to the pose: the search is outdated by another rotation, not by applying a candidate", async () => {
   const options: Options = { height_mm: 50, rotation: [0, 0, 0, 1] };
   subject = { name: "a.stl", options, weights: null };
   directions.start();
@@ -158,7 +158,7 @@ test("a height is that of the pose: out of date when turned otherwise, not when 
   expect(directions.isCurrent).toBe(true);
 });
 
-test("the greatest energy is red, the least blue, what does not fit grey, what is not known clear", () => {
+test("the highest energy is red, the lowest blue, excluded directions grey, unknown ones clear", () => {
   const candidates = [candidate(0.4), candidate(0.8), candidate(0.6), candidate(null, { excluded: "too-high" }), null, candidate(null)];
   expect(energyRange(candidates)).toEqual([0.4, 0.8]);
   expect(energyRange([null])).toBeNull();
@@ -174,7 +174,7 @@ test("the greatest energy is red, the least blue, what does not fit grey, what i
   expect(coloursOf([candidate(1)], "classic")).toEqual([colourAt("classic", 1)]);
 });
 
-test("what is known of a candidate is told in the language; of one that does not fit its size", () => {
+test("metrics are written in the language; an excluded candidate has only its size", () => {
   const { format } = languageOf("en");
   const rows = Object.fromEntries(metricRows(candidate(0.5), "cusp", languageOf("en")));
   expect(rows).toEqual({
@@ -196,21 +196,21 @@ test("arrow keys go where they point, on either side, and around the rim", () =>
   expect(moved(front, "left", 30)[0]).toBeCloseTo(-0.5, 12);
   expect(moved(front, "up", 30)[1]).toBeCloseTo(0.5, 12);
   expect(moved(front, "down", 30)[1]).toBeCloseTo(-0.5, 12);
-  // From behind, what is right on the picture is left of the front.
+  // In the picture from behind, right is left of the front.
   expect(moved([0, 0, -1], "right", 30)[0]).toBeCloseTo(-0.5, 12);
   expect(moved([0, 0, -1], "up", 30)[1]).toBeCloseTo(0.5, 12);
   expect(moved(front, "right", 120)[2]).toBeCloseTo(-0.5, 12);
-  // The top is as far as it goes.
+  // Steps end at the top.
   expect(moved([0, Math.sin(1.5), Math.cos(1.5)], "up", 30)[1]).toBeCloseTo(1, 12);
 });
 
-test("a step goes to the first other direction, and stays where there is none", () => {
+test("a step goes to the first other direction, and stays if there is none", () => {
   const byLongitude = ([x, , z]: Triple): number => Math.floor((Math.atan2(x, z) / Math.PI) * 18 + 18.5);
   const start = byLongitude([0, 0, 1]);
   expect(stepped([0, 0, 1], "right", byLongitude)).toBe(start + 1);
   expect(stepped([0, 0, 1], "left", byLongitude)).toBe(start - 1);
   expect(stepped([0, 0, 1], "up", byLongitude)).toBe(start);
-  // The top has no left and right of its own, but two sides.
+  // At the top, left and right lead to the two sides.
   const bySide = ([x, y]: Triple): number => (y > 0.9 ? 0 : Math.sign(x));
   expect(stepped([0, 1, 0], "right", bySide)).toBe(1);
   expect(stepped([0, 1, 0], "left", bySide)).toBe(-1);

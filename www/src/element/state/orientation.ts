@@ -1,11 +1,11 @@
-/** The search for the best direction: what counts, what is known so far, and whether it still holds. */
+/** The orientation search: its aims, what is known so far, and whether that is current. */
 import { isAbort } from "../../api/error.js";
 import type { Found, OrientCall, Slicer } from "../../api/index.js";
 import type { Candidate, Options, SearchOptions } from "../../api/wire.js";
 import { advanced, type Busy } from "../parts/progress.js";
 import { rotationText, type Settings } from "./settings.js";
 
-/** What a direction is judged by. */
+/** What candidates are rated by. */
 export type Aims = Readonly<Required<Pick<SearchOptions, "alpha" | "cost" | "quality">>>;
 
 /** What a search depends on. */
@@ -17,28 +17,28 @@ export interface Subject {
 }
 
 export interface OrientationHost {
-  /** What a search would be about now; null if there is no model, or its settings make no sense. */
+  /** The subject of a search started now; null without a model, or if a setting is invalid. */
   subject(): Subject | null;
   changed(): void;
   progressed(busy: Busy): void;
   failed(error: unknown): void;
 }
 
-/** The core's own, which the panel shows before the worker is there. A test holds them against the core. */
+/** The core's defaults, which the panel shows before the worker has started. A test compares them with the core. */
 export const DEFAULT_AIMS: Aims = { alpha: 0.5, cost: "layers", quality: "error" };
 
 export class OrientationSearch {
   aims = DEFAULT_AIMS;
-  /** What has been measured; null before a search. */
+  /** The candidates measured so far; null before a search. */
   found: Found | null = null;
-  /** The best that differ from each other, the best first; empty until they are known. */
+  /** The best candidates that differ from each other, best first; empty until known. */
   best: readonly Candidate[] = [];
-  /** How far the search is; null if none runs. */
+  /** The progress of the search; null if none runs. */
   busy: Busy | null = null;
   readonly #host: OrientationHost;
   readonly #slicer: Pick<Slicer, "orient">;
   #of: Subject | null = null;
-  /** The options that all this is of, in each pose that it was applied in. */
+  /** Keys of the options that the results are valid for, one for each pose that was applied. */
   #keys = new Set<string>();
   /** All candidates, once they are measured. */
   #measured: readonly Candidate[] | null = null;
@@ -49,23 +49,23 @@ export class OrientationSearch {
     this.#slicer = slicer;
   }
 
-  /** Options that the metrics on show are of. */
+  /** The options of the metrics shown. */
   get options(): Options | null {
     return this.#of?.options ?? null;
   }
 
-  /** Whether there is something to search. */
+  /** Whether a search can start. */
   get isPossible(): boolean {
     return this.#host.subject() !== null;
   }
 
-  /** Whether a search would find the same now. */
+  /** Whether a search started now would give the same result. */
   get isCurrent(): boolean {
     const now = this.#host.subject();
     return now !== null && this.#of?.weights === now.weights && this.#keys.has(keyOf(now.options));
   }
 
-  /** Searches anew. */
+  /** Starts a new search. */
   start(): void {
     const subject = this.#host.subject();
     if (subject === null) return;
@@ -75,7 +75,7 @@ export class OrientationSearch {
     void this.#run(subject);
   }
 
-  /** Stops a search; what it has measured stays on show. */
+  /** Stops a search; what it has measured stays visible. */
   cancel(): void {
     const abort = this.#abort;
     if (abort === null) return;
@@ -85,15 +85,15 @@ export class OrientationSearch {
     this.#host.changed();
   }
 
-  /** Something else counts now: what is measured is rated anew. */
+  /** Changes the aims, and rates measured candidates again. */
   aim(change: Partial<Aims>): void {
     this.aims = { ...this.aims, ...change };
     this.#host.changed();
-    // A search that runs sees it at its end.
+    // A running search takes up the change at its end.
     if (this.busy === null && this.#measured !== null && this.#of !== null && this.isCurrent) void this.#run(this.#of);
   }
 
-  /** The model was put in a pose that was found: what is known holds there as well. */
+  /** The model was put in a candidate's pose: the results are valid for those options too. */
   applied(options: Options): void {
     this.#keys.add(keyOf(options));
   }
@@ -152,8 +152,8 @@ export class OrientationSearch {
 }
 
 /**
- * What metrics of all directions depend on: not on the pose, unless a height is asked for, which is that of the model as
- * it stands; nor on where rays are cast, how many, or the kind of file.
+ * The options that metrics of all directions depend on. The pose is one only if a height is requested, which is the height in
+ * that pose; the backend, the number of rays and the print format are not.
  */
 function keyOf({ rotation, height_mm, rays: _rays, backend: _backend, format: _format, ...options }: Options): string {
   return JSON.stringify(height_mm === undefined ? options : { ...options, height_mm, rotation });
@@ -161,7 +161,7 @@ function keyOf({ rotation, height_mm, rays: _rays, backend: _backend, format: _f
 
 /** The change of settings that puts the model in a candidate's pose. */
 export function withPose({ height }: Settings, { rotation, size_mm }: Candidate): Partial<Settings> {
-  // A height is that of the model as it stands: another pose must not change its scale.
+  // A height belongs to the pose: another pose must not change the scale.
   const scaled = height.trim() === "" ? {} : { height: String(Number(size_mm[2].toFixed(6))) };
   return { rotation: rotationText(rotation), ...scaled };
 }

@@ -1,6 +1,6 @@
-/** The parts that an element can show. */
+/** The names of the element's panels. */
 
-/** What `panels` may name, in the order in which they stand. */
+/** The names that `panels` accepts, in the order of the page. */
 export const PANELS = ["open", "model", "settings", "plan", "view", "profile", "orientation", "quality", "layers"] as const;
 
 export type Panel = (typeof PANELS)[number];

@@ -1,18 +1,18 @@
-/** What a person wants: the settings, what there is to choose from, and the way back to what they were. */
+/** What the user wants: the settings, with their undo steps, and the printers and resins to choose from. */
 import type { Backend, Options, Printer, Resin } from "../../api/wire.js";
 import { History } from "./history.js";
 import { check, type Faults, type Offered, type Settings } from "./settings.js";
 
-/** Pause after the last keystroke before anything is made of it. */
+/** Pause after the last keystroke before the settings are planned. */
 const DEBOUNCE_MS = 250;
 
 export abstract class Preferences implements Offered {
   settings: Settings;
-  /** Asked for in every plan; null leaves the choice to the core. */
+  /** The backend of every plan; null leaves the choice to the core. */
   backend: Backend | null;
   printers: readonly Printer[] = [];
   resins: readonly Resin[] = [];
-  /** Settings that the page alone decides. */
+  /** Settings that only the page may change. */
   fixed: ReadonlySet<keyof Settings> = new Set();
   readonly #history = new History<Settings>();
 
@@ -21,7 +21,7 @@ export abstract class Preferences implements Offered {
     this.backend = backend;
   }
 
-  /** Other settings hold from now on; they are worth a plan after this time, unless others come. */
+  /** Called when the settings have changed: they are to be planned after this time, unless they change again. */
   protected abstract preferred(delay_ms: number): void;
 
   get faults(): Faults {
@@ -29,7 +29,7 @@ export abstract class Preferences implements Offered {
     return checked.ok ? {} : checked.faults;
   }
 
-  /** What the settings ask for; null where they make no sense. */
+  /** The options that the settings give; null if a setting is invalid. */
   get options(): Options | null {
     const checked = check(this.settings, this);
     if (!checked.ok) return null;
@@ -44,17 +44,17 @@ export abstract class Preferences implements Offered {
     return this.#history.canRedo;
   }
 
-  /** Takes settings that the page decides, fixed ones too: there is no step back from them. */
+  /** Applies settings from the page, including fixed ones, without an undo step. */
   preset(patch: Partial<Settings>): void {
     this.#set({ ...this.settings, ...patch }, DEBOUNCE_MS);
   }
 
-  /** Takes all settings at once, as an address has them. */
+  /** Replaces all settings except fixed ones, as from a URL, without an undo step. */
   restore(settings: Settings): void {
     this.#set(this.#allowed(settings), DEBOUNCE_MS);
   }
 
-  /** Changes settings and plans again, soon if they make sense. */
+  /** Changes settings, except fixed ones, as an undo step, and plans again after a pause if they are valid. */
   change(patch: Partial<Settings>): void {
     this.#history.note(this.settings, Object.keys(patch).join(), performance.now());
     this.#set(this.#allowed({ ...this.settings, ...patch }), DEBOUNCE_MS);
@@ -70,7 +70,7 @@ export abstract class Preferences implements Offered {
     if (after !== null) this.#set(this.#allowed(after), 0);
   }
 
-  /** These settings with the fixed ones as they are. */
+  /** These settings, with the fixed ones unchanged. */
   #allowed(settings: Settings): Settings {
     const kept = Object.fromEntries([...this.fixed].map((key) => [key, this.settings[key]]));
     return { ...settings, ...kept };

@@ -15,7 +15,7 @@ function explain(
 }
 
 const failed = <Code extends ErrorCode>(code: Code, detail: ErrorDetails[Code]): SlicerError =>
-  // No page shows the core's own sentence.
+  // The element never shows the core's own sentence.
   new SlicerError(code as "no-plan", "never shown", detail as null);
 
 type Ways = Pick<ErrorDetails["infeasible"], "least_tolerance" | "largest_layer_min_mm">;
@@ -26,7 +26,7 @@ const infeasible = (ways: Ways): SlicerError =>
 const infeasibleAt = (patch: Partial<Settings>, detail: Ways): ReturnType<typeof explain> =>
   explain(infeasible(detail), "bunny.stl", { ...DEFAULT_SETTINGS, ...patch });
 
-test("infeasible: where, and the two ways out that the core knows, rounded so that they are ones", () => {
+test("infeasible: where, and the core's two fixes, rounded so that they still work", () => {
   const problem = infeasibleAt({}, { least_tolerance: 0.0498731, largest_layer_min_mm: 0.02 });
   expect(problem.title).toBe("No plan keeps the tolerance all the way up");
   expect(problem.text).toBe(
@@ -39,7 +39,7 @@ test("infeasible: where, and the two ways out that the core knows, rounded so th
   ]);
 });
 
-test("infeasible: only what the core knows is offered", () => {
+test("infeasible: only fixes that the core gives are offered", () => {
   const tolerance = infeasibleAt({}, { least_tolerance: 0.05, largest_layer_min_mm: null });
   expect(tolerance.offers.map(({ change }) => change)).toEqual([{ tolerances: { cusp: "0.05" } }]);
   expect(tolerance.text).toMatch(/Allow a larger error\.$/);
@@ -50,7 +50,7 @@ test.each([
   ["roughness", 0.0999271, "0.1", "Tolerance 0.1\u00a0mm"],
   ["area", 0.0712345, "7.13", "Tolerance 7.13%"],
   ["volume", 137.234, "138", "Tolerance 138\u00a0mm³"],
-] as const)("infeasible by %s: the least tolerance in its unit, for that metric alone", (metric, least, text, label) => {
+] as const)("infeasible by %s: the smallest tolerance in its unit, for that metric only", (metric, least, text, label) => {
   const problem = infeasibleAt(
     { metric, tolerances: { cusp: "0.05" } },
     { least_tolerance: least, largest_layer_min_mm: null },
@@ -58,7 +58,7 @@ test.each([
   expect(problem.offers).toEqual([{ label, change: { tolerances: { cusp: "0.05", [metric]: text } } }]);
 });
 
-test("thinner layers are offered as the core has found them", () => {
+test("thinner layers are offered exactly as the core found them", () => {
   const [offer] = infeasibleAt({ layerMin: "0.055" }, { least_tolerance: null, largest_layer_min_mm: 0.051 }).offers;
   expect(offer?.change).toEqual({ layerMin: "0.051" });
 });
@@ -88,17 +88,17 @@ test.each([
   expect(explain(error, "a.stl", DEFAULT_SETTINGS).title).toBe(title);
 });
 
-/** A model of which a half fits. */
+/** A model that fits at about half its size. */
 const TOO_LARGE = failed("model-too-large", { model_mm_x: 2, model_mm_y: 2, grid_mm_x: 1.0024, grid_mm_y: 2, fitting_scale: 0.5012 });
 const UNIFORM_ONLY = failed("uniform-only", { format: "sl1", others: ["chitubox", "uvj", "png"] });
 
-test("out of memory offers half the rays, down to the least there is", () => {
+test("out of memory offers half the rays, down to the minimum", () => {
   const error = failed("out-of-memory", { hits: 1, needed_bytes: 8 });
   expect(explain(error, "a.stl", DEFAULT_SETTINGS).offers[0]?.change).toEqual({ rays: "1024" });
   expect(explain(error, "a.stl", { ...DEFAULT_SETTINGS, rays: "512" }).offers).toEqual([]);
 });
 
-test("a model that is too large may be scaled to fit, or the printer left out", () => {
+test("a model that is too large offers to scale it to fit, or to leave out the printer", () => {
   const problem = explain(TOO_LARGE, "a.stl", { ...DEFAULT_SETTINGS, printer: "p" });
   expect(problem.field).toBe("printer");
   expect(problem.offers).toEqual([
@@ -107,7 +107,7 @@ test("a model that is too large may be scaled to fit, or the printer left out", 
   ]);
 });
 
-test("what the page has fixed is not offered to be changed", () => {
+test("no offer changes what the page has fixed", () => {
   const { offers } = explain(TOO_LARGE, "a.stl", { ...DEFAULT_SETTINGS, printer: "p" }, ["printer", "format"]);
   expect(offers).toEqual([{ label: "Scale to 30\u00a0mm", change: { height: "30" } }]);
   expect(explain(UNIFORM_ONLY, "a.stl", DEFAULT_SETTINGS, ["format"]).offers).toHaveLength(1);
@@ -126,7 +126,7 @@ test("what the page has fixed is not offered to be changed", () => {
   expect(none?.text).toMatch(/exceeds it\.$/);
 });
 
-test("a file for uniform layers offers these, or another file", () => {
+test("a format for uniform layers offers those, or another format", () => {
   const { field, offers } = explain(UNIFORM_ONLY, "a.stl", { ...DEFAULT_SETTINGS, format: "sl1" });
   expect(field).toBe("format");
   expect(offers.map(({ change }) => change)).toEqual([{ planner: "uniform" }, { format: "png" }]);

@@ -1,4 +1,4 @@
-/** Failures in words: what happened, where it belongs, and what would mend it. */
+/** Failures in words: what happened, which field caused it, and what may fix it. */
 import type { ErrorCode, ErrorDetails, SlicerError } from "../../api/error.js";
 import type { WarningCode, WarningDetails } from "../../api/warning.js";
 import type { Warning } from "../../api/wire.js";
@@ -7,7 +7,7 @@ import { METRICS } from "./metric.js";
 import * as round from "./round.js";
 import { parse, withTolerance, type Field, type Settings } from "./settings.js";
 
-/** A change of settings that may well help, offered as a button. */
+/** A change of settings that may fix a problem, offered as a button. */
 export interface Offer {
   label: string;
   change: Partial<Settings>;
@@ -18,19 +18,19 @@ export interface Problem {
   title: string;
   text: string;
   offers: Offer[];
-  /** The setting that caused it; null where none did. */
+  /** The setting that caused it; null if none did. */
   field: Field | Choice | null;
 }
 
 /** A setting that is chosen from a list. */
 export type Choice = "metric" | "rays" | "printer" | "format" | "resin";
 
-/** What failed, and what was known then. */
+/** What failed, and the state at that time. */
 export interface Failure {
   error: SlicerError;
   /** The file's name. */
   name: string;
-  /** Those that were in force. */
+  /** The settings at that time. */
   settings: Settings;
   /** Height of the model as it was to be printed, in mm; null if none was open. */
   height_mm: number | null;
@@ -122,7 +122,7 @@ const FIELDS: Partial<Record<Kind, Problem["field"]>> = {
 /**
  * A failure in words.
  *
- * @param fixed settings that the page alone decides, so that no offer changes them
+ * @param fixed settings that only the page may change, so that no offer changes them
  */
 export function explain(failure: Failure, language: Language, fixed: ReadonlySet<keyof Settings>): Problem {
   const problem = describe(failure, language, fixed);
@@ -140,7 +140,7 @@ function describe(failure: Failure, language: Language, fixed: ReadonlySet<keyof
   return { ...problem, text, offers: offersFor(kind, error, failure, language) };
 }
 
-/** What the catalogue says of a failure. */
+/** The catalogue's sentence for a failure. */
 function sentenceOf<Code extends ErrorCode>(
   { code, detail }: { code: Code; detail: ErrorDetails[Code] },
   { metric }: Settings,
@@ -168,7 +168,7 @@ function offersFor(kind: Kind, error: SlicerError, failure: Failure, language: L
 
 type Infeasible = Extract<SlicerError, { code: "infeasible" }>;
 
-/** Adds to the place where no plan keeps the tolerance what would do: the core knows, and here it is offered. */
+/** Adds the core's fixes to the sentence `place`, which says where no plan keeps the tolerance, and offers them. */
 function waysOut(
   { detail }: Infeasible,
   place: string,
@@ -209,12 +209,12 @@ function fewerRays(settings: Settings, { texts, format }: Language): Offer[] {
   return half >= 512 ? [{ label: texts.offers.rays(format.count(half)), change: { rays: String(half) } }] : [];
 }
 
-/** What a model that is too large may be scaled by; null for any other error. */
+/** The scale at which a model that is too large fits; null for any other error. */
 function scaleThatFits(error: SlicerError): number | null {
   return error.code === "model-too-large" || error.code === "model-too-high" ? error.detail.fitting_scale : null;
 }
 
-/** The height at which the model fits, to a tenth of a millimetre below. */
+/** Offers the height at which the model fits, rounded down to 0.1 mm. */
 function smaller(scale: number | null, { height_mm }: Failure, { texts, format }: Language): Offer[] {
   if (scale === null || height_mm === null) return [];
   const fitting = Math.floor(10 * height_mm * scale) / 10;

@@ -1,15 +1,15 @@
-/** What an attribute or a property may say, and what was expected of one that makes no sense. */
+/** Readers of attribute and property values, which say what was expected of an invalid one. */
 
 /** What was expected instead. */
 export interface Wrong {
   /** Ends a sentence that begins with the attribute. */
   words: string;
-  /** Where there is a list to choose from. */
+  /** The valid names, if there is a list. */
   known?: readonly string[];
 }
 
 export interface Read<T> {
-  /** Null where nothing was said; absent where what was said makes no sense. */
+  /** Null if nothing was set; absent if the value is invalid. */
   value?: T | null;
   wrong?: Wrong;
 }
@@ -47,7 +47,7 @@ export const oneOf =
     return value === undefined ? { wrong: noneOf(known) } : { value };
   };
 
-/** Of several names those that are known count, unless none is. */
+/** Reads several names: the known ones apply and the others are reported. Invalid if none is known. */
 export const someOf =
   <T extends string>(known: readonly T[]): Reader<readonly T[]> =>
   (said) => {

@@ -1,4 +1,4 @@
-/** A report of which tests change what they look at. */
+/** A report in which tests override the fields that they check. */
 import type { PlannerReport, Report } from "../../api/wire.js";
 
 export const uniform = (layers: number, max_error: number, print_time_s: number): PlannerReport => ({

@@ -1,4 +1,4 @@
-/** What came of settings: a plan with the options it was made for, and what is drawn of it. */
+/** The result of settings: a plan with the options that it was made for, and what is drawn from it. */
 import type { Plan } from "../../api/index.js";
 import type { Metric, Options, Preview, Report } from "../../api/wire.js";
 
@@ -9,16 +9,16 @@ export interface Result extends Plan {
   limits: readonly [number, number];
 }
 
-/** What charts and the view draw: of the last plan, or of a preview while the model is turned. */
+/** What charts and the view draw: from the last plan, or from a preview while the model is being turned or painted. */
 export interface Shown {
   metric: Metric;
-  /** Value of each bin: see `Plan`. */
+  /** The value of each bin: see `Plan`. */
   profile: Float32Array;
   bin_mm: number;
-  /** Layer boundaries from 0 to the height of the model. */
+  /** Layer boundaries from 0 to the height of the model, mm. */
   z_mm: readonly number[];
   thickness_mm: readonly number[];
-  /** Thicknesses at the ends of the colour scale. */
+  /** Thicknesses at the ends of the colour scale, mm. */
   limits: readonly [number, number];
   layers: number;
   print_time_s: number;
@@ -29,7 +29,7 @@ export function shownOf(report: Report | Preview, profile: Float32Array): Shown 
   return { metric, bin_mm, z_mm, thickness_mm, layers, print_time_s, profile, limits };
 }
 
-/** Whether two sets of options, made alike, ask for the same plan. */
+/** Whether two sets of options, with their keys in the same order, ask for the same plan. */
 export function areSame(a: Options | null, b: Options | null): boolean {
   return JSON.stringify(a) === JSON.stringify(b);
 }

@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import * as round from "./round.js";
 
-test("rounding up is short and never below; rounding down gives whole micrometres", () => {
+test("rounding up gives few digits and is never below; rounding down gives whole micrometres", () => {
   expect([0.0500001, 0.05, 0.07, 0.0655, 11.2631, 137.234, 1234.5].map(round.up)).toEqual([
     0.051, 0.05, 0.07, 0.066, 11.3, 138, 1235,
   ]);

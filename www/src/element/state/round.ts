@@ -1,15 +1,15 @@
-/** Rounding to numbers that are short to read and safe to offer. */
+/** Rounding to numbers that are short and safe to offer. */
 
-/** What a product of decimals may be off by: far less than the six digits that the core gives. */
+/** Relative error that a product of decimals may have: far less than the six digits that the core gives. */
 const SLACK = 1e-9;
 
-/** The least number with three decimals, fewer from 1 on, that is not below `value`, which is positive. */
+/** Rounds a positive value up: to three decimals below 1, two below 10, one below 100, and to a whole number from 100 on. */
 export function up(value: number): number {
   const decimals = Math.min(3, Math.max(0, 2 - Math.floor(Math.log10(value))));
   return Math.ceil(value * 10 ** decimals * (1 - SLACK)) / 10 ** decimals;
 }
 
-/** The largest whole micrometre, in mm, that is not above `mm`. */
+/** Rounds a length in mm down to whole micrometres; the result is in mm. */
 export function micrometreBelow(mm: number): number {
   return Math.floor(mm * 1000 * (1 + SLACK)) / 1000;
 }

@@ -1,4 +1,4 @@
-/** Runs at most one task at a time: how far it is, and what came of it. */
+/** Runs at most one task at a time, and reports its progress and its outcome. */
 import { isAbort } from "../../api/error.js";
 import type { Watch } from "../../api/index.js";
 import type { Options } from "../../api/wire.js";
@@ -11,15 +11,15 @@ export interface RunnerHost {
 
 export interface Task {
   readonly kind: Busy["task"];
-  /** What it is about, for people. */
+  /** The name of its model, to be shown. */
   readonly name: string;
-  /** Those of a plan; null for anything else. */
+  /** The options of a plan; null for other tasks. */
   readonly options: Options | null;
   readonly weights: Float32Array | null;
 }
 
 export class Runner {
-  /** How far the task is; null if none runs. */
+  /** The progress of the task; null if none runs. */
   busy: Busy | null = null;
   readonly #host: RunnerHost;
   #running: { readonly task: Task; readonly abort: AbortController } | null = null;
@@ -32,7 +32,7 @@ export class Runner {
     return this.#running?.task ?? null;
   }
 
-  /** What the call gives. Null if it failed, was dropped, or something else has begun meanwhile. */
+  /** Resolves with the call's value; null if it failed, was dropped, or another task has started meanwhile. */
   async run<T>(task: Task, failed: (error: unknown) => void, call: (watch: Watch) => Promise<T>): Promise<T | null> {
     const { kind, name } = task;
     const mine = { task, abort: new AbortController() };
@@ -50,7 +50,7 @@ export class Runner {
     };
     try {
       const value = await call({ signal: mine.abort.signal, onProgress });
-      // Something else may have begun while the answer was on its way.
+      // Another task may have started before the value arrived.
       return this.#running === mine ? value : null;
     } catch (error) {
       if (this.#running === mine && !isAbort(error)) failed(error);
@@ -64,7 +64,7 @@ export class Runner {
     }
   }
 
-  /** Abandons what is under way. */
+  /** Aborts the running task. */
   drop(): void {
     const running = this.#running;
     this.#running = null;

@@ -1,4 +1,4 @@
-/** What a person does to the model itself: turning it, painting weights, and orienting it. */
+/** Edits of the model itself: turning it, painting weights, and applying an orientation. */
 import { expect, test } from "vitest";
 import { SCHEMA } from "../../api/index.js";
 import type { Candidate } from "../../api/wire.js";
@@ -6,7 +6,7 @@ import { model, planOf } from "./fake-slicer.js";
 import { planned, session, settle, slicer, start } from "./session-fixture.js";
 import { DEFAULT_SETTINGS } from "./settings.js";
 
-test("while the model is turned previews are shown, the newest turn last; let go, it is planned", async () => {
+test("turning the model shows previews, the newest rotation last; releasing it plans", async () => {
   await planned();
   for (let i = 1; i < 5; i++) session.turn([0, 0, i / 10, 1], false);
   await settle();
@@ -22,7 +22,7 @@ test("while the model is turned previews are shown, the newest turn last; let go
   expect(session.settings.rotation).toBe("");
 });
 
-test("another model stands as in its file; the first one as the settings say", async () => {
+test("another model has the pose of its file; the first one takes the rotation of the settings", async () => {
   start({ settings: { ...DEFAULT_SETTINGS, rotation: "0,0,1,0" } });
   await planned();
   expect(slicer.last.options?.rotation).toEqual([0, 0, 1, 0]);
@@ -32,7 +32,7 @@ test("another model stands as in its file; the first one as the settings say", a
   expect(slicer.last.options).not.toHaveProperty("rotation");
 });
 
-test("a stroke is followed by previews, and planned at its end though the options are the same", async () => {
+test("a stroke is previewed, and planned at its end although the options are the same", async () => {
   await planned();
   const { length } = slicer.calls;
   session.setWeights(Float32Array.of(0.5), false);
@@ -53,7 +53,7 @@ test("a stroke is followed by previews, and planned at its end though the option
   expect(slicer.painted).toEqual([Float32Array.of(0.5), weights]);
 });
 
-test("what is painted while a plan is made is planned after it", async () => {
+test("weights painted during a plan are planned after it", async () => {
   await planned();
   session.setWeights(Float32Array.of(0.5), true);
   const first = slicer.last;
@@ -68,7 +68,7 @@ test("what is painted while a plan is made is planned after it", async () => {
   expect(session.isCurrent).toBe(true);
 });
 
-test("weights are saved and come back from their file; a file that holds none is a failure", async () => {
+test("weights are saved to a file and read back; a file without weights is a failure", async () => {
   await planned();
   expect(await session.saveWeights()).toBeNull();
   const weights = Float32Array.of(0.25);
@@ -83,7 +83,7 @@ test("weights are saved and come back from their file; a file that holds none is
   expect(session.weights).toEqual(weights);
 });
 
-test("another model is all alike", async () => {
+test("opening another model clears the weights", async () => {
   await planned();
   session.setWeights(Float32Array.of(0.5), true);
   slicer.last.resolve(planOf(9));
@@ -94,7 +94,7 @@ test("another model is all alike", async () => {
   expect(session.weights).toBeNull();
 });
 
-test("standing as a candidate does is a step that can be undone; a height keeps its scale", async () => {
+test("applying a candidate is an undo step; with a height, the scale stays", async () => {
   await planned();
   const stood: Candidate = {
     ...{ direction: [0, 0, 1], rotation: [1, 0, 0, 0], size_mm: [1, 2, 3.25], excluded: null, metrics: null, energy: null },
@@ -111,7 +111,7 @@ test("standing as a candidate does is a step that can be undone; a height keeps 
   expect(session.options).toMatchObject({ rotation: [1, 0, 0, 0], height_mm: 3.25 });
 });
 
-test("a search goes on beside plans, and is forgotten with its model", async () => {
+test("a search runs beside plans, and is forgotten with its model", async () => {
   await planned();
   session.orientation.start();
   const search = slicer.last;

@@ -1,4 +1,4 @@
-/** A session on a slicer that answers when it is told to, under fake timers. */
+/** A session over a fake slicer, under fake timers. */
 import { afterEach, beforeEach, vi } from "vitest";
 import { FakeSlicer, model, planOf } from "./fake-slicer.js";
 import { Session } from "./session.js";
@@ -23,7 +23,7 @@ afterEach(() => {
   vi.useRealTimers();
 });
 
-/** Opens a model and lets it be planned. */
+/** Opens a model and plans it. */
 export async function planned(layers = 10): Promise<void> {
   void session.open(new Blob(), "a.stl");
   slicer.last.resolve(model);

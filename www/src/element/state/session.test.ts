@@ -8,7 +8,7 @@ import { DEFAULT_SETTINGS } from "./settings.js";
 const zip: PrintFile = { schema: SCHEMA, name: "a-cusp.zip", type: "application/zip", blob: new Blob(["zip"]), warnings: [] };
 const CUT = new SlicerError("stl-truncated", "", { line: 3, expected: "facet-or-endsolid" });
 
-test("opening plans at once and looks at the middle", async () => {
+test("opening a model plans it at once and selects the middle layer", async () => {
   await planned();
   expect(slicer.calls.map(({ what }) => what)).toEqual(["open", "plan"]);
   expect(session.result?.report.layers).toBe(10);
@@ -17,7 +17,7 @@ test("opening plans at once and looks at the middle", async () => {
   expect(session.busy).toBeNull();
 });
 
-test("a new plan keeps the height that is looked at", async () => {
+test("a new plan keeps the height of the selected layer", async () => {
   await planned();
   session.selectLayer(2);
   session.change({ tolerances: { cusp: "0.05" } });
@@ -28,7 +28,7 @@ test("a new plan keeps the height that is looked at", async () => {
   expect(session.mask?.layer).toBe(4);
 });
 
-test("typing waits for a pause, and nonsense plans nothing and says so", async () => {
+test("typing waits for a pause, and an invalid value is a fault and not planned", async () => {
   await planned();
   session.change({ tolerances: { cusp: "0.0" } });
   session.change({ tolerances: { cusp: "0.05" } });
@@ -44,7 +44,7 @@ test("typing waits for a pause, and nonsense plans nothing and says so", async (
   expect(session.result?.report.layers).toBe(20);
 });
 
-test("over the same rays the newest settings wait for the plan under way, and those between are skipped", async () => {
+test("with the same rays, the newest settings wait for the running plan, and intermediate ones are skipped", async () => {
   await planned();
   session.change({ tolerances: { cusp: "0.05" } });
   await settle();
@@ -59,7 +59,7 @@ test("over the same rays the newest settings wait for the plan under way, and th
   expect(slicer.calls).toHaveLength(4);
 });
 
-test("new rays end the plan under way", async () => {
+test("other rays abort the running plan", async () => {
   await planned();
   session.change({ rays: "4096" });
   await settle();
@@ -72,7 +72,7 @@ test("new rays end the plan under way", async () => {
   expect(session.failure).toBeNull();
 });
 
-test("a failed plan keeps the last good one and its masks, and says what happened", async () => {
+test("a failed plan keeps the last good one and its masks, and reports the error", async () => {
   await planned();
   session.change({ tolerances: { cusp: "0.02" } });
   await settle();
@@ -112,7 +112,7 @@ test("cancelling the first plan leaves a model that can be planned again", async
   expect(session.result?.report.layers).toBe(10);
 });
 
-test("settings changed during a download wait for it", async () => {
+test("settings changed during an export are planned after it", async () => {
   await planned();
   const download = session.export();
   session.change({ rays: "4096" });
@@ -124,7 +124,7 @@ test("settings changed during a download wait for it", async () => {
   expect(slicer.last.options?.rays).toBe(4096);
 });
 
-test("settings changed while a file is read belong to it, or to the model before if it cannot be read", async () => {
+test("settings changed while a file is read apply to it, or to the previous model if it cannot be read", async () => {
   await planned();
   void session.open(new Blob(), "b.stl");
   session.change({ tolerances: { cusp: "0.05" } });
@@ -135,7 +135,7 @@ test("settings changed while a file is read belong to it, or to the model before
   expect(slicer.last.options?.tolerance).toBe(0.05);
 });
 
-test("a zip is made once for each plan", async () => {
+test("a print file is made once per plan", async () => {
   await planned();
   const first = session.export();
   slicer.last.resolve(zip);
@@ -146,7 +146,7 @@ test("a zip is made once for each plan", async () => {
   expect(slicer.calls.filter(({ what }) => what === "export")).toHaveLength(1);
 });
 
-test("masks: while one is fetched only the newest layer waits", async () => {
+test("while a mask is fetched, only the newest layer waits", async () => {
   await planned();
   slicer.masks.length = 0;
   for (let layer = 0; layer < 9; layer++) session.selectLayer(layer);
@@ -154,7 +154,7 @@ test("masks: while one is fetched only the newest layer waits", async () => {
   expect(slicer.masks).toEqual([0, 8]);
 });
 
-test("the tolerance that the core took is known where none is typed for that metric", async () => {
+test("the tolerance that the core chose is known if none is typed for that metric", async () => {
   start({ settings: { ...DEFAULT_SETTINGS, metric: "volume" } });
   expect(session.taken).toBeNull();
   await planned();
@@ -170,7 +170,7 @@ test("the tolerance that the core took is known where none is typed for that met
   expect(session.taken).toBeNull();
 });
 
-test("of several files the first is opened and the others wait; of none it says that none will do", async () => {
+test("of several files, the first STL is opened and the others wait; a file of another kind is a failure", async () => {
   void session.choose([new File([], "notes.txt"), new File([], "a.stl"), new File([], "b.stl")]);
   slicer.last.resolve(model);
   await settle();
@@ -179,7 +179,7 @@ test("of several files the first is opened and the others wait; of none it says 
   slicer.last.resolve({ ...model, name: "b.stl" });
   await settle();
   expect([session.model?.name, session.place]).toEqual(["b.stl", 1]);
-  // The core looks inside and says what it is.
+  // The core inspects the content and reports what it is.
   void session.choose([new File([], "notes.txt")]);
   slicer.last.reject(new SlicerError("unknown-file-kind", ""));
   await settle();
@@ -187,7 +187,7 @@ test("of several files the first is opened and the others wait; of none it says 
   expect([session.model?.name, session.place, session.files.length]).toEqual(["b.stl", 1, 2]);
 });
 
-test("the curve is asked for once, as long as nothing but the tolerance changes", async () => {
+test("the curve is fetched once, as long as only the tolerance changes", async () => {
   await planned();
   expect(session.curve).toHaveLength(3);
   session.change({ tolerances: { cusp: "0.05" } });
@@ -203,7 +203,7 @@ test("the curve is asked for once, as long as nothing but the tolerance changes"
   expect(slicer.curves.every((options) => !("tolerance" in options))).toBe(true);
 });
 
-test("a quality is a place on the curve, taken when that is known", async () => {
+test("a quality is a point on the curve, applied once the curve is known", async () => {
   session.quality = 1;
   await planned();
   expect(session.settings.tolerances.cusp).toBe("0.05");
@@ -215,7 +215,7 @@ test("a quality is a place on the curve, taken when that is known", async () => 
   expect(slicer.last.options?.tolerance).toBe(0.15);
 });
 
-test("a plan without any error gives the least tolerance that can be asked for", async () => {
+test("a plan without any error gives the smallest valid tolerance", async () => {
   slicer.tolerances = [0];
   session.quality = 0.5;
   await planned();
@@ -223,7 +223,7 @@ test("a plan without any error gives the least tolerance that can be asked for",
   expect(session.faults).toEqual({});
 });
 
-test("settings go back and forth, and are planned each time", async () => {
+test("undo and redo of settings plan again each time", async () => {
   await planned();
   session.change({ height: "20" });
   await settle();

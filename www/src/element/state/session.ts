@@ -1,7 +1,7 @@
 /**
- * What an element is doing: one model, its settings, the last good result, and at most one task at a time.
+ * The state of an element: one model, its settings, the last good result, and at most one running task.
  *
- * No DOM here: an element (or a test) hosts it, is told when something changed, and draws what it finds.
+ * There is no DOM here: an element or a test hosts the session, is notified of changes, and renders its state.
  */
 import { asSlicerError, isAbort } from "../../api/error.js";
 import type { Model, Plan, Mask, PrintFile, Watch } from "../../api/index.js";
@@ -26,15 +26,15 @@ export class Session extends Preferences {
   model: Model | null = null;
   result: Result | null = null;
   failure: Failure | null = null;
-  /** Something worth saying that is no failure. */
+  /** A notice to show that is not a failure. */
   notice: "cancelled" | "exportCancelled" | null = null;
-  /** The layer looked at, from 0. */
+  /** The selected layer, counted from 0. */
   layer = 0;
-  /** How much each facet matters, 0 to 1, as painted; null: all alike. */
+  /** How much each facet matters, 0 to 1, as painted; null: all equally. */
   weights: Float32Array | null = null;
   /** What charts and the view draw; null before there is a plan. */
   shown: Shown | null = null;
-  /** Files that came together, and which of them is open. */
+  /** Files that were opened together, and the index of the open one. */
   files: readonly File[] = [];
   place = 0;
 
@@ -47,11 +47,11 @@ export class Session extends Preferences {
   readonly #follower: Follower;
   readonly #runner: Runner;
   #timer: ReturnType<typeof setTimeout> | undefined;
-  /** Options to plan with when the task under way has ended. */
+  /** Options to plan with once the running task has ended. */
   #next: Options | null = null;
-  /** The weights that the result is of. */
+  /** The weights of the result. */
   #weightsOf: Float32Array | null = null;
-  /** Whether the newest plan asked for has not come about. */
+  /** Whether the newest plan has not succeeded. */
   #failed = false;
   #archive: { of: Result; file: PrintFile } | null = null;
 
@@ -78,30 +78,30 @@ export class Session extends Preferences {
     });
   }
 
-  /** How far the task under way is; null if there is none. */
+  /** The progress of the running task; null if none runs. */
   get busy(): Busy | null {
     return this.#runner.busy;
   }
 
-  /** The mask of the layer looked at, or of the one before while it is fetched. */
+  /** The mask of the selected layer, or the previous mask while it is fetched. */
   get mask(): Mask | null {
     return this.#beside.mask;
   }
 
-  /** The best plans of the model, from the tightest tolerance to the loosest; null until they are known. */
+  /** The best plans of the model, from the tightest tolerance to the loosest; null until known. */
   get curve(): readonly TradeoffPoint[] | null {
     return this.#curve.points;
   }
 
-  /** How the model is turned while it is held; null while it is not. */
+  /** The rotation of the model while the user is turning it; null otherwise. */
   get turning(): Rotation | null {
     return this.#follower.turning;
   }
 
-  /** Starts the worker and asks what there is to choose from. */
+  /** Starts the worker and fetches the list of printers. */
   start(): void {
     this.#slicer.warm();
-    // A worker that does not start says so when it is asked for more than a list.
+    // A worker that does not start is reported by the next call.
     void this.#slicer.printers().then(
       (printers) => {
         this.printers = printers;
@@ -112,34 +112,34 @@ export class Session extends Preferences {
     );
   }
 
-  /** Whether settings were changed that will be planned by after a pause. */
+  /** Whether a change of settings waits for a pause before it is planned. */
   get isPending(): boolean {
     return this.#timer !== undefined;
   }
 
-  /** Whether the result on show is of earlier settings, because those on show give none. */
+  /** Whether the result shown is for earlier settings, because the current ones give none. */
   get earlier(): boolean {
     return this.result !== null && this.busy === null && (Object.keys(this.faults).length > 0 || this.#failed);
   }
 
-  /** The tolerance that the core took because none was typed for the metric on show; null if it is not known. */
+  /** The tolerance that the core chose because none is typed for the current metric; null if unknown. */
   get taken(): number | null {
     const { result, settings } = this;
     return result?.report.metric === settings.metric && result.options.tolerance === undefined ? result.report.tolerance : null;
   }
 
-  /** Takes the STLs of a drop or a dialogue: the first is opened, the others wait. */
+  /** Opens the first STL of a drop or a file dialog and keeps the others; null if that failed or was cancelled. */
   async choose(files: readonly File[]): Promise<Model | null> {
     if (files.length === 0) return null;
     const { files: before, place } = this;
     this.files = choose(files);
     const model = await this.openFile(0);
-    // What cannot be opened leaves what was there.
+    // If the file cannot be opened, the previous files stay.
     if (model === null) [this.files, this.place] = [before, place];
     return model;
   }
 
-  /** Opens another of the files that came together. */
+  /** Opens another of the files that were opened together; null if that failed or was cancelled. */
   async openFile(place: number): Promise<Model | null> {
     const file = this.files[place];
     if (file === undefined) return null;
@@ -147,20 +147,20 @@ export class Session extends Preferences {
     return this.#open(file, file.name);
   }
 
-  /** Opens a model that stands alone; null if that failed or was cancelled. */
+  /** Opens a single model; null if that failed or was cancelled. */
   async open(source: Source, name?: string): Promise<Model | null> {
     this.files = [];
     return this.#open(source, name);
   }
 
-  /** Follows a model that is turned: by previews while it is held, by a plan when it is let go. */
+  /** Turns the model: previews it while it is being turned, and plans when it is released. */
   turn(rotation: Rotation, isFinal: boolean): void {
     if (!isFinal) return this.#follower.turn(rotation, this.options);
     this.#follower.stop();
     this.change({ rotation: rotationText(rotation) });
   }
 
-  /** Takes the orientation of a candidate of {@link orientation}. */
+  /** Applies the pose of a candidate of {@link orientation}. */
   orient(candidate: Candidate): void {
     this.#follower.stop();
     this.change(withPose(this.settings, candidate));
@@ -168,10 +168,10 @@ export class Session extends Preferences {
     this.#host.oriented?.(candidate);
   }
 
-  /** Follows weights that are painted: by previews during a stroke, by a plan at its end. */
+  /** Sets the weights: previews them during a stroke, and plans at its end. */
   setWeights(weights: Float32Array | null, isFinal: boolean): void {
     this.weights = weights;
-    // Weights that the core refuses make the plan fail, which says so.
+    // If the core refuses the weights, the plan fails and reports it.
     if (this.model !== null) this.#slicer.setWeights(weights).catch(() => undefined);
     this.#host.painted?.(weights, isFinal);
     const { options } = this;
@@ -184,7 +184,7 @@ export class Session extends Preferences {
     this.replan();
   }
 
-  /** Takes the weights of a file; what is wrong with it is shown. */
+  /** Reads the weights of a file and applies them; a failure is shown. */
   async openWeights(file: File): Promise<void> {
     const { model } = this;
     try {
@@ -196,20 +196,20 @@ export class Session extends Preferences {
     }
   }
 
-  /** A file of the weights on show; null if all facets are alike. */
+  /** A file of the current weights; null if there are none. */
   async saveWeights(): Promise<Download | null> {
     const { weights, model } = this;
     if (weights === null || model === null) return null;
     return { name: weightsName(model.name), blob: await this.#slicer.weightsFile(weights) };
   }
 
-  /** Takes the tolerance of a point of the curve, as if it had been typed. */
+  /** Applies the tolerance of a point of the curve, as if it had been typed. */
   takePoint(index: number): void {
     const point = this.curve?.[index];
     if (point !== undefined) this.change(withPoint(this.settings, point));
   }
 
-  /** From 0, the quickest print worth having, to 1, the finest; at once or as soon as the curve is known. */
+  /** From 0, the fastest print worth having, to 1, the finest; applied at once, or once the curve is known. */
   set quality(quality: number | null) {
     this.#curve.wanted = quality;
     this.#takeQuality();
@@ -220,7 +220,7 @@ export class Session extends Preferences {
     return wanted ?? (this.result === null ? null : this.#curve.placeOf(this.result.report));
   }
 
-  /** Whether the result on show is what the settings ask for. */
+  /** Whether the result is for the current settings and weights. */
   get isCurrent(): boolean {
     return this.result !== null && areSame(this.result.options, this.options) && this.#weightsOf === this.weights;
   }
@@ -237,7 +237,7 @@ export class Session extends Preferences {
     }, delay_ms);
   }
 
-  /** Stops the task under way, whatever stage it is in. The last good result stays. */
+  /** Stops the running task at any stage. The last good result stays. */
   cancel(): void {
     if (this.busy === null) return;
     const { task } = this.busy;
@@ -248,7 +248,7 @@ export class Session extends Preferences {
     void this.#beside.fetch();
   }
 
-  /** Makes the print file of the result on show; null if cancelled or failed. */
+  /** Makes the print file of the result; null without one, while a task runs, or if it failed or was cancelled. */
   async export(): Promise<PrintFile | null> {
     const { result, model } = this;
     if (result === null || model === null || this.busy !== null) return null;
@@ -286,7 +286,7 @@ export class Session extends Preferences {
       return null;
     }
     this.#next = null;
-    // How the model before was turned says nothing about this one.
+    // The rotation of the previous model does not apply to this one.
     if (this.model !== null && this.settings.rotation !== "") this.preset({ rotation: "" });
     this.model = model;
     this.result = null;
@@ -317,8 +317,8 @@ export class Session extends Preferences {
         this.#next = null;
         return;
       }
-      // A plan through other rays is not worth its time any more. Anything else may end first: a plan over the same
-      // rays is nearly there, and what it has sampled serves the next one.
+      // A plan with other rays is obsolete. Any other task may end first: a plan with the same rays is nearly done, and the
+      // next one reuses its samples.
       if (task.options === null || sameRays(task.options, options)) {
         this.#next = options;
         return;
@@ -333,7 +333,7 @@ export class Session extends Preferences {
     await this.#resume();
   }
 
-  /** Plans with the settings that came while something else was under way; else sees to what can wait. */
+  /** Plans with the settings that changed during the last task, if any; otherwise fetches the mask and the curve. */
   async #resume(): Promise<void> {
     const next = this.#next;
     if (this.#runner.task !== null) return;
@@ -360,7 +360,7 @@ export class Session extends Preferences {
     this.#changed();
   }
 
-  /** Runs one task, with progress shown. Null if it was cancelled or failed; a failure is shown. */
+  /** Runs one task and shows its progress; null if it was cancelled or failed. A failure is shown. */
   #run<T>(kind: Busy["task"], name: string, options: Options | null, call: (watch: Watch) => Promise<T>): Promise<T | null> {
     const { settings, weights } = this;
     return this.#runner.run({ kind, name, options, weights }, (error) => this.#fail(error, name, settings), call);
@@ -379,7 +379,7 @@ export class Session extends Preferences {
     this.#timer = undefined;
   }
 
-  /** Abandons whatever is under way or waiting. */
+  /** Aborts the running task, and drops any waiting one. */
   #drop(): void {
     this.#forgetTimer();
     this.#next = null;

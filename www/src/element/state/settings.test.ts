@@ -17,7 +17,7 @@ import {
   withTolerance,
 } from "./settings.js";
 
-/** What is wrong, in English. */
+/** The faults in English. */
 function faults(patch: Partial<Settings>, offered: Offered = { printers: [], resins: [] }): Partial<Record<Field, string>> {
   const checked = check({ ...DEFAULT_SETTINGS, ...patch }, offered);
   if (checked.ok) return {};
@@ -29,7 +29,7 @@ function options(patch: Partial<Settings>): unknown {
   return checked.ok ? checked.options : checked.faults;
 }
 
-test("the settings as they come are the core's defaults", () => {
+test("the default settings are the core's defaults", () => {
   expect(options({})).toEqual({
     rays: 2048,
     layer_min_mm: 0.05,
@@ -64,7 +64,7 @@ test("a tolerance belongs to the metric that it was typed for", () => {
   expect(options({ ...both, metric: "cusp" })).toMatchObject({ tolerance: 0.05 });
 });
 
-test("a tolerance that the core took is shown short, and never below it", () => {
+test("a tolerance that the core chose is rounded to few digits, never down", () => {
   expect(usualTolerance("volume", 11.2631)).toBe("11.3");
   expect(usualTolerance("area", 0.07)).toBe("7");
 });
@@ -84,14 +84,14 @@ test.each([
   expect(parse(text)).toBe(value);
 });
 
-test("a height is optional, and judged only when given", () => {
+test("a height is optional, and checked only if given", () => {
   expect(options({ height: "60" })).toMatchObject({ height_mm: 60 });
   expect(faults({ height: " " })).toEqual({});
   expect(faults({ height: "tall" }).height).toMatch(/number/);
   expect(faults({ height: "0" }).height).toMatch(/0.1 to 1,000/);
 });
 
-test("a range that is upside down is a fault of its upper end", () => {
+test("a reversed range is a fault of its upper end", () => {
   expect(faults({ layerMin: "0.2", layerMax: "0.1" })).toEqual({
     layerMax: "The thickest layer must not be thinner than the thinnest.",
   });
@@ -110,20 +110,20 @@ test("the uniform thickness counts only for the uniform planner", () => {
   expect(options({ planner: "uniform", uniform: "0.1" })).toMatchObject({ planner: { kind: "uniform", layer_mm: 0.1 } });
 });
 
-test("bins are the core's to choose", () => {
+test("the size of bins is left to the core", () => {
   for (const patch of [{ layerMin: "0.025" }, { planner: "uniform", uniform: "0.0355" }, { step: "0.0025" }] as const) {
     expect(options(patch)).not.toHaveProperty("bin_mm");
   }
 });
 
-test("what only adaptive plans have is neither judged nor sent for uniform ones", () => {
+test("settings of adaptive plans are neither checked nor sent for uniform ones", () => {
   const uniform = options({ planner: "uniform", step: "x", minimize: "time", snap: "off" });
   for (const key of ["step_mm", "minimize", "snap"]) expect(uniform).not.toHaveProperty(key);
   expect(options({ step: "0.01", minimize: "time", snap: "off" })).toMatchObject({ step_mm: 0.01, minimize: "time", snap: "off" });
   expect(faults({ step: "x" }).step).toMatch(/number/);
 });
 
-test("an address may name settings, and what it cannot name is ignored", () => {
+test("a query sets settings, and unknown keys and choices are ignored", () => {
   expect(fromAddress("?height=60&rays=4096&planner=uniform&uniform=0.1&backend=gpu")).toEqual({
     ...DEFAULT_SETTINGS,
     height: "60",
@@ -142,14 +142,14 @@ test("an address may name settings, and what it cannot name is ignored", () => {
   expect(fromAddress("?rays=7&planner=best&metric=beauty&minimize=cost&snap=on&constructor=1")).toEqual(DEFAULT_SETTINGS);
 });
 
-test("only what moves the rays makes a difference to sameRays", () => {
+test("sameRays() compares only the options that move the rays", () => {
   expect(sameRays({ rays: 1024, tolerance: 0.05 }, { rays: 1024, metric: "area" })).toBe(true);
   expect(sameRays({ rays: 1024 }, { rays: 2048 })).toBe(false);
   expect(sameRays({ height_mm: 60 }, {})).toBe(false);
   expect(sameRays({ pixels: [1, 2] }, { pixels: [1, 2] })).toBe(true);
 });
 
-test("an address is made of what is not as usual, and gives the settings again", () => {
+test("a query has only the settings that differ from the defaults, and restores them", () => {
   expect(toAddress(DEFAULT_SETTINGS)).toBe("");
   const settings: Settings = {
     ...DEFAULT_SETTINGS,
@@ -179,7 +179,7 @@ const PRINTER = {
   reads: ["goo"],
 } satisfies Offered["printers"][number];
 
-test("a printer gives the pixels and the limits of layers", () => {
+test("a printer sets the pixels and the limits of layer thickness", () => {
   const offered: Offered = { printers: [PRINTER], resins: [] };
   expect(options({ printer: "p" })).toMatchObject({ printer: "p" });
   expect(options({ printer: "p" })).not.toHaveProperty("rays");
@@ -187,7 +187,7 @@ test("a printer gives the pixels and the limits of layers", () => {
   expect(faults({ layerMax: "0.3" }, offered)).toEqual({});
 });
 
-test("a resin is the host's, with what is typed over it", () => {
+test("a resin is the page's, overridden by what is typed", () => {
   const resins = [{ name: "tough", exposure_s: 4, wait_s: 2 }];
   const checked = check({ ...DEFAULT_SETTINGS, resin: "tough", exposure: "3,5", bottomLayers: "6" }, { printers: [], resins });
   expect(checked).toMatchObject({ ok: true, options: { resin: { name: "tough", exposure_s: 3.5, wait_s: 2, bottom_layers: 6 } } });
@@ -196,12 +196,12 @@ test("a resin is the host's, with what is typed over it", () => {
   expect(faults({ exposure: "0" }).exposure).toBe("Must be 0.1 to 600 s.");
 });
 
-test("a rotation is written short, and none is empty", () => {
+test("a rotation is written with few digits, and the identity as empty text", () => {
   expect(rotationText([0, 0, 0, 1])).toBe("");
   expect(rotationText([0, -0, Math.SQRT1_2, Math.SQRT1_2])).toBe("0,0,0.707107,0.707107");
 });
 
-test("a rotation is four numbers, made a unit; anything else is none", () => {
+test("a rotation is four numbers, normalised; anything else gives null", () => {
   expect(quaternion("0,0,2,0")).toEqual([0, 0, 1, 0]);
   expect(["", "1,2", "0,0,0,0", "a,b,c,d", "1,2,3,4,5"].map(quaternion)).toEqual([null, null, null, null, null]);
 });

@@ -1,4 +1,4 @@
-/** The form's settings: what was typed or chosen, whether it makes sense, and the options it stands for. */
+/** The form's settings: what was typed or chosen, whether it is valid, and the options that it gives. */
 import { DEFAULTS } from "../../api/wire.js";
 import type { Format as FileFormat, Metric, Minimize, Options, Printer, Resin, Snap } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
@@ -14,44 +14,44 @@ interface Lengths {
   step: string;
 }
 
-/** Exposures in s and a count as typed; where they are empty the resin's own hold. */
+/** Exposures in s and a count, as typed; if one is empty, the resin's own applies. */
 interface Curing {
   exposure: string;
   bottomExposure: string;
   bottomLayers: string;
 }
 
-/** What is chosen from a list. */
+/** Settings chosen from a list. */
 interface Choices {
   planner: "optimal" | "uniform";
   metric: Metric;
   minimize: Minimize;
   snap: Snap;
   rays: string;
-  /** Whether facets count by how much they stand out. */
+  /** Whether facets that stand out count for more. */
   saliency: "off" | "on";
-  /** What facets count for at least. */
+  /** The minimum weight of a facet. */
   weightMin: string;
   /** Empty for the printer's own. */
   format: FileFormat | "";
 }
 
-/** What is chosen from a list that is not known beforehand; empty for none. */
+/** Settings without a fixed list of values; empty for none. */
 interface Names {
   /** Name of a printer. */
   printer: string;
   /** Name of one of the host's resins. */
   resin: string;
-  /** How the model is turned before it stands on the plate: x, y, z and w of a unit quaternion, with commas between. */
+  /** The rotation that puts the model in its pose: x, y, z and w of a unit quaternion, separated by commas. */
   rotation: string;
 }
 
 export interface Settings extends Lengths, Curing, Choices, Names {
-  /** Tolerances as typed, each in the unit of its metric. Where there is none or an empty one, the core's own holds. */
+  /** Tolerances as typed, each in the unit of its metric. If one is absent or empty, the core's default applies. */
   tolerances: Readonly<Partial<Record<Metric, string>>>;
 }
 
-/** What is typed, and may be wrong. */
+/** A field that is typed, and may be invalid. */
 export type Field = keyof Lengths | keyof Curing | "tolerance";
 
 /** What is wrong with a field. */
@@ -61,16 +61,16 @@ export type Fault =
 
 export type Faults = Partial<Record<Field, Fault>>;
 
-/** What there is to choose from. */
+/** The printers and resins to choose from. */
 export interface Offered {
   printers: readonly Printer[];
   resins: readonly Resin[];
 }
 
-/** Rays along the longer side that the form offers, coarse to fine. */
+/** The numbers of rays along the longer side that the form offers, coarse to fine. */
 export const RAYS = [512, 1024, 2048, 4096] as const;
 
-/** Least weights that the form offers: with none at all a facet could take any layer. */
+/** The minimum weights that the form offers. 0 is not one: it would allow any layer on a facet. */
 export const WEIGHT_STEPS: readonly string[] = Array.from({ length: 20 }, (_, i) => String((5 * i + 5) / 100));
 
 export const DEFAULT_SETTINGS: Settings = {
@@ -96,7 +96,7 @@ export const DEFAULT_SETTINGS: Settings = {
   tolerances: {},
 };
 
-/** Every key whose value is any text. */
+/** Every key whose value is free text. */
 const TYPED: readonly (keyof Lengths | keyof Curing | keyof Names)[] = [
   "height",
   "layerMin",
@@ -125,9 +125,8 @@ const CHOICES: { readonly [Key in keyof Choices]: readonly Choices[Key][] } = {
 };
 
 /**
- * The settings with those that a page address names, such as `?height=60&metric=area&tolerance=5`; its other parts are
- * left alone. What it says is judged like anything typed, but a choice that is none is ignored, as there is no field to
- * show it in.
+ * The defaults with the settings of a URL query, such as `?height=60&metric=area&tolerance=5`; other parameters are ignored.
+ * Numbers are checked later, like typed ones; an unknown choice is ignored, as no field could show it.
  */
 export function fromAddress(query: string): Settings {
   const address = new URLSearchParams(query);
@@ -142,7 +141,7 @@ export function fromAddress(query: string): Settings {
   return tolerance === null ? settings : { ...settings, ...withTolerance(settings, tolerance) };
 }
 
-/** What {@link fromAddress} makes the settings of again: only what differs from the defaults, in a fixed order. */
+/** The URL query from which {@link fromAddress} restores the settings: what differs from the defaults, in a fixed order. */
 export function toAddress(settings: Settings): string {
   const address = new URLSearchParams();
   for (const key of [...(Object.keys(CHOICES) as (keyof Choices)[]), ...TYPED]) {
@@ -153,19 +152,19 @@ export function toAddress(settings: Settings): string {
   return address.toString();
 }
 
-/** The change of settings that types a tolerance for the metric on show. */
+/** The change of settings that sets the tolerance of the current metric, as typed. */
 export function withTolerance({ metric, tolerances }: Settings, text: string): Pick<Settings, "tolerances"> {
   return { tolerances: { ...tolerances, [metric]: text } };
 }
 
-/** The tolerance that holds where none is typed, in the metric's unit: what the core took by itself, or will take. */
+/** The tolerance that applies if none is typed, in the form's unit: the one that the core chose, or will choose. */
 export function usualTolerance(metric: Metric, taken: number | null): string {
   return String(round.up((taken ?? DEFAULTS.tolerance[metric]) * METRICS[metric].scale));
 }
 
 export type Checked = { ok: true; options: Options } | { ok: false; faults: Faults };
 
-/** The thickest layer a resin printer could cure; past it a number is a slip of the unit (µm for mm). */
+/** The thickest layer a resin printer could cure; a larger number is a slip of the unit (µm for mm). */
 const THICKEST_MM = 1;
 const THINNEST_MM = 0.001;
 const TALLEST_MM = 1000;
@@ -175,7 +174,7 @@ const MOST_BOTTOM_LAYERS = 100;
 const NONE: Offered = { printers: [], resins: [] };
 
 /**
- * Options for the core, or every fault at once. A field that the chosen planner does not use is not judged.
+ * The options for the core, or every fault at once. A field that the chosen planner does not use is not checked.
  */
 export function check(settings: Settings, { printers, resins }: Offered = NONE): Checked {
   const faults: Faults = {};
@@ -192,7 +191,7 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
   if (settings.saliency === "on") options.saliency = true;
   if (settings.weightMin !== DEFAULT_SETTINGS.weightMin) options.weight_min = Number(settings.weightMin);
   const printer = printers.find(({ name }) => name === settings.printer);
-  // A name that nobody knows is the core's to refuse.
+  // The core refuses an unknown name.
   if (settings.printer === "") options.rays = Number(settings.rays);
   else options.printer = settings.printer;
   if (settings.format !== "") options.format = settings.format;
@@ -209,7 +208,7 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
     options.snap = settings.snap;
     if (planner === "optimal" && settings.step.trim() !== "") options.step_mm = read("step", settings.step, THINNEST_MM, THICKEST_MM);
   }
-  // The range also sets the two uniform plans that the result is compared with, so it counts for either planner.
+  // The range also sets the two uniform plans that the result is compared with, so both planners need it.
   const min = (options.layer_min_mm = layer("layerMin"));
   const max = (options.layer_max_mm = layer("layerMax"));
   if (min > max) faults.layerMax = { kind: "upsideDown" };
@@ -237,7 +236,7 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
   return Object.keys(faults).length === 0 ? { ok: true, options } : { ok: false, faults };
 }
 
-/** A fault in words for the person who typed it. */
+/** A fault in words, for the user who typed it. */
 export function faultWords(fault: Fault, { texts: { faults }, format }: Language): string {
   if (fault.kind !== "number" && fault.kind !== "range") return faults[fault.kind];
   const { kind, value, least, most, unit } = fault;
@@ -249,21 +248,21 @@ export function faultWords(fault: Fault, { texts: { faults }, format }: Language
   return isSlip ? `${words} ${faults.micrometres(format.tick(value), format.tick(asMicrometres))}` : words;
 }
 
-/** A number as people type it, with a point or a comma; null if it is none. */
+/** A number as typed, with a decimal point or comma; null if the text is not one. */
 export function parse(text: string): number | null {
   const tidy = text.trim().replace(",", ".");
   if (!/^\d*\.?\d+$|^\d+\.$/.test(tidy)) return null;
   return Number(tidy);
 }
 
-/** A rotation as it stands in the settings; null for none, and for what is none. */
+/** The unit quaternion x, y, z, w of the setting `rotation`; null if that is empty or invalid. */
 export function quaternion(text: string): [number, number, number, number] | null {
   const [x = NaN, y = NaN, z = NaN, w = NaN, ...more] = text.split(",").map(Number);
   const length = Math.hypot(x, y, z, w);
   return more.length === 0 && length > 0 ? [x / length, y / length, z / length, w / length] : null;
 }
 
-/** A rotation as it stands in the settings: to a part in a million, and empty for none. */
+/** The setting `rotation` of a unit quaternion: to six decimals, and empty for the identity. */
 export function rotationText(rotation: readonly number[]): string {
   const text = rotation.map((part) => String(Number(part.toFixed(6)) + 0)).join();
   return text === "0,0,0,1" ? "" : text;
