@@ -1,4 +1,4 @@
-/** The colours of the element, which its host may set, and how its panels are laid out. */
+/** The colours of the element, which its page may set, and the layout of its panels. */
 import { css } from "lit";
 
 export const layoutStyles = css`

@@ -1,4 +1,4 @@
-/** How the panel of directions looks. */
+/** The styles of the orientation panel. */
 import { css } from "lit";
 
 export const orientationStyles = css`

@@ -1,4 +1,4 @@
-/** How the form of settings looks. */
+/** The styles of the settings form. */
 import { css } from "lit";
 
 export const settingsStyles = css`

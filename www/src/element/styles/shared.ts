@@ -1,4 +1,4 @@
-/** What the elements share: cards, buttons, focus, text that only screen readers get. */
+/** The styles that the elements share: cards, buttons, focus, and text for screen readers only. */
 import { css } from "lit";
 import { visuallyHidden } from "../../view/visually-hidden.js";
 
