@@ -1,9 +1,9 @@
 /**
  * `<cusp-view>`: the model in three dimensions, coloured by layer thickness or as it will be printed.
  *
- * A pure function of its properties. It shows a rotation of its own making at once and waits for no plan: one that comes
- * later only changes the colours. Import this module lazily; nothing else of the front-end loads three. Whoever imports it
- * defines the element, since a bundler may leave out what a module does beside its exports.
+ * A pure function of its properties. It shows a rotation made by the user at once, without waiting for a plan: a plan that
+ * comes later only changes the colours. Import this module lazily, since it loads three.js. The importer defines the
+ * element, since a bundler may leave out a module's side effects.
  */
 import type { PropertyValues, TemplateResult } from "lit";
 import type { Frame, Heights, Inset } from "./scene/cameras.js";
@@ -34,17 +34,17 @@ const PROPERTIES = {
   positions: given<Float32Array | null>(null),
   /** Turns the model before it is put on the plate. Ignored while the model is being dragged by its rings. */
   rotation: given<Rotation>(UPRIGHT),
-  /** What the file's lengths are multiplied by. */
+  /** Factor applied to the file's lengths. */
   scale: given(1),
-  /** Layer boundaries from 0 to the top, mm; empty where there is no plan. */
+  /** Layer boundaries from 0 to the top, mm; empty without a plan. */
   z_mm: given<readonly number[]>([]),
-  /** Of each layer. */
+  /** One for each layer. */
   thickness_mm: given<readonly number[]>([]),
   /** Thicknesses at the ends of the colour scale, mm. */
   limits: given<readonly [number, number]>([0, 0]),
-  /** The layer looked at, counted from 0. */
+  /** The selected layer, counted from 0. */
   layer: given<number | null>(null),
-  /** The printer's build volume; without one the plate is a grid that fades. */
+  /** The printer's build volume; without one the plate is a grid that fades out. */
   plate: given<BuildVolume | null>(null),
   look: given<Look>("thickness"),
   palette: given<PaletteName>("classic"),
@@ -55,20 +55,20 @@ const PROPERTIES = {
   heights_mm: given<Heights | null>(null),
   /** Room above and below those heights when aligned. */
   inset: given<Inset>({ top_px: 12, bottom_px: 12 }),
-  /** How much each facet matters, 0 to 1, as painted; null: all 1. Ignored while a stroke is being painted. */
+  /** Painted weight of each facet, 0 to 1; null: all 1. Ignored during a stroke. */
   weights: given<Float32Array | null>(null),
-  /** How much each facet stands out, 0 to 1; null: all 1. */
+  /** Saliency of each facet, 0 to 1; null: all 1. */
   saliency: given<Float32Array | null>(null),
-  /** What the look `weights` shows. */
+  /** Which quantity the look `weights` shows. */
   heat: given<Heat>("paint"),
-  /** What a facet counts for at least, for showing the product. */
+  /** Least value of the product of weight and saliency, when that is shown. */
   least: given(0),
   brush: given(BRUSH),
   showsLegend: given(true),
   texts: given(ENGLISH),
-  /** Progress of the stair steps, 0 to 1; null when none are being worked out. */
+  /** Progress of computing the stair steps, 0 to 1; null when idle. */
   building: own<number | null>(null),
-  /** Whether there is no WebGL. */
+  /** Whether WebGL is missing. */
   broken: own(false),
 };
 
@@ -78,12 +78,12 @@ export class CuspView extends elementWith(PROPERTIES) {
   #derived: Derived | null = null;
   #life = new AbortController();
   #frame: Frame | null = null;
-  /** How the camera was turned when that was last told. */
+  /** The camera's rotation in the last `cusp-camera`. */
   #camera: Rotation | null = null;
   #isHeld = false;
   #pointing: Pointing | null = null;
   #painting: Painting | null = null;
-  /** Where the rings have turned the model to while they are held. */
+  /** The rotation that the rings have reached while they are dragged. */
   #turned: Rotation | null = null;
   #unsaid: RotateDetail | null = null;
   readonly #printed = new Printed({
@@ -120,19 +120,19 @@ export class CuspView extends elementWith(PROPERTIES) {
     this.#start();
   }
 
-  /** Before rendering, since what is rendered tells the size that the scene finds. */
+  /** Updates the scene before rendering, since the template shows the size that the scene computes. */
   override willUpdate(changed: PropertyValues<this>): void {
-    // While the rings are held the pointer alone turns the model, not an answer to where it was before.
+    // While the rings are dragged only the pointer turns the model, not a late answer to an earlier `cusp-rotate`.
     if (this.#isHeld && this.#turned !== null) this.rotation = this.#turned;
     if (this.#scene !== null) this.#show(this.#scene, (name) => changed.has(name));
   }
 
-  /** Shows the whole model as at first. */
+  /** Returns to the first view of the whole model. */
   reset(): void {
     this.#scene?.cameras.reset();
   }
 
-  /** Takes the last stroke of the brush back. */
+  /** Undoes the last stroke of the brush. */
   undo(): void {
     this.#painting?.undo();
   }
@@ -182,7 +182,7 @@ export class CuspView extends elementWith(PROPERTIES) {
     };
     watchPointer(canvas, { clicked: (at) => void pointing.clicked(at), hovered }, life.signal);
     painting.watch(holder, (event) => placeIn(canvas, event), life.signal);
-    // The wheel scrolls the page until the view has been chosen by a click or by keyboard.
+    // The wheel scrolls the page until the view has the focus, by a click or by keyboard.
     holder.addEventListener("wheel", this.#wheel, { capture: true, signal: life.signal });
     this.renderRoot.addEventListener("transitionrun", this.#recolour, { signal: life.signal });
     this.#reducedMotion.addEventListener("change", this.#damp, { signal: life.signal });
@@ -212,7 +212,7 @@ export class CuspView extends elementWith(PROPERTIES) {
     this.#turned = null;
   }
 
-  /** Puts the properties that have changed on the scene. */
+  /** Applies the changed properties to the scene. */
   #show(scene: Scene, has: (name: keyof CuspView) => boolean): void {
     const { model } = scene;
     if (has("plate")) scene.setVolume(this.plate);
@@ -241,14 +241,14 @@ export class CuspView extends elementWith(PROPERTIES) {
     scene.invalidate();
   }
 
-  /** What turning wants is worked out before the first turn. */
+  /** Finds the distinct points, which make turning faster, before the first turn. */
   async #prepare(): Promise<void> {
     const derived = this.#derived;
     const points = await derived?.points();
     if (points != null && derived === this.#derived) this.#scene?.model.setPoints(points);
   }
 
-  /** Shows what facets weigh now; null: all of them. */
+  /** Updates the heat map of these facets; null: of all. */
   #heat(facets: Iterable<number> | null): void {
     if (this.#scene === null || this.look !== "weights") return;
     const { heat, saliency, least } = this;
@@ -283,7 +283,7 @@ export class CuspView extends elementWith(PROPERTIES) {
     return this.texts.layer(layer, band[0], this.thickness_mm[layer] ?? band[1] - band[0]);
   }
 
-  /** Has the stair steps worked out anew where they are to be shown; not while the model is being turned. */
+  /** Requests new stair steps if they are to be shown, but not while the model is being turned. */
   #print(): void {
     const { rotation, scale, z_mm } = this;
     const derived = this.#derived;
@@ -318,7 +318,7 @@ export class CuspView extends elementWith(PROPERTIES) {
     else if (action.do === "reset") cameras.reset();
     else if (action.do === "turn-model") this.#rotate(turned(this.rotation, action.axis, action.degrees), true);
     else if (action.do === "undo-stroke" || action.do === "redo-stroke") {
-      // The page's own undo is of something else.
+      // The page's own undo must not react too.
       event.stopPropagation();
       if (action.do === "undo-stroke") this.undo();
       else this.redo();
@@ -331,7 +331,7 @@ export class CuspView extends elementWith(PROPERTIES) {
     if (!chosen && !event.ctrlKey) event.stopPropagation();
   };
 
-  /** Where frames take long, gliding on would last for seconds. */
+  /** No damping where frames take long: it would go on for seconds. */
   readonly #damp = (): void => {
     this.#scene?.cameras.setDamping(this.#scene.isSmooth && !this.#reducedMotion.matches);
   };
@@ -345,7 +345,7 @@ export class CuspView extends elementWith(PROPERTIES) {
     this.#scene?.setTheme(themeOf({ ink: probe("ink"), accent: probe("accent"), bad: probe("bad") }));
   };
 
-  /** What follows the picture: the label of the layer, and where heights are. */
+  /** Updates what depends on the frame: the layer's label, and the events on camera and heights. */
   #drawn(frame: Frame | null): void {
     const label = this.renderRoot.querySelector<HTMLElement>(".label");
     const band = this.positions === null ? null : this.#band();

@@ -1,4 +1,4 @@
-/** What the view tells. */
+/** The events of the view. */
 import type { Frame } from "./scene/cameras.js";
 import type { Rotation } from "./scene/pose.js";
 
@@ -12,13 +12,13 @@ export interface RotateDetail {
 /** The height under the pointer; nulls when it has left the model. */
 export interface HeightDetail {
   readonly z_mm: number | null;
-  /** Counted from 0; null as well where there is no plan. */
+  /** Counted from 0; null also without a plan. */
   readonly layer: number | null;
 }
 
-/** Weights were painted, or a stroke was taken back. */
+/** Weights were painted, or a stroke was undone or redone. */
 export interface PaintDetail {
-  /** 0 to 1 a facet; written to no more. */
+  /** 0 to 1 a facet; never changed later. */
   readonly weights: Float32Array;
   /** False while the stroke goes on. */
   readonly final: boolean;
@@ -36,9 +36,9 @@ export interface ViewEvents {
   "cusp-height": CustomEvent<HeightDetail>;
   /** The layer that was clicked, counted from 0. */
   "cusp-layer": CustomEvent<number>;
-  /** Where heights are, CSS pixels from the view's upper edge; null while the view is not aligned. */
+  /** Where heights appear, CSS pixels from the view's upper edge; null while the view is not aligned. */
   "cusp-frame": CustomEvent<Frame | null>;
-  /** How the camera is turned: it brings its right, up and towards the viewer into the plate's frame. */
+  /** Rotation of the camera: turns its right, up and backward axes into the plate's frame. */
   "cusp-camera": CustomEvent<Rotation>;
   "cusp-paint": CustomEvent<PaintDetail>;
   "cusp-view-error": CustomEvent<ViewErrorDetail>;

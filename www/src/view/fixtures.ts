@@ -1,4 +1,4 @@
-/** Solids whose sections are known in closed form, for tests. Nine numbers a facet, mm, outside counter-clockwise. */
+/** Solids for tests, with cross-sections known in closed form. Nine numbers a facet, mm, counter-clockwise from outside. */
 
 type Point = readonly [number, number, number];
 
@@ -38,7 +38,7 @@ export function cone(radius: number, height: number, around: number): Float32Arr
   return facets(out);
 }
 
-/** A ball about the origin, of circles of latitude of `around` points each, half as many circles. */
+/** A ball about the origin, divided into `around` sectors of longitude and half as many bands of latitude. */
 export function ball(radius: number, around: number): Float32Array {
   const circles = around / 2;
   const at = (circle: number, turn: number): Point => {
@@ -64,7 +64,7 @@ export function together(...solids: readonly Float32Array[]): Float32Array {
   return Float32Array.from(solids.flatMap((solid) => [...solid]));
 }
 
-/** The same facets seen from the other side. */
+/** The same facets, facing the other way. */
 export function insideOut(positions: Float32Array): Float32Array {
   const out = positions.slice();
   for (let at = 0; at < out.length; at += 9) {

@@ -21,7 +21,7 @@ function close(found: Triple, wanted: Triple): void {
   for (const [i, part] of found.entries()) expect(part).toBeCloseTo(wanted[i] ?? Number.NaN, 12);
 }
 
-test("turning is what the view's own turning is", () => {
+test("vectors turn as in the view", () => {
   const a = turned(UPRIGHT, "x", 30);
   const b = turned(UPRIGHT, "z", -70);
   close(turn(combined(a, b), [1, 2, 3]), turn(b, turn(a, [1, 2, 3])));
@@ -29,14 +29,14 @@ test("turning is what the view's own turning is", () => {
   close(turn(layFlat(UPRIGHT, [1, 0, 0]), [1, 0, 0]), [0, 0, -1]);
 });
 
-test("a turned model is as high as its view says", () => {
+test("a turned model is as high as in the view", () => {
   const points = Float32Array.from({ length: 90 }, (_, i) => Math.sin(7 * i));
   const rotation = turned(turned(UPRIGHT, "x", 30), "y", 50);
   expect(heightOf(points, rotation)).toBeCloseTo(sizeOf(extentOf(points, rotation, 1))[2], 12);
   expect(heightOf(new Float32Array(0), rotation)).toBe(0);
 });
 
-test("a camera that looks from somewhere has that towards its viewer, and z upwards", () => {
+test("a camera's backward axis is the direction that it looks from, and z is upwards", () => {
   const from = unit([0.55, -1, 0.5]);
   const camera = lookFrom(from);
   close(turn(camera, [0, 0, 1]), from);
@@ -47,7 +47,7 @@ test("a camera that looks from somewhere has that towards its viewer, and z upwa
   expect(right).toBeCloseTo(0, 12);
 });
 
-test.each([1, 2, 7, 1000])("the nearest of %i is what a look at all of them says", (count) => {
+test.each([1, 2, 7, 1000])("the nearest of %i directions is the one that a search of all finds", (count) => {
   const directions = spiral(count);
   const nearest = new Nearest(directions);
   const others = spiral(601);
@@ -60,7 +60,7 @@ test.each([1, 2, 7, 1000])("the nearest of %i is what a look at all of them says
   }
 });
 
-test("what is seen at a place is placed there, on either side", () => {
+test("the direction seen at a place is placed there, on both sides", () => {
   for (const side of ["front", "back"] as const) {
     const seen = seenAt([0.3, -0.4], side);
     if (seen === null) throw new Error("that place is on the sphere");
@@ -72,7 +72,7 @@ test("what is seen at a place is placed there, on either side", () => {
   expect(seenAt([0.8, 0.8], "front")).toBeNull();
 });
 
-test("front and back show each direction's colour where it is, and nothing beside the disc", () => {
+test("front and back show each direction's colour in its place, and nothing outside the disc", () => {
   const colours: (Rgb | null)[] = [[200, 0, 0], [0, 200, 0], null, [0, 0, 200], [200, 200, 0], [0, 200, 200]];
   const side_px = 41;
   const picture = (side: Side): ((right: number, up: number) => number[]) => {

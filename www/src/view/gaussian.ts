@@ -1,14 +1,14 @@
 /**
- * The Gaussian sphere: every point of it is a direction, and has the colour of the sample nearest to it. It is drawn twice,
- * from the front and from behind, as a disc each.
+ * The Gaussian sphere: each of its points is a direction and has the colour of the nearest sample. It is drawn as two
+ * discs, one seen from the front and one from behind.
  */
 import type { Rgb } from "./legend/palette.js";
 import type { Rotation, Triple } from "./scene/pose.js";
 import { back, turn } from "./scene/turn.js";
 
-/** Cells along the side of the map of nearest directions, which is an octahedron laid out as a square. */
+/** Cells along a side of the map of nearest directions, an octahedron unfolded into a square. */
 const MAP_SIDE = 64;
-/** Directions around each that one may be nearer than it at the border of a cell of the map. */
+/** Neighbours kept of each direction, one of which may be nearer than it at the border of a cell of the map. */
 const NEIGHBOURS = 8;
 
 /** Which of the two pictures. */
@@ -17,11 +17,11 @@ export type Side = "front" | "back";
 /** A place on a picture: from its middle, to the right and upwards, in radii. */
 export type Place = readonly [right: number, up: number];
 
-/** What is seen at a place of a picture, as a direction in the viewer's frame: right, up, towards the viewer. */
+/** The direction seen at a place of a picture, in the viewer's frame: right, up, towards the viewer; or `null`. */
 export function seenAt([right, up]: Place, side: Side): Triple | null {
   const deep = 1 - right * right - up * up;
   if (deep < 0) return null;
-  // From behind, what is right of the front is left.
+  // Seen from behind, left and right are swapped.
   return side === "front" ? [right, up, Math.sqrt(deep)] : [-right, up, -Math.sqrt(deep)];
 }
 
@@ -30,7 +30,7 @@ export function placeOf([x, y, z]: Triple): { side: Side; place: Place } {
   return z >= 0 ? { side: "front", place: [x, y] } : { side: "back", place: [-x, y] };
 }
 
-/** Finds the nearest of some directions. */
+/** Finds the nearest of a set of directions. */
 export class Nearest {
   readonly #directions: Float64Array;
   readonly #map = new Uint16Array(MAP_SIDE * MAP_SIDE);
@@ -50,7 +50,7 @@ export class Nearest {
     }
   }
 
-  /** The index of the one nearest to a unit vector. */
+  /** The index of the direction nearest to a unit vector. */
   at(x: number, y: number, z: number): number {
     const sum = Math.abs(x) + Math.abs(y) + Math.abs(z);
     let u = x / sum;
@@ -81,7 +81,7 @@ export class Nearest {
     return best;
   }
 
-  /** From one to nearer ones beside it, until there is none. */
+  /** Moves from neighbour to neighbour until none is nearer. */
   #climb(from: number, x: number, y: number, z: number): number {
     let best = from;
     let most = this.#dot(from, x, y, z);
@@ -114,7 +114,7 @@ export class Nearest {
   }
 }
 
-/** The direction at a place of the octahedron that is laid out as a square, both from -1 to 1. */
+/** The direction at a place of the unfolded octahedron, both coordinates from -1 to 1. */
 function unfolded(u: number, v: number): Triple {
   const z = 1 - Math.abs(u) - Math.abs(v);
   const [x, y] = z >= 0 ? [u, v] : [(1 - Math.abs(v)) * (u < 0 ? -1 : 1), (1 - Math.abs(u)) * (v < 0 ? -1 : 1)];
@@ -122,14 +122,14 @@ function unfolded(u: number, v: number): Triple {
   return [x / length, y / length, z / length];
 }
 
-/** How much darker the rim is than the middle, so that a disc looks like a ball and colours still match their scale. */
+/** How much darker the rim is than the middle: a disc looks like a ball, yet its colours still match their scale. */
 const RIM = 0.16;
 
 /**
  * Draws one picture into red, green, blue and alpha of `side_px` by `side_px` pixels.
  *
  * @param facing turns directions into the viewer's frame
- * @param colours of each direction; null for what is left clear
+ * @param colours of each direction; null: transparent
  */
 export function drawSphere(
   pixels: Uint8ClampedArray,

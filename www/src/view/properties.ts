@@ -1,4 +1,4 @@
-/** Elements that list each of their properties once: its name, its type, its first value, and who sets it. */
+/** Elements that declare each of their properties once: its name, its type, its initial value, and who sets it. */
 import { LitElement, type PropertyDeclaration } from "lit";
 
 export interface Property<Value> {
@@ -6,12 +6,12 @@ export interface Property<Value> {
   readonly declaration: PropertyDeclaration;
 }
 
-/** A property that the element's host sets, never by an attribute. */
+/** A property that the element's user sets, never as an attribute. */
 export function given<Value>(first: Value, hasChanged?: (value: unknown, before: unknown) => boolean): Property<Value> {
   return { first, declaration: { attribute: false, ...(hasChanged !== undefined && { hasChanged }) } };
 }
 
-/** State that the element alone sets. */
+/** State that only the element sets. */
 export function own<Value>(first: Value): Property<Value> {
   return { first, declaration: { state: true } };
 }
@@ -20,10 +20,10 @@ type List = Readonly<Record<string, Property<unknown>>>;
 
 type Values<L extends List> = { -readonly [Name in keyof L]: L[Name] extends Property<infer Value> ? Value : never };
 
-/** The class to extend: what Lit's own has, and the listed properties. */
+/** The class to extend: `LitElement` with the listed properties. */
 export type ElementWith<L extends List> = Pick<typeof LitElement, keyof typeof LitElement> & (new () => LitElement & Values<L>);
 
-/** @param list first values are shared by all elements of the class, so they must not be changed in place */
+/** @param list initial values are shared by all elements of the class, so they must not be changed in place */
 export function elementWith<L extends List>(list: L): ElementWith<L> {
   const each = Object.entries(list);
   class Element extends LitElement {

@@ -1,4 +1,4 @@
-/** What is around the view's canvas: its place, words, colour scales and progress. */
+/** The markup around the view's canvas: its container, texts, colour scales and progress bar. */
 import { html, nothing, type TemplateResult } from "lit";
 import type { CuspView } from "./cusp-view.js";
 import { heatLegend, legend } from "./legend/legend.js";
@@ -8,11 +8,11 @@ type Properties = Pick<
   "texts" | "broken" | "tool" | "positions" | "thickness_mm" | "layer" | "limits" | "look" | "palette" | "showsLegend" | "aligned" | "building"
 >;
 
-/** What is known of the scene, once there is one. */
+/** Facts about the scene; defaults until it exists. */
 export interface Known {
   readonly size_mm: readonly [number, number, number];
   readonly step_mm: number;
-  /** The layer looked at, in words. */
+  /** Describes the selected layer; empty if there is none. */
   readonly layerWords: string;
   keyed(event: KeyboardEvent): void;
 }
@@ -52,7 +52,7 @@ export function template(view: Properties, { size_mm, step_mm, layerWords, keyed
   `;
 }
 
-/** The colour scale of what is shown. */
+/** The colour scale of the current look, if it has one. */
 function scale({ texts, positions, thickness_mm, layer, limits, look, palette, showsLegend }: Properties): TemplateResult | typeof nothing {
   if (look === "weights") return positions === null ? nothing : heatLegend(texts);
   if (look !== "thickness" || !showsLegend || thickness_mm.length === 0) return nothing;

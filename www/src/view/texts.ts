@@ -1,17 +1,17 @@
-/** Every word of the view, with numbers put in by the one who gives them: the view itself knows no language. */
+/** All texts of the view. They format their own numbers: the view itself knows no language. */
 
 import type { Tool } from "./scene/keys.js";
 
 export interface ViewTexts {
-  /** Name of the view for those who cannot see it. */
+  /** Name of the view for screen readers. */
   readonly name: string;
-  /** What kind of thing it is. */
+  /** Role of the view for screen readers. */
   readonly kind: string;
-  /** How to use it by keyboard, for each tool. */
+  /** Keyboard help for each tool. */
   readonly keys: Readonly<Record<Tool, string>>;
-  /** The model on show. */
+  /** Describes the model on show. */
   readonly state: (size_mm: readonly [number, number, number], layers: number) => string;
-  /** Nothing on show. */
+  /** Stands in for that when no model is on show. */
   readonly empty: string;
   /** Heading of the colour scale, with its unit. */
   readonly legend: string;
@@ -21,11 +21,11 @@ export interface ViewTexts {
   readonly weight: (weight: number) => string;
   /** A thickness on the colour scale, without its unit. */
   readonly tick: (thickness_mm: number) => string;
-  /** The layer looked at, counted from 0. */
+  /** Describes the selected layer, counted from 0. */
   readonly layer: (layer: number, z_mm: number, thickness_mm: number) => string;
   /** Spacing of the plate's grid. */
   readonly grid: (step_mm: number) => string;
-  /** While the stair steps are being worked out, 0 to 1. */
+  /** Progress of computing the stair steps, 0 to 1. */
   readonly building: (progress: number) => string;
   /** Instead of the view where the browser has no WebGL. */
   readonly unavailable: string;
@@ -38,7 +38,7 @@ const english = (digits: number): ((value: number) => string) => {
   return (value) => format.format(value);
 };
 
-/** From here on a tenth of a µm is more than anybody wants to read. */
+/** From this thickness on, tenths of a µm are left out. */
 const WHOLE_FROM_UM = 100;
 
 const whole = english(0);
@@ -50,7 +50,7 @@ const micrometres = (mm: number): string => {
 };
 const exact = new Intl.NumberFormat("en", { maximumSignificantDigits: 1 });
 
-/** Those English sentences that have no numbers. */
+/** The English sentences without numbers. */
 export const ENGLISH_SENTENCES: Pick<ViewTexts, "kind" | "keys" | "empty" | "legend" | "heat" | "unavailable"> = {
   kind: "3-D view",
   keys: {

@@ -1,4 +1,4 @@
-/** How the view looks around its canvas. Takes the page's custom properties, and does without them. */
+/** Styles of the view around its canvas. Uses the page's custom properties where they are set. */
 import { css } from "lit";
 import { visuallyHidden } from "./visually-hidden.js";
 
@@ -54,7 +54,7 @@ export const viewStyles = css`
     touch-action: pan-y;
   }
   ${visuallyHidden}
-  /* What a face must lie under to be laid flat by keyboard. */
+  /* Marks where the keyboard lays a face flat or paints. */
   .cross {
     display: none;
     position: absolute;
@@ -135,7 +135,7 @@ export const viewStyles = css`
     text-align: center;
     text-wrap: balance;
   }
-  /* Probes of the page's colours. A change of colour is noticed as the start of a transition, whatever brought it about. */
+  /* Probes of the page's colours. The start of a transition reveals a change of colour, whatever its cause. */
   .probe {
     position: absolute;
     visibility: hidden;

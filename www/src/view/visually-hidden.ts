@@ -1,4 +1,4 @@
-/** What is there for those who hear a page, and not for those who see it. */
+/** Hides content visually and keeps it for screen readers. */
 import { css } from "lit";
 
 export const visuallyHidden = css`

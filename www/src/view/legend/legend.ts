@@ -1,19 +1,19 @@
-/** The colour scale of layer thicknesses. */
+/** The colour scales of layer thicknesses and of weights. */
 import { css, html, nothing, type TemplateResult } from "lit";
 import { HEAT_PALETTE } from "../paint/heat.js";
 import { gradient, placeOf, type PaletteName } from "./palette.js";
 import type { ViewTexts } from "../texts.js";
 
-/** Ticks between the ends at most: more would run together. */
+/** Most ticks between the ends: the labels of more would overlap. */
 const TICKS = 3;
 
 /** Round steps, times a power of ten. */
 const STEPS = [1, 2, 2.5, 5, 10];
 
-/** How near a tick may come to an end of the scale, as a part of it, before its label touches the end's. */
+/** Least distance of a tick from the ends of the scale, as a fraction of the scale, so that no labels touch. */
 const CLEAR = 0.2;
 
-/** Thicknesses in whole numbers of µm between the limits, no more than a few, clear of the ends. */
+/** A few round thicknesses between the limits, clear of the ends, mm. */
 export function ticks([least, greatest]: readonly [number, number]): number[] {
   const [from, to] = [1000 * least, 1000 * greatest];
   const span = to - from;
@@ -32,17 +32,17 @@ export interface LegendData {
   readonly palette: PaletteName;
   /** Ends of the scale, mm. */
   readonly limits: readonly [number, number];
-  /** The thickness of the layer looked at, mm. */
+  /** The thickness of the selected layer, mm. */
   readonly marked_mm: number | null;
   readonly texts: ViewTexts;
 }
 
-/** Weights with a tick. */
+/** The ticks of the scale of weights. */
 const WEIGHTS = [0, 0.25, 0.5, 0.75, 1];
 
 const across = (place: number): string => `${(100 * place).toFixed(2)}%`;
 
-/** Styles are set as properties: a strict policy takes no style attributes. */
+/** Sets styles as properties: a strict content security policy allows no style attributes. */
 export function legend({ palette, limits, marked_mm, texts }: LegendData): TemplateResult {
   const [least, greatest] = limits;
   const marks = greatest > least ? [least, ...ticks(limits), greatest] : [least];
@@ -107,7 +107,7 @@ export const legendStyles = css`
     background: var(--cusp-text, CanvasText);
     outline: 1px solid var(--cusp-card, Canvas);
   }
-  /* The scale runs from left to right in every script: so do charts. */
+  /* The scale runs from left to right in every script, as charts do. */
   .ticks {
     direction: ltr;
     position: relative;

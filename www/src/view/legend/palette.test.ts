@@ -3,7 +3,7 @@ import { colourAt, gradient, ofThickness, PALETTE_SIZE, placeOf, table, type Pal
 
 const NAMES: readonly PaletteName[] = ["classic", "safe"];
 
-/** Relative luminance as WCAG has it. */
+/** Relative luminance as WCAG defines it. */
 function luminance(colour: Rgb): number {
   const [r = 0, g = 0, b = 0] = colour.map((channel) => {
     const part = channel / 255;
@@ -27,7 +27,7 @@ describe.each(NAMES)("the palette %s", (name) => {
     for (let i = 4; i < colours.length; i++) expect(Math.abs((colours[i] ?? 0) - (colours[i - 4] ?? 0))).toBeLessThan(6);
   });
 
-  it("has its ends at the limits, and stays there beyond them", () => {
+  it("ends at the limits and is constant beyond them", () => {
     const limits = [0.03, 0.1] as const;
     expect(ofThickness(name, 0.03, limits)).toEqual(colourAt(name, 0));
     expect(ofThickness(name, 0.01, limits)).toEqual(colourAt(name, 0));
@@ -37,13 +37,13 @@ describe.each(NAMES)("the palette %s", (name) => {
   });
 });
 
-it("goes from red to blue where it follows the paper", () => {
+it("goes from red to blue in the paper's palette", () => {
   const [thin, thick] = [colourAt("classic", 0), colourAt("classic", 1)];
   expect(thin[0]).toBeGreaterThan(2 * thin[2]);
   expect(thick[2]).toBeGreaterThan(2 * thick[0]);
 });
 
-it("darkens steadily where it must read in grey", () => {
+it("darkens steadily in the palette that must be legible in grey", () => {
   for (let entry = 1; entry < PALETTE_SIZE; entry++) {
     const [before, here] = [entry - 1, entry].map((i) => luminance(colourAt("safe", i / (PALETTE_SIZE - 1))));
     expect(here).toBeLessThanOrEqual((before ?? 0) + 1e-3);
@@ -52,6 +52,6 @@ it("darkens steadily where it must read in grey", () => {
   expect(luminance(colourAt("safe", 1))).toBeLessThan(0.05);
 });
 
-it("puts a plan of one thickness in the middle", () => {
+it("puts a single thickness in the middle of the scale", () => {
   expect(placeOf(0.05, [0.05, 0.05])).toBe(0.5);
 });

@@ -1,6 +1,6 @@
 /**
  * Colours of layers by thickness. One table of 256 entries serves the shader, the legend and every chart, so that a
- * layer has the same colour wherever it is shown. Thin is warm and thick is cold in either palette.
+ * layer has the same colour wherever it is shown. In both palettes thin is warm and thick is cold.
  */
 
 /** Red, green and blue, 0 to 255, sRGB. */
@@ -8,8 +8,8 @@ export type Rgb = readonly [number, number, number];
 
 /**
  * `classic`: red (thinnest) through yellow to blue (thickest), as in the paper.
- * `safe`: viridis turned round, yellow (thinnest) to violet (thickest), without its darkest end, which a dark page swallows.
- * Lightness falls steadily, so that it reads with every kind of colour blindness and in grey.
+ * `safe`: viridis reversed, yellow (thinnest) to violet (thickest), without its darkest end, invisible on a dark page.
+ * Lightness falls steadily, so that it is legible with every kind of colour blindness and in grey.
  */
 export type PaletteName = "classic" | "safe";
 
@@ -41,7 +41,7 @@ const STOPS: Readonly<Record<PaletteName, readonly Rgb[]>> = {
   ],
 };
 
-/** Stops of a CSS gradient: enough that no eye tells it from the table. */
+/** Stops of a CSS gradient: enough to look the same as the table. */
 const GRADIENT_STOPS = 18;
 
 const tables = new Map<PaletteName, Uint8Array>();
@@ -71,7 +71,7 @@ export function table(name: PaletteName): Uint8Array {
   return found;
 }
 
-/** Where a thickness stands between the limits: 0 the thinnest, 1 the thickest; clamped, and the middle if they are one. */
+/** Position of a thickness between the limits: 0 the thinnest, 1 the thickest; clamped, and 0.5 if the limits are equal. */
 export function placeOf(thickness_mm: number, limits: readonly [number, number]): number {
   const span = limits[1] - limits[0];
   const place = span > 0 ? (thickness_mm - limits[0]) / span : 0.5;

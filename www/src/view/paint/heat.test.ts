@@ -8,7 +8,7 @@ const source: HeatSource = {
   least: 0.3,
 };
 
-it("shows what was painted, what stands out, or what counts by both, not below the least", () => {
+it("shows the painted weight, the saliency, or their product, never below its least value", () => {
   const of = (change: Partial<HeatSource>): number[] => [0, 1, 2].map((facet) => heatOf({ ...source, ...change }, facet));
   expect(of({ heat: "paint" })).toEqual([1, 0.5, 0]);
   expect(of({ heat: "saliency" })).toEqual([0.5, 0.5, 1]);
@@ -17,7 +17,7 @@ it("shows what was painted, what stands out, or what counts by both, not below t
   expect(of({ weights: null, saliency: null })).toEqual([1, 1, 1]);
 });
 
-it("writes only the facets that changed, and names their rows", () => {
+it("writes only the facets that changed, and returns their rows", () => {
   const into = new Uint8Array(2 * HEAT_ROW_FACETS);
   expect([...packHeat({ ...source, weights: null, saliency: null }, [1, HEAT_ROW_FACETS], into)]).toEqual([0, 1]);
   expect([into[0], into[1], into[HEAT_ROW_FACETS]]).toEqual([0, 255, 255]);

@@ -1,7 +1,7 @@
-/** What the heat map shows of each facet. */
+/** What the heat map shows for each facet. */
 import type { PaletteName } from "../legend/palette.js";
 
-/** What was painted, what stands out, or how much a facet counts by both. */
+/** The painted weight, the saliency, or the product of the two. */
 export type Heat = "paint" | "saliency" | "product";
 
 export interface HeatSource {
@@ -9,11 +9,11 @@ export interface HeatSource {
   /** 0 to 1 a facet; null: all 1. */
   readonly weights: Float32Array | null;
   readonly saliency: Float32Array | null;
-  /** What a facet counts for at least where something is weighted. */
+  /** Least value of the product. */
   readonly least: number;
 }
 
-/** 0 to 1. */
+/** The heat of a facet, 0 to 1. */
 export function heatOf({ heat, weights, saliency, least }: HeatSource, facet: number): number {
   const paint = weights?.[facet] ?? 1;
   const standing = saliency?.[facet] ?? 1;
@@ -22,16 +22,16 @@ export function heatOf({ heat, weights, saliency, least }: HeatSource, facet: nu
   return Math.max(least, paint * standing);
 }
 
-/** Yellow is what matters most, violet what matters least: steady in lightness, so that it reads with any eyes. */
+/** Yellow is the greatest weight, violet the least: lightness changes steadily, so it is legible with any colour vision. */
 export const HEAT_PALETTE: PaletteName = "safe";
 
-/** Texels in a row of the texture of facets, four facets a texel: every WebGL 2 takes this. */
+/** Texels per row of the heat texture, four facets a texel. Every WebGL 2 supports this width. */
 export const HEAT_ROW = 2048;
 
-/** Facets in a row of that texture. */
+/** Facets per row of that texture. */
 export const HEAT_ROW_FACETS = 4 * HEAT_ROW;
 
-/** Writes the heat of some facets, 0 to 255 each; gives the rows that they lie in. */
+/** Writes the heat of these facets, 0 to 255 each; returns their rows. */
 export function packHeat(source: HeatSource, facets: Iterable<number>, into: Uint8Array): ReadonlySet<number> {
   const rows = new Set<number>();
   for (const facet of facets) {

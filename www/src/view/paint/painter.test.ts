@@ -23,7 +23,7 @@ function centroid({ positions }: Surface, facet: number): Triple {
   return [of(0), of(1), of(2)];
 }
 
-/** Where a brush is that is put on the middle of a facet. */
+/** A dab on the middle of a facet. */
 const on = (surface: Surface, facet: number, from: Triple | null = null): Dab => ({
   facet,
   point: centroid(surface, facet),
@@ -32,7 +32,7 @@ const on = (surface: Surface, facet: number, from: Triple | null = null): Dab =>
 
 const facetsOf = ({ positions }: Surface): number[] => [...Array(positions.length / 9).keys()];
 
-/** Least distance to points strewn over a facet: what the closed form must not exceed. */
+/** Least distance to points sampled from a facet, which the closed form must not exceed. */
 function strewn(positions: Float32Array, facet: number, [x, y, z]: Triple, steps: number): number {
   const at = (corner: number, axis: number): number => positions[9 * facet + 3 * corner + axis] ?? 0;
   let least = Infinity;
@@ -47,7 +47,7 @@ function strewn(positions: Float32Array, facet: number, [x, y, z]: Triple, steps
 }
 
 describe("regions", () => {
-  it("measures the distance from a facet as points strewn over it do", () => {
+  it("measures the distance from a facet as points sampled from it do", () => {
     const positions = Float32Array.of(0, 0, 0, 3, 1, 0, 1, 2, 1);
     const steps = 60;
     let seed = 7;
@@ -56,12 +56,12 @@ describe("regions", () => {
       const point: Triple = [6 * random() - 2, 6 * random() - 2, 6 * random() - 2];
       const [exact, near] = [distanceToFacet(positions, 0, point), strewn(positions, 0, point, steps)];
       expect(exact).toBeLessThanOrEqual(near + 1e-9);
-      // Strewn points are no farther apart than the longest side over their number.
+      // Samples are no farther apart than the longest side divided by their number.
       expect(near - exact).toBeLessThan(Math.sqrt(10) / steps);
     }
   });
 
-  it("takes what lies within the sphere, and nothing else of a ball", () => {
+  it("takes the facets of a ball within the sphere, and no others", () => {
     const seed = 1000;
     const point = centroid(globe, seed);
     const { facets, distances_mm } = brushRegion(globe, seed, [point], 3);
@@ -71,7 +71,7 @@ describe("regions", () => {
     expect(within.length).toBeLessThan(globe.positions.length / 9 / 4);
   });
 
-  it("does not reach through a thin wall, nor to another body", () => {
+  it("reaches neither through a thin wall nor to another body", () => {
     const wall = surfaceOf(box([0, 0, 0], [10, 0.5, 10]));
     const front = facetsOf(wall).find((facet) => (wall.normals[3 * facet + 1] ?? 0) < -0.5) ?? 0;
     const { facets } = brushRegion(wall, front, [centroid(wall, front)], 100);
@@ -91,7 +91,7 @@ describe("regions", () => {
     expect(smoothRegion(globe, 5, 30)).toHaveLength(globe.positions.length / 9);
   });
 
-  it("takes the same facets however these are numbered", () => {
+  it("takes the same facets however they are numbered", () => {
     const count = globe.positions.length / 9;
     const turn = (facet: number): number => (facet * 17 + 5) % count;
     const positions = new Float32Array(globe.positions.length);
@@ -112,7 +112,7 @@ describe("the brush", () => {
     expect(way).toEqual([...way].sort((a, b) => b - a));
   });
 
-  it("paints once a stroke, however often it passes", () => {
+  it("paints a facet once per stroke, however often it passes", () => {
     const painter = new Painter(globe, null, 1);
     const half = brush({ strength: 0.5 });
     expect(painter.dab(on(globe, 1000), half, 1).length).toBeGreaterThan(10);
@@ -123,13 +123,13 @@ describe("the brush", () => {
     expect(painter.weights[1000]).toBe(0.25);
   });
 
-  it("gives the facets that it changed, and changes no others", () => {
+  it("returns the facets that it changed, and changes no others", () => {
     const painter = new Painter(globe, null, 1);
     const changed = painter.dab(on(globe, 1000), brush({}), 1);
     expect(facetsOf(globe).filter((facet) => painter.weights[facet] !== 1)).toEqual([...changed].sort((a, b) => a - b));
   });
 
-  it("is as wide as it says on a model that is scaled", () => {
+  it("keeps its size on a scaled model", () => {
     const plain = new Painter(globe, null, 1).dab(on(globe, 1000), brush({ size_mm: 6 }), 1);
     const scaled = new Painter(globe, null, 1).dab(on(globe, 1000), brush({ size_mm: 12 }), 2);
     expect(scaled).toEqual(plain);
@@ -138,14 +138,14 @@ describe("the brush", () => {
   it("leaves no gaps between two moves of the pointer", () => {
     const painter = new Painter(globe, null, 1);
     const thin = brush({ size_mm: 2 });
-    // Along the equator, a few radii on.
+    // A few radii along the equator.
     const [from, to] = [at(0), at(0.6)];
     painter.dab({ ...near(from), from: null }, thin, 1);
     painter.dab({ ...near(to), from }, thin, 1);
     for (let angle = 0; angle < 0.6; angle += 0.05) expect(painter.weights[near(at(angle)).facet]).toBeLessThan(1);
   });
 
-  it("erases to the base, and moves with it what was never painted", () => {
+  it("erases to the base, which unpainted facets follow", () => {
     const painter = new Painter(globe, null, 0.5);
     painter.dab(on(globe, 1000), brush({ mode: "more" }), 1);
     painter.end();
@@ -156,7 +156,7 @@ describe("the brush", () => {
     expect(painter.weights[1000]).toBe(0.5);
   });
 
-  it("softens an edge between weights, and leaves even ones as they are", () => {
+  it("softens an edge between weights, and keeps equal weights", () => {
     const painter = new Painter(globe, globe.positions.slice(0, globe.positions.length / 9).fill(0.5), 1);
     const soft = brush({ mode: "soften" });
     expect(painter.dab(on(globe, 1000), soft, 1)).toEqual([]);
@@ -164,11 +164,11 @@ describe("the brush", () => {
     painter.weights[1000] = 1;
     painter.dab(on(globe, 1000), soft, 1);
     expect(painter.weights[1000]).toBe(0.5);
-    // What was softened is spread over the facets around.
+    // Softening spreads the weight over the adjacent facets.
     expect(Math.max(...painter.weights)).toBeGreaterThan(0.5);
   });
 
-  it("takes strokes back and makes them again, whole ones and to the bit", () => {
+  it("undoes and redoes whole strokes, to the bit", () => {
     const painter = new Painter(globe, null, 1);
     const states = [painter.weights.slice()];
     for (const facet of [200, 1000, 1010]) {
@@ -198,10 +198,10 @@ describe("the brush", () => {
   });
 });
 
-/** A point of the ball's equator. */
+/** A point near the ball's equator. */
 const at = (angle: number): Triple => [RADIUS * Math.cos(angle), RADIUS * Math.sin(angle), 0.3];
 
-/** The facet nearest to a point, one by one. */
+/** The facet nearest to a point, by a search of all. */
 function near(point: Triple): { facet: number; point: Triple } {
   const distance = (facet: number): number => distanceToFacet(globe.positions, facet, point);
   return { facet: facetsOf(globe).reduce((best, facet) => (distance(facet) < distance(best) ? facet : best)), point };

@@ -1,24 +1,24 @@
-/** Weights of a model's facets under a brush, stroke by stroke. */
+/** Paints the weights of a model's facets, stroke by stroke. */
 import { falloff, meanBeside, targetOf, type Brush } from "./brush.js";
 import type { Triple } from "../scene/pose.js";
 import { brushRegion, smoothRegion, type Surface, type Touched } from "./region.js";
 import { strokeOf, Strokes } from "./strokes.js";
 
-/** Where a brush is on a model in the file's pose. */
+/** Where a brush touches a model, in the file's pose. */
 export interface Dab {
   readonly facet: number;
   readonly point: Triple;
-  /** Where it was before in the same stroke, if it has come from there without a break. */
+  /** The point before in the same stroke, if the brush has not left the model since. */
   readonly from: Triple | null;
 }
 
-/** Points of a path are no farther apart than this part of the radius. */
+/** Largest distance between points of a path, as a fraction of the radius. */
 const SPACING = 0.5;
 
-/** A pointer that has jumped this many radii has come from elsewhere: between may lie anything. */
+/** After a jump of more radii than this there is no path: anything may lie in between. */
 const JUMP = 8;
 
-/** The mirror image of a point at a plane of constant x, mm. */
+/** The mirror image of a point in a plane of constant x, mm. */
 export const mirrored = ([x, y, z]: Triple, middle_x: number): Triple => [2 * middle_x - x, y, z];
 
 function pathOf({ from, point }: Dab, radius_mm: number): Triple[] {
@@ -33,21 +33,21 @@ function pathOf({ from, point }: Dab, radius_mm: number): Triple[] {
 }
 
 export class Painter {
-  /** 0 to 1 a facet. Written to in place. */
+  /** 0 to 1 a facet. Changed in place. */
   readonly weights: Float32Array;
   readonly strokes = new Strokes();
   readonly #surface: Surface;
-  /** What the stroke under way has come upon, and how strongly it covers that. */
+  /** Weights before the stroke under way, and how strongly the stroke covers each facet. */
   #before = new Map<number, number>();
   #cover = new Map<number, number>();
 
-  /** @param weights a copy is made; null: everything has weight `base` */
+  /** @param weights are copied; null: every facet has weight `base` */
   constructor(surface: Surface, weights: Float32Array | null, base: number) {
     this.#surface = surface;
     this.weights = weights?.slice() ?? new Float32Array(surface.positions.length / 9).fill(base);
   }
 
-  /** What the brush would touch there. `scale`: mm of the model as it stands for one of its file. */
+  /** What the brush would paint there. `scale`: factor applied to the file's lengths. */
   touched(dab: Dab, { fills, crease_deg, size_mm }: Brush, scale: number): Touched {
     const radius_mm = size_mm / 2 / scale;
     if (!fills) return brushRegion(this.#surface, dab.facet, pathOf(dab, radius_mm), radius_mm);
@@ -56,8 +56,8 @@ export class Painter {
   }
 
   /**
-   * Goes on with a stroke, or begins one; gives the facets whose weight changed. However often a stroke passes over a
-   * facet, it paints that once, as strongly as it came nearest; only softening goes on and on.
+   * Continues a stroke, or begins one; returns the facets whose weight changed. However often a stroke passes over a facet,
+   * it paints it once, as strongly as at its nearest pass; only softening accumulates.
    */
   dab(dab: Dab, brush: Brush, scale: number): number[] {
     // The region of a fill is the same from anywhere within it.
@@ -83,7 +83,7 @@ export class Painter {
     });
   }
 
-  /** Ends the stroke; whether it changed anything. */
+  /** Ends the stroke; returns whether it changed anything. */
   end(): boolean {
     const before = this.#before;
     const stroke = strokeOf(before.keys(), (facet) => before.get(facet) ?? 0, this.weights);
@@ -93,7 +93,7 @@ export class Painter {
     return stroke !== null;
   }
 
-  /** Takes other weights in one step that can be taken back; whether they are other ones. */
+  /** Replaces the weights in one step that can be undone; returns whether any changed. */
   replace(weights: Float32Array): boolean {
     const before = this.weights.slice();
     this.weights.set(weights);

@@ -1,4 +1,4 @@
-/** The brush in a person's hand: what pointer and keys do to weights. */
+/** Paints weights by pointer and by keyboard. */
 import { Raycast, type RayHit } from "../scene/raycast.js";
 import { BRUSH, type Brush } from "./brush.js";
 import type { Derived } from "../steps/derived.js";
@@ -9,21 +9,21 @@ import { extentOf, UPRIGHT, type Triple } from "../scene/pose.js";
 import { normalsOf, type Surface } from "./region.js";
 import type { Scene } from "../scene/scene.js";
 
-/** A mirrored place counts if the model comes at least this near to it, as a part of the brush's radius. */
+/** A mirrored point is painted if the model is at most this far from it, as a fraction of the brush's radius. */
 const MIRROR_WITHIN = 0.5;
 
 export interface PaintingReports {
-  /** Weights of these facets are others now; null: any. */
+  /** The weights of these facets have changed; null: of any facet. */
   changed(facets: readonly number[] | Uint32Array | null): void;
   painted(detail: PaintDetail): void;
 }
 
-/** What a model is painted with once that is there. */
+/** What painting a model requires, computed when painting begins. */
 interface Ready {
   readonly of: Derived;
   readonly painter: Painter;
   readonly raycast: Raycast;
-  /** Middle of the model's x in its file, mm. */
+  /** Middle of the model's extent in x in its file, mm. */
   readonly middle_x: number;
 }
 
@@ -35,7 +35,7 @@ export class Painting {
   #asked: Derived | null = null;
   #preparing: Promise<void> = Promise.resolve();
   #weights: Float32Array | null = null;
-  /** The pointer that paints, where it was seen last, and where its dabs were. */
+  /** The pointer that paints, where it was last, and where it and its mirror image last hit the model. */
   #stroke: { readonly id: number; at: Point; last: RayHit | null; lastMirrored: RayHit | null } | null = null;
   #frame = 0;
   #isOn = false;
@@ -45,12 +45,12 @@ export class Painting {
     this.#reports = reports;
   }
 
-  /** 0 to 1 a facet, the stroke under way included; null: all alike. */
+  /** 0 to 1 a facet, including the stroke under way; null: all 1. */
   get weights(): Float32Array | null {
     return this.#ready?.painter.weights ?? this.#weights;
   }
 
-  /** Weights from outside; what was said by `painted` may come back as it is. */
+  /** Sets weights from outside; those last reported by `painted` change nothing. */
   set weights(weights: Float32Array | null) {
     if (weights === this.#weights) return;
     this.#weights = weights;
@@ -61,7 +61,7 @@ export class Painting {
     this.#reports.changed(null);
   }
 
-  /** Readies the brush for a model, when the tool is first taken. `null`: there is no model, or another one soon. */
+  /** Prepares the brush for a model when the tool is first selected. `null`: there is no model. */
   prepare(derived: Derived | null, isOn: boolean): void {
     this.#isOn = isOn;
     if (this.#ready !== null && this.#ready.of !== derived) this.#ready = null;
@@ -83,7 +83,7 @@ export class Painting {
     this.#reports.changed(null);
   }
 
-  /** Listens until the signal is aborted. What begins beside the model is left to whoever turns the view. */
+  /** Listens until the signal is aborted. Drags that begin beside the model are left to the camera. */
   watch(holder: HTMLElement, place: (event: PointerEvent) => Point, signal: AbortSignal): void {
     const options = { capture: true, signal };
     const down = (event: PointerEvent): void => {
@@ -111,13 +111,13 @@ export class Painting {
     signal.addEventListener("abort", () => cancelAnimationFrame(this.#frame));
   }
 
-  /** One dab as a stroke of its own, as by keyboard; as soon as the brush is ready. */
+  /** Paints one dab as a stroke of its own, for the keyboard, as soon as the brush is ready. */
   async stamp(at: Point): Promise<void> {
     await this.#preparing;
     if (this.#begin(-1, at)) this.#end();
   }
 
-  /** Shows what the brush would touch under a pointer that is not down. */
+  /** Highlights what the brush would paint under a hovering pointer. */
   hover(at: Point | null): void {
     if (!this.#isOn || this.#ready === null || this.#stroke !== null) return;
     const hit = at === null ? null : this.#hitAt(at);
@@ -142,7 +142,7 @@ export class Painting {
     this.#tell(true);
   }
 
-  /** Whether there is something to paint under the point. */
+  /** Begins a stroke; returns false if there is nothing to paint under the point. */
   #begin(id: number, at: Point): boolean {
     if (!this.#isOn || this.#ready === null || this.#stroke !== null || this.#hitAt(at) === null) return false;
     this.#stroke = { id, at, last: null, lastMirrored: null };
@@ -162,7 +162,7 @@ export class Painting {
     return this.#ready?.raycast.cast(this.#scene.rayAt(...at)) ?? null;
   }
 
-  /** Paints up to where the pointer is. */
+  /** Paints up to the pointer's position. */
   readonly #follow = (): void => {
     this.#frame = 0;
     const stroke = this.#stroke;

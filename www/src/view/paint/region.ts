@@ -1,4 +1,4 @@
-/** Which facets a brush or a fill takes: those that hang together with where it is put. */
+/** Finds the facets that a brush or a fill covers: those connected to the facet where it is applied. */
 import { doubleArea } from "../scene/flat.js";
 import type { Triple } from "../scene/pose.js";
 import type { Topology } from "../scene/topology.js";
@@ -23,8 +23,8 @@ export function normalsOf(positions: Float32Array): Float32Array {
 }
 
 /**
- * Cosine of the angle between the ways that two facets face; 1 if one has no area. Asked thousands of times a move of the
- * pointer: no arrays are taken apart here.
+ * Cosine of the angle between the normals of two facets; 1 if one has no area. Runs thousands of times per move of the
+ * pointer: no destructuring of arrays in here.
  */
 function cosineOf(normals: Float32Array, a: number, b: number): number {
   const x = normals[3 * a] ?? 0;
@@ -38,8 +38,8 @@ function cosineOf(normals: Float32Array, a: number, b: number): number {
 }
 
 /**
- * Facets reached from `seed` over shared edges that `takes` lets pass, the seed first. A facet that is refused across one
- * edge may yet be reached across another.
+ * Facets reached from `seed` across the shared edges that `takes` accepts, the seed first. A facet refused across one edge
+ * may still be reached across another.
  */
 function grown(twin: Int32Array, seed: number, takes: (from: number, to: number) => boolean): number[] {
   const seen = new Set([seed]);
@@ -58,24 +58,24 @@ function grown(twin: Int32Array, seed: number, takes: (from: number, to: number)
 }
 
 /**
- * The smooth region of a facet: across no edge at which the surface bends by more than `crease_deg`. Facets without area
- * bend nowhere.
+ * The smooth region of a facet: it crosses no edge at which the surface bends by more than `crease_deg`. At facets without
+ * area the surface counts as smooth.
  */
 export function smoothRegion({ topology, normals }: Surface, seed: number, crease_deg: number): number[] {
-  // Normals are single precision: coplanar facets may seem to bend by this much of a cosine.
+  // Normals are single precision: the cosine between coplanar facets may be this much below 1.
   const least = Math.cos((crease_deg * Math.PI) / 180) - 1e-6;
   return grown(topology.twin, seed, (from, to) => cosineOf(normals, from, to) >= least);
 }
 
 export interface Touched {
   readonly facets: readonly number[];
-  /** Of each facet from the path, mm. */
+  /** Distance of each facet from the path, mm. */
   readonly distances_mm: readonly number[];
 }
 
 /**
- * The facets within `radius_mm` of any point of a path that hang together with `seed` and face the same half-space. The
- * seed is the one under the last point, and is always among them.
+ * The facets connected to `seed` that lie within `radius_mm` of any point of a path and face the same half-space as the
+ * seed. The seed is the facet where the path ends, and is always included.
  */
 export function brushRegion(
   { positions, topology, normals }: Surface,
@@ -101,8 +101,8 @@ function distanceTo(positions: Float32Array, facet: number, path: readonly Tripl
 }
 
 /**
- * Distance of a point from a facet, mm: Ericson, Real-Time Collision Detection (2005), section 5.1.5. A facet without
- * area is as far as its nearest corner or edge.
+ * Distance of a point from a facet, mm: Ericson, Real-Time Collision Detection (2005), section 5.1.5. For a facet without
+ * area, the distance from its nearest corner or edge.
  */
 export function distanceToFacet(positions: Float32Array, facet: number, [x, y, z]: Triple): number {
   const at = 9 * facet;

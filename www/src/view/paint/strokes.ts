@@ -1,4 +1,4 @@
-/** Strokes that can be taken back: of each only the facets that it changed. */
+/** Undo and redo of strokes; a stroke keeps only the facets that it changed. */
 
 export interface Stroke {
   readonly facets: Uint32Array;
@@ -8,7 +8,7 @@ export interface Stroke {
 
 const MOST_STROKES = 100;
 
-/** What became of some weights; null if nothing did. */
+/** The stroke that changed some weights; null if it changed none. */
 export function strokeOf(facets: Iterable<number>, before: (facet: number) => number, after: Float32Array): Stroke | null {
   const changed = [...facets].filter((facet) => before(facet) !== after[facet]);
   if (changed.length === 0) return null;
@@ -31,13 +31,13 @@ export class Strokes {
     return this.#future.length > 0;
   }
 
-  /** Notes a stroke that has been made. What was taken back before is gone. */
+  /** Records a new stroke and forgets those undone before. */
   note(stroke: Stroke): void {
     this.#past = [...this.#past, stroke].slice(-MOST_STROKES);
     this.#future = [];
   }
 
-  /** Takes the last stroke back; gives the facets that changed, or null if there is none. */
+  /** Undoes the last stroke; returns the facets that changed, or null if there is no stroke. */
   undo(weights: Float32Array): Uint32Array | null {
     const stroke = this.#past.pop();
     if (stroke === undefined) return null;

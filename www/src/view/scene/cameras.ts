@@ -1,12 +1,12 @@
-/** From where the model is looked at: freely in perspective, or from the side at the scale of a chart beside it. */
+/** The cameras of the view: one free and in perspective, one from the side at the scale of a chart beside the view. */
 import { MathUtils, OrthographicCamera, PerspectiveCamera, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Rotation, Triple } from "./pose.js";
 import { FIRST_LOOK } from "./turn.js";
 
-/** Where heights are in the view, in CSS pixels from its upper edge. */
+/** Where heights appear in the view, CSS pixels from its upper edge. */
 export interface Frame {
-  /** The height of the model. */
+  /** The top of the model. */
   readonly top_px: number;
   /** The plate, z = 0. */
   readonly bottom_px: number;
@@ -26,20 +26,20 @@ const FIELD_OF_VIEW_DEG = 26;
 /** Room around the model in the free view. */
 const ROOM = 1.14;
 
-/** How far one may come near or go away, in distances of the whole model. */
+/** Limits of the camera's distance, as multiples of that at which the whole model is visible. */
 const NEAREST = 0.05;
 const FARTHEST = 6;
 
 const FIRST = new Vector3(...FIRST_LOOK);
 
-/** Perspective from the middle of a model, z upwards. */
+/** A perspective camera with z upwards. */
 export function perspective(): PerspectiveCamera {
   const camera = new PerspectiveCamera(FIELD_OF_VIEW_DEG);
   camera.up.set(0, 0, 1);
   return camera;
 }
 
-/** Distance from a model's middle, along a look from it, at which all corners of its bounds are just seen. */
+/** Distance from a model's middle along `look`, a direction, at which all corners of its bounds are just visible. */
 export function distanceOf(size_mm: Triple, look: Vector3, aspect: number): number {
   const right = new Vector3(0, 0, 1).cross(look).normalize();
   const up = look.clone().cross(right);
@@ -54,7 +54,7 @@ export function distanceOf(size_mm: Triple, look: Vector3, aspect: number): numb
   return distance;
 }
 
-/** Puts a camera where a model was first seen from, with all of it in sight. */
+/** Puts a camera at the first view of a model, with all of the model visible. */
 export function lookFirst(camera: PerspectiveCamera, size_mm: Triple): void {
   const middle = new Vector3(0, 0, size_mm[2] / 2);
   const distance = distanceOf(size_mm, FIRST, camera.aspect);
@@ -74,7 +74,7 @@ export class Cameras {
   #aligned = false;
   #size_mm: Triple = [1, 1, 1];
   #view: readonly [number, number] = [1, 1];
-  /** Where the free view was left, to come back to. */
+  /** Where the free camera was before the view was aligned, to be restored afterwards. */
   #left: { readonly position: Vector3; readonly target: Vector3 } | null = null;
 
   constructor(surface: HTMLElement) {
@@ -82,7 +82,7 @@ export class Cameras {
     this.controls = new OrbitControls(this.#free, surface);
     this.controls.rotateSpeed = 0.9;
     this.controls.zoomSpeed = 1.2;
-    // Two fingers belong to the view; one that moves upwards scrolls the page, as on any page.
+    // Two fingers control the view; one that moves up or down scrolls the page as usual.
     surface.style.touchAction = "pan-y";
   }
 
@@ -101,7 +101,7 @@ export class Cameras {
     this.#free.updateProjectionMatrix();
   }
 
-  /** Follows a model that has changed its pose: what was in the middle stays there, as far as it goes. */
+  /** Follows a model that has changed its pose: moves up or down with the model's middle. */
   follow(size_mm: Triple): void {
     const risen = (size_mm[2] - this.#size_mm[2]) / 2;
     this.#size_mm = size_mm;
@@ -111,7 +111,7 @@ export class Cameras {
     this.#limit();
   }
 
-  /** Shows the whole model from where it was first seen. */
+  /** Returns to the first view of the whole model. */
   reset(size_mm: Triple = this.#size_mm): void {
     this.#size_mm = size_mm;
     this.#left = null;
@@ -133,7 +133,7 @@ export class Cameras {
     this.controls.update();
   }
 
-  /** Comes nearer by this factor; less than one goes away. */
+  /** Zooms in by this factor; a factor below one zooms out. */
   zoom(factor: number): void {
     if (this.#aligned) return;
     this.controls.dollyIn(1 / factor);
@@ -158,7 +158,7 @@ export class Cameras {
     } else this.reset();
   }
 
-  /** Readies the current camera for drawing; gives where heights are if they have a scale. */
+  /** Prepares the current camera for drawing; returns where heights appear, or `null` in perspective. */
   prepare(heights: Heights | null, inset: Inset): Frame | null {
     const reach = Math.hypot(...this.#size_mm);
     if (!this.#aligned) {
@@ -171,7 +171,7 @@ export class Cameras {
     const [width, height] = this.#view;
     const [bottom, top] = heights ?? [0, this.#size_mm[2]];
     const room = Math.max(1, height - inset.top_px - inset.bottom_px);
-    // Turning about z must not change the scale, so the widest side counts.
+    // Turning about z must not change the scale, so the diagonal counts.
     const across = Math.hypot(this.#size_mm[0], this.#size_mm[1]);
     const perPixel = Math.max((top - bottom) / room, heights === null ? across / (0.94 * width) : 0, 1e-9);
     const lowest = bottom - inset.bottom_px * perPixel;
@@ -185,12 +185,12 @@ export class Cameras {
       far: 20 * reach,
     });
     this.#side.updateProjectionMatrix();
-    // In hundredths, so that rounding does not pass for a change.
+    // To hundredths, so that rounding errors do not count as a change.
     const rowOf = (z_mm: number): number => Math.round(100 * (height - (z_mm - lowest) / perPixel)) / 100;
     return { top_px: rowOf(this.#size_mm[2]), bottom_px: rowOf(0) };
   }
 
-  /** How the current camera is turned: its right, up and towards the viewer, brought into the plate's frame. */
+  /** Rotation of the current camera: turns its right, up and backward axes into the plate's frame. */
   get turned(): Rotation {
     const { x, y, z, w } = this.current.quaternion;
     return [x, y, z, w];

@@ -16,7 +16,7 @@ it.each([
   ["a box", box([0, 0, 0], [1, 2, 3]), 8],
   ["a cone", cone(5, 9, 12), 14],
   ["a ball", ball(3, 16), 2 + 7 * 16],
-])("finds the points of %s and closes it", (_, positions, points) => {
+])("finds the points of %s and the twin of every half-edge", (_, positions, points) => {
   const { corner, twin, points: found } = topology(positions);
   expect(found).toHaveLength(3 * points);
   for (const [edge, other] of twin.entries()) {
@@ -38,7 +38,7 @@ it("leaves the edges of a hole without a twin", () => {
   expect([...topology(open).twin].filter((twin) => twin < 0)).toHaveLength(4);
 });
 
-it("takes a side of a box for a face, and no facet of another box", () => {
+it("takes a side of a box as a face, and no facet of another box", () => {
   const positions = together(box([0, 0, 0], [1, 2, 3]), box([5, 0, 0], [6, 2, 3]));
   const face = flatFace(positions, topology(positions), 2);
   expect(face?.facets.toSorted()).toEqual([2, 3]);
@@ -54,7 +54,7 @@ it("takes the whole base of a cone", () => {
   expect(face?.area_mm2).toBeCloseTo(12 * 25 * Math.sin((2 * Math.PI) / 24), 4);
 });
 
-it("goes as far as the angle reaches on what is round", () => {
+it("reaches over a curved surface as far as the angle allows", () => {
   const positions = ball(10, 120);
   const topologyOfBall = topology(positions);
   const facet = 119 * 60;
@@ -64,6 +64,6 @@ it("goes as far as the angle reaches on what is round", () => {
   expect(wide).toBeGreaterThan(2 * narrow);
 });
 
-it("finds no face in a facet without area", () => {
+it("finds no face at a facet without area", () => {
   expect(flatFace(new Float32Array(9), topology(new Float32Array(9)), 0)).toBeNull();
 });

@@ -1,18 +1,18 @@
-/** The flat face of a model that a facet belongs to: what a person means by clicking it. */
+/** The flat face of a model that a facet belongs to: what a user means by clicking the facet. */
 import type { Topology } from "./topology.js";
 import type { Triple } from "./pose.js";
 
-/** Facets of one face differ from the one clicked by no more than this, degrees. */
+/** Largest angle between the normals of a face's facets and that of the clicked facet, degrees. */
 export const FLAT_WITHIN_DEG = 1;
 
 export interface FlatFace {
   readonly facets: readonly number[];
-  /** Mean of the facets' normals weighted by area, a unit vector of the file's pose. */
+  /** Area-weighted mean of the facets' normals, a unit vector in the file's pose. */
   readonly normal: Triple;
   readonly area_mm2: number;
 }
 
-/** Normal of a facet, as long as twice its area. */
+/** Normal of a facet; its length is twice the area. */
 export function doubleArea(positions: Float32Array, facet: number): Triple {
   const at = 9 * facet;
   const p = (i: number): number => positions[at + i] ?? 0;
@@ -22,8 +22,8 @@ export function doubleArea(positions: Float32Array, facet: number): Triple {
 }
 
 /**
- * The facets that hang together with `facet` and face within `within_deg` of where it faces. Facets without area hang
- * together with anything. `null` if the facet itself has no area.
+ * The facets connected to `facet` whose normals lie within `within_deg` of its own. Facets without area always belong to
+ * the face. `null` if the facet itself has no area.
  */
 export function flatFace(
   positions: Float32Array,

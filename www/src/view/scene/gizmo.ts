@@ -1,25 +1,25 @@
-/** Rings to turn the model by, about the axes of the plate. */
+/** Rings that turn the model about the axes of the plate. */
 import type { Camera, Object3D } from "three";
 import { TransformControls } from "three/addons/controls/TransformControls.js";
 import type { Rotation } from "./pose.js";
 
-/** With Shift held the model turns in steps. */
+/** Step by which the model turns while Shift is held, radians. */
 const SNAP = Math.PI / 12;
 
-/** Of the rings, so that the outermost stays inside a square view; the controls' own unit. */
+/** Size of the rings in the controls' own unit, such that the outermost stays inside a square view. */
 const SIZE = 2.5;
 
-/** The axes x, y and z, and the ring under the pointer: as bright on light as on dark. */
+/** Colours of the x, y and z rings and of the ring under the pointer, legible on light and on dark pages. */
 const COLOURS = ["#d9534f", "#4f9d5d", "#4a80d4", "#e6a117"] as const;
 
 export interface GizmoReports {
-  /** The rings hold the pointer, or have let it go. */
+  /** The drag of a ring has started or ended. */
   held(on: boolean): void;
-  /** Something about the rings looks different. */
+  /** The rings must be redrawn. */
   changed(): void;
-  /** The model is to stand like this now. */
+  /** The drag has turned the model to this rotation. */
   turned(rotation: Rotation): void;
-  /** The pointer was let go, and the model stands like this. */
+  /** The drag has ended at this rotation. */
   done(rotation: Rotation): void;
 }
 
@@ -59,7 +59,7 @@ export class Gizmo {
     addEventListener("keyup", this.#snap);
   }
 
-  /** Whether the pointer is on a ring or holds one. */
+  /** Whether the pointer is over a ring or drags one. */
   get isHot(): boolean {
     return this.#controls.axis !== null || this.#controls.dragging;
   }
@@ -74,7 +74,7 @@ export class Gizmo {
     this.#controls.enabled = object !== null;
     if (object === null) this.#controls.detach();
     else if (this.#controls.object !== object) this.#controls.attach(object);
-    // The rings take every touch that begins on them.
+    // While the rings are shown, a touch must not scroll the page.
     this.#surface.style.touchAction = object === null ? "pan-y" : "none";
   }
 

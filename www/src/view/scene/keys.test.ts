@@ -5,7 +5,7 @@ import { ticks } from "../legend/legend.js";
 const press = (key: string, tool: Tool = "turn", held: Partial<Record<"shiftKey" | "ctrlKey" | "metaKey", boolean>> = {}): Action | null =>
   pressed({ key, shiftKey: false, ctrlKey: false, metaKey: false, altKey: false, ...held }, tool);
 
-it("turns the view, or the model with the rings in hand", () => {
+it("turns the view, or the model with the tool for turning it", () => {
   expect(press("ArrowLeft")).toEqual({ do: "turn-view", right_deg: -10, up_deg: 0 });
   expect(press("ArrowUp", "flat")).toEqual({ do: "turn-view", right_deg: 0, up_deg: 10 });
   expect(press("ArrowLeft", "rotate")).toEqual({ do: "turn-model", axis: "z", degrees: -5 });
@@ -13,19 +13,19 @@ it("turns the view, or the model with the rings in hand", () => {
   expect(press("PageUp", "rotate")).toEqual({ do: "turn-model", axis: "y", degrees: 5 });
 });
 
-it("leaves the page its own keys", () => {
+it("leaves all other keys to the page", () => {
   for (const key of ["Tab", "Escape", "a", "PageUp", "Home"]) expect(press(key)).toBeNull();
   expect(press("0", "turn", { ctrlKey: true })).toBeNull();
 });
 
-it("takes strokes back with the brush in hand, and leaves undo to the page otherwise", () => {
+it("undoes and redoes strokes while painting, and leaves undo to the page otherwise", () => {
   expect(press("z", "paint", { ctrlKey: true })).toEqual({ do: "undo-stroke" });
   expect(press("Z", "paint", { metaKey: true, shiftKey: true })).toEqual({ do: "redo-stroke" });
   expect(press("y", "paint", { ctrlKey: true })).toEqual({ do: "redo-stroke" });
   expect(press("z", "turn", { ctrlKey: true })).toBeNull();
 });
 
-it("ticks a scale at round thicknesses, clear of its ends", () => {
+it("puts the ticks of a scale at round thicknesses, clear of its ends", () => {
   expect(ticks([0.03, 0.1])).toEqual([0.06, 0.08]);
   expect(ticks([0.05, 0.15])).toEqual([0.075, 0.1, 0.125]);
   expect(ticks([0.05, 0.05])).toEqual([]);

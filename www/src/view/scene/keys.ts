@@ -1,6 +1,6 @@
-/** What a key does in the view. */
+/** Maps keys to actions of the view. */
 
-/** What a person does with the pointer. */
+/** What the pointer does. */
 export type Tool = "turn" | "rotate" | "flat" | "paint";
 
 export type Action =
@@ -11,16 +11,16 @@ export type Action =
   | { readonly do: "pick-middle" }
   | { readonly do: "undo-stroke" | "redo-stroke" };
 
-/** Degrees a press turns the view. */
+/** Degrees by which a key press turns the view. */
 const VIEW_DEG = 10;
 
-/** Degrees a press turns the model, and with Shift. */
+/** Degrees by which a key press turns the model, without and with Shift. */
 const MODEL_DEG = 5;
 const MODEL_FINE_DEG = 1;
 
 const ZOOM = 1.2;
 
-/** Which way each key goes: across, up, and about the third axis. */
+/** Which way each key turns: across, up, and about the third axis. */
 const WAYS: Readonly<Record<string, readonly [number, number, number]>> = {
   ArrowLeft: [-1, 0, 0],
   ArrowRight: [1, 0, 0],
@@ -30,7 +30,7 @@ const WAYS: Readonly<Record<string, readonly [number, number, number]>> = {
   PageDown: [0, 0, -1],
 };
 
-/** The action of a key with this tool in hand; null for keys that are the page's. */
+/** The action of a key with this tool; null for keys left to the page. */
 export function pressed(
   { key, shiftKey, ctrlKey, metaKey, altKey }: Pick<KeyboardEvent, "key" | "shiftKey" | "ctrlKey" | "metaKey" | "altKey">,
   tool: Tool,

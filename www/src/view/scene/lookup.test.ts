@@ -1,14 +1,14 @@
 import { expect, it } from "vitest";
 import { layerAt, packBoundaries, ROW, rowsFor } from "./lookup.js";
 
-/** Boundaries of layers of 30 to 100 µm by turns. */
+/** Boundaries of layers whose thickness cycles from 30 to 100 µm. */
 function plan(layers: number): number[] {
   const out = [0];
   for (let layer = 0; layer < layers; layer++) out.push((out[layer] ?? 0) + 0.03 + 0.01 * (layer % 8));
   return out;
 }
 
-/** Obviously right. */
+/** Linear search, obviously correct. */
 function naive(boundaries: readonly number[], z: number): number {
   const found = boundaries.findIndex((bottom, layer) => bottom <= z && z < (boundaries[layer + 1] ?? Infinity));
   return Math.min(Math.max(found, 0), boundaries.length - 2);
@@ -25,12 +25,12 @@ it.each([1, 2, 3, 1023, 1024, 2000])("finds each of %i layers by its bottom, its
   }
 });
 
-it("keeps to the first and the last layer beyond the ends", () => {
+it("clamps to the first and the last layer beyond the ends", () => {
   expect(layerAt(plan(5), -1)).toBe(0);
   expect(layerAt(plan(5), 100)).toBe(4);
 });
 
-it.each([2, ROW, ROW + 1, 5000])("packs %i boundaries in rows of one width, finding the same layers", (count) => {
+it.each([2, ROW, ROW + 1, 5000])("packs %i boundaries into rows and finds the same layers", (count) => {
   const boundaries = plan(count - 1);
   const packed = new Float32Array(ROW * rowsFor(count));
   packBoundaries(boundaries, packed);

@@ -1,12 +1,12 @@
 /**
- * From a height to its layer: on the processor, and as the shader does it. The two are twins, function for function;
- * a test runs the shader's search on the packed texture.
+ * Finds the layer at a height, on the CPU and in the shader. The two searches match step by step; a test runs the search
+ * on the packed texture.
  */
 
-/** Texels in a row of the texture of boundaries: every WebGL 2 takes this, and 1024 rows of it hold a million layers. */
+/** Texels per row of the texture of boundaries. Every WebGL 2 supports this width; 1024 rows hold a million layers. */
 export const ROW = 1024;
 
-/** The layer whose range [z, z of the next) holds the height; the first below all, the last above. */
+/** The layer whose range [bottom, top) contains the height; the first layer below all ranges, the last above. */
 export function layerAt(boundaries_mm: ArrayLike<number>, z_mm: number): number {
   let low = 0;
   let high = boundaries_mm.length - 2;
@@ -18,10 +18,10 @@ export function layerAt(boundaries_mm: ArrayLike<number>, z_mm: number): number 
   return low;
 }
 
-/** Rows that a texture of `count` boundaries takes. */
+/** Rows of a texture that holds `count` boundaries. */
 export const rowsFor = (count: number): number => Math.max(1, Math.ceil(count / ROW));
 
-/** Writes the boundaries row by row into `into`, which holds whole rows; the rest keeps the last height. */
+/** Writes the boundaries into `into`, which holds whole rows; the last height fills the rest. */
 export function packBoundaries(boundaries_mm: ArrayLike<number>, into: Float32Array): void {
   const last = boundaries_mm[boundaries_mm.length - 1] ?? 0;
   for (let i = 0; i < into.length; i++) into[i] = boundaries_mm[i] ?? last;

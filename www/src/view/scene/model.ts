@@ -1,4 +1,4 @@
-/** The model in the scene: its facets, the stair steps once they are there, and what colours both. */
+/** The model in the scene: its facets, the stair steps once they are computed, and the material of both. */
 import {
   BufferAttribute,
   BufferGeometry,
@@ -24,10 +24,10 @@ import { extentOf, sizeOf, standing, type Extent, type Rotation, type Triple } f
 import { MODEL_FRAGMENT, MODEL_VERTEX } from "./shaders.js";
 import type { Steps } from "../steps/steps.js";
 
-/** `weights`: how much facets matter, once that has been given. */
+/** `weights` is the heat map of the facets' weights. */
 export type Look = "thickness" | "printed" | "weights";
 
-/** No layer is looked at: a band that holds no height. */
+/** The band while no layer is selected: it contains no height. */
 const NO_BAND: readonly [number, number] = [0, -1];
 
 function boundariesTexture(rows: number): DataTexture {
@@ -50,19 +50,19 @@ function heatTexture(rows: number): DataTexture {
   return texture;
 }
 
-/** Bounds that three need not work out: it would go through all the points again. */
+/** Sets bounds, so that three.js does not go through all the points again to compute them. */
 function bounded(geometry: BufferGeometry): BufferGeometry {
   geometry.boundingSphere = new Sphere(new Vector3(), Infinity);
   return geometry;
 }
 
 export class Model {
-  /** Turns about the middle of the model; what the gizmo holds. */
+  /** Turns about the middle of the model; the gizmo is attached to it. */
   readonly pivot = new Group();
   readonly facets: Mesh<BufferGeometry, RawShaderMaterial>;
   /** The stair steps, already in their pose. */
   readonly steps = new Group();
-  /** Of the model as it stands, mm. */
+  /** Size of the posed model, mm. */
   size_mm: Triple = [0, 0, 0];
   #positions: Float32Array = new Float32Array(0);
   #points: Float32Array = this.#positions;
@@ -71,9 +71,9 @@ export class Model {
   #palette = paletteTexture("classic");
   readonly #heatPalette = paletteTexture(HEAT_PALETTE);
   #heat = heatTexture(1);
-  /** Whether the graphics card has the heat of every facet, so that changes are enough. */
+  /** Whether the GPU has the heat of every facet, so that only changes need uploading. */
   #hasHeat = false;
-  /** Rows of it that have changed since. */
+  /** Rows of the texture that have changed since. */
   readonly #stale = new Set<number>();
   #look: Look = "thickness";
   #hasSteps = false;
@@ -107,7 +107,7 @@ export class Model {
     return this.#positions;
   }
 
-  /** What the file's lengths are multiplied by. */
+  /** Factor applied to the file's lengths. */
   get scale(): number {
     return this.pivot.scale.x || 1;
   }
@@ -121,7 +121,7 @@ export class Model {
     this.facets.geometry.setAttribute("position", new BufferAttribute(positions, 3));
     this.setSteps(null);
     const { least, greatest } = this.setPose(rotation, scale);
-    // The middle of the bounds as it stands now is what it turns about from now on.
+    // From now on the model turns about the middle of these bounds.
     this.#middle
       .set(...least)
       .add(new Vector3(...greatest))
@@ -131,12 +131,12 @@ export class Model {
     this.pivot.position.set(0, 0, this.size_mm[2] / 2);
   }
 
-  /** The same points without repeats, which are quicker to go through. */
+  /** Sets the same points without duplicates, to save time in `setPose`. */
   setPoints(points: Float32Array): void {
     this.#points = points;
   }
 
-  /** Gives the bounds before the model is put on the plate. Cost: its points. */
+  /** Returns the bounds before the model is put on the plate. Cost: linear in its points. */
   setPose(rotation: Rotation, scale: number): Extent {
     const extent = extentOf(this.#points, rotation, scale);
     this.pivot.quaternion.set(...rotation);
@@ -175,7 +175,7 @@ export class Model {
     this.#set("limits", new Vector2(...limits));
   }
 
-  /** Colours by how much facets matter; with `facets` that of others is as it was. */
+  /** Updates the heat map: of all facets, or of `facets` only. */
   setHeat(source: HeatSource, facets: Iterable<number> | null): void {
     const count = this.#positions.length / 9;
     const rows = Math.max(1, Math.ceil(count / HEAT_ROW_FACETS));
@@ -203,7 +203,7 @@ export class Model {
     this.#set("resin", new Vector3(...colour).divideScalar(255));
   }
 
-  /** Marks the heights between two boundaries, mm. */
+  /** Marks the heights between two boundaries, mm; `null`: none. */
   setBand(band: readonly [number, number] | null): void {
     this.#set("band", new Vector2(...(band ?? NO_BAND)));
   }
@@ -245,7 +245,7 @@ export class Model {
     if (found !== undefined) found.value = value;
   }
 
-  /** Until the steps are there the facets stand in for them, in the same resin. */
+  /** Until the steps are computed, the facets are shown instead, in the same resin. */
   #show(): void {
     const asSteps = this.#look === "printed" && this.#hasSteps;
     this.steps.visible = asSteps;

@@ -1,9 +1,9 @@
 /**
- * Draws beside the canvas and shows the picture when it is done.
+ * Draws offscreen and shows the picture when it is finished.
  *
- * Where there is no GPU the browser copies the canvas for every frame of the page, and the page stands still until a
- * processor has drawn it: seconds for a million facets. Drawn here, the page goes on, and the canvas keeps the picture
- * before until this one is ready.
+ * Without a GPU, the browser copies the canvas for every frame of the page, and the page freezes until the software
+ * renderer has drawn it: seconds for a million facets. With offscreen drawing the page stays responsive, and the canvas
+ * keeps its previous picture until the new one is ready.
  */
 import {
   GLSL3,
@@ -20,7 +20,7 @@ import {
   type WebGLRenderer,
 } from "three";
 
-/** Between two looks at whether a picture is done, ms. */
+/** Interval between checks whether a picture is finished, ms. */
 const LOOK_EVERY_MS = 8;
 
 const VERTEX = `precision highp float;
@@ -36,7 +36,7 @@ void main() {
   colour = texelFetch(picture, ivec2(gl_FragCoord.xy), 0);
 }`;
 
-/** A target into which three writes colours as it does on a canvas: elsewhere it leaves them linear. */
+/** A target for which three.js encodes colours as for a canvas; in other targets it leaves them linear. */
 class CanvasLike extends WebGLRenderTarget {
   readonly isXRRenderTarget = true;
 }
@@ -55,11 +55,11 @@ export class Offscreen {
     const gl = renderer.getContext();
     this.#target = new CanvasLike(1, 1, {
       colorSpace: SRGBColorSpace,
-      // Numbers as they are written: they are copied, and not looked at as light.
+      // Not an sRGB format: the encoded values are copied unchanged.
       internalFormat: "RGBA8",
       minFilter: NearestFilter,
       magFilter: NearestFilter,
-      // As smooth as the canvas.
+      // Antialiased like the canvas.
       samples: Number(gl.getParameter(gl.SAMPLES)),
     });
     this.#copy = new Mesh(
@@ -82,8 +82,8 @@ export class Offscreen {
   }
 
   /**
-   * Draws a picture of the canvas' size. Calls `shown` once it is on the canvas, and `free` when the next may be drawn.
-   * Not while it is busy.
+   * Draws a picture of the canvas's size. Calls `shown` once it is on the canvas, and `free` when the next one may be
+   * drawn. Must not be called while busy.
    */
   draw(scene: Scene, camera: Camera, shown: () => void, free: () => void): void {
     const gl = this.#renderer.getContext() as WebGL2RenderingContext;
@@ -103,14 +103,14 @@ export class Offscreen {
       this.#asked = requestAnimationFrame(() => {
         this.#renderer.render(this.#copy, this.#eye);
         shown();
-        // Were the next one begun before the browser has fetched this one, it would wait for both.
+        // If the next picture started before the browser has fetched this one, the browser would wait for both.
         this.#asked = requestAnimationFrame(() => {
           this.#isBusy = false;
           free();
         });
       });
     };
-    // A GPU is done by then.
+    // A GPU has finished by then.
     this.#timer = window.setTimeout(look);
   }
 

@@ -1,4 +1,4 @@
-/** What is under a pixel: drawn as one pixel of facet numbers, so that it costs the same for any model. */
+/** Picks the facet under a pixel: renders that pixel alone, with facet numbers as colours. */
 import {
   DoubleSide,
   GLSL3,
@@ -70,7 +70,7 @@ export class Picker {
     const [a, b, c] = [0, 1, 2].map((i) =>
       new Vector3().fromBufferAttribute(positions, 3 * facet + i).applyMatrix4(matrix),
     ) as [Vector3, Vector3, Vector3];
-    // The plane, not the triangle: the middle of a pixel on an edge may lie just beside it.
+    // Intersect the plane, not the triangle: at an edge, the centre of the pixel may lie just outside the triangle.
     const at = ray.intersectPlane(new Plane().setFromCoplanarPoints(a, b, c), new Vector3());
     const z = at?.z ?? (a.z + b.z + c.z) / 3;
     const [lowest, highest] = [Math.min(a.z, b.z, c.z), Math.max(a.z, b.z, c.z)];

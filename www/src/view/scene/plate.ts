@@ -1,4 +1,4 @@
-/** What the model stands on: a grid in mm, its shadow, and the printer's build volume in outline. */
+/** The plate under the model: a grid in mm, the model's shadow, and the outline of the printer's build volume. */
 import {
   BoxGeometry,
   EdgesGeometry,
@@ -22,31 +22,31 @@ import type { Rgb } from "../legend/palette.js";
 import type { Triple } from "./pose.js";
 import { BLUR_FRAGMENT, BLUR_VERTEX, PLATE_FRAGMENT, PLATE_VERTEX, SHADOW_FRAGMENT, SHADOW_VERTEX } from "./shaders.js";
 
-/** What a printer can build, mm. */
+/** The space in which a printer builds. */
 export interface BuildVolume {
   readonly width_mm: number;
   readonly depth_mm: number;
   readonly height_mm: number;
 }
 
-/** Side of the shadow's picture: it is blurred, so it needs no detail. */
+/** Side of the shadow's texture, pixels: it is blurred, so it needs no detail. */
 const SHADOW_PIXELS = 256;
 
-/** Side of that picture in spans of the model: room for the blur around it. */
+/** Side of that texture as a multiple of the model's width or depth: leaves room for the blur. */
 const SHADOW_ROOM = 1.6;
 
-/** Up to what part of its size above the plate the model throws a shadow. */
+/** Height up to which the model casts a shadow, as a fraction of its largest side. */
 const SHADOW_REACH = 0.4;
 
-/** Side of the plate where no printer gives one, in spans of the model. */
+/** Side of the plate without a printer, as a multiple of the model's largest side. */
 const PLATE_ROOM = 3.2;
 
-/** Lines across the model that make a good grid: the spacing is a power of ten mm. */
+/** Wanted number of grid lines across the model; the spacing is rounded to a power of ten, mm. */
 const LINES_ACROSS = 4;
 
 export class Plate {
   readonly group = new Group();
-  /** Between the thin lines of the grid. */
+  /** Spacing of the thin grid lines. */
   step_mm = 10;
   readonly #ground: Mesh<PlaneGeometry, RawShaderMaterial>;
   readonly #edges: LineSegments<EdgesGeometry, LineBasicMaterial>;
@@ -56,7 +56,7 @@ export class Plate {
     minFilter: LinearMipmapLinearFilter,
     magFilter: LinearFilter,
   });
-  /** The same, softened. */
+  /** The shadow's texture, blurred. */
   readonly #soft = new WebGLRenderTarget(SHADOW_PIXELS / 2, SHADOW_PIXELS / 2, { depthBuffer: false });
   readonly #blur = new Mesh(
     new PlaneGeometry(1, 1),
@@ -105,7 +105,7 @@ export class Plate {
       }),
     );
     this.#blur.frustumCulled = false;
-    // Drawn after the model, which hides what is behind it.
+    // Drawn after the model, so that the model hides what is behind it.
     this.#ground.renderOrder = 1;
     this.#edges = new LineSegments(
       new EdgesGeometry(new BoxGeometry(1, 1, 1).translate(0, 0, 0.5)),
@@ -148,7 +148,7 @@ export class Plate {
     this.#colourEdges();
     const half = (SHADOW_ROOM * Math.max(x, y, 1e-3)) / 2;
     this.#set("shadowHalf_mm", half);
-    // Seen from below the picture is mirrored: turn it back by swapping left and right.
+    // Seen from below, the picture is mirrored; swapping left and right undoes that.
     Object.assign(this.#below, { left: half, right: -half, top: half, bottom: -half, near: -0.01 * span, far: span });
     this.#below.updateProjectionMatrix();
     const reach = this.#shade.uniforms["reach"];
@@ -156,7 +156,7 @@ export class Plate {
     this.#stale = true;
   }
 
-  /** Draws the shadow anew if the model has changed since. */
+  /** Redraws the shadow if the model has changed. */
   prepare(renderer: WebGLRenderer, model: Mesh): void {
     if (!this.#stale || !this.group.visible) return;
     this.#stale = false;
@@ -169,7 +169,7 @@ export class Plate {
     renderer.setRenderTarget(null);
   }
 
-  /** After a lost context the picture is gone. */
+  /** To be called when a lost context is restored: the shadow is gone. */
   restored(): void {
     this.#stale = true;
   }

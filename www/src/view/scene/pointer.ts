@@ -1,18 +1,18 @@
 /** Clicks and hovers over the view, told apart from drags. */
 
-/** A pointer that has gone farther than this since it came down drags, CSS pixels. */
+/** A pointer that moves farther than this while it is down is dragging, CSS pixels. */
 const DRAG_FROM_PX = 4;
 
 export type Point = readonly [x_px: number, y_px: number];
 
 export interface PointerReports {
-  /** A press and release on one spot with the main button. */
+  /** A press and release in one place with the main button. */
   clicked(at: Point): void;
-  /** Where the pointer is with no button down, once a frame at most; `null` when it has left. */
+  /** Where the pointer is with no button down, at most once a frame; `null` when it has left. */
   hovered(at: Point | null): void;
 }
 
-/** Where a pointer is, from the upper left corner of a surface. */
+/** Position of a pointer relative to the upper left corner of a surface. */
 export function placeIn(surface: HTMLElement, { clientX, clientY }: PointerEvent): Point {
   const { left, top } = surface.getBoundingClientRect();
   return [clientX - left, clientY - top];

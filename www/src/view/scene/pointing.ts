@@ -1,4 +1,4 @@
-/** What pointing at the model means: a height, a layer, or a face that is to lie flat. */
+/** Turns hovers and clicks on the model into a height, a layer, or a face to lay flat. */
 import type { HeightDetail } from "../events.js";
 import type { FlatFace } from "./flat.js";
 import { layerAt } from "./lookup.js";
@@ -7,7 +7,7 @@ import type { Triple } from "./pose.js";
 import type { Tool } from "./keys.js";
 import type { Scene } from "./scene.js";
 
-/** What the view is showing just now. */
+/** What the view shows now. */
 export interface Shown {
   readonly tool: Tool;
   readonly z_mm: readonly number[];
@@ -18,7 +18,7 @@ export interface PointingReports {
   height(detail: HeightDetail): void;
   /** A layer was clicked, counted from 0. */
   layer(layer: number): void;
-  /** The face with this normal, in the file's pose, is to lie on the plate. */
+  /** A face was clicked to be laid on the plate; its normal is in the file's pose. */
   lay(normal: Triple): void;
 }
 
@@ -50,7 +50,7 @@ export class Pointing {
     } else if (z_mm.length >= 2) this.#reports.layer(layerAt(z_mm, hit.z_mm));
   }
 
-  /** One pick at a time; a pointer that has moved on meanwhile is looked for again. */
+  /** Picks once at a time, and again if the pointer has moved meanwhile. */
   async hovered(at: Point | null): Promise<void> {
     this.#pointer = at;
     if (this.#isPicking) return;

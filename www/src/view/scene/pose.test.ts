@@ -8,7 +8,7 @@ const close = (actual: readonly number[], wanted: readonly number[]): void => {
   for (const [i, value] of wanted.entries()) expect(actual[i]).toBeCloseTo(value, 5);
 };
 
-/** Unit vectors in many directions, with those along the axes. */
+/** The directions of the axes and of the diagonals between them. */
 function* directions(): Generator<Triple> {
   for (const x of [-1, 0, 1]) for (const y of [-1, 0, 1]) for (const z of [-1, 0, 1]) {
     const length = Math.hypot(x, y, z);
@@ -19,7 +19,7 @@ function* directions(): Generator<Triple> {
 describe("laying a face flat", () => {
   const poses: Rotation[] = [UPRIGHT, turned(UPRIGHT, "x", 90), turned(turned(UPRIGHT, "y", 33), "z", -120)];
 
-  it("turns its normal straight down, whatever the pose before", () => {
+  it("turns its normal straight down from any pose", () => {
     for (const before of poses) {
       for (const normal of directions()) {
         const after = layFlat(before, normal);
@@ -30,7 +30,7 @@ describe("laying a face flat", () => {
     }
   });
 
-  it("leaves a model that lies on that face as it is", () => {
+  it("keeps the pose of a model that already lies on that face", () => {
     for (const before of poses) {
       const down = new Vector3(0, 0, -1).applyQuaternion(new Quaternion(...before).invert());
       const after = layFlat(before, [down.x, down.y, down.z]);
@@ -48,7 +48,7 @@ describe("a pose", () => {
     close(greatest, [2, 4, 6]);
   });
 
-  it("has the same bounds as its points one by one", () => {
+  it("has the bounds of its points", () => {
     const solid = cone(5, 9, 12);
     const rotation = turned(turned(UPRIGHT, "x", 40), "z", 70);
     const quaternion = new Quaternion(...rotation);
@@ -67,7 +67,7 @@ describe("a pose", () => {
     close([x, y, z], [0, 1, 0]);
   });
 
-  it("of nothing is nothing", () => {
+  it("without points has no size", () => {
     expect(sizeOf(extentOf(new Float32Array(0), UPRIGHT, 1))).toEqual([0, 0, 0]);
   });
 });

@@ -14,7 +14,7 @@ export interface Extent {
   readonly greatest: Triple;
 }
 
-/** The nine entries of the turning matrix times `scale`, row by row. */
+/** The nine entries of the rotation matrix times `scale`, row by row. */
 function matrixOf([x, y, z, w]: Rotation, scale: number): readonly number[] {
   return [
     1 - 2 * (y * y + z * z),
@@ -35,7 +35,7 @@ export function extentOf(points: Float32Array, rotation: Rotation, scale: number
   const [a = 0, b = 0, c = 0, d = 0, e = 0, f = 0, g = 0, h = 0, i = 0] = matrixOf(rotation, scale);
   let [x0, y0, z0] = [Infinity, Infinity, Infinity];
   let [x1, y1, z1] = [-Infinity, -Infinity, -Infinity];
-  // Millions of times: no arrays taken apart in here.
+  // Runs millions of times: no destructuring of arrays in here.
   for (let at = 0; at + 2 < points.length; at += 3) {
     const x = points[at] ?? 0;
     const y = points[at + 1] ?? 0;
@@ -53,7 +53,7 @@ export function extentOf(points: Float32Array, rotation: Rotation, scale: number
   return { least: [x0, y0, z0], greatest: [x1, y1, z1] };
 }
 
-/** What to add to the turned and scaled points so that they stand in the middle of the plate. */
+/** The offset that puts the turned and scaled points in the middle of the plate. */
 export function standing({ least, greatest }: Extent): Triple {
   return [-(least[0] + greatest[0]) / 2, -(least[1] + greatest[1]) / 2, -least[2]];
 }
@@ -82,7 +82,7 @@ export function posed(points: Float32Array, rotation: Rotation, scale: number): 
 
 const packed = ({ x, y, z, w }: Quaternion): Rotation => [x, y, z, w];
 
-/** `rotation` followed by the shortest turn that brings `normal`, a unit vector of the file's pose, straight down. */
+/** `rotation` followed by the shortest turn that points `normal`, a unit vector in the file's pose, straight down. */
 export function layFlat(rotation: Rotation, normal: Triple): Rotation {
   const before = new Quaternion(...rotation);
   const turned = new Vector3(...normal).applyQuaternion(before);
@@ -90,7 +90,7 @@ export function layFlat(rotation: Rotation, normal: Triple): Rotation {
   return packed(turn.multiply(before).normalize());
 }
 
-/** `rotation` followed by a turn about one of the plate's axes, counter-clockwise as seen from that axis' end. */
+/** `rotation` followed by a turn about one of the plate's axes, counter-clockwise as seen from the axis's end. */
 export function turned(rotation: Rotation, axis: "x" | "y" | "z", degrees: number): Rotation {
   const about = new Vector3();
   about[axis] = 1;

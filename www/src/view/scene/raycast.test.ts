@@ -7,7 +7,7 @@ import { distanceToFacet } from "../paint/region.js";
 const positions = ball(10, 48);
 const raycast = new Raycast(positions);
 
-it("meets the near side of a ball, on the facet that it names", () => {
+it("hits the near side of a ball and names the facet", () => {
   for (const [x, z] of [
     [0.3, 0.2],
     [-4, 6],
@@ -22,12 +22,12 @@ it("meets the near side of a ball, on the facet that it names", () => {
   expect(raycast.cast(new Ray(new Vector3(11, -50, 0), new Vector3(0, 1, 0)))).toBeNull();
 });
 
-it("finds what is nearest, and nothing beyond the distance", () => {
+it("finds the nearest point, and none beyond the distance", () => {
   const cube = new Raycast(box([0, 0, 0], [2, 2, 2]));
   expect(cube.nearest([1, 1, 2.5], 1)?.point).toEqual([1, 1, 2]);
   expect(cube.nearest([1, 1, 4], 1)).toBeNull();
 });
 
-it("leaves the positions as they are", () => {
+it("does not change the positions", () => {
   expect(positions).toEqual(ball(10, 48));
 });

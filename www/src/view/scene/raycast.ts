@@ -1,4 +1,4 @@
-/** Where a ray meets a model and what lies nearest to a point: through a hierarchy of bounding boxes. */
+/** Finds where a ray hits a model and which of its points is nearest, using a bounding volume hierarchy. */
 import { BufferAttribute, BufferGeometry, DoubleSide, Ray, Vector3 } from "three";
 import { MeshBVH } from "three-mesh-bvh";
 import type { Triple } from "./pose.js";
@@ -20,13 +20,13 @@ export class Raycast {
     this.#tree = new MeshBVH(geometry, { indirect: true });
   }
 
-  /** What a ray first meets from either side; `null` if nothing. */
+  /** The first hit of a ray on either side of a facet; `null` if it misses. */
   cast(ray: Ray): RayHit | null {
     const hit = this.#tree.raycastFirst(ray, DoubleSide);
     return hit === null || hit.faceIndex == null ? null : { facet: hit.faceIndex, point: tripleOf(hit.point) };
   }
 
-  /** The point of the model nearest to this one, if it is no farther away than that. */
+  /** The point of the model nearest to `point`; `null` if it is farther away than `within_mm`. */
   nearest(point: Triple, within_mm: number): RayHit | null {
     const found = this.#tree.closestPointToPoint(new Vector3(...point), undefined, 0, within_mm);
     return found === null ? null : { facet: found.faceIndex, point: tripleOf(found.point) };

@@ -1,4 +1,4 @@
-/** The view's scene on its canvas. Draws when something has changed, and only then. */
+/** The view's scene on its canvas. Draws only when something has changed. */
 import {
   BufferAttribute,
   BufferGeometry,
@@ -22,26 +22,26 @@ import { Picker, type Hit } from "./picker.js";
 import { Plate, type BuildVolume } from "./plate.js";
 import type { Rotation } from "./pose.js";
 
-/** Finer pixels than these cost four times as much and are not seen. */
+/** Highest pixel ratio that is drawn: twice as many pixels each way would cost four times as much, unseen. */
 const DENSITY_LIMIT = 2;
 
-/** From here on, where a processor draws in place of a GPU, a picture takes longer than the page may be held up. */
+/** From this many facets on, a software renderer would block the page too long: draw offscreen. */
 const LARGE_FACETS = 50_000;
 
 export interface Theme {
   /** Lines of the plate. */
   readonly ink: Rgb;
-  /** The face that would lie down. */
+  /** The facets highlighted under the pointer. */
   readonly accent: Rgb;
   /** The build volume's outline when the model does not fit. */
   readonly bad: Rgb;
-  /** The printed look. */
+  /** The model in the printed look, or without a plan. */
   readonly resin: Rgb;
-  /** 0 to 1. */
+  /** Strength of the shadow, 0 to 1. */
   readonly shadow: number;
 }
 
-/** After a frame has been drawn. */
+/** Called after a frame has been drawn. */
 export type Drawn = (frame: Frame | null) => void;
 
 export class Scene {
@@ -69,7 +69,7 @@ export class Scene {
   #inset: Inset = { top_px: 0, bottom_px: 0 };
   #size: readonly [number, number] = [0, 0];
   #asked = 0;
-  /** Whether something has changed since the picture that is being drawn offscreen. */
+  /** Whether something has changed since the offscreen picture under way was started. */
   #isStale = false;
   #isGone = false;
   #tool: Tool = "turn";
@@ -103,7 +103,7 @@ export class Scene {
     canvas.addEventListener("webglcontextrestored", this.#restored);
   }
 
-  /** Asks for a frame; any number of asks before it is drawn come to one. */
+  /** Requests a frame; several requests before it is drawn count as one. */
   readonly invalidate = (): void => {
     if (this.#asked === 0 && !this.#isGone) this.#asked = requestAnimationFrame(this.#frame);
   };
@@ -124,11 +124,11 @@ export class Scene {
     this.#renderer.setSize(width_px, height_px, false);
     this.cameras.setView(width_px, height_px);
     this.#gizmo.fit(width_px / height_px);
-    // What was on the canvas is gone with its size: a frame later would be a flash.
+    // Resizing clears the canvas; drawing only in the next frame would flash.
     this.#draw();
   }
 
-  /** A new model, seen whole. */
+  /** Sets a new model and shows all of it. */
   setPositions(positions: Float32Array, rotation: Rotation, scale: number): void {
     this.model.setPositions(positions, rotation, scale);
     this.setFace(null);
@@ -137,7 +137,7 @@ export class Scene {
     this.invalidate();
   }
 
-  /** @param follow whether the camera goes along with the model's middle */
+  /** @param follow whether the camera follows the model's middle */
   setPose(rotation: Rotation, scale: number, follow: boolean): void {
     this.model.setPose(rotation, scale);
     this.plate.fit(this.model.size_mm, this.#volume);
@@ -171,12 +171,12 @@ export class Scene {
     this.#tool = tool;
     if (tool !== "flat") this.setFace(null);
     this.#gizmo.show(tool === "rotate" ? this.model.pivot : null, this.cameras.current);
-    // A brush takes every touch that begins on the model.
+    // While painting, a touch must not scroll the page.
     if (tool === "paint") this.#renderer.domElement.style.touchAction = "none";
     this.invalidate();
   }
 
-  /** Marks some facets. */
+  /** Highlights these facets; `null`: none. */
   setFace(facets: readonly number[] | null): void {
     const { geometry } = this.#face;
     geometry.dispose();
@@ -191,7 +191,7 @@ export class Scene {
     this.invalidate();
   }
 
-  /** What is under a point of the view, CSS pixels. */
+  /** The facet and the height under a point of the view, CSS pixels. */
   async pick(x_px: number, y_px: number): Promise<Hit | null> {
     const [width, height] = this.#size;
     if (this.#isGone || width === 0 || this.#renderer.getContext().isContextLost()) return null;
@@ -202,7 +202,7 @@ export class Scene {
     return this.#isGone ? null : hit;
   }
 
-  /** The ray through a point of the view, CSS pixels, in the pose of the model's file. */
+  /** The ray through a point of the view, CSS pixels, in the file's pose. */
   rayAt(x_px: number, y_px: number): Ray {
     const [width, height] = this.#size;
     this.#scene.updateMatrixWorld();
@@ -212,7 +212,7 @@ export class Scene {
     return caster.ray.applyMatrix4(this.model.facets.matrixWorld.clone().invert());
   }
 
-  /** Where the right edge of the model is at a height, as far as its bounds tell: for a label. */
+  /** Where the right edge of the model's bounds is at a height, CSS pixels: the place of a label. */
   edgeAt(z_mm: number): readonly [number, number] {
     const camera = this.cameras.current;
     const right = new Vector3().setFromMatrixColumn(camera.matrixWorld, 0);
@@ -234,7 +234,7 @@ export class Scene {
     this.#face.geometry.dispose();
     this.#face.material.dispose();
     this.#renderer.dispose();
-    // Browsers allow a page only so many contexts, and collect them late.
+    // Browsers limit the contexts of a page and reclaim them late.
     this.#renderer.forceContextLoss();
   }
 
@@ -245,7 +245,7 @@ export class Scene {
 
   readonly #frame = (): void => {
     this.#asked = 0;
-    // True while the view still glides after the pointer has let it go.
+    // True while damping still moves the view after the pointer was released.
     const moving = this.cameras.controls.enabled && this.cameras.controls.update();
     this.#draw();
     if (moving) this.invalidate();

@@ -31,8 +31,8 @@ void main() {
 `;
 
 /**
- * The colour of a pixel is that of the mean thickness of the layers it meets, as in the chart: where layers are lower
- * than a pixel they blend instead of flickering, and nothing but the boundaries is looked up.
+ * A pixel shows the mean thickness of the layers that it covers, as in the chart: layers thinner than a pixel blend
+ * instead of flickering, and the shader looks up only boundaries.
  */
 export const MODEL_FRAGMENT = /* glsl */ `${HEAD}
 uniform mat4 viewMatrix;
@@ -70,8 +70,8 @@ vec3 lit(vec3 base, vec3 normal) {
   return base * light + vec3(0.1) * rim * sky;
 }
 
-// A level face on a boundary belongs to the layer that ends there: the one inside the model. Half a micrometre inwards
-// is less than any plan resolves.
+// A horizontal face on a boundary belongs to the layer inside the model, hence half a micrometre inwards: less than any
+// plan resolves.
 const float INWARDS = 0.0005;
 
 vec3 ofPlan(float width, float upwards) {
@@ -88,7 +88,7 @@ vec3 ofPlan(float width, float upwards) {
   float span = limits.y - limits.x;
   float place = span > 0.0 ? clamp((thickness - limits.x) / span, 0.0, 1.0) : 0.5;
   vec3 base = texelFetch(palette, ivec2(int(place * ${(PALETTE_SIZE - 1).toFixed(1)} + 0.5), 0), 0).rgb;
-  // A seam between layers that are tall enough to tell apart, but none over a whole level face.
+  // Draw a seam between layers tall enough to tell apart, but not across a horizontal face.
   float pixels = thickness / max(width, 1e-9);
   float nearest = min(z - bottom, top - z) / max(width, 1e-9);
   float seam = (1.0 - smoothstep(0.2, 1.0, nearest)) * smoothstep(5.0, 10.0, pixels);
@@ -96,20 +96,20 @@ vec3 ofPlan(float width, float upwards) {
   return linear(base) * (1.0 - (first == last ? 0.45 : 0.0) * seam);
 }
 
-/** The palette's first entry is what matters most, as it is the thinnest layer. */
+/** The palette's first entry is the greatest weight, as it is the thinnest layer. */
 vec3 ofHeat() {
   return linear(texelFetch(heatPalette, ivec2(int((1.0 - heatAt(facet)) * ${(PALETTE_SIZE - 1).toFixed(1)} + 0.5), 0), 0).rgb);
 }
 
 void main() {
-  // The part of the height that this pixel covers.
+  // The range of heights that this pixel covers.
   float width = fwidth(world.z);
   vec3 normal = normalize(cross(dFdx(eye), dFdy(eye)));
   float upwards = dot(normal, viewMatrix[2].xyz);
   vec3 light = lit(byHeat ? ofHeat() : byThickness ? ofPlan(width, upwards) : linear(resin), normal);
   vec3 shown = encoded(light);
   if (band.y > band.x) {
-    // The layer looked at: never lower than three pixels, dark with a light edge, whatever is around it.
+    // The selected layer: at least three pixels high, and dark with a light edge to stand out anywhere.
     float grown = max(0.0, 1.5 * width - 0.5 * (band.y - band.x));
     float z = world.z - INWARDS * upwards;
     float inside = min(z - band.x, band.y - z) + grown;
@@ -122,7 +122,7 @@ void main() {
 }
 `;
 
-/** Which facet is under a pixel: its number plus one in four bytes, so that zero is nothing. */
+/** The facet under a pixel as its number plus one in four bytes; zero means no facet. */
 export const PICK_VERTEX = /* glsl */ `${HEAD}${MATRICES}
 flat out uint facet;
 void main() {
@@ -139,7 +139,7 @@ void main() {
 }
 `;
 
-/** How near the plate the model is, seen from below: what the shadow is made of. */
+/** How close the model is to the plate, seen from below: the source of the shadow. */
 export const SHADOW_VERTEX = /* glsl */ `${HEAD}${MATRICES}
 uniform float reach;
 out float near;
@@ -167,7 +167,7 @@ void main() {
 }
 `;
 
-/** Softens the shadow's picture: rings of samples from its smaller copies. */
+/** Blurs the shadow with rings of samples from a coarser mipmap level. */
 export const BLUR_FRAGMENT = /* glsl */ `${HEAD}
 uniform sampler2D sharp;
 in vec2 place;
@@ -193,7 +193,7 @@ void main() {
 }
 `;
 
-/** A grid of thin lines with every fifth stronger, a soft shadow, and an edge that is sharp or fades. */
+/** A grid of thin lines, every fifth one stronger, a soft shadow, and an edge that is sharp or fades out. */
 export const PLATE_FRAGMENT = /* glsl */ `${HEAD}
 uniform vec3 ink;
 uniform float step_mm;
@@ -209,14 +209,14 @@ float lines(float pitch) {
   vec2 width = fwidth(at);
   vec2 away = abs(fract(at / pitch + 0.5) - 0.5) * pitch;
   vec2 drawn = 1.0 - smoothstep(vec2(0.3), vec2(1.1), away / width);
-  // Lines closer than a few pixels are grey mist: let them go before that.
+  // Lines only a few pixels apart merge into grey: fade them out before that.
   drawn *= 1.0 - smoothstep(0.08, 0.3, width / pitch);
   return max(drawn.x, drawn.y);
 }
 
 float shade() {
   vec2 place = at / (2.0 * shadowHalf_mm) + 0.5;
-  // Outside the picture its edge would go on for ever.
+  // Outside the texture, the pixels of its edge would repeat.
   vec2 inner = step(abs(place - 0.5), vec2(0.5));
   return inner.x * inner.y * texture(shadow, place).a;
 }

@@ -1,6 +1,6 @@
-/** The canvas that is drawn on, and the label that is laid over it. */
+/** The WebGL context of the canvas, and the placement of the label over it. */
 
-/** Smooth edges take four times the work: where a processor does it in place of a GPU, the view goes without. */
+/** Antialiasing quadruples the work, so the view does without it where a software renderer stands in for a GPU. */
 export function contextOf(canvas: HTMLCanvasElement): WebGL2RenderingContext | null {
   const wanted = { alpha: true, depth: true, stencil: false };
   return (
@@ -9,10 +9,10 @@ export function contextOf(canvas: HTMLCanvasElement): WebGL2RenderingContext | n
   );
 }
 
-/** Between the label and what it names, CSS pixels. */
+/** Gap between the label and the point that it names, CSS pixels. */
 const GAP_PX = 12;
 
-/** Puts a label to the right of a point; where there is no room it goes to its corner. Nothing hides it. */
+/** Puts a label to the right of a point, or in its corner of the view if there is no room. `null` hides it. */
 export function place(label: HTMLElement, at: readonly [x_px: number, y_px: number] | null, width_px: number): void {
   label.hidden = at === null;
   if (at === null) return;

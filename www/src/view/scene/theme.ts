@@ -1,12 +1,12 @@
-/** The view's colours as the page gives them. */
+/** Reads the view's colours from the page. */
 import type { Rgb } from "../legend/palette.js";
 import type { Theme } from "./scene.js";
 
-/** A dark page swallows a shadow, and needs a darker resin to stay calm. */
+/** A dark page needs a stronger shadow, or it is lost, and a darker resin, or it glares. */
 const DARK: Pick<Theme, "resin" | "shadow"> = { resin: [168, 174, 184], shadow: 0.75 };
 const LIGHT: Pick<Theme, "resin" | "shadow"> = { resin: [205, 208, 214], shadow: 0.34 };
 
-/** Any CSS colour as red, green and blue: a canvas knows them all. */
+/** Converts any CSS colour to red, green and blue by painting it on a canvas. */
 function parsed(colour: string): Rgb {
   const canvas = document.createElement("canvas");
   canvas.width = canvas.height = 1;
@@ -18,11 +18,11 @@ function parsed(colour: string): Rgb {
   return [r, g, b];
 }
 
-/** Reads the colours off probes: elements whose `color` is what the style sheet makes of the custom properties. */
+/** Reads the colours from probes: elements whose `color` the style sheet derives from the custom properties. */
 export function themeOf(probes: Readonly<Record<"ink" | "accent" | "bad", HTMLElement>>): Theme {
   const of = (probe: HTMLElement): Rgb => parsed(getComputedStyle(probe).color);
   const ink = of(probes.ink);
-  // Light ink is for a dark page.
+  // Light ink means a dark page.
   const isDark = (ink[0] + ink[1] + ink[2]) / 3 > 127;
   return { ink, accent: of(probes.accent), bad: of(probes.bad), ...(isDark ? DARK : LIGHT) };
 }

@@ -1,4 +1,4 @@
-/** Pictures of a model beside the page, from where it is first seen: in several poses on the plate, or in its layers. */
+/** Offscreen pictures of a model in its first view: in several poses on the plate, or coloured by its layers. */
 import { Scene, WebGLRenderer } from "three";
 import { lookFirst, perspective } from "./cameras.js";
 import { Model } from "./model.js";
@@ -10,7 +10,7 @@ import { themeOf } from "./theme.js";
 
 const frame = (): Promise<unknown> => new Promise((resolve) => requestAnimationFrame(resolve));
 
-/** A scene that is drawn beside the page, picture after picture; it is gone after `draw`. */
+/** Gives `draw` an offscreen scene and disposes of it afterwards. `null` without WebGL. */
 async function withScene<T>(draw: (studio: Studio) => Promise<T>): Promise<T | null> {
   const canvas = document.createElement("canvas");
   const context = contextOf(canvas);
@@ -45,15 +45,15 @@ async function withScene<T>(draw: (studio: Studio) => Promise<T>): Promise<T | n
 interface Studio {
   readonly model: Model;
   readonly plate: Plate;
-  /** Draws the model as it stands, whole; the canvas is the next picture's too. */
+  /** Draws the whole model in its pose; the next picture reuses the canvas. */
   shoot(width_px: number, height_px: number): HTMLCanvasElement;
 }
 
 /**
- * Draws the model on each canvas in the rotation beside it, one a frame. Where there is no WebGL canvases stay empty.
+ * Draws the model on each canvas in the rotation paired with it, one per frame. Without WebGL the canvases stay empty.
  *
  * @param positions nine numbers a facet, mm, in the file's pose
- * @param host whose text has the colour of the plate's lines
+ * @param host element whose text colour the plate's lines take
  */
 export async function drawThumbnails(
   positions: Float32Array,
@@ -79,12 +79,12 @@ export async function drawThumbnails(
   });
 }
 
-/** A model in its layers. */
+/** A model and its layers. */
 export interface Layered {
   /** Nine numbers a facet, mm, in the file's pose. */
   readonly positions: Float32Array;
   readonly rotation: Rotation;
-  /** What the file's lengths are multiplied by. */
+  /** Factor applied to the file's lengths. */
   readonly scale: number;
   /** Layer boundaries from 0 to the top, mm. */
   readonly z_mm: readonly number[];
@@ -93,7 +93,7 @@ export interface Layered {
   readonly palette: PaletteName;
 }
 
-/** A square PNG of a model coloured by layer thickness, on a transparent ground; null where there is no WebGL. */
+/** A square PNG of a model coloured by layer thickness, on a transparent background; `null` without WebGL. */
 export function thumbnail({ positions, rotation, scale, z_mm, limits, palette }: Layered, size_px: number): Promise<Blob | null> {
   return withScene(({ model, plate, shoot }) => {
     plate.group.visible = false;

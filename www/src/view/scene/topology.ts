@@ -1,4 +1,4 @@
-/** Which corners of a soup of facets are one point, and which facets share an edge. */
+/** Finds which corners of a facet soup are the same point, and which facets share an edge. */
 
 /**
  * Half-edge `3 * facet + i` runs from corner `i` of the facet to the next one.
@@ -19,7 +19,7 @@ export const after = (halfEdge: number): number => (halfEdge % 3 === 2 ? halfEdg
 
 const before = (halfEdge: number): number => (halfEdge % 3 === 0 ? halfEdge + 2 : halfEdge - 1);
 
-/** Points are one if their coordinates are, to the bit (0 and −0 count as equal). */
+/** Corners are the same point if their coordinates agree bit for bit (0 and −0 count as equal). */
 function* weld(positions: Float32Array): Generator<number, Pick<Topology, "points" | "corner">> {
   const corners = positions.length / 3;
   const bits = new Uint32Array(positions.buffer, positions.byteOffset, positions.length);
@@ -57,8 +57,8 @@ function* weld(positions: Float32Array): Generator<number, Pick<Topology, "point
 }
 
 /**
- * Finds each half-edge's twin. An edge of more than two facets is paired off as far as it goes.
- * Cost: the sum over the edges of the lesser number of facets at either end.
+ * Finds the twin of each half-edge. On an edge of more than two facets, half-edges are paired as far as possible.
+ * Cost: the sum over all edges of the smaller number of facets at either end.
  */
 function* pair(corner: Uint32Array, points: number): Generator<number, Int32Array> {
   const start = new Uint32Array(points + 1);
@@ -86,7 +86,7 @@ function* pair(corner: Uint32Array, points: number): Generator<number, Int32Arra
     const from = corner[c] ?? 0;
     const to = corner[after(c)] ?? 0;
     if (from === to) continue;
-    // The twin leaves `to` and arrives at `from`: look around whichever has fewer facets.
+    // The twin leaves `to` and arrives at `from`: search the end that has fewer facets.
     const leaving = degree(to) <= degree(from);
     const at = leaving ? to : from;
     for (let i = start[at] ?? 0; i < (start[at + 1] ?? 0); i++) {

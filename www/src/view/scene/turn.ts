@@ -1,10 +1,10 @@
-/** Turning vectors by unit quaternions, for what is drawn without three. */
+/** Rotates vectors by unit quaternions, for what is drawn without three.js. */
 import type { Rotation, Triple } from "./pose.js";
 
-/** As the file has it. */
+/** The model as in its file. */
 export const UPRIGHT: Rotation = [0, 0, 0, 1];
 
-/** The turn by `first` and then by `second`. */
+/** The rotation by `first`, then by `second`. */
 export function combined(first: Rotation, second: Rotation): Rotation {
   const [ax, ay, az, aw] = second;
   const [bx, by, bz, bw] = first;
@@ -28,25 +28,25 @@ export function unit([x, y, z]: Triple): Triple {
   return [x / length, y / length, z / length];
 }
 
-/** Where the model is first looked at from: from the front, a little from the right and above. */
+/** The direction from which the model is first seen: the front, slightly from the right and above. */
 export const FIRST_LOOK: Triple = unit([0.55, -1, 0.5]);
 
 const cross = ([ax, ay, az]: Triple, [bx, by, bz]: Triple): Triple => [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx];
 
 /**
- * How a camera is turned that looks at the model from there, with z upwards: it brings the camera's right, up and towards
- * the viewer into the plate's frame. `from` is not straight above or below.
+ * The rotation of a camera that looks at the model from there with z upwards: it turns the camera's right, up and
+ * backward axes into the plate's frame. `from` must not be straight above or below.
  */
 export function lookFrom(from: Triple): Rotation {
   const [zx, zy, zz] = unit(from);
   const [xx, xy, xz] = unit(cross([0, 0, 1], [zx, zy, zz]));
   const [yx, yy, yz] = cross([zx, zy, zz], [xx, xy, xz]);
-  // Of the four ways to take a quaternion from a matrix this one holds for looks from the front and above.
+  // Of the four ways to extract a quaternion from a matrix, this one is stable for views from the front and above.
   const w = Math.sqrt(Math.max(1e-12, 1 + xx + yy + zz)) / 2;
   return [(yz - zy) / (4 * w), (zx - xz) / (4 * w), (xy - yx) / (4 * w), w];
 }
 
-/** How high a model stands that is turned so, in the unit of its points, three numbers each. */
+/** Height of a model in this rotation, in the unit of its points (three numbers each). */
 export function heightOf(points: Float32Array, rotation: Rotation): number {
   const [a, b, c] = turn(back(rotation), [0, 0, 1]);
   let least = Infinity;

@@ -1,23 +1,23 @@
-/** Cross-sections of a closed mesh, followed from facet to facet. */
+/** Cross-sections of a closed mesh, traced from facet to facet. */
 import { after, type Topology } from "../scene/topology.js";
 
 /**
- * A closed line as x and y of its points, mm; the end joins the start. The inside of the model is on its left, so
+ * A closed polyline as x and y of its points, mm; the end joins the start. The inside of the model is on its left, so
  * outlines run counter-clockwise and holes clockwise.
  */
 export type Contour = readonly number[];
 
-/** A model on the plate: its points in their pose, and how its facets hang together. */
+/** A model on the plate: its points in their pose, and how its facets are connected. */
 export interface Solid {
   /** Three numbers each, mm, z up from the plate. */
   readonly points: Float32Array;
   readonly topology: Pick<Topology, "corner" | "twin">;
 }
 
-/** The facets that each of some planes cuts, as one array and where each plane's part of it starts. */
+/** The facets that each plane cuts, in one array, and where the range of each plane starts. */
 export interface Cuts {
   readonly facets: Uint32Array;
-  /** One more than there are planes. */
+  /** One entry more than there are planes. */
   readonly start: Uint32Array;
 }
 
@@ -36,15 +36,15 @@ function countBelow(values: readonly number[], value: number): number {
 }
 
 /**
- * Finds which facets each plane cuts. A point on a plane counts as below it, so a facet is cut by the planes from its
- * lowest point on to just below its highest.
+ * Finds which facets each plane cuts. A point on a plane counts as below it, so a facet is cut by the planes from its lowest
+ * point up to, but not including, its highest.
  * @param planes_mm heights, ascending
  */
 export function* cutsOf({ points, topology }: Solid, planes_mm: readonly number[]): Generator<number, Cuts> {
   const { corner } = topology;
   const count = corner.length / 3;
   const start = new Uint32Array(planes_mm.length + 1);
-  // The first and the last plane but one of each facet: found once, used for counting and for filling.
+  // The first plane of each facet and the one after its last: found once, used for counting and for filling.
   const range = new Uint32Array(2 * count);
   for (let facet = 0; facet < count; facet++) {
     if (facet % BLOCK === 0) yield facet / count;
@@ -73,17 +73,17 @@ export function* cutsOf({ points, topology }: Solid, planes_mm: readonly number[
   return { facets, start };
 }
 
-/** Follows the contours of planes one after another; holds what is shared between them. */
+/** Traces the contours of a plane, given the facets that it cuts; called for one plane after another. */
 export type Tracer = (z_mm: number, facets: Uint32Array) => Contour[];
 
 /**
- * Gives what traces the contours of a plane, given the facets that it cuts. Where the mesh is open the ends are joined
- * by a straight line. Points are left out as far as the contour stays within `tolerance_mm` of them.
- * Cost of a plane: the facets it cuts.
+ * Returns a tracer, which holds state shared between planes. Where the mesh is open, a straight line joins the ends. Points
+ * are left out as long as the contour stays within `tolerance_mm` of them.
+ * Cost of a plane: linear in the facets that it cuts.
  */
 export function tracer({ points, topology }: Solid, tolerance_mm: number): Tracer {
   const { corner, twin } = topology;
-  // The last plane that came through each facet: saves clearing a set for each plane.
+  // The last plane whose contour passed each facet: saves clearing a set for each plane.
   const seen = new Uint32Array(corner.length / 3);
   let plane = 0;
   const height = (halfEdge: number): number => points[3 * (corner[halfEdge] ?? 0) + 2] ?? 0;
@@ -98,7 +98,7 @@ export function tracer({ points, topology }: Solid, tolerance_mm: number): Trace
     return -1;
   };
 
-  /** Appends where a half-edge meets the plane, reckoned from its lower end so that both facets get the same. */
+  /** Appends where a half-edge meets the plane, computed from its lower end so that both facets get the same point. */
   const meet = (edge: number, z: number, into: number[]): void => {
     const one = 3 * (corner[edge] ?? 0);
     const other = 3 * (corner[after(edge)] ?? 0);
@@ -113,7 +113,7 @@ export function tracer({ points, topology }: Solid, tolerance_mm: number): Trace
     }
   };
 
-  /** Walks from facet to facet; false if it came to an open edge before it came round. */
+  /** Walks from facet to facet; returns false if it reaches an open edge before it has come full circle. */
   const walk = (from: number, z: number, upwards: boolean, into: number[]): boolean => {
     let facet = from;
     for (;;) {
@@ -135,7 +135,7 @@ export function tracer({ points, topology }: Solid, tolerance_mm: number): Trace
       if (seen[facet] === plane) continue;
       seen[facet] = plane;
       const forwards: number[] = [];
-      // With the inside on the left a contour leaves each facet by the edge that goes up.
+      // With the inside on its left, a contour leaves each facet by the edge that runs upwards.
       const closed = walk(facet, z, true, forwards);
       const contour = closed ? forwards : joined(backwards(facet, z), forwards);
       const kept = simplified(contour, tolerance_mm);
@@ -151,7 +151,7 @@ export function tracer({ points, topology }: Solid, tolerance_mm: number): Trace
   }
 }
 
-/** What came before, last point first, and what comes after. */
+/** Joins the points before, which come last first, and those behind. */
 function joined(before: readonly number[], behind: readonly number[]): number[] {
   const out: number[] = [];
   for (let i = before.length - 2; i >= 0; i -= 2) out.push(before[i] ?? 0, before[i + 1] ?? 0);
@@ -159,10 +159,10 @@ function joined(before: readonly number[], behind: readonly number[]): number[] 
   return out;
 }
 
-/** Points left out one after another at most: each is looked at again for each that follows. */
+/** Most points left out in a row: each is checked again for each that follows. */
 const RUN_LIMIT = 32;
 
-/** The number of the point farthest to the left, the lowest of those: surely a corner. */
+/** The number of the leftmost point, the lowest if there are several: certainly a corner. */
 function leftmost(contour: Contour): number {
   let found = 0;
   for (let i = 2; i < contour.length; i += 2) {
@@ -179,7 +179,7 @@ export function simplified(contour: Contour, tolerance_mm: number): Contour {
   const x = (i: number): number => contour[2 * ((start + i) % count)] ?? 0;
   const y = (i: number): number => contour[2 * ((start + i) % count) + 1] ?? 0;
 
-  /** Whether the points strictly between two lie on the line between these, in order. */
+  /** Whether the points strictly between two lie on the segment that joins the two. */
   const areOnLine = (from: number, to: number): boolean => {
     const [dx, dy] = [x(to) - x(from), y(to) - y(from)];
     const length = Math.hypot(dx, dy);

@@ -1,11 +1,11 @@
-/** What is worked out from the facets of one model when it is first asked for, without holding up what is on show. */
+/** Data derived from the facets of one model, computed on first request without blocking the view. */
 import { flatFace, type FlatFace } from "../scene/flat.js";
 import { posed, type Rotation } from "../scene/pose.js";
 import { stairSteps, type Steps } from "./steps.js";
 import { topologyOf, type Topology } from "../scene/topology.js";
 import { inParts } from "./work.js";
 
-/** Part of the progress bar that finding the topology takes, when it has not been found yet. */
+/** Fraction of the progress bar for finding the topology, if it has not been found yet. */
 const TOPOLOGY_PART = 0.3;
 
 export class Derived {
@@ -19,7 +19,7 @@ export class Derived {
     this.positions = positions;
   }
 
-  /** How the facets hang together; `null` once this is disposed of. */
+  /** How the facets are connected; `null` once this is disposed of. */
   topology(): Promise<Topology | null> {
     return this.#whileAlive(this.#found());
   }
@@ -29,13 +29,13 @@ export class Derived {
     return (await this.topology())?.points ?? null;
   }
 
-  /** The flat face of a facet; `null` if it has none, or once this is disposed of. */
+  /** The flat face that a facet belongs to; `null` if there is none, or once this is disposed of. */
   async face(facet: number): Promise<FlatFace | null> {
     const topology = await this.topology();
     return topology === null ? null : flatFace(this.positions, topology, facet);
   }
 
-  /** The stair steps in this pose; `null` if another pose or plan has been asked for meanwhile. */
+  /** The stair steps in this pose; `null` if they were cancelled or another pose or plan was requested meanwhile. */
   async steps(
     rotation: Rotation,
     scale: number,
@@ -44,7 +44,7 @@ export class Derived {
   ): Promise<Steps | null> {
     this.cancel();
     const { signal } = this.#steps;
-    // The topology goes on when the steps are no longer wanted.
+    // The search for the topology continues even if the steps are cancelled.
     const found = this.#found((progress) => {
       if (!signal.aborted) tell(TOPOLOGY_PART * progress);
     });
@@ -61,7 +61,7 @@ export class Derived {
     }
   }
 
-  /** Drops the steps under way. */
+  /** Cancels the steps under way. */
   cancel(): void {
     this.#steps.abort();
     this.#steps = new AbortController();
@@ -72,7 +72,7 @@ export class Derived {
     this.#stop.abort();
   }
 
-  /** Found once, when first asked for. */
+  /** Computed once, on first request. */
   #found(tell?: (progress: number) => void): Promise<Topology> {
     this.#topology ??= inParts(topologyOf(this.positions), this.#stop.signal, tell);
     return this.#topology;

@@ -1,12 +1,12 @@
-/** When the stair steps of the printed look are worked out: once pose and plan have been still for a moment. */
+/** Computes the stair steps of the printed look once pose and plan have stopped changing. */
 import type { Derived } from "./derived.js";
 import type { Rotation } from "../scene/pose.js";
 import type { Steps } from "./steps.js";
 
-/** How long is still, ms. */
+/** How long pose and plan must stay the same, ms. */
 const SETTLED_MS = 150;
 
-/** What is to be printed. */
+/** What the steps are computed from. */
 export interface Job {
   readonly derived: Derived;
   readonly rotation: Rotation;
@@ -15,7 +15,7 @@ export interface Job {
 }
 
 export interface PrintedReports {
-  /** 0 to 1 while under way, null once that is over. */
+  /** 0 to 1 while under way, null afterwards. */
   progress(progress: number | null): void;
   /** The steps of the last job; null while there are none. */
   steps(steps: Steps | null): void;
@@ -30,7 +30,7 @@ export class Printed {
     this.#reports = reports;
   }
 
-  /** Takes a job in place of the last one, whose steps are wrong at once; null for none. */
+  /** Replaces the last job and discards its steps; null: no job. */
   want(job: Job | null): void {
     clearTimeout(this.#timer);
     this.#job?.derived.cancel();
@@ -50,7 +50,7 @@ export class Printed {
       const steps = await derived.steps(rotation, scale, z_mm, tell);
       if (steps !== null && job === this.#job) this.#reports.steps(steps);
     } finally {
-      // Also where the memory does not hold them: then the facets stay on show.
+      // Also if memory does not suffice: then the facets stay on show.
       tell(null);
     }
   }

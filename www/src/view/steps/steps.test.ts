@@ -51,7 +51,7 @@ function partVolume({ positions, index }: StepsPart): number {
   return six / 6;
 }
 
-/** Boundaries of layers of `thickness_mm`, the last one as it comes. */
+/** Boundaries of layers of `thickness_mm`; the last one takes what remains. */
 function layers(height: number, thickness_mm: number): number[] {
   const out = [0];
   while ((out.at(-1) ?? 0) < height - 1e-9) out.push(Math.min(height, (out.at(-1) ?? 0) + thickness_mm));
@@ -68,7 +68,7 @@ describe("sections", () => {
     }
   });
 
-  it("of a box on its corner have the areas of the cube's known sections", () => {
+  it("of a cube on its corner have the known area", () => {
     // Along a diagonal the section at the middle of a unit cube is a regular hexagon of area 3√3/4.
     const corner = turned(turned(UPRIGHT, "z", 45), "x", (180 / Math.PI) * Math.atan(Math.SQRT2));
     const of = solid(box([0, 0, 0], [1, 1, 1]), corner);
@@ -76,7 +76,7 @@ describe("sections", () => {
     expect(area(contours)).toBeCloseTo((3 * Math.sqrt(3)) / 4, 5);
   });
 
-  it("of a ball are circles of the closed form", () => {
+  it("of a ball are the circles of the closed form", () => {
     const [radius, around] = [10, 256];
     const planes = [1, 4, 10, 15, 19.5];
     for (const [i, contours] of sections(solid(ball(radius, around)), planes).entries()) {
@@ -87,13 +87,13 @@ describe("sections", () => {
     }
   });
 
-  it("run round a hole the other way", () => {
+  it("run the other way round a hole", () => {
     const tube = together(box([-5, -5, 0], [5, 5, 4]), insideOut(box([-2, -1, 1], [2, 1, 3])));
     const [contours = []] = sections(solid(tube), [2]);
     expect(contours.map(signedArea).map(Math.round).toSorted((a, b) => a - b)).toEqual([-8, 100]);
   });
 
-  it("pass through points of the mesh without losing their way", () => {
+  it("are whole at the heights of the mesh's points", () => {
     const of = solid(ball(8, 32));
     const heights = [...new Set(Array.from({ length: of.points.length / 3 }, (_, i) => of.points[3 * i + 2] ?? 0))];
     const inner = heights.toSorted((a, b) => a - b).slice(1, -1);
@@ -104,24 +104,24 @@ describe("sections", () => {
   });
 
   it("are closed by a straight line where the mesh is open", () => {
-    // Without two of its sides' facets: the contour still goes round.
+    // One side lacks its two facets: the contour still closes.
     const open = box([0, 0, 0], [2, 3, 4]).slice(0, -18);
     for (const contours of sections(solid(open), [1, 2, 3])) expect(area(contours)).toBeCloseTo(6, 6);
   });
 
-  it("are not there above and below", () => {
+  it("do not exist above and below", () => {
     expect(sections(solid(box([0, 0, 0], [1, 1, 1])), [-1, 2])).toEqual([[], []]);
   });
 });
 
-it("leaves out points on a straight line and no corner", () => {
+it("leaves out points on a straight line but no corner", () => {
   const square = [0, 0, 2, 0, 2, 2, 0, 2];
   expect(simplified([0, 0, 1, 0, 2, 0, 2, 2, 0, 2, 0, 1], 1e-9)).toEqual(square);
   expect(simplified([1, 0, 2, 0, 2, 2, 0, 2, 0, 1, 0, 0], 1e-9)).toEqual(square);
   const circle = Array.from({ length: 720 }, (_, i) => [Math.cos((i * Math.PI) / 360), Math.sin((i * Math.PI) / 360)]).flat();
   const coarse = simplified(circle, 0.001);
   expect(coarse.length).toBeLessThan(circle.length / 2);
-  // Every chord within the tolerance of its arc: so is the whole, and so is its area along the perimeter.
+  // Every chord is within the tolerance of its arc, so the areas differ by no more than tolerance times perimeter.
   expect(signedArea(circle) - signedArea(coarse)).toBeLessThan(0.001 * 2 * Math.PI);
 });
 
@@ -145,7 +145,7 @@ describe("stair steps", () => {
     ["a ball", ball(5, 64), UPRIGHT],
     ["a hollow box", tube, UPRIGHT],
     ["a tilted hollow box", tube, turned(turned(UPRIGHT, "x", 30), "y", 20)],
-  ])("of %s hold the sum of section times thickness", (_, positions, rotation) => {
+  ])("of %s have the volume of all sections times their thickness", (_, positions, rotation) => {
     const of = solid(positions, rotation);
     const height = of.points.reduce((most, value, i) => (i % 3 === 2 ? Math.max(most, value) : most), 0);
     const z_mm = layers(height, 0.37);
@@ -168,7 +168,7 @@ describe("stair steps", () => {
     expect(volume(steps)).toBeCloseTo(4 * base * (0.75 ** 2 + 0.25 ** 2), 2);
   });
 
-  it("come out the right way from a mesh that is inside out", () => {
+  it("face outwards even from a mesh that is inside out", () => {
     const z_mm = layers(4, 0.5);
     const [right, wrong] = [box([0, 0, 0], [2, 3, 4]), insideOut(box([0, 0, 0], [2, 3, 4]))].map((positions) =>
       volume(finished(stairSteps(solid(positions), z_mm))),
@@ -177,7 +177,7 @@ describe("stair steps", () => {
     expect(wrong).toBeCloseTo(24, 5);
   });
 
-  it("come in parts of whole layers where there are many points", () => {
+  it("come in parts of whole layers if there are many points", () => {
     const of = solid(ball(5, 256));
     const z_mm = layers(10, 0.01);
     const { parts } = finished(stairSteps(of, z_mm));
@@ -187,7 +187,7 @@ describe("stair steps", () => {
     expect(tops.toSorted((a, b) => a - b)).toEqual(tops);
   });
 
-  it("tell how far they are, layer by layer", () => {
+  it("report progress layer by layer", () => {
     const told = [...stairSteps(solid(box([0, 0, 0], [2, 3, 4])), layers(4, 1))];
     expect(told.at(-1)).toBe(1);
     expect(told.toSorted((a, b) => a - b)).toEqual(told);

@@ -1,37 +1,37 @@
 /**
- * The model as it comes out of the printer: every layer the cross-section at its middle, pulled up from its bottom to
- * its top. Walls and treads are exact; nothing is drawn from the facets themselves.
+ * The model as it comes out of the printer: each layer is the cross-section at its middle, extruded from its bottom to its
+ * top. Walls and treads are exact; the facets themselves are not drawn.
  */
 import { Earcut } from "three/src/extras/Earcut.js";
 import { cutsOf, signedArea, tracer, type Contour, type Solid } from "./contours.js";
 
-/** Some layers on end. */
+/** Several consecutive layers. */
 export interface StepsPart {
-  /** Corners, three numbers each, mm: of each contour point one at the bottom of its layer and one at the top. */
+  /** Corners, three numbers each, mm: for each contour point, one at the bottom of its layer and one at the top. */
   readonly positions: Float32Array;
-  /** Triangles, outside counter-clockwise. */
+  /** Triangles, counter-clockwise from outside. */
   readonly index: Uint32Array;
 }
 
-/** In parts, so that no buffer is too large to be copied in passing. */
+/** In parts, so that no buffer takes long to copy. */
 export interface Steps {
   readonly parts: readonly StepsPart[];
-  /** How far the contours may be from the cross-sections, mm. */
+  /** Largest distance of the contours from the cross-sections, mm. */
   readonly tolerance_mm: number;
 }
 
-/** Finer than any printer's pixel by far: what is left out cannot be printed either. */
+/** Far finer than any printer's pixel: details left out cannot be printed either. */
 const TOLERANCE_MM = 0.001;
 
-/** Beyond this many contour points the buffers (72 bytes a point) crowd a phone: such a model gets a coarser tolerance. */
+/** With more contour points, the buffers (72 bytes a point) strain a phone's memory: the tolerance becomes coarser. */
 const POINTS_LIMIT = 3_000_000;
 
 const COARSER = 4;
 
-/** A part is done once it has this many contour points: a few megabytes. */
+/** A part ends after the layer in which it reaches this many contour points: a few megabytes. */
 const PART_POINTS = 50_000;
 
-/** Contours with area are cut into polygons of an outline and the holes in it. */
+/** An outline with area and the holes in it. */
 interface Polygon {
   readonly outline: Contour;
   readonly holes: Contour[];
@@ -51,7 +51,7 @@ function isInside(outline: Contour, x: number, y: number): boolean {
   return inside;
 }
 
-/** Gives each hole to the smallest outline around it. A hole in nothing is dropped. */
+/** Assigns each hole to the smallest outline around it. A hole outside all outlines is dropped. */
 export function polygons(contours: readonly Contour[]): Polygon[] {
   const out: Polygon[] = [];
   const holes: Contour[] = [];
@@ -101,12 +101,12 @@ class Pile {
   readonly positions = new Growing((length) => new Float32Array(length));
   readonly index = new Growing((length) => new Uint32Array(length));
 
-  /** Of contours: each stands at the bottom and at the top of its layer. */
+  /** Contour points: each has a corner at the bottom and one at the top of its layer. */
   get points(): number {
     return this.positions.length / 6;
   }
 
-  /** The corners of a contour, bottom and top in turn; gives the number of the first. */
+  /** Adds the corners of a contour, bottom and top in turn; returns the number of the first. */
   #corners(contour: Contour, bottom: number, top: number): number {
     const first = this.positions.length / 3;
     for (let i = 0; i < contour.length; i += 2) {
@@ -148,7 +148,7 @@ class Pile {
   }
 }
 
-/** Contours of a mesh whose facets face inwards run the wrong way round. */
+/** Reverses the contours of a mesh whose facets face inwards. */
 function outwards(contours: Contour[]): Contour[] {
   const total = contours.reduce((sum, contour) => sum + signedArea(contour), 0);
   if (total >= 0) return contours;
@@ -164,9 +164,9 @@ export const middles = (z_mm: readonly number[]): number[] =>
   z_mm.slice(1).map((top, layer) => ((z_mm[layer] ?? 0) + top) / 2);
 
 /**
- * The stair steps of a model sliced at `z_mm` (layer boundaries, ascending). Yields its progress, 0 to 1, layer by
- * layer, so that who runs it can give way to other things.
- * Cost: the facets plus the points of all contours.
+ * The stair steps of a model sliced at `z_mm` (layer boundaries, ascending). Yields its progress, 0 to 1, after each layer,
+ * so that the caller can let other work run.
+ * Cost: linear in the facets plus the points of all contours.
  */
 export function* stairSteps(solid: Solid, z_mm: readonly number[]): Generator<number, Steps> {
   const planes = middles(z_mm);

@@ -10,7 +10,7 @@ function* counting(until: number, step_ms: number): Generator<number, string> {
   return "done";
 }
 
-it("comes to the result, tells how far it is, and lets others have their turn", async () => {
+it("returns the result, reports progress, and lets other tasks run", async () => {
   const told: number[] = [];
   let turns = 0;
   let isRunning = true;
@@ -29,7 +29,7 @@ it("comes to the result, tells how far it is, and lets others have their turn", 
   expect(turns).toBeGreaterThan(3);
 });
 
-it("ends when it is no longer wanted", async () => {
+it("stops when it is aborted", async () => {
   const stop = new AbortController();
   const work = inParts(counting(1_000_000, 1), stop.signal);
   setTimeout(() => stop.abort(new Error("no longer")));

@@ -1,12 +1,12 @@
-/** Long work done in small parts between which the page answers. */
+/** Runs long work in short parts, between which the page responds. */
 
-/** A frame at 60 Hz lasts 16.7 ms, of which the page itself needs some. */
+/** A frame at 60 Hz lasts 16.7 ms, some of which the page itself needs. */
 const PART_MS = 8;
 
-/** How often progress is told, ms. */
+/** Interval between reports of progress, ms. */
 const TELL_EVERY_MS = 100;
 
-/** Gives the browser its turn. A message comes sooner than a timer, which browsers hold back for 4 ms. */
+/** Yields to the browser. A message arrives sooner than a timer, which browsers delay by 4 ms. */
 function turn(): Promise<void> {
   return new Promise((resolve) => {
     const { port1, port2 } = new MessageChannel();
@@ -19,8 +19,8 @@ function turn(): Promise<void> {
 }
 
 /**
- * Runs a generator of progress values (0 to 1) to its result, no longer than a few ms at a stretch plus one of its
- * steps. Rejects with the signal's reason once that is aborted.
+ * Runs a generator of progress values (0 to 1) to its result, at most a few ms plus one of its steps at a stretch. Rejects
+ * with the signal's reason once the signal is aborted.
  */
 export async function inParts<Result>(
   work: Generator<number, Result>,
