@@ -1,14 +1,14 @@
-/** What of the page's address is the page's own, and what is the settings'. */
+/** Divides the page's address into the page's own keys and the settings. */
 
-/** `locale`, and for developers `backend`. */
+/** The page's own keys: `locale`, and for developers `backend`. */
 export const ADDRESS_KEYS: readonly string[] = ["locale", "backend"];
 
-/** The settings that an address names. */
+/** The settings in an address. */
 export function settingsOf(address: URLSearchParams): string {
   return new URLSearchParams([...address].filter(([key]) => !ADDRESS_KEYS.includes(key))).toString();
 }
 
-/** The query for settings and the page's own; empty where all is as usual. */
+/** The query for the settings and the page's own keys; empty if all are at their defaults. */
 export function addressOf(settings: string, own: URLSearchParams): string {
   const query = [settings, own.toString()].filter((part) => part !== "").join("&");
   return query === "" ? "" : `?${query}`;

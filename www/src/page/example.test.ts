@@ -11,7 +11,7 @@ test("the example stands on the plate, 40 mm high, with some twenty thousand fac
   expect(triangles.length / 9).toBeLessThan(32_000);
 });
 
-test("the example is closed: every edge is met once in each direction, by the very bits of its ends", () => {
+test("the example is closed: every edge occurs once each way, and its ends agree bit for bit", () => {
   const bits = new Uint32Array(triangles.buffer);
   const corner = (facet: number, k: number): string => bits.subarray(9 * facet + 3 * k, 9 * facet + 3 * k + 3).join(",");
   const edges = new Map<string, number>();
@@ -38,7 +38,7 @@ test("the example's facets face outwards", () => {
   expect(six / 6).toBeGreaterThan(1000);
 });
 
-test("a binary STL says how many facets it has and holds their corners", () => {
+test("a binary STL holds the number of its facets and their corners", () => {
   const bytes = binaryStl(Float32Array.of(0, 0, 0, 1, 0, 0, 0, 2, 0));
   const view = new DataView(bytes.buffer);
   expect(bytes.length).toBe(134);

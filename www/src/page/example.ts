@@ -1,7 +1,7 @@
 /**
  * The model behind "try the example": a goblet made by turning a profile about the z axis, its bowl fluted and twisted.
  *
- * It is closed, stands on z = 0 and has something of everything a planner meets: flats (foot, floor, rim), steep walls
+ * It is closed, stands on z = 0 and has every kind of surface that a planner meets: flats (foot, floor, rim), steep walls
  * (stem, bowl), and slopes that go from flat to steep (foot, knop, the underside of the bowl).
  */
 
@@ -12,9 +12,9 @@ type ProfilePoint = readonly [radius: number, height: number, flute: number];
 
 const AROUND = 90;
 const FLUTES = 9;
-/** Depth of a flute as a part of the radius. */
+/** Depth of a flute as a fraction of the radius. */
 const FLUTE_DEPTH = 0.055;
-/** Turn of the flutes in radians for each mm of height. */
+/** Twist of the flutes, radians per mm of height. */
 const TWIST = 0.035;
 
 const smooth = (t: number): number => t * t * (3 - 2 * t);
@@ -58,7 +58,7 @@ function profile(): ProfilePoint[] {
   ];
 }
 
-/** Triangles of the goblet, nine coordinates each in mm, corners anticlockwise seen from outside. */
+/** Triangles of the goblet, nine coordinates each in mm, counter-clockwise from outside. */
 export function exampleTriangles(): Float32Array {
   const points = profile();
   const ring = (at: ProfilePoint): Float32Array => {

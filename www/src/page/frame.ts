@@ -1,4 +1,4 @@
-/** The page as markup: header, element, and what stands in its slots. */
+/** The markup of the page: header, element, and the content of its slots. */
 import { html, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
 import { LANGUAGES, languageOf, type Language } from "../texts/index.js";

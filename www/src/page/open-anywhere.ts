@@ -1,15 +1,16 @@
-/** A model may be dropped or pasted anywhere on the page, and Escape or undo work wherever the focus is. */
+/** Lets a model be dropped or pasted anywhere on the page, and Escape cancel wherever the focus is. */
 import type { CuspSlicer } from "../element/index.js";
 
 export function openAnywhere(slicer: CuspSlicer, dragging: (is: boolean) => void): void {
   const open = (files: readonly File[]): void => {
     if (files.length === 0) return;
     slicer.willOrphan();
-    // What goes wrong is shown by the element.
+    // The element shows any error.
     slicer.load(files).catch(() => undefined);
   };
 
-  // Before the element sees them, so that it need not tell its own from the page's; a miss must not make the browser leave.
+  // Captured before the element sees them, so that it need not tell its own drops from the page's. A drop beside the
+  // element must not make the browser leave the page.
   window.addEventListener(
     "dragover",
     (event) => {
@@ -20,7 +21,7 @@ export function openAnywhere(slicer: CuspSlicer, dragging: (is: boolean) => void
     { capture: true },
   );
   window.addEventListener("dragleave", (event) => {
-    // Leaving an element for one inside it is no leaving of the page.
+    // Moving from one element to another does not leave the page.
     if (event.relatedTarget === null) dragging(false);
   });
   window.addEventListener(

@@ -1,8 +1,8 @@
 /**
- * Keeps the page's own files, so that it opens without a network. Models and anything else pass by it.
+ * Caches the page's own files, so that it opens without a network. All other requests are left alone.
  *
- * The list of files is put in by the build; their names carry their hashes, so that a new build is a new list, by which
- * the browser knows that this script has changed.
+ * The build inserts the list of files. Their names contain their hashes, so a new build has a new list, and the browser
+ * sees that this script has changed.
  */
 declare const self: ServiceWorkerGlobalScope;
 declare const __FILES__: readonly string[];
@@ -36,7 +36,7 @@ self.addEventListener("fetch", (event) => {
   if (request.method !== "GET" || !addresses.has(address.href)) return;
   const answer = async (): Promise<Response> => {
     const kept = await caches.match(address.href);
-    // The page itself may have changed; what it names by hash has not.
+    // The page itself may have changed; the files that it names by hash have not.
     if (request.mode !== "navigate" && kept !== undefined) return kept;
     return fetch(request).catch((error: unknown) => {
       if (kept !== undefined) return kept;
