@@ -1,12 +1,12 @@
-/** A change to uPlot that its next release brings, for every build of ours. */
+/** Applies a fix from uPlot's next release in each of our builds. */
 import type { Plugin } from "rolldown";
 
 const MADE = "new Intl.NumberFormat(domEnv ? nav.language : 'en-US')";
 
 /**
- * uPlot 1.6.32 makes a number format of the browser's language when it is imported. That throws where the language is no BCP 47
- * tag, such as "C" or "en-US@posix". Its authors have since left the language out (leeoniya/uPlot#1054). The chart has its own
- * formats and never uses this one.
+ * On import, uPlot 1.6.32 creates a number format for the browser's language. That throws if the language is not a BCP 47
+ * tag, such as "C" or "en-US@posix". Its authors have since dropped the language (leeoniya/uPlot#1054). The chart has its
+ * own formats and never uses this one.
  */
 export const anyLanguage: Plugin = {
   name: "cusp:any-language",

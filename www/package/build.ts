@@ -1,9 +1,9 @@
 /**
  * Builds the npm package into `dist-package/` and packs it: `npm run package`.
  *
- * Everything that the package needs is inside it, so that it works from a plain web server as well as through a
- * bundler. The addresses of worker and module stay as they are written in the source, `new URL("./worker.js",
- * import.meta.url)`: that is what bundlers look for. three is in chunks that only the 3-D view asks for.
+ * The package contains everything that it needs, so it works from a plain web server as well as through a bundler. The
+ * addresses of the worker and of the WebAssembly module stay as in the source, `new URL("./worker.js", import.meta.url)`,
+ * because bundlers look for that form. three.js is in chunks that only the 3-D view loads.
  */
 import { execFileSync } from "node:child_process";
 import { copyFile, cp, mkdir, readdir, readFile, rm, writeFile } from "node:fs/promises";
@@ -16,7 +16,7 @@ import { anyLanguage } from "./any-language.js";
 const root = fileURLToPath(new URL("..", import.meta.url));
 const out = join(root, "dist-package");
 
-/** What everything but three may come to, gzipped. */
+/** Limit of everything except three.js, gzipped. */
 const LIMIT_BYTES = 500_000;
 
 const ENTRIES = {
@@ -25,10 +25,10 @@ const ENTRIES = {
   "element-class": "src/element/index.ts",
 } as const;
 
-/** By itself, so that where a bundler knows no workers this one file is copied. */
+/** Built separately, so that this one file can be copied if a bundler does not support workers. */
 const WORKER = { worker: "src/api/worker.ts" } as const;
 
-/** Entries that are the element with its types for the markup of a framework, by what those types come from. */
+/** Entries that add the element's types to a framework's markup, with the packages that define the markup. */
 const FRAMEWORKS = {
   react: ["react", "@types/react"],
   preact: ["preact"],
@@ -39,7 +39,7 @@ const FRAMEWORKS = {
 
 const WASM = "cusp_slicer_bg.wasm";
 
-/** Addresses as they are once every file lies in one folder. */
+/** Rewrites addresses for a package whose files lie in one folder. */
 const flatAddresses: Plugin = {
   name: "cusp:flat-addresses",
   transform: {
@@ -48,7 +48,7 @@ const flatAddresses: Plugin = {
   },
 };
 
-/** Gives lit what it asks of a browser as soon as it is imported, so that a server can import it too. */
+/** Gives lit the globals that it needs on import, so that a server can import it too. */
 const onServers: Plugin = {
   name: "cusp:on-servers",
   transform: {
@@ -57,7 +57,7 @@ const onServers: Plugin = {
   },
 };
 
-/** Style sheets as text, which elements adopt. */
+/** Loads style sheets as text, which elements adopt. */
 const inlineStyles: Plugin = {
   name: "cusp:inline-styles",
   async resolveId(source, importer) {
@@ -72,7 +72,7 @@ const inlineStyles: Plugin = {
   },
 };
 
-/** lit and three note their versions in globals, to warn of a second copy; on somebody else's page they have no place. */
+/** lit and three.js store their versions in globals, to warn of a second copy; these do not belong on a host's page. */
 const noGlobals: Plugin = {
   name: "cusp:no-globals",
   transform: {
@@ -105,15 +105,15 @@ async function bundle(input: Readonly<Record<string, string>>): Promise<readonly
   return output.filter((it) => it.type === "chunk");
 }
 
-/** Files that an entry brings with it, however far down. */
+/** The files that the entries import, directly or indirectly. */
 function loadedAtOnce(chunks: readonly OutputChunk[]): ReadonlySet<string> {
   const loaded = new Set(chunks.filter(({ isEntry }) => isEntry).map(({ fileName }) => fileName));
-  // A set grows while it is gone through.
+  // The loop also visits the files that it adds.
   for (const name of loaded) chunks.find(({ fileName }) => fileName === name)?.imports.forEach((file) => loaded.add(file));
   return loaded;
 }
 
-/** Declarations, which speak of lit only by a stand-in, since lit is inside. */
+/** Writes the declarations, in which a stand-in replaces lit, since lit is bundled. */
 async function declare(): Promise<void> {
   const types = join(out, "types");
   execFileSync(process.execPath, [join(root, "node_modules/typescript/bin/tsc"), "-p", "package/tsconfig.json", "--outDir", types], {
@@ -121,7 +121,7 @@ async function declare(): Promise<void> {
     stdio: "inherit",
   });
   await mkdir(join(types, "pkg"), { recursive: true });
-  // A page's own library of types may not have `Symbol.dispose` yet.
+  // The type library of a host may not have `Symbol.dispose` yet.
   const core = await readFile(join(root, "pkg/cusp_slicer.d.ts"), "utf8");
   await writeFile(join(types, "pkg/cusp_slicer.d.ts"), core.replaceAll(/^.*\[Symbol\.dispose\].*\n/gm, ""));
   await copyFile(join(root, "package/lit.d.ts"), join(types, "lit.d.ts"));
@@ -142,7 +142,7 @@ async function describe(chunks: readonly OutputChunk[]): Promise<void> {
     types: `./types/${types}.d.ts`,
     default: `./${file}.js`,
   });
-  // Where every package sees only what it names, as with pnpm and Yarn, declarations find a framework by these.
+  // With pnpm and Yarn a package sees only the dependencies that it names: these let declarations find a framework.
   const peers = Object.values(FRAMEWORKS).flat();
   const description = {
     name: "cusp-slicer",
@@ -162,7 +162,7 @@ async function describe(chunks: readonly OutputChunk[]): Promise<void> {
     },
     peerDependencies: Object.fromEntries(peers.map((name) => [name, "*"])),
     peerDependenciesMeta: Object.fromEntries(peers.map((name) => [name, { optional: true }])),
-    // A bundler may leave out an import of these two where nothing of it is used, and keeps whatever else is imported.
+    // A bundler may leave out an unused import of these two, and keeps all other imports.
     sideEffects: chunks.map(({ fileName }) => `./${fileName}`).filter((name) => !["./index.js", "./element-class.js"].includes(name)),
   };
   await writeFile(join(out, "package.json"), `${JSON.stringify(description, null, 2)}\n`);
@@ -170,7 +170,7 @@ async function describe(chunks: readonly OutputChunk[]): Promise<void> {
   for (const name of ["LICENSE-APACHE", "LICENSE-MIT"]) await copyFile(join(root, "..", name), join(out, name));
 }
 
-/** What a browser fetches, gzipped: with three, which comes with the 3-D view, and without. */
+/** Gzipped size of what a browser fetches: all of it, and the share of three.js, which comes with the 3-D view. */
 async function weigh(chunks: readonly OutputChunk[]): Promise<{ all: number; three: number }> {
   const gzipped = (bytes: string | Uint8Array): number => gzipSync(bytes, { level: 9 }).length;
   const sum = (some: readonly OutputChunk[]): number => some.reduce((total, { code }) => total + gzipped(code), 0);

@@ -1,6 +1,6 @@
-/** What declarations of the package say of lit, which is inside it and not to be installed beside it. */
+/** Stands in for lit's types in the package's declarations: lit is bundled, so it need not be installed. */
 export declare class LitElement extends HTMLElement {
-  /** Resolves when what is shown agrees with the properties. */
+  /** Resolves when the element shows its current properties. */
   readonly updateComplete: Promise<boolean>;
   connectedCallback(): void;
   disconnectedCallback(): void;

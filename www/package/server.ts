@@ -1,4 +1,4 @@
-/** What lit asks of a browser as soon as it is imported: the globals in a browser, and what stands in for them on a server. */
+/** The globals that lit needs on import: the browser's own, or stand-ins on a server. */
 class NoElement {}
 
 export const HTMLElement = globalThis.HTMLElement ?? NoElement;

@@ -1,4 +1,4 @@
-/** Builds what the shop is made of, as far as it is missing. */
+/** Builds the shop's page, and the Rust parts that are missing. */
 import { spawnSync } from "node:child_process";
 import { existsSync } from "node:fs";
 import { fileURLToPath } from "node:url";
@@ -7,19 +7,19 @@ import { findCusp } from "./cusp.js";
 
 const at = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
 
-/** Builds the page and gives its folder. */
+/** Builds the page and returns its folder. */
 export async function buildPage(): Promise<string> {
   await build({ configFile: at("vite.config.ts"), logLevel: "error" });
   return at("dist");
 }
 
-/** Builds what only Rust can build: the WebAssembly package of the element, and the program that verifies, which it gives. */
+/** Builds the element's WebAssembly package and the program that verifies plans, and returns the path of the latter. */
 export function buildCore(): string {
   if (!existsSync(at("../../pkg/cusp_slicer.js"))) cargo("xtask", "build");
   if (findCusp() === null) cargo("build", "--release", "--bin", "cusp");
   const cusp = findCusp();
   if (cusp === null) throw new Error("there is no program `cusp`: name it in the variable CUSP");
-  // Better now than at the first order.
+  // Fail now rather than at the first order.
   const { status } = spawnSync(cusp, ["verify", "--help"], { stdio: "ignore" });
   if (status !== 0) throw new Error(`${cusp} cannot verify plans: build it anew by \`cargo build --release --bin cusp\``);
   return cusp;

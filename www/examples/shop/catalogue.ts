@@ -1,9 +1,9 @@
-/** What the shop sells, and what it lets a plan decide. The page offers it; the server holds every order against it. */
+/** What the shop sells, and what it lets a plan decide. The page offers it; the server checks every order against it. */
 import type { Resin } from "cusp-slicer";
 
-/** A resin with everything that print time and exposure follow from, so that a plan cannot bring figures of its own. */
+/** A resin with every value that determines print time and exposure, so that a plan cannot bring its own. */
 export interface ShopResin extends Required<Resin> {
-  /** For people: what it is good for. */
+  /** For customers: what it is good for. */
   note: string;
   /** Class of its swatch. */
   swatch: string;
@@ -18,7 +18,7 @@ export interface ShopPrinter {
   hour_cents: number;
 }
 
-/** What all of them share: the shop has one kind of vat and one way to move the plate. */
+/** What all resins share: the shop has one kind of vat and one way to move the plate. */
 const SHARED = {
   exposures: [],
   layer_mm: 0.05,
@@ -40,16 +40,16 @@ export const PRINTERS: readonly ShopPrinter[] = [
   { name: "saturn-3-ultra", title: "Large", note: "24 µm pixels, 218 × 122 × 260 mm", hour_cents: 410 },
 ];
 
-/** For each order line, however many copies. */
+/** Charged once per order, for any number of copies. */
 export const SETUP_CENTS = 450;
 
 export const MOST_COPIES = 20;
 
-/** What a customer may choose, and how far. Lengths in mm. */
+/** The ranges that a customer may choose from, mm. */
 export const TOLERANCE_MM = { least: 0.01, most: 0.15 };
 export const HEIGHT_MM = { least: 5, most: 260 };
 
-/** What nobody but the shop decides: how fine a plan is sampled and so what it costs to check, and how it is made. */
+/** What only the shop decides: how finely a plan is sampled, and so what it costs to check, and how it is made. */
 export const FIXED = {
   rays: 2048,
   antialias: 1,
@@ -68,7 +68,7 @@ export const FIXED = {
   backend: "auto",
 } as const;
 
-/** The largest files that are taken, in bytes. A plan is JSON, a model an STL of about a million facets. */
+/** The largest files that the shop takes, in bytes. A plan is JSON, a model an STL of about a million facets. */
 export const MOST_BYTES = { plan: 4e6, model: 50e6, print: 250e6 };
 
 export type PartName = keyof typeof MOST_BYTES;

@@ -1,4 +1,4 @@
-/** Where the native program is that verifies plans. */
+/** Finds the native program that verifies plans. */
 import { accessSync, constants } from "node:fs";
 import { delimiter, join } from "node:path";
 import { fileURLToPath } from "node:url";

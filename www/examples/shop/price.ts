@@ -1,4 +1,4 @@
-/** The shop's own price, by time and ml. The page shows it; the server works it out anew from what it has verified. */
+/** The shop's own price, by time and ml. The page shows it; the server computes it again from what it has verified. */
 import { SETUP_CENTS, type ShopPrinter, type ShopResin } from "./catalogue.js";
 
 export interface Print {

@@ -1,4 +1,4 @@
-/** Starts the shop: `npm run shop [-- FOLDER]`. Orders are kept in FOLDER, or in a new one among the temporary files. */
+/** Starts the shop: `npm run shop [-- FOLDER]`. Orders are kept in FOLDER, or in a new temporary folder. */
 import { mkdtemp } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";

@@ -5,7 +5,7 @@ import { binaryStl, exampleTriangles } from "../../src/page/example.js";
 
 const here = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
 
-/** A shop would put a file of its own beside its page. */
+/** A real shop would put its own file beside its page. */
 const sampleModel: Plugin = {
   name: "shop:sample-model",
   generateBundle() {
@@ -16,10 +16,10 @@ const sampleModel: Plugin = {
 export default defineConfig({
   root: here("."),
   base: "./",
-  // In this repository the package is its own source, and is built like that. A shop runs `npm install cusp-slicer` and has no need of this.
+  // Here the package is built from its source. A real shop runs `npm install cusp-slicer` and needs none of this.
   plugins: [sampleModel, anyLanguage],
   resolve: {
-    // Also where Node was not told so: this page is only ever built, and libraries have another build for development.
+    // Always production: this page is only ever built, and libraries have another build for development.
     conditions: ["production", "module", "browser", "import", "default"],
     alias: [
       { find: /^cusp-slicer$/, replacement: here("../../src/api/index.ts") },

@@ -1,4 +1,4 @@
-/** `<cusp-slicer>` in the markup of Svelte. */
+/** `<cusp-slicer>` in Svelte markup. */
 import type { HTMLAttributes } from "svelte/elements";
 import type { CuspSlicer } from "./src/element/index.js";
 import type { CuspSlicerAttributes, CuspSlicerListeners } from "./src/element/markup.js";

@@ -1,4 +1,4 @@
-/** `<cusp-slicer>` in templates of Vue. */
+/** `<cusp-slicer>` in Vue templates. */
 import type { EmitFn, HTMLAttributes, PublicProps } from "vue";
 import type { CuspSlicer } from "./src/element/index.js";
 import type { CuspSlicerEvents } from "./src/element/events.js";
@@ -9,7 +9,7 @@ type Emits = { [Name in keyof CuspSlicerEvents]: (event: CuspSlicerEvents[Name])
 declare module "vue" {
   interface GlobalComponents {
     "cusp-slicer": new () => CuspSlicer & {
-      /** Not there when the page runs: what templates are checked by. */
+      /** Exists only as a type, by which Vue checks templates. */
       $props: HTMLAttributes & CuspSlicerAttributes & PublicProps;
       $emit: EmitFn<Emits>;
     };

@@ -1,15 +1,15 @@
-/** A list of things of which one is chosen: radio buttons that look like cards. */
+/** A choice of one from several: radio buttons that look like cards. */
 
 interface Shown {
   name: string;
   title: string;
   note: string;
   price: string;
-  /** Class of a dot of colour before it. */
+  /** Class of the coloured dot in front. */
   swatch?: string;
 }
 
-/** Fills a fieldset, and takes the first. */
+/** Fills a fieldset and selects the first choice. */
 export function choices<T>(fieldset: HTMLElement, offered: readonly T[], look: (it: T) => Shown, take: (it: T) => void): void {
   for (const it of offered) {
     const { name, title, note, price, swatch } = look(it);

@@ -1,4 +1,4 @@
-/** Figures as this shop writes them. */
+/** How the shop writes numbers. */
 
 const MONEY = new Intl.NumberFormat("en-IE", { style: "currency", currency: "EUR" });
 const NUMBER = new Intl.NumberFormat("en-IE");
@@ -13,7 +13,7 @@ export const number = (value: number): string => NUMBER.format(value);
 
 export const millilitres = (ml: number): string => `${MILLILITRES.format(ml)} ml`;
 
-/** Seconds as `4 h 12 min`, rounded as the element rounds them, so that one print has one time on the page. */
+/** Seconds as `4 h 12 min`, rounded as in the element, so that a print has the same time all over the page. */
 export function time(seconds: number): string {
   const minutes = Math.round(seconds / MINUTE_S);
   if (minutes < 1) return "<\u00a01\u00a0min";

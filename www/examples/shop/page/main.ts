@@ -24,16 +24,16 @@ const problem = find("#problem");
 
 type Result = NonNullable<CuspSlicer["result"]>;
 
-/** What a customer would buy by pressing the button now; null while there is no plan, or no number of copies. */
+/** What a customer would buy by pressing the button now; null without a plan or a number of copies. */
 interface Offer {
   result: Result;
   copies: number;
   price: Price;
 }
 
-/** The order that is on its way; null if none is. */
+/** The order being placed; null if there is none. */
 let ordering: AbortController | null = null;
-/** The order that was sent last and of which no answer says that it was taken. */
+/** The last order sent, until an answer says that it was taken. */
 let unanswered: { what: string; key: string } | null = null;
 const placed: Placed[] = [];
 
@@ -78,7 +78,7 @@ async function order(): Promise<void> {
   say("Making the print file…");
   draw();
   try {
-    // A choice that was made a moment ago may not be in the plan on show yet.
+    // The plan on show may not include the latest choice yet.
     await slicer.plan();
     const now = offer();
     if (now === null || now.price.total_cents !== seen.price.total_cents) {
@@ -104,7 +104,7 @@ async function order(): Promise<void> {
   }
 }
 
-/** The key of an order: the same one as long as the same thing is ordered and no answer says that it was taken. */
+/** The key of an order: stays the same for the same order until an answer says that it was taken. */
 function keyOf({ result, copies, price }: Offer): string {
   const { model, options, weights_crc32 } = result.report;
   const what = JSON.stringify([model, options, weights_crc32, copies, price.total_cents]);
@@ -142,7 +142,7 @@ function show(answer: Placed, name: string): void {
   find(".placed").hidden = false;
 }
 
-/** As much of an order's number as people want to read. */
+/** The beginning of an order's number, for display. */
 const shortly = ({ id }: Placed): string => id.slice(0, 8);
 
 slicer.resins = RESINS.map(({ note: _note, swatch: _swatch, ml_cents: _cents, ...resin }) => resin);
@@ -161,11 +161,11 @@ cancel.addEventListener("click", () => {
   slicer.cancel();
 });
 find("#sample").addEventListener("click", () => {
-  // What comes of it the element shows by itself.
+  // The element shows the outcome itself.
   slicer.load("goblet.stl").catch(() => undefined);
 });
 for (const name of ["cusp-change", "cusp-load"] as const) {
-  // What was said of the last order is not about this one.
+  // Messages about the last order do not apply to this one.
   slicer.addEventListener(name, () => ordering ?? say(""));
 }
 new MutationObserver(draw).observe(slicer, { attributeFilter: ["state"] });

@@ -1,4 +1,4 @@
-/** Sends an order and says what became of it. */
+/** Sends an order and returns the server's answer. */
 import type { PartName } from "../catalogue.js";
 import type { Line } from "../price.js";
 
@@ -10,14 +10,14 @@ export interface Placed {
 }
 
 export interface Ordered {
-  /** Names this order whenever it is sent, so that the shop takes it once. */
+  /** Identifies this order each time it is sent, so that the shop takes it only once. */
   key: string;
   copies: number;
   price_cents: number;
   parts: Readonly<Record<PartName, Blob>>;
 }
 
-/** What the server answered instead of taking an order. */
+/** Why an order was not taken. */
 export class OrderError extends Error {
   readonly code: string;
 
@@ -40,7 +40,7 @@ export async function placeOrder({ key, copies, price_cents, parts }: Ordered, s
     throw new OrderError(answer.code ?? "failed", answer.message ?? `The shop could not take the order (HTTP ${response.status}).`);
   } catch (error) {
     if (signal.aborted || error instanceof OrderError) throw error;
-    // Whether it was taken nobody knows here; sent again it is the same order.
+    // The shop may or may not have taken it; sent again it is the same order.
     throw new OrderError("unreachable", "The shop does not answer. Please try again: this will be one order and not two.");
   }
 }

@@ -1,4 +1,4 @@
-/** The built page: every file read once, so that no address can name another. */
+/** The built page: all files are read once, so that no address can reach any other. */
 import { readdir, readFile } from "node:fs/promises";
 import { extname, join, relative, sep } from "node:path";
 

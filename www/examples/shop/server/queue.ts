@@ -1,4 +1,4 @@
-/** Who may be served: so many orders at once, and of those one that is worked on. */
+/** Admits a limited number of orders at once, and works on one of them at a time. */
 import { Refusal } from "./refusal.js";
 
 export class Queue {
@@ -11,7 +11,7 @@ export class Queue {
     this.#places = places;
   }
 
-  /** Keeps a place while `visit` lasts; refuses if there is none. */
+  /** Holds a place while `visit` runs; refuses if none is free. */
   async admit<T>(visit: () => Promise<T>): Promise<T> {
     if (this.#taken >= this.#places) {
       throw new Refusal("busy", "Many orders are being checked just now. Please try again in a minute.");
@@ -24,7 +24,7 @@ export class Queue {
     }
   }
 
-  /** Does one piece of work after another, in the order in which they came. */
+  /** Runs one piece of work at a time, in the order of arrival. */
   inTurn<T>(work: () => Promise<T>): Promise<T> {
     const mine = this.#last.then(work);
     this.#last = mine.catch(() => undefined);

@@ -12,7 +12,7 @@ import { Store, type Order } from "./store.js";
 import { FILES, receive, type Form } from "./upload.js";
 import { verify, type Verifier } from "./verify.js";
 
-/** What the element needs, as docs/embed.md has it; then what this page's own style sheet and forms need. */
+/** What the element needs according to docs/embed.md, then what this page's own style sheet and forms need. */
 const POLICY = [
   "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; connect-src 'self'",
   "style-src 'self'; img-src 'self'; form-action 'none'; base-uri 'none'; frame-ancestors 'none'",
@@ -26,7 +26,7 @@ const SECURITY = {
   "x-content-type-options": "nosniff",
 };
 
-/** Everybody but this machine goes through a web server that speaks TLS. */
+/** All other machines connect through a web server that speaks TLS. */
 const HOST = "127.0.0.1";
 
 const CLOSING = new Refusal("closing", "The shop closes just now. Please try again in a minute.");
@@ -41,7 +41,7 @@ export interface Setup extends Partial<Limits> {
 }
 
 export interface Limits {
-  /** The largest files that are taken, in bytes. */
+  /** The largest files that the shop takes, in bytes. */
   most_bytes: Readonly<Record<PartName, number>>;
   /** Orders that may be under way at once; one of them is verified, the others wait. */
   places: number;
@@ -54,9 +54,9 @@ export interface Limits {
 const LIMITS: Limits = { most_bytes: MOST_BYTES, places: 8, verify_ms: 120_000, upload_ms: 300_000 };
 
 export interface Shop {
-  /** @param port 0 for any that is free. Gives the address. */
+  /** @param port 0 for any that is free. Returns the address. */
   listen(port: number): Promise<string>;
-  /** Refuses what is under way, and removes its files. */
+  /** Refuses the orders under way and removes their files. */
   close(): Promise<void>;
 }
 
@@ -67,11 +67,11 @@ export async function createShop({ folder, pages: built, cusp, ...given }: Setup
   const closing = new AbortController();
   const verifier: Verifier = { cusp, limit_ms: limits.verify_ms };
 
-  /** What of an order came with its form is checked in its turn, and the order is taken. */
+  /** Checks an uploaded order when its turn comes, and takes it. */
   const take = async (folder: string, key: string, { copies, price_cents }: Form, signal: AbortSignal): Promise<Order> => {
     const { printer, resin } = wantedBy(await readFile(join(folder, FILES.plan), "utf8"));
     return queue.inTurn(async () => {
-      // Of two that came with one key at the same time the second finds what became of the first.
+      // Of two orders that arrive with one key at the same time, the second gets the result of the first.
       const before = await store.find(key);
       if (before !== null) return before;
       const verdict = await verify(folder, verifier, signal);
@@ -88,8 +88,8 @@ export async function createShop({ folder, pages: built, cusp, ...given }: Setup
     );
 
   /**
-   * Waits until an answer can be read: a browser reads none before its upload is through, so that the rest is taken in and
-   * thrown away; but no more than twice what an honest customer could have sent. Whether anybody is there to read it.
+   * Waits until the client can read an answer: a browser reads none before its upload is complete, so the rest is received
+   * and discarded, up to twice what an honest customer could have sent. Returns whether the client is still connected.
    */
   const isHeard = async (request: IncomingMessage, response: ServerResponse): Promise<boolean> => {
     const most = 2 * Object.values(limits.most_bytes).reduce((sum, bytes) => sum + bytes, 0);
@@ -134,7 +134,7 @@ export async function createShop({ folder, pages: built, cusp, ...given }: Setup
 
 const UUID = /^[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}$/i;
 
-/** The key that an order comes with: whoever sends it again means the same order. */
+/** The key that an order comes with: if it is sent again, it means the same order. */
 function keyOf({ headers }: IncomingMessage): string {
   const key = headers["idempotency-key"];
   if (typeof key === "string" && UUID.test(key)) return key.toLowerCase();
@@ -169,7 +169,7 @@ function sendJson(response: ServerResponse, status: number, value: unknown): voi
   response.end(JSON.stringify(value));
 }
 
-/** Throws away what is yet to come of a request; whether that was all of it. */
+/** Discards the rest of a request; returns whether that was all of it. */
 function drain(request: IncomingMessage, most_bytes: number, signal: AbortSignal): Promise<boolean> {
   if (request.complete || request.destroyed || signal.aborted) return Promise.resolve(request.complete);
   return new Promise((resolve) => {
@@ -189,7 +189,7 @@ function drain(request: IncomingMessage, most_bytes: number, signal: AbortSignal
 
 function asRefusal(error: unknown): Refusal {
   if (error instanceof Refusal) return error;
-  // For whoever runs the shop; a customer is told nothing of its insides.
+  // For the operator of the shop; a customer sees no internals.
   console.error(error);
   return new Refusal("failed", "Something went wrong on our side. Your order was not taken.");
 }

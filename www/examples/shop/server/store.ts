@@ -1,11 +1,11 @@
-/** Orders as folders of files. An order is there as a whole or not at all. */
+/** Orders as folders of files. An order exists as a whole or not at all. */
 import { createHash } from "node:crypto";
 import { mkdir, mkdtemp, readFile, rename, rm, writeFile } from "node:fs/promises";
 import { join, resolve } from "node:path";
 import type { Line } from "../price.js";
 import type { Verdict } from "./verify.js";
 
-/** What is written of an order, beside its three files, as `order.json`. */
+/** The content of an order's `order.json`, which lies beside its three files. */
 export interface Order {
   id: string;
   /** ISO 8601. */
@@ -13,7 +13,7 @@ export interface Order {
   printer: string;
   resin: string;
   copies: number;
-  /** What the price is made of. */
+  /** The lines that make up the price. */
   lines: readonly Line[];
   price_cents: number;
   verdict: Verdict;
@@ -24,12 +24,12 @@ export class Store {
   readonly #orders: string;
 
   private constructor(folder: string) {
-    // On one file system, so that an order that was accepted is moved and not copied.
+    // On one file system, so that an accepted order is moved and not copied.
     this.#incoming = join(folder, "incoming");
     this.#orders = join(folder, "orders");
   }
 
-  /** Removes what uploads that never ended have left. */
+  /** Removes the remains of interrupted uploads. */
   static async open(folder: string): Promise<Store> {
     const store = new Store(resolve(folder));
     await rm(store.#incoming, { recursive: true, force: true });
@@ -38,7 +38,7 @@ export class Store {
     return store;
   }
 
-  /** Gives `work` an empty folder, which is gone afterwards unless it was kept. */
+  /** Gives `work` an empty folder, which is removed afterwards unless it was kept. */
   async withFolder<T>(work: (folder: string) => Promise<T>): Promise<T> {
     const folder = await mkdtemp(join(this.#incoming, "order-"));
     try {
@@ -58,19 +58,19 @@ export class Store {
     }
   }
 
-  /** Makes an order of a folder with its files. A key has one order: there must be none yet. */
+  /** Turns a folder with its files into an order. A key has at most one order: there must be none yet. */
   async keep(folder: string, key: string, order: Omit<Order, "id" | "placed_at">): Promise<Order> {
     const placed: Order = { id: idOf(key), placed_at: new Date().toISOString(), ...order };
     await writeFile(join(folder, "order.json"), `${JSON.stringify(placed, null, 2)}\n`);
-    // Where there is an order already this fails, since its folder is not empty.
+    // This fails if there already is an order, since its folder is not empty.
     await rename(folder, join(this.#orders, placed.id));
     return placed;
   }
 }
 
 /**
- * The number of a key's order, so that the folder itself says which keys are spent. Numbers are told to many and a key to
- * nobody, so that the one does not give the other away.
+ * The number of a key's order, so that the folders show which keys are used. Numbers are public and keys secret; a hash
+ * does not reveal its key.
  */
 function idOf(key: string): string {
   return createHash("sha256").update(key).digest("hex").slice(0, 32);

@@ -1,4 +1,4 @@
-/** Reads an order's form: two numbers, and three files that go to a folder under names of our own. */
+/** Reads an order's form: two numbers, and three files, which are written to a folder under fixed names. */
 import { createWriteStream } from "node:fs";
 import type { IncomingMessage } from "node:http";
 import { join } from "node:path";
@@ -8,21 +8,21 @@ import { Busboy, type BusboyFileStream, type BusboyHeaders } from "@fastify/busb
 import { MOST_COPIES, type PartName } from "../catalogue.js";
 import { Refusal } from "./refusal.js";
 
-/** What the files are called, in whatever folder. */
+/** The names of the files in any order's folder. */
 export const FILES: Readonly<Record<PartName, string>> = { plan: "plan.json", model: "model.stl", print: "print.zip" };
 
 const PARTS = Object.keys(FILES) as PartName[];
 
 export interface Form {
   copies: number;
-  /** What the customer saw and agreed to. */
+  /** The price that the customer saw and agreed to. */
   price_cents: number;
 }
 
-/** Room for the two numbers and what stands between the parts. */
+/** Room for the two numbers and the boundaries between the parts. */
 const FRAME_BYTES = 10_000;
 
-/** @param most the largest files that are taken, in bytes */
+/** @param most the largest files that the shop takes, in bytes */
 export async function receive(
   request: IncomingMessage,
   folder: string,
@@ -37,7 +37,7 @@ export async function receive(
   const form = parser(request, Math.max(...PARTS.map((name) => most[name])));
   form.on("field", (name, value) => void fields.set(name, value));
   try {
-    // Not by a pipeline, which would end the connection with the first fault, and nobody would learn of it.
+    // Not a pipeline: it would close the connection at the first fault, and the client would not learn of it.
     await new Promise<void>((resolve, reject) => {
       const tooMany = (): void => reject(new Refusal("bad-order", "There is more in the order than belongs there."));
       form.on("file", (name, stream) => {

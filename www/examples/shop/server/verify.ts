@@ -1,19 +1,19 @@
-/** Asks the native `cusp` whether a plan is what model and options give, and the print file what the plan gives. */
+/** Has the native `cusp` verify that model and options yield the plan, and the plan the print file. */
 import { execFile } from "node:child_process";
 import type { Warning } from "cusp-slicer";
 import { Refusal, type RefusalCode } from "./refusal.js";
 import { FILES } from "./upload.js";
 
-/** What `cusp verify --json` says of a plan that holds. */
+/** What `cusp verify --json` prints for a valid plan. */
 export interface Verdict {
   layers: number;
-  /** In the metric's unit, as the tolerance. */
+  /** In the metric's unit, like the tolerance. */
   max_error: number;
   tolerance: number;
   print_time_s: number;
   resin_ml: number;
   print_is_same: boolean;
-  /** What whoever prints it should know, such as parts that hang in the air. */
+  /** What the operator of the printer should know, such as parts that hang in the air. */
   warnings: readonly Warning[];
 }
 
@@ -24,7 +24,7 @@ export interface Verifier {
   limit_ms: number;
 }
 
-/** Which file a sentence is about, by the name that it begins with. */
+/** The file that a message is about, by the name that it begins with. */
 const BLAME: readonly (readonly [file: string, code: RefusalCode, subject: string])[] = [
   [FILES.plan, "plan-refused", "The plan was refused"],
   [FILES.model, "model-refused", "The model was refused"],
@@ -48,7 +48,7 @@ export function verify(folder: string, { cusp, limit_ms }: Verifier, signal: Abo
   });
 }
 
-/** The program's own sentence, which names the file that it is about and no path: it runs in the folder. */
+/** The program's own message. It names its file without a path, because the program runs in the folder. */
 function refused(stderr: string): Refusal {
   const said = stderr.split("\n").findLast((line) => line.startsWith("cusp: "))?.slice("cusp: ".length) ?? "";
   for (const [file, code, subject] of BLAME) {
