@@ -1,4 +1,4 @@
-/** What a checker of accessibility finds in each state of the page, light and dark. */
+/** What an accessibility checker finds in each state of the page, light and dark. */
 import axe from "axe-core";
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
@@ -10,7 +10,7 @@ const start = pages();
 
 /** Rules broken, with the elements that break them. */
 async function broken(page: Page): Promise<string[]> {
-  // Evaluated, not added as a script: the page's policy lets no inline script in.
+  // Evaluated, not added as a script: the page's policy allows no inline scripts.
   await page.evaluate(axe.source);
   const { violations } = await page.evaluate(() =>
     (window as unknown as { axe: { run(): Promise<axe.AxeResults> } }).axe.run(),

@@ -16,7 +16,7 @@ declare global {
 
 const ball = sphere(10, 96).bytes;
 const goblet = binaryStl(exampleTriangles());
-// Enough facets and rays for each stage to be seen.
+// Enough facets and rays to observe each stage.
 const heavy = sphere(10, 700).bytes;
 
 let served: Served;

@@ -1,9 +1,9 @@
-/** A real headless Chromium, and what a person does on the page with it. */
+/** A real headless Chromium, and the actions of a user on the page. */
 import { existsSync } from "node:fs";
 import { delimiter, join } from "node:path";
 import { chromium, type Browser, type BrowserContextOptions, type Download, type Page } from "playwright-core";
 
-/** A software adapter answers to WebGPU, so that the same page works as on a machine with a GPU. */
+/** A software adapter provides WebGPU, so that the page works as on a machine with a GPU. */
 const FLAGS = [
   "--no-sandbox",
   "--disable-quic",
@@ -28,25 +28,25 @@ function executable(): string {
   throw new Error("no Chromium on PATH: install one, or name it in the variable CHROMIUM");
 }
 
-/** @param flags for the browser, beside those that all tests need */
+/** @param flags for the browser, in addition to those that all tests need */
 export function launch(flags: readonly string[] = []): Promise<Browser> {
   return chromium.launch({ executablePath: executable(), headless: true, args: [...FLAGS, ...flags] });
 }
 
 export interface Opened {
   page: Page;
-  /** Addresses asked for that are not the page's own. There must be none. */
+  /** Requested addresses other than the page's own. There must be none. */
   strangers: string[];
   /** What the page threw or logged as an error. */
   complaints: string[];
 }
 
-/** A fresh page at `address`, whose foreign requests and errors are noted. */
+/** A fresh page at `address`, whose foreign requests and errors are recorded. */
 export async function open(browser: Browser, address: string, options: BrowserContextOptions = {}): Promise<Opened> {
   const context = await browser.newContext({
     locale: "en-GB",
     viewport: { width: 1280, height: 900 },
-    // It would answer where the tests themselves want to.
+    // A service worker would answer requests that the tests want to answer.
     serviceWorkers: "block",
     ...options,
   });
@@ -72,9 +72,9 @@ export interface DroppedFile {
   bytes: Uint8Array;
 }
 
-/** Drops files on the page as a file manager would. Gives the page's clock at the drop, in ms. */
+/** Drops files on the page as a file manager would. Returns the page's clock at the drop, in ms. */
 export async function drop(page: Page, ...files: DroppedFile[]): Promise<number> {
-  // Bytes reach the page as a served answer would: as base64 in a message they would take seconds for a large model.
+  // Serves the bytes to the page: as base64 in a message, a large model would take seconds.
   const address = new URL("e2e-drop/", page.url()).href;
   await page.route(`${address}*`, (route) => {
     const file = files[Number(route.request().url().slice(address.length))];
@@ -107,7 +107,7 @@ export async function state(page: Page, wanted: string, timeout = 30_000): Promi
   await page.waitForSelector(`cusp-slicer[state=${wanted}]`, { timeout });
 }
 
-/** Waits until the plan on show answers to the settings, after a change of them. */
+/** Waits, after a change of settings, until the plan on show matches them. */
 export async function settled(page: Page): Promise<void> {
   // A change makes the element busy before the next frame.
   await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(resolve)));
@@ -118,7 +118,7 @@ export async function layers(page: Page): Promise<number> {
   return Number(await page.locator("[data-layers]").getAttribute("data-layers"));
 }
 
-/** What the element says, every run of blanks one space: thin and unbreakable ones are for the eye. */
+/** The element's text, with every run of white space as one space: thin and no-break spaces are mere typography. */
 export async function words(page: Page): Promise<string> {
   return (await page.locator("cusp-slicer .slicer").innerText()).replace(/\s+/g, " ");
 }

@@ -1,4 +1,4 @@
-/** Cancelling, at every stage, and what is left then. */
+/** Cancelling at every stage, and what remains afterwards. */
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { download, drop, layers, maskOf, state, words } from "./browser.js";
@@ -9,10 +9,10 @@ const start = pages();
 
 const ballFile = { name: "ball.stl", bytes: sphere(10, 96).bytes };
 
-// Enough triangles and rays for each stage to be seen.
+// Enough facets and rays to observe each stage.
 const heavy = { name: "heavy.stl", bytes: sphere(10, 700).bytes };
 
-/** Presses Cancel as soon as the progress bar says these words, from within the page so as not to come late. */
+/** Presses Cancel as soon as the progress bar shows these words; runs in the page, so as not to be late. */
 async function cancelWhen(page: Page, stage: string): Promise<void> {
   await page.evaluate((wanted) => {
     const root = document.querySelector("cusp-slicer")?.shadowRoot;
@@ -67,7 +67,7 @@ test.each(["Measuring the surface", "Planning the layers"])("a cancel during “
   const page = await start();
   await cancelWhen(page, stage);
   await drop(page, heavy);
-  // These stages take milliseconds: the plan may be done before the cancel arrives, which is as good.
+  // These stages take milliseconds: the plan may be done before the cancel arrives, which is just as good.
   await page.waitForSelector("cusp-slicer:is([state=ready], [state=done])");
   if (await page.locator("cusp-slicer[state=ready]").count()) {
     expect(await cancelled(page)).toBe(stage);
@@ -91,7 +91,7 @@ test("Escape cancels, and the page does not freeze while rays are cast", async (
   const page = await start();
   await drop(page, heavy);
   await state(page, "done");
-  // Turns of the page's own thread while the worker was at it. Frames say less: without a GPU the 3-D view holds them up.
+  // Counts turns of the page's own thread while the worker runs. Frames tell less: without a GPU the 3-D view delays them.
   await page.evaluate(() => {
     const root = document.documentElement;
     let turns = 0;
@@ -104,6 +104,6 @@ test("Escape cancels, and the page does not freeze while rays are cast", async (
   await page.waitForTimeout(300);
   await page.keyboard.press("Escape");
   await state(page, "done");
-  // A page that froze would have had none, and one that is as quick as it can be thirty.
+  // A frozen page would have had none, an unhindered one thirty.
   expect(Number(await page.locator("html").getAttribute("data-turns"))).toBeGreaterThan(3);
 });

@@ -1,4 +1,4 @@
-/** The element on a page of somebody else, from the package as it is published. */
+/** The element on a third-party page, from the package as it is published. */
 import type { Browser, BrowserContextOptions, Locator, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect, test } from "vitest";
 import type { CuspSlicer } from "../src/element/index.js";
@@ -9,7 +9,7 @@ import { floating, prism, sphere } from "./solids.js";
 
 const html = `<!doctype html><html lang="de"><meta charset="utf-8" /><title>Shop</title>
 <script type="module" src="main.js"></script><body></body></html>`;
-// What the page's own script would do: note events, and register the class under a name of its own.
+// What the page's own script would do: record events, and register the class under its own name.
 const main = `
 import "./cusp-slicer/element.js";
 import { CuspSlicer } from "./cusp-slicer/element-class.js";
@@ -46,7 +46,7 @@ afterEach(async () => {
   expect(complaints.splice(0)).toEqual([]);
 });
 
-/** A page with this in its body. */
+/** Opens a page with this in its body. */
 async function start(body: string, options: BrowserContextOptions = {}): Promise<Page> {
   const page = await (await browser.newContext({ locale: "fr-FR", ...options })).newPage();
   pages.push(page);
@@ -56,7 +56,7 @@ async function start(body: string, options: BrowserContextOptions = {}): Promise
   });
   await page.goto(served.address);
   await page.waitForSelector("body[data-ready]", { state: "attached" });
-  // By a range, since the policy has a say in markup that is written.
+  // Through a range, since the policy applies to markup that is written.
   await page.evaluate((body) => document.body.append(document.createRange().createContextualFragment(body)), body);
   return page;
 }
@@ -65,7 +65,7 @@ const done = (page: Page, id: string): Promise<unknown> => page.waitForSelector(
 
 const events = (page: Page, id: string): Promise<string[]> =>
   page.evaluate((id) => (document as unknown as Told).told.filter(([from]) => from === id).map(([, name]) => name), id);
-/** How far the plan was, each time that an element told. */
+/** The progress of the plan in each event of an element. */
 const planned = (page: Page, id: string): Promise<number[]> =>
   page.evaluate((id) => {
     const told = (document as unknown as Told).told.filter(([from, name, { task }]) => from === id && name === "cusp-progress" && task === "plan");
@@ -91,7 +91,7 @@ test("two of them work side by side, each with its own model, settings and langu
     { tolerance: 0.2, metric: "area", layer_min_mm: 0.04, layer_max_mm: 0.1 },
   ]);
   expect(await page.locator("#a .download").innerText()).toBe("Download print file");
-  // The page is German, its reader French: what the page says counts for more.
+  // The page is German, its reader French: the page's language takes precedence.
   expect(await page.locator("#b .download").innerText()).toBe("Druckdatei herunterladen");
   expect(await page.locator("#b cusp-chart").count()).toBe(0);
   for (const id of ["a", "b"]) {
@@ -99,7 +99,7 @@ test("two of them work side by side, each with its own model, settings and langu
     expect(names.filter((name) => name !== "cusp-progress" && name !== "cusp-change")).toEqual(["cusp-load", "cusp-plan"]);
     const done = await planned(page, id);
     expect(done).toEqual(done.toSorted((a, b) => a - b));
-    // The last steps may come behind the plan, and then they are no news.
+    // The last steps may come after the plan, and are then not reported.
     expect(done.at(-1)).toBeGreaterThan(0);
   }
 });
@@ -109,7 +109,7 @@ test("methods: load, plan, export, cancel", async () => {
   const found = await page.evaluate(async () => {
     const element = document.querySelector<CuspSlicer>("#a");
     if (element === null) throw new Error("there is no element");
-    // A `DOMException` has a code of its own, which is a number.
+    // A `DOMException` has its own code, which is a number.
     const name = (error: Error & { code?: unknown }): string => (typeof error.code === "string" ? error.code : error.name);
     const early = await element.plan().catch(name);
     const none = await element.export().catch(name);
@@ -360,7 +360,7 @@ test("a part that cannot be fetched says so in its panel and to the page, and co
   }));
   expect(errors).toHaveLength(expected.length);
   expect(errors).toEqual(expect.arrayContaining(expected));
-  // The plan is as good as before.
+  // The plan is unaffected.
   expect(await page.locator("#a").getAttribute("state")).toBe("done");
 
   await page.unroute(blocked);

@@ -1,4 +1,4 @@
-/** How long the page's own thread is held up while a large model goes through it. */
+/** Measures how long the page's own thread is blocked while the page handles a large model. */
 import { mkdtemp, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -9,10 +9,10 @@ import { download, settled, state } from "./browser.js";
 /** Longer than a plan of a large model takes on a slow machine, ms. */
 const PATIENCE_MS = 240_000;
 
-/** A ring of this many facets. */
+/** Facets of the large model, a ring. */
 export const LARGE_FACETS = 1 << 20;
 
-/** A torus that lies on the plate: a grid of `around` by `across` squares, two facets each. */
+/** A torus that lies on the plate: a grid of `around` by `across` quads, two facets each. */
 export function torus(around: number, across: number, radius_mm = 15, tube_mm = 5): Uint8Array {
   const corner = (i: number, j: number): [number, number, number] => {
     const [turn, bend] = [(2 * Math.PI * (i % around)) / around, (2 * Math.PI * (j % across)) / across];
@@ -33,12 +33,12 @@ export function torus(around: number, across: number, radius_mm = 15, tube_mm = 
   return binaryStl(triangles);
 }
 
-/** Something that kept the page from answering. */
+/** A period in which the page could not respond. */
 export interface Hold {
   /** On the page's clock, ms. */
   start_ms: number;
   duration_ms: number;
-  /** What ran, as far as the browser says. */
+  /** What ran, as far as the browser reports it. */
   cause: string;
 }
 
@@ -47,7 +47,7 @@ export interface Stage {
   took_ms: number;
   /** Tasks of more than 50 ms, as the browser counts them. */
   tasks: Hold[];
-  /** Frames that came late, and the scripts that made them late. */
+  /** Late frames, and the scripts that delayed them. */
   frames: Hold[];
 }
 
@@ -58,7 +58,7 @@ interface Meter {
   read: number;
   /** Bytes that the page copied into messages to its workers. */
   copied: number;
-  /** Most corners in one call that drew on a canvas itself, for whose picture the browser may hold the page up. */
+  /** Most corners in one call that drew on the canvas itself, which may block the page until the picture is ready. */
   drawn: number;
 }
 
@@ -72,7 +72,7 @@ declare global {
   }
 }
 
-/** Before the page's own scripts: notes what holds it up, and what it does with bytes that are no business of its own. */
+/** Runs before the page's own scripts: records what blocks the page, and the bytes that it reads and copies itself. */
 function meter(): void {
   const found: Meter = { tasks: [], frames: [], read: 0, copied: 0, drawn: 0 };
   window.meter = found;
@@ -114,7 +114,7 @@ function meter(): void {
     if (ArrayBuffer.isView(value)) return moved.includes(value.buffer) ? 0 : value.byteLength;
     if (value instanceof ArrayBuffer) return moved.includes(value) ? 0 : value.byteLength;
     if (Array.isArray(value)) return value.reduce<number>((sum, it) => sum + weigh(it, moved), 0);
-    // A module is shared, a file is a handle, a port is moved.
+    // A module is shared, a file is a handle, a port is transferred.
     if (value === null || typeof value !== "object" || Object.getPrototypeOf(value) !== Object.prototype) return 8;
     return Object.values(value).reduce<number>((sum, it) => sum + weigh(it, moved), 0);
   };
@@ -131,7 +131,7 @@ function meter(): void {
   };
 }
 
-/** Loads, plans and exports, and tells what held the page up in each stage. */
+/** Loads, plans and exports, and returns what blocked the page in each stage. */
 export async function journey(page: Page, stl: Uint8Array): Promise<Journey> {
   const folder = await mkdtemp(join(tmpdir(), "cusp-large-"));
   try {
@@ -145,7 +145,7 @@ export async function journey(page: Page, stl: Uint8Array): Promise<Journey> {
     const stage = async (name: string, act: () => Promise<unknown>): Promise<void> => {
       await act();
       const to = await page.evaluate(() => performance.now());
-      // Entries come after what they tell of.
+      // Entries arrive after what they describe.
       await page.waitForTimeout(300);
       const holds = await page.evaluate(() => ({ tasks: window.meter.tasks, frames: window.meter.frames }));
       const within = ({ start_ms, duration_ms }: Hold): boolean => start_ms + duration_ms > from && start_ms < to;
@@ -158,7 +158,7 @@ export async function journey(page: Page, stl: Uint8Array): Promise<Journey> {
     });
     await stage("view and mask", async () => {
       await page.waitForSelector("canvas[data-layer]", { timeout: PATIENCE_MS });
-      // The view says how large the model is once it has it.
+      // The view states the size of the model once it has the model.
       await page.waitForFunction(
         () => {
           const card = document.querySelector("cusp-slicer")?.shadowRoot?.querySelector("cusp-model");
@@ -186,19 +186,19 @@ export async function journey(page: Page, stl: Uint8Array): Promise<Journey> {
   }
 }
 
-/** What the trace of a browser tells of the thread that the page runs on. */
+/** The trace categories that cover the page's thread. */
 export const TRACED = ["toplevel"];
 
 interface TraceEvent {
   name: string;
   pid: number;
   tid: number;
-  /** Time that the thread itself worked, µs: what else the machine does is not in it. */
+  /** CPU time of the thread, µs: excludes whatever else the machine does. */
   tdur?: number;
   args?: { name?: string };
 }
 
-/** The longest that pages worked at a stretch, ms, other things on the same processors not counted. */
+/** The longest that a page's thread worked at a stretch, in CPU time, ms. */
 export function longestWork_ms(trace: Uint8Array): number {
   const { traceEvents } = JSON.parse(new TextDecoder().decode(trace)) as { traceEvents: TraceEvent[] };
   const isPage = new Set<string>();
@@ -210,7 +210,7 @@ export function longestWork_ms(trace: Uint8Array): number {
   return work.reduce((most, { tdur = 0 }) => Math.max(most, tdur), 0) / 1000;
 }
 
-/** What a stage says of itself. */
+/** Summary of a stage. */
 export const line = ({ name, took_ms, tasks, frames }: Stage): string => {
   const longest = (holds: readonly Hold[]): string => `${Math.round(Math.max(0, ...holds.map((it) => it.duration_ms)))} ms`;
   const why = frames.map(({ duration_ms, cause }) => `\n    frame of ${Math.round(duration_ms)} ms: ${cause}`).join("");

@@ -1,4 +1,4 @@
-/** What the page looks like, against pictures of what it looked like: `npm run goldens` records them anew. */
+/** Compares the page with recorded pictures of it: `npm run goldens` records them again. */
 import type { BrowserContextOptions, Page, PageScreenshotOptions } from "playwright-core";
 import { expect, test } from "vitest";
 import { drop, state } from "./browser.js";
@@ -15,14 +15,14 @@ const SIZES = [
 ] as const;
 const THEMES = ["light", "dark"] as const;
 
-/** How often the picture has to come out the same before it counts as still. */
+/** How often in a row the picture must be the same to count as still. */
 const STILL = 3;
 
 async function example(page: Page): Promise<void> {
   await page.getByRole("button", { name: "Try the example" }).click();
   await state(page, "done");
   await page.waitForSelector("canvas[data-layer]");
-  // The last thing to come is the curve, and with it the slider of qualities.
+  // The last thing to appear is the curve, and with it the quality slider.
   await expect.poll(() => page.locator("cusp-quality input[type=range]").count()).toBe(1);
 }
 
@@ -30,7 +30,7 @@ const STATES: Readonly<Record<string, { query?: string; reach(page: Page): Promi
   empty: { reach: async () => undefined },
   done: { reach: example },
   error: {
-    // No plan holds this tolerance: the page says so beside the field, and offers what would do.
+    // No plan keeps this tolerance: the page says so beside the field, and offers what would help.
     query: "&metric=cusp&tolerance=0.02",
     reach: async (page) => {
       await drop(page, { name: "ball.stl", bytes: sphere(10, 96).bytes });
@@ -60,7 +60,7 @@ const STATES: Readonly<Record<string, { query?: string; reach(page: Page): Promi
   },
 };
 
-/** How wide the page's font makes some letters: other fonts break lines elsewhere, and no picture would be like its golden. */
+/** Widths of some letters in the page's font: other fonts break lines elsewhere, and no picture would match its golden. */
 function widths(): string {
   const pen = document.createElement("canvas").getContext("2d");
   if (pen === null) return "";
@@ -78,7 +78,7 @@ function widths(): string {
 /** The whole page, once nothing on it moves any more. */
 async function still(page: Page): Promise<Uint8Array> {
   await page.evaluate(() => document.fonts.ready);
-  // How long a plan took is never the same, but folded away unless it is asked for.
+  // How long a plan took varies, but is folded away by default.
   const options: PageScreenshotOptions = { fullPage: true, animations: "disabled" };
   let before = await page.screenshot(options);
   for (let same = 1; same < STILL; ) {

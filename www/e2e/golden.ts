@@ -1,6 +1,6 @@
 /**
- * Pictures of the page as they are kept: so small that fonts and rasterisers make little difference to them, and large
- * enough that a panel that is gone, moved or wrongly coloured makes a great one.
+ * Recorded pictures of the page: so small that fonts and rasterisers make little difference, and large enough that a
+ * missing, moved or wrongly coloured panel makes a great one.
  */
 import { existsSync } from "node:fs";
 import { mkdir, mkdtemp, readFile, writeFile } from "node:fs/promises";
@@ -11,17 +11,17 @@ import { decode, encode } from "fast-png";
 
 const FOLDER = fileURLToPath(new URL("./goldens/", import.meta.url));
 
-/** Pixels from left to right of a kept picture, at most; one for this many of a narrow page. */
+/** Largest width of a recorded picture, pixels, and pixels of a narrow page per recorded pixel. */
 const WIDTH = 96;
 const SHRINK = 8;
-/** Levels between which kept channels are told apart: fewer make smaller files. */
+/** Step between the recorded levels of a channel: a larger one makes smaller files. */
 const STEP = 8;
-/** Pixels along the side of the squares of which the worst counts. */
+/** Side of the squares of which the worst counts, pixels. */
 const BLOCK = 6;
-/** Chroma counts less than luma, as in the eye. */
+/** Chroma counts less than luma, as it does for the eye. */
 const CHROMA_PART = 0.5;
 
-/** What may differ, as parts of the whole range from black to white. */
+/** The differences allowed, as fractions of the range from black to white. */
 export const TOLERANCE = { mean: 0.02, worst: 0.16, height: 0.04 };
 
 export interface Picture {
@@ -35,11 +35,11 @@ export interface Difference {
   mean: number;
   /** Of the square of {@link BLOCK} pixels that differs most. */
   worst: number;
-  /** Of the heights, as a part of the golden's. */
+  /** Of the heights, as a fraction of the golden's. */
   height: number;
 }
 
-/** Cells of `wide` by `high` over a picture, each the mean of what it covers. */
+/** Reduces a picture to `wide` by `high` cells, each the mean of the pixels that it covers. */
 function averaged({ width, height, data }: Picture, wide: number, high: number, channels = 3): Picture {
   const out = new Uint8Array(3 * wide * high);
   for (let y = 0; y < high; y++) {
@@ -59,7 +59,7 @@ function averaged({ width, height, data }: Picture, wide: number, high: number, 
   return { width: wide, height: high, data: out };
 }
 
-/** A screenshot as it is kept. */
+/** Reduces a screenshot to what is recorded. */
 export function small(screenshot: Uint8Array): Picture {
   const { width, height, data, channels } = decode(screenshot);
   if (!(data instanceof Uint8Array) && !(data instanceof Uint8ClampedArray)) throw new Error("not a screenshot");
@@ -68,7 +68,7 @@ export function small(screenshot: Uint8Array): Picture {
   return averaged(whole, wide, Math.round((height * wide) / width), channels);
 }
 
-/** One luma and two chroma values a pixel, 0 to 1 about. */
+/** One luma and two chroma values a pixel, roughly 0 to 1. */
 function seen({ data }: Picture): Float64Array {
   const out = new Float64Array(data.length);
   for (let i = 0; i < data.length; i += 3) {
@@ -125,7 +125,7 @@ export async function record(name: string, { width, height, data }: Picture): Pr
 
 const FONTS = join(FOLDER, "fonts.txt");
 
-/** How wide letters were where the goldens were recorded; null if nobody has noted that. */
+/** The widths of letters where the goldens were recorded; null if that is unknown. */
 export const goldenFonts = async (): Promise<string | null> => (existsSync(FONTS) ? (await readFile(FONTS, "utf8")).trim() : null);
 
 export async function recordFonts(widths: string): Promise<void> {
@@ -133,7 +133,7 @@ export async function recordFonts(widths: string): Promise<void> {
   await writeFile(FONTS, `${widths}\n`);
 }
 
-/** Puts what was seen where a person can look at it, and gives the folder. */
+/** Saves what was seen for inspection, and returns the folder. */
 export async function keep(name: string, screenshot: Uint8Array, { width, height, data }: Picture): Promise<string> {
   const folder = await mkdtemp(join(tmpdir(), "cusp-golden-"));
   await writeFile(join(folder, `${name}.png`), screenshot);

@@ -1,4 +1,4 @@
-/** Browsers whose language is no BCP 47 tag: WebKit's is "C" where LANG is, others have "en-US@posix". */
+/** Browsers whose language is not a BCP 47 tag: WebKit's is "C" if LANG is, others have "en-US@posix". */
 import type { Browser, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect, inject, test } from "vitest";
 import { buildPage } from "../examples/shop/build.js";
@@ -34,7 +34,7 @@ afterEach(async () => {
   complaints.length = 0;
 });
 
-/** A page in a browser that calls this its language, with what it complains of noted. */
+/** Opens a page in a browser that reports this language, and records its errors. */
 async function start(address: string, language: string, block?: RegExp): Promise<Page> {
   const page = await (await browser.newContext({ serviceWorkers: "block" })).newPage();
   pages.push(page);
@@ -53,7 +53,7 @@ async function start(address: string, language: string, block?: RegExp): Promise
   return page;
 }
 
-/** Pixels of the chart that something is drawn on; null if there is no chart. */
+/** Number of pixels that the chart has drawn; null if there is no chart. */
 const drawn = (page: Page): Promise<number | null> =>
   page.locator("cusp-chart").evaluate(({ shadowRoot }) => {
     const canvas = shadowRoot?.querySelector<HTMLCanvasElement>(".plot canvas");

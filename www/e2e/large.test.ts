@@ -1,4 +1,4 @@
-/** A model of a million facets through the page, whose own thread has little to do with it. */
+/** A model of a million facets in the page, whose own thread must do little of the work. */
 import type { Browser } from "playwright-core";
 import { afterAll, beforeAll, expect, inject, test } from "vitest";
 import { launch, open } from "./browser.js";
@@ -10,12 +10,12 @@ const MESSAGES_BYTES = 10_000;
 /** Corners that may be drawn on the canvas itself. The model has three million. */
 const CORNERS = 100_000;
 /**
- * What the page's thread may work at a stretch. That is processor time, which does not grow with whatever else the
- * machine does, and several times what it comes to; going through all facets at a stretch takes about as much again.
- * `npm run measure-freeze` gives the time by the clock.
+ * How long the page's thread may work at a stretch. This is CPU time, which does not grow with the machine's other load,
+ * and several times the usual value; going through all facets at a stretch takes about as much again.
+ * `npm run measure-freeze` gives the elapsed time.
  */
 const WORK_MS = 500;
-/** Between the channels of a pixel that shows the model and not the paper behind it, of 255. */
+/** Least difference between the channels of a pixel that shows the model and not the background, of 255. */
 const COLOURED = 40;
 
 let browser: Browser;
@@ -38,7 +38,7 @@ test("a million facets are loaded, planned and exported beside the page", async 
   for (const stage of stages) console.log(line(stage));
   console.log(`longest work at a stretch ${work_ms.toFixed(0)} ms`);
 
-  // It is there in the end, in the colours of its layers.
+  // In the end the model is there, in the colours of its layers.
   const { width = 0, height = 0 } = (await page.locator("cusp-view").boundingBox()) ?? {};
   await expect
     .poll(async () => {

@@ -1,6 +1,6 @@
 /**
- * How long the headless slicer takes from an abort to the rejected call, at each stage, and until the next plan is
- * there: `npm run measure-cancel [-- FILE.stl]`. A sphere of half a million facets if no file is given.
+ * Measures how long the headless slicer takes at each stage from an abort to the rejected call, and from there to the next
+ * plan: `npm run measure-cancel [-- FILE.stl]`. Without a file the model is a sphere of half a million facets.
  */
 import { readFile } from "node:fs/promises";
 import type * as Api from "../src/api/index.js";
@@ -45,7 +45,7 @@ export async function main([file]: string[]): Promise<void> {
             );
             const rejected = performance.now();
             await slicer.plan(options);
-            // A stage of a few milliseconds may have ended by itself.
+            // A stage of a few milliseconds may have ended before the abort.
             if (name === "AbortError") found.push({ cancel_ms: rejected - aborted, again_ms: performance.now() - rejected });
             slicer.dispose();
           }

@@ -1,9 +1,9 @@
 /**
- * How long the core takes in a browser, and how much memory, without the page around it:
+ * Measures the time and the memory of the core in a browser, without the page around it:
  * `npm run measure-core -- FILE.stl [HEIGHT_MM [RAYS | WIDTHxHEIGHT@PITCH_MM]]`.
  *
- * The same model several times in one tab, as when a person turns it; then a print file. The figures are the
- * core's own, of the CPU backend.
+ * Plans the same model several times in one tab, as when a user turns it, then makes a print file. The core itself reports
+ * the figures, for the CPU backend.
  */
 import { readFile } from "node:fs/promises";
 import { basename } from "node:path";
@@ -32,7 +32,7 @@ export async function main([file, height = "60", grid = "2048"]: string[]): Prom
       const types: Record<string, string> = { js: "text/javascript", wasm: "application/wasm" };
       await route.fulfill({ body, contentType: types[name.split(".").at(-1) ?? ""] ?? "application/octet-stream" });
     });
-    // As text, because import() in a function would be rewritten for this side.
+    // As text, because import() in a function would be rewritten for Node.
     const module: JSHandle<Core> = await page.evaluateHandle(`import("${served.address}core/cusp_slicer.js")`);
     const measured = await page.evaluate(
       async ([core, address, options, rounds]) => {

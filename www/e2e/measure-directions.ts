@@ -1,9 +1,9 @@
 /**
- * How long a search for the best direction takes in the browser, from the call to its answer, with one worker and with
- * several: `npm run measure-directions [-- FILE.stl [HEIGHT_MM [DIRECTIONS]]]`. The example with 111,600 facets if no file
- * is given, or `example` in its place.
+ * Measures how long a search for the best orientation takes in the browser, from the call to its answer, with one worker
+ * and with several: `npm run measure-directions [-- FILE.stl [HEIGHT_MM [DIRECTIONS]]]`. Without a file, or with `example`
+ * in its place, the model is the example with 111,600 facets.
  *
- * Workers are started within the time that is measured, as they are when somebody presses the button.
+ * The time includes starting the workers, as when a user presses the button.
  */
 import { readFile } from "node:fs/promises";
 import { binaryStl, exampleTriangles } from "../src/page/example.js";
@@ -14,7 +14,7 @@ import { finer } from "./solids.js";
 
 const ROUNDS = 5;
 
-/** Asks for the example. */
+/** Selects the example. */
 const EXAMPLE = "example";
 
 export async function main([file = EXAMPLE, height, directions = "1000"]: string[]): Promise<void> {

@@ -1,4 +1,4 @@
-/** How long a model of a million facets holds the page's own thread up: `npm run measure-freeze [-- FACETS]`. */
+/** Measures how long a model of a million facets blocks the page's own thread: `npm run measure-freeze [-- FACETS]`. */
 import { launch, open } from "./browser.js";
 import { journey, LARGE_FACETS, line, longestWork_ms, torus, TRACED } from "./freeze.js";
 import { serve } from "./serve.js";

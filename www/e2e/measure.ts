@@ -1,7 +1,7 @@
 /**
- * How long the page takes, from the drop of a model: `npm run measure -- FILE.stl [HEIGHT_MM [RAYS [BACKEND]]]`.
+ * Measures how long the page takes from the drop of a model: `npm run measure -- FILE.stl [HEIGHT_MM [RAYS [BACKEND]]]`.
  *
- * A fresh page for each round, so that nothing is kept from the one before; the median counts.
+ * Each round has a fresh page, so that nothing is kept from the round before; the median counts.
  */
 import { readFile } from "node:fs/promises";
 import { basename } from "node:path";
@@ -42,7 +42,7 @@ export async function main([file, height = "60", rays = "2048", backend = "auto"
 async function round(browser: Browser, address: string, file: { name: string; bytes: Uint8Array }): Promise<Round> {
   const { page } = await open(browser, address);
   try {
-    // The page's own clock: the moments at which it says that it is done, seen from inside.
+    // Records, inside the page and by its own clock, when it reports that it is done.
     await page.evaluate(() => {
       const app = document.querySelector("cusp-slicer");
       const root = document.documentElement;

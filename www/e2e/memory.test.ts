@@ -1,4 +1,4 @@
-/** Ten models one after another leave as much in memory as two. */
+/** Ten models in a row leave as much in memory as two. */
 import type { CDPSession, Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { drop, state } from "./browser.js";
@@ -7,26 +7,26 @@ import { sphere } from "./solids.js";
 import { SOFTWARE_GL } from "./view-pages.js";
 
 const MODELS = 10;
-/** What is made once, such as compiled code, workers and the view, is there by then. */
+/** After this many models, all that is made once exists: compiled code, workers, the view. */
 const WARM = 2;
 
-/** Points around each model: all have as many facets, and so need as much. */
+/** Points around each model: all models have equally many facets, and so need equally much memory. */
 const AROUND = 256;
 const FACETS = AROUND * (AROUND - 2);
-/** The corners of a model's facets, nine numbers of four bytes each: the least that a model which was kept would hold. */
+/** The corners of a model's facets, nine numbers of four bytes each: the least that a leaked model would hold. */
 const MODEL_BYTES = FACETS * 9 * 4;
 
-/** The page: what the browser's compiler and caches take for themselves meanwhile, less than two models. */
+/** Slack of the page, for what the browser's compiler and caches take meanwhile: less than two models. */
 const HEAP_SLACK_BYTES = 2 * MODEL_BYTES;
-/** A worker's memory only ever grows: by pieces that no longer fit where an earlier model was. */
+/** Slack of a worker, whose memory never shrinks: it grows by pieces that do not fit where an earlier model was. */
 const CORE_SLACK_BYTES = 2 * MODEL_BYTES;
-/** A model that was kept would hold some 600 nodes and 40 listeners. */
+/** A leaked model would hold some 600 nodes and 40 listeners. */
 const NODE_SLACK = 200;
-/** Ports that progress came through are collected when the worker's own collector gets round to it. */
+/** Ports that carried progress are freed only when the worker's own garbage collector runs. */
 const LISTENER_SLACK = 100;
 
 interface Usage {
-  /** Of the page itself, bytes: objects, and the arrays beside them. */
+  /** Of the page itself, bytes: objects, and the storage of their arrays. */
   heap: number;
   nodes: number;
   listeners: number;
@@ -44,7 +44,7 @@ declare global {
   }
 }
 
-/** Before the page's own scripts: notes every context that is made. */
+/** Runs before the page's own scripts: records every context that is made. */
 function watchContexts(): void {
   window.contexts = [];
   const { getContext } = HTMLCanvasElement.prototype;
@@ -56,7 +56,7 @@ function watchContexts(): void {
   } as typeof getContext;
 }
 
-/** At the top of a worker's script: notes the memory of what it instantiates. */
+/** Runs at the top of a worker's script: records the memory of what it instantiates. */
 const WATCH_CORE = `self.cores = [];
 for (const name of ["instantiate", "instantiateStreaming"]) {
   const before = WebAssembly[name];
@@ -69,7 +69,7 @@ for (const name of ["instantiate", "instantiateStreaming"]) {
 `;
 
 async function usage(page: Page, devtools: CDPSession): Promise<Usage> {
-  // What a first collection lets go of may hold on to more.
+  // What a first collection frees may have kept more alive.
   for (let i = 0; i < 3; i++) await devtools.send("HeapProfiler.collectGarbage");
   const { usedSize, backingStorageSize } = await devtools.send("Runtime.getHeapUsage");
   const { metrics } = await devtools.send("Performance.getMetrics");
@@ -106,14 +106,14 @@ test("ten models in a row leave the heap where it was", async () => {
   const used: Usage[] = [];
   for (let i = 1; i <= MODELS; i++) {
     const name = `ball-${i}.stl`;
-    // Each a little lower than the one before, so that what that gave back is enough: memory that is kept is looked for
-    // here, and not whether the holes that larger models leave happen to fit.
+    // Each model is a little lower than the one before, so that the freed memory suffices: the test looks for leaks, not
+    // for whether the holes that larger models leave happen to fit.
     const height_mm = 2 * (12 - 0.1 * i);
     await drop(page, { name, bytes: sphere(height_mm / 2, AROUND).bytes });
-    // The one before is on show until this one is read.
+    // The previous model is on show until this one is read.
     await expect.poll(() => page.locator("#model-name").allInnerTexts()).toEqual([name]);
     await state(page, "done");
-    // Not by `waitForSelector`, whose answer would hold on to the canvas.
+    // Not `waitForSelector`, whose result would keep the canvas alive.
     await page.locator("canvas[data-layer]").waitFor();
     await expect.poll(() => page.locator("cusp-quality input[type=range]").count()).toBe(1);
     await expect.poll(() => page.locator("cusp-view #state").textContent()).toContain(height_mm.toFixed(1));

@@ -1,4 +1,4 @@
-/** The page without a network, once it was loaded. */
+/** The page without a network, once it has been loaded. */
 import { inject, expect, test } from "vitest";
 import { launch, layers, open, state } from "./browser.js";
 import { sphere } from "./solids.js";
@@ -11,12 +11,12 @@ test("loaded once, the page opens and slices without a network", async () => {
     await page.context().setOffline(true);
     await page.goto(`${inject("address")}?height=20`);
     await page.waitForSelector("cusp-slicer[state=empty]");
-    // A file of this computer needs no network.
+    // A local file needs no network.
     const input = page.getByLabel(/Choose a file/);
     await input.setInputFiles({ name: "ball.stl", mimeType: "", buffer: Buffer.from(sphere(10, 96).bytes) });
     await state(page, "done");
     expect(await layers(page)).toBeGreaterThan(134);
-    // The chart's code is fetched when there is a chart to draw, which without a network is out of what was kept.
+    // The chart's code is loaded when there is a chart to draw: without a network, from the cache.
     await page.waitForSelector("cusp-chart .plot canvas");
     expect(complaints).toEqual([]);
   } finally {

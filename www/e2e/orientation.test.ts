@@ -1,4 +1,4 @@
-/** The search for the best building direction, as people use it. */
+/** The search for the best orientation, as people use it. */
 import type { Locator, Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { drop, layers, settled, state } from "./browser.js";
@@ -36,7 +36,7 @@ interface Seen {
   clear: number;
 }
 
-/** Parts of a disc's picture by colour. */
+/** Fractions of a disc's picture by colour. */
 function seen(page: Page, side: "Front" | "Back"): Promise<Seen> {
   return disc(page, side)
     .locator("canvas")
@@ -56,7 +56,7 @@ function seen(page: Page, side: "Front" | "Back"): Promise<Seen> {
     });
 }
 
-/** A place of the front in the midst of grey: from the middle to the right and upwards, in radii. */
+/** A place amid grey on the front: from the middle to the right and upwards, in radii. */
 function greyAt(page: Page): Promise<readonly [number, number]> {
   return disc(page, "Front")
     .locator("canvas")
@@ -79,7 +79,7 @@ function greyAt(page: Page): Promise<readonly [number, number]> {
     });
 }
 
-/** The middle of a disc, moved by parts of its radius. */
+/** The middle of a disc, moved by fractions of its radius. */
 async function at(page: Page, side: "Front" | "Back", right: number, up: number): Promise<{ x: number; y: number }> {
   const it = disc(page, side);
   await it.scrollIntoViewIfNeeded();
@@ -98,7 +98,7 @@ test("a search fills the sphere with colours, from front and behind, and offers 
     const { red, blue, clear } = await seen(page, side);
     expect(red, side).toBeGreaterThan(0.02);
     expect(blue, side).toBeGreaterThan(0.02);
-    // What lies beside a disc, and nothing of it.
+    // The area outside the disc, and nothing inside it.
     expect(Math.abs(clear - (1 - Math.PI / 4)), side).toBeLessThan(0.02);
   }
   const poses = panel(page).locator(".pose");
@@ -118,14 +118,14 @@ test("a best direction is applied by its button; the plan follows, and can be ta
   });
   const before = await layers(page);
   await search(page);
-  // The best one is how the goblet stands, the next one the other way up; the third lies down.
+  // The best orientation is the current one, the next one is upside down, and in the third the goblet lies down.
   const best = panel(page).locator(".pose").nth(2);
   await best.click();
   await settled(page);
   await expect.poll(() => best.getAttribute("aria-pressed")).toBe("true");
   await expect.poll(() => layers(page)).not.toBe(before);
   const promised = Number(await page.locator("html").getAttribute("data-promised"));
-  // Turned by an angle that is written down with six digits, a flat may fall on the other side of a bin.
+  // The rotation is written with six digits, so a flat may fall on the other side of a bin boundary.
   expect(Math.abs((await layers(page)) - promised)).toBeLessThanOrEqual(1);
   await page.getByRole("button", { name: "Undo" }).click();
   await settled(page);
@@ -226,7 +226,7 @@ test("what counts may change without measuring again, and settings that matter m
 });
 
 test("directions that do not fit the printer are grey, and say why", async () => {
-  // As large as the plate allows upright: leaning, it is too large.
+  // As large as the printer allows upright: tilted, it is too large.
   const page = await example("&printer=mars-4-ultra&height=115");
   await search(page);
   const { grey } = await seen(page, "Front");
@@ -248,7 +248,7 @@ test("a search is cancelled by its button and by Escape, and leaves what it meas
   const find = panel(page).getByRole("button", { name: "Find the best direction" });
   await find.click();
   await panel(page).getByRole("progressbar").waitFor();
-  // Once something is seen.
+  // Wait until something is seen.
   await expect.poll(async () => (await seen(page, "Front")).clear).toBeLessThan(0.99);
   await panel(page).getByRole("button", { name: "Cancel" }).click();
   await find.waitFor();
@@ -258,6 +258,6 @@ test("a search is cancelled by its button and by Escape, and leaves what it meas
   await panel(page).getByRole("progressbar").waitFor();
   await page.keyboard.press("Escape");
   await find.waitFor();
-  // The plan that was there is not touched.
+  // The existing plan is not touched.
   expect(await layers(page)).toBeGreaterThan(0);
 });

@@ -1,4 +1,4 @@
-/** Pages of somebody else with the package on them, made of the snippets of docs/embed.md. */
+/** Third-party pages with the package on them, made of the snippets in docs/embed.md. */
 import { cp, mkdir, mkdtemp, readdir, readFile, rm, symlink, writeFile } from "node:fs/promises";
 import { execFileSync } from "node:child_process";
 import { tmpdir } from "node:os";
@@ -13,7 +13,7 @@ import { sphere } from "./solids.js";
 
 export const www = fileURLToPath(new URL("..", import.meta.url));
 
-/** What pages use beside the package, from the front-end's own packages. */
+/** What pages use besides the package, from the front end's own packages. */
 const BESIDE = ["react", "react-dom", "@types/react", "@types/react-dom", "vue", "svelte", "preact", "solid-js", "csstype"];
 const TOOLS = ["vite", "@vitejs/plugin-vue", "@sveltejs/vite-plugin-svelte", "esbuild"];
 
@@ -22,7 +22,7 @@ export interface Workplace {
   readonly bare: string;
   /** Has the frameworks and bundlers there too. */
   readonly folder: string;
-  /** A folder beside the package and the frameworks with these files in it. */
+  /** Makes a folder with these files beside the package and the frameworks. */
   app(name: string, files: Readonly<Record<string, string>>): Promise<string>;
   close(): Promise<void>;
 }
@@ -36,7 +36,7 @@ export async function workplace(): Promise<Workplace> {
   const [bare, folder] = [join(root, "bare"), join(root, "full")];
   await mkdir(bare);
   await writeFile(join(bare, "package.json"), JSON.stringify({ name: "consumer", private: true, type: "module" }));
-  // The tarball has no dependencies, so that this needs no network.
+  // The tarball has no dependencies, so this needs no network.
   const install = ["install", "--offline", "--no-audit", "--no-fund", "--loglevel=error", join(packed, tarball)];
   execFileSync("npm", install, { cwd: bare, stdio: "inherit" });
   await cp(bare, folder, { recursive: true });
@@ -81,11 +81,11 @@ export async function snippets(heading: string): Promise<{ files: Record<string,
 
 export interface Ran {
   page: Page;
-  /** Properties of `window` that were not there before the page began. */
+  /** Properties of `window` that did not exist before the page began. */
   globals: string[];
 }
 
-/** Uses a page as a visitor does: opens a model, sees it in layers, and saves the print file. `look` sees it at the end. */
+/** Uses a page as a visitor does: opens a model, sees it in layers, and saves the print file. `look` inspects the result. */
 export async function visit(browser: Browser, served: Served, look: (ran: Ran) => Promise<void>): Promise<void> {
   const context = await browser.newContext({ locale: "en-GB", viewport: { width: 1280, height: 900 } });
   const page = await context.newPage();
@@ -127,7 +127,7 @@ export async function visit(browser: Browser, served: Served, look: (ran: Ran) =
   }
 }
 
-/** How many colours the 3-D view has on the screen, without its words: an empty one has one, or those of a gradient. */
+/** How many colours the 3-D view shows, without its texts: an empty one has one, or those of a gradient. */
 async function coloursOf(page: Page): Promise<number> {
   const canvas = page.locator("cusp-view canvas");
   if ((await canvas.count()) === 0) return 0;

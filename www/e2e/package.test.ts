@@ -1,4 +1,4 @@
-/** The npm package, installed from its tarball into pages of somebody else, built by their bundlers, and run. */
+/** The npm package, installed from its tarball into third-party pages, built by their bundlers, and run. */
 import { execFileSync, spawnSync } from "node:child_process";
 import { cp, readFile, writeFile } from "node:fs/promises";
 import { delimiter, join } from "node:path";
@@ -29,7 +29,7 @@ afterAll(async () => {
   await work.close();
 });
 
-/** The page that uses both element and headless API; `module` is what that is for a bundler. */
+/** The page that uses both element and headless API; `module` is the address of its script for a bundler. */
 async function consumer(name: string, module: string): Promise<string> {
   const read = (file: string): Promise<string> => readFile(join(www, "e2e/consumer", file), "utf8");
   return work.app(name, { "index.html": (await read("index.html")).replace("./main.js", module), "src/main.js": await read("main.js") });
@@ -44,7 +44,7 @@ async function works(folder: string, ownGlobals: (name: string) => boolean = () 
   });
 }
 
-/** Builds an app in a folder of the workplace, as its own configuration says. Not made small: that takes a while. */
+/** Builds an app in a folder of the workplace by its own configuration. Not minified, to save time. */
 async function vite(root: string, config: InlineConfig = {}): Promise<string> {
   await build({ logLevel: "error", ...config, root, build: { target: "es2022", minify: false, ...config.build } });
   return join(root, config.build?.outDir ?? "dist");
@@ -54,20 +54,20 @@ const page = (body: string): string => `<!doctype html>
 <html lang="en"><head><meta charset="utf-8" /><script type="module" src="/src/main.js"></script></head>
 <body><div id="root">${body}</div></body></html>`;
 
-/** The guide's component for a framework, and files of the application that it is put into. */
+/** An app of the guide's component for a framework and of the files around it. */
 async function component(framework: string, use: string, files: Readonly<Record<string, string>> = {}): Promise<string> {
   const [shared, own] = [await snippets("On your page"), await snippets(framework)];
   return work.app(`${framework}-${use}`, { ...shared.files, ...own.files, ...files });
 }
 
-/** The price that the snippets show beside the element. */
+/** Expects the price that the snippets show beside the element. */
 async function priced(folder: string): Promise<void> {
   await visit(browser, await serveFolder(folder), async ({ page }) => {
     await expect.poll(() => page.locator("output").innerText()).toMatch(/^\d+\.\d\d €$/);
   });
 }
 
-/** What puts the guide's components on a page. */
+/** Files that put the guide's components on a page. */
 const REACT = {
   "src/main.js": `
 import { createElement } from "react";
@@ -93,7 +93,7 @@ import Slicer from "./Slicer.svelte";
 mount(Slicer, { target: document.querySelector("#root") });`,
 };
 
-/** What a strict compiler that looks into libraries says of a file; nothing if all is well. */
+/** The errors of a strict compiler, which checks libraries too, in a file; empty if there are none. */
 function complaintsOf(cwd: string, file: string, options: readonly string[] = []): string {
   const strict = ["--ignoreConfig", "--noEmit", "--strict", "--exactOptionalPropertyTypes", "--skipLibCheck", "false"];
   const modern = ["--target", "es2022", "--module", "esnext", "--moduleResolution", "bundler", "--lib", "es2023,dom,dom.iterable"];
@@ -157,7 +157,7 @@ test("built by webpack", async () => {
   );
   expect(stats?.toJson({ all: false, errors: true, warnings: true })).toMatchObject({ errors: [], warnings: [] });
   await cp(join(context, "index.html"), join(path, "index.html"));
-  // webpack keeps track of its own chunks by one global.
+  // webpack keeps track of its own chunks in one global.
   await works(path, (name) => name.startsWith("webpackChunk"));
 });
 
@@ -220,7 +220,7 @@ import Slicer from "./Slicer.vue";
 createSSRApp(Slicer).mount("#root");`,
 };
 
-// The first imports the package on the server from where it is installed, the second has it in its bundle.
+// On the server, the first imports the package from where it is installed, the second from its bundle.
 test.each([
   ["Next", NEXT, []],
   ["Vue", NUXT, ["cusp-slicer"]],

@@ -1,4 +1,4 @@
-/** A page of somebody else with the package beside it, served by a plain web server under the element's policy. */
+/** A third-party page with the package beside it, served by a plain web server under the element's policy. */
 import { cp, mkdtemp, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";

@@ -7,7 +7,7 @@ import { download, drop, launch, layers, maskOf, open, settled, state, words } f
 import { pages } from "./pages.js";
 import { sphere } from "./solids.js";
 
-/** What the tests read of the manifest. */
+/** What the tests read from the manifest. */
 interface Manifest {
   layers: number;
   mask: { width: number; height: number; pitch_mm: number };
@@ -120,7 +120,7 @@ test("files that will not do are refused in words, and the page goes on", async 
   await drop(page, { name: "half.stl", bytes: ball.bytes.slice(0, ball.bytes.length / 2) });
   await state(page, "error");
   expect(await page.getByRole("alert").innerText()).toContain("half.stl is cut short");
-  // The model before is still there and still answers.
+  // The previous model is still there and still responds.
   expect(await page.locator("#model-name").innerText()).toBe("ball.stl");
   expect(await layers(page)).toBe(count);
   await page.getByRole("button", { name: "Layer below" }).click();
@@ -197,7 +197,7 @@ test.each([
   await page.getByLabel("Measure errors by").selectOption(name);
   await settled(page);
 
-  // What the field shows is what the core took, whether it is the usual tolerance or had to be more.
+  // The field shows the tolerance that the core took: the usual one, or more if that was necessary.
   const field = page.getByLabel("Tolerance", { exact: true });
   const tolerance = await field.inputValue();
   if (usual === null) expect(Number(tolerance)).toBeGreaterThan(1);
@@ -226,7 +226,7 @@ test("a tolerance is kept for the metric that it was typed for", async () => {
   await metric.selectOption("area");
   await settled(page);
   expect(await field.inputValue()).toBe("12");
-  // An empty field leaves it to the core, and stays empty so that another number can be typed.
+  // An empty field leaves the value to the core, and stays empty so that another number can be typed.
   await field.fill("");
   await settled(page);
   expect(await field.inputValue()).toBe("");
@@ -255,7 +255,7 @@ test.each([
     await page.getByRole("alert").getByRole("button", { name }).click();
     await settled(page);
     expect(await page.locator("tr.own").innerText(), name).toContain("within tolerance");
-    // Back to what does not hold, for the other offer.
+    // Back to the settings without a plan, for the other offer.
     await page.getByLabel("Tolerance", { exact: true }).fill(typed);
     await page.getByLabel("Thinnest layer").fill(thinnest);
     await state(page, "error");
@@ -320,7 +320,7 @@ test.each([
 });
 
 test("the page is forbidden to send anything anywhere", async () => {
-  // Not by `start`, which holds complaints of the browser against the page: here they are wanted.
+  // Not `start`, which fails on the browser's errors: here they are expected.
   const browser = await launch();
   try {
     const { page } = await open(browser, inject("address"));

@@ -1,4 +1,4 @@
-/** Painting what matters, with real pointer events: the plan follows where it was painted, and comes back from a file. */
+/** Painting weights with real pointer events: the plan follows the weights, and they come back from a file. */
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { drop, settled, state } from "./browser.js";
@@ -9,7 +9,7 @@ import { SOFTWARE_GL } from "./view-pages.js";
 const start = pages(SOFTWARE_GL);
 
 const RADIUS = 10;
-/** The thickest layer that is usual. */
+/** The usual thickest layer. */
 const THICKEST_MM = 0.15;
 const ball = { name: "ball.stl", bytes: sphere(RADIUS, 96).bytes };
 
@@ -34,7 +34,7 @@ const weights = (page: Page): Promise<number[] | null> =>
     return found === null ? null : [...found];
   });
 
-/** Opens the ball, with the brush in hand. */
+/** Opens the ball and selects the brush. */
 async function brushInHand(query = "?backend=cpu&rays=512"): Promise<Page> {
   const page = await start(query);
   await drop(page, ball);
@@ -44,7 +44,7 @@ async function brushInHand(query = "?backend=cpu&rays=512"): Promise<Page> {
   return page;
 }
 
-/** Where the model is highest on the screen, found by pointing at it. */
+/** Where the model is highest on the screen, found by hovering. */
 async function top(page: Page): Promise<{ x: number; y: number; z_mm: number }> {
   const view = page.locator("cusp-view");
   await view.scrollIntoViewIfNeeded();
@@ -65,7 +65,7 @@ async function top(page: Page): Promise<{ x: number; y: number; z_mm: number }> 
     return Number.isNaN(z_mm) ? null : z_mm;
   };
   let best = { x, y: 0, z_mm: -1 };
-  // From the middle, where the ball is for certain, upward: every step is told, and so is leaving it.
+  // Upward from the middle, where the ball certainly is: every step is reported, and so is leaving the ball.
   for (let y = box.y + box.height / 2; y > box.y; y -= 8) {
     const z_mm = await heightAt(y);
     if (z_mm === null || z_mm < best.z_mm - 1) break;
@@ -74,7 +74,7 @@ async function top(page: Page): Promise<{ x: number; y: number; z_mm: number }> 
   return best;
 }
 
-/** A stroke to and fro over a place. */
+/** A stroke back and forth over a place. */
 async function stroke(page: Page, { x, y }: { x: number; y: number }): Promise<void> {
   await page.mouse.move(x - 6, y);
   await page.mouse.down();
@@ -116,7 +116,7 @@ test("what is painted to matter less is planned thicker there and as before else
   const bins = Math.floor(lowest / before.bin_mm);
   expect(painted.profile.slice(0, bins)).toEqual(before.profile.slice(0, bins));
   expect(painted.profile.slice(bins)).not.toEqual(before.profile.slice(bins));
-  // Of plans with as few layers the planner takes any, so planes may yet move a little: by less than a layer.
+  // Among plans with equally few layers the planner takes any, so planes may still move a little: by less than a layer.
   for (const [i, z_mm] of before.z_mm.entries()) {
     if (z_mm < lowest) expect(Math.abs((painted.z_mm[i] ?? Infinity) - z_mm)).toBeLessThan(THICKEST_MM);
   }
@@ -143,7 +143,7 @@ test("strokes are taken back and made again by keyboard, and the settings stay",
   const before = await plan(page);
   await widest(page);
   await page.locator("cusp-view .scene").focus();
-  // The brush is loaded when it is first taken, and paints nothing before.
+  // The brush is loaded when it is first selected, and paints nothing before.
   const press = async (): Promise<number[] | null> => {
     await page.keyboard.press("Enter");
     await page.waitForTimeout(1_500);
@@ -155,7 +155,7 @@ test("strokes are taken back and made again by keyboard, and the settings stay",
   await page.keyboard.press("Control+z");
   await expect.poll(async () => Math.min(...((await weights(page)) ?? []))).toBe(1);
   await settled(page);
-  // All at 1 is the same plan as none.
+  // Weights of 1 give the same plan as no weights.
   expect((await plan(page)).z_mm).toEqual(before.z_mm);
   await page.keyboard.press("Control+Shift+z");
   await expect.poll(() => weights(page)).toEqual(painted);

@@ -5,13 +5,13 @@ import type { BrowserContextOptions } from "playwright-core";
 import { launch, maskOf, open, state } from "./browser.js";
 import { serve } from "./serve.js";
 
-/** A picture in a repository is fetched by everyone who clones it. */
+/** Everyone who clones the repository fetches its pictures. */
 const LIMIT_BYTES = 200_000;
 
 interface Shot {
   name: string;
   options: BrowserContextOptions;
-  /** Whether it is of a search for directions, not of the page from its top. */
+  /** Whether it shows a search for the best orientation, not the page from its top. */
   isOfOrientation?: true;
 }
 
@@ -47,7 +47,7 @@ export async function main([folder]: string[]): Promise<void> {
       } else {
         await page.evaluate(() => scrollTo(0, 0));
         await page.waitForTimeout(500);
-        // The top of the page: the whole of it would be too large a picture.
+        // Only the top of the page: the whole page would be too large a picture.
         await page.screenshot({ path });
       }
       const { size } = await stat(path);

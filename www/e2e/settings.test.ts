@@ -1,4 +1,4 @@
-/** Settings as a person goes through them: quality, undo, the address, languages, pasting; and the look at masks. */
+/** Settings as a user changes them: quality, undo, the address, languages, pasting; and the viewer of masks. */
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { download, drop, layers, maskOf, settled, state, words } from "./browser.js";
@@ -115,7 +115,7 @@ test("masks are played from below, and stop at the top", async () => {
 test("a mask is zoomed into, to its very pixels, and moved by keyboard", async () => {
   const page = await opened();
   const canvas = page.locator("cusp-mask canvas");
-  /** Grey values in the middle row, and whether any is neither black nor white. */
+  /** Numbers of white and of grey pixels in the middle row. */
   const row = (): Promise<{ lit: number; grey: number }> =>
     canvas.evaluate((it) => {
       const canvas = it as HTMLCanvasElement;
@@ -127,7 +127,7 @@ test("a mask is zoomed into, to its very pixels, and moved by keyboard", async (
   for (let i = 0; i < 5; i++) await page.getByRole("button", { name: "Zoom in" }).click();
   expect(await page.locator("cusp-mask .tools").innerText()).toContain("32 ×");
   const { lit } = await row();
-  // A quarter from the left, the rim of the ball is at 1/2 - √3/4 from above; an arrow key goes an eighth of what is seen.
+  // A quarter from the left, the rim of the ball is at 1/2 - √3/4 from the top; an arrow key moves by an eighth of the view.
   await canvas.focus();
   for (let i = 0; i < 0.25 * 32 * 8; i++) await page.keyboard.press("ArrowLeft");
   for (let i = 0; i < (Math.sqrt(3) / 4) * 32 * 8; i++) await page.keyboard.press("ArrowUp");
@@ -161,7 +161,7 @@ test("a printer gives pixels and file; a model too large for it is scaled to fit
   await settled(page);
   expect(Number(await page.getByLabel("Scale to height").inputValue())).toBeLessThanOrEqual(81);
 
-  // Its own file has one thickness for all layers, which an adaptive plan has not.
+  // Its own file has one thickness for all layers, unlike an adaptive plan.
   await page.getByLabel("Scale to height").fill("10");
   await settled(page);
   await page.getByRole("button", { name: /Download print file/ }).click();

@@ -1,4 +1,4 @@
-/** The order-site example, started for a test: its server in this process, and what it leaves in its folder. */
+/** The order-site example, started for a test: its server in this process, and the files in its folder. */
 import { mkdtemp, readdir, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -7,7 +7,7 @@ import { buildPage } from "../examples/shop/build.js";
 import { PRINTERS, RESINS, type ShopPrinter, type ShopResin } from "../examples/shop/catalogue.js";
 import { createShop, type Limits, type Shop } from "../examples/shop/server/shop.js";
 
-/** What is ordered. */
+/** The resin and the printer of test orders. */
 export const [resin, printer] = [RESINS[1], PRINTERS[0]].map((it) => {
   if (it === undefined) throw new Error("the shop has nothing to sell");
   return it;
@@ -23,7 +23,7 @@ export interface OpenShop {
 export interface Shops {
   /** A folder of the test's own. */
   folder(name: string): Promise<string>;
-  /** Opens a shop, which closes when the test ends; in a new folder unless it is told one. */
+  /** Opens a shop, which closes when the test ends; in a new folder unless one is given. */
   open(cusp: string, limits?: Partial<Limits>, folder?: string): Promise<OpenShop>;
   /** A stand-in for the native program. */
   program(script: string): Promise<string>;
@@ -73,7 +73,7 @@ export function incoming({ folder }: Pick<OpenShop, "folder">): Promise<string[]
   return readdir(join(folder, "incoming"));
 }
 
-/** Nothing of those that were refused, or went away, stays behind. */
+/** Expects that refused and aborted uploads leave nothing behind. */
 export async function expectNoLeftovers(open: Pick<OpenShop, "folder">): Promise<void> {
   await expect.poll(() => incoming(open)).toEqual([]);
 }

@@ -37,14 +37,14 @@ interface Answer extends Partial<Order> {
   message?: string;
 }
 
-/** A stand-in for the native program that says in a file how often it was asked. */
+/** A stand-in for the native program that counts its calls in a file. */
 async function counting(): Promise<{ cusp: string; count(): Promise<number> }> {
   const log = join(await newFolder("scratch"), "asked.log");
   const cusp = await program(`require("node:fs").appendFileSync(${JSON.stringify(log)}, ".");\n${HONEST}`);
   return { cusp, count: async () => (await readFile(log, "utf8").catch(() => "")).length };
 }
 
-/** An order without a browser, honest where nothing else is said. */
+/** Posts an order without a browser, honest unless `sent` says otherwise. */
 async function post({ address }: OpenShop, sent: Sent = {}): Promise<Answer> {
   const form = new FormData();
   const plan = new Blob([JSON.stringify({ ...VERDICT, options: { ...OPTIONS, ...sent.options } })], { type: "application/json" });
@@ -145,7 +145,7 @@ test("a verification that takes too long is ended", async () => {
 test("one verification runs at a time, a few wait, and more are asked to come back", async () => {
   const scratch = await newFolder("scratch");
   const log = join(scratch, "turns.log");
-  // Holds its turn until the test lets go of it.
+  // Keeps its turn until the test opens the gate.
   const gate = join(scratch, "gate");
   const script = `const fs = require("node:fs");
 fs.appendFileSync(${JSON.stringify(log)}, "in ");
@@ -181,7 +181,7 @@ test("an order that is sent again is the order that exists, also when the shop w
   expect(await post(open, { key: key.toUpperCase() })).toEqual(first);
   await open.close();
   const again = await start(cusp, {}, open.folder);
-  // Larger than what is read ahead, so that the answer must wait for it.
+  // Larger than the read-ahead, so that the answer must wait for the upload.
   expect(await post(again, { key, print: new Blob([new Uint8Array(20e6)]) })).toEqual(first);
   expect(await count()).toBe(1);
   expect(await orders(again)).toEqual([first.id]);

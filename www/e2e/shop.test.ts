@@ -1,4 +1,4 @@
-/** The order-site example as a customer meets it, in a real browser. */
+/** The order-site example as a customer sees it, in a real browser. */
 import { execFileSync, spawn, type ChildProcess } from "node:child_process";
 import { cp, mkdir, readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
@@ -35,7 +35,7 @@ afterEach(async () => {
 
 afterAll(() => browser.close());
 
-/** A test of what only the native program can tell; where there is none it is skipped and says so. */
+/** A test that needs the native program; without the program it is skipped with a message. */
 function withCusp(name: string, body: (cusp: string) => Promise<void>, timeout_ms?: number): void {
   const run = async (context: TestContext): Promise<void> => {
     if (cusp === null) return context.skip("no native cusp: name it in the variable CUSP, or build it in ../target");
@@ -67,7 +67,7 @@ async function totals(page: Page, list: string): Promise<number[]> {
 
 const alert = (page: Page): Promise<string> => page.locator("#problem:not(:empty)").innerText();
 
-/** Changes what the page sends, as a customer with the browser's tools could. */
+/** Changes what the page sends, as a customer could with the browser's tools. */
 async function cheat(page: Page, change: (form: FormData) => Promise<void> | void): Promise<void> {
   await page.evaluate(`(() => {
     const change = ${change.toString()};
@@ -122,7 +122,7 @@ withCusp("a customer sees look, time, resin and price, chooses, and orders", asy
   await expect.poll(() => price.innerText()).toBe(`€${(total_cents / 100).toFixed(2)}`);
   expect(await totals(page, "#parts")).toEqual(lines.map(({ total_cents }) => total_cents));
   expect(await page.locator("#parts [data-line=time] .times").innerText()).toMatch(/^2 × €\d+\.\d\d$/);
-  // The element says the same time, in words of its own.
+  // The element shows the same time in its own words.
   await expect.poll(() => page.locator("cusp-quality .head").innerText()).toContain(`, ${await page.locator("#time").innerText()}, `);
 
   await press(page);
@@ -135,7 +135,7 @@ withCusp("a customer sees look, time, resin and price, chooses, and orders", asy
   expect(order).toMatchObject({ id, printer: printer.name, resin: resin.name, copies: 2, price_cents: total_cents });
   expect(order.verdict.print_is_same).toBe(true);
 
-  // What lies there is what the native program makes of the same model.
+  // The stored files are what the native program makes of the same model.
   expect(await readFile(join(folder, "model.stl"))).toEqual(Buffer.from(binaryStl(exampleTriangles())));
   const { options } = JSON.parse(await readFile(join(folder, "plan.json"), "utf8")) as { options: Required<Options> };
   const scratch = await newFolder("scratch");
@@ -214,7 +214,7 @@ withCusp("an order whose answer is lost is one order when it is sent again", asy
   await page.locator(".placed li").waitFor();
   expect(await page.locator(".placed li").getAttribute("data-order")).toBe(taken[0]);
   expect(await orders(open)).toEqual(taken);
-  // The same thing once more is another order, since the first is known to be taken.
+  // Ordering the same again is another order, since the first is known to be taken.
   await press(page);
   await expect.poll(() => page.locator(".placed li").count()).toBe(2);
   expect(await orders(open)).toHaveLength(2);

@@ -3,11 +3,11 @@ import { binaryStl } from "../src/page/example.js";
 
 export interface Solid {
   bytes: Uint8Array;
-  /** Of the mesh itself, not of the surface that it stands for. */
+  /** Of the mesh itself, not of the surface that it approximates. */
   volume_mm3: number;
 }
 
-/** A sphere of triangles between circles of latitude, each `around` points long, half as many circles. */
+/** A sphere of triangles, divided into `around` sectors of longitude and half as many bands of latitude. */
 export function sphere(radius: number, around: number): Solid {
   const circles = around / 2;
   const at = (circle: number, turn: number): [number, number, number] => {
@@ -30,7 +30,7 @@ export function sphere(radius: number, around: number): Solid {
   return { bytes: binaryStl(packed), volume_mm3: volume(packed) };
 }
 
-/** Prisms one above the other, each as high as its side, with so much air between them. */
+/** Two cubes, one above the other, with a gap between them. */
 export function floating(side: number, gap: number): Uint8Array {
   const below = facetsOf(side, side);
   const above = below.map((part, i) => (i % 3 === 2 ? part + side + gap : part));

@@ -5,7 +5,7 @@ import { createServer } from "node:http";
 import { extname, join, normalize } from "node:path";
 import type { Served } from "./serve.js";
 
-/** What the element needs of a page's policy, and no more: see docs/embed.md. */
+/** What the element needs of a page's policy, and nothing more: see docs/embed.md. */
 export const ELEMENT_POLICY = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; connect-src 'self'";
 
 const TYPES: Readonly<Record<string, string>> = {
@@ -19,7 +19,7 @@ const TYPES: Readonly<Record<string, string>> = {
 export async function serveFolder(folder: string, policy = ELEMENT_POLICY): Promise<Served> {
   const server = createServer((request, response) => {
     const { pathname } = new URL(request.url ?? "/", "http://localhost");
-    // The browser asks for it by itself; a page's own is no matter of these tests.
+    // The browser requests it by itself; a page's own icon does not matter here.
     if (pathname === "/favicon.ico") return void response.writeHead(204).end();
     const path = join(folder, normalize(decodeURIComponent(pathname.endsWith("/") ? `${pathname}index.html` : pathname)));
     stat(path).then(

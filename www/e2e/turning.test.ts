@@ -1,4 +1,4 @@
-/** The 3-D view within the element: fetched late, and profile, plan and numbers follow the model while it is turned. */
+/** The 3-D view in the element: loaded on demand; profile, plan and numbers follow the model while it is turned. */
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { drop, layers, settled, state } from "./browser.js";
@@ -69,14 +69,14 @@ test("while the model is held, numbers and profile follow by previews; let go, i
     );
   await tell([Math.SQRT1_2, 0, 0, Math.SQRT1_2], false);
   await expect.poll(() => layers(page)).not.toBe(upright);
-  // A preview is no task: nothing is busy, and no plan was made.
+  // A preview is not a task: nothing is busy, and no plan was made.
   await state(page, "done");
   expect(new URL(page.url()).searchParams.has("rotation")).toBe(false);
   const previewed = await layers(page);
   await tell([Math.SQRT1_2, 0, 0, Math.SQRT1_2], true);
   await settled(page);
   expect(new URL(page.url()).searchParams.has("rotation")).toBe(true);
-  // Planned by the same facets; rays only leave out those that lie inside.
+  // Planned from the same facets; rays only leave out those that lie inside.
   expect(Math.abs((await layers(page)) - previewed)).toBeLessThan(0.02 * previewed);
 });
 
@@ -94,7 +94,7 @@ test("beside the chart, heights are where the chart has them", async () => {
       const pressed = panel?.querySelector<HTMLElement>(".tools button[aria-pressed=true]:last-of-type");
       if (!view || !over || !pressed) throw new Error("there is no view beside a chart");
       const frame = new Promise<{ top_px: number; bottom_px: number }>((resolve) => {
-        // It tells where heights are when it is aligned anew.
+        // It reports where heights are when it is aligned again.
         const hear = (event: Event): void => {
           const { detail } = event as CustomEvent<{ top_px: number; bottom_px: number } | null>;
           if (detail === null) return pressed.click();

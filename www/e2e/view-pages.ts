@@ -1,4 +1,4 @@
-/** Pages with the view alone, for its tests: one build and one browser for all, and nothing unseen at the end. */
+/** Pages with the view alone, for its tests: one build and one browser for all, and no unnoticed errors at the end. */
 import { decode } from "fast-png";
 import type { Browser, BrowserContextOptions, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect } from "vitest";
@@ -12,7 +12,7 @@ declare global {
   }
 }
 
-/** A processor draws, so that WebGL is there without a GPU. */
+/** Draws in software, so that WebGL works without a GPU. */
 export const SOFTWARE_GL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 
 export interface Prepared extends BrowserContextOptions {
@@ -76,13 +76,13 @@ export async function picture(page: Page): Promise<(x: number, y: number) => Pix
   };
 }
 
-/** Light of a channel. */
+/** Linear light of an sRGB channel. */
 const linear = (channel: number): number => {
   const part = channel / 255;
   return part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4;
 };
 
-/** How alike the colours are apart from how brightly they are lit: 1 is the same. */
+/** How alike two colours are regardless of how brightly they are lit: 1 is the same. */
 export function likeness(a: Pixel, b: Pixel): number {
   const [u, v] = [a.map(linear), b.map(linear)];
   const dot = u.reduce((sum, value, i) => sum + value * (v[i] ?? 0), 0);
@@ -99,6 +99,6 @@ export const forget = (page: Page): Promise<void> =>
 
 export const drawn = (page: Page): Promise<void> => page.evaluate(() => window.harness.drawn());
 
-/** What the view says of itself. */
+/** The view's description of its state. */
 export const said = (page: Page): Promise<string> =>
   page.locator("cusp-view #state").evaluate((state) => (state.textContent ?? "").replace(/\s+/g, " ").trim());

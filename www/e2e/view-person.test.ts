@@ -1,4 +1,4 @@
-/** What a person does with the view, by pointer and by keyboard, in a real browser. */
+/** The view as a person uses it, by pointer and by keyboard, in a real browser. */
 import axe from "axe-core";
 import { describe, expect, it } from "vitest";
 import { drawn, forget, heard, picture, said, viewPages } from "./view-pages.js";
@@ -24,7 +24,7 @@ describe("a person", () => {
     await expect.poll(() => heard(page, "cusp-rotate")).toHaveLength(1);
     const [event] = await heard(page, "cusp-rotate");
     expect(event?.detail).toMatchObject({ final: true });
-    // One of the sides lies down, so the bounds are those of the box, in some order, to the last digit.
+    // One of the sides lies on the plate, so the bounds are those of the box, in some order, to the last digit.
     const size = (await said(page)).match(/[\d.]+(?= ×| mm)/g)?.map(Number) ?? [];
     expect(size.toSorted((a, b) => a - b)).toEqual([10, 20, 30]);
   });
@@ -35,7 +35,7 @@ describe("a person", () => {
       const { harness } = window;
       harness.show();
       await harness.set({ positions: harness.solids.ball(10, 32), tool: "rotate" });
-      // A host that answers late, with what was so before.
+      // A host that answers late, with the earlier rotation.
       harness.view.addEventListener("cusp-rotate", (event) => {
         if (!event.detail.final) harness.view.rotation = [0, 0, 0, 1];
       });
@@ -43,7 +43,7 @@ describe("a person", () => {
     await forget(page);
     const box = await page.locator("cusp-view").boundingBox();
     const [x, y] = [(box?.x ?? 0) + (box?.width ?? 0) / 2, (box?.y ?? 0) + (box?.height ?? 0) / 2];
-    // Straight up from the middle the ring about z is crossed somewhere.
+    // A line straight up from the middle crosses the ring about z somewhere.
     for (let away = 20; away < 220 && (await heard(page, "cusp-rotate")).length === 0; away += 5) {
       await page.mouse.move(x, y - away + 1);
       await page.mouse.move(x, y - away);
@@ -143,7 +143,7 @@ describe("a person", () => {
     const before = await page.locator("canvas").screenshot();
     await page.mouse.wheel(0, 60);
     await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(0);
-    // Scrolling glides on for a moment.
+    // Scrolling continues for a moment.
     await page.waitForTimeout(400);
     await page.evaluate(() => scrollTo(0, 0));
     expect((await page.locator("canvas").screenshot()).equals(before)).toBe(true);
@@ -208,7 +208,7 @@ describe("a person", () => {
     await page.evaluate(() => window.harness.set({ aligned: true, inset: { top_px: 20, bottom_px: 50 } }));
     const { height = 0 } = (await page.locator("cusp-view").boundingBox()) ?? {};
     expect((await heard(page, "cusp-frame")).at(-1)?.detail).toEqual({ top_px: 20, bottom_px: height - 50 });
-    // Turning about the upright axis leaves heights where they are.
+    // Turning about the vertical axis leaves heights where they are.
     await page.keyboard.press("ArrowRight");
     await page.keyboard.press("ArrowUp");
     await drawn(page);
@@ -237,7 +237,7 @@ describe("a person", () => {
         plate: { width_mm: 15, depth_mm: 40, height_mm: 60 },
       });
     });
-    // As a function: the policy lets no script in.
+    // Evaluated, not added as a script: the policy allows no inline scripts.
     await page.evaluate(axe.source);
     const found = await page.evaluate(() => (globalThis as unknown as { axe: typeof axe }).axe.run());
     expect(found.violations.map(({ id, nodes }) => [id, nodes.map(({ html }) => html)])).toEqual([]);

@@ -1,4 +1,4 @@
-/** Builds the view's own page and serves it, for its tests and for looking at it. */
+/** Builds the view's own page and serves it, for its tests and for inspection. */
 import { mkdtemp, readdir, readFile, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -7,7 +7,7 @@ import { gzipSync } from "node:zlib";
 import { build, preview } from "vite";
 import { freePort, type Served } from "./serve.js";
 
-/** Also gives the compressed bytes of the scripts, by name. */
+/** Also returns the compressed sizes of the scripts, by name. */
 export async function serveView(): Promise<Served & { sizes: ReadonlyMap<string, number> }> {
   const root = fileURLToPath(new URL("./view-page", import.meta.url));
   const outDir = await mkdtemp(join(tmpdir(), "cusp-view-"));

@@ -5,7 +5,7 @@ import { drawn, heard, likeness, picture, viewPages } from "./view-pages.js";
 
 const start = viewPages();
 
-/** Colours are told apart by more than this, and are the same within it. */
+/** Colours count as the same from this likeness on. */
 const SAME = 0.995;
 
 describe("the colours", () => {
@@ -151,7 +151,7 @@ describe("drawing", () => {
       harness.show();
       await harness.set({ positions: harness.solids.ball(10, 32), z_mm: [0, 20], thickness_mm: [20], limits: [8, 20] });
       const lost: boolean[] = [];
-      // More than the contexts that a browser keeps at a time.
+      // More contexts than a browser keeps at a time.
       for (let i = 0; i < 20; i++) {
         const context = harness.view.shadowRoot?.querySelector("canvas")?.getContext("webgl2");
         harness.view.remove();
@@ -206,7 +206,7 @@ describe("drawing", () => {
     await page.evaluate(() => window.harness.show());
     const few = await after(2, 0);
     expect(few).toBeGreaterThan(5);
-    // One or two come and go with what is drawn at the moment; a model that stayed would leave eight times its own.
+    // One or two come and go with what is being drawn; if models leaked, eight of them would remain.
     expect(Math.abs((await after(8, 2)) - few)).toBeLessThanOrEqual(2);
   });
 
@@ -266,7 +266,7 @@ describe("the printed look", () => {
     const perMm = (frame.bottom_px - frame.top_px) / 20;
     const at = await picture(page);
     const { width = 0 } = (await page.locator("cusp-view").boundingBox()) ?? {};
-    /** How wide the model is at a height, by its pixels. */
+    /** Width of the model at a height, counted in pixels, mm. */
     const across = (z: number): number => {
       const row = frame.bottom_px - z * perMm;
       const [empty] = at(4, row);
@@ -296,7 +296,7 @@ it("stays quick with 100,000 facets", async () => {
     out["first_ms"] = await timed(() =>
       harness.set({ positions, z_mm, thickness_mm: z_mm.slice(1).map(() => 0.05), limits: [0.03, 0.1] }),
     );
-    // What the main thread spends; the drawing itself is the GPU's.
+    // The time that the main thread spends; the GPU does the drawing itself.
     const spent = async (properties: object): Promise<number> =>
       timed(async () => {
         Object.assign(harness.view, properties);

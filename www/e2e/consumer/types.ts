@@ -19,10 +19,10 @@ element.addEventListener("cusp-error", ({ detail }) => {
   const place: ErrorDetails["infeasible"]["from_mm"] = 1;
   console.log(code, place);
 });
-// A code tells what its details are.
+// A code determines the type of its details.
 element.addEventListener("cusp-error", ({ detail: error }) => {
   if (error.code === "infeasible") console.log((error.detail.least_tolerance ?? 0) * 2);
-  // @ts-expect-error Only after a look at the code.
+  // @ts-expect-error Only once the code is known.
   console.log(error.detail.from_mm);
 });
 // @ts-expect-error There is no such metric.
@@ -40,7 +40,7 @@ for (const warning of warnings) {
 }
 const picture: Blob = await element.thumbnail(200);
 console.log(name.length, type.length, blob.size, picture.size);
-// @ts-expect-error Workers are the package's own affair.
+// @ts-expect-error Workers are internal to the package.
 createSlicer({ spawn: () => new Worker("worker.js") });
 await slicer.exportStream(options).pipeTo(new WritableStream<Uint8Array>());
 const { best }: OrientationReport = await slicer.orient(options, { alpha: 0.25, quality: "overhang" }, {

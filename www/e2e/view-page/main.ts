@@ -1,4 +1,4 @@
-/** A page with nothing but the view: what tests ask of it goes through `window.harness`. */
+/** A page with only the view, which tests control through `window.harness`. */
 import { CuspView } from "../../src/view/cusp-view.js";
 import { ball, box, cone } from "../../src/view/fixtures.js";
 
@@ -38,7 +38,7 @@ const harness = {
     await view.updateComplete;
     await harness.drawn();
   },
-  /** Two frames: one is asked for, the next one comes after it. */
+  /** Waits for two frames: the requested one, and the one after it. */
   async drawn(): Promise<void> {
     for (let i = 0; i < 2; i++) await new Promise(requestAnimationFrame);
   },

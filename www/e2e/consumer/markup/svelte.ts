@@ -1,4 +1,4 @@
-/** The element in Svelte's markup, as the compiler of that looks it up; compiled, never run. */
+/** The element in Svelte markup, as Svelte's compiler looks it up; compiled, never run. */
 import "cusp-slicer/svelte";
 import type { SvelteHTMLElements } from "svelte/elements";
 

@@ -1,4 +1,4 @@
-/** The element in Vue's templates, as the compiler of these looks it up; compiled, never run. */
+/** The element in Vue templates, as Vue's compiler looks it up; compiled, never run. */
 import type { Plan } from "cusp-slicer";
 import "cusp-slicer/vue";
 import type { GlobalComponents } from "vue";
