@@ -1,4 +1,4 @@
-/** Numbers as a language writes them. Lengths come in mm, times in s. */
+/** Formats numbers as a language writes them. Lengths are given in mm, times in s. */
 
 import type { Metric, Unit } from "../api/wire.js";
 
@@ -34,7 +34,7 @@ export function formatOf(locale: string, { hours, minutes }: TimeUnits) {
   const size = (value: number): string => number(value, { minimumFractionDigits: 1, maximumFractionDigits: 1 });
   /** A number on an axis, or as it was typed. */
   const tick = (value: number): string => number(value, { maximumFractionDigits: 3 });
-  /** A number as it is, to six decimals. */
+  /** A number to at most six decimals. */
   const exact = (value: number): string => number(value, { maximumFractionDigits: 6 });
   const fine = (mm: number): string => `${tick(mm)}\u00a0mm`;
   const percent = (value: number, decimals = 0): string => number(value, { style: "percent", maximumFractionDigits: decimals });
@@ -55,28 +55,28 @@ export function formatOf(locale: string, { hours, minutes }: TimeUnits) {
     tick,
     exact,
     error,
-    /** A length as it is: `0.0125 mm`. */
+    /** A length to at most six decimals: `0.0125 mm`. */
     mm: (value: number): string => `${exact(value)}\u00a0mm`,
-    /** A number as it is with its unit; without one it is in that of a metric. */
+    /** A number to at most six decimals with its unit; without a unit it is in that of the metric. */
     measure: (value: number, unit: Unit, metric: Metric = "cusp"): string =>
       unit === "" ? error(metric, value) : `${exact(value)}\u00a0${unit}`,
-    /** A thickness, tolerance or error with its unit, to the micrometre, no idle zeros: `0.05 mm`. */
+    /** A thickness, tolerance or error with its unit, to the micrometre, without trailing zeros: `0.05 mm`. */
     fine,
-    /** A height on the model with its unit, always to the micrometre, so that it does not jump about: `12.340 mm`. */
+    /** A height on the model with its unit, always with three decimals, so that its width does not jump: `12.340 mm`. */
     height: (mm: number): string => `${number(mm, micrometres)}\u00a0mm`,
     /** The same without its unit. */
     bareHeight: (mm: number): string => number(mm, micrometres),
-    /** A part of one: `34 %` or `34%`, as the language has it, with so many decimals at most. */
+    /** A fraction as a percentage: `34 %` or `34%`, depending on the language, with at most this many decimals. */
     percent,
     /** A volume: `11.26 mm³`. */
     volume,
     /** An amount of resin: `44.4 ml`. */
     millilitres: (ml: number): string => `${number(ml, { maximumSignificantDigits: 3 })}\u00a0ml`,
-    /** A time of a machine: `7.6 s`. */
+    /** A machine time: `7.6 s`. */
     seconds: (value: number): string => `${number(value, { maximumFractionDigits: 1 })}\u00a0s`,
     /** The area of a section: `123.5 mm²`. */
     area: (mm2: number): string => `${number(mm2, { maximumFractionDigits: 1 })}\u00a0mm²`,
-    /** The time of a print, which is known to the minute at best: `2 h 14 min`. */
+    /** The time of a print, known to the minute at best: `2 h 14 min`. */
     time(seconds: number): string {
       const whole = Math.round(seconds / 60);
       if (whole < 1) return `<\u00a01\u00a0${minutes}`;
@@ -89,7 +89,7 @@ export function formatOf(locale: string, { hours, minutes }: TimeUnits) {
       if (ms < 995) return `${number(ms, { maximumFractionDigits: 0 })}\u00a0ms`;
       return `${number(ms / 1000, { minimumFractionDigits: 1, maximumFractionDigits: 1 })}\u00a0s`;
     },
-    /** Some of which one will do: `.ctb or .goo`. */
+    /** A choice of one from several: `.ctb or .goo`. */
     either: (items: readonly string[]): string => new Intl.ListFormat(locale, { type: "disjunction" }).format(items),
     /** Width × depth × height: `60.0 × 46.5 × 59.5 mm`. */
     dimensions: (mm: readonly [number, number, number]): string => `${mm.map(size).join(" × ")}\u00a0mm`,

@@ -20,10 +20,10 @@ test("numbers as people read them", () => {
   expect(format.dimensions([60, 46.52, 59.4])).toBe("60.0 × 46.5 × 59.4\u00a0mm");
 });
 
-test("a language is the first that there is a catalogue for, with the numbers of its country", () => {
+test("a language is the first with a catalogue, with the numbers of its country", () => {
   expect(languageOf("tlh", "de-CH").locale).toBe("de-CH");
   expect(languageOf("not a locale").locale).toBe("en");
-  // What browsers call their language where nobody told the system one.
+  // What browsers report as their language if the system has none.
   for (const locale of ["C", "POSIX", "en-US@posix", "de_DE.UTF-8", ""]) {
     expect(languageOf(locale).format.size(1.5)).toBe("1.5");
     expect(languageOf(locale, "fr").locale).toBe("fr");

@@ -1,4 +1,4 @@
-/** The languages of the element: one catalogue each, held to the same keys by the compiler. */
+/** The languages of the element: one catalogue each; the compiler holds all of them to the same keys. */
 import * as de from "./de/index.js";
 import * as en from "./en/index.js";
 import * as es from "./es/index.js";
@@ -8,12 +8,12 @@ import * as zh from "./zh/index.js";
 
 export type { Format } from "./format.js";
 
-/** What every language has words for. */
+/** The texts of any language. */
 export type Texts = ReturnType<typeof en.en>;
 
-/** A language at work: its sentences, and how it writes numbers. */
+/** A language in use: its texts, and how it writes numbers. */
 export interface Language {
-  /** BCP 47, as asked for where there is a catalogue for it: `de-AT` has German words and Austrian numbers. */
+  /** BCP 47, as requested if there is a catalogue for it: `de-AT` has German words and Austrian numbers. */
   locale: string;
   texts: Texts;
   format: Format;
@@ -33,7 +33,7 @@ export const LANGUAGES = Object.keys(CATALOGUES) as LanguageCode[];
 
 const made = new Map<string, Language>();
 
-/** The first of these locales that there is a catalogue for; English if there is none. */
+/** The first of these locales with a catalogue; English if there is none. */
 export function languageOf(...locales: readonly string[]): Language {
   const locale = locales.find((locale) => codeOf(locale) !== null) ?? "en";
   let language = made.get(locale);

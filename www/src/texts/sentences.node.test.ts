@@ -18,7 +18,7 @@ const core = JSON.parse(await readFile(new URL("../../../tests/problems.json", i
   warnings: Sample[];
 };
 
-/** Errors of this side alone. */
+/** Errors that only the page has. */
 const OWN: { [Code in keyof ErrorDetails]?: ErrorDetails[Code] } = {
   "bad-attribute": { attribute: "metric", value: "beauty", known: ["cusp", "area"] },
   "no-model": null,
@@ -37,12 +37,12 @@ const sentencesOf = (code: LanguageCode): { format: Format; errors: Sentences; w
   return { format, errors: texts.errors as unknown as Sentences, warnings: texts.warnings as unknown as Sentences };
 };
 
-/** Details that offers show, or that no reader cares for. */
+/** Details that offers show, or that readers do not need. */
 const UNSAID = ["least_tolerance", "largest_layer_min_mm", "may_be_zero", "planner"];
 /** Words that a catalogue translates. */
 const TRANSLATED = ["kind", "expected", "quantity", "fault", "metric", "unit"];
 
-/** Whether a sentence has a figure as the language writes it, or a name as it is. */
+/** Whether a sentence contains a number as the language writes it, or a name unchanged. */
 function says(sentence: string, value: unknown, format: Format): boolean {
   if (Array.isArray(value)) return value.every((item) => says(sentence, item, format));
   if (typeof value !== "number") return sentence.includes(String(value));
@@ -58,14 +58,14 @@ function check(sentence: string, detail: Record<string, unknown> | undefined, fo
   }
 }
 
-test("the core and this side together have every code, and nobody has another", () => {
+test("the core and the page together have every code and no other", () => {
   const { errors, warnings } = sentencesOf("en");
   const codes = (samples: { code: string }[]): string[] => [...new Set(samples.map(({ code }) => code))].sort();
   expect(Object.keys(errors).sort()).toEqual(codes([...core.errors, ...own]));
   expect(Object.keys(warnings).sort()).toEqual(codes(core.warnings));
 });
 
-test.each(LANGUAGES)("every failure and warning is a sentence with its figures: %s", (language) => {
+test.each(LANGUAGES)("every failure and warning is a sentence with its numbers: %s", (language) => {
   const { format, errors, warnings } = sentencesOf(language);
   for (const { code, detail } of [...core.errors, ...own]) check(errors[code]?.(detail ?? null, "cusp") ?? "", detail, format);
   for (const { code, detail } of core.warnings) check(warnings[code]?.(detail ?? null, "cusp") ?? "", detail, format);
@@ -81,7 +81,7 @@ test("no two languages say the same", () => {
   }
 });
 
-/** A sentence without what the two sides write differently: its figures, its capital and its full stop. */
+/** A sentence without what page and command line write differently: numbers, capitals and the full stop. */
 const bare = (sentence: string): string =>
   sentence
     .toLowerCase()
@@ -94,7 +94,7 @@ test("in English the page says what the command line says", () => {
   const { errors, warnings } = sentencesOf("en");
   for (const { code, detail, message } of core.errors) {
     const said = bare(errors[code]?.(detail ?? null, "cusp") ?? "");
-    // What would help is offered.
+    // The offers show what would help.
     if (code === "infeasible") expect(said).toContain("even a layer of # mm exceeds it");
     else expect(said).toBe(bare(message));
   }

@@ -1,9 +1,9 @@
-/** What the catalogues say of failures and warnings: a sentence for each code, made from its details. */
+/** What the catalogues say about failures and warnings: a sentence for each code, made from its details. */
 import type { ErrorCode, ErrorDetails } from "../api/error.js";
 import type { WarningCode, WarningDetails } from "../api/warning.js";
 import type { FileKind, GpuFault, Metric, Quantity, StlExpected } from "../api/wire.js";
 
-/** The compiler asks every catalogue for every code. `metric` is the one that tolerances without a unit are in. */
+/** The compiler requires every code in every catalogue. `metric` is that of tolerances without a unit. */
 export type ErrorSentences = { readonly [Code in ErrorCode]: (detail: ErrorDetails[Code], metric: Metric) => string };
 export type WarningSentences = { readonly [Code in WarningCode]: (detail: WarningDetails[Code]) => string };
 
@@ -12,13 +12,13 @@ export type QuantityNouns = Readonly<Record<Quantity, string>>;
 export type GpuFaults = Readonly<Record<GpuFault, string>>;
 export type StlNouns = Readonly<Record<StlExpected, string>>;
 
-/** What people call a kind of file, in every language. */
+/** Names of the kinds of file, the same in every language. */
 export const FILE_KINDS: Readonly<Record<FileKind, string>> = {
   ...{ "3mf": "3MF", amf: "AMF", obj: "OBJ", ply: "PLY", step: "STEP", gltf: "glTF" },
   ...{ zip: "zip", gzip: "gzip", html: "HTML" },
 };
 
-/** Words of the grammar of text STL files, which are the same in every language. */
+/** Keywords of text STL files, the same in every language. */
 export const STL_KEYWORDS = {
   solid: "`solid`",
   normal: "`normal`",
@@ -28,10 +28,10 @@ export const STL_KEYWORDS = {
   endfacet: "`endfacet`",
 } as const;
 
-/** What a system said, as the end of a sentence: it may have a full stop of its own. */
+/** A message of the system as the end of a sentence: it may already have a full stop. */
 export const ended = (system: string): string => (/[.!?。！？]$/.test(system.trim()) ? system.trim() : `${system.trim()}.`);
 
-/** What is to be done with a file of another kind. */
+/** Selects the advice on a file of another kind. */
 export function adviceOn<T>(kind: FileKind, advice: { packed: T; page: T; model: T }): T {
   if (kind === "html") return advice.page;
   return kind === "zip" || kind === "gzip" ? advice.packed : advice.model;

@@ -1,4 +1,4 @@
-/** What is counted: one, and several. */
+/** Nouns that are counted, in the singular and the plural. */
 export const LAYERS = { one: "Schicht", other: "Schichten" };
 export const FACETS = { one: "Dreieck", other: "Dreiecke" };
 export const EDGES = { one: "Kante", other: "Kanten" };

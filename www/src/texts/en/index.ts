@@ -9,8 +9,8 @@ import { view } from "./view.js";
 export const units = { hours: "h", minutes: "min" };
 
 /**
- * Every sentence that a person sees or hears, in English. The other languages are held to the same keys by the compiler,
- * part by part. Numbers come as text, already written for the language, except where a plural depends on them.
+ * Every text that a user sees or hears, in English. The compiler holds the other languages to the same keys, part by part.
+ * Numbers are passed as text, already formatted for the language, except where a plural depends on them.
  */
 export const en = (format: Format) => ({
   language: "English",

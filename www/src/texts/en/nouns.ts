@@ -1,4 +1,4 @@
-/** What is counted: one, and several. */
+/** Nouns that are counted, in the singular and the plural. */
 export const LAYERS = { one: "layer", other: "layers" };
 export const FACETS = { one: "facet", other: "facets" };
 export const EDGES = { one: "edge", other: "edges" };

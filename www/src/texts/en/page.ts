@@ -1,4 +1,4 @@
-/** The page around a model: opening one, what is known of it, and how far a task is. */
+/** The page around a model: opening it, facts about it, and the progress of tasks. */
 
 export const page = () => ({
   page: {

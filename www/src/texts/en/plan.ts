@@ -21,7 +21,7 @@ export const plan = ({ counted, plural }: Format) => ({
     within: "within tolerance",
     over: "over tolerance",
   },
-  /** Before the download: what the file is, what the printer makes of it, and what nobody added to the model. */
+  /** Notes on the download: what the file is, whether the printer reads it, and what has not been added to the model. */
   file: {
     kinds: {
       png: "A zip of layer images.",
@@ -35,7 +35,7 @@ export const plan = ({ counted, plural }: Format) => ({
     asIs: "The model prints as it is: no supports, not hollowed.",
     together: (sentences: readonly string[]) => sentences.join(" "),
   },
-  /** What the plan gains over uniform ones; `uniform` is a thickness, `figure` a number of layers or a time. */
+  /** What the plan gains over uniform plans; `uniform` is a thickness, `figure` a number of layers or a time. */
   gain: {
     over: (error: string, tolerance: string) => `The error reaches ${error}, more than the ${tolerance} allowed.`,
     isUniform: (tolerance: string) => `Uniform layers, within ${tolerance} all the way up. Adaptive ones may need fewer.`,

@@ -1,4 +1,4 @@
-/** Failures, what would mend them, and warnings. */
+/** Failures, what would help, and warnings. */
 import type { Format } from "../format.js";
 import { errors } from "./errors.js";
 import { warnings } from "./warnings.js";
@@ -14,7 +14,7 @@ export const problems = (format: Format) => ({
     noPrinter: "Without a printer",
     again: "Try again",
   },
-  /** For each kind of failure a heading; the sentence below it is that of the failure's code. */
+  /** A heading for each kind of failure; the sentence below it is that of the failure's code. */
   problems: {
     notStl: (name: string) => `${name} is not an STL file`,
     empty: (name: string) => `${name} is empty`,
@@ -47,7 +47,7 @@ export const problems = (format: Format) => ({
     otherMesh: (name: string) => `${name} is of another model`,
     other: () => "That did not work",
   } satisfies Headings,
-  /** What would help where no plan keeps the tolerance. */
+  /** What would help if no plan keeps the tolerance. */
   infeasible: {
     either: "Allow a larger error, or thinner layers if your printer can make them.",
     larger: "Allow a larger error.",

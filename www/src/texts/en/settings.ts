@@ -1,4 +1,4 @@
-/** The form of settings, what is wrong with what is typed there, and the measures of error. */
+/** The settings form, the faults of what is typed there, and the metrics of error. */
 
 export const settings = () => ({
   settings: {

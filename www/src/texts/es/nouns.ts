@@ -1,4 +1,4 @@
-/** What is counted: one, and several. */
+/** Nouns that are counted, in the singular and the plural. */
 export const LAYERS = { one: "capa", other: "capas" };
 export const FACETS = { one: "faceta", other: "facetas" };
 export const OMITTED = { one: "omitida", other: "omitidas" };

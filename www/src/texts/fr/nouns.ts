@@ -1,4 +1,4 @@
-/** What is counted: one, and several. */
+/** Nouns that are counted, in the singular and the plural. */
 export const LAYERS = { one: "couche", other: "couches" };
 export const FACETS = { one: "facette", other: "facettes" };
 export const OMITTED = { one: "omise", other: "omises" };
