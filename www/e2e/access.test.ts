@@ -30,10 +30,10 @@ test.each(["light", "dark"] as const)("nothing is amiss in any state: %s", async
   await state(page, "done");
   expect(await broken(page)).toEqual([]);
 
-  await page.getByRole("button", { name: "Find the best direction" }).click();
+  await page.getByRole("button", { name: "Find the best orientation" }).click();
   await page.locator("cusp-orientation .pose").first().waitFor();
   await page.getByRole("application", { name: "Sphere of directions" }).press("ArrowRight");
-  await page.getByRole("button", { name: "Stand it so" }).waitFor();
+  await page.getByRole("button", { name: "Use this orientation" }).waitFor();
   expect(await broken(page)).toEqual([]);
 
   await page.getByRole("button", { name: "What matters" }).click();

@@ -346,7 +346,7 @@ test("a part that cannot be fetched says so in its panel and to the page, and co
   await failure("cusp-model").waitFor();
   await failure("cusp-chart").waitFor();
   expect(await failure("cusp-model").innerText()).toContain("This part of the page could not be loaded.");
-  await page.getByRole("button", { name: "Find the best direction" }).click();
+  await page.getByRole("button", { name: "Find the best orientation" }).click();
   await failure("cusp-orientation").waitFor();
   const errors = await page.evaluate(() =>
     (document as unknown as Told).told

@@ -48,7 +48,7 @@ const STATES: Readonly<Record<string, { query?: string; reach(page: Page): Promi
   orientation: {
     reach: async (page) => {
       await example(page);
-      await page.getByRole("button", { name: "Find the best direction" }).click();
+      await page.getByRole("button", { name: "Find the best orientation" }).click();
       await expect.poll(() => page.locator("cusp-orientation .pose canvas[data-drawn]").count()).toBe(3);
     },
   },

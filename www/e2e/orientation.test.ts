@@ -21,12 +21,12 @@ async function example(query = "", options: Parameters<typeof start>[1] = {}): P
 }
 
 async function search(page: Page): Promise<void> {
-  await panel(page).getByRole("button", { name: /Find the best direction|Search again/ }).click();
+  await panel(page).getByRole("button", { name: /Find the best orientation|Search again/ }).click();
   await searched(page);
 }
 
 async function searched(page: Page): Promise<void> {
-  await panel(page).getByRole("button", { name: /Find the best direction|Search again/ }).waitFor();
+  await panel(page).getByRole("button", { name: /Find the best orientation|Search again/ }).waitFor();
 }
 
 interface Seen {
@@ -184,7 +184,7 @@ test("the first touch shows a direction's metrics, the second applies it", async
   await page.touchscreen.tap(x, y);
   await panel(page).locator("[data-direction]").waitFor();
   expect(await layers(page)).toBe(before);
-  await panel(page).getByRole("button", { name: "Stand it so" }).waitFor();
+  await panel(page).getByRole("button", { name: "Use this orientation" }).waitFor();
   await page.touchscreen.tap(x, y);
   await page.getByRole("button", { name: "As in the file" }).waitFor();
   await settled(page);
@@ -245,7 +245,7 @@ test("a search is cancelled by its button and by Escape, and leaves what it meas
   const page = await start("?backend=cpu&rays=512");
   await drop(page, { name: "ball.stl", bytes: sphere(10, 600).bytes });
   await state(page, "done");
-  const find = panel(page).getByRole("button", { name: "Find the best direction" });
+  const find = panel(page).getByRole("button", { name: "Find the best orientation" });
   await find.click();
   await panel(page).getByRole("progressbar").waitFor();
   // Wait until something is seen.

@@ -40,7 +40,7 @@ export async function main([folder]: string[]): Promise<void> {
       await page.evaluate(() => document.fonts.ready);
       const path = `${into}/${name}.png`;
       if (isOfOrientation) {
-        await page.getByRole("button", { name: "Find the best direction" }).click();
+        await page.getByRole("button", { name: "Find the best orientation" }).click();
         await page.locator("cusp-orientation .pose canvas[data-drawn]").nth(2).waitFor();
         await page.locator("cusp-sphere .disc").first().hover({ position: { x: 60, y: 120 } });
         await page.locator("cusp-slicer [part=orientation]").screenshot({ path });

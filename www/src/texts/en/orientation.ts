@@ -4,9 +4,9 @@ import { LAYERS } from "./nouns.js";
 
 export const orientation = ({ counted }: Format) => ({
   orientation: {
-    title: "Building direction",
-    hint: "Turned another way, the model may need fewer layers or come out smoother.",
-    find: "Find the best direction",
+    title: "Orientation",
+    hint: "In another orientation, the model may need fewer layers or come out smoother.",
+    find: "Find the best orientation",
     again: "Search again",
     stale: "Found with other settings than those on show.",
     cost: "Cost",
@@ -20,14 +20,14 @@ export const orientation = ({ counted }: Format) => ({
       `${cost} ${costPart}, ${quality} ${qualityPart}`,
     sphere: "Sphere of directions",
     kind: "Gaussian sphere",
-    keys: "Arrow keys go from direction to direction. Enter stands the model so.",
-    point: "Point at a direction to see its figures. Click it to stand the model so.",
+    keys: "Arrow keys move from direction to direction. Enter applies the orientation.",
+    point: "Point at a direction to see its metrics. Click to apply the orientation.",
     front: "Front",
     back: "Back",
     energy: "Energy",
     legend: "Energy: less is better",
     excluded: "Does not fit",
-    upright: "Up, as it stands",
+    upright: "Up, current orientation",
     why: {
       "too-large": "Too wide or too deep for the printer.",
       "too-high": "Too high for the printer.",
@@ -39,12 +39,12 @@ export const orientation = ({ counted }: Format) => ({
     roughness: "Mean roughness",
     overhang: "Overhanging area",
     size: "Size",
-    apply: "Stand it so",
-    best: "Best directions",
-    rank: (rank: string) => `Direction ${rank}`,
+    apply: "Use this orientation",
+    best: "Best orientations",
+    rank: (rank: string) => `Orientation ${rank}`,
     said: (layers: number, time: string, error: string) => `${counted(layers, LAYERS)}, ${time}, error ${error}`,
     found: (count: string) => `${count} directions measured.`,
-    none: "No direction fits the printer and keeps the tolerance.",
+    none: "No orientation fits the printer and keeps the tolerance.",
   },
 });
 

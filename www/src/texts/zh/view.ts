@@ -24,7 +24,7 @@ export const view = ({ count: number }: Format): ViewWords => ({
     printed: "打印效果",
     safe: "色盲友好",
     aligned: "与轮廓对齐",
-    upright: "恢复文件中的方向",
+    upright: "恢复文件中的摆放方向",
   },
   paint: {
     title: "重要之处",
