@@ -10,7 +10,7 @@ mod solids;
 use std::time::Instant;
 
 use cusp_slicer::grid::Grid;
-use cusp_slicer::ldi::gpu::{self, Gpu};
+use cusp_slicer::ldi::gpu::{self, Gpu, Method};
 use cusp_slicer::ldi::{Hit, Ldi, cpu};
 use cusp_slicer::model::read;
 use cusp_slicer::model::{Mesh, Pose};
@@ -66,20 +66,25 @@ fn slope(points: &[(f64, f64)]) -> f64 {
             .sum::<f64>()
 }
 
+fn on_gpu(mesh: &Mesh, grid: &Grid, device: &Gpu) -> Ldi {
+    let mut progress = silent;
+    let job = gpu::sample(mesh, grid, device, gpu::Tiling::default(), &mut progress);
+    pollster::block_on(job).expect("hits")
+}
+
 fn main() {
-    let device = pollster::block_on(Gpu::open(gpu::Adapters::Any));
-    let gpu = |mesh: &Mesh, grid: &Grid| {
-        let device = device.as_ref().ok()?;
-        let mut progress = silent;
-        let job = gpu::sample(mesh, grid, device, gpu::Tiling::default(), &mut progress);
-        pollster::block_on(job).ok()
-    };
-    match &device {
+    let devices = [Method::Fill, Method::Peel].map(|method| {
+        let device = pollster::block_on(Gpu::open(gpu::Adapters::Any));
+        device.map(|device| device.with_method(method))
+    });
+    match &devices[0] {
         Ok(device) => println!("GPU: {}, with read-back\n", device.name()),
         Err(error) => println!("{error}\n"),
     }
-    println!("| facets | rays | hits | CPU ms | hits/µs | bytes/hit | GPU ms |");
-    println!("|---:|---:|---:|---:|---:|---:|---:|");
+    println!(
+        "| facets | rays | hits | deepest ray | CPU ms | hits/µs | bytes/hit | GPU, filling, ms | GPU, peeling, ms |"
+    );
+    println!("|---:|---:|---:|---:|---:|---:|---:|---:|---:|");
     let mut points = Vec::new();
     let generated = [(1, 1, 5), (1, 1, 7), (2, 2, 7), (2, 10, 7)]
         .map(|(columns, layers, levels)| Mesh::from_triangles(&balls(columns, layers, levels)));
@@ -104,24 +109,25 @@ fn main() {
                 points.push((work.ln(), seconds.ln()));
             }
             // An emulated GPU takes minutes for the largest models.
-            let on_gpu = if device.is_ok() && work < 2e7 {
-                let (seconds, result) = time(|| gpu(&mesh, &grid));
-                assert!(
-                    result.is_some_and(|found| found == ldi),
-                    "the backends differ"
-                );
-                format!("{:.0}", seconds * 1e3)
-            } else {
-                "–".to_owned()
-            };
+            let on_gpu = devices.each_ref().map(|device| match device {
+                Ok(device) if work < 2e7 => {
+                    let (seconds, found) = time(|| on_gpu(&mesh, &grid, device));
+                    assert!(found == ldi, "the backends differ by {:?}", device.method());
+                    format!("{:.0}", seconds * 1e3)
+                }
+                _ => "–".to_owned(),
+            });
+            let deepest = ldi.offsets.windows(2).map(|ray| ray[1] - ray[0]).max();
             println!(
-                "| {} | {} | {} | {:.1} | {:.0} | {:.1} | {on_gpu} |",
+                "| {} | {} | {} | {} | {:.1} | {:.0} | {:.1} | {} |",
                 mesh.facets.len(),
                 ldi.rays(),
                 ldi.hits.len(),
+                deepest.unwrap_or(0),
                 seconds * 1e3,
                 ldi.hits.len() as f64 / seconds / 1e6,
                 bytes(&ldi) as f64 / ldi.hits.len() as f64,
+                on_gpu.join(" | "),
             );
         }
     }

@@ -8,8 +8,9 @@ use std::ops::ControlFlow;
 use common::{binary_stl, on_plate, quiet, shifted_grid, solids};
 use cusp_slicer::grid::Grid;
 use cusp_slicer::job::{Backend, Options, Slicer, Stage, StageProgress};
-use cusp_slicer::ldi::gpu::{self, Gpu};
-use cusp_slicer::ldi::{LdiError, cpu};
+use cusp_slicer::ldi::gpu::{self, Gpu, Method};
+use cusp_slicer::ldi::{GpuFault, Ldi, LdiError, cpu};
+use cusp_slicer::model::Mesh;
 use cusp_slicer::progress::silent;
 use cusp_slicer::warning::Warning;
 use libtest_mimic::{Arguments, Completion, Failed, Trial};
@@ -24,12 +25,24 @@ fn compare(
     let mesh = on_plate(triangles);
     let grid = shifted_grid(&mesh, rays, shift);
     let expected = cpu::sample(&mesh, &grid, &mut silent)?;
-    let gpu = pollster::block_on(Gpu::open(gpu::Adapters::Any))?;
-    let found = pollster::block_on(gpu::sample(&mesh, &grid, &gpu, tiling, &mut silent))?;
+    [Method::Fill, Method::Peel]
+        .into_iter()
+        .try_for_each(|method| compare_method(method, &mesh, &grid, &expected, tiling))
+}
+
+fn compare_method(
+    method: Method,
+    mesh: &Mesh,
+    grid: &Grid,
+    expected: &Ldi,
+    tiling: gpu::Tiling,
+) -> Result<(), Failed> {
+    let gpu = pollster::block_on(Gpu::open(gpu::Adapters::Any))?.with_method(method);
+    let found = pollster::block_on(gpu::sample(mesh, grid, &gpu, tiling, &mut silent))?;
     let differing = (0..expected.rays()).find(|&ray| expected.ray(ray) != found.ray(ray));
     match differing {
         Some(ray) => Err(format!(
-            "ray {ray} differs on {}: {:?} against {:?}",
+            "ray {ray} differs by {method:?} on {}: {:?} against {:?}",
             gpu.name(),
             found.ray(ray),
             expected.ray(ray)
@@ -75,6 +88,17 @@ fn tests() -> Vec<(String, Test)> {
     tests.push((
         "a lost device hands its work to the cpu".to_owned(),
         Box::new(|| lose_device(pollster::block_on(Gpu::open(gpu::Adapters::Any))?)),
+    ));
+    tests.push((
+        "a device lost while peeling hands its work to the cpu".to_owned(),
+        Box::new(|| {
+            let gpu = pollster::block_on(Gpu::open(gpu::Adapters::Any))?;
+            lose_device(gpu.with_method(Method::Peel))
+        }),
+    ));
+    tests.push((
+        "peeling refuses rays whose surfaces it cannot count".to_owned(),
+        Box::new(refuse_deep_rays),
     ));
     tests.push((
         // As it does if a buffer does not fit into its memory.
@@ -123,6 +147,26 @@ fn add_variants(
             Box::new(move || compare(&triangles, rays, shift, whole)),
         ));
     }
+}
+
+/// The tally ends at 255 surfaces on a ray.
+fn refuse_deep_rays() -> Result<(), Failed> {
+    for (slabs, is_counted) in [(127, true), (128, false)] {
+        let mesh = on_plate(&solids::stack(slabs));
+        let grid = Grid::around(&mesh.bounds(), 20)?;
+        let gpu = pollster::block_on(Gpu::open(gpu::Adapters::Any))?.with_method(Method::Peel);
+        let mut progress = silent;
+        let job = gpu::sample(&mesh, &grid, &gpu, gpu::Tiling::default(), &mut progress);
+        match pollster::block_on(job) {
+            Ok(found) if is_counted && found == cpu::sample(&mesh, &grid, &mut silent)? => {}
+            Err(LdiError::GpuFailed {
+                fault: GpuFault::TooManyHits,
+                ..
+            }) if !is_counted => {}
+            other => return Err(format!("{slabs} slabs give {other:?}").into()),
+        }
+    }
+    Ok(())
 }
 
 fn with_buffers_of(bytes: u64) -> Result<Gpu, Failed> {

@@ -4,12 +4,12 @@
 
 use std::mem::offset_of;
 
-use cusp_slicer::ldi::layout::{SCAN_BLOCK, Tile};
+use cusp_slicer::ldi::layout::{FILL, KEYS, PEEL, SCAN_BLOCK, Tile};
 use cusp_slicer::ldi::projection::STEPS;
 use naga::{Expression, Literal, Module, TypeInner};
 
-const SAMPLE: &str = include_str!("../shaders/sample.wgsl");
 const SCAN: &str = include_str!("../shaders/scan.wgsl");
+const COLLECT: &str = include_str!("../shaders/collect.wgsl");
 
 fn parse(source: &str) -> Module {
     naga::front::wgsl::parse_str(source).unwrap()
@@ -42,13 +42,14 @@ fn constant(module: &Module, name: &str) -> i64 {
     match module.global_expressions[found.init] {
         Expression::Literal(Literal::I32(value)) => i64::from(value),
         Expression::Literal(Literal::U32(value)) => i64::from(value),
+        Expression::Literal(Literal::F32(value)) if value.fract() == 0.0 => value as i64,
         ref other => panic!("{name} is {other:?}"),
     }
 }
 
 #[test]
 fn tile_is_laid_out_as_the_shader_reads_it() {
-    let (members, size) = layout(&parse(SAMPLE), "Tile");
+    let (members, size) = layout(&parse(FILL), "Tile");
     assert_eq!(size, size_of::<Tile>());
     let expected = [
         ("origin", offset_of!(Tile, origin)),
@@ -62,7 +63,8 @@ fn tile_is_laid_out_as_the_shader_reads_it() {
 
 #[test]
 fn constants_that_stand_on_both_sides_agree() {
-    assert_eq!(constant(&parse(SAMPLE), "STEPS"), STEPS);
+    assert_eq!(constant(&parse(FILL), "STEPS"), STEPS);
+    assert_eq!(constant(&parse(PEEL), "KEYS"), i64::from(KEYS));
     let scan = parse(SCAN);
     assert_eq!(constant(&scan, "BLOCK"), i64::from(SCAN_BLOCK));
     assert_eq!(
@@ -73,10 +75,20 @@ fn constants_that_stand_on_both_sides_agree() {
 
 #[test]
 fn the_shaders_are_valid() {
-    for source in [SAMPLE, SCAN] {
+    for source in [FILL, PEEL, SCAN, COLLECT] {
         let flags = naga::valid::ValidationFlags::all();
         naga::valid::Validator::new(flags, naga::valid::Capabilities::empty())
             .validate(&parse(source))
             .unwrap();
     }
+}
+
+/// Adapters of WebGPU's compatibility mode have no storage buffers in the vertex and fragment stages.
+#[test]
+fn peeling_draws_without_storage_buffers() {
+    let module = parse(PEEL);
+    let is_storage =
+        |space: &naga::AddressSpace| matches!(space, naga::AddressSpace::Storage { .. });
+    let mut globals = module.global_variables.iter();
+    assert!(globals.all(|(_, global)| !is_storage(&global.space)));
 }

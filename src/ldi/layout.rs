@@ -12,3 +12,18 @@ pub struct Tile {
 
 /// Number of values that one workgroup of shaders/scan.wgsl sums.
 pub const SCAN_BLOCK: u32 = 1024;
+
+/// Keys of facets that depth peeling tells apart: single precision holds every multiple of 1 / `KEYS` up to 1.
+pub const KEYS: u32 = 1 << 24;
+
+/// The source of the filling method.
+pub const FILL: &str = concat!(
+    include_str!("../../shaders/proposal.wgsl"),
+    include_str!("../../shaders/fill.wgsl")
+);
+
+/// The source of depth peeling.
+pub const PEEL: &str = concat!(
+    include_str!("../../shaders/proposal.wgsl"),
+    include_str!("../../shaders/peel.wgsl")
+);

@@ -219,13 +219,15 @@ pub fn all() -> Vec<(&'static str, Triangles)> {
     ]
 }
 
+/// Slabs above each other: two surfaces a slab on each ray.
+pub fn stack(slabs: usize) -> Triangles {
+    let slab = cuboid(Vec3::new(8.0, 8.0, 0.1));
+    let at = |i: usize| Vec3::new(0.0, 0.0, 0.2 * i as f32);
+    (0..slabs).flat_map(|i| moved(&slab, at(i))).collect()
+}
+
 /// Solids that are hard to sample, by name, each with a number of rays along the longer side that makes it hard.
 pub fn torture() -> Vec<(&'static str, Triangles, u32)> {
-    let stack = |count: usize| {
-        let slab = cuboid(Vec3::new(8.0, 8.0, 0.1));
-        let at = |i: usize| Vec3::new(0.0, 0.0, 0.2 * i as f32);
-        (0..count).flat_map(|i| moved(&slab, at(i))).collect()
-    };
     vec![
         ("a hundred surfaces on a ray", stack(50), 40),
         ("gyroid", gyroid(3, 36), 97),

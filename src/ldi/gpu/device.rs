@@ -2,6 +2,9 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
+use super::tiles::Region;
+use crate::ldi::layout::Tile;
+use crate::ldi::projection::STEPS;
 use crate::ldi::{GpuFault, LdiError};
 
 /// Bytes of a count, an offset or a facet.
@@ -22,7 +25,30 @@ pub struct Gpu {
     name: String,
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
+    method: Method,
     failure: Failure,
+}
+
+/// How the facets that each ray hits are found. Both methods find the same.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// Two passes whatever the depth: count, then fill. Needs storage buffers in the vertex and fragment stages.
+    Fill,
+    /// Depth peeling: one pass for each facet along the deepest ray. Runs where those stages have no storage buffers.
+    Peel,
+}
+
+impl Method {
+    /// The method for an adapter that can do this much.
+    fn of(capabilities: &wgpu::DownlevelCapabilities) -> Self {
+        let needed =
+            wgpu::DownlevelFlags::FRAGMENT_WRITABLE_STORAGE | wgpu::DownlevelFlags::VERTEX_STORAGE;
+        if capabilities.flags.contains(needed) {
+            Self::Fill
+        } else {
+            Self::Peel
+        }
+    }
 }
 
 /// The first error that a device reported through a callback, and that no call returned.
@@ -95,7 +121,8 @@ impl Gpu {
         }
         let descriptor = wgpu::DeviceDescriptor::default();
         let (device, queue) = adapter.request_device(&descriptor).await.map_err(no_gpu)?;
-        Ok(Self::with_device(name, device, queue))
+        let method = Method::of(&adapter.get_downlevel_capabilities());
+        Ok(Self::with_device(name, device, queue).with_method(method))
     }
 
     /// Uses a device that is already open. Reports call it `name`.
@@ -115,8 +142,20 @@ impl Gpu {
             name,
             device,
             queue,
+            method: Method::Fill,
             failure,
         }
+    }
+
+    /// Samples by this method.
+    #[must_use]
+    pub fn with_method(self, method: Method) -> Self {
+        Self { method, ..self }
+    }
+
+    /// How this GPU samples.
+    pub fn method(&self) -> Method {
+        self.method
     }
 
     /// The name of the adapter, as in reports.
@@ -190,5 +229,70 @@ impl Gpu {
         mapped.map_err(call_failed)?.map_err(call_failed)?;
         let bytes = readback.get_mapped_range(..).map_err(call_failed)?;
         Ok(bytemuck::cast_slice(&bytes[..(words * WORD) as usize]).to_vec())
+    }
+
+    /// The uniform that tells shaders where a tile lies.
+    pub(super) fn tile(&self, region: Region) -> wgpu::Buffer {
+        let tile = Tile {
+            origin: [region.column, region.row].map(|pixel| pixel as i32 * STEPS as i32),
+            size: [region.width, region.height],
+        };
+        let tile = bytemuck::bytes_of(&tile);
+        self.filled_buffer("tile", tile, wgpu::BufferUsages::UNIFORM)
+    }
+
+    /// The most bytes that a shader can be given in one buffer.
+    pub(super) fn limit_bytes(&self) -> u64 {
+        self.device.limits().max_storage_buffer_binding_size
+    }
+
+    pub(super) fn bind(
+        &self,
+        layout: &wgpu::BindGroupLayout,
+        resources: &[(u32, wgpu::BindingResource<'_>)],
+    ) -> wgpu::BindGroup {
+        let entries: Vec<_> = resources
+            .iter()
+            .map(|(binding, resource)| wgpu::BindGroupEntry {
+                binding: *binding,
+                resource: resource.clone(),
+            })
+            .collect();
+        self.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout,
+            entries: &entries,
+        })
+    }
+
+    pub(super) fn compute_pipeline(
+        &self,
+        module: &wgpu::ShaderModule,
+        step: &str,
+    ) -> wgpu::ComputePipeline {
+        self.device
+            .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(step),
+                layout: None,
+                module,
+                entry_point: Some(step),
+                compilation_options: Default::default(),
+                cache: None,
+            })
+    }
+
+    /// Runs a compute pipeline over `workgroups` in x and y.
+    pub(super) fn compute(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        pipeline: &wgpu::ComputePipeline,
+        resources: &[(u32, wgpu::BindingResource<'_>)],
+        workgroups: [u32; 2],
+    ) {
+        let group = self.bind(&pipeline.get_bind_group_layout(0), resources);
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        pass.dispatch_workgroups(workgroups[0], workgroups[1], 1);
     }
 }

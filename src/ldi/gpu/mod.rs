@@ -1,22 +1,43 @@
-//! The LDI on the GPU: shaders/sample.wgsl finds the facets that each ray meets, shaders/scan.wgsl turns counts
-//! into offsets of compressed rows. Offsets and facets are read back once per tile.
+//! The LDI on the GPU, by one of two methods that find the facets along each ray: filling (shaders/fill.wgsl), in two passes
+//! whatever the depth, or depth peeling (shaders/peel.wgsl), which needs no storage buffers while it draws. A prefix sum
+//! (shaders/scan.wgsl) turns counts into offsets of compressed rows. Offsets and facets are read back once per tile.
 //!
 //! The same integers decide coverage as in the CPU backend, and the same function computes heights. The two
 //! backends therefore return the same [`Ldi`], bit for bit, on every adapter.
 mod device;
-mod sampler;
+mod fill;
+mod peel;
+mod scan;
 mod tiles;
 
-pub use device::{Adapters, Gpu};
+pub use device::{Adapters, Gpu, Method};
 pub use tiles::Tiling;
 
 use self::device::failed;
-use self::sampler::Sampler;
+use self::fill::Filler;
+use self::peel::Peeler;
+use self::tiles::{Meetings, Region};
 use super::projection::Projection;
 use super::{GpuFault, Ldi, LdiError};
 use crate::grid::Grid;
 use crate::model::Mesh;
 use crate::progress::{Progress, report};
+
+/// A method with the mesh on the GPU.
+enum Sampler<'a> {
+    Fill(Filler<'a>),
+    Peel(Peeler<'a>),
+}
+
+impl Sampler<'_> {
+    /// The facets that the rays of one tile meet, or `None` if they do not fit into a buffer.
+    async fn sample(&self, region: Region) -> Result<Option<Meetings>, LdiError> {
+        match self {
+            Self::Fill(filler) => filler.sample(region).await,
+            Self::Peel(peeler) => peeler.sample(region).await,
+        }
+    }
+}
 
 /// Samples `mesh`, which lies inside `grid` and above z = 0.
 ///
@@ -33,7 +54,10 @@ pub async fn sample(
     super::check_facets(mesh)?;
     report(progress, 0.0)?;
     let projection = Projection::new(mesh, grid);
-    let sampler = Sampler::new(gpu, mesh, &projection)?;
+    let sampler = match gpu.method() {
+        Method::Fill => Sampler::Fill(Filler::new(gpu, mesh, &projection)?),
+        Method::Peel => Sampler::Peel(Peeler::new(gpu, mesh, &projection)?),
+    };
 
     let side = tiling
         .side

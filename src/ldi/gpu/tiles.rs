@@ -36,6 +36,14 @@ impl Region {
         self.width as usize * self.height as usize
     }
 
+    pub(super) fn extent(self) -> wgpu::Extent3d {
+        wgpu::Extent3d {
+            width: self.width,
+            height: self.height,
+            depth_or_array_layers: 1,
+        }
+    }
+
     /// The region in two halves, or `None` if it is a single ray.
     pub(super) fn halves(self) -> Option<[Self; 2]> {
         let Self {

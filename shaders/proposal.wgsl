@@ -1,6 +1,4 @@
-// Finds the facets that each ray hits, in two passes over the mesh whatever the depth: `count` counts the
-// hits of each ray, a prefix sum (scan.wgsl) turns the counts into offsets, and `fill` writes the facets
-// at their offsets.
+// Which pixels a facet covers: the source that fill.wgsl and peel.wgsl begin with.
 //
 // The rasteriser only proposes pixels: every facet is drawn as one triangle slightly larger than itself,
 // and integers decide whether the facet covers a pixel centre. The result does not depend on how an
@@ -20,17 +18,6 @@ const STEPS: i32 = 256;
 const MARGIN: f32 = 0.25;
 
 @group(0) @binding(0) var<uniform> tile: Tile;
-// Vertex positions in lattice steps: x to the right, y downward.
-@group(0) @binding(1) var<storage, read> positions: array<vec2<i32>>;
-// Three vertex indices per facet.
-@group(0) @binding(2) var<storage, read> corners: array<u32>;
-// Hits of each ray of the tile; `fill` counts them back down.
-@group(0) @binding(3) var<storage, read_write> counts: array<atomic<u32>>;
-// Index of each ray's first hit.
-@group(0) @binding(4) var<storage, read> offsets: array<u32>;
-// The facets that rays hit, unordered within a ray.
-@group(0) @binding(5) var<storage, read_write> facets: array<u32>;
-
 // A corner is a needle if 1 + the cosine between the normals of its edges is below this.
 const NEEDLE: f32 = 0.05;
 
@@ -84,14 +71,10 @@ fn enclose(start: vec2<f32>, end: vec2<f32>, other: vec2<f32>, corner: u32) -> v
     return start + along * reach.x + across * reach.y;
 }
 
-// Proposes the pixels of a facet: three vertices each.
-@vertex
-fn propose(@builtin(vertex_index) index: u32) -> Candidate {
-    let facet = index / 3u;
-    let corner = index % 3u;
-    let a = positions[corners[facet * 3u]];
-    var b = positions[corners[facet * 3u + 1u]];
-    var c = positions[corners[facet * 3u + 2u]];
+// One of the three vertices that propose the pixels of a facet with these corners.
+fn proposal(a: vec2<i32>, second: vec2<i32>, third: vec2<i32>, facet: u32, corner: u32) -> Candidate {
+    var b = second;
+    var c = third;
     let area = cross_sign(b - a, c - a);
     if area == 0 {
         // Edge-on to the rays: three coincident vertices outside the view cover nothing.
@@ -154,20 +137,4 @@ fn covers(candidate: Candidate) -> bool {
 fn ray_of(candidate: Candidate) -> u32 {
     let pixel = vec2<u32>(candidate.position.xy);
     return pixel.y * tile.size.x + pixel.x;
-}
-
-@fragment
-fn count(candidate: Candidate) {
-    if covers(candidate) {
-        atomicAdd(&counts[ray_of(candidate)], 1u);
-    }
-}
-
-@fragment
-fn fill(candidate: Candidate) {
-    if covers(candidate) {
-        let ray = ray_of(candidate);
-        let slot = offsets[ray] + atomicSub(&counts[ray], 1u) - 1u;
-        facets[slot] = candidate.facet;
-    }
 }

@@ -1,0 +1,284 @@
+//! Samples one tile by depth peeling (shaders/peel.wgsl): a tally of the facets along each ray, then a pass over the mesh
+//! for each facet along the deepest one.
+//!
+//! Order is by facets' heights, which rays need not meet in that order: heights are computed afterwards, and hits are
+//! sorted by them. What counts is that no facet is missing: keys ascend along a ray, so its facets differ, and their
+//! number must be what was tallied.
+
+use super::device::{Gpu, WORD, failed};
+use super::scan::{Rows, Scan};
+use super::tiles::{Meetings, Region};
+use crate::ldi::layout::{KEYS, PEEL};
+use crate::ldi::projection::Projection;
+use crate::ldi::{GpuFault, LdiError};
+use crate::model::Mesh;
+use crate::order::ascending;
+
+const TALLY: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
+const LAYER: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
+const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+/// From this number of facets on a ray's tally is no longer exact.
+const TALLY_END: u32 = u8::MAX as u32;
+
+/// Side of the workgroups of shaders/collect.wgsl.
+const WORKGROUP: u32 = 16;
+
+/// The corners of a facet in lattice steps.
+type Corners = [[i32; 2]; 3];
+
+/// The mesh and the pipelines on the GPU, shared by all tiles.
+pub(super) struct Peeler<'a> {
+    gpu: &'a Gpu,
+    /// The facets by their keys.
+    order: Vec<u32>,
+    /// The corners of each facet, by key.
+    corners: wgpu::Buffer,
+    tally: wgpu::RenderPipeline,
+    peel: wgpu::RenderPipeline,
+    count: wgpu::ComputePipeline,
+    collect: wgpu::ComputePipeline,
+    scan: Scan,
+}
+
+impl<'a> Peeler<'a> {
+    pub fn new(gpu: &'a Gpu, mesh: &Mesh, projection: &Projection<'_>) -> Result<Self, LdiError> {
+        let facets = mesh.facets.len() as u64;
+        let needed_bytes = facets * size_of::<Corners>() as u64;
+        // A key needs as many bits as the depth buffer holds.
+        let limit_bytes = gpu
+            .device
+            .limits()
+            .max_buffer_size
+            .min(u64::from(KEYS - 1) * size_of::<Corners>() as u64);
+        if needed_bytes > limit_bytes {
+            return Err(LdiError::GpuTooSmall {
+                facets,
+                needed_bytes,
+                limit_bytes,
+            });
+        }
+        let heights = mesh.facets.iter().map(|facet| {
+            let [a, b, c] = facet.map(|vertex| f64::from(mesh.vertices[vertex as usize].z));
+            a + b + c
+        });
+        let order: Vec<u32> = ascending(heights)
+            .into_iter()
+            .map(|facet| facet as u32)
+            .collect();
+        let corners: Vec<Corners> = order
+            .iter()
+            .map(|&facet| {
+                mesh.facets[facet as usize].map(|vertex| projection.positions[vertex as usize])
+            })
+            .collect();
+        let module = gpu
+            .device
+            .create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some("peel.wgsl"),
+                source: wgpu::ShaderSource::Wgsl(PEEL.into()),
+            });
+        let collect = gpu
+            .device
+            .create_shader_module(wgpu::include_wgsl!("../../../shaders/collect.wgsl"));
+        let sum = wgpu::BlendComponent {
+            src_factor: wgpu::BlendFactor::One,
+            dst_factor: wgpu::BlendFactor::One,
+            operation: wgpu::BlendOperation::Add,
+        };
+        let sum = wgpu::BlendState {
+            color: sum,
+            alpha: sum,
+        };
+        Ok(Self {
+            gpu,
+            order,
+            corners: gpu.filled_buffer(
+                "corners",
+                bytemuck::cast_slice(&corners),
+                wgpu::BufferUsages::VERTEX,
+            ),
+            tally: render_pipeline(gpu, &module, "tally", TALLY, Some(sum), None),
+            peel: render_pipeline(
+                gpu,
+                &module,
+                "peel",
+                LAYER,
+                None,
+                Some(wgpu::CompareFunction::Less),
+            ),
+            count: gpu.compute_pipeline(&collect, "count"),
+            collect: gpu.compute_pipeline(&collect, "collect"),
+            scan: Scan::new(gpu),
+        })
+    }
+
+    /// The facets that the rays of one tile meet, or `None` if they do not fit into a buffer.
+    pub async fn sample(&self, region: Region) -> Result<Option<Meetings>, LdiError> {
+        let Gpu { device, queue, .. } = self.gpu;
+        let Some(rows) = Rows::new(self.gpu, region) else {
+            return Ok(None);
+        };
+        let tile = self.gpu.tile(region);
+        let texture = |label, format| {
+            let texture = device.create_texture(&wgpu::TextureDescriptor {
+                label: Some(label),
+                size: region.extent(),
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format,
+                usage: wgpu::TextureUsages::RENDER_ATTACHMENT
+                    | wgpu::TextureUsages::TEXTURE_BINDING,
+                view_formats: &[],
+            });
+            texture.create_view(&Default::default())
+        };
+        let workgroups = [region.width, region.height].map(|side| side.div_ceil(WORKGROUP));
+
+        let tally = texture("tally", TALLY);
+        let mut encoder = device.create_command_encoder(&Default::default());
+        let place = [(0, tile.as_entire_binding())];
+        self.draw(&mut encoder, &self.tally, &place, &tally, None);
+        let counts = [
+            (0, wgpu::BindingResource::TextureView(&tally)),
+            (2, rows.counts.as_entire_binding()),
+        ];
+        self.gpu
+            .compute(&mut encoder, &self.count, &counts, workgroups);
+        self.scan.encode(self.gpu, &mut encoder, &rows);
+        queue.submit([encoder.finish()]);
+        let offsets = rows.read_offsets(self.gpu).await?;
+        let depth = offsets
+            .windows(2)
+            .map(|pair| pair[1].saturating_sub(pair[0]))
+            .max();
+        let depth = depth.unwrap_or(0);
+        if depth >= TALLY_END {
+            return Err(failed(GpuFault::TooManyHits));
+        }
+        let hits = u64::from(offsets[region.rays()]);
+        if hits * WORD > self.gpu.limit_bytes() {
+            return Ok(None);
+        }
+
+        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
+        let facets = self.gpu.buffer("facets", hits, usage);
+        let layers = [texture("even layers", LAYER), texture("odd layers", LAYER)];
+        let nearest = texture("depth", DEPTH);
+        let mut encoder = device.create_command_encoder(&Default::default());
+        for pass in 0..depth as usize {
+            let [previous, layer] = [&layers[(pass + 1) % 2], &layers[pass % 2]];
+            let seen = [
+                place[0].clone(),
+                (1, wgpu::BindingResource::TextureView(previous)),
+            ];
+            self.draw(&mut encoder, &self.peel, &seen, layer, Some(&nearest));
+            let collected = [
+                (1, wgpu::BindingResource::TextureView(layer)),
+                (2, rows.counts.as_entire_binding()),
+                (3, rows.offsets.as_entire_binding()),
+                (4, facets.as_entire_binding()),
+            ];
+            self.gpu
+                .compute(&mut encoder, &self.collect, &collected, workgroups);
+        }
+        queue.submit([encoder.finish()]);
+        let keys = self.gpu.read(&facets, 0, hits).await?;
+        // Buffers of a lost device may read as zeros.
+        self.gpu.check()?;
+        let facet_of = |key: u32| self.order.get((key as usize).wrapping_sub(1)).copied();
+        let facets: Option<Vec<u32>> = keys.into_iter().map(facet_of).collect();
+        // A tallied facet that was not peeled leaves a zero.
+        let facets = facets.ok_or_else(|| failed(GpuFault::BadOffsets))?;
+        Ok(Some(Meetings { offsets, facets }))
+    }
+
+    fn draw(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        pipeline: &wgpu::RenderPipeline,
+        resources: &[(u32, wgpu::BindingResource<'_>)],
+        target: &wgpu::TextureView,
+        depth: Option<&wgpu::TextureView>,
+    ) {
+        let group = self.gpu.bind(&pipeline.get_bind_group_layout(0), resources);
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("peel"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: target,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                    store: wgpu::StoreOp::Store,
+                },
+            })],
+            depth_stencil_attachment: depth.map(|view| wgpu::RenderPassDepthStencilAttachment {
+                view,
+                depth_ops: Some(wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(1.0),
+                    store: wgpu::StoreOp::Discard,
+                }),
+                stencil_ops: None,
+            }),
+            ..Default::default()
+        });
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        pass.set_vertex_buffer(0, self.corners.slice(..));
+        pass.draw(0..3, 0..self.order.len() as u32);
+    }
+}
+
+fn render_pipeline(
+    gpu: &Gpu,
+    module: &wgpu::ShaderModule,
+    fragment: &str,
+    format: wgpu::TextureFormat,
+    blend: Option<wgpu::BlendState>,
+    depth_compare: Option<wgpu::CompareFunction>,
+) -> wgpu::RenderPipeline {
+    let corner = |i: u32| wgpu::VertexAttribute {
+        format: wgpu::VertexFormat::Sint32x2,
+        offset: u64::from(i) * 8,
+        shader_location: i,
+    };
+    let corners = [0, 1, 2].map(corner);
+    gpu.device
+        .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(fragment),
+            layout: None,
+            vertex: wgpu::VertexState {
+                module,
+                entry_point: Some("propose"),
+                compilation_options: Default::default(),
+                buffers: &[Some(wgpu::VertexBufferLayout {
+                    array_stride: size_of::<Corners>() as u64,
+                    step_mode: wgpu::VertexStepMode::Instance,
+                    attributes: &corners,
+                })],
+            },
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil: depth_compare.map(|compare| wgpu::DepthStencilState {
+                format: DEPTH,
+                depth_write_enabled: Some(true),
+                depth_compare: Some(compare),
+                stencil: Default::default(),
+                bias: Default::default(),
+            }),
+            multisample: Default::default(),
+            fragment: Some(wgpu::FragmentState {
+                module,
+                entry_point: Some(fragment),
+                compilation_options: Default::default(),
+                targets: &[Some(wgpu::ColorTargetState {
+                    format,
+                    blend,
+                    write_mask: wgpu::ColorWrites::ALL,
+                })],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+}
