@@ -119,10 +119,10 @@ test("a best direction is applied by its button; the plan follows, and can be ta
   const before = await layers(page);
   await search(page);
   // The best orientation is the current one, the next one is upside down, and in the third the goblet lies down.
-  const best = panel(page).locator(".pose").nth(2);
-  await best.click();
+  const third = panel(page).locator(".pose").nth(2);
+  await third.click();
   await settled(page);
-  await expect.poll(() => best.getAttribute("aria-pressed")).toBe("true");
+  await expect.poll(() => third.getAttribute("aria-pressed")).toBe("true");
   await expect.poll(() => layers(page)).not.toBe(before);
   const promised = Number(await page.locator("html").getAttribute("data-promised"));
   // The rotation is written with six digits, so a flat may fall on the other side of a bin boundary.

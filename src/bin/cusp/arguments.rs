@@ -214,16 +214,15 @@ impl Choices {
 
 /// The help of `--tolerance`, with the library's defaults.
 fn tolerance_help() -> String {
-    let [cusp, roughness, area, volume] = [
-        Metric::Cusp,
-        Metric::Roughness,
-        Metric::Area,
-        Metric::Volume,
-    ]
-    .map(Metric::default_tolerance);
+    let defaults = Metric::value_variants().iter().map(|metric| {
+        let (tolerance, unit, name) = (metric.default_tolerance(), metric.unit(), metric.name());
+        let space = if unit.is_empty() { "" } else { " " };
+        format!("{tolerance}{space}{unit} for {name}")
+    });
+    let defaults = defaults.collect::<Vec<_>>().join(", ");
     format!(
-        "Largest error of a layer, in the metric's unit [default: {cusp} mm of cusp height, {roughness} mm of roughness, \
-         {area} of the area, {volume} mm³ of volume or the smallest tolerance that the model allows]"
+        "Largest error of a layer, in the metric's unit. A model that needs more by volume has the smallest tolerance that it \
+         allows [default: {defaults}]"
     )
 }
 

@@ -1,6 +1,5 @@
 /**
- * `<cusp-slicer>`: shows a model in its layers, a choice of quality, the print time and the amount of resin, and makes the
- * print file.
+ * `<cusp-slicer>`: a model in its layers, a choice of quality, the print time, the amount of resin, and the print file.
  *
  * Everything runs in the customer's browser. See docs/embed.md for attributes, events, colours and parts.
  */
@@ -116,10 +115,7 @@ export class CuspSlicer extends LitElement {
     this.requestUpdate();
   }
 
-  /**
-   * The panels to show, separated by spaces: open, model, settings, plan, view, profile, orientation, quality, layers. Null
-   * shows all.
-   */
+  /** Panels to show, separated by spaces: see {@link PANELS}. Null shows all. */
   get panels(): string | null {
     return this.#panels?.join(" ") ?? null;
   }
@@ -161,10 +157,7 @@ export class CuspSlicer extends LitElement {
     this.#attributes.set("resin", resin);
   }
 
-  /**
-   * Largest error of a layer in the metric's unit: mm (cusp, roughness), a fraction (area) or mm³ (volume). Null for the
-   * default.
-   */
+  /** Largest error of a layer: mm (cusp, roughness), a fraction (area) or mm³ (volume). Null for the default. */
   get tolerance(): number | null {
     const { metric, tolerances } = this.#session.settings;
     const typed = parse(tolerances[metric] ?? "");
@@ -268,10 +261,7 @@ export class CuspSlicer extends LitElement {
     throw this.#reason();
   }
 
-  /**
-   * Resolves with the plan for the settings. Rejects with `bad-options` if a setting is invalid, with `no-model` if no model
-   * is open, with an `AbortError` if it was cancelled, or with the error of the plan.
-   */
+  /** The plan for the settings. Rejects with `bad-options`, `no-model`, an `AbortError`, or the error of the plan. */
   plan(): Promise<Plan> {
     this.#attributes.settle();
     if (Object.keys(this.#session.faults).length > 0) {
@@ -286,10 +276,7 @@ export class CuspSlicer extends LitElement {
     return planned;
   }
 
-  /**
-   * Resolves with the print file of the plan for the settings, without saving it. Rejects with `no-plan` if no model is open,
-   * otherwise as {@link plan} does.
-   */
+  /** The print file of that plan, not saved. Rejects with `no-plan` if no model is open, otherwise as {@link plan} does. */
   async export(): Promise<PrintFile> {
     if (this.model !== null) await this.plan();
     const download = await this.#session.export();

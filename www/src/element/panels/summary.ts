@@ -108,7 +108,7 @@ export const summaryStyles = css`
     th.bar {
       display: none;
     }
-    /* Four columns do not fit a phone: a plan's name stands above its figures. */
+    /* Four columns do not fit a phone: the plan's name goes above its numbers. */
     tr {
       display: grid;
       grid-template-columns: 3rem 5.75rem minmax(0, 1fr);

@@ -183,7 +183,7 @@ export const layoutStyles = css`
   .results > * {
     transition: opacity 150ms;
   }
-  /* Late to dim and quick to return, so that quick plans do not make the page blink. */
+  /* Dims late and returns at once, so that quick plans do not make the page blink. */
   .results.replanning > * {
     opacity: 0.6;
     transition-delay: 250ms;
@@ -208,7 +208,7 @@ export const layoutStyles = css`
     gap: 0.5rem 2rem;
     margin-top: 0.5rem;
   }
-  /* Waits a little before it shows, so that quick plans do not make it flash. */
+  /* Appears after a delay, so that quick plans do not flash. */
   .toast {
     position: fixed;
     z-index: 2;

@@ -69,7 +69,7 @@ export const orientationStyles = css`
   .again {
     margin-top: 1rem;
   }
-  /* Waits before it shows, so that what is quick does not make it flash. */
+  /* Appears after a delay, so that a quick search does not flash. */
   .again.quick {
     animation: appear 150ms 400ms both;
   }
@@ -83,7 +83,7 @@ export const orientationStyles = css`
     gap: 1.25rem;
     margin-top: 1.25rem;
   }
-  /* Words stay legible. */
+  /* Text stays legible. */
   .old {
     --cusp-faded: 0.5;
   }
@@ -228,7 +228,7 @@ export const orientationStyles = css`
     .balance {
       grid-column: auto;
     }
-    /* As high as it gets, so that pointing here and there moves nothing. */
+    /* Its greatest height, so that pointing at another direction moves nothing. */
     .looked {
       min-height: 9rem;
     }
