@@ -9,10 +9,11 @@ use common::{binary_stl, on_plate, quiet, shifted_grid, solids};
 use cusp_slicer::grid::Grid;
 use cusp_slicer::job::{Backend, Options, Slicer, Stage, StageProgress};
 use cusp_slicer::ldi::gpu::{self, Gpu, Method};
-use cusp_slicer::ldi::{GpuFault, Ldi, LdiError, cpu};
+use cusp_slicer::ldi::{Ldi, LdiError, cpu};
 use cusp_slicer::model::Mesh;
 use cusp_slicer::progress::silent;
 use cusp_slicer::warning::Warning;
+use glam::Vec3;
 use libtest_mimic::{Arguments, Completion, Failed, Trial};
 
 /// Samples on both backends, on a grid shifted by `shift` pixels from the one that just covers the model.
@@ -97,8 +98,16 @@ fn tests() -> Vec<(String, Test)> {
         }),
     ));
     tests.push((
-        "peeling refuses rays whose surfaces it cannot count".to_owned(),
-        Box::new(refuse_deep_rays),
+        // Beside others, in the same tiles and in others.
+        "rays of more surfaces than peeling counts are complete".to_owned(),
+        Box::new(|| {
+            let mut triangles = solids::stack(130);
+            triangles.extend(solids::moved(
+                &solids::sphere(9.0, 4),
+                Vec3::new(7.0, 3.0, 9.0),
+            ));
+            compare(&triangles, 90, [0.0; 2], gpu::Tiling { side: 47 })
+        }),
     ));
     tests.push((
         // As it does if a buffer does not fit into its memory.
@@ -147,26 +156,6 @@ fn add_variants(
             Box::new(move || compare(&triangles, rays, shift, whole)),
         ));
     }
-}
-
-/// The tally ends at 255 surfaces on a ray.
-fn refuse_deep_rays() -> Result<(), Failed> {
-    for (slabs, is_counted) in [(127, true), (128, false)] {
-        let mesh = on_plate(&solids::stack(slabs));
-        let grid = Grid::around(&mesh.bounds(), 20)?;
-        let gpu = pollster::block_on(Gpu::open(gpu::Adapters::Any))?.with_method(Method::Peel);
-        let mut progress = silent;
-        let job = gpu::sample(&mesh, &grid, &gpu, gpu::Tiling::default(), &mut progress);
-        match pollster::block_on(job) {
-            Ok(found) if is_counted && found == cpu::sample(&mesh, &grid, &mut silent)? => {}
-            Err(LdiError::GpuFailed {
-                fault: GpuFault::TooManyHits,
-                ..
-            }) if !is_counted => {}
-            other => return Err(format!("{slabs} slabs give {other:?}").into()),
-        }
-    }
-    Ok(())
 }
 
 fn with_buffers_of(bytes: u64) -> Result<Gpu, Failed> {

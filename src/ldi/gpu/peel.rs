@@ -3,7 +3,9 @@
 //!
 //! Order is by facets' heights, which rays need not meet in that order: heights are computed afterwards, and hits are
 //! sorted by them. What counts is that no facet is missing: keys ascend along a ray, so its facets differ, and their
-//! number must be what was tallied.
+//! number must be what was tallied. The facets of rays that are too deep for the tally are found on the CPU.
+
+use rustc_hash::FxHashMap;
 
 use super::device::{Gpu, WORD, failed};
 use super::scan::{Rows, Scan};
@@ -18,7 +20,7 @@ const TALLY: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
 const LAYER: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
-/// From this number of facets on a ray's tally is no longer exact.
+/// The tally of a ray that meets at least as many facets.
 const TALLY_END: u32 = u8::MAX as u32;
 
 /// Side of the workgroups of shaders/collect.wgsl.
@@ -30,6 +32,7 @@ type Corners = [[i32; 2]; 3];
 /// The mesh and the pipelines on the GPU, shared by all tiles.
 pub(super) struct Peeler<'a> {
     gpu: &'a Gpu,
+    projection: &'a Projection<'a>,
     /// The facets by their keys.
     order: Vec<u32>,
     /// The corners of each facet, by key.
@@ -42,7 +45,11 @@ pub(super) struct Peeler<'a> {
 }
 
 impl<'a> Peeler<'a> {
-    pub fn new(gpu: &'a Gpu, mesh: &Mesh, projection: &Projection<'_>) -> Result<Self, LdiError> {
+    pub fn new(
+        gpu: &'a Gpu,
+        mesh: &Mesh,
+        projection: &'a Projection<'a>,
+    ) -> Result<Self, LdiError> {
         let facets = mesh.facets.len() as u64;
         let needed_bytes = facets * size_of::<Corners>() as u64;
         // A key needs as many bits as the depth buffer holds.
@@ -92,6 +99,7 @@ impl<'a> Peeler<'a> {
         };
         Ok(Self {
             gpu,
+            projection,
             order,
             corners: gpu.filled_buffer(
                 "corners",
@@ -149,14 +157,9 @@ impl<'a> Peeler<'a> {
         self.scan.encode(self.gpu, &mut encoder, &rows);
         queue.submit([encoder.finish()]);
         let offsets = rows.read_offsets(self.gpu).await?;
-        let depth = offsets
-            .windows(2)
-            .map(|pair| pair[1].saturating_sub(pair[0]))
-            .max();
+        let tallied = offsets.windows(2).map(|ends| ends[1].wrapping_sub(ends[0]));
+        let depth = tallied.filter(|&tally| tally < TALLY_END).max();
         let depth = depth.unwrap_or(0);
-        if depth >= TALLY_END {
-            return Err(failed(GpuFault::TooManyHits));
-        }
         let hits = u64::from(offsets[region.rays()]);
         if hits * WORD > self.gpu.limit_bytes() {
             return Ok(None);
@@ -187,11 +190,65 @@ impl<'a> Peeler<'a> {
         let keys = self.gpu.read(&facets, 0, hits).await?;
         // Buffers of a lost device may read as zeros.
         self.gpu.check()?;
-        let facet_of = |key: u32| self.order.get((key as usize).wrapping_sub(1)).copied();
-        let facets: Option<Vec<u32>> = keys.into_iter().map(facet_of).collect();
-        // A tallied facet that was not peeled leaves a zero.
-        let facets = facets.ok_or_else(|| failed(GpuFault::BadOffsets))?;
-        Ok(Some(Meetings { offsets, facets }))
+        self.meetings(region, &offsets, &keys).map(Some)
+    }
+
+    /// The facets that rays meet, from the keys that were peeled.
+    fn meetings(
+        &self,
+        region: Region,
+        offsets: &[u32],
+        keys: &[u32],
+    ) -> Result<Meetings, LdiError> {
+        let deep = self.facets_of_deep_rays(region, offsets);
+        let mut meetings = Meetings {
+            offsets: Vec::with_capacity(offsets.len()),
+            facets: Vec::with_capacity(keys.len()),
+        };
+        meetings.offsets.push(0);
+        for (ray, ends) in offsets.windows(2).enumerate() {
+            if let Some(facets) = deep.get(&ray) {
+                meetings.facets.extend(facets);
+            } else {
+                let keys = keys.get(ends[0] as usize..ends[1] as usize);
+                for &key in keys.ok_or_else(|| failed(GpuFault::BadOffsets))? {
+                    // A facet that was tallied and not peeled leaves a zero.
+                    let facet = self.order.get((key as usize).wrapping_sub(1));
+                    let facet = facet.ok_or_else(|| failed(GpuFault::BadOffsets))?;
+                    meetings.facets.push(*facet);
+                }
+            }
+            meetings.offsets.push(meetings.facets.len() as u32);
+        }
+        Ok(meetings)
+    }
+
+    /// The facets of the rays whose tally is at its end, by ray.
+    fn facets_of_deep_rays(&self, region: Region, offsets: &[u32]) -> FxHashMap<usize, Vec<u32>> {
+        let tallied = offsets.windows(2).map(|ends| ends[1].wrapping_sub(ends[0]));
+        let deep = tallied.enumerate().filter(|&(_, tally)| tally >= TALLY_END);
+        let mut facets: FxHashMap<usize, Vec<u32>> =
+            deep.map(|(ray, _)| (ray, Vec::new())).collect();
+        if facets.is_empty() {
+            return facets;
+        }
+        let rows = region.row..region.row + region.height;
+        for facet in 0..self.projection.facets() {
+            let Some(outline) = self.projection.outline(facet) else {
+                continue;
+            };
+            outline.for_each_span(rows.clone(), |row, columns| {
+                let first = columns.start.max(region.column);
+                let end = columns.end.min(region.column + region.width);
+                for column in first..end {
+                    let ray = (row - region.row) * region.width + column - region.column;
+                    if let Some(facets) = facets.get_mut(&(ray as usize)) {
+                        facets.push(facet as u32);
+                    }
+                }
+            });
+        }
+        facets
     }
 
     fn draw(
