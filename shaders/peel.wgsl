@@ -1,9 +1,9 @@
 // Depth peeling: each pass draws the whole mesh and keeps, for each ray, the first facet behind the one that
 // the pass before kept. Follows proposal.wgsl.
 //
-// Facets are drawn in the order of their keys, from the plate upward, so a key is an instance's number. Keys
-// are unique: every pass sees the same strict order, and the depth test decides no tie. No stage before the
-// compute passes (collect.wgsl) needs a storage buffer.
+// Facets are drawn in the order of their keys, from the plate upward, three vertices each. Keys are unique:
+// every pass sees the same strict order, and the depth test decides no tie. No stage before the compute passes
+// (collect.wgsl) needs a storage buffer.
 
 // Depths are multiples of 1 / KEYS, which single precision holds exactly. Twin of `KEYS` in src/ldi/layout.rs.
 const KEYS: f32 = 16777216.0;
@@ -20,12 +20,8 @@ struct Corners {
 }
 
 @vertex
-fn propose(
-    @builtin(vertex_index) corner: u32,
-    @builtin(instance_index) key: u32,
-    corners: Corners,
-) -> Candidate {
-    return proposal(corners.a, corners.b, corners.c, key, corner);
+fn propose(@builtin(vertex_index) index: u32, corners: Corners) -> Candidate {
+    return proposal(corners.a, corners.b, corners.c, index / 3u, index % 3u);
 }
 
 // Counts the facets of each ray by blending.

@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 
 use common::{binary_stl, on_plate, quiet, shifted_grid, solids};
 use cusp_slicer::grid::Grid;
-use cusp_slicer::job::{Backend, Options, Slicer, Stage, StageProgress};
+use cusp_slicer::job::{Backend, GpuMethod, Options, Slicer, Stage, StageProgress};
 use cusp_slicer::ldi::gpu::{self, Gpu, Method};
 use cusp_slicer::ldi::{Ldi, LdiError, cpu};
 use cusp_slicer::model::Mesh;
@@ -38,8 +38,10 @@ fn compare_method(
     expected: &Ldi,
     tiling: gpu::Tiling,
 ) -> Result<(), Failed> {
-    let gpu = pollster::block_on(Gpu::open(gpu::Adapters::Any))?.with_method(method);
-    let found = pollster::block_on(gpu::sample(mesh, grid, &gpu, tiling, &mut silent))?;
+    let gpu = pollster::block_on(Gpu::open(gpu::Adapters::Any))?;
+    let mut progress = silent;
+    let job = gpu::sample(mesh, grid, &gpu, tiling, method, &mut progress);
+    let found = pollster::block_on(job)?;
     let differing = (0..expected.rays()).find(|&ray| expected.ray(ray) != found.ray(ray));
     match differing {
         Some(ray) => Err(format!(
@@ -88,14 +90,11 @@ fn tests() -> Vec<(String, Test)> {
     ));
     tests.push((
         "a lost device hands its work to the cpu".to_owned(),
-        Box::new(|| lose_device(pollster::block_on(Gpu::open(gpu::Adapters::Any))?)),
+        Box::new(|| lose_device(GpuMethod::Auto)),
     ));
     tests.push((
         "a device lost while peeling hands its work to the cpu".to_owned(),
-        Box::new(|| {
-            let gpu = pollster::block_on(Gpu::open(gpu::Adapters::Any))?;
-            lose_device(gpu.with_method(Method::Peel))
-        }),
+        Box::new(|| lose_device(GpuMethod::Peel)),
     ));
     tests.push((
         // Beside others, in the same tiles and in others.
@@ -110,13 +109,24 @@ fn tests() -> Vec<(String, Test)> {
         }),
     ));
     tests.push((
+        "a report says how its gpu sampled, and its print file does not".to_owned(),
+        Box::new(report_method),
+    ));
+    tests.push((
         // As it does if a buffer does not fit into its memory.
         "a gpu that reports an error hands its work to the cpu".to_owned(),
         Box::new(|| report_an_error(pollster::block_on(Gpu::open(gpu::Adapters::Any))?)),
     ));
     tests.push((
         "a gpu with small buffers hands its work to the cpu".to_owned(),
-        Box::new(|| plans_with_warning(with_buffers_of(1 << 10)?, is_gpu_too_small, &mut quiet)),
+        Box::new(|| {
+            plans_with_warning(
+                with_buffers_of(1 << 10)?,
+                GpuMethod::Auto,
+                is_gpu_too_small,
+                &mut quiet,
+            )
+        }),
     ));
     tests.push((
         "small buffers make small tiles".to_owned(),
@@ -125,7 +135,14 @@ fn tests() -> Vec<(String, Test)> {
             let grid = Grid::around(&mesh.bounds(), 200)?;
             let gpu = with_buffers_of(1 << 15)?;
             let mut progress = silent;
-            let job = gpu::sample(&mesh, &grid, &gpu, gpu::Tiling::default(), &mut progress);
+            let job = gpu::sample(
+                &mesh,
+                &grid,
+                &gpu,
+                gpu::Tiling::default(),
+                gpu.method(),
+                &mut progress,
+            );
             let same = pollster::block_on(job)? == cpu::sample(&mesh, &grid, &mut silent)?;
             same.then_some(()).ok_or("the backends differ".into())
         }),
@@ -158,6 +175,31 @@ fn add_variants(
     }
 }
 
+fn report_method() -> Result<(), Failed> {
+    let stl = binary_stl(&solids::sphere(5.0, 4));
+    let mut files = Vec::new();
+    for (gpu_method, expected) in [
+        (GpuMethod::Auto, "fill"),
+        (GpuMethod::Fill, "fill"),
+        (GpuMethod::Peel, "peel"),
+    ] {
+        let options = Options {
+            rays: 200,
+            backend: Backend::Gpu,
+            gpu_method,
+            ..Options::default()
+        };
+        let mut slicer = Slicer::load(&stl)?;
+        let report = pollster::block_on(slicer.plan(&options, &mut quiet))?;
+        if report.gpu_method.as_deref() != Some(expected) || report.backend != "gpu" {
+            return Err(format!("{gpu_method:?} gives {:?}", report.gpu_method).into());
+        }
+        files.push(slicer.write_archive(Vec::new(), &mut quiet)?.0);
+    }
+    let is_same = files.iter().all(|file| *file == files[0]);
+    is_same.then_some(()).ok_or("print files differ".into())
+}
+
 fn with_buffers_of(bytes: u64) -> Result<Gpu, Failed> {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
     let adapter = pollster::block_on(instance.request_adapter(&Default::default()))?;
@@ -186,11 +228,12 @@ fn report_an_error(gpu: Gpu) -> Result<(), Failed> {
         }
         ControlFlow::Continue(())
     };
-    plans_with_warning(gpu, is_gpu_failed, &mut progress)
+    plans_with_warning(gpu, GpuMethod::Auto, is_gpu_failed, &mut progress)
 }
 
 /// Destroys the device in the middle of the job.
-fn lose_device(gpu: Gpu) -> Result<(), Failed> {
+fn lose_device(method: GpuMethod) -> Result<(), Failed> {
+    let gpu = pollster::block_on(Gpu::open(gpu::Adapters::Any))?;
     let device = gpu.device().clone();
     let mut progress = move |stage: Stage, _: f64| {
         if stage == Stage::Ldi {
@@ -198,12 +241,13 @@ fn lose_device(gpu: Gpu) -> Result<(), Failed> {
         }
         ControlFlow::Continue(())
     };
-    plans_with_warning(gpu, is_gpu_failed, &mut progress)
+    plans_with_warning(gpu, method, is_gpu_failed, &mut progress)
 }
 
 /// The plan must be the CPU's, with the expected warning exactly once: the GPU is not tried again.
 fn plans_with_warning(
     gpu: Gpu,
+    gpu_method: GpuMethod,
     is_wanted: fn(&Warning) -> bool,
     progress: &mut StageProgress<'_>,
 ) -> Result<(), Failed> {
@@ -211,6 +255,7 @@ fn plans_with_warning(
     let options = |backend| Options {
         rays: 300,
         backend,
+        gpu_method,
         ..Options::default()
     };
     let mut on_cpu = Slicer::load(&stl)?;

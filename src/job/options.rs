@@ -22,6 +22,21 @@ pub enum Backend {
     Cpu,
 }
 
+/// How a GPU finds the hits of rays. Both methods find the same.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(rename_all = "lowercase")]
+pub enum GpuMethod {
+    /// Filling if the adapter can do it.
+    #[default]
+    Auto,
+    /// Two passes over the mesh, whatever the depth.
+    Fill,
+    /// Depth peeling, one pass per surface along the deepest ray. Draws without storage buffers.
+    Peel,
+}
+
 /// How layers are chosen.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
@@ -153,6 +168,8 @@ pub struct Options {
     pub resin: Resin,
     /// Where the LDI is sampled.
     pub backend: Backend,
+    /// How it is sampled on a GPU.
+    pub gpu_method: GpuMethod,
 }
 
 impl Default for Options {
@@ -187,15 +204,17 @@ impl Default for Options {
             minimize: Minimize::Layers,
             resin: Resin::default(),
             backend: Backend::Auto,
+            gpu_method: GpuMethod::Auto,
         }
     }
 }
 
 impl Options {
-    /// These options with the default backend, since the backend does not affect a plan.
+    /// These options with the default backend and method, since neither affects a plan.
     pub(crate) fn without_backend(&self) -> Self {
         Self {
             backend: Backend::default(),
+            gpu_method: GpuMethod::default(),
             ..self.clone()
         }
     }

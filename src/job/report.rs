@@ -103,7 +103,7 @@ pub fn mesh_warnings(mesh: &Mesh) -> Vec<Warning> {
 pub const SCHEMA: u32 = 2;
 
 /// Keys of a report that depend on the machine, not on the plan.
-pub(crate) const OF_THE_MACHINE: [&str; 3] = ["timings_ms", "backend", "adapter"];
+pub(crate) const OF_THE_MACHINE: [&str; 4] = ["timings_ms", "backend", "adapter", "gpu_method"];
 
 /// The pixels of the masks.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -302,6 +302,8 @@ pub struct Report {
     pub backend: String,
     /// The GPU, if one was used.
     pub adapter: Option<String>,
+    /// How that GPU sampled, `fill` or `peel`.
+    pub gpu_method: Option<String>,
     /// Number of bins of the profile.
     pub bins: usize,
     /// Height of a bin.
@@ -403,13 +405,9 @@ pub(super) fn report_of(
         sampled_error: findings.sampled_error,
         max_error_mm: findings.max_error_mm,
         print_time_s: findings.print_time_s,
-        backend: if sampled.adapter.is_some() {
-            "gpu"
-        } else {
-            "cpu"
-        }
-        .to_owned(),
-        adapter: sampled.adapter.clone(),
+        backend: sampled.gpu.as_ref().map_or("cpu", |_| "gpu").to_owned(),
+        adapter: sampled.gpu.as_ref().map(|gpu| gpu.name.clone()),
+        gpu_method: sampled.gpu.as_ref().map(|gpu| gpu.method.name().to_owned()),
         bins: plan.bins.count,
         bin_mm: plan.bins.size_mm,
         layer_range_mm: layering.layer_range_mm(plan.bins),

@@ -3,7 +3,7 @@
 //!
 //! Stages work from the parts of the job. The parts are comparable, so they are also the keys under which results are kept.
 
-use super::{Backend, Error, Minimize, Options, OptionsError, Planner, Snap};
+use super::{Backend, Error, GpuMethod, Minimize, Options, OptionsError, Planner, Snap};
 use crate::format::Format;
 use crate::grid::{Bins, Grid, GridError};
 use crate::mask::{LEVELS, Samples};
@@ -31,6 +31,7 @@ pub(crate) struct Sampling {
     pub greatest_height_mm: Option<f64>,
     pub samples: Samples,
     pub backend: Backend,
+    pub gpu_method: GpuMethod,
 }
 
 /// How the masks' pixels are laid out.
@@ -178,6 +179,7 @@ impl Options {
                 known: LEVELS,
             })?,
             backend: self.backend,
+            gpu_method: self.gpu_method,
         })
     }
 

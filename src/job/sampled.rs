@@ -4,7 +4,7 @@ use web_time::Instant;
 
 use super::resolve::Sampling;
 use super::stage::{Stage, StageProgress, ms_since};
-use super::{Backend, Error, Timings};
+use super::{Backend, Error, GpuMethod, Timings};
 use crate::grid::Grid;
 use crate::job::report::mesh_warnings;
 use crate::ldi::gpu::{self, Gpu};
@@ -24,9 +24,16 @@ pub struct Sampled {
     pub grid: Grid,
     pub ldi: Ldi,
     pub solid: Solid,
-    /// Name of the GPU, if it was used.
-    pub adapter: Option<String>,
+    /// The GPU that was used.
+    pub gpu: Option<UsedGpu>,
     pub warnings: Vec<Warning>,
+}
+
+/// A GPU that sampled a model.
+#[derive(Debug, Clone)]
+pub struct UsedGpu {
+    pub name: String,
+    pub method: gpu::Method,
 }
 
 /// Samples models, and keeps the GPU open between them.
@@ -71,9 +78,9 @@ impl Sampler {
         let mut warnings = mesh_warnings(&mesh);
         let rays = grid.refined(sampling.samples.rays()).around_model(&bounds);
         rays.check_rays()?;
-        let on_gpu = self.sample_on_gpu(&mesh, &rays, sampling.backend, &mut ldi_progress);
-        let (ldi, adapter) = match on_gpu.await {
-            Ok((ldi, adapter)) => (ldi, Some(adapter)),
+        let on_gpu = self.sample_on_gpu(&mesh, &rays, sampling, &mut ldi_progress);
+        let (ldi, gpu) = match on_gpu.await {
+            Ok((ldi, gpu)) => (ldi, Some(gpu)),
             Err(error @ LdiError::Cancelled(_)) => return Err(error.into()),
             Err(error) if sampling.backend == Backend::Gpu => return Err(error.into()),
             Err(error) => {
@@ -100,28 +107,34 @@ impl Sampler {
             grid,
             solid: Solid::of(&ldi),
             ldi,
-            adapter,
+            gpu,
             warnings,
         })
     }
 
-    /// Samples on the GPU, and returns the LDI and the GPU's name. A GPU that fails is closed.
+    /// Samples on the GPU, and returns the LDI and what sampled it. A GPU that fails is closed.
     async fn sample_on_gpu(
         &mut self,
         mesh: &Mesh,
         rays: &Grid,
-        backend: Backend,
+        sampling: &Sampling,
         progress: &mut Progress<'_>,
-    ) -> Result<(Ldi, String), LdiError> {
+    ) -> Result<(Ldi, UsedGpu), LdiError> {
+        let backend = sampling.backend;
         let found = self.gpu.take_if(|_| backend != Backend::Cpu);
         let gpu = match found {
             Some(found) => found?,
             None => search_gpu(backend).await?,
         };
-        let ldi = gpu::sample(mesh, rays, &gpu, gpu::Tiling::default(), progress).await?;
+        let method = match sampling.gpu_method {
+            GpuMethod::Auto => gpu.method(),
+            GpuMethod::Fill => gpu::Method::Fill,
+            GpuMethod::Peel => gpu::Method::Peel,
+        };
+        let ldi = gpu::sample(mesh, rays, &gpu, gpu::Tiling::default(), method, progress).await?;
         let name = gpu.name().to_owned();
         self.gpu = Some(Ok(gpu));
-        Ok((ldi, name))
+        Ok((ldi, UsedGpu { name, method }))
     }
 }
 

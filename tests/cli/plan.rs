@@ -30,6 +30,7 @@ fn plan_prints_one_json_object_with_every_key() {
         "uniform",
         "backend",
         "adapter",
+        "gpu_method",
         "bins",
         "bin_mm",
         "facets",

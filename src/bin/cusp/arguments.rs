@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, ValueEnum};
 use cusp_slicer::format::Format;
-use cusp_slicer::job::{BIN_MM, Backend, Minimize, Options, Planner, Snap};
+use cusp_slicer::job::{BIN_MM, Backend, GpuMethod, Minimize, Options, Planner, Snap};
 use cusp_slicer::mask::LEVELS;
 use cusp_slicer::orientation::shard::Shard;
 use cusp_slicer::orientation::{Cost, MAX_DIRECTIONS, Quality, SearchOptions};
@@ -129,6 +129,9 @@ pub struct Choices {
     /// Where to sample the model
     #[arg(long, value_enum, default_value_t = Options::default().backend, help_heading = "Machine")]
     backend: Backend,
+    /// How a GPU samples it
+    #[arg(long, value_enum, default_value_t = Options::default().gpu_method, help_heading = "Machine")]
+    gpu_method: GpuMethod,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -207,6 +210,7 @@ impl Choices {
             minimize: self.minimize,
             resin,
             backend: self.backend,
+            gpu_method: self.gpu_method,
             ..Options::default()
         })
     }

@@ -39,6 +39,14 @@ pub enum Method {
 }
 
 impl Method {
+    /// The name of the method, as in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Fill => "fill",
+            Self::Peel => "peel",
+        }
+    }
+
     /// The method for an adapter that can do this much.
     fn of(capabilities: &wgpu::DownlevelCapabilities) -> Self {
         let needed =
@@ -121,11 +129,13 @@ impl Gpu {
         }
         let descriptor = wgpu::DeviceDescriptor::default();
         let (device, queue) = adapter.request_device(&descriptor).await.map_err(no_gpu)?;
-        let method = Method::of(&adapter.get_downlevel_capabilities());
-        Ok(Self::with_device(name, device, queue).with_method(method))
+        Ok(Self {
+            method: Method::of(&adapter.get_downlevel_capabilities()),
+            ..Self::with_device(name, device, queue)
+        })
     }
 
-    /// Uses a device that is already open. Reports call it `name`.
+    /// Uses a device that is already open, and can fill. Reports call it `name`.
     ///
     /// Its callbacks for uncaptured errors and for its loss are replaced.
     pub fn with_device(name: String, device: wgpu::Device, queue: wgpu::Queue) -> Self {
@@ -147,13 +157,7 @@ impl Gpu {
         }
     }
 
-    /// Samples by this method.
-    #[must_use]
-    pub fn with_method(self, method: Method) -> Self {
-        Self { method, ..self }
-    }
-
-    /// How this GPU samples.
+    /// The faster method of those that the adapter can do.
     pub fn method(&self) -> Method {
         self.method
     }

@@ -49,12 +49,13 @@ pub async fn sample(
     grid: &Grid,
     gpu: &Gpu,
     tiling: Tiling,
+    method: Method,
     progress: &mut Progress<'_>,
 ) -> Result<Ldi, LdiError> {
     super::check_facets(mesh)?;
     report(progress, 0.0)?;
     let projection = Projection::new(mesh, grid);
-    let sampler = match gpu.method() {
+    let sampler = match method {
         Method::Fill => Sampler::Fill(Filler::new(gpu, mesh, &projection)?),
         Method::Peel => Sampler::Peel(Peeler::new(gpu, mesh, &projection)?),
     };

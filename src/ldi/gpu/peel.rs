@@ -26,8 +26,12 @@ const TALLY_END: u32 = u8::MAX as u32;
 /// Side of the workgroups of shaders/collect.wgsl.
 const WORKGROUP: u32 = 16;
 
-/// The corners of a facet in lattice steps.
+/// The corners of a facet in lattice steps. Each of its three vertices has all of them: `SwiftShader` is slow at drawing facets
+/// as instances.
 type Corners = [[i32; 2]; 3];
+
+/// Bytes of a facet on the GPU.
+const FACET_BYTES: u64 = 3 * size_of::<Corners>() as u64;
 
 /// The mesh and the pipelines on the GPU, shared by all tiles.
 pub(super) struct Peeler<'a> {
@@ -35,7 +39,7 @@ pub(super) struct Peeler<'a> {
     projection: &'a Projection<'a>,
     /// The facets by their keys.
     order: Vec<u32>,
-    /// The corners of each facet, by key.
+    /// The corners of each facet three times, by key.
     corners: wgpu::Buffer,
     tally: wgpu::RenderPipeline,
     peel: wgpu::RenderPipeline,
@@ -51,13 +55,13 @@ impl<'a> Peeler<'a> {
         projection: &'a Projection<'a>,
     ) -> Result<Self, LdiError> {
         let facets = mesh.facets.len() as u64;
-        let needed_bytes = facets * size_of::<Corners>() as u64;
+        let needed_bytes = facets * FACET_BYTES;
         // A key needs as many bits as the depth buffer holds.
         let limit_bytes = gpu
             .device
             .limits()
             .max_buffer_size
-            .min(u64::from(KEYS - 1) * size_of::<Corners>() as u64);
+            .min(u64::from(KEYS - 1) * FACET_BYTES);
         if needed_bytes > limit_bytes {
             return Err(LdiError::GpuTooSmall {
                 facets,
@@ -73,12 +77,10 @@ impl<'a> Peeler<'a> {
             .into_iter()
             .map(|facet| facet as u32)
             .collect();
-        let corners: Vec<Corners> = order
-            .iter()
-            .map(|&facet| {
-                mesh.facets[facet as usize].map(|vertex| projection.positions[vertex as usize])
-            })
-            .collect();
+        let corners_of = |&facet: &u32| {
+            mesh.facets[facet as usize].map(|vertex| projection.positions[vertex as usize])
+        };
+        let corners: Vec<[Corners; 3]> = order.iter().map(|it| [corners_of(it); 3]).collect();
         let module = gpu
             .device
             .create_shader_module(wgpu::ShaderModuleDescriptor {
@@ -284,7 +286,7 @@ impl<'a> Peeler<'a> {
         pass.set_pipeline(pipeline);
         pass.set_bind_group(0, &group, &[]);
         pass.set_vertex_buffer(0, self.corners.slice(..));
-        pass.draw(0..3, 0..self.order.len() as u32);
+        pass.draw(0..3 * self.order.len() as u32, 0..1);
     }
 }
 
@@ -312,7 +314,7 @@ fn render_pipeline(
                 compilation_options: Default::default(),
                 buffers: &[Some(wgpu::VertexBufferLayout {
                     array_stride: size_of::<Corners>() as u64,
-                    step_mode: wgpu::VertexStepMode::Instance,
+                    step_mode: wgpu::VertexStepMode::Vertex,
                     attributes: &corners,
                 })],
             },

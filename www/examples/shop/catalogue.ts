@@ -66,6 +66,7 @@ export const FIXED = {
   planner: { kind: "optimal" },
   minimize: "layers",
   backend: "auto",
+  gpu_method: "auto",
 } as const;
 
 /** The largest files that the shop takes, in bytes. A plan is JSON, a model an STL of about a million facets. */

@@ -43,7 +43,7 @@ export interface Model extends Versioned {
   info: MeshInfo;
 }
 
-/** A plan. `report.backend` says what cast the rays, `cpu` or `gpu`, and `report.adapter` which GPU. */
+/** A plan. `report.backend` says what cast the rays, `cpu` or `gpu`, `report.adapter` which GPU, and `report.gpu_method` how. */
 export interface Plan extends Versioned, Profiled<Report> {}
 
 /** A plan from the facets alone, for live updates while a model is being turned. */

@@ -15,6 +15,7 @@ export type {
   FileKind,
   Format,
   GpuFault,
+  GpuMethod,
   HeightRange,
   Metrics,
   Minimize,
@@ -130,6 +131,7 @@ export function sameRays(a: Options, b: Options): boolean {
     a.pitch_mm === b.pitch_mm &&
     a.pitch_y_mm === b.pitch_y_mm &&
     a.backend === b.backend &&
+    a.gpu_method === b.gpu_method &&
     String(a.pixels) === String(b.pixels) &&
     String(a.rotation) === String(b.rotation)
   );

@@ -29,6 +29,7 @@ export function report(patch: Partial<Report>): Report {
     planner: "optimal",
     backend: "cpu",
     adapter: null,
+    gpu_method: null,
     bins: 30_000,
     bin_mm: 0.002,
     layer_range_mm: [0.05, 0.15],
