@@ -22,24 +22,21 @@ fn assert_says(text: &str, said: &str) {
 
 /// The default tolerance as the documents write it.
 fn tolerance(metric: Metric) -> String {
-    let tolerance = metric.default_tolerance();
-    match metric {
-        Metric::Cusp | Metric::Roughness => format!("{tolerance} mm"),
-        Metric::Area => format!("{tolerance}"),
-        Metric::Volume => format!("{tolerance} mm³"),
-    }
+    let written = format!("{} {}", metric.default_tolerance(), metric.unit());
+    written.trim_end().to_owned()
 }
 
-const METRICS: [(Metric, &str); 4] = [
-    (Metric::Cusp, "cusp"),
-    (Metric::Roughness, "roughness"),
-    (Metric::Area, "area"),
-    (Metric::Volume, "volume"),
+const METRICS: [Metric; 4] = [
+    Metric::Cusp,
+    Metric::Roughness,
+    Metric::Area,
+    Metric::Volume,
 ];
 
 #[test]
 fn the_command_lines_document_names_the_defaults_of_the_library() {
-    for (metric, name) in METRICS {
+    for metric in METRICS {
+        let name = metric.name();
         let row = row(CLI, &format!("`--metric {name}`"));
         let (_, said) = row.split_once("default ").unwrap();
         let said = said.trim_start_matches("tolerance is ");
@@ -57,7 +54,8 @@ fn the_command_lines_document_names_the_defaults_of_the_library() {
 #[test]
 fn the_elements_document_names_the_defaults_of_the_library() {
     let options = Options::default();
-    for (metric, name) in METRICS {
+    for metric in METRICS {
+        let name = metric.name();
         let said = format!("{} for `{name}`", tolerance(metric));
         assert_says(row(EMBED, "`tolerance`"), &said);
         let is_default = row(EMBED, "`metric`").contains(&format!("`{name}` (the default)"));

@@ -4,7 +4,7 @@
 
 use std::mem::offset_of;
 
-use cusp_slicer::ldi::layout::{FILL, KEYS, PEEL, SCAN_BLOCK, Tile};
+use cusp_slicer::ldi::layout::{COLLECT_SIDE, FILL, KEYS, PEEL, SCAN_BLOCK, Tile};
 use cusp_slicer::ldi::projection::STEPS;
 use naga::{Expression, Literal, Module, TypeInner};
 
@@ -71,6 +71,16 @@ fn constants_that_stand_on_both_sides_agree() {
         constant(&scan, "THREADS") * constant(&scan, "RUN"),
         i64::from(SCAN_BLOCK)
     );
+}
+
+#[test]
+fn workgroups_cover_the_rays_that_are_dispatched() {
+    let module = parse(COLLECT);
+    assert!(!module.entry_points.is_empty());
+    for entry in &module.entry_points {
+        let expected = [COLLECT_SIDE, COLLECT_SIDE, 1];
+        assert_eq!(entry.workgroup_size, expected, "{}", entry.name);
+    }
 }
 
 #[test]

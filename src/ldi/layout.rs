@@ -16,6 +16,9 @@ pub const SCAN_BLOCK: u32 = 1024;
 /// Keys of facets that depth peeling tells apart: single precision holds every multiple of 1 / `KEYS` up to 1.
 pub const KEYS: u32 = 1 << 24;
 
+/// Side of the workgroups of shaders/collect.wgsl, in rays.
+pub const COLLECT_SIDE: u32 = 16;
+
 /// The source of the filling method.
 pub const FILL: &str = concat!(
     include_str!("../../shaders/proposal.wgsl"),

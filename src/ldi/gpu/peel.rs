@@ -10,7 +10,7 @@ use rustc_hash::FxHashMap;
 use super::device::{Gpu, WORD, failed};
 use super::scan::{Rows, Scan};
 use super::tiles::{Meetings, Region};
-use crate::ldi::layout::{KEYS, PEEL};
+use crate::ldi::layout::{COLLECT_SIDE, KEYS, PEEL};
 use crate::ldi::projection::Projection;
 use crate::ldi::{GpuFault, LdiError};
 use crate::model::Mesh;
@@ -22,9 +22,6 @@ const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
 /// The tally of a ray that meets at least as many facets.
 const TALLY_END: u32 = u8::MAX as u32;
-
-/// Side of the workgroups of shaders/collect.wgsl.
-const WORKGROUP: u32 = 16;
 
 /// The corners of a facet in lattice steps. Each of its three vertices has all of them: `SwiftShader` is slow at drawing facets
 /// as instances.
@@ -144,7 +141,7 @@ impl<'a> Peeler<'a> {
             });
             texture.create_view(&Default::default())
         };
-        let workgroups = [region.width, region.height].map(|side| side.div_ceil(WORKGROUP));
+        let workgroups = [region.width, region.height].map(|side| side.div_ceil(COLLECT_SIDE));
 
         let tally = texture("tally", TALLY);
         let mut encoder = device.create_command_encoder(&Default::default());
@@ -159,8 +156,7 @@ impl<'a> Peeler<'a> {
         self.scan.encode(self.gpu, &mut encoder, &rows);
         queue.submit([encoder.finish()]);
         let offsets = rows.read_offsets(self.gpu).await?;
-        let tallied = offsets.windows(2).map(|ends| ends[1].wrapping_sub(ends[0]));
-        let depth = tallied.filter(|&tally| tally < TALLY_END).max();
+        let depth = tallies(&offsets).filter(|&tally| tally < TALLY_END).max();
         let depth = depth.unwrap_or(0);
         let hits = u64::from(offsets[region.rays()]);
         if hits * WORD > self.gpu.limit_bytes() {
@@ -227,8 +223,8 @@ impl<'a> Peeler<'a> {
 
     /// The facets of the rays whose tally is at its end, by ray.
     fn facets_of_deep_rays(&self, region: Region, offsets: &[u32]) -> FxHashMap<usize, Vec<u32>> {
-        let tallied = offsets.windows(2).map(|ends| ends[1].wrapping_sub(ends[0]));
-        let deep = tallied.enumerate().filter(|&(_, tally)| tally >= TALLY_END);
+        let tallies = tallies(offsets).enumerate();
+        let deep = tallies.filter(|&(_, tally)| tally >= TALLY_END);
         let mut facets: FxHashMap<usize, Vec<u32>> =
             deep.map(|(ray, _)| (ray, Vec::new())).collect();
         if facets.is_empty() {
@@ -288,6 +284,11 @@ impl<'a> Peeler<'a> {
         pass.set_vertex_buffer(0, self.corners.slice(..));
         pass.draw(0..3 * self.order.len() as u32, 0..1);
     }
+}
+
+/// The tally of each ray.
+fn tallies(offsets: &[u32]) -> impl Iterator<Item = u32> {
+    offsets.windows(2).map(|ends| ends[1].wrapping_sub(ends[0]))
 }
 
 fn render_pipeline(
