@@ -1,37 +1,68 @@
-// From the textures of depth peeling (peel.wgsl) to the rows of the filling method.
+// From the targets of depth peeling (peel.wgsl) to the rows of the filling method.
 
-// Facets of each ray, in steps of 1/255.
-@group(0) @binding(0) var tally: texture_2d<f32>;
-// The layer peeled last: one more than a facet's key, or 0.
-@group(0) @binding(1) var layer: texture_2d<u32>;
-// Facets of each ray that are yet to be collected.
-@group(0) @binding(2) var<storage, read_write> counts: array<u32>;
-// Index of each ray's first facet, followed by the total.
-@group(0) @binding(3) var<storage, read> offsets: array<u32>;
-// One more than the keys of the facets that rays hit, ascending within a ray.
-@group(0) @binding(4) var<storage, read_write> facets: array<u32>;
+// Stands for the first place in a list. Twin of the constant in peel.wgsl.
+const LEAST: u32 = 0x1c400u;
 
-@compute @workgroup_size(16, 16)
-fn count(@builtin(global_invocation_id) id: vec3<u32>) {
-    let size = textureDimensions(tally);
-    if any(id.xy >= size) {
-        return;
-    }
-    counts[id.y * size.x + id.x] = u32(round(textureLoad(tally, id.xy, 0).x * 255.0));
+// Side of a workgroup in rays. Twin of `COLLECT_SIDE` in src/ldi/layout.rs.
+const SIDE: u32 = 16u;
+
+// A square of the tile with a list of its own. Twin of `Cell` in src/ldi/layout.rs.
+struct Cell {
+    // Its top left pixel.
+    corner: vec2<u32>,
+    // Where its list begins.
+    first: u32,
 }
 
-@compute @workgroup_size(16, 16)
-fn collect(@builtin(global_invocation_id) id: vec3<u32>) {
+// What was peeled last: the farthest, minus the nearest, unused, and the number of facets.
+@group(0) @binding(0) var layer: texture_2d<f32>;
+// Facets of each ray that are yet to be collected.
+@group(0) @binding(1) var<storage, read_write> counts: array<u32>;
+// Index of each ray's first facet, followed by the total.
+@group(0) @binding(2) var<storage, read> offsets: array<u32>;
+// One more than the places of the facets that rays meet in the lists, ascending within a ray.
+@group(0) @binding(3) var<storage, read_write> places: array<u32>;
+@group(0) @binding(4) var<storage, read> cells: array<Cell>;
+
+@compute @workgroup_size(SIDE, SIDE)
+fn count(@builtin(global_invocation_id) id: vec3<u32>) {
     let size = textureDimensions(layer);
     if any(id.xy >= size) {
         return;
     }
-    let ray = id.y * size.x + id.x;
-    let facet = textureLoad(layer, id.xy, 0).x;
-    let left = counts[ray];
-    if facet == 0u || left == 0u {
+    counts[id.y * size.x + id.x] = u32(round(textureLoad(layer, id.xy, 0).w));
+}
+
+fn place_of(half: f32) -> u32 {
+    return (bitcast<u32>(half) >> 13u) - LEAST;
+}
+
+// Nearest facets fill a ray's row from its beginning, farthest ones from its end.
+@compute @workgroup_size(SIDE, SIDE)
+fn collect(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) id: vec3<u32>) {
+    let cell = cells[group.z];
+    let pixel = cell.corner + group.xy * SIDE + id.xy;
+    let size = textureDimensions(layer);
+    if any(pixel >= size) {
         return;
     }
-    counts[ray] = left - 1u;
-    facets[offsets[ray + 1u] - left] = facet;
+    let ray = pixel.y * size.x + pixel.x;
+    let found = textureLoad(layer, pixel, 0);
+    let left = counts[ray];
+    if found.x <= 0.0 || left == 0u {
+        return;
+    }
+    let first = offsets[ray];
+    let end = offsets[ray + 1u];
+    let kept = (end - first - left) / 2u;
+    places[first + kept] = cell.first + place_of(-found.y) + 1u;
+    if left == 1u {
+        counts[ray] = 0u;
+        return;
+    }
+    // If the two are one, a facet is missing, whose slot stays empty.
+    if -found.y < found.x {
+        places[end - 1u - kept] = cell.first + place_of(found.x) + 1u;
+    }
+    counts[ray] = left - 2u;
 }

@@ -1,17 +1,17 @@
-// Depth peeling: each pass draws the whole mesh and keeps, for each ray, the first facet behind the one that
-// the pass before kept. Follows proposal.wgsl.
+// Dual depth peeling: each pass keeps, for each ray, the nearest and the farthest of the facets between the two
+// that the pass before kept. Follows proposal.wgsl.
 //
-// Facets are drawn in the order of their keys, from the plate upward, three vertices each. Keys are unique:
-// every pass sees the same strict order, and the depth test decides no tie. No stage before the compute passes
-// (collect.wgsl) needs a storage buffer.
+// Facets are drawn in cells of the tile, each with a list of its own, in which they ascend from the plate upward. The
+// place in this list is what is peeled: every pass sees the same strict order. Both ends are found by blending, and
+// the facets counted, so neither a depth buffer nor a storage buffer is needed before the compute passes
+// (collect.wgsl).
 
-// Depths are multiples of 1 / KEYS, which single precision holds exactly. Twin of `KEYS` in src/ldi/layout.rs.
-const KEYS: f32 = 16777216.0;
-// What one facet adds to the tally, whose format has 8 bits.
-const ONE: f32 = 1.0 / 255.0;
+// The targets have half precision, whose normal positive numbers ascend with their bits, one place after the other. These are
+// the upper 19 bits of the least one in single precision; the lower 13 are zero.
+const LEAST: u32 = 0x1c400u;
 
-// One more than the key of the facet that the pass before kept; 0 if it kept none.
-@group(0) @binding(1) var previous: texture_2d<u32>;
+// What the pass before kept: the farthest, minus the nearest, unused, and how many facets were between.
+@group(0) @binding(1) var previous: texture_2d<f32>;
 
 struct Corners {
     @location(0) a: vec2<i32>,
@@ -24,26 +24,13 @@ fn propose(@builtin(vertex_index) index: u32, corners: Corners) -> Candidate {
     return proposal(corners.a, corners.b, corners.c, index / 3u, index % 3u);
 }
 
-// Counts the facets of each ray by blending.
+// Colours are blended by their maximum, alpha is summed.
 @fragment
-fn tally(candidate: Candidate) -> @location(0) vec4<f32> {
-    if !covers(candidate) {
+fn peel(candidate: Candidate) -> @location(0) vec4<f32> {
+    let place = bitcast<f32>((LEAST + candidate.facet) << 13u);
+    let kept = textureLoad(previous, vec2<i32>(candidate.position.xy), 0);
+    if !covers(candidate) || place >= kept.x || -place >= kept.y {
         discard;
     }
-    return vec4<f32>(ONE, 0.0, 0.0, 0.0);
-}
-
-struct Peeled {
-    @builtin(frag_depth) depth: f32,
-    @location(0) layer: u32,
-}
-
-@fragment
-fn peel(candidate: Candidate) -> Peeled {
-    let layer = candidate.facet + 1u;
-    let pixel = vec2<i32>(candidate.position.xy);
-    if !covers(candidate) || layer <= textureLoad(previous, pixel, 0).x {
-        discard;
-    }
-    return Peeled(f32(layer) / KEYS, layer);
+    return vec4<f32>(place, -place, 0.0, 1.0);
 }

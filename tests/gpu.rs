@@ -9,7 +9,7 @@ use common::{binary_stl, on_plate, quiet, shifted_grid, solids};
 use cusp_slicer::grid::Grid;
 use cusp_slicer::job::{Backend, GpuMethod, Options, Slicer, Stage, StageProgress};
 use cusp_slicer::ldi::gpu::{self, Gpu, Method};
-use cusp_slicer::ldi::{Ldi, LdiError, cpu};
+use cusp_slicer::ldi::{GpuFault, Ldi, LdiError, cpu};
 use cusp_slicer::model::Mesh;
 use cusp_slicer::progress::silent;
 use cusp_slicer::warning::Warning;
@@ -106,6 +106,39 @@ fn tests() -> Vec<(String, Test)> {
                 Vec3::new(7.0, 3.0, 9.0),
             ));
             compare(&triangles, 90, [0.0; 2], gpu::Tiling { side: 47 })
+        }),
+    ));
+    tests.push((
+        // A list is too long for a cell of the usual size, as nine in ten facets of the spheres are about as large as a pixel.
+        "cells shrink where facets crowd".to_owned(),
+        Box::new(move || {
+            let ball = solids::sphere(9.0, 6);
+            let pile = (0..10).flat_map(|i| solids::moved(&ball, Vec3::Z * (i as f32) * 11.0));
+            compare(&pile.collect(), 90, [0.0; 2], whole)
+        }),
+    ));
+    tests.push((
+        "a pile that no cell can list is left to the cpu".to_owned(),
+        Box::new(|| {
+            let mesh = on_plate(&solids::stack(8_000));
+            let grid = Grid::around(&mesh.bounds(), 8)?;
+            let gpu = pollster::block_on(Gpu::open(gpu::Adapters::Any))?;
+            let mut progress = silent;
+            let job = gpu::sample(
+                &mesh,
+                &grid,
+                &gpu,
+                gpu::Tiling::default(),
+                Method::Peel,
+                &mut progress,
+            );
+            match pollster::block_on(job) {
+                Err(LdiError::GpuFailed {
+                    fault: GpuFault::TooManyHits,
+                    ..
+                }) => Ok(()),
+                other => Err(format!("{:?}", other.map(|ldi| ldi.hits.len())).into()),
+            }
         }),
     ));
     tests.push((

@@ -4,7 +4,7 @@
 
 use std::mem::offset_of;
 
-use cusp_slicer::ldi::layout::{COLLECT_SIDE, FILL, KEYS, PEEL, SCAN_BLOCK, Tile};
+use cusp_slicer::ldi::layout::{CELL_FACETS, COLLECT_SIDE, Cell, FILL, PEEL, SCAN_BLOCK, Tile};
 use cusp_slicer::ldi::projection::STEPS;
 use naga::{Expression, Literal, Module, TypeInner};
 
@@ -62,9 +62,29 @@ fn tile_is_laid_out_as_the_shader_reads_it() {
 }
 
 #[test]
+fn cell_is_laid_out_as_the_shader_reads_it() {
+    let (members, size) = layout(&parse(COLLECT), "Cell");
+    assert_eq!(size, size_of::<Cell>());
+    let expected = [
+        ("corner", offset_of!(Cell, corner)),
+        ("first", offset_of!(Cell, first)),
+    ];
+    assert_eq!(
+        members,
+        expected.map(|(name, offset)| (name.to_owned(), offset))
+    );
+}
+
+#[test]
 fn constants_that_stand_on_both_sides_agree() {
     assert_eq!(constant(&parse(FILL), "STEPS"), STEPS);
-    assert_eq!(constant(&parse(PEEL), "KEYS"), i64::from(KEYS));
+    let least = constant(&parse(PEEL), "LEAST");
+    assert_eq!(constant(&parse(COLLECT), "LEAST"), least);
+    // The greatest half is kept for what lies behind all.
+    let of_half = |half: u32| i64::from(half + (112 << 10));
+    assert_eq!(least, of_half(0x400));
+    assert_eq!(least + CELL_FACETS as i64, of_half(0x7bff));
+    assert_eq!(constant(&parse(COLLECT), "SIDE"), i64::from(COLLECT_SIDE));
     let scan = parse(SCAN);
     assert_eq!(constant(&scan, "BLOCK"), i64::from(SCAN_BLOCK));
     assert_eq!(

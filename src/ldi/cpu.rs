@@ -3,6 +3,7 @@
 //! Rows are processed in bands, in parallel natively. Cost: linear in facets, in the rows that they span,
 //! and in hits. Memory: 8 bytes per hit and 4 per ray.
 
+use super::bins::Bins;
 use super::projection::Projection;
 use super::{Hit, Ldi, LdiError, assemble};
 use crate::grid::Grid;
@@ -21,13 +22,14 @@ pub fn sample(mesh: &Mesh, grid: &Grid, progress: &mut Progress<'_>) -> Result<L
     super::check_facets(mesh)?;
     report(progress, 0.0)?;
     let projection = Projection::new(mesh, grid);
-    let facets_of = facets_by_band(&projection, grid);
+    let bands = facets_by_band(&projection, grid);
+    let facets_of = |band: usize| &bands.all()[bands.range(band)];
     let mut offsets: Vec<u32> = assemble::zeroed(grid.pixels() + 1)?;
     let band_rays = BAND_ROWS as usize * grid.width as usize;
 
     map_in_groups(
         offsets[1..].chunks_mut(band_rays).enumerate(),
-        |(band, counts)| count_band(&projection, grid, band, facets_of.band(band), counts),
+        |(band, counts)| count_band(&projection, grid, band, facets_of(band), counts),
         |()| Ok::<_, LdiError>(()),
         progress,
         [0.05, 0.35],
@@ -40,7 +42,7 @@ pub fn sample(mesh: &Mesh, grid: &Grid, progress: &mut Progress<'_>) -> Result<L
             .into_iter()
             .enumerate(),
         |(band, (offsets, hits))| {
-            fill_band(&projection, grid, band, facets_of.band(band), offsets, hits);
+            fill_band(&projection, grid, band, facets_of(band), offsets, hits);
             assemble::sort_rays(offsets, hits);
         },
         |()| Ok::<_, LdiError>(()),
@@ -55,46 +57,17 @@ pub fn sample(mesh: &Mesh, grid: &Grid, progress: &mut Progress<'_>) -> Result<L
     })
 }
 
-/// The facets that reach into each band, in compressed rows.
-struct FacetsByBand {
-    starts: Vec<usize>,
-    facets: Vec<u32>,
-}
-
-impl FacetsByBand {
-    fn band(&self, band: usize) -> &[u32] {
-        &self.facets[self.starts[band]..self.starts[band + 1]]
-    }
-}
-
-fn facets_by_band(projection: &Projection<'_>, grid: &Grid) -> FacetsByBand {
+/// The facets that reach into each band.
+fn facets_by_band(projection: &Projection<'_>, grid: &Grid) -> Bins {
     let bands = grid.height.div_ceil(BAND_ROWS) as usize;
-    let bands_of = |facet: usize| {
-        let rows = projection.rows(facet);
+    Bins::new(bands, 0..projection.facets() as u32, |facet| {
+        let rows = projection.rows(facet as usize);
         if rows.is_empty() {
             0..0
         } else {
             (rows.start / BAND_ROWS) as usize..rows.end.div_ceil(BAND_ROWS) as usize
         }
-    };
-    // Counts are stored one slot ahead: filling then advances each start to where it belongs.
-    let mut starts = vec![0; bands + 2];
-    for facet in 0..projection.facets() {
-        for band in bands_of(facet) {
-            starts[band + 2] += 1;
-        }
-    }
-    for band in 2..starts.len() {
-        starts[band] += starts[band - 1];
-    }
-    let mut facets = vec![0; starts[bands + 1]];
-    for facet in 0..projection.facets() {
-        for band in bands_of(facet) {
-            facets[starts[band + 1]] = facet as u32;
-            starts[band + 1] += 1;
-        }
-    }
-    FacetsByBand { starts, facets }
+    })
 }
 
 fn rows_of(band: usize, grid: &Grid) -> std::ops::Range<u32> {

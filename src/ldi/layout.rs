@@ -13,8 +13,20 @@ pub struct Tile {
 /// Number of values that one workgroup of shaders/scan.wgsl sums.
 pub const SCAN_BLOCK: u32 = 1024;
 
-/// Keys of facets that depth peeling tells apart: single precision holds every multiple of 1 / `KEYS` up to 1.
-pub const KEYS: u32 = 1 << 24;
+/// A square of a tile whose facets are peeled in the order of a list of its own.
+#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Zeroable, bytemuck::Pod)]
+#[repr(C)]
+pub struct Cell {
+    /// Its top left pixel, from the tile's.
+    pub corner: [u32; 2],
+    /// Where its list begins among those of the tile.
+    pub first: u32,
+    /// Always 0.
+    pub padding: u32,
+}
+
+/// Facets that the list of a cell may have: half precision has so many normal positive numbers below its greatest.
+pub const CELL_FACETS: usize = 0x7bff - 0x400;
 
 /// Side of the workgroups of shaders/collect.wgsl, in rays.
 pub const COLLECT_SIDE: u32 = 16;

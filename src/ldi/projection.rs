@@ -24,7 +24,8 @@ pub struct Projection<'a> {
     mesh: &'a Mesh,
     /// Position of each vertex, snapped to the nearest lattice point inside the grid.
     pub positions: Vec<[i32; 2]>,
-    /// Rows of the grid; facets cover none outside it.
+    /// Columns and rows of the grid; facets cover none outside it.
+    columns: u32,
     rows: u32,
 }
 
@@ -44,6 +45,7 @@ impl<'a> Projection<'a> {
         Self {
             mesh,
             positions,
+            columns: grid.width,
             rows: grid.height,
         }
     }
@@ -61,23 +63,36 @@ impl<'a> Projection<'a> {
     /// A facet seen from above, or `None` if it is edge-on to the rays after snapping.
     pub fn facet(&self, facet: usize) -> Option<ProjectedFacet> {
         let vertices = self.mesh.facets[facet];
-        let corners = vertices.map(|vertex| self.positions[vertex as usize].map(i64::from));
+        let corners = self.corners(facet).map(|corner| corner.map(i64::from));
         let outline = Outline::of(corners)?;
         let z = vertices.map(|vertex| self.mesh.vertices[vertex as usize].z);
         Some(ProjectedFacet::new(outline, corners, z))
     }
 
+    /// The corners of a facet.
+    pub fn corners(&self, facet: usize) -> [[i32; 2]; 3] {
+        self.mesh.facets[facet].map(|vertex| self.positions[vertex as usize])
+    }
+
     /// The outline of a facet, or `None` if it is edge-on to the rays after snapping.
     pub fn outline(&self, facet: usize) -> Option<Outline> {
-        let vertices = self.mesh.facets[facet];
-        Outline::of(vertices.map(|vertex| self.positions[vertex as usize].map(i64::from)))
+        Outline::of(self.corners(facet).map(|corner| corner.map(i64::from)))
     }
 
     /// The rows whose pixel centres a facet may cover.
     pub fn rows(&self, facet: usize) -> Range<u32> {
-        let y = self.mesh.facets[facet].map(|vertex| self.positions[vertex as usize][1]);
-        let [low, high] = [y[0].min(y[1]).min(y[2]), y[0].max(y[1]).max(y[2])];
-        first_centre(i64::from(low)) as u32..(first_centre(i64::from(high)) as u32).min(self.rows)
+        self.centres(facet, 1, self.rows)
+    }
+
+    /// The columns whose pixel centres a facet may cover.
+    pub fn columns(&self, facet: usize) -> Range<u32> {
+        self.centres(facet, 0, self.columns)
+    }
+
+    fn centres(&self, facet: usize, axis: usize, end: u32) -> Range<u32> {
+        let at = self.corners(facet).map(|corner| corner[axis]);
+        let [low, high] = [at[0].min(at[1]).min(at[2]), at[0].max(at[1]).max(at[2])];
+        first_centre(i64::from(low)) as u32..(first_centre(i64::from(high)) as u32).min(end)
     }
 }
 

@@ -285,18 +285,18 @@ impl Gpu {
             })
     }
 
-    /// Runs a compute pipeline over `workgroups` in x and y.
+    /// Runs a compute pipeline over `workgroups` in x, y and z.
     pub(super) fn compute(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         pipeline: &wgpu::ComputePipeline,
         resources: &[(u32, wgpu::BindingResource<'_>)],
-        workgroups: [u32; 2],
+        workgroups: [u32; 3],
     ) {
         let group = self.bind(&pipeline.get_bind_group_layout(0), resources);
         let mut pass = encoder.begin_compute_pass(&Default::default());
         pass.set_pipeline(pipeline);
         pass.set_bind_group(0, &group, &[]);
-        pass.dispatch_workgroups(workgroups[0], workgroups[1], 1);
+        pass.dispatch_workgroups(workgroups[0], workgroups[1], workgroups[2]);
     }
 }

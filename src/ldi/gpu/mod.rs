@@ -4,6 +4,7 @@
 //!
 //! The same integers decide coverage as in the CPU backend, and the same function computes heights. The two
 //! backends therefore return the same [`Ldi`], bit for bit, on every adapter.
+mod cells;
 mod device;
 mod fill;
 mod peel;
@@ -57,7 +58,7 @@ pub async fn sample(
     let projection = Projection::new(mesh, grid);
     let sampler = match method {
         Method::Fill => Sampler::Fill(Filler::new(gpu, mesh, &projection)?),
-        Method::Peel => Sampler::Peel(Peeler::new(gpu, mesh, &projection)?),
+        Method::Peel => Sampler::Peel(Peeler::new(gpu, mesh, &projection)),
     };
 
     let side = tiling

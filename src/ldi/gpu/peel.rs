@@ -1,27 +1,39 @@
-//! Samples one tile by depth peeling (shaders/peel.wgsl): a tally of the facets along each ray, then a pass over the mesh
-//! for each facet along the deepest one.
+//! Samples one tile by dual depth peeling (shaders/peel.wgsl; Bavoil and Myers, "Order Independent Transparency with Dual Depth
+//! Peeling", 2008). Each pass finds the nearest and the farthest facet that are left on every ray; the first counts them, too.
 //!
 //! Order is by facets' heights, which rays need not meet in that order: heights are computed afterwards, and hits are
-//! sorted by them. What counts is that no facet is missing: keys ascend along a ray, so its facets differ, and their
-//! number must be what was tallied. The facets of rays that are too deep for the tally are found on the CPU.
+//! sorted by them. What counts is that no facet is missing: places ascend along a ray, so its facets differ, and their
+//! number must be what was counted. The facets of rays that are too deep are found on the CPU.
 
 use rustc_hash::FxHashMap;
 
+use super::cells::Cells;
 use super::device::{Gpu, WORD, failed};
 use super::scan::{Rows, Scan};
 use super::tiles::{Meetings, Region};
-use crate::ldi::layout::{COLLECT_SIDE, KEYS, PEEL};
+use crate::ldi::layout::{COLLECT_SIDE, Cell, PEEL};
 use crate::ldi::projection::Projection;
 use crate::ldi::{GpuFault, LdiError};
 use crate::model::Mesh;
 use crate::order::ascending;
 
-const TALLY: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
-const LAYER: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
-const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+/// Blends exactly on every adapter: half precision has each place in a list, and each count up to 2048.
+const LAYER: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 
-/// The tally of a ray that meets at least as many facets.
-const TALLY_END: u32 = u8::MAX as u32;
+/// Rays of so many facets are left to the CPU, which is faster at a few of them than a pass for every two facets.
+const DEEP: u32 = 256;
+
+/// The layer before the first: all places lie between its two.
+const ALL: wgpu::Color = wgpu::Color {
+    r: 65504.0,
+    ..wgpu::Color::TRANSPARENT
+};
+
+/// A layer on which nothing is kept yet, and between whose two lies no place.
+const NONE: wgpu::Color = wgpu::Color {
+    g: -65504.0,
+    ..wgpu::Color::TRANSPARENT
+};
 
 /// The corners of a facet in lattice steps. Each of its three vertices has all of them: `SwiftShader` is slow at drawing facets
 /// as instances.
@@ -34,11 +46,8 @@ const FACET_BYTES: u64 = 3 * size_of::<Corners>() as u64;
 pub(super) struct Peeler<'a> {
     gpu: &'a Gpu,
     projection: &'a Projection<'a>,
-    /// The facets by their keys.
+    /// The facets that are not edge-on to the rays, by height.
     order: Vec<u32>,
-    /// The corners of each facet three times, by key.
-    corners: wgpu::Buffer,
-    tally: wgpu::RenderPipeline,
     peel: wgpu::RenderPipeline,
     count: wgpu::ComputePipeline,
     collect: wgpu::ComputePipeline,
@@ -46,78 +55,26 @@ pub(super) struct Peeler<'a> {
 }
 
 impl<'a> Peeler<'a> {
-    pub fn new(
-        gpu: &'a Gpu,
-        mesh: &Mesh,
-        projection: &'a Projection<'a>,
-    ) -> Result<Self, LdiError> {
-        let facets = mesh.facets.len() as u64;
-        let needed_bytes = facets * FACET_BYTES;
-        // A key needs as many bits as the depth buffer holds.
-        let limit_bytes = gpu
-            .device
-            .limits()
-            .max_buffer_size
-            .min(u64::from(KEYS - 1) * FACET_BYTES);
-        if needed_bytes > limit_bytes {
-            return Err(LdiError::GpuTooSmall {
-                facets,
-                needed_bytes,
-                limit_bytes,
-            });
-        }
+    pub fn new(gpu: &'a Gpu, mesh: &Mesh, projection: &'a Projection<'a>) -> Self {
         let heights = mesh.facets.iter().map(|facet| {
             let [a, b, c] = facet.map(|vertex| f64::from(mesh.vertices[vertex as usize].z));
             a + b + c
         });
-        let order: Vec<u32> = ascending(heights)
+        let order = ascending(heights)
             .into_iter()
-            .map(|facet| facet as u32)
-            .collect();
-        let corners_of = |&facet: &u32| {
-            mesh.facets[facet as usize].map(|vertex| projection.positions[vertex as usize])
-        };
-        let corners: Vec<[Corners; 3]> = order.iter().map(|it| [corners_of(it); 3]).collect();
-        let module = gpu
-            .device
-            .create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some("peel.wgsl"),
-                source: wgpu::ShaderSource::Wgsl(PEEL.into()),
-            });
+            .filter(|&facet| projection.outline(facet).is_some());
         let collect = gpu
             .device
             .create_shader_module(wgpu::include_wgsl!("../../../shaders/collect.wgsl"));
-        let sum = wgpu::BlendComponent {
-            src_factor: wgpu::BlendFactor::One,
-            dst_factor: wgpu::BlendFactor::One,
-            operation: wgpu::BlendOperation::Add,
-        };
-        let sum = wgpu::BlendState {
-            color: sum,
-            alpha: sum,
-        };
-        Ok(Self {
+        Self {
             gpu,
             projection,
-            order,
-            corners: gpu.filled_buffer(
-                "corners",
-                bytemuck::cast_slice(&corners),
-                wgpu::BufferUsages::VERTEX,
-            ),
-            tally: render_pipeline(gpu, &module, "tally", TALLY, Some(sum), None),
-            peel: render_pipeline(
-                gpu,
-                &module,
-                "peel",
-                LAYER,
-                None,
-                Some(wgpu::CompareFunction::Less),
-            ),
+            order: order.map(|facet| facet as u32).collect(),
+            peel: render_pipeline(gpu),
             count: gpu.compute_pipeline(&collect, "count"),
             collect: gpu.compute_pipeline(&collect, "collect"),
             scan: Scan::new(gpu),
-        })
+        }
     }
 
     /// The facets that the rays of one tile meet, or `None` if they do not fit into a buffer.
@@ -126,92 +83,110 @@ impl<'a> Peeler<'a> {
         let Some(rows) = Rows::new(self.gpu, region) else {
             return Ok(None);
         };
-        let tile = self.gpu.tile(region);
-        let texture = |label, format| {
-            let texture = device.create_texture(&wgpu::TextureDescriptor {
-                label: Some(label),
-                size: region.extent(),
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format,
-                usage: wgpu::TextureUsages::RENDER_ATTACHMENT
-                    | wgpu::TextureUsages::TEXTURE_BINDING,
-                view_formats: &[],
-            });
-            texture.create_view(&Default::default())
+        let Some(cells) = Cells::new(self.projection, &self.order, region) else {
+            return Ok(None);
         };
-        let workgroups = [region.width, region.height].map(|side| side.div_ceil(COLLECT_SIDE));
+        if cells.facets().len() as u64 * FACET_BYTES > device.limits().max_buffer_size {
+            return Ok(None);
+        }
+        let layers = Layers::new(self, region, &cells);
 
-        let tally = texture("tally", TALLY);
         let mut encoder = device.create_command_encoder(&Default::default());
-        let place = [(0, tile.as_entire_binding())];
-        self.draw(&mut encoder, &self.tally, &place, &tally, None);
+        clear(&mut encoder, &layers.views[1], ALL);
+        let drawn: Vec<usize> = (0..cells.count()).collect();
+        layers.draw(&mut encoder, 0, &cells, &drawn);
         let counts = [
-            (0, wgpu::BindingResource::TextureView(&tally)),
-            (2, rows.counts.as_entire_binding()),
+            (0, wgpu::BindingResource::TextureView(&layers.views[0])),
+            (1, rows.counts.as_entire_binding()),
         ];
+        let workgroups = [region.width, region.height, 1].map(|side| side.div_ceil(COLLECT_SIDE));
         self.gpu
             .compute(&mut encoder, &self.count, &counts, workgroups);
         self.scan.encode(self.gpu, &mut encoder, &rows);
         queue.submit([encoder.finish()]);
         let offsets = rows.read_offsets(self.gpu).await?;
-        let depth = tallies(&offsets).filter(|&tally| tally < TALLY_END).max();
-        let depth = depth.unwrap_or(0);
         let hits = u64::from(offsets[region.rays()]);
         if hits * WORD > self.gpu.limit_bytes() {
             return Ok(None);
         }
+        if hits == 0 {
+            return self.meetings(region, &cells, &offsets, &[]).map(Some);
+        }
 
-        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
-        let facets = self.gpu.buffer("facets", hits, usage);
-        let layers = [texture("even layers", LAYER), texture("odd layers", LAYER)];
-        let nearest = texture("depth", DEPTH);
+        // Cells by depth: each pass draws those that are deep enough.
+        let depths: Vec<u32> = (0..cells.count())
+            .map(|cell| depth(cells.rays(cell), region, &offsets))
+            .collect();
+        let mut drawn: Vec<usize> = (0..cells.count())
+            .filter(|&cell| depths[cell] > 0)
+            .collect();
+        drawn.sort_by_key(|&cell| std::cmp::Reverse(depths[cell]));
+        let table: Vec<Cell> = drawn.iter().map(|&cell| cells.on_gpu(cell)).collect();
+        let storage = wgpu::BufferUsages::STORAGE;
+        let table = self
+            .gpu
+            .filled_buffer("cells", bytemuck::cast_slice(&table), storage);
+        let places = self
+            .gpu
+            .buffer("places", hits, storage | wgpu::BufferUsages::COPY_SRC);
+        let side = cells.side / COLLECT_SIDE;
+
         let mut encoder = device.create_command_encoder(&Default::default());
-        for pass in 0..depth as usize {
-            let [previous, layer] = [&layers[(pass + 1) % 2], &layers[pass % 2]];
-            let seen = [
-                place[0].clone(),
-                (1, wgpu::BindingResource::TextureView(previous)),
-            ];
-            self.draw(&mut encoder, &self.peel, &seen, layer, Some(&nearest));
+        for pass in 0.. {
+            let left = drawn.partition_point(|&cell| depths[cell] > 2 * pass);
+            if left == 0 {
+                break;
+            }
+            let pass = pass as usize;
+            if pass > 0 {
+                layers.draw(&mut encoder, pass, &cells, &drawn[..left]);
+            }
             let collected = [
-                (1, wgpu::BindingResource::TextureView(layer)),
-                (2, rows.counts.as_entire_binding()),
-                (3, rows.offsets.as_entire_binding()),
-                (4, facets.as_entire_binding()),
+                (
+                    0,
+                    wgpu::BindingResource::TextureView(&layers.views[pass % 2]),
+                ),
+                (1, rows.counts.as_entire_binding()),
+                (2, rows.offsets.as_entire_binding()),
+                (3, places.as_entire_binding()),
+                (4, table.as_entire_binding()),
             ];
-            self.gpu
-                .compute(&mut encoder, &self.collect, &collected, workgroups);
+            self.gpu.compute(
+                &mut encoder,
+                &self.collect,
+                &collected,
+                [side, side, left as u32],
+            );
         }
         queue.submit([encoder.finish()]);
-        let keys = self.gpu.read(&facets, 0, hits).await?;
+        let places = self.gpu.read(&places, 0, hits).await?;
         // Buffers of a lost device may read as zeros.
         self.gpu.check()?;
-        self.meetings(region, &offsets, &keys).map(Some)
+        self.meetings(region, &cells, &offsets, &places).map(Some)
     }
 
-    /// The facets that rays meet, from the keys that were peeled.
+    /// The facets that rays meet, from their places in the lists of the cells.
     fn meetings(
         &self,
         region: Region,
+        cells: &Cells,
         offsets: &[u32],
-        keys: &[u32],
+        places: &[u32],
     ) -> Result<Meetings, LdiError> {
         let deep = self.facets_of_deep_rays(region, offsets);
         let mut meetings = Meetings {
             offsets: Vec::with_capacity(offsets.len()),
-            facets: Vec::with_capacity(keys.len()),
+            facets: Vec::with_capacity(places.len()),
         };
         meetings.offsets.push(0);
         for (ray, ends) in offsets.windows(2).enumerate() {
             if let Some(facets) = deep.get(&ray) {
                 meetings.facets.extend(facets);
             } else {
-                let keys = keys.get(ends[0] as usize..ends[1] as usize);
-                for &key in keys.ok_or_else(|| failed(GpuFault::BadOffsets))? {
-                    // A facet that was tallied and not peeled leaves a zero.
-                    let facet = self.order.get((key as usize).wrapping_sub(1));
+                let places = places.get(ends[0] as usize..ends[1] as usize);
+                for &place in places.ok_or_else(|| failed(GpuFault::BadOffsets))? {
+                    // A facet that was counted and not peeled leaves a zero.
+                    let facet = cells.facets().get((place as usize).wrapping_sub(1));
                     let facet = facet.ok_or_else(|| failed(GpuFault::BadOffsets))?;
                     meetings.facets.push(*facet);
                 }
@@ -221,10 +196,10 @@ impl<'a> Peeler<'a> {
         Ok(meetings)
     }
 
-    /// The facets of the rays whose tally is at its end, by ray.
+    /// The facets of the rays whose count is too great, by ray.
     fn facets_of_deep_rays(&self, region: Region, offsets: &[u32]) -> FxHashMap<usize, Vec<u32>> {
-        let tallies = tallies(offsets).enumerate();
-        let deep = tallies.filter(|&(_, tally)| tally >= TALLY_END);
+        let counts = counts(offsets).enumerate();
+        let deep = counts.filter(|&(_, count)| count >= DEEP);
         let mut facets: FxHashMap<usize, Vec<u32>> =
             deep.map(|(ray, _)| (ray, Vec::new())).collect();
         if facets.is_empty() {
@@ -248,57 +223,134 @@ impl<'a> Peeler<'a> {
         }
         facets
     }
+}
 
+/// The two layers of a tile that passes read and write in turn, and what is drawn on them.
+struct Layers<'a> {
+    peel: &'a wgpu::RenderPipeline,
+    /// The corners of each facet of each cell's list, three times.
+    corners: wgpu::Buffer,
+    views: [wgpu::TextureView; 2],
+    /// What the passes see that write the one layer or the other.
+    seen: [wgpu::BindGroup; 2],
+}
+
+impl<'a> Layers<'a> {
+    fn new(peeler: &'a Peeler<'_>, region: Region, cells: &Cells) -> Self {
+        let gpu = peeler.gpu;
+        let corners: Vec<[Corners; 3]> = cells
+            .facets()
+            .iter()
+            .map(|&facet| [peeler.projection.corners(facet as usize); 3])
+            .collect();
+        let views = ["even layers", "odd layers"].map(|label| {
+            let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+                label: Some(label),
+                size: region.extent(),
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format: LAYER,
+                usage: wgpu::TextureUsages::RENDER_ATTACHMENT
+                    | wgpu::TextureUsages::TEXTURE_BINDING,
+                view_formats: &[],
+            });
+            texture.create_view(&Default::default())
+        });
+        let tile = gpu.tile(region);
+        let seen = [&views[1], &views[0]].map(|previous| {
+            let resources = [
+                (0, tile.as_entire_binding()),
+                (1, wgpu::BindingResource::TextureView(previous)),
+            ];
+            gpu.bind(&peeler.peel.get_bind_group_layout(0), &resources)
+        });
+        Self {
+            peel: &peeler.peel,
+            corners: gpu.filled_buffer(
+                "corners",
+                bytemuck::cast_slice(&corners),
+                wgpu::BufferUsages::VERTEX,
+            ),
+            views,
+            seen,
+        }
+    }
+
+    /// Draws some cells in one pass.
     fn draw(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        pipeline: &wgpu::RenderPipeline,
-        resources: &[(u32, wgpu::BindingResource<'_>)],
-        target: &wgpu::TextureView,
-        depth: Option<&wgpu::TextureView>,
+        pass: usize,
+        cells: &Cells,
+        drawn: &[usize],
     ) {
-        let group = self.gpu.bind(&pipeline.get_bind_group_layout(0), resources);
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("peel"),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: target,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                    store: wgpu::StoreOp::Store,
-                },
-            })],
-            depth_stencil_attachment: depth.map(|view| wgpu::RenderPassDepthStencilAttachment {
-                view,
-                depth_ops: Some(wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(1.0),
-                    store: wgpu::StoreOp::Discard,
-                }),
-                stencil_ops: None,
-            }),
-            ..Default::default()
-        });
-        pass.set_pipeline(pipeline);
-        pass.set_bind_group(0, &group, &[]);
-        pass.set_vertex_buffer(0, self.corners.slice(..));
-        pass.draw(0..3 * self.order.len() as u32, 0..1);
+        let mut render = clear(encoder, &self.views[pass % 2], NONE);
+        render.set_pipeline(self.peel);
+        render.set_bind_group(0, &self.seen[pass % 2], &[]);
+        for &cell in drawn {
+            let list = cells.list(cell);
+            if list.is_empty() {
+                continue;
+            }
+            let bytes = [list.start, list.end].map(|place| place as u64 * FACET_BYTES);
+            let rays = cells.rays(cell);
+            render.set_scissor_rect(rays.column, rays.row, rays.width, rays.height);
+            // Numbers vertices from the beginning of the list.
+            render.set_vertex_buffer(0, self.corners.slice(bytes[0]..bytes[1]));
+            render.draw(0..3 * list.len() as u32, 0..1);
+        }
     }
 }
 
-/// The tally of each ray.
-fn tallies(offsets: &[u32]) -> impl Iterator<Item = u32> {
+/// Begins a pass that clears a layer.
+fn clear<'a>(
+    encoder: &'a mut wgpu::CommandEncoder,
+    layer: &wgpu::TextureView,
+    colour: wgpu::Color,
+) -> wgpu::RenderPass<'a> {
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("peel"),
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view: layer,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations {
+                load: wgpu::LoadOp::Clear(colour),
+                store: wgpu::StoreOp::Store,
+            },
+        })],
+        ..Default::default()
+    })
+}
+
+/// The facets of each ray.
+fn counts(offsets: &[u32]) -> impl Iterator<Item = u32> {
     offsets.windows(2).map(|ends| ends[1].wrapping_sub(ends[0]))
 }
 
-fn render_pipeline(
-    gpu: &Gpu,
-    module: &wgpu::ShaderModule,
-    fragment: &str,
-    format: wgpu::TextureFormat,
-    blend: Option<wgpu::BlendState>,
-    depth_compare: Option<wgpu::CompareFunction>,
-) -> wgpu::RenderPipeline {
+/// The facets of the deepest ray of a part of a region, not counting those that are too deep.
+fn depth(rays: Region, region: Region, offsets: &[u32]) -> u32 {
+    let rows = rays.row..rays.row + rays.height;
+    let depths = rows.flat_map(|row| {
+        let first = (row * region.width + rays.column) as usize;
+        counts(&offsets[first..=first + rays.width as usize])
+    });
+    depths.filter(|&count| count < DEEP).max().unwrap_or(0)
+}
+
+fn render_pipeline(gpu: &Gpu) -> wgpu::RenderPipeline {
+    let module = gpu
+        .device
+        .create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("peel.wgsl"),
+            source: wgpu::ShaderSource::Wgsl(PEEL.into()),
+        });
+    let blend = |operation| wgpu::BlendComponent {
+        src_factor: wgpu::BlendFactor::One,
+        dst_factor: wgpu::BlendFactor::One,
+        operation,
+    };
     let corner = |i: u32| wgpu::VertexAttribute {
         format: wgpu::VertexFormat::Sint32x2,
         offset: u64::from(i) * 8,
@@ -307,10 +359,10 @@ fn render_pipeline(
     let corners = [0, 1, 2].map(corner);
     gpu.device
         .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some(fragment),
+            label: Some("peel"),
             layout: None,
             vertex: wgpu::VertexState {
-                module,
+                module: &module,
                 entry_point: Some("propose"),
                 compilation_options: Default::default(),
                 buffers: &[Some(wgpu::VertexBufferLayout {
@@ -320,21 +372,18 @@ fn render_pipeline(
                 })],
             },
             primitive: wgpu::PrimitiveState::default(),
-            depth_stencil: depth_compare.map(|compare| wgpu::DepthStencilState {
-                format: DEPTH,
-                depth_write_enabled: Some(true),
-                depth_compare: Some(compare),
-                stencil: Default::default(),
-                bias: Default::default(),
-            }),
+            depth_stencil: None,
             multisample: Default::default(),
             fragment: Some(wgpu::FragmentState {
-                module,
-                entry_point: Some(fragment),
+                module: &module,
+                entry_point: Some("peel"),
                 compilation_options: Default::default(),
                 targets: &[Some(wgpu::ColorTargetState {
-                    format,
-                    blend,
+                    format: LAYER,
+                    blend: Some(wgpu::BlendState {
+                        color: blend(wgpu::BlendOperation::Max),
+                        alpha: blend(wgpu::BlendOperation::Add),
+                    }),
                     write_mask: wgpu::ColorWrites::ALL,
                 })],
             }),

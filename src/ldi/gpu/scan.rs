@@ -76,7 +76,7 @@ impl Scan {
             (scan_totals, &all[2..], 1),
             (add_totals, &all[..], blocks),
         ] {
-            gpu.compute(encoder, pipeline, buffers, [workgroups, 1]);
+            gpu.compute(encoder, pipeline, buffers, [workgroups, 1, 1]);
         }
     }
 }
