@@ -3,8 +3,10 @@
 // Stands for the first place in a list. Twin of the constant in peel.wgsl.
 const LEAST: u32 = 0x1c400u;
 
-// Side of a workgroup in rays. Twin of `COLLECT_SIDE` in src/ldi/layout.rs.
-const SIDE: u32 = 16u;
+// Columns and rows of a workgroup: no more threads than WebGPU's compatibility mode allows. Twins of `COLLECT` in
+// src/ldi/layout.rs.
+const COLUMNS: u32 = 16u;
+const ROWS: u32 = 8u;
 
 // A square of the tile with a list of its own. Twin of `Cell` in src/ldi/layout.rs.
 struct Cell {
@@ -24,7 +26,7 @@ struct Cell {
 @group(0) @binding(3) var<storage, read_write> places: array<u32>;
 @group(0) @binding(4) var<storage, read> cells: array<Cell>;
 
-@compute @workgroup_size(SIDE, SIDE)
+@compute @workgroup_size(COLUMNS, ROWS)
 fn count(@builtin(global_invocation_id) id: vec3<u32>) {
     let size = textureDimensions(layer);
     if any(id.xy >= size) {
@@ -38,10 +40,10 @@ fn place_of(half: f32) -> u32 {
 }
 
 // Nearest facets fill a ray's row from its beginning, farthest ones from its end.
-@compute @workgroup_size(SIDE, SIDE)
+@compute @workgroup_size(COLUMNS, ROWS)
 fn collect(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) id: vec3<u32>) {
     let cell = cells[group.z];
-    let pixel = cell.corner + group.xy * SIDE + id.xy;
+    let pixel = cell.corner + group.xy * vec2<u32>(COLUMNS, ROWS) + id.xy;
     let size = textureDimensions(layer);
     if any(pixel >= size) {
         return;

@@ -21,13 +21,14 @@ const MARGIN: f32 = 0.25;
 // A corner is a needle if 1 + the cosine between the normals of its edges is below this.
 const NEEDLE: f32 = 0.05;
 
+// The vertices of a facet agree in all but their positions.
 struct Candidate {
     @builtin(position) position: vec4<f32>,
-    @location(0) @interpolate(flat) facet: u32,
+    @location(0) @interpolate(flat, either) facet: u32,
     // The corners in lattice steps, ordered so that edge functions are positive inside.
-    @location(1) @interpolate(flat) a: vec2<i32>,
-    @location(2) @interpolate(flat) b: vec2<i32>,
-    @location(3) @interpolate(flat) c: vec2<i32>,
+    @location(1) @interpolate(flat, either) a: vec2<i32>,
+    @location(2) @interpolate(flat, either) b: vec2<i32>,
+    @location(3) @interpolate(flat, either) c: vec2<i32>,
 }
 
 // The sign of u.x · v.y - u.y · v.x for signed components of up to 24 bits. The products need 48 bits, so

@@ -1,8 +1,9 @@
 // Exclusive prefix sum in three steps: within blocks, over the blocks' totals, and adding the two.
 
-const THREADS: u32 = 256u;
+// No more than WebGPU's compatibility mode allows.
+const THREADS: u32 = 128u;
 // Values per thread.
-const RUN: u32 = 4u;
+const RUN: u32 = 8u;
 // Values per block; twin of `SCAN_BLOCK` in src/ldi/layout.rs.
 const BLOCK: u32 = 1024u;
 
@@ -12,7 +13,7 @@ const BLOCK: u32 = 1024u;
 // One per block, followed by the total.
 @group(0) @binding(2) var<storage, read_write> totals: array<u32>;
 
-var<workgroup> shared_sums: array<u32, 256>;
+var<workgroup> shared_sums: array<u32, THREADS>;
 
 // The sum of the values of the threads before this one, and of all threads.
 struct Share {
@@ -37,7 +38,7 @@ fn share(thread: u32, value: u32) -> Share {
     return result;
 }
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(THREADS)
 fn scan_blocks(
     @builtin(workgroup_id) block: vec3<u32>,
     @builtin(local_invocation_index) thread: u32,
@@ -60,7 +61,7 @@ fn scan_blocks(
 }
 
 // One workgroup walks over all blocks.
-@compute @workgroup_size(256)
+@compute @workgroup_size(THREADS)
 fn scan_totals(@builtin(local_invocation_index) thread: u32) {
     let blocks = arrayLength(&totals) - 1u;
     var carried = 0u;
@@ -81,7 +82,7 @@ fn scan_totals(@builtin(local_invocation_index) thread: u32) {
     }
 }
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(THREADS)
 fn add_totals(
     @builtin(workgroup_id) block: vec3<u32>,
     @builtin(local_invocation_index) thread: u32,

@@ -26,21 +26,22 @@ fn compare(
     let mesh = on_plate(triangles);
     let grid = shifted_grid(&mesh, rays, shift);
     let expected = cpu::sample(&mesh, &grid, &mut silent)?;
+    let gpu = pollster::block_on(Gpu::open(gpu::Adapters::Any))?;
     [Method::Fill, Method::Peel]
         .into_iter()
-        .try_for_each(|method| compare_method(method, &mesh, &grid, &expected, tiling))
+        .try_for_each(|method| compare_method(&gpu, method, &mesh, &grid, &expected, tiling))
 }
 
 fn compare_method(
+    gpu: &Gpu,
     method: Method,
     mesh: &Mesh,
     grid: &Grid,
     expected: &Ldi,
     tiling: gpu::Tiling,
 ) -> Result<(), Failed> {
-    let gpu = pollster::block_on(Gpu::open(gpu::Adapters::Any))?;
     let mut progress = silent;
-    let job = gpu::sample(mesh, grid, &gpu, tiling, method, &mut progress);
+    let job = gpu::sample(mesh, grid, gpu, tiling, method, &mut progress);
     let found = pollster::block_on(job)?;
     let differing = (0..expected.rays()).find(|&ray| expected.ray(ray) != found.ray(ray));
     match differing {
@@ -162,6 +163,21 @@ fn tests() -> Vec<(String, Test)> {
         }),
     ));
     tests.push((
+        "a gpu without storage buffers hands its work to the cpu".to_owned(),
+        Box::new(no_storage_buffers),
+    ));
+    tests.push((
+        "peeling is within the limits of compatible adapters".to_owned(),
+        Box::new(|| {
+            let mesh = on_plate(&solids::stack(20));
+            let grid = Grid::around(&mesh.bounds(), 300)?;
+            let expected = cpu::sample(&mesh, &grid, &mut silent)?;
+            let gpu = with_limits(compatible())?;
+            let tiling = gpu::Tiling::default();
+            compare_method(&gpu, Method::Peel, &mesh, &grid, &expected, tiling)
+        }),
+    ));
+    tests.push((
         "small buffers make small tiles".to_owned(),
         Box::new(|| {
             let mesh = on_plate(&solids::sphere(5.0, 4));
@@ -233,18 +249,47 @@ fn report_method() -> Result<(), Failed> {
     is_same.then_some(()).ok_or("print files differ".into())
 }
 
-fn with_buffers_of(bytes: u64) -> Result<Gpu, Failed> {
+fn with_limits(required_limits: wgpu::Limits) -> Result<Gpu, Failed> {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
     let adapter = pollster::block_on(instance.request_adapter(&Default::default()))?;
     let device = adapter.request_device(&wgpu::DeviceDescriptor {
-        required_limits: wgpu::Limits {
-            max_storage_buffer_binding_size: bytes,
-            ..Default::default()
-        },
+        required_limits,
         ..Default::default()
     });
     let (device, queue) = pollster::block_on(device)?;
-    Ok(Gpu::with_device(adapter.get_info().name, device, queue))
+    let gpu = Gpu::with_device(adapter.get_info().name, device, queue);
+    Ok(pollster::block_on(gpu))
+}
+
+fn with_buffers_of(bytes: u64) -> Result<Gpu, Failed> {
+    with_limits(wgpu::Limits {
+        max_storage_buffer_binding_size: bytes,
+        ..Default::default()
+    })
+}
+
+/// The limits of WebGPU's compatibility mode, as far as wgpu has them: it cannot forbid storage buffers in one stage alone.
+fn compatible() -> wgpu::Limits {
+    wgpu::Limits {
+        max_texture_dimension_2d: 4096,
+        max_storage_buffers_per_shader_stage: 4,
+        max_compute_invocations_per_workgroup: 128,
+        max_compute_workgroup_size_x: 128,
+        max_compute_workgroup_size_y: 128,
+        ..Default::default()
+    }
+}
+
+/// A device that has too few storage buffers to fill peels; and has too few for that, too.
+fn no_storage_buffers() -> Result<(), Failed> {
+    let gpu = with_limits(wgpu::Limits {
+        max_storage_buffers_per_shader_stage: 2,
+        ..Default::default()
+    })?;
+    if gpu.method() != Method::Peel {
+        return Err("it fills".into());
+    }
+    plans_with_warning(gpu, GpuMethod::Auto, is_gpu_failed, &mut quiet)
 }
 
 /// Makes the device report an uncaptured error in the middle of the job.

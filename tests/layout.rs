@@ -4,7 +4,9 @@
 
 use std::mem::offset_of;
 
-use cusp_slicer::ldi::layout::{CELL_FACETS, COLLECT_SIDE, Cell, FILL, PEEL, SCAN_BLOCK, Tile};
+use cusp_slicer::ldi::layout::{
+    CELL_FACETS, COLLECT as WORKGROUP, Cell, FILL, PEEL, SCAN_BLOCK, Tile,
+};
 use cusp_slicer::ldi::projection::STEPS;
 use naga::{Expression, Literal, Module, TypeInner};
 
@@ -84,7 +86,8 @@ fn constants_that_stand_on_both_sides_agree() {
     let of_half = |half: u32| i64::from(half + (112 << 10));
     assert_eq!(least, of_half(0x400));
     assert_eq!(least + CELL_FACETS as i64, of_half(0x7bff));
-    assert_eq!(constant(&parse(COLLECT), "SIDE"), i64::from(COLLECT_SIDE));
+    let sides = ["COLUMNS", "ROWS"].map(|name| constant(&parse(COLLECT), name));
+    assert_eq!(sides, WORKGROUP.map(i64::from));
     let scan = parse(SCAN);
     assert_eq!(constant(&scan, "BLOCK"), i64::from(SCAN_BLOCK));
     assert_eq!(
@@ -98,9 +101,25 @@ fn workgroups_cover_the_rays_that_are_dispatched() {
     let module = parse(COLLECT);
     assert!(!module.entry_points.is_empty());
     for entry in &module.entry_points {
-        let expected = [COLLECT_SIDE, COLLECT_SIDE, 1];
+        let expected = [WORKGROUP[0], WORKGROUP[1], 1];
         assert_eq!(entry.workgroup_size, expected, "{}", entry.name);
     }
+}
+
+/// WebGPU's compatibility mode allows 128 threads and four storage buffers.
+#[test]
+fn compute_passes_are_within_the_limits_of_compatible_adapters() {
+    for module in [SCAN, COLLECT].map(parse) {
+        for entry in &module.entry_points {
+            assert!(entry.workgroup_size.iter().product::<u32>() <= 128);
+        }
+        let globals = module.global_variables.iter();
+        assert!(globals.filter(|(_, global)| is_storage(global)).count() <= 4);
+    }
+}
+
+fn is_storage(global: &naga::GlobalVariable) -> bool {
+    matches!(global.space, naga::AddressSpace::Storage { .. })
 }
 
 #[test]
@@ -117,8 +136,6 @@ fn the_shaders_are_valid() {
 #[test]
 fn peeling_draws_without_storage_buffers() {
     let module = parse(PEEL);
-    let is_storage =
-        |space: &naga::AddressSpace| matches!(space, naga::AddressSpace::Storage { .. });
     let mut globals = module.global_variables.iter();
-    assert!(globals.all(|(_, global)| !is_storage(&global.space)));
+    assert!(globals.all(|(_, global)| !is_storage(global)));
 }

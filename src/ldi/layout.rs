@@ -28,8 +28,8 @@ pub struct Cell {
 /// Facets that the list of a cell may have: half precision has so many normal positive numbers below its greatest.
 pub const CELL_FACETS: usize = 0x7bff - 0x400;
 
-/// Side of the workgroups of shaders/collect.wgsl, in rays.
-pub const COLLECT_SIDE: u32 = 16;
+/// Columns and rows of the workgroups of shaders/collect.wgsl, in rays.
+pub const COLLECT: [u32; 2] = [16, 8];
 
 /// The source of the filling method.
 pub const FILL: &str = concat!(

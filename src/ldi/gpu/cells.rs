@@ -3,15 +3,18 @@
 
 use super::tiles::Region;
 use crate::ldi::bins::Bins;
-use crate::ldi::layout::{CELL_FACETS, COLLECT_SIDE, Cell};
+use crate::ldi::layout::{CELL_FACETS, Cell};
 use crate::ldi::projection::Projection;
 
 /// The side of cells in rays, unless their lists get too long.
 const SIDE: u32 = 64;
 
+/// The least side: cells are whole workgroups.
+const LEAST_SIDE: u32 = 16;
+
 pub(super) struct Cells {
     region: Region,
-    /// Side in rays, a multiple of [`COLLECT_SIDE`].
+    /// Side in rays, a multiple of [`LEAST_SIDE`].
     pub side: u32,
     columns: u32,
     lists: Bins,
@@ -30,7 +33,7 @@ impl Cells {
             if longest.unwrap_or(0) <= CELL_FACETS {
                 return Some(cells);
             }
-            if side == COLLECT_SIDE {
+            if side == LEAST_SIDE {
                 return None;
             }
             side /= 2;

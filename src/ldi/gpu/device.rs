@@ -47,14 +47,34 @@ impl Method {
         }
     }
 
-    /// The method for an adapter that can do this much.
-    fn of(capabilities: &wgpu::DownlevelCapabilities) -> Self {
-        let needed =
-            wgpu::DownlevelFlags::FRAGMENT_WRITABLE_STORAGE | wgpu::DownlevelFlags::VERTEX_STORAGE;
-        if capabilities.flags.contains(needed) {
-            Self::Fill
-        } else {
-            Self::Peel
+    /// The faster method of those that a device can do.
+    async fn of(device: &wgpu::Device) -> Self {
+        // wgpu does not tell how many storage buffers a stage may have; so ask for what filling needs.
+        let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let entry = |binding, visibility, read_only| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility,
+            ty: wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Storage { read_only },
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            count: None,
+        };
+        let entries = [
+            entry(1, wgpu::ShaderStages::VERTEX, true),
+            entry(2, wgpu::ShaderStages::VERTEX, true),
+            entry(3, wgpu::ShaderStages::FRAGMENT, false),
+            entry(4, wgpu::ShaderStages::FRAGMENT, true),
+            entry(5, wgpu::ShaderStages::FRAGMENT, false),
+        ];
+        let _ = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("probe"),
+            entries: &entries,
+        });
+        match scope.pop().await {
+            None => Self::Fill,
+            Some(_) => Self::Peel,
         }
     }
 }
@@ -127,18 +147,20 @@ impl Gpu {
         if adapters == Adapters::Hardware && info.device_type == wgpu::DeviceType::Cpu {
             return Err(LdiError::GpuEmulated { adapter: name });
         }
-        let descriptor = wgpu::DeviceDescriptor::default();
+        let descriptor = wgpu::DeviceDescriptor {
+            // Adapters of WebGPU's compatibility mode offer less.
+            required_limits: wgpu::Limits::default().or_worse_values_from(&adapter.limits()),
+            ..Default::default()
+        };
         let (device, queue) = adapter.request_device(&descriptor).await.map_err(no_gpu)?;
-        Ok(Self {
-            method: Method::of(&adapter.get_downlevel_capabilities()),
-            ..Self::with_device(name, device, queue)
-        })
+        Ok(Self::with_device(name, device, queue).await)
     }
 
-    /// Uses a device that is already open, and can fill. Reports call it `name`.
+    /// Uses a device that is already open. Reports call it `name`.
     ///
     /// Its callbacks for uncaptured errors and for its loss are replaced.
-    pub fn with_device(name: String, device: wgpu::Device, queue: wgpu::Queue) -> Self {
+    pub async fn with_device(name: String, device: wgpu::Device, queue: wgpu::Queue) -> Self {
+        let method = Method::of(&device).await;
         let failure = Failure::default();
         let of_device = failure.clone();
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
@@ -152,12 +174,12 @@ impl Gpu {
             name,
             device,
             queue,
-            method: Method::Fill,
+            method,
             failure,
         }
     }
 
-    /// The faster method of those that the adapter can do.
+    /// The faster method of those that the device can do.
     pub fn method(&self) -> Method {
         self.method
     }

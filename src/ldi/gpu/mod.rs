@@ -24,6 +24,17 @@ use crate::grid::Grid;
 use crate::model::Mesh;
 use crate::progress::{Progress, report};
 
+/// The facets from which on a search for a GPU can be worth its time.
+pub const MANY_FACETS: usize = 1_000_000;
+
+/// Whether a GPU can be faster than the CPU backend at this size: with many facets, and at least four for each ray.
+///
+/// What a GPU finds is read back, and the CPU computes heights and sorts. Where rays outnumber facets, that alone takes longer than
+/// all that the CPU backend does (docs/ldi.md, "When a GPU is used"; `cargo xtask bench gpu` checks it).
+pub fn can_be_faster(facets: usize, rays: usize) -> bool {
+    facets >= MANY_FACETS && facets / 4 >= rays
+}
+
 /// A method with the mesh on the GPU.
 enum Sampler<'a> {
     Fill(Filler<'a>),

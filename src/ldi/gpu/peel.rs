@@ -11,7 +11,7 @@ use super::cells::Cells;
 use super::device::{Gpu, WORD, failed};
 use super::scan::{Rows, Scan};
 use super::tiles::{Meetings, Region};
-use crate::ldi::layout::{COLLECT_SIDE, Cell, PEEL};
+use crate::ldi::layout::{COLLECT, Cell, PEEL};
 use crate::ldi::projection::Projection;
 use crate::ldi::{GpuFault, LdiError};
 use crate::model::Mesh;
@@ -99,9 +99,8 @@ impl<'a> Peeler<'a> {
             (0, wgpu::BindingResource::TextureView(&layers.views[0])),
             (1, rows.counts.as_entire_binding()),
         ];
-        let workgroups = [region.width, region.height, 1].map(|side| side.div_ceil(COLLECT_SIDE));
-        self.gpu
-            .compute(&mut encoder, &self.count, &counts, workgroups);
+        let whole = workgroups(region.width, region.height, 1);
+        self.gpu.compute(&mut encoder, &self.count, &counts, whole);
         self.scan.encode(self.gpu, &mut encoder, &rows);
         queue.submit([encoder.finish()]);
         let offsets = rows.read_offsets(self.gpu).await?;
@@ -129,7 +128,6 @@ impl<'a> Peeler<'a> {
         let places = self
             .gpu
             .buffer("places", hits, storage | wgpu::BufferUsages::COPY_SRC);
-        let side = cells.side / COLLECT_SIDE;
 
         let mut encoder = device.create_command_encoder(&Default::default());
         for pass in 0.. {
@@ -155,7 +153,7 @@ impl<'a> Peeler<'a> {
                 &mut encoder,
                 &self.collect,
                 &collected,
-                [side, side, left as u32],
+                workgroups(cells.side, cells.side, left),
             );
         }
         queue.submit([encoder.finish()]);
@@ -322,6 +320,12 @@ fn clear<'a>(
         })],
         ..Default::default()
     })
+}
+
+/// The workgroups that collect from `cells` cells of this size.
+fn workgroups(width: u32, height: u32, cells: usize) -> [u32; 3] {
+    let [columns, rows] = COLLECT;
+    [width.div_ceil(columns), height.div_ceil(rows), cells as u32]
 }
 
 /// The facets of each ray.
