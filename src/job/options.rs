@@ -13,7 +13,7 @@ use crate::resin::Resin;
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "lowercase")]
 pub enum Backend {
-    /// A hardware GPU if there is one, otherwise the CPU.
+    /// The CPU, or a hardware GPU where that can be faster: see [`crate::ldi::gpu::can_be_faster`].
     #[default]
     Auto,
     /// A GPU, even if emulated in software; fails if there is none.

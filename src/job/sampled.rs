@@ -41,17 +41,25 @@ pub struct UsedGpu {
 pub struct Sampler {
     /// The GPU to use next, or why the last search found none. `None` before a search and after a failure.
     gpu: Option<Result<Gpu, LdiError>>,
+    /// Whether that GPU is one that the caller opened, which is used at every size.
+    is_given: bool,
 }
 
 impl Sampler {
     /// Samples on `gpu` from now on, unless the backend is the CPU.
     pub fn set_gpu(&mut self, gpu: Gpu) {
         self.gpu = Some(Ok(gpu));
+        self.is_given = true;
     }
 
-    /// Searches for a GPU that `backend` allows, unless a search has already been made.
-    pub async fn open_gpu(&mut self, backend: Backend) {
-        if self.gpu.is_none() {
+    /// Searches for a GPU that `backend` allows for this many facets, unless a search has already been made.
+    pub async fn open_gpu(&mut self, backend: Backend, facets: usize) {
+        let is_wanted = match backend {
+            Backend::Auto => facets >= gpu::MANY_FACETS,
+            Backend::Gpu => true,
+            Backend::Cpu => false,
+        };
+        if is_wanted && self.gpu.is_none() {
             self.gpu = Some(search_gpu(backend).await);
         }
     }
@@ -78,15 +86,19 @@ impl Sampler {
         let mut warnings = mesh_warnings(&mesh);
         let rays = grid.refined(sampling.samples.rays()).around_model(&bounds);
         rays.check_rays()?;
-        let on_gpu = self.sample_on_gpu(&mesh, &rays, sampling, &mut ldi_progress);
-        let (ldi, gpu) = match on_gpu.await {
-            Ok((ldi, gpu)) => (ldi, Some(gpu)),
-            Err(error @ LdiError::Cancelled(_)) => return Err(error.into()),
-            Err(error) if sampling.backend == Backend::Gpu => return Err(error.into()),
-            Err(error) => {
-                warnings.extend(cpu_instead(&error));
-                (cpu::sample(&mesh, &rays, &mut ldi_progress)?, None)
+        let mut on_gpu = None;
+        if self.wants_gpu(sampling.backend, mesh.facets.len(), rays.pixels()) {
+            let found = self.sample_on_gpu(&mesh, &rays, sampling, &mut ldi_progress);
+            match found.await {
+                Ok(found) => on_gpu = Some(found),
+                Err(error @ LdiError::Cancelled(_)) => return Err(error.into()),
+                Err(error) if sampling.backend == Backend::Gpu => return Err(error.into()),
+                Err(error) => warnings.extend(cpu_instead(&error)),
             }
+        }
+        let (ldi, gpu) = match on_gpu {
+            Some((ldi, gpu)) => (ldi, Some(gpu)),
+            None => (cpu::sample(&mesh, &rays, &mut ldi_progress)?, None),
         };
         if ldi.hits.is_empty() {
             return Err(LdiError::NoHits {
@@ -112,6 +124,15 @@ impl Sampler {
         })
     }
 
+    /// Whether to try a GPU at this size.
+    fn wants_gpu(&self, backend: Backend, facets: usize, rays: usize) -> bool {
+        match backend {
+            Backend::Auto => self.is_given || gpu::can_be_faster(facets, rays),
+            Backend::Gpu => true,
+            Backend::Cpu => false,
+        }
+    }
+
     /// Samples on the GPU, and returns the LDI and what sampled it. A GPU that fails is closed.
     async fn sample_on_gpu(
         &mut self,
@@ -121,8 +142,8 @@ impl Sampler {
         progress: &mut Progress<'_>,
     ) -> Result<(Ldi, UsedGpu), LdiError> {
         let backend = sampling.backend;
-        let found = self.gpu.take_if(|_| backend != Backend::Cpu);
-        let gpu = match found {
+        let is_given = std::mem::take(&mut self.is_given);
+        let gpu = match self.gpu.take() {
             Some(found) => found?,
             None => search_gpu(backend).await?,
         };
@@ -134,20 +155,18 @@ impl Sampler {
         let ldi = gpu::sample(mesh, rays, &gpu, gpu::Tiling::default(), method, progress).await?;
         let name = gpu.name().to_owned();
         self.gpu = Some(Ok(gpu));
+        self.is_given = is_given;
         Ok((ldi, UsedGpu { name, method }))
     }
 }
 
-/// Opens a GPU that `backend` allows.
+/// Opens a GPU that `backend` allows: an emulated one only if it is asked for.
 async fn search_gpu(backend: Backend) -> Result<Gpu, LdiError> {
-    match backend {
-        // Never shown, because the CPU was requested.
-        Backend::Cpu => Err(LdiError::NoGpu {
-            system: String::new(),
-        }),
-        Backend::Gpu => Gpu::open(gpu::Adapters::Any).await,
-        Backend::Auto => Gpu::open(gpu::Adapters::Hardware).await,
-    }
+    let adapters = match backend {
+        Backend::Gpu => gpu::Adapters::Any,
+        Backend::Auto | Backend::Cpu => gpu::Adapters::Hardware,
+    };
+    Gpu::open(adapters).await
 }
 
 /// The warning about a GPU that was found but failed; `None` if none was found.

@@ -85,7 +85,8 @@ impl Slicer {
     /// Searches in advance for the GPU that the next plan with this `backend` would search for. Drivers may write to stderr
     /// during a search, and here a caller can silence them. The plan reports what was found.
     pub async fn open_gpu(&mut self, backend: Backend) {
-        self.sampler.open_gpu(backend).await;
+        let facets = self.model.facets.len();
+        self.sampler.open_gpu(backend, facets).await;
     }
 
     /// Describes the model in the frame of its file.
