@@ -337,21 +337,44 @@ test("the page is forbidden to send anything anywhere", async () => {
   }
 });
 
-test("the GPU gives the plan that the CPU gives", async (context) => {
+/** Whether this browser offers a WebGPU adapter. */
+async function hasAdapter(): Promise<boolean> {
   const probe = await start();
-  const adapter = await probe.evaluate(async () => {
-    const gpu = (navigator as { gpu?: { requestAdapter(): Promise<unknown> } }).gpu;
-    return gpu === undefined ? false : (await gpu.requestAdapter()) !== null;
-  });
-  if (!adapter) context.skip("this browser offers no WebGPU adapter");
+  return probe.evaluate(async () => (await navigator.gpu?.requestAdapter()) != null);
+}
+
+test("the GPU gives the plan that the CPU gives, by either method", async (context) => {
+  if (!(await hasAdapter())) context.skip("this browser offers no WebGPU adapter");
   const counts: number[] = [];
-  for (const backend of ["cpu", "gpu"]) {
-    const page = await start(`?backend=${backend}`);
+  for (const [query, ran] of [
+    ["backend=cpu", "Computed on the CPU"],
+    ["backend=gpu", "filling"],
+    ["backend=gpu&gpu-method=peel", "depth peeling"],
+  ] as const) {
+    const page = await start(`?${query}`);
     await drop(page, ballFile);
     await state(page, "done", 60_000);
-    expect(await words(page)).toContain(`Computed on the ${backend.toUpperCase()}`);
+    expect(await words(page)).toContain(ran);
     counts.push(await layers(page));
   }
-  const [cpu = 0, gpu = 0] = counts;
-  expect(Math.abs(cpu - gpu)).toBeLessThanOrEqual(1);
+  expect(new Set(counts).size).toBe(1);
+});
+
+test("a GPU of WebGPU's compatibility mode peels", async (context) => {
+  if (!(await hasAdapter())) context.skip("this browser offers no WebGPU adapter");
+  const page = await start("?backend=gpu");
+  await page.route(/worker-[^/]*\.js$/, async (route) => {
+    const response = await route.fetch();
+    const lesser = `{
+      const request = GPU.prototype.requestAdapter;
+      GPU.prototype.requestAdapter = function (options) {
+        return options?.featureLevel === "compatibility" ? request.call(this, options) : Promise.resolve(null);
+      };
+    }`;
+    await route.fulfill({ response, body: `${lesser}\n${await response.text()}` });
+  });
+  await page.reload();
+  await drop(page, ballFile);
+  await state(page, "done", 60_000);
+  expect(await words(page)).toContain("depth peeling");
 });

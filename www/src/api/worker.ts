@@ -1,6 +1,7 @@
 /** The worker: the only file that imports the WebAssembly package. One model is open at a time. */
 import * as Comlink from "comlink";
 import init, { head_bytes, identify, OrientationSearch, printers, Slicer } from "../../pkg/cusp_slicer.js";
+import { acceptCompatible } from "./adapters.js";
 import type { Candidate, OnProgress, SlicerWorker } from "./wire.js";
 
 /** Chunks of a print file are merged into a Blob at this many bytes; the browser may keep that on disk. */
@@ -167,5 +168,6 @@ const api: SlicerWorker = {
   printers,
 };
 
+if (globalThis.navigator?.gpu !== undefined) acceptCompatible(navigator.gpu);
 // On a server that imports every entry there is nothing to listen to.
 if (globalThis.addEventListener !== undefined) Comlink.expose(api);

@@ -7,7 +7,7 @@ import { LitElement, type PropertyValues, type TemplateResult } from "lit";
 import { SlicerError } from "../api/error.js";
 import { createSlicer, type Model, type Plan, type PrintFile, type Slicer } from "../api/index.js";
 import type { Source } from "../api/source.js";
-import type { Backend, Format, Metric, Resin } from "../api/wire.js";
+import type { Backend, Format, GpuMethod, Metric, Resin } from "../api/wire.js";
 import { languageOf, type Language } from "../texts/index.js";
 import { Attributes, settingsOf } from "./state/attributes.js";
 import { isFiles } from "./state/choice.js";
@@ -212,7 +212,7 @@ export class CuspSlicer extends LitElement {
     if (read !== undefined) this.#session.quality = read;
   }
 
-  /** Where rays are cast: `cpu`, `gpu`, or null for the best available. */
+  /** Where rays are cast: `cpu`, `gpu`, or null for whichever is faster. */
   get backend(): Backend | null {
     return this.#session.backend;
   }
@@ -220,6 +220,17 @@ export class CuspSlicer extends LitElement {
     const read = this.#attributes.read("backend", backend);
     if (read === undefined) return;
     this.#session.backend = read;
+    this.#session.replan();
+  }
+
+  /** How a GPU casts them: by `fill` or by depth peeling, `peel`; null for the faster one that it can do. */
+  get gpuMethod(): GpuMethod | null {
+    return this.#session.gpuMethod;
+  }
+  set gpuMethod(method: GpuMethod | null) {
+    const read = this.#attributes.read("gpu-method", method);
+    if (read === undefined) return;
+    this.#session.gpuMethod = read;
     this.#session.replan();
   }
 

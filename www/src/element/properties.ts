@@ -3,7 +3,7 @@
  * frameworks derive from it. Tests compare the class and the tables of docs/embed.md with it.
  */
 import type { PropertyDeclaration } from "lit";
-import type { Backend } from "../api/wire.js";
+import type { Backend, GpuMethod } from "../api/wire.js";
 import { METRIC_NAMES } from "./state/metric.js";
 import { PANELS } from "./state/panel-names.js";
 import { fraction, languageTag, number, oneOf, someOf, text, type Reader } from "./state/readers.js";
@@ -46,6 +46,7 @@ export type SettingName = keyof typeof SETTINGS;
 export const SETTING_NAMES = Object.keys(SETTINGS) as SettingName[];
 
 const BACKENDS = ["cpu", "gpu"] as const satisfies readonly Backend[];
+const GPU_METHODS = ["fill", "peel"] as const satisfies readonly GpuMethod[];
 
 const ATTRIBUTE_PROPERTIES = {
   src: { attribute: "src" },
@@ -55,6 +56,7 @@ const ATTRIBUTE_PROPERTIES = {
   locale: { attribute: "locale", read: languageTag },
   panels: { attribute: "panels", read: someOf(PANELS) },
   backend: { attribute: "backend", read: oneOf(BACKENDS) },
+  gpuMethod: { attribute: "gpu-method", read: oneOf(GPU_METHODS) },
 } as const satisfies Attributes;
 
 export const ATTRIBUTES = byAttribute(ATTRIBUTE_PROPERTIES);

@@ -1,7 +1,7 @@
 /** Divides the page's address into the page's own keys and the settings. */
 
-/** The page's own keys: `locale`, and for developers `backend`. */
-export const ADDRESS_KEYS: readonly string[] = ["locale", "backend"];
+/** The page's own keys: `locale`, and for developers `backend` and `gpu-method`. */
+export const ADDRESS_KEYS: readonly string[] = ["locale", "backend", "gpu-method"];
 
 /** The settings in an address. */
 export function settingsOf(address: URLSearchParams): string {

@@ -47,6 +47,8 @@ const slicer = found<CuspSlicer>("cusp-slicer");
 slicer.query = settingsOf(asked);
 const backend = own.get("backend");
 if (backend === "cpu" || backend === "gpu") slicer.backend = backend;
+const method = own.get("gpu-method");
+if (method === "fill" || method === "peel") slicer.gpuMethod = method;
 slicer.addEventListener("cusp-change", keep);
 openAnywhere(slicer, (isDragging) => place.classList.toggle("dragging", isDragging));
 workOffline();

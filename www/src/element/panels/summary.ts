@@ -203,7 +203,9 @@ export function details({ report }: Result, { texts: { details: words }, format 
   const { mask, metric, timings_ms } = report;
   const error = (value: number): string => METRICS[metric].error(value, format);
   const fact = (name: string, value: string): TemplateResult => html`<div><dt>${name}</dt><dd>${value}</dd></div>`;
-  const ran = report.backend === "gpu" ? words.gpu(report.adapter) : words.cpu;
+  const method = report.gpu_method === "fill" || report.gpu_method === "peel" ? words.methods[report.gpu_method] : null;
+  const how = [report.adapter, method].filter((part) => part !== null).join(", ");
+  const ran = report.backend === "gpu" ? words.gpu(how === "" ? null : how) : words.cpu;
   return html`<details class="quiet figures">
     <summary>${words.ran(ran, format.duration(timings_ms.total))}</summary>
     <dl class="facts">

@@ -1,5 +1,5 @@
 /** What the user wants: the settings, with their undo steps, and the printers and resins to choose from. */
-import type { Backend, Options, Printer, Resin } from "../../api/wire.js";
+import type { Backend, GpuMethod, Options, Printer, Resin } from "../../api/wire.js";
 import { History } from "./history.js";
 import { check, type Faults, type Offered, type Settings } from "./settings.js";
 
@@ -10,6 +10,8 @@ export abstract class Preferences implements Offered {
   settings: Settings;
   /** The backend of every plan; null leaves the choice to the core. */
   backend: Backend | null;
+  /** How a GPU samples; null leaves the choice to the core. */
+  gpuMethod: GpuMethod | null = null;
   printers: readonly Printer[] = [];
   resins: readonly Resin[] = [];
   /** Settings that only the page may change. */
@@ -33,7 +35,11 @@ export abstract class Preferences implements Offered {
   get options(): Options | null {
     const checked = check(this.settings, this);
     if (!checked.ok) return null;
-    return this.backend === null ? checked.options : { ...checked.options, backend: this.backend };
+    return {
+      ...checked.options,
+      ...(this.backend !== null && { backend: this.backend }),
+      ...(this.gpuMethod !== null && { gpu_method: this.gpuMethod }),
+    };
   }
 
   get canUndo(): boolean {

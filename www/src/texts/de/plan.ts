@@ -73,7 +73,8 @@ export const plan = ({ counted, plural }: Format): PlanTexts => ({
   details: {
     ran: (where, duration) => `Berechnet auf ${where} in ${duration}`,
     cpu: "der CPU",
-    gpu: (adapter) => (adapter === null ? "der GPU" : `der GPU (${adapter})`),
+    gpu: (how) => (how === null ? "der GPU" : `der GPU (${how})`),
+    methods: { fill: "Füllen", peel: "Depth Peeling" },
     load: "Lesen",
     ldi: "Strahlen",
     profile: "Oberfläche messen",

@@ -77,7 +77,8 @@ export const plan = ({ counted, plural }: Format) => ({
   details: {
     ran: (where: string, duration: string) => `Computed on ${where} in ${duration}`,
     cpu: "the CPU",
-    gpu: (adapter: string | null) => (adapter === null ? "the GPU" : `the GPU (${adapter})`),
+    gpu: (how: string | null) => (how === null ? "the GPU" : `the GPU (${how})`),
+    methods: { fill: "filling", peel: "depth peeling" },
     load: "Reading",
     ldi: "Casting rays",
     profile: "Measuring the surface",

@@ -73,7 +73,8 @@ export const plan = ({ counted, plural }: Format): PlanTexts => ({
   details: {
     ran: (where, duration) => `Calculado en ${where} en ${duration}`,
     cpu: "la CPU",
-    gpu: (adapter) => (adapter === null ? "la GPU" : `la GPU (${adapter})`),
+    gpu: (how) => (how === null ? "la GPU" : `la GPU (${how})`),
+    methods: { fill: "relleno", peel: "depth peeling" },
     load: "Lectura",
     ldi: "Rayos",
     profile: "Medición de la superficie",

@@ -73,7 +73,8 @@ export const plan = ({ counted, plural }: Format): PlanTexts => ({
   details: {
     ran: (where, duration) => `Calculé sur ${where} en ${duration}`,
     cpu: "le CPU",
-    gpu: (adapter) => (adapter === null ? "le GPU" : `le GPU (${adapter})`),
+    gpu: (how) => (how === null ? "le GPU" : `le GPU (${how})`),
+    methods: { fill: "remplissage", peel: "depth peeling" },
     load: "Lecture",
     ldi: "Lancer de rayons",
     profile: "Mesure de la surface",

@@ -69,7 +69,8 @@ export const plan = ({ count: number }: Format): PlanTexts => ({
   details: {
     ran: (where, duration) => `由${where}计算，用时 ${duration}`,
     cpu: " CPU ",
-    gpu: (adapter) => (adapter === null ? " GPU " : ` GPU（${adapter}）`),
+    gpu: (how) => (how === null ? " GPU " : ` GPU（${how}）`),
+    methods: { fill: "填充", peel: "深度剥离" },
     load: "读取",
     ldi: "投射光线",
     profile: "测量表面",
