@@ -116,10 +116,11 @@ impl<'a> Peeler<'a> {
         let depths: Vec<u32> = (0..cells.count())
             .map(|cell| depth(cells.rays(cell), region, &offsets))
             .collect();
-        let mut drawn: Vec<usize> = (0..cells.count())
+        let deepest_first = ascending(depths.iter().map(|&depth| -f64::from(depth)));
+        let drawn: Vec<usize> = deepest_first
+            .into_iter()
             .filter(|&cell| depths[cell] > 0)
             .collect();
-        drawn.sort_by_key(|&cell| std::cmp::Reverse(depths[cell]));
         let table: Vec<Cell> = drawn.iter().map(|&cell| cells.on_gpu(cell)).collect();
         let storage = wgpu::BufferUsages::STORAGE;
         let table = self
