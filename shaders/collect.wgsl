@@ -57,14 +57,11 @@ fn collect(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id
     let first = offsets[ray];
     let end = offsets[ray + 1u];
     let kept = (end - first - left) / 2u;
-    places[first + kept] = cell.first + place_of(-found.y) + 1u;
-    if left == 1u {
-        counts[ray] = 0u;
+    // One facet left is both nearest and farthest, more are not. Otherwise the count is wrong, and slots stay empty.
+    if (left == 1u) != (found.x == -found.y) {
         return;
     }
-    // If the two are one, a facet is missing, whose slot stays empty.
-    if -found.y < found.x {
-        places[end - 1u - kept] = cell.first + place_of(found.x) + 1u;
-    }
-    counts[ray] = left - 2u;
+    places[first + kept] = cell.first + place_of(-found.y) + 1u;
+    places[end - 1u - kept] = cell.first + place_of(found.x) + 1u;
+    counts[ray] = left - min(left, 2u);
 }

@@ -13,7 +13,7 @@ use crate::resin::Resin;
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "lowercase")]
 pub enum Backend {
-    /// The CPU, or a hardware GPU where that can be faster: see [`crate::ldi::gpu::can_be_faster`].
+    /// The CPU; or a hardware GPU for a million facets or more, if there are four for each ray.
     #[default]
     Auto,
     /// A GPU, even if emulated in software; fails if there is none.
@@ -28,12 +28,12 @@ pub enum Backend {
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "lowercase")]
 pub enum GpuMethod {
-    /// Filling if the adapter can do it.
+    /// Filling if the device can do it.
     #[default]
     Auto,
     /// Two passes over the mesh, whatever the depth.
     Fill,
-    /// Depth peeling, one pass per surface along the deepest ray. Draws without storage buffers.
+    /// Depth peeling, one pass for every two surfaces along the deepest ray. Draws without storage buffers.
     Peel,
 }
 

@@ -52,15 +52,10 @@ impl Sampler {
         self.is_given = true;
     }
 
-    /// Searches for a GPU that `backend` allows for this many facets, unless a search has already been made.
-    pub async fn open_gpu(&mut self, backend: Backend, facets: usize) {
-        let is_wanted = match backend {
-            Backend::Auto => facets >= gpu::MANY_FACETS,
-            Backend::Gpu => true,
-            Backend::Cpu => false,
-        };
-        if is_wanted && self.gpu.is_none() {
-            self.gpu = Some(search_gpu(backend).await);
+    /// Searches for a GPU, emulated or not, unless a search has already been made.
+    pub async fn open_gpu(&mut self) {
+        if self.gpu.is_none() {
+            self.gpu = Some(Gpu::open(gpu::Adapters::Any).await);
         }
     }
 
@@ -127,7 +122,11 @@ impl Sampler {
     /// Whether to try a GPU at this size.
     fn wants_gpu(&self, backend: Backend, facets: usize, rays: usize) -> bool {
         match backend {
-            Backend::Auto => self.is_given || gpu::can_be_faster(facets, rays),
+            Backend::Auto if self.is_given => true,
+            Backend::Auto => {
+                let is_emulated = matches!(&self.gpu, Some(Ok(gpu)) if gpu.is_emulated());
+                !is_emulated && gpu::can_be_faster(facets, rays)
+            }
             Backend::Gpu => true,
             Backend::Cpu => false,
         }
@@ -141,32 +140,28 @@ impl Sampler {
         sampling: &Sampling,
         progress: &mut Progress<'_>,
     ) -> Result<(Ldi, UsedGpu), LdiError> {
-        let backend = sampling.backend;
+        let adapters = match sampling.backend {
+            Backend::Gpu => gpu::Adapters::Any,
+            Backend::Auto | Backend::Cpu => gpu::Adapters::Hardware,
+        };
         let is_given = std::mem::take(&mut self.is_given);
         let gpu = match self.gpu.take() {
             Some(found) => found?,
-            None => search_gpu(backend).await?,
+            None => Gpu::open(adapters).await?,
         };
         let method = match sampling.gpu_method {
             GpuMethod::Auto => gpu.method(),
             GpuMethod::Fill => gpu::Method::Fill,
             GpuMethod::Peel => gpu::Method::Peel,
         };
-        let ldi = gpu::sample(mesh, rays, &gpu, gpu::Tiling::default(), method, progress).await?;
+        let ldi = gpu::sample(mesh, rays, &gpu, gpu::Tiling::default(), method, progress).await;
         let name = gpu.name().to_owned();
-        self.gpu = Some(Ok(gpu));
-        self.is_given = is_given;
-        Ok((ldi, UsedGpu { name, method }))
+        if matches!(ldi, Ok(_) | Err(LdiError::Cancelled(_))) {
+            self.gpu = Some(Ok(gpu));
+            self.is_given = is_given;
+        }
+        Ok((ldi?, UsedGpu { name, method }))
     }
-}
-
-/// Opens a GPU that `backend` allows: an emulated one only if it is asked for.
-async fn search_gpu(backend: Backend) -> Result<Gpu, LdiError> {
-    let adapters = match backend {
-        Backend::Gpu => gpu::Adapters::Any,
-        Backend::Auto | Backend::Cpu => gpu::Adapters::Hardware,
-    };
-    Gpu::open(adapters).await
 }
 
 /// The warning about a GPU that was found but failed; `None` if none was found.

@@ -11,7 +11,7 @@ use super::report::{Origin, report_of};
 use super::resolve::{Job, Layering, Output, Sampling};
 use super::sampled::{Sampled, Sampler};
 use super::stage::{Stage, StageProgress, ms_since, report};
-use super::{Backend, Comparison, Error, MeshInfo, Options, Preview, Report, Timings, Tradeoff};
+use super::{Comparison, Error, MeshInfo, Options, Preview, Report, Timings, Tradeoff};
 use crate::archive::{self, PrintJob};
 use crate::grid::Bins;
 use crate::ldi::LdiError;
@@ -82,11 +82,10 @@ impl Slicer {
         self
     }
 
-    /// Searches in advance for the GPU that the next plan with this `backend` would search for. Drivers may write to stderr
-    /// during a search, and here a caller can silence them. The plan reports what was found.
-    pub async fn open_gpu(&mut self, backend: Backend) {
-        let facets = self.model.facets.len();
-        self.sampler.open_gpu(backend, facets).await;
+    /// Searches in advance for the GPU that the next plan on [`Backend::Gpu`](super::Backend::Gpu) would search for. Drivers may
+    /// write to stderr during a search, and here a caller can silence them. The plan reports what was found.
+    pub async fn open_gpu(&mut self) {
+        self.sampler.open_gpu().await;
     }
 
     /// Describes the model in the frame of its file.

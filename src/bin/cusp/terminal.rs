@@ -58,12 +58,15 @@ pub fn stop_on_interrupt() {
     let _ = ctrlc::try_set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed));
 }
 
-/// Searches for the GPU that the next plan may use, and silences drivers meanwhile. Mesa, for example, complains about a
+/// Searches for the GPU that the next plan uses if `backend` asks for one, and silences drivers meanwhile. Mesa, for example, complains about a
 /// missing display although nothing is displayed. The plan reports what the search found.
 pub fn open_gpu(slicer: &mut Slicer, backend: Backend) {
+    if backend != Backend::Gpu {
+        return;
+    }
     #[cfg(unix)]
     let _silence = Silence::begin();
-    pollster::block_on(slicer.open_gpu(backend));
+    pollster::block_on(slicer.open_gpu());
 }
 
 /// While it lives, nothing reaches stderr. Drivers write to the file descriptor itself, so the descriptor is redirected and

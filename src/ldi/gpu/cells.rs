@@ -10,7 +10,7 @@ use crate::ldi::projection::Projection;
 const SIDE: u32 = 64;
 
 /// The least side: cells are whole workgroups.
-const LEAST_SIDE: u32 = 16;
+pub(super) const LEAST_SIDE: u32 = 16;
 
 pub(super) struct Cells {
     region: Region,
@@ -22,7 +22,7 @@ pub(super) struct Cells {
 
 impl Cells {
     /// Lists the facets of a region by cell, each list in the order of `facets`. `None` if even the lists of the smallest
-    /// cells are too long.
+    /// cells are too long, as they are for very many facets whose outlines may be anywhere within the same rectangle.
     pub fn new(projection: &Projection<'_>, facets: &[u32], region: Region) -> Option<Self> {
         let mut side = SIDE;
         loop {
@@ -33,7 +33,8 @@ impl Cells {
             if longest.unwrap_or(0) <= CELL_FACETS {
                 return Some(cells);
             }
-            if side == LEAST_SIDE {
+            // Lists of a region within one cell are the same at every side.
+            if side == LEAST_SIDE || region.width.max(region.height) <= LEAST_SIDE {
                 return None;
             }
             side /= 2;

@@ -26,6 +26,7 @@ pub struct Gpu {
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
     method: Method,
+    is_emulated: bool,
     failure: Failure,
 }
 
@@ -34,7 +35,7 @@ pub struct Gpu {
 pub enum Method {
     /// Two passes whatever the depth: count, then fill. Needs storage buffers in the vertex and fragment stages.
     Fill,
-    /// Depth peeling: one pass for each facet along the deepest ray. Runs where those stages have no storage buffers.
+    /// Depth peeling: one pass for every two facets along the deepest ray. Runs where those stages have no storage buffers.
     Peel,
 }
 
@@ -144,7 +145,8 @@ impl Gpu {
         } else {
             info.name
         };
-        if adapters == Adapters::Hardware && info.device_type == wgpu::DeviceType::Cpu {
+        let is_emulated = info.device_type == wgpu::DeviceType::Cpu;
+        if adapters == Adapters::Hardware && is_emulated {
             return Err(LdiError::GpuEmulated { adapter: name });
         }
         let descriptor = wgpu::DeviceDescriptor {
@@ -153,7 +155,10 @@ impl Gpu {
             ..Default::default()
         };
         let (device, queue) = adapter.request_device(&descriptor).await.map_err(no_gpu)?;
-        Ok(Self::with_device(name, device, queue).await)
+        Ok(Self {
+            is_emulated,
+            ..Self::with_device(name, device, queue).await
+        })
     }
 
     /// Uses a device that is already open. Reports call it `name`.
@@ -175,6 +180,7 @@ impl Gpu {
             device,
             queue,
             method,
+            is_emulated: false,
             failure,
         }
     }
@@ -182,6 +188,11 @@ impl Gpu {
     /// The faster method of those that the device can do.
     pub fn method(&self) -> Method {
         self.method
+    }
+
+    /// Whether it is known to be emulated in software.
+    pub fn is_emulated(&self) -> bool {
+        self.is_emulated
     }
 
     /// The name of the adapter, as in reports.
@@ -254,7 +265,11 @@ impl Gpu {
         self.check()?;
         mapped.map_err(call_failed)?.map_err(call_failed)?;
         let bytes = readback.get_mapped_range(..).map_err(call_failed)?;
-        Ok(bytemuck::cast_slice(&bytes[..(words * WORD) as usize]).to_vec())
+        let words = bytemuck::cast_slice(&bytes[..(words * WORD) as usize]).to_vec();
+        drop(bytes);
+        // In a browser, dropping frees nothing before garbage is collected.
+        readback.destroy();
+        Ok(words)
     }
 
     /// The uniform that tells shaders where a tile lies.

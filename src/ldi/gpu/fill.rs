@@ -108,6 +108,7 @@ impl<'a> Filler<'a> {
         };
         // Buffers of a lost device may read as zeros.
         self.gpu.check()?;
+        facets.destroy();
         if u64::from(meetings.offsets[region.rays()]) != hits {
             return Err(failed(GpuFault::BadOffsets));
         }

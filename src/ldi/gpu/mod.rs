@@ -7,6 +7,7 @@
 mod cells;
 mod device;
 mod fill;
+mod layers;
 mod peel;
 mod scan;
 mod tiles;
@@ -25,7 +26,7 @@ use crate::model::Mesh;
 use crate::progress::{Progress, report};
 
 /// The facets from which on a search for a GPU can be worth its time.
-pub const MANY_FACETS: usize = 1_000_000;
+const MANY_FACETS: usize = 1_000_000;
 
 /// Whether a GPU can be faster than the CPU backend at this size: with many facets, and at least four for each ray.
 ///
@@ -72,9 +73,12 @@ pub async fn sample(
         Method::Peel => Sampler::Peel(Peeler::new(gpu, mesh, &projection)),
     };
 
-    let side = tiling
-        .side
-        .clamp(1, gpu.device().limits().max_texture_dimension_2d);
+    let most = gpu.device().limits().max_texture_dimension_2d;
+    let most = match method {
+        Method::Fill => most,
+        Method::Peel => most.min(peel::MOST_SIDE),
+    };
+    let side = tiling.side.clamp(1, most);
     let mut waiting = tiles::cut(grid, side);
     waiting.reverse();
     let mut sampled = Vec::new();

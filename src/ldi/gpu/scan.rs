@@ -47,6 +47,15 @@ impl Rows {
     }
 }
 
+/// In a browser, dropping buffers frees nothing before garbage is collected.
+impl Drop for Rows {
+    fn drop(&mut self) {
+        for buffer in [&self.counts, &self.offsets, &self.totals] {
+            buffer.destroy();
+        }
+    }
+}
+
 fn blocks(rays: u64) -> u64 {
     rays.div_ceil(u64::from(SCAN_BLOCK))
 }

@@ -1,18 +1,17 @@
 //! The GPU backend against the CPU backend, on whatever adapter wgpu finds: the same LDI, bit for bit, for
 //! every solid. Without an adapter the tests are reported as ignored.
 
+#[path = "../common/mod.rs"]
 mod common;
-
-use std::ops::ControlFlow;
+mod fallbacks;
 
 use common::{binary_stl, on_plate, quiet, shifted_grid, solids};
 use cusp_slicer::grid::Grid;
-use cusp_slicer::job::{Backend, GpuMethod, Options, Slicer, Stage, StageProgress};
+use cusp_slicer::job::{Backend, GpuMethod, Options, Slicer};
 use cusp_slicer::ldi::gpu::{self, Gpu, Method};
-use cusp_slicer::ldi::{GpuFault, Ldi, LdiError, cpu};
+use cusp_slicer::ldi::{Ldi, LdiError, cpu};
 use cusp_slicer::model::Mesh;
 use cusp_slicer::progress::silent;
-use cusp_slicer::warning::Warning;
 use glam::Vec3;
 use libtest_mimic::{Arguments, Completion, Failed, Trial};
 
@@ -90,16 +89,29 @@ fn tests() -> Vec<(String, Test)> {
         }),
     ));
     tests.push((
-        "a lost device hands its work to the cpu".to_owned(),
-        Box::new(|| lose_device(GpuMethod::Auto)),
+        "a report says how its gpu sampled, and its print file does not".to_owned(),
+        Box::new(report_method),
     ));
+    add_bounds(&mut tests);
+    fallbacks::add(&mut tests);
     tests.push((
-        "a device lost while peeling hands its work to the cpu".to_owned(),
-        Box::new(|| lose_device(GpuMethod::Peel)),
+        "auto takes a gpu where facets outnumber rays by far".to_owned(),
+        Box::new(|| {
+            let few = gpu::can_be_faster(999_999, 1);
+            let many = gpu::can_be_faster(1_000_000, 250_000);
+            let dense = gpu::can_be_faster(1_000_000, 250_001);
+            let is_right = [few, many, dense] == [false, true, false];
+            is_right.then_some(()).ok_or("another rule".into())
+        }),
     ));
+    tests
+}
+
+/// Adds tests at the bounds of what one pass, cell, buffer or device holds.
+fn add_bounds(tests: &mut Vec<(String, Test)>) {
     tests.push((
         // Beside others, in the same tiles and in others.
-        "rays of more surfaces than peeling counts are complete".to_owned(),
+        "rays of more surfaces than are peeled are complete".to_owned(),
         Box::new(|| {
             let mut triangles = solids::stack(130);
             triangles.extend(solids::moved(
@@ -115,56 +127,8 @@ fn tests() -> Vec<(String, Test)> {
         Box::new(move || {
             let ball = solids::sphere(9.0, 6);
             let pile = (0..10).flat_map(|i| solids::moved(&ball, Vec3::Z * (i as f32) * 11.0));
-            compare(&pile.collect(), 90, [0.0; 2], whole)
+            compare(&pile.collect(), 90, [0.0; 2], gpu::Tiling::default())
         }),
-    ));
-    tests.push((
-        "a pile that no cell can list is left to the cpu".to_owned(),
-        Box::new(|| {
-            let mesh = on_plate(&solids::stack(8_000));
-            let grid = Grid::around(&mesh.bounds(), 8)?;
-            let gpu = pollster::block_on(Gpu::open(gpu::Adapters::Any))?;
-            let mut progress = silent;
-            let job = gpu::sample(
-                &mesh,
-                &grid,
-                &gpu,
-                gpu::Tiling::default(),
-                Method::Peel,
-                &mut progress,
-            );
-            match pollster::block_on(job) {
-                Err(LdiError::GpuFailed {
-                    fault: GpuFault::TooManyHits,
-                    ..
-                }) => Ok(()),
-                other => Err(format!("{:?}", other.map(|ldi| ldi.hits.len())).into()),
-            }
-        }),
-    ));
-    tests.push((
-        "a report says how its gpu sampled, and its print file does not".to_owned(),
-        Box::new(report_method),
-    ));
-    tests.push((
-        // As it does if a buffer does not fit into its memory.
-        "a gpu that reports an error hands its work to the cpu".to_owned(),
-        Box::new(|| report_an_error(pollster::block_on(Gpu::open(gpu::Adapters::Any))?)),
-    ));
-    tests.push((
-        "a gpu with small buffers hands its work to the cpu".to_owned(),
-        Box::new(|| {
-            plans_with_warning(
-                with_buffers_of(1 << 10)?,
-                GpuMethod::Auto,
-                is_gpu_too_small,
-                &mut quiet,
-            )
-        }),
-    ));
-    tests.push((
-        "a gpu without storage buffers hands its work to the cpu".to_owned(),
-        Box::new(no_storage_buffers),
     ));
     tests.push((
         "peeling is within the limits of compatible adapters".to_owned(),
@@ -172,7 +136,7 @@ fn tests() -> Vec<(String, Test)> {
             let mesh = on_plate(&solids::stack(20));
             let grid = Grid::around(&mesh.bounds(), 300)?;
             let expected = cpu::sample(&mesh, &grid, &mut silent)?;
-            let gpu = with_limits(compatible())?;
+            let gpu = fallbacks::with_limits(fallbacks::compatible())?;
             let tiling = gpu::Tiling::default();
             compare_method(&gpu, Method::Peel, &mesh, &grid, &expected, tiling)
         }),
@@ -182,7 +146,7 @@ fn tests() -> Vec<(String, Test)> {
         Box::new(|| {
             let mesh = on_plate(&solids::sphere(5.0, 4));
             let grid = Grid::around(&mesh.bounds(), 200)?;
-            let gpu = with_buffers_of(1 << 15)?;
+            let gpu = fallbacks::with_buffers_of(1 << 15)?;
             let mut progress = silent;
             let job = gpu::sample(
                 &mesh,
@@ -196,7 +160,42 @@ fn tests() -> Vec<(String, Test)> {
             same.then_some(()).ok_or("the backends differ".into())
         }),
     ));
-    tests
+    // The last count that is peeled, and the first that is not.
+    for slabs in [127, 128] {
+        tests.push((
+            format!("rays of {} surfaces are complete", 2 * slabs),
+            Box::new(move || compare(&solids::stack(slabs), 40, [0.0; 2], gpu::Tiling::default())),
+        ));
+    }
+    tests.push((
+        // By outline, the caps' facets could all be anywhere near the centre.
+        "a fan of more facets than a cell can list is complete".to_owned(),
+        Box::new(|| {
+            let cylinder = solids::cylinder(9.0, 1.0, 140_000);
+            compare(&cylinder, 60, [0.0; 2], gpu::Tiling::default())
+        }),
+    ));
+    tests.push((
+        "a pile that no cell can list is complete".to_owned(),
+        Box::new(|| compare(&solids::stack(8_000), 8, [0.0; 2], gpu::Tiling::default())),
+    ));
+    tests.push((
+        // Meshes are closed before they are sampled; the methods do not rely on it.
+        "rays of an odd number of surfaces are complete".to_owned(),
+        Box::new(|| {
+            let mut mesh = on_plate(&solids::sphere(5.0, 4));
+            let grid = Grid::around(&mesh.bounds(), 90)?;
+            mesh.facets.truncate(mesh.facets.len() - 300);
+            let expected = cpu::sample(&mesh, &grid, &mut silent)?;
+            let is_odd = |ray| expected.ray(ray).len() % 2 == 1;
+            if !(0..expected.rays()).any(is_odd) {
+                return Err("every ray is even".into());
+            }
+            let gpu = pollster::block_on(Gpu::open(gpu::Adapters::Any))?;
+            let tiling = gpu::Tiling::default();
+            compare_method(&gpu, Method::Peel, &mesh, &grid, &expected, tiling)
+        }),
+    ));
 }
 
 /// Adds a test for the solid itself, and one each with the solid mirrored, rotated, shuffled, and shifted by a fraction
@@ -249,118 +248,6 @@ fn report_method() -> Result<(), Failed> {
     is_same.then_some(()).ok_or("print files differ".into())
 }
 
-fn with_limits(required_limits: wgpu::Limits) -> Result<Gpu, Failed> {
-    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
-    let adapter = pollster::block_on(instance.request_adapter(&Default::default()))?;
-    let device = adapter.request_device(&wgpu::DeviceDescriptor {
-        required_limits,
-        ..Default::default()
-    });
-    let (device, queue) = pollster::block_on(device)?;
-    let gpu = Gpu::with_device(adapter.get_info().name, device, queue);
-    Ok(pollster::block_on(gpu))
-}
-
-fn with_buffers_of(bytes: u64) -> Result<Gpu, Failed> {
-    with_limits(wgpu::Limits {
-        max_storage_buffer_binding_size: bytes,
-        ..Default::default()
-    })
-}
-
-/// The limits of WebGPU's compatibility mode, as far as wgpu has them: it cannot forbid storage buffers in one stage alone.
-fn compatible() -> wgpu::Limits {
-    wgpu::Limits {
-        max_texture_dimension_2d: 4096,
-        max_storage_buffers_per_shader_stage: 4,
-        max_compute_invocations_per_workgroup: 128,
-        max_compute_workgroup_size_x: 128,
-        max_compute_workgroup_size_y: 128,
-        ..Default::default()
-    }
-}
-
-/// A device that has too few storage buffers to fill peels; and has too few for that, too.
-fn no_storage_buffers() -> Result<(), Failed> {
-    let gpu = with_limits(wgpu::Limits {
-        max_storage_buffers_per_shader_stage: 2,
-        ..Default::default()
-    })?;
-    if gpu.method() != Method::Peel {
-        return Err("it fills".into());
-    }
-    plans_with_warning(gpu, GpuMethod::Auto, is_gpu_failed, &mut quiet)
-}
-
-/// Makes the device report an uncaptured error in the middle of the job.
-fn report_an_error(gpu: Gpu) -> Result<(), Failed> {
-    let device = gpu.device().clone();
-    let mut progress = move |stage: Stage, _: f64| {
-        if stage == Stage::Ldi {
-            let _ = device.create_buffer(&wgpu::BufferDescriptor {
-                label: None,
-                size: u64::MAX,
-                usage: wgpu::BufferUsages::STORAGE,
-                mapped_at_creation: false,
-            });
-        }
-        ControlFlow::Continue(())
-    };
-    plans_with_warning(gpu, GpuMethod::Auto, is_gpu_failed, &mut progress)
-}
-
-/// Destroys the device in the middle of the job.
-fn lose_device(method: GpuMethod) -> Result<(), Failed> {
-    let gpu = pollster::block_on(Gpu::open(gpu::Adapters::Any))?;
-    let device = gpu.device().clone();
-    let mut progress = move |stage: Stage, _: f64| {
-        if stage == Stage::Ldi {
-            device.destroy();
-        }
-        ControlFlow::Continue(())
-    };
-    plans_with_warning(gpu, method, is_gpu_failed, &mut progress)
-}
-
-/// The plan must be the CPU's, with the expected warning exactly once: the GPU is not tried again.
-fn plans_with_warning(
-    gpu: Gpu,
-    gpu_method: GpuMethod,
-    is_wanted: fn(&Warning) -> bool,
-    progress: &mut StageProgress<'_>,
-) -> Result<(), Failed> {
-    let stl = binary_stl(&solids::sphere(5.0, 5));
-    let options = |backend| Options {
-        rays: 300,
-        backend,
-        gpu_method,
-        ..Options::default()
-    };
-    let mut on_cpu = Slicer::load(&stl)?;
-    let expected = pollster::block_on(on_cpu.plan(&options(Backend::Cpu), &mut quiet))?.clone();
-    let mut slicer = Slicer::load(&stl)?.with_gpu(gpu);
-    let found = pollster::block_on(slicer.plan(&options(Backend::Auto), progress))?;
-    if found
-        .warnings
-        .iter()
-        .filter(|&warning| is_wanted(warning))
-        .count()
-        != 1
-    {
-        return Err(format!("the warnings are {:?}", found.warnings).into());
-    }
-    if (found.backend.as_str(), &found.z_mm, found.hits) != ("cpu", &expected.z_mm, expected.hits) {
-        return Err("the plan is not the CPU's".into());
-    }
-    // The failure leaves no trace in the print file.
-    let (expected, _) = on_cpu.write_archive(Vec::new(), &mut quiet)?;
-    let (found, _) = slicer.write_archive(Vec::new(), &mut quiet)?;
-    if found != expected {
-        return Err("the print file is not the CPU's".into());
-    }
-    Ok(())
-}
-
 fn main() {
     let arguments = Arguments::from_args();
     let missing = match pollster::block_on(Gpu::open(gpu::Adapters::Any)) {
@@ -378,12 +265,4 @@ fn main() {
         })
         .collect();
     libtest_mimic::run(&arguments, trials).exit();
-}
-
-fn is_gpu_failed(warning: &Warning) -> bool {
-    matches!(warning, Warning::GpuFailed { .. })
-}
-
-fn is_gpu_too_small(warning: &Warning) -> bool {
-    matches!(warning, Warning::GpuTooSmall { .. })
 }
