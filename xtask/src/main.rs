@@ -4,6 +4,7 @@
 //! browser, npm packages), so that a fresh clone on a machine with only Rust and
 //! Node is enough, and a second run spends no time on it.
 
+mod bench;
 mod browser;
 mod debian;
 mod lint;
@@ -63,7 +64,7 @@ enum Command {
     Size,
     /// Take the documentation's screenshots in a browser
     Screenshots,
-    /// Run all benchmarks, or one
+    /// Run all benchmarks, or one; `gpu` also makes a folder that runs on other machines
     Bench {
         /// A benchmark: a file or folder of benches/, without extension
         name: Option<String>,
@@ -117,13 +118,7 @@ fn run(command: Command) -> Result<bool> {
             process::run(npm.args(["run", "screenshots"]).env("CHROMIUM", chromium))?;
         }
         Command::Bench { name, arguments } => {
-            let mut cargo = process::cargo(&project);
-            cargo.arg("bench");
-            match name {
-                Some(name) => cargo.args(["--bench", &name, "--"]).args(arguments),
-                None => cargo.arg("--benches"),
-            };
-            process::show(&mut cargo)?;
+            bench::run(&project, name.as_deref(), &arguments)?;
         }
     }
     Ok(true)

@@ -198,7 +198,7 @@ fn build_cusp(project: &Project) -> Result<PathBuf> {
 
 /// Installs a Vulkan driver on Debian. Elsewhere the machine's own is used;
 /// without one, the GPU tests show as ignored.
-fn ensure_vulkan() {
+pub fn ensure_vulkan() {
     if debian::is_debian()
         && let Err(error) = debian::ensure(&VULKAN_PACKAGES)
     {
