@@ -127,6 +127,11 @@ impl Resin {
         ((self.exposure_s(thickness_mm) + self.overhead_s()) * 1e6 + 0.5) as u64
     }
 
+    /// Time of a bottom layer, whatever its thickness, in whole microseconds.
+    pub fn bottom_layer_us(&self) -> u64 {
+        ((self.bottom_exposure_s + self.overhead_s()) * 1e6 + 0.5) as u64
+    }
+
     /// Exposure of each layer in seconds, given the thicknesses from the plate upward.
     pub fn exposures_s(&self, thickness_mm: &[f64]) -> Vec<f64> {
         thickness_mm

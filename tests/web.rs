@@ -156,7 +156,7 @@ async fn check_plan_and_masks() {
         plans.extend(point.tolerance.to_le_bytes());
         plans.extend(point.layers.to_le_bytes().iter().take(4));
     }
-    assert_eq!(fingerprint(&plans), 0x90f9_8397_80f2_1b07);
+    assert_eq!(fingerprint(&plans), 0x1c16_7773_4a43_8289);
 }
 
 #[cfg(not(target_arch = "wasm32"))]

@@ -6,6 +6,7 @@ pub mod greedy;
 mod limits;
 pub mod optimal;
 pub mod segment;
+mod timed;
 pub mod tradeoff;
 pub mod uniform;
 

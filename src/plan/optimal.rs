@@ -1,7 +1,7 @@
 //! The fewest layers within tolerance, or the shortest print time, by dynamic programming (Procedure 1).
 
 use super::segment::{Segment, Segments};
-use super::{Limits, Plan, PlanError, tradeoff};
+use super::{Limits, Plan, PlanError, timed, tradeoff};
 use crate::profile::{ErrorSum, LayerErrors};
 use crate::resin::Resin;
 
@@ -82,58 +82,64 @@ pub fn within(
 ) -> Result<Result<Plan, Blocked>, PlanError> {
     let bins = errors.bins();
     let mut snap_planes = snap_planes.to_vec();
-    'snap_planes: loop {
+    loop {
         let laid_out = Segments::new(bins, limits, &snap_planes)?;
-        let mut boundaries = vec![0];
-        for segment in &laid_out.segments {
-            let table = fill(errors, segment, objective, tolerance);
-            if table.reaches_top() {
-                boundaries.extend(table.planes().map(|plane| segment.boundary(plane)));
-                continue;
-            }
-            // The tolerance takes precedence: drop the snap planes beside this segment, and start again.
-            let beside = [segment.lower, segment.upper()];
-            let (given_up, kept): (Vec<u32>, Vec<u32>) = laid_out
-                .snap_planes
-                .iter()
-                .partition(|snap_plane| beside.contains(snap_plane));
-            if given_up.is_empty() {
-                let reached = table.highest_reached();
-                let next = (reached + segment.thickness.start()).min(segment.units);
-                return Ok(Err(Blocked {
-                    segment: segment.clone(),
-                    reached: segment.boundary(reached),
-                    next: segment.boundary(next),
+        let filled = match objective {
+            Objective::Layers => fewest(errors, &laid_out.segments, tolerance),
+            Objective::Time(resin) => timed::quickest(errors, &laid_out.segments, resin, tolerance),
+        };
+        let Stuck { segment, reached } = match filled {
+            Ok(boundaries) => {
+                return Ok(Ok(Plan {
+                    bins,
+                    boundaries,
+                    snap_planes: laid_out.snap_planes,
                 }));
             }
-            snap_planes = kept;
-            continue 'snap_planes;
+            Err(stuck) => stuck,
+        };
+        // The tolerance takes precedence: drop the snap planes beside this segment, and start again.
+        let segment = &laid_out.segments[segment];
+        let beside = [segment.lower, segment.upper()];
+        let (given_up, kept): (Vec<u32>, Vec<u32>) = laid_out
+            .snap_planes
+            .iter()
+            .partition(|snap_plane| beside.contains(snap_plane));
+        if given_up.is_empty() {
+            let next = (reached + segment.thickness.start()).min(segment.units);
+            return Ok(Err(Blocked {
+                segment: segment.clone(),
+                reached: segment.boundary(reached),
+                next: segment.boundary(next),
+            }));
         }
-        return Ok(Ok(Plan {
-            bins,
-            boundaries,
-            snap_planes: laid_out.snap_planes,
-        }));
+        snap_planes = kept;
     }
 }
 
-fn fill(
-    errors: &LayerErrors,
-    segment: &Segment,
-    objective: Objective<'_>,
-    tolerance: u64,
-) -> Table {
-    match (errors, objective) {
-        (LayerErrors::Sum(errors), Objective::Layers) => fill_fewest(errors, segment, tolerance),
-        (_, Objective::Layers) => fill_cheapest(errors, segment, tolerance, |_| 1),
-        (_, Objective::Time(resin)) => {
-            let unit_mm = f64::from(segment.unit) * errors.bins().size_mm;
-            let times: Vec<u64> = (0..=*segment.thickness.end())
-                .map(|units| resin.layer_us(f64::from(units) * unit_mm))
-                .collect();
-            fill_cheapest(errors, segment, tolerance, |units| times[units as usize])
+/// The segment that no layers within tolerance fill, by its index, and the highest plane in it that they reach.
+pub(super) struct Stuck {
+    pub segment: usize,
+    pub reached: u32,
+}
+
+/// The boundaries of the fewest layers within tolerance. Segments do not depend on each other.
+fn fewest(errors: &LayerErrors, segments: &[Segment], tolerance: u64) -> Result<Vec<u32>, Stuck> {
+    let mut boundaries = vec![0];
+    for (index, segment) in segments.iter().enumerate() {
+        let table = match errors {
+            LayerErrors::Sum(errors) => fill_fewest(errors, segment, tolerance),
+            LayerErrors::Volume(_) => fill_cheapest(errors, segment, tolerance, |_| 1),
+        };
+        if !table.reaches_top() {
+            return Err(Stuck {
+                segment: index,
+                reached: table.highest_reached(),
+            });
         }
+        boundaries.extend(table.planes().map(|plane| segment.boundary(plane)));
     }
+    Ok(boundaries)
 }
 
 /// The arrays of Procedure 1 for the planes of a segment, as in figure 3.
@@ -152,23 +158,40 @@ impl Table {
     pub const NO_PLAN: u64 = u64::MAX;
 
     fn new(units: u32) -> Self {
-        let planes = units as usize + 1;
-        let mut table = Self {
-            cost: vec![Self::NO_PLAN; planes],
-            worst: vec![0; planes],
-            below: vec![0; planes],
-        };
+        let mut table = Self::unreached(units);
         table.cost[0] = 0;
         table
     }
 
-    fn reaches_top(&self) -> bool {
+    /// A table in which no plan reaches any plane.
+    pub(super) fn unreached(units: u32) -> Self {
+        let planes = units as usize + 1;
+        Self {
+            cost: vec![Self::NO_PLAN; planes],
+            worst: vec![0; planes],
+            below: vec![0; planes],
+        }
+    }
+
+    pub(super) fn reaches_top(&self) -> bool {
         self.cost.last() != Some(&Self::NO_PLAN)
     }
 
-    fn highest_reached(&self) -> u32 {
+    pub(super) fn highest_reached(&self) -> u32 {
         let reached = self.cost.iter().rposition(|&cost| cost != Self::NO_PLAN);
         reached.unwrap_or(0) as u32
+    }
+
+    /// Notes a plan of this cost and maximum error up to a plane, whose last layer begins at `below`, if it is better than the
+    /// one known. Returns whether it is.
+    pub(super) fn improve(&mut self, plane: u32, found: (u64, u64), below: u32) -> bool {
+        let plane = plane as usize;
+        let is_better = found < (self.cost[plane], self.worst[plane]);
+        if is_better {
+            (self.cost[plane], self.worst[plane]) = found;
+            self.below[plane] = below;
+        }
+        is_better
     }
 
     /// Lines 8 to 11 of Procedure 1: the planes of the best plan in ascending order, without plane 0.
@@ -268,30 +291,39 @@ pub fn fill_cheapest(
     cost_of: impl Fn(u32) -> u64,
 ) -> Table {
     let mut table = Table::new(segment.units);
-    let (least, greatest) = (*segment.thickness.start(), *segment.thickness.end());
     for plane in 0..segment.units {
         let cost = table.cost[plane as usize];
         if cost == Table::NO_PLAN {
             continue;
         }
-        let lower = segment.boundary(plane);
         let worst = table.worst[plane as usize];
-        let (mut error, mut measured) = (0, lower);
-        for thickness in least..=greatest.min(segment.units - plane) {
-            let upper = lower + thickness * segment.unit;
-            error += errors.steps_added(lower, measured, upper);
-            measured = upper;
-            // Thicker layers have errors at least as large.
-            if error > tolerance {
-                break;
-            }
-            let above = (plane + thickness) as usize;
+        for_each_layer(errors, segment, tolerance, plane, |thickness, error| {
             let found = (cost + cost_of(thickness), worst.max(error));
-            if found < (table.cost[above], table.worst[above]) {
-                (table.cost[above], table.worst[above]) = found;
-                table.below[above] = plane;
-            }
-        }
+            table.improve(plane + thickness, found, plane);
+        });
     }
     table
+}
+
+/// Calls `emit(thickness, error)` with each layer within tolerance that begins at a plane of a segment.
+pub(super) fn for_each_layer(
+    errors: &LayerErrors,
+    segment: &Segment,
+    tolerance: u64,
+    plane: u32,
+    mut emit: impl FnMut(u32, u64),
+) {
+    let (least, greatest) = (*segment.thickness.start(), *segment.thickness.end());
+    let lower = segment.boundary(plane);
+    let (mut error, mut measured) = (0, lower);
+    for thickness in least..=greatest.min(segment.units - plane) {
+        let upper = lower + thickness * segment.unit;
+        error += errors.steps_added(lower, measured, upper);
+        measured = upper;
+        // Thicker layers have errors at least as large.
+        if error > tolerance {
+            break;
+        }
+        emit(thickness, error);
+    }
 }

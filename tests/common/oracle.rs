@@ -67,13 +67,13 @@ impl Rules {
 }
 
 /// The smallest (cost, maximum error) of all plans, found by trying every set of planes. `error` is that of the layer
-/// between two boundaries, `cost` that of a layer of a thickness.
+/// between two boundaries, `cost` that of a layer, counted from the plate, of a thickness.
 pub fn best_plan<E: PartialOrd + Copy + Default>(
     bins: usize,
     rules: &Rules,
     tolerance: E,
     error: impl Fn(usize, usize) -> E,
-    cost: impl Fn(usize) -> u64,
+    cost: impl Fn(usize, usize) -> u64,
 ) -> Option<(u64, E)> {
     let mut best: Option<(u64, E)> = None;
     'plans: for planes in 0..1u32 << (bins - 1) {
@@ -82,14 +82,14 @@ pub fn best_plan<E: PartialOrd + Copy + Default>(
             continue;
         }
         let (mut below, mut sum, mut worst) = (0, 0, E::default());
-        for plane in (1..=bins).filter(|&plane| is_plane(plane)) {
+        for (layer, plane) in (1..=bins).filter(|&plane| is_plane(plane)).enumerate() {
             let (least, greatest) = rules.thickness[below];
             let of_layer = error(below, plane);
             let is_thick = (least..=greatest).contains(&(plane - below));
             if !is_thick || plane % rules.step != 0 || of_layer > tolerance {
                 continue 'plans;
             }
-            sum += cost(plane - below);
+            sum += cost(layer, plane - below);
             if of_layer > worst {
                 worst = of_layer;
             }

@@ -1,9 +1,10 @@
 //! The optimal planner: the paper's example and its procedure, brute force over all sets of planes for every metric,
 //! constraint and objective, and planted optima.
 
-use cusp_slicer::plan::HeightRange;
 use cusp_slicer::plan::optimal::{self, Objective, Table, fill_cheapest, fill_fewest};
+use cusp_slicer::plan::{HeightRange, PlanError};
 use cusp_slicer::profile::LayerErrors;
+use cusp_slicer::resin::Resin;
 
 use crate::common::{assert_near, oracle, oracle::Rules};
 use crate::{
@@ -82,7 +83,7 @@ fn the_linear_planner_has_the_least_largest_error_of_all_plans_as_short() {
 
 #[test]
 fn no_set_of_planes_is_better() {
-    let resin = resin(1.0, 1.0, 2.0, 3.0);
+    let without_bottom = resin(1.0, 1.0, 2.0, 3.0);
     let mut random = fastrand::Rng::with_seed(3);
     let (mut feasible, mut infeasible) = (0, 0);
     for _ in 0..6000 {
@@ -117,6 +118,12 @@ fn no_set_of_planes_is_better() {
             rules.thickness[from..to].fill((least, greatest));
         }
         let is_time = random.bool();
+        // Bottom layers may take longer than others, or less time, and end within any segment.
+        let resin = Resin {
+            bottom_layers: random.usize(0..=5),
+            bottom_exposure_s: f64::from(random.u8(0..12)),
+            ..without_bottom.clone()
+        };
         let objective = if is_time {
             Objective::Time(&resin)
         } else {
@@ -127,12 +134,10 @@ fn no_set_of_planes_is_better() {
             &rules,
             errors.to_steps(tolerance),
             |lower, upper| errors.steps_between(lower as u32, upper as u32),
-            |thickness| {
-                if is_time {
-                    resin.layer_us(thickness as f64)
-                } else {
-                    1
-                }
+            |layer, thickness| match is_time {
+                true if layer < resin.bottom_layers => resin.bottom_layer_us(),
+                true => resin.layer_us(thickness as f64),
+                false => 1,
             },
         );
         let found = optimal::plan(&errors, &limits, &[], objective);
@@ -210,6 +215,35 @@ fn the_shortest_time_is_not_the_fewest_layers_where_exposures_grow_fast() {
     let quickest = optimal::plan(&errors, &all, &[], Objective::Time(&resin)).unwrap();
     assert!(quickest.layers() > fewest.layers());
     assert!(quickest.print_time_s(&resin) < fewest.print_time_s(&resin));
+}
+
+#[test]
+fn bottom_layers_are_thick_where_their_exposure_is_the_same() {
+    // As bottom layers cost the same whatever their thickness, the shortest print begins with thick ones.
+    let errors = sum(&[0.01; 60]);
+    let resin = Resin {
+        bottom_layers: 2,
+        bottom_exposure_s: 30.0,
+        ..resin(1.0, 1.0, 0.4, 0.5)
+    };
+    let all = limits(1.0, 6.0, 100.0);
+    let plan = optimal::plan(&errors, &all, &[], Objective::Time(&resin)).unwrap();
+    assert_eq!(plan.boundaries[..3], [0, 6, 12]);
+    assert_eq!(plan.boundaries[3], 13);
+}
+
+#[test]
+fn a_plan_without_any_error_is_within_a_tolerance_of_0() {
+    let errors = sum(&[0.0; 30]);
+    let plan = optimal::plan(&errors, &limits(1.0, 6.0, 0.0), &[], Objective::Layers).unwrap();
+    assert_eq!(plan.layers(), 5);
+    let blocked = optimal::plan(
+        &sum(&[0.1; 30]),
+        &limits(1.0, 6.0, 0.0),
+        &[],
+        Objective::Layers,
+    );
+    assert!(matches!(blocked, Err(PlanError::Infeasible { .. })));
 }
 
 #[test]

@@ -1,0 +1,132 @@
+//! The shortest print by dynamic programming. The first layers of a print take the bottom exposure whatever their thickness, so
+//! what a layer costs depends on how many are below it.
+
+use super::optimal::{Stuck, Table, for_each_layer};
+use super::segment::Segment;
+use crate::profile::LayerErrors;
+use crate::resin::Resin;
+
+/// Bottom layers that are told apart; any more of them cost as much as layers above.
+const MOST_BOTTOM_LAYERS: usize = 100;
+
+/// Plans up to the planes of a segment, by the layers below.
+struct Tables {
+    /// Table j is of plans with j layers; the last is of those with as many as there are bottom layers, or more.
+    by_layers: Vec<Table>,
+    /// Whether the top layer of a plan in the last table is the last bottom layer.
+    is_last_bottom: Vec<bool>,
+}
+
+/// The boundaries of the shortest print within tolerance.
+pub(super) fn quickest(
+    errors: &LayerErrors,
+    segments: &[Segment],
+    resin: &Resin,
+    tolerance: u64,
+) -> Result<Vec<u32>, Stuck> {
+    let bottom = resin.bottom_layers.min(MOST_BOTTOM_LAYERS);
+    let bottom_us = resin.bottom_layer_us();
+    // The plans below the segment, by their layers: time and maximum error.
+    let mut starts = vec![None; bottom + 1];
+    starts[0] = Some((0, 0));
+    let mut filled: Vec<Tables> = Vec::with_capacity(segments.len());
+    for (index, segment) in segments.iter().enumerate() {
+        let unit_mm = f64::from(segment.unit) * errors.bins().size_mm;
+        let times_us: Vec<u64> = (0..=*segment.thickness.end())
+            .map(|units| resin.layer_us(f64::from(units) * unit_mm))
+            .collect();
+        // Where all plans are alike, the maximum error below need not be told apart.
+        if starts.iter().flatten().count() == 1 {
+            for start in starts.iter_mut().flatten() {
+                start.1 = 0;
+            }
+        }
+        let mut tables = Tables::new(segment, &starts);
+        tables.fill(errors, segment, tolerance, bottom_us, &times_us);
+        starts = tables.by_layers.iter().map(at_top).collect();
+        let reached = tables.by_layers.iter().map(Table::highest_reached).max();
+        filled.push(tables);
+        if starts.iter().all(Option::is_none) {
+            return Err(Stuck {
+                segment: index,
+                reached: reached.unwrap_or(0),
+            });
+        }
+    }
+    let ends = starts.iter().enumerate();
+    let best = ends
+        .filter_map(|(layers, end)| Some((end.as_ref()?, layers)))
+        .min();
+    let mut layers = best.map_or(0, |(_, layers)| layers);
+    let mut boundaries = vec![0];
+    for (segment, tables) in segments.iter().zip(&filled).rev() {
+        let mut plane = segment.units;
+        while plane > 0 {
+            boundaries.push(segment.boundary(plane));
+            let is_bottom = layers < bottom || tables.is_last_bottom[plane as usize];
+            plane = tables.by_layers[layers].below[plane as usize];
+            layers -= usize::from(is_bottom);
+        }
+    }
+    boundaries.sort_unstable();
+    Ok(boundaries)
+}
+
+/// Time and maximum error of the plan up to the top.
+fn at_top(table: &Table) -> Option<(u64, u64)> {
+    let top = table.cost.len() - 1;
+    table
+        .reaches_top()
+        .then(|| (table.cost[top], table.worst[top]))
+}
+
+impl Tables {
+    fn new(segment: &Segment, starts: &[Option<(u64, u64)>]) -> Self {
+        let mut by_layers = vec![Table::unreached(segment.units); starts.len()];
+        for (table, start) in by_layers.iter_mut().zip(starts) {
+            if let Some(start) = *start {
+                table.improve(0, start, 0);
+            }
+        }
+        Self {
+            by_layers,
+            is_last_bottom: vec![false; segment.units as usize + 1],
+        }
+    }
+
+    fn fill(
+        &mut self,
+        errors: &LayerErrors,
+        segment: &Segment,
+        tolerance: u64,
+        bottom_us: u64,
+        times_us: &[u64],
+    ) {
+        let bottom = self.by_layers.len() - 1;
+        for plane in 0..segment.units {
+            for layers in 0..=bottom {
+                let table = &self.by_layers[layers];
+                let time = table.cost[plane as usize];
+                if time == Table::NO_PLAN {
+                    continue;
+                }
+                let worst = table.worst[plane as usize];
+                let is_bottom = layers < bottom;
+                let above = &mut self.by_layers[layers + usize::from(is_bottom)];
+                for_each_layer(errors, segment, tolerance, plane, |thickness, error| {
+                    let layer_us = if is_bottom {
+                        bottom_us
+                    } else {
+                        times_us[thickness as usize]
+                    };
+                    let found = (time + layer_us, worst.max(error));
+                    let top = plane + thickness;
+                    // Each plane of the last table remembers which table its plan comes from.
+                    if above.improve(top, found, plane) && layers + 1 >= bottom {
+                        self.is_last_bottom[top as usize] = is_bottom;
+                    }
+                });
+            }
+        }
+    }
+}
