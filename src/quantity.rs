@@ -91,7 +91,8 @@ impl Quantity {
 
     /// Whether 0 is allowed; if not, the value must be greater.
     pub fn may_be_zero(self) -> bool {
-        self.unit() == Unit::Second || self == Self::Lift
+        // An upright prism has no error, so the smallest tolerance that allows so many layers may be 0.
+        self.unit() == Unit::Second || matches!(self, Self::Lift | Self::Tolerance)
     }
 
     /// Its name in sentences for the terminal.

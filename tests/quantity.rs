@@ -46,7 +46,7 @@ fn numbers_of_layers_are_refused_by_name_bound_and_unit() {
     );
     assert_eq!(
         refusal(|options| options.tolerance = Some(-1.0)),
-        "the tolerance must be greater than 0, not -1"
+        "the tolerance must be 0 or more, not -1"
     );
 }
 

@@ -65,9 +65,10 @@ impl Limits {
     ) -> Result<RangeInclusive<u32>, PlanError> {
         Quantity::LayerMin.check(layer_min_mm)?;
         Quantity::LayerMax.check(layer_max_mm)?;
+        let unit = f64::from(self.unit(bins)?);
         let units = Bins {
             count: bins.count,
-            size_mm: f64::from(self.unit(bins)?) * bins.size_mm,
+            size_mm: unit * bins.size_mm,
         };
         let least = units.ceil(layer_min_mm).max(1.0);
         let greatest = units.floor(layer_max_mm);
@@ -78,8 +79,9 @@ impl Limits {
                 step_mm: units.boundary_mm(1),
             });
         }
-        // The middle of a layer more than twice as thick as the model is high lies above the model, so no plan has one.
-        let limit = 2.0 * bins.count as f64 + 1.0;
+        // The middle of a layer more than twice as thick as the model is high lies above the model, so no plan has one. In bins,
+        // no thickness is then above 32 bits.
+        let limit = (2.0 * bins.count as f64 / unit).floor() + 1.0;
         Ok(least.min(limit) as u32..=greatest.min(limit) as u32)
     }
 

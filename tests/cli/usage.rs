@@ -60,7 +60,11 @@ fn bad_usage_is_exit_code_2() {
     );
     assert_fails(&cusp(&["plan", &ball, "--pixels", "9x9"]), 2, "--pitch");
     assert_fails(&cusp(&["plan", &ball, "--height", "-4"]), 2, "--height");
-    assert_fails(&cusp(&["plan", &ball, "--tolerance", "NaN"]), 2, "positive");
+    assert_fails(
+        &cusp(&["plan", &ball, "--tolerance", "NaN"]),
+        2,
+        "0 or more",
+    );
     assert_fails(&cusp(&["plan", &ball, "--metric", "beauty"]), 2, "cusp");
     assert_fails(&cusp(&["plan", &ball, "--range", "0:5"]), 2, "0:5=0.1:0.1");
     let two = ["plan", &ball, "--tolerance", "1", "--max-layers", "9"];

@@ -9,6 +9,37 @@ use cusp_slicer::profile::{LayerErrors, Profile};
 use crate::{bins, limits, plan, sum};
 
 #[test]
+fn steps_and_thicknesses_of_any_size_are_answered() {
+    // A motor step of 2 m and layers of a kilometre, in bins of a thousandth.
+    for (step_mm, layer_min_mm) in [(2000.0, 1e10), (429.476, 500.0), (0.02, 0.02)] {
+        let limits = Limits {
+            layer_min_mm,
+            layer_max_mm: 1e12,
+            tolerance: 1e9,
+            step_mm: Some(step_mm),
+            ..Limits::default()
+        };
+        let profile = Profile {
+            bins: Bins {
+                count: 20_000,
+                size_mm: 0.001,
+            },
+            density: vec![0.5; 20_000],
+        };
+        let errors = LayerErrors::Sum(profile.error_sum());
+        let found = optimal::plan(&errors, &limits, &[], Objective::Layers);
+        let is_planned = layer_min_mm < 1.0;
+        assert_eq!(found.is_ok(), is_planned, "{step_mm}: {found:?}");
+        if let Err(error) = found {
+            assert!(
+                matches!(error, PlanError::LayersDoNotFit { .. }),
+                "{error:?}"
+            );
+        }
+    }
+}
+
+#[test]
 fn planes_and_ranges_are_kept() {
     let limits = Limits {
         ranges: vec![

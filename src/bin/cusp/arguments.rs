@@ -78,7 +78,7 @@ pub struct Choices {
     /// Maximum layer thickness
     #[arg(long, value_name = "MM", default_value_t = Options::default().layer_max_mm, value_parser = length, help_heading = "Layers")]
     layer_max: f64,
-    #[arg(long, value_name = "ERROR", value_parser = positive, help = tolerance_help(), help_heading = "Layers")]
+    #[arg(long, value_name = "ERROR", value_parser = not_negative, help = tolerance_help(), help_heading = "Layers")]
     tolerance: Option<f64>,
     /// Find the smallest tolerance that needs at most this many layers
     #[arg(
@@ -272,6 +272,14 @@ fn rotation(text: &str) -> Result<[f64; 4], String> {
 fn antialias(text: &str) -> Result<u32, String> {
     let level = text.parse().ok().filter(|level| LEVELS.contains(level));
     level.ok_or_else(|| format!("expected one of the levels {LEVELS:?}"))
+}
+
+/// Parses a number that is 0 or more.
+fn not_negative(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number >= 0.0 && number.is_finite() => Ok(number),
+        _ => Err("expected a number that is 0 or more".to_owned()),
+    }
 }
 
 /// Parses a positive number.
