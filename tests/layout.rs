@@ -49,32 +49,28 @@ fn constant(module: &Module, name: &str) -> i64 {
     }
 }
 
+/// A struct of a shader has this size and these members at these offsets.
+fn assert_layout(source: &str, name: &str, size: usize, members: &[(&str, usize)]) {
+    let expected = members.iter().map(|&(name, at)| (name.to_owned(), at));
+    assert_eq!(layout(&parse(source), name), (expected.collect(), size));
+}
+
 #[test]
 fn tile_is_laid_out_as_the_shader_reads_it() {
-    let (members, size) = layout(&parse(FILL), "Tile");
-    assert_eq!(size, size_of::<Tile>());
-    let expected = [
+    let members = [
         ("origin", offset_of!(Tile, origin)),
         ("size", offset_of!(Tile, size)),
     ];
-    assert_eq!(
-        members,
-        expected.map(|(name, offset)| (name.to_owned(), offset))
-    );
+    assert_layout(FILL, "Tile", size_of::<Tile>(), &members);
 }
 
 #[test]
 fn cell_is_laid_out_as_the_shader_reads_it() {
-    let (members, size) = layout(&parse(COLLECT), "Cell");
-    assert_eq!(size, size_of::<Cell>());
-    let expected = [
+    let members = [
         ("corner", offset_of!(Cell, corner)),
         ("first", offset_of!(Cell, first)),
     ];
-    assert_eq!(
-        members,
-        expected.map(|(name, offset)| (name.to_owned(), offset))
-    );
+    assert_layout(COLLECT, "Cell", size_of::<Cell>(), &members);
 }
 
 #[test]

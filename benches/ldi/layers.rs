@@ -6,6 +6,8 @@ use cusp_slicer::model::Mesh;
 use cusp_slicer::progress::silent;
 use glam::DVec3;
 
+use crate::png_file;
+
 /// Columns of the picture, one a pass.
 const PASSES: usize = 4;
 /// Rays along the longer side of a panel.
@@ -35,7 +37,7 @@ pub fn picture(mesh: &Mesh) -> Vec<u8> {
             }
         }
     }
-    encoded(row_pixels, &pixels)
+    png_file::encoded(row_pixels, &pixels)
 }
 
 /// Bright where the surface faces the viewer; from blue at the plate to yellow at the top.
@@ -50,18 +52,4 @@ fn colour(mesh: &Mesh, hit: Hit, is_below: bool) -> [u8; 3] {
     let high = DVec3::new(0.99, 0.85, 0.45);
     let shade = low.lerp(high, height) * (0.35 + 0.65 * light);
     shade.to_array().map(|part| (255.0 * part.min(1.0)) as u8)
-}
-
-fn encoded(width: usize, pixels: &[[u8; 3]]) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    let height = pixels.len() / width;
-    let mut encoder = png::Encoder::new(&mut bytes, width as u32, height as u32);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_compression(png::Compression::High);
-    let mut writer = encoder.write_header().expect("a header");
-    writer
-        .write_image_data(pixels.as_flattened())
-        .expect("the pixels");
-    writer.finish().expect("the end");
-    bytes
 }

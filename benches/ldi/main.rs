@@ -8,6 +8,8 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod layers;
+#[path = "../common/png_file.rs"]
+mod png_file;
 #[path = "../../tests/common/solids.rs"]
 #[expect(dead_code, reason = "the tests use the other solids")]
 mod solids;

@@ -6,6 +6,8 @@
 #[expect(dead_code, reason = "one of the models is enough here")]
 mod models;
 mod picture;
+#[path = "../common/png_file.rs"]
+mod png_file;
 #[path = "../../tests/common/solids.rs"]
 #[expect(
     dead_code,

@@ -2,6 +2,8 @@
 
 use glam::{DVec3, Vec3};
 
+use crate::png_file;
+
 /// Height of a model in pixels.
 const HEIGHT: usize = 340;
 /// Pixels around each model.
@@ -88,16 +90,6 @@ impl Picture {
 
     /// The picture as a PNG.
     pub fn png(&self) -> Vec<u8> {
-        let mut bytes = Vec::new();
-        let height = self.pixels.len() / self.width;
-        let mut encoder = png::Encoder::new(&mut bytes, self.width as u32, height as u32);
-        encoder.set_color(png::ColorType::Rgb);
-        encoder.set_compression(png::Compression::High);
-        let mut writer = encoder.write_header().expect("a header");
-        writer
-            .write_image_data(self.pixels.as_flattened())
-            .expect("the pixels");
-        writer.finish().expect("the end");
-        bytes
+        png_file::encoded(self.width, &self.pixels)
     }
 }
