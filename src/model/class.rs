@@ -43,6 +43,11 @@ impl FacetClasses {
         }
     }
 
+    /// The first facet after those of the surface, slivers without area included.
+    pub fn surface_end(self) -> usize {
+        self.starts[0] as usize
+    }
+
     /// The first facet after those of the model itself, which are surface or caps.
     pub fn model_end(self) -> u32 {
         self.starts[1]

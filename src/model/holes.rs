@@ -1,4 +1,4 @@
-//! Finds the holes of a mesh and closes them.
+//! The holes of a mesh, and their caps.
 //!
 //! The edges that facets use more often in one direction than in the other form closed loops in any mesh,
 //! because the edges of each facet do. Closing every loop therefore balances every edge, and then every
@@ -8,53 +8,7 @@
 use glam::Vec3;
 use rustc_hash::FxHashMap;
 
-/// An edge that facets leave open, in the direction in which a cap must use it.
-type OpenEdge = (u32, u32);
-
-/// Every edge that is used more often in one direction than in the other, repeated by the difference, in
-/// order of its lower vertex.
-///
-/// A counting sort puts edges into buckets by their lower vertex: linear, and without hashing.
-pub(super) fn open_edges(vertex_count: usize, facets: &[[u32; 3]]) -> Vec<OpenEdge> {
-    let edges = || {
-        facets
-            .iter()
-            .flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)])
-            .filter(|(start, end)| start != end)
-    };
-    // Counts are stored one slot ahead: filling then advances each start to where it belongs.
-    let mut starts = vec![0usize; vertex_count + 2];
-    for (start, end) in edges() {
-        starts[start.min(end) as usize + 2] += 1;
-    }
-    for vertex in 2..starts.len() {
-        starts[vertex] += starts[vertex - 1];
-    }
-    // The higher vertex, and whether the edge goes up to it, in one number: all keys are sorted by the same code.
-    let mut uses = vec![0u64; starts[vertex_count + 1]];
-    for (start, end) in edges() {
-        let slot = &mut starts[start.min(end) as usize + 1];
-        uses[*slot] = u64::from(start.max(end)) << 1 | u64::from(start < end);
-        *slot += 1;
-    }
-    let mut open = Vec::new();
-    for low in 0..vertex_count {
-        let bucket = &mut uses[starts[low]..starts[low + 1]];
-        bucket.sort_unstable();
-        for edge in bucket.chunk_by(|left, right| left >> 1 == right >> 1) {
-            let upward = edge.iter().filter(|&one| one & 1 == 1).count();
-            let downward = edge.len() - upward;
-            let (low, high) = (low as u32, (edge[0] >> 1) as u32);
-            let missing = if upward > downward {
-                (high, low)
-            } else {
-                (low, high)
-            };
-            open.extend(std::iter::repeat_n(missing, upward.abs_diff(downward)));
-        }
-    }
-    open
-}
+use super::edges::OpenEdge;
 
 /// The loops that open edges form. No loop passes through a vertex twice.
 pub(super) fn loops(open: &[OpenEdge]) -> Vec<Vec<u32>> {

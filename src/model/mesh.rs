@@ -1,10 +1,13 @@
 //! A triangle mesh in millimetres, and the defects found while it was built.
 
+use std::sync::Arc;
+
 use glam::{DVec3, Vec3};
 use rustc_hash::FxHashMap;
 use serde::Serialize;
 
 use super::class::{FacetClass, FacetClasses};
+use super::edges::{Neighbours, edges};
 use super::holes;
 use super::pose::{Pose, rotation_matrix};
 
@@ -72,6 +75,8 @@ pub struct Mesh {
     pub surface_facets: usize,
     /// What the facets belong to.
     pub classes: FacetClasses,
+    /// For each facet of the surface, slivers included, the facets across its edges; caps do not count.
+    pub neighbours: Arc<Neighbours>,
     /// Facets of the input that had no area.
     pub degenerate_facets: usize,
     /// Edges of the input that were not used equally often in both directions; 0 for a closed,
@@ -105,7 +110,7 @@ impl Mesh {
         }
         keep_joining_slivers(&mut facets, flat, vertices.len());
         let first_cap = facets.len();
-        let open_edges = holes::open_edges(vertices.len(), &facets);
+        let (neighbours, open_edges) = edges(vertices.len(), &facets);
         let open_edge_count = open_edges.len();
         let loops = holes::loops(&open_edges);
         for hole in &loops {
@@ -115,6 +120,7 @@ impl Mesh {
             vertices,
             classes: FacetClasses::of_model(first_cap, facets.len()),
             facets,
+            neighbours: Arc::new(neighbours),
             surface_facets,
             degenerate_facets: triangles.len() - surface_facets,
             open_edges: open_edge_count,
@@ -125,6 +131,7 @@ impl Mesh {
             mesh.facets
                 .iter_mut()
                 .for_each(|corners| corners.swap(1, 2));
+            mesh.neighbours = Arc::new(Neighbours::clone(&mesh.neighbours).flipped());
             mesh.was_inside_out = true;
         }
         Ok(mesh)
@@ -234,6 +241,7 @@ impl Mesh {
                 .map(|vertex| ((vertex - foot) * scale).as_vec3())
                 .collect(),
             facets: self.facets.clone(),
+            neighbours: Arc::clone(&self.neighbours),
             ..*self
         })
     }

@@ -1,6 +1,7 @@
 //! The model: read from a file, welded to a closed mesh, posed on the plate, weighted by facet.
 
 mod class;
+mod edges;
 mod file;
 mod holes;
 mod mesh;
@@ -10,6 +11,7 @@ pub mod saliency;
 pub mod weights;
 
 pub use class::{FacetClass, FacetClasses, Winding};
+pub use edges::{Across, Neighbours};
 pub use file::ModelFile;
 pub use mesh::{Bounds, Mesh, MeshError};
 pub use pose::Pose;
