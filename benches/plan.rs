@@ -14,8 +14,9 @@ use cusp_slicer::model::{Mesh, Pose};
 use cusp_slicer::plan::optimal::{self, Objective};
 use cusp_slicer::plan::tradeoff;
 use cusp_slicer::plan::{Limits, Plan, greedy};
+use cusp_slicer::profile::deviation::DeviationError;
 use cusp_slicer::profile::facet_bins::FacetBins;
-use cusp_slicer::profile::{LayerErrors, Metric, Profile, Shape, section, steepest};
+use cusp_slicer::profile::{LayerErrors, Metric, Profile, Shape, normal_cones, section, steepest};
 use cusp_slicer::resin::Resin;
 use glam::Vec3;
 
@@ -106,11 +107,13 @@ fn planners() {
     let shape = Shape {
         bins,
         steepest: steepest::exact(&FacetBins::of(&mesh, bins), &[]),
+        cones: cone_maxima(&mesh, bins),
         areas_mm2: section::exact(&mesh, &[], bins),
     };
     let profile: Profile = shape.profile(Metric::Cusp);
     let errors = shape.errors(Metric::Cusp);
     let volumes = shape.errors(Metric::Volume);
+    let deviations = shape.errors(Metric::Deviation);
     let resin = Resin::default();
     let limits = Limits {
         layer_min_mm: 0.05,
@@ -149,6 +152,12 @@ fn planners() {
     row("optimal, fewest layers", linear_ms, linear);
     let (ms, layers) = time(|| best(&errors, &limits, Objective::Time(&resin)));
     row("optimal, shortest time", ms, layers);
+    let near = Limits {
+        tolerance: 0.0325,
+        ..limits.clone()
+    };
+    let (ms, layers) = time(|| best(&deviations, &near, Objective::Layers));
+    row("optimal, deviation", ms, layers);
     let (ms, layers) = time(|| best(&volumes, &wide, Objective::Layers));
     row("optimal, volume deviation", ms, layers);
     let (ms, plan) = time(|| greedy::plan(&errors, &limits, &[], greedy::Sight::Profile));
@@ -158,10 +167,18 @@ fn planners() {
     println!("\nTrade-off curve of {} plans: {ms:.1} ms\n", curve.len());
 }
 
+/// The largest `n_z²` over the normal cones in each bin.
+fn cone_maxima(mesh: &Mesh, bins: Bins) -> Vec<f32> {
+    let steepest = steepest::exact(&FacetBins::of(mesh, bins), &[]);
+    normal_cones::maxima(&steepest, &normal_cones::cones(mesh, bins), |_| true)
+}
+
 fn profiles() {
     println!("Exact profile and plan of a model of 60 mm, 30,000 bins of 2 µm\n");
-    println!("| facets | steepest ms | areas ms | cusp profile + plan ms | layers |");
-    println!("|---:|---:|---:|---:|---:|");
+    println!(
+        "| facets | steepest ms | areas ms | cusp profile + plan ms | layers | cones ms | deviation profile + plan ms | layers |"
+    );
+    println!("|---:|---:|---:|---:|---:|---:|---:|---:|");
     let limits = Limits {
         layer_min_mm: 0.05,
         layer_max_mm: 0.15,
@@ -177,14 +194,26 @@ fn profiles() {
             let shape = Shape {
                 bins,
                 steepest: steepest::exact(&FacetBins::of(&mesh, bins), &[]),
+                cones: Vec::new(),
                 areas_mm2: Vec::new(),
             };
             optimal::plan(&shape.errors(Metric::Cusp), &limits, &[], Objective::Layers).unwrap()
         });
+        let (cones_ms, _) = time(|| normal_cones::cones(&mesh, bins));
+        let near = Limits {
+            tolerance: 0.0325,
+            ..limits.clone()
+        };
+        let (deviation_ms, nearest) = time(|| {
+            let errors = DeviationError::new(&cone_maxima(&mesh, bins), bins);
+            let errors = LayerErrors::Deviation(errors);
+            optimal::plan(&errors, &near, &[], Objective::Layers).unwrap()
+        });
         println!(
-            "| {} | {steepest_ms:.2} | {areas_ms:.2} | {all_ms:.2} | {} |",
+            "| {} | {steepest_ms:.2} | {areas_ms:.2} | {all_ms:.2} | {} | {cones_ms:.2} | {deviation_ms:.2} | {} |",
             mesh.facets.len(),
-            plan.layers()
+            plan.layers(),
+            nearest.layers()
         );
     }
 }

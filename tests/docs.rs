@@ -26,16 +26,9 @@ fn tolerance(metric: Metric) -> String {
     written.trim_end().to_owned()
 }
 
-const METRICS: [Metric; 4] = [
-    Metric::Cusp,
-    Metric::Roughness,
-    Metric::Area,
-    Metric::Volume,
-];
-
 #[test]
 fn the_command_lines_document_names_the_defaults_of_the_library() {
-    for metric in METRICS {
+    for metric in Metric::ALL {
         let name = metric.name();
         let row = row(CLI, &format!("`--metric {name}`"));
         let (_, said) = row.split_once("default ").unwrap();
@@ -54,7 +47,7 @@ fn the_command_lines_document_names_the_defaults_of_the_library() {
 #[test]
 fn the_elements_document_names_the_defaults_of_the_library() {
     let options = Options::default();
-    for metric in METRICS {
+    for metric in Metric::ALL {
         let name = metric.name();
         let said = format!("{} for `{name}`", tolerance(metric));
         assert_says(row(EMBED, "`tolerance`"), &said);

@@ -28,11 +28,13 @@ fn shapes(triangles: &solids::Triangles, bin_mm: f64) -> [Shape; 2] {
         Shape {
             bins,
             steepest: steepest::exact(&FacetBins::of(&mesh, bins), &seen.hidden),
+            cones: Vec::new(),
             areas_mm2: section::exact(&mesh, &seen.hidden, bins),
         },
         Shape {
             bins,
             steepest: steepest::sampled(&FacetBins::of(&mesh, bins), &ldi, &seen.hidden),
+            cones: Vec::new(),
             areas_mm2: section::sampled(&ldi, bins),
         },
     ]
@@ -278,6 +280,7 @@ fn errors_of_layers_are_sums_of_densities() {
         steepest: [0.2f32, 0.4, 0.0, 1.0, 0.3]
             .map(|density| density * density)
             .to_vec(),
+        cones: Vec::new(),
         areas_mm2: vec![5.0, 4.0, 4.0, 7.0, 1.0],
     };
     let errors = shape.errors(Metric::Cusp);

@@ -15,13 +15,6 @@ use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::progress::silent;
 use glam::{DVec3, Quat, Vec3};
 
-const METRICS: [Metric; 4] = [
-    Metric::Cusp,
-    Metric::Roughness,
-    Metric::Area,
-    Metric::Volume,
-];
-
 /// A ball with bumps and dents within 37° of the direction x.
 fn bumpy_ball(levels: u32) -> solids::Triangles {
     let mut ball = solids::sphere(10.0, levels);
@@ -252,7 +245,7 @@ fn weight_1_changes_nothing_and_weight_one_half_doubles_the_tolerance() {
     let model = binary_stl(&solids::sphere(4.0, 5));
     let mut slicer = Slicer::load(&model).unwrap();
     let facets = slicer.info().facets;
-    for metric in METRICS {
+    for metric in Metric::ALL {
         for source in [Source::Exact, Source::Sampled] {
             let options = Options {
                 source,

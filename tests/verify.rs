@@ -129,12 +129,7 @@ fn a_preview_is_the_plan_where_no_facet_is_hidden() {
     for (name, triangles) in solids::all() {
         let (mut slicer, _) = planned(&triangles, &options());
         let hides_facets = !single.contains(&name);
-        for metric in [
-            Metric::Cusp,
-            Metric::Roughness,
-            Metric::Area,
-            Metric::Volume,
-        ] {
+        for metric in Metric::ALL {
             for rotation in [None, options().rotation] {
                 let options = Options {
                     metric,

@@ -158,6 +158,7 @@ fn table_2(models: &[Model], text: &mut String) {
             let shape = Shape {
                 bins,
                 steepest: steepest::exact(&FacetBins::of(&mesh, bins), &[]),
+                cones: Vec::new(),
                 areas_mm2: Vec::new(),
             };
             let limits = Limits {

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::planned::{Planning, shapes_of};
+use super::planned::{Extra, Planning, shapes_of};
 use super::resolve::Job;
 use super::slicer::Slicer;
 use super::stage::{Stage, StageProgress};
@@ -19,7 +19,6 @@ use crate::orientation::{
     Task, TaskResult,
 };
 use crate::parallel;
-use crate::profile::section;
 use crate::progress::report;
 
 /// Tasks per thread and round: more than one, so that few threads are idle at the end of a round.
@@ -320,15 +319,17 @@ impl Evaluator<'_> {
         let height_mm = placement.size_mm[2];
         let bins = Bins::of_height(height_mm, layering.bin_mm).ok()?;
         let facet_bins = self.surface.facet_bins(placement, bins);
-        let areas_mm2 = || {
+        let extra = || {
             let pose = Pose {
                 rotation: Some(placement.rotation),
                 height_mm: Some(height_mm),
             };
             let mesh = self.model.on_plate(&pose)?;
-            Ok::<_, Error>(section::exact(&mesh, &[], bins))
+            let mut extra = Extra::of(&mesh, layering.metric, bins);
+            self.surface.renumber(&mut extra.cones);
+            Ok::<_, Error>(extra)
         };
-        let shapes = shapes_of(&facet_bins, areas_mm2, layering, self.weights.clone()).ok()?;
+        let shapes = shapes_of(&facet_bins, extra, layering, self.weights.clone()).ok()?;
         let planning = Planning::new(height_mm, &shapes, layering);
         let plan = planning.plan().ok()?;
         let max_error = planning.max_error(&plan);

@@ -6,14 +6,17 @@ use std::sync::Arc;
 use super::measured::Measured;
 use super::resolve::{Layering, Target};
 use super::{Planner, PlannerReport, UniformReport};
+use crate::grid::Bins;
 use crate::mask::{Masks, Side};
+use crate::model::Mesh;
 use crate::plan::optimal::Objective;
 use crate::plan::tradeoff::{self, Goal, TradeoffPoint};
 use crate::plan::{Limits, Plan, PlanError, greedy, optimal, uniform};
 use crate::profile::facet_bins::FacetBins;
+use crate::profile::normal_cones::{Cone, cones};
 use crate::profile::shapes::Shapes;
 use crate::profile::snap_planes::snap_planes;
-use crate::profile::{LayerErrors, Metric, Source};
+use crate::profile::{LayerErrors, Metric, Source, section};
 use crate::warning::Warning;
 
 /// A plan with what it was made from. Immutable and shared, so its masks always come from its own rays.
@@ -72,6 +75,7 @@ pub struct Findings {
     pub max_error: f64,
     pub sampled_error: f64,
     pub max_error_mm: f64,
+    pub max_deviation_mm: f64,
     pub print_time_s: f64,
     pub uniform: UniformReport,
     pub warnings: Vec<Warning>,
@@ -215,7 +219,8 @@ impl<'a> Planning<'a> {
                 height_mm: self.height_mm,
             });
         }
-        let cusp = self.shapes.exact.errors(Metric::Cusp);
+        let [cusp, deviation] =
+            [Metric::Cusp, Metric::Deviation].map(|metric| self.shapes.exact.errors(metric));
         Ok(Findings {
             snapped_mm: plan
                 .snap_planes
@@ -226,6 +231,7 @@ impl<'a> Planning<'a> {
             max_error,
             sampled_error: plan.max_error(&self.shapes.errors(layering.metric, Source::Sampled)),
             max_error_mm: plan.max_error(&cusp),
+            max_deviation_mm: plan.max_error(&deviation),
             print_time_s: plan.print_time_s(&layering.resin),
             uniform: UniformReport {
                 finest: self.row(finest)?,
@@ -284,18 +290,42 @@ fn tolerance(
     tradeoff::tolerance_for(errors, &limits, snap_planes, &layering.resin, goal)
 }
 
-/// The shapes from facets alone, weighted for the metric. Calls `areas_mm2` only if the metric needs the areas of sections.
+/// What some metrics need besides facets by bins. The other lists stay empty.
+#[derive(Debug, Default)]
+pub struct Extra {
+    /// Areas of sections.
+    areas_mm2: Vec<f64>,
+    /// Normal cones.
+    pub cones: Vec<Cone>,
+}
+
+impl Extra {
+    /// What a metric needs, of a mesh that stands on the plate.
+    pub fn of(mesh: &Mesh, metric: Metric, bins: Bins) -> Self {
+        let mut extra = Self::default();
+        if metric.needs_areas() {
+            extra.areas_mm2 = section::exact(mesh, &[], bins);
+        }
+        if metric.needs_cones() {
+            extra.cones = cones(mesh, bins);
+        }
+        extra
+    }
+}
+
+/// The shapes from facets alone, weighted for the metric. Calls `extra` only if the metric needs any of it.
 pub fn shapes_of<E>(
     facet_bins: &FacetBins,
-    areas_mm2: impl FnOnce() -> Result<Vec<f64>, E>,
+    extra: impl FnOnce() -> Result<Extra, E>,
     layering: &Layering,
     weights: Option<Vec<f32>>,
 ) -> Result<Shapes, E> {
-    let areas_mm2 = if layering.metric.needs_areas() {
-        areas_mm2()?
+    let metric = layering.metric;
+    let Extra { areas_mm2, cones } = if metric.needs_areas() || metric.needs_cones() {
+        extra()?
     } else {
-        Vec::new()
+        Extra::default()
     };
-    let shapes = Shapes::of_facets(facet_bins, areas_mm2);
+    let shapes = Shapes::of_facets(facet_bins, areas_mm2, cones);
     Ok(shapes.weighed(facet_bins, None, layering.metric, weights))
 }

@@ -296,6 +296,8 @@ pub struct Report {
     pub sampled_error: f64,
     /// The largest cusp height of a layer under the exact profile, whatever the metric.
     pub max_error_mm: f64,
+    /// The largest distance from the print to the model, whatever the metric: see `deviation`.
+    pub max_deviation_mm: f64,
     /// Print time.
     pub print_time_s: f64,
     /// Where the LDI was sampled, `cpu` or `gpu`.
@@ -404,6 +406,7 @@ pub(super) fn report_of(
         max_error: findings.max_error,
         sampled_error: findings.sampled_error,
         max_error_mm: findings.max_error_mm,
+        max_deviation_mm: findings.max_deviation_mm,
         print_time_s: findings.print_time_s,
         backend: sampled.gpu.as_ref().map_or("cpu", |_| "gpu").to_owned(),
         adapter: sampled.gpu.as_ref().map(|gpu| gpu.name.clone()),

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use web_time::Instant;
 
 use super::measured::Measured;
-use super::planned::{Planned, Planning, shapes_of};
+use super::planned::{Extra, Planned, Planning, shapes_of};
 use super::report::{Origin, report_of};
 use super::resolve::{Job, Layering, Output, Sampling};
 use super::sampled::{Sampled, Sampler};
@@ -20,7 +20,7 @@ use crate::mask::{MaskCursor, Masks, Side};
 use crate::model::{Mesh, ModelFile, Pose, read, saliency, weights};
 use crate::orientation::Surface;
 use crate::profile::facet_bins::FacetBins;
-use crate::profile::{Metric, Profile, Source, section};
+use crate::profile::{Metric, Profile, Source};
 
 /// A loaded model with the results of the stages. A change of options repeats only the stages that depend on it.
 #[derive(Debug)]
@@ -192,9 +192,9 @@ impl Slicer {
         let height_mm = sampling.height_mm(size.z);
         let bins = Bins::of_height(height_mm, layering.bin_mm)?;
         let facet_bins = FacetBins::of(&mesh, bins);
-        let areas_mm2 = || Ok::<_, Error>(section::exact(&mesh, &[], bins));
+        let extra = || Ok::<_, Error>(Extra::of(&mesh, layering.metric, bins));
         let weights = self.known_weights(layering);
-        let shapes = shapes_of(&facet_bins, areas_mm2, layering, weights)?;
+        let shapes = shapes_of(&facet_bins, extra, layering, weights)?;
         let planning = Planning::new(height_mm, &shapes, layering);
         let plan = planning.plan()?;
         let preview = Preview {

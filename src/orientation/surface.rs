@@ -9,6 +9,7 @@ use crate::model::{Bounds, Mesh, rotation_matrix};
 use crate::order::ascending;
 use crate::plan::Plan;
 use crate::profile::facet_bins::FacetBins;
+use crate::profile::normal_cones::Cone;
 use crate::profile::roughness;
 
 /// Maximum number of flats whose normals are added to the directions.
@@ -30,7 +31,7 @@ const TOLD_APART: usize = 64;
 const OVERHANG: f32 = std::f32::consts::FRAC_1_SQRT_2;
 
 /// Bytes per facet that a search takes on one thread: in the mesh, the surface, and the current placement.
-const FACET_BYTES: usize = 128;
+const FACET_BYTES: usize = 140;
 
 /// Bytes per vertex that a search takes on one thread.
 const VERTEX_BYTES: usize = 54;
@@ -119,6 +120,17 @@ impl Surface {
     pub fn arranged(&self, values: &[f32]) -> Vec<f32> {
         let order = self.order.iter();
         order.map(|&facet| values[facet]).collect()
+    }
+
+    /// Renumbers the facets of cones of the mesh to those here.
+    pub fn renumber(&self, cones: &mut [Cone]) {
+        let mut place_of = vec![0; self.order.len()];
+        for (place, &facet) in self.order.iter().enumerate() {
+            place_of[facet] = place as u32;
+        }
+        for cone in cones {
+            cone.facet = place_of[cone.facet as usize];
+        }
     }
 
     /// `count` directions spread evenly, followed by the axes of the file, along which models are usually designed, and the

@@ -59,8 +59,9 @@ fn thickest_within(errors: &LayerErrors, segment: &Segment, plane: u32, toleranc
 fn thickest_straight(errors: &LayerErrors, segment: &Segment, plane: u32, tolerance: u64) -> u32 {
     let lower = segment.boundary(plane);
     let bins = match errors {
-        LayerErrors::Sum(sum) => {
-            let a_bin = sum.steps_between(lower, lower + 1).max(1);
+        // Both grow in proportion to the thickness on an even slope.
+        LayerErrors::Sum(_) | LayerErrors::Deviation(_) => {
+            let a_bin = errors.steps_between(lower, lower + 1).max(1);
             tolerance as f64 / a_bin as f64
         }
         // A section that grows by a per bin has an error of a · n² / 2 after n bins.

@@ -2,7 +2,7 @@
 
 use super::segment::{Segment, Segments};
 use super::{Limits, Plan, PlanError, timed, tradeoff};
-use crate::profile::{ErrorSum, LayerErrors};
+use crate::profile::{ErrorSum, LayerErrors, Reach};
 use crate::resin::Resin;
 
 /// What a plan minimises.
@@ -129,7 +129,9 @@ fn fewest(errors: &LayerErrors, segments: &[Segment], tolerance: u64) -> Result<
     for (index, segment) in segments.iter().enumerate() {
         let table = match errors {
             LayerErrors::Sum(errors) => fill_fewest(errors, segment, tolerance),
-            LayerErrors::Volume(_) => fill_cheapest(errors, segment, tolerance, |_| 1),
+            LayerErrors::Volume(_) | LayerErrors::Deviation(_) => {
+                fill_cheapest(errors, segment, tolerance, |_| 1)
+            }
         };
         if !table.reaches_top() {
             return Err(Stuck {
@@ -315,15 +317,12 @@ pub(super) fn for_each_layer(
 ) {
     let (least, greatest) = (*segment.thickness.start(), *segment.thickness.end());
     let lower = segment.boundary(plane);
-    let (mut error, mut measured) = (0, lower);
+    let mut layers = errors.layers_above(lower, tolerance);
     for thickness in least..=greatest.min(segment.units - plane) {
-        let upper = lower + thickness * segment.unit;
-        error += errors.steps_added(lower, measured, upper);
-        measured = upper;
-        // Thicker layers have errors at least as large.
-        if error > tolerance {
-            break;
+        match layers.up_to(lower + thickness * segment.unit) {
+            Reach::Within(error) => emit(thickness, error),
+            Reach::Beyond => {}
+            Reach::BeyondFromHere => break,
         }
-        emit(thickness, error);
     }
 }

@@ -1,8 +1,10 @@
-//! Metric profiles: the error density along z, one value per bin (section 3.1), for four metrics and from two sources.
+//! Metric profiles: the error density along z, one value per bin (section 3.1), for five metrics and from two sources.
 
 pub mod area;
 pub mod cusp;
+pub mod deviation;
 pub mod facet_bins;
+pub mod normal_cones;
 pub mod roughness;
 pub mod section;
 pub(crate) mod shapes;
@@ -14,6 +16,7 @@ pub mod weighted;
 use serde::{Deserialize, Serialize};
 
 use crate::grid::Bins;
+use deviation::{DeviationError, DeviationsAbove};
 use volume::VolumeError;
 
 /// What a profile measures.
@@ -25,6 +28,8 @@ pub enum Metric {
     /// Cusp height, in millimetres (eq. 3 to 6).
     #[default]
     Cusp,
+    /// Distance from the print to the model, in millimetres: see [`deviation`].
+    Deviation,
     /// Surface roughness Ra, in millimetres (eq. 7 to 10).
     Roughness,
     /// Area deviation, a fraction (eq. 11 to 14).
@@ -34,14 +39,29 @@ pub enum Metric {
 }
 
 impl Metric {
+    /// All metrics.
+    pub const ALL: [Self; 5] = [
+        Self::Cusp,
+        Self::Deviation,
+        Self::Roughness,
+        Self::Area,
+        Self::Volume,
+    ];
+
     /// The name of the metric, as in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Cusp => "cusp",
+            Self::Deviation => "deviation",
             Self::Roughness => "roughness",
             Self::Area => "area",
             Self::Volume => "volume",
         }
+    }
+
+    /// Whether it is computed from normal cones.
+    pub fn needs_cones(self) -> bool {
+        self == Self::Deviation
     }
 
     /// Whether it is computed from the areas of sections.
@@ -52,7 +72,7 @@ impl Metric {
     /// The unit of its errors and tolerances; empty for a fraction.
     pub fn unit(self) -> &'static str {
         match self {
-            Self::Cusp | Self::Roughness => "mm",
+            Self::Cusp | Self::Deviation | Self::Roughness => "mm",
             Self::Area => "",
             Self::Volume => "mm³",
         }
@@ -76,6 +96,7 @@ impl Metric {
     pub fn default_tolerance(self) -> f64 {
         match self {
             Self::Cusp => cusp::DEFAULT_TOLERANCE_MM,
+            Self::Deviation => deviation::DEFAULT_TOLERANCE_MM,
             Self::Roughness => roughness::DEFAULT_TOLERANCE_MM,
             Self::Area => area::DEFAULT_TOLERANCE,
             Self::Volume => volume::DEFAULT_TOLERANCE_MM3,
@@ -103,16 +124,20 @@ pub struct Shape {
     pub bins: Bins,
     /// The largest `n_z²` of each bin: see [`steepest`].
     pub steepest: Vec<f32>,
+    /// The largest `n_z²` of the normal cones of each bin: see [`normal_cones`]. Empty where only other metrics than the deviation
+    /// are asked for.
+    pub cones: Vec<f32>,
     /// The area of the section at the middle of each bin, in mm²: see [`section`]. Empty unless the metric is the area
     /// or volume deviation.
     pub areas_mm2: Vec<f64>,
 }
 
 impl Shape {
-    /// The profile of a metric. A metric of areas needs [`Self::areas_mm2`].
+    /// The profile of a metric. A metric of areas needs [`Self::areas_mm2`], the deviation [`Self::cones`].
     pub fn profile(&self, metric: Metric) -> Profile {
         let density = match metric {
             Metric::Cusp => cusp::density(&self.steepest),
+            Metric::Deviation => cusp::density(&self.cones),
             Metric::Roughness => roughness::density(&self.steepest),
             Metric::Area => area::density(&self.areas_mm2, self.bins),
             Metric::Volume => self.areas_mm2.iter().map(|&area| area as f32).collect(),
@@ -126,6 +151,9 @@ impl Shape {
     /// The errors of layers under a metric.
     pub fn errors(&self, metric: Metric) -> LayerErrors {
         match metric {
+            Metric::Deviation => {
+                LayerErrors::Deviation(DeviationError::new(&self.cones, self.bins))
+            }
             Metric::Volume => LayerErrors::Volume(VolumeError::new(&self.areas_mm2, self.bins)),
             metric => LayerErrors::Sum(self.profile(metric).error_sum()),
         }
@@ -135,7 +163,8 @@ impl Shape {
 /// The density of deviation errors along the height of a model, φ̃ (section 3.1).
 ///
 /// The error of a layer is the sum of the densities of its bins times the bin size (eq. 1). The volume deviation is the
-/// exception: its profile is the area of sections (eq. 17).
+/// exception: its profile is the area of sections (eq. 17). That of the deviation, which is no sum either, is the largest
+/// |`n_z`| over normal cones.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
     /// The bins that `density` belongs to.
@@ -191,6 +220,8 @@ pub enum LayerErrors {
     Sum(ErrorSum),
     /// The volume deviation, which depends on where the layer begins.
     Volume(VolumeError),
+    /// The deviation, which depends on where the layer begins and ends.
+    Deviation(DeviationError),
 }
 
 impl LayerErrors {
@@ -199,25 +230,37 @@ impl LayerErrors {
         match self {
             Self::Sum(errors) => errors.bins,
             Self::Volume(errors) => errors.bins,
+            Self::Deviation(errors) => errors.bins,
         }
     }
 
     /// The error of the layer between two boundaries, in steps. Above the last bin nothing is added.
     pub fn steps_between(&self, lower: u32, upper: u32) -> u64 {
-        self.steps_added(lower, lower, upper)
+        match self.layers_above(lower, u64::MAX).up_to(upper) {
+            Reach::Within(error) => error,
+            // Nothing exceeds this tolerance.
+            Reach::Beyond | Reach::BeyondFromHere => u64::MAX,
+        }
     }
 
-    /// The steps that the bins from `from` to `to` add to the error of a layer that begins at `lower`.
-    pub fn steps_added(&self, lower: u32, from: u32, to: u32) -> u64 {
-        match self {
-            Self::Sum(errors) => errors.steps_between(from, to),
-            Self::Volume(errors) => (from..to).map(|bin| errors.steps_of(lower, bin)).sum(),
+    /// The layers that begin at a boundary, held against a tolerance in steps.
+    pub fn layers_above(&self, lower: u32, tolerance: u64) -> LayersAbove<'_> {
+        LayersAbove {
+            lower,
+            tolerance,
+            errors: match self {
+                Self::Sum(errors) => ErrorsAbove::Sum(errors),
+                Self::Volume(errors) => ErrorsAbove::Volume(errors, lower, 0),
+                Self::Deviation(errors) => ErrorsAbove::Deviation(errors.above(lower, tolerance)),
+            },
         }
     }
 
     fn steps_per_unit(&self) -> f64 {
         match self {
-            Self::Sum(errors) => STEPS_PER_BIN / errors.bins.size_mm,
+            Self::Sum(ErrorSum { bins, .. }) | Self::Deviation(DeviationError { bins, .. }) => {
+                STEPS_PER_BIN / bins.size_mm
+            }
             Self::Volume(errors) => errors.steps_per_mm3(),
         }
     }
@@ -230,5 +273,54 @@ impl LayerErrors {
     /// The number of steps nearest to an error in the metric's unit.
     pub fn to_steps(&self, error: f64) -> u64 {
         (error * self.steps_per_unit() + 0.5) as u64
+    }
+}
+
+/// The layers that begin at the same boundary, asked for from the thinnest to the thickest.
+#[derive(Debug)]
+pub struct LayersAbove<'a> {
+    lower: u32,
+    tolerance: u64,
+    errors: ErrorsAbove<'a>,
+}
+
+#[derive(Debug)]
+enum ErrorsAbove<'a> {
+    Sum(&'a ErrorSum),
+    /// With the boundary up to which errors have been added up, and their sum.
+    Volume(&'a VolumeError, u32, u64),
+    Deviation(DeviationsAbove<'a>),
+}
+
+/// Whether a layer is within the tolerance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reach {
+    /// It is, with this error in steps.
+    Within(u64),
+    /// It is not, but a thicker one may be.
+    Beyond,
+    /// Neither it nor any thicker one is.
+    BeyondFromHere,
+}
+
+impl LayersAbove<'_> {
+    /// The layer that ends at `upper`.
+    pub fn up_to(&mut self, upper: u32) -> Reach {
+        let error = match &mut self.errors {
+            ErrorsAbove::Sum(errors) => errors.steps_between(self.lower, upper),
+            ErrorsAbove::Volume(errors, measured, error) => {
+                *error += (*measured..upper)
+                    .map(|bin| errors.steps_of(self.lower, bin))
+                    .sum::<u64>();
+                *measured = upper;
+                *error
+            }
+            ErrorsAbove::Deviation(deviations) => return deviations.up_to(upper),
+        };
+        if error <= self.tolerance {
+            Reach::Within(error)
+        } else {
+            Reach::BeyondFromHere
+        }
     }
 }

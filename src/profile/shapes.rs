@@ -1,6 +1,7 @@
 //! The shape of a model along z from both sources, facets and rays, with optional weights of facets.
 
 use super::facet_bins::{FacetBins, Flat};
+use super::normal_cones::{self, Cone, cones};
 use super::weighted::Weighted;
 use super::{LayerErrors, Metric, Profile, Shape, Source, section, steepest};
 use crate::grid::Bins;
@@ -15,6 +16,8 @@ pub(crate) struct Shapes {
     pub sampled: Shape,
     /// Horizontal facets that are not hidden.
     pub flats: Vec<Flat>,
+    /// The normal cones of the surface, hidden ones included; empty if no metric needs them.
+    cones: Vec<Cone>,
     /// For each facet, whether it lies wholly inside the solid; may be empty.
     hidden: Vec<bool>,
     /// Whether bodies overlap in a way that only rays can resolve.
@@ -36,14 +39,25 @@ impl Shapes {
     pub fn new(facet_bins: &FacetBins, mesh: &Mesh, ldi: &Ldi) -> Self {
         let Visibility { hidden, overlaps } = visibility(mesh, ldi);
         let bins = facet_bins.bins;
-        let shape = |steepest| Shape {
-            bins,
-            steepest,
-            areas_mm2: Vec::new(),
-        };
+        let exact = steepest::exact(facet_bins, &hidden);
+        let sampled = steepest::sampled(facet_bins, ldi, &hidden);
+        let cones = cones(mesh, bins);
+        let is_seen = |facet: usize| hidden.get(facet) != Some(&true);
         Self {
-            exact: shape(steepest::exact(facet_bins, &hidden)),
-            sampled: shape(steepest::sampled(facet_bins, ldi, &hidden)),
+            exact: Shape {
+                bins,
+                cones: normal_cones::maxima(&exact, &cones, is_seen),
+                steepest: exact,
+                areas_mm2: Vec::new(),
+            },
+            // Rays meet facets, not what is between them.
+            sampled: Shape {
+                bins,
+                cones: sampled.clone(),
+                steepest: sampled,
+                areas_mm2: Vec::new(),
+            },
+            cones,
             flats: facet_bins.flats_but(&hidden),
             hidden,
             overlaps,
@@ -52,16 +66,19 @@ impl Shapes {
     }
 
     /// The shape from facets alone, without rays. It serves as both sources, and no facet counts as hidden. `areas_mm2`
-    /// may be empty if the metric does not need areas.
-    pub fn of_facets(facet_bins: &FacetBins, areas_mm2: Vec<f64>) -> Self {
+    /// and `cones` may be empty if the metric does not need them.
+    pub fn of_facets(facet_bins: &FacetBins, areas_mm2: Vec<f64>, cones: Vec<Cone>) -> Self {
+        let steepest = steepest::exact(facet_bins, &[]);
         let exact = Shape {
             bins: facet_bins.bins,
-            steepest: steepest::exact(facet_bins, &[]),
+            cones: normal_cones::maxima(&steepest, &cones, |_| true),
+            steepest,
             areas_mm2,
         };
         Self {
             sampled: exact.clone(),
             exact,
+            cones,
             flats: facet_bins.flats.clone(),
             hidden: Vec::new(),
             overlaps: false,
@@ -100,7 +117,8 @@ impl Shapes {
         weights: Option<Vec<f32>>,
     ) -> Self {
         let weighing = weights.map(|weights| {
-            let measure = |ldi| Weighted::new(facet_bins, ldi, &self.hidden, metric, &weights);
+            let measure =
+                |ldi| Weighted::new(facet_bins, &self.cones, ldi, &self.hidden, metric, &weights);
             let exact = measure(None);
             let sampled = ldi.map_or_else(|| exact.clone(), |ldi| measure(Some(ldi)));
             Weighing {

@@ -100,12 +100,12 @@ pub(super) fn densities(maxima: &[f32], of: impl Fn(f32) -> f32) -> Vec<f32> {
 
 /// Raises `value` to `other` if that is larger. By hand, because `max` is a library call in wasm. It always stores, because
 /// a branch would be hard to predict.
-fn raise(value: &mut f32, other: f32) {
+pub(super) fn raise(value: &mut f32, other: f32) {
     *value = if *value < other { other } else { *value };
 }
 
 /// For each index, the maximum of the values given to ranges that contain it: two writes per range, then one pass down.
-struct RangeMaxima {
+pub(super) struct RangeMaxima {
     count: usize,
     /// One level of `count` values after another. Value i of level k is the maximum over ranges that contain the 2^k
     /// indices from i on.
@@ -114,7 +114,7 @@ struct RangeMaxima {
 
 impl RangeMaxima {
     /// For ranges of at most `longest` among `count` indices.
-    fn new(count: usize, longest: u32) -> Self {
+    pub(super) fn new(count: usize, longest: u32) -> Self {
         let levels = longest.ilog2() as usize + 1;
         Self {
             count,
@@ -123,7 +123,7 @@ impl RangeMaxima {
     }
 
     #[inline]
-    fn raise(&mut self, first: u32, last: u32, value: f32) {
+    pub(super) fn raise(&mut self, first: u32, last: u32, value: f32) {
         let level = (last - first + 1).ilog2();
         let start = level as usize * self.count;
         raise(&mut self.levels[start + first as usize], value);
@@ -131,7 +131,7 @@ impl RangeMaxima {
         raise(&mut self.levels[start + second as usize], value);
     }
 
-    fn into_values(mut self) -> Vec<f32> {
+    pub(super) fn into_values(mut self) -> Vec<f32> {
         let count = self.count;
         for level in (1..self.levels.len() / count).rev() {
             let half = 1 << (level - 1);

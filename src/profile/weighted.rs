@@ -1,7 +1,9 @@
 //! Profiles weighted by facet (section 4.2). The density of a facet is multiplied by its weight, 0 to 1: the tolerance
 //! holds where the weight is 1, and a facet of weight w may exceed it by a factor of 1/w.
 
+use super::deviation::{DeviationError, weight_levels};
 use super::facet_bins::FacetBins;
+use super::normal_cones::{self, Cone};
 use super::steepest::{self, NO_SURFACE};
 use super::volume::VolumeError;
 use super::{LayerErrors, Metric, Profile, Shape, area, cusp, roughness};
@@ -13,6 +15,8 @@ use crate::ldi::Ldi;
 pub struct Weighted {
     metric: Metric,
     values: Vec<f32>,
+    /// For the deviation, the largest `n_z²` over the normal cones of each bin whose weight is at least a level, with that level.
+    levels: Vec<(f32, Vec<f32>)>,
 }
 
 /// The value of a facet under a metric: its weighted density, or its weight.
@@ -22,27 +26,61 @@ fn value_of(facet_bins: &FacetBins, metric: Metric, weights: &[f32]) -> impl Fn(
         match metric {
             Metric::Cusp => weight * cusp::density_of(square),
             Metric::Roughness => weight * roughness::density_of(square),
-            Metric::Area | Metric::Volume => weight,
+            Metric::Deviation | Metric::Area | Metric::Volume => weight,
         }
     }
 }
 
 impl Weighted {
     /// Takes maxima over the hits in each bin, or without an LDI over all facets whose height range meets the bin.
-    /// `weights` has one value per facet of the surface.
+    /// `weights` has one value per facet of the surface, `cones` are those of the same facets.
     pub fn new(
         facet_bins: &FacetBins,
+        cones: &[Cone],
         ldi: Option<&Ldi>,
         hidden: &[bool],
         metric: Metric,
         weights: &[f32],
     ) -> Self {
-        let value = value_of(facet_bins, metric, weights);
-        let values = match ldi {
+        let maxima = |value: &dyn Fn(usize) -> f32| match ldi {
             None => steepest::exact_maxima(facet_bins, hidden, value),
             Some(ldi) => steepest::sampled_maxima(facet_bins, ldi, hidden, value),
         };
-        Self { metric, values }
+        if metric != Metric::Deviation {
+            return Self {
+                metric,
+                values: maxima(&value_of(facet_bins, metric, weights)),
+                levels: Vec::new(),
+            };
+        }
+        let levels: Vec<(f32, Vec<f32>)> = weight_levels()
+            .map(|(above, level)| {
+                let steepest = maxima(&|facet| {
+                    if weights[facet] > above {
+                        facet_bins.n_z_squared[facet]
+                    } else {
+                        NO_SURFACE
+                    }
+                });
+                let counts = |facet: usize| {
+                    ldi.is_none() && hidden.get(facet) != Some(&true) && weights[facet] > above
+                };
+                (level, normal_cones::maxima(&steepest, cones, counts))
+            })
+            .collect();
+        let mut values = vec![NO_SURFACE; facet_bins.bins.count];
+        for (level, squares) in &levels {
+            for (value, &square) in values.iter_mut().zip(squares) {
+                if square >= 0.0 {
+                    steepest::raise(value, level * cusp::density_of(square));
+                }
+            }
+        }
+        Self {
+            metric,
+            values,
+            levels,
+        }
     }
 
     /// The weighted profile of the metric.
@@ -51,7 +89,9 @@ impl Weighted {
     /// Multiplying the areas themselves, as eq. 24 does, would find errors on an upright prism wherever its weight changes.
     pub fn profile(&self, shape: &Shape) -> Profile {
         let density = match self.metric {
-            Metric::Cusp | Metric::Roughness => steepest::densities(&self.values, |value| value),
+            Metric::Cusp | Metric::Deviation | Metric::Roughness => {
+                steepest::densities(&self.values, |value| value)
+            }
             Metric::Area => {
                 let densities = area::density(&shape.areas_mm2, shape.bins);
                 densities
@@ -74,6 +114,9 @@ impl Weighted {
             Metric::Volume => {
                 let weights = self.weights().collect();
                 LayerErrors::Volume(VolumeError::weighted(&shape.areas_mm2, weights, shape.bins))
+            }
+            Metric::Deviation => {
+                LayerErrors::Deviation(DeviationError::weighted(&self.levels, shape.bins))
             }
             _ => LayerErrors::Sum(self.profile(shape).error_sum()),
         }

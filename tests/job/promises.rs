@@ -87,12 +87,7 @@ fn the_plan_warns_of_exactly_the_layers_whose_masks_are_black() {
 fn the_tolerance_holds_on_every_solid_under_every_metric() {
     for (name, triangles) in solids::all() {
         let mut slicer = load(&triangles);
-        for metric in [
-            Metric::Cusp,
-            Metric::Roughness,
-            Metric::Area,
-            Metric::Volume,
-        ] {
+        for metric in Metric::ALL {
             for minimize in [Minimize::Layers, Minimize::Time] {
                 let options = Options {
                     metric,

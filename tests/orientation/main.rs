@@ -12,15 +12,7 @@ mod shards;
 use common::{binary_stl, quiet, solids};
 use cusp_slicer::job::{Options, OrientationReport, Slicer};
 use cusp_slicer::orientation::{Candidate, Metrics, SearchOptions, Task};
-use cusp_slicer::profile::Metric;
 use glam::{DVec3, Quat, Vec3};
-
-const METRICS: [Metric; 4] = [
-    Metric::Cusp,
-    Metric::Roughness,
-    Metric::Area,
-    Metric::Volume,
-];
 
 /// Coarser bins than usual, for speed.
 fn options() -> Options {

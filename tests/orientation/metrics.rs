@@ -6,14 +6,14 @@ use cusp_slicer::model::Pose;
 use cusp_slicer::profile::Metric;
 use glam::{DQuat, DVec3, Vec3};
 
-use crate::{METRICS, bean, few, measure, metrics, options, orient, slicer};
+use crate::{bean, few, measure, metrics, options, orient, slicer};
 
 #[test]
 fn candidates_are_what_a_preview_in_their_pose_shows() {
     let model = bean();
     let mut slicer = slicer(&model);
     let directions = slicer.directions(&options(), 12).unwrap();
-    for metric in METRICS {
+    for metric in Metric::ALL {
         let options = Options {
             metric,
             height_mm: Some(9.0),

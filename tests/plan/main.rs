@@ -13,6 +13,7 @@ use cusp_slicer::grid::Bins;
 use cusp_slicer::plan::optimal::Objective;
 use cusp_slicer::plan::segment::Segment;
 use cusp_slicer::plan::{Limits, Plan, PlanError};
+use cusp_slicer::profile::deviation::DeviationError;
 use cusp_slicer::profile::volume::VolumeError;
 use cusp_slicer::profile::{ErrorSum, LayerErrors, Profile};
 use cusp_slicer::resin::Resin;
@@ -98,11 +99,19 @@ fn in_tenths(tenths: &[u64]) -> Vec<f32> {
 
 /// Errors of a random model under a random metric, with a description of the model.
 fn random_errors(random: &mut fastrand::Rng, count: usize) -> (LayerErrors, String) {
-    if random.bool() {
-        let tenths = random_tenths(random, count);
-        (sum(&in_tenths(&tenths)), format!("{tenths:?}"))
-    } else {
-        let areas: Vec<f64> = (0..count).map(|_| f64::from(random.u32(0..=9))).collect();
-        (volume(&areas), format!("{areas:?}"))
+    match random.u32(0..3) {
+        0 => {
+            let tenths = random_tenths(random, count);
+            (sum(&in_tenths(&tenths)), format!("{tenths:?}"))
+        }
+        1 => {
+            let areas: Vec<f64> = (0..count).map(|_| f64::from(random.u32(0..=9))).collect();
+            (volume(&areas), format!("{areas:?}"))
+        }
+        _ => {
+            let squares = in_tenths(&random_tenths(random, count));
+            let errors = DeviationError::new(&squares, bins(count));
+            (LayerErrors::Deviation(errors), format!("{squares:?}"))
+        }
     }
 }

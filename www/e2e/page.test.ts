@@ -187,6 +187,7 @@ test("infeasible settings name the height and offer a way out; the last plan sta
 
 test.each([
   ["cusp", "Cusp height", "mm", "0.065"],
+  ["deviation", "Deviation", "mm", "0.0325"],
   ["roughness", "Surface roughness", "mm", "0.1"],
   ["area", "Area deviation", "%", "10"],
   ["volume", "Volume deviation", "mm³", null],
@@ -236,6 +237,7 @@ test("a tolerance is kept for the metric that it was typed for", async () => {
 
 test.each([
   ["cusp", "?metric=cusp&tolerance=0.02"],
+  ["deviation", "?metric=deviation&tolerance=0.01"],
   ["roughness", "?metric=roughness&tolerance=0.06"],
   ["area", "?metric=area&tolerance=5"],
   ["volume", "?metric=volume&tolerance=0.06"],

@@ -10,7 +10,7 @@ test("the defaults that forms show match the core's", async () => {
   expect(defaults()).toMatchObject(shown);
   const slicer = new Slicer(binaryStl(exampleTriangles()));
   // The default for volume depends on the model.
-  for (const metric of ["cusp", "roughness", "area"] as const) {
+  for (const metric of ["cusp", "deviation", "roughness", "area"] as const) {
     const report = await slicer.plan({ metric, rays: 64, backend: "cpu" }, () => undefined);
     expect(report.tolerance, metric).toBe(tolerance[metric]);
   }

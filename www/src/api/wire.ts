@@ -110,7 +110,7 @@ export const DEFAULTS = {
   layer_min_mm: 0.05,
   layer_max_mm: 0.15,
   /** In the metric's unit: mm, mm, a fraction, mm³. For volume, the core allows more if the model needs it. */
-  tolerance: { cusp: 0.065, roughness: 0.1, area: 0.1, volume: 1 } satisfies Record<Metric, number>,
+  tolerance: { cusp: 0.065, deviation: 0.0325, roughness: 0.1, area: 0.1, volume: 1 } satisfies Record<Metric, number>,
   metric: "cusp",
   minimize: "layers",
   snap: "auto",

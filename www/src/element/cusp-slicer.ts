@@ -157,7 +157,7 @@ export class CuspSlicer extends LitElement {
     this.#attributes.set("resin", resin);
   }
 
-  /** Largest error of a layer: mm (cusp, roughness), a fraction (area) or mm³ (volume). Null for the default. */
+  /** Largest error of a layer: mm (cusp, deviation, roughness), a fraction (area) or mm³ (volume). Null for the default. */
   get tolerance(): number | null {
     const { metric, tolerances } = this.#session.settings;
     const typed = parse(tolerances[metric] ?? "");

@@ -42,6 +42,8 @@ export function formatOf(locale: string, { hours, minutes }: TimeUnits) {
   /** An error or a tolerance with the unit of its metric. */
   const error = (metric: Metric, value: number): string => {
     if (metric === "area") return percent(value, 2);
+    // The usual deviation has four decimals.
+    if (metric === "deviation") return `${number(value, { maximumFractionDigits: 4 })}\u00a0mm`;
     return metric === "volume" ? volume(value) : fine(value);
   };
   const micrometres = { minimumFractionDigits: 3, maximumFractionDigits: 3 };

@@ -212,6 +212,7 @@ export function details({ report }: Result, { texts: { details: words }, format 
       ${STAGES.map((stage) => (timings_ms[stage] > 0 ? fact(words[stage], format.duration(timings_ms[stage])) : nothing))}
       ${fact(words.meshError, error(report.max_error))} ${fact(words.rayError, error(report.sampled_error))}
       ${metric === "cusp" ? nothing : fact(words.cuspError, format.fine(report.max_error_mm))}
+      ${metric === "deviation" ? nothing : fact(words.deviation, format.error("deviation", report.max_deviation_mm))}
       ${fact(words.flats, format.count(report.snapped_mm.length))}
       ${fact(words.source, report.source === "exact" ? words.exact : words.sampled)}
       ${fact(words.overhead, format.seconds(report.overhead_s))}

@@ -25,6 +25,7 @@ export function report(patch: Partial<Report>): Report {
     max_error: 0.065,
     sampled_error: 0.065,
     max_error_mm: 0.065,
+    max_deviation_mm: 0.0364,
     print_time_s: 9000,
     planner: "optimal",
     backend: "cpu",

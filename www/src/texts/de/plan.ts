@@ -83,6 +83,7 @@ export const plan = ({ counted, plural }: Format): PlanTexts => ({
     meshError: "Größter Fehler am Netz",
     rayError: "Derselbe, wie Strahlen ihn sehen",
     cuspError: "Größte Stufenhöhe",
+    deviation: "Größte Abweichung",
     flats: "Ebenen an Flächen",
     source: "Geplant nach",
     exact: "jedem Dreieck",

@@ -70,6 +70,12 @@ export const settings = (): SettingsTexts => ({
       axis: "Fehlerdichte: 0 senkrecht, 1 waagrecht",
       density: (value) => `Fehlerdichte ${value}`,
     },
+    deviation: {
+      name: "Abweichung",
+      help: "Kein Punkt des Drucks ist weiter als das vom Modell entfernt.",
+      axis: "Neigung mit Kanten: 0 senkrecht, 1 waagrecht",
+      density: (value) => `Neigung ${value}`,
+    },
     roughness: {
       name: "Rauheit",
       help: "Wie rau die Oberfläche werden darf (Ra); auch senkrechte Wände zeigen ihre Schichten.",

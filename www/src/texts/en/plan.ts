@@ -87,6 +87,7 @@ export const plan = ({ counted, plural }: Format) => ({
     meshError: "Largest error on the mesh",
     rayError: "The same as rays see it",
     cuspError: "Largest cusp height",
+    deviation: "Largest deviation",
     flats: "Planes at flats",
     source: "Planned from",
     exact: "Every facet",

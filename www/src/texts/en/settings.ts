@@ -70,6 +70,12 @@ export const settings = () => ({
       axis: "Error density: 0 upright, 1 level",
       density: (value: string) => `error density ${value}`,
     },
+    deviation: {
+      name: "Deviation",
+      help: "No point of the print is farther than this from the model.",
+      axis: "Slope, edges included: 0 upright, 1 level",
+      density: (value: string) => `slope ${value}`,
+    },
     roughness: {
       name: "Surface roughness",
       help: "How rough the surface may come out (Ra); even upright walls show their layers.",

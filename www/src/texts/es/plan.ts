@@ -83,6 +83,7 @@ export const plan = ({ counted, plural }: Format): PlanTexts => ({
     meshError: "Error máximo en la malla",
     rayError: "El mismo según los rayos",
     cuspError: "Escalón máximo",
+    deviation: "Desviación máxima",
     flats: "Planos en caras planas",
     source: "Planificado según",
     exact: "cada faceta",

@@ -70,6 +70,12 @@ export const settings = (): SettingsTexts => ({
       axis: "Densidad de error: 0 vertical, 1 horizontal",
       density: (value) => `densidad de error ${value}`,
     },
+    deviation: {
+      name: "Desviación",
+      help: "Ningún punto de la impresión está más lejos del modelo.",
+      axis: "Inclinación con aristas: 0 vertical, 1 horizontal",
+      density: (value) => `inclinación ${value}`,
+    },
     roughness: {
       name: "Rugosidad",
       help: "Cuán rugosa puede quedar la superficie (Ra); hasta las paredes verticales muestran sus capas.",

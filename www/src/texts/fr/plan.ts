@@ -83,6 +83,7 @@ export const plan = ({ counted, plural }: Format): PlanTexts => ({
     meshError: "Plus grande erreur sur le maillage",
     rayError: "La même vue par les rayons",
     cuspError: "Plus haute marche",
+    deviation: "Plus grand écart",
     flats: "Plans aux faces planes",
     source: "Planifié d’après",
     exact: "chaque facette",

@@ -70,6 +70,12 @@ export const settings = (): SettingsTexts => ({
       axis: "Densité d’erreur : 0 vertical, 1 horizontal",
       density: (value) => `densité d’erreur ${value}`,
     },
+    deviation: {
+      name: "Écart",
+      help: "Aucun point de l’impression n’est plus loin du modèle.",
+      axis: "Pente, arêtes comprises : 0 vertical, 1 horizontal",
+      density: (value) => `pente ${value}`,
+    },
     roughness: {
       name: "Rugosité",
       help: "La rugosité permise à la surface (Ra) ; même les parois verticales montrent leurs couches.",

@@ -79,6 +79,7 @@ export const plan = ({ count: number }: Format): PlanTexts => ({
     meshError: "网格上的最大误差",
     rayError: "光线所见的最大误差",
     cuspError: "最大台阶高度",
+    deviation: "最大偏差",
     flats: "平面处的分层面",
     source: "规划依据",
     exact: "每个三角面",

@@ -70,6 +70,12 @@ export const settings = (): SettingsTexts => ({
       axis: "误差密度：0 竖直，1 水平",
       density: (value) => `误差密度 ${value}`,
     },
+    deviation: {
+      name: "偏差",
+      help: "打印件上任何一点到模型的距离都不超过此值。",
+      axis: "坡度（含棱边）：0 竖直，1 水平",
+      density: (value) => `坡度 ${value}`,
+    },
     roughness: {
       name: "表面粗糙度",
       help: "表面可达到的粗糙度（Ra）；竖直壁也会显出层纹。",
