@@ -12,6 +12,7 @@ use std::time::Instant;
 use cusp_slicer::grid::Bins;
 use cusp_slicer::model::{Mesh, Pose};
 use cusp_slicer::plan::optimal::{self, Objective};
+use cusp_slicer::plan::preferred::SnapPlanes;
 use cusp_slicer::plan::tradeoff;
 use cusp_slicer::plan::{Limits, Plan, greedy};
 use cusp_slicer::profile::deviation::DeviationError;
@@ -126,7 +127,7 @@ fn planners() {
         ..limits.clone()
     };
     let best = |errors: &LayerErrors, limits: &Limits, objective| {
-        optimal::plan(errors, limits, &[], objective)
+        optimal::plan(errors, limits, SnapPlanes::NONE, objective)
             .as_ref()
             .map_or(0, Plan::layers)
     };
@@ -162,8 +163,17 @@ fn planners() {
     row("optimal, volume deviation", ms, layers);
     let (ms, plan) = time(|| greedy::plan(&errors, &limits, &[], greedy::Sight::Profile));
     row("greedy on the profile", ms, plan.unwrap().layers());
-    let (ms, curve) =
-        time(|| tradeoff::curve(&errors, &limits, &[], Objective::Layers, &resin, 100).unwrap());
+    let (ms, curve) = time(|| {
+        tradeoff::curve(
+            &errors,
+            &limits,
+            SnapPlanes::NONE,
+            Objective::Layers,
+            &resin,
+            100,
+        )
+        .unwrap()
+    });
     println!("\nTrade-off curve of {} plans: {ms:.1} ms\n", curve.len());
 }
 
@@ -197,7 +207,13 @@ fn profiles() {
                 cones: Vec::new(),
                 areas_mm2: Vec::new(),
             };
-            optimal::plan(&shape.errors(Metric::Cusp), &limits, &[], Objective::Layers).unwrap()
+            optimal::plan(
+                &shape.errors(Metric::Cusp),
+                &limits,
+                SnapPlanes::NONE,
+                Objective::Layers,
+            )
+            .unwrap()
         });
         let (cones_ms, _) = time(|| normal_cones::cones(&mesh, bins));
         let near = Limits {
@@ -207,7 +223,7 @@ fn profiles() {
         let (deviation_ms, nearest) = time(|| {
             let errors = DeviationError::new(&cone_maxima(&mesh, bins), bins);
             let errors = LayerErrors::Deviation(errors);
-            optimal::plan(&errors, &near, &[], Objective::Layers).unwrap()
+            optimal::plan(&errors, &near, SnapPlanes::NONE, Objective::Layers).unwrap()
         });
         println!(
             "| {} | {steepest_ms:.2} | {areas_ms:.2} | {all_ms:.2} | {} | {cones_ms:.2} | {deviation_ms:.2} | {} |",

@@ -8,6 +8,7 @@ mod common;
 use common::{assert_near, on_plate, solids};
 use cusp_slicer::grid::Bins;
 use cusp_slicer::plan::optimal::{Objective, fill_cheapest};
+use cusp_slicer::plan::preferred::{Preferred, SnapPlanes};
 use cusp_slicer::plan::segment::Segment;
 use cusp_slicer::plan::{Limits, optimal};
 use cusp_slicer::profile::deviation::DeviationError;
@@ -77,7 +78,11 @@ fn the_deviation_is_its_definition() {
             let mut layers = errors.layers_above(lower, u64::MAX - 1);
             for upper in lower + 1..=count as u32 + 3 {
                 let expected = naive(&squares, lower as usize, upper as usize);
-                assert_near(deviation(&errors, lower, upper), expected, 1e-6);
+                let found = deviation(&errors, lower, upper);
+                assert!(
+                    (found - expected).abs() < 1e-6,
+                    "{found} {expected}: {lower} to {upper} of {squares:?}"
+                );
                 let Reach::Within(steps) = layers.up_to(upper) else {
                     panic!("{squares:?}: {lower} to {upper} is beyond any tolerance")
                 };
@@ -256,26 +261,10 @@ fn cone_values(triangles: &[[Vec3; 3]], count: usize) -> Vec<f64> {
         .collect()
 }
 
-/// A prism along y with this outline in x and z, counter-clockwise as seen from −y.
-fn prism(outline: &[[f32; 2]], length: f32) -> solids::Triangles {
-    let at = |[x, z]: [f32; 2], y: f32| Vec3::new(x, y, z);
-    let mut triangles = Vec::new();
-    for (place, &a) in outline.iter().enumerate() {
-        let b = outline[(place + 1) % outline.len()];
-        triangles.push([at(a, 0.0), at(b, length), at(b, 0.0)]);
-        triangles.push([at(a, 0.0), at(a, length), at(b, length)]);
-        if place > 0 && place + 1 < outline.len() {
-            triangles.push([at(outline[0], 0.0), at(a, 0.0), at(b, 0.0)]);
-            triangles.push([at(outline[0], length), at(b, length), at(a, length)]);
-        }
-    }
-    triangles
-}
-
 #[test]
 fn a_ridge_is_as_level_as_its_edge() {
     // A gable roof of 45° over a wall: level at the ridge alone.
-    let roof = prism(
+    let roof = solids::profiled(
         &[[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [2.0, 4.0], [0.0, 2.0]],
         10.0,
     );
@@ -356,7 +345,7 @@ fn standing_torus(ring: f64, tube: f64, parts: usize) -> solids::Triangles {
 #[test]
 fn rims_and_creases_that_paths_cross_do_not_count() {
     // An octagon's outline: walls lean by 45° out, then in.
-    let rim = prism(
+    let rim = solids::profiled(
         &[
             [1.0, 0.0],
             [3.0, 0.0],
@@ -394,7 +383,7 @@ fn the_planner_finds_the_fewest_layers_though_thicker_ones_may_be_nearer() {
             unit: 1,
             thickness: least as u32..=greatest as u32,
         };
-        let table = fill_cheapest(&errors, &segment, steps, |_| 1);
+        let table = fill_cheapest(&errors, &segment, &Preferred::default(), steps, |_| 1);
         let found =
             (table.cost[count] != u64::MAX).then(|| (table.cost[count], table.worst[count]));
         assert_eq!(
@@ -408,7 +397,8 @@ fn the_planner_finds_the_fewest_layers_though_thicker_ones_may_be_nearer() {
             ..Limits::default()
         };
         if let Some((layers, _)) = expected {
-            let plan = optimal::plan(&errors, &limits, &[], Objective::Layers).unwrap();
+            let plan =
+                optimal::plan(&errors, &limits, SnapPlanes::NONE, Objective::Layers).unwrap();
             assert_eq!(plan.layers() as u64, layers);
             plans += 1;
         }

@@ -11,7 +11,7 @@ use cusp_slicer::ldi::visibility::{Visibility, visibility};
 use cusp_slicer::model::Mesh;
 use cusp_slicer::profile::facet_bins::FacetBins;
 use cusp_slicer::profile::snap_planes::snap_planes;
-use cusp_slicer::profile::{Metric, Profile, Shape, area, cusp, roughness, section, steepest};
+use cusp_slicer::profile::{Metric, Profile, Shape, area, roughness, section, steepest};
 use cusp_slicer::progress::silent;
 use glam::Vec3;
 
@@ -260,16 +260,47 @@ fn flats_come_before_sharp_changes_and_larger_before_smaller() {
     let bins = bins_of(&mesh, 0.1);
     let hidden = seen(&mesh, 300).hidden;
     let facet_bins = FacetBins::of(&mesh, bins);
-    let density = cusp::density(&steepest::exact(&facet_bins, &hidden));
+    let steepest = steepest::exact(&facet_bins, &hidden);
     let flats = facet_bins.flats_but(&hidden);
-    let found = snap_planes(&flats, &density, bins, 1.0);
+    let found = snap_planes(&flats, &steepest, bins, 1.0);
     assert_eq!(found[..2], [100, 120]);
-    // Around each flat the density changes sharply.
-    for sharp in [99, 100, 119, 120, 1, 139] {
-        assert!(found[2..].contains(&sharp), "{sharp}: {found:?}");
-    }
+    // At each flat the density changes sharply, and where the walls begin; at the top there is a plane anyway.
+    let mut sharp = found[2..].to_vec();
+    sharp.sort_unstable();
+    assert_eq!(sharp, [1, 100, 120], "{found:?}");
     let large = snap_planes(&flats, &[], bins, 50.0);
     assert_eq!(large, [100]);
+}
+
+#[test]
+fn a_sharp_change_is_where_the_surface_turns() {
+    // Up to 2 mm a wall, up to 4 mm a slope of 27°, then a wall again.
+    let outline = [
+        [0.0, 0.0],
+        [4.0, 0.0],
+        [4.0, 2.0],
+        [8.0, 4.0],
+        [8.0, 6.0],
+        [0.0, 6.0],
+    ];
+    let mesh = on_plate(&solids::profiled(&outline, 5.0));
+    let bins = bins_of(&mesh, 0.1);
+    let steepest = steepest::exact(&FacetBins::of(&mesh, bins), &[]);
+    let mut found = snap_planes(&[], &steepest, bins, 1.0);
+    found.sort_unstable();
+    assert_eq!(found, [1, 20, 40]);
+}
+
+#[test]
+fn bins_that_no_ray_meets_are_no_sharp_changes() {
+    // Near the equator rays are farther apart than bins.
+    let ball = solids::sphere(10.0, 5);
+    let (mesh, ldi) = sample(&ball, 100);
+    let bins = bins_of(&mesh, 0.002);
+    let facet_bins = FacetBins::of(&mesh, bins);
+    let sampled = steepest::sampled(&facet_bins, &ldi, &[]);
+    assert!(sampled.contains(&steepest::NO_SURFACE));
+    assert_eq!(snap_planes(&[], &sampled, bins, 1.0), [0u32; 0]);
 }
 
 #[test]

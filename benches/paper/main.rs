@@ -25,6 +25,7 @@ use cusp_slicer::model::read;
 use cusp_slicer::model::{Mesh, Pose};
 use cusp_slicer::plan::Limits;
 use cusp_slicer::plan::optimal::{self, Objective};
+use cusp_slicer::plan::preferred::SnapPlanes;
 use cusp_slicer::profile::facet_bins::FacetBins;
 use cusp_slicer::profile::{Metric, Shape, Source, steepest};
 
@@ -167,7 +168,12 @@ fn table_2(models: &[Model], text: &mut String) {
                 tolerance: 0.065,
                 ..Limits::default()
             };
-            optimal::plan(&shape.errors(Metric::Cusp), &limits, &[], Objective::Layers)
+            optimal::plan(
+                &shape.errors(Metric::Cusp),
+                &limits,
+                SnapPlanes::NONE,
+                Objective::Layers,
+            )
         });
         let height = model.height_mm as f32;
         let slice = |layer| seconds(|| DirectSlicer::new(&mesh).uniform(height, layer));

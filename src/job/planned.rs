@@ -10,6 +10,7 @@ use crate::grid::Bins;
 use crate::mask::{Masks, Side};
 use crate::model::Mesh;
 use crate::plan::optimal::Objective;
+use crate::plan::preferred::{Price, SnapPlanes};
 use crate::plan::tradeoff::{self, Goal, TradeoffPoint};
 use crate::plan::{Limits, Plan, PlanError, greedy, optimal, uniform};
 use crate::profile::facet_bins::FacetBins;
@@ -97,18 +98,29 @@ impl<'a> Planning<'a> {
         let snap_planes = match layering.snap_mm2 {
             None => Vec::new(),
             Some(area_mm2) => {
-                let cusp = shapes.of(layering.source).profile(Metric::Cusp);
-                snap_planes(&shapes.flats, &cusp.density, cusp.bins, area_mm2)
+                let shape = shapes.of(layering.source);
+                snap_planes(&shapes.flats, &shape.steepest, shape.bins, area_mm2)
             }
         };
         Self {
             shapes,
             height_mm,
-            tolerance: tolerance(&errors, &snap_planes, layering),
+            tolerance: tolerance(&errors, layering),
             layering,
             errors,
             exact,
             snap_planes,
+        }
+    }
+
+    /// The snap planes of the optimal planner. Where layers or time are given, they must not cost any.
+    fn snap_planes(&self) -> SnapPlanes<'_> {
+        SnapPlanes {
+            planes: &self.snap_planes,
+            price: match self.layering.target {
+                Target::Tolerance(_) | Target::AtLeast(_) => Price::Layer,
+                Target::Layers(_) | Target::Time(_) => Price::Nothing,
+            },
         }
     }
 
@@ -136,7 +148,7 @@ impl<'a> Planning<'a> {
                     Target::Time(_) => Objective::Time(&self.layering.resin),
                     _ => self.layering.objective(),
                 };
-                optimal::plan(errors, &self.limits()?, snap_planes, objective)
+                optimal::plan(errors, &self.limits()?, self.snap_planes(), objective)
             }
             Planner::Greedy => greedily(greedy::Sight::Profile),
             Planner::Local => greedily(greedy::Sight::Plane),
@@ -245,7 +257,7 @@ impl<'a> Planning<'a> {
         tradeoff::curve(
             &self.errors,
             &self.layering.limits(0.0),
-            &self.snap_planes,
+            self.snap_planes(),
             self.layering.objective(),
             &self.layering.resin,
             points,
@@ -267,17 +279,14 @@ impl<'a> Planning<'a> {
 }
 
 /// The tolerance of the target, given or found.
-fn tolerance(
-    errors: &LayerErrors,
-    snap_planes: &[u32],
-    layering: &Layering,
-) -> Result<f64, PlanError> {
+fn tolerance(errors: &LayerErrors, layering: &Layering) -> Result<f64, PlanError> {
     let goal = match layering.target {
         Target::Tolerance(tolerance) => return Ok(tolerance),
         Target::AtLeast(usual) => {
             let limits = layering.limits(usual);
             let steps = errors.to_steps(usual);
-            if optimal::within(errors, &limits, &[], Objective::Layers, steps)?.is_ok() {
+            if optimal::within(errors, &limits, SnapPlanes::NONE, Objective::Layers, steps)?.is_ok()
+            {
                 return Ok(usual);
             }
             let least = tradeoff::least_tolerance(errors, &limits, Objective::Layers);
@@ -287,7 +296,7 @@ fn tolerance(
         Target::Time(time_s) => Goal::Time(time_s),
     };
     let limits = layering.limits(0.0);
-    tradeoff::tolerance_for(errors, &limits, snap_planes, &layering.resin, goal)
+    tradeoff::tolerance_for(errors, &limits, &layering.resin, goal)
 }
 
 /// What some metrics need besides facets by bins. The other lists stay empty.

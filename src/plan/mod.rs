@@ -5,6 +5,7 @@
 pub mod greedy;
 mod limits;
 pub mod optimal;
+pub mod preferred;
 pub mod segment;
 mod timed;
 pub mod tradeoff;

@@ -1,8 +1,9 @@
 //! The fewest layers within tolerance, or the shortest print time, by dynamic programming (Procedure 1).
 
+use super::preferred::{Preferred, SnapPlanes};
 use super::segment::{Segment, Segments};
 use super::{Limits, Plan, PlanError, timed, tradeoff};
-use crate::profile::{ErrorSum, LayerErrors, Reach};
+use crate::profile::{ErrorSum, LayerErrors, LayersAbove, Reach};
 use crate::resin::Resin;
 
 /// What a plan minimises.
@@ -14,11 +15,9 @@ pub enum Objective<'a> {
     Time(&'a Resin),
 }
 
-/// Plans the fewest layers, or the shortest time, such that no layer exceeds the tolerance. Among those plans it returns
-/// one with the smallest maximum error.
-///
-/// `snap_planes` are boundaries of bins, the most important first. Each becomes a plane, unless layers cannot add up to
-/// the heights beside it or would exceed the tolerance there.
+/// Plans the fewest layers, or the shortest time, such that no layer exceeds the tolerance. Doing without a snap plane costs what
+/// its price says. Among the plans of the least cost it returns one with the most snap planes, and among those one with the smallest
+/// maximum error.
 ///
 /// Cost: for the fewest layers under an additive metric, linear in bins, whatever the range of thicknesses; otherwise bins
 /// times thicknesses.
@@ -29,7 +28,7 @@ pub enum Objective<'a> {
 pub fn plan(
     errors: &LayerErrors,
     limits: &Limits,
-    snap_planes: &[u32],
+    snap_planes: SnapPlanes<'_>,
     objective: Objective<'_>,
 ) -> Result<Plan, PlanError> {
     let bins = errors.bins();
@@ -76,45 +75,47 @@ pub struct Blocked {
 pub fn within(
     errors: &LayerErrors,
     limits: &Limits,
-    snap_planes: &[u32],
+    snap_planes: SnapPlanes<'_>,
     objective: Objective<'_>,
     tolerance: u64,
 ) -> Result<Result<Plan, Blocked>, PlanError> {
     let bins = errors.bins();
-    let mut snap_planes = snap_planes.to_vec();
-    loop {
-        let laid_out = Segments::new(bins, limits, &snap_planes)?;
-        let filled = match objective {
-            Objective::Layers => fewest(errors, &laid_out.segments, tolerance),
-            Objective::Time(resin) => timed::quickest(errors, &laid_out.segments, resin, tolerance),
-        };
-        let Stuck { segment, reached } = match filled {
-            Ok(boundaries) => {
-                return Ok(Ok(Plan {
-                    bins,
-                    boundaries,
-                    snap_planes: laid_out.snap_planes,
-                }));
-            }
-            Err(stuck) => stuck,
-        };
-        // The tolerance takes precedence: drop the snap planes beside this segment, and start again.
-        let segment = &laid_out.segments[segment];
-        let beside = [segment.lower, segment.upper()];
-        let (given_up, kept): (Vec<u32>, Vec<u32>) = laid_out
-            .snap_planes
-            .iter()
-            .partition(|snap_plane| beside.contains(snap_plane));
-        if given_up.is_empty() {
+    let segments = Segments::new(bins, limits, &[])?.segments;
+    let filled = match objective {
+        Objective::Layers => fewest(errors, &segments, snap_planes, tolerance),
+        Objective::Time(resin) => timed::quickest(errors, &segments, snap_planes, resin, tolerance),
+    };
+    Ok(match filled {
+        Ok(boundaries) => Ok(Plan {
+            bins,
+            snap_planes: kept(&segments, snap_planes.planes, &boundaries),
+            boundaries,
+        }),
+        Err(Stuck { segment, reached }) => {
+            let segment = &segments[segment];
             let next = (reached + segment.thickness.start()).min(segment.units);
-            return Ok(Err(Blocked {
+            Err(Blocked {
                 segment: segment.clone(),
                 reached: segment.boundary(reached),
                 next: segment.boundary(next),
-            }));
+            })
         }
-        snap_planes = kept;
-    }
+    })
+}
+
+/// The snap planes that are among the boundaries of a plan, in ascending order.
+fn kept(segments: &[Segment], snap_planes: &[u32], boundaries: &[u32]) -> Vec<u32> {
+    let mut kept: Vec<u32> = segments
+        .iter()
+        .flat_map(|segment| {
+            let within = |&plane| Some(segment.boundary(segment.plane_within(plane)?));
+            snap_planes.iter().filter_map(within)
+        })
+        .filter(|plane| boundaries.binary_search(plane).is_ok())
+        .collect();
+    kept.sort_unstable();
+    kept.dedup();
+    kept
 }
 
 /// The segment that no layers within tolerance fill, by its index, and the highest plane in it that they reach.
@@ -124,13 +125,19 @@ pub(super) struct Stuck {
 }
 
 /// The boundaries of the fewest layers within tolerance. Segments do not depend on each other.
-fn fewest(errors: &LayerErrors, segments: &[Segment], tolerance: u64) -> Result<Vec<u32>, Stuck> {
+fn fewest(
+    errors: &LayerErrors,
+    segments: &[Segment],
+    snap_planes: SnapPlanes<'_>,
+    tolerance: u64,
+) -> Result<Vec<u32>, Stuck> {
     let mut boundaries = vec![0];
     for (index, segment) in segments.iter().enumerate() {
+        let preferred = Preferred::within(segment, snap_planes, 1);
         let table = match errors {
-            LayerErrors::Sum(errors) => fill_fewest(errors, segment, tolerance),
+            LayerErrors::Sum(errors) => fill_fewest(errors, segment, &preferred, tolerance),
             LayerErrors::Volume(_) | LayerErrors::Deviation(_) => {
-                fill_cheapest(errors, segment, tolerance, |_| 1)
+                fill_cheapest(errors, segment, &preferred, tolerance, |_| 1)
             }
         };
         if !table.reaches_top() {
@@ -147,9 +154,12 @@ fn fewest(errors: &LayerErrors, segments: &[Segment], tolerance: u64) -> Result<
 /// The arrays of Procedure 1 for the planes of a segment, as in figure 3.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
-    /// K\[p\]: the minimum cost up to plane p, in layers or microseconds; [`Self::NO_PLAN`] if no plan reaches it.
+    /// K\[p\]: the minimum cost up to plane p, in layers or microseconds, prices of snap planes included; [`Self::NO_PLAN`] if no
+    /// plan reaches it.
     pub cost: Vec<u64>,
-    /// The smallest maximum error, in steps, among the plans of that cost.
+    /// The least weight of the snap planes that a plan of that cost does without.
+    pub missed: Vec<u64>,
+    /// The smallest maximum error, in steps, among the plans of that cost and weight.
     pub worst: Vec<u64>,
     /// D\[p\]: the plane below p in the best plan up to p.
     pub below: Vec<u32>,
@@ -170,6 +180,7 @@ impl Table {
         let planes = units as usize + 1;
         Self {
             cost: vec![Self::NO_PLAN; planes],
+            missed: vec![0; planes],
             worst: vec![0; planes],
             below: vec![0; planes],
         }
@@ -184,14 +195,24 @@ impl Table {
         reached.unwrap_or(0) as u32
     }
 
-    /// Notes a plan of this cost and maximum error up to a plane, whose last layer begins at `below`, if it is better than the
-    /// one known. Returns whether it is.
-    pub(super) fn improve(&mut self, plane: u32, found: (u64, u64), below: u32) -> bool {
+    /// Cost, weight of missed snap planes, and maximum error of the best plan up to a plane.
+    pub(super) fn at(&self, plane: u32) -> [u64; 3] {
         let plane = plane as usize;
-        let is_better = found < (self.cost[plane], self.worst[plane]);
+        [self.cost[plane], self.missed[plane], self.worst[plane]]
+    }
+
+    fn set(&mut self, plane: u32, found: [u64; 3], below: u32) {
+        let plane = plane as usize;
+        [self.cost[plane], self.missed[plane], self.worst[plane]] = found;
+        self.below[plane] = below;
+    }
+
+    /// Notes a plan of this cost, weight and maximum error up to a plane, whose last layer begins at `below`, if it is better than
+    /// the one known. Returns whether it is.
+    pub(super) fn improve(&mut self, plane: u32, found: [u64; 3], below: u32) -> bool {
+        let is_better = found < self.at(plane);
         if is_better {
-            (self.cost[plane], self.worst[plane]) = found;
-            self.below[plane] = below;
+            self.set(plane, found, below);
         }
         is_better
     }
@@ -210,7 +231,9 @@ impl Table {
 #[derive(Clone, Copy)]
 struct Candidate {
     plane: u32,
-    layers: u64,
+    /// Layers and weight of missed snap planes, with the prices and weights of all snap planes above. A layer on top then costs 1,
+    /// less what is above it.
+    cost: [u64; 2],
     worst: u64,
     /// The error of everything below it.
     steps_below: u64,
@@ -220,25 +243,31 @@ struct Candidate {
 /// smallest maximum error.
 ///
 /// A queue replaces the inner loop. No density is negative, so the lowest plane within tolerance only moves up. A plane is
-/// obsolete once a higher one has neither more layers below it nor, at equal layers, a larger error. The candidates that
-/// remain increase upward in layers, then in error.
+/// obsolete once a higher one has neither a higher cost nor, at equal cost, a larger error. The candidates that
+/// remain increase upward in cost, then in error.
 ///
-/// Among the candidates with the fewest layers, the error below the candidate increases upward and that of the layer on
+/// Among the candidates of the least cost, the error below the candidate increases upward and that of the layer on
 /// top decreases. The best candidate is where the two cross, and that place also only moves up.
-pub fn fill_fewest(errors: &ErrorSum, segment: &Segment, tolerance: u64) -> Table {
+pub fn fill_fewest(
+    errors: &ErrorSum,
+    segment: &Segment,
+    preferred: &Preferred,
+    tolerance: u64,
+) -> Table {
     let mut table = Table::new(segment.units);
     let (least, greatest) = (*segment.thickness.start(), *segment.thickness.end());
     let mut queue: Vec<Candidate> = Vec::new();
     let (mut front, mut best) = (0, 0);
     for plane in least..=segment.units {
         let highest = plane - least;
-        let layers = table.cost[highest as usize];
+        let [layers, missed, worst] = table.at(highest);
         if layers != Table::NO_PLAN {
-            let worst = table.worst[highest as usize];
+            let [price, weight] = preferred.above(highest);
+            let cost = [layers + price, missed + weight];
             while queue.len() > front
                 && queue
                     .last()
-                    .is_some_and(|last| (last.layers, last.worst) >= (layers, worst))
+                    .is_some_and(|last| (last.cost, last.worst) >= (cost, worst))
             {
                 queue.pop();
             }
@@ -247,7 +276,7 @@ pub fn fill_fewest(errors: &ErrorSum, segment: &Segment, tolerance: u64) -> Tabl
             }
             queue.push(Candidate {
                 plane: highest,
-                layers,
+                cost,
                 worst,
                 steps_below: errors.steps_below(segment.boundary(highest)),
             });
@@ -261,68 +290,77 @@ pub fn fill_fewest(errors: &ErrorSum, segment: &Segment, tolerance: u64) -> Tabl
             front += 1;
         }
         best = best.max(front);
-        let Some(fewest) = queue.get(front).map(|below| below.layers) else {
+        let Some(least_cost) = queue.get(front).map(|below| below.cost) else {
             continue;
         };
         while queue
             .get(best + 1)
-            .is_some_and(|next| next.layers == fewest && next.worst <= error_from(next))
+            .is_some_and(|next| next.cost == least_cost && next.worst <= error_from(next))
         {
             best += 1;
         }
         let worst_over = |below: &Candidate| below.worst.max(error_from(below));
         let mut chosen = (worst_over(&queue[best]), queue[best].plane);
         if let Some(next) = queue.get(best + 1)
-            && next.layers == fewest
+            && next.cost == least_cost
             && worst_over(next) < chosen.0
         {
             chosen = (worst_over(next), next.plane);
         }
-        table.cost[plane as usize] = fewest + 1;
-        (table.worst[plane as usize], table.below[plane as usize]) = chosen;
+        let [cost, missed] = preferred.below(least_cost, plane);
+        table.set(plane, [cost + 1, missed, chosen.0], chosen.1);
     }
     table
 }
 
-/// The minimum cost up to every plane under any metric, and among those plans the smallest maximum error. A layer costs
-/// `cost_of` its thickness in units.
+/// The minimum cost up to every plane under any metric, and among those plans the least weight of missed snap planes, then the
+/// smallest maximum error. A layer costs `cost_of` its thickness in units.
 pub fn fill_cheapest(
     errors: &LayerErrors,
     segment: &Segment,
+    preferred: &Preferred,
     tolerance: u64,
     cost_of: impl Fn(u32) -> u64,
 ) -> Table {
     let mut table = Table::new(segment.units);
     for plane in 0..segment.units {
-        let cost = table.cost[plane as usize];
+        let [cost, missed, worst] = table.at(plane);
         if cost == Table::NO_PLAN {
             continue;
         }
-        let worst = table.worst[plane as usize];
-        for_each_layer(errors, segment, tolerance, plane, |thickness, error| {
-            let found = (cost + cost_of(thickness), worst.max(error));
-            table.improve(plane + thickness, found, plane);
-        });
+        let mut layers = layers_above(errors, segment, plane, tolerance);
+        for (thickness, top) in tops(segment, plane) {
+            let [price, weight] = preferred.within_layer(plane, top);
+            let found = [cost + cost_of(thickness) + price, missed + weight, worst];
+            // What is no better without the error of this layer need not be measured.
+            if found >= table.at(top) {
+                continue;
+            }
+            match layers.up_to(segment.boundary(top)) {
+                Reach::Within(error) => {
+                    table.improve(top, [found[0], found[1], worst.max(error)], plane);
+                }
+                Reach::Beyond => {}
+                Reach::BeyondFromHere => break,
+            }
+        }
     }
     table
 }
 
-/// Calls `emit(thickness, error)` with each layer within tolerance that begins at a plane of a segment.
-pub(super) fn for_each_layer(
-    errors: &LayerErrors,
+/// The layers that begin at a plane of a segment.
+pub(super) fn layers_above<'a>(
+    errors: &'a LayerErrors,
     segment: &Segment,
-    tolerance: u64,
     plane: u32,
-    mut emit: impl FnMut(u32, u64),
-) {
+    tolerance: u64,
+) -> LayersAbove<'a> {
+    errors.layers_above(segment.boundary(plane), tolerance)
+}
+
+/// The thicknesses of the layers that may begin at a plane of a segment, with the planes on top of them.
+pub(super) fn tops(segment: &Segment, plane: u32) -> impl Iterator<Item = (u32, u32)> {
     let (least, greatest) = (*segment.thickness.start(), *segment.thickness.end());
-    let lower = segment.boundary(plane);
-    let mut layers = errors.layers_above(lower, tolerance);
-    for thickness in least..=greatest.min(segment.units - plane) {
-        match layers.up_to(lower + thickness * segment.unit) {
-            Reach::Within(error) => emit(thickness, error),
-            Reach::Beyond => {}
-            Reach::BeyondFromHere => break,
-        }
-    }
+    let thicknesses = least..=greatest.min(segment.units - plane);
+    thicknesses.map(move |thickness| (thickness, plane + thickness))
 }

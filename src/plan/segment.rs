@@ -32,6 +32,13 @@ impl Segment {
         self.boundary(self.units)
     }
 
+    /// The plane nearest to a boundary of bins, if that is between the planes below and above.
+    pub(super) fn plane_within(&self, boundary: u32) -> Option<u32> {
+        let above = (boundary + self.unit / 2).checked_sub(self.lower)?;
+        let plane = above / self.unit;
+        (plane > 0 && plane < self.units).then_some(plane)
+    }
+
     /// Whether layers within the thickness range can add up to `units`.
     pub fn can_fill(&self, units: u32) -> bool {
         let fewest = units.div_ceil(*self.thickness.end());
@@ -39,7 +46,7 @@ impl Segment {
     }
 }
 
-/// The segments of a plan, and the snap planes that it keeps.
+/// The segments of a plan, and the snap planes between them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Segments {
     /// Segments from the plate upward.
@@ -52,7 +59,7 @@ impl Segments {
     /// Lays out the segments of a model of `bins`.
     ///
     /// Mandatory planes are the plate, the ends of height ranges and [`Limits::planes_mm`]. Snap planes are added in their
-    /// order, unless layers could no longer add up to the heights beside them.
+    /// order, unless layers could no longer add up to the heights beside them; planners that choose their own pass none.
     ///
     /// The top moves to the nearest height that layers add up to, the lower one of two equally near. It moves by less
     /// than half the minimum thickness. Snap planes do not affect it.

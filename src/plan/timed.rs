@@ -1,9 +1,10 @@
 //! The shortest print by dynamic programming. The first layers of a print take the bottom exposure whatever their thickness, so
 //! what a layer costs depends on how many are below it.
 
-use super::optimal::{Stuck, Table, for_each_layer};
+use super::optimal::{Stuck, Table, layers_above, tops};
+use super::preferred::{Preferred, SnapPlanes};
 use super::segment::Segment;
-use crate::profile::LayerErrors;
+use crate::profile::{LayerErrors, Reach};
 use crate::resin::Resin;
 
 /// Bottom layers that are told apart; any more of them cost as much as layers above.
@@ -21,14 +22,15 @@ struct Tables {
 pub(super) fn quickest(
     errors: &LayerErrors,
     segments: &[Segment],
+    snap_planes: SnapPlanes<'_>,
     resin: &Resin,
     tolerance: u64,
 ) -> Result<Vec<u32>, Stuck> {
     let bottom = resin.bottom_layers.min(MOST_BOTTOM_LAYERS);
     let bottom_us = resin.bottom_layer_us();
-    // The plans below the segment, by their layers: time and maximum error.
+    // The plans below the segment, by their layers: time, weight of missed snap planes, and maximum error.
     let mut starts = vec![None; bottom + 1];
-    starts[0] = Some((0, 0));
+    starts[0] = Some([0; 3]);
     let mut filled: Vec<Tables> = Vec::with_capacity(segments.len());
     for (index, segment) in segments.iter().enumerate() {
         let unit_mm = f64::from(segment.unit) * errors.bins().size_mm;
@@ -38,11 +40,13 @@ pub(super) fn quickest(
         // Where all plans are alike, the maximum error below need not be told apart.
         if starts.iter().flatten().count() == 1 {
             for start in starts.iter_mut().flatten() {
-                start.1 = 0;
+                start[2] = 0;
             }
         }
         let mut tables = Tables::new(segment, &starts);
-        tables.fill(errors, segment, tolerance, bottom_us, &times_us);
+        let thinnest_us = times_us[*segment.thickness.start() as usize];
+        let preferred = Preferred::within(segment, snap_planes, thinnest_us);
+        tables.fill(errors, segment, &preferred, tolerance, bottom_us, &times_us);
         starts = tables.by_layers.iter().map(at_top).collect();
         let reached = tables.by_layers.iter().map(Table::highest_reached).max();
         filled.push(tables);
@@ -72,16 +76,14 @@ pub(super) fn quickest(
     Ok(boundaries)
 }
 
-/// Time and maximum error of the plan up to the top.
-fn at_top(table: &Table) -> Option<(u64, u64)> {
-    let top = table.cost.len() - 1;
-    table
-        .reaches_top()
-        .then(|| (table.cost[top], table.worst[top]))
+/// Time, weight and maximum error of the plan up to the top.
+fn at_top(table: &Table) -> Option<[u64; 3]> {
+    let top = table.cost.len() as u32 - 1;
+    table.reaches_top().then(|| table.at(top))
 }
 
 impl Tables {
-    fn new(segment: &Segment, starts: &[Option<(u64, u64)>]) -> Self {
+    fn new(segment: &Segment, starts: &[Option<[u64; 3]>]) -> Self {
         let mut by_layers = vec![Table::unreached(segment.units); starts.len()];
         for (table, start) in by_layers.iter_mut().zip(starts) {
             if let Some(start) = *start {
@@ -98,6 +100,7 @@ impl Tables {
         &mut self,
         errors: &LayerErrors,
         segment: &Segment,
+        preferred: &Preferred,
         tolerance: u64,
         bottom_us: u64,
         times_us: &[u64],
@@ -106,26 +109,35 @@ impl Tables {
         for plane in 0..segment.units {
             for layers in 0..=bottom {
                 let table = &self.by_layers[layers];
-                let time = table.cost[plane as usize];
+                let [time, missed, worst] = table.at(plane);
                 if time == Table::NO_PLAN {
                     continue;
                 }
-                let worst = table.worst[plane as usize];
                 let is_bottom = layers < bottom;
                 let above = &mut self.by_layers[layers + usize::from(is_bottom)];
-                for_each_layer(errors, segment, tolerance, plane, |thickness, error| {
+                let mut layers_above = layers_above(errors, segment, plane, tolerance);
+                for (thickness, top) in tops(segment, plane) {
                     let layer_us = if is_bottom {
                         bottom_us
                     } else {
                         times_us[thickness as usize]
                     };
-                    let found = (time + layer_us, worst.max(error));
-                    let top = plane + thickness;
+                    let [price, weight] = preferred.within_layer(plane, top);
+                    let found = [time + layer_us + price, missed + weight, worst];
+                    if found >= above.at(top) {
+                        continue;
+                    }
+                    let error = match layers_above.up_to(segment.boundary(top)) {
+                        Reach::Within(error) => error,
+                        Reach::Beyond => continue,
+                        Reach::BeyondFromHere => break,
+                    };
+                    let found = [found[0], found[1], worst.max(error)];
                     // Each plane of the last table remembers which table its plan comes from.
                     if above.improve(top, found, plane) && layers + 1 >= bottom {
                         self.is_last_bottom[top as usize] = is_bottom;
                     }
-                });
+                }
             }
         }
     }

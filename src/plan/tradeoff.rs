@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::optimal::{self, Objective};
+use super::preferred::SnapPlanes;
 use super::{Limits, Plan, PlanError};
 use crate::profile::LayerErrors;
 use crate::resin::Resin;
@@ -38,7 +39,7 @@ pub enum Goal {
 pub fn curve(
     errors: &LayerErrors,
     limits: &Limits,
-    snap_planes: &[u32],
+    snap_planes: SnapPlanes<'_>,
     objective: Objective<'_>,
     resin: &Resin,
     points: usize,
@@ -70,7 +71,8 @@ pub fn curve(
     Ok(curve)
 }
 
-/// The smallest tolerance whose best plan meets the goal, in the metric's unit, rounded up to six significant digits.
+/// The smallest tolerance with a plan that meets the goal, in the metric's unit, rounded up to six significant digits. Snap planes
+/// have no say: a plan within that tolerance meets the goal if they cost nothing.
 ///
 /// # Errors
 /// [`PlanError::LayersOutOfReach`] or [`PlanError::TimeOutOfReach`] if no plan meets it; another [`PlanError`] if the limits
@@ -78,7 +80,6 @@ pub fn curve(
 pub fn tolerance_for(
     errors: &LayerErrors,
     limits: &Limits,
-    snap_planes: &[u32],
     resin: &Resin,
     goal: Goal,
 ) -> Result<f64, PlanError> {
@@ -92,7 +93,7 @@ pub fn tolerance_for(
         Goal::Time(time_s) => plan.print_time_s(resin) <= time_s,
     };
     // No error is this large, so there is a plan wherever layers add up.
-    let loosest = optimal::within(errors, limits, snap_planes, objective, u64::MAX)?
+    let loosest = optimal::within(errors, limits, SnapPlanes::NONE, objective, u64::MAX)?
         .map_err(|blocked| optimal::infeasible(&blocked, errors, limits, objective))?;
     if !meets(&loosest) {
         return Err(match goal {
@@ -108,7 +109,7 @@ pub fn tolerance_for(
     }
     let most = loosest.max_error_steps(errors);
     let least = least_steps(most, |tolerance| {
-        let plan = best_within(errors, limits, snap_planes, objective, tolerance)?;
+        let plan = best_within(errors, limits, SnapPlanes::NONE, objective, tolerance)?;
         Ok(plan.as_ref().is_some_and(meets))
     })?;
     Ok(round_up(errors.to_value(least)))
@@ -120,10 +121,10 @@ pub fn least_tolerance(
     limits: &Limits,
     objective: Objective<'_>,
 ) -> Option<f64> {
-    let loosest = best_within(errors, limits, &[], objective, u64::MAX).ok()??;
+    let loosest = best_within(errors, limits, SnapPlanes::NONE, objective, u64::MAX).ok()??;
     let most = loosest.max_error_steps(errors);
     let least = least_steps(most, |tolerance| {
-        Ok(best_within(errors, limits, &[], objective, tolerance)?.is_some())
+        Ok(best_within(errors, limits, SnapPlanes::NONE, objective, tolerance)?.is_some())
     });
     Some(round_up(errors.to_value(least.ok()?)))
 }
@@ -142,7 +143,8 @@ pub fn largest_layer_min_mm(
             layer_min_mm: units as f64 * unit_mm,
             ..limits.clone()
         };
-        best_within(errors, &lowered, &[], objective, tolerance).is_ok_and(|plan| plan.is_some())
+        best_within(errors, &lowered, SnapPlanes::NONE, objective, tolerance)
+            .is_ok_and(|plan| plan.is_some())
     };
     let present = (limits.layer_min_mm / unit_mm).ceil() as u64;
     if present < 2 || !has_plan(1) {
@@ -164,7 +166,7 @@ pub fn largest_layer_min_mm(
 fn best_within(
     errors: &LayerErrors,
     limits: &Limits,
-    snap_planes: &[u32],
+    snap_planes: SnapPlanes<'_>,
     objective: Objective<'_>,
     tolerance: u64,
 ) -> Result<Option<Plan>, PlanError> {

@@ -31,37 +31,147 @@ pub struct DeviationError {
 #[derive(Debug, Clone)]
 struct Level {
     weight: f64,
-    /// T at each half of a bin, from the plate upward, in bins.
+    /// tan θ in each bin.
+    tangents: Vec<f64>,
+    /// T at each boundary, in bins.
     run: Vec<f64>,
+    /// The largest and the smallest tan θ of the [`WINDOW`] bins from each bin upward.
+    largest_ahead: Vec<f64>,
+    smallest_ahead: Vec<f64>,
 }
+
+/// Bins that a search for the nearest point of a path may leave out at once.
+const WINDOW: u32 = 32;
 
 impl Level {
     fn new(weight: f64, steepest: &[f32]) -> Self {
         // Farther than any layer is thick, so that no path leads past a flat.
         let flat = 4.0 * steepest.len() as f64 + 4.0;
-        let mut run = Vec::with_capacity(2 * steepest.len() + 1);
+        let tangents: Vec<f64> = steepest
+            .iter()
+            .map(|&square| {
+                let square = f64::from(square);
+                if square <= 0.0 {
+                    0.0
+                } else if square < 1.0 {
+                    (square / (1.0 - square)).sqrt().min(flat)
+                } else {
+                    flat
+                }
+            })
+            .collect();
         let mut sum = 0.0;
-        run.push(sum);
-        for &square in steepest {
-            let square = f64::from(square);
-            let tangent = if square <= 0.0 {
-                0.0
-            } else if square < 1.0 {
-                (square / (1.0 - square)).sqrt().min(flat)
-            } else {
-                flat
-            };
-            run.push(sum + 0.5 * tangent);
+        let mut run = vec![sum];
+        run.extend(tangents.iter().map(|tangent| {
             sum += tangent;
-            run.push(sum);
+            sum
+        }));
+        Self {
+            weight,
+            run,
+            largest_ahead: ahead(&tangents, |a, b| if a < b { b } else { a }),
+            smallest_ahead: ahead(&tangents, |a, b| if b < a { b } else { a }),
+            tangents,
         }
-        Self { weight, run }
     }
 
-    /// T at a number of half bins. Above the model nothing is added.
-    fn run(&self, halves: usize) -> f64 {
-        self.run[halves.min(self.run.len() - 1)]
+    /// T at a boundary. Above the model nothing is added.
+    fn run(&self, boundary: u32) -> f64 {
+        self.run[(boundary as usize).min(self.tangents.len())]
     }
+
+    /// T at a number of half bins.
+    fn run_at_half(&self, halves: u32) -> f64 {
+        let bin = halves / 2;
+        let half = f64::from(halves % 2) * 0.5;
+        self.run(bin) + half * self.tangents.get(bin as usize).copied().unwrap_or(0.0)
+    }
+
+    /// The square of the deviation at the lower edge of a layer, in bins. `nearest` is the place of the nearest boundary, counted
+    /// from `lower`, for a thinner layer, and becomes that for this one.
+    fn below(&self, lower: u32, upper: u32, nearest: &mut u32) -> f64 {
+        let middle = lower + upper;
+        let half = 0.5 * f64::from(upper - lower);
+        let mut least = half * half;
+        let at_middle = self.run_at_half(middle);
+        for rise in *nearest..=middle / 2 - lower {
+            let upward = f64::from(rise);
+            if upward * upward >= least {
+                break;
+            }
+            let boundary = lower + rise;
+            let sideways = at_middle - self.run(boundary);
+            let square = sideways * sideways + upward * upward;
+            if square < least {
+                least = square;
+                *nearest = rise;
+            } else if value_at(&self.largest_ahead, boundary) * sideways <= upward {
+                // However level the path is ahead, it comes no nearer there.
+                let beyond = f64::from(rise + WINDOW);
+                if beyond * beyond >= least {
+                    break;
+                }
+            }
+        }
+        least
+    }
+
+    /// The same at the upper edge.
+    fn above(&self, lower: u32, upper: u32, nearest: &mut u32) -> f64 {
+        let middle = lower + upper;
+        let half = 0.5 * f64::from(upper - lower);
+        let mut least = half * half;
+        let at_middle = self.run_at_half(middle);
+        for boundary in (*nearest + lower).max(middle.div_ceil(2))..=upper {
+            let sideways = self.run(boundary) - at_middle;
+            if sideways * sideways >= least {
+                break;
+            }
+            let downward = f64::from(upper - boundary);
+            let square = sideways * sideways + downward * downward;
+            if square < least {
+                least = square;
+                *nearest = boundary - lower;
+            } else if upper - boundary <= WINDOW
+                && value_at(&self.smallest_ahead, boundary) * sideways >= downward
+            {
+                // However steep the path is ahead, it comes no nearer there.
+                break;
+            }
+        }
+        least
+    }
+}
+
+/// The value of a bin; 0 above the model.
+fn value_at(values: &[f64], bin: u32) -> f64 {
+    values.get(bin as usize).copied().unwrap_or(0.0)
+}
+
+/// For each value the largest, or whatever `choose` chooses, of the [`WINDOW`] values from it on, with 0 above the model: blocks are run through from both ends,
+/// and each window is the end of one and the beginning of the next.
+fn ahead(values: &[f64], choose: impl Fn(f64, f64) -> f64) -> Vec<f64> {
+    let window = WINDOW as usize;
+    let mut ends = values.to_vec();
+    let mut beginnings = values.to_vec();
+    for block in ends.chunks_mut(window) {
+        for place in (1..block.len()).rev() {
+            block[place - 1] = choose(block[place - 1], block[place]);
+        }
+    }
+    for block in beginnings.chunks_mut(window) {
+        for place in 1..block.len() {
+            block[place] = choose(block[place - 1], block[place]);
+        }
+    }
+    for (place, value) in ends.iter_mut().enumerate() {
+        let last = place + window - 1;
+        *value = choose(*value, beginnings[last.min(values.len() - 1)]);
+        if last >= values.len() {
+            *value = choose(*value, 0.0);
+        }
+    }
+    ends
 }
 
 impl DeviationError {
@@ -95,7 +205,7 @@ impl DeviationError {
             tolerance,
             beyond: beyond * beyond,
             levels: &self.levels,
-            nearest: vec![[0; 2]; self.levels.len()],
+            nearest: [[0; 2]; WEIGHT_LEVELS as usize],
         }
     }
 }
@@ -110,7 +220,7 @@ pub(super) struct DeviationsAbove<'a> {
     levels: &'a [Level],
     /// For each level the boundaries at which the paths down and up come nearest to the edges of the wall, counted from `lower`. As
     /// layers get thicker, neither moves down: the farther the middle is, the more it costs to go past a boundary.
-    nearest: Vec<[u32; 2]>,
+    nearest: [[u32; 2]; WEIGHT_LEVELS as usize],
 }
 
 impl DeviationsAbove<'_> {
@@ -137,51 +247,6 @@ impl DeviationsAbove<'_> {
         } else {
             Reach::Beyond
         }
-    }
-}
-
-impl Level {
-    /// The square of the deviation at the lower edge of a layer, in bins. `nearest` is that of a thinner layer, and becomes this one's.
-    fn below(&self, lower: u32, upper: u32, nearest: &mut u32) -> f64 {
-        let middle = lower + upper;
-        let half = 0.5 * f64::from(upper - lower);
-        let mut least = half * half;
-        let at_middle = self.run(middle as usize);
-        for rise in *nearest..=middle / 2 - lower {
-            let upward = f64::from(rise * rise);
-            if upward >= least {
-                break;
-            }
-            let sideways = at_middle - self.run(2 * (lower + rise) as usize);
-            let square = sideways * sideways + upward;
-            if square < least {
-                least = square;
-                *nearest = rise;
-            }
-        }
-        least
-    }
-
-    /// The same at the upper edge.
-    fn above(&self, lower: u32, upper: u32, nearest: &mut u32) -> f64 {
-        let middle = lower + upper;
-        let half = 0.5 * f64::from(upper - lower);
-        let mut least = half * half;
-        let at_middle = self.run(middle as usize);
-        for boundary in (*nearest + lower).max(middle.div_ceil(2))..=upper {
-            let sideways = self.run(2 * boundary as usize) - at_middle;
-            let sideways = sideways * sideways;
-            if sideways >= least {
-                break;
-            }
-            let downward = f64::from(upper - boundary);
-            let square = sideways + downward * downward;
-            if square < least {
-                least = square;
-                *nearest = boundary - lower;
-            }
-        }
-        least
     }
 }
 

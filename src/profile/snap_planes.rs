@@ -1,7 +1,9 @@
 //! Heights that deserve a plane (section 3.3): flats, so that they print at their true height, and sharp changes of the
 //! profile.
 
+use super::cusp::density_of;
 use super::facet_bins::Flat;
+use super::steepest::NO_SURFACE;
 use crate::grid::Bins;
 use crate::order::ascending;
 
@@ -9,21 +11,22 @@ use crate::order::ascending;
 pub const SHARP: f32 = 0.5;
 
 /// Boundaries of bins that deserve a plane, the most important first: heights at which horizontal facets have a total
-/// area of at least `flat_area_mm2`, by area; then changes of `cusp_density` by more than [`SHARP`], by size.
-pub fn snap_planes(
-    flats: &[Flat],
-    cusp_density: &[f32],
-    bins: Bins,
-    flat_area_mm2: f64,
-) -> Vec<u32> {
+/// area of at least `flat_area_mm2`, by area; then changes of the cusp height's density by more than [`SHARP`], by size. `steepest` is
+/// the largest `n_z²` of each bin; bins without surface have no density, so nothing changes there.
+pub fn snap_planes(flats: &[Flat], steepest: &[f32], bins: Bins, flat_area_mm2: f64) -> Vec<u32> {
     let mut flats = levels(flats, bins);
     flats.retain(|&(_, area_mm2)| area_mm2 >= flat_area_mm2);
-    let changes = cusp_density.windows(2).zip(1u32..);
-    let sharp: Vec<(u32, f64)> = changes
-        .map(|(pair, boundary)| (boundary, (pair[1] - pair[0]).abs()))
-        .filter(|&(_, change)| change > SHARP)
-        .map(|(boundary, change)| (boundary, f64::from(change)))
+    let changes = steepest.windows(2).zip(1u32..);
+    let mut sharp: Vec<(u32, f64)> = changes
+        .filter(|(pair, _)| !pair.contains(&NO_SURFACE))
+        .map(|(pair, boundary)| (boundary, density_of(pair[1]) - density_of(pair[0])))
+        .filter(|&(_, change)| change.abs() > SHARP)
+        // A surface that begins at a boundary also lies in the bin below it.
+        .map(|(boundary, change)| (boundary + u32::from(change > 0.0), f64::from(change.abs())))
+        .filter(|&(boundary, _)| (boundary as usize) < bins.count)
         .collect();
+    // A flat is both a rise and a fall.
+    sharp.dedup_by_key(|&mut (boundary, _)| boundary);
     [largest_first(&flats), largest_first(&sharp)].concat()
 }
 

@@ -139,6 +139,22 @@ pub fn cone(radius: f64, height: f64, quarter: u32) -> Triangles {
     triangles
 }
 
+/// A prism along y with this outline in x and z, counter-clockwise as seen from −y.
+pub fn profiled(outline: &[[f32; 2]], length: f32) -> Triangles {
+    let at = |[x, z]: [f32; 2], y: f32| Vec3::new(x, y, z);
+    let mut triangles = Vec::new();
+    for (place, &a) in outline.iter().enumerate() {
+        let b = outline[(place + 1) % outline.len()];
+        triangles.push([at(a, 0.0), at(b, length), at(b, 0.0)]);
+        triangles.push([at(a, 0.0), at(a, length), at(b, length)]);
+        if place > 0 && place + 1 < outline.len() {
+            triangles.push([at(outline[0], 0.0), at(a, 0.0), at(b, 0.0)]);
+            triangles.push([at(outline[0], length), at(b, length), at(a, length)]);
+        }
+    }
+    triangles
+}
+
 /// A rectangular ring that stands upright: rays through its middle have four hits.
 pub fn frame() -> Triangles {
     let mut triangles = moved(&cuboid(Vec3::new(10.0, 4.0, 2.0)), Vec3::ZERO);

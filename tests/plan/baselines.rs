@@ -3,6 +3,7 @@
 use cusp_slicer::grid::Bins;
 use cusp_slicer::plan::greedy::{self, Sight};
 use cusp_slicer::plan::optimal::{self, Objective};
+use cusp_slicer::plan::preferred::SnapPlanes;
 use cusp_slicer::plan::{PlanError, uniform};
 
 use crate::common::assert_near;
@@ -21,7 +22,7 @@ fn greedy_planners_fill_every_segment_and_may_exceed_the_tolerance() {
         let count = random.usize(10..=80);
         let (errors, text) = random_errors(&mut random, count);
         let limits = limits(3.0, 5.0, random.f64() * 4.0 + 0.1);
-        let best = optimal::plan(&errors, &limits, &[], Objective::Layers);
+        let best = optimal::plan(&errors, &limits, SnapPlanes::NONE, Objective::Layers);
         for sight in [Sight::Profile, Sight::Plane] {
             let plan = greedy::plan(&errors, &limits, &[40], sight).unwrap();
             let mut layers = plan.boundaries.windows(2);

@@ -2,6 +2,7 @@
 
 use cusp_slicer::grid::Bins;
 use cusp_slicer::plan::optimal::{self, Objective};
+use cusp_slicer::plan::preferred::{Price, SnapPlanes};
 use cusp_slicer::plan::segment::Segments;
 use cusp_slicer::plan::{HeightRange, Limits, PlanError, uniform};
 use cusp_slicer::profile::{LayerErrors, Profile};
@@ -27,7 +28,7 @@ fn steps_and_thicknesses_of_any_size_are_answered() {
             density: vec![0.5; 20_000],
         };
         let errors = LayerErrors::Sum(profile.error_sum());
-        let found = optimal::plan(&errors, &limits, &[], Objective::Layers);
+        let found = optimal::plan(&errors, &limits, SnapPlanes::NONE, Objective::Layers);
         let is_planned = layer_min_mm < 1.0;
         assert_eq!(found.is_ok(), is_planned, "{step_mm}: {found:?}");
         if let Err(error) = found {
@@ -83,7 +84,11 @@ fn heights_are_multiples_of_the_motor_step() {
         planes_mm: vec![1.234],
         ..limits(0.05, 0.15, 0.04)
     };
-    let plan = optimal::plan(&errors, &limits, &[600], Objective::Layers).unwrap();
+    let only_600 = SnapPlanes {
+        planes: &[600],
+        price: Price::Layer,
+    };
+    let plan = optimal::plan(&errors, &limits, only_600, Objective::Layers).unwrap();
     assert!(plan.boundaries.iter().all(|boundary| boundary % 5 == 0));
     assert!(
         plan.boundaries.contains(&310),
@@ -95,7 +100,7 @@ fn heights_are_multiples_of_the_motor_step() {
         step_mm: Some(0.01),
         ..limits
     };
-    let result = optimal::plan(&errors, &uneven, &[], Objective::Layers);
+    let result = optimal::plan(&errors, &uneven, SnapPlanes::NONE, Objective::Layers);
     assert!(
         matches!(result, Err(PlanError::NotWholeBins { .. })),
         "{result:?}"
@@ -114,8 +119,12 @@ fn snap_planes_are_taken_in_order_and_give_way() {
     let mut density = [0.1; 30];
     density[..10].fill(1.0);
     let tight = limits(3.0, 6.0, 3.0);
-    assert!(optimal::plan(&sum(&density), &tight, &[], Objective::Layers).is_ok());
-    let plan = optimal::plan(&sum(&density), &tight, &[10, 20], Objective::Layers).unwrap();
+    assert!(optimal::plan(&sum(&density), &tight, SnapPlanes::NONE, Objective::Layers).is_ok());
+    let snap_planes = SnapPlanes {
+        planes: &[10, 20],
+        price: Price::Layer,
+    };
+    let plan = optimal::plan(&sum(&density), &tight, snap_planes, Objective::Layers).unwrap();
     assert_eq!(plan.snap_planes, [20]);
 }
 

@@ -11,6 +11,7 @@ mod tradeoff;
 
 use cusp_slicer::grid::Bins;
 use cusp_slicer::plan::optimal::Objective;
+use cusp_slicer::plan::preferred::SnapPlanes;
 use cusp_slicer::plan::segment::Segment;
 use cusp_slicer::plan::{Limits, Plan, PlanError};
 use cusp_slicer::profile::deviation::DeviationError;
@@ -76,7 +77,7 @@ fn segment(units: usize, thickness: (u32, u32)) -> Segment {
 }
 
 fn plan(density: &[f32], limits: &Limits) -> Result<Plan, PlanError> {
-    cusp_slicer::plan::optimal::plan(&sum(density), limits, &[], Objective::Layers)
+    cusp_slicer::plan::optimal::plan(&sum(density), limits, SnapPlanes::NONE, Objective::Layers)
 }
 
 /// Random densities in tenths, so that sums often equal the tolerance.

@@ -2,6 +2,7 @@
 //! constraint and objective, and planted optima.
 
 use cusp_slicer::plan::optimal::{self, Objective, Table, fill_cheapest, fill_fewest};
+use cusp_slicer::plan::preferred::{Preferred, SnapPlanes};
 use cusp_slicer::plan::{HeightRange, PlanError};
 use cusp_slicer::profile::LayerErrors;
 use cusp_slicer::resin::Resin;
@@ -18,6 +19,7 @@ fn figure_3_has_its_k_d_and_s() {
     let table = fill_fewest(
         &error_sum(&FIGURE_3),
         &segment(8, (2, 3)),
+        &Preferred::default(),
         errors.to_steps(0.6),
     );
     let none = Table::NO_PLAN;
@@ -43,7 +45,7 @@ fn the_linear_planner_has_the_k_of_procedure_1_written_literally() {
         let errors = error_sum(&in_tenths(&tenths));
         let steps = LayerErrors::Sum(errors.clone()).to_steps(tolerance as f64 / 10.0);
         let segment = segment(count, (least as u32, greatest as u32));
-        let table = fill_fewest(&errors, &segment, steps);
+        let table = fill_fewest(&errors, &segment, &Preferred::default(), steps);
         let (k, _) = oracle::procedure_1(&tenths, (least, greatest), tolerance);
         assert_eq!(table.cost, k, "{tenths:?} {least} {greatest} {tolerance}");
     }
@@ -64,8 +66,8 @@ fn the_linear_planner_has_the_least_largest_error_of_all_plans_as_short() {
         let errors = error_sum(&density);
         let all = LayerErrors::Sum(errors.clone());
         let tolerance = all.to_steps(random.f64() * 8.0);
-        let found = fill_fewest(&errors, &segment, tolerance);
-        let expected = fill_cheapest(&all, &segment, tolerance, |_| 1);
+        let found = fill_fewest(&errors, &segment, &Preferred::default(), tolerance);
+        let expected = fill_cheapest(&all, &segment, &Preferred::default(), tolerance, |_| 1);
         assert_eq!(
             found.cost, expected.cost,
             "{density:?} {segment:?} {tolerance}"
@@ -140,7 +142,7 @@ fn no_set_of_planes_is_better() {
                 false => 1,
             },
         );
-        let found = optimal::plan(&errors, &limits, &[], objective);
+        let found = optimal::plan(&errors, &limits, SnapPlanes::NONE, objective);
         match (&found, expected) {
             (Ok(plan), Some((cost, worst))) => {
                 feasible += 1;
@@ -211,8 +213,8 @@ fn the_shortest_time_is_not_the_fewest_layers_where_exposures_grow_fast() {
     let errors = sum(&[0.1; 60]);
     let resin = resin(1.0, 1.0, 1.5, 2.0);
     let all = limits(1.0, 6.0, 100.0);
-    let fewest = optimal::plan(&errors, &all, &[], Objective::Layers).unwrap();
-    let quickest = optimal::plan(&errors, &all, &[], Objective::Time(&resin)).unwrap();
+    let fewest = optimal::plan(&errors, &all, SnapPlanes::NONE, Objective::Layers).unwrap();
+    let quickest = optimal::plan(&errors, &all, SnapPlanes::NONE, Objective::Time(&resin)).unwrap();
     assert!(quickest.layers() > fewest.layers());
     assert!(quickest.print_time_s(&resin) < fewest.print_time_s(&resin));
 }
@@ -227,7 +229,7 @@ fn bottom_layers_are_thick_where_their_exposure_is_the_same() {
         ..resin(1.0, 1.0, 0.4, 0.5)
     };
     let all = limits(1.0, 6.0, 100.0);
-    let plan = optimal::plan(&errors, &all, &[], Objective::Time(&resin)).unwrap();
+    let plan = optimal::plan(&errors, &all, SnapPlanes::NONE, Objective::Time(&resin)).unwrap();
     assert_eq!(plan.boundaries[..3], [0, 6, 12]);
     assert_eq!(plan.boundaries[3], 13);
 }
@@ -235,12 +237,18 @@ fn bottom_layers_are_thick_where_their_exposure_is_the_same() {
 #[test]
 fn a_plan_without_any_error_is_within_a_tolerance_of_0() {
     let errors = sum(&[0.0; 30]);
-    let plan = optimal::plan(&errors, &limits(1.0, 6.0, 0.0), &[], Objective::Layers).unwrap();
+    let plan = optimal::plan(
+        &errors,
+        &limits(1.0, 6.0, 0.0),
+        SnapPlanes::NONE,
+        Objective::Layers,
+    )
+    .unwrap();
     assert_eq!(plan.layers(), 5);
     let blocked = optimal::plan(
         &sum(&[0.1; 30]),
         &limits(1.0, 6.0, 0.0),
-        &[],
+        SnapPlanes::NONE,
         Objective::Layers,
     );
     assert!(matches!(blocked, Err(PlanError::Infeasible { .. })));

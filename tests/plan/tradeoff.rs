@@ -1,6 +1,7 @@
 //! Infeasible tolerances and the changes that make them feasible, the trade-off curve, and tolerances for a goal.
 
 use cusp_slicer::plan::optimal::{self, Objective};
+use cusp_slicer::plan::preferred::SnapPlanes;
 use cusp_slicer::plan::tradeoff::{Goal, curve, tolerance_for};
 use cusp_slicer::plan::{Limits, PlanError};
 use cusp_slicer::resin::Resin;
@@ -42,13 +43,14 @@ fn what_an_infeasible_plan_is_offered_is_the_least_change() {
         let count = random.usize(20..=60);
         let (errors, text) = random_errors(&mut random, count);
         let limits = limits(f64::from(random.u32(2..=5)), 9.0, random.f64() * 3.0 + 0.2);
-        let holds =
-            |limits: &Limits| optimal::plan(&errors, limits, &[], Objective::Layers).is_ok();
+        let holds = |limits: &Limits| {
+            optimal::plan(&errors, limits, SnapPlanes::NONE, Objective::Layers).is_ok()
+        };
         let Err(PlanError::Infeasible {
             least_tolerance,
             largest_layer_min_mm,
             ..
-        }) = optimal::plan(&errors, &limits, &[], Objective::Layers)
+        }) = optimal::plan(&errors, &limits, SnapPlanes::NONE, Objective::Layers)
         else {
             continue;
         };
@@ -119,7 +121,15 @@ fn the_trade_off_curve_falls_from_the_least_tolerance_to_the_fewest_layers() {
         let count = random.usize(20..=80);
         let (errors, text) = random_errors(&mut random, count);
         let limits = limits(2.0, 7.0, 0.0);
-        let points = curve(&errors, &limits, &[], Objective::Layers, &resin, 30).unwrap();
+        let points = curve(
+            &errors,
+            &limits,
+            SnapPlanes::NONE,
+            Objective::Layers,
+            &resin,
+            30,
+        )
+        .unwrap();
         assert_eq!(points.len(), 30, "{text}");
         for pair in points.windows(2) {
             assert!(pair[0].tolerance <= pair[1].tolerance);
@@ -134,7 +144,7 @@ fn the_trade_off_curve_falls_from_the_least_tolerance_to_the_fewest_layers() {
 
         for point in [&points[0], &points[13], &points[29]] {
             let goal = Goal::Layers(point.layers);
-            let tolerance = tolerance_for(&errors, &limits, &[], &resin, goal).unwrap();
+            let tolerance = tolerance_for(&errors, &limits, &resin, goal).unwrap();
             assert!(
                 tolerance <= point.tolerance * (1.0 + 2e-5) + 1e-6,
                 "{text} {point:?} {tolerance}"
@@ -144,7 +154,8 @@ fn the_trade_off_curve_falls_from_the_least_tolerance_to_the_fewest_layers() {
                     tolerance,
                     ..limits.clone()
                 };
-                optimal::plan(&errors, &limits, &[], Objective::Layers).map(|plan| plan.layers())
+                optimal::plan(&errors, &limits, SnapPlanes::NONE, Objective::Layers)
+                    .map(|plan| plan.layers())
             };
             if tolerance > 0.0 {
                 assert!(layers(tolerance).unwrap() <= point.layers);
@@ -164,9 +175,9 @@ fn the_least_tolerance_for_a_time_is_found_or_out_of_reach() {
     let resin = resin(1.0, 2.0, 10.0, 8.0);
     let limits = limits(1.0, 10.0, 0.0);
     let coarsest_s = 10.0 * (8.0 + resin.exposure_s(10.0));
-    let tolerance = tolerance_for(&errors, &limits, &[], &resin, Goal::Time(coarsest_s + 0.01));
+    let tolerance = tolerance_for(&errors, &limits, &resin, Goal::Time(coarsest_s + 0.01));
     assert_near(tolerance.unwrap(), 5.0, 1e-4);
-    let refused = |goal| tolerance_for(&errors, &limits, &[], &resin, goal).unwrap_err();
+    let refused = |goal| tolerance_for(&errors, &limits, &resin, goal).unwrap_err();
     let time_s = coarsest_s - 1.0;
     assert_eq!(
         refused(Goal::Time(time_s)),

@@ -1,0 +1,90 @@
+//! Planes that a plan prefers, and what it costs to do without one.
+
+use super::segment::Segment;
+
+/// Heights that deserve a plane.
+#[derive(Debug, Clone, Copy)]
+pub struct SnapPlanes<'a> {
+    /// Boundaries of bins, the most important first.
+    pub planes: &'a [u32],
+    /// What doing without one costs.
+    pub price: Price,
+}
+
+/// What it costs to do without a snap plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Price {
+    /// As much as a layer, or the time of the thinnest one. Where both cost the same, the plane is kept.
+    Layer,
+    /// Nothing: snap planes only choose among plans of the least cost.
+    Nothing,
+}
+
+impl SnapPlanes<'_> {
+    /// No snap planes.
+    pub const NONE: Self = Self {
+        planes: &[],
+        price: Price::Nothing,
+    };
+}
+
+/// The snap planes within a segment.
+#[derive(Debug, Clone, Default)]
+pub struct Preferred {
+    /// For each plane of the segment, the price and the weight of all snap planes from it upward; empty if there are none.
+    from: Vec<[u64; 2]>,
+}
+
+impl Preferred {
+    /// The snap planes within `segment`, each at this price. Of plans of the same cost the one that does without fewer is better; of
+    /// those with as many, the one that keeps the more important.
+    pub(super) fn within(segment: &Segment, snap_planes: SnapPlanes<'_>, layer_price: u64) -> Self {
+        let price = match snap_planes.price {
+            Price::Layer => layer_price,
+            Price::Nothing => 0,
+        };
+        let count = snap_planes.planes.len() as u64;
+        let mut from = Vec::new();
+        for (&plane, rank) in snap_planes.planes.iter().zip(0..) {
+            let Some(plane) = segment.plane_within(plane) else {
+                continue;
+            };
+            if from.is_empty() {
+                from = vec![[0; 2]; segment.units as usize + 1];
+            }
+            let slot: &mut [u64; 2] = &mut from[plane as usize];
+            // Several may be rounded to the same step: the first is the most important.
+            if *slot == [0; 2] {
+                *slot = [price, count * count + count - rank];
+            }
+        }
+        for plane in (1..from.len()).rev() {
+            let above = from[plane];
+            let below = &mut from[plane - 1];
+            *below = [below[0] + above[0], below[1] + above[1]];
+        }
+        Self { from }
+    }
+
+    /// Price and weight of the snap planes from `plane` upward.
+    fn from(&self, plane: u32) -> [u64; 2] {
+        self.from.get(plane as usize).copied().unwrap_or_default()
+    }
+
+    /// Price and weight of the snap planes above `plane`.
+    pub(super) fn above(&self, plane: u32) -> [u64; 2] {
+        self.from(plane + 1)
+    }
+
+    /// Price and weight of the snap planes that a layer passes over.
+    pub(super) fn within_layer(&self, lower: u32, upper: u32) -> [u64; 2] {
+        let (all, beyond) = (self.above(lower), self.from(upper));
+        [all[0] - beyond[0], all[1] - beyond[1]]
+    }
+
+    /// What is left of price and weight without the snap planes from `plane` upward.
+    pub(super) fn below(&self, [price, weight]: [u64; 2], plane: u32) -> [u64; 2] {
+        let beyond = self.from(plane);
+        [price - beyond[0], weight - beyond[1]]
+    }
+}
