@@ -5,7 +5,10 @@
 mod common;
 
 use common::{assert_near, on_plate, solids};
+use cusp_slicer::grid::Bins;
 use cusp_slicer::model::{FacetClass, Mesh, MeshError, Pose};
+use cusp_slicer::profile::facet_bins::FacetBins;
+use cusp_slicer::profile::{normal_cones, steepest};
 use glam::{DVec3, Vec3};
 
 #[test]
@@ -231,4 +234,39 @@ fn steepness_is_the_vertical_part_of_the_normal() {
     assert_eq!(cube.iter().filter(|&&square| square == 1.0).count(), 4);
     assert_eq!(cube.iter().filter(|&&square| square == 0.0).count(), 8);
     assert_eq!(on_plate(&solids::cube(1.0)).bounds().size(), DVec3::ONE);
+}
+
+/// A wall with a vertex a rounding off its diagonal: the facet between is a needle without a slope of its own.
+#[test]
+fn a_needle_that_rounding_made_is_left_out() {
+    let mut cube = solids::cube(40.0);
+    // The two facets of the wall y = 0.
+    let on_wall = |corners: &[Vec3; 3]| corners.iter().all(|corner| corner.y == 0.0);
+    let wall: Vec<[Vec3; 3]> = cube.iter().copied().filter(on_wall).collect();
+    cube.retain(|corners| !on_wall(corners));
+    let [first, second] = wall[..] else {
+        panic!("{wall:?}")
+    };
+    let shared: Vec<Vec3> = first.into_iter().filter(|it| second.contains(it)).collect();
+    let middle = (shared[0] + shared[1]) / 2.0 + Vec3::new(0.0, -4e-6, 2e-6);
+    // One half becomes two facets around the vertex; the needle closes the gap to the other.
+    for corner in 0..3 {
+        let (from, to) = (first[corner], first[(corner + 1) % 3]);
+        cube.push([from, to, middle]);
+    }
+    cube.push(second);
+    let mesh = on_plate(&cube);
+    assert_eq!((mesh.degenerate_facets, mesh.surface_facets), (1, 13));
+    assert!(mesh.is_closed());
+    let bins = Bins::of_height(40.0, 0.1).unwrap();
+    let steepest = steepest::exact(&FacetBins::of(&mesh, bins), &[]);
+    let level = normal_cones::maxima(&steepest, &normal_cones::cones(&mesh, bins), |_| true);
+    assert!(
+        level[1..399].iter().all(|&square| square < 1e-9),
+        "{level:?}"
+    );
+
+    // A facet as thin, but of a model as small, has a slope.
+    let small: Vec<[Vec3; 3]> = solids::cuboid(Vec3::new(1e-4, 1e-4, 0.1));
+    assert_eq!(on_plate(&small).degenerate_facets, 0);
 }

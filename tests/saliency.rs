@@ -406,3 +406,80 @@ fn weights_in_a_file_are_bound_to_their_mesh() {
         "weights-other-mesh"
     );
 }
+
+/// Every corner of an octahedron is alike.
+fn octahedron() -> solids::Triangles {
+    let corner = |x: f32, y: f32, z: f32| Vec3::new(x, y, z) * 10.0;
+    let mut triangles = Vec::new();
+    for x in [1.0, -1.0] {
+        for y in [1.0, -1.0] {
+            for z in [1.0, -1.0] {
+                let [a, b, c] = [
+                    corner(x, 0.0, 0.0),
+                    corner(0.0, y, 0.0),
+                    corner(0.0, 0.0, z),
+                ];
+                triangles.push(if x * y * z > 0.0 {
+                    [a, b, c]
+                } else {
+                    [a, c, b]
+                });
+            }
+        }
+    }
+    triangles
+}
+
+#[test]
+fn where_nothing_stands_out_all_matters_alike() {
+    assert_eq!(facets(&octahedron()), [1.0; 8]);
+    let mut slicer = Slicer::load(&binary_stl(&octahedron())).unwrap();
+    let plain = plan(&mut slicer, &options(Metric::Cusp));
+    let salient = Options {
+        saliency: true,
+        ..options(Metric::Cusp)
+    };
+    let salient = plan(&mut slicer, &salient);
+    assert_eq!(salient.z_mm, plain.z_mm);
+    assert_eq!(salient.true_error, salient.max_error);
+}
+
+#[test]
+fn a_report_has_the_error_without_weights_beside_the_weighted() {
+    let triangles = solids::cone(6.0, 8.0, 64);
+    let mut slicer = Slicer::load(&binary_stl(&triangles)).unwrap();
+    slicer
+        .set_weights(Some(vec![0.25; triangles.len()]))
+        .unwrap();
+    let report = plan(&mut slicer, &options(Metric::Cusp));
+    assert_near(report.true_error, 4.0 * report.max_error, 1e-5);
+    assert_near(report.true_error, report.max_error_mm, 0.0);
+}
+
+#[test]
+fn the_caps_of_holes_and_vertices_of_no_facet_are_no_peaks() {
+    // A bumpy ball without its lowest facets: the centroid of the cap has no saliency of its own.
+    let mut open = bumpy_ball(4);
+    open.retain(|corners| middle(corners).z > -6.0);
+    let mesh = Mesh::from_triangles(&open).unwrap();
+    assert!(mesh.holes > 0 && !mesh.is_closed());
+    let used = Mesh {
+        // The same surface, with the centroids of the caps far away.
+        vertices: (0..mesh.vertices.len())
+            .map(|vertex| {
+                let on_surface = mesh.facets[..mesh.surface_facets].iter().flatten();
+                let is_used = on_surface.copied().any(|it| it as usize == vertex);
+                if is_used {
+                    mesh.vertices[vertex]
+                } else {
+                    Vec3::splat(500.0)
+                }
+            })
+            .collect(),
+        ..mesh.clone()
+    };
+    assert_eq!(
+        saliency(&used, &mut silent).unwrap(),
+        saliency(&mesh, &mut silent).unwrap()
+    );
+}

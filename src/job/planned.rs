@@ -17,7 +17,7 @@ use crate::profile::facet_bins::FacetBins;
 use crate::profile::normal_cones::{Cone, cones};
 use crate::profile::shapes::Shapes;
 use crate::profile::snap_planes::snap_planes;
-use crate::profile::{LayerErrors, Metric, Source, section};
+use crate::profile::{LayerErrors, Metric, Source, area, section};
 use crate::warning::Warning;
 
 /// A plan with what it was made from. Immutable and shared, so its masks always come from its own rays.
@@ -75,6 +75,7 @@ pub struct Findings {
     pub tolerance: f64,
     pub max_error: f64,
     pub sampled_error: f64,
+    pub true_error: f64,
     pub max_error_mm: f64,
     pub max_deviation_mm: f64,
     pub print_time_s: f64,
@@ -131,6 +132,15 @@ impl<'a> Planning<'a> {
     /// The largest error of a plan on the mesh itself, in the metric's unit.
     pub fn max_error(&self, plan: &Plan) -> f64 {
         plan.max_error(&self.exact)
+    }
+
+    /// The largest error of a plan on the mesh itself, without weights and without the cap of the area deviation.
+    fn true_error(&self, plan: &Plan) -> f64 {
+        let exact = &self.shapes.exact;
+        match self.layering.metric {
+            Metric::Area => area::largest_change(&exact.areas_mm2, &plan.boundaries),
+            metric => plan.max_error(&exact.errors(metric)),
+        }
     }
 
     pub fn plan(&self) -> Result<Plan, PlanError> {
@@ -242,6 +252,7 @@ impl<'a> Planning<'a> {
             tolerance,
             max_error,
             sampled_error: plan.max_error(&self.shapes.errors(layering.metric, Source::Sampled)),
+            true_error: self.true_error(plan),
             max_error_mm: plan.max_error(&cusp),
             max_deviation_mm: plan.max_error(&deviation),
             print_time_s: plan.print_time_s(&layering.resin),

@@ -292,6 +292,8 @@ pub struct Report {
     pub tolerance: f64,
     /// The largest error of a layer under the exact profile, in the metric's unit; weighted if facets have weights.
     pub max_error: f64,
+    /// The same without weights and without the cap of the area deviation.
+    pub true_error: f64,
     /// The largest error of a layer under the sampled profile, in the metric's unit.
     pub sampled_error: f64,
     /// The largest cusp height of a layer under the exact profile, whatever the metric.
@@ -405,6 +407,7 @@ pub(super) fn report_of(
         tolerance: findings.tolerance,
         max_error: findings.max_error,
         sampled_error: findings.sampled_error,
+        true_error: findings.true_error,
         max_error_mm: findings.max_error_mm,
         max_deviation_mm: findings.max_deviation_mm,
         print_time_s: findings.print_time_s,

@@ -71,13 +71,13 @@ pub struct Mesh {
     /// Three vertex indices per facet, sorted by class. Within the surface, `surface_facets` facets with an area come
     /// first, then slivers without area that join them.
     pub facets: Vec<[u32; 3]>,
-    /// Number of facets of the surface, all with an area.
+    /// Number of facets of the surface, all with an area that is more than rounding.
     pub surface_facets: usize,
     /// What the facets belong to.
     pub classes: FacetClasses,
     /// For each facet of the surface, slivers included, the facets across its edges; caps do not count.
     pub neighbours: Arc<Neighbours>,
-    /// Facets of the input that had no area.
+    /// Facets of the input that had no area, or no more than rounding.
     pub degenerate_facets: usize,
     /// Edges of the input that were not used equally often in both directions; 0 for a closed,
     /// consistently oriented mesh.
@@ -99,9 +99,10 @@ impl Mesh {
     /// [`MeshError::NoArea`] if no facet has an area.
     pub fn from_triangles(triangles: &[[Vec3; 3]]) -> Result<Self, MeshError> {
         let (mut vertices, welded) = weld(triangles);
+        let rounding = rounding(&vertices);
         let (mut facets, flat): (Vec<_>, Vec<_>) = welded
             .into_iter()
-            .partition(|corners| has_area(corners.map(|v| vertices[v as usize])));
+            .partition(|corners| has_area(corners.map(|v| vertices[v as usize]), rounding));
         let surface_facets = facets.len();
         if surface_facets == 0 {
             return Err(MeshError::NoArea {
@@ -287,7 +288,28 @@ fn keep_joining_slivers(facets: &mut Vec<[u32; 3]>, flat: Vec<[u32; 3]>, vertex_
     }));
 }
 
-fn has_area([a, b, c]: [Vec3; 3]) -> bool {
+/// Roundings of a coordinate within which the height of a needle of a facet tells nothing about its slope: its normal may be off by
+/// several degrees.
+const NEEDLE_ROUNDINGS: f64 = 64.0;
+
+/// How many times as long as high a facet is at least that counts as a needle.
+const NEEDLE_ASPECT: f64 = 1000.0;
+
+/// How far rounding to single precision may have moved a vertex along an axis.
+fn rounding(vertices: &[Vec3]) -> f64 {
+    let most = vertices
+        .iter()
+        .fold(Vec3::ZERO, |most, it| most.max(it.abs()));
+    f64::from(most.max_element()) * f64::from(f32::EPSILON) / 2.0
+}
+
+/// Whether a facet has an area and a slope. Where its height is a matter of rounding, its normal is as well.
+fn has_area([a, b, c]: [Vec3; 3], rounding: f64) -> bool {
     let (a, b, c) = (a.as_dvec3(), b.as_dvec3(), c.as_dvec3());
-    (b - a).cross(c - a) != DVec3::ZERO
+    let twice_area = (b - a).cross(c - a).length();
+    let edges = [b - a, c - b, a - c].map(DVec3::length);
+    let longest = edges[0].max(edges[1]).max(edges[2]);
+    let height = twice_area / longest;
+    let is_needle = height < NEEDLE_ROUNDINGS * rounding && longest > NEEDLE_ASPECT * height;
+    twice_area > 0.0 && !is_needle
 }

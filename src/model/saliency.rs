@@ -20,10 +20,13 @@ const SCALES: [usize; 5] = [2, 3, 4, 5, 6];
 const AVERAGES: [usize; 8] = [12, 10, 8, 6, 5, 4, 3, 2];
 /// Radius of an average, as a multiple of its scale.
 const REACH: f64 = 2.0;
+/// Differences of curvature, relative to the curvature, that are rounding.
+const NOISE: f64 = 1e-9;
 /// Number of vertices that a thread processes at a time.
 const CHUNK: usize = 512;
 
-/// The saliency of each facet of the surface, 0 to 1. The most salient facet has 1; all have 0 if none stands out.
+/// The saliency of each facet of the surface, 0 to 1. The most salient facet has 1; all have 1 if none stands
+/// out, as then none matters less than another.
 ///
 /// Cost: linear in vertices.
 ///
@@ -44,6 +47,11 @@ pub fn saliency(mesh: &Mesh, progress: &mut Progress<'_>) -> Result<Vec<f32>, Ca
             .iter()
             .map(|average| (average[fine] - average[coarse]).abs())
             .collect();
+        let curvatures = averages.iter().map(|average| average[fine].abs());
+        let curvatures: Vec<f64> = curvatures.collect();
+        if greatest(&difference) <= greatest(&curvatures) * NOISE {
+            continue;
+        }
         suppress(mesh, &mut difference);
         for (sum, difference) in sum.iter_mut().zip(difference) {
             *sum += difference;
@@ -54,7 +62,7 @@ pub fn saliency(mesh: &Mesh, progress: &mut Progress<'_>) -> Result<Vec<f32>, Ca
         .map(|corners| corners.iter().map(|&vertex| sum[vertex as usize]).sum())
         .collect();
     let most = greatest(&of_facets);
-    let normal = |value: f64| if most > 0.0 { value / most } else { 0.0 };
+    let normal = |value: f64| if most > 0.0 { value / most } else { 1.0 };
     report(progress, 1.0)?;
     Ok(of_facets
         .into_iter()
@@ -292,8 +300,13 @@ fn suppress(mesh: &Mesh, values: &mut [f64]) {
     for value in values.iter_mut() {
         *value /= most;
     }
-    let mut is_peak = vec![true; values.len()];
-    for &[a, b, c] in &mesh.facets[..mesh.surface_facets] {
+    // Centroids of caps and vertices that no facet uses are no peaks.
+    let facets = &mesh.facets[..mesh.surface_facets];
+    let mut is_peak = vec![false; values.len()];
+    for &vertex in facets.iter().flatten() {
+        is_peak[vertex as usize] = true;
+    }
+    for &[a, b, c] in facets {
         for (one, other) in [(a, b), (b, c), (c, a)] {
             let (one, other) = (one as usize, other as usize);
             is_peak[one] &= values[one] > values[other];

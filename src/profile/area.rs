@@ -28,3 +28,25 @@ pub fn density(areas_mm2: &[f64], bins: Bins) -> Vec<f32> {
         })
         .collect()
 }
+
+/// The largest fraction by which a section changes within a layer of these boundaries, without the cap: what [`CAP`] hides where a
+/// plan takes a shelf into a layer. Where the section below is empty, a change counts 1.
+pub fn largest_change(areas_mm2: &[f64], boundaries: &[u32]) -> f64 {
+    let mut largest = 0.0;
+    for layer in boundaries.windows(2) {
+        let end = (layer[1] as usize).min(areas_mm2.len());
+        let bins = areas_mm2.get(layer[0] as usize..end).unwrap_or_default();
+        let change: f64 = bins
+            .windows(2)
+            .map(|pair| match pair[0] {
+                below if below > 0.0 => (pair[1] - below).abs() / below,
+                _ if pair[1] > 0.0 => 1.0,
+                _ => 0.0,
+            })
+            .sum();
+        if largest < change {
+            largest = change;
+        }
+    }
+    largest
+}

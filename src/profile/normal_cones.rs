@@ -104,24 +104,39 @@ fn slope_of(slopes: &[u8], facet: usize, edge: usize) -> u8 {
     slopes[facet] >> (2 * edge) & 3
 }
 
-/// Whether the facet across an edge of `facet` has this slope at it as well. Behind a sliver without area, which only joins facets,
-/// are the facets across its other edges.
+/// Whether the facet across an edge of `facet` has this slope at it as well. A sliver without area only joins facets: its longest edge
+/// lies on one side of it, the other two on the other.
 fn slopes_across(mesh: &Mesh, slopes: &[u8], facet: usize, other: usize, slope: u8) -> bool {
-    let across = |from: usize| (0..3).map(move |edge| (edge, mesh.neighbours.across(from, edge)));
+    // The edges of `from` behind which `to` is.
+    let edges_to = |from: usize, to: usize| {
+        (0..3).filter(move |&edge| mesh.neighbours.across(from, edge) == Across::Facet(to as u32))
+    };
     if other < mesh.surface_facets {
-        return across(other).any(|(edge, back)| {
-            back == Across::Facet(facet as u32) && slope_of(slopes, other, edge) == slope
-        });
+        return edges_to(other, facet).any(|edge| slope_of(slopes, other, edge) == slope);
     }
-    across(other).any(|(_, behind)| match behind {
-        Across::Facet(behind) if behind as usize != facet => {
+    let longest = longest_edge(mesh.corners(other));
+    edges_to(other, facet).any(|near| {
+        (0..3).any(|far| {
+            let Across::Facet(behind) = mesh.neighbours.across(other, far) else {
+                return false;
+            };
             let behind = behind as usize;
-            behind < mesh.surface_facets
-                && across(behind).any(|(edge, back)| {
-                    back == Across::Facet(other as u32) && slope_of(slopes, behind, edge) == slope
-                })
+            let is_opposite = (near == longest) != (far == longest);
+            is_opposite
+                && behind < mesh.surface_facets
+                && edges_to(behind, other).any(|edge| slope_of(slopes, behind, edge) == slope)
+        })
+    })
+}
+
+fn longest_edge(corners: [DVec3; 3]) -> usize {
+    let length = |edge: usize| corners[edge].distance_squared(corners[(edge + 1) % 3]);
+    (1..3).fold(0, |longest, edge| {
+        if length(longest) < length(edge) {
+            edge
+        } else {
+            longest
         }
-        _ => false,
     })
 }
 

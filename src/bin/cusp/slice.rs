@@ -5,6 +5,7 @@ use std::io::BufWriter;
 use std::path::Path;
 
 use cusp_slicer::job::{Options, Report, Slicer, StageProgress};
+use cusp_slicer::profile::Metric;
 
 use crate::arguments::Slicing;
 use crate::files::{Failure, file_beside, in_file, keep, load_weighted, place_for};
@@ -72,12 +73,17 @@ fn describe_plan(report: &Report) -> String {
             (low.min(t), high.max(t))
         });
     let words = |error| report.metric.format(error);
+    let unweighted = match report.true_error {
+        error if error == report.max_error => String::new(),
+        error => format!(" ({} without weights and caps)", words(error)),
+    };
     let (finest, coarsest) = (&report.uniform.finest, &report.uniform.coarsest);
     format!(
         "layers    {} of {thinnest:.3} to {thickest:.3} mm, {:.3} mm in total\n\
          time      {}, {:.1} ml of resin\n\
          uniform   {} at minimum thickness (error {}), {} at maximum thickness (error {})\n\
-         error     {} on the mesh, {} as sampled, tolerance {}\n\
+         error     {} on the mesh{unweighted}, {} as sampled, tolerance {}\n\
+         deviation {} from the model at most\n\
          planes    {} at flats and sharp changes\n\
          masks     {} × {} pixels of {:.4} mm\n\
          sampled   {} hits on {}, {:.0} ms in total",
@@ -92,6 +98,7 @@ fn describe_plan(report: &Report) -> String {
         words(report.max_error),
         words(report.sampled_error),
         words(report.tolerance),
+        Metric::Deviation.format(report.max_deviation_mm),
         report.snapped_mm.len(),
         report.mask.width,
         report.mask.height,

@@ -24,6 +24,7 @@ export function report(patch: Partial<Report>): Report {
     tolerance: 0.065,
     max_error: 0.065,
     sampled_error: 0.065,
+    true_error: 0.065,
     max_error_mm: 0.065,
     max_deviation_mm: 0.0364,
     print_time_s: 9000,

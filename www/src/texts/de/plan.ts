@@ -84,6 +84,7 @@ export const plan = ({ counted, plural }: Format): PlanTexts => ({
     rayError: "Derselbe, wie Strahlen ihn sehen",
     cuspError: "Größte Stufenhöhe",
     deviation: "Größte Abweichung",
+    trueError: "Ohne Gewichte und Deckel",
     flats: "Ebenen an Flächen",
     source: "Geplant nach",
     exact: "jedem Dreieck",

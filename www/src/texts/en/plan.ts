@@ -88,6 +88,7 @@ export const plan = ({ counted, plural }: Format) => ({
     rayError: "The same as rays see it",
     cuspError: "Largest cusp height",
     deviation: "Largest deviation",
+    trueError: "Without weights and caps",
     flats: "Planes at flats",
     source: "Planned from",
     exact: "Every facet",

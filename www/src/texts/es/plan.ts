@@ -84,6 +84,7 @@ export const plan = ({ counted, plural }: Format): PlanTexts => ({
     rayError: "El mismo según los rayos",
     cuspError: "Escalón máximo",
     deviation: "Desviación máxima",
+    trueError: "Sin pesos ni topes",
     flats: "Planos en caras planas",
     source: "Planificado según",
     exact: "cada faceta",

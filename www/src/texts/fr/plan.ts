@@ -84,6 +84,7 @@ export const plan = ({ counted, plural }: Format): PlanTexts => ({
     rayError: "La même vue par les rayons",
     cuspError: "Plus haute marche",
     deviation: "Plus grand écart",
+    trueError: "Sans poids ni plafond",
     flats: "Plans aux faces planes",
     source: "Planifié d’après",
     exact: "chaque facette",

@@ -80,6 +80,7 @@ export const plan = ({ count: number }: Format): PlanTexts => ({
     rayError: "光线所见的最大误差",
     cuspError: "最大台阶高度",
     deviation: "最大偏差",
+    trueError: "不计权重与上限",
     flats: "平面处的分层面",
     source: "规划依据",
     exact: "每个三角面",
