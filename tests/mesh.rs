@@ -6,6 +6,7 @@ mod common;
 
 use common::{assert_near, on_plate, solids};
 use cusp_slicer::grid::Bins;
+use cusp_slicer::ldi::Solid;
 use cusp_slicer::model::{FacetClass, Mesh, MeshError, Pose};
 use cusp_slicer::profile::facet_bins::FacetBins;
 use cusp_slicer::profile::{normal_cones, steepest};
@@ -269,4 +270,60 @@ fn a_needle_that_rounding_made_is_left_out() {
     // A facet as thin, but of a model as small, has a slope.
     let small: Vec<[Vec3; 3]> = solids::cuboid(Vec3::new(1e-4, 1e-4, 0.1));
     assert_eq!(on_plate(&small).degenerate_facets, 0);
+}
+
+fn union_volume(triangles: &[[Vec3; 3]]) -> f64 {
+    let (_, ldi) = common::sample(triangles, 240);
+    Solid::of(&ldi).volume_mm3
+}
+
+#[test]
+fn a_body_inside_out_is_a_cavity_within_another_and_a_mistake_beside_one() {
+    let outer = solids::cube(10.0);
+    let at = |side: f32, place: f32| solids::moved(&solids::cube(side), Vec3::splat(place));
+    let with = |other: Vec<[Vec3; 3]>| [outer.clone(), other].concat();
+    let cavity = solids::inverted(&at(4.0, 3.0));
+    let shell = with(cavity.clone());
+    let pocket = with(solids::inverted(&solids::moved(
+        &solids::cube(4.0),
+        Vec3::new(3.0, 3.0, 6.0),
+    )));
+    let apart = |triangles: &[[Vec3; 3]]| solids::moved(triangles, Vec3::new(40.0, 0.0, 0.0));
+    // The larger body keeps the mesh as a whole from being inside out.
+    let large = solids::cube(30.0);
+    for (name, triangles, expected) in [
+        ("cavity", shell.clone(), 936.0),
+        ("pocket", pocket, 936.0),
+        (
+            "overlap",
+            with(solids::inverted(&at(8.0, 5.0))),
+            1000.0 + 512.0 - 125.0,
+        ),
+        ("beside", with(solids::inverted(&at(3.0, 20.0))), 1027.0),
+        (
+            "shell inside out",
+            [large.clone(), apart(&solids::inverted(&shell))].concat(),
+            27_936.0,
+        ),
+        ("ball in a cavity", [shell, at(2.0, 4.0)].concat(), 944.0),
+    ] {
+        let found = union_volume(&triangles);
+        assert!(
+            (found - expected).abs() < 0.03 * expected,
+            "{name}: {found}, not {expected}"
+        );
+        for moved in [
+            solids::shuffled(&triangles),
+            solids::turned(&triangles),
+            solids::mirrored(&triangles),
+        ] {
+            let again = union_volume(&moved);
+            assert!(
+                (again - found).abs() < 0.03 * expected,
+                "{name}: {again}, not {found}"
+            );
+        }
+        let mesh = Mesh::from_triangles(&triangles).unwrap();
+        assert!(mesh.is_closed(), "{name}");
+    }
 }

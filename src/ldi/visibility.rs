@@ -1,7 +1,7 @@
 //! Finds the facets that lie wholly inside the solid where bodies overlap. They are not part of the printed surface.
 
 use super::{Hit, Ldi};
-use crate::model::Mesh;
+use crate::model::{Mesh, bodies};
 use crate::parallel;
 
 /// What an LDI shows about the facets of its mesh.
@@ -108,30 +108,4 @@ fn look_along(hits: &[Hit], model_end: u32, seen: &mut [u8]) {
             seen[hit.facet() as usize] |= note;
         }
     }
-}
-
-/// The body of each facet, identified by the index of one of the body's vertices. Facets belong to one body if they
-/// share corners, directly or through other facets.
-fn bodies(mesh: &Mesh) -> Vec<u32> {
-    let mut parents: Vec<u32> = (0..mesh.vertices.len() as u32).collect();
-    let root = |parents: &mut Vec<u32>, mut vertex: u32| {
-        while parents[vertex as usize] != vertex {
-            // Path halving.
-            let above = parents[parents[vertex as usize] as usize];
-            parents[vertex as usize] = above;
-            vertex = above;
-        }
-        vertex
-    };
-    for &[a, b, c] in &mesh.facets {
-        let of_a = root(&mut parents, a);
-        for other in [b, c] {
-            let of_other = root(&mut parents, other);
-            parents[of_other as usize] = of_a;
-        }
-    }
-    let facets = mesh.facets.iter();
-    facets
-        .map(|corners| root(&mut parents, corners[0]))
-        .collect()
 }

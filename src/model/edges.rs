@@ -31,10 +31,14 @@ impl Neighbours {
         }
     }
 
-    /// Those of the same facets with their second and third corners swapped.
-    pub(super) fn flipped(mut self) -> Self {
-        self.0.iter_mut().for_each(|across| across.swap(0, 2));
-        self
+    /// Those of the same mesh with the second and third corners of some facets swapped.
+    pub(super) fn turned(&self, turned: &[bool]) -> Self {
+        let across = self.0.iter().zip(turned);
+        Self(
+            across
+                .map(|(&[a, b, c], &turned)| if turned { [c, b, a] } else { [a, b, c] })
+                .collect(),
+        )
     }
 }
 

@@ -6,6 +6,7 @@ use glam::{DVec3, Vec3};
 use rustc_hash::FxHashMap;
 use serde::Serialize;
 
+use super::bodies::misoriented;
 use super::class::{FacetClass, FacetClasses};
 use super::edges::{Neighbours, edges};
 use super::holes;
@@ -89,8 +90,8 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Welds equal corners, separates facets without area, closes holes, and flips all facets if the mesh
-    /// is inside out as a whole.
+    /// Welds equal corners, separates facets without area, closes holes, and turns over what is inside out: the mesh as a whole, or
+    /// bodies that are no cavities.
     ///
     /// Corners are welded if their coordinates are equal numbers (-0 equals 0). A hole is closed by a fan
     /// around the centroid of its loop.
@@ -129,13 +130,22 @@ impl Mesh {
             was_inside_out: false,
         };
         if mesh.volume_mm3() < 0.0 {
-            mesh.facets
-                .iter_mut()
-                .for_each(|corners| corners.swap(1, 2));
-            mesh.neighbours = Arc::new(Neighbours::clone(&mesh.neighbours).flipped());
+            mesh.turn(&vec![true; mesh.facets.len()]);
             mesh.was_inside_out = true;
         }
+        if let Some(wrong) = misoriented(&mesh) {
+            mesh.turn(&wrong);
+        }
         Ok(mesh)
+    }
+
+    /// Turns those facets over.
+    fn turn(&mut self, turned: &[bool]) {
+        let facets = self.facets.iter_mut().zip(turned);
+        for (corners, _) in facets.filter(|(_, turned)| **turned) {
+            corners.swap(1, 2);
+        }
+        self.neighbours = Arc::new(self.neighbours.turned(turned));
     }
 
     /// The corners of a facet in double precision.

@@ -1,5 +1,6 @@
 //! The model: read from a file, welded to a closed mesh, posed on the plate, weighted by facet.
 
+mod bodies;
 mod class;
 mod edges;
 mod file;
@@ -10,6 +11,7 @@ pub mod read;
 pub mod saliency;
 pub mod weights;
 
+pub(crate) use bodies::bodies;
 pub use class::{FacetClass, FacetClasses, Winding};
 pub use edges::{Across, Neighbours};
 pub use file::ModelFile;

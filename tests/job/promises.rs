@@ -1,6 +1,6 @@
 //! What a plan guarantees: tolerances, targets and true heights, with warnings where it cannot.
 
-use crate::common::{quiet, solids};
+use crate::common::{assert_near, quiet, solids};
 use cusp_slicer::job::{Minimize, Options, Snap};
 use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::warning::Warning;
@@ -196,4 +196,28 @@ fn a_goal_is_met_with_the_least_tolerance() {
         ..few
     };
     assert_eq!(code(plan(&mut slicer, &both)), "several-targets");
+}
+
+#[test]
+fn the_cap_of_the_area_deviation_does_not_hide_a_shelf() {
+    // 400 mm² up to 5.02 mm, a quarter of that above.
+    let outline = [
+        [0.0, 0.0],
+        [20.0, 0.0],
+        [20.0, 5.02],
+        [5.0, 5.02],
+        [5.0, 10.0],
+        [0.0, 10.0],
+    ];
+    let mut slicer = load(&solids::profiled(&outline, 20.0));
+    let options = |snap| Options {
+        metric: Metric::Area,
+        snap,
+        ..options()
+    };
+    let hidden = plan(&mut slicer, &options(Snap::Off)).unwrap();
+    assert!(hidden.max_error < 0.1, "{}", hidden.max_error);
+    assert_near(hidden.true_error, 0.75, 1e-3);
+    let at_shelf = plan(&mut slicer, &options(Snap::Auto)).unwrap();
+    assert_near(at_shelf.true_error, 0.0, 1e-9);
 }

@@ -1,0 +1,169 @@
+//! The bodies of a mesh, and which of them are inside out.
+//!
+//! A body that is inside out is a cavity where it lies in another, and a mistake where it does not: what it shares with another body
+//! would be a void.
+
+use glam::DVec3;
+
+use super::mesh::Mesh;
+
+/// The body of each facet, identified by the index of one of the body's vertices. Facets belong to one body if they
+/// share corners, directly or through other facets.
+pub(crate) fn bodies(mesh: &Mesh) -> Vec<u32> {
+    let mut parents: Vec<u32> = (0..mesh.vertices.len() as u32).collect();
+    let root = |parents: &mut Vec<u32>, mut vertex: u32| {
+        while parents[vertex as usize] != vertex {
+            // Path halving.
+            let above = parents[parents[vertex as usize] as usize];
+            parents[vertex as usize] = above;
+            vertex = above;
+        }
+        vertex
+    };
+    for &[a, b, c] in &mesh.facets {
+        let of_a = root(&mut parents, a);
+        for other in [b, c] {
+            let of_other = root(&mut parents, other);
+            parents[of_other as usize] = of_a;
+        }
+    }
+    let facets = mesh.facets.iter();
+    facets
+        .map(|corners| root(&mut parents, corners[0]))
+        .collect()
+}
+
+/// Which facets belong to bodies that face the wrong way: bodies inside out that do not lie within another, and cavities of such
+/// bodies. `None` if there are none.
+///
+/// Cost: linear in facets; with bodies inside out, for each facet the bodies beside it as well.
+pub(super) fn misoriented(mesh: &Mesh) -> Option<Vec<bool>> {
+    let body_of = bodies(mesh);
+    let mut found: Vec<Body> = Vec::new();
+    let mut number_of = vec![u32::MAX; mesh.vertices.len()];
+    let numbers: Vec<u32> = body_of
+        .iter()
+        .map(|&root| {
+            let number = &mut number_of[root as usize];
+            if *number == u32::MAX {
+                *number = found.len() as u32;
+                found.push(Body::new(mesh.vertices[root as usize].as_dvec3()));
+            }
+            *number
+        })
+        .collect();
+    for (facet, &number) in numbers.iter().enumerate() {
+        found[number as usize].add(mesh.corners(facet));
+    }
+    if found.iter().all(|body| body.sixfold_mm3 >= 0.0) {
+        return None;
+    }
+    let windings = windings(mesh, &numbers, &found);
+    let is_wrong: Vec<bool> = found
+        .iter()
+        .zip(windings)
+        .map(|(body, around)| {
+            if body.sixfold_mm3 < 0.0 {
+                around.contains(&0)
+            } else {
+                around.iter().all(|&winding| winding < 0)
+            }
+        })
+        .collect();
+    let wrong = numbers.iter().map(|&number| is_wrong[number as usize]);
+    is_wrong.contains(&true).then(|| wrong.collect())
+}
+
+struct Body {
+    first: DVec3,
+    /// Six times the volume, negative if the body is inside out.
+    sixfold_mm3: f64,
+    /// The vertices farthest along each axis, in both directions.
+    ends: [DVec3; 6],
+}
+
+/// How far from its ends towards its middle a body is looked at: what only touches another is not beyond it.
+const INWARD: f64 = 1.0 / 64.0;
+
+impl Body {
+    fn new(first: DVec3) -> Self {
+        Self {
+            first,
+            sixfold_mm3: 0.0,
+            ends: [first; 6],
+        }
+    }
+
+    fn add(&mut self, corners: [DVec3; 3]) {
+        let [a, b, c] = corners.map(|corner| corner - self.first);
+        self.sixfold_mm3 += a.dot(b.cross(c));
+        for corner in corners {
+            for axis in 0..3 {
+                if corner[axis] < self.ends[axis][axis] {
+                    self.ends[axis] = corner;
+                }
+                if corner[axis] > self.ends[axis + 3][axis] {
+                    self.ends[axis + 3] = corner;
+                }
+            }
+        }
+    }
+
+    /// Points just within its ends.
+    fn points(&self) -> [DVec3; 6] {
+        let middle = self.ends.iter().sum::<DVec3>() / 6.0;
+        self.ends.map(|end| end + (middle - end) * INWARD)
+    }
+}
+
+/// How often the other bodies wind around the points of each body.
+fn windings(mesh: &Mesh, numbers: &[u32], bodies: &[Body]) -> Vec<[i32; 6]> {
+    let mut points: Vec<(DVec3, usize)> = bodies.iter().flat_map(Body::points).zip(0..).collect();
+    points.sort_unstable_by(|a, b| a.0.x.total_cmp(&b.0.x));
+    let mut windings = vec![[0; 6]; bodies.len()];
+    for (facet, &number) in numbers.iter().enumerate() {
+        let [a, b, c] = mesh.corners(facet);
+        let (least, most) = (a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x));
+        let first = points.partition_point(|(point, _)| point.x < least);
+        for &(point, place) in points[first..]
+            .iter()
+            .take_while(|(point, _)| point.x <= most)
+        {
+            if place / 6 != number as usize {
+                windings[place / 6][place % 6] += passes_above([a, b, c], point);
+            }
+        }
+    }
+    windings
+}
+
+/// How the winding number changes from above a facet to below it, if the facet is above the point; otherwise 0. A point above or below
+/// an edge counts for one of the facets beside it.
+fn passes_above([a, b, c]: [DVec3; 3], point: DVec3) -> i32 {
+    let [u, v, w] = [a, b, c].map(|corner| (corner - point).truncate());
+    // Crossings of the edges with the half-line from the point along +y, each from one side in x to the other.
+    let crossing = |from: glam::DVec2, to: glam::DVec2| {
+        if (from.x <= 0.0) == (to.x <= 0.0) {
+            return 0;
+        }
+        // The same terms for both facets at an edge, so that exactly one of them counts.
+        let (low, high) = if from.x < to.x {
+            (from, to)
+        } else {
+            (to, from)
+        };
+        let is_above = low.y * (high.x - low.x) - low.x * (high.y - low.y) > 0.0;
+        match is_above {
+            true if from.x < to.x => -1,
+            true => 1,
+            false => 0,
+        }
+    };
+    let inside: i32 = crossing(u, v) + crossing(v, w) + crossing(w, u);
+    if inside == 0 {
+        return 0;
+    }
+    let normal = (b - a).cross(c - a);
+    let height = normal.dot(a - point) / normal.z;
+    if height > 0.0 { inside } else { 0 }
+}
