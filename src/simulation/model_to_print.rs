@@ -2,9 +2,9 @@
 //!
 //! Facets are split into triangles of a few pixels, whose middles give the means; vertices are asked as well. No point of a
 //! triangle is farther from the printed surface than its farthest corner is from any one point of that surface, so the point
-//! nearest to the middle bounds the whole triangle. Where this does not exceed the greatest distance of the triangle's layers
-//! so far by more than [`precision_mm`], nothing else is asked; elsewhere the triangle is split into four, again and again.
-//! Facets inside the solid are left out.
+//! nearest to the middle bounds the whole triangle. Where this exceeds neither the greatest distance of all so far by more than
+//! [`precision_mm`], nor that of the triangle's layers by more than twice as much, nothing else is asked; elsewhere the
+//! triangle is split into four, again and again. Facets inside the solid are left out.
 
 use glam::DVec3;
 
@@ -21,7 +21,8 @@ const RUN: usize = 256;
 /// Means are over the middles of triangles whose corners are within this many pixels of them.
 const SAMPLE_PIXELS: f64 = 4.0;
 
-/// By how much the greatest distances found may be too small, in millimetres: half a pixel.
+/// By how much the greatest distance found may be too small, in millimetres: half a pixel. Those of layers may be by twice as
+/// much.
 pub(super) fn precision_mm(printed: &Printed) -> f64 {
     printed.pitch.min_element() * 0.5
 }
@@ -123,6 +124,8 @@ struct Survey<'a> {
     /// The lowest layer of these facets, and the tallies from it to the highest.
     first: usize,
     tallies: Vec<Tally>,
+    /// The greatest distance of all layers so far.
+    greatest: f64,
     precision: f64,
     sample_radius: f64,
 }
@@ -151,6 +154,10 @@ impl<'a> Survey<'a> {
                 .iter()
                 .map(Tally::without_mean)
                 .collect(),
+            greatest: start
+                .iter()
+                .fold(0.0, |most: f64, tally| most.max(tally.squared))
+                .sqrt(),
             precision: precision_mm(printed),
             sample_radius: printed.pitch.min_element() * SAMPLE_PIXELS,
         };
@@ -198,6 +205,7 @@ impl<'a> Survey<'a> {
         let layer = self.printed.layer_of(middle.z) - self.first;
         if found.squared > self.tallies[layer].squared && self.is_shown(middle, cut) {
             self.tallies[layer].raise(found.squared, middle);
+            self.greatest = self.greatest.max(found.squared.sqrt());
         }
         if radius > self.precision && !self.is_within(triangle, found.point) {
             for part in quarters(triangle) {
@@ -212,17 +220,24 @@ impl<'a> Survey<'a> {
         cut.is_none_or(|facet| !is_hidden(self.facets, facet, point))
     }
 
-    /// Whether no corner is farther from a point of the printed surface than the greatest distance so far of each layer, but
-    /// for the precision.
+    /// Whether no corner is farther from a point of the printed surface than the greatest distances so far, but for the
+    /// precision.
     fn is_within(&self, triangle: &Triangle, point: DVec3) -> bool {
         let bound = triangle.map(|corner| corner.distance_squared(point));
-        let bound = bound[0].max(bound[1]).max(bound[2]).sqrt() - self.precision;
+        let bound = bound[0].max(bound[1]).max(bound[2]).sqrt();
+        if bound > self.greatest + self.precision {
+            return false;
+        }
+        let bound = bound - 2.0 * self.precision;
+        if bound <= 0.0 {
+            return true;
+        }
         let heights = triangle.map(|corner| corner.z);
         let low = heights[0].min(heights[1]).min(heights[2]);
         let high = heights[0].max(heights[1]).max(heights[2]);
         let layers = self.printed.layer_of(low)..=self.printed.layer_of(high);
         let mut layers = layers.map(|layer| &self.tallies[layer - self.first]);
-        bound <= 0.0 || layers.all(|tally| bound * bound <= tally.squared)
+        layers.all(|tally| bound * bound <= tally.squared)
     }
 }
 

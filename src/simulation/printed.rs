@@ -21,6 +21,8 @@ pub(super) struct Printed {
     pub z_mm: Vec<f64>,
     /// The mask of each layer.
     pub masks: Vec<Mask>,
+    /// The layer at equal steps of height, to begin the search for one.
+    steps: Vec<u32>,
 }
 
 /// The nearest point of the printed surface.
@@ -67,6 +69,7 @@ impl Printed {
             pitch,
             corner: DVec2::new(-f64::from(width), f64::from(height)) * pitch * 0.5,
             z_mm: settings.z_mm.clone(),
+            steps: steps_of(&settings.z_mm),
             masks,
         })
     }
@@ -103,8 +106,16 @@ impl Printed {
 
     /// The layer at a height; the first or last one for heights below or above all.
     pub fn layer_of(&self, z_mm: f64) -> usize {
-        let above = self.z_mm.partition_point(|&plane| plane <= z_mm);
-        above.clamp(1, self.layers()) - 1
+        let last = self.layers() - 1;
+        let step = z_mm / self.z_mm[last + 1] * self.steps.len() as f64;
+        let mut layer = self.steps[(step as usize).min(self.steps.len() - 1)] as usize;
+        while layer > 0 && self.z_mm[layer] > z_mm {
+            layer -= 1;
+        }
+        while layer < last && self.z_mm[layer + 1] <= z_mm {
+            layer += 1;
+        }
+        layer
     }
 
     /// The nearest point of the printed surface, walls and shelves alike. The surface bounds the solid, so from inside this is
@@ -138,6 +149,17 @@ impl Printed {
             }
         }
     }
+}
+
+/// The layer at each of equal steps of height, two for each layer.
+fn steps_of(z_mm: &[f64]) -> Vec<u32> {
+    let count = 2 * (z_mm.len() - 1);
+    let top = z_mm[z_mm.len() - 1];
+    let layer_at = |step: usize| {
+        let z = top * step as f64 / count as f64;
+        z_mm.partition_point(|&plane| plane <= z) as u32 - 1
+    };
+    (0..count).map(layer_at).collect()
 }
 
 /// A search for the nearest pixel, printed or not, that differs from the point.
