@@ -70,6 +70,8 @@ pub mod archive;
 pub mod orientation;
 
 pub mod job;
+#[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
+pub mod simulation;
 #[cfg(target_arch = "wasm32")]
 mod wasm;
 

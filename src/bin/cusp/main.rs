@@ -4,6 +4,7 @@ mod arguments;
 mod files;
 mod models;
 mod orient;
+mod simulate;
 mod slice;
 mod terminal;
 mod verify;
@@ -13,7 +14,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use arguments::{Orienting, Slicing};
+use arguments::{Orienting, Simulating, Slicing};
 use terminal::say;
 
 /// Adaptive slicer for resin printers: the fewest layers that keep the error within a tolerance.
@@ -77,6 +78,8 @@ enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// Measure how far what a print file prints is from the model, and the model from it
+    Simulate(Simulating),
     /// Write the saliency of each facet, how much it stands out, as a file of weights
     Saliency {
         /// STL file, binary or ASCII
@@ -115,6 +118,7 @@ fn main() -> ExitCode {
             weights,
             json,
         } => verify::verify(&plan, &model, print.as_deref(), weights.as_deref(), json),
+        Command::Simulate(it) => simulate::simulate(&it.model, &it.print, &it.knowledge(), it.json),
         Command::Saliency { model, output } => models::saliency(&model, &output),
         Command::Printers { json } => models::printers(json),
         Command::Info { model, json } => models::info(&model, json),

@@ -121,9 +121,14 @@ impl Bar {
     }
 
     pub fn report(&self, stage: Stage, fraction: f64) -> ControlFlow<()> {
-        self.bar.set_message(stage.name());
+        self.show(stage.name(), stage.done(fraction))
+    }
+
+    /// Shows what is being done, and which fraction of the whole task is.
+    pub fn show(&self, name: &'static str, done: f64) -> ControlFlow<()> {
+        self.bar.set_message(name);
         let steps = self.bar.length().unwrap_or_default() as f64;
-        self.bar.set_position((stage.done(fraction) * steps) as u64);
+        self.bar.set_position((done * steps) as u64);
         if is_interrupted() {
             ControlFlow::Break(())
         } else {

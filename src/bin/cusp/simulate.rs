@@ -1,0 +1,78 @@
+//! Measures what a print file prints against the model.
+
+use std::fs;
+use std::path::Path;
+
+use cusp_slicer::model::{Mesh, read};
+use cusp_slicer::simulation::{
+    Deviation, Knowledge, Placement, Simulation, SimulationError, simulate as measure,
+};
+
+use crate::files::{Failure, in_file};
+use crate::terminal::{Bar, print, print_json, stop_on_interrupt};
+
+pub fn simulate(
+    model: &Path,
+    print_file: &Path,
+    knowledge: &Knowledge,
+    json: bool,
+) -> Result<(), Failure> {
+    let bytes = fs::read(model).map_err(|error| in_file(model, &error))?;
+    let triangles = read::read(&bytes).map_err(|error| in_file(model, &error))?;
+    let mesh = Mesh::from_triangles(&triangles).map_err(|error| in_file(model, &error))?;
+    let printed = fs::read(print_file).map_err(|error| in_file(print_file, &error))?;
+    stop_on_interrupt();
+    let bar = Bar::new();
+    let mut progress = |fraction| bar.show("simulate", fraction);
+    let simulation =
+        measure(&mesh, &printed, knowledge, &mut progress).map_err(|error| match error {
+            SimulationError::Cancelled(_) => Failure::interrupted(),
+            SimulationError::Mesh(error) => in_file(model, &error).into(),
+            error => in_file(print_file, &error).into(),
+        })?;
+    drop(bar);
+    if json {
+        return Ok(print_json(&simulation)?);
+    }
+    Ok(print(&describe(&simulation))?)
+}
+
+fn describe(simulation: &Simulation) -> String {
+    let [width, height] = simulation.pixels;
+    let [pitch_x, pitch_y] = simulation.pixel_mm;
+    let [size_x, size_y, size_z] = simulation.model_mm;
+    let [x, y] = simulation.offset_mm;
+    let placement = match simulation.placement {
+        Placement::Stated => "centred on the masks, as the file says".to_owned(),
+        Placement::Centre => "centred on the masks, as the lit pixels are".to_owned(),
+        Placement::LitPixels => {
+            format!("centred on the lit pixels; the masks' centre is {x:.3}, {y:.3} mm from there")
+        }
+    };
+    let hidden = match simulation.hidden_facets {
+        0 => String::new(),
+        facets => format!("; {facets} facets inside the solid left out"),
+    };
+    format!(
+        "print           {} layers, {:.3} mm high, of {width} × {height} pixels of {pitch_x:.4} × {pitch_y:.4} mm ({})\n\
+         model           {size_x:.3} × {size_y:.3} × {size_z:.3} mm, {placement}{hidden}\n\
+         print to model  {}\n\
+         model to print  {}\n\
+         resolution      half a pixel's diagonal is {:.4} mm; maxima are found to {:.4} mm",
+        simulation.layers,
+        simulation.height_mm,
+        simulation.format.name(),
+        describe_deviation(&simulation.print_to_model),
+        describe_deviation(&simulation.model_to_print),
+        simulation.half_pixel_diagonal_mm,
+        simulation.precision_mm,
+    )
+}
+
+fn describe_deviation(deviation: &Deviation) -> String {
+    let [x, y, z] = deviation.at_mm;
+    format!(
+        "at most {:.4} mm, at {x:.3}, {y:.3}, {z:.3}; {:.4} mm on average",
+        deviation.max_mm, deviation.mean_mm
+    )
+}
