@@ -55,28 +55,46 @@ pub(super) fn classify(
 }
 
 fn visibility(mesh: &Mesh, facets: &Facets, facet: usize) -> Visibility {
-    let triangle = &facets.triangles[facet];
-    let is_met = facets
-        .beside(facet, TOUCH_MM as f32)
-        .into_iter()
-        .any(|other| {
-            let other = other as usize;
-            let corners = mesh.facets[facet];
-            let share = mesh.facets[other]
-                .iter()
-                .any(|corner| corners.contains(corner));
-            // Neighbours touch where they join.
-            let limit = if share { -TOUCH_MM } else { TOUCH_MM };
-            other != facet && !are_apart(triangle, &facets.triangles[other], limit)
-        });
-    let [a, b, c] = *triangle;
-    if is_met {
+    let [a, b, c] = facets.triangles[facet];
+    if !meeting(mesh, facets, facet as u32).is_empty() {
         Visibility::Mixed
     } else if is_hidden(facets, facet as u32, (a + b + c) / 3.0) {
         Visibility::Hidden
     } else {
         Visibility::Surface
     }
+}
+
+/// A facet that meets another one.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Meeting {
+    facet: u32,
+    /// Beyond this distance, in millimetres, it does not meet a part of the other. Neighbours touch where they join, so for
+    /// them it is negative.
+    limit: f64,
+}
+
+impl Meeting {
+    /// Whether it meets a part of the other facet.
+    pub fn meets(&self, facets: &Facets, part: &Triangle) -> bool {
+        !are_apart(part, &facets.triangles[self.facet as usize], self.limit)
+    }
+}
+
+/// The facets that meet a facet. Where none meets a part of it, all of that part is hidden, or none.
+pub(super) fn meeting(mesh: &Mesh, facets: &Facets, facet: u32) -> Vec<Meeting> {
+    let corners = mesh.facets[facet as usize];
+    let beside = facets.beside(facet as usize, TOUCH_MM as f32).into_iter();
+    let beside = beside.filter(|&other| other != facet).map(|other| {
+        let other_corners = mesh.facets[other as usize];
+        let share = other_corners.iter().any(|corner| corners.contains(corner));
+        Meeting {
+            facet: other,
+            limit: if share { -TOUCH_MM } else { TOUCH_MM },
+        }
+    });
+    let triangle = &facets.triangles[facet as usize];
+    beside.filter(|it| it.meets(facets, triangle)).collect()
 }
 
 /// Whether both sides of a facet are inside the solid at one of its points: winding numbers other than zero.

@@ -9,7 +9,7 @@
 use glam::DVec3;
 
 use super::deviation::Tally;
-use super::hidden::{Visibility, is_hidden};
+use super::hidden::{Meeting, Visibility, is_hidden, meeting};
 use super::nearest::{Facets, Triangle};
 use super::printed::Printed;
 use crate::model::Mesh;
@@ -87,7 +87,8 @@ pub(super) fn measure(
         (Phase::Search, [at(0.4), to]),
     ] {
         let start = tallies.clone();
-        let survey = |run: &[u32]| Survey::of(run, phase, facets, visibility, printed, &start);
+        let survey =
+            |run: &[u32]| Survey::of(run, phase, (mesh, facets, visibility), printed, &start);
         let mut merge = |survey: Survey<'_>| {
             for (all, found) in tallies[survey.first..].iter_mut().zip(&survey.tallies) {
                 all.merge(found);
@@ -134,8 +135,7 @@ impl<'a> Survey<'a> {
     fn of(
         run: &[u32],
         phase: Phase,
-        facets: &'a Facets,
-        visibility: &[Visibility],
+        (mesh, facets, visibility): (&Mesh, &'a Facets, &[Visibility]),
         printed: &'a Printed,
         start: &[Tally],
     ) -> Self {
@@ -163,26 +163,33 @@ impl<'a> Survey<'a> {
         };
         let mut hint = None;
         for &facet in run {
-            // Points of a facet that is on the surface as a whole need not be asked whether they are.
-            let asks = visibility[facet as usize] == Visibility::Mixed;
-            let asks = asks.then_some(facet);
+            // All of a facet that no other meets is on the surface.
+            let met = match visibility[facet as usize] {
+                Visibility::Mixed => meeting(mesh, facets, facet),
+                _ => Vec::new(),
+            };
+            let cut = Cut { facet, met: &met };
             let triangle = &facets.triangles[facet as usize];
             hint = match phase {
-                Phase::Sample => Some(survey.sample(triangle, asks, hint)),
-                Phase::Search => Some(survey.search(triangle, asks, hint)),
+                Phase::Sample => Some(survey.sample(triangle, cut, hint)),
+                Phase::Search => Some(survey.search(triangle, cut, hint)),
             };
         }
         survey
     }
 
-    /// Asks the middles of small parts of a triangle. `cut` is its facet if parts of it may be hidden; `hint` is a point of the
-    /// printed surface, and a nearer one is returned.
-    fn sample(&mut self, triangle: &Triangle, cut: Option<u32>, hint: Option<DVec3>) -> DVec3 {
+    /// Asks the middles of small parts of a triangle. `cut` is what meets it; `hint` is a point of the printed surface, and a
+    /// nearer one is returned.
+    fn sample(&mut self, triangle: &Triangle, cut: Cut<'_>, hint: Option<DVec3>) -> DVec3 {
         let (middle, radius) = middle_of(triangle);
         let found = self.printed.nearest(middle, hint);
         if radius > self.sample_radius {
             for part in quarters(triangle) {
-                self.sample(&part, cut, Some(found.point));
+                match self.rest(&part, cut) {
+                    Rest::Hidden => {}
+                    Rest::Shown => _ = self.sample(&part, cut.off(), Some(found.point)),
+                    Rest::Met(met) => _ = self.sample(&part, cut.by(&met), Some(found.point)),
+                }
             }
         } else if self.is_shown(middle, cut) {
             let [a, b, c] = *triangle;
@@ -194,7 +201,7 @@ impl<'a> Survey<'a> {
     }
 
     /// Finds the greatest distance of a triangle by layer, where it is greater than the greatest so far.
-    fn search(&mut self, triangle: &Triangle, cut: Option<u32>, hint: Option<DVec3>) -> DVec3 {
+    fn search(&mut self, triangle: &Triangle, cut: Cut<'_>, hint: Option<DVec3>) -> DVec3 {
         if let Some(point) = hint
             && self.is_within(triangle, point)
         {
@@ -209,15 +216,35 @@ impl<'a> Survey<'a> {
         }
         if radius > self.precision && !self.is_within(triangle, found.point) {
             for part in quarters(triangle) {
-                self.search(&part, cut, Some(found.point));
+                match self.rest(&part, cut) {
+                    Rest::Hidden => {}
+                    Rest::Shown => _ = self.search(&part, cut.off(), Some(found.point)),
+                    Rest::Met(met) => _ = self.search(&part, cut.by(&met), Some(found.point)),
+                }
             }
         }
         found.point
     }
 
+    /// What still meets a part of a triangle; if nothing does, one point tells whether the part is hidden.
+    fn rest(&self, part: &Triangle, cut: Cut<'_>) -> Rest {
+        if cut.met.is_empty() {
+            return Rest::Shown;
+        }
+        let met = cut.met.iter().copied();
+        let met: Vec<Meeting> = met.filter(|it| it.meets(self.facets, part)).collect();
+        if !met.is_empty() {
+            Rest::Met(met)
+        } else if is_hidden(self.facets, cut.facet, middle_of(part).0) {
+            Rest::Hidden
+        } else {
+            Rest::Shown
+        }
+    }
+
     /// Whether a point is on the surface of the solid.
-    fn is_shown(&self, point: DVec3, cut: Option<u32>) -> bool {
-        cut.is_none_or(|facet| !is_hidden(self.facets, facet, point))
+    fn is_shown(&self, point: DVec3, cut: Cut<'_>) -> bool {
+        cut.met.is_empty() || !is_hidden(self.facets, cut.facet, point)
     }
 
     /// Whether no corner is farther from a point of the printed surface than the greatest distances so far, but for the
@@ -239,6 +266,35 @@ impl<'a> Survey<'a> {
         let mut layers = layers.map(|layer| &self.tallies[layer - self.first]);
         layers.all(|tally| bound * bound <= tally.squared)
     }
+}
+
+/// A facet, and what meets the part of it that is examined.
+#[derive(Clone, Copy)]
+struct Cut<'a> {
+    facet: u32,
+    met: &'a [Meeting],
+}
+
+impl Cut<'_> {
+    /// A part of the same facet that these meet.
+    fn by(self, met: &[Meeting]) -> Cut<'_> {
+        Cut { met, ..self }
+    }
+
+    /// A part of the same facet that nothing meets.
+    fn off(self) -> Self {
+        Cut { met: &[], ..self }
+    }
+}
+
+/// What meets a part of a facet.
+enum Rest {
+    /// Nothing: it is on the surface.
+    Shown,
+    /// Nothing: it is inside the solid.
+    Hidden,
+    /// These facets; parts of it may be hidden.
+    Met(Vec<Meeting>),
 }
 
 /// The middle of a triangle, and how far the farthest corner is from it.

@@ -129,7 +129,7 @@ impl Hints {
     fn of(printed: &Printed) -> Self {
         let [width, height] = printed.pixels;
         let side = width.max(height);
-        let shift = (2..).find(|&shift| side >> shift < CELLS).unwrap_or(2);
+        let shift = (2..16).find(|&shift| side >> shift < CELLS).unwrap_or(2);
         // Corners lie beyond the last pixel.
         let cells = |side: u32| (side >> shift) as usize + 1;
         Self {

@@ -333,7 +333,7 @@ fn pixels(text: &str) -> Result<[u32; 2], String> {
 pub struct Simulating {
     /// STL file, binary or ASCII
     pub model: PathBuf,
-    /// Print file: masks with a manifest, ChiTuBox's zip, UVJ or SL1, by whichever program
+    /// Print file in the format png, chitubox, uvj or sl1, by whichever program
     #[arg(value_name = "PRINTFILE")]
     pub print: PathBuf,
     /// Print one JSON object, with the distances of every layer

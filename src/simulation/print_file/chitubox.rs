@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::{Archive, Settings, SimulationError, bad_setting, is_length};
+use super::{Archive, Settings, SimulationError, bad_setting, positive};
 use crate::format::Format;
 use crate::simulation::mask::Flips;
 
@@ -23,7 +23,7 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Settings, SimulationError> {
         let columns = columns.filter(|&columns| columns > 0);
         let columns = columns.ok_or_else(|| bad(pixels))?;
         let length_mm = head.get(length).and_then(|value| value.parse().ok());
-        let length_mm = length_mm.filter(is_length).ok_or_else(|| bad(length))?;
+        let length_mm = positive(length_mm).ok_or_else(|| bad(length))?;
         Ok::<_, SimulationError>((columns, length_mm / f64::from(columns)))
     };
     let (width, pitch_x) = side("resolutionX", "machineX")?;

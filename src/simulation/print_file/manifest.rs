@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::{Archive, Settings, SimulationError, bad_setting, is_length};
+use super::{Archive, Settings, SimulationError, bad_setting, positive};
 use crate::format::Format;
 use crate::model::Pose;
 use crate::simulation::mask::Flips;
@@ -13,10 +13,7 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Settings, SimulationError> {
     let manifest = archive.read_json(FILE)?;
     let bad = |setting: &str| bad_setting(FILE, setting);
     let mask = &manifest["mask"];
-    let length = |key: &str| {
-        let value = mask[key].as_f64().filter(is_length);
-        value.ok_or_else(|| bad(key))
-    };
+    let length = |key: &str| positive(mask[key].as_f64()).ok_or_else(|| bad(key));
     let side = |key: &str| {
         let value = mask[key].as_u64().and_then(|side| side.try_into().ok());
         value.ok_or_else(|| bad(key))

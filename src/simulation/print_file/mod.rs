@@ -144,7 +144,7 @@ fn bad_setting(file: &str, setting: &str) -> SimulationError {
     }
 }
 
-/// A length that a file states: a positive number.
-fn is_length(value: &f64) -> bool {
-    value.is_finite() && *value > 0.0
+/// A length that a file states, if it is a positive number.
+fn positive(length: Option<f64>) -> Option<f64> {
+    length.filter(|length| length.is_finite() && *length > 0.0)
 }

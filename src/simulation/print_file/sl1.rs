@@ -6,7 +6,7 @@
 
 use std::collections::HashMap;
 
-use super::{Archive, Settings, SimulationError, bad_setting, is_length};
+use super::{Archive, Settings, SimulationError, bad_setting, positive};
 use crate::format::Format;
 use crate::simulation::mask::Flips;
 
@@ -89,8 +89,7 @@ impl Ini {
 
     fn length(&self, key: &str) -> Result<f64, SimulationError> {
         let value = self.get(key).and_then(|value| value.parse().ok());
-        let value = value.filter(is_length);
-        value.ok_or_else(|| bad_setting(self.file, key))
+        positive(value).ok_or_else(|| bad_setting(self.file, key))
     }
 
     fn count(&self, key: &str) -> Result<u32, SimulationError> {

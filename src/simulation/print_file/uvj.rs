@@ -1,6 +1,6 @@
 //! UVJ: config.json has the height of each layer. It does not say whether masks are mirrored, nor how the model stands.
 
-use super::{Archive, Settings, SimulationError, bad_setting, is_length};
+use super::{Archive, Settings, SimulationError, bad_setting, positive};
 use crate::format::Format;
 use crate::simulation::mask::Flips;
 
@@ -13,7 +13,7 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Settings, SimulationError> {
     let side = |key: &str| {
         let pixels = size[key].as_u64().and_then(|side| side.try_into().ok());
         let pixels: u32 = pixels.filter(|&side| side > 0).ok_or_else(|| bad(key))?;
-        let length_mm = size["Millimeter"][key].as_f64().filter(is_length);
+        let length_mm = positive(size["Millimeter"][key].as_f64());
         let length_mm = length_mm.ok_or_else(|| bad("Millimeter"))?;
         Ok::<_, SimulationError>((pixels, length_mm / f64::from(pixels)))
     };
