@@ -340,3 +340,51 @@ fn errors_of_layers_are_sums_of_densities() {
         shape.profile(Metric::Volume)
     );
 }
+
+#[test]
+fn a_facet_that_pokes_out_between_rays_is_seen() {
+    // The inner cuboid reaches 0.03 mm beyond the wall of the outer, and no ray passes there.
+    let outer = solids::cube(10.0);
+    let mut both = outer.clone();
+    both.extend(solids::moved(&solids::cube(4.0), Vec3::new(6.03, 3.0, 3.0)));
+    let mesh = on_plate(&both);
+    let found = seen(&mesh, 50);
+    assert!(found.overlaps);
+    let is_level = |facet: usize| mesh.n_z_squared(facet) == 1.0;
+    let inner: Vec<usize> = (outer.len()..both.len())
+        .filter(|&it| is_level(it))
+        .collect();
+    assert_eq!(inner.len(), 4);
+    // Of the two facets of the top and of the bottom one lies wholly inside, unless the wall cuts both.
+    for pair in inner.chunks(2) {
+        assert!(
+            pair.iter()
+                .any(|&facet| !found.hidden.get(facet).copied().unwrap_or(false))
+        );
+    }
+    // Away from walls that it crosses, a facet that rays show inside is hidden.
+    let mut within = outer.clone();
+    within.extend(solids::moved(&solids::cube(4.0), Vec3::splat(3.0)));
+    assert!(
+        seen(&on_plate(&within), 50).hidden[outer.len()..]
+            .iter()
+            .all(|&hidden| hidden)
+    );
+}
+
+#[test]
+fn a_body_on_a_larger_one_is_no_crossing() {
+    let mut shoulder = solids::cuboid(Vec3::new(20.0, 20.0, 5.0));
+    shoulder.extend(solids::moved(
+        &solids::cuboid(Vec3::new(10.0, 10.0, 5.0)),
+        Vec3::new(5.0, 5.0, 5.0),
+    ));
+    let mesh = on_plate(&shoulder);
+    let found = seen(&mesh, 100);
+    assert!(!found.overlaps);
+    let bins = bins_of(&mesh, 0.1);
+    let areas_mm2 = section::exact(&mesh, &found.hidden, bins);
+    for (bin, area) in areas_mm2.iter().enumerate() {
+        assert_near(*area, if bin < 50 { 400.0 } else { 100.0 }, 1e-9);
+    }
+}

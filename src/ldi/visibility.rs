@@ -1,5 +1,6 @@
 //! Finds the facets that lie wholly inside the solid where bodies overlap. They are not part of the printed surface.
 
+use super::crossing::crossed;
 use super::{Hit, Ldi};
 use crate::model::{Mesh, bodies};
 use crate::parallel;
@@ -7,8 +8,8 @@ use crate::parallel;
 /// What an LDI shows about the facets of its mesh.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Visibility {
-    /// For each facet, whether rays show that it is wholly inside: at least one ray meets it, and all that do are inside
-    /// the solid there; or the same holds for its whole body. Empty if there is no such facet.
+    /// For each facet, whether it is wholly inside: at least one ray meets it, all that do are inside the solid there, and no other
+    /// facet passes through it; or the rays show the same of its whole body. Empty if there is no such facet.
     pub hidden: Vec<bool>,
     /// Whether bodies overlap without hiding whole facets, or a body is inverted. The areas of sections are then not
     /// the sum of what the facets enclose.
@@ -49,6 +50,16 @@ pub fn visibility(mesh: &Mesh, ldi: &Ldi) -> Visibility {
     for (&seen, &body) in seen.iter().zip(&bodies) {
         body_seen[body as usize] |= seen;
     }
+    // Between the rays, or beyond a body that it passes through, a part of a facet may be outside, and with it the body.
+    let doubtful: Vec<u32> = (0..model_end)
+        .filter(|&facet| seen[facet as usize] == MET)
+        .collect();
+    for (&facet, is_crossed) in doubtful.iter().zip(crossed(mesh, &doubtful)) {
+        if is_crossed {
+            seen[facet as usize] |= ON_SURFACE;
+            body_seen[bodies[facet as usize] as usize] |= ON_SURFACE;
+        }
+    }
     let is_hidden_body = |facet: usize| body_seen[bodies[facet] as usize] == MET;
     let hidden: Vec<bool> = (0..seen.len())
         .map(|facet| seen[facet] == MET || is_hidden_body(facet))
@@ -56,11 +67,11 @@ pub fn visibility(mesh: &Mesh, ldi: &Ldi) -> Visibility {
     // A body that has lost part of its walls encloses no measurable area.
     let is_open = (0..seen.len())
         .any(|facet| hidden[facet] && !is_hidden_body(facet) && mesh.n_z_squared(facet) < 1.0);
-    // Without the hidden facets, does every ray enter and leave one body after another?
+    // Without the hidden bodies, does every ray enter and leave one body after another? One may begin where another ends.
     let is_union = |offsets: &[u32]| {
         all_rays(ldi, offsets, |hits| {
-            is_in_turn(hits, |hit| {
-                hit.facet() < model_end && !hidden[hit.facet() as usize]
+            is_one_solid(hits, |hit| {
+                hit.facet() < model_end && !is_hidden_body(hit.facet() as usize)
             })
         })
     };
@@ -88,6 +99,17 @@ fn is_in_turn(hits: &[Hit], counts: impl Fn(&Hit) -> bool) -> bool {
         let rises = hit.z_mm > last_z_mm;
         last_z_mm = hit.z_mm;
         rises && (winding == 0 || winding == 1)
+    })
+}
+
+/// Whether those hits of a ray for which `counts` holds enter and leave one body after another, with hits at the same height taken
+/// together.
+fn is_one_solid(hits: &[Hit], counts: impl Fn(&Hit) -> bool) -> bool {
+    let mut winding = 0;
+    hits.chunk_by(|a, b| a.z_mm == b.z_mm).all(|group| {
+        let counted = group.iter().filter(|hit| counts(hit));
+        winding += counted.map(|hit| hit.winding()).sum::<i32>();
+        winding == 0 || winding == 1
     })
 }
 
