@@ -3,6 +3,7 @@
 //! A planner sees limits and the errors of layers, and nothing else of the model.
 
 pub mod greedy;
+pub mod least_sum;
 mod limits;
 pub mod optimal;
 pub mod preferred;

@@ -4,7 +4,9 @@
 
 mod baselines;
 #[path = "../common/mod.rs"]
+mod cases;
 mod common;
+mod least_sum;
 mod limits;
 mod optimal;
 mod tradeoff;
