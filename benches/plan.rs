@@ -13,8 +13,9 @@ use cusp_slicer::grid::Bins;
 use cusp_slicer::model::{Mesh, Pose};
 use cusp_slicer::plan::optimal::{self, Objective};
 use cusp_slicer::plan::preferred::SnapPlanes;
+use cusp_slicer::plan::thicknesses::{self, DEFAULT_STEPS};
 use cusp_slicer::plan::tradeoff;
-use cusp_slicer::plan::{Limits, Plan, greedy};
+use cusp_slicer::plan::{Limits, Plan, gradual, greedy, least_sum};
 use cusp_slicer::profile::deviation::DeviationError;
 use cusp_slicer::profile::facet_bins::FacetBins;
 use cusp_slicer::profile::{LayerErrors, Metric, Profile, Shape, normal_cones, section, steepest};
@@ -174,7 +175,45 @@ fn planners() {
         )
         .unwrap()
     });
+    beyond(&errors, &volumes, &limits, &wide, row);
     println!("\nTrade-off curve of {} plans: {ms:.1} ms\n", curve.len());
+}
+
+/// The planners beyond the paper, each as a row.
+fn beyond(
+    errors: &LayerErrors,
+    volumes: &LayerErrors,
+    limits: &Limits,
+    wide: &Limits,
+    row: impl Fn(&str, f64, usize),
+) {
+    let given = [0.05, 0.1, 0.15];
+    let (ms, plan) = time(|| thicknesses::of(errors, limits, &given));
+    row(
+        "given thicknesses of 50, 100 and 150 µm",
+        ms,
+        plan.map_or(0, |plan| plan.layers()),
+    );
+    for count in 1..=4 {
+        let (ms, found) = time(|| thicknesses::at_most(errors, limits, count, DEFAULT_STEPS));
+        let layers = found.map_or(0, |found| found.plan.layers());
+        row(&format!("at most {count} thicknesses"), ms, layers);
+    }
+    let (ms, plan) = time(|| gradual::plan(errors, limits, 0.01));
+    row(
+        "gradual, changes within 10 µm",
+        ms,
+        plan.map_or(0, |plan| plan.layers()),
+    );
+    let (ms, plans) = time(|| least_sum::plans(volumes, wide, 500));
+    let fewest = plans
+        .ok()
+        .and_then(|plans| Some(plans.first()?.plan.layers()));
+    row(
+        "least sum of volume deviations, up to 500 layers",
+        ms,
+        fewest.unwrap_or(0),
+    );
 }
 
 /// The largest `n_z²` over the normal cones in each bin.

@@ -2,11 +2,15 @@
 //!
 //! A planner sees limits and the errors of layers, and nothing else of the model.
 
+mod few;
+pub mod gradual;
 pub mod greedy;
+pub mod least_sum;
 mod limits;
 pub mod optimal;
 pub mod preferred;
 pub mod segment;
+pub mod thicknesses;
 mod timed;
 pub mod tradeoff;
 pub mod uniform;
@@ -116,6 +120,44 @@ pub enum PlanError {
         /// The greatest layer thickness there.
         layer_max_mm: f64,
     },
+    /// Layers of the given thicknesses do not reach a plane within tolerance.
+    #[error("{}", thicknesses_message(self))]
+    #[serde(rename = "thicknesses-do-not-fit")]
+    ThicknessesDoNotFit {
+        /// The highest plane below that they reach.
+        from_mm: f64,
+        /// The plane that they do not reach.
+        to_mm: f64,
+        /// The tolerance asked for, in the metric's unit.
+        tolerance: f64,
+        /// The thicknesses, ascending.
+        thicknesses_mm: Vec<f64>,
+        /// The least tolerance for which there is a plan, rounded up to six digits; absent if none is enough.
+        least_tolerance: Option<f64>,
+    },
+    /// Every plan within tolerance has more thicknesses.
+    #[error(
+        "no plan within the tolerance has at most {thicknesses} layer thicknesses; allow {enough}, or raise the tolerance"
+    )]
+    #[serde(rename = "too-few-thicknesses")]
+    TooFewThicknesses {
+        /// How many there may be.
+        thicknesses: usize,
+        /// A number for which there is a plan.
+        enough: usize,
+    },
+    /// Every plan within tolerance changes its layer thickness more abruptly.
+    #[error(
+        "no plan within the tolerance changes the layer thickness by at most {change_mm} mm from layer to layer; allow \
+         changes of {least_change_mm} mm, or raise the tolerance"
+    )]
+    #[serde(rename = "not-gradual")]
+    NotGradual {
+        /// The greatest change allowed.
+        change_mm: f64,
+        /// The least for which there is a plan.
+        least_change_mm: f64,
+    },
     /// No tolerance gives a plan with so few layers.
     #[error("no plan has at most {layers} layers; it takes at least {least_layers}")]
     #[serde(rename = "out-of-reach")]
@@ -166,6 +208,28 @@ fn infeasible_message(error: &PlanError) -> String {
     format!(
         "no plan keeps every layer's error within {tolerance}: from z = {from_mm} to {to_mm} mm even a layer of \
          {layer_min_mm} mm exceeds it; {ways}"
+    )
+}
+
+fn thicknesses_message(error: &PlanError) -> String {
+    let PlanError::ThicknessesDoNotFit {
+        from_mm,
+        to_mm,
+        tolerance,
+        thicknesses_mm,
+        least_tolerance,
+    } = error
+    else {
+        return String::new();
+    };
+    let all: Vec<String> = thicknesses_mm.iter().map(f64::to_string).collect();
+    let way = match least_tolerance {
+        Some(tolerance) => format!("raise the tolerance to {tolerance} or add a thickness"),
+        None => "add a thickness or move the planes".to_owned(),
+    };
+    format!(
+        "layers of {} mm do not lead from z = {from_mm} to {to_mm} mm within the tolerance of {tolerance}; {way}",
+        all.join(", ")
     )
 }
 

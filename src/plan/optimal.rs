@@ -169,7 +169,7 @@ impl Table {
     /// The cost of a plane that no plan reaches: ∞.
     pub const NO_PLAN: u64 = u64::MAX;
 
-    fn new(units: u32) -> Self {
+    pub(super) fn new(units: u32) -> Self {
         let mut table = Self::unreached(units);
         table.cost[0] = 0;
         table
@@ -217,9 +217,13 @@ impl Table {
         is_better
     }
 
-    /// Lines 8 to 11 of Procedure 1: the planes of the best plan in ascending order, without plane 0.
+    /// The planes of the best plan up to the top in ascending order, without plane 0.
     fn planes(&self) -> impl Iterator<Item = u32> {
-        let top = self.cost.len() as u32 - 1;
+        self.planes_to(self.cost.len() as u32 - 1)
+    }
+
+    /// Lines 8 to 11 of Procedure 1: the planes of the best plan up to `top` in ascending order, without plane 0.
+    pub(super) fn planes_to(&self, top: u32) -> impl Iterator<Item = u32> {
         let downward = std::iter::successors(Some(top), |&plane| Some(self.below[plane as usize]));
         let mut planes: Vec<u32> = downward.take_while(|&plane| plane > 0).collect();
         planes.reverse();

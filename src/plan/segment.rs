@@ -39,6 +39,24 @@ impl Segment {
         (plane > 0 && plane < self.units).then_some(plane)
     }
 
+    /// The planes of the highest segment at which layers of few thicknesses may end, of which `least` is the least: the nearest to the
+    /// model's top first, the lower of two equally near. None is farther from it than half of `least`.
+    pub(super) fn ends(&self, bins: Bins, least: u32) -> Vec<u32> {
+        let top = bins.count as u64;
+        let height = top - top.min(u64::from(self.lower));
+        let unit = u64::from(self.unit);
+        // No layer of the segment is thicker.
+        let reach = unit * u64::from(least.min(*self.thickness.end()));
+        let lowest = height.saturating_sub(reach / 2).div_ceil(unit).max(1);
+        let highest = (height + reach / 2) / unit;
+        let mut ends: Vec<u64> = (lowest..=highest)
+            // The middle of the last layer, where its mask is sampled, lies below the model's top.
+            .filter(|end| 2 * (end * unit) < 2 * height + reach)
+            .collect();
+        ends.sort_by_key(|end| ((end * unit).abs_diff(height), *end));
+        ends.into_iter().map(|end| end as u32).collect()
+    }
+
     /// Whether layers within the thickness range can add up to `units`.
     pub fn can_fill(&self, units: u32) -> bool {
         let fewest = units.div_ceil(*self.thickness.end());

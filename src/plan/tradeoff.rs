@@ -175,7 +175,7 @@ fn best_within(
 
 /// The smallest number for which `holds` is true, by bisection. It must be true for `most`, and monotonic: if it is true
 /// for a number, then for all larger ones.
-fn least_steps(
+pub(super) fn least_steps(
     most: u64,
     mut holds: impl FnMut(u64) -> Result<bool, PlanError>,
 ) -> Result<u64, PlanError> {
@@ -192,7 +192,7 @@ fn least_steps(
 }
 
 /// Rounds up to six significant digits: short, and still sufficient as a tolerance.
-fn round_up(value: f64) -> f64 {
+pub(super) fn round_up(value: f64) -> f64 {
     if value <= 0.0 {
         return value;
     }

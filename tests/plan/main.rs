@@ -3,10 +3,14 @@
 #![cfg(not(target_arch = "wasm32"))]
 
 mod baselines;
+mod cases;
 #[path = "../common/mod.rs"]
 mod common;
+mod gradual;
+mod least_sum;
 mod limits;
 mod optimal;
+mod thicknesses;
 mod tradeoff;
 
 use cusp_slicer::grid::Bins;

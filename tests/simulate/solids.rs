@@ -163,7 +163,7 @@ fn the_pose_is_the_manifests_or_the_callers() {
     assert_near(found.model_mm[2], 5.0, 1e-5);
     assert!(found.print_to_model.max_mm <= 0.05 + found.half_pixel_diagonal_mm);
     let bare = with_manifest(&file, |manifest| {
-        manifest["options"] = serde_json::json!({})
+        manifest["options"] = serde_json::json!({});
     });
     let knowledge = Knowledge {
         pose: Some(pose),

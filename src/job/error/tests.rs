@@ -131,6 +131,15 @@ fn plan_errors() -> Vec<PlanError> {
             largest_layer_min_mm: Some(0.024),
         },
         LayersDoNotFit { from_mm: 1.5, to_mm: 1.625, layer_min_mm: 0.1, layer_max_mm: 0.12 },
+        ThicknessesDoNotFit {
+            from_mm: 1.5,
+            to_mm: 1.625,
+            tolerance: 0.065,
+            thicknesses_mm: vec![0.05, 0.1],
+            least_tolerance: None,
+        },
+        TooFewThicknesses { thicknesses: 1, enough: 3 },
+        NotGradual { change_mm: 0.01, least_change_mm: 0.016 },
         LayersOutOfReach { layers: 10, least_layers: 67 },
         TimeOutOfReach { time_s: 60.5, least_time_s: 1234.0 },
     )

@@ -105,6 +105,15 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
   "layers-do-not-fit": ({ from_mm, to_mm, layer_min_mm, layer_max_mm }) =>
     `Schichten von ${exact(layer_min_mm)} bis ${mm(layer_max_mm)} ergeben nicht die Höhe von ${exact(from_mm)} bis ${mm(to_mm)}; ` +
     "erweitern Sie den Bereich der Dicken, oder verschieben Sie die Ebenen.",
+  "thicknesses-do-not-fit": ({ from_mm, to_mm, tolerance, thicknesses_mm, least_tolerance }) =>
+    `Schichten von ${thicknesses_mm.map(mm).join(", ")} führen nicht innerhalb der Toleranz von ${exact(tolerance)} von z = ${exact(from_mm)} bis ${mm(to_mm)}; ` +
+    (least_tolerance === null
+      ? "fügen Sie eine Dicke hinzu, oder verschieben Sie die Ebenen."
+      : `erhöhen Sie die Toleranz auf ${exact(least_tolerance)}, oder fügen Sie eine Dicke hinzu.`),
+  "too-few-thicknesses": ({ thicknesses, enough }) =>
+    `Kein Plan innerhalb der Toleranz kommt mit höchstens ${count(thicknesses)} Schichtdicken aus; erlauben Sie ${count(enough)}, oder erhöhen Sie die Toleranz.`,
+  "not-gradual": ({ change_mm, least_change_mm }) =>
+    `Kein Plan innerhalb der Toleranz ändert die Schichtdicke von Schicht zu Schicht um höchstens ${mm(change_mm)}; erlauben Sie Änderungen von ${mm(least_change_mm)}, oder erhöhen Sie die Toleranz.`,
   "bad-range": ({ from_mm, to_mm }) =>
     `Der Höhenbereich von ${exact(from_mm)} bis ${mm(to_mm)} ist leer oder überlappt einen anderen; geben Sie Bereiche aufsteigend und getrennt an.`,
   "bad-plane": ({ z_mm, height_mm }) => `Bei ${mm(z_mm)} kann in einem Modell von ${mm(height_mm)} Höhe keine Ebene liegen.`,

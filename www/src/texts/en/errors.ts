@@ -104,6 +104,15 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
   "layers-do-not-fit": ({ from_mm, to_mm, layer_min_mm, layer_max_mm }) =>
     `Layers of ${exact(layer_min_mm)} to ${mm(layer_max_mm)} do not add up to the height from ${exact(from_mm)} to ${mm(to_mm)}; ` +
     "widen the range of thicknesses or move the planes.",
+  "thicknesses-do-not-fit": ({ from_mm, to_mm, tolerance, thicknesses_mm, least_tolerance }) =>
+    `Layers of ${thicknesses_mm.map(exact).join(", ")} mm do not lead from z = ${exact(from_mm)} to ${mm(to_mm)} within the tolerance of ${exact(tolerance)}; ` +
+    (least_tolerance === null
+      ? "add a thickness or move the planes."
+      : `raise the tolerance to ${exact(least_tolerance)} or add a thickness.`),
+  "too-few-thicknesses": ({ thicknesses, enough }) =>
+    `No plan within the tolerance has at most ${count(thicknesses)} layer thicknesses; allow ${count(enough)}, or raise the tolerance.`,
+  "not-gradual": ({ change_mm, least_change_mm }) =>
+    `No plan within the tolerance changes the layer thickness by at most ${mm(change_mm)} from layer to layer; allow changes of ${mm(least_change_mm)}, or raise the tolerance.`,
   "bad-range": ({ from_mm, to_mm }) =>
     `The height range from ${exact(from_mm)} to ${mm(to_mm)} is empty or overlaps another; give ranges upward and apart.`,
   "bad-plane": ({ z_mm, height_mm }) => `There can be no plane at ${mm(z_mm)} in a model that is ${mm(height_mm)} high.`,

@@ -105,6 +105,15 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
   "layers-do-not-fit": ({ from_mm, to_mm, layer_min_mm, layer_max_mm }) =>
     `Las capas de ${exact(layer_min_mm)} a ${mm(layer_max_mm)} no suman la altura de ${exact(from_mm)} a ${mm(to_mm)}; ` +
     "amplíe el intervalo de espesores o mueva los planos.",
+  "thicknesses-do-not-fit": ({ from_mm, to_mm, tolerance, thicknesses_mm, least_tolerance }) =>
+    `Las capas de ${thicknesses_mm.map(mm).join(", ")} no llevan de z = ${exact(from_mm)} a ${mm(to_mm)} dentro de la tolerancia de ${exact(tolerance)}; ` +
+    (least_tolerance === null
+      ? "añada un espesor o mueva los planos."
+      : `aumente la tolerancia a ${exact(least_tolerance)} o añada un espesor.`),
+  "too-few-thicknesses": ({ thicknesses, enough }) =>
+    `Ningún plan dentro de la tolerancia tiene como máximo ${count(thicknesses)} espesores de capa; permita ${count(enough)} o aumente la tolerancia.`,
+  "not-gradual": ({ change_mm, least_change_mm }) =>
+    `Ningún plan dentro de la tolerancia cambia el espesor en ${mm(change_mm)} como máximo de capa a capa; permita cambios de ${mm(least_change_mm)} o aumente la tolerancia.`,
   "bad-range": ({ from_mm, to_mm }) =>
     `El intervalo de altura de ${exact(from_mm)} a ${mm(to_mm)} está vacío o se solapa con otro; indique intervalos ascendentes y separados.`,
   "bad-plane": ({ z_mm, height_mm }) => `No puede haber un plano a ${mm(z_mm)} en un modelo de ${mm(height_mm)} de alto.`,

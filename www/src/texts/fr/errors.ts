@@ -105,6 +105,15 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
   "layers-do-not-fit": ({ from_mm, to_mm, layer_min_mm, layer_max_mm }) =>
     `Des couches de ${exact(layer_min_mm)} à ${mm(layer_max_mm)} ne font pas la hauteur de ${exact(from_mm)} à ${mm(to_mm)} ; ` +
     "élargissez l’intervalle d’épaisseurs ou déplacez les plans.",
+  "thicknesses-do-not-fit": ({ from_mm, to_mm, tolerance, thicknesses_mm, least_tolerance }) =>
+    `Des couches de ${thicknesses_mm.map(mm).join(", ")} ne mènent pas de z = ${exact(from_mm)} à ${mm(to_mm)} dans la tolérance de ${exact(tolerance)} ; ` +
+    (least_tolerance === null
+      ? "ajoutez une épaisseur ou déplacez les plans."
+      : `portez la tolérance à ${exact(least_tolerance)} ou ajoutez une épaisseur.`),
+  "too-few-thicknesses": ({ thicknesses, enough }) =>
+    `Aucun plan dans la tolérance n’a au plus ${count(thicknesses)} épaisseurs de couche ; permettez-en ${count(enough)}, ou augmentez la tolérance.`,
+  "not-gradual": ({ change_mm, least_change_mm }) =>
+    `Aucun plan dans la tolérance ne change l’épaisseur d’au plus ${mm(change_mm)} d’une couche à l’autre ; permettez des changements de ${mm(least_change_mm)}, ou augmentez la tolérance.`,
   "bad-range": ({ from_mm, to_mm }) =>
     `L’intervalle de hauteur de ${exact(from_mm)} à ${mm(to_mm)} est vide ou en chevauche un autre ; donnez des intervalles croissants et séparés.`,
   "bad-plane": ({ z_mm, height_mm }) => `Il ne peut y avoir de plan à ${mm(z_mm)} dans un modèle de ${mm(height_mm)} de haut.`,

@@ -100,6 +100,15 @@ export const errors = ({ count, exact, mm, measure, error }: Format): ErrorSente
   "layer-too-thick": ({ layer_mm, height_mm }) => `${mm(layer_mm)} 的层对高 ${mm(height_mm)} 的模型来说太厚。`,
   "layers-do-not-fit": ({ from_mm, to_mm, layer_min_mm, layer_max_mm }) =>
     `${exact(layer_min_mm)} 到 ${mm(layer_max_mm)} 的层无法凑成从 ${exact(from_mm)} 到 ${mm(to_mm)} 的高度；请扩大层厚范围，或移动分层面。`,
+  "thicknesses-do-not-fit": ({ from_mm, to_mm, tolerance, thicknesses_mm, least_tolerance }) =>
+    `${thicknesses_mm.map(mm).join("、")} 的层无法在公差 ${exact(tolerance)} 之内从 z = ${exact(from_mm)} 到达 ${mm(to_mm)}；` +
+    (least_tolerance === null
+      ? "请增加一种层厚，或移动分层面。"
+      : `请将公差放宽到 ${exact(least_tolerance)}，或增加一种层厚。`),
+  "too-few-thicknesses": ({ thicknesses, enough }) =>
+    `在公差之内，没有至多使用 ${count(thicknesses)} 种层厚的方案；请允许 ${count(enough)} 种，或放宽公差。`,
+  "not-gradual": ({ change_mm, least_change_mm }) =>
+    `在公差之内，没有相邻层厚变化不超过 ${mm(change_mm)} 的方案；请允许 ${mm(least_change_mm)} 的变化，或放宽公差。`,
   "bad-range": ({ from_mm, to_mm }) =>
     `从 ${exact(from_mm)} 到 ${mm(to_mm)} 的高度范围为空，或与另一范围重叠；请自下而上给出互不重叠的范围。`,
   "bad-plane": ({ z_mm, height_mm }) => `高 ${mm(height_mm)} 的模型中，${mm(z_mm)} 处不能有分层面。`,
