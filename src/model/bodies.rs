@@ -6,6 +6,7 @@
 use glam::DVec3;
 
 use super::mesh::Mesh;
+use crate::order::ascending;
 
 /// The body of each facet, identified by the index of one of the body's vertices. Facets belong to one body if they
 /// share corners, directly or through other facets.
@@ -118,8 +119,12 @@ impl Body {
 
 /// How often the other bodies wind around the points of each body.
 fn windings(mesh: &Mesh, numbers: &[u32], bodies: &[Body]) -> Vec<[i32; 6]> {
-    let mut points: Vec<(DVec3, usize)> = bodies.iter().flat_map(Body::points).zip(0..).collect();
-    points.sort_unstable_by(|a, b| a.0.x.total_cmp(&b.0.x));
+    let points: Vec<DVec3> = bodies.iter().flat_map(Body::points).collect();
+    let order = ascending(points.iter().map(|point| point.x));
+    let points: Vec<(DVec3, usize)> = order
+        .into_iter()
+        .map(|place| (points[place], place))
+        .collect();
     let mut windings = vec![[0; 6]; bodies.len()];
     for (facet, &number) in numbers.iter().enumerate() {
         let [a, b, c] = mesh.corners(facet);

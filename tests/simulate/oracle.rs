@@ -9,6 +9,9 @@ use crate::common::assert_near;
 use crate::common::solids::{Triangles, cuboid, sphere};
 use crate::{by_hand, measured};
 
+/// Points along each edge of a facet.
+const STEPS: i32 = 24;
+
 /// The faces of a stack: corners in order around each.
 struct Faces {
     walls: Vec<[DVec3; 4]>,
@@ -173,7 +176,6 @@ fn check(model: &Triangles, seed: u64) {
     assert_near(print.mean_mm, sum / area, 1e-5);
 
     // From the model: a fine lattice on every facet.
-    const STEPS: i32 = 24;
     let all = [faces.walls, faces.shelves].concat();
     let mut most: f64 = 0.0;
     for [a, b, c] in facets {
