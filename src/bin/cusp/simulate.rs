@@ -51,7 +51,7 @@ fn describe(simulation: &Simulation) -> String {
     };
     let hidden = match simulation.hidden_facets {
         0 => String::new(),
-        facets => format!("; {facets} facets inside the solid left out"),
+        facets => format!("; {facets} facets that are not on its surface left out"),
     };
     format!(
         "print           {} layers, {:.3} mm high, of {width} × {height} pixels of {pitch_x:.4} × {pitch_y:.4} mm ({})\n\
