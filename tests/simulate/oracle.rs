@@ -109,6 +109,9 @@ fn nearest<const N: usize>(point: DVec3, polygons: &[[DVec3; N]]) -> f64 {
     distances.fold(f64::INFINITY, f64::min)
 }
 
+/// Steps along the sides of a facet in which the model is asked.
+const STEPS: i32 = 24;
+
 fn check(model: &Triangles, seed: u64) {
     let mut random = Rng::with_seed(seed);
     let pitch = [0.5 + random.f64() * 0.3, 0.5 + random.f64() * 0.3];
@@ -173,7 +176,6 @@ fn check(model: &Triangles, seed: u64) {
     assert_near(print.mean_mm, sum / area, 1e-5);
 
     // From the model: a fine lattice on every facet.
-    const STEPS: i32 = 24;
     let all = [faces.walls, faces.shelves].concat();
     let mut most: f64 = 0.0;
     for [a, b, c] in facets {
