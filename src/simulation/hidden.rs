@@ -1,6 +1,7 @@
-//! Which facets lie inside the solid: between bodies that overlap, say. No print shows them.
+//! Which facets are not on the surface of the solid: inside it, between bodies that overlap, say, or outside, as folds of a
+//! surface that enclose nothing. No print shows them.
 //!
-//! A facet that no other facet meets is inside or on the surface as a whole, so one point decides. A facet that another one
+//! A facet that no other facet meets is hidden or on the surface as a whole, so one point decides. A facet that another one
 //! cuts or touches is asked at every point that matters.
 
 use glam::DVec3;
@@ -97,14 +98,15 @@ pub(super) fn meeting(mesh: &Mesh, facets: &Facets, facet: u32) -> Vec<Meeting> 
     beside.filter(|it| it.meets(facets, triangle)).collect()
 }
 
-/// Whether both sides of a facet are inside the solid at one of its points: winding numbers other than zero.
+/// Whether both sides of a facet are inside the solid at one of its points, or both outside. Inside is a winding number other
+/// than zero.
 pub(super) fn is_hidden(facets: &Facets, facet: u32, point: DVec3) -> bool {
     let [a, b, c] = facets.triangles[facet as usize];
     let Some(normal) = (b - a).cross(c - a).try_normalize() else {
         return false;
     };
     let is_inside = |side: f64| facets.winding(point + normal * (side * OFFSET_MM)) != 0;
-    is_inside(1.0) && is_inside(-1.0)
+    is_inside(1.0) == is_inside(-1.0)
 }
 
 /// Whether two triangles are more than `limit` apart along some axis on which convex bodies that do not meet have a gap.

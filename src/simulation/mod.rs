@@ -79,7 +79,8 @@ pub struct Simulation {
     pub offset_mm: [f64; 2],
     /// By how much the greatest distances may be too small, because surfaces are asked at points: half a pixel.
     pub precision_mm: f64,
-    /// Number of facets that are inside the solid and left out: between overlapping bodies, for example.
+    /// Number of facets that are left out because they are not on the surface of the solid: between overlapping bodies, for
+    /// example.
     pub hidden_facets: usize,
     /// From the print to the model.
     pub print_to_model: Deviation,

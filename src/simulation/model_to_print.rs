@@ -4,7 +4,8 @@
 //! triangle is farther from the printed surface than its farthest corner is from any one point of that surface, so the point
 //! nearest to the middle bounds the whole triangle. Where this exceeds neither the greatest distance of all so far by more than
 //! [`precision_mm`], nor that of the triangle's layers by more than twice as much, nothing else is asked; elsewhere the
-//! triangle is split into four, again and again. Facets inside the solid are left out.
+//! triangle is split into four, again and again. Facets that are not on the surface of the
+//! solid are left out, and where facets meet also what is shown of a triangle of a few pixels whose middle and corners are not.
 
 use glam::DVec3;
 
@@ -17,7 +18,7 @@ use crate::parallel;
 use crate::progress::{Cancelled, Progress};
 
 /// Number of facets or vertices that one thread examines in turn.
-const RUN: usize = 256;
+const RUN: usize = 64;
 /// Means are over the middles of triangles whose corners are within this many pixels of them.
 const SAMPLE_PIXELS: f64 = 4.0;
 
@@ -171,8 +172,8 @@ impl<'a> Survey<'a> {
             let cut = Cut { facet, met: &met };
             let triangle = &facets.triangles[facet as usize];
             hint = match phase {
-                Phase::Sample => Some(survey.sample(triangle, cut, hint)),
-                Phase::Search => Some(survey.search(triangle, cut, hint)),
+                Phase::Sample => survey.sample(triangle, cut, hint),
+                Phase::Search => survey.search(triangle, cut, hint),
             };
         }
         survey
@@ -180,50 +181,66 @@ impl<'a> Survey<'a> {
 
     /// Asks the middles of small parts of a triangle. `cut` is what meets it; `hint` is a point of the printed surface, and a
     /// nearer one is returned.
-    fn sample(&mut self, triangle: &Triangle, cut: Cut<'_>, hint: Option<DVec3>) -> DVec3 {
+    fn sample(&mut self, triangle: &Triangle, cut: Cut<'_>, hint: Option<DVec3>) -> Option<DVec3> {
         let (middle, radius) = middle_of(triangle);
-        let found = self.printed.nearest(middle, hint);
         if radius > self.sample_radius {
+            let mut hint = hint;
             for part in quarters(triangle) {
                 match self.rest(&part, cut) {
                     Rest::Hidden => {}
-                    Rest::Shown => _ = self.sample(&part, cut.off(), Some(found.point)),
-                    Rest::Met(met) => _ = self.sample(&part, cut.by(&met), Some(found.point)),
+                    Rest::Shown => hint = self.sample(&part, cut.off(), hint),
+                    Rest::Met(met) => hint = self.sample(&part, cut.by(&met), hint),
                 }
             }
-        } else if self.is_shown(middle, cut) {
-            let [a, b, c] = *triangle;
-            let tally = &mut self.tallies[self.printed.layer_of(middle.z) - self.first];
-            tally.average(found.squared, (b - a).cross(c - a).length() * 0.5);
-            tally.raise(found.squared, middle);
+            return hint;
         }
-        found.point
+        // Points inside are far from the surface, and asked in vain.
+        if !self.is_shown(middle, cut) {
+            return hint;
+        }
+        let found = self.printed.nearest(middle, hint);
+        let [a, b, c] = *triangle;
+        let tally = &mut self.tallies[self.printed.layer_of(middle.z) - self.first];
+        tally.average(found.squared, (b - a).cross(c - a).length() * 0.5);
+        tally.raise(found.squared, middle);
+        Some(found.point)
     }
 
     /// Finds the greatest distance of a triangle by layer, where it is greater than the greatest so far.
-    fn search(&mut self, triangle: &Triangle, cut: Cut<'_>, hint: Option<DVec3>) -> DVec3 {
+    fn search(&mut self, triangle: &Triangle, cut: Cut<'_>, hint: Option<DVec3>) -> Option<DVec3> {
         if let Some(point) = hint
             && self.is_within(triangle, point)
         {
-            return point;
+            return hint;
         }
         let (middle, radius) = middle_of(triangle);
-        let found = self.printed.nearest(middle, hint);
-        let layer = self.printed.layer_of(middle.z) - self.first;
-        if found.squared > self.tallies[layer].squared && self.is_shown(middle, cut) {
+        let mut hint = hint;
+        if self.is_shown(middle, cut) {
+            let found = self.printed.nearest(middle, hint);
+            let layer = self.printed.layer_of(middle.z) - self.first;
             self.tallies[layer].raise(found.squared, middle);
             self.greatest = self.greatest.max(found.squared.sqrt());
+            hint = Some(found.point);
+            if self.is_within(triangle, found.point) {
+                return hint;
+            }
+        } else if radius <= self.sample_radius {
+            // Facets may coincide, and then no part is free of what meets it.
+            let inward = triangle.map(|corner| corner + (middle - corner) * 0.1);
+            if inward.iter().all(|&point| !self.is_shown(point, cut)) {
+                return hint;
+            }
         }
-        if radius > self.precision && !self.is_within(triangle, found.point) {
+        if radius > self.precision {
             for part in quarters(triangle) {
                 match self.rest(&part, cut) {
                     Rest::Hidden => {}
-                    Rest::Shown => _ = self.search(&part, cut.off(), Some(found.point)),
-                    Rest::Met(met) => _ = self.search(&part, cut.by(&met), Some(found.point)),
+                    Rest::Shown => _ = self.search(&part, cut.off(), hint),
+                    Rest::Met(met) => _ = self.search(&part, cut.by(&met), hint),
                 }
             }
         }
-        found.point
+        hint
     }
 
     /// What still meets a part of a triangle; if nothing does, one point tells whether the part is hidden.

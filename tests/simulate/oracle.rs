@@ -112,6 +112,9 @@ fn nearest<const N: usize>(point: DVec3, polygons: &[[DVec3; N]]) -> f64 {
     distances.fold(f64::INFINITY, f64::min)
 }
 
+/// Steps along the sides of a facet in which the model is asked.
+const STEPS: i32 = 24;
+
 fn check(model: &Triangles, seed: u64) {
     let mut random = Rng::with_seed(seed);
     let pitch = [0.5 + random.f64() * 0.3, 0.5 + random.f64() * 0.3];

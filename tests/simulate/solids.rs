@@ -44,9 +44,9 @@ fn a_top_layer_that_is_too_high_shows_on_its_shelf_alone() {
 
 #[test]
 fn a_cone_is_half_a_layer_off_times_the_sine_of_its_slope() {
-    for (height, sine) in [(4.0, 0.5f64.sqrt()), (8.0, 0.2f64.sqrt())] {
+    for (height, sine) in [(2.0, 0.5f64.sqrt()), (4.0, 0.2f64.sqrt())] {
         for layer_mm in [0.05, 0.1] {
-            let found = sliced_and_measured(&cone(4.0, height, 64), &uniform(layer_mm, 0.01));
+            let found = sliced_and_measured(&cone(2.0, height, 32), &uniform(layer_mm, 0.01));
             let expected = layer_mm / 2.0 * sine;
             let slack = found.half_pixel_diagonal_mm;
             assert_near(found.print_to_model.max_mm, expected, slack);
@@ -66,7 +66,9 @@ fn a_ball_is_half_a_layer_off_at_its_poles() {
     let belt = belt.filter(|layer| (layer.z_mm - 2.0).abs() < 1.0);
     for layer in belt {
         let up = (layer.z_mm - 0.05 - 2.0).abs() / 2.0 + 0.025;
-        assert!(layer.max_mm.unwrap() <= 0.05 * up + slack, "{layer:?}");
+        // The ball curves by 0.05² / 2r within half a layer, and its facets are as far from round.
+        let most = 0.05 * up + slack + 0.001;
+        assert!(layer.max_mm.unwrap() <= most, "{layer:?}");
         assert!(layer.mean_mm.unwrap() <= layer.max_mm.unwrap());
     }
 }

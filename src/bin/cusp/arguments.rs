@@ -8,13 +8,11 @@ use clap::{Args, CommandFactory, ValueEnum};
 use cusp_slicer::format::Format;
 use cusp_slicer::job::{BIN_MM, Backend, GpuMethod, Minimize, Options, Planner, Snap};
 use cusp_slicer::mask::LEVELS;
-use cusp_slicer::model::Pose;
 use cusp_slicer::orientation::shard::Shard;
 use cusp_slicer::orientation::{Cost, MAX_DIRECTIONS, Quality, SearchOptions};
 use cusp_slicer::plan::HeightRange;
 use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::resin::Resin;
-use cusp_slicer::simulation::Knowledge;
 
 use crate::Cli;
 use crate::files::{Failure, WeightsFile, in_file};
@@ -247,7 +245,7 @@ fn bin_help() -> String {
 }
 
 /// Parses a positive length.
-fn length(text: &str) -> Result<f64, String> {
+pub fn length(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
         _ => Err("expected a positive number of millimetres".to_owned()),
@@ -263,7 +261,7 @@ fn pitch(text: &str) -> Result<[f64; 2], String> {
 }
 
 /// Parses `X,Y,Z,W`.
-fn rotation(text: &str) -> Result<[f64; 4], String> {
+pub fn rotation(text: &str) -> Result<[f64; 4], String> {
     let parts = text.split(',').map(|part| part.trim().parse::<f64>());
     let parts: Result<Vec<f64>, _> = parts.collect();
     let parts = parts.ok().and_then(|parts| parts.try_into().ok());
@@ -326,41 +324,6 @@ fn pixels(text: &str) -> Result<[u32; 2], String> {
         .and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]))
         .filter(|size: &[u32; 2]| !size.contains(&0))
         .ok_or_else(|| "expected columns and rows, such as 3840x2400".to_owned())
-}
-
-/// A model and a print file of it.
-#[derive(Args)]
-pub struct Simulating {
-    /// STL file, binary or ASCII
-    pub model: PathBuf,
-    /// Print file in the format png, chitubox, uvj or sl1, by whichever program
-    #[arg(value_name = "PRINTFILE")]
-    pub print: PathBuf,
-    /// Print one JSON object, with the distances of every layer
-    #[arg(long)]
-    pub json: bool,
-    /// Rotation of the model by a quaternion, where the print file does not say it
-    #[arg(long, value_name = "X,Y,Z,W", value_parser = rotation, allow_hyphen_values = true)]
-    rotation: Option<[f64; 4]>,
-    /// Height to which the model was scaled, where the print file does not say it
-    #[arg(long, value_name = "MM", value_parser = length)]
-    height: Option<f64>,
-    /// Whether the masks are mirrored left to right [default: what the print file says]
-    #[arg(long, value_name = "BOOL")]
-    mirror: Option<bool>,
-}
-
-impl Simulating {
-    pub fn knowledge(&self) -> Knowledge {
-        let pose = Pose {
-            rotation: self.rotation,
-            height_mm: self.height,
-        };
-        Knowledge {
-            pose: (pose != Pose::default()).then_some(pose),
-            is_mirrored: self.mirror,
-        }
-    }
 }
 
 /// The options of the orientation search.

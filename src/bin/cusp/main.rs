@@ -14,7 +14,8 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use arguments::{Orienting, Simulating, Slicing};
+use arguments::{Orienting, Slicing};
+use simulate::Simulating;
 use terminal::say;
 
 /// Adaptive slicer for resin printers: the fewest layers that keep the error within a tolerance.
@@ -118,7 +119,7 @@ fn main() -> ExitCode {
             weights,
             json,
         } => verify::verify(&plan, &model, print.as_deref(), weights.as_deref(), json),
-        Command::Simulate(it) => simulate::simulate(&it.model, &it.print, &it.knowledge(), it.json),
+        Command::Simulate(simulating) => simulate::simulate(&simulating),
         Command::Saliency { model, output } => models::saliency(&model, &output),
         Command::Printers { json } => models::printers(json),
         Command::Info { model, json } => models::info(&model, json),

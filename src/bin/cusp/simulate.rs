@@ -1,22 +1,55 @@
 //! Measures what a print file prints against the model.
 
 use std::fs;
-use std::path::Path;
+use std::path::PathBuf;
 
-use cusp_slicer::model::{Mesh, read};
+use clap::Args;
+use cusp_slicer::model::{Mesh, Pose, read};
 use cusp_slicer::simulation::{
     Deviation, Knowledge, Placement, Simulation, SimulationError, simulate as measure,
 };
 
+use crate::arguments::{length, rotation};
 use crate::files::{Failure, in_file};
 use crate::terminal::{Bar, print, print_json, stop_on_interrupt};
 
-pub fn simulate(
-    model: &Path,
-    print_file: &Path,
-    knowledge: &Knowledge,
+/// A model and a print file of it.
+#[derive(Args)]
+pub struct Simulating {
+    /// STL file, binary or ASCII
+    model: PathBuf,
+    /// Print file in the format png, chitubox, uvj or sl1, by whichever program
+    #[arg(value_name = "PRINTFILE")]
+    print: PathBuf,
+    /// Print one JSON object, with the distances of every layer
+    #[arg(long)]
     json: bool,
-) -> Result<(), Failure> {
+    /// Rotation of the model by a quaternion, where the print file does not say it
+    #[arg(long, value_name = "X,Y,Z,W", value_parser = rotation, allow_hyphen_values = true)]
+    rotation: Option<[f64; 4]>,
+    /// Height to which the model was scaled, where the print file does not say it
+    #[arg(long, value_name = "MM", value_parser = length)]
+    height: Option<f64>,
+    /// Whether the masks are mirrored left to right [default: what the print file says]
+    #[arg(long, value_name = "BOOL")]
+    mirror: Option<bool>,
+}
+
+impl Simulating {
+    fn knowledge(&self) -> Knowledge {
+        let pose = Pose {
+            rotation: self.rotation,
+            height_mm: self.height,
+        };
+        Knowledge {
+            pose: (pose != Pose::default()).then_some(pose),
+            is_mirrored: self.mirror,
+        }
+    }
+}
+
+pub fn simulate(simulating: &Simulating) -> Result<(), Failure> {
+    let (model, print_file) = (&*simulating.model, &*simulating.print);
     let bytes = fs::read(model).map_err(|error| in_file(model, &error))?;
     let triangles = read::read(&bytes).map_err(|error| in_file(model, &error))?;
     let mesh = Mesh::from_triangles(&triangles).map_err(|error| in_file(model, &error))?;
@@ -25,13 +58,15 @@ pub fn simulate(
     let bar = Bar::new();
     let mut progress = |fraction| bar.show("simulate", fraction);
     let simulation =
-        measure(&mesh, &printed, knowledge, &mut progress).map_err(|error| match error {
-            SimulationError::Cancelled(_) => Failure::interrupted(),
-            SimulationError::Mesh(error) => in_file(model, &error).into(),
-            error => in_file(print_file, &error).into(),
+        measure(&mesh, &printed, &simulating.knowledge(), &mut progress).map_err(|error| {
+            match error {
+                SimulationError::Cancelled(_) => Failure::interrupted(),
+                SimulationError::Mesh(error) => in_file(model, &error).into(),
+                error => in_file(print_file, &error).into(),
+            }
         })?;
     drop(bar);
-    if json {
+    if simulating.json {
         return Ok(print_json(&simulation)?);
     }
     Ok(print(&describe(&simulation))?)
@@ -51,7 +86,7 @@ fn describe(simulation: &Simulation) -> String {
     };
     let hidden = match simulation.hidden_facets {
         0 => String::new(),
-        facets => format!("; {facets} facets inside the solid left out"),
+        facets => format!("; {facets} facets that are not on its surface left out"),
     };
     format!(
         "print           {} layers, {:.3} mm high, of {width} × {height} pixels of {pitch_x:.4} × {pitch_y:.4} mm ({})\n\
