@@ -9,9 +9,6 @@ use crate::common::assert_near;
 use crate::common::solids::{Triangles, cuboid, sphere};
 use crate::{by_hand, measured};
 
-/// Points along each edge of a facet.
-const STEPS: i32 = 24;
-
 /// The faces of a stack: corners in order around each.
 struct Faces {
     walls: Vec<[DVec3; 4]>,
