@@ -7,6 +7,7 @@ mod common;
 mod files;
 mod oracle;
 mod solids;
+mod tolerance;
 
 use std::io::{Cursor, Read as _, Write as _};
 

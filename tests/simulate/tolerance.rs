@@ -1,0 +1,117 @@
+//! What reports promise of a print, held against what its print file prints.
+
+use cusp_slicer::format::Format;
+use cusp_slicer::job::{Backend, Minimize, Options, Planner, Report, Slicer, Snap};
+use cusp_slicer::profile::Metric;
+use cusp_slicer::simulation::{Knowledge, Simulation};
+
+use crate::common::solids::{self, Triangles};
+use crate::common::{binary_stl, quiet};
+use crate::measured;
+
+fn options() -> Options {
+    Options {
+        pitch_mm: Some(0.02),
+        format: Some(Format::Png),
+        backend: Backend::Cpu,
+        ..Options::default()
+    }
+}
+
+/// The report of a print, and what its print file prints.
+fn printed(triangles: &Triangles, options: &Options) -> (Report, Simulation) {
+    let mut slicer = Slicer::load(&binary_stl(triangles)).unwrap();
+    let report = pollster::block_on(slicer.plan(options, &mut quiet)).unwrap();
+    let report = report.clone();
+    let (bytes, _) = slicer.write_archive(Vec::new(), &mut quiet).unwrap();
+    (report, measured(triangles, &bytes, &Knowledge::default()))
+}
+
+/// Asserts that no point of the print is farther from the model than the report says, but for the pixels.
+fn holds(name: &str, triangles: &Triangles, options: &Options) -> (Report, Simulation) {
+    let (report, simulation) = printed(triangles, options);
+    let bound_mm = report.max_deviation_mm + simulation.half_pixel_diagonal_mm;
+    let found_mm = simulation.print_to_model.max_mm;
+    assert!(
+        found_mm <= bound_mm,
+        "{name}: {found_mm} at {:?}, not within {bound_mm}",
+        simulation.print_to_model.at_mm
+    );
+    (report, simulation)
+}
+
+#[test]
+fn no_point_of_a_print_is_farther_from_the_model_than_its_tolerance() {
+    for (name, triangles) in solids::all() {
+        let options = Options {
+            metric: Metric::Deviation,
+            ..options()
+        };
+        let (report, simulation) = holds(name, &triangles, &options);
+        assert!(report.max_deviation_mm <= 0.0325 + 1e-9, "{name}");
+        // A model of one body without thin parts is as near to the print.
+        if ["cube", "sphere", "cylinder", "cone", "inverted sphere"].contains(&name) {
+            let bound_mm = 0.0325 + simulation.half_pixel_diagonal_mm;
+            let found_mm = simulation.model_to_print.max_mm;
+            assert!(found_mm <= bound_mm, "{name}: {found_mm}");
+        }
+    }
+}
+
+#[test]
+fn reports_bound_the_distance_under_every_metric_and_planner() {
+    let ball = solids::sphere(4.0, 5);
+    for metric in Metric::ALL {
+        let options = Options {
+            metric,
+            snap: Snap::Off,
+            minimize: Minimize::Time,
+            ..options()
+        };
+        holds(metric.name(), &ball, &options);
+    }
+    for planner in [
+        Planner::Greedy,
+        Planner::Local,
+        Planner::Finest,
+        Planner::Coarsest,
+        Planner::Uniform { layer_mm: 0.1 },
+    ] {
+        let options = Options {
+            planner,
+            ..options()
+        };
+        for (name, triangles) in [("ball", &ball), ("frame", &solids::frame())] {
+            holds(&format!("{name}, {}", planner.name()), triangles, &options);
+        }
+    }
+}
+
+#[test]
+fn the_report_of_a_cusp_height_says_how_far_its_print_is_from_the_model() {
+    // Without planes at its flats, a print by cusp height is farther from the model than half its tolerance.
+    let stairs = solids::profiled(
+        &[
+            [0.0, 0.0],
+            [9.0, 0.0],
+            [9.0, 2.03],
+            [6.0, 2.03],
+            [6.0, 4.07],
+            [3.0, 4.07],
+            [3.0, 6.11],
+            [0.0, 6.11],
+        ],
+        5.0,
+    );
+    let options = Options {
+        snap: Snap::Off,
+        ..options()
+    };
+    let (report, simulation) = holds("stairs", &stairs, &options);
+    assert!(report.max_error_mm <= 0.065);
+    assert!(
+        simulation.print_to_model.max_mm > 0.04,
+        "{:?}",
+        simulation.print_to_model.max_mm
+    );
+}
