@@ -43,6 +43,7 @@ test("the default settings are the core's defaults", () => {
 
 test.each([
   ["cusp", "0.065", "0.05", 0.05],
+  ["deviation", "0.0325", "0.01", 0.01],
   ["roughness", "0.1", "0,2", 0.2],
   ["area", "10", "5", 0.05],
   ["volume", "1", "20", 20],

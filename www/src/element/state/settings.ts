@@ -159,7 +159,10 @@ export function withTolerance({ metric, tolerances }: Settings, text: string): P
 
 /** The tolerance that applies if none is typed, in the form's unit: the one that the core chose, or will choose. */
 export function usualTolerance(metric: Metric, taken: number | null): string {
-  return String(round.up((taken ?? DEFAULTS.tolerance[metric]) * METRICS[metric].scale));
+  const usual = DEFAULTS.tolerance[metric];
+  const { scale } = METRICS[metric];
+  // The default is short enough as it is.
+  return String(taken === null || taken === usual ? usual * scale : round.up(taken * scale));
 }
 
 export type Checked = { ok: true; options: Options } | { ok: false; faults: Faults };
