@@ -134,15 +134,6 @@ impl<'a> Planning<'a> {
         plan.max_error(&self.exact)
     }
 
-    /// The largest error of a plan on the mesh itself, without weights and without the cap of the area deviation.
-    fn true_error(&self, plan: &Plan) -> f64 {
-        let exact = &self.shapes.exact;
-        match self.layering.metric {
-            Metric::Area => area::largest_change(&exact.areas_mm2, &plan.boundaries),
-            metric => plan.max_error(&exact.errors(metric)),
-        }
-    }
-
     pub fn plan(&self) -> Result<Plan, PlanError> {
         self.plan_by(self.layering.planner)
     }
@@ -241,8 +232,14 @@ impl<'a> Planning<'a> {
                 height_mm: self.height_mm,
             });
         }
-        let [cusp, deviation] =
-            [Metric::Cusp, Metric::Deviation].map(|metric| self.shapes.exact.errors(metric));
+        let unweighted = |metric| plan.max_error(&self.shapes.exact.errors(metric));
+        let [max_error_mm, max_deviation_mm] = [Metric::Cusp, Metric::Deviation].map(unweighted);
+        let true_error = match layering.metric {
+            Metric::Cusp => max_error_mm,
+            Metric::Deviation => max_deviation_mm,
+            Metric::Area => area::largest_change(&self.shapes.exact.areas_mm2, &plan.boundaries),
+            metric => unweighted(metric),
+        };
         Ok(Findings {
             snapped_mm: plan
                 .snap_planes
@@ -252,9 +249,9 @@ impl<'a> Planning<'a> {
             tolerance,
             max_error,
             sampled_error: plan.max_error(&self.shapes.errors(layering.metric, Source::Sampled)),
-            true_error: self.true_error(plan),
-            max_error_mm: plan.max_error(&cusp),
-            max_deviation_mm: plan.max_error(&deviation),
+            true_error,
+            max_error_mm,
+            max_deviation_mm,
             print_time_s: plan.print_time_s(&layering.resin),
             uniform: UniformReport {
                 finest: self.row(finest)?,

@@ -12,6 +12,9 @@ const MOST_CELLS: i32 = 16;
 ///
 /// Cost: linear in facets where they are of similar sizes.
 pub(super) fn crossed(mesh: &Mesh, facets: &[u32]) -> Vec<bool> {
+    if facets.is_empty() {
+        return Vec::new();
+    }
     let cells = Cells::new(mesh);
     let mut seen = Vec::new();
     facets

@@ -8,6 +8,7 @@ use std::collections::VecDeque;
 use super::optimal::{self, Objective, layers_above, tops};
 use super::preferred::SnapPlanes;
 use super::segment::{Segment, Segments};
+use super::tradeoff::least_steps;
 use super::{Limits, Plan, PlanError};
 use crate::grid::Bins;
 use crate::profile::{LayerErrors, Reach};
@@ -43,27 +44,14 @@ pub fn plan(errors: &LayerErrors, limits: &Limits, change_mm: f64) -> Result<Pla
             });
         }
     }
-    optimal::within(
-        errors,
-        limits,
-        SnapPlanes::NONE,
-        Objective::Layers,
-        tolerance,
-    )?
-    .map_err(|blocked| optimal::infeasible(&blocked, errors, limits, Objective::Layers))?;
+    optimal::plan(errors, limits, SnapPlanes::NONE, Objective::Layers)?;
     // There is a plan without the constraint, so the widest change does.
-    let (mut low, mut high) = (0, widest);
-    while low < high {
-        let middle = low + (high - low) / 2;
-        if fewest(errors, &segments, middle, tolerance).is_some() {
-            high = middle;
-        } else {
-            low = middle + 1;
-        }
-    }
+    let least = least_steps(u64::from(widest), |change| {
+        Ok(fewest(errors, &segments, change as u32, tolerance).is_some())
+    })?;
     Err(PlanError::NotGradual {
         change_mm,
-        least_change_mm: units.boundary_mm(high),
+        least_change_mm: units.boundary_mm(least as u32),
     })
 }
 

@@ -46,14 +46,7 @@ pub fn plans(
     let table = Errors::measure(errors, &segments, tolerance);
     let found = table.plans(most_layers);
     if found.is_empty() {
-        let fewest = optimal::within(
-            errors,
-            limits,
-            SnapPlanes::NONE,
-            Objective::Layers,
-            tolerance,
-        )?
-        .map_err(|blocked| optimal::infeasible(&blocked, errors, limits, Objective::Layers))?;
+        let fewest = optimal::plan(errors, limits, SnapPlanes::NONE, Objective::Layers)?;
         return Err(PlanError::LayersOutOfReach {
             layers: most_layers,
             least_layers: fewest.layers(),

@@ -118,14 +118,7 @@ pub fn at_most(
             least_layers,
         });
     }
-    let unrestricted = optimal::within(
-        errors,
-        limits,
-        SnapPlanes::NONE,
-        Objective::Layers,
-        tolerance,
-    )?
-    .map_err(|blocked| optimal::infeasible(&blocked, errors, limits, Objective::Layers))?;
+    let unrestricted = optimal::plan(errors, limits, SnapPlanes::NONE, Objective::Layers)?;
     Err(PlanError::TooFewThicknesses {
         thicknesses: count,
         enough: distinct(&unrestricted).len(),

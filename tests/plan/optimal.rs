@@ -1,16 +1,16 @@
 //! The optimal planner: the paper's example and its procedure, brute force over all sets of planes for every metric,
 //! constraint and objective, and planted optima.
 
+use cusp_slicer::plan::PlanError;
 use cusp_slicer::plan::optimal::{self, Objective, Table, fill_cheapest, fill_fewest};
 use cusp_slicer::plan::preferred::{Preferred, SnapPlanes};
-use cusp_slicer::plan::{HeightRange, PlanError};
 use cusp_slicer::profile::LayerErrors;
 use cusp_slicer::resin::Resin;
 
-use crate::common::{assert_near, oracle, oracle::Rules};
+use crate::cases::{self, Case};
+use crate::common::{assert_near, oracle};
 use crate::{
-    FIGURE_3, error_sum, in_tenths, limits, plan, random_errors, random_tenths, resin, segment,
-    sum, volume,
+    FIGURE_3, error_sum, in_tenths, limits, plan, random_tenths, resin, segment, sum, volume,
 };
 
 #[test]
@@ -89,36 +89,13 @@ fn no_set_of_planes_is_better() {
     let mut random = fastrand::Rng::with_seed(3);
     let (mut feasible, mut infeasible) = (0, 0);
     for _ in 0..6000 {
-        let count = random.usize(1..=12);
-        let (errors, text) = random_errors(&mut random, count);
-        let least = random.usize(1..=3);
-        let greatest = least + random.usize(0..=3);
-        let tolerance = f64::from(random.u32(1..=30)) / 10.0;
-        let mut limits = limits(least as f64, greatest as f64, tolerance);
-        let mut rules = Rules::plain(count, (least, greatest));
-        if random.u8(0..4) == 0 && count.is_multiple_of(2) {
-            limits.step_mm = Some(2.0);
-            rules.step = 2;
-        }
-        if random.u8(0..4) == 0 && count > 2 {
-            let plane = random.usize(1..count) / rules.step * rules.step;
-            if plane > 0 {
-                limits.planes_mm = vec![plane as f64];
-                rules.planes = vec![plane];
-            }
-        }
-        if random.u8(0..4) == 0 && count > 4 {
-            let (from, to) = (2, 4);
-            let (least, greatest) = (random.usize(1..=2), random.usize(2..=3));
-            limits.ranges = vec![HeightRange {
-                from_mm: from as f64,
-                to_mm: to as f64,
-                layer_min_mm: least as f64,
-                layer_max_mm: greatest as f64,
-            }];
-            rules.planes.extend([from, to]);
-            rules.thickness[from..to].fill((least, greatest));
-        }
+        let Case {
+            count,
+            errors,
+            limits,
+            rules,
+            text,
+        } = cases::random(&mut random, 12);
         let is_time = random.bool();
         // Bottom layers may take longer than others, or less time, and end within any segment.
         let resin = Resin {
@@ -134,7 +111,7 @@ fn no_set_of_planes_is_better() {
         let expected = oracle::best_plan(
             count,
             &rules,
-            errors.to_steps(tolerance),
+            errors.to_steps(limits.tolerance),
             |lower, upper| errors.steps_between(lower as u32, upper as u32),
             |layer, thickness| match is_time {
                 true if layer < resin.bottom_layers => resin.bottom_layer_us(),
@@ -153,17 +130,17 @@ fn no_set_of_planes_is_better() {
                 assert_eq!(
                     (found_cost, plan.max_error_steps(&errors)),
                     (cost, worst),
-                    "{text} {limits:?} {plan:?}"
+                    "{text} {plan:?}"
                 );
             }
             // If no layers add up to the top, the planner moves it, but the oracle does not.
             (Ok(plan), None) => assert_ne!(
                 plan.boundaries[plan.layers()] as usize,
                 count,
-                "{text} {limits:?} {plan:?}"
+                "{text} {plan:?}"
             ),
             (Err(_), None) => infeasible += 1,
-            (Err(error), Some(_)) => panic!("{text} {limits:?}: {error:?}"),
+            (Err(error), Some(_)) => panic!("{text}: {error:?}"),
         }
     }
     assert!(
