@@ -60,9 +60,12 @@ export abstract class Preferences implements Offered {
     this.#set(this.#allowed(settings), DEBOUNCE_MS);
   }
 
-  /** Changes settings, except fixed ones, as an undo step, and plans again after a pause if they are valid. */
-  change(patch: Partial<Settings>): void {
-    this.#history.note(this.settings, Object.keys(patch).join(), performance.now());
+  /**
+   * Changes settings, except fixed ones, as an undo step, and plans again after a pause if they are valid. Quick changes of
+   * one `kind` are a single step.
+   */
+  change(patch: Partial<Settings>, kind = Object.keys(patch).join()): void {
+    this.#history.note(this.settings, kind, performance.now());
     this.#set(this.#allowed({ ...this.settings, ...patch }), DEBOUNCE_MS);
   }
 

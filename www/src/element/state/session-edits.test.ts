@@ -22,6 +22,19 @@ test("turning the model shows previews, the newest rotation last; releasing it p
   expect(session.settings.rotation).toBe("");
 });
 
+test("quick turns are one undo step, and turning back at once is another", async () => {
+  await planned();
+  session.turn([0, 0, 0.6, 0.8], true);
+  session.turn([0, 0, 1, 0], true);
+  session.turn([0, 0, 0, 1], true);
+  expect(session.settings.rotation).toBe("");
+  session.undo();
+  expect(session.settings.rotation).toBe("0,0,1,0");
+  session.undo();
+  expect(session.settings.rotation).toBe("");
+  expect(session.canUndo).toBe(false);
+});
+
 test("another model has the pose of its file; the first one takes the rotation of the settings", async () => {
   start({ settings: { ...DEFAULT_SETTINGS, rotation: "0,0,1,0" } });
   await planned();

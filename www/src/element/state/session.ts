@@ -157,7 +157,9 @@ export class Session extends Preferences {
   turn(rotation: Rotation, isFinal: boolean): void {
     if (!isFinal) return this.#follower.turn(rotation, this.options);
     this.#follower.stop();
-    this.change({ rotation: rotationText(rotation) });
+    const text = rotationText(rotation);
+    // Turned back at once, a model still has its turn to go back to.
+    this.change({ rotation: text }, text === "" ? "turn back" : "turn");
   }
 
   /** Applies the pose of a candidate of {@link orientation}. */
