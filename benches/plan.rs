@@ -19,6 +19,7 @@ use cusp_slicer::plan::{Limits, Plan, gradual, greedy, least_sum};
 use cusp_slicer::profile::deviation::DeviationError;
 use cusp_slicer::profile::facet_bins::FacetBins;
 use cusp_slicer::profile::{LayerErrors, Metric, Profile, Shape, normal_cones, section, steepest};
+use cusp_slicer::progress::silent;
 use cusp_slicer::resin::Resin;
 use glam::Vec3;
 
@@ -195,8 +196,12 @@ fn beyond(
         plan.map_or(0, |plan| plan.layers()),
     );
     for count in 1..=4 {
-        let (ms, found) = time(|| thicknesses::at_most(errors, limits, count, DEFAULT_STEPS));
-        let layers = found.map_or(0, |found| found.plan.layers());
+        let (ms, found) =
+            time(|| thicknesses::at_most(errors, limits, count, DEFAULT_STEPS, &mut silent));
+        let layers = found
+            .ok()
+            .and_then(Result::ok)
+            .map_or(0, |found| found.plan.layers());
         row(&format!("at most {count} thicknesses"), ms, layers);
     }
     let (ms, plan) = time(|| gradual::plan(errors, limits, 0.01));

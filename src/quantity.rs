@@ -16,6 +16,8 @@ pub enum Quantity {
     Step,
     /// Thickness of uniform layers.
     Layer,
+    /// Thickness of the first layer.
+    FirstLayer,
     /// Minimum layer thickness.
     LayerMin,
     /// Maximum layer thickness.
@@ -102,6 +104,7 @@ impl Quantity {
             Self::Bin => "the bin height",
             Self::Step => "the motor step",
             Self::Layer => "the layer thickness",
+            Self::FirstLayer => "the first layer",
             Self::LayerMin => "the minimum layer thickness",
             Self::LayerMax => "the maximum layer thickness",
             Self::Tolerance => "the tolerance",

@@ -22,7 +22,7 @@ type Area = Box<dyn Fn(f64) -> f64>;
 /// Uniform layers of `layer_mm`, each of five bins.
 fn plan(height_mm: f64, layer_mm: f64) -> Plan {
     let bins = Bins::of_height(height_mm, layer_mm / 5.0).unwrap();
-    uniform::plan(bins, height_mm, layer_mm).unwrap()
+    uniform::plan(bins, height_mm, layer_mm, 0).unwrap()
 }
 
 fn bits(cursor: &MaskCursor) -> &[u8] {

@@ -117,7 +117,7 @@ async fn check_plan_and_masks() {
         let (bytes, _) = slicer.write_archive(Vec::new(), &mut quiet).unwrap();
         fingerprint(&bytes)
     };
-    assert_eq!(archive(&mut slicer), 0x8861_bf4b_754d_29ef);
+    assert_eq!(archive(&mut slicer), 0xc33e_354c_fcc6_2199);
     let grey = Options {
         antialias: 4,
         printer: Some("sl1s".to_owned()),

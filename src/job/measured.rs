@@ -4,7 +4,7 @@ use std::cell::LazyCell;
 use std::sync::Arc;
 
 use super::Error;
-use super::resolve::Layering;
+use super::parts::Layering;
 use super::sampled::Sampled;
 use crate::grid::Bins;
 use crate::profile::facet_bins::FacetBins;

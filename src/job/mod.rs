@@ -1,10 +1,14 @@
 //! A job: options are resolved once, then the stages run in order. The result of each is an immutable value.
 
+mod compare;
 mod error;
+#[cfg(not(target_arch = "wasm32"))]
+mod front;
 mod measured;
 mod options;
 mod options_error;
 mod orient;
+mod parts;
 mod planned;
 mod report;
 mod resolve;

@@ -131,6 +131,14 @@ pub struct Options {
     pub layer_min_mm: f64,
     /// Maximum layer thickness.
     pub layer_max_mm: f64,
+    /// Thickness of the first layer, whatever its error and the range of thicknesses. The tolerance holds above it.
+    pub first_layer_mm: Option<f64>,
+    /// The only layer thicknesses of the optimal planner, in place of a range; any in the range if empty.
+    pub thicknesses_mm: Vec<f64>,
+    /// The optimal planner chooses at most this many distinct layer thicknesses.
+    pub max_thicknesses: Option<usize>,
+    /// The optimal planner changes the layer thickness by at most this from one layer to the next.
+    pub max_change_mm: Option<f64>,
     /// Maximum error of a layer, in the metric's unit: mm, mm, a fraction or mm³. If absent, 0.065 mm of cusp height, 0.1 mm
     /// of roughness, 0.1 of the area, or 1 mm³ of volume; if no plan keeps that volume, the smallest tolerance that a plan
     /// keeps.
@@ -187,6 +195,10 @@ impl Default for Options {
             antialias: 1,
             layer_min_mm: 0.05,
             layer_max_mm: 0.15,
+            first_layer_mm: None,
+            thicknesses_mm: Vec::new(),
+            max_thicknesses: None,
+            max_change_mm: None,
             tolerance: None,
             max_layers: None,
             max_time_s: None,

@@ -50,6 +50,15 @@ pub enum OptionsError {
     #[error("give a tolerance, the most layers or the longest time, and only one of them")]
     #[serde(rename = "several-targets")]
     SeveralTargets,
+    /// Two options that exclude each other.
+    #[error("{option} does not go with {other}; leave one of them out")]
+    #[serde(rename = "contradictory-options")]
+    Contradictory {
+        /// Name of an option.
+        option: &'static str,
+        /// Name of the other.
+        other: &'static str,
+    },
     /// The options allow layer thicknesses that the printer cannot print.
     #[error(
         "the {model} prints layers of {printer_min_mm} to {printer_max_mm} mm, not {layer_min_mm} to {layer_max_mm} mm; \

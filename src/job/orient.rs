@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
+use super::parts::Job;
 use super::planned::{Extra, Planning, shapes_of};
-use super::resolve::Job;
 use super::slicer::Slicer;
 use super::stage::{Stage, StageProgress};
 use super::{Error, Options, SCHEMA};
@@ -331,7 +331,7 @@ impl Evaluator<'_> {
         };
         let shapes = shapes_of(&facet_bins, extra, layering, self.weights.clone()).ok()?;
         let planning = Planning::new(height_mm, &shapes, layering);
-        let plan = planning.plan().ok()?;
+        let plan = planning.plan_freely().ok()?;
         let max_error = planning.max_error(&plan);
         let print_time_s = plan.print_time_s(&layering.resin);
         Some(

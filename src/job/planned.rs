@@ -4,20 +4,22 @@
 use std::sync::Arc;
 
 use super::measured::Measured;
-use super::resolve::{Layering, Target};
-use super::{Planner, PlannerReport, UniformReport};
+use super::parts::{Layering, Target, Thicknesses};
+use super::{Error, Planner, PlannerReport, UniformReport};
 use crate::grid::Bins;
+use crate::ldi::LdiError;
 use crate::mask::{Masks, Side};
 use crate::model::Mesh;
 use crate::plan::optimal::Objective;
 use crate::plan::preferred::{Price, SnapPlanes};
 use crate::plan::tradeoff::{self, Goal, TradeoffPoint};
-use crate::plan::{Limits, Plan, PlanError, greedy, optimal, uniform};
+use crate::plan::{Limits, Plan, PlanError, gradual, greedy, optimal, thicknesses, uniform};
 use crate::profile::facet_bins::FacetBins;
 use crate::profile::normal_cones::{Cone, cones};
 use crate::profile::shapes::Shapes;
 use crate::profile::snap_planes::snap_planes;
 use crate::profile::{LayerErrors, Metric, Source, area, section};
+use crate::progress::Progress;
 use crate::warning::Warning;
 
 /// A plan with what it was made from. Immutable and shared, so its masks always come from its own rays.
@@ -34,10 +36,14 @@ impl Planned {
     /// Plans the layers.
     ///
     /// # Errors
-    /// [`PlanError`].
-    pub fn new(of: &Arc<Measured>, layering: &Layering) -> Result<Self, PlanError> {
+    /// [`Error::Plan`]; [`Error::Ldi`] if `progress` cancels.
+    pub fn new(
+        of: &Arc<Measured>,
+        layering: &Layering,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, Error> {
         let planning = Planning::of(of, layering);
-        let plan = planning.plan()?;
+        let plan = planning.plan(progress)?;
         Ok(Self {
             findings: planning.findings(&plan)?,
             of: Arc::clone(of),
@@ -56,11 +62,11 @@ impl Planned {
 
 /// Everything that planners need to know about a model.
 pub struct Planning<'a> {
-    shapes: &'a Shapes,
-    layering: &'a Layering,
+    pub(super) shapes: &'a Shapes,
+    pub(super) layering: &'a Layering,
     height_mm: f64,
     /// Errors of layers under the metric, from the source that plans are made from.
-    errors: LayerErrors,
+    pub(super) errors: LayerErrors,
     /// Errors of layers under the metric, from the exact shape, for reports.
     exact: LayerErrors,
     snap_planes: Vec<u32>,
@@ -134,7 +140,30 @@ impl<'a> Planning<'a> {
         plan.max_error(&self.exact)
     }
 
-    pub fn plan(&self) -> Result<Plan, PlanError> {
+    /// The plan that the options ask for.
+    ///
+    /// # Errors
+    /// [`Error::Plan`]; [`Error::Ldi`] if `progress` cancels.
+    pub fn plan(&self, progress: &mut Progress<'_>) -> Result<Plan, Error> {
+        let errors = &self.errors;
+        let limits = || self.limits();
+        Ok(match &self.layering.thicknesses {
+            Thicknesses::Any => self.plan_freely()?,
+            Thicknesses::Of(thicknesses_mm) => thicknesses::of(errors, &limits()?, thicknesses_mm)?,
+            Thicknesses::AtMost(count) => {
+                let steps = thicknesses::DEFAULT_STEPS;
+                let found = thicknesses::at_most(errors, &limits()?, *count, steps, progress);
+                found.map_err(LdiError::from)??.plan
+            }
+            Thicknesses::Gradual(change_mm) => gradual::plan(errors, &limits()?, *change_mm)?,
+        })
+    }
+
+    /// The plan of the options' planner if layers may have any thickness within the limits. It never takes long.
+    ///
+    /// # Errors
+    /// [`PlanError`].
+    pub fn plan_freely(&self) -> Result<Plan, PlanError> {
         self.plan_by(self.layering.planner)
     }
 
@@ -153,7 +182,7 @@ impl<'a> Planning<'a> {
             }
             Planner::Greedy => greedily(greedy::Sight::Profile),
             Planner::Local => greedily(greedy::Sight::Plane),
-            Planner::Uniform { layer_mm } => uniform::plan(bins, self.height_mm, layer_mm),
+            Planner::Uniform { layer_mm } => self.uniform(layer_mm),
             Planner::Finest | Planner::Coarsest => {
                 let limits = self.layering.limits(0.0);
                 let thickness = limits.thickness(bins, limits.layer_min_mm, limits.layer_max_mm)?;
@@ -162,12 +191,13 @@ impl<'a> Planning<'a> {
                     _ => *thickness.end(),
                 };
                 let layer_mm = bins.boundary_mm(units * limits.unit(bins)?);
-                match uniform::plan(bins, self.height_mm, layer_mm) {
+                match self.uniform(layer_mm) {
                     // A model lower than half a layer is one layer here, as it is for the optimal planner.
                     Err(PlanError::LayerTooThick { .. }) => Ok(Plan {
                         bins,
                         boundaries: vec![0, bins.count as u32],
                         snap_planes: Vec::new(),
+                        exempt_layers: 0,
                     }),
                     plan => plan,
                 }
@@ -175,14 +205,23 @@ impl<'a> Planning<'a> {
         }
     }
 
-    fn row(&self, planner: Planner) -> Result<PlannerReport, PlanError> {
-        let plan = self.plan_by(planner)?;
-        Ok(PlannerReport {
-            planner: planner.name().to_owned(),
+    fn uniform(&self, layer_mm: f64) -> Result<Plan, PlanError> {
+        let bins = self.errors.bins();
+        let first_layer = self.layering.limits(0.0).first_layer(bins)?;
+        uniform::plan(bins, self.height_mm, layer_mm, first_layer)
+    }
+
+    pub(super) fn row(&self, planner: Planner) -> Result<PlannerReport, PlanError> {
+        Ok(self.row_of(planner.name(), &self.plan_by(planner)?))
+    }
+
+    pub(super) fn row_of(&self, planner: &str, plan: &Plan) -> PlannerReport {
+        PlannerReport {
+            planner: planner.to_owned(),
             layers: plan.layers(),
-            max_error: self.max_error(&plan),
+            max_error: self.max_error(plan),
             print_time_s: plan.print_time_s(&self.layering.resin),
-        })
+        }
     }
 
     fn findings(&self, plan: &Plan) -> Result<Findings, PlanError> {
@@ -232,14 +271,21 @@ impl<'a> Planning<'a> {
                 height_mm: self.height_mm,
             });
         }
-        let unweighted = |metric| plan.max_error(&self.shapes.exact.errors(metric));
-        let [max_error_mm, max_deviation_mm] = [Metric::Cusp, Metric::Deviation].map(unweighted);
+        let exact = |metric| self.shapes.exact.errors(metric);
+        let unweighted = |metric| plan.max_error(&exact(metric));
         let true_error = match layering.metric {
-            Metric::Cusp => max_error_mm,
-            Metric::Deviation => max_deviation_mm,
-            Metric::Area => area::largest_change(&self.shapes.exact.areas_mm2, &plan.boundaries),
+            Metric::Area => {
+                let covered = &plan.boundaries[plan.exempt_layers..];
+                area::largest_change(&self.shapes.exact.areas_mm2, covered)
+            }
             metric => unweighted(metric),
         };
+        // This holds for every point of the print, so for a fixed first layer as well.
+        let all_layers = Plan {
+            exempt_layers: 0,
+            ..plan.clone()
+        };
+        let max_deviation_mm = all_layers.max_error(&exact(Metric::Deviation));
         Ok(Findings {
             snapped_mm: plan
                 .snap_planes
@@ -250,7 +296,7 @@ impl<'a> Planning<'a> {
             max_error,
             sampled_error: plan.max_error(&self.shapes.errors(layering.metric, Source::Sampled)),
             true_error,
-            max_error_mm,
+            max_error_mm: unweighted(Metric::Cusp),
             max_deviation_mm,
             print_time_s: plan.print_time_s(&layering.resin),
             uniform: UniformReport {
@@ -270,19 +316,6 @@ impl<'a> Planning<'a> {
             &self.layering.resin,
             points,
         )
-    }
-
-    pub fn compare(&self) -> Result<Vec<PlannerReport>, PlanError> {
-        [
-            Planner::Coarsest,
-            Planner::Optimal,
-            Planner::Greedy,
-            Planner::Local,
-            Planner::Finest,
-        ]
-        .into_iter()
-        .map(|planner| self.row(planner))
-        .collect()
     }
 }
 

@@ -6,8 +6,8 @@ use serde_json::Value;
 use tsify::Tsify;
 
 use super::Options;
+use super::parts::Output;
 use super::planned::Planned;
-use super::resolve::Output;
 use crate::format::Format;
 use crate::mask::black_layers;
 use crate::model::{Mesh, ModelFile, weights};
@@ -187,8 +187,31 @@ pub struct Comparison {
     pub metric: Metric,
     /// The unit of the errors.
     pub unit: String,
-    /// One row per planner, from the coarsest to the finest.
+    /// One row per planner, from the coarsest to the finest. A thickness rule has a row of its own beside the optimal planner.
     pub rows: Vec<PlannerReport>,
+}
+
+/// Two plans with as many layers: the one with the least sum of volume deviations (Alexa, Hildebrand and Lefebvre, Optimal Discrete
+/// Slicing, 2017), and the one with the smallest maximum error.
+#[cfg(not(target_arch = "wasm32"))]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FrontPoint {
+    /// Number of layers of both.
+    pub layers: usize,
+    /// The plan with the least sum.
+    pub least_sum: SumAndMaximum,
+    /// The plan with the smallest maximum error.
+    pub least_maximum: SumAndMaximum,
+}
+
+/// The two errors of a plan that [`FrontPoint`] compares.
+#[cfg(not(target_arch = "wasm32"))]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SumAndMaximum {
+    /// The sum of the volume deviations of all layers (eq. 20), without weights.
+    pub volume_mm3: f64,
+    /// The largest error of a layer, in the unit of the comparison's metric.
+    pub max_error: f64,
 }
 
 /// The trade-off curve.

@@ -1,91 +1,14 @@
 //! Resolves options into a job: every default of metric, printer and format is settled and checked, once. No stage behind
 //! [`Options::resolve`] reads an option.
-//!
-//! Stages work from the parts of the job. The parts are comparable, so they are also the keys under which results are kept.
 
-use super::{Backend, Error, GpuMethod, Minimize, Options, OptionsError, Planner, Snap};
-use crate::format::Format;
-use crate::grid::{Bins, Grid, GridError};
+use super::parts::{Job, Layering, Output, Raster, Sampling, Target, Thicknesses};
+use super::{Error, Minimize, Options, OptionsError, Planner, Snap};
+use crate::grid::Bins;
 use crate::mask::{LEVELS, Samples};
-use crate::model::{Bounds, Pose};
-use crate::plan::optimal::Objective;
+use crate::model::Pose;
 use crate::plan::{Limits, PlanError, uniform};
 use crate::printer::{self, PRINTERS, Printer};
-use crate::profile::{Metric, Source};
-use crate::resin::Resin;
-
-/// Resolved options.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Job {
-    pub sampling: Sampling,
-    pub layering: Layering,
-    pub output: Output,
-}
-
-/// What the LDI depends on, besides the model.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Sampling {
-    pub pose: Pose,
-    pub raster: Raster,
-    /// Height of the printer's build volume.
-    pub greatest_height_mm: Option<f64>,
-    pub samples: Samples,
-    pub backend: Backend,
-    pub gpu_method: GpuMethod,
-}
-
-/// How the masks' pixels are laid out.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Raster {
-    /// This many along the model's longer horizontal side.
-    Around { pixels: u32 },
-    /// As many of this pitch as cover the model.
-    OfPitch { pitch_mm: f64 },
-    /// Those of a plate, with the model at the centre.
-    Plate {
-        pixels: [u32; 2],
-        pitch_mm: [f64; 2],
-    },
-}
-
-/// What the plan depends on, besides the rays.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Layering {
-    pub bin_mm: f64,
-    pub metric: Metric,
-    pub source: Source,
-    pub planner: Planner,
-    pub target: Target,
-    pub minimize: Minimize,
-    /// The limits of plans, except for the tolerance.
-    limits: Limits,
-    /// Minimum area, in mm², of a flat that gets a plane. `None` if no planes are put at flats and sharp changes.
-    pub snap_mm2: Option<f64>,
-    pub saliency: bool,
-    pub weight_min: f64,
-    pub resin: Resin,
-}
-
-/// The tolerance that a plan keeps.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Target {
-    /// This one, in the metric's unit.
-    Tolerance(f64),
-    /// This one, or the smallest that a plan keeps if that is larger.
-    AtLeast(f64),
-    /// The smallest that needs at most this many layers.
-    Layers(usize),
-    /// The smallest that prints in at most this many seconds.
-    Time(f64),
-}
-
-/// What the print file depends on, besides the plan and the rays.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Output {
-    pub format: Format,
-    pub is_mirrored: bool,
-    pub printer: Option<&'static Printer>,
-}
+use crate::profile::Metric;
 
 impl Options {
     /// Settles and checks everything that does not depend on the model.
@@ -113,11 +36,11 @@ impl Options {
 
     /// Rounds the minimum thickness that an error suggests down to whole micrometres, so that people can type it. Bins must
     /// stay the same, or the suggestion might not hold; if they do not, it is dropped.
-    pub(crate) fn typeable(&self, mut error: PlanError) -> PlanError {
-        if let PlanError::Infeasible {
+    pub(crate) fn typeable(&self, mut error: Error) -> Error {
+        if let Error::Plan(PlanError::Infeasible {
             largest_layer_min_mm: largest_mm,
             ..
-        } = &mut error
+        }) = &mut error
         {
             let bin_mm_at = |layer_min_mm: f64| {
                 let options = Self {
@@ -200,6 +123,8 @@ impl Options {
             (None, None, None) => Target::Tolerance(usual),
             _ => return Err(OptionsError::SeveralTargets.into()),
         };
+        let thicknesses = self.thicknesses()?;
+        let [layer_min_mm, layer_max_mm] = self.range_mm();
         let step_mm = match self.planner {
             // Uniform layers have the thickness that is given, not a multiple of the step.
             Planner::Uniform { .. } => None,
@@ -214,13 +139,15 @@ impl Options {
             target,
             minimize: self.minimize,
             limits: Limits {
-                layer_min_mm: self.layer_min_mm,
-                layer_max_mm: self.layer_max_mm,
+                layer_min_mm,
+                layer_max_mm,
                 tolerance: 0.0,
                 ranges: self.ranges.clone(),
                 planes_mm: self.planes_mm.clone(),
+                first_layer_mm: self.first_layer_mm,
                 step_mm,
             },
+            thicknesses,
             snap_mm2: (self.snap == Snap::Auto).then_some(self.flat_area_mm2),
             saliency: self.saliency,
             weight_min: self.weight_min,
@@ -239,6 +166,46 @@ impl Options {
                 .check(bins)?,
         }
         Ok(layering)
+    }
+
+    /// The thickness rule of the optimal planner.
+    fn thicknesses(&self) -> Result<Thicknesses, OptionsError> {
+        let rules = [
+            (!self.thicknesses_mm.is_empty()).then(|| {
+                let thicknesses = Thicknesses::Of(self.thicknesses_mm.clone());
+                ("thicknesses_mm", thicknesses)
+            }),
+            self.max_thicknesses
+                .map(|count| ("max_thicknesses", Thicknesses::AtMost(count))),
+            self.max_change_mm
+                .map(|change_mm| ("max_change_mm", Thicknesses::Gradual(change_mm))),
+        ];
+        let mut rules = rules.into_iter().flatten();
+        let Some((option, rule)) = rules.next() else {
+            return Ok(Thicknesses::Any);
+        };
+        let others = [
+            rules.next().map(|(other, _)| other),
+            (self.planner != Planner::Optimal).then_some("planner"),
+            (self.minimize != Minimize::Layers).then_some("minimize"),
+            self.max_layers.map(|_| "max_layers"),
+            self.max_time_s.map(|_| "max_time_s"),
+        ];
+        match others.into_iter().flatten().next() {
+            Some(other) => Err(OptionsError::Contradictory { option, other }),
+            None => Ok(rule),
+        }
+    }
+
+    /// Minimum and maximum thickness of layers outside height ranges: those of the given thicknesses, if there are any.
+    fn range_mm(&self) -> [f64; 2] {
+        let mut given_mm = self.thicknesses_mm.iter().copied();
+        let Some(first_mm) = given_mm.next() else {
+            return [self.layer_min_mm, self.layer_max_mm];
+        };
+        given_mm.fold([first_mm; 2], |[least_mm, greatest_mm], mm| {
+            [least_mm.min(mm), greatest_mm.max(mm)]
+        })
     }
 
     /// Checks that the printer can make the layers and the step.
@@ -270,16 +237,18 @@ impl Options {
         }
     }
 
-    /// Minimum and maximum thickness wherever the options give them: of uniform layers, or of all layers and of each height
-    /// range.
+    /// Minimum and maximum thickness wherever the options give them: of uniform layers or of all layers, of each height range,
+    /// and of the first layer.
     fn thicknesses_mm(&self) -> Vec<[f64; 2]> {
+        let first_mm = self.first_layer_mm.map(|layer_mm| [layer_mm; 2]);
         if let Planner::Uniform { layer_mm } = self.planner {
-            return vec![[layer_mm; 2]];
+            return std::iter::once([layer_mm; 2]).chain(first_mm).collect();
         }
         let ranges = self.ranges.iter();
         let ranges = ranges.map(|range| [range.layer_min_mm, range.layer_max_mm]);
-        let all = std::iter::once([self.layer_min_mm, self.layer_max_mm]);
-        all.chain(ranges).collect()
+        let all = std::iter::once(self.range_mm());
+        let given = self.thicknesses_mm.iter().map(|&layer_mm| [layer_mm; 2]);
+        all.chain(given).chain(ranges).chain(first_mm).collect()
     }
 
     /// The default height of a bin. With a step, it is the largest height up to [`BIN_MM`] that divides the step; otherwise
@@ -293,7 +262,7 @@ impl Options {
             Some(_) => BIN_MM,
             None => {
                 // Uniform layers are compared with those of the minimum and maximum thickness.
-                let all = [self.layer_min_mm, self.layer_max_mm];
+                let all = self.range_mm();
                 let mut thicknesses = self.thicknesses_mm().into_iter().flatten().chain(all);
                 let is_whole = thicknesses.all(|thickness_mm| is_multiple(thickness_mm, BIN_MM));
                 if is_whole { BIN_MM } else { BIN_MM / 2.0 }
@@ -311,70 +280,4 @@ const ROUNDING: f64 = 1e-6;
 fn is_multiple(length_mm: f64, of_mm: f64) -> bool {
     let quotient = length_mm / of_mm;
     quotient.round() >= 1.0 && (quotient - quotient.round()).abs() <= ROUNDING
-}
-
-impl Sampling {
-    /// The pixels of the masks for a model of these bounds.
-    ///
-    /// # Errors
-    /// [`GridError`], also if the model does not fit the printer.
-    pub fn grid(&self, bounds: &Bounds) -> Result<Grid, GridError> {
-        let grid = match self.raster {
-            Raster::Plate { pixels, pitch_mm } => Grid::plate(bounds, pixels, pitch_mm)?,
-            Raster::OfPitch { pitch_mm } => Grid::of_pitch(bounds, pitch_mm)?,
-            Raster::Around { pixels } => Grid::around(bounds, pixels)?,
-        };
-        let model_mm_z = bounds.size().z;
-        match self.greatest_height_mm {
-            Some(printer_mm_z) if model_mm_z > printer_mm_z => Err(GridError::ModelTooHigh {
-                model_mm_z,
-                printer_mm_z,
-                fitting_scale: (printer_mm_z / model_mm_z * 1e4).floor() / 1e4,
-            }),
-            _ => Ok(grid),
-        }
-    }
-
-    /// The requested height, or `size_mm` rounded to the nanometre, which removes the noise of single precision.
-    pub fn height_mm(&self, size_mm: f64) -> f64 {
-        let asked_mm = self.pose.height_mm;
-        asked_mm.unwrap_or_else(|| (size_mm * 1e6).round() / 1e6)
-    }
-}
-
-impl Layering {
-    /// The limits of plans with this tolerance.
-    pub fn limits(&self, tolerance: f64) -> Limits {
-        Limits {
-            tolerance,
-            ..self.limits.clone()
-        }
-    }
-
-    /// Minimum and maximum layer thickness of a plan in these bins, in millimetres: rounded inward to whole motor steps, or
-    /// to whole bins if there is no step.
-    pub fn layer_range_mm(&self, bins: Bins) -> [f64; 2] {
-        let Limits {
-            layer_min_mm,
-            layer_max_mm,
-            ..
-        } = self.limits;
-        let limits = &self.limits;
-        let range = limits.thickness(bins, layer_min_mm, layer_max_mm);
-        match (range, limits.unit(bins)) {
-            (Ok(range), Ok(unit)) => {
-                [*range.start(), *range.end()].map(|units| bins.boundary_mm(units * unit))
-            }
-            // Uniform layers may be planned with a range that holds no thickness.
-            _ => [layer_min_mm, layer_max_mm],
-        }
-    }
-
-    /// What plans minimize.
-    pub fn objective(&self) -> Objective<'_> {
-        match self.minimize {
-            Minimize::Layers => Objective::Layers,
-            Minimize::Time => Objective::Time(&self.resin),
-        }
-    }
 }

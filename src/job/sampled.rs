@@ -2,7 +2,7 @@
 
 use web_time::Instant;
 
-use super::resolve::Sampling;
+use super::parts::Sampling;
 use super::stage::{Stage, StageProgress, ms_since};
 use super::{Backend, Error, GpuMethod, Timings};
 use crate::grid::Grid;

@@ -6,12 +6,12 @@ use std::sync::Arc;
 use web_time::Instant;
 
 use super::measured::Measured;
+use super::parts::{Job, Layering, Output, Sampling};
 use super::planned::{Extra, Planned, Planning, shapes_of};
 use super::report::{Origin, report_of};
-use super::resolve::{Job, Layering, Output, Sampling};
 use super::sampled::{Sampled, Sampler};
 use super::stage::{Stage, StageProgress, ms_since, report};
-use super::{Comparison, Error, MeshInfo, Options, Preview, Report, Timings, Tradeoff};
+use super::{Error, MeshInfo, Options, Preview, Report, Timings, Tradeoff};
 use crate::archive::{self, PrintJob};
 use crate::grid::Bins;
 use crate::ldi::LdiError;
@@ -179,7 +179,7 @@ impl Slicer {
     }
 
     /// Plans the model in its pose from the facets alone, and returns the plan with the exact profile. Without rays, facets
-    /// inside the solid count as well. The last plan is kept.
+    /// inside the solid count as well, and layers may have any thickness within the limits. The last plan is kept.
     ///
     /// # Errors
     /// [`Error::Mesh`], [`Error::Grid`], [`Error::Plan`], [`Error::Options`].
@@ -196,7 +196,7 @@ impl Slicer {
         let weights = self.known_weights(layering);
         let shapes = shapes_of(&facet_bins, extra, layering, weights)?;
         let planning = Planning::new(height_mm, &shapes, layering);
-        let plan = planning.plan()?;
+        let plan = planning.plan_freely()?;
         let preview = Preview {
             layers: plan.layers(),
             size_mm: size.to_array(),
@@ -239,7 +239,9 @@ impl Slicer {
             (kept.planned, kept.seen)
         } else {
             let clock = Instant::now();
-            let planned = Planned::new(&measured, &job.layering);
+            let planned = Planned::new(&measured, &job.layering, &mut |fraction| {
+                progress(Stage::Plan, fraction)
+            });
             let planned = planned.map_err(|error| options.typeable(error))?;
             timings.plan = ms_since(clock);
             (Arc::new(planned), None)
@@ -283,34 +285,9 @@ impl Slicer {
         Ok(Tradeoff { points })
     }
 
-    /// Compares the plans of five planners, from the coarsest to the finest (table 3). The last plan is kept.
-    ///
-    /// # Errors
-    /// Any [`Error`] of sampling and planning.
-    pub async fn compare(
-        &mut self,
-        options: &Options,
-        progress: &mut StageProgress<'_>,
-    ) -> Result<Comparison, Error> {
-        let job = options.resolve()?;
-        let mut timings = Timings::default();
-        let measured = self.measure(&job, &mut timings, progress).await?;
-        report(progress, Stage::Plan, 0.0)?;
-        let rows = Planning::of(&measured, &job.layering).compare()?;
-        report(progress, Stage::Plan, 1.0)?;
-        let metric = job.layering.metric;
-        Ok(Comparison {
-            facets: measured.of.mesh.surface_facets,
-            height_mm: measured.of.height_mm,
-            metric,
-            unit: metric.unit().to_owned(),
-            rows,
-        })
-    }
-
     /// Samples the model and measures its shape, or reuses results that are still valid. The last plan keeps the rays that
     /// it was made from.
-    async fn measure(
+    pub(super) async fn measure(
         &mut self,
         job: &Job,
         timings: &mut Timings,

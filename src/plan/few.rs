@@ -16,6 +16,10 @@ use super::optimal::{layers_above, tops};
 use super::segment::Segment;
 use crate::grid::Bins;
 use crate::profile::{LayerErrors, Reach};
+use crate::progress::{Cancelled, Progress, report};
+
+/// Number of times that a search reports its progress, if it takes all its steps.
+const REPORTS: u64 = 250;
 
 /// In place of a number of layers where there is no plan. Two of them can be added.
 const NO_PLAN: i32 = 1 << 29;
@@ -75,18 +79,31 @@ impl Search {
 
     /// The best set of at most `count` thicknesses, ascending and in units, and a proven lower bound of the layers; `None` if none
     /// has a plan. It ends early after `most_steps`, but not before it has found a set.
-    pub(super) fn run(mut self, count: usize, most_steps: u64) -> Option<(Vec<u32>, usize)> {
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub(super) fn run(
+        mut self,
+        count: usize,
+        most_steps: u64,
+        progress: &mut Progress<'_>,
+    ) -> Result<Option<(Vec<u32>, usize)>, Cancelled> {
         if count == 0 || self.thicknesses.is_empty() {
-            return None;
+            return Ok(None);
         }
         let (mut best, mut set) = self.descend(count);
         let mut least = NO_PLAN;
+        let mut next_report = 0;
         // The least bound first; of equal ones the narrower node, which is nearer to a single set.
         let mut open = BinaryHeap::new();
         let root = vec![(0, self.thicknesses.len() - 1); count];
         let bound = self.bound(&root, best);
         open.push(Reverse((bound, width(&root), root)));
         while let Some(Reverse((bound, _, node))) = open.pop() {
+            if self.steps >= next_report {
+                report(progress, (self.steps as f64 / most_steps as f64).min(1.0))?;
+                next_report = self.steps + most_steps / REPORTS;
+            }
             let is_early = self.steps >= most_steps && best < NO_PLAN;
             if bound >= best || is_early {
                 least = bound.min(best);
@@ -108,12 +125,12 @@ impl Search {
             }
         }
         if best >= NO_PLAN {
-            return None;
+            return Ok(None);
         }
         let mut units: Vec<u32> = set.iter().map(|&place| self.thicknesses[place]).collect();
         units.sort_unstable();
         units.dedup();
-        Some((units, least.min(best) as usize))
+        Ok(Some((units, least.min(best) as usize)))
     }
 
     /// A good set to begin with: one thickness after the other that helps most, then each exchanged for a better one while that

@@ -7,7 +7,7 @@ use std::collections::VecDeque;
 
 use super::optimal::{self, Objective, layers_above, tops};
 use super::preferred::SnapPlanes;
-use super::segment::{Segment, Segments};
+use super::segment::{Segment, Segments, boundaries_below};
 use super::tradeoff::least_steps;
 use super::{Limits, Plan, PlanError};
 use crate::grid::Bins;
@@ -17,7 +17,7 @@ use crate::profile::{LayerErrors, Reach};
 /// millimetres, rounded down to whole units. Among the plans with so few layers it returns one with the smallest maximum error.
 ///
 /// The change is bounded everywhere, also across mandatory planes and the ends of height ranges. The first layer may have any
-/// thickness of its range. A change of 0 asks for layers of one thickness, which rarely add up to the height between two planes.
+/// thickness of its range, and so may the one on a first layer that is fixed. A change of 0 asks for layers of one thickness, which rarely add up to the height between two planes.
 ///
 /// Cost: time in bins times thicknesses, whatever the change, and 4 bytes for each pair of them.
 ///
@@ -37,11 +37,7 @@ pub fn plan(errors: &LayerErrors, limits: &Limits, change_mm: f64) -> Result<Pla
     if change_mm >= 0.0 {
         let change = units.floor(change_mm).min(f64::from(widest)) as u32;
         if let Some(boundaries) = fewest(errors, &segments, change, tolerance) {
-            return Ok(Plan {
-                bins,
-                boundaries,
-                snap_planes: Vec::new(),
-            });
+            return Ok(Plan::new(bins, &segments, boundaries, Vec::new()));
         }
     }
     optimal::plan(errors, limits, SnapPlanes::NONE, Objective::Layers)?;
@@ -145,17 +141,17 @@ fn fewest(
     if *found == NO_PLAN {
         return None;
     }
-    let unit = segments[0].unit;
+    let Segment { lower, unit, .. } = segments[0];
     let (mut plane, mut thickness) = (top, widths.least + place as u32);
-    let mut boundaries = Vec::new();
+    let mut boundaries = boundaries_below(segments);
+    let below = boundaries.len();
     while plane > 0 {
-        boundaries.push(plane * unit);
+        boundaries.push(lower + plane * unit);
         let state = plane as usize * widths.count + widths.place(thickness);
         plane -= thickness;
         thickness = before[state];
     }
-    boundaries.push(0);
-    boundaries.reverse();
+    boundaries[below..].reverse();
     Some(boundaries)
 }
 

@@ -1,7 +1,7 @@
 //! Greedy planners, for comparison. They look no further than the next layer, so they may exceed the tolerance or use more
 //! layers than the optimal planner.
 
-use super::segment::{Segment, Segments};
+use super::segment::{Segment, Segments, boundaries_below};
 use super::{Limits, Plan, PlanError};
 use crate::profile::LayerErrors;
 
@@ -27,9 +27,12 @@ pub fn plan(
     let bins = errors.bins();
     limits.check(bins)?;
     let tolerance = errors.to_steps(limits.tolerance);
-    let laid_out = Segments::new(bins, limits, snap_planes)?;
-    let mut boundaries = vec![0];
-    for segment in &laid_out.segments {
+    let Segments {
+        segments,
+        snap_planes,
+    } = Segments::new(bins, limits, snap_planes)?;
+    let mut boundaries = boundaries_below(&segments);
+    for segment in &segments {
         let mut plane = 0;
         while plane < segment.units {
             let wanted = match sight {
@@ -40,11 +43,7 @@ pub fn plan(
             boundaries.push(segment.boundary(plane));
         }
     }
-    Ok(Plan {
-        bins,
-        boundaries,
-        snap_planes: laid_out.snap_planes,
-    })
+    Ok(Plan::new(bins, &segments, boundaries, snap_planes))
 }
 
 fn thickest_within(errors: &LayerErrors, segment: &Segment, plane: u32, tolerance: u64) -> u32 {

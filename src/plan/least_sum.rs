@@ -7,7 +7,7 @@
 
 use super::optimal::{self, Objective, layers_above, tops};
 use super::preferred::SnapPlanes;
-use super::segment::{Segment, Segments};
+use super::segment::{Segment, Segments, boundaries_below};
 use super::{Limits, Plan, PlanError};
 use crate::profile::{LayerErrors, Reach};
 
@@ -44,7 +44,8 @@ pub fn plans(
     let segments = Segments::new(bins, limits, &[])?.segments;
     let tolerance = errors.to_steps(limits.tolerance);
     let table = Errors::measure(errors, &segments, tolerance);
-    let found = table.plans(most_layers);
+    let below = boundaries_below(&segments);
+    let found = table.plans(most_layers.saturating_sub(below.len() - 1));
     if found.is_empty() {
         let fewest = optimal::plan(errors, limits, SnapPlanes::NONE, Objective::Layers)?;
         return Err(PlanError::LayersOutOfReach {
@@ -52,11 +53,12 @@ pub fn plans(
             least_layers: fewest.layers(),
         });
     }
-    let unit = segments[0].unit;
-    let plan = |planes: Vec<u32>| Plan {
-        bins,
-        boundaries: planes.into_iter().map(|plane| plane * unit).collect(),
-        snap_planes: Vec::new(),
+    let Segment { lower, unit, .. } = segments[0];
+    let plan = |planes: Vec<u32>| {
+        let above = planes.into_iter().skip(1);
+        let mut boundaries = below.clone();
+        boundaries.extend(above.map(|plane| lower + plane * unit));
+        Plan::new(bins, &segments, boundaries, Vec::new())
     };
     let found = found.into_iter();
     Ok(found

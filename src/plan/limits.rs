@@ -21,6 +21,9 @@ pub struct Limits {
     pub ranges: Vec<HeightRange>,
     /// Heights at which there must be a plane, in millimetres above the plate.
     pub planes_mm: Vec<f64>,
+    /// Thickness of the first layer in millimetres, whatever its error and the range of thicknesses; chosen like all others if
+    /// absent.
+    pub first_layer_mm: Option<f64>,
     /// The printer's motor step in millimetres: every height is a multiple of it. One bin if absent.
     pub step_mm: Option<f64>,
 }
@@ -85,12 +88,32 @@ impl Limits {
         Ok(least.min(limit) as u32..=greatest.min(limit) as u32)
     }
 
+    /// Thickness of the first layer in bins, if it is fixed; 0 otherwise.
+    ///
+    /// # Errors
+    /// [`PlanError::Quantity`], [`PlanError::NotWholeBins`] if it is no whole number of units.
+    pub fn first_layer(&self, bins: Bins) -> Result<u32, PlanError> {
+        let Some(first_layer_mm) = self.first_layer_mm else {
+            return Ok(0);
+        };
+        let unit = self.unit(bins)?;
+        let units = Bins {
+            count: bins.count,
+            size_mm: bins.boundary_mm(unit),
+        };
+        let whole = whole_bins(units, Quantity::FirstLayer, first_layer_mm)?;
+        // Above any model, and small enough to count in bins.
+        let limit = f64::from(bins.count as u32 / unit + 1);
+        Ok(whole.min(limit) as u32 * unit)
+    }
+
     /// Checks everything that does not depend on the model.
     ///
     /// # Errors
     /// [`PlanError`].
     pub fn check(&self, bins: Bins) -> Result<(), PlanError> {
         Quantity::Tolerance.check(self.tolerance)?;
+        self.first_layer(bins)?;
         self.thickness(bins, self.layer_min_mm, self.layer_max_mm)?;
         for range in &self.ranges {
             self.thickness(bins, range.layer_min_mm, range.layer_max_mm)?;

@@ -23,6 +23,7 @@ use crate::grid::Bins;
 use crate::profile::LayerErrors;
 use crate::quantity::{Quantity, QuantityError};
 use crate::resin::Resin;
+use segment::{Segment, boundaries_below};
 
 /// Why there is no plan.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
@@ -242,9 +243,22 @@ pub struct Plan {
     pub boundaries: Vec<u32>,
     /// The boundaries that are snap planes, in ascending order.
     pub snap_planes: Vec<u32>,
+    /// Number of layers from the plate upward that the tolerance does not cover, because their thickness is given: see
+    /// [`Limits::first_layer_mm`].
+    pub exempt_layers: usize,
 }
 
 impl Plan {
+    /// The plan whose `boundaries` fill these segments.
+    fn new(bins: Bins, segments: &[Segment], boundaries: Vec<u32>, snap_planes: Vec<u32>) -> Self {
+        Self {
+            bins,
+            boundaries,
+            snap_planes,
+            exempt_layers: boundaries_below(segments).len() - 1,
+        }
+    }
+
     /// Number of layers, K.
     pub fn layers(&self) -> usize {
         self.boundaries.len() - 1
@@ -286,14 +300,14 @@ impl Plan {
             .collect()
     }
 
-    /// The largest error of any layer, in steps of `errors`.
+    /// The largest error of the layers that the tolerance covers, in steps of `errors`.
     pub fn max_error_steps(&self, errors: &LayerErrors) -> u64 {
-        let layers = self.boundaries.windows(2);
+        let layers = self.boundaries[self.exempt_layers..].windows(2);
         let steps = layers.map(|layer| errors.steps_between(layer[0], layer[1]));
         steps.max().unwrap_or(0)
     }
 
-    /// The largest error of any layer, in the metric's unit.
+    /// The largest error of the layers that the tolerance covers, in the metric's unit.
     pub fn max_error(&self, errors: &LayerErrors) -> f64 {
         errors.to_value(self.max_error_steps(errors))
     }

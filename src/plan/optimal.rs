@@ -1,7 +1,7 @@
 //! The fewest layers within tolerance, or the shortest print time, by dynamic programming (Procedure 1).
 
 use super::preferred::{Preferred, SnapPlanes};
-use super::segment::{Segment, Segments};
+use super::segment::{Segment, Segments, boundaries_below};
 use super::{Limits, Plan, PlanError, timed, tradeoff};
 use crate::profile::{ErrorSum, LayerErrors, LayersAbove, Reach};
 use crate::resin::Resin;
@@ -86,11 +86,10 @@ pub fn within(
         Objective::Time(resin) => timed::quickest(errors, &segments, snap_planes, resin, tolerance),
     };
     Ok(match filled {
-        Ok(boundaries) => Ok(Plan {
-            bins,
-            snap_planes: kept(&segments, snap_planes.planes, &boundaries),
-            boundaries,
-        }),
+        Ok(boundaries) => {
+            let kept = kept(&segments, snap_planes.planes, &boundaries);
+            Ok(Plan::new(bins, &segments, boundaries, kept))
+        }
         Err(Stuck { segment, reached }) => {
             let segment = &segments[segment];
             let next = (reached + segment.thickness.start()).min(segment.units);
@@ -131,7 +130,7 @@ fn fewest(
     snap_planes: SnapPlanes<'_>,
     tolerance: u64,
 ) -> Result<Vec<u32>, Stuck> {
-    let mut boundaries = vec![0];
+    let mut boundaries = boundaries_below(segments);
     for (index, segment) in segments.iter().enumerate() {
         let preferred = Preferred::within(segment, snap_planes, 1);
         let table = match errors {

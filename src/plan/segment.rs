@@ -40,13 +40,13 @@ impl Segment {
     }
 
     /// The planes of the highest segment at which layers of few thicknesses may end, of which `least` is the least: the nearest to the
-    /// model's top first, the lower of two equally near. None is farther from it than half of `least`.
+    /// model's top first, the lower of two equally near. None is farther from it than half of `least`, or half the minimum thickness
+    /// of the segment if that is more.
     pub(super) fn ends(&self, bins: Bins, least: u32) -> Vec<u32> {
         let top = bins.count as u64;
         let height = top - top.min(u64::from(self.lower));
         let unit = u64::from(self.unit);
-        // No layer of the segment is thicker.
-        let reach = unit * u64::from(least.min(*self.thickness.end()));
+        let reach = unit * u64::from(least.clamp(*self.thickness.start(), *self.thickness.end()));
         let lowest = height.saturating_sub(reach / 2).div_ceil(unit).max(1);
         let highest = (height + reach / 2) / unit;
         let mut ends: Vec<u64> = (lowest..=highest)
@@ -64,10 +64,18 @@ impl Segment {
     }
 }
 
+/// The boundaries of a plan below its segments: the plate, and the top of the first layer if that is fixed.
+pub(super) fn boundaries_below(segments: &[Segment]) -> Vec<u32> {
+    let lowest = segments.first().map_or(0, |segment| segment.lower);
+    let mut boundaries = vec![0, lowest];
+    boundaries.dedup();
+    boundaries
+}
+
 /// The segments of a plan, and the snap planes between them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Segments {
-    /// Segments from the plate upward.
+    /// Segments from the plate, or from the top of a fixed first layer, upward.
     pub segments: Vec<Segment>,
     /// The snap planes that are kept, as boundaries of bins in ascending order.
     pub snap_planes: Vec<u32>,
@@ -76,7 +84,7 @@ pub struct Segments {
 impl Segments {
     /// Lays out the segments of a model of `bins`.
     ///
-    /// Mandatory planes are the plate, the ends of height ranges and [`Limits::planes_mm`]. Snap planes are added in their
+    /// Mandatory planes are the plate, the top of a fixed first layer, the ends of height ranges and [`Limits::planes_mm`]. Snap planes are added in their
     /// order, unless layers could no longer add up to the heights beside them; planners that choose their own pass none.
     ///
     /// The top moves to the nearest height that layers add up to, the lower one of two equally near. It moves by less
@@ -100,7 +108,7 @@ impl Segments {
             let Err(place) = planes.binary_search(&plane) else {
                 continue;
             };
-            if plane >= top {
+            if plane >= top || place == 0 {
                 continue;
             }
             // Only the two segments beside the new plane change.
@@ -123,6 +131,8 @@ impl Segments {
 struct Layout {
     bins: Bins,
     unit: u32,
+    /// Top of the first layer, if it is fixed; 0 otherwise.
+    first_layer: u32,
     /// Layer thickness in units, outside the height ranges.
     thickness: RangeInclusive<u32>,
     /// Height ranges in ascending order: first and last boundary, and layer thickness in units.
@@ -136,6 +146,7 @@ impl Layout {
         let mut layout = Self {
             bins,
             unit,
+            first_layer: limits.first_layer(bins)?,
             thickness,
             ranges: Vec::new(),
         };
@@ -165,21 +176,36 @@ impl Layout {
         units.clamp(0.0, f64::from(u32::MAX / 2 / self.unit)) as u32 * self.unit
     }
 
-    /// The mandatory planes below the top, in ascending order: the plate, the ends of ranges, and the planes that the
-    /// limits name.
+    /// The mandatory planes below the top, in ascending order: the plate or the top of a fixed first layer, the ends of ranges,
+    /// and the planes that the limits name.
     fn demanded_planes(&self, limits: &Limits) -> Result<Vec<u32>, PlanError> {
         let top = self.bins.count as u32;
-        let mut planes = vec![0];
+        let lowest = self.first_layer;
+        if lowest >= top {
+            return Err(PlanError::LayerTooThick {
+                layer_mm: self.bins.boundary_mm(lowest),
+                height_mm: self.bins.boundary_mm(top),
+            });
+        }
+        let mut planes = vec![lowest];
         for &(from, to, _) in &self.ranges {
             planes.extend([from, to]);
         }
-        planes.retain(|&plane| plane < top);
+        planes.retain(|plane| (lowest..top).contains(plane));
         for &z_mm in &limits.planes_mm {
             let plane = self.plane_at(z_mm);
             // A NaN casts to plane 0.
             if z_mm <= 0.0 || plane == 0 || plane > top {
                 let height_mm = self.bins.boundary_mm(top);
                 return Err(PlanError::BadPlane { z_mm, height_mm });
+            }
+            if plane < lowest {
+                return Err(self.do_not_fit(&Segment {
+                    lower: 0,
+                    units: plane / self.unit,
+                    unit: self.unit,
+                    thickness: lowest / self.unit..=lowest / self.unit,
+                }));
             }
             if plane < top {
                 planes.push(plane);

@@ -4,18 +4,19 @@
 //! [`at_most`] chooses the best ones.
 //!
 //! Layers of few thicknesses rarely add up to the height of the model. The top is therefore the nearest height that they reach
-//! within tolerance, the lower of two equally near. It moves by at most half the least thickness of the set. Mandatory planes do not
-//! move.
+//! within tolerance, the lower of two equally near. It moves by at most half the least thickness of the set, or half the minimum
+//! thickness if that is more. Mandatory planes do not move.
 
 use super::few::Search;
 use super::limits::whole_bins;
 use super::optimal::{self, Objective, Table, layers_above};
 use super::preferred::SnapPlanes;
-use super::segment::{Segment, Segments};
+use super::segment::{Segment, Segments, boundaries_below};
 use super::tradeoff::{least_steps, round_up};
 use super::{Limits, Plan, PlanError};
 use crate::grid::Bins;
 use crate::profile::{LayerErrors, Reach};
+use crate::progress::{Cancelled, Progress};
 use crate::quantity::Quantity;
 
 /// Plans the fewest layers within tolerance whose thicknesses, in millimetres, are all in a set. Among the plans with so few layers
@@ -93,41 +94,50 @@ pub const DEFAULT_STEPS: u64 = 10_000_000_000;
 /// 4 bytes for each pair of bin and thickness.
 ///
 /// # Errors
-/// [`PlanError::TooFewThicknesses`] if no set of so many has a plan, [`PlanError::Infeasible`] if no thicknesses have. Other
+/// [`Cancelled`]. Otherwise [`PlanError::TooFewThicknesses`] if no set of so many has a plan, [`PlanError::Infeasible`] if no thicknesses have. Other
 /// [`PlanError`]s are for contradictory limits.
 pub fn at_most(
     errors: &LayerErrors,
     limits: &Limits,
     count: usize,
     most_steps: u64,
-) -> Result<FewThicknesses, PlanError> {
+    progress: &mut Progress<'_>,
+) -> Result<Result<FewThicknesses, PlanError>, Cancelled> {
     let bins = errors.bins();
-    limits.check(bins)?;
-    let segments = Segments::new(bins, limits, &[])?.segments;
+    let laid_out = limits
+        .check(bins)
+        .and_then(|()| Segments::new(bins, limits, &[]));
+    let segments = match laid_out {
+        Ok(Segments { segments, .. }) => segments,
+        Err(error) => return Ok(Err(error)),
+    };
     let tolerance = errors.to_steps(limits.tolerance);
-    let found = Search::new(errors, &segments, tolerance).run(count, most_steps);
+    let found = Search::new(errors, &segments, tolerance).run(count, most_steps, progress)?;
     if let Some((set, least_layers)) = found
         && let Ok(plan) = fewest(errors, &segments, &set, tolerance)
     {
-        return Ok(FewThicknesses {
+        return Ok(Ok(FewThicknesses {
             thicknesses_mm: distinct(&plan)
                 .into_iter()
                 .map(|thickness| bins.boundary_mm(thickness))
                 .collect(),
+            least_layers: least_layers + plan.exempt_layers,
             plan,
-            least_layers,
-        });
+        }));
     }
-    let unrestricted = optimal::plan(errors, limits, SnapPlanes::NONE, Objective::Layers)?;
-    Err(PlanError::TooFewThicknesses {
-        thicknesses: count,
-        enough: distinct(&unrestricted).len(),
-    })
+    let unrestricted = optimal::plan(errors, limits, SnapPlanes::NONE, Objective::Layers);
+    Ok(Err(unrestricted.map_or_else(
+        |error| error,
+        |plan| PlanError::TooFewThicknesses {
+            thicknesses: count,
+            enough: distinct(&plan).len(),
+        },
+    )))
 }
 
-/// The thicknesses of a plan in bins, ascending.
+/// The thicknesses of a plan in bins, ascending, without that of a fixed first layer.
 fn distinct(plan: &Plan) -> Vec<u32> {
-    let layers = plan.boundaries.windows(2);
+    let layers = plan.boundaries[plan.exempt_layers..].windows(2);
     let mut thicknesses: Vec<u32> = layers.map(|layer| layer[1] - layer[0]).collect();
     thicknesses.sort_unstable();
     thicknesses.dedup();
@@ -150,7 +160,7 @@ fn fewest(
     tolerance: u64,
 ) -> Result<Plan, Stuck> {
     let bins = errors.bins();
-    let mut boundaries = vec![0];
+    let mut boundaries = boundaries_below(segments);
     for (index, segment) in segments.iter().enumerate() {
         let ends = if index + 1 < segments.len() {
             vec![segment.units]
@@ -167,11 +177,7 @@ fn fewest(
         };
         boundaries.extend(table.planes_to(end).map(|plane| segment.boundary(plane)));
     }
-    Ok(Plan {
-        bins,
-        boundaries,
-        snap_planes: Vec::new(),
-    })
+    Ok(Plan::new(bins, segments, boundaries, Vec::new()))
 }
 
 /// The fewest layers of a set up to every plane, and the smallest maximum error of so many.

@@ -3,7 +3,7 @@
 
 use super::optimal::{Stuck, Table, layers_above, tops};
 use super::preferred::{Preferred, SnapPlanes};
-use super::segment::Segment;
+use super::segment::{Segment, boundaries_below};
 use crate::profile::{LayerErrors, Reach};
 use crate::resin::Resin;
 
@@ -30,7 +30,9 @@ pub(super) fn quickest(
     let bottom_us = resin.bottom_layer_us();
     // The plans below the segment, by their layers: time, weight of missed snap planes, and maximum error.
     let mut starts = vec![None; bottom + 1];
-    starts[0] = Some([0; 3]);
+    let mut boundaries = boundaries_below(segments);
+    let below = boundaries.len() - 1;
+    starts[below.min(bottom)] = Some([0; 3]);
     let mut filled: Vec<Tables> = Vec::with_capacity(segments.len());
     for (index, segment) in segments.iter().enumerate() {
         let unit_mm = f64::from(segment.unit) * errors.bins().size_mm;
@@ -62,7 +64,6 @@ pub(super) fn quickest(
         .filter_map(|(layers, end)| Some((end.as_ref()?, layers)))
         .min();
     let mut layers = best.map_or(0, |(_, layers)| layers);
-    let mut boundaries = vec![0];
     for (segment, tables) in segments.iter().zip(&filled).rev() {
         let mut plane = segment.units;
         while plane > 0 {

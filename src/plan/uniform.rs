@@ -5,27 +5,37 @@ use super::{Plan, PlanError};
 use crate::grid::Bins;
 use crate::quantity::Quantity;
 
-/// Layers of `layer_mm` each, from the plate to the top.
+/// Layers of `layer_mm` each, from the plate to the top, on a first layer of as many bins as `first_layer` unless that is 0.
 ///
 /// The last layer is the last one whose middle, where its mask is sampled, lies below the top. The printed
 /// height therefore differs from the model's by at most half a layer.
 ///
 /// # Errors
 /// [`PlanError::Quantity`], [`PlanError::NotWholeBins`], [`PlanError::LayerTooThick`].
-pub fn plan(bins: Bins, height_mm: f64, layer_mm: f64) -> Result<Plan, PlanError> {
+pub fn plan(
+    bins: Bins,
+    height_mm: f64,
+    layer_mm: f64,
+    first_layer: u32,
+) -> Result<Plan, PlanError> {
     let thickness = thickness_in_bins(bins, layer_mm)?;
-    if 0.5 * thickness * bins.size_mm >= height_mm {
+    let above_mm = height_mm - bins.boundary_mm(first_layer);
+    if 0.5 * thickness * bins.size_mm >= above_mm {
         return Err(PlanError::LayerTooThick {
             layer_mm,
             height_mm,
         });
     }
-    let layers = (height_mm / bins.size_mm / thickness - 0.5).ceil().max(1.0);
+    let layers = (above_mm / bins.size_mm / thickness - 0.5).ceil().max(1.0);
     let (thickness, layers) = (thickness as u32, layers as u32);
+    let mut boundaries = vec![0];
+    let first = u32::from(first_layer == 0);
+    boundaries.extend((first..=layers).map(|layer| first_layer + layer * thickness));
     Ok(Plan {
         bins,
-        boundaries: (0..=layers).map(|layer| layer * thickness).collect(),
+        boundaries,
         snap_planes: Vec::new(),
+        exempt_layers: usize::from(first_layer > 0),
     })
 }
 

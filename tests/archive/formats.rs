@@ -149,7 +149,7 @@ fn every_format_has_grey_masks_with_anti_aliasing() {
         let fine = grid.refined(samples.rays());
         let ldi = cpu::sample(&mesh, &fine, &mut |_| ControlFlow::Continue(())).unwrap();
         let bins = Bins::of_height(report.height_mm, report.bin_mm).unwrap();
-        let plan = uniform::plan(bins, report.height_mm, 0.1).unwrap();
+        let plan = uniform::plan(bins, report.height_mm, 0.1, 0).unwrap();
         let masks = Masks::new(&ldi, &plan, &grid, samples, Side::Above);
         let mut cursor = masks.cursor();
         let mut greys = std::collections::BTreeSet::new();

@@ -2,6 +2,8 @@
 
 use std::io::{BufRead as _, BufReader};
 use std::path::Path;
+#[cfg(target_os = "linux")]
+use std::process::Child;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
@@ -46,6 +48,68 @@ fn an_interrupt_stops_a_batch_in_which_a_model_is_bad() {
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130));
     assert!(output.stdout.is_empty());
+}
+
+/// Waits until a process handles interrupts itself.
+#[cfg(target_os = "linux")]
+fn wait_for_its_handler(child: &mut Child) {
+    const INTERRUPT: u64 = 1 << 1;
+    let clock = Instant::now();
+    loop {
+        assert!(clock.elapsed() < Duration::from_mins(2), "no handler");
+        assert_eq!(child.try_wait().unwrap(), None, "ended too soon");
+        let status = std::fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap();
+        let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:"));
+        let caught = caught.and_then(|caught| u64::from_str_radix(caught.trim(), 16).ok());
+        if caught.is_some_and(|caught| caught & INTERRUPT != 0) {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(2));
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn an_interrupt_stops_long_work_that_writes_nothing() {
+    let folder = TempDir::new().unwrap();
+    let ball = model(&folder, "ball.stl", &binary_stl(&solids::sphere(10.0, 6)));
+    let print = folder.path().join("print.zip").display().to_string();
+    let sliced = Command::new(env!("CARGO_BIN_EXE_cusp"))
+        .args(["slice", &ball, "-o", &print, "--backend", "cpu"])
+        .output();
+    assert!(sliced.unwrap().status.success());
+    let works: [&[&str]; 2] = [
+        &["simulate", &ball, &print],
+        // Six thicknesses take minutes.
+        &[
+            "plan",
+            &ball,
+            "--max-thicknesses",
+            "6",
+            "--backend",
+            "cpu",
+            "--height",
+            "60",
+        ],
+    ];
+    for work in works {
+        let mut child = with_default_signals()
+            .args(work)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        wait_for_its_handler(&mut child);
+        // Into the work itself.
+        std::thread::sleep(Duration::from_millis(300));
+        let process = child.id().to_string();
+        let kill = Command::new("kill").args(["-INT", &process]).status();
+        assert!(kill.unwrap().success());
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(String::from_utf8_lossy(&output.stderr), "cusp: cancelled\n");
+        assert_eq!(output.status.code(), Some(130), "{work:?}");
+        assert!(output.stdout.is_empty());
+    }
 }
 
 #[test]

@@ -10,6 +10,8 @@ mod info;
 mod interrupt;
 mod orient;
 mod plan;
+mod simulate;
+mod thicknesses;
 mod usage;
 mod verify;
 

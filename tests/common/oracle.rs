@@ -53,6 +53,8 @@ pub struct Rules {
     pub planes: Vec<usize>,
     /// Every boundary is a multiple of this.
     pub step: usize,
+    /// Thickness of the first layer, whatever its error; 0 if it is like all others.
+    pub first_layer: usize,
 }
 
 impl Rules {
@@ -62,6 +64,7 @@ impl Rules {
             thickness: vec![thickness; bins],
             planes: Vec::new(),
             step: 1,
+            first_layer: 0,
         }
     }
 }
@@ -83,8 +86,16 @@ pub fn best_plan<E: PartialOrd + Copy + Default>(
         }
         let (mut below, mut sum, mut worst) = (0, 0, E::default());
         for (layer, plane) in (1..=bins).filter(|&plane| is_plane(plane)).enumerate() {
-            let (least, greatest) = rules.thickness[below];
-            let of_layer = error(below, plane);
+            let is_fixed = layer == 0 && rules.first_layer > 0;
+            let (least, greatest) = match rules.first_layer {
+                thickness if is_fixed => (thickness, thickness),
+                _ => rules.thickness[below],
+            };
+            let of_layer = if is_fixed {
+                E::default()
+            } else {
+                error(below, plane)
+            };
             let is_thick = (least..=greatest).contains(&(plane - below));
             if !is_thick || plane % rules.step != 0 || of_layer > tolerance {
                 continue 'plans;

@@ -2,7 +2,7 @@
 
 use crate::common::{assert_near, solids};
 use cusp_slicer::Error;
-use cusp_slicer::job::{Options, Planner};
+use cusp_slicer::job::{Minimize, Options, OptionsError, Planner};
 use cusp_slicer::plan::{HeightRange, PlanError};
 use std::ops::ControlFlow;
 
@@ -49,6 +49,39 @@ fn options_that_no_model_could_make_good_are_refused_before_sampling() {
         let result = pollster::block_on(slicer.plan(&options, &mut count));
         assert_eq!(code(result), expected);
         assert_eq!(calls, 0);
+    }
+}
+
+#[test]
+fn a_thickness_rule_goes_with_a_tolerance_and_the_optimal_planner_alone() {
+    type Setting = (&'static str, fn(&mut Options));
+    let rules: [Setting; 3] = [
+        ("thicknesses_mm", |it| it.thicknesses_mm = vec![0.05, 0.1]),
+        ("max_thicknesses", |it| it.max_thicknesses = Some(3)),
+        ("max_change_mm", |it| it.max_change_mm = Some(0.01)),
+    ];
+    let others: [Setting; 4] = [
+        ("planner", |it| it.planner = Planner::Greedy),
+        ("minimize", |it| it.minimize = Minimize::Time),
+        ("max_layers", |it| it.max_layers = Some(100)),
+        ("max_time_s", |it| it.max_time_s = Some(1e4)),
+    ];
+    for (place, (rule, set_rule)) in rules.iter().enumerate() {
+        let mut options = options();
+        set_rule(&mut options);
+        options.check().unwrap();
+        for (other, set) in others.iter().chain(&rules[place + 1..]) {
+            let mut both = options.clone();
+            set(&mut both);
+            let Err(Error::Options(OptionsError::Contradictory {
+                option,
+                other: found,
+            })) = both.check()
+            else {
+                panic!("{rule} and {other}");
+            };
+            assert_eq!((option, found), (*rule, *other));
+        }
     }
 }
 

@@ -54,7 +54,7 @@ fn a_greedy_planner_that_sees_the_plane_alone_takes_its_slope_for_all() {
 fn uniform_layers_end_within_half_a_layer_of_the_top() {
     for (height_mm, layers) in [(10.0, 5), (10.9, 5), (11.1, 6), (1.2, 1)] {
         let bins = Bins::of_height(height_mm, 0.1).unwrap();
-        let plan = uniform::plan(bins, height_mm, 2.0).unwrap();
+        let plan = uniform::plan(bins, height_mm, 2.0, 0).unwrap();
         assert_eq!(plan.layers(), layers, "{height_mm} mm");
         let thickness_mm = plan.thickness_mm();
         assert!(
@@ -63,11 +63,23 @@ fn uniform_layers_end_within_half_a_layer_of_the_top() {
                 .all(|thickness_mm| (thickness_mm - 2.0).abs() < 1e-12)
         );
     }
-    let too_thick = uniform::plan(Bins::of_height(0.4, 0.1).unwrap(), 0.4, 2.0);
+    let too_thick = uniform::plan(Bins::of_height(0.4, 0.1).unwrap(), 0.4, 2.0, 0);
     assert!(matches!(too_thick, Err(PlanError::LayerTooThick { .. })));
     let bins = Bins::of_height(10.0, 0.1).unwrap();
     for layer_mm in [0.25, 0.05] {
-        let result = uniform::plan(bins, 10.0, layer_mm);
+        let result = uniform::plan(bins, 10.0, layer_mm, 0);
         assert!(matches!(result, Err(PlanError::NotWholeBins { .. })));
     }
+}
+
+#[test]
+fn a_fixed_first_layer_is_below_uniform_ones() {
+    // Of 10 mm, 3 are the first layer; the middle of the last one, at 9.5 mm, is still within.
+    let bins = Bins::of_height(10.0, 0.5).unwrap();
+    let plan = uniform::plan(bins, 10.0, 2.0, 6).unwrap();
+    assert_eq!(plan.z_mm(), [0.0, 3.0, 5.0, 7.0, 9.0]);
+    assert_eq!(plan.exempt_layers, 1);
+    let higher = uniform::plan(bins, 10.0, 1.0, 3).unwrap();
+    assert_eq!(higher.z_mm()[..3], [0.0, 1.5, 2.5]);
+    assert_eq!(higher.z_mm()[9..], [9.5]);
 }

@@ -38,6 +38,12 @@ pub fn random(random: &mut fastrand::Rng, most: usize) -> Case {
             rules.planes = vec![plane];
         }
     }
+    // It may be outside the range of thicknesses, or too thick for the plane above it.
+    let first_layer = random.usize(1..=5).next_multiple_of(rules.step);
+    if random.u8(0..4) == 0 && count > first_layer {
+        limits.first_layer_mm = Some(first_layer as f64);
+        rules.first_layer = first_layer;
+    }
     if random.u8(0..4) == 0 && count > 4 {
         let (from, to) = (2, 4);
         let (least, greatest) = (random.usize(1..=2), random.usize(2..=3));
@@ -47,7 +53,9 @@ pub fn random(random: &mut fastrand::Rng, most: usize) -> Case {
             layer_min_mm: least as f64,
             layer_max_mm: greatest as f64,
         }];
-        rules.planes.extend([from, to]);
+        let ends = [from, to].into_iter();
+        let above_first = ends.filter(|&end| end >= rules.first_layer);
+        rules.planes.extend(above_first);
         rules.thickness[from..to].fill((least, greatest));
     }
     let text = format!("{text} {limits:?}");
@@ -72,6 +80,9 @@ impl Case {
         let tolerance = self.errors.to_steps(self.limits.tolerance);
         let is_possible = |layer: &[u32]| {
             let (below, above) = (layer[0] as usize, layer[1] as usize);
+            if below == 0 && self.rules.first_layer > 0 {
+                return above == self.rules.first_layer;
+            }
             let Some(&(least, greatest)) = self.rules.thickness.get(below) else {
                 return false;
             };
@@ -92,9 +103,14 @@ impl Case {
             .collect()
     }
 
+    /// The boundaries of the layers that the tolerance covers.
+    pub fn covered<'a>(&self, boundaries: &'a [u32]) -> &'a [u32] {
+        &boundaries[usize::from(self.rules.first_layer > 0)..]
+    }
+
     /// The sum of the errors of a plan's layers, and the largest of them, in steps.
     pub fn sum_and_worst(&self, boundaries: &[u32]) -> (u64, u64) {
-        let layers = boundaries.windows(2);
+        let layers = self.covered(boundaries).windows(2);
         let errors = layers.map(|layer| self.errors.steps_between(layer[0], layer[1]));
         let errors: Vec<u64> = errors.collect();
         (
@@ -109,7 +125,7 @@ impl Case {
     }
 }
 
-/// The thicknesses of a plan of whole bins.
+/// The thicknesses between boundaries.
 pub fn thicknesses(boundaries: &[u32]) -> Vec<u32> {
     boundaries
         .windows(2)

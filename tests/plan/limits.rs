@@ -4,9 +4,11 @@ use cusp_slicer::grid::Bins;
 use cusp_slicer::plan::optimal::{self, Objective};
 use cusp_slicer::plan::preferred::{Price, SnapPlanes};
 use cusp_slicer::plan::segment::Segments;
-use cusp_slicer::plan::{HeightRange, Limits, PlanError, uniform};
+use cusp_slicer::plan::{HeightRange, Limits, Plan, PlanError, uniform};
 use cusp_slicer::profile::{LayerErrors, Profile};
+use cusp_slicer::quantity::Quantity;
 
+use crate::common::assert_near;
 use crate::{bins, limits, plan, sum};
 
 #[test]
@@ -197,7 +199,7 @@ fn limits_far_beyond_the_model_are_no_trouble() {
         matches!(thick, Err(PlanError::LayersDoNotFit { .. })),
         "{thick:?}"
     );
-    let too_thick = uniform::plan(bins(10), 10.0, 1e9);
+    let too_thick = uniform::plan(bins(10), 10.0, 1e9, 0);
     assert!(
         matches!(too_thick, Err(PlanError::LayerTooThick { .. })),
         "{too_thick:?}"
@@ -225,4 +227,60 @@ fn limits_are_checked() {
             "{empty:?}: {result:?}"
         );
     }
+}
+
+#[test]
+fn the_first_layer_may_be_fixed_whatever_its_error() {
+    // The lowest bins alone exceed the tolerance many times.
+    let mut density = vec![0.1; 40];
+    density[..6].fill(50.0);
+    let fixed = Limits {
+        first_layer_mm: Some(8.0),
+        ..limits(2.0, 5.0, 0.5)
+    };
+    assert!(plan(&density, &limits(2.0, 5.0, 0.5)).is_err());
+    let found = plan(&density, &fixed).unwrap();
+    assert_eq!(found.boundaries[..2], [0, 8]);
+    assert_eq!((found.layers(), found.exempt_layers), (8, 1));
+    let errors = sum(&density);
+    assert_near(found.max_error(&errors), 0.5, 1e-6);
+    let whole = Plan {
+        exempt_layers: 0,
+        ..found.clone()
+    };
+    assert!(whole.max_error(&errors) > 300.0);
+}
+
+#[test]
+fn a_first_layer_that_cannot_be_is_told() {
+    let first = |first_layer_mm: f64, planes_mm: Vec<f64>, step_mm: Option<f64>| {
+        let limits = Limits {
+            first_layer_mm: Some(first_layer_mm),
+            planes_mm,
+            step_mm,
+            ..limits(2.0, 5.0, 100.0)
+        };
+        plan(&[0.1; 20], &limits).unwrap_err()
+    };
+    let quantity = Quantity::FirstLayer;
+    assert!(
+        matches!(first(1.5, vec![], None), PlanError::NotWholeBins { quantity: it, .. } if it == quantity)
+    );
+    assert!(matches!(
+        first(3.0, vec![], Some(2.0)),
+        PlanError::NotWholeBins { .. }
+    ));
+    for too_thick in [20.0, 21.0, 1e12] {
+        let error = first(too_thick, vec![], None);
+        assert!(matches!(error, PlanError::LayerTooThick { .. }), "{error}");
+    }
+    assert!(matches!(
+        first(f64::NAN, vec![], None),
+        PlanError::Quantity(_)
+    ));
+    let within = first(6.0, vec![4.0], None);
+    assert_eq!(
+        within.to_string(),
+        "layers of 6 to 6 mm do not add up to the height from 0 to 4 mm; widen the range of thicknesses or move the planes"
+    );
 }

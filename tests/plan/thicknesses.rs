@@ -1,7 +1,11 @@
 //! Plans with few thicknesses, against brute force over all sets of thicknesses and of planes.
 
-use cusp_slicer::plan::thicknesses::DEFAULT_STEPS;
-use cusp_slicer::plan::{PlanError, thicknesses};
+use std::ops::ControlFlow;
+
+use cusp_slicer::plan::thicknesses::{DEFAULT_STEPS, FewThicknesses};
+use cusp_slicer::plan::{Limits, PlanError, thicknesses};
+use cusp_slicer::profile::LayerErrors;
+use cusp_slicer::progress::silent;
 
 use crate::cases::{self, Case, assert_without_snap_planes};
 use crate::{limits, sum, volume};
@@ -15,7 +19,8 @@ impl All {
     fn of(case: &Case) -> Self {
         // No layer of a case is thicker than 6 bins.
         let highest_plane = case.rules.planes.iter().max().copied().unwrap_or(0);
-        let lowest = case.count.saturating_sub(3).max(highest_plane + 1) as u32;
+        let lowest_end = highest_plane.max(case.rules.first_layer) + 1;
+        let lowest = case.count.saturating_sub(3).max(lowest_end) as u32;
         let tops = lowest..=case.count as u32 + 3;
         Self {
             plans: tops.map(|top| (top, case.plans_to(top))).collect(),
@@ -24,7 +29,11 @@ impl All {
 
     /// Layers and largest error of the best plan with thicknesses of a set, at the nearest height that they reach.
     fn best(&self, case: &Case, set: &[u32]) -> Option<(usize, u64)> {
-        let least = *set.iter().min()?;
+        let (thinnest, thickest) = *case.rules.thickness.last()?;
+        let step = case.rules.step;
+        let thinnest = thinnest.next_multiple_of(step) as u32;
+        let least =
+            (*set.iter().min()?).clamp(thinnest, thinnest.max((thickest / step * step) as u32));
         let count = case.count as u32;
         let mut tops: Vec<_> = self
             .plans
@@ -37,13 +46,22 @@ impl All {
         tops.sort_by_key(|(top, _)| (top.abs_diff(count), *top));
         tops.into_iter().find_map(|(_, plans)| {
             let of_set = |plan: &&Vec<u32>| {
-                let mut thicknesses = cases::thicknesses(plan).into_iter();
+                let mut thicknesses = cases::thicknesses(case.covered(plan)).into_iter();
                 thicknesses.all(|thickness| set.contains(&thickness))
             };
             let found = plans.iter().filter(of_set);
             found.map(|plan| case.layers_and_worst(plan)).min()
         })
     }
+}
+
+fn at_most(
+    errors: &LayerErrors,
+    limits: &Limits,
+    count: usize,
+    steps: u64,
+) -> Result<FewThicknesses, PlanError> {
+    thicknesses::at_most(errors, limits, count, steps, &mut silent).unwrap()
 }
 
 fn in_mm(set: &[u32]) -> Vec<f64> {
@@ -102,7 +120,7 @@ fn no_other_set_of_thicknesses_has_fewer_layers() {
     for _ in 0..3000 {
         let case = cases::random(&mut random, 10);
         let most = random.usize(0..=4);
-        let found = thicknesses::at_most(&case.errors, &case.limits, most, DEFAULT_STEPS);
+        let found = at_most(&case.errors, &case.limits, most, DEFAULT_STEPS);
         let text = format!("{} {most} {found:?}", case.text);
         if case.top().is_err() {
             assert!(found.is_err(), "{text}");
@@ -124,10 +142,10 @@ fn no_other_set_of_thicknesses_has_fewer_layers() {
                 assert_without_snap_planes(&found.plan);
                 assert_eq!(found.plan.layers(), layers, "{text}");
                 assert_eq!(found.least_layers, layers, "{text}");
-                let early = thicknesses::at_most(&case.errors, &case.limits, most, 0).unwrap();
+                let early = at_most(&case.errors, &case.limits, most, 0).unwrap();
                 let bounds = early.least_layers..=early.plan.layers();
                 assert!(bounds.contains(&layers), "{text} {early:?}");
-                let mut used = cases::thicknesses(&found.plan.boundaries);
+                let mut used = cases::thicknesses(case.covered(&found.plan.boundaries));
                 used.sort_unstable();
                 used.dedup();
                 assert_eq!(found.thicknesses_mm, in_mm(&used), "{text}");
@@ -140,7 +158,7 @@ fn no_other_set_of_thicknesses_has_fewer_layers() {
             }
             (Err(PlanError::TooFewThicknesses { enough, .. }), None) => {
                 too_few += 1;
-                let found = thicknesses::at_most(&case.errors, &case.limits, enough, DEFAULT_STEPS);
+                let found = at_most(&case.errors, &case.limits, enough, DEFAULT_STEPS);
                 assert!(found.is_ok(), "{text} {found:?}");
             }
             (Err(PlanError::Infeasible { .. }), None) => infeasible += 1,
@@ -171,16 +189,45 @@ fn planted_thicknesses_are_found() {
         areas.extend(vec![f64::from(step % 7 + 1); thickness]);
     }
     let (errors, limits) = (volume(&areas), limits(12.0, 40.0, 0.0));
-    let found = thicknesses::at_most(&errors, &limits, 3, DEFAULT_STEPS).unwrap();
+    let found = at_most(&errors, &limits, 3, DEFAULT_STEPS).unwrap();
     assert_eq!(found.thicknesses_mm, [12.0, 20.0, 33.0]);
     assert_eq!(found.plan.layers(), 60);
     let given = thicknesses::of(&errors, &limits, &[33.0, 12.0, 20.0]).unwrap();
     assert_eq!(given, found.plan);
-    let few = thicknesses::at_most(&errors, &limits, 2, DEFAULT_STEPS);
+    let few = at_most(&errors, &limits, 2, DEFAULT_STEPS);
     assert!(
         matches!(few, Err(PlanError::TooFewThicknesses { .. })),
         "{few:?}"
     );
+}
+
+#[test]
+fn a_search_for_thicknesses_tells_its_progress_and_can_be_cancelled() {
+    let errors = volume(
+        &(0..400)
+            .map(|bin| f64::from(bin * bin % 97))
+            .collect::<Vec<_>>(),
+    );
+    let limits = limits(5.0, 25.0, 500.0);
+    let mut told = Vec::new();
+    let whole = thicknesses::at_most(&errors, &limits, 3, 1 << 22, &mut |fraction| {
+        told.push(fraction);
+        ControlFlow::Continue(())
+    });
+    assert!(whole.is_ok());
+    assert!(told.len() > 5 && told.is_sorted(), "{told:?}");
+    assert!(told.iter().all(|fraction| (0.0..=1.0).contains(fraction)));
+    let mut calls = 0;
+    let cancelled = thicknesses::at_most(&errors, &limits, 3, 1 << 22, &mut |_| {
+        calls += 1;
+        if calls < 3 {
+            ControlFlow::Continue(())
+        } else {
+            ControlFlow::Break(())
+        }
+    });
+    assert!(cancelled.is_err());
+    assert_eq!(calls, 3);
 }
 
 #[test]

@@ -7,7 +7,6 @@ use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, ValueEnum};
 use cusp_slicer::format::Format;
 use cusp_slicer::job::{BIN_MM, Backend, GpuMethod, Minimize, Options, Planner, Snap};
-use cusp_slicer::mask::LEVELS;
 use cusp_slicer::orientation::shard::Shard;
 use cusp_slicer::orientation::{Cost, MAX_DIRECTIONS, Quality, SearchOptions};
 use cusp_slicer::plan::HeightRange;
@@ -16,6 +15,10 @@ use cusp_slicer::resin::Resin;
 
 use crate::Cli;
 use crate::files::{Failure, WeightsFile, in_file};
+use crate::values::{
+    antialias, fraction, height_range, length, not_negative, pitch, pixels, positive, rotation,
+    shard, uniform_layer,
+};
 
 /// A model, and how to slice it.
 #[derive(Args)]
@@ -78,6 +81,18 @@ pub struct Choices {
     /// Maximum layer thickness
     #[arg(long, value_name = "MM", default_value_t = Options::default().layer_max_mm, value_parser = length, help_heading = "Layers")]
     layer_max: f64,
+    /// Thickness of the first layer, whatever its error: the tolerance holds above it
+    #[arg(long, value_name = "MM", value_parser = length, help_heading = "Layers")]
+    first_layer: Option<f64>,
+    /// The only layer thicknesses, in place of a range: each needs an exposure of its own
+    #[arg(long, value_name = "MM,MM,...", value_delimiter = ',', value_parser = length, conflicts_with_all = ["layer_min", "layer_max", "max_thicknesses", "max_change"], help_heading = "Layers")]
+    thicknesses: Vec<f64>,
+    /// Choose at most this many distinct layer thicknesses: the best ones for the model
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), conflicts_with = "max_change", help_heading = "Layers")]
+    max_thicknesses: Option<u32>,
+    /// Change the layer thickness by at most this from one layer to the next
+    #[arg(long, value_name = "MM", value_parser = not_negative, help_heading = "Layers")]
+    max_change: Option<f64>,
     #[arg(long, value_name = "ERROR", value_parser = not_negative, help = tolerance_help(), help_heading = "Layers")]
     tolerance: Option<f64>,
     /// Find the smallest tolerance that needs at most this many layers
@@ -189,6 +204,10 @@ impl Choices {
             format: self.format,
             layer_min_mm: self.layer_min,
             layer_max_mm: self.layer_max,
+            first_layer_mm: self.first_layer,
+            thicknesses_mm: self.thicknesses.clone(),
+            max_thicknesses: self.max_thicknesses.map(|count| count as usize),
+            max_change_mm: self.max_change,
             tolerance: self.tolerance,
             max_layers: self.max_layers,
             max_time_s: self.max_time,
@@ -244,88 +263,6 @@ fn bin_help() -> String {
     )
 }
 
-/// Parses a positive length.
-pub fn length(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
-        _ => Err("expected a positive number of millimetres".to_owned()),
-    }
-}
-
-/// Parses `P` or `PxQ`.
-fn pitch(text: &str) -> Result<[f64; 2], String> {
-    match text.split_once(['x', 'X', '×']) {
-        Some((x, y)) => Ok([length(x)?, length(y)?]),
-        None => Ok([length(text)?; 2]),
-    }
-}
-
-/// Parses `X,Y,Z,W`.
-pub fn rotation(text: &str) -> Result<[f64; 4], String> {
-    let parts = text.split(',').map(|part| part.trim().parse::<f64>());
-    let parts: Result<Vec<f64>, _> = parts.collect();
-    let parts = parts.ok().and_then(|parts| parts.try_into().ok());
-    parts.ok_or_else(|| "expected a quaternion of four numbers: X,Y,Z,W".to_owned())
-}
-
-/// Parses an anti-aliasing level.
-fn antialias(text: &str) -> Result<u32, String> {
-    let level = text.parse().ok().filter(|level| LEVELS.contains(level));
-    level.ok_or_else(|| format!("expected one of the levels {LEVELS:?}"))
-}
-
-/// Parses a number that is 0 or more.
-fn not_negative(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(number) if number >= 0.0 && number.is_finite() => Ok(number),
-        _ => Err("expected a number that is 0 or more".to_owned()),
-    }
-}
-
-/// Parses a positive number.
-fn positive(text: &str) -> Result<f64, String> {
-    length(text).map_err(|_| "expected a positive number".to_owned())
-}
-
-/// Parses the thickness of uniform layers.
-fn uniform_layer(text: &str) -> Result<Planner, String> {
-    match text {
-        "finest" => Ok(Planner::Finest),
-        "coarsest" => Ok(Planner::Coarsest),
-        _ => Ok(Planner::Uniform {
-            layer_mm: length(text)
-                .map_err(|reason| format!("{reason}, or `finest` or `coarsest`"))?,
-        }),
-    }
-}
-
-/// Parses `Z0:Z1=MIN:MAX`.
-fn height_range(text: &str) -> Result<HeightRange, String> {
-    let pair = |text: &str| {
-        let (first, second) = text.split_once(':')?;
-        Some((first.trim().parse().ok()?, second.trim().parse().ok()?))
-    };
-    text.split_once('=')
-        .and_then(|(heights, layers)| {
-            let ((from_mm, to_mm), (layer_min_mm, layer_max_mm)) = (pair(heights)?, pair(layers)?);
-            Some(HeightRange {
-                from_mm,
-                to_mm,
-                layer_min_mm,
-                layer_max_mm,
-            })
-        })
-        .ok_or_else(|| "expected heights and thicknesses in mm, such as 0:5=0.1:0.1".to_owned())
-}
-
-/// Parses `WxH`.
-fn pixels(text: &str) -> Result<[u32; 2], String> {
-    text.split_once(['x', 'X', '×'])
-        .and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]))
-        .filter(|size: &[u32; 2]| !size.contains(&0))
-        .ok_or_else(|| "expected columns and rows, such as 3840x2400".to_owned())
-}
-
 /// The options of the orientation search.
 #[derive(Args)]
 pub struct Orienting {
@@ -378,25 +315,4 @@ impl Orienting {
             quality: self.quality,
         }
     }
-}
-
-/// Parses a number from 0 to 1.
-fn fraction(text: &str) -> Result<f64, String> {
-    let number = text.parse().ok();
-    number
-        .filter(|number| (0.0..=1.0).contains(number))
-        .ok_or_else(|| "expected a number from 0 to 1".to_owned())
-}
-
-/// Parses `I/N`.
-fn shard(text: &str) -> Result<Shard, String> {
-    text.split_once('/')
-        .and_then(|(number, count)| {
-            let shard = Shard {
-                number: number.parse().ok()?,
-                count: count.parse().ok()?,
-            };
-            (1..=shard.count).contains(&shard.number).then_some(shard)
-        })
-        .ok_or_else(|| "expected a shard, from 1/N to N/N".to_owned())
 }

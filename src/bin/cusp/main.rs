@@ -7,6 +7,7 @@ mod orient;
 mod simulate;
 mod slice;
 mod terminal;
+mod values;
 mod verify;
 
 use std::path::PathBuf;

@@ -9,9 +9,9 @@ use cusp_slicer::simulation::{
     Deviation, Knowledge, Placement, Simulation, SimulationError, simulate as measure,
 };
 
-use crate::arguments::{length, rotation};
 use crate::files::{Failure, in_file};
 use crate::terminal::{Bar, print, print_json, stop_on_interrupt};
+use crate::values::{length, rotation};
 
 /// A model and a print file of it.
 #[derive(Args)]

@@ -4,8 +4,9 @@ use std::fmt::Write as _;
 use std::io::BufWriter;
 use std::path::Path;
 
-use cusp_slicer::job::{Options, Report, Slicer, StageProgress};
+use cusp_slicer::job::{Comparison, FrontPoint, Options, Report, Slicer, StageProgress};
 use cusp_slicer::profile::Metric;
+use serde::Serialize;
 
 use crate::arguments::Slicing;
 use crate::files::{Failure, file_beside, in_file, keep, load_weighted, place_for};
@@ -150,27 +151,54 @@ pub fn tradeoff(slicing: &Slicing, points: usize) -> Result<(), Failure> {
     Ok(print(&text)?)
 }
 
+/// What `compare` prints as JSON.
+#[derive(Serialize)]
+struct Compared {
+    #[serde(flatten)]
+    comparison: Comparison,
+    front: Vec<FrontPoint>,
+}
+
+/// Numbers of layers for which `compare` shows the front.
+const FRONT_POINTS: usize = 9;
+
 pub fn compare(slicing: &Slicing) -> Result<(), Failure> {
     slicing.choices.check("compare");
     let options = slicing.choices.options()?;
-    let comparison = study(slicing, &options, async |slicer, progress| {
-        slicer.compare(&options, progress).await
+    let (comparison, front) = study(slicing, &options, async |slicer, progress| {
+        let comparison = slicer.compare(&options, progress).await?;
+        let front = slicer.front(&options, FRONT_POINTS, progress).await?;
+        Ok((comparison, front))
     })?;
     if slicing.json {
-        return Ok(print_json(&comparison)?);
+        return Ok(print_json(&Compared { comparison, front })?);
     }
     let mut text = format!(
-        "{} facets, {} mm high\nplanner    layers  largest error  time",
+        "{} facets, {} mm high\nplanner      layers  largest error  time",
         comparison.facets, comparison.height_mm
     );
     for row in &comparison.rows {
         let _ = write!(
             text,
-            "\n{:<9} {:>7}  {:<13}  {}",
+            "\n{:<11} {:>7}  {:<13}  {}",
             row.planner,
             row.layers,
             comparison.metric.format(row.max_error),
             duration(row.print_time_s)
+        );
+    }
+    let unit = comparison.metric.unit();
+    let _ = write!(
+        text,
+        "\n\n        least sum of volume error      smallest largest error\n\
+         layers  sum, mm³  largest error{unit:>3}    sum, mm³  largest error{unit:>3}",
+    );
+    for point in &front {
+        let (sum, maximum) = (&point.least_sum, &point.least_maximum);
+        let _ = write!(
+            text,
+            "\n{:>6}  {:<8.2}  {:<16.5}    {:<8.2}  {:.5}",
+            point.layers, sum.volume_mm3, sum.max_error, maximum.volume_mm3, maximum.max_error
         );
     }
     Ok(print(&text)?)

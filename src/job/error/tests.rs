@@ -162,6 +162,10 @@ fn options_errors() -> Vec<OptionsError> {
         BadAntialias { antialias: 3, known: [1, 2, 4, 8] },
         BadWeightMin { weight_min: 1.5 },
         SeveralTargets {},
+        Contradictory {
+            option: "max_change_mm",
+            other: "max_layers",
+        },
         PrinterLayers {
             model: "Phrozen Shuffle",
             printer_min_mm: 0.01,

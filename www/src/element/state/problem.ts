@@ -63,6 +63,7 @@ const KINDS: Readonly<Record<ErrorCode, Kind>> = {
   "bad-antialias": "badValue",
   "bad-weight-min": "badValue",
   "several-targets": "badOptions",
+  "contradictory-options": "badOptions",
   "printer-layers": "badOptions",
   "printer-step": "badOptions",
   "bad-attribute": "badOptions",

@@ -7,6 +7,7 @@ const QUANTITIES: QuantityNouns = {
   bin: "Die Höhe der Intervalle",
   step: "Der Motorschritt",
   layer: "Die Schichtdicke",
+  "first-layer": "Die erste Schicht",
   "layer-min": "Die kleinste Schichtdicke",
   "layer-max": "Die größte Schichtdicke",
   tolerance: "Die Toleranz",
@@ -81,6 +82,7 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
   "search-task": ({ task }) => `Das Ergebnis der Aufgabe ${exact(task)} gehört zu keiner offenen Aufgabe; geben Sie jedes Ergebnis einmal ab.`,
   "search-candidate": ({ place }) => `Kandidat ${exact(place)} wurde nicht für seine Richtung gemessen.`,
   "several-targets": () => "Geben Sie eine Toleranz, die höchste Zahl von Schichten oder die längste Zeit an, und nur eines davon.",
+  "contradictory-options": ({ option, other }) => `${option} und ${other} schließen einander aus. Lassen Sie eins davon weg.`,
   "printer-layers": ({ model, printer_min_mm, printer_max_mm, layer_min_mm, layer_max_mm }) =>
     `Der ${model} druckt Schichten von ${exact(printer_min_mm)} bis ${mm(printer_max_mm)}, nicht von ${exact(layer_min_mm)} bis ${mm(layer_max_mm)}; ` +
     "bleiben Sie in diesen Grenzen, oder wählen Sie einen anderen Drucker.",

@@ -8,6 +8,7 @@ const QUANTITIES: QuantityNouns = {
   bin: "The bin height",
   step: "The motor step",
   layer: "The layer thickness",
+  "first-layer": "The first layer",
   "layer-min": "The minimum layer thickness",
   "layer-max": "The maximum layer thickness",
   tolerance: "The tolerance",
@@ -81,6 +82,7 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
   "search-task": ({ task }) => `Task ${exact(task)} is not out: hand in each task's result once.`,
   "search-candidate": ({ place }) => `Candidate ${exact(place)} is not one that was measured for its direction.`,
   "several-targets": () => "Give a tolerance, the most layers or the longest time, and only one of them.",
+  "contradictory-options": ({ option, other }) => `${option} does not go with ${other}; leave one of them out.`,
   "printer-layers": ({ model, printer_min_mm, printer_max_mm, layer_min_mm, layer_max_mm }) =>
     `The ${model} prints layers of ${exact(printer_min_mm)} to ${mm(printer_max_mm)}, not ${exact(layer_min_mm)} to ${mm(layer_max_mm)}; ` +
     "stay within its limits, or choose another printer.",

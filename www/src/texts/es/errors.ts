@@ -7,6 +7,7 @@ const QUANTITIES: QuantityNouns = {
   bin: "La altura de los intervalos",
   step: "El paso del motor",
   layer: "El espesor de capa",
+  "first-layer": "La primera capa",
   "layer-min": "El espesor de capa mínimo",
   "layer-max": "El espesor de capa máximo",
   tolerance: "La tolerancia",
@@ -80,6 +81,7 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
   "search-task": ({ task }) => `El resultado de la tarea ${exact(task)} no es de ninguna tarea abierta; entregue cada resultado una vez.`,
   "search-candidate": ({ place }) => `El candidato ${exact(place)} no se midió para su dirección.`,
   "several-targets": () => "Indique una tolerancia, el máximo de capas o el tiempo más largo, y solo una de las tres cosas.",
+  "contradictory-options": ({ option, other }) => `${option} y ${other} se excluyen. Quite uno de los dos.`,
   "printer-layers": ({ model, printer_min_mm, printer_max_mm, layer_min_mm, layer_max_mm }) =>
     `La ${model} imprime capas de ${exact(printer_min_mm)} a ${mm(printer_max_mm)}, no de ${exact(layer_min_mm)} a ${mm(layer_max_mm)}; ` +
     "quédese dentro de sus límites o elija otra impresora.",

@@ -7,6 +7,7 @@ const QUANTITIES: QuantityNouns = {
   bin: "La hauteur des intervalles",
   step: "Le pas du moteur",
   layer: "L’épaisseur de couche",
+  "first-layer": "La première couche",
   "layer-min": "L’épaisseur de couche minimale",
   "layer-max": "L’épaisseur de couche maximale",
   tolerance: "La tolérance",
@@ -80,6 +81,7 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
   "search-task": ({ task }) => `Le résultat de la tâche ${exact(task)} ne correspond à aucune tâche en cours ; remettez chaque résultat une seule fois.`,
   "search-candidate": ({ place }) => `Le candidat ${exact(place)} n’a pas été mesuré pour sa direction.`,
   "several-targets": () => "Donnez une tolérance, le plus grand nombre de couches ou la plus longue durée, et une seule des trois.",
+  "contradictory-options": ({ option, other }) => `${option} et ${other} s’excluent. Retirez l’un des deux.`,
   "printer-layers": ({ model, printer_min_mm, printer_max_mm, layer_min_mm, layer_max_mm }) =>
     `La ${model} imprime des couches de ${exact(printer_min_mm)} à ${mm(printer_max_mm)}, pas de ${exact(layer_min_mm)} à ${mm(layer_max_mm)} ; ` +
     "restez dans ces limites, ou choisissez une autre imprimante.",

@@ -6,6 +6,7 @@ const QUANTITIES: QuantityNouns = {
   bin: "区间高度",
   step: "电机步距",
   layer: "层厚",
+  "first-layer": "首层",
   "layer-min": "最小层厚",
   "layer-max": "最大层厚",
   tolerance: "公差",
@@ -79,6 +80,7 @@ export const errors = ({ count, exact, mm, measure, error }: Format): ErrorSente
   "search-task": ({ task }) => `任务 ${exact(task)} 的结果不属于任何未完成的任务；每个结果只应提交一次。`,
   "search-candidate": ({ place }) => `候选 ${exact(place)} 不是按其方向测量的。`,
   "several-targets": () => "请给出公差、最多层数或最长时间，且只给其中一项。",
+  "contradictory-options": ({ option, other }) => `${option} 与 ${other} 不能同时使用，请去掉其中一项。`,
   "printer-layers": ({ model, printer_min_mm, printer_max_mm, layer_min_mm, layer_max_mm }) =>
     `${model} 可打印 ${exact(printer_min_mm)} 到 ${mm(printer_max_mm)} 的层，而不是 ${exact(layer_min_mm)} 到 ${mm(layer_max_mm)}；` +
     "请留在此范围内，或选择其他打印机。",

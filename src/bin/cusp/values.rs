@@ -1,0 +1,109 @@
+//! Values of arguments, as text.
+
+use cusp_slicer::job::Planner;
+use cusp_slicer::mask::LEVELS;
+use cusp_slicer::orientation::shard::Shard;
+use cusp_slicer::plan::HeightRange;
+
+/// Parses a positive length.
+pub fn length(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
+        _ => Err("expected a positive number of millimetres".to_owned()),
+    }
+}
+
+/// Parses `P` or `PxQ`.
+pub fn pitch(text: &str) -> Result<[f64; 2], String> {
+    match text.split_once(['x', 'X', '×']) {
+        Some((x, y)) => Ok([length(x)?, length(y)?]),
+        None => Ok([length(text)?; 2]),
+    }
+}
+
+/// Parses `X,Y,Z,W`.
+pub fn rotation(text: &str) -> Result<[f64; 4], String> {
+    let parts = text.split(',').map(|part| part.trim().parse::<f64>());
+    let parts: Result<Vec<f64>, _> = parts.collect();
+    let parts = parts.ok().and_then(|parts| parts.try_into().ok());
+    parts.ok_or_else(|| "expected a quaternion of four numbers: X,Y,Z,W".to_owned())
+}
+
+/// Parses an anti-aliasing level.
+pub fn antialias(text: &str) -> Result<u32, String> {
+    let level = text.parse().ok().filter(|level| LEVELS.contains(level));
+    level.ok_or_else(|| format!("expected one of the levels {LEVELS:?}"))
+}
+
+/// Parses a number that is 0 or more.
+pub fn not_negative(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number >= 0.0 && number.is_finite() => Ok(number),
+        _ => Err("expected a number that is 0 or more".to_owned()),
+    }
+}
+
+/// Parses a positive number.
+pub fn positive(text: &str) -> Result<f64, String> {
+    length(text).map_err(|_| "expected a positive number".to_owned())
+}
+
+/// Parses the thickness of uniform layers.
+pub fn uniform_layer(text: &str) -> Result<Planner, String> {
+    match text {
+        "finest" => Ok(Planner::Finest),
+        "coarsest" => Ok(Planner::Coarsest),
+        _ => Ok(Planner::Uniform {
+            layer_mm: length(text)
+                .map_err(|reason| format!("{reason}, or `finest` or `coarsest`"))?,
+        }),
+    }
+}
+
+/// Parses `Z0:Z1=MIN:MAX`.
+pub fn height_range(text: &str) -> Result<HeightRange, String> {
+    let pair = |text: &str| {
+        let (first, second) = text.split_once(':')?;
+        Some((first.trim().parse().ok()?, second.trim().parse().ok()?))
+    };
+    text.split_once('=')
+        .and_then(|(heights, layers)| {
+            let ((from_mm, to_mm), (layer_min_mm, layer_max_mm)) = (pair(heights)?, pair(layers)?);
+            Some(HeightRange {
+                from_mm,
+                to_mm,
+                layer_min_mm,
+                layer_max_mm,
+            })
+        })
+        .ok_or_else(|| "expected heights and thicknesses in mm, such as 0:5=0.1:0.1".to_owned())
+}
+
+/// Parses `WxH`.
+pub fn pixels(text: &str) -> Result<[u32; 2], String> {
+    text.split_once(['x', 'X', '×'])
+        .and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]))
+        .filter(|size: &[u32; 2]| !size.contains(&0))
+        .ok_or_else(|| "expected columns and rows, such as 3840x2400".to_owned())
+}
+
+/// Parses a number from 0 to 1.
+pub fn fraction(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok();
+    number
+        .filter(|number| (0.0..=1.0).contains(number))
+        .ok_or_else(|| "expected a number from 0 to 1".to_owned())
+}
+
+/// Parses `I/N`.
+pub fn shard(text: &str) -> Result<Shard, String> {
+    text.split_once('/')
+        .and_then(|(number, count)| {
+            let shard = Shard {
+                number: number.parse().ok()?,
+                count: count.parse().ok()?,
+            };
+            (1..=shard.count).contains(&shard.number).then_some(shard)
+        })
+        .ok_or_else(|| "expected a shard, from 1/N to N/N".to_owned())
+}

@@ -1,0 +1,88 @@
+//! The least sum of volume deviations beside the smallest maximum error: two ends of what layers of varying thickness can be
+//! planned for.
+
+use super::planned::Planning;
+use super::stage::{Stage, StageProgress, report};
+use super::{Error, FrontPoint, Options, Slicer, SumAndMaximum, Timings};
+use crate::plan::optimal::{self, Objective};
+use crate::plan::preferred::SnapPlanes;
+use crate::plan::tradeoff::{self, Goal};
+use crate::plan::{Limits, Plan, PlanError, least_sum};
+use crate::profile::{LayerErrors, Metric};
+
+impl Slicer {
+    /// The plans of the least sum of volume deviations beside those of the smallest maximum error, for some `points` numbers of layers
+    /// from the fewest to the most. The tolerance has no say. The last plan is kept.
+    ///
+    /// # Errors
+    /// Any [`Error`] of sampling and planning.
+    pub async fn front(
+        &mut self,
+        options: &Options,
+        points: usize,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<Vec<FrontPoint>, Error> {
+        let mut job = options.resolve()?;
+        let mut timings = Timings::default();
+        // What is measured for volumes stays when the metric of the options is measured.
+        let metric = std::mem::replace(&mut job.layering.metric, Metric::Volume);
+        self.measure(&job, &mut timings, progress).await?;
+        job.layering.metric = metric;
+        let measured = self.measure(&job, &mut timings, progress).await?;
+        let planning = Planning::of(&measured, &job.layering);
+        planning.front(points, progress)
+    }
+}
+
+impl Planning<'_> {
+    fn front(
+        &self,
+        points: usize,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<Vec<FrontPoint>, Error> {
+        let volumes = self.shapes.exact.errors(Metric::Volume);
+        let without_tolerance = self.layering.limits(f64::MAX);
+        report(progress, Stage::Plan, 0.0)?;
+        let plans = least_sum::plans(&volumes, &without_tolerance, usize::MAX)?;
+        let last = plans.len() - 1;
+        let steps = points.clamp(2, plans.len().max(2)) - 1;
+        let mut chosen: Vec<usize> = (0..=steps).map(|step| step * last / steps).collect();
+        chosen.dedup();
+        let mut front = Vec::with_capacity(chosen.len());
+        for (place, &plan) in chosen.iter().enumerate() {
+            report(progress, Stage::Plan, place as f64 / chosen.len() as f64)?;
+            let least_sum = &plans[plan].plan;
+            let errors_of = |plan: &Plan| SumAndMaximum {
+                volume_mm3: sum(&volumes, plan),
+                max_error: self.max_error(plan),
+            };
+            let layers = least_sum.layers();
+            front.push(FrontPoint {
+                layers,
+                least_sum: errors_of(least_sum),
+                least_maximum: errors_of(&self.least_maximum(&without_tolerance, layers)?),
+            });
+        }
+        Ok(front)
+    }
+
+    /// The plan of the smallest maximum error with at most so many layers.
+    fn least_maximum(&self, limits: &Limits, layers: usize) -> Result<Plan, PlanError> {
+        let goal = Goal::Layers(layers);
+        let resin = &self.layering.resin;
+        let tolerance = tradeoff::tolerance_for(&self.errors, limits, resin, goal)?;
+        let limits = Limits {
+            tolerance,
+            ..limits.clone()
+        };
+        let objective = Objective::Layers;
+        optimal::plan(&self.errors, &limits, SnapPlanes::NONE, objective)
+    }
+}
+
+/// The sum of the errors of all layers that the tolerance covers.
+fn sum(errors: &LayerErrors, plan: &Plan) -> f64 {
+    let layers = plan.boundaries[plan.exempt_layers..].windows(2);
+    let steps = layers.map(|layer| errors.steps_between(layer[0], layer[1]));
+    errors.to_value(steps.sum())
+}

@@ -1,0 +1,165 @@
+//! The parts of a job: what each stage works from. They are comparable, so they are also the keys under which results are kept.
+
+use super::{Backend, GpuMethod, Minimize, Planner};
+use crate::format::Format;
+use crate::grid::{Bins, Grid, GridError};
+use crate::mask::Samples;
+use crate::model::{Bounds, Pose};
+use crate::plan::Limits;
+use crate::plan::optimal::Objective;
+use crate::printer::Printer;
+use crate::profile::{Metric, Source};
+use crate::resin::Resin;
+
+/// Resolved options.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Job {
+    pub sampling: Sampling,
+    pub layering: Layering,
+    pub output: Output,
+}
+
+/// What the LDI depends on, besides the model.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Sampling {
+    pub pose: Pose,
+    pub raster: Raster,
+    /// Height of the printer's build volume.
+    pub greatest_height_mm: Option<f64>,
+    pub samples: Samples,
+    pub backend: Backend,
+    pub gpu_method: GpuMethod,
+}
+
+/// How the masks' pixels are laid out.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Raster {
+    /// This many along the model's longer horizontal side.
+    Around { pixels: u32 },
+    /// As many of this pitch as cover the model.
+    OfPitch { pitch_mm: f64 },
+    /// Those of a plate, with the model at the centre.
+    Plate {
+        pixels: [u32; 2],
+        pitch_mm: [f64; 2],
+    },
+}
+
+/// What the plan depends on, besides the rays.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Layering {
+    pub bin_mm: f64,
+    pub metric: Metric,
+    pub source: Source,
+    pub planner: Planner,
+    pub target: Target,
+    pub minimize: Minimize,
+    /// The limits of plans, except for the tolerance.
+    pub(super) limits: Limits,
+    pub thicknesses: Thicknesses,
+    /// Minimum area, in mm², of a flat that gets a plane. `None` if no planes are put at flats and sharp changes.
+    pub snap_mm2: Option<f64>,
+    pub saliency: bool,
+    pub weight_min: f64,
+    pub resin: Resin,
+}
+
+/// The tolerance that a plan keeps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Target {
+    /// This one, in the metric's unit.
+    Tolerance(f64),
+    /// This one, or the smallest that a plan keeps if that is larger.
+    AtLeast(f64),
+    /// The smallest that needs at most this many layers.
+    Layers(usize),
+    /// The smallest that prints in at most this many seconds.
+    Time(f64),
+}
+
+/// Which of the thicknesses within the limits layers may have, and in which order, if the optimal planner chooses them.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Thicknesses {
+    /// Any.
+    Any,
+    /// These, in millimetres.
+    Of(Vec<f64>),
+    /// At most so many distinct ones.
+    AtMost(usize),
+    /// Changing by at most so many millimetres from layer to layer.
+    Gradual(f64),
+}
+
+/// What the print file depends on, besides the plan and the rays.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Output {
+    pub format: Format,
+    pub is_mirrored: bool,
+    pub printer: Option<&'static Printer>,
+}
+
+impl Sampling {
+    /// The pixels of the masks for a model of these bounds.
+    ///
+    /// # Errors
+    /// [`GridError`], also if the model does not fit the printer.
+    pub fn grid(&self, bounds: &Bounds) -> Result<Grid, GridError> {
+        let grid = match self.raster {
+            Raster::Plate { pixels, pitch_mm } => Grid::plate(bounds, pixels, pitch_mm)?,
+            Raster::OfPitch { pitch_mm } => Grid::of_pitch(bounds, pitch_mm)?,
+            Raster::Around { pixels } => Grid::around(bounds, pixels)?,
+        };
+        let model_mm_z = bounds.size().z;
+        match self.greatest_height_mm {
+            Some(printer_mm_z) if model_mm_z > printer_mm_z => Err(GridError::ModelTooHigh {
+                model_mm_z,
+                printer_mm_z,
+                fitting_scale: (printer_mm_z / model_mm_z * 1e4).floor() / 1e4,
+            }),
+            _ => Ok(grid),
+        }
+    }
+
+    /// The requested height, or `size_mm` rounded to the nanometre, which removes the noise of single precision.
+    pub fn height_mm(&self, size_mm: f64) -> f64 {
+        let asked_mm = self.pose.height_mm;
+        asked_mm.unwrap_or_else(|| (size_mm * 1e6).round() / 1e6)
+    }
+}
+
+impl Layering {
+    /// The limits of plans with this tolerance.
+    pub fn limits(&self, tolerance: f64) -> Limits {
+        Limits {
+            tolerance,
+            ..self.limits.clone()
+        }
+    }
+
+    /// Minimum and maximum layer thickness of a plan in these bins, in millimetres: rounded inward to whole motor steps, or
+    /// to whole bins if there is no step.
+    pub fn layer_range_mm(&self, bins: Bins) -> [f64; 2] {
+        let Limits {
+            layer_min_mm,
+            layer_max_mm,
+            ..
+        } = self.limits;
+        let limits = &self.limits;
+        let range = limits.thickness(bins, layer_min_mm, layer_max_mm);
+        match (range, limits.unit(bins)) {
+            (Ok(range), Ok(unit)) => {
+                [*range.start(), *range.end()].map(|units| bins.boundary_mm(units * unit))
+            }
+            // Uniform layers may be planned with a range that holds no thickness.
+            _ => [layer_min_mm, layer_max_mm],
+        }
+    }
+
+    /// What plans minimize.
+    pub fn objective(&self) -> Objective<'_> {
+        match self.minimize {
+            Minimize::Layers => Objective::Layers,
+            Minimize::Time => Objective::Time(&self.resin),
+        }
+    }
+}
