@@ -1,15 +1,18 @@
-//! Draws figure 5: the profiles of a model under the four metrics, and the plans made from them.
+//! Draws figures 4 and 5: profiles of a model, and the plans made from them.
 
 use std::fmt::Write as _;
 
 use cusp_slicer::profile::Metric;
 
-/// One metric's panel of the figure.
+/// One profile and its plan.
 pub struct Panel {
+    pub title: String,
     pub metric: Metric,
     pub tolerance: f64,
     pub density: Vec<f32>,
     pub z_mm: Vec<f64>,
+    /// Planes to mark.
+    pub planes_mm: Vec<f64>,
 }
 
 const WIDTH: f64 = 170.0;
@@ -42,6 +45,14 @@ pub fn draw(name: &str, panels: &[Panel]) -> String {
                 colour((layer[1] - layer[0] - 0.05) / 0.1)
             );
         }
+        for &z_mm in &panel.planes_mm {
+            let _ = writeln!(
+                svg,
+                "<path d=\"M{} {:.2}h60\" stroke=\"#111\" stroke-width=\"1.5\"/>",
+                WIDTH - 50.0,
+                y(z_mm)
+            );
+        }
         let most = panel
             .density
             .iter()
@@ -68,7 +79,7 @@ pub fn draw(name: &str, panels: &[Panel]) -> String {
              <text y=\"-10\">{}</text>\n\
              <text y=\"{}\">{} layers within {} {}</text>\n</g>",
             line.join(" "),
-            panel.metric.name(),
+            panel.title,
             HEIGHT + 20.0,
             panel.z_mm.len() - 1,
             panel.tolerance,
