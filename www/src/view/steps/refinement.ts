@@ -12,7 +12,7 @@ export interface MeasuredPart extends StepsPart {
 }
 
 /** Fraction of the reach by which a distance may differ from what its neighbours say. */
-const ALIKE_PART = 1 / 32;
+const ALIKE_PART = 1 / 12;
 
 export interface Ruler {
   readonly nearest: Nearest;
@@ -21,6 +21,8 @@ export interface Ruler {
   readonly reach_mm: number;
   /** Nothing shorter is split, mm. */
   readonly finest_mm: number;
+  /** How far contours may be from the model, mm. */
+  readonly contour_mm: number;
   /** Distances up to this are only rounding, mm. */
   readonly rounding_mm: number;
 }
@@ -72,10 +74,9 @@ export class Refinement {
       const [low, high] = [this.#middle(bottom, nextBottom), this.#middle(top, nextTop)];
       if (!this.#isAlike(low, bottom, nextBottom) || !this.#isAlike(high, top, nextTop)) {
         const [middle, above] = [this.#add(low), this.#add(high)];
-        for (const [, , , away_mm] of [low, high]) {
-          // A wall that closes a hole has no facet within reach: that is no distance found.
-          if (away_mm < this.#ruler.reach_mm) this.greatest_mm = Math.max(this.greatest_mm, away_mm);
-        }
+        // Half-way up, a wall is on the model, unless it closes a hole: there is nothing to be distant from.
+        const isOnModel = this.#middle(bottom, nextTop)[3] <= this.#ruler.contour_mm;
+        if (isOnModel) this.greatest_mm = Math.max(this.greatest_mm, low[3], high[3]);
         this.#split.set(edge(bottom, nextBottom), middle).set(edge(top, nextTop), above);
         this.wall(bottom, top, middle, above);
         this.wall(middle, above, nextBottom, nextTop);
@@ -132,9 +133,16 @@ export class Refinement {
 
   /** A triangle whose longest side is from `a` to `b`. */
   #flat(a: number, b: number, c: number): void {
-    if (this.#length(a, b) > this.#ruler.finest_mm && this.#differs(a, b, c)) {
-      this.#halve(a, b, c, this.#add(this.#middle(a, b)));
+    const longest_mm = this.#length(a, b);
+    if (longest_mm > this.#ruler.finest_mm && this.#differs(a, b, c, longest_mm)) {
+      this.#halve(a, b, c, this.#add(this.#outside(this.#middle(a, b), a, b)));
     } else this.#index.push(a, b, c);
+  }
+
+  /** A place in the middle of a tread's side, if it is under the layer above not farther away than what is outside can be. */
+  #outside([x, y, z, away_mm]: Place, a: number, b: number): Place {
+    const isUnder = away_mm >= this.#ruler.reach_mm;
+    return [x, y, z, isUnder ? (this.#value(a, 3) + this.#value(b, 3)) / 2 : Math.min(away_mm, this.greatest_mm)];
   }
 
   #halve(a: number, b: number, c: number, middle: number): void {
@@ -142,16 +150,31 @@ export class Refinement {
     this.tread(middle, b, c);
   }
 
-  /** Whether the middle of a side or of the triangle is outside and not as far from the model as the corners say. */
-  #differs(a: number, b: number, c: number): boolean {
-    const mean = (axis: number, last: number): number => (this.#value(a, axis) + this.#value(b, axis) + this.#value(last, axis)) / 3;
-    const half = (axis: number): number => (this.#value(a, axis) + this.#value(b, axis)) / 2;
-    const shows = (x: number, y: number, z: number, wanted_mm: number): boolean => {
-      if (!this.#ruler.shallow.has(x, y, z)) return false;
-      const away_mm = measure(this.#ruler, x, y, z);
-      return away_mm < this.#ruler.reach_mm && Math.abs(away_mm - wanted_mm) > this.#alike_mm;
-    };
-    return shows(mean(0, c), mean(1, c), mean(2, c), mean(3, c)) || shows(half(0), half(1), half(2), half(3));
+  /**
+   * Whether somewhere in a triangle, whose longest side is `longest_mm`, the distance is not what the corners say: in its
+   * middle, in the middle of that side, or near a corner, since often only the corners are outside.
+   */
+  #differs(a: number, b: number, c: number, longest_mm: number): boolean {
+    const rest = Math.min(0.25, (0.5 * this.#ruler.finest_mm) / longest_mm);
+    const near = 1 - 2 * rest;
+    return (
+      this.#isOff(a, b, c, 1 / 3, 1 / 3) ||
+      this.#isOff(a, b, c, 1 / 2, 1 / 2) ||
+      this.#isOff(a, b, c, near, rest) ||
+      this.#isOff(a, b, c, rest, near) ||
+      this.#isOff(a, b, c, rest, rest)
+    );
+  }
+
+  /** The same at the mean of the corners with these weights of the first two. */
+  #isOff(a: number, b: number, c: number, u: number, v: number): boolean {
+    const { shallow, reach_mm } = this.#ruler;
+    const mean = (which: number): number =>
+      u * this.#value(a, which) + v * this.#value(b, which) + (1 - u - v) * this.#value(c, which);
+    const [x, y, z] = [mean(0), mean(1), mean(2)];
+    if (!shallow.has(x, y, z)) return false;
+    const away_mm = measure(this.#ruler, x, y, z);
+    return away_mm < reach_mm && Math.abs(away_mm - mean(3)) > this.#alike_mm;
   }
 
   #isAlike([, , , away_mm]: Place, a: number, b: number): boolean {
