@@ -132,7 +132,7 @@ describe("distances of the stair steps", () => {
       if (isSeen(wanted)) expect(Math.abs(away - Math.min(wanted, steps.greatest_mm)), String(point)).toBeLessThan(2e-5);
       else expect(away, String(point)).toBeLessThanOrEqual(reach);
     }
-  });
+  }, 20_000);
 
   it("are found between corners that are on other facets", () => {
     // The ramp is between two walls: the corners at both ends of each edge are on those.

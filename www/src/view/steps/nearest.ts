@@ -15,6 +15,10 @@ const BINS = 4096;
 /** Nearer than this counts as on the facet, mm: less than coordinates resolve. */
 const ON_FACET_MM = 1e-6;
 
+/** So many gathered facets are worth more room around the box, or less. */
+const FEW = 16;
+const MANY = 48;
+
 /** Facets that are neighbours in height, and the heights that they reach. */
 interface Slab {
   readonly low: number;
@@ -65,6 +69,7 @@ export class Nearest {
   readonly #bounds: number[] = [];
   /** What was asked for, and what was gathered. */
   readonly #wanted = new Box3();
+  #room_mm = 0;
   readonly #around = new Box3();
   readonly #point = new Vector3();
   readonly #on = new Vector3();
@@ -77,12 +82,17 @@ export class Nearest {
     this.#slabs = slabs;
   }
 
-  /** Collects the facets whose bounds are within `reach_mm` of a box, and some around them unless the last call did already. */
-  gather(box: Box3, reach_mm: number, more_mm = 0): void {
+  /**
+   * Collects the facets whose bounds are within `reach_mm` of a box, unless the last call did already: the next box is often
+   * near the last, so there is as much room around it as takes few facets more.
+   */
+  gather(box: Box3, reach_mm: number): void {
     this.#wanted.copy(box).expandByScalar(reach_mm);
     if (this.#around.containsBox(this.#wanted)) return;
+    if (this.#gathered.length < FEW) this.#room_mm = Math.max(2 * this.#room_mm, reach_mm);
+    else if (this.#gathered.length > MANY) this.#room_mm /= 2;
     this.#gathered.length = this.#bounds.length = 0;
-    const around = this.#around.copy(this.#wanted).expandByScalar(more_mm);
+    const around = this.#around.copy(this.#wanted).expandByScalar(this.#room_mm);
     for (const { low, high, tree } of this.#slabs) {
       if (low > around.max.z || high < around.min.z) continue;
       tree.shapecast({

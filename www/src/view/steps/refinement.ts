@@ -31,10 +31,9 @@ const point = new Vector3();
 const box = new Box3();
 
 /** Distance of a point to the nearest facet, mm; 0 if it is only rounding, the reach if all facets are farther away. */
-function measure({ nearest, reach_mm, finest_mm, rounding_mm }: Ruler, x: number, y: number, z: number): number {
+function measure({ nearest, reach_mm, rounding_mm }: Ruler, x: number, y: number, z: number): number {
   point.set(x, y, z);
-  // The next point is often near this one.
-  nearest.gather(box.set(point, point), reach_mm, finest_mm);
+  nearest.gather(box.set(point, point), reach_mm);
   const away_mm = nearest.distance(x, y, z, reach_mm);
   return away_mm > rounding_mm ? away_mm : 0;
 }
