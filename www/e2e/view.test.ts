@@ -280,6 +280,61 @@ describe("the printed look", () => {
   });
 });
 
+describe("the distances", () => {
+  it("are on the legend, from 0 to the largest, and in the colours of the steps", async () => {
+    const page = await start();
+    // A cone whose sides fall by 45°.
+    await page.evaluate(async () => {
+      const { harness } = window;
+      harness.show();
+      await harness.set({
+        positions: harness.solids.cone(10, 10, 256),
+        z_mm: [0, 5, 10],
+        thickness_mm: [5, 5],
+        limits: [5, 5],
+        look: "printed",
+        aligned: true,
+        showsLegend: false,
+      });
+    });
+    const done = async (): Promise<void> => {
+      await page.waitForTimeout(300);
+      await page.waitForFunction(() => window.harness.view.building === null && window.harness.view.measuring === null);
+      await drawn(page);
+    };
+    await done();
+    const plain = await picture(page);
+    expect(await page.locator("cusp-view .legend").count()).toBe(0);
+    await page.evaluate(() => window.harness.set({ look: "distance" }));
+    await done();
+    const ticks = await page.locator("cusp-view .ticks span").allInnerTexts();
+    // Half a layer's thickness times |n_z|, in µm; the corners of the cone's base are 256.
+    const largest = Number(ticks.at(-1)?.replace(",", ""));
+    expect(ticks[0]).toBe("0");
+    expect(Math.abs(largest - 2500 * Math.SQRT1_2)).toBeLessThan(2);
+    const frame = (await heard(page, "cusp-frame")).at(-1)?.detail as { top_px: number; bottom_px: number };
+    const { width = 0 } = (await page.locator("cusp-view").boundingBox()) ?? {};
+    const coloured = await picture(page);
+    const row = (z: number): number => frame.bottom_px + (z / 10) * (frame.top_px - frame.bottom_px);
+    const at = (z: number): [number, number] => [width / 2, row(z)];
+    // A wall is on the cone half-way up, and farthest from it at its top.
+    expect(likeness(coloured(...at(2.5)), colourAt("safe", 1))).toBeGreaterThan(0.98);
+    expect(likeness(coloured(...at(4.9)), colourAt("safe", 0))).toBeGreaterThan(0.98);
+    for (const z of [2.5, 4.9]) expect(likeness(coloured(...at(z)), plain(...at(z)))).toBeLessThan(0.98);
+    // They stay with the steps: nothing is measured again.
+    await page.evaluate(() => window.harness.set({ look: "printed" }));
+    expect((await picture(page))(...at(4.9))).toEqual(plain(...at(4.9)));
+    await page.evaluate(() => window.harness.set({ look: "distance" }));
+    expect((await picture(page))(...at(4.9))).toEqual(coloured(...at(4.9)));
+    // Another plan has other distances.
+    await page.evaluate(() => window.harness.set({ z_mm: [0, 2, 4, 6, 8, 10], thickness_mm: [2, 2, 2, 2, 2] }));
+    expect(await page.locator("cusp-view .legend").count()).toBe(0);
+    await done();
+    const other = Number((await page.locator("cusp-view .ticks span").last().innerText()).replace(",", ""));
+    expect(Math.abs(other - 1000 * Math.SQRT1_2)).toBeLessThan(2);
+  });
+});
+
 it("stays quick with 100,000 facets", async () => {
   const page = await start({ viewport: { width: 1280, height: 720 } });
   const figures = await page.evaluate(async () => {
@@ -328,6 +383,11 @@ it("stays quick with 100,000 facets", async () => {
       await harness.view.updateComplete;
       await new Promise((resolve) => setTimeout(resolve, 200));
       while (harness.view.building !== null) await new Promise((resolve) => setTimeout(resolve, 5));
+    });
+    out["distances_ms"] = await timed(async () => {
+      harness.view.look = "distance";
+      await harness.view.updateComplete;
+      while (harness.view.measuring !== null) await new Promise((resolve) => setTimeout(resolve, 5));
     });
     building = false;
     out["longest_gap_ms"] = Math.round(Math.max(...gaps));

@@ -1,5 +1,6 @@
 /**
- * `<cusp-view>`: the model in three dimensions, coloured by layer thickness or as it will be printed.
+ * `<cusp-view>`: the model in three dimensions, coloured by layer thickness, or as it will be printed, with the distances from
+ * the model.
  *
  * A pure function of its properties. It shows a rotation made by the user at once, without waiting for a plan: a plan that
  * comes later only changes the colours. Import this module lazily, since it loads three.js. The importer defines the
@@ -9,6 +10,7 @@ import type { PropertyValues, TemplateResult } from "lit";
 import type { Frame, Heights, Inset } from "./scene/cameras.js";
 import { BRUSH } from "./paint/brush.js";
 import { Derived } from "./steps/derived.js";
+import { isMeasured } from "./steps/distances.js";
 import type { HeightDetail, PaintDetail, RotateDetail, ViewErrorDetail, ViewEvents } from "./events.js";
 import { pressed, type Tool } from "./scene/keys.js";
 import type { Heat } from "./paint/heat.js";
@@ -68,6 +70,10 @@ const PROPERTIES = {
   texts: given(ENGLISH),
   /** Progress of computing the stair steps, 0 to 1; null when idle. */
   building: own<number | null>(null),
+  /** Progress of measuring their distances from the model. */
+  measuring: own<number | null>(null),
+  /** The largest of these distances, mm; null until they are measured. */
+  greatest_mm: own<number | null>(null),
   /** Whether WebGL is missing. */
   broken: own(false),
 };
@@ -87,8 +93,10 @@ export class CuspView extends elementWith(PROPERTIES) {
   #turned: Rotation | null = null;
   #unsaid: RotateDetail | null = null;
   readonly #printed = new Printed({
-    progress: (progress) => (this.building = progress),
+    building: (progress) => (this.building = progress),
+    measuring: (progress) => (this.measuring = progress),
     steps: (steps) => {
+      this.greatest_mm = isMeasured(steps) ? steps.greatest_mm : null;
       this.#scene?.model.setSteps(steps);
       this.#scene?.invalidate();
     },
@@ -199,7 +207,7 @@ export class CuspView extends elementWith(PROPERTIES) {
 
   #stop(): void {
     this.#life.abort();
-    this.#printed.want(null);
+    this.#printed.want(null, false);
     this.#derived?.dispose();
     this.#derived = null;
     this.#scene?.dispose();
@@ -285,10 +293,11 @@ export class CuspView extends elementWith(PROPERTIES) {
 
   /** Requests new stair steps if they are to be shown, but not while the model is being turned. */
   #print(): void {
-    const { rotation, scale, z_mm } = this;
+    const { rotation, scale, z_mm, look } = this;
     const derived = this.#derived;
-    const isWanted = this.look === "printed" && z_mm.length >= 2 && !this.#isHeld;
-    this.#printed.want(derived !== null && isWanted ? { derived, rotation, scale, z_mm } : null);
+    const measures = look === "distance";
+    const isWanted = (look === "printed" || measures) && z_mm.length >= 2 && !this.#isHeld;
+    this.#printed.want(derived !== null && isWanted ? { derived, rotation, scale, z_mm } : null, measures);
   }
 
   #rotate(rotation: Rotation, final: boolean): void {

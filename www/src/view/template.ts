@@ -1,11 +1,11 @@
 /** The markup around the view's canvas: its container, texts, colour scales and progress bar. */
 import { html, nothing, type TemplateResult } from "lit";
 import type { CuspView } from "./cusp-view.js";
-import { heatLegend, legend } from "./legend/legend.js";
+import { distanceLegend, heatLegend, legend } from "./legend/legend.js";
 
 type Properties = Pick<
   CuspView,
-  "texts" | "broken" | "tool" | "positions" | "thickness_mm" | "layer" | "limits" | "look" | "palette" | "showsLegend" | "aligned" | "building"
+  "texts" | "broken" | "tool" | "positions" | "thickness_mm" | "layer" | "limits" | "look" | "palette" | "showsLegend" | "aligned" | "building" | "measuring" | "greatest_mm"
 >;
 
 /** Facts about the scene; defaults until it exists. */
@@ -18,7 +18,7 @@ export interface Known {
 }
 
 export function template(view: Properties, { size_mm, step_mm, layerWords, keyed }: Known): TemplateResult {
-  const { texts, building } = view;
+  const { texts } = view;
   if (view.broken) return html`<p class="unavailable">${texts.unavailable}</p>`;
   const layers = view.thickness_mm.length;
   return html`
@@ -42,19 +42,27 @@ export function template(view: Properties, { size_mm, step_mm, layerWords, keyed
     <span class="label" part="label" hidden>${layerWords}</span>
     ${scale(view)}
     ${view.positions === null || view.aligned ? nothing : html`<span class="grid">${texts.grid(step_mm)}</span>`}
-    ${building === null
-      ? nothing
-      : html`<div class="building">
-          ${texts.building(building)}
-          <progress aria-label=${texts.building(building)} max="1" value=${building}></progress>
-        </div>`}
+    ${working(view)}
     <span class="probe ink"></span><span class="probe accent"></span><span class="probe bad"></span>
   `;
 }
 
+/** The progress of the work under way, if there is any. */
+function working({ texts, building, measuring }: Properties): TemplateResult | typeof nothing {
+  const part = building ?? measuring;
+  if (part === null) return nothing;
+  const words = building === null ? texts.measuring(part) : texts.building(part);
+  return html`<div class="building">
+    ${words}
+    <progress aria-label=${words} max="1" value=${part}></progress>
+  </div>`;
+}
+
 /** The colour scale of the current look, if it has one. */
-function scale({ texts, positions, thickness_mm, layer, limits, look, palette, showsLegend }: Properties): TemplateResult | typeof nothing {
+function scale(view: Properties): TemplateResult | typeof nothing {
+  const { texts, positions, thickness_mm, layer, limits, look, palette, showsLegend, greatest_mm } = view;
   if (look === "weights") return positions === null ? nothing : heatLegend(texts);
+  if (look === "distance") return greatest_mm === null ? nothing : distanceLegend(greatest_mm, texts);
   if (look !== "thickness" || !showsLegend || thickness_mm.length === 0) return nothing;
   const marked_mm = (layer === null ? undefined : thickness_mm[layer]) ?? null;
   return legend({ palette, limits, marked_mm, texts });

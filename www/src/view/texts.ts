@@ -17,16 +17,20 @@ export interface ViewTexts {
   readonly legend: string;
   /** Heading of the colour scale of weights, which runs from 0 to 1. */
   readonly heat: string;
+  /** Heading of the colour scale of distances from the model, with its unit. */
+  readonly distance: string;
   /** A weight on the colour scale. */
   readonly weight: (weight: number) => string;
-  /** A thickness on the colour scale, without its unit. */
-  readonly tick: (thickness_mm: number) => string;
+  /** A thickness or distance on the colour scale, without its unit. */
+  readonly tick: (length_mm: number) => string;
   /** Describes the selected layer, counted from 0. */
   readonly layer: (layer: number, z_mm: number, thickness_mm: number) => string;
   /** Spacing of the plate's grid. */
   readonly grid: (step_mm: number) => string;
   /** Progress of computing the stair steps, 0 to 1. */
   readonly building: (progress: number) => string;
+  /** Progress of measuring their distances from the model. */
+  readonly measuring: (progress: number) => string;
   /** Instead of the view where the browser has no WebGL. */
   readonly unavailable: string;
 }
@@ -51,7 +55,7 @@ const micrometres = (mm: number): string => {
 const exact = new Intl.NumberFormat("en", { maximumSignificantDigits: 1 });
 
 /** The English sentences without numbers. */
-export const ENGLISH_SENTENCES: Pick<ViewTexts, "kind" | "keys" | "empty" | "legend" | "heat" | "unavailable"> = {
+export const ENGLISH_SENTENCES: Pick<ViewTexts, "kind" | "keys" | "empty" | "legend" | "heat" | "distance" | "unavailable"> = {
   kind: "3-D view",
   keys: {
     turn: "Arrow keys turn the view, plus and minus zoom, 0 shows the whole model.",
@@ -62,6 +66,7 @@ export const ENGLISH_SENTENCES: Pick<ViewTexts, "kind" | "keys" | "empty" | "leg
   empty: "No model yet",
   legend: "Layer thickness (µm)",
   heat: "How much it matters",
+  distance: "Distance from the model (µm)",
   unavailable: "This browser shows no 3-D view: WebGL 2 is switched off or missing.",
 };
 
@@ -76,4 +81,5 @@ export const ENGLISH: ViewTexts = {
     `Layer ${whole(layer + 1)} · ${hundredths(z_mm)} mm · ${micrometres(thickness_mm)} µm`,
   grid: (step_mm) => `Grid ${exact.format(step_mm)} mm`,
   building: (progress) => `Working out the steps: ${whole(100 * progress)} %`,
+  measuring: (progress) => `Measuring the distances: ${whole(100 * progress)} %`,
 };

@@ -151,6 +151,8 @@ export class CuspModel extends elementWith(PROPERTIES) {
     const { texts } = language;
     const words = texts.view;
     const isTurned = this.rotation.some((part, i) => part !== (i === 3 ? 1 : 0));
+    const isMeasured = this.look === "distance";
+    const isPrinted = this.look === "printed" || isMeasured;
     const toggle = (name: string, isOn: boolean, act: () => void): TemplateResult =>
       html`<button class="small" aria-pressed=${isOn ? "true" : "false"} @click=${act}>${name}</button>`;
     return html`
@@ -190,7 +192,8 @@ export class CuspModel extends elementWith(PROPERTIES) {
       </div>
       <div class="tools" role="group" aria-label=${words.title}>
         ${TOOLS.map((it) => toggle(words.tools[it], tool === it, () => (this.tool = it)))}
-        ${toggle(words.printed, this.look === "printed", () => (this.look = this.look === "printed" ? "thickness" : "printed"))}
+        ${toggle(words.printed, isPrinted, () => (this.look = isPrinted ? "thickness" : "printed"))}
+        ${isPrinted ? toggle(words.measured, isMeasured, () => (this.look = isMeasured ? "printed" : "distance")) : nothing}
         ${toggle(words.safe, this.palette === "safe", this.#otherPalette)}
         ${!canAlign || isPainting ? nothing : toggle(words.aligned, this.aligned, () => (this.aligned = !this.aligned))}
         ${isTurned ? html`<button class="small" @click=${this.#upright}>${words.upright}</button>` : nothing}

@@ -14,12 +14,14 @@ export function viewTexts({ texts: { view: words }, format }: Language): ViewTex
     empty: words.empty,
     legend: words.legend,
     heat: words.heat,
+    distance: words.distance,
     weight: (weight) => format.percent(weight),
     tick: micrometres,
     layer: (layer, z_mm, thickness_mm) =>
       words.layer(format.count(layer + 1), format.height(z_mm), `${micrometres(thickness_mm)}\u00a0µm`),
     grid: (step_mm) => words.grid(format.fine(step_mm)),
     building: (part) => words.building(format.percent(part)),
+    measuring: (part) => words.measuring(format.percent(part)),
     unavailable: words.unavailable,
   };
 }

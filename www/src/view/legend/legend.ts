@@ -1,4 +1,4 @@
-/** The colour scales of layer thicknesses and of weights. */
+/** The colour scales of layer thicknesses, of weights and of distances. */
 import { css, html, nothing, type TemplateResult } from "lit";
 import { HEAT_PALETTE } from "../paint/heat.js";
 import { gradient, placeOf, type PaletteName } from "./palette.js";
@@ -69,6 +69,20 @@ export function heatLegend(texts: ViewTexts): TemplateResult {
       <div class="scale" .style=${`background: ${gradient(HEAT_PALETTE, "to left")}`}></div>
       <div class="ticks">
         ${WEIGHTS.map((weight) => html`<span .style=${`left: ${across(weight)}`}>${texts.weight(weight)}</span>`)}
+      </div>
+    </div>
+  `;
+}
+
+/** The colour scale of distances from the model, from 0 to the largest, mm. */
+export function distanceLegend(greatest_mm: number, texts: ViewTexts): TemplateResult {
+  const marks = greatest_mm > 0 ? [0, ...ticks([0, greatest_mm]), greatest_mm] : [0];
+  return html`
+    <div class="legend" part="legend">
+      <span class="heading">${texts.distance}</span>
+      <div class="scale" .style=${`background: ${gradient(HEAT_PALETTE, "to left")}`}></div>
+      <div class="ticks">
+        ${marks.map((mm) => html`<span .style=${`left: ${across(mm / (greatest_mm || 1))}`}>${texts.tick(mm)}</span>`)}
       </div>
     </div>
   `;

@@ -22,10 +22,14 @@ import { packBoundaries, ROW, rowsFor } from "./lookup.js";
 import { PALETTE_SIZE, table, type PaletteName, type Rgb } from "../legend/palette.js";
 import { extentOf, sizeOf, standing, type Extent, type Rotation, type Triple } from "./pose.js";
 import { MODEL_FRAGMENT, MODEL_VERTEX } from "./shaders.js";
+import { isMeasured } from "../steps/distances.js";
 import type { Steps } from "../steps/steps.js";
 
-/** `weights` is the heat map of the facets' weights. */
-export type Look = "thickness" | "printed" | "weights";
+/**
+ * `printed` is the stair steps in plain resin, `distance` the same coloured by their distance from the model; `weights` is the
+ * heat map of the facets' weights.
+ */
+export type Look = "thickness" | "printed" | "distance" | "weights";
 
 /** The band while no layer is selected: it contains no height. */
 const NO_BAND: readonly [number, number] = [0, -1];
@@ -77,6 +81,7 @@ export class Model {
   readonly #stale = new Set<number>();
   #look: Look = "thickness";
   #hasSteps = false;
+  #hasDistances = false;
   #hasPlan = false;
   readonly #material: RawShaderMaterial;
 
@@ -95,6 +100,8 @@ export class Model {
         heat: { value: this.#heat },
         heatPalette: { value: this.#heatPalette },
         byHeat: { value: false },
+        greatest: { value: 1 },
+        byDistance: { value: false },
         resin: { value: new Vector3(0.75, 0.77, 0.8) },
         band: { value: new Vector2(...NO_BAND) },
       },
@@ -215,13 +222,19 @@ export class Model {
 
   setSteps(steps: Steps | null): void {
     this.#clearSteps();
-    for (const { positions, index } of steps?.parts ?? []) {
+    const measured = isMeasured(steps) ? steps : null;
+    for (const [i, { positions, index }] of (steps?.parts ?? []).entries()) {
       const geometry = bounded(new BufferGeometry());
+      const away_mm = measured?.parts[i]?.away_mm;
       geometry.setAttribute("position", new BufferAttribute(positions, 3));
+      if (away_mm !== undefined) geometry.setAttribute("away", new BufferAttribute(away_mm, 1));
       geometry.setIndex(new BufferAttribute(index, 1));
       this.steps.add(new Mesh(geometry, this.#material));
     }
     this.#hasSteps = steps !== null;
+    this.#hasDistances = measured !== null;
+    // Where all steps are on the model, any scale gives them the colour of zero.
+    this.#set("greatest", measured?.greatest_mm || 1);
     this.#show();
   }
 
@@ -247,10 +260,11 @@ export class Model {
 
   /** Until the steps are computed, the facets are shown instead, in the same resin. */
   #show(): void {
-    const asSteps = this.#look === "printed" && this.#hasSteps;
+    const asSteps = (this.#look === "printed" || this.#look === "distance") && this.#hasSteps;
     this.steps.visible = asSteps;
     this.facets.visible = !asSteps && this.#positions.length > 0;
     this.#set("byThickness", this.#look === "thickness" && this.#hasPlan);
     this.#set("byHeat", this.#look === "weights");
+    this.#set("byDistance", this.#look === "distance" && this.#hasDistances);
   }
 }

@@ -17,11 +17,14 @@ in vec3 position;
 `;
 
 export const MODEL_VERTEX = /* glsl */ `${HEAD}${MATRICES}
+in float away;
 out vec3 world;
 out vec3 eye;
+out float apart;
 flat out int facet;
 void main() {
   facet = gl_VertexID / 3;
+  apart = away;
   vec4 at = modelMatrix * vec4(position, 1.0);
   world = at.xyz;
   at = viewMatrix * at;
@@ -44,10 +47,13 @@ uniform bool byThickness;
 uniform sampler2D heat;
 uniform sampler2D heatPalette;
 uniform bool byHeat;
+uniform float greatest;
+uniform bool byDistance;
 uniform vec3 resin;
 uniform vec2 band;
 in vec3 world;
 in vec3 eye;
+in float apart;
 flat in int facet;
 out vec4 colour;
 ${LAYER_AT_GLSL}${HEAT_GLSL}
@@ -96,9 +102,15 @@ vec3 ofPlan(float width, float upwards) {
   return linear(base) * (1.0 - (first == last ? 0.45 : 0.0) * seam);
 }
 
-/** The palette's first entry is the greatest weight, as it is the thinnest layer. */
-vec3 ofHeat() {
-  return linear(texelFetch(heatPalette, ivec2(int((1.0 - heatAt(facet)) * ${(PALETTE_SIZE - 1).toFixed(1)} + 0.5), 0), 0).rgb);
+/** The palette's first entry is the greatest heat, as it is the thinnest layer. */
+vec3 ofHeat(float heat) {
+  return linear(texelFetch(heatPalette, ivec2(int((1.0 - heat) * ${(PALETTE_SIZE - 1).toFixed(1)} + 0.5), 0), 0).rgb);
+}
+
+vec3 base(float width, float upwards) {
+  if (byHeat) return ofHeat(heatAt(facet));
+  if (byDistance) return ofHeat(clamp(apart / greatest, 0.0, 1.0));
+  return byThickness ? ofPlan(width, upwards) : linear(resin);
 }
 
 void main() {
@@ -106,7 +118,7 @@ void main() {
   float width = fwidth(world.z);
   vec3 normal = normalize(cross(dFdx(eye), dFdy(eye)));
   float upwards = dot(normal, viewMatrix[2].xyz);
-  vec3 light = lit(byHeat ? ofHeat() : byThickness ? ofPlan(width, upwards) : linear(resin), normal);
+  vec3 light = lit(base(width, upwards), normal);
   vec3 shown = encoded(light);
   if (band.y > band.x) {
     // The selected layer: at least three pixels high, and dark with a light edge to stand out anywhere.

@@ -1,4 +1,6 @@
 /** Data derived from the facets of one model, computed on first request without blocking the view. */
+import type { Solid } from "./contours.js";
+import { measured, type MeasuredSteps } from "./distances.js";
 import { flatFace, type FlatFace } from "../scene/flat.js";
 import { posed, type Rotation } from "../scene/pose.js";
 import { stairSteps, type Steps } from "./steps.js";
@@ -12,6 +14,7 @@ export class Derived {
   readonly positions: Float32Array;
   readonly #stop = new AbortController();
   #topology: Promise<Topology> | null = null;
+  #hasTopology = false;
   #steps = new AbortController();
 
   /** @param positions nine numbers a facet, mm, in the file's pose */
@@ -36,32 +39,16 @@ export class Derived {
   }
 
   /** The stair steps in this pose; `null` if they were cancelled or another pose or plan was requested meanwhile. */
-  async steps(
-    rotation: Rotation,
-    scale: number,
-    z_mm: readonly number[],
-    tell: (progress: number) => void,
-  ): Promise<Steps | null> {
-    this.cancel();
-    const { signal } = this.#steps;
-    // The search for the topology continues even if the steps are cancelled.
-    const found = this.#found((progress) => {
-      if (!signal.aborted) tell(TOPOLOGY_PART * progress);
-    });
-    const topology = await this.#whileAlive(found);
-    if (topology === null || signal.aborted) return null;
-    const points = posed(topology.points, rotation, scale);
-    try {
-      return await inParts(stairSteps({ points, topology }, z_mm), signal, (progress) =>
-        tell(TOPOLOGY_PART + (1 - TOPOLOGY_PART) * progress),
-      );
-    } catch (error) {
-      if (signal.aborted) return null;
-      throw error;
-    }
+  steps(rotation: Rotation, scale: number, z_mm: readonly number[], tell: (progress: number) => void): Promise<Steps | null> {
+    return this.#ofSolid(rotation, scale, (solid) => stairSteps(solid, z_mm), tell);
   }
 
-  /** Cancels the steps under way. */
+  /** The same stair steps with their distances from the model; `null` as for `steps`. */
+  measured(rotation: Rotation, scale: number, steps: Steps, tell: (progress: number) => void): Promise<MeasuredSteps | null> {
+    return this.#ofSolid(rotation, scale, (solid) => measured(solid, steps), tell);
+  }
+
+  /** Cancels the steps or the measuring under way. */
   cancel(): void {
     this.#steps.abort();
     this.#steps = new AbortController();
@@ -72,9 +59,34 @@ export class Derived {
     this.#stop.abort();
   }
 
+  /** Cancels what is under way and does other work on the posed model. */
+  async #ofSolid<Result>(
+    rotation: Rotation,
+    scale: number,
+    work: (solid: Solid) => Generator<number, Result>,
+    tell: (progress: number) => void,
+  ): Promise<Result | null> {
+    this.cancel();
+    const { signal } = this.#steps;
+    const before = this.#hasTopology ? 0 : TOPOLOGY_PART;
+    // The search for the topology continues even if the work is cancelled.
+    const found = this.#found((progress) => {
+      if (!signal.aborted) tell(before * progress);
+    });
+    const topology = await this.#whileAlive(found);
+    if (topology === null || signal.aborted) return null;
+    const points = posed(topology.points, rotation, scale);
+    try {
+      return await inParts(work({ points, topology }), signal, (progress) => tell(before + (1 - before) * progress));
+    } catch (error) {
+      if (signal.aborted) return null;
+      throw error;
+    }
+  }
+
   /** Computed once, on first request. */
   #found(tell?: (progress: number) => void): Promise<Topology> {
-    this.#topology ??= inParts(topologyOf(this.positions), this.#stop.signal, tell);
+    this.#topology ??= inParts(topologyOf(this.positions), this.#stop.signal, tell).finally(() => (this.#hasTopology = true));
     return this.#topology;
   }
 

@@ -1,5 +1,6 @@
-/** Computes the stair steps of the printed look once pose and plan have stopped changing. */
+/** Computes the stair steps of the printed look once pose and plan have stopped changing, and measures them on request. */
 import type { Derived } from "./derived.js";
+import { isMeasured } from "./distances.js";
 import type { Rotation } from "../scene/pose.js";
 import type { Steps } from "./steps.js";
 
@@ -15,42 +16,91 @@ export interface Job {
 }
 
 export interface PrintedReports {
-  /** 0 to 1 while under way, null afterwards. */
-  progress(progress: number | null): void;
-  /** The steps of the last job; null while there are none. */
+  /** Progress of computing the steps: 0 to 1 while under way, null afterwards. */
+  building(progress: number | null): void;
+  /** Progress of measuring them. */
+  measuring(progress: number | null): void;
+  /** The steps of the last job, later with their distances; null while there are none. */
   steps(steps: Steps | null): void;
+}
+
+/** Whether two jobs have the same steps. */
+function areSame(a: Job | null, b: Job | null): boolean {
+  if (a === null || b === null) return a === b;
+  return a.derived === b.derived && a.rotation === b.rotation && a.scale === b.scale && a.z_mm === b.z_mm;
 }
 
 export class Printed {
   readonly #reports: PrintedReports;
   #timer = 0;
   #job: Job | null = null;
+  /** The steps of the job, as soon as there are any. */
+  #steps: Steps | null = null;
+  #measures = false;
 
   constructor(reports: PrintedReports) {
     this.#reports = reports;
   }
 
-  /** Replaces the last job and discards its steps; null: no job. */
-  want(job: Job | null): void {
+  /**
+   * Replaces the last job and discards its steps, unless they are the same; null: no job.
+   * @param measures whether the distances of the steps are wanted too
+   */
+  want(job: Job | null, measures: boolean): void {
+    const isNew = !areSame(job, this.#job);
+    const before = this.#measures;
+    this.#measures = measures;
+    if (isNew) this.#begin(job);
+    else if (this.#job !== null && this.#steps !== null && !isMeasured(this.#steps) && measures !== before) {
+      if (measures) void this.#measure(this.#job, this.#steps);
+      else this.#job.derived.cancel();
+    }
+  }
+
+  #begin(job: Job | null): void {
     clearTimeout(this.#timer);
     this.#job?.derived.cancel();
     this.#job = job;
+    this.#steps = null;
     this.#reports.steps(null);
-    this.#reports.progress(null);
-    if (job !== null) this.#timer = window.setTimeout(() => void this.#do(job), SETTLED_MS);
+    this.#reports.building(null);
+    this.#reports.measuring(null);
+    if (job !== null) this.#timer = window.setTimeout(() => void this.#build(job), SETTLED_MS);
   }
 
-  async #do(job: Job): Promise<void> {
+  async #build(job: Job): Promise<void> {
     const { derived, rotation, scale, z_mm } = job;
+    // Facets stay on show if memory does not suffice.
+    const steps = await this.#told(job, "building", (tell) => derived.steps(rotation, scale, z_mm, tell));
+    if (steps === null) return;
+    this.#steps = steps;
+    this.#reports.steps(steps);
+    if (this.#measures) await this.#measure(job, steps);
+  }
+
+  async #measure(job: Job, steps: Steps): Promise<void> {
+    const { derived, rotation, scale } = job;
+    const measured = await this.#told(job, "measuring", (tell) => derived.measured(rotation, scale, steps, tell));
+    if (measured === null) return;
+    this.#steps = measured;
+    this.#reports.steps(measured);
+  }
+
+  /** Reports the progress of work on a job; null if there is another job by the time that it is done. */
+  async #told<Result>(
+    job: Job,
+    report: "building" | "measuring",
+    work: (tell: (progress: number) => void) => Promise<Result | null>,
+  ): Promise<Result | null> {
     const tell = (progress: number | null): void => {
-      if (job === this.#job) this.#reports.progress(progress);
+      if (job === this.#job) this.#reports[report](progress);
     };
     tell(0);
     try {
-      const steps = await derived.steps(rotation, scale, z_mm, tell);
-      if (steps !== null && job === this.#job) this.#reports.steps(steps);
+      const result = await work(tell);
+      return job === this.#job ? result : null;
     } finally {
-      // Also if memory does not suffice: then the facets stay on show.
+      // Also if memory does not suffice.
       tell(null);
     }
   }

@@ -1,21 +1,9 @@
 import { describe, expect, it } from "vitest";
 import { cutsOf, signedArea, simplified, tracer, type Contour, type Solid } from "./contours.js";
 import { ball, box, cone, insideOut, together } from "../fixtures.js";
-import { posed, turned, UPRIGHT } from "../scene/pose.js";
+import { turned, UPRIGHT } from "../scene/pose.js";
+import { finished, layers, solid } from "./steps-fixture.js";
 import { middles, polygons, stairSteps, type Steps, type StepsPart } from "./steps.js";
-import { topologyOf } from "../scene/topology.js";
-
-function finished<Result>(work: Generator<unknown, Result>): Result {
-  for (;;) {
-    const step = work.next();
-    if (step.done === true) return step.value;
-  }
-}
-
-function solid(positions: Float32Array, rotation = UPRIGHT): Solid {
-  const topology = finished(topologyOf(positions));
-  return { points: posed(topology.points, rotation, 1), topology };
-}
 
 function sections(of: Solid, planes: readonly number[], tolerance = 0): Contour[][] {
   const cuts = finished(cutsOf(of, planes));
@@ -49,13 +37,6 @@ function partVolume({ positions, index }: StepsPart): number {
     six += ax * (by * cz - bz * cy) - ay * (bx * cz - bz * cx) + az * (bx * cy - by * cx);
   }
   return six / 6;
-}
-
-/** Boundaries of layers of `thickness_mm`; the last one takes what remains. */
-function layers(height: number, thickness_mm: number): number[] {
-  const out = [0];
-  while ((out.at(-1) ?? 0) < height - 1e-9) out.push(Math.min(height, (out.at(-1) ?? 0) + thickness_mm));
-  return out;
 }
 
 describe("sections", () => {
