@@ -127,7 +127,7 @@ fn main() {
         "# Weighted models\n\n\
          Written by `cargo xtask bench weights`: a generated head of {} facets, {HEIGHT_MM} mm high, layers of 50 to 150 µm, \
          cusp height within 65 µm. The weighted plan may have as many layers as the plain plan, and has the smallest weighted error \
-         that these allow; the minimum weight is 0.1. It needs {} of {} layers: thinner ones than 50 µm alone would lower the \
+         that these allow; the minimum weight is 0.1. It needs {} of {} layers: only layers thinner than 50 µm would lower the \
          weighted error further.\n\n\
          ![Saliency, paint and their product as heat maps; plans without and with weights](weights.png)\n\n\
          From left to right: mesh saliency, painted weights and their product (figure 6; yellow is 1, violet 0); the layers of \
