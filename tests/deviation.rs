@@ -5,8 +5,9 @@
 
 mod common;
 
-use common::{assert_near, on_plate, solids};
+use common::{assert_near, binary_stl, on_plate, quiet, solids};
 use cusp_slicer::grid::Bins;
+use cusp_slicer::job::{Backend, Options, Slicer};
 use cusp_slicer::plan::optimal::{Objective, fill_cheapest};
 use cusp_slicer::plan::preferred::{Preferred, SnapPlanes};
 use cusp_slicer::plan::segment::Segment;
@@ -14,7 +15,7 @@ use cusp_slicer::plan::{Limits, optimal};
 use cusp_slicer::profile::deviation::DeviationError;
 use cusp_slicer::profile::facet_bins::FacetBins;
 use cusp_slicer::profile::normal_cones::{cones, maxima};
-use cusp_slicer::profile::{LayerErrors, Reach, steepest};
+use cusp_slicer::profile::{LayerErrors, Metric, Reach, Source, steepest};
 use glam::{DVec2, Vec3};
 
 /// Bins of 1 mm.
@@ -410,4 +411,52 @@ fn the_planner_finds_the_fewest_layers_though_thicker_ones_may_be_nearer() {
             .count();
     }
     assert!(plans > 500 && returns > 0, "{plans} {returns}");
+}
+
+/// The largest |`n_z`| over the normal cones of the bins of a sliced model, which are 2 µm high.
+fn sliced_values(triangles: &[[Vec3; 3]]) -> Vec<f32> {
+    let options = Options {
+        metric: Metric::Deviation,
+        tolerance: Some(0.1),
+        rays: 256,
+        backend: Backend::Cpu,
+        ..Options::default()
+    };
+    let mut slicer = Slicer::load(&binary_stl(triangles)).unwrap();
+    pollster::block_on(slicer.plan(&options, &mut quiet)).unwrap();
+    let profile = slicer.profile(Metric::Deviation, Source::Exact);
+    profile.unwrap().density
+}
+
+#[test]
+fn a_valley_between_crossing_bodies_is_as_level_as_its_crease() {
+    // Two roofs across each other, one of 45° and one lower.
+    let roof = |height: f32| solids::profiled(&[[-4.0, 0.0], [4.0, 0.0], [0.0, height]], 16.0);
+    let mut roofs = solids::moved(&roof(4.0), Vec3::new(0.0, -8.0, 0.0));
+    let across = solids::moved(&roof(3.9), Vec3::new(0.0, -8.0, 0.0));
+    let turned = |corner: Vec3| Vec3::new(-corner.y, corner.x, corner.z);
+    roofs.extend(across.iter().map(|corners| corners.map(turned)));
+    let values = sliced_values(&roofs);
+    // The normals (1, 0, 1) and (0, 3.9, 4) have the cross product (−3.9, −4, 3.9).
+    let (level, along_z) = (3.9 * 3.9 + 4.0 * 4.0, 3.9 * 3.9);
+    let expected: f64 = level / (level + along_z);
+    for z_mm in [0.5, 1.0, 2.0, 3.0, 3.8] {
+        let value = values[(z_mm / 0.002) as usize];
+        assert_near(f64::from(value), expected.sqrt(), 1e-6);
+    }
+    // A roof alone is as steep as its facets there.
+    let alone = sliced_values(&roof(4.0));
+    assert_near(f64::from(alone[1000]), 0.5f64.sqrt(), 1e-6);
+}
+
+#[test]
+fn a_crease_is_level_where_it_turns() {
+    // Two cones that overlap: the crease between them is highest half-way, 3 mm from both axes.
+    let mut cones = solids::cone(5.0, 10.0, 64);
+    let other = solids::cone(5.0, 10.0, 50);
+    cones.extend(solids::moved(&other, Vec3::new(6.0, 0.0, 0.0)));
+    let values = sliced_values(&cones);
+    let highest = values[1000..4800].iter().rposition(|&value| value == 1.0);
+    let z_mm = (1000 + highest.unwrap()) as f64 * 0.002;
+    assert_near(z_mm, 4.0, 0.05);
 }

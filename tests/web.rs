@@ -117,7 +117,7 @@ async fn check_plan_and_masks() {
         let (bytes, _) = slicer.write_archive(Vec::new(), &mut quiet).unwrap();
         fingerprint(&bytes)
     };
-    assert_eq!(archive(&mut slicer), 0xc33e_354c_fcc6_2199);
+    assert_eq!(archive(&mut slicer), 0x39f5_811b_24ed_aa3c);
     let grey = Options {
         antialias: 4,
         printer: Some("sl1s".to_owned()),
@@ -151,7 +151,7 @@ async fn check_plan_and_masks() {
         plans.extend(point.tolerance.to_le_bytes());
         plans.extend(point.layers.to_le_bytes().iter().take(4));
     }
-    assert_eq!(fingerprint(&plans), 0x2972_f80b_33b6_be12);
+    assert_eq!(fingerprint(&plans), 0x8921_2f2c_7b8c_ea9d);
 }
 
 #[cfg(not(target_arch = "wasm32"))]

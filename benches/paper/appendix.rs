@@ -17,16 +17,16 @@ use crate::{BIN_MM, LAYER_MM, Model, mesh_of, options, quiet};
 /// Rays: half a pixel's diagonal is what masks do not resolve, and should be far below the errors.
 const RAYS: u32 = 4096;
 
-/// Three approximated errors and the true one.
+/// Three approximated errors and the true one, in millimetres.
 struct Layer {
-    /// Thickness times |n_z| at the plane below, as conventional slicers have it.
-    one_normal_mm: f64,
+    /// Thickness times |`n_z`| at the plane below, as conventional slicers have it.
+    one_normal: f64,
     /// The integral of the profile.
-    integral_mm: f64,
+    integral: f64,
     /// The bound of the metric `deviation`.
-    bound_mm: f64,
+    bound: f64,
     /// The greatest distance from the print to the model.
-    true_mm: f64,
+    actual: f64,
 }
 
 pub fn write(models: &[Model], text: &mut String) {
@@ -47,16 +47,16 @@ pub fn write(models: &[Model], text: &mut String) {
     for model in models {
         let (layers, half_diagonal_mm) = layers(model);
         let fits = [
-            fit(&layers, |layer| layer.one_normal_mm),
-            fit(&layers, |layer| layer.integral_mm),
-            fit(&layers, |layer| layer.bound_mm),
+            fit(&layers, |layer| layer.one_normal),
+            fit(&layers, |layer| layer.integral),
+            fit(&layers, |layer| layer.bound),
         ];
         let fits = fits.map(|[correlation, slope]| format!("{correlation:.2} | {slope:.2}"));
         // A shelf is as far as the walls beside it, and one of them is the next layer's.
         let excess = (0..layers.len()).map(|layer| {
             let beside = &layers[layer.saturating_sub(1)..(layer + 2).min(layers.len())];
-            let bounds = beside.iter().map(|layer| layer.bound_mm);
-            layers[layer].true_mm - bounds.fold(0.0, f64::max)
+            let bounds = beside.iter().map(|layer| layer.bound);
+            layers[layer].actual - bounds.fold(0.0, f64::max)
         });
         let _ = writeln!(
             text,
@@ -109,24 +109,24 @@ fn layers(model: &Model) -> (Vec<Layer>, f64) {
         let upper = upper.min(bins.count as u32);
         let a_bin = cusps.to_value(cusps.steps_between(lower, lower + 1));
         Some(Layer {
-            one_normal_mm: a_bin * f64::from(upper - lower),
-            integral_mm: cusps.to_value(cusps.steps_between(lower, upper)),
-            bound_mm: deviations.to_value(deviations.steps_between(lower, upper)),
-            true_mm: simulated.max_mm?,
+            one_normal: a_bin * f64::from(upper - lower),
+            integral: cusps.to_value(cusps.steps_between(lower, upper)),
+            bound: deviations.to_value(deviations.steps_between(lower, upper)),
+            actual: simulated.max_mm?,
         })
     });
     (layers.collect(), simulation.half_pixel_diagonal_mm)
 }
 
 /// The correlation of an approximated error with the true one, and the slope of the line through 0 that fits best.
-fn fit(layers: &[Layer], approximated_mm: impl Fn(&Layer) -> f64) -> [f64; 2] {
+fn fit(layers: &[Layer], approximated: impl Fn(&Layer) -> f64) -> [f64; 2] {
     let count = layers.len() as f64;
     let mean = |of: &dyn Fn(&Layer) -> f64| layers.iter().map(of).sum::<f64>() / count;
-    let (x, y) = (mean(&approximated_mm), mean(&|layer| layer.true_mm));
-    let covariance = mean(&|layer| (approximated_mm(layer) - x) * (layer.true_mm - y));
-    let variances = mean(&|layer| (approximated_mm(layer) - x).powi(2))
-        * mean(&|layer| (layer.true_mm - y).powi(2));
-    let slope = mean(&|layer| approximated_mm(layer) * layer.true_mm)
-        / mean(&|layer| approximated_mm(layer).powi(2));
+    let (x, y) = (mean(&approximated), mean(&|layer| layer.actual));
+    let covariance = mean(&|layer| (approximated(layer) - x) * (layer.actual - y));
+    let variances = mean(&|layer| (approximated(layer) - x).powi(2))
+        * mean(&|layer| (layer.actual - y).powi(2));
+    let slope = mean(&|layer| approximated(layer) * layer.actual)
+        / mean(&|layer| approximated(layer).powi(2));
     [covariance / variances.sqrt(), slope]
 }

@@ -7,7 +7,6 @@
 mod assemble;
 mod bins;
 pub mod cpu;
-mod crossing;
 pub mod gpu;
 pub mod layout;
 pub mod projection;

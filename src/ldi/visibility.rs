@@ -1,7 +1,7 @@
 //! Finds the facets that lie wholly inside the solid where bodies overlap. They are not part of the printed surface.
 
-use super::crossing::crossed;
 use super::{Hit, Ldi};
+use crate::model::crossing::crossed;
 use crate::model::{Mesh, bodies};
 use crate::parallel;
 
@@ -11,6 +11,8 @@ pub struct Visibility {
     /// For each facet, whether it is wholly inside: at least one ray meets it, all that do are inside the solid there, and no other
     /// facet passes through it; or the rays show the same of its whole body. Empty if there is no such facet.
     pub hidden: Vec<bool>,
+    /// The facets that are not hidden although a ray meets them inside the solid, ascending: they may cross the surface.
+    pub partly_inside: Vec<u32>,
     /// Whether bodies overlap without hiding whole facets, or a body is inverted. The areas of sections are then not
     /// the sum of what the facets enclose.
     pub overlaps: bool,
@@ -18,6 +20,7 @@ pub struct Visibility {
 
 const MET: u8 = 1;
 const ON_SURFACE: u8 = 2;
+const INSIDE: u8 = 4;
 
 /// Finds the hidden facets of `mesh`, from which `ldi` was sampled. A facet that no ray meets counts as visible, unless
 /// its body is hidden.
@@ -38,6 +41,7 @@ pub fn visibility(mesh: &Mesh, ldi: &Ldi) -> Visibility {
     {
         return Visibility {
             hidden: Vec::new(),
+            partly_inside: Vec::new(),
             overlaps: false,
         };
     }
@@ -46,6 +50,10 @@ pub fn visibility(mesh: &Mesh, ldi: &Ldi) -> Visibility {
         look_along(ldi.ray(ray), model_end, &mut seen);
     }
     let bodies = bodies(mesh);
+    let met_inside: Vec<bool> = seen.iter().map(|seen| seen & INSIDE != 0).collect();
+    for seen in &mut seen {
+        *seen &= !INSIDE;
+    }
     let mut body_seen = vec![0u8; mesh.vertices.len()];
     for (&seen, &body) in seen.iter().zip(&bodies) {
         body_seen[body as usize] |= seen;
@@ -64,6 +72,8 @@ pub fn visibility(mesh: &Mesh, ldi: &Ldi) -> Visibility {
     let hidden: Vec<bool> = (0..seen.len())
         .map(|facet| seen[facet] == MET || is_hidden_body(facet))
         .collect();
+    let is_partly = |&facet: &u32| met_inside[facet as usize] && !hidden[facet as usize];
+    let partly_inside = (0..mesh.surface_facets as u32).filter(is_partly).collect();
     // A body that has lost part of its walls encloses no measurable area.
     let is_open = (0..seen.len())
         .any(|facet| hidden[facet] && !is_hidden_body(facet) && mesh.n_z_squared(facet) < 1.0);
@@ -79,7 +89,11 @@ pub fn visibility(mesh: &Mesh, ldi: &Ldi) -> Visibility {
         || !parallel::map(chunks, is_union)
             .into_iter()
             .all(|union| union);
-    Visibility { hidden, overlaps }
+    Visibility {
+        hidden,
+        partly_inside,
+        overlaps,
+    }
 }
 
 /// Whether `holds` is true for every ray that the offsets bound.
@@ -122,7 +136,7 @@ fn look_along(hits: &[Hit], model_end: u32, seen: &mut [u8]) {
         let of_model = || group.iter().filter(|hit| hit.facet() < model_end);
         winding += of_model().map(|hit| hit.winding()).sum::<i32>();
         let note = if was_inside == (winding != 0) && was_inside {
-            MET
+            MET | INSIDE
         } else {
             MET | ON_SURFACE
         };

@@ -2,6 +2,7 @@
 
 mod bodies;
 mod class;
+pub(crate) mod crossing;
 mod edges;
 mod file;
 mod holes;

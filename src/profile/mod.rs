@@ -1,6 +1,7 @@
 //! Metric profiles: the error density along z, one value per bin (section 3.1), for five metrics and from two sources.
 
 pub mod area;
+mod creases;
 pub mod cusp;
 pub mod deviation;
 pub mod facet_bins;

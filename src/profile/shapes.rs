@@ -1,5 +1,6 @@
 //! The shape of a model along z from both sources, facets and rays, with optional weights of facets.
 
+use super::creases::creases;
 use super::facet_bins::{FacetBins, Flat};
 use super::normal_cones::{self, Cone, cones};
 use super::weighted::Weighted;
@@ -7,7 +8,7 @@ use super::{LayerErrors, Metric, Profile, Shape, Source, section, steepest};
 use crate::grid::Bins;
 use crate::ldi::Ldi;
 use crate::ldi::visibility::{Visibility, visibility};
-use crate::model::Mesh;
+use crate::model::{Mesh, crossing};
 
 /// The shape of a model from both sources.
 #[derive(Debug, Clone)]
@@ -37,12 +38,18 @@ struct Weighing {
 impl Shapes {
     /// The shape of a sampled mesh, without areas of sections and without weights.
     pub fn new(facet_bins: &FacetBins, mesh: &Mesh, ldi: &Ldi) -> Self {
-        let Visibility { hidden, overlaps } = visibility(mesh, ldi);
+        let Visibility {
+            hidden,
+            partly_inside,
+            overlaps,
+        } = visibility(mesh, ldi);
         let bins = facet_bins.bins;
         let exact = steepest::exact(facet_bins, &hidden);
         let sampled = steepest::sampled(facet_bins, ldi, &hidden);
-        let cones = cones(mesh, bins);
         let is_seen = |facet: usize| hidden.get(facet) != Some(&true);
+        let mut cones = cones(mesh, bins);
+        let pairs = crossing::pairs(mesh, &partly_inside, |facet| is_seen(facet as usize));
+        cones.extend(creases(mesh, bins, &pairs));
         Self {
             exact: Shape {
                 bins,

@@ -3,7 +3,7 @@
 use glam::{DVec3, IVec3};
 use rustc_hash::FxHashMap;
 
-use crate::model::Mesh;
+use super::Mesh;
 
 /// Cells along each axis that a facet may meet to be listed in them; larger facets are held against all others.
 const MOST_CELLS: i32 = 16;
@@ -11,7 +11,7 @@ const MOST_CELLS: i32 = 16;
 /// For each of `facets`, whether another facet of the model passes through it, or it through the other. Touching is no crossing.
 ///
 /// Cost: linear in facets where they are of similar sizes.
-pub(super) fn crossed(mesh: &Mesh, facets: &[u32]) -> Vec<bool> {
+pub fn crossed(mesh: &Mesh, facets: &[u32]) -> Vec<bool> {
     if facets.is_empty() {
         return Vec::new();
     }
@@ -20,17 +20,34 @@ pub(super) fn crossed(mesh: &Mesh, facets: &[u32]) -> Vec<bool> {
     facets
         .iter()
         .map(|&facet| {
-            seen.clear();
             cells.near(mesh, facet, &mut seen);
-            let corners = mesh.corners(facet as usize);
-            seen.iter().any(|&other| {
-                let shares = mesh.facets[facet as usize]
-                    .iter()
-                    .any(|vertex| mesh.facets[other as usize].contains(vertex));
-                !shares && cross(&corners, &mesh.corners(other as usize))
-            })
+            seen.iter().any(|&other| cross(mesh, facet, other))
         })
         .collect()
+}
+
+/// The pairs of `facets`, which ascend, and other facets of the surface that count, if they pass through each other. Each is there
+/// once.
+///
+/// Cost: linear in facets where they are of similar sizes.
+pub fn pairs(mesh: &Mesh, facets: &[u32], counts: impl Fn(u32) -> bool) -> Vec<[u32; 2]> {
+    if facets.is_empty() {
+        return Vec::new();
+    }
+    let cells = Cells::new(mesh);
+    let end = mesh.surface_facets as u32;
+    let (mut seen, mut pairs) = (Vec::new(), Vec::new());
+    for &facet in facets {
+        cells.near(mesh, facet, &mut seen);
+        // A pair of which both are listed belongs to the first.
+        let is_new = |other: &u32| *other > facet || facets.binary_search(other).is_err();
+        seen.retain(|other| *other < end && is_new(other) && counts(*other));
+        seen.sort_unstable();
+        seen.dedup();
+        let crossing = seen.iter().filter(|&&other| cross(mesh, facet, other));
+        pairs.extend(crossing.map(|&other| [facet, other]));
+    }
+    pairs
 }
 
 /// Facets by the cells that their boxes meet.
@@ -78,8 +95,9 @@ impl Cells {
         })
     }
 
-    /// The facets whose boxes may meet that of a facet, some of them several times.
+    /// Replaces `found` by the facets whose boxes may meet that of a facet, some of them several times.
     fn near(&self, mesh: &Mesh, facet: u32, found: &mut Vec<u32>) {
+        found.clear();
         match self.of(&mesh.corners(facet as usize)) {
             Some(places) => {
                 let listed = places.filter_map(|place| self.listed.get(&place));
@@ -96,11 +114,16 @@ fn bounds(corners: &[DVec3; 3]) -> [DVec3; 2] {
     [a.min(b).min(c), a.max(b).max(c)]
 }
 
-/// Whether an edge of one of two facets passes through the other.
-fn cross(one: &[DVec3; 3], other: &[DVec3; 3]) -> bool {
-    let [[low, high], [other_low, other_high]] = [bounds(one), bounds(other)];
+/// Whether two facets without a common vertex pass through each other: an edge of one passes through the other.
+fn cross(mesh: &Mesh, facet: u32, other: u32) -> bool {
+    let [one, two] = [facet, other].map(|facet| mesh.corners(facet as usize));
+    let [[low, high], [other_low, other_high]] = [bounds(&one), bounds(&two)];
     let is_apart = low.cmpgt(other_high).any() || other_low.cmpgt(high).any();
-    !is_apart && (passes_through(one, other) || passes_through(other, one))
+    let shares = || {
+        let mut vertices = mesh.facets[facet as usize].iter();
+        vertices.any(|vertex| mesh.facets[other as usize].contains(vertex))
+    };
+    !is_apart && !shares() && (passes_through(&one, &two) || passes_through(&two, &one))
 }
 
 /// Whether an edge of `one` passes through the inside of `other`.
