@@ -55,6 +55,7 @@ export const FIXED = {
   antialias: 1,
   layer_min_mm: 0.05,
   layer_max_mm: 0.15,
+  thicknesses_mm: [],
   ranges: [],
   planes_mm: [],
   snap: "auto",
