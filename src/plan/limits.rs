@@ -91,20 +91,41 @@ impl Limits {
     /// Thickness of the first layer in bins, if it is fixed; 0 otherwise.
     ///
     /// # Errors
-    /// [`PlanError::Quantity`], [`PlanError::NotWholeBins`] if it is no whole number of units.
+    /// [`PlanError::Quantity`], [`PlanError::NotWholeBins`], [`PlanError::NotWholeSteps`].
     pub fn first_layer(&self, bins: Bins) -> Result<u32, PlanError> {
         let Some(first_layer_mm) = self.first_layer_mm else {
             return Ok(0);
         };
         let unit = self.unit(bins)?;
-        let units = Bins {
-            count: bins.count,
-            size_mm: bins.boundary_mm(unit),
-        };
-        let whole = whole_bins(units, Quantity::FirstLayer, first_layer_mm)?;
+        let whole = self.whole_units(bins, Quantity::FirstLayer, first_layer_mm)?;
         // Above any model, and small enough to count in bins.
         let limit = f64::from(bins.count as u32 / unit + 1);
         Ok(whole.min(limit) as u32 * unit)
+    }
+
+    /// A thickness as a whole number of units, which it must be.
+    pub(super) fn whole_units(
+        &self,
+        bins: Bins,
+        quantity: Quantity,
+        length_mm: f64,
+    ) -> Result<f64, PlanError> {
+        let units = Bins {
+            count: bins.count,
+            size_mm: bins.boundary_mm(self.unit(bins)?),
+        };
+        whole_bins(units, quantity, length_mm).map_err(|error| match error {
+            PlanError::NotWholeBins {
+                quantity,
+                length_mm,
+                bin_mm,
+            } if self.step_mm.is_some() => PlanError::NotWholeSteps {
+                quantity,
+                length_mm,
+                step_mm: bin_mm,
+            },
+            error => error,
+        })
     }
 
     /// Checks everything that does not depend on the model.

@@ -59,6 +59,20 @@ pub enum PlanError {
         /// Bin size.
         bin_mm: f64,
     },
+    /// A thickness that is no whole number of motor steps.
+    #[error(
+        "{} of {length_mm} mm is no whole number of steps of {step_mm} mm; choose a multiple of {step_mm} mm",
+        quantity.noun()
+    )]
+    #[serde(rename = "not-whole-steps")]
+    NotWholeSteps {
+        /// Which thickness.
+        quantity: Quantity,
+        /// The thickness asked for.
+        length_mm: f64,
+        /// The motor step.
+        step_mm: f64,
+    },
     /// A height range that is empty or upside down, or overlaps another.
     #[error(
         "the height range from {from_mm} to {to_mm} mm is empty or overlaps another; give ranges upward and apart"

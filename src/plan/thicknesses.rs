@@ -8,7 +8,6 @@
 //! thickness if that is more. Mandatory planes do not move.
 
 use super::few::Search;
-use super::limits::whole_bins;
 use super::optimal::{self, Objective, Table, layers_above};
 use super::preferred::SnapPlanes;
 use super::segment::{Segment, Segments, boundaries_below};
@@ -25,7 +24,7 @@ use crate::quantity::Quantity;
 /// Cost: bins times thicknesses of the set; if there is no plan, as much for each of some 40 tolerances.
 ///
 /// # Errors
-/// [`PlanError::NotWholeBins`] for a thickness that is no whole number of bins or motor steps, [`PlanError::ThicknessesDoNotFit`]
+/// [`PlanError::NotWholeBins`] or [`PlanError::NotWholeSteps`] for a thickness, [`PlanError::ThicknessesDoNotFit`]
 /// if the set has no plan. Other [`PlanError`]s are for contradictory limits.
 pub fn of(
     errors: &LayerErrors,
@@ -40,7 +39,7 @@ pub fn of(
     };
     let mut set = Vec::with_capacity(thicknesses_mm.len());
     for &thickness_mm in thicknesses_mm {
-        let whole = whole_bins(units, Quantity::Layer, thickness_mm)?;
+        let whole = limits.whole_units(bins, Quantity::Layer, thickness_mm)?;
         // Thicker ones are outside every range.
         set.push(whole.min(f64::from(u32::MAX)) as u32);
     }

@@ -268,7 +268,7 @@ fn a_first_layer_that_cannot_be_is_told() {
     );
     assert!(matches!(
         first(3.0, vec![], Some(2.0)),
-        PlanError::NotWholeBins { .. }
+        PlanError::NotWholeSteps { .. }
     ));
     for too_thick in [20.0, 21.0, 1e12] {
         let error = first(too_thick, vec![], None);

@@ -4,6 +4,7 @@ use cusp_slicer::format::Format;
 use cusp_slicer::job::{Backend, Minimize, Options, Planner, Report, Slicer, Snap};
 use cusp_slicer::profile::Metric;
 use cusp_slicer::simulation::{Knowledge, Simulation};
+use glam::Vec3;
 
 use crate::common::solids::{self, Triangles};
 use crate::common::{binary_stl, quiet};
@@ -84,6 +85,53 @@ fn reports_bound_the_distance_under_every_metric_and_planner() {
         for (name, triangles) in [("ball", &ball), ("frame", &solids::frame())] {
             holds(&format!("{name}, {}", planner.name()), triangles, &options);
         }
+    }
+}
+
+#[test]
+fn the_tolerance_holds_whatever_thicknesses_are_allowed() {
+    let ball = solids::sphere(4.0, 5);
+    let rules: [fn(&mut Options); 4] = [
+        |it| it.thicknesses_mm = vec![0.05, 0.08, 0.12],
+        |it| it.max_thicknesses = Some(2),
+        |it| it.max_change_mm = Some(0.004),
+        |it| it.first_layer_mm = Some(0.2),
+    ];
+    for set in rules {
+        let mut options = Options {
+            metric: Metric::Deviation,
+            ..options()
+        };
+        set(&mut options);
+        for (name, triangles) in [("ball", &ball), ("frame", &solids::frame())] {
+            let (report, _) = holds(name, triangles, &options);
+            assert!(report.max_error <= 0.0325 + 1e-9, "{name} {options:?}");
+            // A first layer of 0.2 mm is farther from the ball than any other, and the report says so.
+            let is_exempt = options.first_layer_mm.is_some() && name == "ball";
+            let most_mm = report.max_deviation_mm;
+            assert_eq!(most_mm > 0.0325 + 1e-9, is_exempt, "{name} {options:?}");
+        }
+    }
+}
+
+#[test]
+fn the_tolerance_holds_along_the_creases_of_crossing_bodies() {
+    // Roofs across each other, of which the valleys are more level than the facets, and two cones side by side.
+    let roof = |height: f32| solids::profiled(&[[-4.0, 0.0], [4.0, 0.0], [0.0, height]], 16.0);
+    let mut roofs = solids::moved(&roof(4.0), Vec3::new(0.0, -8.0, 0.0));
+    let across = solids::moved(&roof(3.9), Vec3::new(0.0, -8.0, 0.0));
+    let turned = |corner: Vec3| Vec3::new(-corner.y, corner.x, corner.z);
+    roofs.extend(across.iter().map(|corners| corners.map(turned)));
+    let mut cones = solids::cone(5.0, 10.0, 16);
+    let other = solids::cone(5.0, 10.0, 13);
+    cones.extend(solids::moved(&other, Vec3::new(6.0, 0.0, 0.0)));
+    for (name, triangles) in [("roofs", roofs), ("cones", cones)] {
+        let options = Options {
+            metric: Metric::Deviation,
+            ..options()
+        };
+        let (report, _) = holds(name, &triangles, &options);
+        assert!(report.max_deviation_mm <= 0.0325 + 1e-9, "{name}");
     }
 }
 

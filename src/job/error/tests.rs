@@ -119,6 +119,7 @@ fn plan_errors() -> Vec<PlanError> {
     one_of_each!(PlanError except [Quantity]:
         EmptyRange { layer_min_mm: 0.051, layer_max_mm: 0.053, step_mm: 0.01 },
         NotWholeBins { quantity: Quantity::Step, length_mm: 0.013, bin_mm: 0.002 },
+        NotWholeSteps { quantity: Quantity::FirstLayer, length_mm: 0.205, step_mm: 0.01 },
         BadRange { from_mm: 5.5, to_mm: 2.5 },
         BadPlane { z_mm: 12.5, height_mm: 10.25 },
         LayerTooThick { layer_mm: 5.5, height_mm: 2.25 },

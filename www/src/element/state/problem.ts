@@ -75,6 +75,7 @@ const KINDS: Readonly<Record<ErrorCode, Kind>> = {
   "model-too-large": "tooLarge",
   "model-too-high": "tooHigh",
   "not-whole-bins": "notWhole",
+  "not-whole-steps": "notWhole",
   "layer-range-empty": "rangeEmpty",
   "layer-too-thick": "layerTooThick",
   "layers-do-not-fit": "doNotFit",

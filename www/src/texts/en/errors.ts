@@ -99,6 +99,8 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
   "too-many-bins": ({ height_mm, bin_mm }) => `${mm(height_mm)} in bins of ${mm(bin_mm)} are too many; choose a larger bin.`,
   "not-whole-bins": ({ quantity, length_mm, bin_mm }) =>
     `${QUANTITIES[quantity]} of ${mm(length_mm)} is no whole number of bins of ${mm(bin_mm)}; choose a bin that divides it.`,
+  "not-whole-steps": ({ quantity, length_mm, step_mm }) =>
+    `${QUANTITIES[quantity]} of ${mm(length_mm)} is no whole number of steps of ${mm(step_mm)}; choose a multiple of ${mm(step_mm)}.`,
   "layer-range-empty": ({ layer_min_mm, layer_max_mm, step_mm }) =>
     `No whole number of steps of ${mm(step_mm)} lies between the layer thicknesses ${exact(layer_min_mm)} and ${mm(layer_max_mm)}; ` +
     "widen the range or choose a smaller step.",

@@ -99,6 +99,8 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
     `${mm(height_mm)} en intervalos de ${mm(bin_mm)} son demasiados; elija un intervalo más grande.`,
   "not-whole-bins": ({ quantity, length_mm, bin_mm }) =>
     `${QUANTITIES[quantity]} de ${mm(length_mm)} no es un número entero de intervalos de ${mm(bin_mm)}; elija un intervalo que lo divida.`,
+  "not-whole-steps": ({ quantity, length_mm, step_mm }) =>
+    `${QUANTITIES[quantity]} de ${mm(length_mm)} no es un número entero de pasos de ${mm(step_mm)}; elija un múltiplo de ${mm(step_mm)}.`,
   "layer-range-empty": ({ layer_min_mm, layer_max_mm, step_mm }) =>
     `Ningún número entero de pasos de ${mm(step_mm)} está entre los espesores ${exact(layer_min_mm)} y ${mm(layer_max_mm)}; ` +
     "amplíe el intervalo o elija un paso más pequeño.",

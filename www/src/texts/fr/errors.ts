@@ -99,6 +99,8 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
     `${mm(height_mm)} en intervalles de ${mm(bin_mm)}, c’est trop ; choisissez un intervalle plus grand.`,
   "not-whole-bins": ({ quantity, length_mm, bin_mm }) =>
     `${QUANTITIES[quantity]} de ${mm(length_mm)} n’est pas un nombre entier d’intervalles de ${mm(bin_mm)} ; choisissez un intervalle qui le divise.`,
+  "not-whole-steps": ({ quantity, length_mm, step_mm }) =>
+    `${QUANTITIES[quantity]} de ${mm(length_mm)} n’est pas un nombre entier de pas de ${mm(step_mm)} ; choisissez un multiple de ${mm(step_mm)}.`,
   "layer-range-empty": ({ layer_min_mm, layer_max_mm, step_mm }) =>
     `Aucun nombre entier de pas de ${mm(step_mm)} n’est entre les épaisseurs ${exact(layer_min_mm)} et ${mm(layer_max_mm)} ; ` +
     "élargissez l’intervalle ou choisissez un pas plus petit.",
