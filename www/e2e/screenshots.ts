@@ -1,7 +1,7 @@
 /** Takes the pictures of the README from the built page: `npm run screenshots`. */
 import { mkdir, stat } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
-import type { BrowserContextOptions } from "playwright-core";
+import type { BrowserContextOptions, Page } from "playwright-core";
 import { launch, maskOf, open, state } from "./browser.js";
 import { serve } from "./serve.js";
 
@@ -11,15 +11,39 @@ const LIMIT_BYTES = 200_000;
 interface Shot {
   name: string;
   options: BrowserContextOptions;
-  /** Whether it shows a search for the best orientation, not the page from its top. */
-  isOfOrientation?: true;
+  /** Takes the picture, if it is not of the page from its top. */
+  take?: (page: Page, path: string) => Promise<unknown>;
+}
+
+async function orientation(page: Page, path: string): Promise<void> {
+  await page.getByRole("button", { name: "Find the best orientation" }).click();
+  await page.locator("cusp-orientation .pose canvas[data-drawn]").nth(2).waitFor();
+  await page.locator("cusp-sphere .disc").first().hover({ position: { x: 60, y: 120 } });
+  await page.locator("cusp-slicer [part=orientation]").screenshot({ path });
+}
+
+async function distances(page: Page, path: string): Promise<void> {
+  await page.getByRole("button", { name: "As printed" }).click();
+  await page.getByRole("button", { name: "Distance from the model" }).click();
+  await page.locator("cusp-view .legend .heading", { hasText: "Distance" }).waitFor({ timeout: 180_000 });
+  // Software draws the many steps late.
+  await page.waitForTimeout(3000);
+  await page.locator("cusp-view").screenshot({ path });
+}
+
+/** The page from its top: the whole page would be too large a picture. */
+async function top(page: Page, path: string): Promise<void> {
+  await page.evaluate(() => scrollTo(0, 0));
+  await page.waitForTimeout(500);
+  await page.screenshot({ path });
 }
 
 const SHOTS: readonly Shot[] = [
   { name: "page-wide", options: { viewport: { width: 1180, height: 780 } } },
   { name: "page-dark", options: { viewport: { width: 1180, height: 780 }, colorScheme: "dark" } },
   { name: "page-narrow", options: { viewport: { width: 390, height: 1500 } } },
-  { name: "page-orientation", options: { viewport: { width: 1180, height: 780 } }, isOfOrientation: true },
+  { name: "page-orientation", options: { viewport: { width: 1180, height: 780 } }, take: orientation },
+  { name: "page-distance", options: { viewport: { width: 1180, height: 780 } }, take: distances },
 ];
 
 export async function main([folder]: string[]): Promise<void> {
@@ -28,7 +52,7 @@ export async function main([folder]: string[]): Promise<void> {
   const served = await serve();
   const browser = await launch();
   try {
-    for (const { name, options, isOfOrientation } of SHOTS) {
+    for (const { name, options, take = top } of SHOTS) {
       const { page } = await open(browser, served.address, { reducedMotion: "reduce", ...options });
       await page.getByRole("button", { name: "Try the example" }).click();
       await state(page, "done");
@@ -39,17 +63,7 @@ export async function main([folder]: string[]): Promise<void> {
       await maskOf(page, layer - 1);
       await page.evaluate(() => document.fonts.ready);
       const path = `${into}/${name}.png`;
-      if (isOfOrientation) {
-        await page.getByRole("button", { name: "Find the best orientation" }).click();
-        await page.locator("cusp-orientation .pose canvas[data-drawn]").nth(2).waitFor();
-        await page.locator("cusp-sphere .disc").first().hover({ position: { x: 60, y: 120 } });
-        await page.locator("cusp-slicer [part=orientation]").screenshot({ path });
-      } else {
-        await page.evaluate(() => scrollTo(0, 0));
-        await page.waitForTimeout(500);
-        // Only the top of the page: the whole page would be too large a picture.
-        await page.screenshot({ path });
-      }
+      await take(page, path);
       const { size } = await stat(path);
       if (size > LIMIT_BYTES) throw new Error(`${name}.png is ${size} bytes, more than ${LIMIT_BYTES}`);
       console.log(`${name}.png ${size} bytes`);
