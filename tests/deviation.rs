@@ -430,13 +430,7 @@ fn sliced_values(triangles: &[[Vec3; 3]]) -> Vec<f32> {
 
 #[test]
 fn a_valley_between_crossing_bodies_is_as_level_as_its_crease() {
-    // Two roofs across each other, one of 45° and one lower.
-    let roof = |height: f32| solids::profiled(&[[-4.0, 0.0], [4.0, 0.0], [0.0, height]], 16.0);
-    let mut roofs = solids::moved(&roof(4.0), Vec3::new(0.0, -8.0, 0.0));
-    let across = solids::moved(&roof(3.9), Vec3::new(0.0, -8.0, 0.0));
-    let turned = |corner: Vec3| Vec3::new(-corner.y, corner.x, corner.z);
-    roofs.extend(across.iter().map(|corners| corners.map(turned)));
-    let values = sliced_values(&roofs);
+    let values = sliced_values(&solids::crossing_roofs());
     // The normals (1, 0, 1) and (0, 3.9, 4) have the cross product (−3.9, −4, 3.9).
     let (level, along_z) = (3.9 * 3.9 + 4.0 * 4.0, 3.9 * 3.9);
     let expected: f64 = level / (level + along_z);
@@ -445,7 +439,8 @@ fn a_valley_between_crossing_bodies_is_as_level_as_its_crease() {
         assert_near(f64::from(value), expected.sqrt(), 1e-6);
     }
     // A roof alone is as steep as its facets there.
-    let alone = sliced_values(&roof(4.0));
+    let roof = solids::profiled(&[[-4.0, 0.0], [4.0, 0.0], [0.0, 4.0]], 16.0);
+    let alone = sliced_values(&roof);
     assert_near(f64::from(alone[1000]), 0.5f64.sqrt(), 1e-6);
 }
 

@@ -82,7 +82,7 @@ impl Planning<'_> {
 
 /// The sum of the errors of all layers that the tolerance covers.
 fn sum(errors: &LayerErrors, plan: &Plan) -> f64 {
-    let layers = plan.boundaries[plan.exempt_layers..].windows(2);
+    let layers = plan.covered().windows(2);
     let steps = layers.map(|layer| errors.steps_between(layer[0], layer[1]));
     errors.to_value(steps.sum())
 }

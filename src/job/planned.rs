@@ -274,10 +274,7 @@ impl<'a> Planning<'a> {
         let exact = |metric| self.shapes.exact.errors(metric);
         let unweighted = |metric| plan.max_error(&exact(metric));
         let true_error = match layering.metric {
-            Metric::Area => {
-                let covered = &plan.boundaries[plan.exempt_layers..];
-                area::largest_change(&self.shapes.exact.areas_mm2, covered)
-            }
+            Metric::Area => area::largest_change(&self.shapes.exact.areas_mm2, plan.covered()),
             metric => unweighted(metric),
         };
         // This holds for every point of the print, so for a fixed first layer as well.

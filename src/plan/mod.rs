@@ -314,9 +314,14 @@ impl Plan {
             .collect()
     }
 
+    /// The boundaries of the layers that the tolerance covers.
+    pub fn covered(&self) -> &[u32] {
+        &self.boundaries[self.exempt_layers..]
+    }
+
     /// The largest error of the layers that the tolerance covers, in steps of `errors`.
     pub fn max_error_steps(&self, errors: &LayerErrors) -> u64 {
-        let layers = self.boundaries[self.exempt_layers..].windows(2);
+        let layers = self.covered().windows(2);
         let steps = layers.map(|layer| errors.steps_between(layer[0], layer[1]));
         steps.max().unwrap_or(0)
     }

@@ -136,7 +136,7 @@ pub fn at_most(
 
 /// The thicknesses of a plan in bins, ascending, without that of a fixed first layer.
 fn distinct(plan: &Plan) -> Vec<u32> {
-    let layers = plan.boundaries[plan.exempt_layers..].windows(2);
+    let layers = plan.covered().windows(2);
     let mut thicknesses: Vec<u32> = layers.map(|layer| layer[1] - layer[0]).collect();
     thicknesses.sort_unstable();
     thicknesses.dedup();

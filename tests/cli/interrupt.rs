@@ -2,9 +2,7 @@
 
 use std::io::{BufRead as _, BufReader};
 use std::path::Path;
-#[cfg(target_os = "linux")]
-use std::process::Child;
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
@@ -25,6 +23,13 @@ fn with_default_signals() -> Command {
     }
 }
 
+/// Interrupts a process, as a terminal does.
+fn interrupt(child: &Child) {
+    let process = child.id().to_string();
+    let kill = Command::new("kill").args(["-INT", &process]).status();
+    assert!(kill.unwrap().success());
+}
+
 #[test]
 fn an_interrupt_stops_a_batch_in_which_a_model_is_bad() {
     let folder = TempDir::new().unwrap();
@@ -40,9 +45,7 @@ fn an_interrupt_stops_a_batch_in_which_a_model_is_bad() {
     let mut words = BufReader::new(child.stderr.take().unwrap()).lines();
     let first = words.next().unwrap().unwrap();
     assert!(first.contains("absent.stl"), "{first}");
-    let process = child.id().to_string();
-    let kill = Command::new("kill").args(["-INT", &process]).status();
-    assert!(kill.unwrap().success());
+    interrupt(&child);
     let rest: Vec<String> = words.map(Result::unwrap).collect();
     assert_eq!(rest, ["cusp: cancelled"]);
     let output = child.wait_with_output().unwrap();
@@ -102,9 +105,7 @@ fn an_interrupt_stops_long_work_that_writes_nothing() {
         wait_for_its_handler(&mut child);
         // Into the work itself.
         std::thread::sleep(Duration::from_millis(300));
-        let process = child.id().to_string();
-        let kill = Command::new("kill").args(["-INT", &process]).status();
-        assert!(kill.unwrap().success());
+        interrupt(&child);
         let output = child.wait_with_output().unwrap();
         assert_eq!(String::from_utf8_lossy(&output.stderr), "cusp: cancelled\n");
         assert_eq!(output.status.code(), Some(130), "{work:?}");
@@ -146,9 +147,7 @@ fn an_interrupt_leaves_the_old_file_and_no_other() {
         assert_eq!(child.try_wait().unwrap(), None, "ended before it wrote");
         std::thread::sleep(Duration::from_millis(2));
     }
-    let process = child.id().to_string();
-    let kill = Command::new("kill").args(["-INT", &process]).status();
-    assert!(kill.unwrap().success());
+    interrupt(&child);
     let output = child.wait_with_output().unwrap();
     assert_eq!(String::from_utf8_lossy(&output.stderr), "cusp: cancelled\n");
     assert_eq!(output.status.code(), Some(130));

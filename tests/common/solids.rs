@@ -155,6 +155,18 @@ pub fn profiled(outline: &[[f32; 2]], length: f32) -> Triangles {
     triangles
 }
 
+/// Two roofs across each other, one of 45° and 4 mm high, the other 3.9 mm: the valleys between them are more level than their facets.
+pub fn crossing_roofs() -> Triangles {
+    let roof = |height: f32| {
+        let roof = profiled(&[[-4.0, 0.0], [4.0, 0.0], [0.0, height]], 16.0);
+        moved(&roof, Vec3::new(0.0, -8.0, 0.0))
+    };
+    let turned = |corner: Vec3| Vec3::new(-corner.y, corner.x, corner.z);
+    let mut roofs = roof(4.0);
+    roofs.extend(roof(3.9).iter().map(|corners| corners.map(turned)));
+    roofs
+}
+
 /// A rectangular ring that stands upright: rays through its middle have four hits.
 pub fn frame() -> Triangles {
     let mut triangles = moved(&cuboid(Vec3::new(10.0, 4.0, 2.0)), Vec3::ZERO);

@@ -116,16 +116,11 @@ fn the_tolerance_holds_whatever_thicknesses_are_allowed() {
 
 #[test]
 fn the_tolerance_holds_along_the_creases_of_crossing_bodies() {
-    // Roofs across each other, of which the valleys are more level than the facets, and two cones side by side.
-    let roof = |height: f32| solids::profiled(&[[-4.0, 0.0], [4.0, 0.0], [0.0, height]], 16.0);
-    let mut roofs = solids::moved(&roof(4.0), Vec3::new(0.0, -8.0, 0.0));
-    let across = solids::moved(&roof(3.9), Vec3::new(0.0, -8.0, 0.0));
-    let turned = |corner: Vec3| Vec3::new(-corner.y, corner.x, corner.z);
-    roofs.extend(across.iter().map(|corners| corners.map(turned)));
+    // And two cones side by side.
     let mut cones = solids::cone(5.0, 10.0, 16);
     let other = solids::cone(5.0, 10.0, 13);
     cones.extend(solids::moved(&other, Vec3::new(6.0, 0.0, 0.0)));
-    for (name, triangles) in [("roofs", roofs), ("cones", cones)] {
+    for (name, triangles) in [("roofs", solids::crossing_roofs()), ("cones", cones)] {
         let options = Options {
             metric: Metric::Deviation,
             ..options()
