@@ -4,11 +4,13 @@
 //! sampling heights. All masks together are therefore a list of changes, sorted by layer and at most as
 //! long as the list of hits. No mask is computed from scratch, and only one is in memory at a time.
 
+mod runs;
 mod samples;
 mod window;
 
 use std::ops::Range;
 
+pub use runs::{LayerRuns, Run, RunReader, RunSource};
 pub use samples::{LEVELS, Samples};
 pub use window::{Side, Window};
 
@@ -19,8 +21,8 @@ use crate::plan::Plan;
 use samples::SublayerOf;
 use window::Place;
 
-/// Rows of rays whose changes one thread sorts together.
-const BAND_ROWS: usize = 128;
+/// Rows of pixels whose changes one thread sorts together.
+const BAND_ROWS: u32 = 128;
 
 /// The masks of all layers of a plan.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,6 +41,8 @@ pub struct Masks {
 /// The changes between layers in a band of rows.
 #[derive(Debug, Clone, PartialEq)]
 struct Band {
+    /// The pixels of the window that the band covers: whole rows.
+    area: Range<u32>,
     /// The changes of layer k are those from `starts[k]` to `starts[k + 1]`.
     starts: Vec<u32>,
     /// Pixels of the window that differ from the layer below, sorted by layer.
@@ -59,10 +63,18 @@ impl Masks {
         let sublayer_of = SublayerOf::new(plan, samples.sublayers);
         let layers = plan.layers();
         let place = Place::new(&ldi.grid, grid, samples, side);
-        let rows = ldi.grid.height as usize;
-        let firsts = (0..rows).step_by(BAND_ROWS).collect();
-        let bands = parallel::map(firsts, |first| {
-            let rows = first..(first + BAND_ROWS).min(rows);
+        let band_pixels = BAND_ROWS * place.window.row_pixels() as u32;
+        let mut bands = Vec::new();
+        let mut row = 0;
+        // Several rows of rays may share a row of pixels, which is then in one band.
+        for rays in place
+            .rows
+            .chunk_by(|a, b| a / band_pixels == b / band_pixels)
+        {
+            bands.push(row..row + rays.len());
+            row += rays.len();
+        }
+        let bands = parallel::map(bands, |rows| {
             Band::new(ldi, &sublayer_of, layers, samples, &place, rows)
         });
         Self {
@@ -139,6 +151,8 @@ impl Band {
     ) -> Self {
         let width = ldi.grid.width as usize;
         let parts = samples.sublayers;
+        let row_pixels = place.window.row_pixels() as u32;
+        let area = place.rows[rows.start]..place.rows[rows.end - 1] + row_pixels;
         let mut changes: Vec<Change> = Vec::new();
         for row in rows {
             for (column, &in_row) in place.columns.iter().enumerate() {
@@ -185,7 +199,12 @@ impl Band {
             *slot += 1;
         }
         starts.truncate(layers + 1);
-        Self { starts, pixels, by }
+        Self {
+            area,
+            starts,
+            pixels,
+            by,
+        }
     }
 
     fn of_layer(&self, layer: usize) -> Range<usize> {

@@ -1,0 +1,278 @@
+//! Masks as runs of lit pixels, straight from the changes between layers.
+//!
+//! A run begins where a pixel differs from the one to its left. Two changed edges for every changed pixel are all that a new
+//! layer costs, and two levels of bits find the edges without looking at the pixels between them.
+
+use std::ops::Range;
+
+use super::{Band, Masks, Samples, Window};
+use crate::parallel;
+
+/// Consecutive pixels of a row with the same light.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Run {
+    /// The first pixel, counted row by row from the top left of the screen.
+    pub first: u32,
+    /// Number of pixels.
+    pub pixels: u32,
+    /// Their brightness, 1 to 255.
+    pub grey: u8,
+}
+
+/// The runs of consecutive layers.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LayerRuns {
+    /// By bands of rows, from the top row down.
+    bands: Vec<BandRuns>,
+    layers: usize,
+}
+
+/// The runs of consecutive layers in a band of rows.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+struct BandRuns {
+    /// The end of each layer in `runs`.
+    ends: Vec<usize>,
+    runs: Vec<Run>,
+}
+
+impl LayerRuns {
+    /// Collects the runs of each layer, sorted, none across the end of a row.
+    pub fn new(layers: impl IntoIterator<Item = Vec<Run>>) -> Self {
+        let mut band = BandRuns::default();
+        for layer in layers {
+            band.runs.extend(layer);
+            band.ends.push(band.runs.len());
+        }
+        Self {
+            layers: band.ends.len(),
+            bands: vec![band],
+        }
+    }
+
+    /// Number of layers.
+    pub fn layers(&self) -> usize {
+        self.layers
+    }
+
+    /// The lit runs of a layer, row by row; no run goes on in the next row.
+    pub fn of_layer(&self, layer: usize) -> impl Iterator<Item = Run> {
+        self.bands.iter().flat_map(move |band| {
+            let first = layer.checked_sub(1).map_or(0, |below| band.ends[below]);
+            band.runs[first..band.ends[layer]].iter().copied()
+        })
+    }
+}
+
+/// Layers that can be read as runs, from the first to the last.
+pub trait RunSource: Sync {
+    /// A reader at the first layer.
+    fn reader(&self) -> Box<dyn RunReader + '_>;
+}
+
+/// Reads runs layer by layer.
+pub trait RunReader {
+    /// The runs of the next layers: as many as are asked for, which must not be more than there are.
+    fn next(&mut self, layers: usize) -> LayerRuns;
+}
+
+impl RunSource for Masks {
+    fn reader(&self) -> Box<dyn RunReader + '_> {
+        let states = self.bands.iter().map(|band| State::new(band, self.samples));
+        Box::new(Reader {
+            masks: self,
+            states: states.collect(),
+            next: 0,
+        })
+    }
+}
+
+struct Reader<'a> {
+    masks: &'a Masks,
+    states: Vec<State>,
+    next: usize,
+}
+
+impl RunReader for Reader<'_> {
+    /// Cost: linear in the changes and in the runs. Bands are read in parallel.
+    fn next(&mut self, layers: usize) -> LayerRuns {
+        let masks = self.masks;
+        let range = self.next..self.next + layers;
+        self.next = range.end;
+        let greys = greys(masks.samples);
+        let bands = masks.bands.iter().zip(self.states.drain(..)).collect();
+        let read = parallel::map(bands, |(band, mut state)| {
+            let place = Place::new(masks, band);
+            let mut found = BandRuns::default();
+            for layer in range.clone() {
+                state.change(band, layer);
+                state.collect(&place, &greys, &mut found.runs);
+                found.ends.push(found.runs.len());
+            }
+            (state, found)
+        });
+        let bands;
+        (self.states, bands) = read.into_iter().unzip();
+        LayerRuns { bands, layers }
+    }
+}
+
+/// The brightness of a pixel for each number of its lit samples.
+fn greys(samples: Samples) -> Vec<u8> {
+    let total = samples.total();
+    (0..=total)
+        .map(|lit| ((255 * lit + total / 2) / total) as u8)
+        .collect()
+}
+
+/// Where the pixels of a band are on the screen.
+struct Place {
+    /// Pixels of each row of the window.
+    row_pixels: u32,
+    /// The first row of the band on the screen.
+    first_row: u32,
+    /// The first column of the window on the screen.
+    first_column: u32,
+    /// Columns of the screen.
+    width: u32,
+}
+
+impl Place {
+    fn new(masks: &Masks, band: &Band) -> Self {
+        let Window {
+            first_byte,
+            first_row,
+            ..
+        } = masks.window;
+        let row_pixels = masks.window.row_pixels() as u32;
+        Self {
+            row_pixels,
+            first_row: first_row as u32 + band.area.start / row_pixels,
+            first_column: first_byte as u32 * 8,
+            width: masks.grid.width,
+        }
+    }
+}
+
+/// The light of a band at a layer.
+struct State {
+    edges: Edges,
+    /// The number of lit samples of each pixel. Empty if pixels have a single sample: an edge then always is a flip.
+    lit: Vec<u8>,
+}
+
+impl State {
+    fn new(band: &Band, samples: Samples) -> Self {
+        let pixels = band.area.len();
+        Self {
+            edges: Edges::new(pixels + 1),
+            lit: vec![0; if samples == Samples::ONE { 0 } else { pixels }],
+        }
+    }
+
+    fn change(&mut self, band: &Band, layer: usize) {
+        let changes = band.of_layer(layer);
+        let pixels = &band.pixels[changes.clone()];
+        if self.lit.is_empty() {
+            for &pixel in pixels {
+                let place = (pixel - band.area.start) as usize;
+                self.edges.flip(place);
+                self.edges.flip(place + 1);
+            }
+            return;
+        }
+        for (&pixel, &by) in pixels.iter().zip(&band.by[changes]) {
+            let place = (pixel - band.area.start) as usize;
+            let old = self.lit[place];
+            let new = old.wrapping_add_signed(by);
+            self.lit[place] = new;
+            let left = place.checked_sub(1).map_or(0, |left| self.lit[left]);
+            let right = self.lit.get(place + 1).copied().unwrap_or(0);
+            for (edge, other) in [(place, left), (place + 1, right)] {
+                if (old == other) != (new == other) {
+                    self.edges.flip(edge);
+                }
+            }
+        }
+    }
+
+    fn collect(&self, place: &Place, greys: &[u8], runs: &mut Vec<Run>) {
+        let mut row = 0;
+        // Runs of the band that go on in the next row are cut at its end.
+        let mut add = |range: Range<u32>, grey: u8| {
+            let Range { mut start, end } = range;
+            while start < end {
+                while start >= (row + 1) * place.row_pixels {
+                    row += 1;
+                }
+                let stop = end.min((row + 1) * place.row_pixels);
+                let column = place.first_column + start - row * place.row_pixels;
+                runs.push(Run {
+                    first: (place.first_row + row) * place.width + column,
+                    pixels: stop - start,
+                    grey,
+                });
+                start = stop;
+            }
+        };
+        let mut edges = self.edges.places();
+        if self.lit.is_empty() {
+            while let (Some(start), Some(end)) = (edges.next(), edges.next()) {
+                add(start..end, 255);
+            }
+            return;
+        }
+        let mut from = 0;
+        for edge in edges {
+            let lit = self.lit[from as usize];
+            if lit > 0 {
+                add(from..edge, greys[usize::from(lit)]);
+            }
+            from = edge;
+        }
+    }
+}
+
+/// A set of places, with a bit for each word of 64 places that holds one.
+struct Edges {
+    words: Vec<u64>,
+    filled: Vec<u64>,
+}
+
+impl Edges {
+    fn new(places: usize) -> Self {
+        let words = places.div_ceil(64);
+        Self {
+            words: vec![0; words],
+            filled: vec![0; words.div_ceil(64)],
+        }
+    }
+
+    fn flip(&mut self, place: usize) {
+        let word = place / 64;
+        self.words[word] ^= 1 << (place % 64);
+        let bit = 1 << (word % 64);
+        if self.words[word] == 0 {
+            self.filled[word / 64] &= !bit;
+        } else {
+            self.filled[word / 64] |= bit;
+        }
+    }
+
+    /// The places in the set, ascending.
+    fn places(&self) -> impl Iterator<Item = u32> {
+        let filled = self.filled.iter().enumerate();
+        let words = filled.flat_map(|(index, &bits)| ones(bits, index));
+        words.flat_map(|word| ones(self.words[word as usize], word as usize))
+    }
+}
+
+/// The places of the ones of the word at `index`.
+fn ones(mut bits: u64, index: usize) -> impl Iterator<Item = u32> {
+    std::iter::from_fn(move || {
+        (bits != 0).then(|| {
+            let one = bits.trailing_zeros();
+            bits &= bits - 1;
+            index as u32 * 64 + one
+        })
+    })
+}
