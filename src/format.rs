@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
-#[serde(rename_all = "lowercase")]
+#[serde(rename_all = "kebab-case")]
 pub enum Format {
     /// One-bit PNGs and a manifest.json.
     #[default]
@@ -17,11 +17,43 @@ pub enum Format {
     Uvj,
     /// Prusa's SL1 and SL1S, for layers of one thickness.
     Sl1,
+    /// Elegoo's GOO, and Phrozen's PRZ.
+    Goo,
+    /// Anycubic's binary files of 2020 to 2023: pwmx, pm3, pm5s and others.
+    PhotonWorkshop,
+    /// Anycubic's zips of 2024 and later: pm4u, pm7, pwsz and others.
+    AnycubicZip,
+    /// CTB, version 3, not encrypted.
+    Ctb,
+    /// `NanoDLP`, for layers of one thickness.
+    Nanodlp,
 }
 
 impl Format {
-    /// The formats that have a thickness for every layer.
-    pub const VARIABLE: [Self; 3] = [Self::Chitubox, Self::Uvj, Self::Png];
+    /// All formats.
+    pub const ALL: [Self; 9] = [
+        Self::Png,
+        Self::Chitubox,
+        Self::Uvj,
+        Self::Sl1,
+        Self::Goo,
+        Self::PhotonWorkshop,
+        Self::AnycubicZip,
+        Self::Ctb,
+        Self::Nanodlp,
+    ];
+
+    /// The formats that have a thickness for every layer, and that some printer or program is known to read it from.
+    pub const VARIABLE: [Self; 5] = [Self::Goo, Self::Ctb, Self::Chitubox, Self::Uvj, Self::Png];
+
+    /// The thicknesses that its files can have.
+    pub fn thicknesses(self) -> FormatThicknesses {
+        match self {
+            Self::Sl1 => FormatThicknesses::OneAboveFirst,
+            Self::Nanodlp => FormatThicknesses::One,
+            _ => FormatThicknesses::Any,
+        }
+    }
 
     /// The name of the format, as in options.
     pub fn name(self) -> &'static str {
@@ -30,15 +62,25 @@ impl Format {
             Self::Chitubox => "chitubox",
             Self::Uvj => "uvj",
             Self::Sl1 => "sl1",
+            Self::Goo => "goo",
+            Self::PhotonWorkshop => "photon-workshop",
+            Self::AnycubicZip => "anycubic-zip",
+            Self::Ctb => "ctb",
+            Self::Nanodlp => "nanodlp",
         }
     }
 
-    /// The file extension, without a dot.
+    /// The file extension, without a dot, if no printer says otherwise.
     pub fn extension(self) -> &'static str {
         match self {
             Self::Png | Self::Chitubox => "zip",
             Self::Uvj => "uvj",
             Self::Sl1 => "sl1",
+            Self::Goo => "goo",
+            Self::PhotonWorkshop => "pwmx",
+            Self::AnycubicZip => "pwsz",
+            Self::Ctb => "ctb",
+            Self::Nanodlp => "nanodlp",
         }
     }
 
@@ -47,7 +89,18 @@ impl Format {
     pub fn media_type(self) -> &'static str {
         match self {
             Self::Png | Self::Chitubox => "application/zip",
-            Self::Uvj | Self::Sl1 => "application/octet-stream",
+            _ => "application/octet-stream",
         }
     }
+}
+
+/// The layer thicknesses that a file can have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FormatThicknesses {
+    /// Each layer has its own.
+    Any,
+    /// One for all layers but the first.
+    OneAboveFirst,
+    /// One for all layers.
+    One,
 }

@@ -1,17 +1,26 @@
-//! Known printers, as data.
+//! Printers, as data: those known by name in `printers.json`, and those that users describe the same way.
 
-use serde::Serialize;
+use std::sync::{Arc, LazyLock};
 
-use crate::format::Format;
+use serde::{Deserialize, Deserializer, Serialize, de};
+
+use crate::format::{Format, FormatThicknesses};
+use crate::grid::MAX_SIDE;
 
 /// A resin printer: its screen, its build volume and the file that it takes.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(deny_unknown_fields)]
 pub struct Printer {
     /// Its name in options, as in `--printer NAME`.
-    pub name: &'static str,
+    #[serde(default = "own")]
+    pub name: String,
     /// Make and model.
-    pub model: &'static str,
+    #[serde(default = "own")]
+    pub model: String,
+    /// Its name in its own files, where that is not make and model.
+    #[serde(default)]
+    pub machine: Option<String>,
     /// Columns and rows of the masks.
     pub pixels: [u32; 2],
     /// Sides of a pixel in x and y, in micrometres.
@@ -19,133 +28,240 @@ pub struct Printer {
     /// Build volume in x, y and z, in millimetres.
     pub volume_mm: [f64; 3],
     /// Whether masks are mirrored left to right, because the screen lights the resin from below.
+    #[serde(default = "yes")]
     pub is_mirrored: bool,
     /// Minimum and maximum layer thickness in millimetres.
+    #[serde(default = "any_layer")]
     pub layer_mm: [f64; 2],
     /// Motor step in millimetres: every height is a multiple of it.
+    #[serde(default = "usual_step")]
     pub step_mm: f64,
     /// The print format to write for it: one that it reads, or one that other programs convert to one that it reads.
+    #[serde(default)]
     pub format: Format,
+    /// The version of that format, where it has several: 516, 517 or 518 of `photon-workshop`.
+    #[serde(default)]
+    pub file_version: Option<u32>,
+    /// Whether numbers in its files begin with the lowest byte, unlike those of other printers.
+    #[serde(default)]
+    pub is_little_endian: bool,
+    /// Whether the vat tilts to release a layer, in place of a lift.
+    #[serde(default)]
+    pub has_tilting_vat: bool,
     /// Whether it reads `format` without a converter.
+    #[serde(default = "yes")]
     pub reads_format: bool,
     /// Extensions of the files that it reads, the most common first.
-    pub reads: &'static [&'static str],
+    #[serde(default)]
+    pub reads: Vec<String>,
+    /// Whether it prints layers of several thicknesses.
+    #[serde(default)]
+    pub variable_layers: VariableLayers,
+    /// Where that is known from.
+    #[serde(default)]
+    pub variable_layers_source: String,
+}
+
+/// Whether a printer prints layers of several thicknesses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(rename_all = "lowercase")]
+pub enum VariableLayers {
+    /// It moves to the height of each layer.
+    Yes,
+    /// It takes one thickness for all layers, or fails.
+    No,
+    /// Nobody has told: `cusp calibrate layers` makes a print that does.
+    #[default]
+    Untried,
+}
+
+fn own() -> String {
+    "own printer".to_owned()
+}
+
+fn yes() -> bool {
+    true
 }
 
 /// Layer thicknesses of printers whose makers state no limits.
-const ANY_LAYER_MM: [f64; 2] = [0.01, 0.2];
-/// The motor step of common z drives.
-const USUAL_STEP_MM: f64 = 0.002;
+fn any_layer() -> [f64; 2] {
+    [0.01, 0.2]
+}
 
-/// A printer whose own format other programs write from a `ChiTuBox` zip.
-const fn converted(
-    name: &'static str,
-    model: &'static str,
-    pixels: [u32; 2],
-    pitch_um: [f64; 2],
-    volume_mm: [f64; 3],
-    reads: &'static [&'static str],
-) -> Printer {
-    Printer {
-        name,
-        model,
-        pixels,
-        pitch_um,
-        volume_mm,
-        is_mirrored: true,
-        layer_mm: ANY_LAYER_MM,
-        step_mm: USUAL_STEP_MM,
-        format: Format::Chitubox,
-        reads_format: false,
-        reads,
+/// The motor step of common z drives.
+fn usual_step() -> f64 {
+    0.002
+}
+
+impl Printer {
+    /// The name in the printer's own files.
+    pub fn machine(&self) -> &str {
+        self.machine.as_deref().unwrap_or(&self.model)
+    }
+
+    /// Checks what the type does not.
+    ///
+    /// # Errors
+    /// The name of the field that is out of bounds.
+    pub fn check(&self) -> Result<(), &'static str> {
+        let is_positive = |numbers: &[f64]| numbers.iter().all(|it| *it > 0.0 && it.is_finite());
+        let [layer_min_mm, layer_max_mm] = self.layer_mm;
+        let rules = [
+            (
+                "pixels",
+                self.pixels.iter().all(|side| (1..=MAX_SIDE).contains(side)),
+            ),
+            ("pitch_um", is_positive(&self.pitch_um)),
+            ("volume_mm", is_positive(&self.volume_mm)),
+            (
+                "layer_mm",
+                is_positive(&self.layer_mm) && layer_min_mm <= layer_max_mm,
+            ),
+            ("step_mm", is_positive(&[self.step_mm])),
+            (
+                "file_version",
+                self.file_version
+                    .is_none_or(|version| (516..=518).contains(&version)),
+            ),
+            (
+                "reads",
+                self.reads.iter().all(|extension| is_extension(extension)),
+            ),
+        ];
+        match rules.into_iter().find(|(_, holds)| !holds) {
+            Some((field, _)) => Err(field),
+            None => Ok(()),
+        }
     }
 }
 
-/// All printers known by name.
-pub const PRINTERS: &[Printer] = &[
-    converted(
-        "mars-4-ultra",
-        "Elegoo Mars 4 Ultra",
-        [8520, 4320],
-        [18.0, 18.0],
-        [153.36, 77.76, 165.0],
-        &["goo"],
-    ),
-    converted(
-        "saturn-3-ultra",
-        "Elegoo Saturn 3 Ultra",
-        [11520, 5120],
-        [19.0, 24.0],
-        [218.88, 122.88, 260.0],
-        &["goo"],
-    ),
-    converted(
-        "saturn-4-ultra-16k",
-        "Elegoo Saturn 4 Ultra 16K",
-        [15120, 6230],
-        [14.0, 19.0],
-        [211.68, 118.37, 220.0],
-        &["ctb", "goo"],
-    ),
-    converted(
-        "photon-mono-m5s",
-        "Anycubic Photon Mono M5s",
-        [11520, 5120],
-        [19.0, 24.0],
-        [218.88, 122.88, 200.0],
-        &["pm5s"],
-    ),
-    converted(
-        "photon-mono-m7-pro",
-        "Anycubic Photon Mono M7 Pro",
-        [13312, 5120],
-        [16.8, 24.8],
-        [223.642, 126.976, 230.0],
-        &["pwsz"],
-    ),
-    converted(
-        "sonic-mini-8k-s",
-        "Phrozen Sonic Mini 8K S",
-        [7536, 3240],
-        [22.0, 22.0],
-        [165.792, 71.28, 170.0],
-        &["prz"],
-    ),
-    Printer {
-        format: Format::Sl1,
-        reads_format: true,
-        ..converted(
-            "sl1s",
-            "Prusa SL1S SPEED",
-            [1620, 2560],
-            [50.0, 50.0],
-            [81.0, 128.0, 150.0],
-            &["sl1s"],
-        )
-    },
-    converted(
-        "athena-12k",
-        "Concepts3D Athena 12K",
-        [11520, 5120],
-        [19.0, 24.0],
-        [218.88, 122.88, 245.0],
-        &["nanodlp"],
-    ),
-    Printer {
-        is_mirrored: false,
-        reads_format: true,
-        ..converted(
-            "shuffle",
-            "Phrozen Shuffle",
-            [1440, 2560],
-            [47.0, 47.0],
-            [67.68, 120.32, 200.0],
-            &["zip"],
-        )
-    },
-];
+/// Whether this can end the name of a file: no path, no dot.
+fn is_extension(text: &str) -> bool {
+    !text.is_empty()
+        && text
+            .bytes()
+            .all(|it| it.is_ascii_lowercase() || it.is_ascii_digit())
+}
+
+/// Why layers of several thicknesses cannot be printed from a file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Refusal<'a> {
+    /// The format has one thickness for all layers.
+    Format(Format),
+    /// The printer takes one thickness for all layers.
+    Printer(&'a Printer),
+}
+
+/// Whether a file of `format` for `printer` can have layers of these thicknesses.
+///
+/// # Errors
+/// [`Refusal`].
+pub fn check_thicknesses<'a>(
+    format: Format,
+    printer: Option<&'a Printer>,
+    thickness_mm: &[f64],
+) -> Result<(), Refusal<'a>> {
+    let one_of_printer = printer.filter(|printer| {
+        printer.format == format && printer.variable_layers == VariableLayers::No
+    });
+    let (first, refusal) = match (format.thicknesses(), one_of_printer) {
+        (FormatThicknesses::OneAboveFirst, _) => (1, Refusal::Format(format)),
+        (FormatThicknesses::One, _) => (0, Refusal::Format(format)),
+        (FormatThicknesses::Any, Some(printer)) => (0, Refusal::Printer(printer)),
+        (FormatThicknesses::Any, None) => return Ok(()),
+    };
+    if are_equal(thickness_mm.get(first..).unwrap_or_default()) {
+        Ok(())
+    } else {
+        Err(refusal)
+    }
+}
+
+/// Whether all layers have the same thickness.
+pub fn are_equal(thickness_mm: &[f64]) -> bool {
+    thickness_mm.windows(2).all(|pair| pair[0] == pair[1])
+}
+
+/// All printers known by name, by maker and model.
+pub static PRINTERS: LazyLock<Vec<Arc<Printer>>> = LazyLock::new(|| {
+    let json = include_str!("printers.json");
+    serde_json::from_str::<Vec<Printer>>(json)
+        .map(|printers| printers.into_iter().map(Arc::new).collect())
+        .expect("printers.json is valid, as a test shows")
+});
 
 /// The printer with this name.
-pub fn named(name: &str) -> Option<&'static Printer> {
-    PRINTERS.iter().find(|printer| printer.name == name)
+pub fn named(name: &str) -> Option<Arc<Printer>> {
+    let printer = PRINTERS.iter().find(|printer| printer.name == name);
+    printer.cloned()
+}
+
+/// Up to five known names that share a word with this one, those that share the most first.
+pub fn similar(name: &str) -> Vec<String> {
+    const MOST: usize = 5;
+    let name = name.to_lowercase();
+    let words = |name: &'_ str| -> Vec<String> {
+        let words = name.split(|it: char| !it.is_alphanumeric());
+        words
+            .filter(|word| word.len() > 1)
+            .map(str::to_owned)
+            .collect()
+    };
+    let asked = words(&name);
+    let mut similar: Vec<(usize, &str)> = PRINTERS
+        .iter()
+        .map(|printer| {
+            let model = words(&printer.model.to_lowercase());
+            let shared = asked.iter().filter(|word| model.contains(word)).count();
+            (shared, printer.name.as_str())
+        })
+        .filter(|(shared, _)| *shared > 0)
+        .collect();
+    similar.sort_by_key(|(shared, _)| std::cmp::Reverse(*shared));
+    let names = similar.into_iter().take(MOST);
+    names.map(|(_, name)| name.to_owned()).collect()
+}
+
+/// The printer of options: the name of a known one, or a description of one's own.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(untagged)]
+pub enum PrinterChoice {
+    /// One of [`PRINTERS`].
+    Named(String),
+    /// One's own.
+    Own(Arc<Printer>),
+}
+
+impl From<&str> for PrinterChoice {
+    fn from(name: &str) -> Self {
+        Self::Named(name.to_owned())
+    }
+}
+
+impl<'de> Deserialize<'de> for PrinterChoice {
+    /// By hand, because serde's own choice between the two would hide which field of a description is wrong.
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Visitor;
+
+        impl<'de> de::Visitor<'de> for Visitor {
+            type Value = PrinterChoice;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("a printer's name or description")
+            }
+
+            fn visit_str<E>(self, name: &str) -> Result<PrinterChoice, E> {
+                Ok(PrinterChoice::Named(name.to_owned()))
+            }
+
+            fn visit_map<A: de::MapAccess<'de>>(self, map: A) -> Result<PrinterChoice, A::Error> {
+                let printer = Printer::deserialize(de::value::MapAccessDeserializer::new(map))?;
+                Ok(PrinterChoice::Own(Arc::new(printer)))
+            }
+        }
+
+        deserializer.deserialize_any(Visitor)
+    }
 }

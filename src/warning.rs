@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::ldi::GpuFault;
+use crate::plan::uniform::UniformLayers;
 use crate::profile::Metric;
 
 /// Something that the user should know although the job went on: a stable code and typed details. `Display` writes one
@@ -68,6 +69,18 @@ pub enum Warning {
         layers: usize,
         /// Bottom of the lowest one, in millimetres above the plate.
         from_mm: f64,
+    },
+    /// The printer or its file takes one thickness for all layers, and the plan has several. Its print file will be refused.
+    OneThickness {
+        /// Make and model of the printer, or the name of the format.
+        taker: String,
+        /// The thickest uniform layers within tolerance, if any are.
+        best: Option<UniformLayers>,
+    },
+    /// Nobody has told whether the printer prints layers of several thicknesses.
+    UntriedThicknesses {
+        /// Make and model of the printer.
+        model: String,
     },
     /// The mesh does not fit into the buffers of the GPU; the CPU was used instead.
     GpuTooSmall {
@@ -143,6 +156,21 @@ impl std::fmt::Display for Warning {
                  masks there",
                 counted(*layers, "layer"),
                 if *layers == 1 { "is" } else { "are" },
+            ),
+            Self::OneThickness { taker, best } => {
+                write!(
+                    f,
+                    "{taker} takes one thickness for all layers, and this plan has several"
+                )?;
+                match best {
+                    Some(best) => write!(f, "; {best} keep the tolerance"),
+                    None => f.write_str("; choose the uniform planner"),
+                }
+            }
+            Self::UntriedThicknesses { model } => write!(
+                f,
+                "nobody has told whether the {model} prints layers of several thicknesses; print what `cusp calibrate layers` \
+                 makes and measure it, or choose the uniform planner"
             ),
             Self::GpuTooSmall {
                 needed_bytes,

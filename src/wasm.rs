@@ -92,7 +92,7 @@ pub fn head_bytes() -> usize {
 /// The printers known by name.
 #[wasm_bindgen(unchecked_return_type = "Printer[]")]
 pub fn printers() -> JsValue {
-    to_js(&PRINTERS)
+    to_js(&*PRINTERS)
 }
 
 /// The default options.

@@ -6,9 +6,9 @@ mod common;
 
 use common::{assert_near, binary_stl, quiet, solids};
 use cusp_slicer::Error;
-use cusp_slicer::format::Format;
+use cusp_slicer::format::{Format, FormatThicknesses};
 use cusp_slicer::job::{Backend, Options, Report, Slicer};
-use cusp_slicer::printer::{PRINTERS, named};
+use cusp_slicer::printer::{PRINTERS, VariableLayers, named};
 use cusp_slicer::resin::Resin;
 
 #[test]
@@ -62,37 +62,46 @@ fn exposures_follow_the_curve_or_the_table() {
 
 #[test]
 fn printers_are_what_their_data_says() {
-    for printer in PRINTERS {
-        assert_eq!(named(printer.name), Some(printer));
+    for printer in PRINTERS.iter() {
+        let name = &printer.name;
+        assert_eq!(named(name).as_ref(), Some(printer));
+        assert_eq!(printer.check(), Ok(()), "{name}");
         for axis in 0..2 {
             let side_mm = f64::from(printer.pixels[axis]) * printer.pitch_um[axis] / 1e3;
             assert_near(side_mm, printer.volume_mm[axis], 0.005);
         }
-        assert!(!printer.reads.is_empty(), "{}", printer.name);
-        for extension in printer.reads {
-            assert!(
-                extension
-                    .bytes()
-                    .all(|it| it.is_ascii_lowercase() || it.is_ascii_digit()),
-                "{extension}"
-            );
+        assert!(!printer.reads.is_empty(), "{name}");
+        assert!(!printer.variable_layers_source.is_empty(), "{name}");
+        let has_version = printer.format == Format::PhotonWorkshop;
+        assert_eq!(printer.file_version.is_some(), has_version, "{name}");
+        if printer.format.thicknesses() != FormatThicknesses::Any {
+            assert_eq!(printer.variable_layers, VariableLayers::No, "{name}");
         }
     }
-    let direct = PRINTERS.iter().filter(|printer| printer.reads_format);
-    let direct: Vec<_> = direct
-        .map(|printer| (printer.name, printer.format, printer.reads))
-        .collect();
+    let direct = |format: Format| {
+        let reads = PRINTERS.iter();
+        let reads = reads.filter(|printer| printer.reads_format && printer.format == format);
+        reads.count()
+    };
+    let counts = Format::ALL.map(|format| (format.name(), direct(format)));
     assert_eq!(
-        direct,
+        counts,
         [
-            ("sl1s", Format::Sl1, &["sl1s"][..]),
-            ("shuffle", Format::Chitubox, &["zip"][..]),
+            ("png", 0),
+            ("chitubox", 10),
+            ("uvj", 0),
+            ("sl1", 2),
+            ("goo", 13),
+            ("photon-workshop", 19),
+            ("anycubic-zip", 6),
+            ("ctb", 25),
+            ("nanodlp", 2),
         ]
     );
     let on = |name: &str, triangles: &solids::Triangles| {
         let mut slicer = Slicer::load(&binary_stl(triangles)).unwrap();
         let options = Options {
-            printer: Some(name.to_owned()),
+            printer: Some(name.into()),
             backend: Backend::Cpu,
             ..Options::default()
         };

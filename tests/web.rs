@@ -120,7 +120,7 @@ async fn check_plan_and_masks() {
     assert_eq!(archive(&mut slicer), 0x39f5_811b_24ed_aa3c);
     let grey = Options {
         antialias: 4,
-        printer: Some("sl1s".to_owned()),
+        printer: Some("sl1s".into()),
         format: Some(Format::Chitubox),
         ..options()
     };

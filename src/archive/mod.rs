@@ -1,41 +1,47 @@
 //! Print files from masks, plan and exposures. Each format has a source file of its own.
 
+mod ctb;
+mod fields;
+mod goo;
+mod photon_workshop;
 pub mod png;
 mod preview;
+mod pw0;
+mod raster;
 pub mod runs;
+mod survey;
 mod zip;
 
 use std::io::Write;
 
+pub use preview::Look;
 use serde::Serialize;
 use serde_json::Value;
 
 use crate::format::Format;
-use crate::ldi::Ldi;
-use crate::mask::Masks;
-use crate::model::Mesh;
-use crate::plan::Plan;
-use crate::printer::Printer;
+use crate::mask::{LayerRuns, RunSource};
+use crate::parallel;
+use crate::plan::uniform::UniformLayers;
+use crate::printer::{Printer, Refusal, are_equal, check_thicknesses};
 use crate::progress::{Cancelled, Progress, report};
 use crate::resin::Resin;
 
 /// The encoder of a format.
 fn encoder(format: Format) -> &'static dyn Encoder {
     match format {
-        Format::Png => &zip::Zip(&zip::png::Png),
+        Format::Png => &zip::Zip(&zip::masks::Masks),
         Format::Chitubox => &zip::Zip(&zip::chitubox::Chitubox),
         Format::Uvj => &zip::Zip(&zip::uvj::Uvj),
         Format::Sl1 => &zip::Zip(&zip::sl1::Sl1),
+        Format::Goo => &goo::Goo,
+        Format::PhotonWorkshop => &photon_workshop::PhotonWorkshop,
+        Format::AnycubicZip | Format::Nanodlp => &zip::Zip(&zip::masks::Masks),
+        Format::Ctb => &ctb::Ctb,
     }
 }
 
 /// What differs between formats. A zip of masks implements [`zip::Container`] instead, and [`zip::Zip`] encodes it.
 trait Encoder {
-    /// Refuses a plan that the format cannot express.
-    fn check(&self, _job: &PrintJob<'_>) -> Result<(), ArchiveError> {
-        Ok(())
-    }
-
     /// Writes the file sequentially, without seeking. Fails with [`ArchiveError::AllBlack`] if every mask is black.
     fn encode(
         &self,
@@ -64,17 +70,31 @@ pub enum ArchiveError {
     AllBlack,
     /// The format has one thickness for all layers, and the plan has several.
     #[error(
-        "{} files have one thickness for all layers, and this plan has several; choose {}, or the \
-         uniform planner",
+        "{} files have one thickness for all layers, and this plan has several; choose {}, or {}",
         format.name(),
-        others.map(Format::name).join(", ")
+        others.map(Format::name).join(", "),
+        in_place(best.as_ref())
     )]
     #[serde(rename = "uniform-only")]
     UniformOnly {
         /// The format asked for.
         format: Format,
         /// The formats that have several.
-        others: [Format; 3],
+        others: [Format; 5],
+        /// The thickest uniform layers within tolerance, if any are.
+        best: Option<UniformLayers>,
+    },
+    /// The printer takes one thickness for all layers, and the plan has several.
+    #[error(
+        "the {model} takes one thickness for all layers, and this plan has several; choose {}",
+        in_place(best.as_ref())
+    )]
+    #[serde(rename = "printer-uniform-only")]
+    PrinterUniformOnly {
+        /// Make and model of the printer.
+        model: String,
+        /// The thickest uniform layers within tolerance, if any are.
+        best: Option<UniformLayers>,
     },
     /// Bytes could not be written: the disk is full, say.
     #[error("the print file could not be written: {system}")]
@@ -83,6 +103,14 @@ pub enum ArchiveError {
         /// What the system said, untranslated.
         system: String,
     },
+}
+
+/// What to choose in place of layers of several thicknesses.
+fn in_place(best: Option<&UniformLayers>) -> String {
+    best.map_or_else(
+        || "the uniform planner".to_owned(),
+        |best| format!("{best}, which keep the tolerance"),
+    )
 }
 
 impl ArchiveError {
@@ -100,29 +128,63 @@ impl From<std::io::Error> for ArchiveError {
     }
 }
 
+/// The screen that shows the masks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Screen {
+    /// Columns and rows.
+    pub pixels: [u32; 2],
+    /// Sides of a pixel in x and y, in millimetres.
+    pub pitch_mm: [f64; 2],
+    /// Whether the masks are mirrored left to right, for a printer that lights the resin from below.
+    pub is_mirrored: bool,
+    /// Level of anti-aliasing; 1 means that pixels are either lit or dark.
+    pub antialias: u32,
+}
+
+impl Screen {
+    /// Sides in x and y, in millimetres.
+    pub fn size_mm(&self) -> [f64; 2] {
+        [0, 1].map(|axis| f64::from(self.pixels[axis]) * self.pitch_mm[axis])
+    }
+
+    /// Number of pixels.
+    pub fn area(&self) -> u64 {
+        u64::from(self.pixels[0]) * u64::from(self.pixels[1])
+    }
+}
+
+/// A layer of a print file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Layer {
+    /// Top of the layer, in millimetres above the plate.
+    pub z_mm: f64,
+    /// Thickness in millimetres.
+    pub thickness_mm: f64,
+    /// Exposure in seconds.
+    pub exposure_s: f64,
+}
+
 /// Everything that goes into a print file.
 #[derive(Clone, Copy)]
 pub struct PrintJob<'a> {
-    /// The masks, as the printer shows them.
-    pub masks: &'a Masks,
-    /// Whether they are mirrored left to right, for a printer that lights the resin from below.
-    pub is_mirrored: bool,
-    /// The plan.
-    pub plan: &'a Plan,
-    /// Height of the model in millimetres. The plan's top may differ from it by part of a layer.
+    /// The screen.
+    pub screen: Screen,
+    /// The layers, from the plate upward.
+    pub layers: &'a [Layer],
+    /// The masks of the layers, as the printer shows them.
+    pub masks: &'a dyn RunSource,
+    /// Height of the model in millimetres. The top of the layers may differ from it by part of a layer.
     pub height_mm: f64,
-    /// Exposure of each layer in seconds.
-    pub exposure_s: &'a [f64],
     /// The resin.
     pub resin: &'a Resin,
     /// Volume of resin in the model, in millilitres.
     pub resin_ml: f64,
     /// The printer, if the job names one.
     pub printer: Option<&'a Printer>,
-    /// The model, for previews.
-    pub mesh: &'a Mesh,
-    /// The hits of the model's rays, for previews.
-    pub ldi: &'a Ldi,
+    /// Draws the model, for previews.
+    pub look: &'a dyn Fn() -> Look,
+    /// Finds the thickest uniform layers within tolerance.
+    pub best_uniform: &'a dyn Fn() -> Option<UniformLayers>,
     /// Makes an object that describes the whole job, for formats of our own.
     pub manifest: &'a dyn Fn() -> Result<Value, serde_json::Error>,
 }
@@ -130,7 +192,55 @@ pub struct PrintJob<'a> {
 impl PrintJob<'_> {
     /// Total time of all layers, in seconds.
     fn print_time_s(&self) -> f64 {
-        self.plan.print_time_s(self.resin)
+        self.resin.print_time_s(&self.thickness_mm())
+    }
+
+    /// The build volume of the printer in x, y and z, or what the job needs, in millimetres.
+    fn volume_mm(&self) -> [f64; 3] {
+        let [x_mm, y_mm] = self.screen.size_mm();
+        self.printer
+            .map_or([x_mm, y_mm, self.height_mm.ceil()], |printer| {
+                printer.volume_mm
+            })
+    }
+
+    /// The thickness for formats that name a single one beside those of the layers: the middle layer's.
+    fn usual_mm(&self) -> f64 {
+        let middle = self.layers.get(self.layers.len() / 2);
+        middle.map_or(self.resin.layer_mm, |layer| layer.thickness_mm)
+    }
+
+    /// Whether the layers have values that the file's head does not: several thicknesses, or several exposures above the
+    /// bottom layers.
+    fn needs_layer_settings(&self) -> bool {
+        let upper = self.layers.get(self.resin.bottom_layers..);
+        !are_equal(&self.thickness_mm())
+            || upper.is_some_and(|layers| {
+                layers
+                    .windows(2)
+                    .any(|pair| pair[0].exposure_s != pair[1].exposure_s)
+            })
+    }
+
+    fn thickness_mm(&self) -> Vec<f64> {
+        self.layers.iter().map(|layer| layer.thickness_mm).collect()
+    }
+
+    /// Refuses layers that the format or the printer does not take.
+    fn check(&self, format: Format) -> Result<(), ArchiveError> {
+        let best = self.best_uniform;
+        let checked = check_thicknesses(format, self.printer, &self.thickness_mm());
+        checked.map_err(|refusal| match refusal {
+            Refusal::Format(format) => ArchiveError::UniformOnly {
+                format,
+                others: Format::VARIABLE,
+                best: best(),
+            },
+            Refusal::Printer(printer) => ArchiveError::PrinterUniformOnly {
+                model: printer.model.clone(),
+                best: best(),
+            },
+        })
     }
 }
 
@@ -147,10 +257,46 @@ pub fn write<W: Write>(
     progress: &mut Progress<'_>,
 ) -> Result<W, ArchiveError> {
     report(progress, 0.0)?;
-    let encoder = encoder(format);
-    encoder.check(job)?;
-    encoder.encode(job, &mut writer, progress)?;
+    job.check(format)?;
+    encoder(format).encode(job, &mut writer, progress)?;
     Ok(writer)
+}
+
+/// Layers that are read and encoded together, in parallel.
+const GROUP: usize = 32;
+
+/// Encodes all layers in parallel with a tool for each thread, and takes the results in order.
+///
+/// # Errors
+/// [`ArchiveError`]; [`ArchiveError::AllBlack`] if no layer has a lit pixel.
+fn encode_layers<S, T: Send>(
+    job: &PrintJob<'_>,
+    tool: impl Fn() -> S + Sync + Send,
+    encode: impl Fn(&mut S, &LayerRuns, usize) -> T + Sync + Send,
+    mut take: impl FnMut(usize, T) -> Result<(), ArchiveError>,
+    progress: &mut Progress<'_>,
+) -> Result<(), ArchiveError> {
+    let total = job.layers.len();
+    let mut reader = job.masks.reader();
+    let mut is_black = true;
+    let mut first = 0;
+    while first < total {
+        let count = GROUP.min(total - first);
+        let runs = reader.next(count);
+        is_black &= (0..count).all(|layer| runs.of_layer(layer).next().is_none());
+        let encoded = parallel::map_with((0..count).collect(), &tool, |tool, layer| {
+            encode(tool, &runs, layer)
+        });
+        for (layer, encoded) in encoded.into_iter().enumerate() {
+            take(first + layer, encoded)?;
+        }
+        first += count;
+        report(progress, first as f64 / total as f64)?;
+    }
+    if is_black {
+        return Err(ArchiveError::AllBlack);
+    }
+    Ok(())
 }
 
 /// Formats a number to at most three decimals, without trailing zeros.

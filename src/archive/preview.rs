@@ -45,8 +45,8 @@ impl Look {
         }
     }
 
-    /// A greyscale PNG of this size, with the model centred and scaled to fit.
-    pub fn png(&self, width: u32, height: u32) -> Vec<u8> {
+    /// A picture of this many columns and rows, with the model centred and scaled to fit: a grey for each pixel.
+    pub fn greys(&self, [width, height]: [u32; 2]) -> Vec<u8> {
         let scale =
             (self.width as f64 / f64::from(width)).max(self.height as f64 / f64::from(height));
         let source = |place: u32, side: u32, source_side: usize| {
@@ -56,19 +56,38 @@ impl Look {
                 .contains(&position)
                 .then_some(position as usize)
         };
-        let mut stream = RunWriter::default();
+        let columns: Vec<_> = (0..width)
+            .map(|column| source(column, width, self.width))
+            .collect();
+        let mut greys = Vec::with_capacity(width as usize * height as usize);
         for row in 0..height {
+            let row = source(row, height, self.height);
+            greys.extend(columns.iter().map(|&column| {
+                row.zip(column).map_or(0, |(row, column)| {
+                    self.brightness[row * self.width + column]
+                })
+            }));
+        }
+        greys
+    }
+
+    /// The same as a greyscale PNG.
+    pub fn png(&self, size: [u32; 2]) -> Vec<u8> {
+        let mut stream = RunWriter::default();
+        for row in self.greys(size).chunks(size[0] as usize) {
             stream.run(LEFT, 1);
             let mut last = 0;
-            for column in 0..width {
-                let place = source(row, height, self.height).zip(source(column, width, self.width));
-                let pixel = place.map_or(0, |(row, column)| {
-                    self.brightness[row * self.width + column]
-                });
-                stream.run(pixel.wrapping_sub(last), 1);
-                last = pixel;
+            for &grey in row {
+                stream.run(grey.wrapping_sub(last), 1);
+                last = grey;
             }
         }
-        png::wrap([width, height], Depth::Grey, &stream.finish())
+        png::wrap(size, Depth::Grey, &stream.finish())
     }
+}
+
+/// A grey as five bits of red, six of green and five of blue.
+pub(super) fn rgb565(grey: u8) -> u16 {
+    let grey = u16::from(grey);
+    grey >> 3 << 11 | grey >> 2 << 5 | grey >> 3
 }

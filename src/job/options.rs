@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::format::Format;
 use crate::plan::HeightRange;
+use crate::printer::PrinterChoice;
 use crate::profile::{Metric, Source};
 use crate::resin::Resin;
 
@@ -109,9 +110,9 @@ pub struct Options {
     pub rotation: Option<[f64; 4]>,
     /// Height to which the model is scaled uniformly; not scaled if absent.
     pub height_mm: Option<f64>,
-    /// Name of a known printer: see [`crate::printer::PRINTERS`]. It provides pixels, pitch, mirroring, format and step
-    /// where these are absent.
-    pub printer: Option<String>,
+    /// Name of a known printer, see [`crate::printer::PRINTERS`], or the description of another. It provides pixels, pitch,
+    /// mirroring, format and step where these are absent.
+    pub printer: Option<PrinterChoice>,
     /// Columns and rows of the masks, with the model at the centre; needs `pitch_mm`, unless a printer provides it.
     pub pixels: Option<[u32; 2]>,
     /// Side of a pixel in x. Without `pixels` and a printer, the masks have as many pixels as cover the model.

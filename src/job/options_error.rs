@@ -16,13 +16,27 @@ pub enum OptionsError {
         system: String,
     },
     /// No printer has this name.
-    #[error("there is no printer {printer}; known are {}", known.join(", "))]
+    #[error(
+        "there is no printer {printer} among the {known} known ones{}",
+        if similar.is_empty() { String::new() } else { format!("; similar are {}", similar.join(", ")) }
+    )]
     #[serde(rename = "unknown-printer")]
     UnknownPrinter {
         /// The requested name.
         printer: String,
-        /// The known names.
-        known: Vec<&'static str>,
+        /// Known names that are similar.
+        similar: Vec<String>,
+        /// Number of known printers.
+        known: usize,
+    },
+    /// The description of a printer has a value out of bounds.
+    #[error("the printer {printer} cannot have this {field}; correct its description")]
+    #[serde(rename = "bad-printer")]
+    BadPrinter {
+        /// Its name.
+        printer: String,
+        /// The name of the field.
+        field: &'static str,
     },
     /// Pixels are given without their pitch, or different pitches in x and y without pixels.
     #[error(
@@ -67,7 +81,7 @@ pub enum OptionsError {
     #[serde(rename = "printer-layers")]
     PrinterLayers {
         /// Make and model of the printer.
-        model: &'static str,
+        model: String,
         /// Minimum layer thickness of the printer.
         printer_min_mm: f64,
         /// Maximum layer thickness of the printer.
@@ -85,7 +99,7 @@ pub enum OptionsError {
     #[serde(rename = "printer-step")]
     PrinterStep {
         /// Make and model of the printer.
-        model: &'static str,
+        model: String,
         /// Motor step of the printer.
         printer_step_mm: f64,
         /// The requested step.

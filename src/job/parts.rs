@@ -1,5 +1,7 @@
 //! The parts of a job: what each stage works from. They are comparable, so they are also the keys under which results are kept.
 
+use std::sync::Arc;
+
 use super::{Backend, GpuMethod, Minimize, Planner};
 use crate::format::Format;
 use crate::grid::{Bins, Grid, GridError};
@@ -95,7 +97,7 @@ pub(crate) enum Thicknesses {
 pub(crate) struct Output {
     pub format: Format,
     pub is_mirrored: bool,
-    pub printer: Option<&'static Printer>,
+    pub printer: Option<Arc<Printer>>,
 }
 
 impl Sampling {

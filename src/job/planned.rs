@@ -13,6 +13,7 @@ use crate::model::Mesh;
 use crate::plan::optimal::Objective;
 use crate::plan::preferred::{Price, SnapPlanes};
 use crate::plan::tradeoff::{self, Goal, TradeoffPoint};
+use crate::plan::uniform::UniformLayers;
 use crate::plan::{Limits, Plan, PlanError, gradual, greedy, optimal, thicknesses, uniform};
 use crate::profile::facet_bins::FacetBins;
 use crate::profile::normal_cones::{Cone, cones};
@@ -50,6 +51,11 @@ impl Planned {
             layering: layering.clone(),
             plan,
         })
+    }
+
+    /// The thickest uniform layers within tolerance, between the limits.
+    pub fn best_uniform(&self) -> Option<UniformLayers> {
+        Planning::of(&self.of, &self.layering).best_uniform()
     }
 
     /// The masks of the plan, seen from one side.
@@ -209,6 +215,22 @@ impl<'a> Planning<'a> {
         let bins = self.errors.bins();
         let first_layer = self.layering.limits(0.0).first_layer(bins)?;
         uniform::plan(bins, self.height_mm, layer_mm, first_layer)
+    }
+
+    fn best_uniform(&self) -> Option<UniformLayers> {
+        let bins = self.errors.bins();
+        let limits = self.limits().ok()?;
+        let unit = limits.unit(bins).ok()?;
+        let range = limits.thickness(bins, limits.layer_min_mm, limits.layer_max_mm);
+        let steps = self.errors.to_steps(limits.tolerance);
+        range.ok()?.rev().find_map(|units| {
+            let layer_mm = bins.boundary_mm(units * unit);
+            let plan = self.uniform(layer_mm).ok()?;
+            (plan.max_error_steps(&self.errors) <= steps).then(|| UniformLayers {
+                layer_mm,
+                layers: plan.layers(),
+            })
+        })
     }
 
     pub(super) fn row(&self, planner: Planner) -> Result<PlannerReport, PlanError> {

@@ -13,7 +13,7 @@ use crate::mask::black_layers;
 use crate::model::{Mesh, ModelFile, weights};
 use crate::orientation;
 use crate::plan::tradeoff::TradeoffPoint;
-use crate::printer::Printer;
+use crate::printer::{Printer, Refusal, VariableLayers, are_equal, check_thicknesses};
 use crate::profile::{Metric, Source};
 use crate::resin::Resin;
 use crate::warning::Warning;
@@ -141,10 +141,10 @@ impl PrintFileReport {
     /// Describes a file of `format` for a printer.
     pub fn new(format: Format, printer: Option<&Printer>) -> Self {
         let reader = printer.filter(|printer| printer.reads_format && printer.format == format);
-        let own = reader.and_then(|printer| printer.reads.first().copied());
+        let own = reader.and_then(|printer| printer.reads.first().cloned());
         Self {
             format,
-            extension: own.unwrap_or(format.extension()).to_owned(),
+            extension: own.unwrap_or_else(|| format.extension().to_owned()),
             media_type: format.media_type().to_owned(),
             is_read_by_printer: reader.is_some(),
         }
@@ -408,6 +408,7 @@ pub(super) fn report_of(
         });
     }
     let thickness_mm = plan.thickness_mm();
+    warnings.extend(thickness_warning(planned, output, &thickness_mm));
     Report {
         schema: SCHEMA,
         model: file.clone(),
@@ -421,7 +422,7 @@ pub(super) fn report_of(
         resin: layering.resin.clone(),
         thickness_mm,
         resin_ml: sampled.solid.volume_mm3 / 1e3,
-        printer: output.printer.map(|printer| printer.name.to_owned()),
+        printer: output.printer.as_ref().map(|printer| printer.name.clone()),
         snapped_mm: findings.snapped_mm.clone(),
         metric: layering.metric,
         unit: layering.metric.unit().to_owned(),
@@ -451,8 +452,31 @@ pub(super) fn report_of(
             antialias: sampled.sampling.samples.sublayers,
             is_mirrored: output.is_mirrored,
         },
-        print_file: PrintFileReport::new(output.format, output.printer),
+        print_file: PrintFileReport::new(output.format, output.printer.as_deref()),
         warnings,
         timings_ms,
     }
+}
+
+/// The warning about layers of several thicknesses on this printer, or in its file.
+fn thickness_warning(planned: &Planned, output: &Output, thickness_mm: &[f64]) -> Option<Warning> {
+    let printer = output.printer.as_deref();
+    let taker = match check_thicknesses(output.format, printer, thickness_mm) {
+        Err(Refusal::Printer(printer)) => printer.model.clone(),
+        Err(Refusal::Format(format)) => format.name().to_owned(),
+        Ok(()) => {
+            let untried = printer.filter(|printer| {
+                printer.format == output.format
+                    && printer.variable_layers == VariableLayers::Untried
+                    && !are_equal(thickness_mm)
+            });
+            return untried.map(|printer| Warning::UntriedThicknesses {
+                model: printer.model.clone(),
+            });
+        }
+    };
+    Some(Warning::OneThickness {
+        taker,
+        best: planned.best_uniform(),
+    })
 }

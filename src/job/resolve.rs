@@ -1,13 +1,15 @@
 //! Resolves options into a job: every default of metric, printer and format is settled and checked, once. No stage behind
 //! [`Options::resolve`] reads an option.
 
+use std::sync::Arc;
+
 use super::parts::{Job, Layering, Output, Raster, Sampling, Target, Thicknesses};
 use super::{Error, Minimize, Options, OptionsError, Planner, Snap};
 use crate::grid::Bins;
 use crate::mask::{LEVELS, Samples};
 use crate::model::Pose;
 use crate::plan::{Limits, PlanError, uniform};
-use crate::printer::{self, PRINTERS, Printer};
+use crate::printer::{self, PRINTERS, Printer, PrinterChoice};
 use crate::profile::Metric;
 
 impl Options {
@@ -18,16 +20,16 @@ impl Options {
     pub(crate) fn resolve(&self) -> Result<Job, Error> {
         let printer = self.known_printer()?;
         Ok(Job {
-            layering: self.layering(printer)?,
-            sampling: self.sampling(printer)?,
+            layering: self.layering(printer.as_deref())?,
+            sampling: self.sampling(printer.as_deref())?,
             output: Output {
                 format: self
                     .format
-                    .or(printer.map(|printer| printer.format))
+                    .or(printer.as_deref().map(|printer| printer.format))
                     .unwrap_or_default(),
                 is_mirrored: self
                     .mirror
-                    .or(printer.map(|printer| printer.is_mirrored))
+                    .or(printer.as_deref().map(|printer| printer.is_mirrored))
                     .unwrap_or(false),
                 printer,
             },
@@ -67,15 +69,24 @@ impl Options {
         self.resolve().map(|_| ())
     }
 
-    fn known_printer(&self) -> Result<Option<&'static Printer>, OptionsError> {
-        let Some(name) = &self.printer else {
-            return Ok(None);
+    fn known_printer(&self) -> Result<Option<Arc<Printer>>, OptionsError> {
+        let printer = match &self.printer {
+            None => return Ok(None),
+            Some(PrinterChoice::Own(printer)) => Arc::clone(printer),
+            Some(PrinterChoice::Named(name)) => {
+                printer::named(name).ok_or_else(|| OptionsError::UnknownPrinter {
+                    printer: name.clone(),
+                    similar: printer::similar(name),
+                    known: PRINTERS.len(),
+                })?
+            }
         };
-        let unknown = || OptionsError::UnknownPrinter {
-            printer: name.clone(),
-            known: PRINTERS.iter().map(|printer| printer.name).collect(),
-        };
-        printer::named(name).map(Some).ok_or_else(unknown)
+        let checked = printer.check();
+        checked.map_err(|field| OptionsError::BadPrinter {
+            printer: printer.name.clone(),
+            field,
+        })?;
+        Ok(Some(printer))
     }
 
     fn sampling(&self, printer: Option<&Printer>) -> Result<Sampling, OptionsError> {
@@ -217,7 +228,7 @@ impl Options {
         for [layer_min_mm, layer_max_mm] in self.thicknesses_mm() {
             if layer_min_mm < printer_min_mm || layer_max_mm > printer_max_mm {
                 return Err(OptionsError::PrinterLayers {
-                    model: printer.model,
+                    model: printer.model.clone(),
                     printer_min_mm,
                     printer_max_mm,
                     layer_min_mm,
@@ -228,7 +239,7 @@ impl Options {
         match self.step_mm {
             Some(step_mm) if !is_multiple(step_mm, printer.step_mm) => {
                 Err(OptionsError::PrinterStep {
-                    model: printer.model,
+                    model: printer.model.clone(),
                     printer_step_mm: printer.step_mm,
                     step_mm,
                 })

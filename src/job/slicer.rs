@@ -12,7 +12,7 @@ use super::report::{Origin, report_of};
 use super::sampled::{Sampled, Sampler};
 use super::stage::{Stage, StageProgress, ms_since, report};
 use super::{Error, MeshInfo, Options, Preview, Report, Timings, Tradeoff};
-use crate::archive::{self, PrintJob};
+use crate::archive::{self, Layer, Look, PrintJob, Screen};
 use crate::grid::Bins;
 use crate::ldi::LdiError;
 use crate::ldi::gpu::Gpu;
@@ -384,18 +384,30 @@ impl Slicer {
             seen,
         } = current;
         let masks = mirrored.as_ref().or(seen.as_ref().map(|seen| &seen.0));
+        let masks = masks.ok_or(Error::NoPlan)?;
         let sampled = &planned.of.of;
+        let layers: Vec<Layer> = (0..report.layers)
+            .map(|layer| Layer {
+                z_mm: report.z_mm[layer + 1],
+                thickness_mm: report.thickness_mm[layer],
+                exposure_s: report.exposure_s[layer],
+            })
+            .collect();
         let job = PrintJob {
-            masks: masks.ok_or(Error::NoPlan)?,
-            is_mirrored,
-            plan: &planned.plan,
+            screen: Screen {
+                pixels: [masks.grid.width, masks.grid.height],
+                pitch_mm: [masks.grid.pitch_mm, masks.grid.pitch_y_mm],
+                is_mirrored,
+                antialias: masks.samples.sublayers,
+            },
+            layers: &layers,
+            masks,
             height_mm: report.height_mm,
-            exposure_s: &report.exposure_s,
             resin: &planned.layering.resin,
             resin_ml: report.resin_ml,
-            printer: output.printer,
-            mesh: &sampled.mesh,
-            ldi: &sampled.ldi,
+            printer: output.printer.as_deref(),
+            best_uniform: &|| planned.best_uniform(),
+            look: &|| Look::new(&sampled.mesh, &sampled.ldi),
             manifest: &|| report.manifest(),
         };
         let writer = archive::write(output.format, &job, writer, &mut mask_progress)?;

@@ -1,9 +1,27 @@
 //! Layers of one thickness: the plan that most slicers make.
 
+use serde::Serialize;
+
 use super::limits::whole_bins;
 use super::{Plan, PlanError};
 use crate::grid::Bins;
 use crate::quantity::Quantity;
+
+/// Uniform layers in short.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+pub struct UniformLayers {
+    /// Thickness of each in millimetres.
+    pub layer_mm: f64,
+    /// Their number.
+    pub layers: usize,
+}
+
+impl std::fmt::Display for UniformLayers {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} uniform layers of {} mm", self.layers, self.layer_mm)
+    }
+}
 
 /// Layers of `layer_mm` each, from the plate to the top, on a first layer of as many bins as `first_layer` unless that is 0.
 ///

@@ -55,6 +55,7 @@ fn mask_name(format: Format, layer: usize) -> String {
         Format::Chitubox => format!("{}.png", layer + 1),
         Format::Uvj => format!("slice/{layer:08}.png"),
         Format::Sl1 => format!("cusp{layer:05}.png"),
+        other => unreachable!("{other:?} is no zip of PNGs"),
     }
 }
 

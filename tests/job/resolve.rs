@@ -146,7 +146,7 @@ fn a_printer_prints_neither_thinner_nor_thicker_nor_finer_than_it_can() {
         layer_max_mm,
     };
     let of_printer = Options {
-        printer: Some("sl1s".to_owned()),
+        printer: Some("sl1s".into()),
         layer_min_mm: 0.05,
         layer_max_mm: 0.1,
         ..options()
@@ -191,7 +191,7 @@ fn a_printer_prints_neither_thinner_nor_thicker_nor_finer_than_it_can() {
         ),
         (
             Options {
-                printer: Some("nobody".to_owned()),
+                printer: Some("nobody".into()),
                 ..of_printer.clone()
             },
             "unknown-printer",

@@ -253,7 +253,7 @@ fn what_does_not_fit_is_excluded_and_what_fits_askew_is_turned() {
     assert_eq!(found[1].excluded, None);
 
     let printer = Options {
-        printer: Some("saturn-3-ultra".to_owned()),
+        printer: Some("saturn-3-ultra".into()),
         ..Options::default()
     };
     // Too long for the plate, for the height, and for the diagonal.
@@ -320,7 +320,7 @@ fn searches_end_when_nobody_wants_them() {
         assert_eq!(error.code(), code);
     }
     let unknown = Options {
-        printer: Some("none".to_owned()),
+        printer: Some("none".into()),
         ..options()
     };
     let error = slicer.orient(&unknown, &few(5), &mut quiet).unwrap_err();

@@ -4,8 +4,8 @@
 use std::fmt::Write as _;
 
 use super::{Container, File, LayerEntry};
-use crate::archive::preview::Look;
 use crate::archive::{ArchiveError, PrintJob, thousandths};
+use crate::printer::Printer;
 
 pub struct Chitubox;
 
@@ -15,35 +15,30 @@ impl Container for Chitubox {
     }
 
     fn files(&self, job: &PrintJob<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
-        let look = Look::new(job.mesh, job.ldi);
+        let look = (job.look)();
         Ok(vec![
             ("run.gcode".to_owned(), run_gcode(job, layers).into_bytes()),
-            ("preview.png".to_owned(), look.png(954, 850)),
-            ("preview_cropping.png".to_owned(), look.png(168, 150)),
+            ("preview.png".to_owned(), look.png([954, 850])),
+            ("preview_cropping.png".to_owned(), look.png([168, 150])),
         ])
     }
 }
 
 fn run_gcode(job: &PrintJob<'_>, layers: &[LayerEntry]) -> String {
-    let PrintJob { printer, resin, .. } = *job;
-    let grid = &job.masks.grid;
-    let volume_mm = printer.map_or(
-        [
-            f64::from(grid.width) * grid.pitch_mm,
-            f64::from(grid.height) * grid.pitch_y_mm,
-            job.height_mm.ceil(),
-        ],
-        |printer| printer.volume_mm,
-    );
+    let PrintJob {
+        printer,
+        resin,
+        screen,
+        ..
+    } = *job;
+    let volume_mm = job.volume_mm();
     let mm = thousandths;
-    // Some keys hold a single thickness for all layers: the middle layer's.
-    let middle = layers.get(layers.len() / 2);
-    let usual_mm = middle.map_or(resin.layer_mm, |layer| layer.thickness_mm);
+    let usual_mm = job.usual_mm();
     let head = [
         ("fileName", "model".to_owned()),
         (
             "machineType",
-            printer.map_or("custom", |printer| printer.model).to_owned(),
+            printer.map_or("custom", Printer::machine).to_owned(),
         ),
         ("estimatedPrintTime", mm(job.print_time_s())),
         ("volume", mm(job.resin_ml)),
@@ -51,14 +46,14 @@ fn run_gcode(job: &PrintJob<'_>, layers: &[LayerEntry]) -> String {
         ("weight", mm(job.resin_ml * resin.density_g_ml)),
         ("price", "0".to_owned()),
         ("layerHeight", mm(usual_mm)),
-        ("resolutionX", grid.width.to_string()),
-        ("resolutionY", grid.height.to_string()),
+        ("resolutionX", screen.pixels[0].to_string()),
+        ("resolutionY", screen.pixels[1].to_string()),
         ("machineX", mm(volume_mm[0])),
         ("machineY", mm(volume_mm[1])),
         ("machineZ", mm(volume_mm[2])),
         (
             "projectType",
-            if job.is_mirrored {
+            if screen.is_mirrored {
                 "LCD_mirror"
             } else {
                 "Normal"
@@ -78,11 +73,11 @@ fn run_gcode(job: &PrintJob<'_>, layers: &[LayerEntry]) -> String {
         ("bottomLightOffTime", mm(resin.wait_s)),
         ("bottomPWMLight", "255".to_owned()),
         ("PWMLight", "255".to_owned()),
-        ("antiAliasLevel", job.masks.samples.sublayers.to_string()),
+        ("antiAliasLevel", screen.antialias.to_string()),
         ("bottomLayCount", resin.bottom_layers.to_string()),
         ("bottomLayerCount", resin.bottom_layers.to_string()),
         ("totalLayer", layers.len().to_string()),
-        ("mirror", u8::from(job.is_mirrored).to_string()),
+        ("mirror", u8::from(screen.is_mirrored).to_string()),
     ];
     let mut text = String::new();
     for (key, value) in head {

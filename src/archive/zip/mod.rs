@@ -4,22 +4,22 @@
 //! all cores and writes the zip.
 
 pub mod chitubox;
-pub mod png;
+pub mod masks;
 pub mod sl1;
 pub mod uvj;
 
 use std::io::Write;
-use std::ops::Range;
 
 use flate2::{Compress, Compression, FlushCompress};
 use rawzip::time::UtcDateTime;
 use rawzip::{CompressionMethod, DataDescriptorOutput, ZipArchiveWriter};
 use serde::Serialize;
 
-use super::png::{Depth, encode};
-use super::{ArchiveError, Encoder, PrintJob};
-use crate::mask::{Light, MaskCursor, Masks};
-use crate::parallel::map_in_groups;
+use super::png::Depth;
+use super::survey::Survey;
+use super::{ArchiveError, Encoder, Layer, PrintJob, Screen, encode_layers};
+use crate::archive::png;
+use crate::mask::{LayerRuns, Run};
 use crate::progress::Progress;
 
 /// A layer of a print file.
@@ -35,6 +35,9 @@ pub struct LayerEntry {
     pub exposure_s: f64,
     /// Number of pixels of the mask that are not black.
     pub lit_pixels: u64,
+    /// Its lit areas, for formats that state them.
+    #[serde(skip)]
+    pub survey: Option<Survey>,
 }
 
 /// Name and contents of a file in a zip.
@@ -42,18 +45,18 @@ pub type File = (String, Vec<u8>);
 
 /// What differs between formats.
 pub trait Container: Sync {
-    /// Refuses a plan that the format cannot express.
-    fn check(&self, _job: &PrintJob<'_>) -> Result<(), ArchiveError> {
-        Ok(())
-    }
-
-    /// How masks without anti-aliasing are stored. Masks with it are always grey.
-    fn depth(&self) -> Depth {
-        Depth::Grey
-    }
-
     /// The name of a layer's mask.
     fn mask_name(&self, layer: usize) -> String;
+
+    /// Encodes a mask.
+    fn mask(&self, screen: &Screen, runs: &mut dyn Iterator<Item = Run>) -> Vec<u8> {
+        png::encode(runs, screen.pixels, Depth::Grey)
+    }
+
+    /// Whether [`LayerEntry::survey`] is needed.
+    fn needs_survey(&self) -> bool {
+        false
+    }
 
     /// The files besides the masks.
     fn files(&self, job: &PrintJob<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError>;
@@ -62,14 +65,13 @@ pub trait Container: Sync {
 /// Encodes a container.
 pub struct Zip(pub &'static dyn Container);
 
-/// Number of consecutive layers that one thread encodes. The mask is copied once for each such run.
-const RUN: usize = 8;
+struct Mask {
+    file: Deflated,
+    lit_pixels: u64,
+    survey: Option<Survey>,
+}
 
 impl Encoder for Zip {
-    fn check(&self, job: &PrintJob<'_>) -> Result<(), ArchiveError> {
-        self.0.check(job)
-    }
-
     /// There is no limit on the number and size of files: from 65,535 files or 4 GiB on, the zip is a zip64.
     fn encode(
         &self,
@@ -78,46 +80,47 @@ impl Encoder for Zip {
         progress: &mut Progress<'_>,
     ) -> Result<(), ArchiveError> {
         let container = self.0;
-        let PrintJob {
-            masks,
-            plan,
-            exposure_s,
-            ..
-        } = *job;
-        let (z_mm, thickness_mm) = (plan.z_mm(), plan.thickness_mm());
+        let screen = job.screen;
         let mut zip = ZipArchiveWriter::new(writer);
-        let mut layers: Vec<LayerEntry> = Vec::with_capacity(masks.layers());
-
-        let mut ahead = masks.cursor();
-        let runs = (0..masks.layers()).step_by(RUN).map(|first| {
-            ahead.seek(masks, first);
-            (ahead.clone(), first..(first + RUN).min(masks.layers()))
-        });
-        map_in_groups(
-            runs,
-            |(cursor, layers)| encode_run(container, masks, cursor, layers),
-            |encoded: Result<Vec<Mask>, ArchiveError>| {
-                for Mask { png, lit_pixels } in encoded? {
-                    let layer = layers.len();
-                    let file = container.mask_name(layer);
-                    add(&mut zip, &file, &png)?;
-                    layers.push(LayerEntry {
-                        file,
-                        z_mm: z_mm[layer + 1],
-                        thickness_mm: thickness_mm[layer],
-                        exposure_s: exposure_s[layer],
-                        lit_pixels,
-                    });
-                }
-                Ok::<_, ArchiveError>(())
+        let mut layers: Vec<LayerEntry> = Vec::with_capacity(job.layers.len());
+        encode_layers(
+            job,
+            Deflater::new,
+            |deflater, runs: &LayerRuns, layer| {
+                let runs = || runs.of_layer(layer);
+                Ok(Mask {
+                    file: deflater.deflate(&container.mask(&screen, &mut runs()))?,
+                    lit_pixels: runs().map(|run| u64::from(run.pixels)).sum(),
+                    survey: container
+                        .needs_survey()
+                        .then(|| Survey::of(runs(), screen.pixels)),
+                })
+            },
+            |layer, mask: Result<Mask, ArchiveError>| {
+                let Mask {
+                    file,
+                    lit_pixels,
+                    survey,
+                } = mask?;
+                let name = container.mask_name(layer);
+                add(&mut zip, &name, &file)?;
+                let Layer {
+                    z_mm,
+                    thickness_mm,
+                    exposure_s,
+                } = job.layers[layer];
+                layers.push(LayerEntry {
+                    file: name,
+                    z_mm,
+                    thickness_mm,
+                    exposure_s,
+                    lit_pixels,
+                    survey,
+                });
+                Ok(())
             },
             progress,
-            [0.0, 1.0],
         )?;
-
-        if layers.iter().all(|layer| layer.lit_pixels == 0) {
-            return Err(ArchiveError::AllBlack);
-        }
         let mut deflater = Deflater::new();
         for (name, bytes) in container.files(job, &layers)? {
             add(&mut zip, &name, &deflater.deflate(&bytes)?)?;
@@ -187,31 +190,4 @@ impl Deflater {
             length: file.len() as u64,
         })
     }
-}
-
-struct Mask {
-    png: Deflated,
-    lit_pixels: u64,
-}
-
-fn encode_run(
-    container: &dyn Container,
-    masks: &Masks,
-    mut cursor: MaskCursor,
-    layers: Range<usize>,
-) -> Result<Vec<Mask>, ArchiveError> {
-    let depth = match cursor.light() {
-        Light::Bits(_) => container.depth(),
-        Light::Samples(_) => Depth::Grey,
-    };
-    let mut deflater = Deflater::new();
-    layers
-        .map(|layer| {
-            cursor.seek(masks, layer);
-            Ok(Mask {
-                png: deflater.deflate(&encode(masks, &cursor, depth))?,
-                lit_pixels: cursor.lit_pixels(),
-            })
-        })
-        .collect()
 }

@@ -3,9 +3,7 @@
 use std::fmt::Write as _;
 
 use super::{Container, File, LayerEntry};
-use crate::archive::preview::Look;
 use crate::archive::{ArchiveError, PrintJob, thousandths};
-use crate::format::Format;
 
 pub struct Sl1;
 
@@ -13,25 +11,12 @@ pub struct Sl1;
 const JOB: &str = "cusp";
 
 impl Container for Sl1 {
-    fn check(&self, job: &PrintJob<'_>) -> Result<(), ArchiveError> {
-        // The thickness of the first layer may differ.
-        let mut later = job.plan.thickness_mm().into_iter().skip(1);
-        let second = later.next();
-        if later.any(|thickness_mm| Some(thickness_mm) != second) {
-            return Err(ArchiveError::UniformOnly {
-                format: Format::Sl1,
-                others: Format::VARIABLE,
-            });
-        }
-        Ok(())
-    }
-
     fn mask_name(&self, layer: usize) -> String {
         format!("{JOB}{layer:05}.png")
     }
 
     fn files(&self, job: &PrintJob<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
-        let look = Look::new(job.mesh, job.ldi);
+        let look = (job.look)();
         Ok(vec![
             ("config.ini".to_owned(), config(job, layers).into_bytes()),
             (
@@ -40,11 +25,11 @@ impl Container for Sl1 {
             ),
             (
                 "thumbnail/thumbnail400x400.png".to_owned(),
-                look.png(400, 400),
+                look.png([400, 400]),
             ),
             (
                 "thumbnail/thumbnail800x480.png".to_owned(),
-                look.png(800, 480),
+                look.png([800, 480]),
             ),
         ])
     }
@@ -68,6 +53,15 @@ fn config(job: &PrintJob<'_>, layers: &[LayerEntry]) -> String {
     let layer_mm = layer_mm(layers);
     let slow = resin.bottom_layers.min(layers.len());
     let name = resin.name.replace(['\n', '\r'], " ");
+    let is_first_model = job
+        .printer
+        .and_then(|printer| printer.reads.first())
+        .is_some_and(|extension| extension == "sl1");
+    let (model, profile) = if is_first_model {
+        ("SL1", "Original Prusa SL1")
+    } else {
+        ("SL1S", "Original Prusa SL1S SPEED")
+    };
     ini(&[
         ("action", "print".to_owned()),
         ("expTime", thousandths(resin.exposure_s(layer_mm))),
@@ -86,8 +80,8 @@ fn config(job: &PrintJob<'_>, layers: &[LayerEntry]) -> String {
         ("numSlow", slow.to_string()),
         ("printProfile", format!("{} mm", thousandths(layer_mm))),
         ("printTime", thousandths(job.print_time_s())),
-        ("printerModel", "SL1S".to_owned()),
-        ("printerProfile", "Original Prusa SL1S SPEED".to_owned()),
+        ("printerModel", model.to_owned()),
+        ("printerProfile", profile.to_owned()),
         ("printerVariant", "default".to_owned()),
         (
             "prusaSlicerVersion",
@@ -99,22 +93,18 @@ fn config(job: &PrintJob<'_>, layers: &[LayerEntry]) -> String {
 
 fn prusaslicer(job: &PrintJob<'_>, layers: &[LayerEntry]) -> String {
     let layer_mm = layer_mm(layers);
-    let grid = &job.masks.grid;
+    let screen = &job.screen;
     // The display's sides are given in landscape, even where masks are in portrait.
-    let is_portrait = grid.height > grid.width;
-    let (long, short) = if is_portrait {
-        ((grid.height, grid.pitch_y_mm), (grid.width, grid.pitch_mm))
-    } else {
-        ((grid.width, grid.pitch_mm), (grid.height, grid.pitch_y_mm))
-    };
-    let mm = |side: (u32, f64)| thousandths(f64::from(side.0) * side.1);
+    let is_portrait = screen.pixels[1] > screen.pixels[0];
+    let [long, short] = if is_portrait { [1, 0] } else { [0, 1] };
+    let side_mm = screen.size_mm();
     ini(&[
         ("printer_technology", "SLA".to_owned()),
-        ("display_width", mm(long)),
-        ("display_height", mm(short)),
-        ("display_pixels_x", long.0.to_string()),
-        ("display_pixels_y", short.0.to_string()),
-        ("display_mirror_x", u8::from(job.is_mirrored).to_string()),
+        ("display_width", thousandths(side_mm[long])),
+        ("display_height", thousandths(side_mm[short])),
+        ("display_pixels_x", screen.pixels[long].to_string()),
+        ("display_pixels_y", screen.pixels[short].to_string()),
+        ("display_mirror_x", u8::from(screen.is_mirrored).to_string()),
         ("display_mirror_y", "0".to_owned()),
         (
             "display_orientation",

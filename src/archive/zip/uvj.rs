@@ -3,7 +3,6 @@
 use serde_json::{Value, json};
 
 use super::{Container, File, LayerEntry};
-use crate::archive::preview::Look;
 use crate::archive::{ArchiveError, PrintJob};
 
 pub struct Uvj;
@@ -17,19 +16,19 @@ impl Container for Uvj {
     }
 
     fn files(&self, job: &PrintJob<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
-        let look = Look::new(job.mesh, job.ldi);
+        let look = (job.look)();
         let config = serde_json::to_vec(&config(job, layers)).map_err(ArchiveError::write)?;
         Ok(vec![
             ("config.json".to_owned(), config),
-            ("preview/huge.png".to_owned(), look.png(800, 480)),
-            ("preview/tiny.png".to_owned(), look.png(400, 300)),
+            ("preview/huge.png".to_owned(), look.png([800, 480])),
+            ("preview/tiny.png".to_owned(), look.png([400, 300])),
         ])
     }
 }
 
 fn config(job: &PrintJob<'_>, layers: &[LayerEntry]) -> Value {
     let resin = job.resin;
-    let grid = &job.masks.grid;
+    let [x_mm, y_mm] = job.screen.size_mm();
     let exposure = |exposure_s: f64| {
         json!({
             "LightOnTime": exposure_s,
@@ -43,8 +42,7 @@ fn config(job: &PrintJob<'_>, layers: &[LayerEntry]) -> Value {
     };
     let thickness_mm = layers.iter().map(|layer| layer.thickness_mm);
     let thickest_mm = thickness_mm.fold(0.0, f64::max);
-    let middle = layers.get(layers.len() / 2);
-    let usual_mm = middle.map_or(thickest_mm, |layer| layer.thickness_mm);
+    let usual_mm = job.usual_mm();
     let mut bottom = exposure(resin.bottom_exposure_s);
     bottom["Count"] = json!(resin.bottom_layers);
     let layers: Vec<Value> = layers
@@ -54,18 +52,18 @@ fn config(job: &PrintJob<'_>, layers: &[LayerEntry]) -> Value {
     json!({
         "Properties": {
             "Size": {
-                "X": grid.width,
-                "Y": grid.height,
+                "X": job.screen.pixels[0],
+                "Y": job.screen.pixels[1],
                 "Millimeter": {
-                    "X": f64::from(grid.width) * grid.pitch_mm,
-                    "Y": f64::from(grid.height) * grid.pitch_y_mm,
+                    "X": x_mm,
+                    "Y": y_mm,
                 },
                 "Layers": layers.len(),
                 "LayerHeight": usual_mm.max((thickest_mm / STEP_ROOM * 1e3).ceil() / 1e3),
             },
             "Exposure": exposure(resin.exposure_s(usual_mm)),
             "Bottom": bottom,
-            "AntiAliasLevel": job.masks.samples.sublayers,
+            "AntiAliasLevel": job.screen.antialias,
         },
         "Layers": layers,
     })

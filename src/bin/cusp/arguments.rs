@@ -1,7 +1,7 @@
 //! The arguments of commands.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, ValueEnum};
@@ -10,6 +10,7 @@ use cusp_slicer::job::{BIN_MM, Backend, GpuMethod, Minimize, Options, Planner, S
 use cusp_slicer::orientation::shard::Shard;
 use cusp_slicer::orientation::{Cost, MAX_DIRECTIONS, Quality, SearchOptions};
 use cusp_slicer::plan::HeightRange;
+use cusp_slicer::printer::PrinterChoice;
 use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::resin::Resin;
 
@@ -41,8 +42,8 @@ pub struct Choices {
     /// Scale the model uniformly to this height
     #[arg(long, value_name = "MM", value_parser = length, help_heading = "Model")]
     height: Option<f64>,
-    /// Printer by name, which sets pixels, pitch, mirroring and format: see `cusp printers`
-    #[arg(long, value_name = "NAME", help_heading = "Printer")]
+    /// Printer, which sets pixels, pitch, mirroring and format: a name of `cusp printers`, or a JSON file that describes it
+    #[arg(long, value_name = "NAME|FILE.json", help_heading = "Printer")]
     printer: Option<String>,
     #[arg(long, value_name = "WxH", value_parser = pixels, help = pixels_help(), requires = "pitch", help_heading = "Printer")]
     pixels: Option<[u32; 2]>,
@@ -195,7 +196,7 @@ impl Choices {
         Ok(Options {
             rotation: self.rotation,
             height_mm: self.height,
-            printer: self.printer.clone(),
+            printer: self.printer.as_deref().map(printer_choice).transpose()?,
             pixels: self.pixels,
             pitch_mm: self.pitch.map(|pitch| pitch[0]),
             pitch_y_mm: self.pitch.map(|pitch| pitch[1]),
@@ -233,6 +234,17 @@ impl Choices {
             ..Options::default()
         })
     }
+}
+
+/// A known printer, or that of a JSON file.
+fn printer_choice(printer: &str) -> Result<PrinterChoice, Failure> {
+    let path = Path::new(printer);
+    if path.extension().is_none_or(|extension| extension != "json") {
+        return Ok(PrinterChoice::Named(printer.to_owned()));
+    }
+    let text = fs::read_to_string(path).map_err(|error| in_file(path, &error))?;
+    let printer = serde_json::from_str(&text).map_err(|error| in_file(path, &error))?;
+    Ok(PrinterChoice::Own(printer))
 }
 
 /// The help of `--tolerance`, with the library's defaults.

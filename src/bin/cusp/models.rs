@@ -4,10 +4,9 @@ use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::Path;
 
-use clap::ValueEnum;
 use cusp_slicer::job::MeshInfo;
 use cusp_slicer::model::weights;
-use cusp_slicer::printer::PRINTERS;
+use cusp_slicer::printer::{PRINTERS, VariableLayers};
 
 use crate::files::{Failure, file_beside, in_file, keep, load, place_for};
 use crate::terminal::{Bar, print, print_json, stop_on_interrupt};
@@ -57,13 +56,13 @@ pub fn saliency(model: &Path, output: &Path) -> Result<(), Failure> {
 
 pub fn printers(json: bool) -> Result<(), Failure> {
     if json {
-        return Ok(print_json(&PRINTERS)?);
+        return Ok(print_json(&*PRINTERS)?);
     }
     let mut text = format!(
-        "{:<20} {:<28} {:>12}  {:<13} {:<23} {:<9} reads",
-        "name", "printer", "pixels", "pitch (µm)", "volume (mm)", "format"
+        "{:<20} {:<30} {:>12}  {:<17} {:<23} {:<16} {:<9} reads",
+        "name", "printer", "pixels", "pitch (µm)", "volume (mm)", "format", "variable"
     );
-    for printer in PRINTERS {
+    for printer in PRINTERS.iter() {
         let by = |sides: &[f64]| {
             sides
                 .iter()
@@ -71,16 +70,21 @@ pub fn printers(json: bool) -> Result<(), Failure> {
                 .collect::<Vec<_>>()
                 .join(" × ")
         };
-        let format = printer.format.to_possible_value();
+        let variable = match printer.variable_layers {
+            VariableLayers::Yes => "yes",
+            VariableLayers::No => "no",
+            VariableLayers::Untried => "untried",
+        };
         let _ = write!(
             text,
-            "\n{:<20} {:<28} {:>12}  {:<13} {:<23} {:<9} {}{}",
+            "\n{:<20} {:<30} {:>12}  {:<17} {:<23} {:<16} {:<9} {}{}",
             printer.name,
             printer.model,
             format!("{} × {}", printer.pixels[0], printer.pixels[1]),
             by(&printer.pitch_um),
             by(&printer.volume_mm),
-            format.as_ref().map_or("", |format| format.get_name()),
+            printer.format.name(),
+            variable,
             printer.reads.join(", "),
             if printer.reads_format {
                 ""

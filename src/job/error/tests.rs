@@ -17,6 +17,7 @@ use crate::model::weights::WeightsError;
 use crate::orientation::SearchError;
 use crate::orientation::shard::{MergeError, Shard};
 use crate::plan::PlanError;
+use crate::plan::uniform::UniformLayers;
 use crate::profile::Metric;
 use crate::progress::Cancelled;
 use crate::quantity::{Quantity, QuantityError, Unit};
@@ -150,7 +151,15 @@ fn archive_errors() -> Vec<ArchiveError> {
     one_of_each!(ArchiveError except []:
         Cancelled (Cancelled),
         AllBlack {},
-        UniformOnly { format: Format::Sl1, others: Format::VARIABLE },
+        UniformOnly {
+            format: Format::Sl1,
+            others: Format::VARIABLE,
+            best: Some(UniformLayers { layer_mm: 0.07, layers: 857 }),
+        },
+        PrinterUniformOnly {
+            model: "Anycubic Photon Mono M5s".to_owned(),
+            best: None,
+        },
         Write { system: "No space left on device.".to_owned() },
     )
 }
@@ -158,7 +167,12 @@ fn archive_errors() -> Vec<ArchiveError> {
 fn options_errors() -> Vec<OptionsError> {
     one_of_each!(OptionsError except []:
         Unreadable { system: "unknown field `rayz`".to_owned() },
-        UnknownPrinter { printer: "mine".to_owned(), known: vec!["shuffle", "sl1s"] },
+        UnknownPrinter {
+            printer: "saturn".to_owned(),
+            similar: vec!["saturn-3".to_owned(), "saturn-4".to_owned()],
+            known: 110,
+        },
+        BadPrinter { printer: "mine".to_owned(), field: "pitch_um" },
         PixelsWithoutPitch {},
         BadAntialias { antialias: 3, known: [1, 2, 4, 8] },
         BadWeightMin { weight_min: 1.5 },
@@ -168,13 +182,13 @@ fn options_errors() -> Vec<OptionsError> {
             other: "max_layers",
         },
         PrinterLayers {
-            model: "Phrozen Shuffle",
+            model: "Phrozen Shuffle".to_owned(),
             printer_min_mm: 0.01,
             printer_max_mm: 0.3,
             layer_min_mm: 0.005,
             layer_max_mm: 0.5,
         },
-        PrinterStep { model: "Phrozen Shuffle", printer_step_mm: 0.01, step_mm: 0.015 },
+        PrinterStep { model: "Phrozen Shuffle".to_owned(), printer_step_mm: 0.01, step_mm: 0.015 },
     )
 }
 
@@ -233,14 +247,19 @@ fn warnings() -> Vec<Warning> {
         SampledSections {},
         TopMoved { top_mm: 9.95, height_mm: 10.025 },
         BlackLayers { layers: 12, from_mm: 1.25 },
+        OneThickness {
+            taker: "Anycubic Photon Mono M5s".to_owned(),
+            best: Some(UniformLayers { layer_mm: 0.07, layers: 857 }),
+        },
+        UntriedThicknesses { model: "Elegoo Saturn 3".to_owned() },
         GpuTooSmall { needed_bytes: 345, limit_bytes: 234 },
         GpuFailed { fault: GpuFault::Error, system: Some("Out of memory.".to_owned()) },
     )
 }
 
 /// Keys of text that is shown untranslated in every language: messages of the system, and names.
-const VERBATIM: [&str; 7] = [
-    "system", "adapter", "model", "printer", "known", "theirs", "ours",
+const VERBATIM: [&str; 9] = [
+    "system", "adapter", "model", "printer", "similar", "known", "taker", "theirs", "ours",
 ];
 
 /// Collects what a sentence must contain: numbers, and untranslated text. Fails on other prose.
@@ -318,7 +337,7 @@ fn the_samples_that_catalogues_are_tested_with_are_these() {
 
 #[test]
 fn words_of_errors_are_those_they_are_serialised_with() {
-    for format in [Format::Png, Format::Chitubox, Format::Uvj, Format::Sl1] {
+    for format in Format::ALL {
         assert_eq!(serde_json::to_value(format).unwrap(), format.name());
     }
     for unit in [

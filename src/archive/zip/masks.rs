@@ -6,14 +6,19 @@
 use serde_json::json;
 
 use super::{Container, File, LayerEntry};
-use crate::archive::png::Depth;
-use crate::archive::{ArchiveError, PrintJob};
+use crate::archive::png::{self, Depth};
+use crate::archive::{ArchiveError, PrintJob, Screen};
+use crate::mask::Run;
 
-pub struct Png;
+pub struct Masks;
 
-impl Container for Png {
-    fn depth(&self) -> Depth {
-        Depth::Bit
+impl Container for Masks {
+    fn mask(&self, screen: &Screen, runs: &mut dyn Iterator<Item = Run>) -> Vec<u8> {
+        let depth = match screen.antialias {
+            1 => Depth::Bit,
+            _ => Depth::Grey,
+        };
+        png::encode(runs, screen.pixels, depth)
     }
 
     fn mask_name(&self, layer: usize) -> String {

@@ -1,0 +1,75 @@
+//! Writes the fields of binary print files.
+
+use crate::printer::Printer;
+
+/// Which byte of a number comes first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum ByteOrder {
+    Big,
+    Little,
+}
+
+impl ByteOrder {
+    /// The order of GOO files for a printer.
+    pub fn of_goo(printer: Option<&Printer>) -> Self {
+        if printer.is_some_and(|printer| printer.is_little_endian) {
+            Self::Little
+        } else {
+            Self::Big
+        }
+    }
+}
+
+/// Appends fields to bytes.
+pub(super) struct Fields<'a> {
+    bytes: &'a mut Vec<u8>,
+    order: ByteOrder,
+}
+
+impl<'a> Fields<'a> {
+    pub fn new(bytes: &'a mut Vec<u8>, order: ByteOrder) -> Self {
+        Self { bytes, order }
+    }
+
+    pub fn bytes(&mut self, bytes: &[u8]) {
+        self.bytes.extend(bytes);
+    }
+
+    fn number<const N: usize>(&mut self, mut big_endian: [u8; N]) {
+        if self.order == ByteOrder::Little {
+            big_endian.reverse();
+        }
+        self.bytes(&big_endian);
+    }
+
+    pub fn bool(&mut self, value: bool) {
+        self.bytes(&[u8::from(value)]);
+    }
+
+    pub fn u16(&mut self, value: u16) {
+        self.number(value.to_be_bytes());
+    }
+
+    pub fn u32(&mut self, value: u32) {
+        self.number(value.to_be_bytes());
+    }
+
+    /// Writes a number in single precision.
+    pub fn f32(&mut self, value: f64) {
+        self.number((value as f32).to_be_bytes());
+    }
+
+    /// Writes text, cut at a character's end to leave a zero, in a field of `length` bytes.
+    pub fn text(&mut self, text: &str, length: usize) {
+        let mut end = text.len().min(length - 1);
+        while !text.is_char_boundary(end) {
+            end -= 1;
+        }
+        self.bytes(&text.as_bytes()[..end]);
+        self.zeros(length - end);
+    }
+
+    pub fn zeros(&mut self, count: usize) {
+        self.bytes.resize(self.bytes.len() + count, 0);
+    }
+}

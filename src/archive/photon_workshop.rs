@@ -1,0 +1,364 @@
+//! Anycubic's binary files, versions 516, 517 and 518: tables that a mark at the beginning points to, then the layers.
+
+use std::io::Write;
+
+use super::fields::{ByteOrder, Fields};
+use super::preview::rgb565;
+use super::{ArchiveError, Encoder, PrintJob, encode_layers, pw0};
+use crate::mask::LayerRuns;
+use crate::printer::Printer;
+use crate::progress::Progress;
+
+pub struct PhotonWorkshop;
+
+/// The version for printers that do not say.
+const USUAL_VERSION: u32 = 517;
+/// Columns and rows of the previews.
+const PREVIEW: [u32; 2] = [224, 168];
+const SECOND_PREVIEW: [u32; 2] = [330, 190];
+/// Levels of grey.
+const GREYS: u32 = 16;
+/// The background of the preview on the printer.
+const BACKGROUND: u32 = 6_506_241;
+
+struct Layer {
+    data: Vec<u8>,
+    lit_pixels: u32,
+}
+
+impl Encoder for PhotonWorkshop {
+    /// The tables stand before the layers, so all are encoded before the first byte is written. Memory: the size of the file.
+    fn encode(
+        &self,
+        job: &PrintJob<'_>,
+        writer: &mut dyn Write,
+        progress: &mut Progress<'_>,
+    ) -> Result<(), ArchiveError> {
+        let version = job.printer.and_then(|printer| printer.file_version);
+        let version = version.unwrap_or(USUAL_VERSION);
+        let area = job.screen.area();
+        let width = job.screen.pixels[0];
+        let mut layers = Vec::with_capacity(job.layers.len());
+        let mut lit = Lit::NOTHING;
+        encode_layers(
+            job,
+            || (),
+            |(), runs: &LayerRuns, layer| {
+                let mut lit = Lit::NOTHING;
+                let mut lit_pixels = 0;
+                for run in runs.of_layer(layer) {
+                    lit.add(run.first % width, run.first / width, run.pixels);
+                    lit_pixels += run.pixels;
+                }
+                let data = pw0::encode(runs.of_layer(layer), area);
+                (Layer { data, lit_pixels }, lit)
+            },
+            |_, (layer, of_layer)| {
+                layers.push(layer);
+                lit.join(of_layer);
+                Ok(())
+            },
+            progress,
+        )?;
+        let head = head(job, version, &layers, &lit);
+        writer.write_all(&head)?;
+        for layer in &layers {
+            writer.write_all(&layer.data)?;
+        }
+        Ok(())
+    }
+}
+
+/// The box of lit pixels: first column and row, and those after the last.
+#[derive(Debug, Clone, Copy)]
+struct Lit {
+    first: [u32; 2],
+    end: [u32; 2],
+}
+
+impl Lit {
+    const NOTHING: Self = Self {
+        first: [u32::MAX; 2],
+        end: [0; 2],
+    };
+
+    fn add(&mut self, column: u32, row: u32, pixels: u32) {
+        self.join(Self {
+            first: [column, row],
+            end: [column + pixels, row + 1],
+        });
+    }
+
+    fn join(&mut self, other: Self) {
+        for axis in 0..2 {
+            self.first[axis] = self.first[axis].min(other.first[axis]);
+            self.end[axis] = self.end[axis].max(other.end[axis]);
+        }
+    }
+
+    /// Least and greatest x and y from the middle of the plate, in millimetres. Rows go from the greatest y downward.
+    fn bounds_mm(&self, job: &PrintJob<'_>) -> [[f64; 2]; 2] {
+        let screen = &job.screen;
+        let mm = |axis: usize, pixel: u32| {
+            let from_middle = f64::from(pixel) - f64::from(screen.pixels[axis]) / 2.0;
+            from_middle * screen.pitch_mm[axis]
+        };
+        [
+            [mm(0, self.first[0]), -mm(1, self.end[1])],
+            [mm(0, self.end[0]), -mm(1, self.first[1])],
+        ]
+    }
+}
+
+/// Everything before the layers.
+fn head(job: &PrintJob<'_>, version: u32, layers: &[Layer], lit: &Lit) -> Vec<u8> {
+    let has_software = version >= 517;
+    let has_sublayers = version >= 518;
+    let machine_bytes = if has_sublayers { 224 } else { 156 };
+    let preview_bytes = |[width, height]: [u32; 2]| 28 + 2 * width * height;
+    let count = layers.len() as u32;
+    let header_bytes = match version {
+        516 => 84,
+        517 => 92,
+        _ => 96,
+    };
+    // Lengths of the tables in their order, then the layers; a length of 0 is a table that the version does not have.
+    let lengths = [
+        if has_sublayers {
+            64
+        } else {
+            52 + 4 * u32::from(has_software)
+        },
+        16 + header_bytes,
+        preview_bytes(PREVIEW),
+        28,
+        20 + 32 * count,
+        72,
+        machine_bytes,
+        if has_software { 164 } else { 0 },
+        if has_software { 48 } else { 0 },
+        if has_sublayers { 24 + 44 * count } else { 0 },
+        if has_sublayers {
+            preview_bytes(SECOND_PREVIEW)
+        } else {
+            0
+        },
+    ];
+    let mut starts = [0; 12];
+    for (table, length) in lengths.into_iter().enumerate() {
+        starts[table + 1] = starts[table] + length;
+    }
+    let [
+        _,
+        header,
+        preview,
+        colours,
+        layer_table,
+        extra,
+        machine,
+        software,
+        model,
+        sublayers,
+        second_preview,
+        images,
+    ] = starts;
+
+    let mut bytes = Vec::with_capacity(images as usize);
+    let mut fields = Fields::new(&mut bytes, ByteOrder::Little);
+    fields.text("ANYCUBIC", 12);
+    fields.u32(version);
+    fields.u32(match version {
+        516 => 8,
+        517 => 9,
+        _ => 11,
+    });
+    fields.u32(header);
+    fields.u32(if has_software { software } else { 0 });
+    for start in [preview, colours, layer_table, extra, machine, images] {
+        fields.u32(start);
+    }
+    if has_software {
+        fields.u32(model);
+    }
+    if has_sublayers {
+        fields.u32(sublayers);
+        fields.u32(second_preview);
+    }
+
+    write_header(&mut fields, job, version, header_bytes);
+    write_preview(&mut fields, job, "PREVIEW", PREVIEW, [b'x', 0, 0, 0]);
+    write_colours(&mut fields, job.screen.antialias);
+    let entries = || {
+        let mut at = images;
+        layers.iter().map(move |layer| {
+            let start = at;
+            at += layer.data.len() as u32;
+            (start, layer)
+        })
+    };
+    fields.text("LAYERDEF", 12);
+    fields.u32(4 + 32 * count);
+    fields.u32(count);
+    for ((start, layer), settings) in entries().zip(job.layers) {
+        fields.u32(start);
+        fields.u32(layer.data.len() as u32);
+        fields.f32(job.resin.lift_mm);
+        fields.f32(job.resin.lift_mm_min / 60.0);
+        fields.f32(settings.exposure_s);
+        fields.f32(settings.thickness_mm);
+        fields.u32(layer.lit_pixels);
+        fields.u32(0);
+    }
+    write_extra(&mut fields, job);
+    write_machine(&mut fields, job, version, machine_bytes);
+    if has_software {
+        fields.text("Cusp", 32);
+        fields.u32(164);
+        fields.text(env!("CARGO_PKG_VERSION"), 32);
+        fields.text("", 64);
+        fields.text("3.3-CoreProfile", 32);
+        fields.text("MODEL", 12);
+        fields.u32(48);
+        let [least_mm, greatest_mm] = lit.bounds_mm(job);
+        let top_mm = job.layers.last().map_or(0.0, |layer| layer.z_mm);
+        for corner in [
+            [least_mm[0], least_mm[1], 0.0],
+            [greatest_mm[0], greatest_mm[1], top_mm],
+        ] {
+            for coordinate_mm in corner {
+                fields.f32(coordinate_mm);
+            }
+        }
+        // No supports.
+        fields.zeros(8);
+    }
+    if has_sublayers {
+        fields.text("SUBIMGS", 12);
+        fields.u32(24 + 44 * count);
+        fields.u32(count);
+        fields.u32(1);
+        for (start, layer) in entries() {
+            fields.u32(start);
+            fields.u32(layer.data.len() as u32);
+            fields.u32(layer.lit_pixels);
+            fields.zeros(32);
+        }
+        write_preview(
+            &mut fields,
+            job,
+            "PREVIEW2",
+            SECOND_PREVIEW,
+            [0xc5, 0x10, 0, 0],
+        );
+    }
+    debug_assert_eq!(bytes.len(), images as usize);
+    bytes
+}
+
+fn write_header(fields: &mut Fields<'_>, job: &PrintJob<'_>, version: u32, length: u32) {
+    let PrintJob { screen, resin, .. } = *job;
+    let usual_mm = job.usual_mm();
+    fields.text("HEADER", 12);
+    fields.u32(length);
+    fields.f32(screen.pitch_mm[0].max(screen.pitch_mm[1]) * 1e3);
+    fields.f32(usual_mm);
+    fields.f32(resin.exposure_s(usual_mm));
+    fields.f32(resin.wait_s);
+    fields.f32(resin.bottom_exposure_s);
+    fields.f32(resin.bottom_layers as f64);
+    fields.f32(resin.lift_mm);
+    fields.f32(resin.lift_mm_min / 60.0);
+    fields.f32(resin.return_mm_min / 60.0);
+    fields.f32(job.resin_ml);
+    fields.u32(screen.antialias);
+    fields.u32(screen.pixels[0]);
+    fields.u32(screen.pixels[1]);
+    fields.f32(job.resin_ml * resin.density_g_ml);
+    fields.f32(0.0);
+    fields.text("$", 4);
+    fields.u32(job.needs_layer_settings().into());
+    fields.u32(job.print_time_s() as u32);
+    // No transition layers, and lifts of one stage.
+    fields.zeros(12);
+    if version >= 517 {
+        // Grey, blur and kind of resin.
+        fields.zeros(8);
+    }
+    if version >= 518 {
+        // The printer keeps to these exposures.
+        fields.u32(0);
+    }
+}
+
+fn write_preview(
+    fields: &mut Fields<'_>,
+    job: &PrintJob<'_>,
+    name: &str,
+    size: [u32; 2],
+    mark: [u8; 4],
+) {
+    fields.text(name, 12);
+    fields.u32(28 + 2 * size[0] * size[1]);
+    fields.u32(size[0]);
+    fields.bytes(&mark);
+    fields.u32(size[1]);
+    for grey in (job.look)().greys(size) {
+        fields.u16(rgb565(grey));
+    }
+}
+
+fn write_colours(fields: &mut Fields<'_>, antialias: u32) {
+    fields.u32(0);
+    fields.u32(GREYS);
+    for level in 1..=GREYS {
+        fields.bytes(&[(level * 255 / antialias.max(GREYS)) as u8]);
+    }
+    fields.u32(0);
+}
+
+fn write_extra(fields: &mut Fields<'_>, job: &PrintJob<'_>) {
+    let resin = job.resin;
+    let (lift_mm_s, return_mm_s) = (resin.lift_mm_min / 60.0, resin.return_mm_min / 60.0);
+    fields.text("EXTRA", 12);
+    // Shorter than what follows, but printers expect this number.
+    fields.u32(24);
+    for _bottom_and_others in 0..2 {
+        fields.u32(2);
+        fields.f32(resin.lift_mm);
+        fields.f32(lift_mm_s);
+        fields.f32(return_mm_s);
+        fields.f32(0.0);
+        fields.f32(lift_mm_s);
+        fields.f32(return_mm_s);
+    }
+}
+
+fn write_machine(fields: &mut Fields<'_>, job: &PrintJob<'_>, version: u32, length: u32) {
+    let screen = &job.screen;
+    fields.text("MACHINE", 12);
+    fields.u32(length);
+    fields.text(job.printer.map_or("", Printer::machine), 96);
+    fields.text("pw0Img", 16);
+    fields.u32(GREYS);
+    fields.u32(match version {
+        516 => 1,
+        517 => 7,
+        _ => 15,
+    });
+    for side_mm in job.volume_mm() {
+        fields.f32(side_mm);
+    }
+    fields.u32(version);
+    fields.u32(BACKGROUND);
+    if version >= 518 {
+        for pitch_mm in screen.pitch_mm {
+            fields.f32(pitch_mm * 1e3);
+        }
+        fields.zeros(32);
+        fields.u32(1);
+        fields.u32(0);
+        fields.u16(screen.pixels[0] as u16);
+        fields.u16(screen.pixels[1] as u16);
+        fields.zeros(16);
+    }
+}
