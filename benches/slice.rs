@@ -1,6 +1,7 @@
-//! How long `cusp slice` takes as a whole process, STL to print file: `cargo xtask bench slice [--peer] [MODEL.stl …]`.
+//! How long `cusp slice` takes as a whole process, STL to print file:
+//! `cargo xtask bench slice [--format NAME|all] [--peer] [MODEL.stl …]`.
 //!
-//! A sphere of 40 mm and 80,000 facets on a 12K screen, in every format; then each model named, 60 mm high, at 2048 pixels along
+//! A sphere of 40 mm and 80,000 facets on a 12K screen, in one format or in all; then each model named, 60 mm high, at 2048 pixels along
 //! its longer side, in uniform layers of 0.05 mm. With `--peer`, `prusa-slicer`, which must be on PATH, slices the same models.
 
 #[path = "paper/models.rs"]
@@ -15,8 +16,9 @@ mod solids;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
+use cusp_slicer::format::Format;
 use cusp_slicer::model::read;
 use cusp_slicer::model::{Mesh, Pose};
 
@@ -55,6 +57,22 @@ fn median(mut times: Vec<f64>) -> f64 {
     times[times.len() / 2]
 }
 
+/// The most memory that a command holds, in megabytes. 0 where the system does not say.
+fn peak_megabytes(command: &mut Command) -> f64 {
+    let command = command.stdout(Stdio::null()).stderr(Stdio::null());
+    let mut child = command.spawn().expect("a command that starts");
+    let status = format!("/proc/{}/status", child.id());
+    let mut peak_kb = 0.0f64;
+    while child.try_wait().is_ok_and(|exit| exit.is_none()) {
+        let text = fs::read_to_string(&status).unwrap_or_default();
+        let peak = text.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+        let kb = peak.and_then(|peak| peak.trim().trim_end_matches(" kB").parse().ok());
+        peak_kb = peak_kb.max(kb.unwrap_or(0.0));
+        std::thread::sleep(Duration::from_micros(500));
+    }
+    peak_kb / 1e3
+}
+
 fn megabytes(file: &Path) -> f64 {
     fs::metadata(file).expect("a file").len() as f64 / 1e6
 }
@@ -65,25 +83,33 @@ fn main() {
     let output = folder.path().join("out.zip");
 
     println!(
-        "A sphere of 40 mm on 11520 × 5120 pixels of 19 µm, 800 layers of 0.05 mm; medians of {ROUNDS}\n"
+        "A sphere of 40 mm on 11520 × 5120 pixels of 19 × 24 µm, 800 layers of 0.05 mm; medians of {ROUNDS}\n"
     );
-    println!("| format | s | MB |\n|---|---:|---:|");
+    println!("| format | s | file, MB | memory, MB |\n|---|---:|---:|---:|");
     let model = folder.path().join("ball.stl");
     let ball = models::ball(20.0, 199, 202);
     fs::write(&model, solids::binary_stl(&ball)).expect("the ball");
-    for format in ["png", "chitubox", "uvj", "sl1"] {
-        let options = format!("--pixels 11520x5120 --pitch 0.019 --format {format}");
-        let times = (0..ROUNDS).map(|_| time(&mut cusp(&model, &output, &options)));
+    let formats = Format::ALL.map(Format::name);
+    let chosen = arguments.iter().skip_while(|it| *it != "--format").nth(1);
+    let chosen = chosen.filter(|it| *it != "all");
+    for format in formats {
+        if chosen.is_some_and(|chosen| chosen != format) {
+            continue;
+        }
+        let options = format!("--pixels 11520x5120 --pitch 0.019x0.024 --format {format}");
+        let command = || cusp(&model, &output, &options);
+        let times = (0..ROUNDS).map(|_| time(&mut command()));
         println!(
-            "| {format} | {:.2} | {:.2} |",
+            "| {format} | {:.3} | {:.2} | {:.0} |",
             median(times.collect()),
-            megabytes(&output)
+            megabytes(&output),
+            peak_megabytes(&mut command())
         );
     }
 
     let models = arguments
         .iter()
-        .filter(|argument| !argument.starts_with('-'));
+        .filter(|argument| !argument.starts_with('-') && argument.ends_with(".stl"));
     let with_peer = arguments.iter().any(|argument| argument == "--peer");
     for path in models {
         compare(Path::new(path), folder.path(), with_peer);

@@ -17,6 +17,7 @@ use std::io::Write;
 pub use preview::Look;
 use serde::Serialize;
 use serde_json::Value;
+use survey::Bounds;
 
 use crate::format::Format;
 use crate::mask::{LayerRuns, RunSource};
@@ -35,8 +36,9 @@ fn encoder(format: Format) -> &'static dyn Encoder {
         Format::Sl1 => &zip::Zip(&zip::sl1::Sl1),
         Format::Goo => &goo::Goo,
         Format::PhotonWorkshop => &photon_workshop::PhotonWorkshop,
-        Format::AnycubicZip | Format::Nanodlp => &zip::Zip(&zip::masks::Masks),
+        Format::AnycubicZip => &zip::Zip(&zip::anycubic::Anycubic),
         Format::Ctb => &ctb::Ctb,
+        Format::Nanodlp => &zip::Zip(&zip::nanodlp::Nanodlp),
     }
 }
 
@@ -145,6 +147,20 @@ impl Screen {
     /// Sides in x and y, in millimetres.
     pub fn size_mm(&self) -> [f64; 2] {
         [0, 1].map(|axis| f64::from(self.pixels[axis]) * self.pitch_mm[axis])
+    }
+
+    /// A box of pixels as least and greatest x and y from the middle of the screen, in millimetres; all 0 without lit pixels.
+    ///
+    /// x grows with columns and y with rows, as formats have it that state such a box.
+    fn bounds_mm(&self, bounds: Option<Bounds>) -> [f64; 4] {
+        let Some(bounds) = bounds else {
+            return [0.0; 4];
+        };
+        std::array::from_fn(|side| {
+            let axis = side % 2;
+            let from_middle = f64::from(bounds[side]) - f64::from(self.pixels[axis]) / 2.0;
+            tidy(from_middle * self.pitch_mm[axis])
+        })
     }
 
     /// Number of pixels.
@@ -297,6 +313,11 @@ fn encode_layers<S, T: Send>(
         return Err(ArchiveError::AllBlack);
     }
     Ok(())
+}
+
+/// Rounds to six decimals, which drops the digits that arithmetic adds: 0.15 instead of 0.15000000000000002.
+fn tidy(value: f64) -> f64 {
+    (value * 1e6).round() / 1e6
 }
 
 /// Formats a number to at most three decimals, without trailing zeros.

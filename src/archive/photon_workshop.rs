@@ -4,6 +4,7 @@ use std::io::Write;
 
 use super::fields::{ByteOrder, Fields};
 use super::preview::rgb565;
+use super::survey::{Bounds, bounds_of, joined};
 use super::{ArchiveError, Encoder, PrintJob, encode_layers, pw0};
 use crate::mask::LayerRuns;
 use crate::printer::Printer;
@@ -39,28 +40,28 @@ impl Encoder for PhotonWorkshop {
         let area = job.screen.area();
         let width = job.screen.pixels[0];
         let mut layers = Vec::with_capacity(job.layers.len());
-        let mut lit = Lit::NOTHING;
+        let mut bounds: Option<Bounds> = None;
         encode_layers(
             job,
             || (),
             |(), runs: &LayerRuns, layer| {
-                let mut lit = Lit::NOTHING;
-                let mut lit_pixels = 0;
-                for run in runs.of_layer(layer) {
-                    lit.add(run.first % width, run.first / width, run.pixels);
-                    lit_pixels += run.pixels;
-                }
-                let data = pw0::encode(runs.of_layer(layer), area);
-                (Layer { data, lit_pixels }, lit)
+                let runs = || runs.of_layer(layer);
+                let boxes = runs().map(|run| bounds_of(run, width));
+                let of_layer = boxes.reduce(joined);
+                let layer = Layer {
+                    data: pw0::encode(runs(), area),
+                    lit_pixels: runs().map(|run| run.pixels).sum(),
+                };
+                (layer, of_layer)
             },
             |_, (layer, of_layer)| {
                 layers.push(layer);
-                lit.join(of_layer);
+                bounds = bounds.into_iter().chain(of_layer).reduce(joined);
                 Ok(())
             },
             progress,
         )?;
-        let head = head(job, version, &layers, &lit);
+        let head = head(job, version, &layers, bounds);
         writer.write_all(&head)?;
         for layer in &layers {
             writer.write_all(&layer.data)?;
@@ -69,49 +70,8 @@ impl Encoder for PhotonWorkshop {
     }
 }
 
-/// The box of lit pixels: first column and row, and those after the last.
-#[derive(Debug, Clone, Copy)]
-struct Lit {
-    first: [u32; 2],
-    end: [u32; 2],
-}
-
-impl Lit {
-    const NOTHING: Self = Self {
-        first: [u32::MAX; 2],
-        end: [0; 2],
-    };
-
-    fn add(&mut self, column: u32, row: u32, pixels: u32) {
-        self.join(Self {
-            first: [column, row],
-            end: [column + pixels, row + 1],
-        });
-    }
-
-    fn join(&mut self, other: Self) {
-        for axis in 0..2 {
-            self.first[axis] = self.first[axis].min(other.first[axis]);
-            self.end[axis] = self.end[axis].max(other.end[axis]);
-        }
-    }
-
-    /// Least and greatest x and y from the middle of the plate, in millimetres. Rows go from the greatest y downward.
-    fn bounds_mm(&self, job: &PrintJob<'_>) -> [[f64; 2]; 2] {
-        let screen = &job.screen;
-        let mm = |axis: usize, pixel: u32| {
-            let from_middle = f64::from(pixel) - f64::from(screen.pixels[axis]) / 2.0;
-            from_middle * screen.pitch_mm[axis]
-        };
-        [
-            [mm(0, self.first[0]), -mm(1, self.end[1])],
-            [mm(0, self.end[0]), -mm(1, self.first[1])],
-        ]
-    }
-}
-
 /// Everything before the layers.
-fn head(job: &PrintJob<'_>, version: u32, layers: &[Layer], lit: &Lit) -> Vec<u8> {
+fn head(job: &PrintJob<'_>, version: u32, layers: &[Layer], bounds: Option<Bounds>) -> Vec<u8> {
     let has_software = version >= 517;
     let has_sublayers = version >= 518;
     let machine_bytes = if has_sublayers { 224 } else { 156 };
@@ -219,15 +179,10 @@ fn head(job: &PrintJob<'_>, version: u32, layers: &[Layer], lit: &Lit) -> Vec<u8
         fields.text("3.3-CoreProfile", 32);
         fields.text("MODEL", 12);
         fields.u32(48);
-        let [least_mm, greatest_mm] = lit.bounds_mm(job);
+        let [left_mm, first_mm, right_mm, last_mm] = job.screen.bounds_mm(bounds);
         let top_mm = job.layers.last().map_or(0.0, |layer| layer.z_mm);
-        for corner in [
-            [least_mm[0], least_mm[1], 0.0],
-            [greatest_mm[0], greatest_mm[1], top_mm],
-        ] {
-            for coordinate_mm in corner {
-                fields.f32(coordinate_mm);
-            }
+        for coordinate_mm in [left_mm, first_mm, 0.0, right_mm, last_mm, top_mm] {
+            fields.f32(coordinate_mm);
         }
         // No supports.
         fields.zeros(8);

@@ -2,11 +2,28 @@
 
 use crate::mask::Run;
 
+/// A box of pixels: first column and row, and those after the last.
+pub type Bounds = [u32; 4];
+
+/// The box around two boxes.
+pub fn joined(a: Bounds, b: Bounds) -> Bounds {
+    std::array::from_fn(|side| match side {
+        0 | 1 => a[side].min(b[side]),
+        _ => a[side].max(b[side]),
+    })
+}
+
+/// The box of a run on a screen of this width.
+pub fn bounds_of(run: Run, width: u32) -> Bounds {
+    let (row, column) = (run.first / width, run.first % width);
+    [column, row, column + run.pixels, row + 1]
+}
+
 /// Box and areas of a mask's lit pixels.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Survey {
-    /// First column and row with a lit pixel, and the columns and rows after the last. `None` for a black mask.
-    pub bounds: Option<[u32; 4]>,
+    /// The box of the lit pixels; `None` for a black mask.
+    pub bounds: Option<Bounds>,
     /// Number of pixels of each area. Pixels that share a side belong to the same area.
     pub areas: Vec<u64>,
 }
@@ -18,17 +35,14 @@ impl Survey {
     pub fn of(runs: impl Iterator<Item = Run>, [width, _]: [u32; 2]) -> Self {
         let runs: Vec<Run> = runs.collect();
         let mut areas = Areas::new(&runs);
-        let mut bounds: Option<[u32; 4]> = None;
+        let bounds = runs.iter().map(|&run| bounds_of(run, width));
+        let bounds = bounds.reduce(joined);
         // The first run that may touch the next one from the row above.
         let mut above = 0;
         for (index, run) in runs.iter().enumerate() {
-            let (row, column) = (run.first / width, run.first % width);
-            let end = column + run.pixels;
-            let [left, top, right, _] = bounds.unwrap_or([column, row, end, row]);
-            bounds = Some([left.min(column), top, right.max(end), row + 1]);
             if let Some(before) = index.checked_sub(1)
                 && runs[before].first + runs[before].pixels == run.first
-                && column > 0
+                && !run.first.is_multiple_of(width)
             {
                 areas.join(before, index);
             }

@@ -1,16 +1,15 @@
 //! Anycubic's zips of 2024 and later, pm7 and pwsz for example: masks in pw0, settings as JSON with a thickness and an
-//! exposure for each layer, and a table of the layers' outlines.
+//! exposure for each layer, and a table of the layers' areas.
 //!
 //! Firmware is said to be strict about types of numbers. What is a fraction in files of Anycubic's own slicer is written
 //! with a decimal point, `46.0` say, and what is an integer there, without.
 
 use serde_json::{Value, json};
 
-use super::nanodlp::{bounds_mm, joined_bounds, json_file, survey, tidy};
-use super::{Container, File, LayerEntry};
+use super::{Container, File, LayerEntry, joined_bounds, json_file};
 use crate::archive::fields::{ByteOrder, Fields};
 use crate::archive::survey::Survey;
-use crate::archive::{ArchiveError, PrintJob, Screen, pw0};
+use crate::archive::{ArchiveError, PrintJob, Screen, pw0, tidy};
 use crate::mask::Run;
 use crate::printer::Printer;
 
@@ -18,6 +17,8 @@ pub struct Anycubic;
 
 /// What the format calls its masks.
 const IMAGE_FORMAT: &str = "pw0Img";
+/// The kind of masks that printers expect to be named in the settings, whatever the masks are.
+const KEY_IMAGE_FORMAT: &str = "pwszImg";
 /// The extension for printers that do not say.
 const USUAL_SUFFIX: &str = "pwsz";
 /// Columns and rows of the previews: two on the printer, one in the maker's cloud.
@@ -97,7 +98,7 @@ fn machine_type(job: &PrintJob<'_>, machine: &str) -> Value {
         "version": "3",
         "name": machine,
         "key_suffix": suffix.map_or(USUAL_SUFFIX, String::as_str),
-        "key_image_format": IMAGE_FORMAT,
+        "key_image_format": KEY_IMAGE_FORMAT,
         "res_x": columns,
         "res_y": rows,
         "xy_pixel": tidy(screen.pitch_mm[0] * 1e3),
@@ -125,7 +126,7 @@ fn machine_type(job: &PrintJob<'_>, machine: &str) -> Value {
     })
 }
 
-/// What the printer estimates the print time from: the same for all printers, and of no other use.
+/// What the printer estimates the print time from, as it is for most printers.
 fn print_time_constants() -> Value {
     json!({
         "version": "2",
@@ -345,7 +346,7 @@ fn scene(screen: &Screen, layers: &[LayerEntry]) -> Vec<u8> {
     }
     fields.f32(1.0);
     fields.u32(count);
-    let [left_mm, first_mm, right_mm, last_mm] = bounds_mm(screen, joined_bounds(layers));
+    let [left_mm, first_mm, right_mm, last_mm] = screen.bounds_mm(joined_bounds(layers));
     let top_mm = layers.last().map_or(0.0, |layer| layer.z_mm);
     for number in [left_mm, first_mm, 0.0, right_mm, last_mm, top_mm] {
         fields.f32(number);
@@ -355,10 +356,10 @@ fn scene(screen: &Screen, layers: &[LayerEntry]) -> Vec<u8> {
     fields.bytes(b"<---");
     fields.u32(count);
     for layer in layers {
-        let Survey { bounds, areas } = survey(layer);
+        let Survey { bounds, areas } = layer.survey();
         fields.f32(layer.z_mm);
         fields.f32(layer.lit_pixels as f64 * pixel_mm2);
-        for number in bounds_mm(screen, *bounds) {
+        for number in screen.bounds_mm(*bounds) {
             fields.f32(number);
         }
         fields.u32(areas.len() as u32);

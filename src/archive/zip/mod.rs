@@ -3,8 +3,10 @@
 //! A format decides how masks are named and stored, and which other files the zip holds. This module encodes the masks on
 //! all cores and writes the zip.
 
+pub mod anycubic;
 pub mod chitubox;
 pub mod masks;
+pub mod nanodlp;
 pub mod sl1;
 pub mod uvj;
 
@@ -14,9 +16,10 @@ use flate2::{Compress, Compression, FlushCompress};
 use rawzip::time::UtcDateTime;
 use rawzip::{CompressionMethod, DataDescriptorOutput, ZipArchiveWriter};
 use serde::Serialize;
+use serde_json::Value;
 
 use super::png::Depth;
-use super::survey::Survey;
+use super::survey::{Bounds, Survey, joined};
 use super::{ArchiveError, Encoder, Layer, PrintJob, Screen, encode_layers};
 use crate::archive::png;
 use crate::mask::{LayerRuns, Run};
@@ -38,6 +41,26 @@ pub struct LayerEntry {
     /// Its lit areas, for formats that state them.
     #[serde(skip)]
     pub survey: Option<Survey>,
+}
+
+impl LayerEntry {
+    /// The survey, in a format that asks for surveys.
+    fn survey(&self) -> &Survey {
+        let survey = self.survey.as_ref();
+        survey.expect("layers of this format are surveyed")
+    }
+}
+
+/// The box of the lit pixels of all layers.
+fn joined_bounds(layers: &[LayerEntry]) -> Option<Bounds> {
+    let bounds = layers.iter().filter_map(|layer| layer.survey().bounds);
+    bounds.reduce(joined)
+}
+
+/// A file of JSON.
+fn json_file(name: &str, value: &Value) -> Result<File, ArchiveError> {
+    let bytes = serde_json::to_vec(value).map_err(ArchiveError::write)?;
+    Ok((name.to_owned(), bytes))
 }
 
 /// Name and contents of a file in a zip.

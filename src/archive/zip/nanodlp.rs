@@ -1,15 +1,15 @@
 //! `NanoDLP`: masks `1.png` and so on, three pixels of the screen in a pixel of the image, and settings as JSON, with one
 //! thickness for all layers.
 //!
-//! Fields that nothing is known to depend on are 0 or empty, as in files of other slicers. Two readers disagree on which
+//! Fields that nothing is known to depend on are 0 or empty, as in files of other slicers. Readers disagree on which
 //! numbers may have a fraction, so whole ones are written without a decimal point.
 
 use serde_json::{Value, json};
 
-use super::{Container, File, LayerEntry};
+use super::{Container, File, LayerEntry, joined_bounds, json_file};
 use crate::archive::png::{self, Depth};
 use crate::archive::survey::Survey;
-use crate::archive::{ArchiveError, PrintJob, Screen};
+use crate::archive::{ArchiveError, PrintJob, Screen, tidy};
 use crate::mask::Run;
 
 pub struct Nanodlp;
@@ -48,50 +48,6 @@ impl Container for Nanodlp {
     }
 }
 
-/// A file of JSON.
-pub(super) fn json_file(name: &str, value: &Value) -> Result<File, ArchiveError> {
-    let bytes = serde_json::to_vec(value).map_err(ArchiveError::write)?;
-    Ok((name.to_owned(), bytes))
-}
-
-/// Rounds to six decimals, which drops the digits that arithmetic adds: 0.15 instead of 0.15000000000000002.
-pub(super) fn tidy(value: f64) -> f64 {
-    (value * 1e6).round() / 1e6
-}
-
-/// The survey of a layer in a format that asks for surveys.
-pub(super) fn survey(layer: &LayerEntry) -> &Survey {
-    let survey = layer.survey.as_ref();
-    survey.expect("layers of this format are surveyed")
-}
-
-/// The box of the lit pixels of all layers: first column and row, and those after the last.
-pub(super) fn joined_bounds(layers: &[LayerEntry]) -> Option<[u32; 4]> {
-    let bounds = layers.iter().filter_map(|layer| survey(layer).bounds);
-    bounds.reduce(|[l, t, r, b], other| {
-        [
-            l.min(other[0]),
-            t.min(other[1]),
-            r.max(other[2]),
-            b.max(other[3]),
-        ]
-    })
-}
-
-/// A box of pixels as least and greatest x and y from the middle of the screen, in millimetres; all 0 without lit pixels.
-///
-/// x grows with columns and y with rows, as the screen shows them: the plate's y grows with rows in these formats.
-pub(super) fn bounds_mm(screen: &Screen, bounds: Option<[u32; 4]>) -> [f64; 4] {
-    let Some(bounds) = bounds else {
-        return [0.0; 4];
-    };
-    std::array::from_fn(|side| {
-        let axis = side % 2;
-        let from_middle = f64::from(bounds[side]) - f64::from(screen.pixels[axis]) / 2.0;
-        tidy(from_middle * screen.pitch_mm[axis])
-    })
-}
-
 /// A number, without a decimal point if it is whole.
 fn number(value: f64) -> Value {
     let value = tidy(value);
@@ -124,7 +80,7 @@ fn meta() -> Value {
 
 /// Areas of a layer in mm², and the first and last lit columns and rows.
 fn info(screen: &Screen, layer: &LayerEntry) -> Value {
-    let Survey { bounds, areas } = survey(layer);
+    let Survey { bounds, areas } = layer.survey();
     let mm2 = |pixels: u64| number(pixels as f64 * screen.pitch_mm[0] * screen.pitch_mm[1]);
     let [left, top, right, bottom] = bounds.unwrap_or([0, 0, 1, 1]);
     json!({
@@ -143,7 +99,7 @@ type Boundary = [(&'static str, Value); 6];
 
 /// The box of the print from the middle of the plate, in millimetres.
 fn boundary(job: &PrintJob<'_>, layers: &[LayerEntry]) -> Boundary {
-    let [x_min, y_min, x_max, y_max] = bounds_mm(&job.screen, joined_bounds(layers));
+    let [x_min, y_min, x_max, y_max] = job.screen.bounds_mm(joined_bounds(layers));
     let z_max = layers.last().map_or(0.0, |layer| layer.z_mm);
     [
         ("XMin", number(x_min)),
