@@ -258,6 +258,22 @@ impl Grid {
         [offset.x as u32, offset.y as u32]
     }
 
+    /// `part`, a result of [`Self::around_model`], with these columns and rows more on each side, as far as the grid has them.
+    #[must_use]
+    pub fn extended(&self, part: &Self, [columns, rows]: [u32; 2]) -> Self {
+        let [column, row] = self.offset_of(part);
+        let (left, above) = (column.min(columns), row.min(rows));
+        let right = (self.width - column - part.width).min(columns);
+        let below = (self.height - row - part.height).min(rows);
+        Self {
+            width: left + part.width + right,
+            height: above + part.height + below,
+            corner_mm: part.corner_mm
+                - DVec2::new(f64::from(left), -f64::from(above)) * self.pitch(),
+            ..*part
+        }
+    }
+
     /// The grid with each pixel divided into `columns` × `rows` smaller ones.
     #[must_use]
     pub fn refined(&self, [columns, rows]: [u32; 2]) -> Self {

@@ -52,6 +52,7 @@ pub mod progress;
 
 pub mod format;
 pub mod grid;
+pub mod growth;
 pub mod printer;
 pub mod quantity;
 pub mod resin;

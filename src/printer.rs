@@ -6,6 +6,7 @@ use serde::{Deserialize, Deserializer, Serialize, de};
 
 use crate::format::{Format, FormatThicknesses};
 use crate::grid::MAX_SIDE;
+use crate::growth::Growth;
 
 /// A resin printer: its screen, its build volume and the file that it takes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -60,6 +61,9 @@ pub struct Printer {
     /// Where that is known from.
     #[serde(default)]
     pub variable_layers_source: String,
+    /// How far prints grow beyond their masks, whatever the resin.
+    #[serde(default)]
+    pub growth: Growth,
 }
 
 /// Whether a printer prints layers of several thicknesses.
@@ -124,6 +128,7 @@ impl Printer {
                 self.file_version
                     .is_none_or(|version| (516..=518).contains(&version)),
             ),
+            ("growth", self.growth.check().is_ok()),
             (
                 "reads",
                 self.reads.iter().all(|extension| is_extension(extension)),

@@ -173,6 +173,17 @@ pub enum QuantityError {
         /// Its value in seconds.
         value_s: f64,
     },
+    /// A growth that no measurement can have found.
+    #[error("the growth of a print must be {least_mm} to {most_mm} mm, not {value_mm} mm")]
+    #[serde(rename = "bad-growth")]
+    BadGrowth {
+        /// The growth.
+        value_mm: f64,
+        /// The least.
+        least_mm: f64,
+        /// The most.
+        most_mm: f64,
+    },
     /// Measured exposures that are not in order of thickness.
     #[error(
         "measured exposures must be in order of thickness, each thicker than the one before, but {next_mm} mm follows \

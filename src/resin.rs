@@ -3,6 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::growth::Growth;
 use crate::quantity::{Quantity, QuantityError};
 
 /// A resin on a printer.
@@ -38,6 +39,8 @@ pub struct Resin {
     pub return_mm_min: f64,
     /// Density of the cured resin, in grams per millilitre.
     pub density_g_ml: f64,
+    /// How far a print grows beyond its masks.
+    pub growth: Growth,
 }
 
 impl Default for Resin {
@@ -56,6 +59,7 @@ impl Default for Resin {
             lift_mm_min: 65.0,
             return_mm_min: 150.0,
             density_g_ml: 1.1,
+            growth: Growth::default(),
         }
     }
 }
@@ -82,6 +86,7 @@ impl Resin {
         for (quantity, value) in quantities.into_iter().chain(exposures) {
             quantity.check(value)?;
         }
+        self.growth.check()?;
         for pair in self.exposures.windows(2) {
             let (previous_mm, next_mm) = (pair[0][0], pair[1][0]);
             if previous_mm >= next_mm {

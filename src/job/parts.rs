@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::{Backend, GpuMethod, Minimize, Planner};
 use crate::format::Format;
 use crate::grid::{Bins, Grid, GridError};
+use crate::growth::Growth;
 use crate::mask::Samples;
 use crate::model::{Bounds, Pose};
 use crate::plan::Limits;
@@ -64,6 +65,8 @@ pub(crate) struct Layering {
     pub saliency: bool,
     pub weight_min: f64,
     pub resin: Resin,
+    /// How far the print grows beyond its masks: what the resin and the printer add up to.
+    pub growth: Growth,
 }
 
 /// The tolerance that a plan keeps.

@@ -8,7 +8,7 @@ use super::parts::{Layering, Target, Thicknesses};
 use super::{Error, Planner, PlannerReport, UniformReport};
 use crate::grid::Bins;
 use crate::ldi::LdiError;
-use crate::mask::{Masks, Side};
+use crate::mask::{Masks, Shrinking, Side};
 use crate::model::Mesh;
 use crate::plan::optimal::Objective;
 use crate::plan::preferred::{Price, SnapPlanes};
@@ -62,7 +62,22 @@ impl Planned {
     pub fn masks(&self, side: Side) -> Masks {
         let sampled = &self.of.of;
         let samples = sampled.sampling.samples;
-        Masks::new(&sampled.ldi, &self.plan, &sampled.grid, samples, side)
+        let Layering { growth, resin, .. } = &self.layering;
+        if growth.is_none() {
+            return Masks::new(&sampled.ldi, &self.plan, &sampled.grid, samples, side);
+        }
+        let shrinking = Shrinking {
+            xy_mm: growth.of_layers_mm(self.plan.layers(), resin.bottom_layers),
+            z_mm: growth.z_mm,
+        };
+        Masks::shrunk(
+            &sampled.ldi,
+            &self.plan,
+            &sampled.grid,
+            samples,
+            side,
+            &shrinking,
+        )
     }
 }
 

@@ -163,6 +163,9 @@ impl Options {
             saliency: self.saliency,
             weight_min: self.weight_min,
             resin: self.resin.clone(),
+            growth: printer.map_or(self.resin.growth, |printer| {
+                self.resin.growth.and(printer.growth)
+            }),
         };
         let bins = Bins {
             count: 1,

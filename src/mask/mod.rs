@@ -6,12 +6,14 @@
 
 mod runs;
 mod samples;
+mod shrink;
 mod window;
 
 use std::ops::Range;
 
 pub use runs::{LayerRuns, Run, RunReader, RunSource};
 pub use samples::{LEVELS, Samples};
+pub use shrink::Shrinking;
 pub use window::{Side, Window};
 
 use crate::grid::Grid;
@@ -19,6 +21,7 @@ use crate::ldi::{Ldi, Solid, printed_ranges};
 use crate::parallel;
 use crate::plan::Plan;
 use samples::SublayerOf;
+use shrink::Shrink;
 use window::Place;
 
 /// Rows of pixels whose changes one thread sorts together.
@@ -61,8 +64,68 @@ impl Masks {
     /// hit; with several, 5 bytes per change and at most two changes per hit.
     pub fn new(ldi: &Ldi, plan: &Plan, grid: &Grid, samples: Samples, side: Side) -> Self {
         let sublayer_of = SublayerOf::new(plan, samples.sublayers);
-        let layers = plan.layers();
+        let width = ldi.grid.width as usize;
         let place = Place::new(&ldi.grid, grid, samples, side);
+        Self::of_bands(plan, grid, samples, &place, |rows, changes| {
+            for row in rows {
+                for (column, &in_row) in place.columns.iter().enumerate() {
+                    let pixel = place.rows[row] + in_row;
+                    printed_ranges(ldi.ray(row * width + column), ldi.classes, |z_in, z_out| {
+                        let on = sublayer_of.first_above(z_in);
+                        let off = sublayer_of.first_above(z_out);
+                        if on == off {
+                            return;
+                        }
+                        for (sublayer, sign) in [(on, 1), (off, -1)] {
+                            each_change(sublayer, samples.sublayers, sign, pixel, &mut |change| {
+                                changes.push(change);
+                            });
+                        }
+                    });
+                }
+            }
+        })
+    }
+
+    /// The masks of a plan that make up for the growth of the print.
+    ///
+    /// Cost: linear in the lit stretches of the rows of all layers, times the rows that the growth spans.
+    pub fn shrunk(
+        ldi: &Ldi,
+        plan: &Plan,
+        grid: &Grid,
+        samples: Samples,
+        side: Side,
+        shrinking: &Shrinking,
+    ) -> Self {
+        let sublayer_of = SublayerOf::new(plan, samples.sublayers);
+        let all_rays = grid.refined(samples.rays());
+        let rays = all_rays.extended(&ldi.grid, shrink::margin(shrinking, &ldi.grid));
+        let offset = rays.offset_of(&ldi.grid);
+        let place = Place::new(&rays, grid, samples, side);
+        let shrink = Shrink {
+            ldi,
+            sublayer_of: &sublayer_of,
+            shrinking,
+            parts: samples.sublayers,
+            rays,
+            offset,
+        };
+        Self::of_bands(plan, grid, samples, &place, |rows, changes| {
+            let pixel_of = |row: usize, column: usize| place.rows[row] + place.columns[column];
+            shrink.changes(rows, pixel_of, |change| changes.push(change));
+        })
+    }
+
+    /// The masks of the changes that `find` adds for rows of rays.
+    fn of_bands(
+        plan: &Plan,
+        grid: &Grid,
+        samples: Samples,
+        place: &Place,
+        find: impl Fn(Range<usize>, &mut Vec<Change>) + Sync + Send,
+    ) -> Self {
+        let layers = plan.layers();
         let band_pixels = BAND_ROWS * place.window.row_pixels() as u32;
         let mut bands = Vec::new();
         let mut row = 0;
@@ -75,7 +138,11 @@ impl Masks {
             row += rays.len();
         }
         let bands = parallel::map(bands, |rows| {
-            Band::new(ldi, &sublayer_of, layers, samples, &place, rows)
+            let row_pixels = place.window.row_pixels() as u32;
+            let area = place.rows[rows.start]..place.rows[rows.end - 1] + row_pixels;
+            let mut changes = Vec::new();
+            find(rows, &mut changes);
+            Band::new(area, layers, samples, changes)
         });
         Self {
             grid: *grid,
@@ -139,44 +206,23 @@ struct Change {
     by: i8,
 }
 
+/// Calls `emit` for each layer that changes if a ray of a pixel changes at a sublayer: the layer of that sublayer, and the
+/// one above unless the sublayer is its lowest.
+fn each_change(sublayer: u32, parts: u32, sign: i8, pixel: u32, emit: &mut impl FnMut(Change)) {
+    let (layer, below) = (sublayer / parts, sublayer % parts);
+    let mut change = |layer, parts: u32| {
+        let by = sign * parts as i8;
+        emit(Change { layer, pixel, by });
+    };
+    change(layer, parts - below);
+    if below > 0 {
+        change(layer + 1, below);
+    }
+}
+
 impl Band {
-    /// Finds the changes and sorts them by layer with a counting sort.
-    fn new(
-        ldi: &Ldi,
-        sublayer_of: &SublayerOf,
-        layers: usize,
-        samples: Samples,
-        place: &Place,
-        rows: Range<usize>,
-    ) -> Self {
-        let width = ldi.grid.width as usize;
-        let parts = samples.sublayers;
-        let row_pixels = place.window.row_pixels() as u32;
-        let area = place.rows[rows.start]..place.rows[rows.end - 1] + row_pixels;
-        let mut changes: Vec<Change> = Vec::new();
-        for row in rows {
-            for (column, &in_row) in place.columns.iter().enumerate() {
-                let pixel = place.rows[row] + in_row;
-                printed_ranges(ldi.ray(row * width + column), ldi.classes, |z_in, z_out| {
-                    let on = sublayer_of.first_above(z_in);
-                    let off = sublayer_of.first_above(z_out);
-                    if on == off {
-                        return;
-                    }
-                    for (sublayer, sign) in [(on, 1), (off, -1)] {
-                        let (layer, below) = (sublayer / parts, sublayer % parts);
-                        let mut change = |layer, parts: u32| {
-                            let by = sign * parts as i8;
-                            changes.push(Change { layer, pixel, by });
-                        };
-                        change(layer, parts - below);
-                        if below > 0 {
-                            change(layer + 1, below);
-                        }
-                    }
-                });
-            }
-        }
+    /// Sorts changes by layer with a counting sort.
+    fn new(area: Range<u32>, layers: usize, samples: Samples, mut changes: Vec<Change>) -> Self {
         // Changes above the last layer belong to no mask.
         changes.retain(|change| (change.layer as usize) < layers);
         // Counts are stored one slot ahead: filling then advances each start to where it belongs.
