@@ -154,7 +154,11 @@ impl Resin {
 
     /// Total time of layers of these thicknesses, in seconds, bottom layers included.
     pub fn print_time_s(&self, thickness_mm: &[f64]) -> f64 {
-        let exposures_s = self.exposures_s(thickness_mm);
+        self.time_s(&self.exposures_s(thickness_mm))
+    }
+
+    /// Total time of layers of these exposures, in seconds.
+    pub fn time_s(&self, exposures_s: &[f64]) -> f64 {
         let overhead_us = (self.overhead_s() * 1e6 + 0.5) as u64;
         let layers_us = exposures_s
             .iter()

@@ -10,7 +10,7 @@ use serde::Serialize;
 use tsify::Ts;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
-use crate::job::{self, Error, Options, OptionsError, Stage};
+use crate::job::{self, Calibration, Error, Options, OptionsError, Stage};
 use crate::model::read::{self, HEAD_BYTES};
 use crate::model::weights;
 use crate::orientation::{Candidate, Search, SearchOptions, Task, TaskResult};
@@ -414,20 +414,42 @@ impl Slicer {
         )]
         progress: &Function,
     ) -> Result<(), JsValue> {
-        let chunks = Chunks { take, thrown: None };
-        let mut writer = BufWriter::with_capacity(CHUNK_BYTES, chunks);
+        let mut writer = Chunks::to(take);
         let written = self
             .slicer
             .write_archive(&mut writer, &mut progress_to(progress))
             .map(|_| ());
-        let flushed = writer.flush();
-        let (chunks, _) = writer.into_parts();
-        if let Some(thrown) = chunks.thrown {
-            return Err(thrown);
-        }
-        written.map_err(throw)?;
-        flushed.map_err(|error| throw(crate::archive::ArchiveError::from(error)))
+        Chunks::end(writer, written)
     }
+}
+
+/// Writes the print of two towers that tell whether a printer prints layers of several thicknesses, by calling `take` with one
+/// chunk after another, and returns its report. Of the options, printer, screen, format and resin count.
+///
+/// # Errors
+/// Throws a `CuspError`, or what `take` throws.
+#[expect(
+    clippy::needless_pass_by_value,
+    reason = "values from JavaScript come by value"
+)]
+#[wasm_bindgen(unchecked_return_type = "Report")]
+pub async fn calibrate_layers(
+    options: Ts<Options>,
+    #[wasm_bindgen(unchecked_param_type = "(chunk: Uint8Array) => void")] take: Function,
+    #[wasm_bindgen(
+        unchecked_param_type = "(stage: Stage, fraction: number, done: number) => void"
+    )]
+    progress: Function,
+) -> Result<JsValue, JsValue> {
+    let options = options.to_rust().map_err(throw_conversion)?;
+    let calibration = Calibration::layers(&options).map_err(throw)?;
+    let mut writer = Chunks::to(&take);
+    let mut progress = progress_to(&progress);
+    let written = calibration.write(&mut writer, &mut progress).await;
+    let mut report = JsValue::NULL;
+    let written = written.map(|(_, written)| report = to_js(&written));
+    Chunks::end(writer, written)?;
+    Ok(report)
 }
 
 /// Size of these chunks in bytes.
@@ -438,6 +460,24 @@ struct Chunks<'a> {
     take: &'a Function,
     /// What that function threw.
     thrown: Option<JsValue>,
+}
+
+impl<'a> Chunks<'a> {
+    /// A writer that calls `take` with large chunks.
+    fn to(take: &'a Function) -> BufWriter<Self> {
+        BufWriter::with_capacity(CHUNK_BYTES, Self { take, thrown: None })
+    }
+
+    /// Writes what is left, and throws whatever went wrong.
+    fn end(mut writer: BufWriter<Self>, written: Result<(), Error>) -> Result<(), JsValue> {
+        let flushed = writer.flush();
+        let (chunks, _) = writer.into_parts();
+        if let Some(thrown) = chunks.thrown {
+            return Err(thrown);
+        }
+        written.map_err(throw)?;
+        flushed.map_err(|error| throw(crate::archive::ArchiveError::from(error)))
+    }
 }
 
 impl Write for Chunks<'_> {

@@ -208,7 +208,8 @@ pub struct PrintJob<'a> {
 impl PrintJob<'_> {
     /// Total time of all layers, in seconds.
     fn print_time_s(&self) -> f64 {
-        self.resin.print_time_s(&self.thickness_mm())
+        let exposure_s: Vec<f64> = self.layers.iter().map(|layer| layer.exposure_s).collect();
+        self.resin.time_s(&exposure_s)
     }
 
     /// The build volume of the printer in x, y and z, or what the job needs, in millimetres.

@@ -1,5 +1,6 @@
 //! A job: options are resolved once, then the stages run in order. The result of each is an immutable value.
 
+mod calibration;
 mod compare;
 mod error;
 #[cfg(not(target_arch = "wasm32"))]
@@ -17,6 +18,7 @@ mod slicer;
 mod stage;
 mod verify;
 
+pub use calibration::{Calibration, Section};
 pub use error::Error;
 pub use options::*;
 pub use options_error::OptionsError;

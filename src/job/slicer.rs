@@ -359,6 +359,14 @@ impl Slicer {
         Ok(cursor.whole(masks))
     }
 
+    /// Gives the layers of the last plan exposures of their own, in seconds.
+    pub(super) fn expose(&mut self, exposure_s: Vec<f64>) {
+        if let Some(Current { report, .. }) = &mut self.current {
+            report.print_time_s = report.resin.time_s(&exposure_s);
+            report.exposure_s = exposure_s;
+        }
+    }
+
     /// Writes the print file of the last plan in the format of its options. Returns the writer, and the report with the time
     /// that this took.
     ///

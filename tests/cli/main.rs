@@ -2,6 +2,7 @@
 
 #![cfg(not(target_arch = "wasm32"))]
 
+mod calibrate;
 #[path = "../common/mod.rs"]
 mod common;
 mod files;

@@ -33,18 +33,12 @@ pub struct Slicing {
     pub choices: Choices,
 }
 
-/// The options of every command that plans.
+/// The printer and the resin.
 #[derive(Args)]
-pub struct Choices {
-    /// Rotate the model by a quaternion
-    #[arg(long, value_name = "X,Y,Z,W", value_parser = rotation, allow_hyphen_values = true, help_heading = "Model")]
-    rotation: Option<[f64; 4]>,
-    /// Scale the model uniformly to this height
-    #[arg(long, value_name = "MM", value_parser = length, help_heading = "Model")]
-    height: Option<f64>,
+pub struct Target {
     /// Printer, which sets pixels, pitch, mirroring and format: a name of `cusp printers`, or a JSON file that describes it
     #[arg(long, value_name = "NAME|FILE.json", help_heading = "Printer")]
-    printer: Option<String>,
+    pub printer: Option<String>,
     #[arg(long, value_name = "WxH", value_parser = pixels, help = pixels_help(), requires = "pitch", help_heading = "Printer")]
     pixels: Option<[u32; 2]>,
     /// Pixel size, or pixel sizes in x and y: 0.019 or 0.019x0.024
@@ -62,6 +56,45 @@ pub struct Choices {
     /// Resin, as a JSON file: exposures, bottom layers, lift
     #[arg(long, value_name = "FILE", help_heading = "Printer")]
     resin: Option<PathBuf>,
+}
+
+impl Target {
+    /// The options that it sets; all others have their defaults.
+    pub fn options(&self) -> Result<Options, Failure> {
+        Ok(Options {
+            printer: self.printer.as_deref().map(printer_choice).transpose()?,
+            pixels: self.pixels,
+            pitch_mm: self.pitch.map(|pitch| pitch[0]),
+            pitch_y_mm: self.pitch.map(|pitch| pitch[1]),
+            antialias: self.aa,
+            mirror: self.mirror,
+            format: self.format,
+            resin: read_resin(self.resin.as_deref())?,
+            ..Options::default()
+        })
+    }
+}
+
+/// The resin of a file, or the default.
+pub fn read_resin(path: Option<&Path>) -> Result<Resin, Failure> {
+    let Some(path) = path else {
+        return Ok(Resin::default());
+    };
+    let text = fs::read_to_string(path).map_err(|error| in_file(path, &error))?;
+    Ok(serde_json::from_str(&text).map_err(|error| in_file(path, &error))?)
+}
+
+/// The options of every command that plans.
+#[derive(Args)]
+pub struct Choices {
+    /// Rotate the model by a quaternion
+    #[arg(long, value_name = "X,Y,Z,W", value_parser = rotation, allow_hyphen_values = true, help_heading = "Model")]
+    rotation: Option<[f64; 4]>,
+    /// Scale the model uniformly to this height
+    #[arg(long, value_name = "MM", value_parser = length, help_heading = "Model")]
+    height: Option<f64>,
+    #[command(flatten)]
+    pub target: Target,
     /// Weight facets by saliency: how much they stand out
     #[arg(long, help_heading = "Weights")]
     saliency: bool,
@@ -186,23 +219,9 @@ impl Choices {
     }
 
     pub fn options(&self) -> Result<Options, Failure> {
-        let resin = match &self.resin {
-            None => Resin::default(),
-            Some(path) => {
-                let text = fs::read_to_string(path).map_err(|error| in_file(path, &error))?;
-                serde_json::from_str(&text).map_err(|error| in_file(path, &error))?
-            }
-        };
         Ok(Options {
             rotation: self.rotation,
             height_mm: self.height,
-            printer: self.printer.as_deref().map(printer_choice).transpose()?,
-            pixels: self.pixels,
-            pitch_mm: self.pitch.map(|pitch| pitch[0]),
-            pitch_y_mm: self.pitch.map(|pitch| pitch[1]),
-            antialias: self.aa,
-            mirror: self.mirror,
-            format: self.format,
             layer_min_mm: self.layer_min,
             layer_max_mm: self.layer_max,
             first_layer_mm: self.first_layer,
@@ -228,10 +247,9 @@ impl Choices {
                 (PlannerArg::Uniform, layer) => layer.unwrap_or(Planner::Finest),
             },
             minimize: self.minimize,
-            resin,
             backend: self.backend,
             gpu_method: self.gpu_method,
-            ..Options::default()
+            ..self.target.options()?
         })
     }
 }

@@ -1,6 +1,7 @@
 //! The command line: the only part that uses a file system, arguments and a terminal.
 
 mod arguments;
+mod calibrate;
 mod files;
 mod models;
 mod orient;
@@ -16,6 +17,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 use arguments::{Orienting, Slicing};
+use calibrate::Calibrating;
 use simulate::Simulating;
 use terminal::say;
 
@@ -82,6 +84,9 @@ enum Command {
     },
     /// Measure how far what a print file prints is from the model, and the model from it
     Simulate(Simulating),
+    /// Write a print that measures a printer
+    #[command(subcommand)]
+    Calibrate(Calibrating),
     /// Write the saliency of each facet, how much it stands out, as a file of weights
     Saliency {
         /// STL file, binary or ASCII
@@ -121,6 +126,7 @@ fn main() -> ExitCode {
             json,
         } => verify::verify(&plan, &model, print.as_deref(), weights.as_deref(), json),
         Command::Simulate(simulating) => simulate::simulate(&simulating),
+        Command::Calibrate(calibrating) => calibrate::calibrate(&calibrating),
         Command::Saliency { model, output } => models::saliency(&model, &output),
         Command::Printers { json } => models::printers(json),
         Command::Info { model, json } => models::info(&model, json),

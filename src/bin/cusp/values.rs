@@ -88,6 +88,13 @@ pub fn pixels(text: &str) -> Result<[u32; 2], String> {
 }
 
 /// Parses a number from 0 to 1.
+/// A thickness in mm and the exposure in s measured for it: 0.05=2.4.
+pub fn measured(text: &str) -> Result<[f64; 2], String> {
+    let pair = text.split_once('=');
+    let pair = pair.and_then(|(mm, s)| Some([length(mm).ok()?, positive(s).ok()?]));
+    pair.ok_or_else(|| "expected a thickness and its exposure, such as 0.05=2.4".to_owned())
+}
+
 pub fn fraction(text: &str) -> Result<f64, String> {
     let number = text.parse().ok();
     number

@@ -1,0 +1,147 @@
+//! Prints that measure a printer, and the resin file that their result goes into.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+
+use clap::Subcommand;
+use cusp_slicer::job::Calibration;
+
+use crate::arguments::{Target, read_resin};
+use crate::files::{Failure, file_beside, in_file, keep};
+use crate::terminal::{Bar, duration, print, stop_on_interrupt};
+use crate::values::{length, measured, positive};
+
+#[derive(Subcommand)]
+pub enum Calibrating {
+    /// Whether the printer prints layers of several thicknesses: two towers to measure with a caliper
+    Layers {
+        #[command(flatten)]
+        target: Target,
+        /// Where to write the print file
+        #[arg(short, long, value_name = "FILE")]
+        output: PathBuf,
+    },
+    /// Which exposure each thickness needs: a grid of towers with ridges and slots
+    Exposure {
+        /// Layer thicknesses, one for each row of towers
+        #[arg(long, value_name = "MM,MM,...", value_delimiter = ',', value_parser = length, default_values_t = [0.03, 0.05, 0.1])]
+        thicknesses: Vec<f64>,
+        /// Exposures, one for each column of towers
+        #[arg(long, value_name = "S,S,...", value_delimiter = ',', value_parser = positive, default_values_t = [1.5, 2.0, 2.5, 3.0, 4.0])]
+        exposures: Vec<f64>,
+        #[command(flatten)]
+        target: Target,
+        /// Where to write the print file
+        #[arg(short, long, value_name = "FILE")]
+        output: PathBuf,
+    },
+    /// Put measured exposures into a resin file
+    Resin {
+        /// A thickness and its exposure, such as 0.05=2.4
+        #[arg(required = true, value_name = "MM=S", value_parser = measured)]
+        measured: Vec<[f64; 2]>,
+        /// Resin file to start from
+        #[arg(long, value_name = "FILE")]
+        resin: Option<PathBuf>,
+        /// Where to write the resin file
+        #[arg(short, long, value_name = "FILE")]
+        output: PathBuf,
+    },
+}
+
+pub fn calibrate(calibrating: &Calibrating) -> Result<(), Failure> {
+    match calibrating {
+        Calibrating::Layers { target, output } => layers(target, output),
+        Calibrating::Exposure {
+            thicknesses,
+            exposures,
+            target,
+            output,
+        } => exposure(target, thicknesses, exposures, output),
+        Calibrating::Resin {
+            measured,
+            resin,
+            output,
+        } => resin_file(measured, resin.as_deref(), output),
+    }
+}
+
+fn layers(target: &Target, output: &Path) -> Result<(), Failure> {
+    let calibration = Calibration::layers(&target.options()?);
+    let calibration = calibration.map_err(|error| Failure::in_file(output, &error))?;
+    let time_s = write(&calibration, output)?;
+    Ok(print(&format!(
+        "{}: two towers of ten layers of 0.05 mm, one with ten of 0.1 mm more; prints in {}\n\
+         Measure both: 0.5 and 1.5 mm say that the printer takes a thickness for each layer; 0.5 and 1.0, or 1.0 and 2.0, that \
+         it takes one for all.",
+        output.display(),
+        duration(time_s)
+    ))?)
+}
+
+fn exposure(
+    target: &Target,
+    thickness_mm: &[f64],
+    exposure_s: &[f64],
+    output: &Path,
+) -> Result<(), Failure> {
+    let calibration = Calibration::exposure(&target.options()?, thickness_mm, exposure_s);
+    let calibration = calibration.map_err(|error| Failure::in_file(output, &error))?;
+    let time_s = write(&calibration, output)?;
+    let mut text = format!(
+        "{}: a tower for each thickness and exposure; prints in {}\nrow, from the front    column, from the left, the bump at \
+         the first tower's left",
+        output.display(),
+        duration(time_s)
+    );
+    for (row, thickness_mm) in thickness_mm.iter().enumerate() {
+        let _ = write!(text, "\n{}  {thickness_mm} mm  ", row + 1);
+        for exposure_s in exposure_s {
+            let _ = write!(text, "{:>8} s", exposure_s);
+        }
+    }
+    text.push_str(
+        "\nIn each row take the tower whose ridges and slots of the same width look alike: with less exposure ridges are \
+         missing, with more slots are closed.\nThen: cusp calibrate resin MM=S … --resin RESIN.json -o RESIN.json",
+    );
+    Ok(print(&text)?)
+}
+
+/// Writes the print file, and returns its print time in seconds.
+fn write(calibration: &Calibration, output: &Path) -> Result<f64, Failure> {
+    stop_on_interrupt();
+    let file = file_beside(output).map_err(|error| in_file(output, &error))?;
+    let bar = Bar::new();
+    let mut progress = |stage, fraction| bar.report(stage, fraction);
+    let written = calibration.write(BufWriter::new(file), &mut progress);
+    let (writer, report) =
+        pollster::block_on(written).map_err(|error| Failure::in_file(output, &error))?;
+    let file = writer
+        .into_inner()
+        .map_err(|error| in_file(output, &error))?;
+    keep(file, output, output)?;
+    drop(bar);
+    Ok(report.print_time_s)
+}
+
+fn resin_file(measured: &[[f64; 2]], resin: Option<&Path>, output: &Path) -> Result<(), Failure> {
+    let mut resin = read_resin(resin)?;
+    // A pair for a thickness that has one replaces it.
+    resin
+        .exposures
+        .retain(|known| measured.iter().all(|pair| pair[0] != known[0]));
+    resin.exposures.extend(measured);
+    resin.exposures.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    resin.check().map_err(|error| in_file(output, &error))?;
+    let json = serde_json::to_string_pretty(&resin).map_err(|error| in_file(output, &error))?;
+    fs::write(output, json + "\n").map_err(|error| in_file(output, &error))?;
+    let pairs = resin.exposures.iter();
+    let pairs: Vec<String> = pairs.map(|[mm, s]| format!("{mm} mm {s} s")).collect();
+    Ok(print(&format!(
+        "{}: {}",
+        output.display(),
+        pairs.join(", ")
+    ))?)
+}

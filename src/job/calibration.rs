@@ -1,0 +1,279 @@
+//! Prints that measure a printer: whether it prints layers of several thicknesses, and which exposure each thickness needs.
+
+use std::io::Write;
+use std::sync::Arc;
+
+use glam::Vec3;
+use serde::Serialize;
+
+use super::slicer::Slicer;
+use super::stage::StageProgress;
+use super::{Backend, Error, Options, Report, Snap};
+use crate::archive::ArchiveError;
+use crate::format::{Format, FormatThicknesses};
+use crate::plan::HeightRange;
+use crate::printer::{PrinterChoice, VariableLayers};
+use crate::quantity::Quantity;
+
+/// A print that measures a printer: a model made for it, its layers and their exposures.
+#[derive(Debug, Clone)]
+pub struct Calibration {
+    /// The model, as boxes from a corner to the opposite one. Where they overlap they are one body.
+    boxes: Vec<[Vec3; 2]>,
+    sections: Vec<Section>,
+    options: Options,
+}
+
+/// Consecutive layers of one thickness and exposure.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+pub struct Section {
+    /// Bottom of the lowest layer, in millimetres above the plate.
+    pub from_mm: f64,
+    /// Thickness of each layer in millimetres.
+    pub layer_mm: f64,
+    /// Number of layers.
+    pub layers: usize,
+    /// Exposure of each layer in seconds; that of the resin if absent.
+    pub exposure_s: Option<f64>,
+}
+
+impl Section {
+    /// Top of the highest layer, rounded to the nanometre.
+    fn to_mm(self) -> f64 {
+        let to_mm = self.from_mm + self.layer_mm * self.layers as f64;
+        (to_mm * 1e6).round() / 1e6
+    }
+}
+
+/// Layers of a section.
+const LAYERS: usize = 10;
+/// Thicknesses of the two towers' layers in millimetres.
+const TOWERS_MM: [f64; 2] = [0.05, 0.1];
+/// Side of a tower in millimetres.
+const SIDE_MM: f32 = 10.0;
+/// Distance between the middles of towers of the exposure test in millimetres.
+const PITCH_MM: f32 = 12.0;
+/// Widths of ridges and slots in millimetres.
+const WIDTHS_MM: [f32; 4] = [0.1, 0.2, 0.3, 0.4];
+
+impl Calibration {
+    /// Two towers side by side: both have ten layers of 50 µm, and one goes on with ten of 100 µm. They are 0.5 and 1.5 mm high
+    /// if the printer moves to the height of each layer; 0.5 and 1.0 mm, or 1.0 and 2.0 mm, if it takes one thickness for all.
+    ///
+    /// Of `options`, printer, screen, format and resin count.
+    ///
+    /// # Errors
+    /// [`Error::Options`] if the printer is unknown.
+    pub fn layers(options: &Options) -> Result<Self, Error> {
+        let mut from_mm = 0.0;
+        let sections = TOWERS_MM.map(|layer_mm| {
+            let section = Section {
+                from_mm,
+                layer_mm,
+                layers: LAYERS,
+                exposure_s: None,
+            };
+            from_mm = section.to_mm();
+            section
+        });
+        let tower = |index: u8| {
+            let x = f32::from(index) * SIDE_MM;
+            let top = sections[usize::from(index)].to_mm() as f32;
+            // They touch, so that they come off the plate together.
+            [Vec3::new(x, 0.0, 0.0), Vec3::new(x + SIDE_MM, SIDE_MM, top)]
+        };
+        Self::new(vec![tower(0), tower(1)], sections.to_vec(), options)
+    }
+
+    /// A grid of towers, one for each pair of a thickness (rows, from the front) and an exposure (columns, from the left). The
+    /// top of each has layers of that thickness and exposure, with ridges and slots of 0.1 to 0.4 mm. The first tower has a
+    /// bump at its side.
+    ///
+    /// # Errors
+    /// [`Error::Options`] if the printer is unknown; [`Error::Plan`] for a thickness or an exposure out of bounds;
+    /// [`Error::Archive`] if the format has no exposure for each layer.
+    pub fn exposure(
+        options: &Options,
+        thickness_mm: &[f64],
+        exposure_s: &[f64],
+    ) -> Result<Self, Error> {
+        let check = |quantity: Quantity, values: &[f64]| {
+            let mut values = values.iter();
+            values.try_for_each(|&value| quantity.check(value).map(|_| ()))
+        };
+        let checked = check(Quantity::Layer, thickness_mm);
+        let checked = checked.and(check(Quantity::Exposure, exposure_s));
+        checked.map_err(crate::plan::PlanError::from)?;
+        let Some(&first_mm) = thickness_mm.first() else {
+            return Self::layers(options);
+        };
+        // The bottom layers have an exposure of their own.
+        let mut sections = vec![Section {
+            from_mm: 0.0,
+            layer_mm: first_mm,
+            layers: options.resin.bottom_layers.max(1),
+            exposure_s: None,
+        }];
+        let mut boxes = Vec::new();
+        for (row, &layer_mm) in thickness_mm.iter().enumerate() {
+            for (column, &exposure_s) in exposure_s.iter().enumerate() {
+                let section = Section {
+                    from_mm: sections[sections.len() - 1].to_mm(),
+                    layer_mm,
+                    layers: LAYERS,
+                    exposure_s: Some(exposure_s),
+                };
+                let corner = Vec3::new(column as f32, row as f32, 0.0) * PITCH_MM;
+                add_tower(&mut boxes, corner, section);
+                sections.push(section);
+            }
+        }
+        let bump_mm = sections[0].to_mm() as f32;
+        boxes.push([Vec3::new(-1.0, 3.0, 0.0), Vec3::new(0.5, 5.0, bump_mm)]);
+        let calibration = Self::new(boxes, sections, options)?;
+        let format = calibration.options.resolve()?.output.format;
+        if format.thicknesses() != FormatThicknesses::Any {
+            return Err(Error::Archive(ArchiveError::UniformOnly {
+                format,
+                others: Format::VARIABLE,
+                best: None,
+            }));
+        }
+        Ok(calibration)
+    }
+
+    fn new(
+        boxes: Vec<[Vec3; 2]>,
+        sections: Vec<Section>,
+        options: &Options,
+    ) -> Result<Self, Error> {
+        let printer = options.resolve()?.output.printer;
+        // Whether it prints them is what the print shall tell.
+        let printer = printer.map(|printer| {
+            let mut printer = Arc::unwrap_or_clone(printer);
+            printer.variable_layers = VariableLayers::Yes;
+            PrinterChoice::Own(Arc::new(printer))
+        });
+        let thickness_mm = || sections.iter().map(|section| section.layer_mm);
+        let ranges = sections.iter().map(|section| HeightRange {
+            from_mm: section.from_mm,
+            to_mm: section.to_mm(),
+            layer_min_mm: section.layer_mm,
+            layer_max_mm: section.layer_mm,
+        });
+        let options = Options {
+            printer,
+            pixels: options.pixels,
+            pitch_mm: options.pitch_mm,
+            pitch_y_mm: options.pitch_y_mm,
+            mirror: options.mirror,
+            format: options.format,
+            rays: options.rays,
+            antialias: options.antialias,
+            resin: options.resin.clone(),
+            ranges: ranges.collect(),
+            planes_mm: sections[1..]
+                .iter()
+                .map(|section| section.from_mm)
+                .collect(),
+            layer_min_mm: thickness_mm().fold(f64::INFINITY, f64::min),
+            layer_max_mm: thickness_mm().fold(0.0, f64::max),
+            snap: Snap::Off,
+            backend: Backend::Cpu,
+            ..Options::default()
+        };
+        Ok(Self {
+            boxes,
+            sections,
+            options,
+        })
+    }
+
+    /// Its layers, from the plate upward.
+    pub fn sections(&self) -> &[Section] {
+        &self.sections
+    }
+
+    /// The model as a binary STL.
+    pub fn stl(&self) -> Vec<u8> {
+        let facets: Vec<[Vec3; 3]> = self.boxes.iter().flat_map(|&[a, b]| facets(a, b)).collect();
+        let mut stl = vec![0; 80];
+        stl.extend((facets.len() as u32).to_le_bytes());
+        for facet in facets {
+            stl.extend([0; 12]);
+            for corner in facet {
+                stl.extend(corner.to_array().into_iter().flat_map(f32::to_le_bytes));
+            }
+            stl.extend([0; 2]);
+        }
+        stl
+    }
+
+    /// Writes the print file. Returns the writer, and the report.
+    ///
+    /// # Errors
+    /// Any [`Error`] of the stages.
+    pub async fn write<W: Write>(
+        &self,
+        writer: W,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<(W, Report), Error> {
+        let mut slicer = Slicer::load(&self.stl())?;
+        let report = slicer.plan(&self.options, progress).await?;
+        let mut exposure_s = report.exposure_s.clone();
+        let layers = self.sections.iter();
+        let layers = layers.flat_map(|section| std::iter::repeat_n(section, section.layers));
+        for (layer, section) in exposure_s.iter_mut().zip(layers) {
+            *layer = section.exposure_s.unwrap_or(*layer);
+        }
+        slicer.expose(exposure_s);
+        let (writer, report) = slicer.write_archive(writer, progress)?;
+        Ok((writer, report.clone()))
+    }
+}
+
+/// A tower whose upper half of the section has ridges on its front and slots on its back.
+fn add_tower(boxes: &mut Vec<[Vec3; 2]>, corner: Vec3, section: Section) {
+    let [middle, top] = [section.layers / 2, section.layers]
+        .map(|layers| (section.from_mm + section.layer_mm * layers as f64) as f32);
+    let mut add = |from: [f32; 2], to: [f32; 2], top: f32| {
+        boxes.push([
+            corner + Vec3::new(from[0], from[1], 0.0),
+            corner + Vec3::new(to[0], to[1], top),
+        ]);
+    };
+    add([0.0, 0.0], [SIDE_MM, SIDE_MM], middle);
+    // Ridges and slots are 2 mm apart, and as long as half the tower, less a millimetre.
+    let half = SIDE_MM / 2.0;
+    let mut x = 0.0;
+    for (index, width) in WIDTHS_MM.into_iter().enumerate() {
+        let place = 2.0 * (index as f32 + 1.0);
+        add([place, 0.5], [place + width, half - 0.5], top);
+        add([x, half], [place, SIDE_MM], top);
+        x = place + width;
+    }
+    add([x, half], [SIDE_MM, SIDE_MM], top);
+}
+
+/// The facets of a box between two opposite corners, the first with the smaller coordinates.
+fn facets(a: Vec3, b: Vec3) -> [[Vec3; 3]; 12] {
+    let corner = |index: usize| {
+        let pick = |bit: usize, low: f32, high: f32| if index >> bit & 1 == 0 { low } else { high };
+        Vec3::new(pick(0, a.x, b.x), pick(1, a.y, b.y), pick(2, a.z, b.z))
+    };
+    // Each side as a square, counter-clockwise from outside.
+    const SIDES: [[usize; 4]; 6] = [
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+    ];
+    std::array::from_fn(|facet| {
+        let side = SIDES[facet / 2];
+        let corners = if facet % 2 == 0 { [0, 1, 2] } else { [0, 2, 3] };
+        corners.map(|place| corner(side[place]))
+    })
+}
