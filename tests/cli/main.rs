@@ -6,6 +6,7 @@
 mod common;
 mod files;
 mod info;
+mod inspect;
 #[cfg(unix)]
 mod interrupt;
 mod orient;

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod files;
+mod inspect;
 mod models;
 mod orient;
 mod simulate;
@@ -16,6 +17,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 use arguments::{Orienting, Slicing};
+use inspect::Inspecting;
 use simulate::Simulating;
 use terminal::say;
 
@@ -82,6 +84,8 @@ enum Command {
     },
     /// Measure how far what a print file prints is from the model, and the model from it
     Simulate(Simulating),
+    /// Say what is in a print file, whoever wrote it, and whether it is whole
+    Inspect(Inspecting),
     /// Write the saliency of each facet, how much it stands out, as a file of weights
     Saliency {
         /// STL file, binary or ASCII
@@ -121,6 +125,7 @@ fn main() -> ExitCode {
             json,
         } => verify::verify(&plan, &model, print.as_deref(), weights.as_deref(), json),
         Command::Simulate(simulating) => simulate::simulate(&simulating),
+        Command::Inspect(inspecting) => inspect::inspect(&inspecting),
         Command::Saliency { model, output } => models::saliency(&model, &output),
         Command::Printers { json } => models::printers(json),
         Command::Info { model, json } => models::info(&model, json),
