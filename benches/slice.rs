@@ -109,7 +109,7 @@ fn main() {
 
     let models = arguments
         .iter()
-        .filter(|argument| !argument.starts_with('-') && argument.ends_with(".stl"));
+        .filter(|it| Path::new(it).extension().is_some_and(|it| it == "stl"));
     let with_peer = arguments.iter().any(|argument| argument == "--peer");
     for path in models {
         compare(Path::new(path), folder.path(), with_peer);

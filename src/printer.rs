@@ -12,6 +12,10 @@ use crate::growth::Growth;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(deny_unknown_fields)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "facts that have nothing to do with one another"
+)]
 pub struct Printer {
     /// Its name in options, as in `--printer NAME`.
     #[serde(default = "own")]

@@ -216,9 +216,9 @@ fn chunk(bytes: &mut Vec<u8>, grey: u8, count: u32) {
     // The lowest four bits of the count are in the first byte.
     let [top, high, low, _] = (count >> 4 << 8).to_be_bytes();
     let more: &[u8] = match count {
-        0..=0xf => &[],
-        0..=0xfff => &[low],
-        0..=0xf_ffff => &[high, low],
+        0..0x10 => &[],
+        0x10..0x1000 => &[low],
+        0x1000..0x10_0000 => &[high, low],
         _ => &[top, high, low],
     };
     bytes.push(kind << 6 | (more.len() as u8) << 4 | (count & 0xf) as u8);

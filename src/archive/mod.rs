@@ -8,6 +8,8 @@ pub mod png;
 mod preview;
 mod pw0;
 mod raster;
+#[cfg(feature = "read")]
+pub mod read;
 pub mod runs;
 mod survey;
 mod zip;

@@ -70,97 +70,160 @@ impl Encoder for PhotonWorkshop {
     }
 }
 
-/// Everything before the layers.
-fn head(job: &PrintJob<'_>, version: u32, layers: &[Layer], bounds: Option<Bounds>) -> Vec<u8> {
-    let has_software = version >= 517;
-    let has_sublayers = version >= 518;
-    let machine_bytes = if has_sublayers { 224 } else { 156 };
-    let preview_bytes = |[width, height]: [u32; 2]| 28 + 2 * width * height;
-    let count = layers.len() as u32;
-    let header_bytes = match version {
+/// Where the tables of a version begin in the file.
+struct Tables {
+    version: u32,
+    header: u32,
+    preview: u32,
+    colours: u32,
+    layers: u32,
+    extra: u32,
+    machine: u32,
+    software: u32,
+    model: u32,
+    sublayers: u32,
+    second_preview: u32,
+    images: u32,
+}
+
+impl Tables {
+    fn new(version: u32, layers: u32) -> Self {
+        let preview_bytes = |[width, height]: [u32; 2]| 28 + 2 * width * height;
+        let from = |first: u32, length: u32| if version >= first { length } else { 0 };
+        // Lengths in the order of the tables; a table that the version does not have takes none.
+        let lengths = [
+            52 + from(517, 4) + from(518, 8),
+            16 + header_bytes(version),
+            preview_bytes(PREVIEW),
+            28,
+            20 + 32 * layers,
+            72,
+            machine_bytes(version),
+            from(517, 164),
+            from(517, 48),
+            from(518, 24 + 44 * layers),
+            from(518, preview_bytes(SECOND_PREVIEW)),
+        ];
+        let mut end = 0;
+        let ends = lengths.map(|length| {
+            end += length;
+            end
+        });
+        let [
+            header,
+            preview,
+            colours,
+            layers,
+            extra,
+            machine,
+            software,
+            model,
+            sublayers,
+            second_preview,
+            images,
+        ] = ends;
+        Self {
+            version,
+            header,
+            preview,
+            colours,
+            layers,
+            extra,
+            machine,
+            software,
+            model,
+            sublayers,
+            second_preview,
+            images,
+        }
+    }
+
+    fn write_mark(&self, fields: &mut Fields<'_>) {
+        fields.text("ANYCUBIC", 12);
+        fields.u32(self.version);
+        fields.u32(match self.version {
+            516 => 8,
+            517 => 9,
+            _ => 11,
+        });
+        fields.u32(self.header);
+        fields.u32(if self.version >= 517 {
+            self.software
+        } else {
+            0
+        });
+        for start in [
+            self.preview,
+            self.colours,
+            self.layers,
+            self.extra,
+            self.machine,
+            self.images,
+        ] {
+            fields.u32(start);
+        }
+        if self.version >= 517 {
+            fields.u32(self.model);
+        }
+        if self.version >= 518 {
+            fields.u32(self.sublayers);
+            fields.u32(self.second_preview);
+        }
+    }
+}
+
+/// Length that the header states: without its name and the length itself.
+fn header_bytes(version: u32) -> u32 {
+    match version {
         516 => 84,
         517 => 92,
         _ => 96,
-    };
-    // Lengths of the tables in their order, then the layers; a length of 0 is a table that the version does not have.
-    let lengths = [
-        if has_sublayers {
-            64
-        } else {
-            52 + 4 * u32::from(has_software)
-        },
-        16 + header_bytes,
-        preview_bytes(PREVIEW),
-        28,
-        20 + 32 * count,
-        72,
-        machine_bytes,
-        if has_software { 164 } else { 0 },
-        if has_software { 48 } else { 0 },
-        if has_sublayers { 24 + 44 * count } else { 0 },
-        if has_sublayers {
-            preview_bytes(SECOND_PREVIEW)
-        } else {
-            0
-        },
-    ];
-    let mut starts = [0; 12];
-    for (table, length) in lengths.into_iter().enumerate() {
-        starts[table + 1] = starts[table] + length;
     }
-    let [
-        _,
-        header,
-        preview,
-        colours,
-        layer_table,
-        extra,
-        machine,
-        software,
-        model,
-        sublayers,
-        second_preview,
-        images,
-    ] = starts;
+}
 
-    let mut bytes = Vec::with_capacity(images as usize);
+fn machine_bytes(version: u32) -> u32 {
+    if version >= 518 { 224 } else { 156 }
+}
+
+/// Everything before the layers.
+fn head(job: &PrintJob<'_>, version: u32, layers: &[Layer], bounds: Option<Bounds>) -> Vec<u8> {
+    let tables = Tables::new(version, layers.len() as u32);
+    let mut bytes = Vec::with_capacity(tables.images as usize);
     let mut fields = Fields::new(&mut bytes, ByteOrder::Little);
-    fields.text("ANYCUBIC", 12);
-    fields.u32(version);
-    fields.u32(match version {
-        516 => 8,
-        517 => 9,
-        _ => 11,
-    });
-    fields.u32(header);
-    fields.u32(if has_software { software } else { 0 });
-    for start in [preview, colours, layer_table, extra, machine, images] {
-        fields.u32(start);
-    }
-    if has_software {
-        fields.u32(model);
-    }
-    if has_sublayers {
-        fields.u32(sublayers);
-        fields.u32(second_preview);
-    }
-
-    write_header(&mut fields, job, version, header_bytes);
+    tables.write_mark(&mut fields);
+    write_header(&mut fields, job, version);
     write_preview(&mut fields, job, "PREVIEW", PREVIEW, [b'x', 0, 0, 0]);
     write_colours(&mut fields, job.screen.antialias);
-    let entries = || {
-        let mut at = images;
-        layers.iter().map(move |layer| {
-            let start = at;
-            at += layer.data.len() as u32;
-            (start, layer)
-        })
-    };
+    let mut at = tables.images;
+    let starts = layers.iter().map(|layer| {
+        let start = at;
+        at += layer.data.len() as u32;
+        start
+    });
+    let starts: Vec<u32> = starts.collect();
+    write_layers(&mut fields, job, &starts, layers);
+    write_extra(&mut fields, job);
+    write_machine(&mut fields, job, version);
+    if version >= 517 {
+        write_software(&mut fields);
+        write_model(&mut fields, job, bounds);
+    }
+    if version >= 518 {
+        write_sublayers(&mut fields, &starts, layers);
+        let mark = [0xc5, 0x10, 0, 0];
+        write_preview(&mut fields, job, "PREVIEW2", SECOND_PREVIEW, mark);
+    }
+    debug_assert_eq!(bytes.len(), tables.images as usize);
+    bytes
+}
+
+fn write_layers(fields: &mut Fields<'_>, job: &PrintJob<'_>, starts: &[u32], layers: &[Layer]) {
+    let count = layers.len() as u32;
     fields.text("LAYERDEF", 12);
     fields.u32(4 + 32 * count);
     fields.u32(count);
-    for ((start, layer), settings) in entries().zip(job.layers) {
-        fields.u32(start);
+    for ((start, layer), settings) in starts.iter().zip(layers).zip(job.layers) {
+        fields.u32(*start);
         fields.u32(layer.data.len() as u32);
         fields.f32(job.resin.lift_mm);
         fields.f32(job.resin.lift_mm_min / 60.0);
@@ -169,52 +232,48 @@ fn head(job: &PrintJob<'_>, version: u32, layers: &[Layer], bounds: Option<Bound
         fields.u32(layer.lit_pixels);
         fields.u32(0);
     }
-    write_extra(&mut fields, job);
-    write_machine(&mut fields, job, version, machine_bytes);
-    if has_software {
-        fields.text("Cusp", 32);
-        fields.u32(164);
-        fields.text(env!("CARGO_PKG_VERSION"), 32);
-        fields.text("", 64);
-        fields.text("3.3-CoreProfile", 32);
-        fields.text("MODEL", 12);
-        fields.u32(48);
-        let [left_mm, first_mm, right_mm, last_mm] = job.screen.bounds_mm(bounds);
-        let top_mm = job.layers.last().map_or(0.0, |layer| layer.z_mm);
-        for coordinate_mm in [left_mm, first_mm, 0.0, right_mm, last_mm, top_mm] {
-            fields.f32(coordinate_mm);
-        }
-        // No supports.
-        fields.zeros(8);
-    }
-    if has_sublayers {
-        fields.text("SUBIMGS", 12);
-        fields.u32(24 + 44 * count);
-        fields.u32(count);
-        fields.u32(1);
-        for (start, layer) in entries() {
-            fields.u32(start);
-            fields.u32(layer.data.len() as u32);
-            fields.u32(layer.lit_pixels);
-            fields.zeros(32);
-        }
-        write_preview(
-            &mut fields,
-            job,
-            "PREVIEW2",
-            SECOND_PREVIEW,
-            [0xc5, 0x10, 0, 0],
-        );
-    }
-    debug_assert_eq!(bytes.len(), images as usize);
-    bytes
 }
 
-fn write_header(fields: &mut Fields<'_>, job: &PrintJob<'_>, version: u32, length: u32) {
+fn write_software(fields: &mut Fields<'_>) {
+    fields.text("Cusp", 32);
+    fields.u32(164);
+    fields.text(env!("CARGO_PKG_VERSION"), 32);
+    fields.text("", 64);
+    fields.text("3.3-CoreProfile", 32);
+}
+
+fn write_model(fields: &mut Fields<'_>, job: &PrintJob<'_>, bounds: Option<Bounds>) {
+    fields.text("MODEL", 12);
+    fields.u32(48);
+    let [left_mm, first_mm, right_mm, last_mm] = job.screen.bounds_mm(bounds);
+    let top_mm = job.layers.last().map_or(0.0, |layer| layer.z_mm);
+    for coordinate_mm in [left_mm, first_mm, 0.0, right_mm, last_mm, top_mm] {
+        fields.f32(coordinate_mm);
+    }
+    // No supports.
+    fields.zeros(8);
+}
+
+/// Where exposures differ within a layer, a layer has several images; here each has one.
+fn write_sublayers(fields: &mut Fields<'_>, starts: &[u32], layers: &[Layer]) {
+    let count = layers.len() as u32;
+    fields.text("SUBIMGS", 12);
+    fields.u32(24 + 44 * count);
+    fields.u32(count);
+    fields.u32(1);
+    for (start, layer) in starts.iter().zip(layers) {
+        fields.u32(*start);
+        fields.u32(layer.data.len() as u32);
+        fields.u32(layer.lit_pixels);
+        fields.zeros(32);
+    }
+}
+
+fn write_header(fields: &mut Fields<'_>, job: &PrintJob<'_>, version: u32) {
     let PrintJob { screen, resin, .. } = *job;
     let usual_mm = job.usual_mm();
     fields.text("HEADER", 12);
-    fields.u32(length);
+    fields.u32(header_bytes(version));
     fields.f32(screen.pitch_mm[0].max(screen.pitch_mm[1]) * 1e3);
     fields.f32(usual_mm);
     fields.f32(resin.exposure_s(usual_mm));
@@ -288,10 +347,10 @@ fn write_extra(fields: &mut Fields<'_>, job: &PrintJob<'_>) {
     }
 }
 
-fn write_machine(fields: &mut Fields<'_>, job: &PrintJob<'_>, version: u32, length: u32) {
+fn write_machine(fields: &mut Fields<'_>, job: &PrintJob<'_>, version: u32) {
     let screen = &job.screen;
     fields.text("MACHINE", 12);
-    fields.u32(length);
+    fields.u32(machine_bytes(version));
     fields.text(job.printer.map_or("", Printer::machine), 96);
     fields.text("pw0Img", 16);
     fields.u32(GREYS);

@@ -258,10 +258,6 @@ fn add_tower(boxes: &mut Vec<[Vec3; 2]>, corner: Vec3, section: Section) {
 
 /// The facets of a box between two opposite corners, the first with the smaller coordinates.
 fn facets(a: Vec3, b: Vec3) -> [[Vec3; 3]; 12] {
-    let corner = |index: usize| {
-        let pick = |bit: usize, low: f32, high: f32| if index >> bit & 1 == 0 { low } else { high };
-        Vec3::new(pick(0, a.x, b.x), pick(1, a.y, b.y), pick(2, a.z, b.z))
-    };
     // Each side as a square, counter-clockwise from outside.
     const SIDES: [[usize; 4]; 6] = [
         [0, 2, 3, 1],
@@ -271,6 +267,10 @@ fn facets(a: Vec3, b: Vec3) -> [[Vec3; 3]; 12] {
         [0, 4, 6, 2],
         [1, 3, 7, 5],
     ];
+    let corner = |index: usize| {
+        let pick = |bit: usize, low: f32, high: f32| if index >> bit & 1 == 0 { low } else { high };
+        Vec3::new(pick(0, a.x, b.x), pick(1, a.y, b.y), pick(2, a.z, b.z))
+    };
     std::array::from_fn(|facet| {
         let side = SIDES[facet / 2];
         let corners = if facet % 2 == 0 { [0, 1, 2] } else { [0, 2, 3] };

@@ -5,7 +5,8 @@
 //! ([`Simulation::print_to_model`]), and how far the model is from the print ([`Simulation::model_to_print`]). The first
 //! finds what is printed but should not be; the second what should be printed but is not.
 //!
-//! It shares no code with profiles, planners, masks and encoders, so their defects are not its own. It reads models as they do.
+//! It shares no code with profiles, planners, masks and encoders, so their defects are not its own. It reads models as they
+//! do, and print files by [`crate::archive::read`].
 //!
 //! Both distances may be off by up to half a pixel's diagonal, because that is what masks resolve. Grey pixels count as
 //! printed from half brightness on.
@@ -13,10 +14,8 @@
 mod deviation;
 mod error;
 mod hidden;
-mod mask;
 mod model_to_print;
 mod nearest;
-mod print_file;
 mod print_to_model;
 mod printed;
 
@@ -26,13 +25,13 @@ use serde::Serialize;
 pub use deviation::{Deviation, LayerDeviation};
 pub use error::SimulationError;
 
+use crate::archive::read::PrintFile;
 use crate::format::Format;
 use crate::model::{Mesh, Pose};
 use crate::progress::{Progress, report};
 use deviation::Tally;
 use hidden::Visibility;
 use nearest::Facets;
-use print_file::PrintFile;
 use printed::Printed;
 
 /// What is known about a print file besides what it says. Given values take precedence over the file's.
@@ -101,14 +100,15 @@ pub fn simulate(
     progress: &mut Progress<'_>,
 ) -> Result<Simulation, SimulationError> {
     report(progress, 0.0)?;
-    let mut file = PrintFile::open(print_file)?;
+    let file = PrintFile::open(print_file)?;
+    let mut flips = file.about().flips();
     if let Some(is_mirrored) = knowledge.is_mirrored {
-        file.settings.flips.mirror_x = is_mirrored;
+        flips.mirror_x = is_mirrored;
     }
-    let pose = knowledge.pose.or(file.settings.pose);
+    let pose = knowledge.pose.or(file.pose());
     let mesh = model.on_plate(&pose.unwrap_or_default())?;
-    let mut printed = Printed::read(&file, progress, [0.0, 0.2])?;
-    let (placement, offset) = place(&mut printed, &mesh, file.settings.pose.is_some());
+    let mut printed = Printed::read(&file, flips, progress, [0.0, 0.2])?;
+    let (placement, offset) = place(&mut printed, &mesh, file.pose().is_some());
 
     let mut facets = Facets::of(&mesh);
     let visibility = hidden::classify(&mesh, &facets, progress, [0.2, 0.3])?;
@@ -124,7 +124,7 @@ pub fn simulate(
 
     let deviation = |tallies: &[Tally]| Deviation::of(tallies, &printed.z_mm);
     Ok(Simulation {
-        format: file.settings.format,
+        format: file.about().format,
         layers: printed.layers(),
         height_mm: printed.z_mm[printed.layers()],
         model_mm: mesh.bounds().size().to_array(),

@@ -11,9 +11,9 @@
 use glam::DVec3;
 
 use super::deviation::Tally;
-use super::mask::{Mask, combine};
 use super::nearest::Facets;
 use super::printed::Printed;
+use crate::archive::read::{Mask, combine};
 use crate::parallel;
 use crate::progress::{Cancelled, Progress};
 

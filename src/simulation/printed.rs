@@ -3,8 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::SimulationError;
-use super::mask::{Mask, changes_up_to};
-use super::print_file::PrintFile;
+use crate::archive::read::{Flips, Mask, PrintFile, changes_up_to};
 use crate::parallel;
 use crate::progress::Progress;
 
@@ -38,15 +37,16 @@ impl Printed {
     /// Decodes all masks of a print file, centred on x = y = 0.
     pub fn read(
         file: &PrintFile<'_>,
+        flips: Flips,
         progress: &mut Progress<'_>,
         share: [f64; 2],
     ) -> Result<Self, SimulationError> {
-        let settings = &file.settings;
-        let layers = settings.masks.len();
+        let z_mm = boundaries(file)?;
+        let (about, layers) = (file.about(), file.layers().len());
         let mut masks = Vec::with_capacity(layers);
         parallel::map_in_groups(
             0..layers,
-            |layer| file.mask(layer),
+            |layer| file.mask(layer, flips),
             |mask| {
                 masks.push(mask?);
                 Ok::<_, SimulationError>(())
@@ -57,9 +57,8 @@ impl Printed {
         if masks.iter().all(|mask| mask.rows().is_empty()) {
             return Err(SimulationError::AllBlack);
         }
-        let ([mut width, mut height], [mut pitch_x, mut pitch_y]) =
-            (settings.pixels, settings.pitch_mm);
-        if settings.flips.exchange {
+        let ([mut width, mut height], [mut pitch_x, mut pitch_y]) = (about.pixels, about.pixel_mm);
+        if flips.exchange {
             std::mem::swap(&mut width, &mut height);
             std::mem::swap(&mut pitch_x, &mut pitch_y);
         }
@@ -68,8 +67,8 @@ impl Printed {
             pixels: [width, height],
             pitch,
             corner: DVec2::new(-f64::from(width), f64::from(height)) * pitch * 0.5,
-            z_mm: settings.z_mm.clone(),
-            steps: steps_of(&settings.z_mm),
+            steps: steps_of(&z_mm),
+            z_mm,
             masks,
         })
     }
@@ -149,6 +148,21 @@ impl Printed {
             }
         }
     }
+}
+
+/// Heights of layer boundaries, from 0 upward.
+fn boundaries(file: &PrintFile<'_>) -> Result<Vec<f64>, SimulationError> {
+    let tops = file.layers().iter().map(|layer| layer.z_mm);
+    let z_mm: Vec<f64> = std::iter::once(0.0).chain(tops).collect();
+    for (layer, pair) in z_mm.windows(2).enumerate() {
+        if !pair.is_sorted_by(|below, above| below < above) {
+            return Err(SimulationError::ZOrder {
+                layer: layer + 1,
+                z_mm: pair[1],
+            });
+        }
+    }
+    Ok(z_mm)
 }
 
 /// The layer at each of equal steps of height, two for each layer.

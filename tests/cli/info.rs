@@ -27,9 +27,10 @@ fn info_describes_the_model() {
 fn printers_say_which_files_they_read() {
     let text = String::from_utf8(cusp(&["printers"]).stdout).unwrap();
     let line = |name: &str| text.lines().find(|line| line.starts_with(name)).unwrap();
-    assert!(line("name ").ends_with("format    reads"));
-    assert!(line("sl1s ").ends_with("sl1       sl1s"));
-    assert!(line("saturn-3-ultra ").ends_with("chitubox  goo by a converter"));
+    assert!(line("name ").ends_with("variable  reads"));
+    assert!(line("sl1s ").ends_with("sl1              no        sl1s"));
+    assert!(line("saturn-3-ultra ").ends_with("goo              untried   goo"));
+    assert!(line("mars-3 ").ends_with("chitubox         untried   ctb by a converter"));
     let json = json(&cusp(&["printers", "--json"]));
     let printers = json.as_array().unwrap();
     let saturn = printers.iter().find(|it| it["name"] == "saturn-3-ultra");

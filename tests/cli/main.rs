@@ -7,6 +7,7 @@ mod calibrate;
 mod common;
 mod files;
 mod info;
+mod inspect;
 #[cfg(unix)]
 mod interrupt;
 mod orient;

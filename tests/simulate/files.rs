@@ -1,6 +1,7 @@
 //! Print files of every format, by whichever program, and files that are none.
 
 use cusp_slicer::Options;
+use cusp_slicer::archive::read::{LayerFault, PrintFileError};
 use cusp_slicer::format::Format;
 use cusp_slicer::model::Mesh;
 use cusp_slicer::simulation::{Knowledge, Placement, SimulationError, simulate};
@@ -195,6 +196,14 @@ fn one_pixel_too_many_is_found() {
     }
 }
 
+/// What is wrong with a mask.
+fn fault(error: SimulationError) -> LayerFault {
+    match error {
+        SimulationError::File(PrintFileError::Layer { fault, .. }) => fault,
+        error => panic!("{error}"),
+    }
+}
+
 #[test]
 fn bad_files_are_errors_that_say_what_is_wrong() {
     let tops = [0.5, 1.0];
@@ -202,28 +211,29 @@ fn bad_files_are_errors_that_say_what_is_wrong() {
     let model = cube(2.0);
     assert!(matches!(
         error(&model, b"no zip"),
-        SimulationError::NotAZip { .. }
+        SimulationError::File(PrintFileError::UnknownKind)
     ));
     let other = zipped(&[("readme.txt".to_owned(), b"hello".to_vec())]);
     assert!(matches!(
         error(&model, &other),
-        SimulationError::UnknownFormat
+        SimulationError::File(PrintFileError::UnknownZip)
     ));
     let mut files = unzipped(&file);
     let last = files.pop().unwrap();
-    assert!(
-        matches!(error(&model, &zipped(&files)), SimulationError::MissingFile { name } if name == "1.png")
-    );
+    assert!(matches!(
+        fault(error(&model, &zipped(&files))),
+        LayerFault::MissingMask { name } if name == "1.png"
+    ));
     files.push((last.0.clone(), last.1[..40].to_vec()));
     assert!(matches!(
-        error(&model, &zipped(&files)),
-        SimulationError::BadFile { .. }
+        fault(error(&model, &zipped(&files))),
+        LayerFault::BadMask { .. }
     ));
     files.pop();
     files.push((last.0, png_of(5, 4, |_, _| 255)));
     assert!(matches!(
-        error(&model, &zipped(&files)),
-        SimulationError::MaskSize { width: 5, .. }
+        fault(error(&model, &zipped(&files))),
+        LayerFault::MaskSize { width: 5, .. }
     ));
     let sunken = by_hand([4, 4], [0.5, 0.5], &[0.5, 0.4], |_, _, _| 255);
     assert!(matches!(

@@ -104,6 +104,11 @@ pub fn load_painted(model: &Path, weights: Option<&WeightsFile<'_>>) -> Result<S
 ///
 /// Fails with a sentence if no file can be written there, so that the user learns it before any work is done.
 pub fn place_for(output: &Path, model: &Path) -> Result<PathBuf, String> {
+    place_apart_from(output, model, "model")
+}
+
+/// Like [`place_for`], for a command that reads another kind of file, called `noun`.
+pub fn place_apart_from(output: &Path, input: &Path, noun: &str) -> Result<PathBuf, String> {
     match fs::metadata(output) {
         Ok(found) if found.is_dir() => Err("is a folder; name a file in it".to_owned()),
         Ok(found) if !found.is_file() => {
@@ -111,8 +116,8 @@ pub fn place_for(output: &Path, model: &Path) -> Result<PathBuf, String> {
         }
         Ok(_) => {
             let place = output.canonicalize().map_err(|error| error.to_string())?;
-            if model.canonicalize().is_ok_and(|model| model == place) {
-                return Err("is the model itself; name another file".to_owned());
+            if input.canonicalize().is_ok_and(|input| input == place) {
+                return Err(format!("is the {noun} itself; name another file"));
             }
             Ok(place)
         }

@@ -3,6 +3,7 @@
 mod arguments;
 mod calibrate;
 mod files;
+mod inspect;
 mod models;
 mod orient;
 mod simulate;
@@ -18,6 +19,7 @@ use clap::{Parser, Subcommand};
 
 use arguments::{Orienting, Slicing};
 use calibrate::Calibrating;
+use inspect::Inspecting;
 use simulate::Simulating;
 use terminal::say;
 
@@ -87,6 +89,8 @@ enum Command {
     /// Write a print that measures a printer
     #[command(subcommand)]
     Calibrate(Calibrating),
+    /// Say what is in a print file, whoever wrote it, and whether it is whole
+    Inspect(Inspecting),
     /// Write the saliency of each facet, how much it stands out, as a file of weights
     Saliency {
         /// STL file, binary or ASCII
@@ -127,6 +131,7 @@ fn main() -> ExitCode {
         } => verify::verify(&plan, &model, print.as_deref(), weights.as_deref(), json),
         Command::Simulate(simulating) => simulate::simulate(&simulating),
         Command::Calibrate(calibrating) => calibrate::calibrate(&calibrating),
+        Command::Inspect(inspecting) => inspect::inspect(&inspecting),
         Command::Saliency { model, output } => models::saliency(&model, &output),
         Command::Printers { json } => models::printers(json),
         Command::Info { model, json } => models::info(&model, json),

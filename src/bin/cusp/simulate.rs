@@ -18,7 +18,7 @@ use crate::values::{length, rotation};
 pub struct Simulating {
     /// STL file, binary or ASCII
     model: PathBuf,
-    /// Print file in the format png, chitubox, uvj or sl1, by whichever program
+    /// Print file in any format that `cusp inspect` reads, by whichever program
     #[arg(value_name = "PRINTFILE")]
     print: PathBuf,
     /// Print one JSON object, with the distances of every layer

@@ -1,11 +1,11 @@
 //! Terminal output, progress and Ctrl-C.
 
+use std::fmt::Display;
 use std::io::{self, IsTerminal, Write as _};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use cusp_slicer::job::{Backend, Slicer, Stage};
-use cusp_slicer::warning::Warning;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use serde::Serialize;
 
@@ -18,7 +18,7 @@ pub fn say(message: &str) {
 }
 
 /// Prints warnings to stderr.
-pub fn warn(warnings: &[Warning]) {
+pub fn warn(warnings: &[impl Display]) {
     for warning in warnings {
         say(&format!("warning: {warning}"));
     }

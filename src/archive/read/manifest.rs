@@ -1,0 +1,82 @@
+//! Cusp's own zip: manifest.json says everything, the model's pose included.
+
+use serde_json::Value;
+
+use super::about::with_thicknesses;
+use super::bytes::clean;
+use super::container::Archive;
+use super::{About, Coding, Contents, Format, Layer, Places, PrintFileError, positive};
+use crate::model::Pose;
+
+const FILE: &str = "manifest.json";
+
+pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
+    let manifest = archive.read_json(FILE)?;
+    let bad = |setting: &str| PrintFileError::bad_setting(FILE, setting);
+    let mask = &manifest["mask"];
+    let length = |key: &str| positive(mask[key].as_f64()).ok_or_else(|| bad(key));
+    let side = |key: &str| {
+        let value = mask[key].as_u64().and_then(|side| side.try_into().ok());
+        value.ok_or_else(|| bad(key))
+    };
+    let is_mirrored = mask["is_mirrored"].as_bool();
+    let entries = manifest["layer_files"].as_array();
+    let entries = entries.ok_or_else(|| bad("layer_files"))?;
+    let mut layers = Vec::with_capacity(entries.len());
+    let mut masks = Vec::with_capacity(entries.len());
+    for entry in entries {
+        layers.push(Layer {
+            z_mm: entry["z_mm"].as_f64().ok_or_else(|| bad("z_mm"))?,
+            exposure_s: entry["exposure_s"].as_f64(),
+            stated_lit_pixels: entry["lit_pixels"].as_u64(),
+            ..Layer::default()
+        });
+        let name = entry["file"].as_str().ok_or_else(|| bad("file"))?;
+        masks.push(name.to_owned());
+    }
+    let pixels = [side("width")?, side("height")?];
+    let pixel_mm = [length("pitch_mm")?, length("pitch_y_mm")?];
+    let resin = &manifest["resin"];
+    let text = |value: &Value| value.as_str().and_then(clean);
+    Ok(Contents {
+        about: About {
+            version: manifest["schema"].as_u64().map(|schema| schema.to_string()),
+            printer: text(&manifest["printer"]),
+            resin: text(&resin["name"]),
+            is_mirrored_x: Some(is_mirrored.ok_or_else(|| bad("is_mirrored"))?),
+            is_mirrored_y: Some(false),
+            bottom_exposure_s: resin["bottom_exposure_s"].as_f64(),
+            bottom_layers: resin["bottom_layers"].as_u64().map(|layers| layers as u32),
+            print_time_s: manifest["print_time_s"].as_f64(),
+            volume_ml: manifest["resin_ml"].as_f64(),
+            uses_layer_values: Some(true),
+            ..About::new(Format::Png, pixels, pixel_mm)
+        },
+        layers: with_thicknesses(layers),
+        coding: Coding::Png,
+        places: Places::InZip(masks),
+        pictures: Vec::new(),
+        pose: Some(pose(&manifest["options"]).ok_or_else(|| bad("rotation"))?),
+        findings: Vec::new(),
+    })
+}
+
+/// The pose among the options, or `None` if its numbers are none.
+fn pose(options: &Value) -> Option<Pose> {
+    let rotation = match &options["rotation"] {
+        Value::Null => None,
+        Value::Array(parts) => {
+            let parts: Option<Vec<f64>> = parts.iter().map(Value::as_f64).collect();
+            Some(parts?.try_into().ok()?)
+        }
+        _ => return None,
+    };
+    let height_mm = match &options["height_mm"] {
+        Value::Null => None,
+        height => Some(height.as_f64()?),
+    };
+    Some(Pose {
+        rotation,
+        height_mm,
+    })
+}

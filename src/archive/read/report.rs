@@ -1,0 +1,157 @@
+//! Inspection: all layers decoded, and what was found.
+
+use serde::Serialize;
+
+use super::finding::{Faults, Tally, of_settings};
+use super::{About, Finding, Layer, LayerFault, PrintFile};
+use crate::parallel;
+use crate::progress::{Cancelled, Progress, report};
+
+/// What a print file says, and what its masks hold.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Inspection {
+    /// What the file says of the print as a whole.
+    #[serde(flatten)]
+    pub about: About,
+    /// Number of layers.
+    pub layers: usize,
+    /// Top of the last layer, in millimetres.
+    pub height_mm: f64,
+    /// The thinnest and the thickest layer, in millimetres; absent without layers.
+    pub thickness_range_mm: Option<[f64; 2]>,
+    /// The shortest and the longest exposure that layers state, in seconds.
+    pub exposure_range_s: Option<[f64; 2]>,
+    /// Volume of the lit pixels, each as high as its layer, in millilitres. Grey pixels count as their brightness.
+    pub lit_volume_ml: f64,
+    /// Sizes of the previews that could be decoded.
+    pub previews: Vec<PreviewSize>,
+    /// What is wrong with the file.
+    pub warnings: Vec<Finding>,
+    /// Each layer, from the plate upward.
+    pub layer_values: Vec<LayerInspection>,
+}
+
+/// Size of a preview.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct PreviewSize {
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+}
+
+/// What a file says of a layer, and what its mask holds.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LayerInspection {
+    /// What the file says.
+    #[serde(flatten)]
+    pub layer: Layer,
+    /// Number of pixels that are not black; absent if the mask cannot be decoded.
+    pub lit_pixels: Option<u64>,
+    /// Number of those that are not white either.
+    pub grey_pixels: Option<u64>,
+}
+
+/// What the mask of a layer holds.
+#[derive(Default)]
+struct Light {
+    lit: u64,
+    grey: u64,
+    /// The sum of all pixels, of which white is 255.
+    brightness: u64,
+}
+
+/// Decodes all layers and previews of a file.
+///
+/// # Errors
+/// [`Cancelled`], if the progress callback asks for it. What is wrong with the file is in [`Inspection::warnings`].
+pub fn inspect(file: &PrintFile<'_>, progress: &mut Progress<'_>) -> Result<Inspection, Cancelled> {
+    report(progress, 0.0)?;
+    let (about, layers) = (file.about(), file.layers());
+    let mut warnings = of_settings(about, layers);
+    warnings.extend(file.contents.findings.iter().cloned());
+
+    let mut layer_values = Vec::with_capacity(layers.len());
+    let (mut black, mut faults) = (Tally::default(), Faults::default());
+    let pixel_mm2 = about.pixel_mm[0] * about.pixel_mm[1];
+    let mut volume_mm3 = 0.0;
+    parallel::map_in_groups(
+        0..layers.len(),
+        |place| light(file, place),
+        |(light, fault): (Light, Option<LayerFault>)| {
+            let place = layer_values.len();
+            let layer = layers[place];
+            let is_whole = fault.is_none();
+            if let Some(fault) = fault {
+                faults.count(place + 1, fault);
+            } else if light.lit == 0 {
+                let below = place.checked_sub(1).map(|below| layers[below].z_mm);
+                black.count(place + 1, below.unwrap_or(0.0));
+            }
+            volume_mm3 += light.brightness as f64 / 255.0 * pixel_mm2 * layer.thickness_mm;
+            layer_values.push(LayerInspection {
+                layer,
+                lit_pixels: is_whole.then_some(light.lit),
+                grey_pixels: is_whole.then_some(light.grey),
+            });
+            Ok::<_, Cancelled>(())
+        },
+        progress,
+        [0.0, 1.0],
+    )?;
+    if let Some((first_layer, from_mm)) = black.first {
+        warnings.push(Finding::BlackLayers {
+            layers: black.layers,
+            first_layer,
+            from_mm,
+        });
+    }
+    warnings.extend(faults.findings());
+
+    let mut previews = Vec::with_capacity(file.previews());
+    for place in 0..file.previews() {
+        match file.preview(place) {
+            Some(preview) => previews.push(PreviewSize {
+                width: preview.width,
+                height: preview.height,
+            }),
+            None => warnings.push(Finding::BadPreview { preview: place + 1 }),
+        }
+    }
+    Ok(Inspection {
+        about: about.clone(),
+        layers: layers.len(),
+        height_mm: layers.last().map_or(0.0, |layer| layer.z_mm),
+        thickness_range_mm: range(layers.iter().map(|layer| layer.thickness_mm)),
+        exposure_range_s: range(layers.iter().filter_map(|layer| layer.exposure_s)),
+        lit_volume_ml: volume_mm3 / 1000.0,
+        previews,
+        warnings,
+        layer_values,
+    })
+}
+
+fn light(file: &PrintFile<'_>, layer: usize) -> (Light, Option<LayerFault>) {
+    let mut light = Light::default();
+    let decoded = file.runs(layer, &mut |grey, count| {
+        let count = u64::from(count);
+        light.brightness += u64::from(grey) * count;
+        match grey {
+            0 => {}
+            255 => light.lit += count,
+            _ => {
+                light.lit += count;
+                light.grey += count;
+            }
+        }
+    });
+    (light, decoded.err())
+}
+
+/// The least and the greatest value.
+fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
+    values.fold(None, |range: Option<[f64; 2]>, value| {
+        let [least, greatest] = range.unwrap_or([value; 2]);
+        Some([least.min(value), greatest.max(value)])
+    })
+}

@@ -1,0 +1,174 @@
+//! Says what is in a print file, and whether it is whole.
+
+use std::fs;
+use std::io::{BufWriter, Write as _};
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use cusp_slicer::archive::read::{About, Inspection, PrintFile, inspect as look_through};
+
+use crate::files::{Failure, file_beside, in_file, keep, place_apart_from};
+use crate::terminal::{Bar, duration, print, print_json, stop_on_interrupt, warn};
+
+/// A print file, and perhaps one of its layers.
+#[derive(Args)]
+pub struct Inspecting {
+    /// Print file: goo, prz, ctb, pwmx and its kin, pwsz and its kin, nanodlp, sl1, uvj, or a zip of masks
+    #[arg(value_name = "PRINTFILE")]
+    print: PathBuf,
+    /// Print one JSON object, with the values of every layer
+    #[arg(long)]
+    json: bool,
+    /// Write the mask of this layer as well, as it is stored; the first is 1
+    #[arg(long, value_name = "N", requires = "output", value_parser = clap::value_parser!(u32).range(1..))]
+    layer: Option<u32>,
+    /// Where to write the mask, a PNG
+    #[arg(short, long, value_name = "FILE", requires = "layer")]
+    output: Option<PathBuf>,
+}
+
+pub fn inspect(inspecting: &Inspecting) -> Result<(), Failure> {
+    let path = &*inspecting.print;
+    let output = inspecting.output.as_deref();
+    if let Some(output) = output {
+        place_apart_from(output, path, "print file").map_err(|reason| in_file(output, &reason))?;
+    }
+    let bytes = fs::read(path).map_err(|error| in_file(path, &error))?;
+    let file = PrintFile::open(&*bytes).map_err(|error| in_file(path, &error))?;
+    stop_on_interrupt();
+    if let (Some(layer), Some(output)) = (inspecting.layer, output) {
+        write_mask(&file, path, layer as usize, output)?;
+    }
+    let bar = Bar::new();
+    let mut progress = |fraction| bar.show("inspect", fraction);
+    let inspection = look_through(&file, &mut progress).map_err(|_| Failure::interrupted())?;
+    drop(bar);
+    warn(&inspection.warnings);
+    if inspecting.json {
+        return Ok(print_json(&inspection)?);
+    }
+    Ok(print(&describe(&inspection))?)
+}
+
+/// Writes the mask of a layer, from 1.
+fn write_mask(
+    file: &PrintFile<'_>,
+    path: &Path,
+    layer: usize,
+    output: &Path,
+) -> Result<(), Failure> {
+    let layers = file.layers().len();
+    if layer > layers {
+        let reason = format!("there is no layer {layer}; it has {layers}");
+        return Err(in_file(path, &reason).into());
+    }
+    let place = place_apart_from(output, path, "print file");
+    let place = place.map_err(|reason| in_file(output, &reason))?;
+    let mut png = file_beside(&place).map_err(|error| in_file(output, &error))?;
+    let mut writer = BufWriter::new(&mut png);
+    let written = file.write_png(layer - 1, &mut writer);
+    let written = written.and_then(|decoded| writer.flush().map(|()| decoded));
+    let decoded = written.map_err(|error| in_file(output, &error))?;
+    decoded.map_err(|error| in_file(path, &error))?;
+    drop(writer);
+    keep(png, &place, output)
+}
+
+fn describe(inspection: &Inspection) -> String {
+    let about = &inspection.about;
+    let mut lines = vec![("format", format_line(about))];
+    lines.extend(about.printer.clone().map(|printer| ("printer", printer)));
+    if let [Some(x), Some(y), z] = about.plate_mm {
+        let z = z.map_or(String::new(), |z| format!(" × {z}"));
+        lines.push(("plate", format!("{} × {}{z} mm", rounded(x), rounded(y))));
+    }
+    lines.push(("masks", masks_line(about)));
+    lines.push(("layers", layers_line(inspection)));
+    lines.extend(exposure_line(inspection).map(|line| ("exposure", line)));
+    let time = about.print_time_s.filter(|&time_s| time_s > 0.0);
+    lines.extend(time.map(|time_s| ("time", duration(time_s))));
+    lines.push(("resin", resin_line(inspection)));
+    if !inspection.previews.is_empty() {
+        let sizes = inspection.previews.iter();
+        let sizes = sizes.map(|size| format!("{} × {}", size.width, size.height));
+        lines.push(("previews", sizes.collect::<Vec<_>>().join(", ")));
+    }
+    let lines = lines.iter().map(|(name, line)| format!("{name:<9} {line}"));
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+fn format_line(about: &About) -> String {
+    let version = about.version.as_ref();
+    let version = version.map_or(String::new(), |version| format!(" {version}"));
+    let software = about.software.as_ref();
+    let software = software.map_or(String::new(), |software| format!(", by {software}"));
+    format!("{}{version}{software}", about.format.name())
+}
+
+fn masks_line(about: &About) -> String {
+    let [width, height] = about.pixels;
+    let [pitch_x, pitch_y] = about.pixel_mm;
+    let mirrored = match (about.is_mirrored_x, about.is_mirrored_y) {
+        (Some(true), Some(true)) => ", mirrored in x and y",
+        (Some(true), _) => ", mirrored in x",
+        (_, Some(true)) => ", mirrored in y",
+        (None, None) => "",
+        _ => ", not mirrored",
+    };
+    format!("{width} × {height} pixels of {pitch_x:.4} × {pitch_y:.4} mm{mirrored}")
+}
+
+fn layers_line(inspection: &Inspection) -> String {
+    let thickness = inspection
+        .thickness_range_mm
+        .map_or(String::new(), |range| format!(" of {} mm", from_to(range)));
+    let counts = match inspection.about.uses_layer_values {
+        Some(false) => ", whose own values the printer ignores",
+        _ => "",
+    };
+    format!(
+        "{}{thickness}, {:.3} mm high{counts}",
+        inspection.layers, inspection.height_mm
+    )
+}
+
+fn exposure_line(inspection: &Inspection) -> Option<String> {
+    let about = &inspection.about;
+    let range = inspection.exposure_range_s;
+    let usual = range.or(about.exposure_s.map(|usual_s| [usual_s; 2]))?;
+    let bottom = match (about.bottom_layers, about.bottom_exposure_s) {
+        (Some(1..), Some(bottom_s)) => format!("bottom layers {} s", rounded(bottom_s)),
+        (None, Some(bottom_s)) => format!("first layer {} s", rounded(bottom_s)),
+        _ => return Some(format!("{} s", from_to(usual))),
+    };
+    Some(format!("{} s, {bottom}", from_to(usual)))
+}
+
+fn resin_line(inspection: &Inspection) -> String {
+    let about = &inspection.about;
+    let name = about.resin.as_ref();
+    let name = name.map_or(String::new(), |name| format!("{name}, "));
+    let stated = about.volume_ml.filter(|&volume_ml| volume_ml > 0.0);
+    let stated = stated.map_or(String::new(), |volume_ml| {
+        format!("{volume_ml:.1} ml by the file, ")
+    });
+    format!(
+        "{name}{stated}{:.1} ml by the masks",
+        inspection.lit_volume_ml
+    )
+}
+
+/// Both ends of a range, or the one that they are.
+fn from_to([least, greatest]: [f64; 2]) -> String {
+    let (least, greatest) = (rounded(least), rounded(greatest));
+    if least == greatest {
+        least
+    } else {
+        format!("{least} to {greatest}")
+    }
+}
+
+/// To the thousandth, without trailing zeros.
+fn rounded(value: f64) -> String {
+    ((value * 1e3).round() / 1e3).to_string()
+}
