@@ -209,9 +209,9 @@ pub fn named(name: &str) -> Option<Arc<Printer>> {
 /// Up to five known names that share a word with this one, those that share the most first.
 pub fn similar(name: &str) -> Vec<String> {
     const MOST: usize = 5;
-    let name = name.to_lowercase();
+    let name = name.to_ascii_lowercase();
     let words = |name: &'_ str| -> Vec<String> {
-        let words = name.split(|it: char| !it.is_alphanumeric());
+        let words = name.split(|it: char| !it.is_ascii_alphanumeric());
         words
             .filter(|word| word.len() > 1)
             .map(str::to_owned)
@@ -221,7 +221,7 @@ pub fn similar(name: &str) -> Vec<String> {
     let mut similar: Vec<(usize, &str)> = PRINTERS
         .iter()
         .map(|printer| {
-            let model = words(&printer.model.to_lowercase());
+            let model = words(&printer.model.to_ascii_lowercase());
             let shared = asked.iter().filter(|word| model.contains(word)).count();
             (shared, printer.name.as_str())
         })

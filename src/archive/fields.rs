@@ -20,7 +20,7 @@ impl ByteOrder {
     }
 }
 
-/// Appends fields to bytes.
+/// Appends fields to bytes. Heads have a hundred fields and are written once, so that calls matter less than room.
 pub(super) struct Fields<'a> {
     bytes: &'a mut Vec<u8>,
     order: ByteOrder,
@@ -31,6 +31,7 @@ impl<'a> Fields<'a> {
         Self { bytes, order }
     }
 
+    #[inline(never)]
     pub fn bytes(&mut self, bytes: &[u8]) {
         self.bytes.extend(bytes);
     }
@@ -42,24 +43,29 @@ impl<'a> Fields<'a> {
         self.bytes(&big_endian);
     }
 
+    #[inline(never)]
     pub fn bool(&mut self, value: bool) {
         self.bytes(&[u8::from(value)]);
     }
 
+    #[inline(never)]
     pub fn u16(&mut self, value: u16) {
         self.number(value.to_be_bytes());
     }
 
+    #[inline(never)]
     pub fn u32(&mut self, value: u32) {
         self.number(value.to_be_bytes());
     }
 
     /// Writes a number in single precision.
+    #[inline(never)]
     pub fn f32(&mut self, value: f64) {
         self.number((value as f32).to_be_bytes());
     }
 
     /// Writes text, cut at a character's end to leave a zero, in a field of `length` bytes.
+    #[inline(never)]
     pub fn text(&mut self, text: &str, length: usize) {
         let mut end = text.len().min(length - 1);
         while !text.is_char_boundary(end) {
@@ -69,6 +75,7 @@ impl<'a> Fields<'a> {
         self.zeros(length - end);
     }
 
+    #[inline(never)]
     pub fn zeros(&mut self, count: usize) {
         self.bytes.resize(self.bytes.len() + count, 0);
     }

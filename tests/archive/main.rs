@@ -6,6 +6,7 @@
 mod common;
 mod formats;
 mod png_zip;
+mod read_back;
 mod runs;
 
 use std::io::{Cursor, Read};

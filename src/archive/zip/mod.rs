@@ -7,6 +7,7 @@ pub mod anycubic;
 pub mod chitubox;
 pub mod masks;
 pub mod nanodlp;
+mod settings;
 pub mod sl1;
 pub mod uvj;
 
