@@ -26,6 +26,7 @@ export type {
   Snap,
   StlExpected,
   TradeoffPoint,
+  UniformLayers,
   Unit,
   Warning,
 } from "../../pkg/cusp_slicer.js";
