@@ -55,7 +55,7 @@ const TRANSLATED = ["kind", "expected", "quantity", "fault", "metric", "unit"];
 function says(sentence: string, value: unknown, format: Format): boolean {
   if (value === null) return true;
   if (typeof value === "object") return Object.values(value).every((item) => says(sentence, item, format));
-  if (typeof value !== "number") return sentence.includes(String(value));
+  if (typeof value !== "number") return sentence.includes(value as string);
   return [format.exact, format.bareHeight, format.tick].some((write) => sentence.includes(write(value)));
 }
 

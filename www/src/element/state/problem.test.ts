@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import { SlicerError, type ErrorCode, type ErrorDetails } from "../../api/error.js";
-import type { Warning } from "../../api/wire.js";
+import type { Printer, Warning } from "../../api/wire.js";
 import { languageOf } from "../../texts/index.js";
 import { advise, explain as explainIn } from "./problem.js";
 import { DEFAULT_SETTINGS, type Settings } from "./settings.js";
@@ -158,6 +158,10 @@ test("a printer whose description is wrong is blamed, and may be left out; a fil
   const bad = explain(failed("bad-printer", { printer: "mine", field: "pitch_um" }), "a.stl", { ...DEFAULT_SETTINGS, printer: "mine" });
   expect(bad).toMatchObject({ field: "printer", offers: [{ change: { printer: "" } }] });
   expect(bad.text).toBe("The printer mine cannot have this pitch_um; correct its description.");
+  // Nothing else that the form gives can be unreadable.
+  const own = { pixels: [1, 1] } as unknown as Printer;
+  const missing = explain(failed("bad-options", { system: "missing field `pitch_um`" }), "a.stl", { ...DEFAULT_SETTINGS, printer: own });
+  expect(missing).toMatchObject({ title: bad.title, field: "printer", text: "The options cannot be read: missing field `pitch_um`." });
   const file = explain(failed("printer-not-json", { system: "Unexpected end of JSON input" }), "mine.json", DEFAULT_SETTINGS);
   expect(file).toMatchObject({ title: bad.title, field: "printer", offers: [] });
 });

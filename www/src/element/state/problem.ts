@@ -148,7 +148,9 @@ function allowed(offers: readonly Offer[], fixed: ReadonlySet<keyof Settings>): 
 function describe(failure: Failure, language: Language, fixed: ReadonlySet<keyof Settings>): Problem {
   const { error, name, settings } = failure;
   const { texts } = language;
-  const kind = KINDS[error.code];
+  // The form cannot give options that are unreadable, but for the description of a printer.
+  const isOfPrinter = error.code === "bad-options" && typeof settings.printer === "object";
+  const kind = isOfPrinter ? "badPrinter" : KINDS[error.code];
   const text = sentenceOf(error, settings, texts);
   const problem = { code: error.code, title: texts.problems[kind](name), field: FIELDS[kind] ?? null };
   if (error.code === "infeasible") return { ...problem, ...waysOut(error, text, settings, language, fixed) };

@@ -74,6 +74,9 @@ export const settingsStyles = css`
     background: var(--cusp-card);
     color: var(--cusp-text);
   }
+  .open {
+    margin-top: 0.5rem;
+  }
   .unit {
     padding-inline-end: 0.625rem;
     color: var(--cusp-quiet);
