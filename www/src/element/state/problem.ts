@@ -55,6 +55,7 @@ const KINDS: Readonly<Record<ErrorCode, Kind>> = {
   "bad-length": "badValue",
   "bad-time": "badValue",
   "bad-exposures": "badValue",
+  "bad-growth": "badValue",
   "bad-directions": "badValue",
   "bad-alpha": "badValue",
   "bad-options": "badOptions",

@@ -75,6 +75,8 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
   "bad-time": ({ quantity, value_s }) => `${QUANTITIES[quantity]} muss 0 oder größer sein, nicht ${measure(value_s, "s")}.`,
   "bad-exposures": ({ previous_mm, next_mm }) =>
     `Gemessene Belichtungen müssen nach der Dicke geordnet sein, jede dicker als die vorige; auf ${mm(previous_mm)} folgt aber ${mm(next_mm)}.`,
+  "bad-growth": ({ least_mm, most_mm, value_mm }) =>
+    `Das Wachstum eines Drucks muss zwischen ${exact(least_mm)} und ${mm(most_mm)} liegen, nicht bei ${mm(value_mm)}.`,
   "bad-options": ({ system }) => `Die Optionen lassen sich nicht lesen: ${ended(system)}`,
   "unknown-printer": ({ printer, similar, known }) =>
     `Unter den ${count(known)} bekannten Druckern ist kein ${printer}${similar.length === 0 ? "" : `; ähnlich sind ${similar.join(", ")}`}.`,

@@ -77,6 +77,8 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
   "bad-time": ({ quantity, value_s }) => `${QUANTITIES[quantity]} must be 0 or more, not ${measure(value_s, "s")}.`,
   "bad-exposures": ({ previous_mm, next_mm }) =>
     `Measured exposures must be in order of thickness, each thicker than the one before, but ${mm(next_mm)} follows ${mm(previous_mm)}.`,
+  "bad-growth": ({ least_mm, most_mm, value_mm }) =>
+    `The growth of a print must be ${exact(least_mm)} to ${mm(most_mm)}, not ${mm(value_mm)}.`,
   "bad-options": ({ system }) => `The options cannot be read: ${ended(system)}`,
   "unknown-printer": ({ printer, similar, known }) =>
     `There is no printer ${printer} among the ${count(known)} known ones${similar.length === 0 ? "" : `; similar are ${similar.join(", ")}`}.`,

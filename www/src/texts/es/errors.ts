@@ -75,6 +75,8 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
   "bad-time": ({ quantity, value_s }) => `${QUANTITIES[quantity]} debe ser 0 o más, no ${measure(value_s, "s")}.`,
   "bad-exposures": ({ previous_mm, next_mm }) =>
     `Las exposiciones medidas deben ir en orden de espesor, cada una más gruesa que la anterior, pero ${mm(next_mm)} sigue a ${mm(previous_mm)}.`,
+  "bad-growth": ({ least_mm, most_mm, value_mm }) =>
+    `El crecimiento de una impresión debe estar entre ${exact(least_mm)} y ${mm(most_mm)}, y no ser ${mm(value_mm)}.`,
   "bad-options": ({ system }) => `No se pueden leer las opciones: ${ended(system)}`,
   "unknown-printer": ({ printer, similar, known }) =>
     `Entre las ${count(known)} impresoras conocidas no hay ninguna ${printer}${similar.length === 0 ? "" : `; se parecen ${similar.join(", ")}`}.`,

@@ -75,6 +75,8 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
   "bad-time": ({ quantity, value_s }) => `${QUANTITIES[quantity]} doit valoir 0 ou plus, pas ${measure(value_s, "s")}.`,
   "bad-exposures": ({ previous_mm, next_mm }) =>
     `Les expositions mesurées doivent être dans l’ordre des épaisseurs, chacune plus épaisse que la précédente, mais ${mm(next_mm)} suit ${mm(previous_mm)}.`,
+  "bad-growth": ({ least_mm, most_mm, value_mm }) =>
+    `La croissance d’une impression doit être comprise entre ${exact(least_mm)} et ${mm(most_mm)}, et non ${mm(value_mm)}.`,
   "bad-options": ({ system }) => `Les options sont illisibles : ${ended(system)}`,
   "unknown-printer": ({ printer, similar, known }) =>
     `Aucune imprimante ${printer} parmi les ${count(known)} connues${similar.length === 0 ? "" : ` ; s’en approchent ${similar.join(", ")}`}.`,

@@ -74,6 +74,8 @@ export const errors = ({ count, exact, mm, measure, error }: Format): ErrorSente
   "bad-time": ({ quantity, value_s }) => `${QUANTITIES[quantity]}必须不小于 0，而不是 ${measure(value_s, "s")}。`,
   "bad-exposures": ({ previous_mm, next_mm }) =>
     `测得的曝光必须按厚度排列，后一项比前一项厚，但 ${mm(previous_mm)} 之后是 ${mm(next_mm)}。`,
+  "bad-growth": ({ least_mm, most_mm, value_mm }) =>
+    `打印件的膨胀量必须在 ${exact(least_mm)} 到 ${mm(most_mm)} 之间，而不是 ${mm(value_mm)}。`,
   "bad-options": ({ system }) => `无法读取选项：${ended(system)}`,
   "unknown-printer": ({ printer, similar, known }) =>
     `已知的 ${count(known)} 种打印机中没有 ${printer}${similar.length === 0 ? "" : `；相近的有 ${similar.join(", ")}`}。`,
