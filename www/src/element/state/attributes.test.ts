@@ -5,6 +5,7 @@ import { Attributes, settingsOf } from "./attributes.js";
 import type { SettingName } from "../properties.js";
 import { Preferences } from "./preferences.js";
 import { FORMATS } from "./printer.js";
+import { knownPrinter } from "./printer-fixture.js";
 import { DEFAULT_SETTINGS, fromAddress, toAddress } from "./settings.js";
 
 class Wishes extends Preferences {
@@ -12,12 +13,7 @@ class Wishes extends Preferences {
   protected override refused(): void {}
 }
 
-const printer = (name: string, thinnest: number): KnownPrinter => ({
-  ...{ name, model: name, pixels: [100, 100], pitch_um: [50, 50], volume_mm: [5, 5, 5] },
-  ...{ layer_mm: [thinnest, 0.2], is_mirrored: true, step_mm: 0.002, format: "chitubox" },
-  ...{ reads: ["ctb"], reads_format: false, is_little_endian: false, has_tilting_vat: false },
-  ...{ variable_layers: "untried", variable_layers_source: "" },
-});
+const printer = (name: string, thinnest: number): KnownPrinter => knownPrinter({ name, layer_mm: [thinnest, 0.2] });
 
 let wishes: Wishes;
 let attributes: Attributes;

@@ -3,6 +3,7 @@ import type { Format as PrintFormat, KnownPrinter, Printer, Warning } from "../.
 import { languageOf, LANGUAGES, type Language } from "../../texts/index.js";
 import { fileWords } from "../parts/file-words.js";
 import { byMaker, formatFor, isPrinter, printerFrom, printerOf, printerText, readPrinter } from "./printer.js";
+import { knownPrinter } from "./printer-fixture.js";
 import { report } from "./report-fixture.js";
 
 const PRINTERS = (
@@ -17,11 +18,7 @@ const PRINTERS = (
     ["saturn", "Saturn", "ctb", ["ctb"], true],
     ["athena", "Athena", "nanodlp", ["nanodlp"], true],
   ] as const
-).map(([name, model, format, reads, reads_format]): KnownPrinter => ({
-  ...{ name, model, format, reads: [...reads], reads_format },
-  ...{ pixels: [100, 100], pitch_um: [50, 50], volume_mm: [5, 5, 5], layer_mm: [0.02, 0.2], is_mirrored: true, step_mm: 0.002 },
-  ...{ is_little_endian: false, has_tilting_vat: false, variable_layers: "yes", variable_layers_source: "" },
-}));
+).map(([name, model, format, reads, reads_format]) => knownPrinter({ name, model, format, reads: [...reads], reads_format }));
 
 test("the format is the printer's own if none is chosen", () => {
   expect(formatFor({ printer: "", format: "" }, PRINTERS)).toBe("png");
@@ -121,7 +118,7 @@ test("an address carries a description, unless it is very long or broken", () =>
 });
 
 test("a list of printers is sorted by maker and model, in which numbers count as such", () => {
-  const named = (name: string, model: string): KnownPrinter => ({ ...(PRINTERS[0] as KnownPrinter), name, model });
+  const named = (name: string, model: string): KnownPrinter => knownPrinter({ name, model });
   const printers = [
     ...[named("x10", "EPAX X10"), named("x1", "EPAX X1"), named("d8", "Wanhao D8"), named("s3u", "Elegoo Saturn 3 Ultra")],
     ...[named("s3", "Elegoo Saturn 3"), named("s", "Elegoo Saturn"), named("one", "Solus")],

@@ -147,11 +147,11 @@ test("if no uniform layers keep the tolerance, those of the thickness in the for
   expect(offer).toEqual({ label: "Uniform layers of 0.04\u00a0mm", change: { planner: "uniform" } });
 });
 
-test("an unknown printer offers those with similar names, or none", () => {
-  const error = failed("unknown-printer", { printer: "saturn-5", similar: ["saturn", "saturn-4"], known: 110 });
+test("an unknown printer offers the three most similar names, or none", () => {
+  const error = failed("unknown-printer", { printer: "saturn-5", similar: ["saturn", "saturn-4", "saturn-2", "saturn-3"], known: 110 });
   const { title, field, offers } = explain(error, "a.stl", { ...DEFAULT_SETTINGS, printer: "saturn-5" });
   expect([title, field]).toEqual(["There is no such printer", "printer"]);
-  expect(offers.map(({ change }) => change.printer)).toEqual(["saturn", "saturn-4", ""]);
+  expect(offers.map(({ change }) => change.printer)).toEqual(["saturn", "saturn-4", "saturn-2", ""]);
 });
 
 test("a printer whose description is wrong is blamed, and may be left out; a file that describes none changed nothing", () => {
@@ -160,7 +160,8 @@ test("a printer whose description is wrong is blamed, and may be left out; a fil
   expect(bad.text).toBe("The printer mine cannot have this pitch_um; correct its description.");
   // Nothing else that the form gives can be unreadable.
   const own = { pixels: [1, 1] } as unknown as Printer;
-  const missing = explain(failed("bad-options", { system: "missing field `pitch_um`" }), "a.stl", { ...DEFAULT_SETTINGS, printer: own });
+  const system = "Failed to deserialize JsValue into type `cusp_slicer::job::options::Options`: Error: missing field `pitch_um`";
+  const missing = explain(failed("bad-options", { system }), "a.stl", { ...DEFAULT_SETTINGS, printer: own });
   expect(missing).toMatchObject({ title: bad.title, field: "printer", text: "The options cannot be read: missing field `pitch_um`." });
   const file = explain(failed("printer-not-json", { system: "Unexpected end of JSON input" }), "mine.json", DEFAULT_SETTINGS);
   expect(file).toMatchObject({ title: bad.title, field: "printer", offers: [] });
@@ -206,7 +207,7 @@ test("a warning is said once, and offers what keeps the tolerance in layers of o
 test("whether a printer that the page has fixed was ever tried is not the customer's business", () => {
   const untried: Warning = { code: "untried-thicknesses", detail: { model: "Elegoo Saturn 3" } };
   expect(advise([untried], languageOf("en"), new Set())).toEqual([
-    { text: expect.stringMatching(/^Nobody has told whether the Elegoo Saturn 3 .*print the caliper test \(`cusp calibrate layers`\)/), offers: [] },
+    { text: expect.stringMatching(/^Nobody has told whether the Elegoo Saturn 3 .*print the caliper test \(cusp calibrate layers\)/), offers: [] },
   ]);
   expect(advise([untried], languageOf("en"), new Set(["printer"]))).toEqual([]);
 });

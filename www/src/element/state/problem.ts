@@ -247,9 +247,13 @@ function smaller(scale: number | null, { height_mm }: Failure, { texts, format }
 
 const withoutPrinter = ({ texts }: Language): Offer => ({ label: texts.offers.noPrinter, change: { printer: "" } });
 
-/** Offers the names that resemble an unknown one. */
+/** The names that an offer may stand for; the sentence has all of them. */
+const MOST_SIMILAR = 3;
+
+/** Offers the names that resemble an unknown one most. */
 function similarPrinters(error: SlicerError): Offer[] {
-  return error.code === "unknown-printer" ? error.detail.similar.map((printer) => ({ label: printer, change: { printer } })) : [];
+  const similar = error.code === "unknown-printer" ? error.detail.similar : [];
+  return similar.slice(0, MOST_SIMILAR).map((printer) => ({ label: printer, change: { printer } }));
 }
 
 /** Offers the best uniform layers; if none keep the tolerance, those of the thickness in the form. */

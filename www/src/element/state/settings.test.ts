@@ -2,6 +2,7 @@ import { expect, expectTypeOf, test } from "vitest";
 import { sameRays, type Format, type Printer } from "../../api/wire.js";
 import { languageOf } from "../../texts/index.js";
 import { FORMATS } from "./printer.js";
+import { knownPrinter } from "./printer-fixture.js";
 import {
   check,
   DEFAULT_SETTINGS,
@@ -175,23 +176,7 @@ test("the form offers every print format", () => {
   for (const format of FORMATS) expect(fromAddress(`format=${format}`).format).toBe(format);
 });
 
-const PRINTER = {
-  name: "p",
-  model: "P",
-  pixels: [100, 100],
-  pitch_um: [50, 50],
-  volume_mm: [5, 5, 5],
-  layer_mm: [0.02, 0.2],
-  is_mirrored: true,
-  step_mm: 0.002,
-  format: "chitubox",
-  reads_format: false,
-  reads: ["goo"],
-  is_little_endian: false,
-  has_tilting_vat: false,
-  variable_layers: "yes",
-  variable_layers_source: "",
-} satisfies Offered["printers"][number];
+const PRINTER = knownPrinter({ name: "p" });
 
 test("a printer sets the pixels and the limits of layer thickness", () => {
   const offered: Offered = { printers: [PRINTER], resins: [] };

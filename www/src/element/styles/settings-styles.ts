@@ -102,6 +102,7 @@ export const settingsStyles = css`
     border-radius: 8px;
     overflow: hidden;
   }
+  .open:has(:focus-visible),
   .choice:focus-within:has(:focus-visible) {
     outline: 3px solid var(--cusp-focus);
     outline-offset: 1px;
