@@ -155,6 +155,8 @@ test("errors have codes and details", async () => {
       await code(slicer.mask(0)),
       await code(slicer.plan({ rays: 512, tolerance: 0.01 })),
       await code(slicer.plan({ rays: 512, printer: "nobody" })),
+      await code(slicer.plan({ printer: { pixels: [100, 100], pitch_um: [50, 0], volume_mm: [5, 5, 5] } })),
+      await code(slicer.plan({ printer: { pixels: [100, 100] } as unknown as Api.Printer })),
     ];
     slicer.dispose();
     return found;
@@ -167,7 +169,9 @@ test("errors have codes and details", async () => {
     "nothing was thrown",
     "no-plan",
     ["infeasible", ["from_mm", "largest_layer_min_mm", "layer_min_mm", "least_tolerance", "to_mm", "tolerance"]],
-    ["unknown-printer", ["known", "printer"]],
+    ["unknown-printer", ["known", "printer", "similar"]],
+    ["bad-printer", ["field", "printer"]],
+    ["bad-options", ["system"]],
   ]);
 });
 

@@ -251,6 +251,26 @@ test("what the page has fixed is shown, and neither form, offer nor undo changes
   expect(settings).toEqual(["mars-4-ultra", "uvj", 0.06]);
 });
 
+test("a printer of the page's own is a property, and customers cannot bring another", async () => {
+  const page = await start(`<cusp-slicer id="a" src="ball.stl" locale="en" fixed="printer"></cusp-slicer>`);
+  const found = await page.evaluate(async () => {
+    const element = document.querySelector<CuspSlicer>("#a");
+    if (element === null) throw new Error("there is no element");
+    const volume_mm: [number, number, number] = [40, 40, 40];
+    element.printer = { name: "ours", model: "Our Printer", pixels: [800, 800], pitch_um: [50, 50], volume_mm, format: "goo", reads: ["prz"] };
+    const theirs = { ...element.printer, name: "ours", pixels: [10, 10] };
+    element.query = `printer=${JSON.stringify(theirs)}&tolerance=0.06`;
+    await element.load("ball.stl");
+    const { report } = await element.plan();
+    const { width, height } = report.mask;
+    return { printer: report.printer, mask: [width, height], tolerance: report.tolerance, name: (await element.export()).name };
+  });
+  expect(found).toEqual({ printer: "ours", mask: [800, 800], tolerance: 0.06, name: "ball-cusp.prz" });
+  expect(await page.locator("#a #printer-hint").innerText()).toMatch(/^Set by this page\. Our Printer: 800 × 800 pixels/);
+  // Whether it was tried with several thicknesses is the page's business.
+  expect(await page.locator("#a .warning").count()).toBe(0);
+});
+
 test("a prism comes out the same at every quality: a sentence stands in place of the slider", async () => {
   const page = await start(`<cusp-slicer id="a" src="prism.stl" locale="en"></cusp-slicer>`);
   await done(page, "a");

@@ -140,17 +140,17 @@ test("a mask is zoomed into, to its very pixels, and moved by keyboard", async (
 
 test("a printer gives pixels and file; a model too large for it is scaled to fit by a button beside it", async () => {
   const page = await opened("?backend=cpu");
-  await page.getByLabel("Printer").selectOption("Prusa SL1S SPEED");
+  await page.getByLabel("Printer").selectOption("sl1s");
   await settled(page);
   expect(await page.locator("details.figures").evaluate((it) => it.textContent)).toMatch(/1,620 × 2,560 pixels of 0\.05/);
   expect(await page.getByLabel("Resolution").count()).toBe(0);
-  await page.getByLabel("Printer").selectOption("Elegoo Saturn 3 Ultra");
+  await page.getByLabel("Printer").selectOption("mars-2");
   await settled(page);
   expect(await page.locator("#file").innerText()).toBe(
-    "A ChiTuBox zip. The Elegoo Saturn 3 Ultra reads .goo: convert it with UVtools first. " +
+    "A ChiTuBox zip. The Elegoo Mars 2 reads .ctb: convert it with UVtools first. " +
       "The model prints as it is: no supports, not hollowed.",
   );
-  await page.getByLabel("Printer").selectOption("Prusa SL1S SPEED");
+  await page.getByLabel("Printer").selectOption("sl1s");
   await settled(page);
 
   await page.getByLabel("Scale to height").fill("120");
@@ -167,9 +167,70 @@ test("a printer gives pixels and file; a model too large for it is scaled to fit
   await page.getByRole("button", { name: /Download print file/ }).click();
   await state(page, "error");
   const file = page.locator("cusp-settings .field", { has: page.getByLabel("Print file") }).getByRole("alert");
-  await file.getByRole("button", { name: "Uniform layers of 0.05 mm" }).click();
+  await file.getByRole("button", { name: /^Uniform layers of 0\.\d+ mm \(\d+ layers\)$/ }).click();
   await settled(page);
   expect(await page.locator("#file").innerText()).toContain("The Prusa SL1S SPEED reads it directly.");
   const saved = await download(page);
   expect(saved.suggestedFilename()).toBe("ball-cusp.sl1s");
+});
+
+test("the printers are listed by maker, and the file of one that takes one thickness is a button away", async () => {
+  const page = await opened("?backend=cpu");
+  const list = page.getByLabel("Printer", { exact: true });
+  const makers = await list.locator("optgroup").evaluateAll((groups) => groups.map((it) => (it as HTMLOptGroupElement).label));
+  expect(makers).toEqual(makers.toSorted(new Intl.Collator("en").compare));
+  expect(makers).toEqual(expect.arrayContaining(["Anycubic", "Elegoo", "Phrozen", "Prusa"]));
+  const saturns = await list.locator("optgroup[label=Elegoo] option").allInnerTexts();
+  expect(saturns.indexOf("Saturn 4 Ultra 16K")).toBe(saturns.indexOf("Saturn 4 Ultra 12K") + 1);
+
+  await list.selectOption({ label: "Photon Mono M5s" });
+  await settled(page);
+  expect(await page.getByLabel("Print file").locator("option").first().innerText()).toBe("Anycubic, to 2023 – the printer’s own");
+  const warning = page.locator(".warning", { hasText: "Anycubic Photon Mono M5s takes one thickness for all layers" });
+  const offer = warning.getByRole("button", { name: /^Uniform layers of 0\.\d+ mm \(\d+ layers\)$/ });
+  const offered = await offer.innerText();
+  await offer.click();
+  await settled(page);
+  expect(await warning.count()).toBe(0);
+  expect(offered).toContain(`(${await layers(page)} layers)`);
+  expect(await page.locator("#file").innerText()).toMatch(/^A \.pm5s file\. The Anycubic Photon Mono M5s reads it directly\./);
+  expect((await download(page)).suggestedFilename()).toBe("ball-cusp.pm5s");
+});
+
+test("a printer of one's own is opened from a file, kept in the address, and stays in the list", async () => {
+  const page = await opened("?backend=cpu");
+  const list = page.getByLabel("Printer", { exact: true });
+  const open = async (name: string, text: string): Promise<void> => {
+    await list.selectOption("Own printer…");
+    await page.locator("cusp-settings input[type=file]").setInputFiles({ name, mimeType: "application/json", buffer: Buffer.from(text) });
+  };
+  const problem = page.locator("cusp-settings .field", { has: list }).getByRole("alert");
+  const mine = { model: "Big One", pixels: [2000, 1000], pitch_um: [60, 60], volume_mm: [120, 60, 200], format: "goo", reads: ["goo"] };
+
+  await list.selectOption("Own printer…");
+  expect(await page.locator("#printer-hint").innerText()).toBe("A JSON file with at least pixels, pitch_um and volume_mm.");
+  expect(await page.getByLabel("Open its description").count()).toBe(1);
+
+  await open("big.json", "solid");
+  await state(page, "error");
+  expect(await problem.innerText()).toContain("This file does not describe a printer in JSON");
+  await open("big.json", JSON.stringify({ ...mine, volume_mm: undefined }));
+  await expect.poll(() => problem.innerText()).toContain("missing field `volume_mm`");
+  await open("big.json", JSON.stringify({ ...mine, step_mm: -1 }));
+  await expect.poll(() => problem.innerText()).toContain("The printer big cannot have this step_mm; correct its description.");
+  await open("big.json", JSON.stringify(mine));
+  await settled(page);
+  expect(await list.locator("option:checked").innerText()).toBe("Big One");
+  expect(await page.locator("#printer-hint").innerText()).toMatch(/^Big One: 2,000 × 1,000 pixels of 60\u00a0µm/);
+  expect(await page.locator("#file").innerText()).toMatch(/^A \.goo file\. The Big One reads it directly\./);
+  const count = await layers(page);
+
+  await list.selectOption("saturn-3");
+  await settled(page);
+  await list.selectOption("Big One");
+  await settled(page);
+  expect(await list.locator("option:checked").innerText()).toBe("Big One");
+  const again = await opened(new URL(page.url()).search);
+  expect(await again.getByLabel("Printer", { exact: true }).locator("option:checked").innerText()).toBe("Big One");
+  expect(await layers(again)).toBe(count);
 });

@@ -140,11 +140,11 @@ withCusp("a customer sees look, time, resin and price, chooses, and orders", asy
   const { options } = JSON.parse(await readFile(join(folder, "plan.json"), "utf8")) as { options: Required<Options> };
   const scratch = await newFolder("scratch");
   await writeFile(join(scratch, "resin.json"), JSON.stringify(options.resin));
-  const own = join(scratch, "own.zip");
+  const own = join(scratch, "own.goo");
   const call = ["slice", "--printer", printer.name, "--tolerance", String(options.tolerance), "--resin", join(scratch, "resin.json")];
   call.push("--rotation", String(options.rotation));
   execFileSync(cusp, [...call, "-o", own, join(folder, "model.stl")], { stdio: "ignore" });
-  expect((await readFile(own)).equals(await readFile(join(folder, "print.zip")))).toBe(true);
+  expect((await readFile(own)).equals(await readFile(join(folder, "print.goo")))).toBe(true);
   expect(complaints).toEqual([]);
 }, 120_000);
 

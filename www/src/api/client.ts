@@ -7,7 +7,7 @@
  */
 import * as Comlink from "comlink";
 import { isAbort, ofCore, said, SlicerError } from "./error.js";
-import type { Comparison, MeshInfo, OnProgress, Options, Printer, Profiled, Report, SlicerWorker, Tradeoff } from "./wire.js";
+import type { Comparison, KnownPrinter, MeshInfo, OnProgress, Options, Profiled, Report, SlicerWorker, Tradeoff } from "./wire.js";
 
 /** The worker's interface as seen from this side, where every method may return a promise. */
 export type Remote = {
@@ -178,7 +178,7 @@ export class Client {
     return this.#about(about, watch, async (life, progress) => question(life.handle.remote, progress));
   }
 
-  printers(): Promise<Printer[]> {
+  printers(): Promise<KnownPrinter[]> {
     return this.#run({}, null, (life) => Promise.resolve(life.handle.remote.printers()));
   }
 

@@ -9,6 +9,8 @@ interface OwnDetails {
   "no-model": null;
   /** The bytes of the file could not be read. */
   "file-unreadable": null;
+  /** The file that should describe a printer holds no JSON object. */
+  "printer-not-json": SystemDetail;
   /** The model's URL returned an HTTP error, or could not be reached. */
   "fetch-failed": { status: number } | SystemDetail;
   /** The worker or the WebAssembly module could not be started. */

@@ -18,7 +18,7 @@ import { Client, spawnWorker, type About, type Compiled, type WorkerHandle, type
 import { orient, type OrientCall } from "./orient.js";
 import { Pool } from "./pool.js";
 import { resolve, stemOf, type Source } from "./source.js";
-import type { Comparison, Preview, MeshInfo, Options, Printer, Profiled, Report, SearchOptions, SearchResult, Tradeoff, Warning } from "./wire.js";
+import type { Comparison, KnownPrinter, MeshInfo, Options, Preview, Profiled, Report, SearchOptions, SearchResult, Tradeoff, Warning } from "./wire.js";
 
 export { isAbort, SlicerError, type ErrorCode, type ErrorDetails } from "./error.js";
 export type { WarningCode, WarningDetails } from "./warning.js";
@@ -123,7 +123,7 @@ export interface Slicer {
   /** Reads the weights of such a file, which must belong to the open model; `setWeights()` applies them. */
   readWeights(file: Source, call?: Watch): Promise<Float32Array>;
   /** The known printers, whose names `options.printer` accepts. */
-  printers(): Promise<Printer[]>;
+  printers(): Promise<KnownPrinter[]>;
   /** Starts the worker before it is needed. */
   warm(): void;
   /** Terminates the workers: running calls reject with an `AbortError`. The next call restores the model and the plan. */

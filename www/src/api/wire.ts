@@ -26,9 +26,13 @@ export type {
   Snap,
   StlExpected,
   TradeoffPoint,
+  UniformLayers,
   Unit,
   Warning,
 } from "../../pkg/cusp_slicer.js";
+
+/** A printer that is known by name. Its description is complete, except for `machine` and `file_version`, which few have. */
+export type KnownPrinter = Printer & Required<Omit<Printer, "machine" | "file_version">>;
 
 /** Called as a stage advances: `fraction` is 0 to 1 within the stage, `done` within the whole task. */
 export type OnProgress = (stage: Stage, fraction: number, done: number) => void;
@@ -101,7 +105,7 @@ export interface SlicerWorker {
   advanceSearch(results: TaskResult[], most: number, rateFrom: number): SearchStep;
   /** Runs tasks of a search that this or another worker holds. */
   evaluate(options: Options, tasks: Task[]): TaskResult[];
-  printers(): Printer[];
+  printers(): KnownPrinter[];
 }
 
 /** The core's own defaults, which a form shows before the worker has started. A test compares them with the core. */
@@ -127,7 +131,7 @@ export function sameRays(a: Options, b: Options): boolean {
     a.height_mm === b.height_mm &&
     a.rays === b.rays &&
     a.antialias === b.antialias &&
-    a.printer === b.printer &&
+    JSON.stringify(a.printer) === JSON.stringify(b.printer) &&
     a.pitch_mm === b.pitch_mm &&
     a.pitch_y_mm === b.pitch_y_mm &&
     a.backend === b.backend &&

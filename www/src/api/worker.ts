@@ -2,7 +2,7 @@
 import * as Comlink from "comlink";
 import init, { head_bytes, identify, OrientationSearch, printers, Slicer } from "../../pkg/cusp_slicer.js";
 import { acceptCompatible } from "./adapters.js";
-import type { Candidate, OnProgress, SlicerWorker } from "./wire.js";
+import type { Candidate, KnownPrinter, OnProgress, SlicerWorker } from "./wire.js";
 
 /** Chunks of a print file are merged into a Blob at this many bytes; the browser may keep that on disk. */
 const BLOB_PART_BYTES = 8 << 20;
@@ -165,7 +165,8 @@ const api: SlicerWorker = {
     const measure = (directions: [number, number, number][]): Candidate[] => current().evaluate(options, Float64Array.from(directions.flat()));
     return tasks.map(({ number, directions }) => ({ number, candidates: measure(directions) }));
   },
-  printers,
+  // The core fills in what its list leaves out.
+  printers: () => printers() as KnownPrinter[],
 };
 
 if (globalThis.navigator?.gpu !== undefined) acceptCompatible(navigator.gpu);

@@ -7,7 +7,7 @@ import { LitElement, type PropertyValues, type TemplateResult } from "lit";
 import { SlicerError } from "../api/error.js";
 import { createSlicer, type Model, type Plan, type PrintFile, type Slicer } from "../api/index.js";
 import type { Source } from "../api/source.js";
-import type { Backend, Format, GpuMethod, Metric, Resin } from "../api/wire.js";
+import type { Backend, Format, GpuMethod, Metric, Printer, Resin } from "../api/wire.js";
 import { languageOf, type Language } from "../texts/index.js";
 import { Attributes, settingsOf } from "./state/attributes.js";
 import { isFiles } from "./state/choice.js";
@@ -141,11 +141,11 @@ export class CuspSlicer extends LitElement {
     this.requestUpdate();
   }
 
-  /** Name of a printer (see `slicer.printers()`); empty for none. */
-  get printer(): string {
+  /** Name of a printer (see `slicer.printers()`), or the description of another; empty for none. */
+  get printer(): string | Printer {
     return this.#session.settings.printer;
   }
-  set printer(printer: string | null) {
+  set printer(printer: string | Printer | null) {
     this.#attributes.set("printer", printer);
   }
 

@@ -6,8 +6,9 @@ import type { PropertyDeclaration } from "lit";
 import type { Backend, GpuMethod } from "../api/wire.js";
 import { METRIC_NAMES } from "./state/metric.js";
 import { PANELS } from "./state/panel-names.js";
-import { fraction, languageTag, number, oneOf, someOf, text, type Reader } from "./state/readers.js";
-import { FORMATS, type Settings } from "./state/settings.js";
+import { fraction, languageTag, number, oneOf, printer, someOf, text, type Reader } from "./state/readers.js";
+import { FORMATS } from "./state/printer.js";
+import type { Settings } from "./state/settings.js";
 
 /** A property that is also an attribute. */
 interface Attribute {
@@ -29,7 +30,7 @@ function byAttribute<List extends Attributes>(list: List): ByAttribute<List> {
 
 /** The metric comes before the tolerance, which is in its unit. */
 const SETTING_PROPERTIES = {
-  printer: { attribute: "printer", read: text, sets: "printer" },
+  printer: { attribute: "printer", read: printer, sets: "printer" },
   format: { attribute: "format", read: oneOf(FORMATS), sets: "format" },
   resin: { attribute: "resin", read: text, sets: "resin" },
   metric: { attribute: "metric", read: oneOf(METRIC_NAMES), sets: "metric" },

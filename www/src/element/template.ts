@@ -18,6 +18,7 @@ import { explain, type Problem } from "./state/problem.js";
 import { problemBox } from "./parts/problem-box.js";
 import type { PlotPlace } from "./panels/profile-chart.js";
 import { progressBar } from "./parts/progress.js";
+import { printerOf } from "./state/printer.js";
 import type { Result } from "./state/result.js";
 import type { Session } from "./state/session.js";
 import { hasPlace } from "./panels/settings-form.js";
@@ -137,6 +138,7 @@ function settingsCard({ session, language, problem, isBeside }: Drawn, isWide: b
       .problem=${isBeside ? problem : null}
       .language=${language}
       @cusp-settings=${(event: CustomEvent<Partial<Settings>>) => session.change(event.detail)}
+      @cusp-open-printer=${(event: CustomEvent<File>) => void session.openPrinter(event.detail)}
       @cusp-dismiss=${() => session.dismiss()}
     ></cusp-settings>
   </details>`;
@@ -178,7 +180,7 @@ function results(drawn: Drawn, result: Result): TemplateResult {
             .layer=${layer}
             .rotation=${turning ?? rotationOf(settings.rotation)}
             .scaled=${scaledOf(session)}
-            .printer=${session.printers.find(({ name }) => name === settings.printer) ?? null}
+            .printer=${printerOf(settings.printer, session.printers)}
             .settings=${settings}
             .weights=${session.weights}
             .language=${language}

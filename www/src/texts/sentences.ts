@@ -28,8 +28,14 @@ export const STL_KEYWORDS = {
   endfacet: "`endfacet`",
 } as const;
 
+/** What the border of the core adds to a message of its parser. */
+const BORDER = /^Failed to deserialize JsValue into type `[^`]*`: (Error: )?/;
+
 /** A message of the system as the end of a sentence: it may already have a full stop. */
-export const ended = (system: string): string => (/[.!?。！？]$/.test(system.trim()) ? system.trim() : `${system.trim()}.`);
+export function ended(system: string): string {
+  const said = system.replace(BORDER, "").trim();
+  return /[.!?。！？]$/.test(said) ? said : `${said}.`;
+}
 
 /** Selects the advice on a file of another kind. */
 export function adviceOn<T>(kind: FileKind, advice: { packed: T; page: T; model: T }): T {

@@ -8,8 +8,8 @@ import { Busboy, type BusboyFileStream, type BusboyHeaders } from "@fastify/busb
 import { MOST_COPIES, type PartName } from "../catalogue.js";
 import { Refusal } from "./refusal.js";
 
-/** The names of the files in any order's folder. */
-export const FILES: Readonly<Record<PartName, string>> = { plan: "plan.json", model: "model.stl", print: "print.zip" };
+/** The names of the files in any order's folder: all printers of the shop take the same format. */
+export const FILES: Readonly<Record<PartName, string>> = { plan: "plan.json", model: "model.stl", print: "print.goo" };
 
 const PARTS = Object.keys(FILES) as PartName[];
 

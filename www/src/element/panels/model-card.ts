@@ -1,7 +1,8 @@
 /** The card of the open model. */
 import { html, nothing, type TemplateResult } from "lit";
 import type { Language } from "../../texts/index.js";
-import { warningWords } from "../state/problem.js";
+import { offerButtons } from "../parts/problem-box.js";
+import { advise } from "../state/problem.js";
 import type { Session } from "../state/session.js";
 
 export interface ModelActions {
@@ -9,11 +10,16 @@ export interface ModelActions {
   openFile(place: number): void;
 }
 
-/** The warnings of the model and its plan, each once. */
-export function warnings({ model, result }: Session, language: Language): readonly TemplateResult[] {
+/** The warnings of the model and its plan, with what may help. */
+export function warnings(session: Session, language: Language): readonly TemplateResult[] {
+  const { model, result, fixed } = session;
   const all = [...(model?.info.warnings ?? []), ...(result?.report.warnings ?? [])];
-  const words = new Set(all.map((it) => warningWords(it, language)));
-  return [...words].map((sentence) => html`<p class="warning">${sentence}</p>`);
+  return advise(all, language, fixed).map(
+    ({ text, offers }) => html`<div class="warning">
+      <p>${text}</p>
+      ${offerButtons(offers, (change) => session.change(change))}
+    </div>`,
+  );
 }
 
 export function modelCard(session: Session, language: Language, { picked, openFile }: ModelActions): TemplateResult {

@@ -1,17 +1,17 @@
 /** The settings as a form. It keeps no settings: it shows those that it is given, and reports what is typed. */
 import { html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
-import { DEFAULTS, type Format, type MeshInfo } from "../../api/wire.js";
+import { DEFAULTS, type MeshInfo, type Printer } from "../../api/wire.js";
 import { languageOf } from "../../texts/index.js";
-import { formatFor } from "../state/choice.js";
 import { METRIC_NAMES, METRICS } from "../state/metric.js";
 import type { Choice, Problem } from "../state/problem.js";
 import { problemBox, problemStyles } from "../parts/problem-box.js";
-import { DEFAULT_SETTINGS, faultWords, FORMATS, RAYS, usualTolerance, withTolerance } from "../state/settings.js";
+import { byMaker, FORMATS, formatFor, modelOf, printerOf } from "../state/printer.js";
+import { DEFAULT_SETTINGS, faultWords, RAYS, usualTolerance, withTolerance } from "../state/settings.js";
 import type { Faults, Field, Offered, Settings } from "../state/settings.js";
 import { settingsStyles } from "../styles/settings-styles.js";
 import { shared } from "../styles/shared.js";
-import { elementWith, given } from "../../view/properties.js";
+import { elementWith, given, own } from "../../view/properties.js";
 
 /** Settings that are hidden at first, unless one differs from its default. */
 const MORE = ["minimize", "snap", "step", "exposure", "bottomExposure", "bottomLayers"] as const;
@@ -22,6 +22,24 @@ export function hasPlace({ field }: Problem, { printer }: Settings, { printers }
   if (field === "printer") return printers.length > 0;
   return field !== "rays" || printer === "";
 }
+
+/** Options of the list of printers that are no names. */
+const OWN = "{}";
+const OPEN = "{…}";
+
+/** What a list has besides its options. */
+interface Choosing {
+  hint?: string;
+  /** The chosen option, if it is not the setting itself. */
+  value?: string;
+  /** What a choice does, if it does not set the setting. */
+  change?: (value: string) => void;
+  /** Shown below. */
+  more?: TemplateResult | typeof nothing;
+}
+
+const options = (choices: readonly (readonly [value: string, name: string])[], chosen: string): TemplateResult[] =>
+  choices.map(([value, name]) => html`<option value=${value} ?selected=${value === chosen}>${name}</option>`);
 
 const PROPERTIES = {
   settings: given(DEFAULT_SETTINGS),
@@ -35,15 +53,20 @@ const PROPERTIES = {
   /** A failure that one of these settings caused, to be shown beside that setting. */
   problem: given<Problem | null>(null),
   language: given(languageOf()),
+  /** Whether the description of one's own printer is to be opened. */
+  isOpening: own(false),
 };
 
 export class CuspSettings extends elementWith(PROPERTIES) {
   /** Whether the hidden settings are expanded at first; null before any settings are given. */
   #moreAtFirst: boolean | null = null;
+  /** The last printer of one's own. */
+  #own: Printer | null = null;
 
   static override styles = [shared, problemStyles, settingsStyles];
 
   override willUpdate(changed: PropertyValues<this>): void {
+    if (typeof this.settings.printer === "object") this.#own = this.settings.printer;
     // Settings changed by the URL must be visible. After that, the user expands and collapses them.
     if (!changed.has("settings") || this.#moreAtFirst !== null) return;
     this.#moreAtFirst = MORE.some((key) => this.settings[key] !== DEFAULT_SETTINGS[key]);
@@ -62,8 +85,8 @@ export class CuspSettings extends elementWith(PROPERTIES) {
         ${this.#select(
           "metric",
           words.metric,
-          METRIC_NAMES.map((metric) => [metric, texts.metrics[metric].name]),
-          texts.metrics[settings.metric].help,
+          options(METRIC_NAMES.map((metric) => [metric, texts.metrics[metric].name]), settings.metric),
+          { hint: texts.metrics[settings.metric].help },
         )}
         ${this.#tolerance()}
         <div class="pair">${this.#length("layerMin", words.thinnest)} ${this.#length("layerMax", words.thickest)}</div>
@@ -74,36 +97,21 @@ export class CuspSettings extends elementWith(PROPERTIES) {
           ? this.#select(
               "rays",
               words.resolution,
-              RAYS.map((rays) => [String(rays), words.pixels(format.count(rays))]),
-              words.resolutionHint,
+              options(RAYS.map((rays) => [String(rays), words.pixels(format.count(rays))]), settings.rays),
+              { hint: words.resolutionHint },
             )
           : nothing}
-        ${this.#select(
-          "format",
-          words.format,
-          [
-            ...(settings.printer === "" ? [] : [["", words.formatUsual] as const]),
-            ...FORMATS.map((format) => [format, words.formats[format]] as const),
-          ],
-          this.#file === "sl1" && !isUniform ? words.formatUniform : "",
-          settings.format === "" && settings.printer === "" ? "png" : settings.format,
-        )}
+        ${this.#format()}
         ${offered.resins.length === 0
           ? nothing
           : this.#select(
               "resin",
               words.resin,
-              [["", words.resinUsual], ...offered.resins.map(({ name = "" }) => [name, name] as const)],
+              options([["", words.resinUsual], ...offered.resins.map(({ name = "" }) => [name, name] as const)], settings.resin),
             )}
         ${this.#more(isUniform)}
       </form>
     `;
-  }
-
-  /** The print format that these settings give. */
-  get #file(): Format {
-    const { printer, format } = this.settings;
-    return formatFor({ printer, format }, this.offered.printers);
   }
 
   #plannerHint(): string {
@@ -113,20 +121,59 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     return minimize === "time" ? words.quickestHint : words.fewestHint;
   }
 
+  /** The printers by maker. One's own stays in the list while another is chosen. */
   #printer(): TemplateResult {
-    const { settings, offered, language } = this;
-    const { texts, format } = language;
-    const chosen = offered.printers.find(({ name }) => name === settings.printer);
-    const hint =
-      chosen === undefined
-        ? ""
-        : texts.settings.printerHint(
-            chosen.pixels.map(format.count).join(" × "),
-            `${[...new Set(chosen.pitch_um)].map(format.tick).join(" × ")}\u00a0µm`,
-            format.dimensions(chosen.volume_mm),
-          );
-    const models = offered.printers.map(({ name, model }) => [name, model] as const);
-    return this.#select("printer", texts.settings.printer, [["", texts.settings.noPrinter], ...models], hint);
+    const { settings, offered, language, isOpening } = this;
+    const words = language.texts.settings;
+    const value = isOpening ? OPEN : typeof settings.printer === "string" ? settings.printer : OWN;
+    // Each part has its place, so that no option becomes another one.
+    const list = html`${options([["", words.noPrinter]], value)}
+      ${this.#own === null ? nothing : options([[OWN, modelOf(this.#own)]], value)}
+      ${options([[OPEN, words.ownPrinter]], value)}
+      ${byMaker(offered.printers).map(([maker, models]) => html`<optgroup label=${maker}>${options(models, value)}</optgroup>`)}`;
+    const change = (value: string): void => {
+      // Not a file dialog at once: arrow keys change a closed list, too.
+      this.isOpening = value === OPEN;
+      if (!this.isOpening) this.#say({ printer: value === OWN ? (this.#own ?? "") : value });
+    };
+    const more = isOpening ? this.#opener() : nothing;
+    return this.#select("printer", words.printer, list, { value, change, more, hint: isOpening ? words.ownPrinterHint : this.#printerHint() });
+  }
+
+  #printerHint(): string {
+    const { settings, offered, language: { texts, format } } = this;
+    const printer = printerOf(settings.printer, offered.printers);
+    if (printer === null) return "";
+    const { pixels, pitch_um, volume_mm } = printer;
+    return texts.settings.printerHint(
+      modelOf(printer),
+      pixels.map(format.count).join(" × "),
+      `${[...new Set(pitch_um)].map(format.tick).join(" × ")}\u00a0µm`,
+      format.dimensions(volume_mm),
+    );
+  }
+
+  /** The button that opens the description of one's own printer. */
+  #opener(): TemplateResult {
+    const open = ({ target }: Event): void => {
+      const [file] = (target as HTMLInputElement).files ?? [];
+      if (file === undefined) return;
+      this.isOpening = false;
+      this.dispatchEvent(new CustomEvent<File>("cusp-open-printer", { detail: file }));
+    };
+    return html`<label class="button small open">
+      <input class="visually-hidden" type="file" accept=".json,application/json" @change=${open} />${this.language.texts.settings.openPrinter}
+    </label>`;
+  }
+
+  #format(): TemplateResult {
+    const { settings: { printer, format }, offered } = this;
+    const words = this.language.texts.settings;
+    const value = format === "" && printer === "" ? "png" : format;
+    const usual = formatFor({ printer, format: "" }, offered.printers);
+    const list = html`${printer === "" ? nothing : options([["", words.formatUsual(words.formats[usual])]], value)}
+      ${options(FORMATS.map((format) => [format, words.formats[format]]), value)}`;
+    return this.#select("format", words.format, list, { value });
   }
 
   /** Settings that few users need. */
@@ -201,14 +248,9 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     </div>`;
   }
 
-  #select<Key extends Choice>(
-    key: Key,
-    label: string,
-    choices: readonly (readonly [Settings[Key], string])[],
-    hint = "",
-    chosen: Settings[Key] = this.settings[key],
-  ): TemplateResult {
+  #select(key: Choice, label: string, list: unknown, { hint = "", value, change, more = nothing }: Choosing = {}): TemplateResult {
     const isFixed = this.fixed.has(key);
+    const say = change ?? ((value: string): void => this.#say({ [key]: value }));
     const words = this.#hint(hint, isFixed);
     return html`<div class="field">
       <label for=${key}>${label}</label>
@@ -217,13 +259,13 @@ export class CuspSettings extends elementWith(PROPERTIES) {
           id=${key}
           aria-describedby=${words === "" ? nothing : `${key}-hint`}
           ?disabled=${isFixed}
-          .value=${live(chosen)}
-          @change=${(event: Event) => this.#say({ [key]: (event.target as HTMLSelectElement).value })}
+          .value=${live(value ?? this.settings[key])}
+          @change=${(event: Event) => say((event.target as HTMLSelectElement).value)}
         >
-          ${choices.map(([value, name]) => html`<option value=${value} ?selected=${value === chosen}>${name}</option>`)}
+          ${list}
         </select>
       </div>
-      ${words === "" ? nothing : html`<p class="hint" id="${key}-hint">${words}</p>`} ${this.#beside(key)}
+      ${words === "" ? nothing : html`<p class="hint" id="${key}-hint">${words}</p>`} ${more} ${this.#beside(key)}
     </div>`;
   }
 

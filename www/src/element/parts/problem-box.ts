@@ -1,7 +1,7 @@
-/** The box that shows a failure: what happened, and a button for each offer. */
+/** The box that shows a failure: what happened, and the buttons of its offers. */
 import { css, html, nothing, type TemplateResult } from "lit";
 import type { Language } from "../../texts/index.js";
-import type { Problem } from "../state/problem.js";
+import type { Offer, Problem } from "../state/problem.js";
 import type { Settings } from "../state/settings.js";
 
 export const problemStyles = css`
@@ -42,6 +42,13 @@ export const problemStyles = css`
   }
 `;
 
+export function offerButtons(offers: readonly Offer[], change: (change: Partial<Settings>) => void): TemplateResult | typeof nothing {
+  if (offers.length === 0) return nothing;
+  return html`<div class="offers">
+    ${offers.map((offer) => html`<button class="small" @click=${() => change(offer.change)}>${offer.label}</button>`)}
+  </div>`;
+}
+
 export function problemBox(
   { code, title, text, offers }: Problem,
   { texts }: Language,
@@ -52,11 +59,7 @@ export function problemBox(
     <div>
       <h2>${title}</h2>
       <p>${text}</p>
-      ${offers.length === 0
-        ? nothing
-        : html`<div class="offers">
-            ${offers.map((offer) => html`<button class="small" @click=${() => change(offer.change)}>${offer.label}</button>`)}
-          </div>`}
+      ${offerButtons(offers, change)}
     </div>
     <button class="small" @click=${close}>${texts.notices.close}</button>
   </section>`;

@@ -1,20 +1,19 @@
 import { beforeEach, expect, test } from "vitest";
 import type { SlicerError } from "../../api/error.js";
-import type { Printer } from "../../api/wire.js";
+import type { KnownPrinter, Printer } from "../../api/wire.js";
 import { Attributes, settingsOf } from "./attributes.js";
 import type { SettingName } from "../properties.js";
 import { Preferences } from "./preferences.js";
-import { DEFAULT_SETTINGS, fromAddress } from "./settings.js";
+import { FORMATS } from "./printer.js";
+import { knownPrinter } from "./printer-fixture.js";
+import { DEFAULT_SETTINGS, fromAddress, toAddress } from "./settings.js";
 
 class Wishes extends Preferences {
   protected override preferred(): void {}
+  protected override refused(): void {}
 }
 
-const printer = (name: string, thinnest: number): Printer => ({
-  ...{ name, model: name, pixels: [100, 100], pitch_um: [50, 50], volume_mm: [5, 5, 5] },
-  ...{ layer_mm: [thinnest, 0.2], is_mirrored: true, step_mm: 0.002, format: "chitubox" },
-  ...{ reads: ["ctb"], reads_format: false },
-});
+const printer = (name: string, thinnest: number): KnownPrinter => knownPrinter({ name, layer_mm: [thinnest, 0.2] });
 
 let wishes: Wishes;
 let attributes: Attributes;
@@ -67,7 +66,7 @@ test("the message names the attribute, the value and what was expected", () => {
 
 test.each([
   ["metric", "cups", ["cusp", "deviation", "roughness", "area", "volume"]],
-  ["format", "zip", ["png", "chitubox", "uvj", "sl1"]],
+  ["format", "zip", [...FORMATS]],
   ["backend", "auto", ["cpu", "gpu"]],
 ] as const)("%s must be one of a list, which the error names", (attribute, value, known) => {
   expect(attributes.read(attribute, value)).toBeUndefined();
@@ -141,6 +140,30 @@ test("a printer is checked once the list has arrived", () => {
   expect(wishes.settings.printer).toBe("saturn");
 });
 
+test("a long list of known names is in the error, and counted in its message", () => {
+  wishes.printers = Array.from({ length: 30 }, (_, i) => printer(`p${i}`, 0.01));
+  attributes.set("printer", "q");
+  attributes.settle();
+  expect(told[0]?.message).toBe(`printer="q" is none of the 30 known ones; the last good value stays`);
+  expect(told[0]?.detail).toMatchObject({ known: expect.arrayContaining(["p0", "p29"]) });
+});
+
+test("a printer of one's own is described, whatever the list; what is no description is reported", () => {
+  const own: Printer = { pixels: [3840, 2400], pitch_um: [50, 50], volume_mm: [192, 120, 245] };
+  wishes.printers = [printer("mars", 0.01)];
+  attributes.set("printer", own);
+  attributes.offered();
+  expect(details()).toEqual([]);
+  expect(wishes.settings.printer).toBe(own);
+  expect(wishes.options).toMatchObject({ printer: own });
+  const wrong = { ...own, pitch_um: 50 };
+  attributes.set("printer", wrong);
+  attributes.settle();
+  expect(told[0]?.message).toMatch(/^printer=\{"pixels":.* is neither a name nor a description with pixels, pitch_um and volume_mm; the last good value stays$/);
+  expect(details()).toMatchObject([{ attribute: "printer", value: wrong }]);
+  expect(wishes.settings.printer).toBe(own);
+});
+
 test("two unknown printers set before the list arrives leave no printer", () => {
   attributes.set("printer", "jupiter");
   attributes.settle();
@@ -200,4 +223,14 @@ test("only the page changes what is fixed: edits, queries and undo do not", () =
   expect(wishes.settings).toMatchObject({ ...fixed, metric: "area", height: "" });
   attributes.set("printer", "saturn");
   expect(wishes.settings.printer).toBe("saturn");
+});
+
+test("nobody brings a printer of their own where the page has fixed one", async () => {
+  const own: Printer = { name: "mars", pixels: [1, 1], pitch_um: [50, 50], volume_mm: [1, 1, 1] };
+  wishes.fixed = settingsOf(["printer"]);
+  attributes.set("printer", "mars");
+  await wishes.openPrinter(new File([JSON.stringify(own)], "mine.json"));
+  wishes.change({ printer: own });
+  wishes.restore(fromAddress(toAddress({ ...DEFAULT_SETTINGS, printer: own })));
+  expect(wishes.settings.printer).toBe("mars");
 });

@@ -109,7 +109,7 @@ export class Attributes {
     const within = (fault: Fault | undefined, scale = 1): Wrong | null => (fault === undefined ? null : { words: said(fault, scale) });
     switch (name) {
       case "printer":
-        return unknown(settings.printer, printers.map(({ name }) => name));
+        return typeof settings.printer === "string" ? unknown(settings.printer, printers.map(({ name }) => name)) : null;
       case "resin":
         return unknown(settings.resin, resins.map(({ name = "" }) => name));
       case "tolerance":
@@ -126,7 +126,8 @@ export class Attributes {
   #note(attribute: Name, value: unknown, { words, known }: Wrong, isPart: boolean): void {
     const rest = isPart ? "the others count" : "the last good value stays";
     const detail = { attribute, value, ...(known !== undefined && { known }) };
-    this.#errors.push(new SlicerError("bad-attribute", `${attribute}="${String(value)}" ${words}; ${rest}`, detail));
+    const text = typeof value === "string" || typeof value === "number" ? `"${value}"` : JSON.stringify(value);
+    this.#errors.push(new SlicerError("bad-attribute", `${attribute}=${text} ${words}; ${rest}`, detail));
     this.#schedule();
   }
 

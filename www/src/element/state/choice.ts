@@ -1,6 +1,5 @@
-/** Which files of a drop or a file dialog are opened, the default print format, and the names of weight files. */
+/** Which files of a drop or a file dialog are opened, and the names of weight files. */
 import { stemOf, type Source } from "../../api/source.js";
-import type { Format, Printer } from "../../api/wire.js";
 
 export interface Named {
   readonly name: string;
@@ -17,11 +16,6 @@ export function choose<T extends Named>(files: readonly T[]): readonly T[] {
 
 /** The name of a model's weight file: `bunny.stl` gives `bunny.weights`. */
 export const weightsName = (model: string): string => `${stemOf(model)}.weights`;
-
-/** The print format that settings give before there is a plan. */
-export function formatFor({ printer, format }: { printer: string; format: Format | "" }, printers: readonly Printer[]): Format {
-  return format || printers.find(({ name }) => name === printer)?.format || "png";
-}
 
 export function isFiles(source: Source | readonly File[]): source is readonly File[] {
   return Array.isArray(source);

@@ -1,6 +1,7 @@
 /** What the user wants: the settings, with their undo steps, and the printers and resins to choose from. */
-import type { Backend, GpuMethod, Options, Printer, Resin } from "../../api/wire.js";
+import type { Backend, GpuMethod, KnownPrinter, Options, Resin } from "../../api/wire.js";
 import { History } from "./history.js";
+import { readPrinter } from "./printer.js";
 import { check, type Faults, type Offered, type Settings } from "./settings.js";
 
 /** Pause after the last keystroke before the settings are planned. */
@@ -12,7 +13,7 @@ export abstract class Preferences implements Offered {
   backend: Backend | null;
   /** How a GPU samples; null leaves the choice to the core. */
   gpuMethod: GpuMethod | null = null;
-  printers: readonly Printer[] = [];
+  printers: readonly KnownPrinter[] = [];
   resins: readonly Resin[] = [];
   /** Settings that only the page may change. */
   fixed: ReadonlySet<keyof Settings> = new Set();
@@ -25,6 +26,9 @@ export abstract class Preferences implements Offered {
 
   /** Called when the settings have changed: they are to be planned after this time, unless they change again. */
   protected abstract preferred(delay_ms: number): void;
+
+  /** Called when a file cannot be read, with its name: a failure to show. */
+  protected abstract refused(error: unknown, name: string): void;
 
   get faults(): Faults {
     const checked = check(this.settings, this);
@@ -67,6 +71,15 @@ export abstract class Preferences implements Offered {
   change(patch: Partial<Settings>, kind = Object.keys(patch).join()): void {
     this.#history.note(this.settings, kind, performance.now());
     this.#set(this.#allowed({ ...this.settings, ...patch }), DEBOUNCE_MS);
+  }
+
+  /** Chooses the printer that a file describes. */
+  async openPrinter(file: File): Promise<void> {
+    try {
+      this.change({ printer: await readPrinter(file) });
+    } catch (error) {
+      this.refused(error, file.name);
+    }
   }
 
   undo(): void {

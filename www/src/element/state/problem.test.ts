@@ -1,8 +1,8 @@
 import { expect, test } from "vitest";
 import { SlicerError, type ErrorCode, type ErrorDetails } from "../../api/error.js";
-import type { Warning } from "../../api/wire.js";
+import type { Printer, Warning } from "../../api/wire.js";
 import { languageOf } from "../../texts/index.js";
-import { explain as explainIn, warningWords } from "./problem.js";
+import { advise, explain as explainIn } from "./problem.js";
 import { DEFAULT_SETTINGS, type Settings } from "./settings.js";
 
 function explain(
@@ -90,7 +90,10 @@ test.each([
 
 /** A model that fits at about half its size. */
 const TOO_LARGE = failed("model-too-large", { model_mm_x: 2, model_mm_y: 2, grid_mm_x: 1.0024, grid_mm_y: 2, fitting_scale: 0.5012 });
-const UNIFORM_ONLY = failed("uniform-only", { format: "sl1", others: ["chitubox", "uvj", "png"] });
+const BEST = { layer_mm: 0.068, layers: 882 };
+const BEST_OFFER = { label: "Uniform layers of 0.068\u00a0mm (882 layers)", change: { planner: "uniform", uniform: "0.068" } };
+const uniformOnly = (best: typeof BEST | undefined): SlicerError =>
+  failed("uniform-only", { format: "sl1", others: ["goo", "ctb", "chitubox", "uvj", "png"], best });
 
 test("out of memory offers half the rays, down to the minimum", () => {
   const error = failed("out-of-memory", { hits: 1, needed_bytes: 8 });
@@ -110,7 +113,7 @@ test("a model that is too large offers to scale it to fit, or to leave out the p
 test("no offer changes what the page has fixed", () => {
   const { offers } = explain(TOO_LARGE, "a.stl", { ...DEFAULT_SETTINGS, printer: "p" }, ["printer", "format"]);
   expect(offers).toEqual([{ label: "Scale to 30\u00a0mm", change: { height: "30" } }]);
-  expect(explain(UNIFORM_ONLY, "a.stl", DEFAULT_SETTINGS, ["format"]).offers).toHaveLength(1);
+  expect(explain(uniformOnly(BEST), "a.stl", DEFAULT_SETTINGS, ["format"]).offers).toEqual([BEST_OFFER]);
 
   const neither = infeasible({ least_tolerance: 0.05, largest_layer_min_mm: 0.02 });
   const [thinner, larger, none] = ([["tolerances"], ["layerMin"], ["tolerances", "layerMin"]] as const).map((fixed) =>
@@ -126,10 +129,42 @@ test("no offer changes what the page has fixed", () => {
   expect(none?.text).toMatch(/exceeds it\.$/);
 });
 
-test("a format for uniform layers offers those, or another format", () => {
-  const { field, offers } = explain(UNIFORM_ONLY, "a.stl", { ...DEFAULT_SETTINGS, format: "sl1" });
+test("a format for uniform layers offers the best of those, or another format", () => {
+  const { field, offers } = explain(uniformOnly(BEST), "a.stl", { ...DEFAULT_SETTINGS, format: "sl1" });
   expect(field).toBe("format");
-  expect(offers.map(({ change }) => change)).toEqual([{ planner: "uniform" }, { format: "png" }]);
+  expect(offers).toEqual([BEST_OFFER, { label: "Save as images", change: { format: "png" } }]);
+});
+
+test("a printer for uniform layers offers the best of those", () => {
+  const error = failed("printer-uniform-only", { model: "Anycubic Photon M3", best: { layer_mm: 0.1 + 0.02, layers: 500 } });
+  const { field, offers } = explain(error, "a.stl", { ...DEFAULT_SETTINGS, printer: "photon-m3" });
+  expect(field).toBe("printer");
+  expect(offers).toEqual([{ label: "Uniform layers of 0.12\u00a0mm (500 layers)", change: { planner: "uniform", uniform: "0.12" } }]);
+});
+
+test("if no uniform layers keep the tolerance, those of the thickness in the form are offered", () => {
+  const [offer] = explain(uniformOnly(undefined), "a.stl", { ...DEFAULT_SETTINGS, uniform: "0.04" }).offers;
+  expect(offer).toEqual({ label: "Uniform layers of 0.04\u00a0mm", change: { planner: "uniform" } });
+});
+
+test("an unknown printer offers the three most similar names, or none", () => {
+  const error = failed("unknown-printer", { printer: "saturn-5", similar: ["saturn", "saturn-4", "saturn-2", "saturn-3"], known: 110 });
+  const { title, field, offers } = explain(error, "a.stl", { ...DEFAULT_SETTINGS, printer: "saturn-5" });
+  expect([title, field]).toEqual(["There is no such printer", "printer"]);
+  expect(offers.map(({ change }) => change.printer)).toEqual(["saturn", "saturn-4", "saturn-2", ""]);
+});
+
+test("a printer whose description is wrong is blamed, and may be left out; a file that describes none changed nothing", () => {
+  const bad = explain(failed("bad-printer", { printer: "mine", field: "pitch_um" }), "a.stl", { ...DEFAULT_SETTINGS, printer: "mine" });
+  expect(bad).toMatchObject({ field: "printer", offers: [{ change: { printer: "" } }] });
+  expect(bad.text).toBe("The printer mine cannot have this pitch_um; correct its description.");
+  // Nothing else that the form gives can be unreadable.
+  const own = { pixels: [1, 1] } as unknown as Printer;
+  const system = "Failed to deserialize JsValue into type `cusp_slicer::job::options::Options`: Error: missing field `pitch_um`";
+  const missing = explain(failed("bad-options", { system }), "a.stl", { ...DEFAULT_SETTINGS, printer: own });
+  expect(missing).toMatchObject({ title: bad.title, field: "printer", text: "The options cannot be read: missing field `pitch_um`." });
+  const file = explain(failed("printer-not-json", { system: "Unexpected end of JSON input" }), "mine.json", DEFAULT_SETTINGS);
+  expect(file).toMatchObject({ title: bad.title, field: "printer", offers: [] });
 });
 
 test.each([
@@ -144,11 +179,35 @@ test.each([
 
 test("warnings are sentences with their figures", () => {
   const metric = "cusp";
-  const words = (warning: Warning): string => warningWords(warning, languageOf("en"));
+  const words = (warning: Warning): string | undefined => advise([warning], languageOf("en"), new Set())[0]?.text;
   expect(words({ code: "inside-out" })).toBe("The mesh was inside out, and was turned over.");
   expect(words({ code: "degenerate-facets", detail: { facets: 1 } })).toBe("1 facet without area left out.");
   expect(words({ code: "tolerance-exceeded", detail: { planner: "uniform", metric, tolerance: 0.05, max_error: 0.0712 } })).toBe(
     "The error reaches 0.071\u00a0mm, more than the tolerance of 0.05\u00a0mm.",
   );
   expect(words({ code: "black-layers", detail: { layers: 64, from_mm: 1 } })).toMatch(/^64 layers of the plan are black, from 1\.000\u00a0mm up/);
+});
+
+test("a warning is said once, and offers what keeps the tolerance in layers of one thickness", () => {
+  const warn = (warnings: readonly Warning[], fixed: readonly (keyof Settings)[] = []): ReturnType<typeof advise> =>
+    advise(warnings, languageOf("en"), new Set(fixed));
+  const one: Warning = { code: "one-thickness", detail: { taker: "Anycubic Photon M3", best: BEST } };
+  const text =
+    "Anycubic Photon M3 takes one thickness for all layers, and this plan has several; 882 uniform layers of 0.068\u00a0mm keep the tolerance.";
+  expect(warn([one, { code: "inside-out" }, one])).toEqual([
+    { text, offers: [BEST_OFFER] },
+    { text: "The mesh was inside out, and was turned over.", offers: [] },
+  ]);
+  expect(warn([one], ["uniform"])).toEqual([{ text, offers: [] }]);
+  expect(warn([{ code: "one-thickness", detail: { taker: "sl1", best: null } }])).toEqual([
+    { text: "sl1 takes one thickness for all layers, and this plan has several; choose the uniform planner.", offers: [] },
+  ]);
+});
+
+test("whether a printer that the page has fixed was ever tried is not the customer's business", () => {
+  const untried: Warning = { code: "untried-thicknesses", detail: { model: "Elegoo Saturn 3" } };
+  expect(advise([untried], languageOf("en"), new Set())).toEqual([
+    { text: expect.stringMatching(/^Nobody has told whether the Elegoo Saturn 3 .*print the caliper test \(cusp calibrate layers\)/), offers: [] },
+  ]);
+  expect(advise([untried], languageOf("en"), new Set(["printer"]))).toEqual([]);
 });

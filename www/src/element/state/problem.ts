@@ -1,7 +1,7 @@
 /** Failures in words: what happened, which field caused it, and what may fix it. */
 import type { ErrorCode, ErrorDetails, SlicerError } from "../../api/error.js";
 import type { WarningCode, WarningDetails } from "../../api/warning.js";
-import type { Warning } from "../../api/wire.js";
+import type { UniformLayers, Warning } from "../../api/wire.js";
 import type { Language, Texts } from "../../texts/index.js";
 import { METRICS } from "./metric.js";
 import * as round from "./round.js";
@@ -55,10 +55,13 @@ const KINDS: Readonly<Record<ErrorCode, Kind>> = {
   "bad-length": "badValue",
   "bad-time": "badValue",
   "bad-exposures": "badValue",
+  "bad-growth": "badValue",
   "bad-directions": "badValue",
   "bad-alpha": "badValue",
   "bad-options": "badOptions",
-  "unknown-printer": "badOptions",
+  "unknown-printer": "noSuchPrinter",
+  "bad-printer": "badPrinter",
+  "printer-not-json": "badPrinter",
   "pixels-without-pitch": "badOptions",
   "bad-antialias": "badValue",
   "bad-weight-min": "badValue",
@@ -93,6 +96,7 @@ const KINDS: Readonly<Record<ErrorCode, Kind>> = {
   "gpu-failed": "gpu",
   "gpu-too-small": "gpuTooSmall",
   "uniform-only": "uniformOnly",
+  "printer-uniform-only": "printerUniformOnly",
   "file-unreadable": "unreadable",
   "fetch-failed": "notFetched",
   "start-failed": "startFailed",
@@ -122,6 +126,9 @@ const FIELDS: Partial<Record<Kind, Problem["field"]>> = {
   infeasible: "tolerance",
   layerTooThick: "layerMax",
   uniformOnly: "format",
+  printerUniformOnly: "printer",
+  noSuchPrinter: "printer",
+  badPrinter: "printer",
 };
 
 /**
@@ -131,14 +138,20 @@ const FIELDS: Partial<Record<Kind, Problem["field"]>> = {
  */
 export function explain(failure: Failure, language: Language, fixed: ReadonlySet<keyof Settings>): Problem {
   const problem = describe(failure, language, fixed);
-  const isOpen = ({ change }: Offer): boolean => (Object.keys(change) as (keyof Settings)[]).every((key) => !fixed.has(key));
-  return { ...problem, offers: problem.offers.filter(isOpen) };
+  return { ...problem, offers: allowed(problem.offers, fixed) };
+}
+
+/** The offers that change nothing fixed. */
+function allowed(offers: readonly Offer[], fixed: ReadonlySet<keyof Settings>): Offer[] {
+  return offers.filter(({ change }) => (Object.keys(change) as (keyof Settings)[]).every((key) => !fixed.has(key)));
 }
 
 function describe(failure: Failure, language: Language, fixed: ReadonlySet<keyof Settings>): Problem {
   const { error, name, settings } = failure;
   const { texts } = language;
-  const kind = KINDS[error.code];
+  // The form cannot give options that are unreadable, but for the description of a printer.
+  const isOfPrinter = error.code === "bad-options" && typeof settings.printer === "object";
+  const kind = isOfPrinter ? "badPrinter" : KINDS[error.code];
   const text = sentenceOf(error, settings, texts);
   const problem = { code: error.code, title: texts.problems[kind](name), field: FIELDS[kind] ?? null };
   if (error.code === "infeasible") return { ...problem, ...waysOut(error, text, settings, language, fixed) };
@@ -163,9 +176,15 @@ function offersFor(kind: Kind, error: SlicerError, failure: Failure, language: L
       return fewerRays(failure.settings, language);
     case "tooLarge":
     case "tooHigh":
-      return [...smaller(scaleThatFits(error), failure, language), { label: language.texts.offers.noPrinter, change: { printer: "" } }];
+      return [...smaller(scaleThatFits(error), failure, language), withoutPrinter(language)];
+    case "noSuchPrinter":
+      return [...similarPrinters(error), withoutPrinter(language)];
+    case "badPrinter":
+      return error.code === "printer-not-json" ? [] : [withoutPrinter(language)];
     case "uniformOnly":
-      return uniformOr(failure.settings, language);
+      return [uniformLayers(error, failure.settings, language), { label: language.texts.offers.images, change: { format: "png" } }];
+    case "printerUniformOnly":
+      return [uniformLayers(error, failure.settings, language)];
     default:
       return [];
   }
@@ -226,18 +245,53 @@ function smaller(scale: number | null, { height_mm }: Failure, { texts, format }
   return fitting > 0 ? [{ label: texts.offers.scale(format.fine(fitting)), change: { height: String(fitting) } }] : [];
 }
 
-function uniformOr(settings: Settings, { texts, format }: Language): Offer[] {
-  const thickness = parse(settings.uniform) ?? 0;
-  const change = { planner: "uniform" } as const;
-  return [
-    { label: texts.offers.uniform(format.fine(thickness)), change },
-    { label: texts.offers.images, change: { format: "png" } },
-  ];
+const withoutPrinter = ({ texts }: Language): Offer => ({ label: texts.offers.noPrinter, change: { printer: "" } });
+
+/** The names that an offer may stand for; the sentence has all of them. */
+const MOST_SIMILAR = 3;
+
+/** Offers the names that resemble an unknown one most. */
+function similarPrinters(error: SlicerError): Offer[] {
+  const similar = error.code === "unknown-printer" ? error.detail.similar : [];
+  return similar.slice(0, MOST_SIMILAR).map((printer) => ({ label: printer, change: { printer } }));
 }
 
-/** A warning in words. */
-export function warningWords(warning: Warning, { texts }: Language): string {
-  return warningOf(warning.code, "detail" in warning ? warning.detail : null, texts);
+/** Offers the best uniform layers; if none keep the tolerance, those of the thickness in the form. */
+function uniformLayers(error: SlicerError, settings: Settings, language: Language): Offer {
+  const isRefused = error.code === "uniform-only" || error.code === "printer-uniform-only";
+  const best = isRefused ? error.detail.best : null;
+  if (best) return bestUniform(best, language);
+  const { texts, format } = language;
+  return { label: texts.offers.uniform(format.fine(parse(settings.uniform) ?? 0)), change: { planner: "uniform" } };
+}
+
+function bestUniform({ layer_mm, layers }: UniformLayers, { texts, format }: Language): Offer {
+  // Without the rounding error of a sum of bins.
+  const uniform = String(Number(layer_mm.toFixed(6)));
+  return { label: texts.offers.bestUniform(format.fine(layer_mm), layers), change: { planner: "uniform", uniform } };
+}
+
+/** A warning in words, and what may help. */
+export interface Advice {
+  text: string;
+  offers: Offer[];
+}
+
+/**
+ * Warnings in words, each once.
+ *
+ * @param fixed settings that only the page may change: no offer changes them, and whether a fixed printer has been tried is the
+ *   page's business
+ */
+export function advise(warnings: readonly Warning[], language: Language, fixed: ReadonlySet<keyof Settings>): Advice[] {
+  const advice = new Map<string, Advice>();
+  for (const warning of warnings) {
+    if (warning.code === "untried-thicknesses" && fixed.has("printer")) continue;
+    const text = warningOf(warning.code, "detail" in warning ? warning.detail : null, language.texts);
+    const best = warning.code === "one-thickness" ? warning.detail.best : null;
+    advice.set(text, { text, offers: allowed(best ? [bestUniform(best, language)] : [], fixed) });
+  }
+  return [...advice.values()];
 }
 
 const warningOf = <Code extends WarningCode>(code: Code, detail: WarningDetails[Code], { warnings }: Texts): string => warnings[code](detail);

@@ -1,4 +1,5 @@
 /** Readers of attribute and property values, which say what was expected of an invalid one. */
+import { isPrinter, type ChosenPrinter } from "./printer.js";
 
 /** What was expected instead. */
 export interface Wrong {
@@ -16,9 +17,21 @@ export interface Read<T> {
 
 export type Reader<T> = (said: unknown) => Read<T>;
 
-export const noneOf = (known: readonly string[]): Wrong => ({ words: `is none of ${known.join(", ")}`, known });
+/** A list longer than this is counted, not told: the error has it. */
+const MOST_TOLD = 20;
+
+export const noneOf = (known: readonly string[]): Wrong => {
+  const told = known.length > MOST_TOLD ? `the ${known.length} known ones` : known.join(", ");
+  return { words: `is none of ${told}`, known };
+};
 
 export const text: Reader<string> = (said) => (typeof said === "string" ? { value: said } : { wrong: { words: "is no text" } });
+
+/** A name, or as a property a description. Whether its values are possible is checked by the core. */
+export const printer: Reader<ChosenPrinter> = (said) => {
+  if (typeof said === "string" || isPrinter(said)) return { value: said };
+  return { wrong: { words: "is neither a name nor a description with pixels, pitch_um and volume_mm" } };
+};
 
 const numberOf = (said: unknown): number => (typeof said === "string" ? Number(said) : typeof said === "number" ? said : Number.NaN);
 

@@ -96,6 +96,18 @@ test("weights are saved to a file and read back; a file without weights is a fai
   expect(session.weights).toEqual(weights);
 });
 
+test("the description of a printer is opened as an undo step; a file that is none changes nothing", async () => {
+  await planned();
+  const own = { model: "Mine", pixels: [3840, 2400], pitch_um: [50, 50], volume_mm: [192, 120, 245] };
+  await session.openPrinter(new File([JSON.stringify(own)], "mine.json"));
+  expect(session.options?.printer).toEqual({ ...own, name: "mine" });
+  await session.openPrinter(new File(["solid"], "b.json"));
+  expect(session.failure).toMatchObject({ error: { code: "printer-not-json" }, name: "b.json" });
+  expect(session.settings.printer).toMatchObject(own);
+  session.undo();
+  expect(session.settings.printer).toBe("");
+});
+
 test("opening another model clears the weights", async () => {
   await planned();
   session.setWeights(Float32Array.of(0.5), true);

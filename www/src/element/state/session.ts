@@ -5,8 +5,7 @@
  */
 import { asSlicerError, isAbort } from "../../api/error.js";
 import type { Model, Plan, Mask, PrintFile, Watch } from "../../api/index.js";
-import type { Candidate, Options, TradeoffPoint } from "../../api/wire.js";
-import { sameRays } from "../../api/wire.js";
+import { sameRays, type Candidate, type Options, type TradeoffPoint } from "../../api/wire.js";
 import type { Source } from "../../api/source.js";
 import { Beside } from "./beside.js";
 import { choose, weightsName } from "./choice.js";
@@ -193,8 +192,7 @@ export class Session extends Preferences {
       const weights = await this.#slicer.readWeights(file);
       if (this.model === model) this.setWeights(weights, true);
     } catch (error) {
-      if (this.model === model && !isAbort(error)) this.#fail(error, file.name, this.settings);
-      this.#changed();
+      if (this.model === model && !isAbort(error)) this.refused(error, file.name);
     }
   }
 
@@ -308,6 +306,11 @@ export class Session extends Preferences {
     this.notice = null;
     this.#host.settingsChanged?.(this.settings);
     this.replan(delay_ms);
+  }
+
+  protected override refused(error: unknown, name: string): void {
+    this.#fail(error, name, this.settings);
+    this.#changed();
   }
 
   async #plan(options: Options): Promise<void> {

@@ -1,6 +1,8 @@
-import { expect, test } from "vitest";
-import { sameRays } from "../../api/wire.js";
+import { expect, expectTypeOf, test } from "vitest";
+import { sameRays, type Format, type Printer } from "../../api/wire.js";
 import { languageOf } from "../../texts/index.js";
+import { FORMATS } from "./printer.js";
+import { knownPrinter } from "./printer-fixture.js";
 import {
   check,
   DEFAULT_SETTINGS,
@@ -148,6 +150,9 @@ test("sameRays() compares only the options that move the rays", () => {
   expect(sameRays({ rays: 1024 }, { rays: 2048 })).toBe(false);
   expect(sameRays({ height_mm: 60 }, {})).toBe(false);
   expect(sameRays({ pixels: [1, 2] }, { pixels: [1, 2] })).toBe(true);
+  const own = (): Printer => ({ pixels: [1, 2], pitch_um: [50, 50], volume_mm: [1, 1, 1] });
+  expect(sameRays({ printer: own() }, { printer: own() })).toBe(true);
+  expect(sameRays({ printer: own() }, { printer: "saturn" })).toBe(false);
 });
 
 test("a query has only the settings that differ from the defaults, and restores them", () => {
@@ -166,19 +171,12 @@ test("a query has only the settings that differ from the defaults, and restores 
   expect(fromAddress(toAddress(settings))).toEqual(settings);
 });
 
-const PRINTER = {
-  name: "p",
-  model: "P",
-  pixels: [100, 100],
-  pitch_um: [50, 50],
-  volume_mm: [5, 5, 5],
-  layer_mm: [0.02, 0.2],
-  is_mirrored: true,
-  step_mm: 0.002,
-  format: "chitubox",
-  reads_format: false,
-  reads: ["goo"],
-} satisfies Offered["printers"][number];
+test("the form offers every print format", () => {
+  expectTypeOf<(typeof FORMATS)[number]>().toEqualTypeOf<Format>();
+  for (const format of FORMATS) expect(fromAddress(`format=${format}`).format).toBe(format);
+});
+
+const PRINTER = knownPrinter({ name: "p" });
 
 test("a printer sets the pixels and the limits of layer thickness", () => {
   const offered: Offered = { printers: [PRINTER], resins: [] };
@@ -186,6 +184,16 @@ test("a printer sets the pixels and the limits of layer thickness", () => {
   expect(options({ printer: "p" })).not.toHaveProperty("rays");
   expect(faults({ printer: "p", layerMax: "0.3" }, offered).layerMax).toBe("Must be 0.02 to 0.2 mm.");
   expect(faults({ layerMax: "0.3" }, offered)).toEqual({});
+});
+
+test("a printer of one's own goes to the core as it is described, and into a query", () => {
+  const own = { pixels: [3840, 2400], pitch_um: [50, 50], volume_mm: [192, 120, 245] } satisfies Printer;
+  expect(options({ printer: own })).toMatchObject({ printer: own });
+  expect(options({ printer: own })).not.toHaveProperty("rays");
+  expect(faults({ printer: { ...own, layer_mm: [0.03, 0.1] } }).layerMax).toBe("Must be 0.03 to 0.1 mm.");
+  expect(faults({ printer: { ...own, layer_mm: 7 } as unknown as Printer })).toEqual({});
+  const settings = { ...DEFAULT_SETTINGS, printer: own };
+  expect(fromAddress(toAddress(settings))).toEqual(settings);
 });
 
 test("a resin is the page's, overridden by what is typed", () => {

@@ -1,8 +1,9 @@
 /** The form's settings: what was typed or chosen, whether it is valid, and the options that it gives. */
 import { DEFAULTS } from "../../api/wire.js";
-import type { Format as FileFormat, Metric, Minimize, Options, Printer, Resin, Snap } from "../../api/wire.js";
+import type { Format as FileFormat, KnownPrinter, Metric, Minimize, Options, Resin, Snap } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
 import { METRIC_NAMES, METRICS } from "./metric.js";
+import { FORMATS, printerFrom, printerOf, printerText, type ChosenPrinter } from "./printer.js";
 import * as round from "./round.js";
 
 /** Lengths in mm as typed, so that a half-typed number stays on the screen. */
@@ -38,8 +39,7 @@ interface Choices {
 
 /** Settings without a fixed list of values; empty for none. */
 interface Names {
-  /** Name of a printer. */
-  printer: string;
+  printer: ChosenPrinter;
   /** Name of one of the host's resins. */
   resin: string;
   /** The rotation that puts the model in its pose: x, y, z and w of a unit quaternion, separated by commas. */
@@ -63,7 +63,7 @@ export type Faults = Partial<Record<Field, Fault>>;
 
 /** The printers and resins to choose from. */
 export interface Offered {
-  printers: readonly Printer[];
+  printers: readonly KnownPrinter[];
   resins: readonly Resin[];
 }
 
@@ -111,8 +111,6 @@ const TYPED: readonly (keyof Lengths | keyof Curing | keyof Names)[] = [
   "rotation",
 ];
 
-export const FORMATS: readonly FileFormat[] = ["png", "chitubox", "uvj", "sl1"];
-
 const CHOICES: { readonly [Key in keyof Choices]: readonly Choices[Key][] } = {
   planner: ["optimal", "uniform"],
   metric: METRIC_NAMES,
@@ -136,16 +134,25 @@ export function fromAddress(query: string): Settings {
     if (choice !== undefined) (settings as Choices)[key] = choice;
   };
   for (const key of Object.keys(CHOICES) as (keyof Choices)[]) choose(key);
-  for (const key of TYPED) settings[key] = address.get(key) ?? settings[key];
+  for (const key of TYPED) {
+    const text = address.get(key);
+    if (text === null) continue;
+    if (key === "printer") settings.printer = printerFrom(text);
+    else settings[key] = text;
+  }
   const tolerance = address.get("tolerance");
   return tolerance === null ? settings : { ...settings, ...withTolerance(settings, tolerance) };
 }
 
-/** The URL query from which {@link fromAddress} restores the settings: what differs from the defaults, in a fixed order. */
+/**
+ * The URL query from which {@link fromAddress} restores the settings: what differs from the defaults, in a fixed order. A very
+ * long description of a printer is left out.
+ */
 export function toAddress(settings: Settings): string {
   const address = new URLSearchParams();
   for (const key of [...(Object.keys(CHOICES) as (keyof Choices)[]), ...TYPED]) {
-    if (settings[key] !== DEFAULT_SETTINGS[key]) address.set(key, settings[key]);
+    const text = key === "printer" ? printerText(settings.printer) : settings[key];
+    if (text !== DEFAULT_SETTINGS[key]) address.set(key, text);
   }
   const tolerance = settings.tolerances[settings.metric];
   if (tolerance !== undefined) address.set("tolerance", tolerance);
@@ -193,8 +200,8 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
   const options: Options = { metric };
   if (settings.saliency === "on") options.saliency = true;
   if (settings.weightMin !== DEFAULT_SETTINGS.weightMin) options.weight_min = Number(settings.weightMin);
-  const printer = printers.find(({ name }) => name === settings.printer);
-  // The core refuses an unknown name.
+  const printer = printerOf(settings.printer, printers);
+  // The core refuses an unknown name and a wrong description.
   if (settings.printer === "") options.rays = Number(settings.rays);
   else options.printer = settings.printer;
   if (settings.format !== "") options.format = settings.format;

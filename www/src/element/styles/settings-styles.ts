@@ -74,6 +74,9 @@ export const settingsStyles = css`
     background: var(--cusp-card);
     color: var(--cusp-text);
   }
+  .open {
+    margin-top: 0.5rem;
+  }
   .unit {
     padding-inline-end: 0.625rem;
     color: var(--cusp-quiet);
@@ -99,6 +102,7 @@ export const settingsStyles = css`
     border-radius: 8px;
     overflow: hidden;
   }
+  .open:has(:focus-visible),
   .choice:focus-within:has(:focus-visible) {
     outline: 3px solid var(--cusp-focus);
     outline-offset: 1px;

@@ -1,3 +1,4 @@
+import type { UniformLayers } from "../../api/wire.js";
 import type { Format } from "../format.js";
 import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type GpuFaults, type QuantityNouns, type StlNouns } from "../sentences.js";
 import { FACETS } from "./nouns.js";
@@ -38,6 +39,9 @@ export const FAULTS: GpuFaults = {
   "out-of-memory": "der Speicher reichte nicht",
 };
 
+const inPlace = (best: UniformLayers | null | undefined, { count, mm }: Pick<Format, "count" | "mm">): string =>
+  best ? `${count(best.layers)} gleichmäßige Schichten von ${mm(best.layer_mm)}, die die Toleranz einhalten` : "gleichmäßige Schichten";
+
 export const errors = ({ count, counted, exact, mm, measure, error }: Format): ErrorSentences => ({
   "file-empty": () => "Die Datei ist leer; exportieren Sie das Modell noch einmal als STL.",
   "unknown-file-kind": () => "Das ist keine STL-Datei; exportieren Sie das Modell als binäres oder Text-STL.",
@@ -71,8 +75,13 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
   "bad-time": ({ quantity, value_s }) => `${QUANTITIES[quantity]} muss 0 oder größer sein, nicht ${measure(value_s, "s")}.`,
   "bad-exposures": ({ previous_mm, next_mm }) =>
     `Gemessene Belichtungen müssen nach der Dicke geordnet sein, jede dicker als die vorige; auf ${mm(previous_mm)} folgt aber ${mm(next_mm)}.`,
+  "bad-growth": ({ least_mm, most_mm, value_mm }) =>
+    `Das Wachstum eines Drucks muss zwischen ${exact(least_mm)} und ${mm(most_mm)} liegen, nicht bei ${mm(value_mm)}.`,
   "bad-options": ({ system }) => `Die Optionen lassen sich nicht lesen: ${ended(system)}`,
-  "unknown-printer": ({ printer, known }) => `Es gibt keinen Drucker ${printer}; bekannt sind ${known.join(", ")}.`,
+  "unknown-printer": ({ printer, similar, known }) =>
+    `Unter den ${count(known)} bekannten Druckern ist kein ${printer}${similar.length === 0 ? "" : `; ähnlich sind ${similar.join(", ")}`}.`,
+  "bad-printer": ({ printer, field }) => `Der Drucker ${printer} kann diesen Wert von ${field} nicht haben; berichtigen Sie seine Beschreibung.`,
+  "printer-not-json": ({ system }) => `Diese Datei beschreibt keinen Drucker in JSON: ${ended(system)}`,
   "pixels-without-pitch": () =>
     "Pixel und ihr Abstand in x und y gehören zusammen; geben Sie beides an, oder einen Abstand für x und y.",
   "bad-antialias": ({ antialias, known }) => `Die Kantenglättung hat die Stufen ${known.join(", ")}, nicht ${exact(antialias)}.`,
@@ -141,8 +150,10 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
   "gpu-failed": ({ fault, system }) => `Die GPU hat versagt: ${FAULTS[fault]}${system === null ? "" : ` (${system})`}.`,
   "all-black": () =>
     "Alle Masken sind schwarz: Das Modell umschließt nichts, was die Mitte einer Schicht trifft; prüfen Sie das Modell, oder wählen Sie dünnere Schichten.",
-  "uniform-only": ({ format, others }) =>
-    `${format}-Dateien haben eine Dicke für alle Schichten, und dieser Plan hat mehrere; wählen Sie ${others.join(", ")} oder gleichmäßige Schichten.`,
+  "uniform-only": ({ format, others, best }) =>
+    `${format}-Dateien haben eine Dicke für alle Schichten, und dieser Plan hat mehrere; wählen Sie ${others.join(", ")} oder ${inPlace(best, { count, mm })}.`,
+  "printer-uniform-only": ({ model, best }) =>
+    `Der ${model} nimmt eine Dicke für alle Schichten, und dieser Plan hat mehrere; wählen Sie ${inPlace(best, { count, mm })}.`,
   "weights-not-weights": () => "Das ist keine Datei mit Gewichten: Sie beginnt nicht mit CUSPWT01 oder ist abgeschnitten.",
   "weights-other-mesh": ({ weights_facets, mesh_facets }) =>
     `Diese Gewichte gehören zu einem anderen Netz aus ${count(weights_facets)} Dreiecken; dieses hat ${count(mesh_facets)}; ` +

@@ -2,6 +2,8 @@ import type { PlanTexts } from "../en/plan.js";
 import type { Format } from "../format.js";
 import { LAYERS } from "./nouns.js";
 
+const file = (extension: string): string => `Eine .${extension}-Datei.`;
+
 export const plan = ({ counted, plural }: Format): PlanTexts => ({
   plan: {
     region: "Der Plan",
@@ -22,14 +24,21 @@ export const plan = ({ counted, plural }: Format): PlanTexts => ({
   },
   file: {
     kinds: {
-      png: "Ein Zip mit Bildern der Schichten.",
-      chitubox: "Ein ChiTuBox-Zip.",
-      uvj: "Eine UVJ-Datei.",
-      sl1: "Eine Prusa-SL1-Datei.",
+      png: () => "Ein Zip mit Bildern der Schichten.",
+      chitubox: () => "Ein ChiTuBox-Zip.",
+      uvj: () => "Eine UVJ-Datei.",
+      sl1: () => "Eine Prusa-SL1-Datei.",
+      goo: file,
+      "photon-workshop": file,
+      "anycubic-zip": file,
+      ctb: () => "Eine .ctb-Datei der Version 3, nicht verschlüsselt.",
+      nanodlp: file,
     },
     direct: (printer) => `Der ${printer} liest diese Datei direkt.`,
     convert: (printer, extensions) => `Der ${printer} liest ${extensions}: wandeln Sie die Datei vorher mit UVtools um.`,
     unreadable: (printer) => `Der ${printer} kann diese Datei nicht lesen.`,
+    oneInFile: "Diese Datei hat eine Dicke für alle Schichten: wählen Sie dafür gleichmäßige.",
+    onePerPrint: (printer) => `Der ${printer} nimmt eine Dicke für alle Schichten: wählen Sie dafür gleichmäßige.`,
     asIs: "Das Modell wird gedruckt, wie es ist: ohne Stützen, nicht ausgehöhlt.",
     together: (sentences) => sentences.join(" "),
   },

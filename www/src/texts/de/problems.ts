@@ -1,6 +1,7 @@
 import type { ProblemTexts } from "../en/problems.js";
 import type { Format } from "../format.js";
 import { errors } from "./errors.js";
+import { LAYERS } from "./nouns.js";
 import { warnings } from "./warnings.js";
 
 export const problems = (format: Format): ProblemTexts => ({
@@ -10,6 +11,7 @@ export const problems = (format: Format): ProblemTexts => ({
     rays: (count) => `${count} Strahlen`,
     scale: (height) => `Auf ${height} skalieren`,
     uniform: (thickness) => `Gleichmäßige Schichten von ${thickness}`,
+    bestUniform: (thickness, layers) => `Gleichmäßige Schichten von ${thickness} (${format.counted(layers, LAYERS)})`,
     images: "Als Bilder speichern",
     noPrinter: "Ohne Drucker",
     again: "Noch einmal",
@@ -34,10 +36,13 @@ export const problems = (format: Format): ProblemTexts => ({
     badPlane: () => "In dieser Höhe kann keine Ebene liegen",
     badValue: () => "Ein Wert liegt außerhalb seiner Grenzen",
     badOptions: () => "Diese Einstellungen passen nicht zueinander",
+    noSuchPrinter: () => "Diesen Drucker gibt es nicht",
+    badPrinter: () => "Die Beschreibung dieses Druckers hat einen Fehler",
     outOfReach: () => "So kurz ist kein Plan",
     gpu: () => "Die GPU ließ sich nicht benutzen",
     gpuTooSmall: () => "Die GPU ist zu klein für dieses Modell",
     uniformOnly: () => "Diese Druckdatei nimmt nur gleichmäßige Schichten",
+    printerUniformOnly: () => "Dieser Drucker nimmt nur gleichmäßige Schichten",
     unreadable: (name) => `${name} ließ sich nicht öffnen`,
     notFetched: (name) => `${name} ließ sich nicht laden`,
     startFailed: () => "Der Slicer ließ sich nicht starten",

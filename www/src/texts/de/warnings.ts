@@ -19,6 +19,13 @@ export const warnings = ({ count, counted, mm, height, error }: Format): Warning
     `Der Druck endet bei ${mm(top_mm)}, weil die Schichten nicht genau ${mm(height_mm)} ergeben.`,
   "black-layers": ({ layers, from_mm }) =>
     `${counted(layers, LAYERS)} des Plans ohne belichteten Pixel, ab ${height(from_mm)}: Teile schweben in der Luft oder sind dünner als ein Pixel. Sehen Sie sich dort die Masken an.`,
+  "one-thickness": ({ taker, best }) =>
+    `${taker} nimmt eine Dicke für alle Schichten, und dieser Plan hat mehrere; ` +
+    (best === null
+      ? "wählen Sie gleichmäßige Schichten."
+      : `${count(best.layers)} gleichmäßige Schichten von ${mm(best.layer_mm)} halten die Toleranz ein.`),
+  "untried-thicknesses": ({ model }) =>
+    `Niemand hat berichtet, ob der ${model} verschieden dicke Schichten druckt; drucken Sie den Messschieber-Test (cusp calibrate layers), oder wählen Sie gleichmäßige Schichten.`,
   "gpu-too-small": ({ needed_bytes, limit_bytes }) =>
     `Die CPU hat die Arbeit der GPU übernommen: Das Netz braucht einen Puffer von ${count(needed_bytes)} Byte, und die GPU bietet ${count(limit_bytes)}.`,
   "gpu-failed": ({ fault, system }) =>

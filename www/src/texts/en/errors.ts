@@ -1,4 +1,5 @@
 /** Sentences on failures, as the command line says them. */
+import type { UniformLayers } from "../../api/wire.js";
 import type { Format } from "../format.js";
 import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type GpuFaults, type QuantityNouns, type StlNouns } from "../sentences.js";
 import { FACETS } from "./nouns.js";
@@ -39,6 +40,10 @@ export const FAULTS: GpuFaults = {
   "out-of-memory": "there was not enough memory",
 };
 
+/** What to choose in place of layers of several thicknesses. */
+const inPlace = (best: UniformLayers | null | undefined, { count, mm }: Pick<Format, "count" | "mm">): string =>
+  best ? `${count(best.layers)} uniform layers of ${mm(best.layer_mm)}, which keep the tolerance` : "the uniform planner";
+
 export const errors = ({ count, counted, exact, mm, measure, error }: Format): ErrorSentences => ({
   "file-empty": () => "The file is empty; export the model again as STL.",
   "unknown-file-kind": () => "This is no STL file; export the model as binary or ASCII STL.",
@@ -72,8 +77,13 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
   "bad-time": ({ quantity, value_s }) => `${QUANTITIES[quantity]} must be 0 or more, not ${measure(value_s, "s")}.`,
   "bad-exposures": ({ previous_mm, next_mm }) =>
     `Measured exposures must be in order of thickness, each thicker than the one before, but ${mm(next_mm)} follows ${mm(previous_mm)}.`,
+  "bad-growth": ({ least_mm, most_mm, value_mm }) =>
+    `The growth of a print must be ${exact(least_mm)} to ${mm(most_mm)}, not ${mm(value_mm)}.`,
   "bad-options": ({ system }) => `The options cannot be read: ${ended(system)}`,
-  "unknown-printer": ({ printer, known }) => `There is no printer ${printer}; known are ${known.join(", ")}.`,
+  "unknown-printer": ({ printer, similar, known }) =>
+    `There is no printer ${printer} among the ${count(known)} known ones${similar.length === 0 ? "" : `; similar are ${similar.join(", ")}`}.`,
+  "bad-printer": ({ printer, field }) => `The printer ${printer} cannot have this ${field}; correct its description.`,
+  "printer-not-json": ({ system }) => `This file does not describe a printer in JSON: ${ended(system)}`,
   "pixels-without-pitch": () => "Pixels and their pitch in x and y belong together; give both, or one pitch for x and y.",
   "bad-antialias": ({ antialias, known }) => `Anti-aliasing has the levels ${known.join(", ")}, not ${exact(antialias)}.`,
   "bad-weight-min": ({ weight_min }) => `The minimum weight must be from 0 to 1, not ${exact(weight_min)}.`,
@@ -140,8 +150,10 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
   "gpu-failed": ({ fault, system }) => `The GPU failed: ${FAULTS[fault]}${system === null ? "" : ` (${system})`}.`,
   "all-black": () =>
     "All masks are black: the model encloses nothing that the middle of a layer meets; check the model, or choose thinner layers.",
-  "uniform-only": ({ format, others }) =>
-    `${format} files have one thickness for all layers, and this plan has several; choose ${others.join(", ")}, or the uniform planner.`,
+  "uniform-only": ({ format, others, best }) =>
+    `${format} files have one thickness for all layers, and this plan has several; choose ${others.join(", ")}, or ${inPlace(best, { count, mm })}.`,
+  "printer-uniform-only": ({ model, best }) =>
+    `The ${model} takes one thickness for all layers, and this plan has several; choose ${inPlace(best, { count, mm })}.`,
   "weights-not-weights": () => "This is no file of weights: it does not begin with CUSPWT01, or is cut short.",
   "weights-other-mesh": ({ weights_facets, mesh_facets }) =>
     `These weights are for another mesh, of ${counted(weights_facets, FACETS)}; this one has ${count(mesh_facets)}; ` +

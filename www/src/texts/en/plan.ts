@@ -2,6 +2,9 @@
 import type { Format } from "../format.js";
 import { LAYERS } from "./nouns.js";
 
+/** A file that is known by its extension. */
+const file = (extension: string): string => `A .${extension} file.`;
+
 export const plan = ({ counted, plural }: Format) => ({
   plan: {
     region: "The plan",
@@ -24,14 +27,21 @@ export const plan = ({ counted, plural }: Format) => ({
   /** Notes on the download: what the file is, whether the printer reads it, and what has not been added to the model. */
   file: {
     kinds: {
-      png: "A zip of layer images.",
-      chitubox: "A ChiTuBox zip.",
-      uvj: "A UVJ file.",
-      sl1: "A Prusa SL1 file.",
+      png: () => "A zip of layer images.",
+      chitubox: () => "A ChiTuBox zip.",
+      uvj: () => "A UVJ file.",
+      sl1: () => "A Prusa SL1 file.",
+      goo: file,
+      "photon-workshop": file,
+      "anycubic-zip": file,
+      ctb: () => "A .ctb file of version 3, not encrypted.",
+      nanodlp: file,
     },
     direct: (printer: string) => `The ${printer} reads it directly.`,
     convert: (printer: string, extensions: string) => `The ${printer} reads ${extensions}: convert it with UVtools first.`,
     unreadable: (printer: string) => `The ${printer} cannot read it.`,
+    oneInFile: "This file has one thickness for all layers: choose uniform ones for it.",
+    onePerPrint: (printer: string) => `The ${printer} takes one thickness for all layers: choose uniform ones for it.`,
     asIs: "The model prints as it is: no supports, not hollowed.",
     together: (sentences: readonly string[]) => sentences.join(" "),
   },

@@ -1,6 +1,7 @@
 /** Failures, what would help, and warnings. */
 import type { Format } from "../format.js";
 import { errors } from "./errors.js";
+import { LAYERS } from "./nouns.js";
 import { warnings } from "./warnings.js";
 
 export const problems = (format: Format) => ({
@@ -10,6 +11,7 @@ export const problems = (format: Format) => ({
     rays: (count: string) => `${count} rays`,
     scale: (height: string) => `Scale to ${height}`,
     uniform: (thickness: string) => `Uniform layers of ${thickness}`,
+    bestUniform: (thickness: string, layers: number) => `Uniform layers of ${thickness} (${format.counted(layers, LAYERS)})`,
     images: "Save as images",
     noPrinter: "Without a printer",
     again: "Try again",
@@ -35,10 +37,13 @@ export const problems = (format: Format) => ({
     badPlane: () => "There can be no plane at this height",
     badValue: () => "A value is out of bounds",
     badOptions: () => "These settings do not go together",
+    noSuchPrinter: () => "There is no such printer",
+    badPrinter: () => "This printer’s description has an error",
     outOfReach: () => "No plan is as short as that",
     gpu: () => "The GPU could not be used",
     gpuTooSmall: () => "The GPU is too small for this model",
     uniformOnly: () => "This print file takes uniform layers only",
+    printerUniformOnly: () => "This printer takes uniform layers only",
     unreadable: (name: string) => `${name} could not be opened`,
     notFetched: (name: string) => `${name} could not be fetched`,
     startFailed: () => "The slicer could not be started",

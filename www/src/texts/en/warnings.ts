@@ -19,6 +19,11 @@ export const warnings = ({ count, counted, mm, height, error }: Format): Warning
   "top-moved": ({ top_mm, height_mm }) => `The print ends at ${mm(top_mm)}, since layers do not add up to ${mm(height_mm)}.`,
   "black-layers": ({ layers, from_mm }) =>
     `${counted(layers, LAYERS)} of the plan ${layers === 1 ? "is" : "are"} black, from ${height(from_mm)} up: parts hang in the air, or are thinner than a pixel; look at the masks there.`,
+  "one-thickness": ({ taker, best }) =>
+    `${taker} takes one thickness for all layers, and this plan has several; ` +
+    (best === null ? "choose the uniform planner." : `${count(best.layers)} uniform layers of ${mm(best.layer_mm)} keep the tolerance.`),
+  "untried-thicknesses": ({ model }) =>
+    `Nobody has told whether the ${model} prints layers of several thicknesses; print the caliper test (cusp calibrate layers), or choose uniform layers.`,
   "gpu-too-small": ({ needed_bytes, limit_bytes }) =>
     `The CPU did the work of the GPU: the mesh needs a buffer of ${count(needed_bytes)} bytes, and the GPU offers ${count(limit_bytes)}.`,
   "gpu-failed": ({ fault, system }) =>

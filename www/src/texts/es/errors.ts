@@ -1,3 +1,4 @@
+import type { UniformLayers } from "../../api/wire.js";
 import type { Format } from "../format.js";
 import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type GpuFaults, type QuantityNouns, type StlNouns } from "../sentences.js";
 import { FACETS } from "./nouns.js";
@@ -38,6 +39,9 @@ export const FAULTS: GpuFaults = {
   "out-of-memory": "no hubo memoria suficiente",
 };
 
+const inPlace = (best: UniformLayers | null | undefined, { count, mm }: Pick<Format, "count" | "mm">): string =>
+  best ? `${count(best.layers)} capas uniformes de ${mm(best.layer_mm)}, que cumplen la tolerancia` : "capas uniformes";
+
 export const errors = ({ count, counted, exact, mm, measure, error }: Format): ErrorSentences => ({
   "file-empty": () => "El archivo está vacío; exporte el modelo de nuevo como STL.",
   "unknown-file-kind": () => "No es un archivo STL; exporte el modelo como STL binario o de texto.",
@@ -71,8 +75,13 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
   "bad-time": ({ quantity, value_s }) => `${QUANTITIES[quantity]} debe ser 0 o más, no ${measure(value_s, "s")}.`,
   "bad-exposures": ({ previous_mm, next_mm }) =>
     `Las exposiciones medidas deben ir en orden de espesor, cada una más gruesa que la anterior, pero ${mm(next_mm)} sigue a ${mm(previous_mm)}.`,
+  "bad-growth": ({ least_mm, most_mm, value_mm }) =>
+    `El crecimiento de una impresión debe estar entre ${exact(least_mm)} y ${mm(most_mm)}, y no ser ${mm(value_mm)}.`,
   "bad-options": ({ system }) => `No se pueden leer las opciones: ${ended(system)}`,
-  "unknown-printer": ({ printer, known }) => `No hay ninguna impresora ${printer}; se conocen ${known.join(", ")}.`,
+  "unknown-printer": ({ printer, similar, known }) =>
+    `Entre las ${count(known)} impresoras conocidas no hay ninguna ${printer}${similar.length === 0 ? "" : `; se parecen ${similar.join(", ")}`}.`,
+  "bad-printer": ({ printer, field }) => `La impresora ${printer} no puede tener ese valor de ${field}; corrija su descripción.`,
+  "printer-not-json": ({ system }) => `Este archivo no describe una impresora en JSON: ${ended(system)}`,
   "pixels-without-pitch": () => "Los píxeles y su paso en x e y van juntos; indique ambos, o un solo paso para x e y.",
   "bad-antialias": ({ antialias, known }) => `El suavizado tiene los niveles ${known.join(", ")}, no ${exact(antialias)}.`,
   "bad-weight-min": ({ weight_min }) => `El peso mínimo debe estar entre 0 y 1, no ser ${exact(weight_min)}.`,
@@ -141,8 +150,10 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
   "gpu-failed": ({ fault, system }) => `La GPU falló: ${FAULTS[fault]}${system === null ? "" : ` (${system})`}.`,
   "all-black": () =>
     "Todas las máscaras son negras: el modelo no encierra nada que la mitad de una capa encuentre; revise el modelo o elija capas más finas.",
-  "uniform-only": ({ format, others }) =>
-    `Los archivos ${format} tienen un solo espesor para todas las capas, y este plan tiene varios; elija ${others.join(", ")} o capas uniformes.`,
+  "uniform-only": ({ format, others, best }) =>
+    `Los archivos ${format} tienen un solo espesor para todas las capas, y este plan tiene varios; elija ${others.join(", ")} o ${inPlace(best, { count, mm })}.`,
+  "printer-uniform-only": ({ model, best }) =>
+    `La ${model} admite un solo espesor para todas las capas, y este plan tiene varios; elija ${inPlace(best, { count, mm })}.`,
   "weights-not-weights": () => "No es un archivo de pesos: no empieza por CUSPWT01, o está cortado.",
   "weights-other-mesh": ({ weights_facets, mesh_facets }) =>
     `Estos pesos son de otra malla, de ${counted(weights_facets, FACETS)}; esta tiene ${count(mesh_facets)}; ` +

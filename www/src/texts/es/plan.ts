@@ -2,6 +2,8 @@ import type { PlanTexts } from "../en/plan.js";
 import type { Format } from "../format.js";
 import { LAYERS } from "./nouns.js";
 
+const file = (extension: string): string => `Un archivo .${extension}.`;
+
 export const plan = ({ counted, plural }: Format): PlanTexts => ({
   plan: {
     region: "El plan",
@@ -22,14 +24,21 @@ export const plan = ({ counted, plural }: Format): PlanTexts => ({
   },
   file: {
     kinds: {
-      png: "Un zip con imágenes de las capas.",
-      chitubox: "Un zip de ChiTuBox.",
-      uvj: "Un archivo UVJ.",
-      sl1: "Un archivo Prusa SL1.",
+      png: () => "Un zip con imágenes de las capas.",
+      chitubox: () => "Un zip de ChiTuBox.",
+      uvj: () => "Un archivo UVJ.",
+      sl1: () => "Un archivo Prusa SL1.",
+      goo: file,
+      "photon-workshop": file,
+      "anycubic-zip": file,
+      ctb: () => "Un archivo .ctb de la versión 3, sin cifrar.",
+      nanodlp: file,
     },
     direct: (printer) => `La ${printer} lo lee directamente.`,
     convert: (printer, extensions) => `La ${printer} lee ${extensions}: conviértalo antes con UVtools.`,
     unreadable: (printer) => `La ${printer} no puede leerlo.`,
+    oneInFile: "Este archivo tiene un solo espesor para todas las capas: elija capas uniformes.",
+    onePerPrint: (printer) => `La ${printer} admite un solo espesor para todas las capas: elija capas uniformes.`,
     asIs: "El modelo se imprime tal cual: sin soportes ni vaciado.",
     together: (sentences) => sentences.join(" "),
   },

@@ -1,6 +1,7 @@
 import type { ProblemTexts } from "../en/problems.js";
 import type { Format } from "../format.js";
 import { errors } from "./errors.js";
+import { LAYERS } from "./nouns.js";
 import { warnings } from "./warnings.js";
 
 export const problems = (format: Format): ProblemTexts => ({
@@ -10,6 +11,7 @@ export const problems = (format: Format): ProblemTexts => ({
     rays: (count) => `${count} rayos`,
     scale: (height) => `Escalar a ${height}`,
     uniform: (thickness) => `Capas uniformes de ${thickness}`,
+    bestUniform: (thickness, layers) => `Capas uniformes de ${thickness} (${format.counted(layers, LAYERS)})`,
     images: "Guardar como imágenes",
     noPrinter: "Sin impresora",
     again: "Intentar de nuevo",
@@ -34,10 +36,13 @@ export const problems = (format: Format): ProblemTexts => ({
     badPlane: () => "No puede haber un plano a esta altura",
     badValue: () => "Un valor está fuera de sus límites",
     badOptions: () => "Estos ajustes no encajan",
+    noSuchPrinter: () => "Esa impresora no existe",
+    badPrinter: () => "La descripción de esta impresora tiene un error",
     outOfReach: () => "Ningún plan es tan corto",
     gpu: () => "No se pudo usar la GPU",
     gpuTooSmall: () => "La GPU es demasiado pequeña para este modelo",
     uniformOnly: () => "Este archivo solo admite capas uniformes",
+    printerUniformOnly: () => "Esta impresora solo admite capas uniformes",
     unreadable: (name) => `No se pudo abrir ${name}`,
     notFetched: (name) => `No se pudo descargar ${name}`,
     startFailed: () => "No se pudo iniciar el programa",

@@ -19,6 +19,11 @@ export const warnings = ({ count, counted, plural, mm, height, error }: Format):
     `La impresión termina en ${mm(top_mm)}, porque las capas no suman exactamente ${mm(height_mm)}.`,
   "black-layers": ({ layers, from_mm }) =>
     `${counted(layers, LAYERS)} del plan sin ningún píxel iluminado, desde ${height(from_mm)}: hay partes en el aire o más finas que un píxel. Mire ahí las máscaras.`,
+  "one-thickness": ({ taker, best }) =>
+    `${taker} admite un solo espesor para todas las capas, y este plan tiene varios; ` +
+    (best === null ? "elija capas uniformes." : `${count(best.layers)} capas uniformes de ${mm(best.layer_mm)} cumplen la tolerancia.`),
+  "untried-thicknesses": ({ model }) =>
+    `Nadie ha dicho si la ${model} imprime capas de distinto espesor; imprima la prueba del calibre (cusp calibrate layers) o elija capas uniformes.`,
   "gpu-too-small": ({ needed_bytes, limit_bytes }) =>
     `La CPU hizo el trabajo de la GPU: la malla necesita un búfer de ${count(needed_bytes)} bytes, y la GPU ofrece ${count(limit_bytes)}.`,
   "gpu-failed": ({ fault, system }) =>

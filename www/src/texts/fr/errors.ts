@@ -1,3 +1,4 @@
+import type { UniformLayers } from "../../api/wire.js";
 import type { Format } from "../format.js";
 import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type GpuFaults, type QuantityNouns, type StlNouns } from "../sentences.js";
 import { FACETS } from "./nouns.js";
@@ -38,6 +39,9 @@ export const FAULTS: GpuFaults = {
   "out-of-memory": "la mémoire n’a pas suffi",
 };
 
+const inPlace = (best: UniformLayers | null | undefined, { count, mm }: Pick<Format, "count" | "mm">): string =>
+  best ? `${count(best.layers)} couches uniformes de ${mm(best.layer_mm)}, qui respectent la tolérance` : "des couches uniformes";
+
 export const errors = ({ count, counted, exact, mm, measure, error }: Format): ErrorSentences => ({
   "file-empty": () => "Le fichier est vide ; exportez à nouveau le modèle en STL.",
   "unknown-file-kind": () => "Ce n’est pas un fichier STL ; exportez le modèle en STL binaire ou texte.",
@@ -71,8 +75,13 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
   "bad-time": ({ quantity, value_s }) => `${QUANTITIES[quantity]} doit valoir 0 ou plus, pas ${measure(value_s, "s")}.`,
   "bad-exposures": ({ previous_mm, next_mm }) =>
     `Les expositions mesurées doivent être dans l’ordre des épaisseurs, chacune plus épaisse que la précédente, mais ${mm(next_mm)} suit ${mm(previous_mm)}.`,
+  "bad-growth": ({ least_mm, most_mm, value_mm }) =>
+    `La croissance d’une impression doit être comprise entre ${exact(least_mm)} et ${mm(most_mm)}, et non ${mm(value_mm)}.`,
   "bad-options": ({ system }) => `Les options sont illisibles : ${ended(system)}`,
-  "unknown-printer": ({ printer, known }) => `Il n’y a pas d’imprimante ${printer} ; sont connues ${known.join(", ")}.`,
+  "unknown-printer": ({ printer, similar, known }) =>
+    `Aucune imprimante ${printer} parmi les ${count(known)} connues${similar.length === 0 ? "" : ` ; s’en approchent ${similar.join(", ")}`}.`,
+  "bad-printer": ({ printer, field }) => `L’imprimante ${printer} ne peut pas avoir cette valeur de ${field} ; corrigez sa description.`,
+  "printer-not-json": ({ system }) => `Ce fichier ne décrit pas une imprimante en JSON : ${ended(system)}`,
   "pixels-without-pitch": () => "Les pixels et leur pas en x et y vont ensemble ; donnez les deux, ou un seul pas pour x et y.",
   "bad-antialias": ({ antialias, known }) => `L’anticrénelage a les niveaux ${known.join(", ")}, pas ${exact(antialias)}.`,
   "bad-weight-min": ({ weight_min }) => `Le poids minimal doit être entre 0 et 1, pas ${exact(weight_min)}.`,
@@ -141,8 +150,10 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
   "gpu-failed": ({ fault, system }) => `Le GPU a échoué : ${FAULTS[fault]}${system === null ? "" : ` (${system})`}.`,
   "all-black": () =>
     "Tous les masques sont noirs : le modèle n’enferme rien que le milieu d’une couche rencontre ; vérifiez le modèle, ou choisissez des couches plus fines.",
-  "uniform-only": ({ format, others }) =>
-    `Les fichiers ${format} ont une seule épaisseur pour toutes les couches, et ce plan en a plusieurs ; choisissez ${others.join(", ")}, ou des couches uniformes.`,
+  "uniform-only": ({ format, others, best }) =>
+    `Les fichiers ${format} ont une seule épaisseur pour toutes les couches, et ce plan en a plusieurs ; choisissez ${others.join(", ")}, ou ${inPlace(best, { count, mm })}.`,
+  "printer-uniform-only": ({ model, best }) =>
+    `L’imprimante ${model} n’admet qu’une épaisseur pour toutes les couches, et ce plan en a plusieurs ; choisissez ${inPlace(best, { count, mm })}.`,
   "weights-not-weights": () => "Ce n’est pas un fichier de poids : il ne commence pas par CUSPWT01, ou il est tronqué.",
   "weights-other-mesh": ({ weights_facets, mesh_facets }) =>
     `Ces poids sont d’un autre maillage, de ${counted(weights_facets, FACETS)} ; celui-ci en a ${count(mesh_facets)} ; ` +

@@ -2,6 +2,8 @@ import type { PlanTexts } from "../en/plan.js";
 import type { Format } from "../format.js";
 import { LAYERS } from "./nouns.js";
 
+const file = (extension: string): string => `Un fichier .${extension}.`;
+
 export const plan = ({ counted, plural }: Format): PlanTexts => ({
   plan: {
     region: "Le plan",
@@ -22,14 +24,21 @@ export const plan = ({ counted, plural }: Format): PlanTexts => ({
   },
   file: {
     kinds: {
-      png: "Un zip d’images des couches.",
-      chitubox: "Un zip ChiTuBox.",
-      uvj: "Un fichier UVJ.",
-      sl1: "Un fichier Prusa SL1.",
+      png: () => "Un zip d’images des couches.",
+      chitubox: () => "Un zip ChiTuBox.",
+      uvj: () => "Un fichier UVJ.",
+      sl1: () => "Un fichier Prusa SL1.",
+      goo: file,
+      "photon-workshop": file,
+      "anycubic-zip": file,
+      ctb: () => "Un fichier .ctb de version 3, non chiffré.",
+      nanodlp: file,
     },
     direct: (printer) => `L’imprimante ${printer} le lit directement.`,
     convert: (printer, extensions) => `L’imprimante ${printer} lit ${extensions} : convertissez-le d’abord avec UVtools.`,
     unreadable: (printer) => `L’imprimante ${printer} ne peut pas le lire.`,
+    oneInFile: "Ce fichier a une seule épaisseur pour toutes les couches : choisissez-les uniformes.",
+    onePerPrint: (printer) => `L’imprimante ${printer} n’admet qu’une épaisseur pour toutes les couches : choisissez-les uniformes.`,
     asIs: "Le modèle est imprimé tel quel : sans supports ni évidement.",
     together: (sentences) => sentences.join(" "),
   },

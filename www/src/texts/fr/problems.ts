@@ -1,6 +1,7 @@
 import type { ProblemTexts } from "../en/problems.js";
 import type { Format } from "../format.js";
 import { errors } from "./errors.js";
+import { LAYERS } from "./nouns.js";
 import { warnings } from "./warnings.js";
 
 export const problems = (format: Format): ProblemTexts => ({
@@ -10,6 +11,7 @@ export const problems = (format: Format): ProblemTexts => ({
     rays: (count) => `${count} rayons`,
     scale: (height) => `Mettre à ${height}`,
     uniform: (thickness) => `Couches uniformes de ${thickness}`,
+    bestUniform: (thickness, layers) => `Couches uniformes de ${thickness} (${format.counted(layers, LAYERS)})`,
     images: "Enregistrer en images",
     noPrinter: "Sans imprimante",
     again: "Réessayer",
@@ -34,10 +36,13 @@ export const problems = (format: Format): ProblemTexts => ({
     badPlane: () => "Il ne peut y avoir de plan à cette hauteur",
     badValue: () => "Une valeur est hors limites",
     badOptions: () => "Ces réglages ne vont pas ensemble",
+    noSuchPrinter: () => "Cette imprimante n’existe pas",
+    badPrinter: () => "La description de cette imprimante contient une erreur",
     outOfReach: () => "Aucun plan n’est aussi court",
     gpu: () => "Le GPU n’a pas pu servir",
     gpuTooSmall: () => "Le GPU est trop petit pour ce modèle",
     uniformOnly: () => "Ce fichier n’admet que des couches uniformes",
+    printerUniformOnly: () => "Cette imprimante n’admet que des couches uniformes",
     unreadable: (name) => `${name} n’a pas pu être ouvert`,
     notFetched: (name) => `${name} n’a pas pu être téléchargé`,
     startFailed: () => "Le trancheur n’a pas pu démarrer",

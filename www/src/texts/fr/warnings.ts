@@ -19,6 +19,11 @@ export const warnings = ({ count, counted, plural, mm, height, error }: Format):
     `L’impression finit à ${mm(top_mm)}, car les couches ne font pas exactement ${mm(height_mm)}.`,
   "black-layers": ({ layers, from_mm }) =>
     `${counted(layers, LAYERS)} du plan sans pixel éclairé, à partir de ${height(from_mm)} : des parties flottent en l’air ou sont plus fines qu’un pixel. Regardez-y les masques.`,
+  "one-thickness": ({ taker, best }) =>
+    `${taker} n’admet qu’une épaisseur pour toutes les couches, et ce plan en a plusieurs ; ` +
+    (best === null ? "choisissez des couches uniformes." : `${count(best.layers)} couches uniformes de ${mm(best.layer_mm)} respectent la tolérance.`),
+  "untried-thicknesses": ({ model }) =>
+    `Personne n’a dit si l’imprimante ${model} imprime des couches d’épaisseurs différentes ; imprimez le test au pied à coulisse (cusp calibrate layers), ou choisissez des couches uniformes.`,
   "gpu-too-small": ({ needed_bytes, limit_bytes }) =>
     `Le CPU a fait le travail du GPU : le maillage demande un tampon de ${count(needed_bytes)} octets, et le GPU en offre ${count(limit_bytes)}.`,
   "gpu-failed": ({ fault, system }) =>

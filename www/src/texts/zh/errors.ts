@@ -1,3 +1,4 @@
+import type { UniformLayers } from "../../api/wire.js";
 import type { Format } from "../format.js";
 import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type GpuFaults, type QuantityNouns, type StlNouns } from "../sentences.js";
 
@@ -37,6 +38,9 @@ export const FAULTS: GpuFaults = {
   "out-of-memory": "内存不足",
 };
 
+const inPlace = (best: UniformLayers | null | undefined, { count, mm }: Pick<Format, "count" | "mm">): string =>
+  best ? `使用 ${count(best.layers)} 个 ${mm(best.layer_mm)} 的均匀层，误差在公差以内` : "使用均匀分层";
+
 export const errors = ({ count, exact, mm, measure, error }: Format): ErrorSentences => ({
   "file-empty": () => "文件是空的；请重新将模型导出为 STL。",
   "unknown-file-kind": () => "这不是 STL 文件；请将模型导出为二进制或文本 STL。",
@@ -70,8 +74,13 @@ export const errors = ({ count, exact, mm, measure, error }: Format): ErrorSente
   "bad-time": ({ quantity, value_s }) => `${QUANTITIES[quantity]}必须不小于 0，而不是 ${measure(value_s, "s")}。`,
   "bad-exposures": ({ previous_mm, next_mm }) =>
     `测得的曝光必须按厚度排列，后一项比前一项厚，但 ${mm(previous_mm)} 之后是 ${mm(next_mm)}。`,
+  "bad-growth": ({ least_mm, most_mm, value_mm }) =>
+    `打印件的膨胀量必须在 ${exact(least_mm)} 到 ${mm(most_mm)} 之间，而不是 ${mm(value_mm)}。`,
   "bad-options": ({ system }) => `无法读取选项：${ended(system)}`,
-  "unknown-printer": ({ printer, known }) => `没有名为 ${printer} 的打印机；已知的有 ${known.join(", ")}。`,
+  "unknown-printer": ({ printer, similar, known }) =>
+    `已知的 ${count(known)} 种打印机中没有 ${printer}${similar.length === 0 ? "" : `；相近的有 ${similar.join(", ")}`}。`,
+  "bad-printer": ({ printer, field }) => `打印机 ${printer} 的 ${field} 不能取此值；请更正其描述。`,
+  "printer-not-json": ({ system }) => `此文件没有以 JSON 描述打印机：${ended(system)}`,
   "pixels-without-pitch": () => "像素与其 x、y 间距须一并给出；请两者都给，或给出 x、y 共用的一个间距。",
   "bad-antialias": ({ antialias, known }) => `抗锯齿级别有 ${known.join(", ")}，没有 ${exact(antialias)}。`,
   "bad-weight-min": ({ weight_min }) => `最小权重必须在 0 到 1 之间，而不是 ${exact(weight_min)}。`,
@@ -134,7 +143,9 @@ export const errors = ({ count, exact, mm, measure, error }: Format): ErrorSente
     `${count(facets)} 个三角面需要 ${count(needed_bytes)} 字节的 GPU 缓冲区，而此 GPU 只有 ${count(limit_bytes)}；请使用 CPU。`,
   "gpu-failed": ({ fault, system }) => `GPU 出错：${FAULTS[fault]}${system === null ? "" : `（${system}）`}。`,
   "all-black": () => "所有掩膜都是黑的：模型没有包围层中间所遇的任何部分；请检查模型，或选择更薄的层。",
-  "uniform-only": ({ format, others }) => `${format} 文件的所有层只有一种厚度，而本方案有多种；请选择 ${others.join(", ")}，或使用均匀分层。`,
+  "uniform-only": ({ format, others, best }) =>
+    `${format} 文件的所有层只有一种厚度，而本方案有多种；请选择 ${others.join(", ")}，或${inPlace(best, { count, mm })}。`,
+  "printer-uniform-only": ({ model, best }) => `${model} 的所有层只能用一种厚度，而本方案有多种；请${inPlace(best, { count, mm })}。`,
   "weights-not-weights": () => "这不是权重文件：开头不是 CUSPWT01，或文件不完整。",
   "weights-other-mesh": ({ weights_facets, mesh_facets }) =>
     `这些权重属于另一个有 ${count(weights_facets)} 个三角面的网格；当前网格有 ${count(mesh_facets)} 个；请重新涂绘，或打开制作权重时所用的模型。`,

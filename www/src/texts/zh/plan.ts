@@ -1,6 +1,8 @@
 import type { PlanTexts } from "../en/plan.js";
 import type { Format } from "../format.js";
 
+const file = (extension: string): string => `.${extension} 文件。`;
+
 export const plan = ({ count: number }: Format): PlanTexts => ({
   plan: {
     region: "方案",
@@ -21,14 +23,21 @@ export const plan = ({ count: number }: Format): PlanTexts => ({
   },
   file: {
     kinds: {
-      png: "各层图像的 zip 文件。",
-      chitubox: "ChiTuBox zip 文件。",
-      uvj: "UVJ 文件。",
-      sl1: "Prusa SL1 文件。",
+      png: () => "各层图像的 zip 文件。",
+      chitubox: () => "ChiTuBox zip 文件。",
+      uvj: () => "UVJ 文件。",
+      sl1: () => "Prusa SL1 文件。",
+      goo: file,
+      "photon-workshop": file,
+      "anycubic-zip": file,
+      ctb: () => "第 3 版 .ctb 文件，未加密。",
+      nanodlp: file,
     },
     direct: (printer) => `${printer} 可直接读取。`,
     convert: (printer, extensions) => `${printer} 读取 ${extensions}：请先用 UVtools 转换。`,
     unreadable: (printer) => `${printer} 无法读取。`,
+    oneInFile: "此文件所有层只有一种厚度：请选择均匀分层。",
+    onePerPrint: (printer) => `${printer} 的所有层只能用一种厚度：请选择均匀分层。`,
     asIs: "模型按原样打印：未加支撑，未抽壳。",
     together: (sentences) => sentences.join(""),
   },

@@ -1,0 +1,114 @@
+/** Printers as settings have them: by name, or described; and the print formats. */
+import { said, SlicerError } from "../../api/error.js";
+import type { Format, KnownPrinter, Printer } from "../../api/wire.js";
+
+/** The name of a known printer, the description of one's own, or empty text for none. */
+export type ChosenPrinter = string | Printer;
+
+/** The print formats, as the core lists them. */
+export const FORMATS = [
+  "png",
+  "chitubox",
+  "uvj",
+  "sl1",
+  "goo",
+  "photon-workshop",
+  "anycubic-zip",
+  "ctb",
+  "nanodlp",
+] as const satisfies readonly Format[];
+
+/** The longest description that an address carries, as JSON: mail programs and servers cut or refuse very long addresses. */
+const ADDRESS_CHARS = 1500;
+
+/**
+ * The printer that was chosen; null if there is none of this name, or if its description has fields of another type than those
+ * that are shown. In both cases the core refuses it and says why.
+ */
+export function printerOf(chosen: ChosenPrinter | undefined, known: readonly KnownPrinter[]): Printer | null {
+  if (typeof chosen === "object") return isPrinter(chosen) ? chosen : null;
+  return known.find(({ name }) => name === chosen) ?? null;
+}
+
+/** Whether the fields that are shown have the right types. */
+export function isPrinter(value: unknown): value is Printer {
+  if (typeof value !== "object" || value === null) return false;
+  const { model = "", pixels, pitch_um, volume_mm, layer_mm = [1, 1], format = "png", reads = [] } = value as Record<string, unknown>;
+  return (
+    typeof model === "string" &&
+    areLengths(pixels, 2) &&
+    areLengths(pitch_um, 2) &&
+    areLengths(volume_mm, 3) &&
+    areLengths(layer_mm, 2) &&
+    FORMATS.some((it) => it === format) &&
+    Array.isArray(reads)
+  );
+}
+
+function areLengths(value: unknown, count: number): boolean {
+  return Array.isArray(value) && value.length === count && value.every((it) => Number.isFinite(it) && it > 0);
+}
+
+/** Make and model; without one, the core's own words. */
+export const modelOf = ({ model = "own printer" }: Printer): string => model;
+
+/** The format that settings give before there is a plan. */
+export function formatFor({ printer, format }: { printer: ChosenPrinter; format: Format | "" }, known: readonly KnownPrinter[]): Format {
+  return format || (printerOf(printer, known)?.format ?? "png");
+}
+
+const COLLATOR = new Intl.Collator("en", { numeric: true });
+
+/** Printers by maker, which is the first word of a model, with the rest of the model: both in alphabetical order. */
+export function byMaker(printers: readonly KnownPrinter[]): [maker: string, models: (readonly [name: string, model: string])[]][] {
+  const makers = new Map<string, (readonly [string, string])[]>();
+  for (const { name, model } of printers) {
+    const [maker = model, ...rest] = model.split(" ");
+    const models = makers.get(maker) ?? [];
+    models.push([name, rest.join(" ") || maker]);
+    makers.set(maker, models);
+  }
+  for (const models of makers.values()) models.sort(([, a], [, b]) => COLLATOR.compare(a, b));
+  return [...makers].sort(([a], [b]) => COLLATOR.compare(a, b));
+}
+
+/**
+ * The printer that a file describes in JSON; it has the file's name unless it says its own. The core checks its values.
+ *
+ * @throws SlicerError
+ */
+export async function readPrinter(file: File): Promise<Printer> {
+  const text = await file.text().catch((cause: unknown) => {
+    throw new SlicerError("file-unreadable", said(cause));
+  });
+  const name = file.name.replace(/\.json$/i, "");
+  return { name, model: name, ...parsed(text) };
+}
+
+function parsed(text: string): Printer {
+  try {
+    const value: unknown = JSON.parse(text);
+    if (typeof value === "object" && value !== null && !Array.isArray(value)) return value as Printer;
+    throw new SyntaxError("it holds no object");
+  } catch (error) {
+    const system = said(error);
+    throw new SlicerError("printer-not-json", `the file does not describe a printer in JSON: ${system}`, { system });
+  }
+}
+
+/** The text of a printer in an address; empty if its description is too long for one. */
+export function printerText(chosen: ChosenPrinter): string {
+  if (typeof chosen === "string") return chosen;
+  const text = JSON.stringify(chosen);
+  return text.length > ADDRESS_CHARS ? "" : text;
+}
+
+/** The printer of an address; no name begins with a brace. */
+export function printerFrom(text: string): ChosenPrinter {
+  if (!text.startsWith("{")) return text;
+  try {
+    return JSON.parse(text) as Printer;
+  } catch {
+    return "";
+  }
+}
