@@ -2,10 +2,14 @@
 
 #![cfg(not(target_arch = "wasm32"))]
 
+use std::fmt::Write;
+
 use cusp_slicer::job::Options;
 use cusp_slicer::orientation::SearchOptions;
+use cusp_slicer::printer::{PRINTERS, VariableLayers};
 use cusp_slicer::profile::Metric;
 
+const PRINT_FILES: &str = "docs/print-files.md";
 const CLI: &str = include_str!("../docs/cli.md");
 const EMBED: &str = include_str!("../docs/embed.md");
 
@@ -59,4 +63,53 @@ fn the_elements_document_names_the_defaults_of_the_library() {
     assert_says(row(EMBED, "`layer-min`, `layer-max`"), &said);
     let said = format!("`weight_min` ({} by default)", options.weight_min);
     assert_says(EMBED, &said);
+}
+
+/// The table of known printers, a line for each.
+fn printer_table() -> String {
+    let mut table = String::new();
+    for printer in PRINTERS.iter() {
+        let [columns, rows] = printer.pixels;
+        let [x_um, y_um] = printer.pitch_um;
+        let variable = match printer.variable_layers {
+            VariableLayers::Yes => "yes",
+            VariableLayers::No => "no",
+            VariableLayers::Untried => "untried",
+        };
+        let _ = writeln!(
+            table,
+            "| `{}` | {} | {columns} × {rows} | {x_um} × {y_um} | `{}`{} | {}{} | {variable} | {} |",
+            printer.name,
+            printer.model,
+            printer.format.name(),
+            printer
+                .file_version
+                .map_or(String::new(), |version| format!(" {version}")),
+            printer.reads.join(", "),
+            if printer.reads_format {
+                ""
+            } else {
+                ", by a converter"
+            },
+            printer.variable_layers_source,
+        );
+    }
+    table
+}
+
+/// `BLESS=1` rewrites the table.
+#[test]
+fn known_printers_are_in_the_document() {
+    const HEAD: &str = "|---|---|---|---|---|---|---|---|\n";
+    const END: &str = "<!-- end -->";
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(PRINT_FILES);
+    let document = std::fs::read_to_string(&path).unwrap();
+    let (before, rest) = document.split_once(HEAD).unwrap();
+    let (table, after) = rest.split_once(END).unwrap();
+    let expected = printer_table();
+    if std::env::var_os("BLESS").is_some() {
+        std::fs::write(path, [before, HEAD, &expected, END, after].concat()).unwrap();
+    } else {
+        assert!(table == expected, "run again with BLESS=1: {PRINT_FILES}");
+    }
 }

@@ -134,8 +134,9 @@ fn every_format_has_every_height_exposure_and_pixel() {
                     printer: own(Format::Goo, None),
                     height_mm: Some(2.0),
                     antialias,
-                    layer_min_mm: 0.1,
+                    layer_min_mm: 0.05,
                     layer_max_mm: 0.2,
+                    tolerance: Some(0.2),
                     backend: Backend::Cpu,
                     planner: if is_uniform {
                         Planner::Uniform { layer_mm: 0.2 }
