@@ -59,4 +59,11 @@ test.each(["light", "dark"] as const)("nothing is amiss in any state: %s", async
   await page.locator("details.figures summary").click();
   await settled(page);
   expect(await broken(page)).toEqual([]);
+
+  await page.getByLabel("Printer", { exact: true }).selectOption("photon-mono-m5s");
+  await settled(page);
+  await page.locator(".warning button").waitFor();
+  await page.getByLabel("Printer", { exact: true }).selectOption("Own printer…");
+  await page.getByLabel("Open its description").waitFor({ state: "attached" });
+  expect(await broken(page)).toEqual([]);
 });
