@@ -41,31 +41,6 @@ pub(crate) fn keep_memory() {
     drop(std::hint::black_box(Vec::<u8>::with_capacity(31 << 20)));
 }
 
-/// Applies `work` to every item, with a tool that a thread makes once and keeps, and returns the results in the items' order.
-#[cfg(not(target_arch = "wasm32"))]
-pub(crate) fn map_with<T: Send, S, R: Send>(
-    items: Vec<T>,
-    tool: impl Fn() -> S + Sync + Send,
-    work: impl Fn(&mut S, T) -> R + Sync + Send,
-) -> Vec<R> {
-    use rayon::iter::{IntoParallelIterator, ParallelIterator};
-    items.into_par_iter().map_init(tool, work).collect()
-}
-
-/// Applies `work` to every item, with one tool, and returns the results in the items' order.
-#[cfg(target_arch = "wasm32")]
-pub(crate) fn map_with<T: Send, S, R: Send>(
-    items: Vec<T>,
-    tool: impl Fn() -> S + Sync + Send,
-    work: impl Fn(&mut S, T) -> R + Sync + Send,
-) -> Vec<R> {
-    let mut tool = tool();
-    items
-        .into_iter()
-        .map(|item| work(&mut tool, item))
-        .collect()
-}
-
 /// Applies `work` to every item in groups, passes the results to `collect` in order, and reports progress
 /// from `from` to `to` after each group.
 pub(crate) fn map_in_groups<T: Send, R: Send, E: From<Cancelled>>(

@@ -218,18 +218,19 @@ pub fn similar(name: &str) -> Vec<String> {
             .collect()
     };
     let asked = words(&name);
-    let mut similar: Vec<(usize, &str)> = PRINTERS
-        .iter()
-        .map(|printer| {
-            let model = words(&printer.model.to_ascii_lowercase());
-            let shared = asked.iter().filter(|word| model.contains(word)).count();
-            (shared, printer.name.as_str())
-        })
-        .filter(|(shared, _)| *shared > 0)
-        .collect();
-    similar.sort_by_key(|(shared, _)| std::cmp::Reverse(*shared));
-    let names = similar.into_iter().take(MOST);
-    names.map(|(_, name)| name.to_owned()).collect()
+    let shared = |printer: &Printer| {
+        let model = words(&printer.model.to_ascii_lowercase());
+        asked.iter().filter(|word| model.contains(word)).count()
+    };
+    let by_shared = (1..=asked.len()).rev();
+    let similar = by_shared.flat_map(|count| {
+        let printers = PRINTERS.iter();
+        printers.filter(move |printer| shared(printer) == count)
+    });
+    similar
+        .take(MOST)
+        .map(|printer| printer.name.clone())
+        .collect()
 }
 
 /// The printer of options: the name of a known one, or a description of one's own.

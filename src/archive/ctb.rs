@@ -7,7 +7,7 @@ use std::io::Write;
 use super::fields::{ByteOrder, Fields};
 use super::preview::{Look, rgb565};
 use super::raster::for_each_run;
-use super::{ArchiveError, Encoder, PrintJob, encode_layers};
+use super::{ArchiveError, EncodedLayer, Encoder, PrintJob, encode_layers};
 use crate::mask::{LayerRuns, Run};
 use crate::printer::Printer;
 use crate::progress::Progress;
@@ -49,9 +49,11 @@ impl Encoder for Ctb {
         let mut layers = Vec::with_capacity(job.layers.len());
         encode_layers(
             job,
-            || (),
-            |(), runs: &LayerRuns, layer| data(runs.of_layer(layer), area),
-            |layer, mut data: Vec<u8>| {
+            &|runs: &LayerRuns, layer| {
+                let data = data(runs.of_layer(layer), area);
+                Ok(EncodedLayer::new(data, runs.of_layer(layer)))
+            },
+            &mut |layer, EncodedLayer { mut data, .. }| {
                 scramble(&mut data, layer as u32);
                 layers.push(data);
                 Ok(())

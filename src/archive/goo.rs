@@ -8,7 +8,7 @@ use std::io::Write;
 use super::fields::{ByteOrder, Fields};
 use super::preview::{Look, rgb565};
 use super::raster::for_each_run;
-use super::{ArchiveError, Encoder, Layer, PrintJob, encode_layers};
+use super::{ArchiveError, EncodedLayer, Encoder, Layer, PrintJob, encode_layers};
 use crate::mask::{LayerRuns, Run};
 use crate::printer::Printer;
 use crate::progress::Progress;
@@ -44,9 +44,11 @@ impl Encoder for Goo {
         let mut settings = Vec::new();
         encode_layers(
             job,
-            || (),
-            |(), runs: &LayerRuns, layer| data(runs.of_layer(layer), area),
-            |layer, data| {
+            &|runs: &LayerRuns, layer| {
+                let data = data(runs.of_layer(layer), area);
+                Ok(EncodedLayer::new(data, runs.of_layer(layer)))
+            },
+            &mut |layer, EncodedLayer { data, .. }| {
                 settings.clear();
                 let fields = Fields::new(&mut settings, order);
                 let job = &job.layers[layer];

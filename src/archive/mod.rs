@@ -19,10 +19,10 @@ use std::io::Write;
 pub use preview::Look;
 use serde::Serialize;
 use serde_json::Value;
-use survey::Bounds;
+use survey::{Bounds, Survey};
 
 use crate::format::Format;
-use crate::mask::{LayerRuns, RunSource};
+use crate::mask::{LayerRuns, Run, RunSource};
 use crate::parallel;
 use crate::plan::uniform::UniformLayers;
 use crate::printer::{Printer, Refusal, are_equal, check_thicknesses};
@@ -284,15 +284,42 @@ pub fn write<W: Write>(
 /// Layers that are read and encoded together, in parallel.
 const GROUP: usize = 32;
 
-/// Encodes all layers in parallel with a tool for each thread, and takes the results in order.
+/// The mask of a layer, encoded.
+struct EncodedLayer {
+    data: Vec<u8>,
+    /// Checksum and length of what `data` inflates to, if it is deflated.
+    inflated: Option<(u32, u64)>,
+    lit_pixels: u64,
+    /// Its lit areas, for formats that state them all.
+    survey: Option<Survey>,
+    /// The box of its lit pixels, for formats that state only that.
+    bounds: Option<Bounds>,
+}
+
+impl EncodedLayer {
+    /// A layer of which a format states no more.
+    fn new(data: Vec<u8>, runs: impl Iterator<Item = Run>) -> Self {
+        Self {
+            data,
+            inflated: None,
+            lit_pixels: runs.map(|run| u64::from(run.pixels)).sum(),
+            survey: None,
+            bounds: None,
+        }
+    }
+}
+
+/// Encodes a layer of these.
+type EncodeLayer<'a> = &'a (dyn Fn(&LayerRuns, usize) -> Result<EncodedLayer, ArchiveError> + Sync);
+
+/// Encodes all layers in parallel, and takes them in order.
 ///
 /// # Errors
 /// [`ArchiveError`]; [`ArchiveError::AllBlack`] if no layer has a lit pixel.
-fn encode_layers<S, T: Send>(
+fn encode_layers(
     job: &PrintJob<'_>,
-    tool: impl Fn() -> S + Sync + Send,
-    encode: impl Fn(&mut S, &LayerRuns, usize) -> T + Sync + Send,
-    mut take: impl FnMut(usize, T) -> Result<(), ArchiveError>,
+    encode: EncodeLayer<'_>,
+    take: &mut dyn FnMut(usize, EncodedLayer) -> Result<(), ArchiveError>,
     progress: &mut Progress<'_>,
 ) -> Result<(), ArchiveError> {
     let total = job.layers.len();
@@ -302,11 +329,10 @@ fn encode_layers<S, T: Send>(
     while first < total {
         let count = GROUP.min(total - first);
         let runs = reader.next(count);
-        is_black &= (0..count).all(|layer| runs.of_layer(layer).next().is_none());
-        let encoded = parallel::map_with((0..count).collect(), &tool, |tool, layer| {
-            encode(tool, &runs, layer)
-        });
+        let encoded = parallel::map((0..count).collect(), |layer| encode(&runs, layer));
         for (layer, encoded) in encoded.into_iter().enumerate() {
+            let encoded = encoded?;
+            is_black &= encoded.lit_pixels == 0;
             take(first + layer, encoded)?;
         }
         first += count;

@@ -5,7 +5,7 @@ use std::io::Write;
 use super::fields::{ByteOrder, Fields};
 use super::preview::rgb565;
 use super::survey::{Bounds, bounds_of, joined};
-use super::{ArchiveError, Encoder, PrintJob, encode_layers, pw0};
+use super::{ArchiveError, EncodedLayer, Encoder, PrintJob, encode_layers, pw0};
 use crate::mask::LayerRuns;
 use crate::printer::Printer;
 use crate::progress::Progress;
@@ -21,11 +21,6 @@ const SECOND_PREVIEW: [u32; 2] = [330, 190];
 const GREYS: u32 = 16;
 /// The background of the preview on the printer.
 const BACKGROUND: u32 = 6_506_241;
-
-struct Layer {
-    data: Vec<u8>,
-    lit_pixels: u32,
-}
 
 impl Encoder for PhotonWorkshop {
     /// The tables stand before the layers, so all are encoded before the first byte is written. Memory: the size of the file.
@@ -43,20 +38,17 @@ impl Encoder for PhotonWorkshop {
         let mut bounds: Option<Bounds> = None;
         encode_layers(
             job,
-            || (),
-            |(), runs: &LayerRuns, layer| {
+            &|runs: &LayerRuns, layer| {
                 let runs = || runs.of_layer(layer);
                 let boxes = runs().map(|run| bounds_of(run, width));
-                let of_layer = boxes.reduce(joined);
-                let layer = Layer {
-                    data: pw0::encode(runs(), area),
-                    lit_pixels: runs().map(|run| run.pixels).sum(),
-                };
-                (layer, of_layer)
+                Ok(EncodedLayer {
+                    bounds: boxes.reduce(joined),
+                    ..EncodedLayer::new(pw0::encode(runs(), area), runs())
+                })
             },
-            |_, (layer, of_layer)| {
+            &mut |_, layer| {
+                bounds = bounds.into_iter().chain(layer.bounds).reduce(joined);
                 layers.push(layer);
-                bounds = bounds.into_iter().chain(of_layer).reduce(joined);
                 Ok(())
             },
             progress,
@@ -186,7 +178,12 @@ fn machine_bytes(version: u32) -> u32 {
 }
 
 /// Everything before the layers.
-fn head(job: &PrintJob<'_>, version: u32, layers: &[Layer], bounds: Option<Bounds>) -> Vec<u8> {
+fn head(
+    job: &PrintJob<'_>,
+    version: u32,
+    layers: &[EncodedLayer],
+    bounds: Option<Bounds>,
+) -> Vec<u8> {
     let tables = Tables::new(version, layers.len() as u32);
     let mut bytes = Vec::with_capacity(tables.images as usize);
     let mut fields = Fields::new(&mut bytes, ByteOrder::Little);
@@ -217,7 +214,12 @@ fn head(job: &PrintJob<'_>, version: u32, layers: &[Layer], bounds: Option<Bound
     bytes
 }
 
-fn write_layers(fields: &mut Fields<'_>, job: &PrintJob<'_>, starts: &[u32], layers: &[Layer]) {
+fn write_layers(
+    fields: &mut Fields<'_>,
+    job: &PrintJob<'_>,
+    starts: &[u32],
+    layers: &[EncodedLayer],
+) {
     let count = layers.len() as u32;
     fields.text("LAYERDEF", 12);
     fields.u32(4 + 32 * count);
@@ -229,7 +231,7 @@ fn write_layers(fields: &mut Fields<'_>, job: &PrintJob<'_>, starts: &[u32], lay
         fields.f32(job.resin.lift_mm_min / 60.0);
         fields.f32(settings.exposure_s);
         fields.f32(settings.thickness_mm);
-        fields.u32(layer.lit_pixels);
+        fields.u32(layer.lit_pixels as u32);
         fields.u32(0);
     }
 }
@@ -255,7 +257,7 @@ fn write_model(fields: &mut Fields<'_>, job: &PrintJob<'_>, bounds: Option<Bound
 }
 
 /// Where exposures differ within a layer, a layer has several images; here each has one.
-fn write_sublayers(fields: &mut Fields<'_>, starts: &[u32], layers: &[Layer]) {
+fn write_sublayers(fields: &mut Fields<'_>, starts: &[u32], layers: &[EncodedLayer]) {
     let count = layers.len() as u32;
     fields.text("SUBIMGS", 12);
     fields.u32(24 + 44 * count);
@@ -264,7 +266,7 @@ fn write_sublayers(fields: &mut Fields<'_>, starts: &[u32], layers: &[Layer]) {
     for (start, layer) in starts.iter().zip(layers) {
         fields.u32(*start);
         fields.u32(layer.data.len() as u32);
-        fields.u32(layer.lit_pixels);
+        fields.u32(layer.lit_pixels as u32);
         fields.zeros(32);
     }
 }

@@ -151,6 +151,7 @@ impl Rows {
         let Shrink {
             ldi, sublayer_of, ..
         } = shrink;
+        let sublayers = shrink.shrinking.xy_mm.len() as u32 * shrink.parts;
         let [left, above] = shrink.offset.map(|side| side as i32);
         let width = ldi.grid.width as usize;
         let mut flips = Vec::new();
@@ -176,14 +177,15 @@ impl Rows {
                 });
             }
         }
-        flips.sort_unstable();
+        // Within a sublayer they are sorted as they were found: by row, then by column.
+        let flips = sorted_by_sublayer(&flips, sublayers);
         Self {
             first: rows.start,
             edges: vec![Vec::new(); rows.len()],
             stretches: vec![Vec::new(); rows.len()],
             flips,
             next: 0,
-            sublayers: shrink.shrinking.xy_mm.len() as u32 * shrink.parts,
+            sublayers,
         }
     }
 
@@ -201,13 +203,10 @@ impl Rows {
             let row = flips[0].1;
             let edges = &mut self.edges[(row - self.first) as usize];
             // Both sides of each ray change.
-            edges.extend(
-                flips
-                    .iter()
-                    .flat_map(|&(_, _, column)| [column, column + 1]),
-            );
-            edges.sort_unstable();
-            drop_pairs(edges);
+            let sides = flips
+                .iter()
+                .flat_map(|&(_, _, column)| [column, column + 1]);
+            *edges = toggled(edges, sides);
             let stretches = &mut self.stretches[(row - self.first) as usize];
             stretches.clear();
             stretches.extend(edges.chunks_exact(2).map(|pair| pair[0]..pair[1]));
@@ -225,18 +224,42 @@ impl Rows {
     }
 }
 
-/// Drops equal neighbours in pairs: two changes at the same place are none.
-fn drop_pairs(sorted: &mut Vec<i32>) {
-    let mut kept = 0;
-    for index in 0..sorted.len() {
-        if kept > 0 && sorted[kept - 1] == sorted[index] {
-            kept -= 1;
-        } else {
-            sorted[kept] = sorted[index];
-            kept += 1;
-        }
+/// Flips of the sublayers, by a counting sort.
+fn sorted_by_sublayer(flips: &[(u32, i32, i32)], sublayers: u32) -> Vec<(u32, i32, i32)> {
+    // Flips above the last sublayer belong to none.
+    let within = || flips.iter().filter(|flip| flip.0 < sublayers);
+    let mut starts = vec![0; sublayers as usize + 1];
+    for flip in within() {
+        starts[flip.0 as usize + 1] += 1;
     }
-    sorted.truncate(kept);
+    for sublayer in 1..starts.len() {
+        starts[sublayer] += starts[sublayer - 1];
+    }
+    let mut sorted = vec![(0, 0, 0); starts[sublayers as usize]];
+    for &flip in within() {
+        let slot = &mut starts[flip.0 as usize];
+        sorted[*slot] = flip;
+        *slot += 1;
+    }
+    sorted
+}
+
+/// The places that are in one of two sorted lists an odd number of times in all.
+fn toggled(edges: &[i32], sides: impl Iterator<Item = i32>) -> Vec<i32> {
+    let mut result: Vec<i32> = Vec::with_capacity(edges.len() + 2);
+    let mut toggle = |place: i32| match result.last() {
+        Some(&last) if last == place => drop(result.pop()),
+        _ => result.push(place),
+    };
+    let mut rest = edges.iter().copied().peekable();
+    for side in sides {
+        while let Some(edge) = rest.next_if(|&edge| edge <= side) {
+            toggle(edge);
+        }
+        toggle(side);
+    }
+    rest.for_each(toggle);
+    result
 }
 
 /// The rows of a disc around `row`, and the half width of each.
@@ -279,21 +302,30 @@ fn intersection(a: &[Stretch], b: impl Iterator<Item = Stretch>) -> Vec<Stretch>
 }
 
 fn grown(source: &Rows, disc: &Disc, row: i32, width: i32) -> Vec<Stretch> {
-    let mut all: Vec<Stretch> = disc_rows(disc, row)
-        .flat_map(|(row, half_width)| {
-            source.row(row).iter().map(move |stretch| {
-                (stretch.start - half_width).max(0)..(stretch.end + half_width).min(width)
-            })
-        })
-        .collect();
-    all.sort_unstable_by_key(|stretch| stretch.start);
-    let mut result: Vec<Stretch> = Vec::with_capacity(all.len());
-    for stretch in all {
-        match result.last_mut() {
-            Some(last) if stretch.start <= last.end => last.end = last.end.max(stretch.end),
-            _ => result.push(stretch),
-        }
+    let mut result = Vec::new();
+    for (row, half_width) in disc_rows(disc, row) {
+        let longer = source.row(row).iter().map(|stretch| {
+            (stretch.start - half_width).max(0)..(stretch.end + half_width).min(width)
+        });
+        result = union(&result, longer);
     }
+    result
+}
+
+fn union(a: &[Stretch], b: impl Iterator<Item = Stretch>) -> Vec<Stretch> {
+    let mut result: Vec<Stretch> = Vec::with_capacity(a.len() + 1);
+    let mut add = |stretch: Stretch| match result.last_mut() {
+        Some(last) if stretch.start <= last.end => last.end = last.end.max(stretch.end),
+        _ => result.push(stretch),
+    };
+    let mut rest = a.iter().cloned().peekable();
+    for stretch in b {
+        while let Some(other) = rest.next_if(|other| other.start <= stretch.start) {
+            add(other);
+        }
+        add(stretch);
+    }
+    rest.for_each(add);
     result
 }
 

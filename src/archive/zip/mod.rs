@@ -11,6 +11,7 @@ mod settings;
 pub mod sl1;
 pub mod uvj;
 
+use std::cell::RefCell;
 use std::io::Write;
 
 use flate2::{Compress, Compression, FlushCompress};
@@ -21,7 +22,7 @@ use serde_json::Value;
 
 use super::png::Depth;
 use super::survey::{Bounds, Survey, joined};
-use super::{ArchiveError, Encoder, Layer, PrintJob, Screen, encode_layers};
+use super::{ArchiveError, EncodedLayer, Encoder, Layer, PrintJob, Screen, encode_layers};
 use crate::archive::png;
 use crate::mask::{LayerRuns, Run};
 use crate::progress::Progress;
@@ -89,12 +90,6 @@ pub trait Container: Sync {
 /// Encodes a container.
 pub struct Zip(pub &'static dyn Container);
 
-struct Mask {
-    file: Deflated,
-    lit_pixels: u64,
-    survey: Option<Survey>,
-}
-
 impl Encoder for Zip {
     /// There is no limit on the number and size of files: from 65,535 files or 4 GiB on, the zip is a zip64.
     fn encode(
@@ -109,24 +104,25 @@ impl Encoder for Zip {
         let mut layers: Vec<LayerEntry> = Vec::with_capacity(job.layers.len());
         encode_layers(
             job,
-            Deflater::new,
-            |deflater, runs: &LayerRuns, layer| {
+            &|runs: &LayerRuns, layer| {
                 let runs = || runs.of_layer(layer);
-                Ok(Mask {
-                    file: deflater.deflate(&container.mask(&screen, &mut runs()))?,
-                    lit_pixels: runs().map(|run| u64::from(run.pixels)).sum(),
+                let file = deflate(&container.mask(&screen, &mut runs()))?;
+                Ok(EncodedLayer {
+                    inflated: Some((file.crc, file.length)),
                     survey: container
                         .needs_survey()
                         .then(|| Survey::of(runs(), screen.pixels)),
+                    ..EncodedLayer::new(file.bytes, runs())
                 })
             },
-            |layer, mask: Result<Mask, ArchiveError>| {
-                let Mask {
-                    file,
-                    lit_pixels,
-                    survey,
-                } = mask?;
+            &mut |layer, encoded| {
                 let name = container.mask_name(layer);
+                let (crc, length) = encoded.inflated.unwrap_or_default();
+                let file = Deflated {
+                    bytes: encoded.data,
+                    crc,
+                    length,
+                };
                 add(&mut zip, &name, &file)?;
                 let Layer {
                     z_mm,
@@ -138,16 +134,15 @@ impl Encoder for Zip {
                     z_mm,
                     thickness_mm,
                     exposure_s,
-                    lit_pixels,
-                    survey,
+                    lit_pixels: encoded.lit_pixels,
+                    survey: encoded.survey,
                 });
                 Ok(())
             },
             progress,
         )?;
-        let mut deflater = Deflater::new();
         for (name, bytes) in container.files(job, &layers)? {
-            add(&mut zip, &name, &deflater.deflate(&bytes)?)?;
+            add(&mut zip, &name, &deflate(&bytes)?)?;
         }
         zip.finish().map_err(ArchiveError::write)?;
         Ok(())
@@ -183,6 +178,16 @@ struct Deflated {
     bytes: Vec<u8>,
     crc: u32,
     length: u64,
+}
+
+thread_local! {
+    /// Made once for each thread: its tables take a third of a megabyte.
+    static DEFLATER: RefCell<Deflater> = RefCell::new(Deflater::new());
+}
+
+/// Deflates a file.
+fn deflate(file: &[u8]) -> Result<Deflated, ArchiveError> {
+    DEFLATER.with_borrow_mut(|deflater| deflater.deflate(file))
 }
 
 /// Deflates one file after another.
