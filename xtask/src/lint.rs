@@ -12,10 +12,15 @@ use crate::{
 /// Runs all checks, each regardless of the others. Returns `false` if one failed;
 /// a check that cannot run has failed.
 pub fn run(project: &Project) -> bool {
-    let checks: [(&str, &dyn Fn() -> Result<()>); 6] = [
+    let checks: [(&str, &dyn Fn() -> Result<()>); 7] = [
         ("modules", &|| modules::check(project)),
         ("fmt", &|| {
             process::run(cargo(project).args(["fmt", "--all", "--check"]))
+        }),
+        // Clippy would have to compile all that its tests need a second time.
+        ("fmt of peers", &|| {
+            let manifest = ["--manifest-path", "peers/Cargo.toml"];
+            process::run(cargo(project).arg("fmt").args(manifest).arg("--check"))
         }),
         ("clippy", &|| {
             process::run(

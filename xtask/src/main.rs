@@ -52,7 +52,7 @@ enum Command {
     Build,
     /// Build the npm package (www/dist-package) and report its size
     Package,
-    /// Run every test: native, GPU, wasm in a browser, page, end to end, cluster
+    /// Run every test: native, peers, GPU, wasm in a browser, page, end to end, cluster
     Test {
         /// Run only these steps
         #[arg(value_name = "STEP")]

@@ -28,6 +28,8 @@ const VULKAN_PACKAGES: [&str; 2] = ["mesa-vulkan-drivers", "libvulkan1"];
 pub enum Step {
     /// Unit, integration and documentation tests, natively
     Native,
+    /// Print files, read by the crates of others (peers/)
+    Peers,
     /// The GPU tests once more, on the Vulkan driver that Chromium ships
     Gpu,
     /// Build the wasm package and the page
@@ -100,6 +102,7 @@ impl Step {
                     scratch,
                 )
             }
+            Self::Peers => cargo_test(&mut peers(project), scratch),
             Self::Gpu => gpu_on_swiftshader(project, scratch),
             Self::Build => {
                 wasm::build(project)?;
@@ -148,6 +151,17 @@ fn vitest(npm: &mut Command, script: &str, scratch: &Path) -> Result<(Verdict, T
         .context("vitest left no report")
         .and_then(|json| runner_output::vitest(&json));
     Ok(judge(status, tally))
+}
+
+/// A workspace of its own, so its features and profiles differ, and what it builds
+/// is kept apart.
+fn peers(project: &Project) -> Command {
+    let mut cargo = process::cargo(project);
+    cargo
+        .args(["test", "--no-fail-fast", "--manifest-path"])
+        .arg(project.root.join("peers/Cargo.toml"))
+        .env("CARGO_TARGET_DIR", project.target.join("peers"));
+    cargo
 }
 
 /// A second, independent driver: what passes on both does not depend on the

@@ -2,7 +2,7 @@
 //! thickness for all layers.
 //!
 //! Fields that nothing is known to depend on are 0 or empty, as in files of other slicers. Readers disagree on which
-//! numbers may have a fraction, so whole ones are written without a decimal point.
+//! numbers have a decimal point: mslicer's requires it in lengths, areas and exposures, and rejects it in waits and lifts.
 
 use serde_json::{Value, json};
 
@@ -37,7 +37,18 @@ impl Container for Nanodlp {
 
     fn files(&self, job: &PrintJob<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
         let look = (job.look)();
-        let mut files = Settings::new(job, layers, number).files(TEMPLATE)?;
+        let mut settings = Settings::new(job, layers, |number| json!(number));
+        let resin = job.resin;
+        for (name, number) in [
+            ("$short_layer_um", job.usual_mm() * 1e3),
+            ("$short_wait_s", resin.wait_s),
+            ("$short_lift_mm", resin.lift_mm),
+            ("$short_lift_mm_min", resin.lift_mm_min),
+            ("$short_return_mm_min", resin.return_mm_min),
+        ] {
+            settings.set(name, short(tidy(number)));
+        }
+        let mut files = settings.files(TEMPLATE)?;
         let info = layers.iter().map(|layer| info(&job.screen, layer));
         files.push(json_file("info.json", &info.collect())?);
         files.push(("3d.png".to_owned(), look.png(PREVIEW)));
@@ -46,7 +57,7 @@ impl Container for Nanodlp {
 }
 
 /// A number, without a decimal point if it is whole.
-fn number(value: f64) -> Value {
+fn short(value: f64) -> Value {
     if value.fract() == 0.0 {
         json!(value as i64)
     } else {
@@ -57,11 +68,7 @@ fn number(value: f64) -> Value {
 /// Areas of a layer in mm², and the first and last lit columns and rows.
 fn info(screen: &Screen, layer: &LayerEntry) -> Value {
     let Survey { bounds, areas } = layer.survey();
-    let mm2 = |pixels: u64| {
-        number(tidy(
-            pixels as f64 * screen.pitch_mm[0] * screen.pitch_mm[1],
-        ))
-    };
+    let mm2 = |pixels: u64| tidy(pixels as f64 * screen.pitch_mm[0] * screen.pitch_mm[1]);
     let [left, top, right, bottom] = bounds.unwrap_or([0, 0, 1, 1]);
     json!({
         "TotalSolidArea": mm2(layer.lit_pixels),
