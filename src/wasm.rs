@@ -428,10 +428,6 @@ impl Slicer {
 ///
 /// # Errors
 /// Throws a `CuspError`, or what `take` throws.
-#[expect(
-    clippy::needless_pass_by_value,
-    reason = "values from JavaScript come by value"
-)]
 #[wasm_bindgen(unchecked_return_type = "Report")]
 pub async fn calibrate_layers(
     options: Ts<Options>,

@@ -36,7 +36,7 @@ fn slice(
 fn greys(file: &PrintFile<'_>, layer: usize) -> Vec<u8> {
     let mut greys = Vec::new();
     file.runs(layer, &mut |grey, count| {
-        greys.extend(std::iter::repeat_n(grey, count as usize))
+        greys.extend(std::iter::repeat_n(grey, count as usize));
     })
     .unwrap();
     greys
@@ -112,9 +112,9 @@ fn check(bytes: &[u8], png: &PrintFile<'_>, format: Format, report: &Report, nam
     assert_eq!(codes, black, "{name}, {format:?}");
 }
 
-fn own(format: Format, version: Option<u32>) -> Option<PrinterChoice> {
+fn own(format: Format, version: Option<u32>) -> PrinterChoice {
     let mut printer = Printer::clone(&PRINTERS[0]);
-    printer.name = "own".to_owned();
+    "own".clone_into(&mut printer.name);
     // No whole number of bytes, nor of three pixels.
     printer.pixels = [161, 77];
     printer.pitch_um = [30.0, 50.0];
@@ -122,7 +122,7 @@ fn own(format: Format, version: Option<u32>) -> Option<PrinterChoice> {
     printer.format = format;
     printer.file_version = version;
     printer.variable_layers = VariableLayers::Yes;
-    Some(PrinterChoice::Own(Arc::new(printer)))
+    PrinterChoice::Own(Arc::new(printer))
 }
 
 #[test]
@@ -131,7 +131,7 @@ fn every_format_has_every_height_exposure_and_pixel() {
         for antialias in [1, 8] {
             for is_uniform in [true, false] {
                 let options = Options {
-                    printer: own(Format::Goo, None),
+                    printer: Some(own(Format::Goo, None)),
                     height_mm: Some(2.0),
                     antialias,
                     layer_min_mm: 0.05,
@@ -164,7 +164,7 @@ fn every_version_and_byte_order_can_be_read() {
     let ball = solids::sphere(1.0, 4);
     for version in [516, 517, 518] {
         let options = Options {
-            printer: own(Format::PhotonWorkshop, Some(version)),
+            printer: Some(own(Format::PhotonWorkshop, Some(version))),
             backend: Backend::Cpu,
             ..Options::default()
         };
@@ -204,7 +204,7 @@ fn every_version_and_byte_order_can_be_read() {
 fn layers_of_their_own_count_in_the_formats_that_have_a_flag() {
     let ball = solids::sphere(1.0, 4);
     let options = Options {
-        printer: own(Format::Goo, None),
+        printer: Some(own(Format::Goo, None)),
         backend: Backend::Cpu,
         ..Options::default()
     };

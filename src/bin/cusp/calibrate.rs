@@ -99,7 +99,7 @@ fn exposure(
     for (row, thickness_mm) in thickness_mm.iter().enumerate() {
         let _ = write!(text, "\n{}  {thickness_mm} mm  ", row + 1);
         for exposure_s in exposure_s {
-            let _ = write!(text, "{:>8} s", exposure_s);
+            let _ = write!(text, "{exposure_s:>8} s");
         }
     }
     text.push_str(
