@@ -8,9 +8,10 @@ use common::shifted_grid;
 use common::{binary_stl, fingerprint, on_plate, quiet, solids};
 use cusp_slicer::format::Format;
 use cusp_slicer::grid::Grid;
+use cusp_slicer::growth::Growth;
 #[cfg(target_arch = "wasm32")]
 use cusp_slicer::job::Stage;
-use cusp_slicer::job::{Backend, Minimize, Options, Slicer};
+use cusp_slicer::job::{Backend, Calibration, Minimize, Options, Planner, Slicer};
 use cusp_slicer::ldi::cpu;
 #[cfg(target_arch = "wasm32")]
 use cusp_slicer::ldi::{
@@ -103,6 +104,59 @@ fn the_directions_are_the_recorded_ones() {
     );
 }
 
+/// A print file for a printer of each format, anti-aliased, with masks that make up for growth; and one calibration print.
+async fn check_print_files() {
+    let mut slicer = Slicer::load(&binary_stl(&model())).unwrap();
+    let mut fingerprints = Vec::new();
+    for printer in [
+        "saturn-3-ultra",
+        "jupiter-2",
+        "photon-mono-x",
+        "photon-mono-m5",
+        "photon-mono-m5s",
+        "photon-mono-m7",
+        "ld-002h",
+        "athena-8k",
+    ] {
+        let mut options = Options {
+            printer: Some(printer.into()),
+            planner: Planner::Uniform { layer_mm: 0.2 },
+            height_mm: Some(5.0),
+            antialias: 4,
+            ..options()
+        };
+        options.resin.growth = Growth {
+            xy_mm: 0.04,
+            bottom_xy_mm: Some(0.1),
+            faded_layers: 3,
+            z_mm: 0.1,
+        };
+        slicer.plan(&options, &mut quiet).await.unwrap();
+        let (bytes, _) = slicer.write_archive(Vec::new(), &mut quiet).unwrap();
+        fingerprints.extend(fingerprint(&bytes).to_le_bytes());
+    }
+    let options = Options {
+        printer: Some("saturn-4".into()),
+        ..options()
+    };
+    let calibration = Calibration::layers(&options).unwrap();
+    let (bytes, _) = calibration.write(Vec::new(), &mut quiet).await.unwrap();
+    fingerprints.extend(fingerprint(&bytes).to_le_bytes());
+    assert_eq!(fingerprint(&fingerprints), 0x3e81_13b5_697f_5491);
+}
+
+#[cfg(not(target_arch = "wasm32"))]
+#[test]
+fn print_files_are_the_recorded_ones() {
+    pollster::block_on(check_print_files());
+}
+
+#[cfg(target_arch = "wasm32")]
+#[wasm_bindgen_test]
+async fn print_files_are_the_recorded_ones() {
+    check_print_files().await;
+}
+
 async fn check_plan_and_masks() {
     let mut slicer = Slicer::load(&binary_stl(&model())).unwrap();
     let report = slicer.plan(&options(), &mut quiet).await.unwrap().clone();
@@ -117,7 +171,7 @@ async fn check_plan_and_masks() {
         let (bytes, _) = slicer.write_archive(Vec::new(), &mut quiet).unwrap();
         fingerprint(&bytes)
     };
-    assert_eq!(archive(&mut slicer), 0x39f5_811b_24ed_aa3c);
+    assert_eq!(archive(&mut slicer), 0xdc48_4d83_ef24_cf08);
     let grey = Options {
         antialias: 4,
         printer: Some("sl1s".into()),

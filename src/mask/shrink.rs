@@ -202,10 +202,10 @@ impl Rows {
         for flips in here.chunk_by(|a, b| a.1 == b.1) {
             let row = flips[0].1;
             let edges = &mut self.edges[(row - self.first) as usize];
-            // Both sides of each ray change.
-            let sides = flips
-                .iter()
-                .flat_map(|&(_, _, column)| [column, column + 1]);
+            // Both sides of each ray change, unless it changes twice.
+            let rays = flips.chunk_by(|a, b| a.2 == b.2);
+            let rays = rays.filter(|flips| flips.len() % 2 == 1);
+            let sides = rays.flat_map(|flips| [flips[0].2, flips[0].2 + 1]);
             *edges = toggled(edges, sides);
             let stretches = &mut self.stretches[(row - self.first) as usize];
             stretches.clear();
