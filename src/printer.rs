@@ -84,6 +84,17 @@ pub enum VariableLayers {
     Untried,
 }
 
+impl VariableLayers {
+    /// Its name, as in descriptions of printers.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Yes => "yes",
+            Self::No => "no",
+            Self::Untried => "untried",
+        }
+    }
+}
+
 fn own() -> String {
     "own printer".to_owned()
 }

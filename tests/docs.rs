@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 use cusp_slicer::job::Options;
 use cusp_slicer::orientation::SearchOptions;
-use cusp_slicer::printer::{PRINTERS, VariableLayers};
+use cusp_slicer::printer::PRINTERS;
 use cusp_slicer::profile::Metric;
 
 const PRINT_FILES: &str = "docs/print-files.md";
@@ -71,11 +71,7 @@ fn printer_table() -> String {
     for printer in PRINTERS.iter() {
         let [columns, rows] = printer.pixels;
         let [x_um, y_um] = printer.pitch_um;
-        let variable = match printer.variable_layers {
-            VariableLayers::Yes => "yes",
-            VariableLayers::No => "no",
-            VariableLayers::Untried => "untried",
-        };
+        let variable = printer.variable_layers.name();
         let _ = writeln!(
             table,
             "| `{}` | {} | {columns} × {rows} | {x_um} × {y_um} | `{}`{} | {}{} | {variable} | {} |",

@@ -34,7 +34,7 @@ const TABLE_BYTES: u32 = 36;
 /// Bytes before the data of each layer.
 const LAYER_BYTES: u32 = 84;
 /// The longest run.
-const LONGEST: u64 = (1 << 28) - 1;
+const LONGEST: u32 = (1 << 28) - 1;
 
 impl Encoder for Ctb {
     /// The table of layers stands before the layers, so all are encoded before the first byte is written. Memory: the size of
@@ -248,20 +248,17 @@ fn data(runs: impl Iterator<Item = Run>, area: u64) -> Vec<u8> {
         runs,
         area,
         |grey| grey >> 1,
-        |grey, mut count| {
-            while count > 0 {
-                let part = count.min(LONGEST) as u32;
-                count -= u64::from(part);
-                let [top, high, middle, low] = part.to_be_bytes();
-                match part {
-                    1 => bytes.push(grey),
-                    2..0x80 => bytes.extend([grey | HAS_LENGTH, low]),
-                    0x80..0x4000 => bytes.extend([grey | HAS_LENGTH, 0x80 | middle, low]),
-                    0x4000..0x20_0000 => {
-                        bytes.extend([grey | HAS_LENGTH, 0xc0 | high, middle, low]);
-                    }
-                    _ => bytes.extend([grey | HAS_LENGTH, 0xe0 | top, high, middle, low]),
+        |_| LONGEST,
+        |grey, count| {
+            let [top, high, middle, low] = count.to_be_bytes();
+            match count {
+                1 => bytes.push(grey),
+                2..0x80 => bytes.extend([grey | HAS_LENGTH, low]),
+                0x80..0x4000 => bytes.extend([grey | HAS_LENGTH, 0x80 | middle, low]),
+                0x4000..0x20_0000 => {
+                    bytes.extend([grey | HAS_LENGTH, 0xc0 | high, middle, low]);
                 }
+                _ => bytes.extend([grey | HAS_LENGTH, 0xe0 | top, high, middle, low]),
             }
         },
     );

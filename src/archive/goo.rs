@@ -28,7 +28,7 @@ const FULL_LIGHT: u16 = 255;
 /// First byte of a layer's data.
 const DATA: u8 = 0x55;
 /// The longest run of a chunk.
-const LONGEST: u64 = (1 << 28) - 1;
+const LONGEST: u32 = (1 << 28) - 1;
 
 impl Encoder for Goo {
     fn encode(
@@ -194,13 +194,8 @@ fn data(runs: impl Iterator<Item = Run>, area: u64) -> Vec<u8> {
         runs,
         area,
         |grey| grey,
-        |grey, mut count| {
-            while count > 0 {
-                let part = count.min(LONGEST);
-                chunk(&mut bytes, grey, part as u32);
-                count -= part;
-            }
-        },
+        |_| LONGEST,
+        |grey, count| chunk(&mut bytes, grey, count),
     );
     let sum = bytes[1..]
         .iter()

@@ -5,13 +5,23 @@ use crate::mask::Run;
 /// Calls `emit(level, pixels)` for every run of a screen of `area` pixels, dark ones included. Neighbours of one level are one
 /// run, also across the ends of rows.
 ///
-/// `level` turns a brightness of 8 bits into what the format stores; it turns 0 into 0.
+/// `level` turns a brightness of 8 bits into what the format stores; it turns 0 into 0. `longest` is the longest run of a level
+/// that the format can store; longer ones come in parts.
 pub(super) fn for_each_run(
     runs: impl Iterator<Item = Run>,
     area: u64,
     level: impl Fn(u8) -> u8,
-    mut emit: impl FnMut(u8, u64),
+    longest: impl Fn(u8) -> u32,
+    mut emit: impl FnMut(u8, u32),
 ) {
+    let mut emit = |level: u8, mut count: u64| {
+        let longest = longest(level);
+        while count > 0 {
+            let part = count.min(u64::from(longest));
+            emit(level, part as u32);
+            count -= part;
+        }
+    };
     let (mut last, mut count, mut end) = (0, 0, 0);
     let dark_end = std::iter::once(None);
     for run in runs.map(Some).chain(dark_end) {
@@ -24,7 +34,7 @@ pub(super) fn for_each_run(
             if pixels == 0 {
                 continue;
             }
-            if grey != last && count > 0 {
+            if grey != last {
                 emit(last, count);
                 count = 0;
             }
@@ -33,7 +43,5 @@ pub(super) fn for_each_run(
         }
         end = first + pixels;
     }
-    if count > 0 {
-        emit(last, count);
-    }
+    emit(last, count);
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use cusp_slicer::job::MeshInfo;
 use cusp_slicer::model::weights;
-use cusp_slicer::printer::{PRINTERS, VariableLayers};
+use cusp_slicer::printer::PRINTERS;
 
 use crate::files::{Failure, file_beside, in_file, keep, load, place_for};
 use crate::terminal::{Bar, print, print_json, stop_on_interrupt};
@@ -70,11 +70,6 @@ pub fn printers(json: bool) -> Result<(), Failure> {
                 .collect::<Vec<_>>()
                 .join(" × ")
         };
-        let variable = match printer.variable_layers {
-            VariableLayers::Yes => "yes",
-            VariableLayers::No => "no",
-            VariableLayers::Untried => "untried",
-        };
         let _ = write!(
             text,
             "\n{:<20} {:<30} {:>12}  {:<17} {:<23} {:<16} {:<9} {}{}",
@@ -84,7 +79,7 @@ pub fn printers(json: bool) -> Result<(), Failure> {
             by(&printer.pitch_um),
             by(&printer.volume_mm),
             printer.format.name(),
-            variable,
+            printer.variable_layers.name(),
             printer.reads.join(", "),
             if printer.reads_format {
                 ""
