@@ -1,15 +1,13 @@
 //! Prints that measure a printer, and the resin file that their result goes into.
 
 use std::fmt::Write as _;
-use std::fs;
-use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
 use clap::Subcommand;
 use cusp_slicer::job::Calibration;
 
 use crate::arguments::{Target, read_resin};
-use crate::files::{Failure, file_beside, in_file, keep};
+use crate::files::{Failure, Output};
 use crate::terminal::{Bar, duration, print, stop_on_interrupt};
 use crate::values::{length, measured, positive};
 
@@ -53,30 +51,35 @@ pub enum Calibrating {
 
 pub fn calibrate(calibrating: &Calibrating) -> Result<(), Failure> {
     match calibrating {
-        Calibrating::Layers { target, output } => layers(target, output),
+        Calibrating::Layers { target, output } => layers(target, &Output::new(output, None, "")?),
         Calibrating::Exposure {
             thicknesses,
             exposures,
             target,
             output,
-        } => exposure(target, thicknesses, exposures, output),
+        } => exposure(
+            target,
+            thicknesses,
+            exposures,
+            &Output::new(output, None, "")?,
+        ),
         Calibrating::Resin {
             measured,
             resin,
             output,
-        } => resin_file(measured, resin.as_deref(), output),
+        } => resin_file(measured, resin.as_deref(), &Output::new(output, None, "")?),
     }
 }
 
-fn layers(target: &Target, output: &Path) -> Result<(), Failure> {
+fn layers(target: &Target, output: &Output<'_>) -> Result<(), Failure> {
     let calibration = Calibration::layers(&target.options()?);
-    let calibration = calibration.map_err(|error| Failure::in_file(output, &error))?;
+    let calibration = calibration.map_err(|error| output.failure(&error))?;
     let time_s = write(&calibration, output)?;
     Ok(print(&format!(
         "{}: two towers of ten layers of 0.05 mm, one with ten of 0.1 mm more; prints in {}\n\
          Measure both: 0.5 and 1.5 mm say that the printer takes a thickness for each layer; 0.5 and 1.0, or 1.0 and 2.0, that \
          it takes one for all.",
-        output.display(),
+        output.name(),
         duration(time_s)
     ))?)
 }
@@ -85,15 +88,15 @@ fn exposure(
     target: &Target,
     thickness_mm: &[f64],
     exposure_s: &[f64],
-    output: &Path,
+    output: &Output<'_>,
 ) -> Result<(), Failure> {
     let calibration = Calibration::exposure(&target.options()?, thickness_mm, exposure_s);
-    let calibration = calibration.map_err(|error| Failure::in_file(output, &error))?;
+    let calibration = calibration.map_err(|error| output.failure(&error))?;
     let time_s = write(&calibration, output)?;
     let mut text = format!(
         "{}: a tower for each thickness and exposure; prints in {}\nrow, from the front    column, from the left, the bump at \
          the first tower's left",
-        output.display(),
+        output.name(),
         duration(time_s)
     );
     for (row, thickness_mm) in thickness_mm.iter().enumerate() {
@@ -110,23 +113,22 @@ fn exposure(
 }
 
 /// Writes the print file, and returns its print time in seconds.
-fn write(calibration: &Calibration, output: &Path) -> Result<f64, Failure> {
+fn write(calibration: &Calibration, output: &Output<'_>) -> Result<f64, Failure> {
     stop_on_interrupt();
-    let file = file_beside(output).map_err(|error| in_file(output, &error))?;
-    let bar = Bar::new();
-    let mut progress = |stage, fraction| bar.report(stage, fraction);
-    let written = calibration.write(BufWriter::new(file), &mut progress);
-    let (writer, report) =
-        pollster::block_on(written).map_err(|error| Failure::in_file(output, &error))?;
-    let file = writer
-        .into_inner()
-        .map_err(|error| in_file(output, &error))?;
-    keep(file, output, output)?;
-    drop(bar);
-    Ok(report.print_time_s)
+    output.write(|writer| {
+        let bar = Bar::new();
+        let mut progress = |stage, fraction| bar.report(stage, fraction);
+        let written = pollster::block_on(calibration.write(writer, &mut progress));
+        let (writer, report) = written.map_err(|error| output.failure(&error))?;
+        Ok((writer, report.print_time_s))
+    })
 }
 
-fn resin_file(measured: &[[f64; 2]], resin: Option<&Path>, output: &Path) -> Result<(), Failure> {
+fn resin_file(
+    measured: &[[f64; 2]],
+    resin: Option<&Path>,
+    output: &Output<'_>,
+) -> Result<(), Failure> {
     let mut resin = read_resin(resin)?;
     // A pair for a thickness that has one replaces it.
     resin
@@ -134,14 +136,10 @@ fn resin_file(measured: &[[f64; 2]], resin: Option<&Path>, output: &Path) -> Res
         .retain(|known| measured.iter().all(|pair| pair[0] != known[0]));
     resin.exposures.extend(measured);
     resin.exposures.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    resin.check().map_err(|error| in_file(output, &error))?;
-    let json = serde_json::to_string_pretty(&resin).map_err(|error| in_file(output, &error))?;
-    fs::write(output, json + "\n").map_err(|error| in_file(output, &error))?;
+    resin.check().map_err(|error| output.failed(&error))?;
+    let json = serde_json::to_string_pretty(&resin).map_err(|error| output.failed(&error))?;
+    output.write_bytes((json + "\n").as_bytes())?;
     let pairs = resin.exposures.iter();
     let pairs: Vec<String> = pairs.map(|[mm, s]| format!("{mm} mm {s} s")).collect();
-    Ok(print(&format!(
-        "{}: {}",
-        output.display(),
-        pairs.join(", ")
-    ))?)
+    Ok(print(&format!("{}: {}", output.name(), pairs.join(", ")))?)
 }

@@ -1,7 +1,7 @@
 //! Reads models, and writes files either completely or not at all.
 
 use std::fs;
-use std::io;
+use std::io::{self, BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
 use cusp_slicer::Error;
@@ -100,15 +100,70 @@ pub fn load_painted(model: &Path, weights: Option<&WeightsFile<'_>>) -> Result<S
     Ok(slicer)
 }
 
-/// The file to write for `output`: itself, or the target of a link, so that links stay links.
-///
-/// Fails with a sentence if no file can be written there, so that the user learns it before any work is done.
-pub fn place_for(output: &Path, model: &Path) -> Result<PathBuf, String> {
-    place_apart_from(output, model, "model")
+/// A file to write, either completely or not at all.
+pub struct Output<'a> {
+    /// As the user named it.
+    path: &'a Path,
+    /// The file itself, or the target of a link, so that links stay links.
+    place: PathBuf,
 }
 
-/// Like [`place_for`], for a command that reads another kind of file, called `noun`.
-pub fn place_apart_from(output: &Path, input: &Path, noun: &str) -> Result<PathBuf, String> {
+impl<'a> Output<'a> {
+    /// Checks that a file can be written at `path`, and that it is not the `input`, called `noun`, so that the user learns it
+    /// before any work is done.
+    pub fn new(path: &'a Path, input: Option<&Path>, noun: &str) -> Result<Self, Failure> {
+        let place = place_for(path, input, noun).map_err(|reason| in_file(path, &reason))?;
+        Ok(Self { path, place })
+    }
+
+    /// Writes the file: what `write` returns takes the place of an older one once it is complete.
+    pub fn write<T>(
+        &self,
+        write: impl FnOnce(Writer) -> Result<(Writer, T), Failure>,
+    ) -> Result<T, Failure> {
+        // Created before the work, so that a folder without write permission fails at once.
+        let file = file_beside(&self.place).map_err(|error| self.failed(&error))?;
+        let (writer, result) = write(BufWriter::new(file))?;
+        let file = writer.into_inner().map_err(|error| self.failed(&error))?;
+        let kept = file.persist(&self.place);
+        kept.map_err(|error| self.failed(&error.error))?;
+        Ok(result)
+    }
+
+    /// The same for bytes that are there.
+    pub fn write_bytes(&self, bytes: &[u8]) -> Result<(), Failure> {
+        self.write(|mut writer| {
+            let written = writer.write_all(bytes);
+            written.map_err(|error| self.failed(&error))?;
+            Ok((writer, ()))
+        })
+    }
+
+    /// A failure that concerns this file.
+    pub fn failed(&self, error: &dyn std::fmt::Display) -> Failure {
+        in_file(self.path, error).into()
+    }
+
+    /// A failure of the library that concerns this file.
+    pub fn failure(&self, error: &Error) -> Failure {
+        Failure::in_file(self.path, error)
+    }
+
+    /// Its name, as the user gave it.
+    pub fn name(&self) -> std::path::Display<'_> {
+        self.path.display()
+    }
+
+    /// The extension that the user named.
+    pub fn extension(&self) -> Option<&str> {
+        self.path.extension()?.to_str()
+    }
+}
+
+/// Writes to a file that is not in its place yet.
+pub type Writer = BufWriter<NamedTempFile>;
+
+fn place_for(output: &Path, input: Option<&Path>, noun: &str) -> Result<PathBuf, String> {
     match fs::metadata(output) {
         Ok(found) if found.is_dir() => Err("is a folder; name a file in it".to_owned()),
         Ok(found) if !found.is_file() => {
@@ -116,7 +171,8 @@ pub fn place_apart_from(output: &Path, input: &Path, noun: &str) -> Result<PathB
         }
         Ok(_) => {
             let place = output.canonicalize().map_err(|error| error.to_string())?;
-            if input.canonicalize().is_ok_and(|input| input == place) {
+            let input = input.and_then(|input| input.canonicalize().ok());
+            if input.is_some_and(|input| input == place) {
                 return Err(format!("is the {noun} itself; name another file"));
             }
             Ok(place)
@@ -149,7 +205,7 @@ fn parent(path: &Path) -> &Path {
 
 /// A temporary file beside `place`, to be renamed once complete. It has the permissions of the file it replaces, or those that
 /// the umask gives a new one.
-pub fn file_beside(place: &Path) -> io::Result<NamedTempFile> {
+fn file_beside(place: &Path) -> io::Result<NamedTempFile> {
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
@@ -166,11 +222,4 @@ pub fn file_beside(place: &Path) -> io::Result<NamedTempFile> {
     }
     #[cfg(not(unix))]
     NamedTempFile::new_in(parent(place))
-}
-
-/// Moves a complete file into place.
-pub fn keep(file: NamedTempFile, place: &Path, output: &Path) -> Result<(), Failure> {
-    let kept = file.persist(place);
-    kept.map_err(|error| in_file(output, &error.error))?;
-    Ok(())
 }

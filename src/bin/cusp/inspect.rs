@@ -1,13 +1,12 @@
 //! Says what is in a print file, and whether it is whole.
 
 use std::fs;
-use std::io::{BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use cusp_slicer::archive::read::{About, Inspection, PrintFile, inspect as look_through};
 
-use crate::files::{Failure, file_beside, in_file, keep, place_apart_from};
+use crate::files::{Failure, Output, in_file};
 use crate::terminal::{Bar, duration, print, print_json, stop_on_interrupt, warn};
 
 /// A print file, and perhaps one of its layers.
@@ -30,13 +29,12 @@ pub struct Inspecting {
 pub fn inspect(inspecting: &Inspecting) -> Result<(), Failure> {
     let path = &*inspecting.print;
     let output = inspecting.output.as_deref();
-    if let Some(output) = output {
-        place_apart_from(output, path, "print file").map_err(|reason| in_file(output, &reason))?;
-    }
+    let output = output.map(|output| Output::new(output, Some(path), "print file"));
+    let output = output.transpose()?;
     let bytes = fs::read(path).map_err(|error| in_file(path, &error))?;
     let file = PrintFile::open(&*bytes).map_err(|error| in_file(path, &error))?;
     stop_on_interrupt();
-    if let (Some(layer), Some(output)) = (inspecting.layer, output) {
+    if let (Some(layer), Some(output)) = (inspecting.layer, &output) {
         write_mask(&file, path, layer as usize, output)?;
     }
     let bar = Bar::new();
@@ -55,23 +53,19 @@ fn write_mask(
     file: &PrintFile<'_>,
     path: &Path,
     layer: usize,
-    output: &Path,
+    output: &Output<'_>,
 ) -> Result<(), Failure> {
     let layers = file.layers().len();
     if layer > layers {
         let reason = format!("there is no layer {layer}; it has {layers}");
         return Err(in_file(path, &reason).into());
     }
-    let place = place_apart_from(output, path, "print file");
-    let place = place.map_err(|reason| in_file(output, &reason))?;
-    let mut png = file_beside(&place).map_err(|error| in_file(output, &error))?;
-    let mut writer = BufWriter::new(&mut png);
-    let written = file.write_png(layer - 1, &mut writer);
-    let written = written.and_then(|decoded| writer.flush().map(|()| decoded));
-    let decoded = written.map_err(|error| in_file(output, &error))?;
-    decoded.map_err(|error| in_file(path, &error))?;
-    drop(writer);
-    keep(png, &place, output)
+    output.write(|mut writer| {
+        let written = file.write_png(layer - 1, &mut writer);
+        let decoded = written.map_err(|error| output.failed(&error))?;
+        decoded.map_err(|error| in_file(path, &error))?;
+        Ok((writer, ()))
+    })
 }
 
 fn describe(inspection: &Inspection) -> String {

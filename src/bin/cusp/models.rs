@@ -8,7 +8,7 @@ use cusp_slicer::job::MeshInfo;
 use cusp_slicer::model::weights;
 use cusp_slicer::printer::PRINTERS;
 
-use crate::files::{Failure, file_beside, in_file, keep, load, place_for};
+use crate::files::{Failure, Output, load};
 use crate::terminal::{Bar, print, print_json, stop_on_interrupt};
 
 pub fn info(model: &Path, json: bool) -> Result<(), Failure> {
@@ -37,21 +37,20 @@ fn describe_mesh(info: &MeshInfo) -> String {
 }
 
 pub fn saliency(model: &Path, output: &Path) -> Result<(), Failure> {
-    let place = place_for(output, model).map_err(|reason| in_file(output, &reason))?;
+    let output = Output::new(output, Some(model), "model")?;
     let mut slicer = load(model)?;
     stop_on_interrupt();
-    let mut file = file_beside(&place).map_err(|error| in_file(output, &error))?;
-    let bar = Bar::new();
-    let mut progress = |stage, fraction| bar.report(stage, fraction);
-    let saliency = slicer
-        .saliency(&mut progress)
-        .map_err(|error| Failure::in_file(model, &error))?
-        .to_vec();
-    drop(bar);
-    let bytes = weights::to_bytes(&saliency, &slicer.positions());
-    file.write_all(&bytes)
-        .map_err(|error| in_file(output, &error))?;
-    keep(file, &place, output)
+    output.write(|mut writer| {
+        let bar = Bar::new();
+        let mut progress = |stage, fraction| bar.report(stage, fraction);
+        let saliency = slicer
+            .saliency(&mut progress)
+            .map_err(|error| Failure::in_file(model, &error))?
+            .to_vec();
+        let written = writer.write_all(&weights::to_bytes(&saliency, &slicer.positions()));
+        written.map_err(|error| output.failed(&error))?;
+        Ok((writer, ()))
+    })
 }
 
 pub fn printers(json: bool) -> Result<(), Failure> {

@@ -2,8 +2,7 @@
 
 use std::fmt::Write as _;
 use std::fs;
-use std::io::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use cusp_slicer::job::{Options, OrientationPart, OrientationReport, Slicer};
 use cusp_slicer::model::Pose;
@@ -11,7 +10,7 @@ use cusp_slicer::orientation::{Candidate, Exclusion};
 use stl_io::{Normal, Triangle, Vertex};
 
 use crate::arguments::Orienting;
-use crate::files::{Failure, WeightsFile, file_beside, in_file, keep, load_painted, place_for};
+use crate::files::{Failure, Output, WeightsFile, in_file, load_painted};
 use crate::terminal::{Bar, duration, is_interrupted, print, say, stop_on_interrupt, to_json};
 
 pub fn orient(orienting: &Orienting) -> Result<(), Failure> {
@@ -20,12 +19,8 @@ pub fn orient(orienting: &Orienting) -> Result<(), Failure> {
     if orienting.models.len() > 1 && orienting.apply.is_some() {
         return Err("--apply is for one model".to_owned().into());
     }
-    let target = orienting.output.as_deref().map(|output| {
-        let place = place_for(output, &orienting.models[0]);
-        place
-            .map(|place| (output, place))
-            .map_err(|reason| in_file(output, &reason))
-    });
+    let target = orienting.output.as_deref();
+    let target = target.map(|output| Output::new(output, Some(&orienting.models[0]), "model"));
     let target = target.transpose()?;
     // Wrong options are wrong for every model: report them once.
     options.check().map_err(|error| error.to_string())?;
@@ -66,7 +61,7 @@ struct Task<'a> {
     weights: Option<WeightsFile<'a>>,
     parts: Vec<OrientationPart>,
     /// The file to write: as the user named it, and where it is.
-    target: Option<(&'a Path, PathBuf)>,
+    target: Option<Output<'a>>,
 }
 
 impl Task<'_> {
@@ -90,12 +85,12 @@ impl Task<'_> {
             merged.and_then(|search| slicer.finish_search(options, search, &mut progress))
         };
         let found = found.map_err(|error| Failure::in_file(model, &error))?;
-        if let (Some(number), Some((output, place))) = (orienting.apply, &self.target) {
+        if let (Some(number), Some(output)) = (orienting.apply, &self.target) {
             let candidate = found.best.get(number as usize - 1).ok_or_else(|| {
                 let reason = format!("only {} orientations were found", found.best.len());
                 in_file(model, &reason)
             })?;
-            apply(&slicer, options, candidate, output, place)?;
+            apply(&slicer, options, candidate, output)?;
         }
         if orienting.json {
             Ok(to_json(&found)?)
@@ -122,15 +117,14 @@ fn apply(
     slicer: &Slicer,
     options: &Options,
     candidate: &Candidate,
-    output: &Path,
-    place: &Path,
+    output: &Output<'_>,
 ) -> Result<(), Failure> {
     let pose = Pose {
         rotation: Some(candidate.rotation),
         height_mm: options.height_mm.map(|_| candidate.size_mm[2]),
     };
     let corners = slicer.positions_on_plate(&pose);
-    let corners = corners.map_err(|error| Failure::in_file(output, &error))?;
+    let corners = corners.map_err(|error| output.failure(&error))?;
     let (facets, _) = corners.as_chunks::<9>();
     let facets = facets
         .iter()
@@ -139,12 +133,9 @@ fn apply(
             normal: Normal::new([0.0; 3]),
             vertices: [[ax, ay, az], [bx, by, bz], [cx, cy, cz]].map(Vertex::new),
         });
-    let mut file = file_beside(place).map_err(|error| in_file(output, &error))?;
     let mut bytes = Vec::new();
-    stl_io::write_stl(&mut bytes, facets).map_err(|error| in_file(output, &error))?;
-    file.write_all(&bytes)
-        .map_err(|error| in_file(output, &error))?;
-    keep(file, place, output)
+    stl_io::write_stl(&mut bytes, facets).map_err(|error| output.failed(&error))?;
+    output.write_bytes(&bytes)
 }
 
 fn describe(model: &Path, options: &Options, found: &OrientationReport) -> String {

@@ -1,7 +1,6 @@
 //! Plans and print files.
 
 use std::fmt::Write as _;
-use std::io::BufWriter;
 use std::path::Path;
 
 use cusp_slicer::job::{Comparison, FrontPoint, Options, Report, Slicer, StageProgress};
@@ -9,29 +8,24 @@ use cusp_slicer::profile::Metric;
 use serde::Serialize;
 
 use crate::arguments::Slicing;
-use crate::files::{Failure, file_beside, in_file, keep, load_weighted, place_for};
+use crate::files::{Failure, Output, load_weighted};
 use crate::terminal::{Bar, duration, open_gpu, print, print_json, stop_on_interrupt, warn};
 
 pub fn slice(slicing: &Slicing, output: &Path) -> Result<(), Failure> {
     slicing.choices.check("slice");
-    let place = place_for(output, &slicing.model).map_err(|reason| in_file(output, &reason))?;
+    let output = Output::new(output, Some(&slicing.model), "model")?;
     let mut slicer = load_weighted(&slicing.model, &slicing.choices)?;
     stop_on_interrupt();
-    // Created before the work, so that a folder without write permission fails at once.
-    let file = file_beside(&place).map_err(|error| in_file(output, &error))?;
     let bar = Bar::new();
-    make_plan(&mut slicer, slicing, &bar)?;
-    let (writer, report) = slicer
-        .write_archive(BufWriter::new(file), &mut |stage, fraction| {
-            bar.report(stage, fraction)
-        })
-        .map_err(|error| Failure::in_file(output, &error))?;
-    let file = writer
-        .into_inner()
-        .map_err(|error| in_file(output, &error))?;
-    keep(file, &place, output)?;
+    let report = output.write(|writer| {
+        make_plan(&mut slicer, slicing, &bar)?;
+        let mut progress = |stage, fraction| bar.report(stage, fraction);
+        let written = slicer.write_archive(writer, &mut progress);
+        let (writer, report) = written.map_err(|error| output.failure(&error))?;
+        Ok((writer, report.clone()))
+    })?;
     drop(bar);
-    show(slicing, report)
+    show(slicing, &report)
 }
 
 pub fn plan(slicing: &Slicing) -> Result<(), Failure> {
