@@ -45,6 +45,16 @@ impl Look {
         }
     }
 
+    /// A picture as it is: the brightness of each pixel, row by row from the top.
+    #[cfg(feature = "read")]
+    pub(crate) fn from_picture([width, height]: [u32; 2], brightness: Vec<u8>) -> Self {
+        Self {
+            width: width as usize,
+            height: height as usize,
+            brightness,
+        }
+    }
+
     /// A picture of this many columns and rows, with the model centred and scaled to fit: a grey for each pixel.
     pub fn greys(&self, [width, height]: [u32; 2]) -> Vec<u8> {
         let scale =

@@ -2,6 +2,8 @@
 
 mod calibration;
 mod compare;
+#[cfg(feature = "read")]
+mod convert;
 mod error;
 #[cfg(not(target_arch = "wasm32"))]
 mod front;
@@ -19,6 +21,8 @@ mod stage;
 mod verify;
 
 pub use calibration::{Calibration, Section};
+#[cfg(feature = "read")]
+pub use convert::{Conversion, ConvertError, Loss, Target};
 pub use error::Error;
 pub use options::*;
 pub use options_error::OptionsError;

@@ -18,7 +18,7 @@ impl Options {
     /// # Errors
     /// [`Error::Options`], [`Error::Plan`].
     pub(crate) fn resolve(&self) -> Result<Job, Error> {
-        let printer = self.known_printer()?;
+        let printer = find_printer(self.printer.as_ref())?;
         Ok(Job {
             layering: self.layering(printer.as_deref())?,
             sampling: self.sampling(printer.as_deref())?,
@@ -67,26 +67,6 @@ impl Options {
     /// [`Error::Options`], [`Error::Plan`].
     pub fn check(&self) -> Result<(), Error> {
         self.resolve().map(|_| ())
-    }
-
-    fn known_printer(&self) -> Result<Option<Arc<Printer>>, OptionsError> {
-        let printer = match &self.printer {
-            None => return Ok(None),
-            Some(PrinterChoice::Own(printer)) => Arc::clone(printer),
-            Some(PrinterChoice::Named(name)) => {
-                printer::named(name).ok_or_else(|| OptionsError::UnknownPrinter {
-                    printer: name.clone(),
-                    similar: printer::similar(name),
-                    known: PRINTERS.len(),
-                })?
-            }
-        };
-        let checked = printer.check();
-        checked.map_err(|field| OptionsError::BadPrinter {
-            printer: printer.name.clone(),
-            field,
-        })?;
-        Ok(Some(printer))
     }
 
     fn sampling(&self, printer: Option<&Printer>) -> Result<Sampling, OptionsError> {
@@ -283,6 +263,32 @@ impl Options {
             }
         }
     }
+}
+
+/// The printer that is chosen, checked.
+///
+/// # Errors
+/// [`OptionsError::UnknownPrinter`], [`OptionsError::BadPrinter`].
+pub(super) fn find_printer(
+    choice: Option<&PrinterChoice>,
+) -> Result<Option<Arc<Printer>>, OptionsError> {
+    let printer = match choice {
+        None => return Ok(None),
+        Some(PrinterChoice::Own(printer)) => Arc::clone(printer),
+        Some(PrinterChoice::Named(name)) => {
+            printer::named(name).ok_or_else(|| OptionsError::UnknownPrinter {
+                printer: name.clone(),
+                similar: printer::similar(name),
+                known: PRINTERS.len(),
+            })?
+        }
+    };
+    let checked = printer.check();
+    checked.map_err(|field| OptionsError::BadPrinter {
+        printer: printer.name.clone(),
+        field,
+    })?;
+    Ok(Some(printer))
 }
 
 /// The default height of a bin in millimetres. It divides most layer thicknesses in use.

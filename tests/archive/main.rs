@@ -4,6 +4,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod convert;
 mod formats;
 mod png_zip;
 mod read_back;

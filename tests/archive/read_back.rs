@@ -11,7 +11,7 @@ use cusp_slicer::progress::silent;
 use crate::common::{assert_near, binary_stl, quiet, solids};
 
 /// Slices in several formats: the print files, and the report of the first.
-fn slice(
+pub fn slice(
     triangles: &solids::Triangles,
     options: &Options,
     formats: &[Format],
@@ -33,7 +33,7 @@ fn slice(
 }
 
 /// The greys of a layer, row by row.
-fn greys(file: &PrintFile<'_>, layer: usize) -> Vec<u8> {
+pub fn greys(file: &PrintFile<'_>, layer: usize) -> Vec<u8> {
     let mut greys = Vec::new();
     file.runs(layer, &mut |grey, count| {
         greys.extend(std::iter::repeat_n(grey, count as usize));
@@ -43,7 +43,7 @@ fn greys(file: &PrintFile<'_>, layer: usize) -> Vec<u8> {
 }
 
 /// What is left of a brightness in a format.
-fn kept(format: Format, grey: u8) -> u8 {
+pub fn kept(format: Format, grey: u8) -> u8 {
     match format {
         Format::PhotonWorkshop | Format::AnycubicZip => (grey >> 4) * 17,
         Format::Ctb => match grey >> 1 {
@@ -112,7 +112,7 @@ fn check(bytes: &[u8], png: &PrintFile<'_>, format: Format, report: &Report, nam
     assert_eq!(codes, black, "{name}, {format:?}");
 }
 
-fn own(format: Format, version: Option<u32>) -> PrinterChoice {
+pub fn own(format: Format, version: Option<u32>) -> PrinterChoice {
     let mut printer = Printer::clone(&PRINTERS[0]);
     "own".clone_into(&mut printer.name);
     // No whole number of bytes, nor of three pixels.

@@ -81,8 +81,19 @@ fn an_interrupt_stops_long_work_that_writes_nothing() {
         .args(["slice", &ball, "-o", &print, "--backend", "cpu"])
         .output();
     assert!(sliced.unwrap().status.success());
-    let works: [&[&str]; 2] = [
+    // Masks of a 12K screen as bytes: they take seconds to unpack.
+    let large = folder.path().join("large.zip").display().to_string();
+    let sliced = Command::new(env!("CARGO_BIN_EXE_cusp"))
+        .args(["slice", &ball, "-o", &large, "--backend", "cpu"])
+        .args(["--printer", "saturn-4-ultra-12k", "--format", "chitubox"])
+        .args(["--planner", "uniform", "--layer", "0.02"])
+        .output();
+    assert!(sliced.unwrap().status.success());
+    let copy = folder.path().join("copy.goo").display().to_string();
+    let works: [&[&str]; 4] = [
         &["simulate", &ball, &print],
+        &["inspect", &large],
+        &["convert", &large, &copy],
         // Six thicknesses take minutes.
         &[
             "plan",
@@ -111,6 +122,7 @@ fn an_interrupt_stops_long_work_that_writes_nothing() {
         assert_eq!(output.status.code(), Some(130), "{work:?}");
         assert!(output.stdout.is_empty());
     }
+    assert!(!Path::new(&copy).exists());
 }
 
 #[test]

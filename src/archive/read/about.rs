@@ -1,9 +1,12 @@
 //! What a print file says, in one form for all formats.
 
+use std::sync::Arc;
+
 use serde::Serialize;
 
 use super::Format;
 use super::mask::Flips;
+use crate::printer::{PRINTERS, Printer};
 
 /// What a print file says of the print as a whole. What it does not say is absent.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -78,10 +81,21 @@ impl About {
         }
     }
 
-    /// How stored masks become masks seen from above. What the file does not say is taken for not mirrored.
+    /// The printer that the file names, if it is known and has such a screen.
+    pub fn known_printer(&self) -> Option<Arc<Printer>> {
+        let name = self.printer.as_ref()?;
+        let is_it = |printer: &&Arc<Printer>| {
+            let names = [&*printer.name, &*printer.model, printer.machine()];
+            names.contains(&name.as_str()) && printer.pixels == self.pixels
+        };
+        PRINTERS.iter().find(is_it).cloned()
+    }
+
+    /// How stored masks become masks seen from above. What neither the file nor its printer says is taken for not mirrored.
     pub fn flips(&self) -> Flips {
+        let by_printer = || self.known_printer().map(|printer| printer.is_mirrored);
         Flips {
-            mirror_x: self.is_mirrored_x.unwrap_or(false),
+            mirror_x: self.is_mirrored_x.or_else(by_printer).unwrap_or(false),
             mirror_y: self.is_mirrored_y.unwrap_or(false),
             exchange: self.is_turned,
         }

@@ -41,7 +41,7 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
     Ok(Contents {
         about: About {
             version: manifest["schema"].as_u64().map(|schema| schema.to_string()),
-            printer: text(&manifest["printer"]),
+            printer: printer(&manifest).and_then(clean),
             resin: text(&resin["name"]),
             is_mirrored_x: Some(is_mirrored.ok_or_else(|| bad("is_mirrored"))?),
             is_mirrored_y: Some(false),
@@ -56,9 +56,20 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
         coding: Coding::Png,
         places: Places::InZip(masks),
         pictures: Vec::new(),
-        pose: Some(pose(&manifest["options"]).ok_or_else(|| bad("rotation"))?),
+        // A converted file has no options.
+        pose: match &manifest["options"] {
+            Value::Null => None,
+            options => Some(pose(options).ok_or_else(|| bad("rotation"))?),
+        },
         findings: Vec::new(),
     })
+}
+
+/// The printer: by name, or described among the options of a plan.
+fn printer(manifest: &Value) -> Option<&str> {
+    let chosen = &manifest["options"]["printer"];
+    let names = [chosen, &chosen["model"], &manifest["printer"]];
+    names.into_iter().find_map(Value::as_str)
 }
 
 /// The pose among the options, or `None` if its numbers are none.

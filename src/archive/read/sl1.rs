@@ -16,6 +16,9 @@ use super::{About, Coding, Contents, Format, Layer, Places, PrintFileError, posi
 const CONFIG: &str = "config.ini";
 const SLICER: &str = "prusaslicer.ini";
 
+/// Printers expose so many layers like the first one, whatever the file says; then the exposure fades.
+const BOTTOM_LAYERS: u32 = 3;
+
 pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
     let (config, slicer) = (Ini::read(archive, CONFIG)?, Ini::read(archive, SLICER)?);
     let later_mm = config.length("layerHeight")?;
@@ -80,6 +83,7 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
             layer_mm: Some(later_mm),
             exposure_s: config.number("expTime"),
             bottom_exposure_s: config.number("expTimeFirst"),
+            bottom_layers: Some(BOTTOM_LAYERS),
             transition_layers: config.number("numFade").map(|layers| layers as u32),
             print_time_s: config.number("printTime"),
             volume_ml: config.number("usedMaterial"),

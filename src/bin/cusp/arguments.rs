@@ -255,7 +255,7 @@ impl Choices {
 }
 
 /// A known printer, or that of a JSON file.
-fn printer_choice(printer: &str) -> Result<PrinterChoice, Failure> {
+pub fn printer_choice(printer: &str) -> Result<PrinterChoice, Failure> {
     let path = Path::new(printer);
     if path.extension().is_none_or(|extension| extension != "json") {
         return Ok(PrinterChoice::Named(printer.to_owned()));

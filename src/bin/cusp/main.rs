@@ -2,6 +2,7 @@
 
 mod arguments;
 mod calibrate;
+mod convert;
 mod files;
 mod inspect;
 mod models;
@@ -19,6 +20,7 @@ use clap::{Parser, Subcommand};
 
 use arguments::{Orienting, Slicing};
 use calibrate::Calibrating;
+use convert::Converting;
 use inspect::Inspecting;
 use simulate::Simulating;
 use terminal::say;
@@ -91,6 +93,8 @@ enum Command {
     Calibrate(Calibrating),
     /// Say what is in a print file, whoever wrote it, and whether it is whole
     Inspect(Inspecting),
+    /// Make a print file from another: the same layers and pixels, in another format or for another printer
+    Convert(Converting),
     /// Write the saliency of each facet, how much it stands out, as a file of weights
     Saliency {
         /// STL file, binary or ASCII
@@ -132,6 +136,7 @@ fn main() -> ExitCode {
         Command::Simulate(simulating) => simulate::simulate(&simulating),
         Command::Calibrate(calibrating) => calibrate::calibrate(&calibrating),
         Command::Inspect(inspecting) => inspect::inspect(&inspecting),
+        Command::Convert(converting) => convert::convert(&converting),
         Command::Saliency { model, output } => models::saliency(&model, &output),
         Command::Printers { json } => models::printers(json),
         Command::Info { model, json } => models::info(&model, json),

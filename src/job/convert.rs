@@ -1,0 +1,740 @@
+//! A print file made from another: the same layers, exposures and pixels, in another format or for another printer.
+
+use std::sync::Arc;
+
+use serde::Serialize;
+use serde_json::{Value, json};
+
+use super::resolve::find_printer;
+use super::{OptionsError, SCHEMA};
+use crate::archive::read::{
+    About, Finding, Flips, Inspection, Layer as LayerRead, Preview, PrintFile,
+};
+use crate::archive::{self, ArchiveError, Layer, Look, PrintJob, Screen};
+use crate::format::{Format, FormatThicknesses};
+use crate::mask::{LEVELS, LayerRuns, Run, RunReader, RunSource};
+use crate::parallel;
+use crate::printer::{Printer, PrinterChoice};
+use crate::progress::Progress;
+use crate::quantity::QuantityError;
+use crate::resin::Resin;
+
+/// What to make of a print file. What is absent stays as it is.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Target {
+    /// The format; the printer's if absent.
+    pub format: Option<Format>,
+    /// The printer; the one that the file names if absent, where it is known.
+    pub printer: Option<PrinterChoice>,
+    /// Whether masks are mirrored left to right; as the printer has them if absent.
+    pub mirror: Option<bool>,
+    /// A resin, whose exposures, rests and moves replace those of the file. Its growth does not count: masks stay as they are.
+    pub resin: Option<Resin>,
+}
+
+/// A conversion, checked and ready to be written.
+pub struct Conversion<'a> {
+    file: &'a PrintFile<'a>,
+    format: Format,
+    printer: Option<Arc<Printer>>,
+    screen: Screen,
+    /// How stored masks become masks seen from above.
+    flips: Flips,
+    layers: Vec<Layer>,
+    resin: Resin,
+    volume_ml: f64,
+    losses: Vec<Loss>,
+}
+
+/// Why a print file cannot be converted. `Display` writes one sentence.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ConvertError {
+    /// The file is not whole, or its layers are in no order that can be printed.
+    #[error("it cannot be converted: {0}")]
+    Unsound(Finding),
+    /// The printer is unknown, or badly described.
+    #[error(transparent)]
+    Options(#[from] OptionsError),
+    /// Neither the caller nor the printer says which format.
+    #[error("no format is given, and no known printer that has one; name a format or a printer")]
+    NoFormat,
+    /// The masks are made for another screen.
+    #[error(
+        "its masks are {} × {} pixels of {:.4} × {:.4} mm, and the screen of the {model} has {} × {} of {:.4} × {:.4} mm; slice \
+         the model for that printer",
+        pixels[0], pixels[1], pixel_mm[0], pixel_mm[1], screen[0], screen[1], screen_mm[0], screen_mm[1]
+    )]
+    OtherScreen {
+        /// Make and model of the printer.
+        model: String,
+        /// Columns and rows of the masks.
+        pixels: [u32; 2],
+        /// Sides of their pixels in millimetres.
+        pixel_mm: [f64; 2],
+        /// Columns and rows of the screen.
+        screen: [u32; 2],
+        /// Sides of its pixels in millimetres.
+        screen_mm: [f64; 2],
+    },
+    /// The print is higher than the printer.
+    #[error("it is {height_mm:.3} mm high, and the {model} prints up to {greatest_mm} mm")]
+    TooHigh {
+        /// Make and model of the printer.
+        model: String,
+        /// Height of the print in millimetres.
+        height_mm: f64,
+        /// Height that the printer prints in millimetres.
+        greatest_mm: f64,
+    },
+    /// A layer is thinner or thicker than the printer prints.
+    #[error(
+        "its layer {layer} is {thickness_mm:.3} mm thick, and the {model} prints {} to {} mm",
+        range_mm[0], range_mm[1]
+    )]
+    Thickness {
+        /// Make and model of the printer.
+        model: String,
+        /// Number of the layer, from 1.
+        layer: usize,
+        /// Its thickness in millimetres.
+        thickness_mm: f64,
+        /// Thicknesses that the printer prints, in millimetres.
+        range_mm: [f64; 2],
+    },
+    /// The file does not say how long its layers are exposed.
+    #[error("it does not say how long its layers are exposed; give a resin, which does")]
+    NoExposure,
+    /// The format has one exposure for all layers above the bottom layers, and the file has several.
+    #[error(
+        "{} files have one exposure above the bottom layers, and this file has several; choose {}, or give a resin",
+        format.name(), Format::VARIABLE.map(Format::name).join(", ")
+    )]
+    OneExposure {
+        /// The format asked for.
+        format: Format,
+    },
+    /// A number of the resin, or of the file, is out of bounds.
+    #[error(transparent)]
+    Resin(#[from] QuantityError),
+    /// The new file cannot be written, or cannot have these layers.
+    #[error(transparent)]
+    Archive(#[from] ArchiveError),
+}
+
+/// Something of a print file that its conversion does not have. `Display` writes one sentence.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, thiserror::Error)]
+#[serde(tag = "code", content = "detail", rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum Loss {
+    /// Lifts or speeds differ between layers.
+    #[error("lifts and speeds differ between layers; all layers have those of layer {layer} now")]
+    Moves {
+        /// Number of the layer whose moves all layers have, from 1.
+        layer: usize,
+    },
+    /// Rests are at several times of a layer, or differ between layers.
+    #[error(
+        "rests differ between layers, or come after the exposure; all layers rest {wait_s} s before it now"
+    )]
+    Rests {
+        /// Rest of each layer in seconds.
+        wait_s: f64,
+    },
+    /// The format has fewer greys.
+    #[error("greys are rounded down to {levels} levels, which is all that the format has")]
+    Greys {
+        /// Number of levels, black and white included.
+        levels: u32,
+    },
+    /// Nothing says whether the masks are mirrored.
+    #[error(
+        "neither the file nor its printer says whether masks are mirrored; they stay as they are"
+    )]
+    Mirroring,
+}
+
+/// Lengths that differ by less are equal: files round them.
+const SAME_MM: f64 = 1e-6;
+/// No printer lifts as slowly as this, in millimetres per minute.
+const SLOWEST_MM_MIN: f64 = 1.0;
+/// Sides of pixels that differ by a smaller part are equal: files state them to the micrometre.
+const SAME_PITCH: f64 = 0.02;
+
+impl<'a> Conversion<'a> {
+    /// Checks that `target` can have what is in the file.
+    ///
+    /// # Errors
+    /// Any [`ConvertError`]; of [`ArchiveError`] those that writing has besides.
+    pub fn new(
+        file: &'a PrintFile<'a>,
+        inspection: &Inspection,
+        target: &Target,
+    ) -> Result<Self, ConvertError> {
+        let unsound = inspection.warnings.iter().find(|finding| {
+            matches!(
+                finding,
+                Finding::NoLayers
+                    | Finding::FirstLayerBelowPlate { .. }
+                    | Finding::HeightsNotAscending { .. }
+                    | Finding::BadLayers { .. }
+            )
+        });
+        if let Some(finding) = unsound {
+            return Err(ConvertError::Unsound(finding.clone()));
+        }
+        let about = file.about();
+        let old = about.known_printer();
+        let named = find_printer(target.printer.as_ref())?;
+        let printer = named.or_else(|| old.clone());
+        let format = target
+            .format
+            .or(printer.as_deref().map(|printer| printer.format))
+            .ok_or(ConvertError::NoFormat)?;
+
+        let (screen, flips, says_mirroring) = screen(about, printer.as_deref(), target.mirror);
+        let greys = inspection.layer_values.iter();
+        let has_greys = greys
+            .filter_map(|layer| layer.grey_pixels)
+            .any(|greys| greys > 0);
+        let screen = Screen {
+            antialias: if has_greys {
+                LEVELS[LEVELS.len() - 1]
+            } else {
+                1
+            },
+            ..screen
+        };
+        if let Some(printer) = &printer {
+            check_printer(printer, &screen, file.layers())?;
+        }
+        let (resin, exposure_s) = exposures(about, file.layers(), target.resin.as_ref())?;
+        resin.check()?;
+        let layers: Vec<Layer> = file
+            .layers()
+            .iter()
+            .zip(exposure_s)
+            .map(|(layer, exposure_s)| Layer {
+                z_mm: layer.z_mm,
+                thickness_mm: layer.thickness_mm,
+                exposure_s,
+            })
+            .collect();
+        check_exposures(format, &layers, &resin)?;
+
+        let mut losses = Vec::new();
+        if target.resin.is_none() {
+            losses.extend(lost_moves(file.layers(), &resin));
+        }
+        let (before, after) = (levels(about.format), levels(format));
+        if has_greys && after < before {
+            losses.push(Loss::Greys { levels: after });
+        }
+        if !says_mirroring {
+            losses.push(Loss::Mirroring);
+        }
+        let stated_ml = about.volume_ml.filter(|&volume_ml| volume_ml > 0.0);
+        Ok(Self {
+            file,
+            format,
+            printer,
+            screen,
+            flips,
+            layers,
+            resin,
+            volume_ml: stated_ml.unwrap_or(inspection.lit_volume_ml),
+            losses,
+        })
+    }
+
+    /// The format of the new file.
+    pub fn format(&self) -> Format {
+        self.format
+    }
+
+    /// The printer of the new file, if one is named or known.
+    pub fn printer(&self) -> Option<&Printer> {
+        self.printer.as_deref()
+    }
+
+    /// Total time of all layers, in seconds.
+    pub fn print_time_s(&self) -> f64 {
+        let exposure_s: Vec<f64> = self.layers.iter().map(|layer| layer.exposure_s).collect();
+        self.resin.time_s(&exposure_s)
+    }
+
+    /// What the new file does not have of the old one.
+    pub fn losses(&self) -> &[Loss] {
+        &self.losses
+    }
+
+    /// Writes the new file, sequentially, and returns the writer.
+    ///
+    /// # Errors
+    /// [`ArchiveError`].
+    pub fn write<W: std::io::Write>(
+        &self,
+        writer: W,
+        progress: &mut Progress<'_>,
+    ) -> Result<W, ArchiveError> {
+        let height_mm = self.layers.last().map_or(0.0, |layer| layer.z_mm);
+        let job = PrintJob {
+            screen: self.screen,
+            layers: &self.layers,
+            masks: self,
+            height_mm,
+            resin: &self.resin,
+            resin_ml: self.volume_ml,
+            printer: self.printer(),
+            look: &|| self.look(),
+            best_uniform: &|| None,
+            manifest: &|| Ok(self.manifest()),
+        };
+        archive::write(self.format, &job, writer, progress)
+    }
+
+    /// The largest preview of the file, or else its masks on top of each other.
+    fn look(&self) -> Look {
+        let previews = (0..self.file.previews()).filter_map(|place| self.file.preview(place));
+        let largest =
+            previews.max_by_key(|preview| u64::from(preview.width) * u64::from(preview.height));
+        largest.map_or_else(|| self.stacked(), |preview| look_of(&preview))
+    }
+
+    /// Masks of layers spread over the height, the higher the brighter.
+    fn stacked(&self) -> Look {
+        /// Layers that are drawn.
+        const LAYERS: usize = 64;
+        /// Pixels of the longer side.
+        const SIDE: u32 = 512;
+        let [width, height] = self.screen.pixels;
+        let step = width.max(height).div_ceil(SIDE);
+        let [columns, rows] = [width, height].map(|side| side.div_ceil(step));
+        let mut brightness = vec![0; columns as usize * rows as usize];
+        let layers = self.layers.len();
+        for part in 1..=LAYERS.min(layers) {
+            let layer = part * layers / LAYERS.min(layers) - 1;
+            let Ok(mask) = self.file.mask(layer, self.flips) else {
+                continue;
+            };
+            let grey = (60 + 195 * (layer + 1) / layers) as u8;
+            for row in 0..rows {
+                let changes = mask.row((row * step) as i32);
+                for run in changes.chunks_exact(2) {
+                    let [first, end] =
+                        [run[0], run[1]].map(|column| u32::from(column).div_ceil(step));
+                    let place = (row * columns) as usize;
+                    brightness[place + first as usize..place + end as usize].fill(grey);
+                }
+            }
+        }
+        Look::from_picture([columns, rows], brightness)
+    }
+
+    /// What a zip of masks says of a print that no plan was made for.
+    fn manifest(&self) -> Value {
+        let screen = &self.screen;
+        json!({
+            "schema": SCHEMA,
+            "converted_from": self.file.about().format,
+            "layers": self.layers.len(),
+            "height_mm": self.layers.last().map_or(0.0, |layer| layer.z_mm),
+            "print_time_s": self.print_time_s(),
+            "printer": self.printer().map(|printer| &printer.model),
+            "resin": self.resin,
+            "resin_ml": self.volume_ml,
+            "mask": {
+                "width": screen.pixels[0],
+                "height": screen.pixels[1],
+                "pitch_mm": screen.pitch_mm[0],
+                "pitch_y_mm": screen.pitch_mm[1],
+                "antialias": screen.antialias,
+                "is_mirrored": screen.is_mirrored,
+            },
+        })
+    }
+}
+
+/// The screen of the new file without its anti-aliasing, how stored masks become masks seen from above, and whether that is
+/// known.
+fn screen(about: &About, printer: Option<&Printer>, mirror: Option<bool>) -> (Screen, Flips, bool) {
+    let known = about.known_printer();
+    let is_mirrored = about
+        .is_mirrored_x
+        .or(known.map(|printer| printer.is_mirrored));
+    let wanted = mirror
+        .or(printer.map(|printer| printer.is_mirrored))
+        .or(is_mirrored);
+    // Screens light the resin from below.
+    let wanted = wanted.unwrap_or(true);
+    let flips = Flips {
+        mirror_x: is_mirrored.unwrap_or(wanted),
+        ..about.flips()
+    };
+    let across = |[x, y]: [f64; 2]| if flips.exchange { [y, x] } else { [x, y] };
+    let [width, height] = about.pixels;
+    let screen = Screen {
+        pixels: if flips.exchange {
+            [height, width]
+        } else {
+            [width, height]
+        },
+        pitch_mm: across(about.pixel_mm),
+        is_mirrored: wanted,
+        antialias: 1,
+    };
+    (screen, flips, is_mirrored.is_some())
+}
+
+/// Refuses what does not fit the printer.
+fn check_printer(
+    printer: &Printer,
+    screen: &Screen,
+    layers: &[LayerRead],
+) -> Result<(), ConvertError> {
+    let model = || printer.model.clone();
+    let screen_mm = printer.pitch_um.map(|pitch_um| pitch_um / 1e3);
+    let is_close = |axis: usize| {
+        let (own, other) = (screen_mm[axis], screen.pitch_mm[axis]);
+        (own - other).abs() <= SAME_PITCH * own
+    };
+    if printer.pixels != screen.pixels || !is_close(0) || !is_close(1) {
+        return Err(ConvertError::OtherScreen {
+            model: model(),
+            pixels: screen.pixels,
+            pixel_mm: screen.pitch_mm,
+            screen: printer.pixels,
+            screen_mm,
+        });
+    }
+    let height_mm = layers.last().map_or(0.0, |layer| layer.z_mm);
+    if height_mm > printer.volume_mm[2] + SAME_MM {
+        return Err(ConvertError::TooHigh {
+            model: model(),
+            height_mm,
+            greatest_mm: printer.volume_mm[2],
+        });
+    }
+    let [least_mm, greatest_mm] = printer.layer_mm;
+    let is_printed = |layer: &&LayerRead| {
+        (least_mm - SAME_MM..=greatest_mm + SAME_MM).contains(&layer.thickness_mm)
+    };
+    match layers.iter().position(|layer| !is_printed(&layer)) {
+        Some(place) => Err(ConvertError::Thickness {
+            model: model(),
+            layer: place + 1,
+            thickness_mm: layers[place].thickness_mm,
+            range_mm: printer.layer_mm,
+        }),
+        None => Ok(()),
+    }
+}
+
+/// Refuses several exposures for a format that has one above the bottom layers.
+fn check_exposures(format: Format, layers: &[Layer], resin: &Resin) -> Result<(), ConvertError> {
+    let upper = layers.get(resin.bottom_layers..).unwrap_or_default();
+    let is_one = upper
+        .windows(2)
+        .all(|pair| (pair[0].exposure_s - pair[1].exposure_s).abs() < 1e-3);
+    if is_one || format.thicknesses() == FormatThicknesses::Any {
+        return Ok(());
+    }
+    Err(ConvertError::OneExposure { format })
+}
+
+/// The resin of the new file, and the exposure of each layer in seconds.
+fn exposures(
+    about: &About,
+    layers: &[LayerRead],
+    resin: Option<&Resin>,
+) -> Result<(Resin, Vec<f64>), ConvertError> {
+    if let Some(resin) = resin {
+        let thickness_mm: Vec<f64> = layers.iter().map(|layer| layer.thickness_mm).collect();
+        return Ok((resin.clone(), resin.exposures_s(&thickness_mm)));
+    }
+    let bottom_layers = about.bottom_layers.unwrap_or(0) as usize;
+    let faded = about.transition_layers.unwrap_or(0) as usize;
+    let positive = |value: Option<f64>| value.filter(|value| *value > 0.0);
+    let exposure_of = |place: usize| {
+        let stated = positive(layers[place].exposure_s);
+        let upper_s = || positive(about.exposure_s);
+        let nominal = || match (
+            positive(about.bottom_exposure_s),
+            place.checked_sub(bottom_layers),
+        ) {
+            (Some(bottom_s), None) => Some(bottom_s),
+            (Some(bottom_s), Some(above)) if above < faded => {
+                let part = (above + 1) as f64 / (faded + 1) as f64;
+                upper_s().map(|upper_s| bottom_s + (upper_s - bottom_s) * part)
+            }
+            _ => upper_s(),
+        };
+        stated.or_else(nominal).ok_or(ConvertError::NoExposure)
+    };
+    let exposure_s = (0..layers.len()).map(exposure_of);
+    let exposure_s: Vec<f64> = exposure_s.collect::<Result<_, _>>()?;
+
+    let usual = &layers[layers.len() / 2];
+    let usual_s = exposure_s[layers.len() / 2];
+    let default = Resin::default();
+    // Layers that are exposed like the first one, if the file does not count them.
+    let like_first = exposure_s
+        .iter()
+        .take_while(|&&layer_s| layer_s == exposure_s[0]);
+    let like_first = match like_first.count() {
+        count if count < layers.len() => count,
+        _ => 0,
+    };
+    // Files for vats that tilt name a lift that takes forever.
+    let moves = moves(usual).filter(|[_, lift_mm_min, _]| *lift_mm_min >= SLOWEST_MM_MIN);
+    let [lift_mm, lift_mm_min, return_mm_min] =
+        moves.unwrap_or([default.lift_mm, default.lift_mm_min, default.return_mm_min]);
+    let resin = Resin {
+        name: about.resin.clone().unwrap_or(default.name),
+        layer_mm: usual.thickness_mm,
+        exposure_s: usual_s,
+        bottom_layers: about
+            .bottom_layers
+            .map_or(like_first, |layers| layers as usize),
+        bottom_exposure_s: exposure_s[0],
+        wait_s: rests_s(usual).map_or(default.wait_s, |rests_s| rests_s.iter().sum()),
+        lift_mm,
+        lift_mm_min,
+        return_mm_min,
+        density_g_ml: density(about).unwrap_or(default.density_g_ml),
+        ..default
+    };
+    Ok((resin, exposure_s))
+}
+
+/// The density that weight and volume say, if both are stated.
+fn density(about: &About) -> Option<f64> {
+    let density = about.weight_g? / about.volume_ml?;
+    (0.5..5.0).contains(&density).then_some(density)
+}
+
+/// Lift of a layer in millimetres, and speeds up and down in millimetres per minute, if all are stated.
+fn moves(layer: &LayerRead) -> Option<[f64; 3]> {
+    let moves = [layer.lift_mm?, layer.lift_mm_min?, layer.retract_mm_min?];
+    moves.iter().all(|number| *number > 0.0).then_some(moves)
+}
+
+/// The rests of a layer before its exposure, before its lift and after it, in seconds, if any is stated.
+fn rests_s(layer: &LayerRead) -> Option<[f64; 3]> {
+    let rests_s = [
+        layer.wait_before_exposure_s,
+        layer.wait_before_lift_s,
+        layer.wait_after_lift_s,
+    ];
+    let is_stated = rests_s.iter().any(Option::is_some);
+    is_stated.then(|| rests_s.map(Option::unwrap_or_default))
+}
+
+/// What one lift and one rest for all layers lose.
+fn lost_moves(layers: &[LayerRead], resin: &Resin) -> Vec<Loss> {
+    let mut losses = Vec::new();
+    let usual = &layers[layers.len() / 2];
+    if layers.iter().any(|layer| moves(layer) != moves(usual)) {
+        losses.push(Loss::Moves {
+            layer: layers.len() / 2 + 1,
+        });
+    }
+    let rests_s = layers.iter().filter_map(rests_s);
+    if rests_s
+        .into_iter()
+        .any(|rests_s| rests_s != [resin.wait_s, 0.0, 0.0])
+    {
+        losses.push(Loss::Rests {
+            wait_s: resin.wait_s,
+        });
+    }
+    losses
+}
+
+/// The number of greys of a format, black and white included.
+fn levels(format: Format) -> u32 {
+    match format {
+        Format::PhotonWorkshop | Format::AnycubicZip => 16,
+        Format::Ctb => 128,
+        _ => 256,
+    }
+}
+
+/// A picture in the greys of its colours.
+fn look_of(preview: &Preview) -> Look {
+    let pixels = preview.rgb.chunks_exact(3);
+    // As bright as its colours look: ITU-R BT.601.
+    let greys = pixels.map(|rgb| {
+        let [red, green, blue] = [rgb[0], rgb[1], rgb[2]].map(u32::from);
+        ((299 * red + 587 * green + 114 * blue) / 1000) as u8
+    });
+    Look::from_picture([preview.width, preview.height], greys.collect())
+}
+
+impl RunSource for Conversion<'_> {
+    fn reader(&self) -> Box<dyn RunReader + '_> {
+        Box::new(Reader {
+            conversion: self,
+            next: 0,
+        })
+    }
+}
+
+struct Reader<'a> {
+    conversion: &'a Conversion<'a>,
+    next: usize,
+}
+
+impl RunReader for Reader<'_> {
+    fn next(&mut self, layers: usize) -> LayerRuns {
+        let range = self.next..self.next + layers;
+        self.next = range.end;
+        let conversion = self.conversion;
+        LayerRuns::new(parallel::map(range.collect(), |layer| {
+            conversion.runs(layer)
+        }))
+    }
+}
+
+impl Conversion<'_> {
+    /// The runs of a layer, turned the way that the new file has them.
+    fn runs(&self, layer: usize) -> Vec<Run> {
+        let [width, height] = self.file.about().pixels;
+        let mut collector = Collector::new(width);
+        let decoded = self
+            .file
+            .runs(layer, &mut |grey, count| collector.run(grey, count));
+        decoded.expect("a layer that was decoded before");
+        let Flips {
+            mut mirror_x,
+            mirror_y,
+            exchange,
+        } = self.flips;
+        let mut runs = collector.runs;
+        if exchange {
+            turn(&mut runs, [width, height], [mirror_x, mirror_y]);
+            runs = exchanged(&runs, [width, height]);
+            turn(&mut runs, [height, width], [self.screen.is_mirrored, false]);
+        } else {
+            mirror_x ^= self.screen.is_mirrored;
+            turn(&mut runs, [width, height], [mirror_x, mirror_y]);
+        }
+        runs
+    }
+}
+
+/// Collects lit runs, cut at the ends of rows and as long as can be.
+struct Collector {
+    width: u32,
+    next: u32,
+    runs: Vec<Run>,
+}
+
+impl Collector {
+    fn new(width: u32) -> Self {
+        Self {
+            width,
+            next: 0,
+            runs: Vec::new(),
+        }
+    }
+
+    fn run(&mut self, grey: u8, mut count: u32) {
+        while grey > 0 && count > 0 {
+            let column = self.next % self.width;
+            let pixels = count.min(self.width - column);
+            match self.runs.last_mut() {
+                Some(last)
+                    if column > 0 && last.grey == grey && last.first + last.pixels == self.next =>
+                {
+                    last.pixels += pixels;
+                }
+                _ => self.runs.push(Run {
+                    first: self.next,
+                    pixels,
+                    grey,
+                }),
+            }
+            self.next += pixels;
+            count -= pixels;
+        }
+        self.next += count;
+    }
+}
+
+/// Mirrors runs in x or y.
+fn turn(runs: &mut [Run], [width, height]: [u32; 2], [mirror_x, mirror_y]: [bool; 2]) {
+    if !mirror_x && !mirror_y {
+        return;
+    }
+    for run in &mut *runs {
+        let (mut row, mut column) = (run.first / width, run.first % width);
+        if mirror_x {
+            column = width - column - run.pixels;
+        }
+        if mirror_y {
+            row = height - 1 - row;
+        }
+        run.first = row * width + column;
+    }
+    runs.sort_unstable_by_key(|run| run.first);
+}
+
+/// Runs whose columns are along y and whose rows are along x, as runs with columns along x.
+fn exchanged(runs: &[Run], [width, height]: [u32; 2]) -> Vec<Run> {
+    let mut greys = vec![0u8; width as usize * height as usize];
+    for run in runs {
+        let row = run.first / width;
+        for column in run.first % width..run.first % width + run.pixels {
+            let place = (width - 1 - column) * height + (height - 1 - row);
+            greys[place as usize] = run.grey;
+        }
+    }
+    let mut collector = Collector::new(height);
+    for equal in greys.chunk_by(|a, b| a == b) {
+        collector.run(equal[0], equal.len() as u32);
+    }
+    collector.runs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Collector, exchanged, turn};
+
+    const SIZE: [u32; 2] = [5, 3];
+    const PICTURE: [u8; 15] = [0, 9, 9, 0, 7, 7, 0, 0, 1, 1, 1, 1, 0, 0, 5];
+
+    fn runs(greys: &[u8], width: u32) -> Vec<crate::mask::Run> {
+        let mut collector = Collector::new(width);
+        for &grey in greys {
+            collector.run(grey, 1);
+        }
+        collector.runs
+    }
+
+    #[test]
+    fn pixels_are_where_their_mirror_image_was() {
+        for mirror_x in [false, true] {
+            for mirror_y in [false, true] {
+                let mut turned = runs(&PICTURE, 5);
+                turn(&mut turned, SIZE, [mirror_x, mirror_y]);
+                let expected: Vec<u8> = (0..15)
+                    .map(|place| {
+                        let (row, column) = (place / 5, place % 5);
+                        let row = if mirror_y { 2 - row } else { row };
+                        let column = if mirror_x { 4 - column } else { column };
+                        PICTURE[row * 5 + column]
+                    })
+                    .collect();
+                assert_eq!(turned, runs(&expected, 5), "{mirror_x} {mirror_y}");
+            }
+        }
+    }
+
+    #[test]
+    fn columns_become_rows() {
+        // The last column, from the last row up, is the first row.
+        let expected = [5, 1, 7, 0, 1, 0, 0, 0, 9, 1, 0, 9, 1, 7, 0];
+        assert_eq!(exchanged(&runs(&PICTURE, 5), SIZE), runs(&expected, 3));
+    }
+}

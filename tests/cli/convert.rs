@@ -1,0 +1,95 @@
+//! `convert`.
+
+use std::fs;
+
+use tempfile::TempDir;
+
+use crate::{assert_fails, cusp, json, model, names, on_cpu, sphere};
+
+/// A ball, 3 mm high, sliced for a printer that reads GOO.
+fn print_file(folder: &TempDir) -> String {
+    let print = folder.path().join("print.goo").display().to_string();
+    let ball = sphere(folder);
+    let options = ["--printer", "mars-4-ultra", "--height", "3"];
+    let sliced = on_cpu(&[&["slice", &ball, "-o", &print][..], &options].concat());
+    assert!(sliced.status.success());
+    print
+}
+
+#[test]
+fn a_print_file_becomes_one_of_another_format() {
+    let folder = TempDir::new().unwrap();
+    let print = print_file(&folder);
+    let old = json(&cusp(&["inspect", &print, "--json"]));
+    let layers = |found: &serde_json::Value| -> Vec<_> {
+        let layers = found["layer_values"].as_array().unwrap().iter();
+        let values = |layer: &serde_json::Value| {
+            ["z_mm", "exposure_s", "lit_pixels"].map(|key| layer[key].clone())
+        };
+        layers.map(values).collect()
+    };
+    for (name, options, format) in [
+        ("a.zip", &[][..], "png"),
+        ("b.zip", &["--format", "chitubox"], "chitubox"),
+        ("c.ctb", &[], "ctb"),
+        ("d.PRZ", &[], "goo"),
+        // What the printer reads, where the extension says nothing.
+        ("e.file", &[], "goo"),
+        ("f.zip", &["--printer", "mars-4-ultra"], "goo"),
+    ] {
+        let new = folder.path().join(name).display().to_string();
+        let output = cusp(&[&["convert", &print, &new], options].concat());
+        assert_eq!(String::from_utf8_lossy(&output.stderr), "", "{name}");
+        let says = String::from_utf8(output.stdout).unwrap();
+        let start = format!(
+            "{new}: {format} for the Elegoo Mars 4 Ultra, {} layers",
+            old["layers"]
+        );
+        assert!(says.starts_with(&start), "{says}");
+        let found = json(&cusp(&["inspect", &new, "--json"]));
+        assert_eq!(found["format"], format, "{name}");
+        assert_eq!(found["warnings"], serde_json::json!([]), "{name}");
+        assert_eq!(layers(&found), layers(&old), "{name}");
+    }
+    // With another resin, the same masks have other exposures.
+    let resin = model(
+        &folder,
+        "resin.json",
+        br#"{"bottom_layers": 1, "exposures": [[0.05, 7.5]]}"#,
+    );
+    let slower = folder.path().join("slower.goo").display().to_string();
+    assert!(
+        cusp(&["convert", &print, &slower, "--resin", &resin])
+            .status
+            .success()
+    );
+    let found = json(&cusp(&["inspect", &slower, "--json"]));
+    assert_eq!(found["exposure_range_s"], serde_json::json!([7.5, 30.0]));
+}
+
+#[test]
+fn what_cannot_be_converted_leaves_no_file() {
+    let folder = TempDir::new().unwrap();
+    let print = print_file(&folder);
+    let new = folder.path().join("new.goo").display().to_string();
+    let fails = |arguments: &[&str], words: &str| {
+        assert_fails(&cusp(&[&["convert"], arguments].concat()), 1, words);
+    };
+    fails(&[&print, &print], "is the print file to read itself");
+    fails(&["absent.goo", &new], "absent.goo");
+    fails(&[&print, &new, "--printer", "mars-9"], "no printer mars-9");
+    fails(
+        &[&print, &new, "--printer", "saturn-2"],
+        "slice the model for that printer",
+    );
+    fails(
+        &[&print, &new, "--format", "sl1"],
+        "one exposure above the bottom layers",
+    );
+    let ball = folder.path().join("ball.stl").display().to_string();
+    fails(&[&ball, &new], "it is no print file");
+    let half = fs::read(&print).unwrap();
+    let half = model(&folder, "half.goo", &half[..half.len() / 2]);
+    fails(&[&half, &new], "cut short");
+    assert_eq!(names(&folder), ["ball.stl", "half.goo", "print.goo"]);
+}
