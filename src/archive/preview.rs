@@ -10,6 +10,8 @@ use crate::model::Mesh;
 pub struct Look {
     width: usize,
     height: usize,
+    /// Sides of a pixel in x and y, in any unit.
+    side: [f64; 2],
     /// Row by row from the largest y; 0 outside the model.
     brightness: Vec<u8>,
 }
@@ -41,37 +43,43 @@ impl Look {
         Self {
             width: columns as usize,
             height: rows as usize,
+            side: [1.0, grid.pitch_y_mm / grid.pitch_mm],
             brightness,
         }
     }
 
-    /// A picture as it is: the brightness of each pixel, row by row from the top.
+    /// A picture as it is: the brightness of each pixel, row by row from the top, and the sides of a pixel in any unit.
     #[cfg(feature = "read")]
-    pub(crate) fn from_picture([width, height]: [u32; 2], brightness: Vec<u8>) -> Self {
+    pub(crate) fn from_picture(
+        [width, height]: [u32; 2],
+        side: [f64; 2],
+        brightness: Vec<u8>,
+    ) -> Self {
         Self {
             width: width as usize,
             height: height as usize,
+            side,
             brightness,
         }
     }
 
     /// A picture of this many columns and rows, with the model centred and scaled to fit: a grey for each pixel.
     pub fn greys(&self, [width, height]: [u32; 2]) -> Vec<u8> {
-        let scale =
-            (self.width as f64 / f64::from(width)).max(self.height as f64 / f64::from(height));
-        let source = |place: u32, side: u32, source_side: usize| {
-            let from_middle = f64::from(place) + 0.5 - f64::from(side) * 0.5;
-            let position = from_middle * scale + source_side as f64 * 0.5;
-            (0.0..source_side as f64)
+        let scale = (self.width as f64 * self.side[0] / f64::from(width))
+            .max(self.height as f64 * self.side[1] / f64::from(height));
+        let source = |place: u32, pixels: u32, source_pixels: usize, side: f64| {
+            let from_middle = f64::from(place) + 0.5 - f64::from(pixels) * 0.5;
+            let position = from_middle * scale / side + source_pixels as f64 * 0.5;
+            (0.0..source_pixels as f64)
                 .contains(&position)
                 .then_some(position as usize)
         };
         let columns: Vec<_> = (0..width)
-            .map(|column| source(column, width, self.width))
+            .map(|column| source(column, width, self.width, self.side[0]))
             .collect();
         let mut greys = Vec::with_capacity(width as usize * height as usize);
         for row in 0..height {
-            let row = source(row, height, self.height);
+            let row = source(row, height, self.height, self.side[1]);
             greys.extend(columns.iter().map(|&column| {
                 row.zip(column).map_or(0, |(row, column)| {
                     self.brightness[row * self.width + column]

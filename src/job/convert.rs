@@ -328,7 +328,7 @@ impl<'a> Conversion<'a> {
                 }
             }
         }
-        Look::from_picture([columns, rows], brightness)
+        Look::from_picture([columns, rows], self.screen.pitch_mm, brightness)
     }
 
     /// What a zip of masks says of a print that no plan was made for.
@@ -568,7 +568,7 @@ fn look_of(preview: &Preview) -> Look {
         let [red, green, blue] = [rgb[0], rgb[1], rgb[2]].map(u32::from);
         ((299 * red + 587 * green + 114 * blue) / 1000) as u8
     });
-    Look::from_picture([preview.width, preview.height], greys.collect())
+    Look::from_picture([preview.width, preview.height], [1.0; 2], greys.collect())
 }
 
 impl RunSource for Conversion<'_> {

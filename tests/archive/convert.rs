@@ -3,7 +3,7 @@
 use std::io::{Cursor, Write as _};
 use std::sync::Arc;
 
-use cusp_slicer::archive::read::{Finding, PrintFile, inspect};
+use cusp_slicer::archive::read::{Finding, Preview, PrintFile, inspect};
 use cusp_slicer::format::{Format, FormatThicknesses};
 use cusp_slicer::job::{Backend, Conversion, ConvertError, Loss, Options, Planner, Target};
 use cusp_slicer::printer::{PRINTERS, Printer, PrinterChoice, format_of, named};
@@ -165,7 +165,21 @@ fn a_file_becomes_itself() {
             .map(|column| grey(column, middle.1))
             .find(|&grey| grey > 0);
         assert!((60..200).contains(&edge.unwrap()), "{edge:?}");
+        // Pixels of the screen need not be square; the ball is round.
+        for file in [&old, &from_zip] {
+            let [width, height] = extent(&file.preview(0).unwrap());
+            assert!(width.abs_diff(height) <= 4, "{name}: {width} × {height}");
+        }
     }
+}
+
+/// Columns and rows with something in them.
+fn extent(preview: &Preview) -> [usize; 2] {
+    let pixels: Vec<bool> = preview.rgb.chunks(3).map(|rgb| rgb[0] > 0).collect();
+    let rows: Vec<&[bool]> = pixels.chunks(preview.width as usize).collect();
+    let lit = rows.iter().filter(|row| row.contains(&true)).count();
+    let columns = (0..rows[0].len()).filter(|&column| rows.iter().any(|row| row[column]));
+    [columns.count(), lit]
 }
 
 #[test]
