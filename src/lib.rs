@@ -73,7 +73,7 @@ pub mod orientation;
 pub mod job;
 #[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
 pub mod simulation;
-#[cfg(target_arch = "wasm32")]
+#[cfg(all(target_arch = "wasm32", not(feature = "read")))]
 mod wasm;
 
 pub use job::{Error, Options, Report, Slicer, Stage};

@@ -8,6 +8,7 @@ mod ctb;
 mod damage;
 mod goo;
 mod photon_workshop;
+mod surface;
 mod zips;
 
 use std::io::{Cursor, Write as _};

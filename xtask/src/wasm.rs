@@ -1,11 +1,6 @@
 //! The wasm package: building, browser tests, lints and size.
 
-use std::{
-    fs,
-    io::Write,
-    path::{Path, PathBuf},
-    process::Command,
-};
+use std::{fs, io::Write, path::PathBuf, process::Command};
 
 use anyhow::{Context, Result, bail};
 use flate2::{Compression, write::GzEncoder};
@@ -18,10 +13,45 @@ use crate::{
     tools::Tools,
 };
 
-/// The size budget of the gzipped module, in bytes.
-const BUDGET: usize = 464_000;
-/// Relative to the page's folder.
-const MODULE: &str = "pkg/cusp_slicer_bg.wasm";
+/// A WebAssembly module of the page.
+struct Module {
+    /// The package that it is built from.
+    package: &'static str,
+    /// Folder of the package.
+    folder: &'static str,
+    /// Name of its files, relative to the page's folder, without extensions.
+    files: &'static str,
+    /// The size budget, gzipped, in bytes.
+    budget: usize,
+}
+
+/// The slicer, and the reader of print files, which the page fetches when somebody opens one.
+const MODULES: [Module; 2] = [
+    Module {
+        package: "cusp-slicer",
+        folder: ".",
+        files: "pkg/cusp_slicer",
+        budget: 464_000,
+    },
+    Module {
+        package: "cusp-reader",
+        folder: "reader",
+        files: "pkg/reader/cusp_reader",
+        budget: 245_000,
+    },
+];
+
+impl Module {
+    /// Its name, without the folder.
+    fn name(&self) -> &'static str {
+        self.files.rsplit('/').next().unwrap_or(self.files)
+    }
+
+    fn file(&self, project: &Project, end: &str) -> PathBuf {
+        project.www.join(format!("{}{end}", self.files))
+    }
+}
+
 /// Leaves out the command line, a default feature: cargo would otherwise compile
 /// it for wasm along with the tests.
 const NO_COMMAND_LINE: &str = "--no-default-features";
@@ -37,15 +67,26 @@ pub fn build(project: &Project) -> Result<()> {
     let toolchain = Toolchain::ensure(project)?;
     let tools = Tools::ensure(project)?;
     node::ensure_packages(project)?;
+    MODULES
+        .iter()
+        .try_for_each(|module| build_module(module, project, &toolchain, &tools))
+}
+
+fn build_module(
+    module: &Module,
+    project: &Project,
+    toolchain: &Toolchain,
+    tools: &Tools,
+) -> Result<()> {
     process::run(
         toolchain
             .cargo(project, [])?
             .args(["build", "--release", "--target", WASM_TARGET])
-            .args(["--lib", NO_COMMAND_LINE]),
+            .args(["--package", module.package, "--lib", NO_COMMAND_LINE]),
     )?;
     // Cargo knows when there is nothing to do; wasm-pack would spend seconds
     // optimising the same module again.
-    if is_packed(project) {
+    if is_packed(module, project) {
         return Ok(());
     }
     // Without wasm-opt on PATH, wasm-pack would silently skip that step.
@@ -63,39 +104,34 @@ pub fn build(project: &Project) -> Result<()> {
                 &tools.wasm_pack,
                 [tools.bin.as_path(), npm_bin.as_path()],
             )?
-            .args(["build", "--release", "--target", "web"])
+            .args(["build", module.folder, "--release", "--target", "web"])
             // Use what was just found; download nothing.
             .args(["--mode", "no-install", "--no-pack", "--out-dir"])
-            .arg(project.www.join("pkg"))
-            .args(["--", NO_COMMAND_LINE]),
+            .args([module.file(project, "").parent().unwrap_or(&project.www)])
+            .args(["--out-name", module.name(), "--", NO_COMMAND_LINE]),
     )
 }
 
-/// Whether the package is newer than everything it is built from.
-fn is_packed(project: &Project) -> bool {
+/// Whether the module is newer than everything it is built from.
+fn is_packed(module: &Module, project: &Project) -> bool {
     let modified = |path: PathBuf| fs::metadata(path).and_then(|data| data.modified()).ok();
     let compiled = toolchain::wasm_target_folder(project)
         .join(WASM_TARGET)
-        .join("release/cusp_slicer.wasm");
+        .join("release")
+        .join(format!("{}.wasm", module.name()));
     // The manifest has wasm-opt's flags, the lock file wasm-bindgen's version.
     let made_of = [
         compiled,
-        project.root.join("Cargo.toml"),
+        project.root.join(module.folder).join("Cargo.toml"),
         project.root.join("Cargo.lock"),
     ];
     let times: Option<Vec<_>> = made_of.map(modified).into_iter().collect();
     let Some(newest) = times.into_iter().flatten().max() else {
         return false;
     };
-    ["js", "d.ts"]
-        .map(|extension| {
-            project
-                .www
-                .join("pkg/cusp_slicer")
-                .with_extension(extension)
-        })
+    [".js", ".d.ts", "_bg.wasm"]
+        .map(|end| module.file(project, end))
         .into_iter()
-        .chain([project.www.join(MODULE)])
         .all(|file| modified(file).is_some_and(|time| time > newest))
 }
 
@@ -149,27 +185,42 @@ pub fn clippy(project: &Project) -> Result<()> {
             .args(["clippy", "--release", "--target", WASM_TARGET])
             .args(["--lib", "--test", "web", NO_COMMAND_LINE])
             .args(["--", "-D", "warnings"]),
+    )?;
+    // Apart from the slicer, which leaves out the readers.
+    process::run(
+        toolchain
+            .cargo(project, [])?
+            .args(["clippy", "--release", "--target", WASM_TARGET])
+            .args(["--package", "cusp-reader", "--", "-D", "warnings"]),
     )
 }
 
-/// Reports the built module's size. Returns `false` if it is over the budget.
+/// Reports the sizes of the built modules. Returns `false` if one is over its budget.
 ///
 /// # Errors
 ///
 /// Fails when there is no module.
 pub fn check_size(project: &Project) -> Result<bool> {
-    let file = project.www.join(MODULE);
-    let module = fs::read(&file).with_context(|| format!("cannot read {}", file.display()))?;
-    let gzipped = gzipped_size(&module)?;
-    println!(
-        "{}: {} bytes, {gzipped} gzipped, budget {BUDGET}",
-        Path::new("www").join(MODULE).display(),
-        module.len(),
-    );
-    if gzipped > BUDGET {
-        eprintln!("error: over the budget by {} bytes", gzipped - BUDGET);
+    let mut is_within = true;
+    for module in &MODULES {
+        let file = module.file(project, "_bg.wasm");
+        let bytes = fs::read(&file).with_context(|| format!("cannot read {}", file.display()))?;
+        let gzipped = gzipped_size(&bytes)?;
+        println!(
+            "www/{}_bg.wasm: {} bytes, {gzipped} gzipped, budget {}",
+            module.files,
+            bytes.len(),
+            module.budget,
+        );
+        if gzipped > module.budget {
+            eprintln!(
+                "error: over the budget by {} bytes",
+                gzipped - module.budget
+            );
+            is_within = false;
+        }
     }
-    Ok(gzipped <= BUDGET)
+    Ok(is_within)
 }
 
 fn gzipped_size(bytes: &[u8]) -> Result<usize> {

@@ -9,6 +9,7 @@ const KNOWN: &str = "png, chitubox, uvj, sl1, nanodlp, goo, ctb, photon-workshop
 
 /// A kind of print file that is recognised, and cannot be read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum UnreadKind {
@@ -33,6 +34,7 @@ impl UnreadKind {
 /// Why a print file cannot be read. `Display` writes one sentence that begins with the file as "it"; serialised, an error
 /// is its code and an object of typed details.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]
 #[serde(tag = "code", content = "detail", rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum PrintFileError {
@@ -165,6 +167,7 @@ impl PrintFileError {
 
 /// What is wrong with the mask of a layer.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]
 #[serde(tag = "code", content = "detail", rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum LayerFault {

@@ -76,6 +76,33 @@ impl Mask {
         changes_up_to(self.row(row), column) & 1 == 1
     }
 
+    /// Number of changes between dark and lit in all rows, which memory is proportional to.
+    pub fn changes(&self) -> usize {
+        self.columns.len()
+    }
+
+    /// One bit per pixel of a mask of this size, rows from the top, most significant bit first, ⌈width / 8⌉ bytes per row.
+    pub fn bits(&self, width: u32, height: u32) -> Vec<u8> {
+        let row_bytes = width.div_ceil(8) as usize;
+        let mut bits = vec![0u8; row_bytes * height as usize];
+        for (row, line) in bits.chunks_mut(row_bytes).enumerate() {
+            for run in self.row(row as i32).chunks_exact(2) {
+                let (first, end) = (usize::from(run[0]), usize::from(run[1]));
+                let (head, tail) = (0xff >> (first % 8), !(0xff >> (end % 8)) as u8);
+                if first / 8 == end / 8 {
+                    line[first / 8] |= head & tail;
+                    continue;
+                }
+                line[first / 8] |= head;
+                line[first / 8 + 1..end / 8].fill(0xff);
+                if tail != 0 {
+                    line[end / 8] |= tail;
+                }
+            }
+        }
+        bits
+    }
+
     pub(super) fn seen_from_above(self, [width, height]: [u32; 2], flips: Flips) -> Self {
         if flips == Flips::default() {
             return self;

@@ -36,6 +36,7 @@ mod pw0;
 mod report;
 mod runs;
 mod sl1;
+mod surface;
 mod uvj;
 
 use std::borrow::Cow;
@@ -47,8 +48,9 @@ pub use bytes::Bytes;
 pub use error::{LayerFault, PrintFileError, UnreadKind};
 pub use finding::Finding;
 pub use mask::{Flips, Mask, changes_up_to, combine};
-pub use report::{Inspection, LayerInspection, PreviewSize, inspect};
+pub use report::{Inspection, LayerInspection, PreviewSize, inspect, inspect_masks};
 pub use runs::Sink;
+pub use surface::{Slab, surface};
 
 use crate::format::Format;
 use crate::grid::MAX_SIDE;

@@ -3,12 +3,14 @@
 use serde::Serialize;
 
 use super::finding::{Faults, Tally, of_settings};
-use super::{About, Finding, Layer, LayerFault, PrintFile};
+use super::mask::Collector;
+use super::{About, Finding, Layer, LayerFault, Mask, PrintFile};
 use crate::parallel;
 use crate::progress::{Cancelled, Progress, report};
 
 /// What a print file says, and what its masks hold.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]
 pub struct Inspection {
     /// What the file says of the print as a whole.
     #[serde(flatten)]
@@ -33,6 +35,7 @@ pub struct Inspection {
 
 /// Size of a preview.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]
 pub struct PreviewSize {
     /// Columns.
     pub width: u32,
@@ -42,6 +45,7 @@ pub struct PreviewSize {
 
 /// What a file says of a layer, and what its mask holds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]
 pub struct LayerInspection {
     /// What the file says.
     #[serde(flatten)]
@@ -66,6 +70,27 @@ struct Light {
 /// # Errors
 /// [`Cancelled`], if the progress callback asks for it. What is wrong with the file is in [`Inspection::warnings`].
 pub fn inspect(file: &PrintFile<'_>, progress: &mut Progress<'_>) -> Result<Inspection, Cancelled> {
+    look_through(file, false, &mut |_| (), progress)
+}
+
+/// The same, and passes the mask of each layer on, from the plate upward, seen from above: what could be decoded of it.
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn inspect_masks(
+    file: &PrintFile<'_>,
+    take: &mut dyn FnMut(Mask),
+    progress: &mut Progress<'_>,
+) -> Result<Inspection, Cancelled> {
+    look_through(file, true, take, progress)
+}
+
+fn look_through(
+    file: &PrintFile<'_>,
+    has_masks: bool,
+    take: &mut dyn FnMut(Mask),
+    progress: &mut Progress<'_>,
+) -> Result<Inspection, Cancelled> {
     report(progress, 0.0)?;
     let (about, layers) = (file.about(), file.layers());
     let mut warnings = of_settings(about, layers);
@@ -77,8 +102,11 @@ pub fn inspect(file: &PrintFile<'_>, progress: &mut Progress<'_>) -> Result<Insp
     let mut volume_mm3 = 0.0;
     parallel::map_in_groups(
         0..layers.len(),
-        |place| light(file, place),
-        |(light, fault): (Light, Option<LayerFault>)| {
+        |place| light(file, place, has_masks),
+        |(light, mask, fault): (Light, Mask, Option<LayerFault>)| {
+            if has_masks {
+                take(mask);
+            }
             let place = layer_values.len();
             let layer = layers[place];
             let is_whole = fault.is_none();
@@ -131,9 +159,14 @@ pub fn inspect(file: &PrintFile<'_>, progress: &mut Progress<'_>) -> Result<Insp
     })
 }
 
-fn light(file: &PrintFile<'_>, layer: usize) -> (Light, Option<LayerFault>) {
+fn light(file: &PrintFile<'_>, layer: usize, has_mask: bool) -> (Light, Mask, Option<LayerFault>) {
+    let about = file.about();
     let mut light = Light::default();
+    let mut collector = Collector::new(about.pixels[0]);
     let decoded = file.runs(layer, &mut |grey, count| {
+        if has_mask {
+            collector.run(grey, count);
+        }
         let count = u64::from(count);
         light.brightness += u64::from(grey) * count;
         match grey {
@@ -145,7 +178,9 @@ fn light(file: &PrintFile<'_>, layer: usize) -> (Light, Option<LayerFault>) {
             }
         }
     });
-    (light, decoded.err())
+    let mask = collector.finish();
+    let mask = mask.seen_from_above(about.pixels, about.flips());
+    (light, mask, decoded.err())
 }
 
 /// The least and the greatest value.
