@@ -28,6 +28,7 @@ import { saveFile } from "./parts/save-file.js";
 import { Session } from "./state/session.js";
 import { fromAddress, parse, toAddress } from "./state/settings.js";
 import { shared } from "./styles/shared.js";
+import { theme } from "./styles/theme.js";
 import { summaryStyles } from "./panels/summary.js";
 import { thumbnailOf } from "./parts/thumbnail.js";
 
@@ -41,7 +42,7 @@ export class CuspSlicer extends LitElement {
   /** @internal */
   declare dragging: boolean;
 
-  static override styles = [shared, summaryStyles, progressStyles, problemStyles, layoutStyles];
+  static override styles = [theme, shared, summaryStyles, progressStyles, problemStyles, layoutStyles];
 
   /** The headless slicer behind the element; a page may call it for more than the element shows. */
   readonly slicer: Slicer = createSlicer();

@@ -1,5 +1,5 @@
 /** The markup of the page: header, element, and the content of its slots. */
-import { html, type TemplateResult } from "lit";
+import { html, nothing, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
 import { LANGUAGES, languageOf, type Language } from "../texts/index.js";
 import icon from "./icon.svg";
@@ -7,9 +7,20 @@ import icon from "./icon.svg";
 export interface PageActions {
   example(): void;
   speak(locale: string): void;
+  /** Opens files that a person chose. */
+  open(files: readonly File[]): void;
 }
 
-export function frame({ locale, texts }: Language, { example, speak }: PageActions): TemplateResult {
+/** A print file in place of the slicer. */
+export interface PrintOnShow {
+  file: File;
+  close(): void;
+  /** The file turned out to be something else. */
+  unknown(): void;
+}
+
+export function frame(language: Language, { example, speak, open }: PageActions, print: PrintOnShow | null): TemplateResult {
+  const { locale, texts } = language;
   const words = texts.page;
   const code = new Intl.Locale(locale).language;
   return html`
@@ -30,11 +41,24 @@ export function frame({ locale, texts }: Language, { example, speak }: PageActio
       </label>
     </header>
     <main>
-      <cusp-slicer .locale=${locale}>
+      ${print === null
+        ? nothing
+        : html`<cusp-print
+            .file=${print.file}
+            .language=${language}
+            @cusp-close=${print.close}
+            @cusp-unknown=${print.unknown}
+            @cusp-files=${(event: CustomEvent<File[]>) => open(event.detail)}
+          ></cusp-print>`}
+      <cusp-slicer .locale=${locale} ?hidden=${print !== null}>
         <div slot="empty" class="empty">
           <p>
             ${words.noModel}
             <button class="link" @click=${example}>${words.tryExample}</button>
+            <label class="link">
+              <input class="hidden" type="file" @change=${(event: Event) => open(chosen(event))} />
+              ${words.printFile}
+            </label>
           </p>
           <ul class="points">
             ${words.points.map(([title, text]) => html`<li><strong>${title}</strong> ${text}</li>`)}
@@ -45,4 +69,12 @@ export function frame({ locale, texts }: Language, { example, speak }: PageActio
     </main>
     <div class="drop-veil"><p>${words.drop}</p></div>
   `;
+}
+
+function chosen({ target }: Event): File[] {
+  const input = target as HTMLInputElement;
+  const files = [...(input.files ?? [])];
+  // Choosing the same file again must fire a change event.
+  input.value = "";
+  return files;
 }

@@ -19,11 +19,45 @@ const place = found<HTMLElement>("#page");
 const asked = new URLSearchParams(location.search);
 const own = new URLSearchParams([...asked].filter(([key]) => ADDRESS_KEYS.includes(key)));
 
+/** The print file on show, and the files that it was opened with. */
+let shown: readonly File[] | null = null;
+
 function draw(): void {
   const language = languageOf(...[own.get("locale"), ...navigator.languages].filter((locale) => locale !== null));
   document.documentElement.lang = language.locale;
   document.title = language.texts.page.title;
-  render(frame(language, { example, speak }), place);
+  const files = shown;
+  const [file] = files ?? [];
+  const print = files === null || file === undefined ? null : { file, close, unknown: () => load(files) };
+  render(frame(language, { example, speak, open: (files) => void open(files) }, print), place);
+}
+
+/** Shows a print file, or opens models. Only the reader knows print files, so whatever is no STL by its name goes there first. */
+async function open(files: readonly File[]): Promise<void> {
+  const [first] = files;
+  if (first === undefined) return;
+  if (first.name.toLowerCase().endsWith(".stl")) return load(files);
+  try {
+    const { definePrint } = await import("../print/cusp-print.js");
+    definePrint();
+  } catch {
+    // Offline, say: the slicer tells what it can.
+    return load(files);
+  }
+  shown = files;
+  draw();
+}
+
+function load(files: readonly File[]): void {
+  close();
+  slicer.willOrphan();
+  // The element shows any error.
+  slicer.load(files).catch(() => undefined);
+}
+
+function close(): void {
+  shown = null;
+  draw();
 }
 
 function speak(locale: string): void {
@@ -33,6 +67,7 @@ function speak(locale: string): void {
 }
 
 function example(): void {
+  close();
   slicer.willOrphan();
   slicer.load(new Blob([binaryStl(exampleTriangles())]), EXAMPLE_NAME).catch(() => undefined);
 }
@@ -50,5 +85,9 @@ if (backend === "cpu" || backend === "gpu") slicer.backend = backend;
 const method = own.get("gpu-method");
 if (method === "fill" || method === "peel") slicer.gpuMethod = method;
 slicer.addEventListener("cusp-change", keep);
-openAnywhere(slicer, (isDragging) => place.classList.toggle("dragging", isDragging));
+openAnywhere({
+  dragging: (isDragging) => place.classList.toggle("dragging", isDragging),
+  open: (files) => void open(files),
+  cancel: () => (shown === null ? slicer.cancel() : close()),
+});
 workOffline();

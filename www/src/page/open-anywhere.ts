@@ -1,14 +1,12 @@
-/** Lets a model be dropped or pasted anywhere on the page, and Escape cancel wherever the focus is. */
-import type { CuspSlicer } from "../element/index.js";
+/** Lets files be dropped or pasted anywhere on the page, and Escape cancel wherever the focus is. */
 
-export function openAnywhere(slicer: CuspSlicer, dragging: (is: boolean) => void): void {
-  const open = (files: readonly File[]): void => {
-    if (files.length === 0) return;
-    slicer.willOrphan();
-    // The element shows any error.
-    slicer.load(files).catch(() => undefined);
-  };
+export interface Anywhere {
+  dragging(is: boolean): void;
+  open(files: readonly File[]): void;
+  cancel(): void;
+}
 
+export function openAnywhere({ dragging, open, cancel }: Anywhere): void {
   // Captured before the element sees them, so that it need not tell its own drops from the page's. A drop beside the
   // element must not make the browser leave the page.
   window.addEventListener(
@@ -38,6 +36,6 @@ export function openAnywhere(slicer: CuspSlicer, dragging: (is: boolean) => void
     if (!event.defaultPrevented) open([...(event.clipboardData?.files ?? [])]);
   });
   window.addEventListener("keydown", (event) => {
-    if (event.key === "Escape") slicer.cancel();
+    if (event.key === "Escape") cancel();
   });
 }

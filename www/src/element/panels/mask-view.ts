@@ -25,9 +25,14 @@ const ARROWS: Readonly<Record<string, readonly [number, number]>> = {
   ArrowDown: [0, STEP],
 };
 
+/** What the panel needs of a report: also what a print file says of itself. */
+export interface Layered extends Pick<Report, "layers" | "z_mm" | "thickness_mm"> {
+  mask: Pick<Report["mask"], "pitch_mm" | "pitch_y_mm">;
+}
+
 const PROPERTIES = {
   mask: given<Mask | null>(null),
-  report: given<Report | null>(null),
+  report: given<Layered | null>(null),
   limits: given<readonly [number, number]>([0, 0]),
   layer: given(0),
   language: given(languageOf()),

@@ -9,6 +9,7 @@ export const page = (): PageTexts => ({
     languages: "Sprache",
     noModel: "Kein Modell zur Hand?",
     tryExample: "Das Beispiel ausprobieren",
+    printFile: "Druckdatei ansehen",
     example: "Beispiel",
     points: [
       ["So wenige Schichten wie möglich", "Unter allen Plänen innerhalb Ihrer Toleranz wird der kürzeste genommen."],

@@ -9,6 +9,7 @@ export const page = () => ({
     languages: "Language",
     noModel: "No model at hand?",
     tryExample: "Try the example",
+    printFile: "Look into a print file",
     example: "Example",
     points: [
       ["Fewest layers", "Every plan that keeps your tolerance is considered, and the shortest is taken."],

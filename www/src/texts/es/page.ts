@@ -9,6 +9,7 @@ export const page = (): PageTexts => ({
     languages: "Idioma",
     noModel: "¿No tiene un modelo a mano?",
     tryExample: "Probar el ejemplo",
+    printFile: "Examinar un archivo de impresión",
     example: "Ejemplo",
     points: [
       ["El mínimo de capas", "De todos los planes que respetan su tolerancia se toma el más corto."],

@@ -9,6 +9,7 @@ export const page = (): PageTexts => ({
     languages: "Langue",
     noModel: "Pas de modèle sous la main ?",
     tryExample: "Essayer l’exemple",
+    printFile: "Examiner un fichier d’impression",
     example: "Exemple",
     points: [
       ["Le moins de couches", "Parmi tous les plans qui respectent votre tolérance, le plus court est retenu."],

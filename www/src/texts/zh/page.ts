@@ -9,6 +9,7 @@ export const page = (): PageTexts => ({
     languages: "语言",
     noModel: "手边没有模型？",
     tryExample: "试试示例",
+    printFile: "查看打印文件",
     example: "示例",
     points: [
       ["层数最少", "在所有满足公差的方案中选取最短的一个。"],

@@ -1,0 +1,125 @@
+/** Print files on the page: what they say, their masks, what is wrong with them, and what is no print file. */
+import { readFile } from "node:fs/promises";
+import type { Locator, Page } from "playwright-core";
+import axe from "axe-core";
+import { unzipSync, zipSync } from "fflate";
+import { expect, test } from "vitest";
+import { download, drop, layers, state, words } from "./browser.js";
+import { pages } from "./pages.js";
+import { sphere } from "./solids.js";
+
+const ballFile = { name: "ball.stl", bytes: sphere(10, 96).bytes };
+
+const start = pages();
+
+/** The view of the print file, once it has read it. */
+async function opened(page: Page): Promise<Locator> {
+  const view = page.locator("cusp-print");
+  await view.locator(".verdict").waitFor();
+  return view;
+}
+
+/** Slices the ball on the page. Returns the print file and its number of layers. */
+async function sliced(page: Page): Promise<{ name: string; bytes: Buffer; count: number }> {
+  await drop(page, ballFile);
+  await state(page, "done");
+  const file = await download(page);
+  return { name: file.suggestedFilename(), bytes: await readFile(await file.path()), count: await layers(page) };
+}
+
+/** No rule of accessibility is broken. */
+async function audited(page: Page): Promise<void> {
+  await page.evaluate(axe.source);
+  const { violations } = await page.evaluate(() => (window as unknown as { axe: { run(): Promise<axe.AxeResults> } }).axe.run());
+  expect(violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => String(target)).join(", ")}`)).toEqual([]);
+}
+
+const litOf = (text: string): number => Number(/([\d,]+) pixels lit/.exec(text)?.[1]?.replaceAll(",", ""));
+
+test("a downloaded print file dropped again shows its settings, masks and surface, and leaves the model open", async () => {
+  const page = await start("?printer=mars-4-ultra");
+  const file = await sliced(page);
+  expect(file.name).toBe("ball-cusp.goo");
+  await drop(page, file);
+  const view = await opened(page);
+  await expect.poll(() => page.locator("cusp-slicer").isVisible()).toBe(false);
+  const facts = (await view.locator(".facts").innerText()).replaceAll("\u00a0", " ");
+  expect(facts).toContain("The file is whole");
+  for (const fact of ["goo V3.0", "Elegoo Mars 4 Ultra", `${file.count} layers of`, "20.000 mm", "4, 30 s each", "mirrored"]) {
+    expect(facts).toContain(fact);
+  }
+  // The volume of a ball of 20 mm is 4.19 ml.
+  expect(facts).toMatch(/4\.1\d ml by the file, 4\.1\d ml by the masks/);
+
+  const slider = view.getByRole("slider", { name: "Layer", exact: true });
+  const mask = view.locator("cusp-mask canvas");
+  const lit = async (layer: number): Promise<number> => {
+    await expect.poll(() => mask.getAttribute("data-layer")).toBe(String(layer));
+    return litOf(await view.locator("[aria-live]").innerText());
+  };
+  const middle = await lit(Math.floor(file.count / 2));
+  await slider.focus();
+  await page.keyboard.press("Home");
+  const first = await lit(0);
+  expect(middle).toBeGreaterThan(10 * first);
+  await page.keyboard.press("End");
+  expect(await lit(file.count - 1)).toBeLessThan(middle);
+  await view.locator("cusp-view canvas").waitFor();
+  await audited(page);
+
+  await page.keyboard.press("Escape");
+  await view.waitFor({ state: "detached" });
+  await state(page, "done");
+  expect(await words(page)).toContain("ball.stl");
+  expect(await layers(page)).toBe(file.count);
+});
+
+test("a damaged print file is shown with what is wrong, in the page's language", async () => {
+  const page = await start("?printer=mars-4-ultra");
+  const { bytes } = await sliced(page);
+  await page.getByRole("combobox", { name: "Language" }).selectOption("de");
+  const damaged = bytes.subarray(0, bytes.length - 20);
+  await drop(page, { name: "cut.goo", bytes: damaged });
+  const view = await opened(page);
+  const verdict = await view.locator(".verdict").innerText();
+  expect(verdict).toMatch(/Schicht|Datei/);
+  expect(verdict).toMatch(/abgeschnitten|beschädigt/);
+  await page.locator("cusp-print").getByText("Schließen").click();
+  await view.waitFor({ state: "detached" });
+});
+
+test("a zip with a mask missing names the layer, and the others can be looked at", async () => {
+  const page = await start();
+  const { bytes } = await sliced(page);
+  const files = unzipSync(bytes);
+  delete files["layers/00005.png"];
+  await drop(page, { name: "gap.zip", bytes: zipSync(files) });
+  const view = await opened(page);
+  expect(await view.locator(".verdict").innerText()).toContain("1 layer is damaged, first layer 6: there is no layers/00005.png");
+  const slider = view.getByRole("slider", { name: "Layer", exact: true });
+  await slider.fill("6");
+  await expect.poll(() => view.locator("[aria-live]").innerText()).toContain("This layer cannot be read.");
+  await slider.fill("7");
+  await expect.poll(() => view.locator("cusp-mask canvas").getAttribute("data-layer")).toBe("6");
+});
+
+test("what is neither a print file nor a model gets the slicer's advice", async () => {
+  const page = await start();
+  await drop(page, { name: "model.zip", bytes: zipSync({ "model.stl": ballFile.bytes }) });
+  await state(page, "error");
+  expect(await words(page)).toContain("unpack it, and open the STL inside");
+  await page.locator("cusp-print").waitFor({ state: "detached" });
+  // A model by any other name is a model.
+  await drop(page, { name: "ball", bytes: ballFile.bytes });
+  await state(page, "done");
+});
+
+test("an encrypted file says what to do instead", async () => {
+  const page = await start();
+  const bytes = new Uint8Array(4096);
+  bytes.set([0x07, 0x01, 0xfd, 0x12]);
+  await drop(page, { name: "secret.ctb", bytes });
+  const view = await opened(page);
+  expect(await view.locator(".verdict").innerText()).toContain("save it again as plain CTB, as GOO");
+  await audited(page);
+});

@@ -1,0 +1,338 @@
+/**
+ * `<cusp-print>`: what is in a print file, whoever wrote it: its settings, what is wrong with it, its masks, and what it prints in
+ * three dimensions. Import this module lazily: it loads the reader, and the 3-D view with three.js.
+ */
+import { css, html, nothing, type PropertyValues, type TemplateResult } from "lit";
+import { isAbort, said } from "../api/error.js";
+import type { Mask } from "../api/index.js";
+import { define } from "../element/define.js";
+import { CuspMask, type Layered } from "../element/panels/mask-view.js";
+import { progressStyles } from "../element/parts/progress.js";
+import { viewTexts } from "../element/parts/view-texts.js";
+import { shared } from "../element/styles/shared.js";
+import { theme } from "../element/styles/theme.js";
+import { languageOf, type Language } from "../texts/index.js";
+import { CuspView } from "../view/cusp-view.js";
+import { elementWith, given, own } from "../view/properties.js";
+import type { ViewTexts } from "../view/texts.js";
+import { factsOf } from "./facts.js";
+import { isCoded, openPrint, type Print, type ReadError } from "./open-print.js";
+import { textsOf } from "./texts/index.js";
+import type { PrintFileError } from "./wire.js";
+
+type State =
+  | { is: "reading"; done: number }
+  | { is: "failed"; error: PrintFileError | ReadError }
+  | { is: "open"; print: Print; report: Layered; limits: readonly [number, number] };
+
+const PROPERTIES = {
+  file: given<File | null>(null),
+  language: given<Language>(languageOf()),
+  state: own<State>({ is: "reading", done: 0 }),
+  layer: own(0),
+  mask: own<Mask | null>(null),
+};
+
+export class CuspPrint extends elementWith(PROPERTIES) {
+  #life = new AbortController();
+  #texts: { of: Language; words: ViewTexts } | null = null;
+
+  static override styles = [
+    theme,
+    shared,
+    progressStyles,
+    css`
+      header {
+        display: flex;
+        flex-wrap: wrap;
+        align-items: center;
+        justify-content: space-between;
+        gap: 0.5rem 1rem;
+        margin-bottom: 1rem;
+      }
+      h2 {
+        font-size: 1.125rem;
+        font-weight: 600;
+        overflow-wrap: anywhere;
+      }
+      /* Focused by the page alone, to be read out. */
+      h2:focus {
+        outline: none;
+      }
+      .buttons {
+        display: flex;
+        flex-wrap: wrap;
+        gap: 0.5rem;
+      }
+      .cards {
+        display: grid;
+        gap: 1rem;
+      }
+      .card {
+        min-width: 0;
+      }
+      .view {
+        display: grid;
+        min-height: 24rem;
+        height: 100%;
+      }
+      .view {
+        grid-template-rows: 1fr auto;
+      }
+      cusp-view {
+        min-height: 22rem;
+      }
+      cusp-mask {
+        height: auto;
+      }
+      @container (min-width: 56rem) {
+        .cards {
+          grid-template-columns: minmax(18rem, 2fr) 3fr;
+        }
+        .facts {
+          grid-row: span 2;
+        }
+      }
+      .facts dl {
+        display: grid;
+        grid-template-columns: auto 1fr;
+        gap: 0.375rem 1rem;
+        font-size: 0.9375rem;
+      }
+      dt {
+        color: var(--cusp-quiet);
+      }
+      dd {
+        overflow-wrap: anywhere;
+      }
+      figure {
+        margin: 1rem 0 0;
+      }
+      figure canvas {
+        display: block;
+        max-width: 100%;
+        max-height: 14rem;
+        border-radius: 8px;
+        background: #000;
+      }
+      figcaption {
+        margin-top: 0.25rem;
+      }
+      .verdict {
+        margin-bottom: 1rem;
+        padding: 0.75rem 1rem;
+        border-radius: 8px;
+        background: var(--cusp-note-wash);
+      }
+      .verdict.bad {
+        background: var(--cusp-bad-wash);
+      }
+      .verdict strong {
+        color: var(--cusp-bad);
+      }
+      .verdict ul {
+        margin: 0.25rem 0 0;
+        padding-inline-start: 1.25rem;
+      }
+      .under {
+        margin-top: 0.5rem;
+      }
+    `,
+  ];
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    this.#end();
+  }
+
+  override willUpdate(changed: PropertyValues<this>): void {
+    if (changed.has("file") && this.file !== null) void this.#read(this.file);
+  }
+
+  override render(): TemplateResult {
+    const { state, file } = this;
+    const { words, error } = textsOf(this.language);
+    return html`<section aria-label=${words.region} aria-busy=${state.is === "reading"}>
+      <header>
+        <h2 tabindex="-1">${file?.name ?? ""}</h2>
+        <div class="buttons">
+          <label class="button small">
+            <input class="visually-hidden" type="file" @change=${this.#picked} />
+            ${words.another}
+          </label>
+          <button class="small" @click=${this.#close}>${state.is === "reading" ? words.cancel : words.back}</button>
+        </div>
+      </header>
+      ${state.is === "reading"
+        ? html`<div class="card progress">
+            <div>
+              <div class="line"><span class="words">${words.reading(file?.name ?? "")}</span></div>
+              <progress aria-label=${words.reading(file?.name ?? "")} max="1" .value=${state.done}></progress>
+            </div>
+          </div>`
+        : state.is === "failed"
+          ? html`<div class="card verdict bad" role="alert"><p>${error(state.error)}</p></div>`
+          : this.#cards(state)}
+    </section>`;
+  }
+
+  override updated(changed: PropertyValues<this>): void {
+    const { state } = this;
+    if (changed.has("file")) this.renderRoot.querySelector("h2")?.focus({ preventScroll: true });
+    const canvas = this.renderRoot.querySelector<HTMLCanvasElement>("figure canvas");
+    if (changed.has("state") && state.is === "open" && state.print.preview !== null && canvas !== null) {
+      const { width, height, rgba } = state.print.preview;
+      canvas.getContext("2d")?.putImageData(new ImageData(rgba, width, height), 0, 0);
+    }
+  }
+
+  #cards({ print, report, limits }: State & { is: "open" }): TemplateResult {
+    const { language, layer, mask } = this;
+    const { words } = textsOf(language);
+    const { inspection, preview } = print;
+    const hasLayers = report.layers > 0;
+    return html`<div class="cards">
+      <div class="card facts">
+        ${this.#verdict(print)}
+        <dl class="figures">
+          ${factsOf(inspection, language).map(([name, text]) => html`<dt>${name}</dt><dd>${text}</dd>`)}
+        </dl>
+        ${preview === null
+          ? nothing
+          : html`<figure>
+              <canvas width=${preview.width} height=${preview.height} role="img" aria-label=${words.preview}></canvas>
+              <figcaption class="quiet">${words.preview}</figcaption>
+            </figure>`}
+      </div>
+      <div class="card view">
+        <cusp-view
+          .positions=${print.surface}
+          .z_mm=${report.z_mm}
+          .thickness_mm=${report.thickness_mm}
+          .limits=${limits}
+          .layer=${hasLayers ? layer : null}
+          .texts=${this.#words()}
+          @cusp-layer=${this.#go}
+        ></cusp-view>
+        <p class="quiet under">${print.surface.length === 0 ? words.noSurface : words.rough}</p>
+      </div>
+      ${hasLayers
+        ? html`<div class="card">
+            <cusp-mask
+              .mask=${mask === null || mask.bits.length === 0 ? null : mask}
+              .report=${report}
+              .limits=${limits}
+              .layer=${layer}
+              .language=${language}
+              @cusp-layer=${this.#go}
+            ></cusp-mask>
+            <p class="quiet under figures" aria-live="polite">${this.#layerWords(print)}</p>
+          </div>`
+        : nothing}
+    </div>`;
+  }
+
+  #verdict({ inspection }: Print): TemplateResult {
+    const { words, finding } = textsOf(this.language);
+    const { warnings } = inspection;
+    if (warnings.length === 0) return html`<p class="verdict">${words.whole}</p>`;
+    return html`<div class="verdict bad">
+      <strong>${words.warnings(warnings.length)}</strong>
+      <ul>
+        ${warnings.map((warning) => html`<li>${finding(warning)}</li>`)}
+      </ul>
+    </div>`;
+  }
+
+  /** Exposure and lit pixels of the selected layer. */
+  #layerWords({ inspection }: Print): string {
+    const { words } = textsOf(this.language);
+    const { format } = this.language;
+    const values = inspection.layer_values[this.layer];
+    if (values === undefined) return "";
+    const exposure_s = values.exposure_s ?? inspection.exposure_s;
+    const exposed = exposure_s === null ? "" : words.exposed(format.measure(exposure_s, "s"));
+    const lit = values.lit_pixels === null ? words.damaged : words.pixelsLit(values.lit_pixels);
+    return words.layer(this.layer + 1, exposed, lit);
+  }
+
+  async #read(file: File): Promise<void> {
+    this.#end();
+    const life = (this.#life = new AbortController());
+    this.mask = null;
+    this.state = { is: "reading", done: 0 };
+    try {
+      const print = await openPrint(file, life.signal, (done) => {
+        if (!life.signal.aborted) this.state = { is: "reading", done };
+      });
+      const layers = print.inspection.layer_values;
+      const thickness_mm = layers.map((layer) => layer.thickness_mm);
+      const [pitch_mm, pitch_y_mm] = print.pixel_mm;
+      const report = {
+        layers: layers.length,
+        // From the plate, on which the first layer lies.
+        z_mm: [(layers[0]?.z_mm ?? 0) - (thickness_mm[0] ?? 0), ...layers.map((layer) => layer.z_mm)],
+        thickness_mm,
+        mask: { pitch_mm, pitch_y_mm },
+      };
+      this.layer = Math.floor(layers.length / 2);
+      this.state = { is: "open", print, report, limits: print.inspection.thickness_range_mm ?? [0, 0] };
+      void this.#fetch();
+    } catch (error) {
+      if (isAbort(error, life.signal)) return;
+      const described: PrintFileError | ReadError = isCoded(error) ? error : { code: "crash", detail: { system: said(error) } };
+      this.state = { is: "failed", error: described };
+      // No print file at all: whoever opened it may know better.
+      if (described.code === "unknown-kind" || described.code === "unknown-zip") this.dispatchEvent(new CustomEvent("cusp-unknown"));
+    }
+  }
+
+  /** Fetches the mask of the selected layer. */
+  async #fetch(): Promise<void> {
+    const { state, layer } = this;
+    if (state.is !== "open" || state.report.layers === 0) return;
+    const mask = await state.print.mask(layer);
+    if (this.layer === layer && this.state === state) this.mask = mask ?? { layer, width: 0, height: 0, bits: new Uint8Array(0) };
+  }
+
+  #end(): void {
+    this.#life.abort(new DOMException("another file was opened", "AbortError"));
+    if (this.state.is === "open") this.state.print.close();
+  }
+
+  #words(): ViewTexts {
+    if (this.#texts?.of !== this.language) this.#texts = { of: this.language, words: viewTexts(this.language) };
+    return this.#texts.words;
+  }
+
+  readonly #go = ({ detail }: CustomEvent<number>): void => {
+    if (this.state.is !== "open") return;
+    this.layer = Math.min(Math.max(0, Math.round(detail)), this.state.report.layers - 1);
+    void this.#fetch();
+  };
+
+  readonly #close = (): void => {
+    this.dispatchEvent(new CustomEvent("cusp-close"));
+  };
+
+  readonly #picked = (event: Event): void => {
+    const input = event.target as HTMLInputElement;
+    const files = [...(input.files ?? [])];
+    // Choosing the same file again must fire a change event.
+    input.value = "";
+    if (files.length > 0) this.dispatchEvent(new CustomEvent<File[]>("cusp-files", { detail: files }));
+  };
+}
+
+/** Registers the element and those that it shows. */
+export function definePrint(): void {
+  define("cusp-view", CuspView);
+  define("cusp-mask", CuspMask);
+  define("cusp-print", CuspPrint);
+}
+
+declare global {
+  interface HTMLElementTagNameMap {
+    "cusp-print": CuspPrint;
+  }
+}

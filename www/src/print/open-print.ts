@@ -1,0 +1,52 @@
+/** Opens a print file in a worker of its own, and decodes it. */
+import * as Comlink from "comlink";
+import type { Mask } from "../api/index.js";
+import type { PrintFileError, Read, ReaderWorker } from "./wire.js";
+
+/** What can go wrong on this side of the reader. */
+export type ReadError = { code: "file-unreadable" } | { code: "crash"; detail: { system: string } };
+
+/** A print file that is open. */
+export interface Print extends Read {
+  name: string;
+  /** The mask of a layer, counted from 0; null if it is damaged. */
+  mask(layer: number): Promise<Mask | null>;
+  /** Ends the worker. */
+  close(): void;
+}
+
+/**
+ * Reads a print file of any known format.
+ *
+ * @throws PrintFileError | ReadError; the signal's reason if it aborts
+ */
+export async function openPrint(file: File, signal: AbortSignal, progress: (fraction: number) => void): Promise<Print> {
+  const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module", name: "cusp-reader" });
+  const remote = Comlink.wrap<ReaderWorker>(worker);
+  const broken = new Promise<never>((_, reject) => {
+    worker.addEventListener("error", ({ message }) => reject(crash(message)));
+    signal.addEventListener("abort", () => reject(signal.reason as Error), { once: true });
+  });
+  try {
+    signal.throwIfAborted();
+    const read = await Promise.race([remote.read(file, Comlink.proxy(progress)), broken]);
+    const [width, height] = read.pixels;
+    const mask = async (layer: number): Promise<Mask | null> => {
+      const bits = await Promise.resolve(remote.mask(layer)).catch(() => null);
+      return bits === null ? null : { layer, width, height, bits };
+    };
+    return { ...read, name: file.name, mask, close: () => worker.terminate() };
+  } catch (error) {
+    worker.terminate();
+    throw isCoded(error) || signal.aborted ? error : crash(error instanceof Error ? error.message : String(error));
+  }
+}
+
+function crash(system: string): ReadError {
+  return { code: "crash", detail: { system } };
+}
+
+/** Whether this is an error that the reader describes. */
+export function isCoded(error: unknown): error is PrintFileError | ReadError {
+  return typeof error === "object" && error !== null && !(error instanceof Error) && "code" in error;
+}
