@@ -62,7 +62,7 @@ test.each(["light", "dark"] as const)("nothing is amiss in any state: %s", async
 
   await page.getByLabel("Printer", { exact: true }).selectOption("photon-mono-m5s");
   await settled(page);
-  await page.locator(".warning button").waitFor();
+  await page.locator(".warning .offers button").waitFor();
   await page.getByLabel("Printer", { exact: true }).selectOption("Own printer…");
   await page.getByLabel("Open its description").waitFor({ state: "attached" });
   expect(await broken(page)).toEqual([]);

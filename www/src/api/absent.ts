@@ -21,6 +21,7 @@ export function absentSlicer(): Slicer {
     setWeights: reject,
     weightsFile: reject,
     readWeights: reject,
+    calibrateLayers: reject,
     printers: reject,
     warm: nothing,
     rest: nothing,

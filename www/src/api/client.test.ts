@@ -57,6 +57,7 @@ class FakeWorker implements WorkerHandle {
     startSearch: () => new Float64Array(0),
     advanceSearch: () => ({ tasks: [], measured: 0, progress: 0, rated: null, result: null }),
     evaluate: () => [],
+    calibrateLayers: () => Promise.reject(new Error("not faked")),
     printers: () => [],
   };
 

@@ -7,7 +7,7 @@
  */
 import * as Comlink from "comlink";
 import { isAbort, ofCore, said, SlicerError } from "./error.js";
-import type { Comparison, KnownPrinter, MeshInfo, OnProgress, Options, Profiled, Report, SlicerWorker, Tradeoff } from "./wire.js";
+import type { Comparison, KnownPrinter, MeshInfo, OnProgress, Options, Profiled, Report, SlicerWorker, Tradeoff, Written } from "./wire.js";
 
 /** The worker's interface as seen from this side, where every method may return a promise. */
 export type Remote = {
@@ -176,6 +176,11 @@ export class Client {
   /** Runs a query that depends only on the subject; the last plan and its masks stay. */
   ask<T>(about: About, watch: Watch, question: (remote: Remote, progress: OnProgress) => T | Promise<T>): Promise<T> {
     return this.#about(about, watch, async (life, progress) => question(life.handle.remote, progress));
+  }
+
+  /** The print file of the test towers, which needs no subject. */
+  calibrateLayers(options: Options, watch: Watch): Promise<Written> {
+    return this.#run(watch, null, async (life, _, progress) => life.handle.remote.calibrateLayers(options, progress));
   }
 
   printers(): Promise<KnownPrinter[]> {

@@ -55,6 +55,13 @@ function faked(): { slicer: Slicer; log: string[] } {
       startSearch: () => new Float64Array(0),
       advanceSearch: () => ({ tasks: [], measured: 0, progress: 0, rated: null, result: null }),
       evaluate: () => [],
+      calibrateLayers: async (options, progress) => {
+        say("towers");
+        progress("masks", 0.5, 0.75);
+        if (options.format === "sl1") throw { code: "uniform-only", message: "no", detail: null };
+        if (options.format === "ctb") await new Promise(() => undefined);
+        return { blob: new Blob(["towers"]), report: reportOf(options) };
+      },
       printers: () => [],
     };
     return { remote, terminate: () => say("ended"), onBroken: () => undefined };
@@ -192,6 +199,43 @@ test("a print file has a name, a media type and warnings", async () => {
     warnings: [{ code: "inside-out" }],
   });
   expect(blob.type).toBe(file.type);
+});
+
+test("test towers need no model, are named after the printer, and report progress", async () => {
+  const { slicer } = faked();
+  const stages: string[] = [];
+  const { blob, report, ...file } = await slicer.calibrateLayers(
+    { printer: "saturn-3" },
+    { onProgress: (stage, fraction, done) => stages.push(`${stage} ${fraction} ${done}`) },
+  );
+  expect(file).toEqual({
+    schema: SCHEMA,
+    name: "towers-saturn-3.uvj",
+    type: "application/octet-stream",
+    warnings: [{ code: "inside-out" }],
+  });
+  expect([await blob.text(), blob.type]).toEqual(["towers", file.type]);
+  expect(report.mask.height).toBe(2);
+  expect(stages).toEqual(["masks 0.5 0.75"]);
+  const own = { pixels: [1, 1], pitch_um: [50, 50], volume_mm: [1, 1, 1] } satisfies Options["printer"];
+  const names = [{ printer: { ...own, name: "big" } }, { printer: own }, {}].map(async (options) => (await slicer.calibrateLayers(options)).name);
+  expect(await Promise.all(names)).toEqual(["towers-big.uvj", "towers-cusp.uvj", "towers-cusp.uvj"]);
+});
+
+test("test towers leave the model and the last plan alone, also if they fail or are aborted", async () => {
+  const { slicer, log } = faked();
+  await slicer.load(new Blob(["a"]));
+  await slicer.plan({ tolerance: 1 });
+  await slicer.calibrateLayers();
+  await expect(slicer.calibrateLayers({ format: "sl1" })).rejects.toMatchObject({ code: "uniform-only" });
+  const abort = new AbortController();
+  const writing = slicer.calibrateLayers({ format: "ctb" }, { signal: abort.signal });
+  const outcome = expect(writing).rejects.toMatchObject({ name: "AbortError" });
+  await new Promise((resolve) => setTimeout(resolve));
+  abort.abort();
+  await outcome;
+  await slicer.export();
+  expect(log).toEqual(["1: open a", "1: plan 1", "2: towers", "2: towers", "2: towers", "2: ended", "1: archive"]);
 });
 
 test("calls keep their order without await: those after a load use its model", async () => {

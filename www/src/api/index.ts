@@ -14,7 +14,7 @@
  * can be created, but its calls reject with `no-browser`.
  */
 import { absentSlicer } from "./absent.js";
-import { Client, spawnWorker, type About, type Compiled, type WorkerHandle, type Planned, type Wanted, type Watch } from "./client.js";
+import { Client, spawnWorker, type About, type Compiled, type WorkerHandle, type Wanted, type Watch } from "./client.js";
 import { orient, type OrientCall } from "./orient.js";
 import { Pool } from "./pool.js";
 import { resolve, stemOf, type Source } from "./source.js";
@@ -65,13 +65,22 @@ export interface Mask {
 
 /** A print file. */
 export interface PrintFile extends Versioned {
-  /** The name to save it under: that of the model, `-cusp`, and the format's extension, as in `cup-cusp.uvj`. */
+  /** The name to save it under: that of the model and `-cusp`, or what it is, and its extension, as in `cup-cusp.uvj`. */
   name: string;
   /** Its media type: `application/zip`, or `application/octet-stream` if the format has an extension of its own. */
   type: string;
   blob: Blob;
   /** The warnings of its plan. */
   warnings: Warning[];
+}
+
+/**
+ * The print file of two towers side by side: both have ten layers of 0.05 mm, and one goes on with ten of 0.1 mm. Printed, they
+ * are 0.5 and 1.5 mm high if the printer takes a thickness for each layer; 0.5 and 1.0 mm, or 1.0 and 2.0 mm, if it takes one for all.
+ */
+export interface TestTowers extends PrintFile {
+  /** The report of its plan. */
+  report: Report;
 }
 
 export interface LoadCall extends Watch {
@@ -106,8 +115,8 @@ export interface Slicer {
   /** The corners of all facets in mm, nine numbers per facet, in the file's frame. */
   positions(call?: Watch): Promise<Float32Array>;
   /**
-   * A plan from the facets alone, in milliseconds. It shares a worker with `positions()`, `saliency()` and the calls for
-   * weight files, and does not wait for other plans.
+   * A plan from the facets alone, in milliseconds. It shares a worker with `positions()`, `saliency()`, `calibrateLayers()` and
+   * the calls for weight files, and does not wait for other plans.
    */
   preview(options?: Options, call?: Watch): Promise<PreviewedPlan>;
   /** How much each facet stands out, 0 to 1, in the order of `positions()`. Takes about a second for 80,000 facets. */
@@ -122,6 +131,12 @@ export interface Slicer {
   weightsFile(weights: Float32Array, call?: Watch): Promise<Blob>;
   /** Reads the weights of such a file, which must belong to the open model; `setWeights()` applies them. */
   readWeights(file: Source, call?: Watch): Promise<Float32Array>;
+  /**
+   * The print file of test towers, which tell whether a printer prints layers of several thicknesses. It needs no model, and leaves
+   * the open one and its plan alone. Of the options, printer, screen, format and resin count. Rejects with `uniform-only` if the
+   * format has one thickness for all layers.
+   */
+  calibrateLayers(options?: Options, call?: Watch): Promise<TestTowers>;
   /** The known printers, whose names `options.printer` accepts. */
   printers(): Promise<KnownPrinter[]>;
   /** Starts the worker before it is needed. */
@@ -189,7 +204,7 @@ export function createSlicer(setup: Setup = {}): Slicer {
     },
     async export(options, call = {}) {
       const { blob, of } = await main.archive(wanted(options), call);
-      return printFile(blob, of);
+      return printFile(`${stemOf(of.subject.name)}-cusp`, blob, of.report);
     },
     exportStream(options, call = {}) {
       const gone = new AbortController();
@@ -235,6 +250,10 @@ export function createSlicer(setup: Setup = {}): Slicer {
       const named = resolve(source, call.signal);
       return named.then(({ file }) => side.ask(now, call, (remote) => remote.readWeights(file)));
     },
+    async calibrateLayers(options = {}, call = {}) {
+      const { blob, report } = await side.calibrateLayers(options, call);
+      return { ...printFile(`towers-${printerName(options)}`, blob, report), report };
+    },
     printers: () => main.printers(),
     warm: () => main.warm(),
     rest() {
@@ -250,8 +269,12 @@ export function createSlicer(setup: Setup = {}): Slicer {
   };
 }
 
-function printFile(blob: Blob, { subject, report }: Planned): PrintFile {
-  const { extension, media_type: type } = report.print_file;
-  const name = `${stemOf(subject.name)}-cusp.${extension}`;
-  return { schema: SCHEMA, name, type, blob: blob.slice(0, blob.size, type), warnings: report.warnings };
+function printFile(stem: string, blob: Blob, { print_file, warnings }: Report): PrintFile {
+  const { extension, media_type: type } = print_file;
+  return { schema: SCHEMA, name: `${stem}.${extension}`, type, blob: blob.slice(0, blob.size, type), warnings };
+}
+
+/** The name of the printer that the options have, for the name of a file. */
+function printerName({ printer }: Options): string {
+  return (typeof printer === "object" ? printer.name : printer) || "cusp";
 }

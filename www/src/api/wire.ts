@@ -47,6 +47,12 @@ export interface Profiled<R> {
   profile: Float32Array;
 }
 
+/** A print file of the core's own, and its report. */
+export interface Written {
+  blob: Blob;
+  report: Report;
+}
+
 /** The result of a task: a candidate for each of its directions, in their order. */
 export interface TaskResult {
   number: number;
@@ -105,6 +111,8 @@ export interface SlicerWorker {
   advanceSearch(results: TaskResult[], most: number, rateFrom: number): SearchStep;
   /** Runs tasks of a search that this or another worker holds. */
   evaluate(options: Options, tasks: Task[]): TaskResult[];
+  /** The print file of the test towers; neither the open model nor its plan changes. */
+  calibrateLayers(options: Options, progress: OnProgress): Promise<Written>;
   printers(): KnownPrinter[];
 }
 

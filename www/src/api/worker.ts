@@ -1,6 +1,6 @@
 /** The worker: the only file that imports the WebAssembly package. One model is open at a time. */
 import * as Comlink from "comlink";
-import init, { head_bytes, identify, OrientationSearch, printers, Slicer } from "../../pkg/cusp_slicer.js";
+import init, { calibrate_layers, head_bytes, identify, OrientationSearch, printers, Slicer } from "../../pkg/cusp_slicer.js";
 import { acceptCompatible } from "./adapters.js";
 import type { Candidate, KnownPrinter, OnProgress, SlicerWorker } from "./wire.js";
 
@@ -164,6 +164,11 @@ const api: SlicerWorker = {
   evaluate(options, tasks) {
     const measure = (directions: [number, number, number][]): Candidate[] => current().evaluate(options, Float64Array.from(directions.flat()));
     return tasks.map(({ number, directions }) => ({ number, candidates: measure(directions) }));
+  },
+  async calibrateLayers(options, progress) {
+    const sink = new BlobSink();
+    const report = await calibrate_layers(options, sink.take, plain(progress));
+    return { blob: sink.finish(), report };
   },
   // The core fills in what its list leaves out.
   printers: () => printers() as KnownPrinter[],

@@ -24,7 +24,7 @@ import { definePanels } from "./panels/index.js";
 import { problemStyles } from "./parts/problem-box.js";
 import { progressStyles } from "./parts/progress.js";
 import type { Result } from "./state/result.js";
-import { saveFile } from "./parts/save-file.js";
+import { saveFile, saveMade } from "./parts/save-file.js";
 import { Session } from "./state/session.js";
 import { fromAddress, parse, toAddress } from "./state/settings.js";
 import { shared } from "./styles/shared.js";
@@ -337,7 +337,8 @@ export class CuspSlicer extends LitElement {
       isDragging: this.dragging,
       picked: this.#picked,
       save: () => void this.#save(),
-      saveWeights: () => void this.#saveWeights(),
+      saveTowers: () => void saveMade(this.#session.calibrateLayers()),
+      saveWeights: () => void saveMade(this.#session.saveWeights()),
     });
   }
 
@@ -388,11 +389,6 @@ export class CuspSlicer extends LitElement {
   readonly #save = async (): Promise<void> => {
     const download = await this.#session.export();
     if (download !== null && this.#reports.tell("cusp-export", download)) saveFile(download);
-  };
-
-  readonly #saveWeights = async (): Promise<void> => {
-    const download = await this.#session.saveWeights();
-    if (download !== null) saveFile(download);
   };
 }
 

@@ -4,7 +4,7 @@ import type { Model, Plan, PrintFile } from "../api/index.js";
 import type { Candidate, Stage } from "../api/wire.js";
 
 export interface ProgressDetail {
-  task: "open" | "plan" | "export" | "orient";
+  task: "open" | "plan" | "export" | "towers" | "orient";
   stage: Stage;
   /** 0 to 1 within the stage. */
   fraction: number;

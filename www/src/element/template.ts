@@ -37,6 +37,7 @@ export interface Facts {
   isDragging: boolean;
   picked(event: Event): void;
   save(): void;
+  saveTowers(): void;
   saveWeights(): void;
 }
 
@@ -94,12 +95,12 @@ function start({ session, language, panels, picked }: Drawn): TemplateResult {
 }
 
 function work(drawn: Drawn): TemplateResult {
-  const { session, language, panels, isWide, picked } = drawn;
+  const { session, language, panels, isWide, picked, saveTowers } = drawn;
   const { busy, result } = session;
   const isPlain = !panels.has("model") && !panels.has("settings");
   return html`<div class="work ${isPlain ? "plain" : ""}">
     ${panels.has("model")
-      ? modelCard(session, language, { picked, openFile: (place) => void session.openFile(place) })
+      ? modelCard(session, language, { picked, openFile: (place) => void session.openFile(place), saveTowers })
       : nothing}
     ${panels.has("settings") ? settingsCard(drawn, isWide) : nothing}
     <div class="results ${busy?.task === "plan" && result !== null ? "replanning" : ""}">
@@ -111,7 +112,7 @@ function work(drawn: Drawn): TemplateResult {
   </div>`;
 }
 
-function settingsCard({ session, language, problem, isBeside }: Drawn, isWide: boolean): TemplateResult {
+function settingsCard({ session, language, problem, isBeside, saveTowers }: Drawn, isWide: boolean): TemplateResult {
   const { texts } = language;
   const button = (name: string, isPossible: boolean, act: () => void, path: string): TemplateResult => html`<button
     class="small"
@@ -136,9 +137,11 @@ function settingsCard({ session, language, problem, isBeside }: Drawn, isWide: b
       .offered=${session}
       .fixed=${session.fixed}
       .problem=${isBeside ? problem : null}
+      .towers=${session.towers}
       .language=${language}
       @cusp-settings=${(event: CustomEvent<Partial<Settings>>) => session.change(event.detail)}
       @cusp-open-printer=${(event: CustomEvent<File>) => void session.openPrinter(event.detail)}
+      @cusp-towers=${saveTowers}
       @cusp-dismiss=${() => session.dismiss()}
     ></cusp-settings>
   </details>`;
@@ -156,7 +159,7 @@ function waiting({ session, language }: Drawn): TemplateResult {
 }
 
 function results(drawn: Drawn, result: Result): TemplateResult {
-  const { session, language, panels, slicer, save, saveWeights } = drawn;
+  const { session, language, panels, slicer, save, saveTowers, saveWeights } = drawn;
   const { layer, mask, busy, curve, shown, turning, settings } = session;
   const { texts } = language;
   const selectLayer = (event: CustomEvent<number>): void => session.selectLayer(event.detail);
@@ -168,7 +171,7 @@ function results(drawn: Drawn, result: Result): TemplateResult {
     ${panels.has("plan")
       ? html`<section class="card span first" part="plan" aria-label=${texts.plan.region}>
           ${summary(result, shown ?? result.report, language, earlier(drawn), download)}
-          ${panels.has("model") ? nothing : warnings(session, language)} ${details(result, language)}
+          ${panels.has("model") ? nothing : warnings(session, language, saveTowers)} ${details(result, language)}
         </section>`
       : nothing}
     ${panels.has("view")

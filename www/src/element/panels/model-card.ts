@@ -2,27 +2,30 @@
 import { html, nothing, type TemplateResult } from "lit";
 import type { Language } from "../../texts/index.js";
 import { offerButtons } from "../parts/problem-box.js";
+import { towersOffer } from "../parts/towers-offer.js";
 import { advise } from "../state/problem.js";
 import type { Session } from "../state/session.js";
 
 export interface ModelActions {
   picked(event: Event): void;
   openFile(place: number): void;
+  saveTowers(): void;
 }
 
 /** The warnings of the model and its plan, with what may help. */
-export function warnings(session: Session, language: Language): readonly TemplateResult[] {
+export function warnings(session: Session, language: Language, saveTowers: () => void): readonly TemplateResult[] {
   const { model, result, fixed } = session;
   const all = [...(model?.info.warnings ?? []), ...(result?.report.warnings ?? [])];
   return advise(all, language, fixed).map(
-    ({ text, offers }) => html`<div class="warning">
+    ({ text, offers, towers }) => html`<div class="warning">
       <p>${text}</p>
       ${offerButtons(offers, (change) => session.change(change))}
+      ${towers ? towersOffer(session.towers, language, saveTowers) : nothing}
     </div>`,
   );
 }
 
-export function modelCard(session: Session, language: Language, { picked, openFile }: ModelActions): TemplateResult {
+export function modelCard(session: Session, language: Language, { picked, openFile, saveTowers }: ModelActions): TemplateResult {
   const { model, result, files, place } = session;
   const { texts, format } = language;
   if (model === null) return html``;
@@ -48,7 +51,7 @@ export function modelCard(session: Session, language: Language, { picked, openFi
         <dd>${info.closed ? texts.model.closed : texts.model.open}</dd>
       </div>
     </dl>
-    ${warnings(session, language)}
+    ${warnings(session, language, saveTowers)}
     ${files.length < 2
       ? nothing
       : html`<div class="files">

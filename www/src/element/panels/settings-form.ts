@@ -6,6 +6,7 @@ import { languageOf } from "../../texts/index.js";
 import { METRIC_NAMES, METRICS } from "../state/metric.js";
 import type { Choice, Problem } from "../state/problem.js";
 import { problemBox, problemStyles } from "../parts/problem-box.js";
+import { towersOffer, type TowersState } from "../parts/towers-offer.js";
 import { byMaker, FORMATS, formatFor, modelOf, printerOf } from "../state/printer.js";
 import { DEFAULT_SETTINGS, faultWords, RAYS, usualTolerance, withTolerance } from "../state/settings.js";
 import type { Faults, Field, Offered, Settings } from "../state/settings.js";
@@ -52,6 +53,7 @@ const PROPERTIES = {
   fixed: given<ReadonlySet<keyof Settings>>(new Set()),
   /** A failure that one of these settings caused, to be shown beside that setting. */
   problem: given<Problem | null>(null),
+  towers: given<TowersState>("waiting"),
   language: given(languageOf()),
   /** Whether the description of one's own printer is to be opened. */
   isOpening: own(false),
@@ -191,6 +193,9 @@ export class CuspSettings extends elementWith(PROPERTIES) {
         <div class="pair">
           ${this.#typed("bottomLayers", words.bottomLayers, "")} ${this.#typed("bottomExposure", words.bottomExposure, "s")}
         </div>
+        ${this.settings.printer === "" || this.fixed.has("printer")
+          ? nothing
+          : towersOffer(this.towers, this.language, () => this.dispatchEvent(new CustomEvent("cusp-towers")))}
       </div>
     </details>`;
   }

@@ -4,7 +4,7 @@ import type { Stage } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
 
 export interface Busy {
-  task: "open" | "plan" | "export" | "orient";
+  task: "open" | "plan" | "export" | "towers" | "orient";
   /** The model's name. */
   name: string;
   stage: Stage;

@@ -1,6 +1,6 @@
 /** A fake slicer for tests of the session. */
 import { SlicerError } from "../../api/error.js";
-import { SCHEMA, type PreviewedPlan, type LoadCall, type Mask, type Model, type OrientCall, type OrientationReport, type Plan, type PrintFile, type Watch } from "../../api/index.js";
+import { SCHEMA, type PreviewedPlan, type LoadCall, type Mask, type Model, type OrientCall, type OrientationReport, type Plan, type PrintFile, type TestTowers, type Watch } from "../../api/index.js";
 import type { Preview, MeshInfo, Options, Report, SearchOptions, Tradeoff } from "../../api/wire.js";
 
 const info = { facets: 1, size_mm: [1, 1, 10], warnings: [] } as unknown as MeshInfo;
@@ -23,6 +23,7 @@ export class FakeSlicer {
   readonly load = (_source: unknown, call: LoadCall = {}): Promise<Model> => this.#call("open", call);
   readonly plan = (options: Options = {}, call: Watch = {}): Promise<Plan> => this.#call("plan", call, options);
   readonly export = (_options?: Options, call: Watch = {}): Promise<PrintFile> => this.#call("export", call);
+  readonly calibrateLayers = (options: Options = {}, call: Watch = {}): Promise<TestTowers> => this.#call("calibrateLayers", call, options);
   readonly orient = (options: Options = {}, _search?: SearchOptions, call: OrientCall = {}): Promise<OrientationReport> =>
     this.#call("orient", call, options);
   readonly mask = async (layer: number): Promise<Mask> => {

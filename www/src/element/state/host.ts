@@ -28,7 +28,19 @@ export interface Setup {
 
 export type SlicerCalls = Pick<
   Slicer,
-  "load" | "plan" | "orient" | "mask" | "export" | "tradeoff" | "preview" | "printers" | "warm" | "setWeights" | "weightsFile" | "readWeights"
+  | "load"
+  | "plan"
+  | "orient"
+  | "mask"
+  | "export"
+  | "calibrateLayers"
+  | "tradeoff"
+  | "preview"
+  | "printers"
+  | "warm"
+  | "setWeights"
+  | "weightsFile"
+  | "readWeights"
 >;
 
 /** A file to save. */

@@ -11,7 +11,7 @@ function explain(
   settings: Settings,
   fixed: readonly (keyof Settings)[] = [],
 ): ReturnType<typeof explainIn> {
-  return explainIn({ error, name, settings, height_mm: 60 }, languageOf("en"), new Set(fixed));
+  return explainIn({ error, task: null, name, settings, height_mm: 60 }, languageOf("en"), new Set(fixed));
 }
 
 const failed = <Code extends ErrorCode>(code: Code, detail: ErrorDetails[Code]): SlicerError =>
@@ -195,19 +195,35 @@ test("a warning is said once, and offers what keeps the tolerance in layers of o
   const text =
     "Anycubic Photon M3 takes one thickness for all layers, and this plan has several; 882 uniform layers of 0.068\u00a0mm keep the tolerance.";
   expect(warn([one, { code: "inside-out" }, one])).toEqual([
-    { text, offers: [BEST_OFFER] },
-    { text: "The mesh was inside out, and was turned over.", offers: [] },
+    { text, offers: [BEST_OFFER], towers: true },
+    { text: "The mesh was inside out, and was turned over.", offers: [], towers: false },
   ]);
-  expect(warn([one], ["uniform"])).toEqual([{ text, offers: [] }]);
+  expect(warn([one], ["uniform"])).toEqual([{ text, offers: [], towers: true }]);
   expect(warn([{ code: "one-thickness", detail: { taker: "sl1", best: null } }])).toEqual([
-    { text: "sl1 takes one thickness for all layers, and this plan has several; choose the uniform planner.", offers: [] },
+    { text: "sl1 takes one thickness for all layers, and this plan has several; choose the uniform planner.", offers: [], towers: false },
   ]);
+});
+
+test("test towers are offered where the printer decides, not the format, and not for a printer that the page has fixed", () => {
+  const taken = (taker: string): Warning => ({ code: "one-thickness", detail: { taker, best: null } });
+  const towers = (warning: Warning, fixed: readonly (keyof Settings)[] = []): boolean[] =>
+    advise([warning], languageOf("en"), new Set(fixed)).map((advice) => advice.towers);
+  expect(towers({ code: "untried-thicknesses", detail: { model: "Elegoo Saturn 3" } })).toEqual([true]);
+  expect(towers(taken("Anycubic Photon M3"))).toEqual([true]);
+  expect(towers(taken("Anycubic Photon M3"), ["printer"])).toEqual([false]);
+  expect(towers(taken("sl1"))).toEqual([false]);
+});
+
+test("a format that cannot hold test towers offers no other settings for them", () => {
+  const failure = { error: uniformOnly(undefined), task: "towers", name: "", settings: DEFAULT_SETTINGS, height_mm: 60 } as const;
+  const problem = explainIn(failure, languageOf("en"), new Set());
+  expect(problem).toMatchObject({ title: "This print file takes uniform layers only", field: "format", offers: [] });
 });
 
 test("whether a printer that the page has fixed was ever tried is not the customer's business", () => {
   const untried: Warning = { code: "untried-thicknesses", detail: { model: "Elegoo Saturn 3" } };
   expect(advise([untried], languageOf("en"), new Set())).toEqual([
-    { text: expect.stringMatching(/^Nobody has told whether the Elegoo Saturn 3 .*print the caliper test \(cusp calibrate layers\)/), offers: [] },
+    { text: expect.stringMatching(/^Nobody has told whether the Elegoo Saturn 3 .*print the test towers, or/), offers: [], towers: true },
   ]);
   expect(advise([untried], languageOf("en"), new Set(["printer"]))).toEqual([]);
 });

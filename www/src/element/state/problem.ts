@@ -3,7 +3,9 @@ import type { ErrorCode, ErrorDetails, SlicerError } from "../../api/error.js";
 import type { WarningCode, WarningDetails } from "../../api/warning.js";
 import type { UniformLayers, Warning } from "../../api/wire.js";
 import type { Language, Texts } from "../../texts/index.js";
+import type { Busy } from "../parts/progress.js";
 import { METRICS } from "./metric.js";
+import { FORMATS } from "./printer.js";
 import * as round from "./round.js";
 import { parse, withTolerance, type Field, type Settings } from "./settings.js";
 
@@ -28,6 +30,8 @@ export type Choice = "metric" | "rays" | "printer" | "format" | "resin";
 /** What failed, and the state at that time. */
 export interface Failure {
   error: SlicerError;
+  /** The task that failed; null if it was none. */
+  task: Busy["task"] | null;
   /** The file's name. */
   name: string;
   /** The settings at that time. */
@@ -182,6 +186,8 @@ function offersFor(kind: Kind, error: SlicerError, failure: Failure, language: L
     case "badPrinter":
       return error.code === "printer-not-json" ? [] : [withoutPrinter(language)];
     case "uniformOnly":
+      // Test towers in uniform layers, or as images, tell nothing about a printer.
+      if (failure.task === "towers") return [];
       return [uniformLayers(error, failure.settings, language), { label: language.texts.offers.images, change: { format: "png" } }];
     case "printerUniformOnly":
       return [uniformLayers(error, failure.settings, language)];
@@ -275,6 +281,8 @@ function bestUniform({ layer_mm, layers }: UniformLayers, { texts, format }: Lan
 export interface Advice {
   text: string;
   offers: Offer[];
+  /** Whether test towers would tell if the printer takes several thicknesses. */
+  towers: boolean;
 }
 
 /**
@@ -289,9 +297,14 @@ export function advise(warnings: readonly Warning[], language: Language, fixed: 
     if (warning.code === "untried-thicknesses" && fixed.has("printer")) continue;
     const text = warningOf(warning.code, "detail" in warning ? warning.detail : null, language.texts);
     const best = warning.code === "one-thickness" ? warning.detail.best : null;
-    advice.set(text, { text, offers: allowed(best ? [bestUniform(best, language)] : [], fixed) });
+    const offers = allowed(best ? [bestUniform(best, language)] : [], fixed);
+    advice.set(text, { text, offers, towers: isOfPrinter(warning) && !fixed.has("printer") });
   }
   return [...advice.values()];
 }
+
+/** Whether the printer decides on several thicknesses, not the format. */
+const isOfPrinter = (warning: Warning): boolean =>
+  warning.code === "untried-thicknesses" || (warning.code === "one-thickness" && !FORMATS.some((format) => format === warning.detail.taker));
 
 const warningOf = <Code extends WarningCode>(code: Code, detail: WarningDetails[Code], { warnings }: Texts): string => warnings[code](detail);

@@ -37,7 +37,7 @@ export class Runner {
     const { kind, name } = task;
     const mine = { task, abort: new AbortController() };
     this.#running = mine;
-    const stage = kind === "export" ? "masks" : "load";
+    const stage = kind === "export" || kind === "towers" ? "masks" : "load";
     let busy: Busy = { task: kind, name, stage, fraction: 0, done: 0, started_ms: performance.now() };
     this.busy = busy;
     this.#host.changed();

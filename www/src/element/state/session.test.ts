@@ -146,6 +146,37 @@ test("a print file is made once per plan", async () => {
   expect(slicer.calls.filter(({ what }) => what === "export")).toHaveLength(1);
 });
 
+test("test towers are for the settings on show, which may have no plan, and leave the plan alone", async () => {
+  await planned();
+  session.change({ printer: "saturn-3" });
+  await settle();
+  slicer.last.reject(new SlicerError("too-many-facets", "", { facets: 9, most: 8 }));
+  await settle();
+  const writing = session.calibrateLayers();
+  expect(slicer.last).toMatchObject({ what: "calibrateLayers", options: { printer: "saturn-3" } });
+  expect([session.towers, session.busy?.task]).toEqual(["writing", "towers"]);
+  expect(await session.calibrateLayers()).toBeNull();
+  slicer.last.resolve({ ...zip, name: "towers-saturn-3.goo" });
+  expect(await writing).toMatchObject({ name: "towers-saturn-3.goo" });
+  expect([session.towers, session.result?.report.layers]).toEqual(["ready", 10]);
+});
+
+test("test towers that fail are a failure, and they can be cancelled; settings out of range have to be mended first", async () => {
+  await planned();
+  const failing = session.calibrateLayers();
+  slicer.last.reject(new SlicerError("crash", "", { system: "unreachable" }));
+  expect(await failing).toBeNull();
+  expect(session.failure).toMatchObject({ task: "towers", error: { code: "crash" } });
+  const cancelled = session.calibrateLayers();
+  expect(session.failure).toBeNull();
+  session.cancel();
+  expect(await cancelled).toBeNull();
+  expect(session.notice).toBe("exportCancelled");
+  session.change({ exposure: "x" });
+  expect(session.towers).toBe("waiting");
+  expect(await session.calibrateLayers()).toBeNull();
+});
+
 test("while a mask is fetched, only the newest layer waits", async () => {
   await planned();
   slicer.masks.length = 0;

@@ -16,6 +16,7 @@ import { Follower, type Rotation } from "./follow.js";
 import { layerAt } from "../../view/scene/lookup.js";
 import type { Failure } from "./problem.js";
 import type { Busy } from "../parts/progress.js";
+import type { TowersState } from "../parts/towers-offer.js";
 import { areSame, shownOf, type Result, type Shown } from "./result.js";
 import { Runner } from "./runner.js";
 import { DEFAULT_SETTINGS, rotationText, type Settings } from "./settings.js";
@@ -95,6 +96,12 @@ export class Session extends Preferences {
   /** The rotation of the model while the user is turning it; null otherwise. */
   get turning(): Rotation | null {
     return this.#follower.turning;
+  }
+
+  /** Whether test towers for the printer can be written now. */
+  get towers(): TowersState {
+    if (this.busy?.task === "towers") return "writing";
+    return this.busy === null && this.options !== null ? "ready" : "waiting";
   }
 
   /** Starts the worker and fetches the list of printers. */
@@ -242,7 +249,7 @@ export class Session extends Preferences {
     if (this.busy === null) return;
     const { task } = this.busy;
     this.#drop();
-    this.notice = task === "export" ? "exportCancelled" : "cancelled";
+    this.notice = task === "export" || task === "towers" ? "exportCancelled" : "cancelled";
     this.#host.cancelled?.();
     this.#changed();
     void this.#beside.fetch();
@@ -250,14 +257,19 @@ export class Session extends Preferences {
 
   /** Makes the print file of the result; null without one, while a task runs, or if it failed or was cancelled. */
   async export(): Promise<PrintFile | null> {
-    const { result, model } = this;
-    if (result === null || model === null || this.busy !== null) return null;
+    const { result } = this;
+    if (result === null || this.busy !== null) return null;
     if (this.#archive?.of === result) return this.#archive.file;
-    this.failure = null;
-    const file = await this.#run("export", model.name, null, (watch) => this.#slicer.export(undefined, watch));
-    void this.#resume();
+    const file = await this.#write("export", (watch) => this.#slicer.export(undefined, watch));
     if (file !== null) this.#archive = { of: result, file };
     return file;
+  }
+
+  /** Makes the print file of test towers for the printer; null if it cannot be made now, failed or was cancelled. */
+  async calibrateLayers(): Promise<PrintFile | null> {
+    const { options, towers } = this;
+    if (options === null || towers !== "ready") return null;
+    return this.#write("towers", (watch) => this.#slicer.calibrateLayers(options, watch));
   }
 
   selectLayer(layer: number): void {
@@ -365,17 +377,25 @@ export class Session extends Preferences {
     this.#changed();
   }
 
+  /** Makes a file, then does what had to wait for it. */
+  async #write(kind: Busy["task"], call: (watch: Watch) => Promise<PrintFile>): Promise<PrintFile | null> {
+    this.failure = null;
+    const file = await this.#run(kind, this.model?.name ?? "", null, call);
+    void this.#resume();
+    return file;
+  }
+
   /** Runs one task and shows its progress; null if it was cancelled or failed. A failure is shown. */
   #run<T>(kind: Busy["task"], name: string, options: Options | null, call: (watch: Watch) => Promise<T>): Promise<T | null> {
     const { settings, weights } = this;
-    return this.#runner.run({ kind, name, options, weights }, (error) => this.#fail(error, name, settings), call);
+    return this.#runner.run({ kind, name, options, weights }, (error) => this.#fail(error, name, settings, kind), call);
   }
 
-  #fail(thrown: unknown, name: string, settings: Settings): void {
+  #fail(thrown: unknown, name: string, settings: Settings, task: Busy["task"] | null = null): void {
     const error = asSlicerError(thrown);
     const own_mm = this.model?.info.size_mm[2] ?? null;
     const asked_mm = Number(settings.height.replace(",", "."));
-    this.failure = { error, name, settings, height_mm: own_mm === null ? null : asked_mm > 0 ? asked_mm : own_mm };
+    this.failure = { error, task, name, settings, height_mm: own_mm === null ? null : asked_mm > 0 ? asked_mm : own_mm };
     this.#host.failed?.(error);
   }
 

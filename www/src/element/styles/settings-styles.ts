@@ -121,4 +121,7 @@ export const settingsStyles = css`
   .problem {
     margin: 0.5rem 0 0;
   }
+  .towers {
+    margin: 0;
+  }
 `;

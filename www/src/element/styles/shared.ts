@@ -83,6 +83,15 @@ export const shared = css`
     text-decoration: underline;
     text-underline-offset: 0.2em;
   }
+  .towers {
+    margin-top: 0.625rem;
+  }
+  .towers p {
+    margin-top: 0.375rem;
+    font-size: 0.8125rem;
+    line-height: 1.4;
+    text-wrap: pretty;
+  }
   .head,
   .foot {
     display: flex;

@@ -4,7 +4,7 @@ import { LAYERS } from "./nouns.js";
 
 const file = (extension: string): string => `Eine .${extension}-Datei.`;
 
-export const plan = ({ counted, plural }: Format): PlanTexts => ({
+export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
   plan: {
     region: "Der Plan",
     layers: (count) => plural(count, LAYERS),
@@ -41,6 +41,13 @@ export const plan = ({ counted, plural }: Format): PlanTexts => ({
     onePerPrint: (printer) => `Der ${printer} nimmt eine Dicke für alle Schichten: wählen Sie dafür gleichmäßige.`,
     asIs: "Das Modell wird gedruckt, wie es ist: ohne Stützen, nicht ausgehöhlt.",
     together: (sentences) => sentences.join(" "),
+  },
+  towers: {
+    download: "Testtürme herunterladen",
+    writing: "Testtürme werden geschrieben …",
+    measure:
+      `Zwei kleine Türme zum Nachmessen mit dem Messschieber. Sind sie ${size(0.5)} und ${size(1.5)}\u00a0mm hoch, nimmt der ` +
+      `Drucker für jede Schicht eine eigene Dicke; sind es ${size(0.5)} und ${size(1)}\u00a0mm oder ${size(1)} und ${size(2)}\u00a0mm, nimmt er eine für alle.`,
   },
   gain: {
     over: (error, tolerance) => `Der Fehler erreicht ${error}, mehr als die erlaubten ${tolerance}.`,

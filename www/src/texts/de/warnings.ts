@@ -25,7 +25,7 @@ export const warnings = ({ count, counted, mm, height, error }: Format): Warning
       ? "wählen Sie gleichmäßige Schichten."
       : `${count(best.layers)} gleichmäßige Schichten von ${mm(best.layer_mm)} halten die Toleranz ein.`),
   "untried-thicknesses": ({ model }) =>
-    `Niemand hat berichtet, ob der ${model} verschieden dicke Schichten druckt; drucken Sie den Messschieber-Test (cusp calibrate layers), oder wählen Sie gleichmäßige Schichten.`,
+    `Niemand hat berichtet, ob der ${model} verschieden dicke Schichten druckt; drucken Sie die Testtürme, oder wählen Sie gleichmäßige Schichten.`,
   "gpu-too-small": ({ needed_bytes, limit_bytes }) =>
     `Die CPU hat die Arbeit der GPU übernommen: Das Netz braucht einen Puffer von ${count(needed_bytes)} Byte, und die GPU bietet ${count(limit_bytes)}.`,
   "gpu-failed": ({ fault, system }) =>

@@ -5,7 +5,7 @@ import { LAYERS } from "./nouns.js";
 /** A file that is known by its extension. */
 const file = (extension: string): string => `A .${extension} file.`;
 
-export const plan = ({ counted, plural }: Format) => ({
+export const plan = ({ counted, plural, size }: Format) => ({
   plan: {
     region: "The plan",
     layers: (count: number) => plural(count, LAYERS),
@@ -44,6 +44,14 @@ export const plan = ({ counted, plural }: Format) => ({
     onePerPrint: (printer: string) => `The ${printer} takes one thickness for all layers: choose uniform ones for it.`,
     asIs: "The model prints as it is: no supports, not hollowed.",
     together: (sentences: readonly string[]) => sentences.join(" "),
+  },
+  /** Test towers, which tell whether a printer takes several thicknesses. */
+  towers: {
+    download: "Download test towers",
+    writing: "Writing test towers…",
+    measure:
+      `Two small towers to measure with a caliper. If they are ${size(0.5)} and ${size(1.5)}\u00a0mm high, the printer takes a ` +
+      `thickness for each layer; if ${size(0.5)} and ${size(1)}\u00a0mm, or ${size(1)} and ${size(2)}\u00a0mm, it takes one for all.`,
   },
   /** What the plan gains over uniform plans; `uniform` is a thickness, `figure` a number of layers or a time. */
   gain: {

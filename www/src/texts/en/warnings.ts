@@ -23,7 +23,7 @@ export const warnings = ({ count, counted, mm, height, error }: Format): Warning
     `${taker} takes one thickness for all layers, and this plan has several; ` +
     (best === null ? "choose the uniform planner." : `${count(best.layers)} uniform layers of ${mm(best.layer_mm)} keep the tolerance.`),
   "untried-thicknesses": ({ model }) =>
-    `Nobody has told whether the ${model} prints layers of several thicknesses; print the caliper test (cusp calibrate layers), or choose uniform layers.`,
+    `Nobody has told whether the ${model} prints layers of several thicknesses; print the test towers, or choose uniform layers.`,
   "gpu-too-small": ({ needed_bytes, limit_bytes }) =>
     `The CPU did the work of the GPU: the mesh needs a buffer of ${count(needed_bytes)} bytes, and the GPU offers ${count(limit_bytes)}.`,
   "gpu-failed": ({ fault, system }) =>

@@ -4,7 +4,7 @@ import { LAYERS } from "./nouns.js";
 
 const file = (extension: string): string => `Un archivo .${extension}.`;
 
-export const plan = ({ counted, plural }: Format): PlanTexts => ({
+export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
   plan: {
     region: "El plan",
     layers: (count) => plural(count, LAYERS),
@@ -41,6 +41,13 @@ export const plan = ({ counted, plural }: Format): PlanTexts => ({
     onePerPrint: (printer) => `La ${printer} admite un solo espesor para todas las capas: elija capas uniformes.`,
     asIs: "El modelo se imprime tal cual: sin soportes ni vaciado.",
     together: (sentences) => sentences.join(" "),
+  },
+  towers: {
+    download: "Descargar torres de prueba",
+    writing: "Creando las torres de prueba…",
+    measure:
+      `Dos torres pequeñas para medir con un calibre. Si su altura es de ${size(0.5)} y ${size(1.5)}\u00a0mm, la impresora ` +
+      `admite un espesor para cada capa; si es de ${size(0.5)} y ${size(1)}\u00a0mm, o de ${size(1)} y ${size(2)}\u00a0mm, uno solo para todas.`,
   },
   gain: {
     over: (error, tolerance) => `El error llega a ${error}, más que los ${tolerance} permitidos.`,

@@ -23,7 +23,7 @@ export const warnings = ({ count, counted, plural, mm, height, error }: Format):
     `${taker} admite un solo espesor para todas las capas, y este plan tiene varios; ` +
     (best === null ? "elija capas uniformes." : `${count(best.layers)} capas uniformes de ${mm(best.layer_mm)} cumplen la tolerancia.`),
   "untried-thicknesses": ({ model }) =>
-    `Nadie ha dicho si la ${model} imprime capas de distinto espesor; imprima la prueba del calibre (cusp calibrate layers) o elija capas uniformes.`,
+    `Nadie ha dicho si la ${model} imprime capas de distinto espesor; imprima las torres de prueba o elija capas uniformes.`,
   "gpu-too-small": ({ needed_bytes, limit_bytes }) =>
     `La CPU hizo el trabajo de la GPU: la malla necesita un búfer de ${count(needed_bytes)} bytes, y la GPU ofrece ${count(limit_bytes)}.`,
   "gpu-failed": ({ fault, system }) =>

@@ -4,7 +4,7 @@ import { LAYERS } from "./nouns.js";
 
 const file = (extension: string): string => `Un fichier .${extension}.`;
 
-export const plan = ({ counted, plural }: Format): PlanTexts => ({
+export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
   plan: {
     region: "Le plan",
     layers: (count) => plural(count, LAYERS),
@@ -41,6 +41,13 @@ export const plan = ({ counted, plural }: Format): PlanTexts => ({
     onePerPrint: (printer) => `L’imprimante ${printer} n’admet qu’une épaisseur pour toutes les couches : choisissez-les uniformes.`,
     asIs: "Le modèle est imprimé tel quel : sans supports ni évidement.",
     together: (sentences) => sentences.join(" "),
+  },
+  towers: {
+    download: "Télécharger les tours de test",
+    writing: "Création des tours de test…",
+    measure:
+      `Deux petites tours à mesurer au pied à coulisse. Si elles font ${size(0.5)} et ${size(1.5)}\u00a0mm de haut, l’imprimante admet ` +
+      `une épaisseur par couche ; si elles font ${size(0.5)} et ${size(1)}\u00a0mm, ou ${size(1)} et ${size(2)}\u00a0mm, une seule pour toutes.`,
   },
   gain: {
     over: (error, tolerance) => `L’erreur atteint ${error}, plus que les ${tolerance} permis.`,

@@ -23,7 +23,7 @@ export const warnings = ({ count, counted, plural, mm, height, error }: Format):
     `${taker} n’admet qu’une épaisseur pour toutes les couches, et ce plan en a plusieurs ; ` +
     (best === null ? "choisissez des couches uniformes." : `${count(best.layers)} couches uniformes de ${mm(best.layer_mm)} respectent la tolérance.`),
   "untried-thicknesses": ({ model }) =>
-    `Personne n’a dit si l’imprimante ${model} imprime des couches d’épaisseurs différentes ; imprimez le test au pied à coulisse (cusp calibrate layers), ou choisissez des couches uniformes.`,
+    `Personne n’a dit si l’imprimante ${model} imprime des couches d’épaisseurs différentes ; imprimez les tours de test, ou choisissez des couches uniformes.`,
   "gpu-too-small": ({ needed_bytes, limit_bytes }) =>
     `Le CPU a fait le travail du GPU : le maillage demande un tampon de ${count(needed_bytes)} octets, et le GPU en offre ${count(limit_bytes)}.`,
   "gpu-failed": ({ fault, system }) =>

@@ -3,7 +3,7 @@ import type { Format } from "../format.js";
 
 const file = (extension: string): string => `.${extension} 文件。`;
 
-export const plan = ({ count: number }: Format): PlanTexts => ({
+export const plan = ({ count: number, size }: Format): PlanTexts => ({
   plan: {
     region: "方案",
     layers: () => "层",
@@ -40,6 +40,13 @@ export const plan = ({ count: number }: Format): PlanTexts => ({
     onePerPrint: (printer) => `${printer} 的所有层只能用一种厚度：请选择均匀分层。`,
     asIs: "模型按原样打印：未加支撑，未抽壳。",
     together: (sentences) => sentences.join(""),
+  },
+  towers: {
+    download: "下载测试塔",
+    writing: "正在生成测试塔…",
+    measure:
+      `两座小塔，打印后用卡尺测量高度：${size(0.5)} 和 ${size(1.5)}\u00a0mm 表示打印机可逐层改变层厚；` +
+      `${size(0.5)} 和 ${size(1)}\u00a0mm，或 ${size(1)} 和 ${size(2)}\u00a0mm，表示所有层只能用一种厚度。`,
   },
   gain: {
     over: (error, tolerance) => `误差达到 ${error}，超过允许的 ${tolerance}。`,

@@ -20,7 +20,7 @@ export const warnings = ({ count, mm, height, error }: Format): WarningSentences
     `${taker} 的所有层只能用一种厚度，而本方案有多种；` +
     (best === null ? "请使用均匀分层。" : `${count(best.layers)} 个 ${mm(best.layer_mm)} 的均匀层，误差在公差以内。`),
   "untried-thicknesses": ({ model }) =>
-    `尚无人验证 ${model} 能否打印不同厚度的层；请打印卡尺测试件（cusp calibrate layers），或使用均匀分层。`,
+    `尚无人验证 ${model} 能否打印不同厚度的层；请打印测试塔，或使用均匀分层。`,
   "gpu-too-small": ({ needed_bytes, limit_bytes }) =>
     `由 CPU 代替 GPU 计算：网格需要 ${count(needed_bytes)} 字节的缓冲区，而 GPU 只有 ${count(limit_bytes)}。`,
   "gpu-failed": ({ fault, system }) => `GPU 出错，由 CPU 代为计算：${FAULTS[fault]}${system === null ? "" : `（${system}）`}。`,

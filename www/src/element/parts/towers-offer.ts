@@ -1,0 +1,16 @@
+/** The offer of test towers: their button, and what to measure on them. */
+import { html, type TemplateResult } from "lit";
+import type { Language } from "../../texts/index.js";
+
+/** Whether the towers can be written now, are being written, or have to wait for a task or a setting. */
+export type TowersState = "ready" | "writing" | "waiting";
+
+export function towersOffer(state: TowersState, { texts: { towers: words } }: Language, save: () => void): TemplateResult {
+  const isWriting = state === "writing";
+  return html`<div class="towers">
+    <button class="small" aria-describedby="towers" aria-busy=${isWriting} ?disabled=${state !== "ready"} @click=${save}>
+      ${isWriting ? words.writing : words.download}
+    </button>
+    <p id="towers" class="quiet">${words.measure}</p>
+  </div>`;
+}
