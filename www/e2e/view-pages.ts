@@ -13,8 +13,11 @@ declare global {
   }
 }
 
-/** Draws in software, so that WebGL works without a GPU. */
-export const SOFTWARE_GL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+/**
+ * Lets WebGL draw in software, without a GPU. The rest of the page needs no such thing: put together by the same software GPU
+ * (`--use-angle=swiftshader`), it would cost more than what WebGL draws.
+ */
+export const SOFTWARE_GL = ["--enable-unsafe-swiftshader"];
 
 export interface Prepared extends BrowserContextOptions {
   /** Runs in the page before anything else; the tab is then the test's own. */
