@@ -10,9 +10,9 @@ export default defineConfig({
           include: ["e2e/**/*.test.ts"],
           environment: "node",
           globalSetup: "e2e/serve.ts",
-          // One browser at a time: two would share the cores, and the tests look at durations.
-          fileParallelism: false,
-          // Two cores are shared with a browser that draws in software: now and then it misses a moment that it is to be seen in.
+          // Two browsers at a time: one leaves a quarter of two cores idle, since each test waits for the page and the page for it.
+          maxWorkers: 2,
+          // Two cores are shared with browsers that draw in software: now and then one misses a moment that it is to be seen in.
           retry: 2,
           expect: { poll: { timeout: 20_000 } },
           testTimeout: 60_000,

@@ -7,6 +7,7 @@ import { launch } from "./browser.js";
 import { serveApi } from "./packed.js";
 import type { Served } from "./serve.js";
 import { sphere } from "./solids.js";
+import { Tabs } from "./tabs.js";
 
 declare global {
   interface Window {
@@ -22,6 +23,7 @@ const heavy = sphere(10, 700).bytes;
 let served: Served;
 let browser: Browser;
 let page: Page;
+const tabs = new Tabs();
 const complaints: string[] = [];
 
 beforeAll(async () => {
@@ -35,14 +37,14 @@ afterAll(async () => {
 });
 
 beforeEach(async () => {
-  page = await browser.newPage();
+  page = await tabs.take(browser, {});
   page.on("pageerror", (error) => complaints.push(error.message));
   await page.goto(served.address);
   await page.waitForFunction(() => "api" in window);
 });
 
-afterEach(async () => {
-  await page.close();
+afterEach(async ({ task }) => {
+  await tabs.giveBack(task.result?.state === "fail");
   expect(complaints.splice(0)).toEqual([]);
 });
 

@@ -41,16 +41,22 @@ export interface Opened {
   complaints: string[];
 }
 
+/** A browser as the page's tests want it. */
+export const USUAL = {
+  locale: "en-GB",
+  viewport: { width: 1280, height: 900 },
+  // A service worker would answer requests that the tests want to answer.
+  serviceWorkers: "block",
+} as const satisfies BrowserContextOptions;
+
 /** A fresh page at `address`, whose foreign requests and errors are recorded. */
 export async function open(browser: Browser, address: string, options: BrowserContextOptions = {}): Promise<Opened> {
-  const context = await browser.newContext({
-    locale: "en-GB",
-    viewport: { width: 1280, height: 900 },
-    // A service worker would answer requests that the tests want to answer.
-    serviceWorkers: "block",
-    ...options,
-  });
-  const page = await context.newPage();
+  const context = await browser.newContext({ ...USUAL, ...options });
+  return visit(await context.newPage(), address);
+}
+
+/** Opens `address` in a tab. */
+export async function visit(page: Page, address: string): Promise<Opened> {
   const strangers: string[] = [];
   const complaints: string[] = [];
   const { origin } = new URL(address);

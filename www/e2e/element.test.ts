@@ -6,6 +6,7 @@ import { launch } from "./browser.js";
 import { servePacked } from "./packed.js";
 import type { Served } from "./serve.js";
 import { floating, prism, sphere } from "./solids.js";
+import { Tabs } from "./tabs.js";
 
 const html = `<!doctype html><html lang="de"><meta charset="utf-8" /><title>Shop</title>
 <script type="module" src="main.js"></script><body></body></html>`;
@@ -28,7 +29,7 @@ interface Told {
 
 let served: Served;
 let browser: Browser;
-const pages: Page[] = [];
+const tabs = new Tabs();
 const complaints: string[] = [];
 
 beforeAll(async () => {
@@ -41,15 +42,14 @@ afterAll(async () => {
   await served.close();
 });
 
-afterEach(async () => {
-  await Promise.all(pages.splice(0).map((page) => page.context().close()));
+afterEach(async ({ task }) => {
+  await tabs.giveBack(task.result?.state === "fail");
   expect(complaints.splice(0)).toEqual([]);
 });
 
 /** Opens a page with this in its body. */
 async function start(body: string, options: BrowserContextOptions = {}): Promise<Page> {
-  const page = await (await browser.newContext({ locale: "fr-FR", ...options })).newPage();
-  pages.push(page);
+  const page = await tabs.take(browser, { locale: "fr-FR", ...options });
   page.on("pageerror", (error) => complaints.push(error.message));
   page.on("console", (message) => {
     if (message.type() === "error") complaints.push(message.text());

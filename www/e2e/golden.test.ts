@@ -26,39 +26,54 @@ async function example(page: Page): Promise<void> {
   await expect.poll(() => page.locator("cusp-quality input[type=range]").count()).toBe(1);
 }
 
-const STATES: Readonly<Record<string, { query?: string; reach(page: Page): Promise<void> }>> = {
-  empty: { reach: async () => undefined },
-  done: { reach: example },
-  error: {
+interface Visit {
+  query?: string;
+  /** The states that the page goes through, and how each is reached from the one before. */
+  states: Readonly<Record<string, (page: Page) => Promise<void>>>;
+}
+
+const VISITS: readonly Visit[] = [
+  {
+    states: {
+      empty: async () => undefined,
+      done: example,
+      settings: async (page) => {
+        const settings = page.locator("details.settings");
+        if ((await settings.getAttribute("open")) === null) await settings.locator("summary").first().click();
+        await page.getByText("More settings").click();
+      },
+    },
+  },
+  {
     // No plan keeps this tolerance: the page says so beside the field, and offers what would help.
     query: "&metric=cusp&tolerance=0.02",
-    reach: async (page) => {
-      await drop(page, { name: "ball.stl", bytes: sphere(10, 96).bytes });
-      await state(page, "error");
+    states: {
+      error: async (page) => {
+        await drop(page, { name: "ball.stl", bytes: sphere(10, 96).bytes });
+        await state(page, "error");
+      },
     },
   },
-  settings: {
-    reach: async (page) => {
-      await example(page);
-      const settings = page.locator("details.settings");
-      if ((await settings.getAttribute("open")) === null) await settings.locator("summary").first().click();
-      await page.getByText("More settings").click();
+  {
+    states: {
+      orientation: async (page) => {
+        await example(page);
+        await page.getByRole("button", { name: "Find the best orientation" }).click();
+        await expect.poll(() => page.locator("cusp-orientation .pose canvas[data-drawn]").count()).toBe(3);
+      },
     },
   },
-  orientation: {
-    reach: async (page) => {
-      await example(page);
-      await page.getByRole("button", { name: "Find the best orientation" }).click();
-      await expect.poll(() => page.locator("cusp-orientation .pose canvas[data-drawn]").count()).toBe(3);
+  {
+    states: {
+      printed: async (page) => {
+        await example(page);
+        await page.getByRole("button", { name: "As printed" }).click();
+      },
     },
   },
-  printed: {
-    reach: async (page) => {
-      await example(page);
-      await page.getByRole("button", { name: "As printed" }).click();
-    },
-  },
-};
+];
+
+const namesOf = ({ states }: Visit): string[] => Object.keys(states);
 
 /** Widths of some letters in the page's font: other fonts break lines elsewhere, and no picture would match its golden. */
 function widths(): string {
@@ -95,31 +110,36 @@ const looks = SIZES.flatMap(([size, viewport]) =>
   THEMES.map((colorScheme) => [`${size}-${colorScheme}`, { viewport, colorScheme, reducedMotion: "reduce" }] as const),
 );
 
+/** Fails the test if the page differs from its golden; records the golden if that was asked for. */
+async function compare(page: Page, title: string): Promise<void> {
+  const screenshot = await still(page);
+  const actual = small(screenshot);
+  if (isRecording) await record(title, actual);
+  const before = await golden(title);
+  if (before === null) throw new Error(`there is no golden of ${title}: npm run goldens records it`);
+  const found = difference(before, actual);
+  if (isAlike(found)) return;
+  const folder = await keep(title, screenshot, actual);
+  // Softly, so that the states after this one are looked at, too.
+  expect.soft(found, `${title} is more than ${JSON.stringify(TOLERANCE)} off: see ${folder}`).toBeNull();
+}
+
 for (const [look, options] of looks) {
-  test.for(Object.keys(STATES))(`%s, ${look}, looks as it did`, async (name, context) => {
-    const wanted = STATES[name];
-    if (wanted === undefined) throw new Error(`no state is called ${name}`);
-    const { query = "", reach } = wanted;
+  const titled = VISITS.map((visit) => [namesOf(visit).join(", "), visit] as const);
+  test.for(titled)(`%s, ${look}, looks as it did`, async ([, { query = "", states }], context) => {
     const page = await start(`?backend=cpu${query}`, options satisfies BrowserContextOptions);
     const fonts = await page.evaluate(widths);
     if (isRecording) await recordFonts(fonts);
     else if (fonts !== (await goldenFonts())) return context.skip("the goldens were recorded with other fonts than are here");
-    await reach(page);
-    const screenshot = await still(page);
-    const actual = small(screenshot);
-    const title = `${name}-${look}`;
-    if (isRecording) await record(title, actual);
-    const before = await golden(title);
-    if (before === null) throw new Error(`there is no golden of ${title}: npm run goldens records it`);
-    const found = difference(before, actual);
-    if (isAlike(found)) return;
-    const folder = await keep(title, screenshot, actual);
-    expect.fail(`${title} is ${JSON.stringify(found)} off, more than ${JSON.stringify(TOLERANCE)}: see ${folder}`);
+    for (const [name, reach] of Object.entries(states)) {
+      await reach(page);
+      await compare(page, `${name}-${look}`);
+    }
   });
 }
 
 test("what is tolerated is less than what tells any two goldens of the same size apart", async () => {
-  const titles = looks.flatMap(([look]) => Object.keys(STATES).map((name) => `${name}-${look}`));
+  const titles = looks.flatMap(([look]) => VISITS.flatMap(namesOf).map((name) => `${name}-${look}`));
   const pictures = await Promise.all(titles.map(golden));
   for (const [i, one] of pictures.entries()) {
     for (const [j, other] of pictures.entries()) {

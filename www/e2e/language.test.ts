@@ -1,8 +1,8 @@
 /** Browsers whose language is not a BCP 47 tag: WebKit's is "C" if LANG is, others have "en-US@posix". */
 import type { Browser, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect, inject, test } from "vitest";
-import { buildPage } from "../examples/shop/build.js";
 import { drop, launch, state } from "./browser.js";
+import { builtShop } from "./built.js";
 import { servePacked } from "./packed.js";
 import type { Served } from "./serve.js";
 import { sphere } from "./solids.js";
@@ -20,7 +20,7 @@ const complaints: string[] = [];
 
 beforeAll(async () => {
   packed = await servePacked({ "index.html": html, "ball.stl": sphere(10, 96).bytes });
-  shop = await serveFolder(await buildPage(), "");
+  shop = await serveFolder(await builtShop(), "");
   browser = await launch();
 }, 240_000);
 

@@ -92,7 +92,7 @@ async function usage(page: Page, devtools: CDPSession): Promise<Usage> {
 const start = pages(SOFTWARE_GL);
 
 test("ten models in a row leave the heap where it was", async () => {
-  const page = await start();
+  const page = await start("", {}, true);
   await page.addInitScript(watchContexts);
   await page.route(/worker-[^/]*\.js$/, async (route) => {
     const answer = await route.fetch();

@@ -91,8 +91,14 @@ async function at(page: Page, side: "Front" | "Back", right: number, up: number)
 const figure = async (page: Page, name: string): Promise<string> =>
   (await panel(page).locator(".looked div").filter({ has: page.locator("dt", { hasText: name }) }).locator("dd").innerText()).replace(",", "");
 
-test("a search fills the sphere with colours, from front and behind, and offers three directions with their pictures", async () => {
+test("a search fills the sphere and offers three directions; one is applied by its button, and the sphere turns along", async () => {
   const page = await example();
+  await page.evaluate(() => {
+    document.querySelector("cusp-slicer")?.addEventListener("cusp-orientation", ({ detail }) => {
+      document.documentElement.dataset["promised"] = String(detail.metrics?.layers);
+    });
+  });
+  const before = await layers(page);
   await search(page);
   for (const side of ["Front", "Back"] as const) {
     const { red, blue, clear } = await seen(page, side);
@@ -107,21 +113,22 @@ test("a search fills the sphere with colours, from front and behind, and offers 
   const pictures = await poses.locator("canvas").evaluateAll((all) => all.map((it) => (it as HTMLCanvasElement).toDataURL()));
   const blank = await page.evaluate(() => Object.assign(document.createElement("canvas"), { width: 256, height: 256 }).toDataURL());
   expect(new Set([...pictures, blank]).size).toBe(4);
-});
 
-test("a best direction is applied by its button; the plan follows, and can be taken back", async () => {
-  const page = await example();
-  await page.evaluate(() => {
-    document.querySelector("cusp-slicer")?.addEventListener("cusp-orientation", ({ detail }) => {
-      document.documentElement.dataset["promised"] = String(detail.metrics?.layers);
-    });
-  });
-  const before = await layers(page);
-  await search(page);
+  // The sphere turns with the view.
+  const picture = (): Promise<string> => disc(page, "Front").locator("canvas").evaluate((it) => (it as HTMLCanvasElement).toDataURL());
+  const unturned = await picture();
+  await page.locator("cusp-view .scene").focus();
+  await page.keyboard.press("ArrowRight");
+  await expect.poll(picture).not.toBe(unturned);
+  const turned = await picture();
+
   // The best orientation is the current one, the next one is upside down, and in the third the goblet lies down.
-  const third = panel(page).locator(".pose").nth(2);
+  const third = poses.nth(2);
   await third.click();
   await settled(page);
+  // It turns with the model, too.
+  await expect.poll(picture).not.toBe(turned);
+  expect(await panel(page).locator(".up path").count()).toBeGreaterThan(0);
   await expect.poll(() => third.getAttribute("aria-pressed")).toBe("true");
   await expect.poll(() => layers(page)).not.toBe(before);
   const promised = Number(await page.locator("html").getAttribute("data-promised"));
@@ -132,7 +139,7 @@ test("a best direction is applied by its button; the plan follows, and can be ta
   expect(await layers(page)).toBe(before);
 });
 
-test("pointing at a direction shows its metrics, clicking it stands the model so", async () => {
+test("a direction is applied by pointing and clicking, and by arrow keys and Enter; its metrics are shown before", async () => {
   const page = await example();
   const before = await layers(page);
   await search(page);
@@ -143,7 +150,7 @@ test("pointing at a direction shows its metrics, clicking it stands the model so
   expect(Number(await figure(page, "Energy"))).toBeGreaterThan(0);
   // Another place is another direction.
   const elsewhere = await at(page, "Back", 0.2, 0.1);
-  const shown = (): Promise<string | null> => panel(page).locator(".looked").getAttribute("data-direction");
+  const shown = (): Promise<string | null> => panel(page).locator("[data-direction]").getAttribute("data-direction");
   const first = await shown();
   await page.mouse.move(elsewhere.x, elsewhere.y);
   await expect.poll(shown).not.toBe(first);
@@ -154,13 +161,13 @@ test("pointing at a direction shows its metrics, clicking it stands the model so
   await page.getByRole("button", { name: "As in the file" }).waitFor();
   expect(Math.abs((await layers(page)) - promised)).toBeLessThanOrEqual(1);
   expect(promised).not.toBe(before);
-});
 
-test("by keyboard: arrow keys go over the sphere, Enter applies", async () => {
-  const page = await example();
-  await search(page);
+  // Again by keyboard, away from the pointer.
+  await page.mouse.move(0, 0);
+  await page.getByRole("button", { name: "Undo" }).click();
+  await settled(page);
+  expect(await layers(page)).toBe(before);
   await panel(page).getByRole("application", { name: "Sphere of directions" }).focus();
-  const shown = (): Promise<string | null> => panel(page).locator("[data-direction]").getAttribute("data-direction");
   const passed = new Set<string | null>();
   await page.keyboard.press("ArrowDown");
   passed.add(await shown());
@@ -170,10 +177,11 @@ test("by keyboard: arrow keys go over the sphere, Enter applies", async () => {
     await expect.poll(async () => before.includes(await shown())).toBe(false);
     passed.add(await shown());
   }
-  const promised = Number(await figure(page, "Layers"));
+  const next = Number(await figure(page, "Layers"));
   await page.keyboard.press("Enter");
   await settled(page);
-  expect(Math.abs((await layers(page)) - promised)).toBeLessThanOrEqual(1);
+  await page.getByRole("button", { name: "As in the file" }).waitFor();
+  expect(Math.abs((await layers(page)) - next)).toBeLessThanOrEqual(1);
 });
 
 test("the first touch shows a direction's metrics, the second applies it", async () => {
@@ -188,20 +196,6 @@ test("the first touch shows a direction's metrics, the second applies it", async
   await page.touchscreen.tap(x, y);
   await page.getByRole("button", { name: "As in the file" }).waitFor();
   await settled(page);
-});
-
-test("the sphere turns with the view and with the model; up is marked", async () => {
-  const page = await example();
-  await search(page);
-  const picture = (): Promise<string> => disc(page, "Front").locator("canvas").evaluate((it) => (it as HTMLCanvasElement).toDataURL());
-  const before = await picture();
-  await page.locator("cusp-view .scene").focus();
-  await page.keyboard.press("ArrowRight");
-  await expect.poll(picture).not.toBe(before);
-  const turned = await picture();
-  await panel(page).locator(".pose").nth(1).click();
-  await expect.poll(picture).not.toBe(turned);
-  expect(await panel(page).locator(".up path").count()).toBeGreaterThan(0);
 });
 
 test("what counts may change without measuring again, and settings that matter make it out of date", async () => {

@@ -7,7 +7,7 @@ import { fileURLToPath } from "node:url";
 import { decode } from "fast-png";
 import type { Browser, Page } from "playwright-core";
 import { expect } from "vitest";
-import { main as pack } from "../package/build.js";
+import { builtPackage } from "./built.js";
 import type { Served } from "./serve.js";
 import { sphere } from "./solids.js";
 
@@ -29,8 +29,7 @@ export interface Workplace {
 
 /** Packs the package and installs it from its tarball, once for all pages. */
 export async function workplace(): Promise<Workplace> {
-  await pack();
-  const packed = join(www, "dist-package");
+  const packed = await builtPackage();
   const [tarball = ""] = (await readdir(packed)).filter((name) => name.endsWith(".tgz"));
   const root = await mkdtemp(join(tmpdir(), "cusp-apps-"));
   const [bare, folder] = [join(root, "bare"), join(root, "full")];

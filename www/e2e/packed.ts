@@ -2,16 +2,13 @@
 import { cp, mkdtemp, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { fileURLToPath } from "node:url";
-import { main as pack } from "../package/build.js";
+import { builtPackage } from "./built.js";
 import type { Served } from "./serve.js";
 import { serveFolder } from "./static.js";
 
-const packed = fileURLToPath(new URL("../dist-package", import.meta.url));
-
 /** `files` by name; the package is in `cusp-slicer/`. */
 export async function servePacked(files: Readonly<Record<string, string | Uint8Array>>): Promise<Served> {
-  await pack();
+  const packed = await builtPackage();
   const folder = await mkdtemp(join(tmpdir(), "cusp-packed-"));
   await cp(packed, join(folder, "cusp-slicer"), { recursive: true });
   for (const [name, content] of Object.entries(files)) await writeFile(join(folder, name), content);

@@ -1,14 +1,17 @@
-/** Pages for a test file: one browser for all, a fresh context for each page, and no unnoticed errors at the end. */
-import type { Browser, Page } from "playwright-core";
+/** Pages for a test file: one browser for all, a few tabs that they share, and no unnoticed errors at the end. */
+import type { Browser, BrowserContextOptions, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect, inject } from "vitest";
-import { launch, open, type Opened } from "./browser.js";
+import { launch, USUAL, visit, type Opened } from "./browser.js";
+import { Tabs } from "./tabs.js";
 
-export type Start = (query?: string, options?: Parameters<typeof open>[2]) => Promise<Page>;
+/** @param isOwn see {@link Tabs.take} */
+export type Start = (query?: string, options?: BrowserContextOptions, isOwn?: boolean) => Promise<Page>;
 
 /** Call once at the top of a test file; returns a function that opens a page there. */
 export function pages(flags: readonly string[] = []): Start {
   let browser: Browser;
   let opened: Opened[] = [];
+  const tabs = new Tabs();
 
   beforeAll(async () => {
     browser = await launch(flags);
@@ -18,17 +21,18 @@ export function pages(flags: readonly string[] = []): Start {
     await browser.close();
   });
 
-  afterEach(async () => {
+  afterEach(async ({ task }) => {
     const closing = opened;
     opened = [];
-    await Promise.all(closing.map(({ page }) => page.context().close()));
+    await tabs.giveBack(task.result?.state === "fail");
     // In every test, no request left the page and no error went unnoticed.
     expect(closing.flatMap(({ strangers }) => strangers)).toEqual([]);
     expect(closing.flatMap(({ complaints }) => complaints)).toEqual([]);
   });
 
-  return async (query = "", options = {}) => {
-    const it = await open(browser, inject("address") + query, options);
+  return async (query = "", options = {}, isOwn = false) => {
+    const tab = await tabs.take(browser, { ...USUAL, ...options }, isOwn);
+    const it = await visit(tab, inject("address") + query);
     opened.push(it);
     return it.page;
   };

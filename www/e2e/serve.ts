@@ -1,6 +1,9 @@
 /** Serves the built page on a free port of this machine, for the tests and for the tools beside them. */
 import { existsSync } from "node:fs";
+import { mkdtemp, rm } from "node:fs/promises";
 import { createServer } from "node:net";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { preview } from "vite";
 import type { TestProject } from "vitest/node";
@@ -10,6 +13,8 @@ const root = fileURLToPath(new URL("..", import.meta.url));
 declare module "vitest" {
   interface ProvidedContext {
     address: string;
+    /** A folder of this run of the tests. */
+    scratch: string;
   }
 }
 
@@ -34,8 +39,13 @@ export async function serve(): Promise<Served> {
 /** Vitest's global set-up. */
 export default async function setup(project: TestProject): Promise<() => Promise<void>> {
   const served = await serve();
+  const scratch = await mkdtemp(join(tmpdir(), "cusp-e2e-"));
   project.provide("address", served.address);
-  return () => served.close();
+  project.provide("scratch", scratch);
+  return async () => {
+    await served.close();
+    await rm(scratch, { recursive: true });
+  };
 }
 
 export function freePort(): Promise<number> {

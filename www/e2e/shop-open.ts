@@ -3,9 +3,9 @@ import { mkdtemp, readdir, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterAll, afterEach, beforeAll, expect } from "vitest";
-import { buildPage } from "../examples/shop/build.js";
 import { PRINTERS, RESINS, type ShopPrinter, type ShopResin } from "../examples/shop/catalogue.js";
 import { createShop, type Limits, type Shop } from "../examples/shop/server/shop.js";
+import { builtShop } from "./built.js";
 
 /** The resin and the printer of test orders. */
 export const [resin, printer] = [RESINS[1], PRINTERS[0]].map((it) => {
@@ -35,7 +35,7 @@ export function shops(): Shops {
   const opened: Shop[] = [];
 
   beforeAll(async () => {
-    built = await buildPage();
+    built = await builtShop();
     root = await mkdtemp(join(tmpdir(), "cusp-shop-test-"));
   }, 120_000);
 

@@ -3,6 +3,7 @@ import { decode } from "fast-png";
 import type { Browser, BrowserContextOptions, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect } from "vitest";
 import { launch } from "./browser.js";
+import { Tabs } from "./tabs.js";
 import type { Harness, Heard } from "./view-page/main.js";
 import { serveView } from "./view-serve.js";
 
@@ -12,18 +13,21 @@ declare global {
   }
 }
 
-/** Draws in software, so that WebGL works without a GPU. */
-export const SOFTWARE_GL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+/**
+ * Lets WebGL draw in software, without a GPU. The rest of the page needs no such thing: put together by the same software GPU
+ * (`--use-angle=swiftshader`), it would cost more than what WebGL draws.
+ */
+export const SOFTWARE_GL = ["--enable-unsafe-swiftshader"];
 
 export interface Prepared extends BrowserContextOptions {
-  /** Runs in the page before anything else. */
+  /** Runs in the page before anything else; the tab is then the test's own. */
   before?: () => void;
 }
 
 export function viewPages(): (options?: Prepared) => Promise<Page> {
   let browser: Browser;
   let served: Awaited<ReturnType<typeof serveView>>;
-  let opened: Page[] = [];
+  const tabs = new Tabs();
   let complaints: string[] = [];
 
   beforeAll(async () => {
@@ -36,23 +40,16 @@ export function viewPages(): (options?: Prepared) => Promise<Page> {
     await served.close();
   });
 
-  afterEach(async () => {
-    const closing = opened;
+  afterEach(async ({ task }) => {
     const said = complaints;
-    opened = [];
     complaints = [];
-    await Promise.all(closing.map((page) => page.context().close()));
+    await tabs.giveBack(task.result?.state === "fail");
     expect(said).toEqual([]);
   });
 
   return async ({ before, ...options } = {}) => {
-    const context = await browser.newContext({
-      locale: "en-GB",
-      viewport: { width: 640, height: 640 },
-      reducedMotion: "reduce",
-      ...options,
-    });
-    const page = await context.newPage();
+    const usual = { locale: "en-GB", viewport: { width: 640, height: 640 }, reducedMotion: "reduce" } as const;
+    const page = await tabs.take(browser, { ...usual, ...options }, before !== undefined);
     page.on("pageerror", (error) => complaints.push(error.message));
     page.on("console", (message) => {
       if (message.type() === "error") complaints.push(message.text());
@@ -60,7 +57,6 @@ export function viewPages(): (options?: Prepared) => Promise<Page> {
     if (before !== undefined) await page.addInitScript(before);
     await page.goto(served.address);
     await page.waitForFunction(() => "harness" in window);
-    opened.push(page);
     return page;
   };
 }
