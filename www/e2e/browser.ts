@@ -1,5 +1,6 @@
 /** A real headless Chromium, and the actions of a user on the page. */
 import { existsSync } from "node:fs";
+import { readFile } from "node:fs/promises";
 import { delimiter, join } from "node:path";
 import { chromium, type Browser, type BrowserContextOptions, type Download, type Page } from "playwright-core";
 
@@ -140,4 +141,10 @@ export async function download(page: Page): Promise<Download> {
     page.getByRole("button", { name: /Download print file/ }).click(),
   ]);
   return file;
+}
+
+/** The bytes of a print file that is downloaded. */
+export async function downloaded(page: Page): Promise<Buffer> {
+  const file = await download(page);
+  return readFile(await file.path());
 }

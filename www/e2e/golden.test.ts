@@ -1,7 +1,7 @@
 /** Compares the page with recorded pictures of it: `npm run goldens` records them again. */
 import type { BrowserContextOptions, Page, PageScreenshotOptions } from "playwright-core";
 import { expect, test } from "vitest";
-import { drop, state } from "./browser.js";
+import { downloaded, drop, state } from "./browser.js";
 import { difference, golden, goldenFonts, isAlike, keep, record, recordFonts, small, TOLERANCE } from "./golden.js";
 import { pages } from "./pages.js";
 import { sphere } from "./solids.js";
@@ -68,6 +68,17 @@ const VISITS: readonly Visit[] = [
       printed: async (page) => {
         await example(page);
         await page.getByRole("button", { name: "As printed" }).click();
+      },
+    },
+  },
+  {
+    // The example's own print file, dropped again.
+    query: "&printer=ld-002h",
+    states: {
+      print: async (page) => {
+        await example(page);
+        await drop(page, { name: "goblet.ctb", bytes: await downloaded(page) });
+        await page.locator("cusp-print canvas[data-layer]").waitFor();
       },
     },
   },

@@ -2,7 +2,7 @@
 import { mkdir, stat } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
 import type { BrowserContextOptions, Page } from "playwright-core";
-import { launch, maskOf, open, state } from "./browser.js";
+import { downloaded, drop, launch, maskOf, open, state } from "./browser.js";
 import { serve } from "./serve.js";
 
 /** Everyone who clones the repository fetches its pictures. */
@@ -10,6 +10,7 @@ const LIMIT_BYTES = 200_000;
 
 interface Shot {
   name: string;
+  query?: string;
   options: BrowserContextOptions;
   /** Takes the picture, if it is not of the page from its top. */
   take?: (page: Page, path: string) => Promise<unknown>;
@@ -31,6 +32,15 @@ async function distances(page: Page, path: string): Promise<void> {
   await page.locator("cusp-view").screenshot({ path });
 }
 
+/** The example's own print file, dropped again. */
+async function printFile(page: Page, path: string): Promise<void> {
+  await drop(page, { name: "goblet.goo", bytes: await downloaded(page) });
+  await page.locator("cusp-print canvas[data-layer]").waitFor();
+  // Software draws the surface late.
+  await page.waitForTimeout(8000);
+  await page.screenshot({ path });
+}
+
 /** The page from its top: the whole page would be too large a picture. */
 async function top(page: Page, path: string): Promise<void> {
   await page.evaluate(() => scrollTo(0, 0));
@@ -44,6 +54,7 @@ const SHOTS: readonly Shot[] = [
   { name: "page-narrow", options: { viewport: { width: 390, height: 1500 } } },
   { name: "page-orientation", options: { viewport: { width: 1180, height: 780 } }, take: orientation },
   { name: "page-distance", options: { viewport: { width: 1180, height: 780 } }, take: distances },
+  { name: "page-print-file", query: "?printer=mars-4-ultra", options: { viewport: { width: 1180, height: 580 } }, take: printFile },
 ];
 
 export async function main([folder]: string[]): Promise<void> {
@@ -52,8 +63,8 @@ export async function main([folder]: string[]): Promise<void> {
   const served = await serve();
   const browser = await launch();
   try {
-    for (const { name, options, take = top } of SHOTS) {
-      const { page } = await open(browser, served.address, { reducedMotion: "reduce", ...options });
+    for (const { name, query = "", options, take = top } of SHOTS) {
+      const { page } = await open(browser, served.address + query, { reducedMotion: "reduce", ...options });
       await page.getByRole("button", { name: "Try the example" }).click();
       await state(page, "done");
       await page.waitForSelector("canvas[data-layer]");
