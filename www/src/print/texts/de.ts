@@ -11,7 +11,7 @@ export const words = ({ count, counted }: Format): PrintWords => ({
   another: "Andere Datei öffnen",
   reading: (name) => `${name} wird gelesen`,
   cancel: "Abbrechen",
-  whole: "Die Datei ist vollständig: Jede Schicht lässt sich lesen, und die Höhen steigen von der Plattform an.",
+  whole: "Die Datei ist vollständig: Jede Schicht lässt sich lesen, und die Höhen steigen von der Platte an.",
   warnings: (number) => (number === 1 ? "Ein Hinweis" : `${count(number)} Hinweise`),
   facts: {
     format: "Format",
@@ -22,7 +22,7 @@ export const words = ({ count, counted }: Format): PrintWords => ({
     layers: "Schichten",
     height: "Höhe",
     exposure: "Belichtung",
-    bottom: "Grundschichten",
+    bottom: "Bodenschichten",
     time: "Druckzeit",
     resin: "Harz",
   },
@@ -58,7 +58,7 @@ export const faults = ({ count }: Format): FaultSentences => ({
 export const findings = ({ count, counted, mm, height }: Format): FindingSentences => ({
   "no-layers": () => "Die Datei hat keine Schichten; zerlegen Sie das Modell noch einmal.",
   "first-layer-below-plate": ({ z_mm }) =>
-    `Die erste Schicht endet bei ${mm(z_mm)}, also nicht über der Plattform; zerlegen Sie das Modell noch einmal.`,
+    `Die erste Schicht endet bei ${mm(z_mm)}, also nicht über der Platte; zerlegen Sie das Modell noch einmal.`,
   "heights-not-ascending": ({ layers, first_layer, z_mm, below_mm }) =>
     `${counted(layers, { one: "Schicht liegt", other: "Schichten liegen" })} nicht über der vorigen, zuerst Schicht ${count(first_layer)} bei ${mm(z_mm)} nach ${mm(below_mm)}; zerlegen Sie das Modell noch einmal.`,
   "ignored-heights": ({ thinnest_mm, thickest_mm, layer_mm }) =>

@@ -22,7 +22,7 @@ export const words = ({ count, counted }: Format): PrintWords => ({
     layers: "Couches",
     height: "Hauteur",
     exposure: "Exposition",
-    bottom: "Couches de base",
+    bottom: "Couches de fond",
     time: "Temps d’impression",
     resin: "Résine",
   },
