@@ -14,7 +14,11 @@ fuzz_target!(|bytes: &[u8]| {
         return;
     };
     let about = file.about();
-    if about.mask_pixels().saturating_mul(file.layers().len() as u64) > MOST_PIXELS {
+    if about
+        .mask_pixels()
+        .saturating_mul(file.layers().len() as u64)
+        > MOST_PIXELS
+    {
         return;
     }
     let mut masks = Vec::new();

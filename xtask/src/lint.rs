@@ -12,15 +12,21 @@ use crate::{
 /// Runs all checks, each regardless of the others. Returns `false` if one failed;
 /// a check that cannot run has failed.
 pub fn run(project: &Project) -> bool {
-    let checks: [(&str, &dyn Fn() -> Result<()>); 7] = [
+    let checks: [(&str, &dyn Fn() -> Result<()>); 9] = [
         ("modules", &|| modules::check(project)),
         ("fmt", &|| {
             process::run(cargo(project).args(["fmt", "--all", "--check"]))
         }),
         // Clippy would have to compile all that its tests need a second time.
-        ("fmt of peers", &|| {
-            let manifest = ["--manifest-path", "peers/Cargo.toml"];
-            process::run(cargo(project).arg("fmt").args(manifest).arg("--check"))
+        ("fmt of peers", &|| format_apart(project, "peers/Cargo.toml")),
+        ("fmt of fuzz", &|| format_apart(project, "fuzz/Cargo.toml")),
+        // Nothing else compiles it: it needs a nightly compiler to run.
+        ("check of fuzz", &|| {
+            process::run(
+                cargo(project)
+                    .args(["check", "--manifest-path", "fuzz/Cargo.toml"])
+                    .env("CARGO_TARGET_DIR", project.target.join("fuzz")),
+            )
         }),
         ("clippy", &|| {
             process::run(
@@ -52,6 +58,11 @@ pub fn run(project: &Project) -> bool {
         println!("lint: FAILED: {}", failed.join(", "));
     }
     failed.is_empty()
+}
+
+/// Checks the format of a workspace of its own.
+fn format_apart(project: &Project, manifest: &str) -> Result<()> {
+    process::run(cargo(project).args(["fmt", "--manifest-path", manifest, "--check"]))
 }
 
 /// Lints the TypeScript. Its rules know types, and without those that the wasm
