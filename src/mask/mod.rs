@@ -200,10 +200,29 @@ pub fn black_layers(solid: &Solid, plan: &Plan, samples: Samples) -> Vec<usize> 
 }
 
 /// A pixel of the window, and the number of its samples that a layer lights more (or fewer) than the layer below.
+///
+/// Eight bytes, since writing and sorting changes is bound by memory: plans have fewer than two million layers.
 struct Change {
-    layer: u32,
     pixel: u32,
-    by: i8,
+    /// The layer in the upper 24 bits, the number of samples in the lower eight.
+    layer_and_by: u32,
+}
+
+impl Change {
+    fn new(layer: u32, pixel: u32, by: i8) -> Self {
+        Self {
+            pixel,
+            layer_and_by: layer << 8 | u32::from(by.cast_unsigned()),
+        }
+    }
+
+    fn layer(&self) -> usize {
+        (self.layer_and_by >> 8) as usize
+    }
+
+    fn by(&self) -> i8 {
+        self.layer_and_by as i8
+    }
 }
 
 /// Calls `emit` for each layer that changes if a ray of a pixel changes at a sublayer: the layer of that sublayer, and the
@@ -212,7 +231,7 @@ fn each_change(sublayer: u32, parts: u32, sign: i8, pixel: u32, emit: &mut impl 
     let (layer, below) = (sublayer / parts, sublayer % parts);
     let mut change = |layer, parts: u32| {
         let by = sign * parts as i8;
-        emit(Change { layer, pixel, by });
+        emit(Change::new(layer, pixel, by));
     };
     change(layer, parts - below);
     if below > 0 {
@@ -224,11 +243,11 @@ impl Band {
     /// Sorts changes by layer with a counting sort.
     fn new(area: Range<u32>, layers: usize, samples: Samples, mut changes: Vec<Change>) -> Self {
         // Changes above the last layer belong to no mask.
-        changes.retain(|change| (change.layer as usize) < layers);
+        changes.retain(|change| change.layer() < layers);
         // Counts are stored one slot ahead: filling then advances each start to where it belongs.
         let mut starts = vec![0u32; layers + 2];
         for change in &changes {
-            starts[change.layer as usize + 2] += 1;
+            starts[change.layer() + 2] += 1;
         }
         for layer in 2..starts.len() {
             starts[layer] += starts[layer - 1];
@@ -237,10 +256,10 @@ impl Band {
         let mut pixels = vec![0u32; changes.len()];
         let mut by = vec![0i8; if is_one { 0 } else { changes.len() }];
         for change in &changes {
-            let slot = &mut starts[change.layer as usize + 1];
+            let slot = &mut starts[change.layer() + 1];
             pixels[*slot as usize] = change.pixel;
             if !is_one {
-                by[*slot as usize] = change.by;
+                by[*slot as usize] = change.by();
             }
             *slot += 1;
         }

@@ -56,7 +56,7 @@ pub(super) struct SublayerOf {
     middles_mm: Vec<f64>,
     /// For every bin, a lower bound of the answer for heights in it.
     first: Vec<u32>,
-    bin_mm: f64,
+    bins_per_mm: f64,
 }
 
 impl SublayerOf {
@@ -66,7 +66,7 @@ impl SublayerOf {
         let mut sublayer = 0;
         let first = (0..=top)
             .map(|bin| {
-                // One bin of margin for rounding in the division in `first_above`.
+                // One bin of margin for rounding in `first_above`.
                 let floor_mm = (f64::from(bin) - 1.0) * plan.bins.size_mm;
                 while middles_mm
                     .get(sublayer as usize)
@@ -80,13 +80,13 @@ impl SublayerOf {
         Self {
             middles_mm,
             first,
-            bin_mm: plan.bins.size_mm,
+            bins_per_mm: 1.0 / plan.bins.size_mm,
         }
     }
 
     pub fn first_above(&self, z_mm: f32) -> u32 {
         let z_mm = f64::from(z_mm);
-        let bin = ((z_mm / self.bin_mm) as usize).min(self.first.len() - 1);
+        let bin = ((z_mm * self.bins_per_mm) as usize).min(self.first.len() - 1);
         let mut sublayer = self.first[bin];
         while self
             .middles_mm
