@@ -18,7 +18,9 @@ pub fn run(project: &Project) -> bool {
             process::run(cargo(project).args(["fmt", "--all", "--check"]))
         }),
         // Clippy would have to compile all that its tests need a second time.
-        ("fmt of peers", &|| format_apart(project, "peers/Cargo.toml")),
+        ("fmt of peers", &|| {
+            format_apart(project, "peers/Cargo.toml")
+        }),
         ("fmt of fuzz", &|| format_apart(project, "fuzz/Cargo.toml")),
         // Nothing else compiles it: it needs a nightly compiler to run.
         ("check of fuzz", &|| {

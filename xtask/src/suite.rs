@@ -103,7 +103,10 @@ impl Step {
                 )
             }
             Self::Peers => cargo_test(&mut peers(project), scratch),
-            Self::Gpu => gpu_on_swiftshader(project, scratch),
+            Self::Gpu => {
+                ensure_vulkan();
+                gpu_on_swiftshader(project, scratch)
+            }
             Self::Build => {
                 wasm::build(project)?;
                 node::build_page(project)?;
