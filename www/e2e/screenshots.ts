@@ -54,7 +54,7 @@ const SHOTS: readonly Shot[] = [
   { name: "page-narrow", options: { viewport: { width: 390, height: 1500 } } },
   { name: "page-orientation", options: { viewport: { width: 1180, height: 780 } }, take: orientation },
   { name: "page-distance", options: { viewport: { width: 1180, height: 780 } }, take: distances },
-  { name: "page-print-file", query: "?printer=mars-4-ultra", options: { viewport: { width: 1180, height: 580 } }, take: printFile },
+  { name: "page-print-file", query: "?printer=mars-4-ultra", options: { viewport: { width: 1040, height: 540 } }, take: printFile },
 ];
 
 export async function main([folder]: string[]): Promise<void> {
