@@ -2,7 +2,7 @@
 
 #![no_main]
 
-use cusp_slicer::archive::read::{PrintFile, Slab, inspect_masks, surface};
+use cusp_slicer::archive::read::{PrintFile, inspect_masks, surface};
 use cusp_slicer::progress::silent;
 use libfuzzer_sys::fuzz_target;
 
@@ -27,15 +27,7 @@ fuzz_target!(|bytes: &[u8]| {
     for warning in &inspection.warnings {
         let _ = warning.to_string();
     }
-    let layers = masks.iter().zip(file.layers());
-    let slabs: Vec<Slab<'_>> = layers
-        .map(|(mask, layer)| Slab {
-            mask,
-            z_mm: layer.z_mm,
-            thickness_mm: layer.thickness_mm,
-        })
-        .collect();
-    surface(&slabs, about.pixels, about.pixel_mm);
+    surface(file.layers(), &masks, about.pixels, about.pixel_mm);
     for place in 0..file.previews() {
         file.preview(place);
     }

@@ -7,7 +7,7 @@
 use std::ops::ControlFlow;
 
 use cusp_slicer::archive::read::{
-    About, Inspection, Mask, Preview, PrintFile, PrintFileError, Slab, inspect_masks, surface,
+    About, Inspection, Mask, Preview, PrintFile, PrintFileError, inspect_masks, surface,
 };
 use js_sys::{Function, JSON, Reflect, Uint8ClampedArray};
 use serde::Serialize;
@@ -110,16 +110,9 @@ impl PrintReader {
     /// The surface of what is printed, coarse enough to look at: nine numbers per facet, in millimetres. Needs an inspection.
     pub fn surface(&self) -> Vec<f32> {
         let about = self.file.about();
-        let layers = self.masks.iter().zip(self.file.layers());
-        let slabs: Vec<Slab<'_>> = layers
-            .map(|(mask, layer)| Slab {
-                mask,
-                z_mm: layer.z_mm,
-                thickness_mm: layer.thickness_mm,
-            })
-            .collect();
         surface(
-            &slabs,
+            self.file.layers(),
+            &self.masks,
             across(about, about.pixels),
             across(about, about.pixel_mm),
         )

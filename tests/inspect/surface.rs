@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use cusp_slicer::archive::read::{Mask, PrintFile, Slab, inspect, inspect_masks, surface};
+use cusp_slicer::archive::read::{Layer, Mask, PrintFile, inspect, inspect_masks, surface};
 use cusp_slicer::job::{Backend, Options, Slicer};
 use cusp_slicer::progress::silent;
 
@@ -44,6 +44,14 @@ fn is_closed(facets: &[Corners]) -> bool {
     edges.values().all(|&count| count == 0)
 }
 
+fn layer(z_mm: f64, thickness_mm: f64) -> Layer {
+    Layer {
+        z_mm,
+        thickness_mm,
+        ..Layer::default()
+    }
+}
+
 /// A disk in a square of pixels.
 fn disk(pixels: u32, radius: f64) -> Mask {
     let middle = f64::from(pixels) / 2.0;
@@ -73,14 +81,10 @@ fn a_cylinder_is_closed_upright_and_as_large_as_it_prints() {
         let radius = f64::from(pixels) / 2.0 - 3.0;
         let mask = disk(pixels, radius);
         let thickness_mm = 12.0 / f64::from(layers);
-        let slabs: Vec<Slab<'_>> = (1..=layers)
-            .map(|layer| Slab {
-                mask: &mask,
-                z_mm: f64::from(layer) * thickness_mm,
-                thickness_mm,
-            })
-            .collect();
-        let facets = facets(&surface(&slabs, [pixels; 2], pixel_mm));
+        let tops = (1..=layers).map(|layer| f64::from(layer) * thickness_mm);
+        let printed: Vec<Layer> = tops.map(|z_mm| layer(z_mm, thickness_mm)).collect();
+        let masks = vec![mask; printed.len()];
+        let facets = facets(&surface(&printed, &masks, [pixels; 2], pixel_mm));
         assert!(is_closed(&facets));
         let expected = std::f64::consts::PI * radius * radius * pixel_mm[0] * pixel_mm[1] * 12.0;
         let ratio = volume(&facets) / expected;
@@ -107,29 +111,19 @@ fn a_cylinder_is_closed_upright_and_as_large_as_it_prints() {
 
 #[test]
 fn a_lone_pixel_and_a_thin_wall_have_a_surface_and_nothing_has_none() {
-    let slab = |mask| Slab {
-        mask,
-        z_mm: 0.05,
-        thickness_mm: 0.05,
+    let of = |mask: Mask, z_mm: f64, pixels: [u32; 2]| {
+        surface(&[layer(z_mm, z_mm)], &[mask], pixels, [0.05; 2])
     };
     let one = Mask::of_rows([&[][..], &[2, 3]].into_iter());
-    let lone = facets(&surface(&[slab(&one)], [5, 4], [0.05; 2]));
+    let lone = facets(&of(one, 0.05, [5, 4]));
     assert!(is_closed(&lone));
     assert!(volume(&lone) > 0.0);
     // Half a cell wide, and as high as one.
     let wall = Mask::of_rows([&[0, 320][..]].into_iter());
-    let wall = facets(&surface(
-        &[Slab {
-            thickness_mm: 0.1,
-            z_mm: 0.1,
-            ..slab(&wall)
-        }],
-        [320, 3],
-        [0.05; 2],
-    ));
+    let wall = facets(&of(wall, 0.1, [320, 3]));
     assert!(is_closed(&wall) && !wall.is_empty());
-    assert!(surface(&[slab(&Mask::default())], [5, 4], [0.05; 2]).is_empty());
-    assert!(surface(&[], [5, 4], [0.05; 2]).is_empty());
+    assert!(of(Mask::default(), 0.05, [5, 4]).is_empty());
+    assert!(surface(&[], &[], [5, 4], [0.05; 2]).is_empty());
 }
 
 #[test]
@@ -157,15 +151,12 @@ fn masks_of_an_inspection_are_those_of_the_layers() {
         let layers = 0..file.layers().len();
         let expected = layers.map(|layer| file.mask(layer, about.flips()).unwrap());
         assert!(masks.iter().cloned().eq(expected), "{name}");
-        let layers = masks.iter().zip(file.layers());
-        let slabs: Vec<Slab<'_>> = layers
-            .map(|(mask, layer)| Slab {
-                mask,
-                z_mm: layer.z_mm,
-                thickness_mm: layer.thickness_mm,
-            })
-            .collect();
-        let facets = facets(&surface(&slabs, about.pixels, about.pixel_mm));
+        let facets = facets(&surface(
+            file.layers(),
+            &masks,
+            about.pixels,
+            about.pixel_mm,
+        ));
         assert!(is_closed(&facets), "{name}");
         let ratio = volume(&facets) / inspection.lit_volume_ml / 1e3;
         assert!((0.97..1.08).contains(&ratio), "{name}: {ratio}");

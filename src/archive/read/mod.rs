@@ -50,7 +50,7 @@ pub use finding::Finding;
 pub use mask::{Flips, Mask, changes_up_to, combine};
 pub use report::{Inspection, LayerInspection, PreviewSize, inspect, inspect_masks};
 pub use runs::Sink;
-pub use surface::{Slab, surface};
+pub use surface::surface;
 
 use crate::format::Format;
 use crate::grid::MAX_SIDE;

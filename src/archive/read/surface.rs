@@ -1,36 +1,36 @@
 //! The surface of what a print file prints, coarse enough to look at: the masks, averaged over a grid of cubes, and the surface
 //! nets of the grid (Gibson, Constrained Elastic Surface Nets, 1998).
 
-use super::Mask;
+use super::{Layer, Mask};
 use crate::grid::MAX_SIDE;
-
-/// A layer to be printed.
-#[derive(Debug, Clone, Copy)]
-pub struct Slab<'a> {
-    /// Its lit pixels.
-    pub mask: &'a Mask,
-    /// Its top, in millimetres above the plate.
-    pub z_mm: f64,
-    /// Its thickness, in millimetres.
-    pub thickness_mm: f64,
-}
 
 /// Cells along the longest side.
 const CELLS: f64 = 160.0;
 /// Part of a cell that is lit where the surface is: less than half, so that thin walls stay.
 const LEVEL: f32 = 0.3;
 
-/// The surface as facets: nine numbers each, in millimetres, with the middle of the masks at x = y = 0, counter-clockwise
-/// seen from outside. It is about as coarse as a 160th of the longest side; what is thinner than a third of that may be missing.
+/// The surface of layers with these masks, from the plate upward, as facets: nine numbers each, in millimetres, with the middle
+/// of the masks at x = y = 0, counter-clockwise seen from outside. It is about as coarse as a 160th of the longest side; what is
+/// thinner than a third of that may be missing.
 ///
 /// `pixels` are columns and rows, and `pixel_mm` the sides of a pixel, both as the masks have them.
-pub fn surface(slabs: &[Slab<'_>], pixels: [u32; 2], pixel_mm: [f64; 2]) -> Vec<f32> {
-    let slabs: Vec<Slab<'_>> = slabs
-        .iter()
-        .copied()
-        .filter(|slab| slab.thickness_mm > 0.0 && !slab.mask.rows().is_empty())
-        .collect();
+pub fn surface(layers: &[Layer], masks: &[Mask], pixels: [u32; 2], pixel_mm: [f64; 2]) -> Vec<f32> {
+    let slabs = layers.iter().zip(masks).map(|(layer, mask)| Slab {
+        mask,
+        z_mm: layer.z_mm,
+        thickness_mm: layer.thickness_mm,
+    });
+    let is_printed = |slab: &Slab<'_>| slab.thickness_mm > 0.0 && !slab.mask.rows().is_empty();
+    let slabs: Vec<Slab<'_>> = slabs.filter(is_printed).collect();
     Cells::of(&slabs, pixels, pixel_mm).map_or_else(Vec::new, |cells| cells.net())
+}
+
+/// A layer that is printed.
+struct Slab<'a> {
+    mask: &'a Mask,
+    /// Its top.
+    z_mm: f64,
+    thickness_mm: f64,
 }
 
 /// How much of each cell of a grid is lit.
