@@ -27,7 +27,12 @@ fuzz_target!(|bytes: &[u8]| {
     for warning in &inspection.warnings {
         let _ = warning.to_string();
     }
-    surface(file.layers(), &masks, about.pixels, about.pixel_mm);
+    surface(
+        file.layers(),
+        &masks,
+        about.pixels_from_above(),
+        about.pixel_mm_from_above(),
+    );
     for place in 0..file.previews() {
         file.preview(place);
     }

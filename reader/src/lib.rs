@@ -7,7 +7,7 @@
 use std::ops::ControlFlow;
 
 use cusp_slicer::archive::read::{
-    About, Inspection, Mask, Preview, PrintFile, PrintFileError, inspect_masks, surface,
+    Inspection, Mask, Preview, PrintFile, PrintFileError, inspect_masks, surface,
 };
 use js_sys::{Function, JSON, Reflect, Uint8ClampedArray};
 use serde::Serialize;
@@ -82,14 +82,12 @@ impl PrintReader {
 
     /// Columns and rows of the masks, seen from above.
     pub fn pixels(&self) -> Vec<u32> {
-        let about = self.file.about();
-        across(about, about.pixels).to_vec()
+        self.file.about().pixels_from_above().to_vec()
     }
 
     /// Sides of their pixels in x and y, in millimetres.
     pub fn pixel_mm(&self) -> Vec<f64> {
-        let about = self.file.about();
-        across(about, about.pixel_mm).to_vec()
+        self.file.about().pixel_mm_from_above().to_vec()
     }
 
     /// The mask of a layer, seen from above: one bit per pixel, rows from the top, most significant bit first, ⌈width / 8⌉
@@ -98,7 +96,7 @@ impl PrintReader {
     /// # Errors
     /// Throws a `ReaderError` if the layer is damaged.
     pub fn mask(&self, layer: usize) -> Result<Vec<u8>, JsValue> {
-        let [width, height] = across(self.file.about(), self.file.about().pixels);
+        let [width, height] = self.file.about().pixels_from_above();
         if let Some(mask) = self.masks.get(layer) {
             return Ok(mask.bits(width, height));
         }
@@ -113,8 +111,8 @@ impl PrintReader {
         surface(
             self.file.layers(),
             &self.masks,
-            across(about, about.pixels),
-            across(about, about.pixel_mm),
+            about.pixels_from_above(),
+            about.pixel_mm_from_above(),
         )
     }
 
@@ -143,9 +141,4 @@ impl PrintReader {
         }
         picture.into()
     }
-}
-
-/// Values of x and y of stored masks, as seen from above.
-fn across<T>(about: &About, [x, y]: [T; 2]) -> [T; 2] {
-    if about.is_turned { [y, x] } else { [x, y] }
 }

@@ -358,10 +358,7 @@ impl<'a> Conversion<'a> {
 /// The screen of the new file without its anti-aliasing, how stored masks become masks seen from above, and whether that is
 /// known.
 fn screen(about: &About, printer: Option<&Printer>, mirror: Option<bool>) -> (Screen, Flips, bool) {
-    let known = about.known_printer();
-    let is_mirrored = about
-        .is_mirrored_x
-        .or(known.map(|printer| printer.is_mirrored));
+    let is_mirrored = about.is_mirrored();
     let wanted = mirror
         .or(printer.map(|printer| printer.is_mirrored))
         .or(is_mirrored);
@@ -371,15 +368,9 @@ fn screen(about: &About, printer: Option<&Printer>, mirror: Option<bool>) -> (Sc
         mirror_x: is_mirrored.unwrap_or(wanted),
         ..about.flips()
     };
-    let across = |[x, y]: [f64; 2]| if flips.exchange { [y, x] } else { [x, y] };
-    let [width, height] = about.pixels;
     let screen = Screen {
-        pixels: if flips.exchange {
-            [height, width]
-        } else {
-            [width, height]
-        },
-        pitch_mm: across(about.pixel_mm),
+        pixels: about.pixels_from_above(),
+        pitch_mm: about.pixel_mm_from_above(),
         is_mirrored: wanted,
         antialias: 1,
     };

@@ -57,12 +57,8 @@ impl Printed {
         if masks.iter().all(|mask| mask.rows().is_empty()) {
             return Err(SimulationError::AllBlack);
         }
-        let ([mut width, mut height], [mut pitch_x, mut pitch_y]) = (about.pixels, about.pixel_mm);
-        if flips.exchange {
-            std::mem::swap(&mut width, &mut height);
-            std::mem::swap(&mut pitch_x, &mut pitch_y);
-        }
-        let pitch = DVec2::new(pitch_x, pitch_y);
+        let [width, height] = about.pixels_from_above();
+        let pitch = DVec2::from(about.pixel_mm_from_above());
         Ok(Self {
             pixels: [width, height],
             pitch,

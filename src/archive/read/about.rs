@@ -92,14 +92,33 @@ impl About {
         PRINTERS.iter().find(is_it).cloned()
     }
 
+    /// Whether columns are stored from right to left, by the file or by its printer, if either says.
+    pub fn is_mirrored(&self) -> Option<bool> {
+        let by_printer = || self.known_printer().map(|printer| printer.is_mirrored);
+        self.is_mirrored_x.or_else(by_printer)
+    }
+
     /// How stored masks become masks seen from above. What neither the file nor its printer says is taken for not mirrored.
     pub fn flips(&self) -> Flips {
-        let by_printer = || self.known_printer().map(|printer| printer.is_mirrored);
         Flips {
-            mirror_x: self.is_mirrored_x.or_else(by_printer).unwrap_or(false),
+            mirror_x: self.is_mirrored().unwrap_or(false),
             mirror_y: self.is_mirrored_y.unwrap_or(false),
             exchange: self.is_turned,
         }
+    }
+
+    /// Columns and rows of the masks, seen from above.
+    pub fn pixels_from_above(&self) -> [u32; 2] {
+        self.across(self.pixels)
+    }
+
+    /// Sides of a pixel of the masks seen from above, in millimetres.
+    pub fn pixel_mm_from_above(&self) -> [f64; 2] {
+        self.across(self.pixel_mm)
+    }
+
+    fn across<T>(&self, [x, y]: [T; 2]) -> [T; 2] {
+        if self.is_turned { [y, x] } else { [x, y] }
     }
 
     /// Number of pixels of a mask.

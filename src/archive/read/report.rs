@@ -70,7 +70,7 @@ struct Light {
 /// # Errors
 /// [`Cancelled`], if the progress callback asks for it. What is wrong with the file is in [`Inspection::warnings`].
 pub fn inspect(file: &PrintFile<'_>, progress: &mut Progress<'_>) -> Result<Inspection, Cancelled> {
-    look_through(file, false, &mut |_| (), progress)
+    look_through(file, None, progress)
 }
 
 /// The same, and passes the mask of each layer on, from the plate upward, seen from above: what could be decoded of it.
@@ -82,13 +82,12 @@ pub fn inspect_masks(
     take: &mut dyn FnMut(Mask),
     progress: &mut Progress<'_>,
 ) -> Result<Inspection, Cancelled> {
-    look_through(file, true, take, progress)
+    look_through(file, Some(take), progress)
 }
 
 fn look_through(
     file: &PrintFile<'_>,
-    has_masks: bool,
-    take: &mut dyn FnMut(Mask),
+    mut take: Option<&mut dyn FnMut(Mask)>,
     progress: &mut Progress<'_>,
 ) -> Result<Inspection, Cancelled> {
     report(progress, 0.0)?;
@@ -100,11 +99,12 @@ fn look_through(
     let (mut black, mut faults) = (Tally::default(), Faults::default());
     let pixel_mm2 = about.pixel_mm[0] * about.pixel_mm[1];
     let mut volume_mm3 = 0.0;
+    let has_masks = take.is_some();
     parallel::map_in_groups(
         0..layers.len(),
         |place| light(file, place, has_masks),
-        |(light, mask, fault): (Light, Mask, Option<LayerFault>)| {
-            if has_masks {
+        |(light, mask, fault): (Light, Option<Mask>, Option<LayerFault>)| {
+            if let (Some(take), Some(mask)) = (&mut take, mask) {
                 take(mask);
             }
             let place = layer_values.len();
@@ -159,12 +159,16 @@ fn look_through(
     })
 }
 
-fn light(file: &PrintFile<'_>, layer: usize, has_mask: bool) -> (Light, Mask, Option<LayerFault>) {
+fn light(
+    file: &PrintFile<'_>,
+    layer: usize,
+    has_mask: bool,
+) -> (Light, Option<Mask>, Option<LayerFault>) {
     let about = file.about();
     let mut light = Light::default();
-    let mut collector = Collector::new(about.pixels[0]);
+    let mut collector = has_mask.then(|| Collector::new(about.pixels[0]));
     let decoded = file.runs(layer, &mut |grey, count| {
-        if has_mask {
+        if let Some(collector) = &mut collector {
             collector.run(grey, count);
         }
         let count = u64::from(count);
@@ -178,8 +182,10 @@ fn light(file: &PrintFile<'_>, layer: usize, has_mask: bool) -> (Light, Mask, Op
             }
         }
     });
-    let mask = collector.finish();
-    let mask = mask.seen_from_above(about.pixels, about.flips());
+    let mask = collector.map(|collector| {
+        let stored = collector.finish();
+        stored.seen_from_above(about.pixels, about.flips())
+    });
     (light, mask, decoded.err())
 }
 
