@@ -13,6 +13,7 @@ import { Attributes, settingsOf } from "./state/attributes.js";
 import { isFiles } from "./state/choice.js";
 import type { CuspSlicerEvents } from "./events.js";
 import { watchGestures } from "./gestures.js";
+import { chosen } from "./parts/chosen.js";
 import { langOf } from "./parts/lang.js";
 import { DECLARATIONS, type SettingName } from "./properties.js";
 import { Reports } from "./reports.js";
@@ -378,10 +379,7 @@ export class CuspSlicer extends LitElement {
   }
 
   readonly #picked = (event: Event): void => {
-    const input = event.target as HTMLInputElement;
-    const files = [...(input.files ?? [])];
-    // Choosing the same file again must fire a change event.
-    input.value = "";
+    const files = chosen(event);
     if (files.length > 0) this.willOrphan();
     void this.#session.choose(files);
   };

@@ -1,6 +1,7 @@
 /** The markup of the page: header, element, and the content of its slots. */
 import { html, nothing, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
+import { chosen } from "../element/parts/chosen.js";
 import { LANGUAGES, languageOf, type Language } from "../texts/index.js";
 import icon from "./icon.svg";
 
@@ -69,12 +70,4 @@ export function frame(language: Language, { example, speak, open }: PageActions,
     </main>
     <div class="drop-veil"><p>${words.drop}</p></div>
   `;
-}
-
-function chosen({ target }: Event): File[] {
-  const input = target as HTMLInputElement;
-  const files = [...(input.files ?? [])];
-  // Choosing the same file again must fire a change event.
-  input.value = "";
-  return files;
 }

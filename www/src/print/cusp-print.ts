@@ -7,6 +7,7 @@ import { isAbort, said } from "../api/error.js";
 import type { Mask } from "../api/index.js";
 import { define } from "../element/define.js";
 import { CuspMask, type Layered } from "../element/panels/mask-view.js";
+import { chosen } from "../element/parts/chosen.js";
 import { progressStyles } from "../element/parts/progress.js";
 import { viewTexts } from "../element/parts/view-texts.js";
 import { shared } from "../element/styles/shared.js";
@@ -36,6 +37,8 @@ const PROPERTIES = {
 export class CuspPrint extends elementWith(PROPERTIES) {
   #life = new AbortController();
   #texts: { of: Language; words: ViewTexts } | null = null;
+  /** Whose masks are being fetched. A worker that is terminated never answers. */
+  #fetching: State | null = null;
 
   static override styles = [
     theme,
@@ -287,12 +290,17 @@ export class CuspPrint extends elementWith(PROPERTIES) {
     }
   }
 
-  /** Fetches the mask of the selected layer. */
+  /** Fetches the mask of the selected layer, one at a time: while the slider is dragged, only the newest matters. */
   async #fetch(): Promise<void> {
-    const { state, layer } = this;
-    if (state.is !== "open" || state.report.layers === 0) return;
-    const mask = await state.print.mask(layer);
-    if (this.layer === layer && this.state === state) this.mask = mask ?? { layer, width: 0, height: 0, bits: new Uint8Array(0) };
+    const { state } = this;
+    if (this.#fetching === state || state.is !== "open" || state.report.layers === 0) return;
+    this.#fetching = state;
+    while (this.state === state && this.mask?.layer !== this.layer) {
+      const { layer } = this;
+      const mask = await state.print.mask(layer);
+      if (this.state === state) this.mask = mask ?? { layer, width: 0, height: 0, bits: new Uint8Array(0) };
+    }
+    if (this.#fetching === state) this.#fetching = null;
   }
 
   #end(): void {
@@ -316,10 +324,7 @@ export class CuspPrint extends elementWith(PROPERTIES) {
   };
 
   readonly #picked = (event: Event): void => {
-    const input = event.target as HTMLInputElement;
-    const files = [...(input.files ?? [])];
-    // Choosing the same file again must fire a change event.
-    input.value = "";
+    const files = chosen(event);
     if (files.length > 0) this.dispatchEvent(new CustomEvent<File[]>("cusp-files", { detail: files }));
   };
 }

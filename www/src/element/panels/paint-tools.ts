@@ -1,4 +1,5 @@
 /** The tools for painting weights: the brush, what the colours show, and weight files. */
+import { chosen } from "../parts/chosen.js";
 import { css, html, type TemplateResult } from "lit";
 import type { Language } from "../../texts/index.js";
 import type { Brush, BrushMode } from "../../view/paint/brush.js";
@@ -130,11 +131,8 @@ export function paintTools(tools: PaintTools): TemplateResult {
           class="visually-hidden"
           type="file"
           accept=".weights"
-          @change=${({ target }: Event) => {
-            const input = target as HTMLInputElement;
-            const [file] = input.files ?? [];
-            // Choosing the same file again must fire a change event.
-            input.value = "";
+          @change=${(event: Event) => {
+            const [file] = chosen(event);
             if (file !== undefined) tools.open(file);
           }}
         />
