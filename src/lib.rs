@@ -71,6 +71,8 @@ pub mod archive;
 pub mod orientation;
 
 pub mod job;
+#[cfg(target_arch = "wasm32")]
+pub mod js;
 #[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
 pub mod simulation;
 #[cfg(all(target_arch = "wasm32", not(feature = "read")))]

@@ -1,16 +1,16 @@
-//! The library in the browser: the only file with wasm-bindgen.
+//! The library in the browser: the only file that exports to it.
 //!
 //! Errors are thrown as `{ code, message, detail }`; see [`crate::job::Error`].
 
 use std::io::{self, BufWriter, Write};
 use std::ops::ControlFlow;
 
-use js_sys::{Function, Reflect, Uint8Array};
-use serde::Serialize;
+use js_sys::{Function, Uint8Array};
 use tsify::Ts;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use crate::job::{self, Calibration, Error, Options, OptionsError, Stage};
+use crate::js::{thrown, to_js};
 use crate::model::read::{self, HEAD_BYTES};
 use crate::model::weights;
 use crate::orientation::{Candidate, Search, SearchOptions, Task, TaskResult};
@@ -28,21 +28,8 @@ export type CoreError = Flat<NestedError>;
 export type CuspError = CoreError & { message: string };
 ";
 
-/// Converts a value by way of JSON. The manifest needs a JSON writer anyway; a second writer for JavaScript objects would
-/// make the module larger.
-fn to_js(value: &impl Serialize) -> JsValue {
-    // Fails only on maps whose keys are not strings, and no value here has one.
-    let json = serde_json::to_string(value).unwrap_or_default();
-    js_sys::JSON::parse(&json).unwrap_or(JsValue::NULL)
-}
-
 fn throw(error: impl Into<Error>) -> JsValue {
-    let error = error.into();
-    let message = error.to_string();
-    let thrown = to_js(&error);
-    // Fails only on values that are not objects.
-    let _ = Reflect::set(&thrown, &"message".into(), &message.into());
-    thrown
+    thrown(&error.into())
 }
 
 /// The error of a value that does not fit its type: usually malformed options.

@@ -6,29 +6,14 @@
 
 use std::ops::ControlFlow;
 
-use cusp_slicer::archive::read::{
-    Inspection, Mask, Preview, PrintFile, PrintFileError, inspect_masks, surface,
-};
-use js_sys::{Function, JSON, Reflect, Uint8ClampedArray};
-use serde::Serialize;
+use cusp_slicer::archive::read::{Inspection, Mask, Preview, PrintFile, inspect_masks, surface};
+use cusp_slicer::js::{thrown, to_js};
+use js_sys::{Function, Reflect, Uint8ClampedArray};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 /// What every function here throws.
 #[wasm_bindgen(typescript_custom_section)]
 const ERROR: &str = "export type ReaderError = PrintFileError & { message: string };";
-
-fn to_js(value: &impl Serialize) -> JsValue {
-    // Fails only on maps whose keys are not strings, and no value here has one.
-    let json = serde_json::to_string(value).unwrap_or_default();
-    JSON::parse(&json).unwrap_or(JsValue::NULL)
-}
-
-fn throw(error: &PrintFileError) -> JsValue {
-    let thrown = to_js(error);
-    // Fails only on values that are not objects.
-    let _ = Reflect::set(&thrown, &"message".into(), &error.to_string().into());
-    thrown
-}
 
 /// Lit changes that are kept in memory, as pairs of bytes: 128 MiB. A file with more has no surface.
 const MOST_CHANGES: usize = 64 << 20;
@@ -50,7 +35,7 @@ impl PrintReader {
     #[wasm_bindgen(constructor)]
     pub fn new(bytes: Vec<u8>) -> Result<Self, JsValue> {
         Ok(Self {
-            file: PrintFile::open(bytes).map_err(|error| throw(&error))?,
+            file: PrintFile::open(bytes).map_err(|error| thrown(&error))?,
             masks: Vec::new(),
         })
     }
@@ -102,7 +87,7 @@ impl PrintReader {
         }
         let mask = self.file.mask(layer, self.file.about().flips());
         mask.map(|mask| mask.bits(width, height))
-            .map_err(|error| throw(&error))
+            .map_err(|error| thrown(&error))
     }
 
     /// The surface of what is printed, coarse enough to look at: nine numbers per facet, in millimetres. Needs an inspection.

@@ -210,8 +210,7 @@ pub struct PrintJob<'a> {
 impl PrintJob<'_> {
     /// Total time of all layers, in seconds.
     fn print_time_s(&self) -> f64 {
-        let exposure_s: Vec<f64> = self.layers.iter().map(|layer| layer.exposure_s).collect();
-        self.resin.time_s(&exposure_s)
+        print_time_s(self.resin, self.layers)
     }
 
     /// The build volume of the printer in x, y and z, or what the job needs, in millimetres.
@@ -261,6 +260,12 @@ impl PrintJob<'_> {
             },
         })
     }
+}
+
+/// Total time of these layers, in seconds.
+pub(crate) fn print_time_s(resin: &Resin, layers: &[Layer]) -> f64 {
+    let exposure_s: Vec<f64> = layers.iter().map(|layer| layer.exposure_s).collect();
+    resin.time_s(&exposure_s)
 }
 
 /// Writes a print file sequentially, without seeking, and returns the writer.

@@ -259,8 +259,7 @@ impl<'a> Conversion<'a> {
 
     /// Total time of all layers, in seconds.
     pub fn print_time_s(&self) -> f64 {
-        let exposure_s: Vec<f64> = self.layers.iter().map(|layer| layer.exposure_s).collect();
-        self.resin.time_s(&exposure_s)
+        archive::print_time_s(&self.resin, &self.layers)
     }
 
     /// What the new file does not have of the old one.
