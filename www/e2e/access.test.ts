@@ -1,22 +1,11 @@
 /** What an accessibility checker finds in each state of the page, light and dark. */
-import axe from "axe-core";
-import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
+import { broken } from "./axe.js";
 import { drop, settled, state } from "./browser.js";
 import { pages } from "./pages.js";
 import { sphere } from "./solids.js";
 
 const start = pages();
-
-/** Rules broken, with the elements that break them. */
-async function broken(page: Page): Promise<string[]> {
-  // Evaluated, not added as a script: the page's policy allows no inline scripts.
-  await page.evaluate(axe.source);
-  const { violations } = await page.evaluate(() =>
-    (window as unknown as { axe: { run(): Promise<axe.AxeResults> } }).axe.run(),
-  );
-  return violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html.slice(0, 120)).join(" | ")}`);
-}
 
 test.each(["light", "dark"] as const)("nothing is amiss in any state: %s", async (colorScheme) => {
   const page = await start("", { colorScheme, reducedMotion: "reduce" });

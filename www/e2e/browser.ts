@@ -143,8 +143,8 @@ export async function download(page: Page): Promise<Download> {
   return file;
 }
 
-/** The bytes of a print file that is downloaded. */
-export async function downloaded(page: Page): Promise<Buffer> {
+/** A print file as the page saves it. */
+export async function downloaded(page: Page): Promise<{ name: string; bytes: Buffer }> {
   const file = await download(page);
-  return readFile(await file.path());
+  return { name: file.suggestedFilename(), bytes: await readFile(await file.path()) };
 }

@@ -77,7 +77,7 @@ const VISITS: readonly Visit[] = [
     states: {
       print: async (page) => {
         await example(page);
-        await drop(page, { name: "goblet.ctb", bytes: await downloaded(page) });
+        await drop(page, { ...(await downloaded(page)), name: "goblet.ctb" });
         await page.locator("cusp-print canvas[data-layer]").waitFor();
         // Software draws the many facets whenever it can; `printed` has a picture of the view.
         await page.locator("cusp-print cusp-view").evaluate((view) => (view.style.visibility = "hidden"));

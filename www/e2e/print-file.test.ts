@@ -1,10 +1,9 @@
 /** Print files on the page: what they say, their masks, what is wrong with them, and what is no print file. */
-import { readFile } from "node:fs/promises";
 import type { Locator, Page } from "playwright-core";
-import axe from "axe-core";
 import { unzipSync, zipSync } from "fflate";
 import { expect, test } from "vitest";
-import { download, drop, layers, state, words } from "./browser.js";
+import { broken } from "./axe.js";
+import { downloaded, drop, layers, state, words } from "./browser.js";
 import { pages } from "./pages.js";
 import { sphere } from "./solids.js";
 
@@ -23,15 +22,7 @@ async function opened(page: Page): Promise<Locator> {
 async function sliced(page: Page): Promise<{ name: string; bytes: Buffer; count: number }> {
   await drop(page, ballFile);
   await state(page, "done");
-  const file = await download(page);
-  return { name: file.suggestedFilename(), bytes: await readFile(await file.path()), count: await layers(page) };
-}
-
-/** No rule of accessibility is broken. */
-async function audited(page: Page): Promise<void> {
-  await page.evaluate(axe.source);
-  const { violations } = await page.evaluate(() => (window as unknown as { axe: { run(): Promise<axe.AxeResults> } }).axe.run());
-  expect(violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => String(target)).join(", ")}`)).toEqual([]);
+  return { ...(await downloaded(page)), count: await layers(page) };
 }
 
 const litOf = (text: string): number => Number(/([\d,]+) pixels lit/.exec(text)?.[1]?.replaceAll(",", ""));
@@ -65,7 +56,7 @@ test("a downloaded print file dropped again shows its settings, masks and surfac
   await page.keyboard.press("End");
   expect(await lit(file.count - 1)).toBeLessThan(middle);
   await view.locator("cusp-view canvas").waitFor();
-  await audited(page);
+  expect(await broken(page)).toEqual([]);
 
   await page.keyboard.press("Escape");
   await view.waitFor({ state: "detached" });
@@ -121,5 +112,5 @@ test("an encrypted file says what to do instead", async () => {
   await drop(page, { name: "secret.ctb", bytes });
   const view = await opened(page);
   expect(await view.locator(".verdict").innerText()).toContain("save it again as plain CTB, as GOO");
-  await audited(page);
+  expect(await broken(page)).toEqual([]);
 });

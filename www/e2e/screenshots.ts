@@ -34,7 +34,7 @@ async function distances(page: Page, path: string): Promise<void> {
 
 /** The example's own print file, dropped again. */
 async function printFile(page: Page, path: string): Promise<void> {
-  await drop(page, { name: "goblet.goo", bytes: await downloaded(page) });
+  await drop(page, { ...(await downloaded(page)), name: "goblet.goo" });
   await page.locator("cusp-print canvas[data-layer]").waitFor();
   // Software draws the surface late.
   await page.waitForTimeout(8000);

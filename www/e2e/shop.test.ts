@@ -3,7 +3,6 @@ import { execFileSync, spawn, type ChildProcess } from "node:child_process";
 import { cp, mkdir, readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
-import axe from "axe-core";
 import type { Browser, BrowserContextOptions, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect, test, type TestContext } from "vitest";
 import { findCusp } from "../examples/shop/cusp.js";
@@ -11,6 +10,7 @@ import { priceOf, type Print } from "../examples/shop/price.js";
 import type { Order } from "../examples/shop/server/store.js";
 import type { Options } from "../src/api/index.js";
 import { binaryStl, exampleTriangles } from "../src/page/example.js";
+import { broken } from "./axe.js";
 import { launch, state } from "./browser.js";
 import { freePort } from "./serve.js";
 import { prism } from "./solids.js";
@@ -290,9 +290,7 @@ test.each([
   const page = await visit(open.address, { colorScheme, viewport: { width, height: 844 }, reducedMotion: "reduce" });
   for (const step of [() => Promise.resolve(), () => loadSample(page)]) {
     await step();
-    await page.evaluate(axe.source);
-    const { violations } = await page.evaluate(() => (window as unknown as { axe: typeof axe }).axe.run());
-    expect(violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(" | ")}`)).toEqual([]);
+    expect(await broken(page)).toEqual([]);
     expect(await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth)).toBe(0);
   }
 });

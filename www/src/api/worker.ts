@@ -2,6 +2,7 @@
 import * as Comlink from "comlink";
 import init, { calibrate_layers, head_bytes, identify, OrientationSearch, printers, Slicer } from "../../pkg/cusp_slicer.js";
 import { acceptCompatible } from "./adapters.js";
+import { bytesOf } from "./bytes.js";
 import type { Candidate, KnownPrinter, OnProgress, SlicerWorker } from "./wire.js";
 
 /** Chunks of a print file are merged into a Blob at this many bytes; the browser may keep that on disk. */
@@ -24,19 +25,6 @@ async function compile(): Promise<WebAssembly.Module> {
   // Streaming needs the right content type, which plain file hosts do not always send.
   const typed = response.headers.get("content-type")?.startsWith("application/wasm") ?? false;
   return typed ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
-}
-
-async function bytesOf(file: Blob): Promise<Uint8Array> {
-  try {
-    return new Uint8Array(await file.arrayBuffer());
-  } catch (cause) {
-    const unreadable = {
-      code: "file-unreadable",
-      message: cause instanceof Error ? cause.message : String(cause),
-      detail: null,
-    };
-    throw unreadable;
-  }
 }
 
 /** Wraps a callback for the core in a plain function: the one from comlink is a proxy, which has every property. */

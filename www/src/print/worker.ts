@@ -1,6 +1,7 @@
 /** The worker that reads print files: the only file that imports the reader's WebAssembly. */
 import * as Comlink from "comlink";
 import init, { PrintReader } from "../../pkg/reader/cusp_reader.js";
+import { bytesOf } from "../api/bytes.js";
 import type { Picture, ReaderWorker } from "./wire.js";
 
 let reader: PrintReader | null = null;
@@ -8,15 +9,6 @@ let reader: PrintReader | null = null;
 async function start(): Promise<void> {
   // Bundlers recognise this exact form and emit the file.
   await init({ module_or_path: new URL("../../pkg/reader/cusp_reader_bg.wasm", import.meta.url) });
-}
-
-async function bytesOf(file: Blob): Promise<Uint8Array> {
-  try {
-    return new Uint8Array(await file.arrayBuffer());
-  } catch {
-    const unreadable = { code: "file-unreadable", message: "the file cannot be read", detail: null };
-    throw unreadable;
-  }
 }
 
 /** The largest preview that can be read. */
