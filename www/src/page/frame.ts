@@ -4,6 +4,7 @@ import { live } from "lit/directives/live.js";
 import { chosen } from "../element/parts/chosen.js";
 import { LANGUAGES, languageOf, type Language } from "../texts/index.js";
 import icon from "./icon.svg";
+import { pageWords } from "./texts/index.js";
 
 export interface PageActions {
   example(): void;
@@ -21,9 +22,8 @@ export interface PrintOnShow {
 }
 
 export function frame(language: Language, { example, speak, open }: PageActions, print: PrintOnShow | null): TemplateResult {
-  const { locale, texts } = language;
-  const words = texts.page;
-  const code = new Intl.Locale(locale).language;
+  const { code, locale } = language;
+  const words = pageWords(language);
   return html`
     <header>
       <div class="brand">

@@ -8,6 +8,7 @@ import { binaryStl, exampleTriangles, EXAMPLE_NAME } from "./example.js";
 import { frame } from "./frame.js";
 import { openAnywhere } from "./open-anywhere.js";
 import { workOffline } from "./offline.js";
+import { pageWords } from "./texts/index.js";
 
 function found<E extends Element>(selector: string): E {
   const element = document.querySelector<E>(selector);
@@ -25,7 +26,7 @@ let shown: readonly File[] | null = null;
 function draw(): void {
   const language = languageOf(...[own.get("locale"), ...navigator.languages].filter((locale) => locale !== null));
   document.documentElement.lang = language.locale;
-  document.title = language.texts.page.title;
+  document.title = pageWords(language).title;
   const files = shown;
   const [file] = files ?? [];
   const print = files === null || file === undefined ? null : { file, close, unknown: () => load(files) };

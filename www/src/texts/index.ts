@@ -13,6 +13,8 @@ export type Texts = ReturnType<typeof en.en>;
 
 /** A language in use: its texts, and how it writes numbers. */
 export interface Language {
+  /** The language of its catalogue. */
+  code: LanguageCode;
   /** BCP 47, as requested if there is a catalogue for it: `de-AT` has German words and Austrian numbers. */
   locale: string;
   texts: Texts;
@@ -38,9 +40,10 @@ export function languageOf(...locales: readonly string[]): Language {
   const locale = locales.find((locale) => codeOf(locale) !== null) ?? "en";
   let language = made.get(locale);
   if (language === undefined) {
-    const { units, texts } = CATALOGUES[codeOf(locale) ?? "en"];
+    const code = codeOf(locale) ?? "en";
+    const { units, texts } = CATALOGUES[code];
     const format = formatOf(locale, units);
-    made.set(locale, (language = { locale, format, texts: texts(format) }));
+    made.set(locale, (language = { code, locale, format, texts: texts(format) }));
   }
   return language;
 }

@@ -1,7 +1,7 @@
 /** The texts of the view of print files: a catalogue for each language, fetched with the view. */
 import type { Finding, LayerFault, PrintFileError } from "../../../pkg/reader/cusp_reader.js";
 import type { Format } from "../../texts/format.js";
-import type { Language } from "../../texts/index.js";
+import type { Language, LanguageCode } from "../../texts/index.js";
 import type { ReadError } from "../open-print.js";
 import * as de from "./de.js";
 import * as en from "./en.js";
@@ -55,7 +55,7 @@ interface Catalogue {
   errors(format: Format): ErrorSentences;
 }
 
-const CATALOGUES: Readonly<Record<string, Catalogue>> = { de, en, es, fr, zh };
+const CATALOGUES: Readonly<Record<LanguageCode, Catalogue>> = { de, en, es, fr, zh };
 
 /** The texts in a language. */
 export interface PrintTexts {
@@ -69,7 +69,7 @@ const made = new Map<Language, PrintTexts>();
 export function textsOf(language: Language): PrintTexts {
   let texts = made.get(language);
   if (texts === undefined) {
-    const catalogue = CATALOGUES[new Intl.Locale(language.locale).language] ?? en;
+    const catalogue = CATALOGUES[language.code];
     const { format } = language;
     const faults = catalogue.faults(format);
     const say = (sentences: object, said: Coded): string => {

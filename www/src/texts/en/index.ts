@@ -1,6 +1,6 @@
 import type { Format } from "../format.js";
 import { orientation } from "./orientation.js";
-import { page } from "./page.js";
+import { model } from "./model.js";
 import { plan } from "./plan.js";
 import { problems } from "./problems.js";
 import { settings } from "./settings.js";
@@ -14,7 +14,7 @@ export const units = { hours: "h", minutes: "min" };
  */
 export const en = (format: Format) => ({
   language: "English",
-  ...page(),
+  ...model(),
   ...settings(),
   ...plan(format),
   ...view(format),

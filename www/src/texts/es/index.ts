@@ -1,7 +1,7 @@
 import type { Format } from "../format.js";
 import type { Texts } from "../index.js";
 import { orientation } from "./orientation.js";
-import { page } from "./page.js";
+import { model } from "./model.js";
 import { plan } from "./plan.js";
 import { problems } from "./problems.js";
 import { settings } from "./settings.js";
@@ -11,7 +11,7 @@ export const units = { hours: "h", minutes: "min" };
 
 export const es = (format: Format): Texts => ({
   language: "Español",
-  ...page(),
+  ...model(),
   ...settings(),
   ...plan(format),
   ...view(format),

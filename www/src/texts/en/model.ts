@@ -1,22 +1,6 @@
-/** The page around a model: opening it, facts about it, and the progress of tasks. */
+/** A model: opening it, facts about it, and the progress of tasks. */
 
-export const page = () => ({
-  page: {
-    title: "Cusp: adaptive layers for resin printing",
-    tagline: "Thin layers where the surface needs them, thick ones where it does not.",
-    private: "Your model never leaves this computer.",
-    drop: "Drop to open",
-    languages: "Language",
-    noModel: "No model at hand?",
-    tryExample: "Try the example",
-    printFile: "Look into a print file",
-    example: "Example",
-    points: [
-      ["Fewest layers", "Every plan that keeps your tolerance is considered, and the shortest is taken."],
-      ["No step too high", "The tolerance holds in each layer, not on average."],
-      ["A file to print", "For printers by name, or as images of the layers with their thickness, in a zip."],
-    ] as [string, string][],
-  },
+export const model = () => ({
   open: {
     region: "Open a model",
     drop: "Drop an STL here",
@@ -56,4 +40,4 @@ export const page = () => ({
   },
 });
 
-export type PageTexts = ReturnType<typeof page>;
+export type ModelTexts = ReturnType<typeof model>;

@@ -1,22 +1,6 @@
-import type { PageTexts } from "../en/page.js";
+import type { ModelTexts } from "../en/model.js";
 
-export const page = (): PageTexts => ({
-  page: {
-    title: "Cusp: capas adaptativas para impresión en resina",
-    tagline: "Capas finas donde la superficie las necesita, gruesas donde no.",
-    private: "Su modelo nunca sale de este ordenador.",
-    drop: "Suelte para abrir",
-    languages: "Idioma",
-    noModel: "¿No tiene un modelo a mano?",
-    tryExample: "Probar el ejemplo",
-    printFile: "Examinar un archivo de impresión",
-    example: "Ejemplo",
-    points: [
-      ["El mínimo de capas", "De todos los planes que respetan su tolerancia se toma el más corto."],
-      ["Ningún escalón de más", "La tolerancia se cumple en cada capa, no de media."],
-      ["Un archivo para imprimir", "Para impresoras conocidas, o como imágenes de las capas con su espesor, en un zip."],
-    ],
-  },
+export const model = (): ModelTexts => ({
   open: {
     region: "Abrir un modelo",
     drop: "Suelte un STL aquí",

@@ -1,0 +1,19 @@
+/** Chinese, simplified. */
+import type { PageWords } from "./index.js";
+
+export const words: PageWords = {
+  title: "Cusp：光固化打印的自适应分层",
+  tagline: "表面需要处用薄层，不需要处用厚层。",
+  private: "您的模型不会离开这台电脑。",
+  drop: "松开即可打开",
+  languages: "语言",
+  noModel: "手边没有模型？",
+  tryExample: "试试示例",
+  printFile: "查看打印文件",
+  example: "示例",
+  points: [
+    ["层数最少", "在所有满足公差的方案中选取最短的一个。"],
+    ["没有过高的台阶", "每一层都满足公差，而不是平均满足。"],
+    ["可打印的文件", "适用于已知的打印机，或导出为带层厚的图像压缩包。"],
+  ],
+};
