@@ -9,7 +9,6 @@ import type { Session } from "../state/session.js";
 export interface ModelActions {
   picked(event: Event): void;
   openFile(place: number): void;
-  saveTowers(): void;
 }
 
 /** The warnings of the model and its plan, with what may help. */
@@ -25,7 +24,13 @@ export function warnings(session: Session, language: Language, saveTowers: () =>
   );
 }
 
-export function modelCard(session: Session, language: Language, { picked, openFile, saveTowers }: ModelActions): TemplateResult {
+/** @param more shown below the facts of the model */
+export function modelCard(
+  session: Session,
+  language: Language,
+  { picked, openFile }: ModelActions,
+  more: unknown = nothing,
+): TemplateResult {
   const { model, result, files, place } = session;
   const { texts, format } = language;
   if (model === null) return html``;
@@ -35,7 +40,7 @@ export function modelCard(session: Session, language: Language, { picked, openFi
   const isScaled = session.settings.rotation === "" && Math.abs(scale - 1) > 1e-3;
   const size = (isScaled ? own.map((mm) => mm * scale) : own) as [number, number, number];
   return html`<section class="card model" part="model" aria-label=${texts.model.region}>
-    <h2 id="model-name" tabindex="-1">${name}</h2>
+    <h2 class="model-name" tabindex="-1">${name}</h2>
     <dl class="figures">
       <div>
         <dt>${texts.model.size}</dt>
@@ -51,7 +56,7 @@ export function modelCard(session: Session, language: Language, { picked, openFi
         <dd>${info.closed ? texts.model.closed : texts.model.open}</dd>
       </div>
     </dl>
-    ${warnings(session, language, saveTowers)}
+    ${more}
     ${files.length < 2
       ? nothing
       : html`<div class="files">

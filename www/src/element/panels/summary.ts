@@ -1,4 +1,4 @@
-/** The result at a glance: the number of layers, the print time, what that saves, and the two uniform plans to compare. */
+/** A result in figures: layers, print time, what that saves, and the two uniform plans to compare. */
 import { css, html, nothing, type TemplateResult } from "lit";
 import type { Language } from "../../texts/index.js";
 import { rows, sentence } from "../state/comparison.js";
@@ -47,9 +47,13 @@ export const summaryStyles = css`
     padding-inline-end: max(0px, 100% - 44rem);
     text-wrap: pretty;
   }
+  /* Its own width decides, not the screen's: it stands in wide cards and in narrow columns. */
+  .comparison {
+    container: comparison / inline-size;
+    margin-top: 1.25rem;
+  }
   table {
     width: 100%;
-    margin-top: 1.25rem;
     border-collapse: collapse;
     font-size: 0.9375rem;
     font-variant-numeric: tabular-nums;
@@ -84,6 +88,16 @@ export const summaryStyles = css`
     background: var(--cusp-field);
     opacity: 0.55;
   }
+  @media (forced-colors: active) {
+    td.bar div {
+      forced-color-adjust: none;
+      background: GrayText;
+      opacity: 1;
+    }
+    tr.own td.bar div {
+      background: Highlight;
+    }
+  }
   tr.own th,
   tr.own td {
     font-weight: 600;
@@ -98,7 +112,7 @@ export const summaryStyles = css`
   .within {
     color: var(--cusp-good);
   }
-  @media (max-width: 640px) {
+  @container comparison (max-width: 36rem) {
     .holds {
       display: block;
       font-size: 0.8125rem;
@@ -111,7 +125,7 @@ export const summaryStyles = css`
     /* Four columns do not fit a phone: the plan's name goes above its numbers. */
     tr {
       display: grid;
-      grid-template-columns: 3rem 5.75rem minmax(0, 1fr);
+      grid-template-columns: minmax(3rem, auto) minmax(5.75rem, auto) minmax(0, 1fr);
       column-gap: 0.5rem;
       padding-block: 0.4375rem;
       border-top: 1px solid var(--cusp-line);
@@ -138,36 +152,29 @@ export const summaryStyles = css`
 `;
 
 /**
- * The summary of a result. `shown` has the figures to show: those of a preview while the model is being turned. `note` comes
- * first, if there is one; `action` is beside the number of layers: the download button and the line about the file.
+ * The figures of a result and what it gains. `shown` has the figures to show: those of a preview while the model is being
+ * turned.
  */
-export function summary(
-  result: Result,
-  shown: Pick<Shown, "layers" | "print_time_s">,
-  language: Language,
-  note: TemplateResult | typeof nothing,
-  action: TemplateResult | typeof nothing,
-): TemplateResult {
+export function figures(result: Result, shown: Pick<Shown, "layers" | "print_time_s">, language: Language): TemplateResult {
   const { report } = result;
   const { texts, format } = language;
+  return html`<div>
+    <div class="figure">
+      <p class="count" data-layers=${shown.layers}>${format.count(shown.layers)}<span>${texts.plan.layers(shown.layers)}</span></p>
+      <p class="time">${texts.plan.time(format.time(shown.print_time_s))}</p>
+      <p class="time resin">${texts.plan.resin(format.millilitres(report.resin_ml))}</p>
+    </div>
+    <p class="gain">${sentence(result, language)}</p>
+  </div>`;
+}
+
+/** The plan between the two uniform ones that it is compared with. */
+export function comparison(result: Result, { texts, format }: Language): TemplateResult {
+  const { report } = result;
   const compared = rows(result);
   const most = Math.max(...compared.map(({ layers }) => layers));
   const { columns } = texts.plan;
-  return html`
-    ${note}
-    <div class="answer">
-      <div>
-        <div class="figure">
-          <p class="count" data-layers=${shown.layers}>
-            ${format.count(shown.layers)}<span>${texts.plan.layers(shown.layers)}</span>
-          </p>
-          <p class="time">${texts.plan.time(format.time(shown.print_time_s))}</p>
-          <p class="time resin">${texts.plan.resin(format.millilitres(report.resin_ml))}</p>
-        </div>
-        <p class="gain">${sentence(result, language)}</p>
-      </div>
-      ${action}
-    </div>
+  return html`<div class="comparison">
     <table>
       <thead>
         <tr>
@@ -193,7 +200,7 @@ export function summary(
         )}
       </tbody>
     </table>
-  `;
+  </div>`;
 }
 
 const STAGES = ["load", "ldi", "profile", "plan", "masks"] as const;

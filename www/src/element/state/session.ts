@@ -22,6 +22,9 @@ import { Runner } from "./runner.js";
 import { DEFAULT_SETTINGS, rotationText, type Settings } from "./settings.js";
 import { Preferences } from "./preferences.js";
 
+/** Failures that another try may not meet again. */
+const BY_CHANCE: ReadonlySet<string> = new Set(["crash", "start-failed"]);
+
 export class Session extends Preferences {
   model: Model | null = null;
   result: Result | null = null;
@@ -53,6 +56,8 @@ export class Session extends Preferences {
   #weightsOf: Float32Array | null = null;
   /** Whether the newest plan has not succeeded. */
   #failed = false;
+  /** What the core has refused to plan: it would refuse it again. */
+  #refused: { options: Options; weights: Float32Array | null } | null = null;
   #archive: { of: Result; file: PrintFile } | null = null;
 
   constructor(host: Host, slicer: SlicerCalls, { settings = DEFAULT_SETTINGS, backend = null }: Setup = {}) {
@@ -232,6 +237,12 @@ export class Session extends Preferences {
     return this.result !== null && areSame(this.result.options, this.options) && this.#weightsOf === this.weights;
   }
 
+  /** Whether planning with the current settings may succeed: they are valid, and the core has not refused them. */
+  get canPlan(): boolean {
+    const { options, weights } = this;
+    return options !== null && !(areSame(this.#refused?.options ?? null, options) && this.#refused?.weights === weights);
+  }
+
   replan(delay_ms = 0): void {
     this.#forgetTimer();
     this.#changed();
@@ -302,6 +313,7 @@ export class Session extends Preferences {
     if (this.model !== null && this.settings.rotation !== "") this.preset({ rotation: "" });
     this.model = model;
     this.result = null;
+    this.#refused = null;
     this.shown = null;
     this.#follower.stop();
     this.weights = null;
@@ -347,7 +359,14 @@ export class Session extends Preferences {
     const { weights } = this;
     const plan = await this.#run("plan", model.name, options, (watch) => this.#slicer.plan(options, watch));
     if (plan !== null) this.#show(plan, options, weights);
+    else this.#refuse(options, weights);
     await this.#resume();
+  }
+
+  /** Remembers what was refused, if it was: a cancelled plan may succeed later. */
+  #refuse(options: Options, weights: Float32Array | null): void {
+    const { failure } = this;
+    if (failure?.task === "plan" && !BY_CHANCE.has(failure.error.code)) this.#refused = { options, weights };
   }
 
   /** Plans with the settings that changed during the last task, if any; otherwise fetches the mask and the curve. */

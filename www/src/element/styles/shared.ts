@@ -104,6 +104,11 @@ export const shared = css`
   .head {
     margin-bottom: 0.75rem;
   }
+  .head h3 {
+    /* A layout that names its panels itself leaves their titles to screen readers. */
+    position: var(--cusp-title-position, static);
+    clip-path: var(--cusp-title-clip, none);
+  }
   :focus-visible {
     outline: 3px solid var(--cusp-focus);
     outline-offset: 2px;

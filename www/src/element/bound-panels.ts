@@ -1,0 +1,217 @@
+/** The panels, bound to a session: what each shows of it, and what it changes there. Layouts put them in their places. */
+import { html, nothing, type TemplateResult } from "lit";
+import type { Candidate } from "../api/wire.js";
+import type { RotateDetail } from "../view/events.js";
+import type { PaletteName } from "../view/legend/palette.js";
+import type { Rotation } from "../view/scene/pose.js";
+import { UPRIGHT } from "../view/scene/turn.js";
+import type { Painted } from "./events.js";
+import type { Facts } from "./facts.js";
+import type { Scaled } from "./panels/model-view.js";
+import type { Searched } from "./panels/orientation-panel.js";
+import type { PlotPlace } from "./panels/profile-chart.js";
+import { fileWords } from "./parts/file-words.js";
+import { sentence } from "./state/comparison.js";
+import type { Aims } from "./state/orientation.js";
+import { printerOf } from "./state/printer.js";
+import type { Problem } from "./state/problem.js";
+import type { Result } from "./state/result.js";
+import type { Session } from "./state/session.js";
+import { quaternion, type Settings } from "./state/settings.js";
+
+/** @param problem a failure that one of the settings caused, to be shown beside that setting */
+export function settingsPanel({ session, language, saveTowers }: Facts, problem: Problem | null): TemplateResult {
+  return html`<cusp-settings
+    .settings=${session.settings}
+    .faults=${session.faults}
+    .info=${session.model?.info ?? null}
+    .taken=${session.taken}
+    .offered=${session}
+    .fixed=${session.fixed}
+    .problem=${problem}
+    .towers=${session.towers}
+    .language=${language}
+    @cusp-settings=${(event: CustomEvent<Partial<Settings>>) => session.change(event.detail)}
+    @cusp-open-printer=${(event: CustomEvent<File>) => void session.openPrinter(event.detail)}
+    @cusp-towers=${saveTowers}
+    @cusp-dismiss=${() => session.dismiss()}
+  ></cusp-settings>`;
+}
+
+/** The buttons that undo and redo changes of the settings. */
+export function undoButtons({ session, language: { texts } }: Facts): TemplateResult {
+  const button = (name: string, isPossible: boolean, act: () => void, path: string): TemplateResult => html`<button
+    class="small"
+    aria-label=${name}
+    title=${name}
+    ?disabled=${!isPossible}
+    @click=${act}
+  >
+    <svg viewBox="0 0 20 20" aria-hidden="true"><path d=${path} /></svg>
+  </button>`;
+  return html`<div class="steps">
+    ${button(texts.settings.undo, session.canUndo, () => session.undo(), "M8 5 4 9l4 4M4 9h8a4 4 0 0 1 0 8H9")}
+    ${button(texts.settings.redo, session.canRedo, () => session.redo(), "m12 5 4 4-4 4m4-4H8a4 4 0 0 0 0 8h3")}
+  </div>`;
+}
+
+/** The 3-D view, with or without a plan. */
+export function modelPanel({ session, language, slicer, saveWeights }: Facts): TemplateResult {
+  const { layer, shown, turning, settings } = session;
+  return html`<cusp-model
+    .slicer=${slicer}
+    .model=${session.model}
+    .shown=${shown}
+    .layer=${layer}
+    .rotation=${turning ?? rotationOf(settings.rotation)}
+    .scaled=${scaledOf(session)}
+    .printer=${printerOf(settings.printer, session.printers)}
+    .settings=${settings}
+    .weights=${session.weights}
+    .language=${language}
+    @cusp-paint=${(event: CustomEvent<Painted>) => painted(session, event)}
+    @cusp-settings=${(event: CustomEvent<Partial<Settings>>) => session.change(event.detail)}
+    @cusp-open-weights=${(event: CustomEvent<File>) => void session.openWeights(event.detail)}
+    @cusp-save-weights=${saveWeights}
+    @cusp-rotate=${(event: CustomEvent<RotateDetail>) => session.turn(event.detail.rotation, event.detail.final)}
+    @cusp-layer=${(event: CustomEvent<number>) => session.selectLayer(event.detail)}
+    @cusp-camera=${seen}
+    @cusp-palette=${recoloured}
+  ></cusp-model>`;
+}
+
+/** @param placed hears where the plot is, besides the view beside it */
+export function chartPanel({ session, language }: Facts, placed?: (place: PlotPlace) => void): TemplateResult {
+  return html`<cusp-chart
+    .data=${session.shown}
+    .layer=${session.layer}
+    .language=${language}
+    @cusp-layer=${(event: CustomEvent<number>) => session.selectLayer(event.detail)}
+    @cusp-plot=${({ target, detail }: CustomEvent<PlotPlace>) => {
+      const view = beside(target, "cusp-model");
+      if (view !== null) view.plot = detail;
+      placed?.(detail);
+    }}
+  ></cusp-chart>`;
+}
+
+export function orientationPanel({ session, language, slicer }: Facts): TemplateResult {
+  const { orientation, settings, turning } = session;
+  return html`<cusp-orientation
+    .slicer=${slicer}
+    .searched=${searchedOf(session)}
+    .metric=${settings.metric}
+    .rotation=${turning ?? rotationOf(settings.rotation)}
+    .language=${language}
+    @cusp-search=${() => orientation.start()}
+    @cusp-search-cancel=${() => orientation.cancel()}
+    @cusp-aims=${(event: CustomEvent<Partial<Aims>>) => orientation.aim(event.detail)}
+    @cusp-orient=${(event: CustomEvent<Candidate>) => session.orient(event.detail)}
+  ></cusp-orientation>`;
+}
+
+export function qualityPanel({ session, language }: Facts, result: Result): TemplateResult {
+  return html`<cusp-quality
+    .points=${session.curve}
+    .result=${result}
+    .isFixed=${session.fixed.has("tolerances")}
+    .language=${language}
+    @cusp-point=${(event: CustomEvent<number>) => session.takePoint(event.detail)}
+  ></cusp-quality>`;
+}
+
+export function maskPanel({ session, language }: Facts, result: Result): TemplateResult {
+  return html`<cusp-mask
+    .mask=${session.mask}
+    .report=${result.report}
+    .limits=${result.limits}
+    .layer=${session.layer}
+    .language=${language}
+    @cusp-layer=${(event: CustomEvent<number>) => session.selectLayer(event.detail)}
+  ></cusp-mask>`;
+}
+
+export function downloadButton({ session, language: { texts }, save }: Facts): TemplateResult {
+  return html`<button class="primary download" aria-describedby="file" ?disabled=${session.busy !== null} @click=${save}>
+    ${texts.plan.download}
+  </button>`;
+}
+
+/** What the print file is, and what has not been added to the model. */
+export function fileLine({ session, language }: Facts, result: Result): TemplateResult {
+  return html`<p id="file" class="quiet">${fileWords(result, session.printers, language)}</p>`;
+}
+
+/** The note on a result that is not for the settings shown. */
+export function earlierNote({ session, problem, language: { texts } }: Facts): TemplateResult | typeof nothing {
+  if (!session.earlier) return nothing;
+  // Without a fault or a problem, the plan was cancelled: only then does trying again help.
+  const again = Object.keys(session.faults).length === 0 && problem === null;
+  return html`<p class="earlier">
+    ${texts.plan.earlier}
+    ${again ? html`<button class="link" @click=${() => session.replan()}>${texts.plan.again}</button>` : nothing}
+  </p>`;
+}
+
+/** The notice that is no failure, if there is one. */
+export function noticeBox({ session, language: { texts } }: Facts): TemplateResult | typeof nothing {
+  if (session.notice === null) return nothing;
+  return html`<section class="message notice">
+    <p>${texts.notices[session.notice]}</p>
+    <button class="small" @click=${() => session.dismiss()}>${texts.notices.close}</button>
+  </section>`;
+}
+
+/** For screen readers: the start and the outcome of a task, not every step. */
+export function announcement({ session, language }: Facts): TemplateResult {
+  return html`<p class="visually-hidden" role="status" aria-live="polite">${announced(session, language)}</p>`;
+}
+
+function announced({ busy, result, notice, earlier }: Session, language: Facts["language"]): string {
+  const { texts, format } = language;
+  if (busy !== null) return busy.task === "open" ? texts.open.opening(busy.name) : texts.progress[busy.stage];
+  if (notice !== null) return texts.notices[notice];
+  if (result === null || earlier) return "";
+  const { layers, print_time_s } = result.report;
+  return `${texts.plan.said(layers, format.time(print_time_s))} ${sentence(result, language)}`;
+}
+
+/** The session reports the weights, and the element fires the event again. */
+function painted(session: Session, event: CustomEvent<Painted>): void {
+  session.setWeights(event.detail.weights, event.detail.final);
+}
+
+/** Passes the view's camera to the orientation panel beside it. */
+function seen({ target, detail }: CustomEvent<Rotation>): void {
+  const panel = beside(target, "cusp-orientation");
+  if (panel !== null) panel.camera = detail;
+}
+
+function recoloured({ target, detail }: CustomEvent<PaletteName>): void {
+  const panel = beside(target, "cusp-orientation");
+  if (panel !== null) panel.palette = detail;
+}
+
+function beside<Name extends "cusp-model" | "cusp-orientation">(target: EventTarget | null, name: Name): HTMLElementTagNameMap[Name] | null {
+  return ((target as Element).getRootNode() as ShadowRoot).querySelector(name);
+}
+
+function searchedOf({ orientation: { aims, found, best, busy, isCurrent, isPossible, options } }: Session): Searched {
+  return { aims, found, best, busy, isCurrent, isPossible, options };
+}
+
+const rotations = new Map<string, Rotation>();
+
+/** Cached, since a new array would count as a new rotation. */
+function rotationOf(text: string): Rotation {
+  let rotation = rotations.get(text);
+  if (rotation === undefined) rotations.set(text, (rotation = quaternion(text) ?? UPRIGHT));
+  return rotation;
+}
+
+/** A requested height is that of the model in its pose, or in the one that it is being turned to. */
+function scaledOf({ result, turning, shown }: Session): Scaled | null {
+  if (result?.options.height_mm === undefined) return null;
+  const height_mm = turning === null ? result.report.height_mm : (shown?.z_mm.at(-1) ?? result.report.height_mm);
+  return { height_mm, rotation: turning ?? result.options.rotation ?? UPRIGHT };
+}

@@ -1,0 +1,20 @@
+/** What a layout of an element's panels is a function of. */
+import type { Slicer } from "../api/index.js";
+import type { Language } from "../texts/index.js";
+import type { Panel } from "./state/panel-names.js";
+import type { Problem } from "./state/problem.js";
+import type { Session } from "./state/session.js";
+
+export interface Facts {
+  session: Session;
+  language: Language;
+  /** The session's failure in words; null if there is none. */
+  problem: Problem | null;
+  panels: ReadonlySet<Panel>;
+  slicer: Slicer;
+  isDragging: boolean;
+  picked(event: Event): void;
+  save(): void;
+  saveTowers(): void;
+  saveWeights(): void;
+}
