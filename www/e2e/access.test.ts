@@ -1,7 +1,7 @@
 /** What an accessibility checker finds in each state of the page, light and dark. */
 import { expect, test } from "vitest";
 import { broken } from "./axe.js";
-import { drop, settled, state } from "./browser.js";
+import { drop, openPanel, settled, state } from "./browser.js";
 import { pages } from "./pages.js";
 import { sphere } from "./solids.js";
 
@@ -19,6 +19,7 @@ test.each(["light", "dark"] as const)("nothing is amiss in any state: %s", async
   await state(page, "done");
   expect(await broken(page)).toEqual([]);
 
+  await openPanel(page, "Orientation");
   await page.getByRole("button", { name: "Find the best orientation" }).click();
   await page.locator("cusp-orientation .pose").first().waitFor();
   await page.getByRole("application", { name: "Sphere of directions" }).press("ArrowRight");
@@ -29,6 +30,7 @@ test.each(["light", "dark"] as const)("nothing is amiss in any state: %s", async
   await page.getByRole("checkbox", { name: "Fill a smooth region" }).check();
   expect(await broken(page)).toEqual([]);
 
+  await openPanel(page, "Settings");
   await page.getByLabel("Tolerance", { exact: true }).fill("0.02");
   await state(page, "error");
   expect(await broken(page)).toEqual([]);

@@ -3,6 +3,10 @@ import { existsSync } from "node:fs";
 import { readFile } from "node:fs/promises";
 import { delimiter, join } from "node:path";
 import { chromium, type Browser, type BrowserContextOptions, type Download, type Page } from "playwright-core";
+import type { CuspWorkbench } from "../src/workbench/cusp-workbench.js";
+
+/** The page's element, or that of a shop. */
+const ELEMENT = ":is(cusp-workbench, cusp-slicer)";
 
 /** A software adapter provides WebGPU, so that the page works as on a machine with a GPU. */
 const FLAGS = [
@@ -70,7 +74,7 @@ export async function visit(page: Page, address: string): Promise<Opened> {
     if (message.type() === "error") complaints.push(message.text());
   });
   await page.goto(address);
-  await page.waitForSelector("cusp-slicer[state=empty]");
+  await page.waitForSelector(`${ELEMENT}[state=empty]`);
   return { page, strangers, complaints };
 }
 
@@ -88,13 +92,13 @@ export async function drop(page: Page, ...files: DroppedFile[]): Promise<number>
     return route.fulfill({ body: Buffer.from(file?.bytes ?? []), contentType: "application/octet-stream" });
   });
   const at = await page.evaluate(
-    async ([from, names]) => {
+    async ([from, names, element]) => {
       const transfer = new DataTransfer();
       for (const [index, name] of names.entries()) {
         const answer = await fetch(from + String(index));
         transfer.items.add(new File([await answer.arrayBuffer()], name));
       }
-      const target = document.querySelector("cusp-slicer");
+      const target = document.querySelector<CuspWorkbench>(element);
       if (target === null) throw new Error("there is no page");
       const start = performance.now();
       for (const type of ["dragenter", "dragover", "drop"]) {
@@ -104,14 +108,14 @@ export async function drop(page: Page, ...files: DroppedFile[]): Promise<number>
       }
       return start;
     },
-    [address, files.map(({ name }) => name)] as const,
+    [address, files.map(({ name }) => name), ELEMENT] as const,
   );
   await page.unroute(`${address}*`);
   return at;
 }
 
 export async function state(page: Page, wanted: string, timeout = 30_000): Promise<void> {
-  await page.waitForSelector(`cusp-slicer[state=${wanted}]`, { timeout });
+  await page.waitForSelector(`${ELEMENT}[state=${wanted}]`, { timeout });
 }
 
 /** Waits, after a change of settings, until the plan on show matches them. */
@@ -127,7 +131,12 @@ export async function layers(page: Page): Promise<number> {
 
 /** The element's text, with every run of white space as one space: thin and no-break spaces are mere typography. */
 export async function words(page: Page): Promise<string> {
-  return (await page.locator("cusp-slicer .slicer").innerText()).replace(/\s+/g, " ");
+  return (await page.locator(":is(cusp-workbench .bench, cusp-slicer .slicer)").innerText()).replace(/\s+/g, " ");
+}
+
+/** Opens a panel of the page beside the view: a tab, or the button of a sheet on a narrow page. */
+export async function openPanel(page: Page, name: string): Promise<void> {
+  await page.getByRole("tab", { name }).or(page.locator("nav").getByRole("button", { name })).click();
 }
 
 /** Waits until the mask on show is that of this layer, counted from 0. */

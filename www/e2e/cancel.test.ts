@@ -1,7 +1,7 @@
 /** Cancelling at every stage, and what remains afterwards. */
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
-import { download, drop, layers, maskOf, state, words } from "./browser.js";
+import { download, drop, layers, maskOf, openPanel, state, words } from "./browser.js";
 import { pages } from "./pages.js";
 import { sphere } from "./solids.js";
 
@@ -15,7 +15,7 @@ const heavy = { name: "heavy.stl", bytes: sphere(10, 700).bytes };
 /** Presses Cancel as soon as the progress bar shows these words; runs in the page, so as not to be late. */
 async function cancelWhen(page: Page, stage: string): Promise<void> {
   await page.evaluate((wanted) => {
-    const root = document.querySelector("cusp-slicer")?.shadowRoot;
+    const root = document.querySelector("cusp-workbench")?.shadowRoot;
     if (!root) throw new Error("there is no page");
     const press = (): void => {
       const bar = root.querySelector(".progress");
@@ -52,6 +52,7 @@ test("cancelling while rays are cast leaves the last good plan, its masks and it
   await expect.poll(() => cancelled(page)).toBe("Casting rays through it");
   await state(page, "done");
   expect(await layers(page)).toBe(count);
+  await openPanel(page, "Mask");
   const slider = page.getByRole("slider", { name: "Layer", exact: true });
   await slider.focus();
   await page.keyboard.press("Home");
@@ -68,8 +69,8 @@ test.each(["Measuring the surface", "Planning the layers"])("a cancel during “
   await cancelWhen(page, stage);
   await drop(page, heavy);
   // These stages take milliseconds: the plan may be done before the cancel arrives, which is just as good.
-  await page.waitForSelector("cusp-slicer:is([state=ready], [state=done])");
-  if (await page.locator("cusp-slicer[state=ready]").count()) {
+  await page.waitForSelector("cusp-workbench:is([state=ready], [state=done])");
+  if (await page.locator("cusp-workbench[state=ready]").count()) {
     expect(await cancelled(page)).toBe(stage);
     await page.getByRole("button", { name: "Plan the layers" }).click();
   }
@@ -96,7 +97,7 @@ test("Escape cancels, and the page does not freeze while rays are cast", async (
     const root = document.documentElement;
     let turns = 0;
     setInterval(() => {
-      if (document.querySelector("cusp-slicer[state=busy]") !== null) root.dataset["turns"] = String(++turns);
+      if (document.querySelector("cusp-workbench[state=busy]") !== null) root.dataset["turns"] = String(++turns);
     }, 10);
   });
   await page.getByLabel("Resolution").selectOption("4096");

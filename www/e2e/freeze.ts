@@ -4,7 +4,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
 import { binaryStl } from "../src/page/example.js";
-import { download, settled, state } from "./browser.js";
+import { download, openPanel, settled, state } from "./browser.js";
 
 /** Longer than a plan of a large model takes on a slow machine, ms. */
 const PATIENCE_MS = 240_000;
@@ -157,11 +157,12 @@ export async function journey(page: Page, stl: Uint8Array): Promise<Journey> {
       await state(page, "done", PATIENCE_MS);
     });
     await stage("view and mask", async () => {
+      await openPanel(page, "Mask");
       await page.waitForSelector("canvas[data-layer]", { timeout: PATIENCE_MS });
       // The view states the size of the model once it has the model.
       await page.waitForFunction(
         () => {
-          const card = document.querySelector("cusp-slicer")?.shadowRoot?.querySelector("cusp-model");
+          const card = document.querySelector("cusp-workbench")?.shadowRoot?.querySelector("cusp-model");
           const said = card?.shadowRoot?.querySelector("cusp-view")?.shadowRoot?.querySelector("#state")?.textContent ?? "";
           return /40\.0/.test(said);
         },

@@ -1,7 +1,7 @@
 /** Compares the page with recorded pictures of it: `npm run goldens` records them again. */
 import type { BrowserContextOptions, Page, PageScreenshotOptions } from "playwright-core";
 import { expect, test } from "vitest";
-import { downloaded, drop, state } from "./browser.js";
+import { downloaded, drop, openPanel, state } from "./browser.js";
 import { difference, golden, goldenFonts, isAlike, keep, record, recordFonts, small, TOLERANCE } from "./golden.js";
 import { pages } from "./pages.js";
 import { sphere } from "./solids.js";
@@ -21,7 +21,6 @@ const STILL = 3;
 async function example(page: Page): Promise<void> {
   await page.getByRole("button", { name: "Try the example" }).click();
   await state(page, "done");
-  await page.waitForSelector("canvas[data-layer]");
   // The last thing to appear is the curve, and with it the quality slider.
   await expect.poll(() => page.locator("cusp-quality input[type=range]").count()).toBe(1);
 }
@@ -58,6 +57,7 @@ const VISITS: readonly Visit[] = [
     states: {
       orientation: async (page) => {
         await example(page);
+        await openPanel(page, "Orientation");
         await page.getByRole("button", { name: "Find the best orientation" }).click();
         await expect.poll(() => page.locator("cusp-orientation .pose canvas[data-drawn]").count()).toBe(3);
       },

@@ -44,7 +44,7 @@ async function round(browser: Browser, address: string, file: { name: string; by
   try {
     // Records, inside the page and by its own clock, when it reports that it is done.
     await page.evaluate(() => {
-      const app = document.querySelector("cusp-slicer");
+      const app = document.querySelector("cusp-workbench");
       const root = document.documentElement;
       if (app === null) throw new Error("there is no page");
       new MutationObserver(() => {

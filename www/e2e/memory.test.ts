@@ -1,7 +1,7 @@
 /** Ten models in a row leave as much in memory as two. */
 import type { CDPSession, Page } from "playwright-core";
 import { expect, test } from "vitest";
-import { drop, state } from "./browser.js";
+import { drop, openPanel, state } from "./browser.js";
 import { pages } from "./pages.js";
 import { sphere } from "./solids.js";
 import { SOFTWARE_GL } from "./view-pages.js";
@@ -111,10 +111,12 @@ test("ten models in a row leave the heap where it was", async () => {
     const height_mm = 2 * (12 - 0.1 * i);
     await drop(page, { name, bytes: sphere(height_mm / 2, AROUND).bytes });
     // The previous model is on show until this one is read.
-    await expect.poll(() => page.locator("#model-name").allInnerTexts()).toEqual([name]);
+    await expect.poll(() => page.locator(".model-name").allInnerTexts()).toEqual([name]);
     await state(page, "done");
     // Not `waitForSelector`, whose result would keep the canvas alive.
+    await openPanel(page, "Mask");
     await page.locator("canvas[data-layer]").waitFor();
+    await openPanel(page, "Quality");
     await expect.poll(() => page.locator("cusp-quality input[type=range]").count()).toBe(1);
     await expect.poll(() => page.locator("cusp-view #state").textContent()).toContain(height_mm.toFixed(1));
     used.push(await usage(page, devtools));

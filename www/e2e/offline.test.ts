@@ -10,7 +10,7 @@ test("loaded once, the page opens and slices without a network", async () => {
     await page.evaluate(async () => void (await navigator.serviceWorker.ready));
     await page.context().setOffline(true);
     await page.goto(`${inject("address")}?height=20`);
-    await page.waitForSelector("cusp-slicer[state=empty]");
+    await page.waitForSelector("cusp-workbench[state=empty]");
     // A local file needs no network.
     const input = page.getByLabel(/Choose a file/);
     await input.setInputFiles({ name: "ball.stl", mimeType: "", buffer: Buffer.from(sphere(10, 96).bytes) });

@@ -1,7 +1,7 @@
 /** The search for the best orientation, as people use it. */
 import type { Locator, Page } from "playwright-core";
 import { expect, test } from "vitest";
-import { drop, layers, settled, state } from "./browser.js";
+import { drop, layers, openPanel, settled, state } from "./browser.js";
 import { pages } from "./pages.js";
 import { sphere } from "./solids.js";
 import { SOFTWARE_GL } from "./view-pages.js";
@@ -17,6 +17,7 @@ async function example(query = "", options: Parameters<typeof start>[1] = {}): P
   await page.getByRole("button", { name: "Try the example" }).click();
   await state(page, "done");
   await page.waitForSelector("cusp-view");
+  await openPanel(page, "Orientation");
   return page;
 }
 
@@ -94,7 +95,7 @@ const figure = async (page: Page, name: string): Promise<string> =>
 test("a search fills the sphere and offers three directions; one is applied by its button, and the sphere turns along", async () => {
   const page = await example();
   await page.evaluate(() => {
-    document.querySelector("cusp-slicer")?.addEventListener("cusp-orientation", ({ detail }) => {
+    document.querySelector("cusp-workbench")?.addEventListener("cusp-orientation", ({ detail }) => {
       document.documentElement.dataset["promised"] = String(detail.metrics?.layers);
     });
   });
@@ -211,8 +212,10 @@ test("what counts may change without measuring again, and settings that matter m
   await expect.poll(picture).not.toBe(rated);
   await searched(page);
   expect(await panel(page).getByText("Found with other settings").count()).toBe(0);
+  await openPanel(page, "Settings");
   await page.getByLabel("Tolerance", { exact: true }).fill("0.08");
   await settled(page);
+  await openPanel(page, "Orientation");
   await panel(page).getByText("Found with other settings").waitFor();
   await page.getByRole("button", { name: "Undo" }).click();
   await settled(page);
@@ -239,6 +242,7 @@ test("a search is cancelled by its button and by Escape, and leaves what it meas
   const page = await start("?backend=cpu&rays=512");
   await drop(page, { name: "ball.stl", bytes: sphere(10, 600).bytes });
   await state(page, "done");
+  await openPanel(page, "Orientation");
   const find = panel(page).getByRole("button", { name: "Find the best orientation" });
   await find.click();
   await panel(page).getByRole("progressbar").waitFor();

@@ -3,7 +3,7 @@ import { readFile } from "node:fs/promises";
 import { decode } from "fast-png";
 import { unzipSync } from "fflate";
 import { expect, inject, test } from "vitest";
-import { download, drop, launch, layers, maskOf, open, settled, state, words } from "./browser.js";
+import { download, drop, launch, layers, maskOf, open, openPanel, settled, state, words } from "./browser.js";
 import { pages } from "./pages.js";
 import { sphere } from "./solids.js";
 
@@ -35,6 +35,7 @@ test("a dropped model is planned, looked through by keyboard, and its masks add 
   expect(count).toBeGreaterThan(134);
   expect(count).toBeLessThan(400);
 
+  await openPanel(page, "Mask");
   const slider = page.getByRole("slider", { name: "Layer", exact: true });
   const middle = Number(await slider.inputValue());
   await maskOf(page, middle - 1);
@@ -83,7 +84,7 @@ test("a click in the chart looks at the layer of that height", async () => {
   const box = await plot.boundingBox();
   if (box === null) throw new Error("there is no chart");
   await plot.click({ position: { x: box.width / 2, y: box.height / 4 } });
-  const said = await page.getByRole("slider", { name: "Layer", exact: true }).getAttribute("aria-valuetext");
+  const said = await page.getByRole("slider", { name: "Layer in the view" }).getAttribute("aria-valuetext");
   expect(Number(/at (\d+\.\d+)/.exec(said ?? "")?.[1])).toBeCloseTo(15, 0);
 });
 
@@ -93,7 +94,7 @@ test("the example opens from the keyboard, and focus goes to the model", async (
   await page.keyboard.press("Enter");
   await state(page, "done");
   expect(await layers(page)).toBeGreaterThan(267);
-  expect(await page.evaluate(() => document.querySelector("cusp-slicer")?.shadowRoot?.activeElement?.textContent)).toBe("goblet.stl");
+  expect(await page.evaluate(() => document.querySelector("cusp-workbench")?.shadowRoot?.activeElement?.textContent)).toBe("goblet.stl");
   await page.getByRole("status").filter({ hasText: /layers planned/ }).waitFor();
 });
 
@@ -101,7 +102,7 @@ test("a file chosen in the dialogue opens like a dropped one", async () => {
   const page = await start();
   await page.getByLabel(/Choose a file/).setInputFiles({ name: "ball.stl", mimeType: "", buffer: Buffer.from(ball.bytes) });
   await state(page, "done");
-  expect(await page.locator("#model-name").innerText()).toBe("ball.stl");
+  expect(await page.locator(".model-name").innerText()).toBe("ball.stl");
 });
 
 test("files that will not do are refused in words, and the page goes on", async () => {
@@ -121,8 +122,9 @@ test("files that will not do are refused in words, and the page goes on", async 
   await state(page, "error");
   expect(await page.getByRole("alert").innerText()).toContain("half.stl is cut short");
   // The previous model is still there and still responds.
-  expect(await page.locator("#model-name").innerText()).toBe("ball.stl");
+  expect(await page.locator(".model-name").innerText()).toBe("ball.stl");
   expect(await layers(page)).toBe(count);
+  await openPanel(page, "Mask");
   await page.getByRole("button", { name: "Layer below" }).click();
   await page.getByRole("button", { name: "Close" }).click();
   await state(page, "done");
@@ -134,7 +136,7 @@ test("of several files the first STL is opened, and the others are a button away
   await state(page, "done");
   expect(await words(page)).toContain("Model 1 of 2");
   await page.getByRole("button", { name: "Next model" }).click();
-  await expect.poll(() => page.locator("#model-name").innerText()).toBe("other.stl");
+  await expect.poll(() => page.locator(".model-name").innerText()).toBe("other.stl");
   await state(page, "done");
   expect(await page.getByRole("button", { name: "Next model" }).isDisabled()).toBe(true);
 });

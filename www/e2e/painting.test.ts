@@ -22,7 +22,7 @@ interface Planned {
 
 const plan = (page: Page): Promise<Planned> =>
   page.evaluate(() => {
-    const result = document.querySelector("cusp-slicer")?.result;
+    const result = document.querySelector("cusp-workbench")?.result;
     if (result == null) throw new Error("there is no plan");
     const { z_mm, bin_mm, weights_crc32: crc32 } = result.report;
     return { z_mm, bin_mm, crc32, profile: [...result.profile] };
@@ -30,7 +30,7 @@ const plan = (page: Page): Promise<Planned> =>
 
 const weights = (page: Page): Promise<number[] | null> =>
   page.evaluate(() => {
-    const found = document.querySelector("cusp-slicer")?.weights ?? null;
+    const found = document.querySelector("cusp-workbench")?.weights ?? null;
     return found === null ? null : [...found];
   });
 
@@ -103,7 +103,7 @@ test("what is painted to matter less is planned thicker there and as before else
 
   // Everything painted is up there, so nothing below has changed: neither the profile nor the layers.
   const lowest = await page.evaluate(async () => {
-    const slicer = document.querySelector("cusp-slicer");
+    const slicer = document.querySelector("cusp-workbench");
     const [positions, weights] = [await slicer?.slicer.positions(), slicer?.weights];
     if (positions === undefined || weights == null) throw new Error("nothing is painted");
     let lowest = Infinity;
@@ -182,7 +182,7 @@ test("a stroke beside the model turns the view and paints nothing", async () => 
 test("weights of another model are a clear error", async () => {
   const page = await brushInHand();
   const other = await page.evaluate(async () => {
-    const slicer = document.querySelector("cusp-slicer");
+    const slicer = document.querySelector("cusp-workbench");
     const positions = await slicer?.slicer.positions();
     const file = await slicer?.slicer.weightsFile(new Float32Array((positions?.length ?? 0) / 9).fill(0.5));
     return [...new Uint8Array((await file?.arrayBuffer()) ?? new ArrayBuffer(0))];

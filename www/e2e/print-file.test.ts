@@ -33,7 +33,7 @@ test("a downloaded print file dropped again shows its settings, masks and surfac
   expect(file.name).toBe("ball-cusp.goo");
   await drop(page, file);
   const view = await opened(page);
-  await expect.poll(() => page.locator("cusp-slicer").isVisible()).toBe(false);
+  await expect.poll(() => page.locator("cusp-workbench").isVisible()).toBe(false);
   const facts = (await view.locator(".facts").innerText()).replaceAll("\u00a0", " ");
   expect(facts).toContain("The file is whole");
   for (const fact of ["goo V3.0", "Elegoo Mars 4 Ultra", `${file.count} layers of`, "20.000 mm", "4, 30 s each", "mirrored"]) {

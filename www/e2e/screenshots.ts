@@ -2,7 +2,7 @@
 import { mkdir, stat } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
 import type { BrowserContextOptions, Page } from "playwright-core";
-import { downloaded, drop, launch, maskOf, open, state } from "./browser.js";
+import { downloaded, drop, launch, maskOf, open, openPanel, state } from "./browser.js";
 import { serve } from "./serve.js";
 
 /** Everyone who clones the repository fetches its pictures. */
@@ -17,10 +17,11 @@ interface Shot {
 }
 
 async function orientation(page: Page, path: string): Promise<void> {
+  await openPanel(page, "Orientation");
   await page.getByRole("button", { name: "Find the best orientation" }).click();
   await page.locator("cusp-orientation .pose canvas[data-drawn]").nth(2).waitFor();
   await page.locator("cusp-sphere .disc").first().hover({ position: { x: 60, y: 120 } });
-  await page.locator("cusp-slicer [part=orientation]").screenshot({ path });
+  await page.locator("cusp-workbench [part=orientation]").screenshot({ path });
 }
 
 async function distances(page: Page, path: string): Promise<void> {
@@ -67,6 +68,7 @@ export async function main([folder]: string[]): Promise<void> {
       const { page } = await open(browser, served.address + query, { reducedMotion: "reduce", ...options });
       await page.getByRole("button", { name: "Try the example" }).click();
       await state(page, "done");
+      await openPanel(page, "Mask");
       await page.waitForSelector("canvas[data-layer]");
       const slider = page.getByRole("slider", { name: "Layer", exact: true });
       const layer = Math.round(0.72 * Number(await slider.getAttribute("max")));

@@ -1,7 +1,7 @@
 /** Settings as a user changes them: quality, undo, the address, languages, pasting; and the viewer of masks. */
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
-import { download, drop, layers, maskOf, settled, state, words } from "./browser.js";
+import { download, drop, layers, maskOf, openPanel, settled, state, words } from "./browser.js";
 import { pages } from "./pages.js";
 import { sphere } from "./solids.js";
 
@@ -92,12 +92,13 @@ test("a file is pasted", async () => {
     document.body.dispatchEvent(new ClipboardEvent("paste", { clipboardData, bubbles: true, cancelable: true }));
   }, [...ballFile.bytes]);
   await state(page, "done");
-  expect(await page.locator("#model-name").innerText()).toBe("pasted.stl");
+  expect(await page.locator(".model-name").innerText()).toBe("pasted.stl");
 });
 
 test("masks are played from below, and stop at the top", async () => {
   const page = await opened("?planner=uniform&uniform=0.15");
   const count = await layers(page);
+  await openPanel(page, "Mask");
   const slider = page.getByRole("slider", { name: "Layer", exact: true });
   await slider.fill(String(count - 4));
   await maskOf(page, count - 5);
@@ -106,7 +107,7 @@ test("masks are played from below, and stop at the top", async () => {
   await expect.poll(() => page.getByRole("button", { name: "Play" }).count()).toBe(1);
   await page.getByRole("button", { name: "Play" }).click();
   await page.waitForFunction(() => {
-    const root = document.querySelector("cusp-slicer")?.shadowRoot?.querySelector("cusp-mask")?.shadowRoot;
+    const root = document.querySelector("cusp-workbench")?.shadowRoot?.querySelector("cusp-mask")?.shadowRoot;
     return Number(root?.querySelector("canvas")?.dataset["layer"]) > 2;
   });
   await page.getByRole("button", { name: "Pause" }).click();
@@ -114,6 +115,7 @@ test("masks are played from below, and stop at the top", async () => {
 
 test("a mask is zoomed into, to its very pixels, and moved by keyboard", async () => {
   const page = await opened();
+  await openPanel(page, "Mask");
   const canvas = page.locator("cusp-mask canvas");
   /** Numbers of white and of grey pixels in the middle row. */
   const row = (): Promise<{ lit: number; grey: number }> =>
@@ -155,7 +157,7 @@ test("a printer gives pixels and file; a model too large for it is scaled to fit
 
   await page.getByLabel("Scale to height").fill("120");
   await state(page, "error");
-  const problem = page.locator("cusp-settings .field", { has: page.getByLabel("Printer") }).getByRole("alert");
+  const problem = page.getByRole("alert");
   expect(await problem.innerText()).toContain("The model is too large for this printer");
   await problem.getByRole("button", { name: /^Scale to 80\.\d mm$|^Scale to 81 mm$/ }).click();
   await settled(page);
@@ -166,8 +168,7 @@ test("a printer gives pixels and file; a model too large for it is scaled to fit
   await settled(page);
   await page.getByRole("button", { name: /Download print file/ }).click();
   await state(page, "error");
-  const file = page.locator("cusp-settings .field", { has: page.getByLabel("Print file") }).getByRole("alert");
-  await file.getByRole("button", { name: /^Uniform layers of 0\.\d+ mm \(\d+ layers\)$/ }).click();
+  await problem.getByRole("button", { name: /^Uniform layers of 0\.\d+ mm \(\d+ layers\)$/ }).click();
   await settled(page);
   expect(await page.locator("#file").innerText()).toContain("The Prusa SL1S SPEED reads it directly.");
   const saved = await download(page);
@@ -204,7 +205,7 @@ test("a printer of one's own is opened from a file, kept in the address, and sta
     await list.selectOption("Own printer…");
     await page.locator("cusp-settings input[type=file]").setInputFiles({ name, mimeType: "application/json", buffer: Buffer.from(text) });
   };
-  const problem = page.locator("cusp-settings .field", { has: list }).getByRole("alert");
+  const problem = page.getByRole("alert");
   const mine = { model: "Big One", pixels: [2000, 1000], pitch_um: [60, 60], volume_mm: [120, 60, 200], format: "goo", reads: ["goo"] };
 
   await list.selectOption("Own printer…");

@@ -80,14 +80,14 @@ test("a format of one thickness refuses towers in words, and the button shows th
   await page.getByText("More settings").click();
   await page.evaluate(() => {
     const seen: string[] = ((window as unknown as { seen: string[] }).seen = []);
-    const root = document.querySelector("cusp-slicer")?.shadowRoot?.querySelector("cusp-settings")?.shadowRoot;
+    const root = document.querySelector("cusp-workbench")?.shadowRoot?.querySelector("cusp-settings")?.shadowRoot;
     const button = root?.querySelector(".towers button");
     const note = (): void => void seen.push(`${button?.getAttribute("aria-busy")} ${button?.textContent?.trim()}`);
     if (button) new MutationObserver(note).observe(button, { attributes: true });
   });
   await button(page).click();
   await state(page, "error");
-  const problem = page.locator("cusp-settings .field", { has: page.getByLabel("Print file") }).getByRole("alert");
+  const problem = page.getByRole("alert");
   expect(await problem.innerText()).toContain("This print file takes uniform layers only");
   expect(await problem.getByRole("button").allInnerTexts()).toEqual(["Close"]);
   expect(await page.evaluate(() => (window as unknown as { seen: string[] }).seen)).toContain("true Writing test towers…");
@@ -97,7 +97,7 @@ test("a format of one thickness refuses towers in words, and the button shows th
 
 test("a printer that the page has fixed is the page's business: no towers", async () => {
   const page = await opened("saturn-3");
-  await page.evaluate(() => document.querySelector("cusp-slicer")?.setAttribute("fixed", "printer"));
+  await page.evaluate(() => document.querySelector("cusp-workbench")?.setAttribute("fixed", "printer"));
   await page.getByText("More settings").click();
   expect(await button(page).count()).toBe(0);
 });
@@ -105,7 +105,7 @@ test("a printer that the page has fixed is the page's business: no towers", asyn
 test("a page without a model gets them through the API, with progress, and may abort", async () => {
   const page = await start();
   const found = await page.evaluate(async () => {
-    const slicer = document.querySelector("cusp-slicer")?.slicer;
+    const slicer = document.querySelector("cusp-workbench")?.slicer;
     if (slicer === undefined) throw new Error("there is no element");
     const aborted = async (): Promise<string> => {
       const abort = new AbortController();

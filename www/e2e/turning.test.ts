@@ -62,7 +62,7 @@ test("while the model is held, numbers and profile follow by previews; let go, i
   const tell = (rotation: number[], final: boolean): Promise<void> =>
     page.evaluate(
       ([rotation, final]) => {
-        const root = document.querySelector("cusp-slicer")?.shadowRoot?.querySelector("cusp-model")?.shadowRoot;
+        const root = document.querySelector("cusp-workbench")?.shadowRoot?.querySelector("cusp-model")?.shadowRoot;
         root?.querySelector("cusp-view")?.dispatchEvent(new CustomEvent("cusp-rotate", { detail: { rotation, final } }));
       },
       [rotation, final] as const,
@@ -87,7 +87,7 @@ test("beside the chart, heights are where the chart has them", async () => {
   /** Upper edge and plate of the model on the screen, and those of the chart's plot. */
   const edges = (): Promise<number[]> =>
     page.evaluate(async () => {
-      const root = document.querySelector("cusp-slicer")?.shadowRoot;
+      const root = document.querySelector("cusp-workbench")?.shadowRoot;
       const panel = root?.querySelector("cusp-model")?.shadowRoot;
       const view = panel?.querySelector("cusp-view");
       const over = root?.querySelector("cusp-chart")?.shadowRoot?.querySelector(".u-over")?.getBoundingClientRect();

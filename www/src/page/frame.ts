@@ -51,22 +51,22 @@ export function frame(language: Language, { example, speak, open }: PageActions,
             @cusp-unknown=${print.unknown}
             @cusp-files=${(event: CustomEvent<File[]>) => open(event.detail)}
           ></cusp-print>`}
-      <cusp-slicer .locale=${locale} ?hidden=${print !== null}>
+      <cusp-workbench .locale=${locale} ?hidden=${print !== null}>
+        <p slot="start" class="offers">
+          ${words.noModel}
+          <button class="link" @click=${example}>${words.tryExample}</button>
+          <label class="link">
+            <input class="hidden" type="file" @change=${(event: Event) => open(chosen(event))} />
+            ${words.printFile}
+          </label>
+        </p>
         <div slot="empty" class="empty">
-          <p>
-            ${words.noModel}
-            <button class="link" @click=${example}>${words.tryExample}</button>
-            <label class="link">
-              <input class="hidden" type="file" @change=${(event: Event) => open(chosen(event))} />
-              ${words.printFile}
-            </label>
-          </p>
           <ul class="points">
             ${words.points.map(([title, text]) => html`<li><strong>${title}</strong> ${text}</li>`)}
           </ul>
         </div>
         <button slot="actions" class="link" @click=${example}>${words.example}</button>
-      </cusp-slicer>
+      </cusp-workbench>
     </main>
     <div class="drop-veil"><p>${words.drop}</p></div>
   `;

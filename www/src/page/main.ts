@@ -1,13 +1,13 @@
 /** The page around the element: its header, opening files anywhere, the example, the address, working offline. */
-import "../element/register.js";
+import "../workbench/register.js";
 import { render } from "lit";
-import type { CuspSlicer } from "../element/index.js";
 import { languageOf } from "../texts/index.js";
 import { ADDRESS_KEYS, addressOf, settingsOf } from "./address.js";
 import { binaryStl, exampleTriangles, EXAMPLE_NAME } from "./example.js";
 import { frame } from "./frame.js";
 import { openAnywhere } from "./open-anywhere.js";
 import { workOffline } from "./offline.js";
+import type { CuspWorkbench } from "../workbench/cusp-workbench.js";
 import { pageWords } from "./texts/index.js";
 
 function found<E extends Element>(selector: string): E {
@@ -30,6 +30,7 @@ function draw(): void {
   const files = shown;
   const [file] = files ?? [];
   const print = files === null || file === undefined ? null : { file, close, unknown: () => load(files) };
+  document.body.classList.toggle("reading", print !== null);
   render(frame(language, { example, speak, open: (files) => void open(files) }, print), place);
 }
 
@@ -79,7 +80,7 @@ function keep(): void {
 }
 
 draw();
-const slicer = found<CuspSlicer>("cusp-slicer");
+const slicer = found<CuspWorkbench>("cusp-workbench");
 slicer.query = settingsOf(asked);
 const backend = own.get("backend");
 if (backend === "cpu" || backend === "gpu") slicer.backend = backend;

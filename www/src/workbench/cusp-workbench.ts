@@ -1,0 +1,77 @@
+/**
+ * `<cusp-workbench>`: the page's own element, all of a slicer on one screen. It has the properties, events and gestures of
+ * `<cusp-slicer>`, and another layout of the same panels.
+ */
+import type { TemplateResult } from "lit";
+import { define } from "../element/define.js";
+import type { Facts } from "../element/facts.js";
+import type { PlotPlace } from "../element/panels/profile-chart.js";
+import { summaryStyles } from "../element/panels/summary.js";
+import { problemStyles } from "../element/parts/problem-box.js";
+import { progressStyles } from "../element/parts/progress.js";
+import { SlicerElement } from "../element/slicer-element.js";
+import { shared } from "../element/styles/shared.js";
+import { theme } from "../element/styles/theme.js";
+import { CuspLayerSlider } from "./layer-slider.js";
+import { WIDE_PX, type AnswerPanel, type ChoicePanel, type Sheet } from "./places.js";
+import { workbenchStyles } from "./styles.js";
+import { template } from "./template.js";
+
+export class CuspWorkbench extends SlicerElement {
+  static override styles = [theme, shared, summaryStyles, progressStyles, problemStyles, workbenchStyles];
+
+  #isWide = true;
+  #choice: ChoicePanel = "settings";
+  #answer: AnswerPanel = "quality";
+  #sheet: Sheet | null = null;
+  #plot: PlotPlace | null = null;
+  readonly #resized = new ResizeObserver(() => {
+    const isWide = this.clientWidth >= WIDE_PX;
+    if (isWide !== this.#isWide) this.#set(() => (this.#isWide = isWide));
+  });
+
+  constructor() {
+    super();
+    define("cusp-layer-slider", CuspLayerSlider);
+    this.addEventListener("keydown", (event) => {
+      if (event.key === "Escape" && this.#sheet !== null) this.#set(() => (this.#sheet = null));
+    });
+  }
+
+  override connectedCallback(): void {
+    super.connectedCallback();
+    this.#isWide = this.clientWidth >= WIDE_PX;
+    this.#resized.observe(this);
+  }
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    this.#resized.disconnect();
+  }
+
+  protected override layout(facts: Facts): TemplateResult {
+    return template(facts, {
+      isWide: this.#isWide,
+      choice: this.#choice,
+      answer: this.#answer,
+      sheet: this.#sheet,
+      plot: this.#plot,
+      choose: (name) => this.#set(() => (this.#choice = name)),
+      answers: (name) => this.#set(() => (this.#answer = name)),
+      open: (sheet) => this.#set(() => (this.#sheet = sheet)),
+      placed: (plot) => this.#set(() => (this.#plot = plot)),
+    });
+  }
+
+  #set(change: () => void): void {
+    change();
+    this.requestUpdate();
+  }
+}
+
+declare global {
+  interface HTMLElementTagNameMap {
+    "cusp-workbench": CuspWorkbench;
+    "cusp-layer-slider": CuspLayerSlider;
+  }
+}

@@ -1,0 +1,182 @@
+/** A vertical slider through the layers, as high as the plot beside it: its thumb stands at the height of the layer. */
+import { css, html, nothing, type PropertyValues, type TemplateResult } from "lit";
+import { live } from "lit/directives/live.js";
+import type { PlotPlace } from "../element/panels/profile-chart.js";
+import type { Shown } from "../element/state/result.js";
+import { shared } from "../element/styles/shared.js";
+import { languageOf } from "../texts/index.js";
+import { workbenchWords } from "./texts/index.js";
+import { elementWith, given, own } from "../view/properties.js";
+import { layerAt } from "../view/scene/lookup.js";
+
+/** Layers that a key moves by. */
+const STEPS: Readonly<Record<string, number>> = {
+  ArrowUp: 1,
+  ArrowRight: 1,
+  ArrowDown: -1,
+  ArrowLeft: -1,
+  PageUp: 10,
+  PageDown: -10,
+  Home: Number.NEGATIVE_INFINITY,
+  End: Number.POSITIVE_INFINITY,
+};
+
+/** Height of the thumb in pixels: the slider is longer by this than what it spans. */
+const THUMB_PX = 16;
+
+interface Span {
+  top_px: number;
+  bottom_px: number;
+}
+
+/** Where the slider is without a plot beside it. */
+const ALONE: Span = { top_px: THUMB_PX, bottom_px: THUMB_PX };
+
+const PROPERTIES = {
+  shown: given<Shown | null>(null),
+  layer: given(0),
+  /** The plot beside it, with the heights that it shows; null without one. */
+  plot: given<PlotPlace | null>(null),
+  language: given(languageOf()),
+  span: own(ALONE),
+};
+
+export class CuspLayerSlider extends elementWith(PROPERTIES) {
+  readonly #resized = new ResizeObserver(() => this.#measure());
+  #over: HTMLElement | null = null;
+
+  static override styles = [
+    shared,
+    css`
+      :host {
+        position: relative;
+        display: block;
+        width: 2.75rem;
+        touch-action: none;
+      }
+      input {
+        position: absolute;
+        left: 0;
+        width: 100%;
+        margin: 0;
+        writing-mode: vertical-lr;
+        direction: rtl;
+        appearance: none;
+        background: transparent;
+        cursor: ns-resize;
+        touch-action: none;
+      }
+      input::-webkit-slider-runnable-track {
+        width: 4px;
+        margin-inline: auto;
+        border-radius: 2px;
+        background: var(--cusp-line);
+      }
+      input::-moz-range-track {
+        width: 4px;
+        border-radius: 2px;
+        background: var(--cusp-line);
+      }
+      input::-webkit-slider-thumb {
+        appearance: none;
+        width: 28px;
+        height: 16px;
+        margin-left: -12px;
+        border: 2px solid var(--cusp-card);
+        border-radius: 8px;
+        background: var(--cusp-accent);
+      }
+      input::-moz-range-thumb {
+        box-sizing: border-box;
+        width: 28px;
+        height: 16px;
+        border: 2px solid var(--cusp-card);
+        border-radius: 8px;
+        background: var(--cusp-accent);
+      }
+      @media (forced-colors: active) {
+        input::-webkit-slider-runnable-track,
+        input::-moz-range-track {
+          background: ButtonBorder;
+        }
+        input::-webkit-slider-thumb,
+        input::-moz-range-thumb {
+          forced-color-adjust: none;
+          border-color: Canvas;
+          background: Highlight;
+        }
+      }
+    `,
+  ];
+
+  override connectedCallback(): void {
+    super.connectedCallback();
+    this.#resized.observe(this);
+  }
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    this.#resized.disconnect();
+    this.#over = null;
+  }
+
+  override willUpdate(changed: PropertyValues<this>): void {
+    if (!changed.has("plot")) return;
+    const over = this.plot?.over ?? null;
+    if (over === this.#over) return;
+    if (this.#over !== null) this.#resized.unobserve(this.#over);
+    if (over !== null) this.#resized.observe(over);
+    this.#over = over;
+  }
+
+  override render(): TemplateResult | typeof nothing {
+    const { shown, layer, plot, span } = this;
+    const { texts, format } = this.language;
+    const layers = shown?.thickness_mm.length ?? 0;
+    if (shown === null || layers === 0) return nothing;
+    const { z_mm, thickness_mm } = shown;
+    const [bottom, top] = [z_mm[layer] ?? 0, z_mm[layer + 1] ?? 0];
+    const [least, most] = plot?.heights_mm ?? [0, z_mm.at(-1) ?? 0];
+    const said = texts.mask.said(
+      format.count(layer + 1),
+      format.count(layers),
+      format.height(bottom),
+      format.height(thickness_mm[layer] ?? top - bottom),
+    );
+    return html`<input
+      type="range"
+      aria-label=${workbenchWords(this.language).layer}
+      aria-orientation="vertical"
+      aria-valuetext=${said}
+      min=${least}
+      max=${most}
+      step="any"
+      .style=${`top: ${span.top_px - THUMB_PX / 2}px; bottom: ${span.bottom_px - THUMB_PX / 2}px`}
+      .value=${live(String((bottom + top) / 2))}
+      @input=${({ target }: Event) => this.#go(layerAt(z_mm, Number((target as HTMLInputElement).value)))}
+      @keydown=${this.#key}
+    />`;
+  }
+
+  readonly #key = (event: KeyboardEvent): void => {
+    const step = STEPS[event.key];
+    if (step === undefined || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    const last = (this.shown?.thickness_mm.length ?? 1) - 1;
+    this.#go(Math.min(Math.max(0, this.layer + step), last));
+  };
+
+  #go(layer: number): void {
+    this.dispatchEvent(new CustomEvent<number>("cusp-layer", { detail: layer }));
+    // A browser that kept the thumb where the pointer is would show a height between two layers.
+    this.requestUpdate();
+  }
+
+  #measure(): void {
+    const over = this.#over?.getBoundingClientRect();
+    const own = this.getBoundingClientRect();
+    const isBeside = over !== undefined && over.height > 0 && over.top >= own.top && over.bottom <= own.bottom;
+    const span = isBeside ? { top_px: over.top - own.top, bottom_px: own.bottom - over.bottom } : ALONE;
+    if (span.top_px !== this.span.top_px || span.bottom_px !== this.span.bottom_px) this.span = span;
+  }
+}

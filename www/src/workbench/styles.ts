@@ -1,0 +1,418 @@
+/** The styles of the workbench. It fills its host, which has a definite height; what does not fit scrolls inside its panel. */
+import { css } from "lit";
+
+export const workbenchStyles = css`
+  :host {
+    height: 100%;
+    --cusp-radius: 10px;
+    /* The tabs say it. */
+    --cusp-title-position: absolute;
+    --cusp-title-clip: inset(50%);
+  }
+  :host([hidden]) {
+    display: none;
+  }
+  h2 {
+    font-size: 1rem;
+    font-weight: 600;
+    overflow-wrap: anywhere;
+  }
+  /* Focused by script alone, so that screen readers read on from here: a ring would only puzzle. */
+  h2:focus {
+    outline: none;
+  }
+  .bench {
+    display: grid;
+    gap: 0.75rem;
+    height: 100%;
+    min-height: 0;
+  }
+  .bench.wide {
+    grid-template: minmax(0, 1fr) / 19rem minmax(0, 1fr) 19rem;
+  }
+  .bench.narrow {
+    grid-template: minmax(0, 1fr) auto / minmax(0, 1fr);
+    gap: 0;
+  }
+  .dragging {
+    outline: 3px dashed var(--cusp-accent);
+    outline-offset: -3px;
+    border-radius: var(--cusp-radius);
+  }
+  .card {
+    padding: 0.875rem 1rem;
+  }
+
+  .side {
+    display: flex;
+    flex-direction: column;
+    gap: 0.75rem;
+    min-width: 0;
+    min-height: 0;
+  }
+  .tabbed {
+    display: flex;
+    flex: 1 1 14rem;
+    flex-direction: column;
+    min-height: 0;
+    padding: 0;
+  }
+  .tab-row {
+    display: flex;
+    align-items: center;
+    justify-content: space-between;
+    gap: 0.5rem;
+    min-height: 3rem;
+    padding-inline: 1rem 0.75rem;
+    border-bottom: 1px solid var(--cusp-line);
+  }
+  .tabs {
+    display: flex;
+    gap: 1rem;
+    align-self: stretch;
+  }
+  .tabs button {
+    padding: 0.25rem 0;
+    border: 0;
+    border-block: 2px solid transparent;
+    border-radius: 0;
+    color: var(--cusp-quiet);
+  }
+  .tabs button[aria-selected="true"] {
+    border-bottom-color: var(--cusp-accent);
+    color: var(--cusp-text);
+  }
+  .panel {
+    flex: 1;
+    min-height: 0;
+    padding: 0.875rem 1rem 1rem;
+    overflow: hidden auto;
+    overscroll-behavior: contain;
+    scrollbar-width: thin;
+  }
+  .panel:focus-visible {
+    outline-offset: -3px;
+  }
+  .steps {
+    display: flex;
+    gap: 0.25rem;
+  }
+  .steps button {
+    min-width: 2.25rem;
+    padding: 0;
+  }
+  .steps svg {
+    width: 1.125rem;
+    height: 1.125rem;
+    fill: none;
+    stroke: currentColor;
+    stroke-width: 1.75;
+    stroke-linecap: round;
+    stroke-linejoin: round;
+  }
+
+  .model dl {
+    display: flex;
+    flex-wrap: wrap;
+    gap: 0.25rem 1.25rem;
+    margin-top: 0.375rem;
+    font-size: 0.875rem;
+  }
+  dt {
+    color: var(--cusp-quiet);
+    font-size: 0.8125rem;
+  }
+  .files,
+  .open-other {
+    display: flex;
+    align-items: center;
+    gap: 0.5rem;
+    margin-top: 0.625rem;
+  }
+  .files button {
+    min-width: 2.25rem;
+    padding: 0;
+    font-size: 1.25rem;
+  }
+  .flip:dir(rtl) {
+    scale: -1 1;
+  }
+  .open-other label {
+    position: relative;
+  }
+  .drop:has(:focus-visible),
+  .open-other label:has(:focus-visible) {
+    outline: 3px solid var(--cusp-focus);
+    outline-offset: 2px;
+  }
+
+  .stage {
+    position: relative;
+    display: grid;
+    grid-template: minmax(0, 1fr) / minmax(0, 1fr) auto;
+    min-width: 0;
+    min-height: 0;
+    border: 1px solid var(--cusp-line);
+    border-radius: var(--cusp-radius);
+    background: var(--cusp-card);
+    overflow: hidden;
+  }
+  .wide .stage {
+    grid-template-columns: minmax(0, 1fr) auto clamp(9.5rem, 22%, 16rem);
+  }
+  .empty .stage {
+    grid-template: minmax(0, 1fr) / minmax(0, 1fr);
+  }
+  .view {
+    min-width: 0;
+    min-height: 0;
+    padding: 0.625rem 0 0.625rem 0.625rem;
+  }
+  .profile {
+    min-width: 0;
+    min-height: 0;
+    padding: 0.625rem 0.625rem 0.625rem 0;
+  }
+  .stage > .model-name {
+    position: absolute;
+    z-index: 1;
+    inset-block-start: 0.375rem;
+    inset-inline: 0.75rem 4rem;
+    overflow: hidden;
+    font-size: 0.875rem;
+    text-overflow: ellipsis;
+    white-space: nowrap;
+    pointer-events: none;
+  }
+
+  .start {
+    display: flex;
+    flex-direction: column;
+    gap: 1rem;
+    min-height: 0;
+    padding: 1rem;
+    overflow-y: auto;
+  }
+  .drop {
+    display: grid;
+    flex: 1;
+    justify-items: center;
+    align-content: center;
+    gap: 1rem;
+    min-height: 15rem;
+    padding: 1.5rem 1rem;
+    border: 2px dashed var(--cusp-field);
+    border-radius: 12px;
+    cursor: pointer;
+    transition: border-color 120ms;
+  }
+  .drop:hover {
+    border-color: var(--cusp-accent);
+  }
+  .drop-title {
+    font-size: 1.375rem;
+    font-weight: 600;
+    text-align: center;
+  }
+  .opening {
+    margin: auto;
+    font-size: 1.375rem;
+  }
+
+  /* What lies over the view takes no room from it, so that nothing moves when it comes and goes. */
+  .overlay {
+    position: absolute;
+    z-index: 2;
+    inset: auto 0 0.75rem;
+    display: grid;
+    justify-items: center;
+    gap: 0.5rem;
+    padding-inline: 0.75rem;
+    pointer-events: none;
+  }
+  .overlay > * {
+    width: 100%;
+    max-width: 34rem;
+    margin: 0;
+    box-shadow: 0 6px 24px rgb(0 0 0 / 0.2);
+    pointer-events: auto;
+  }
+  .overlay .message {
+    background-color: var(--cusp-card);
+    background-image: linear-gradient(var(--cusp-bad-wash), var(--cusp-bad-wash));
+    max-height: 50cqh;
+    overflow-y: auto;
+  }
+  .overlay .notice {
+    background-image: linear-gradient(var(--cusp-note-wash), var(--cusp-note-wash));
+  }
+  /* Appears after a delay, so that quick plans do not flash. */
+  .progressing.quick {
+    animation: appear 150ms 250ms both;
+  }
+  @keyframes appear {
+    from {
+      opacity: 0;
+    }
+  }
+
+  .plan {
+    flex: 0 1 auto;
+    min-height: 14rem;
+    overflow: hidden auto;
+    scrollbar-width: thin;
+  }
+  .plan .figure {
+    display: grid;
+    gap: 0;
+  }
+  .plan .count {
+    font-size: 2.75rem;
+  }
+  .plan .count span,
+  .plan .time {
+    font-size: 1rem;
+  }
+  .plan .gain {
+    font-size: 0.875rem;
+  }
+  .plan .replanning {
+    opacity: 0.6;
+    transition: opacity 150ms 250ms;
+  }
+  .exposure {
+    margin-top: 0.25rem;
+  }
+  .download {
+    width: 100%;
+    margin-block: 0.75rem 0.5rem;
+  }
+  .plan #file {
+    padding: 0;
+    font-size: 0.8125rem;
+  }
+  .earlier {
+    margin-block: 0.5rem;
+    padding: 0.375rem 0.75rem;
+    border-radius: 6px;
+    background: var(--cusp-note-wash);
+    font-size: 0.875rem;
+  }
+  .warning {
+    margin-top: 0.625rem;
+    padding-inline-start: 0.75rem;
+    border-inline-start: 3px solid #e0a030;
+    font-size: 0.875rem;
+  }
+  details.quiet {
+    margin-top: 0.625rem;
+  }
+  details.quiet summary {
+    width: fit-content;
+    cursor: pointer;
+  }
+  .facts {
+    display: flex;
+    flex-wrap: wrap;
+    gap: 0.5rem 2rem;
+    margin-top: 0.5rem;
+  }
+
+  .narrow .stage {
+    border: 0;
+    border-radius: 0;
+  }
+  .narrow .view {
+    padding: 0;
+  }
+  .narrow cusp-layer-slider {
+    margin-block: 2.5rem 3rem;
+  }
+  .bar {
+    display: grid;
+    border-top: 1px solid var(--cusp-line);
+    background: var(--cusp-card);
+    padding-bottom: env(safe-area-inset-bottom);
+  }
+  .bar-result {
+    display: flex;
+    align-items: center;
+    justify-content: space-between;
+    gap: 0.75rem;
+    padding: 0.5rem 0.75rem;
+  }
+  .bar-figures {
+    display: grid;
+    gap: 0;
+    justify-items: start;
+    padding: 0.125rem 0.5rem;
+    border-color: transparent;
+    text-align: start;
+    font-variant-numeric: tabular-nums;
+  }
+  .bar-figures span {
+    font-size: 0.875rem;
+    font-weight: 400;
+  }
+  .bar .download {
+    width: auto;
+    margin: 0;
+    padding-inline: 0.875rem;
+  }
+  .bar-panels {
+    display: flex;
+  }
+  .bar-panels button {
+    flex: auto;
+    padding: 0.25rem 0.125rem;
+    border: 0;
+    border-top: 2px solid transparent;
+    border-radius: 0;
+    font-size: 0.75rem;
+  }
+  .bar-panels button[aria-expanded="true"] {
+    border-top-color: var(--cusp-accent);
+    color: var(--cusp-accent);
+  }
+  .sheet {
+    position: absolute;
+    z-index: 3;
+    inset: auto 0 0;
+    display: flex;
+    flex-direction: column;
+    height: 62%;
+    border-top: 1px solid var(--cusp-line);
+    border-radius: 14px 14px 0 0;
+    background: var(--cusp-card);
+    box-shadow: 0 -6px 24px rgb(0 0 0 / 0.18);
+  }
+  .sheet .close {
+    margin-inline-start: auto;
+  }
+  .sheet .model {
+    padding: 0;
+    border: 0;
+    margin-bottom: 1rem;
+  }
+  /* Between phone and desktop, a sheet stands at the side and leaves the view its height. */
+  @container (min-width: 40rem) {
+    .narrow .sheet {
+      inset: 0 0 0 auto;
+      width: 22rem;
+      height: auto;
+      border-inline-start: 1px solid var(--cusp-line);
+      border-radius: 0;
+    }
+    .narrow .bar {
+      grid-template-columns: auto minmax(0, 1fr);
+      align-items: center;
+    }
+  }
+  @media (forced-colors: active) {
+    .tabs button[aria-selected="true"],
+    .bar-panels button[aria-expanded="true"] {
+      border-color: Highlight;
+      color: Highlight;
+    }
+  }
+`;

@@ -1,0 +1,254 @@
+/** The layout of the workbench: the view in the middle, choices at its start, the result at its end; on a narrow screen, sheets. */
+import { html, nothing, type TemplateResult } from "lit";
+import {
+  announcement,
+  chartPanel,
+  downloadButton,
+  earlierNote,
+  fileLine,
+  maskPanel,
+  modelPanel,
+  noticeBox,
+  orientationPanel,
+  qualityPanel,
+  settingsPanel,
+  undoButtons,
+} from "../element/bound-panels.js";
+import type { Facts } from "../element/facts.js";
+import { modelCard, warnings } from "../element/panels/model-card.js";
+import type { PlotPlace } from "../element/panels/profile-chart.js";
+import { comparison, details, figures } from "../element/panels/summary.js";
+import { layersPicture } from "../element/parts/layers-picture.js";
+import { problemBox } from "../element/parts/problem-box.js";
+import { progressBar } from "../element/parts/progress.js";
+import type { Result } from "../element/state/result.js";
+import { ANSWERS, CHOICES, SHEETS, type AnswerPanel, type ChoicePanel, type Sheet } from "./places.js";
+import { tabs } from "./tabs.js";
+import { workbenchWords } from "./texts/index.js";
+
+/** What the workbench itself remembers: which panels are open, and where the chart's plot is. */
+export interface Bench {
+  isWide: boolean;
+  choice: ChoicePanel;
+  answer: AnswerPanel;
+  /** The sheet over the view of a narrow screen; null if none is open. */
+  sheet: Sheet | null;
+  plot: PlotPlace | null;
+  choose(name: ChoicePanel): void;
+  answers(name: AnswerPanel): void;
+  open(sheet: Sheet | null): void;
+  placed(plot: PlotPlace): void;
+}
+
+export function template(facts: Facts, bench: Bench): TemplateResult {
+  const { session, isDragging } = facts;
+  const { isWide } = bench;
+  const isEmpty = session.model === null;
+  const classes = [isWide ? "wide" : "narrow", isEmpty ? "empty" : "full", isDragging ? "dragging" : ""].join(" ");
+  return html`
+    <div class="bench ${classes}" aria-busy=${session.busy !== null}>
+      ${isWide ? choicesSide(facts, bench) : nothing}
+      <section class="stage" aria-label=${isEmpty ? facts.language.texts.open.region : facts.language.texts.view.region}>
+        ${isEmpty ? start(facts, bench) : view(facts, bench)}
+        <div class="overlay">${overlay(facts)}</div>
+        ${isWide ? nothing : sheet(facts, bench)}
+      </section>
+      ${isWide ? answersSide(facts, bench) : bar(facts, bench)}
+    </div>
+    ${announcement(facts)}
+  `;
+}
+
+/** The stage before a model is open. */
+function start({ session, language: { texts }, picked }: Facts, { isWide }: Bench): TemplateResult {
+  return html`<div class="start">
+    ${session.busy === null
+      ? html`<label class="drop" part="drop">
+          <input class="visually-hidden" type="file" accept=".stl,model/stl" multiple @change=${picked} />
+          ${layersPicture}
+          <span class="drop-title">${texts.open.drop}</span>
+          <span class="button primary">${texts.open.choose}</span>
+        </label>`
+      : html`<h2 class="opening">${session.busy.name}</h2>`}
+    <slot name="start"></slot>
+    ${isWide ? nothing : html`<slot name="empty"></slot>`}
+  </div>`;
+}
+
+function view(facts: Facts, { isWide, plot, placed }: Bench): TemplateResult {
+  const { session, language } = facts;
+  return html`${isWide ? nothing : html`<h2 class="model-name" tabindex="-1">${session.model?.name}</h2>`}
+    <div class="view" part="view">${modelPanel(facts)}</div>
+    <cusp-layer-slider
+      .shown=${session.shown}
+      .layer=${session.layer}
+      .plot=${isWide ? plot : null}
+      .language=${language}
+      @cusp-layer=${(event: CustomEvent<number>) => session.selectLayer(event.detail)}
+    ></cusp-layer-slider>
+    ${isWide ? html`<section class="profile" part="profile" aria-label=${language.texts.chart.region}>${chartPanel(facts, placed)}</section>` : nothing}`;
+}
+
+/** Over the middle, where nobody misses it: what went wrong, what was stopped, what is under way. */
+function overlay(facts: Facts): TemplateResult {
+  const { session, language, problem } = facts;
+  const { busy } = session;
+  return html`
+    ${problem === null ? nothing : problemBox(problem, language, (change) => session.change(change), () => session.dismiss())}
+    ${noticeBox(facts)}
+    ${busy === null
+      ? nothing
+      : html`<div class="card progressing ${session.result === null ? "" : "quick"}" part="toast">
+          ${progressBar(busy, language, () => session.cancel())}
+        </div>`}
+  `;
+}
+
+function choicesSide(facts: Facts, { choice, choose }: Bench): TemplateResult {
+  const { session } = facts;
+  const { texts } = facts.language;
+  const words = workbenchWords(facts.language);
+  const isEmpty = session.model === null;
+  return html`<div class="side choices">
+    ${modelSection(facts)}
+    <section class="card tabbed" part="settings">
+      <div class="tab-row">
+        ${isEmpty
+          ? html`<h2>${texts.settings.title}</h2>`
+          : tabs(words.choices, CHOICES, choice, { settings: texts.settings.title, orientation: texts.orientation.title }, "choice", choose)}
+        ${undoButtons(facts)}
+      </div>
+      <div class="panel" id="choice" tabindex=${isEmpty ? nothing : 0} role=${isEmpty ? nothing : "tabpanel"} aria-labelledby=${isEmpty ? nothing : `tab-${choice}`}>
+        ${isEmpty || choice === "settings" ? settingsPanel(facts, null) : orientationPanel(facts)}
+      </div>
+    </section>
+  </div>`;
+}
+
+function modelSection({ session, language, picked }: Facts): TemplateResult {
+  return modelCard(session, language, { picked, openFile: (place) => void session.openFile(place) });
+}
+
+function answersSide(facts: Facts, { answer, answers }: Bench): TemplateResult {
+  const { session, language } = facts;
+  const { texts } = language;
+  const words = workbenchWords(language);
+  if (session.model === null) return html`<div class="side answers"><slot name="empty"></slot></div>`;
+  return html`<div class="side answers">
+    <section class="card plan" part="plan" aria-label=${texts.plan.region}>${plan(facts)}</section>
+    <section class="card tabbed" part="quality">
+      <div class="tab-row">${tabs(words.answers, ANSWERS, answer, { quality: texts.quality.title, layers: words.mask }, "answer", answers)}</div>
+      <div class="panel" id="answer" tabindex="0" role="tabpanel" aria-labelledby="tab-${answer}">
+        ${session.result === null ? nothing : answer === "quality" ? quality(facts, session.result) : maskPanel(facts, session.result)}
+      </div>
+    </section>
+  </div>`;
+}
+
+/** The result: its figures, its file, what to know about it, and how it was computed. */
+function plan(facts: Facts): TemplateResult {
+  const { session, language, saveTowers } = facts;
+  const { result } = session;
+  if (result === null) return noPlan(facts);
+  return html`
+    <div class="${session.busy?.task === "plan" ? "replanning" : ""}">
+      ${figures(result, session.shown ?? result.report, language)} ${exposure(facts, result)}
+    </div>
+    ${downloadButton(facts)} ${earlierNote(facts)} ${fileLine(facts, result)} ${warnings(session, language, saveTowers)}
+    ${details(result, language)}
+  `;
+}
+
+/** In place of the result: the same rows without figures, so that nothing moves when they come. */
+function noPlan(facts: Facts): TemplateResult {
+  const { session, language, saveTowers } = facts;
+  const { texts } = language;
+  return html`
+    <p class="count" aria-hidden="true">–</p>
+    <p class="quiet">${session.busy === null ? texts.plan.none : texts.progress[session.busy.stage]}</p>
+    ${session.busy === null && session.canPlan
+      ? html`<button class="primary" @click=${() => session.replan()}>${texts.plan.make}</button>`
+      : nothing}
+    ${warnings(session, language, saveTowers)}
+  `;
+}
+
+/** The exposure, which the time rests on. */
+function exposure({ language }: Facts, { report: { resin } }: Result): TemplateResult | typeof nothing {
+  const { exposure_s, layer_mm } = resin;
+  if (exposure_s === undefined || layer_mm === undefined) return nothing;
+  const { format } = language;
+  return html`<p class="exposure quiet">${workbenchWords(language).exposure(format.seconds(exposure_s), format.fine(layer_mm))}</p>`;
+}
+
+function quality(facts: Facts, result: Result): TemplateResult {
+  return html`${result.report.planner === "uniform" ? nothing : qualityPanel(facts, result)} ${comparison(result, facts.language)}`;
+}
+
+/** The bar of a narrow screen, which stays: figures, download, and the panels. */
+function bar(facts: Facts, { sheet, open }: Bench): TemplateResult {
+  const { session, language } = facts;
+  const { result, shown } = session;
+  const { texts, format } = language;
+  const words = workbenchWords(language);
+  const names: Readonly<Record<(typeof SHEETS)[number], string>> = {
+    settings: texts.settings.title,
+    orientation: texts.orientation.title,
+    profile: texts.chart.region,
+    quality: texts.quality.title,
+    layers: words.mask,
+  };
+  const { layers, print_time_s } = shown ?? { layers: 0, print_time_s: 0 };
+  return html`<div class="bar">
+    ${session.model === null
+      ? nothing
+      : html`<div class="bar-result">
+          <button class="bar-figures" aria-label=${words.more} aria-expanded=${sheet === "plan" ? "true" : "false"} @click=${() => open(sheet === "plan" ? null : "plan")}>
+            ${result === null
+              ? html`<strong>–</strong>`
+              : html`<strong data-layers=${layers}>${format.count(layers)} ${texts.plan.layers(layers)}</strong>
+                  <span>${format.time(print_time_s)}</span>`}
+          </button>
+          ${result === null ? nothing : downloadButton(facts)}
+        </div>`}
+    <nav class="bar-panels" aria-label=${words.choices}>
+      ${SHEETS.map(
+        (name) => html`<button
+          aria-expanded=${name === sheet ? "true" : "false"}
+          ?disabled=${session.model === null && name !== "settings"}
+          @click=${() => open(name === sheet ? null : name)}
+        >
+          ${names[name]}
+        </button>`,
+      )}
+    </nav>
+  </div>`;
+}
+
+function sheet(facts: Facts, bench: Bench): TemplateResult | typeof nothing {
+  const { sheet, open } = bench;
+  const { language } = facts;
+  if (sheet === null) return nothing;
+  return html`<section class="sheet" part=${sheet} data-sheet=${sheet}>
+    <div class="tab-row">
+      ${sheet === "settings" || sheet === "plan" ? html`<h2>${sheetName(facts, sheet)}</h2>` : nothing}
+      ${sheet === "settings" ? undoButtons(facts) : nothing}
+      <button class="small close" @click=${() => open(null)}>${language.texts.notices.close}</button>
+    </div>
+    <div class="panel">${sheetPanel(facts, bench, sheet)}</div>
+  </section>`;
+}
+
+function sheetName({ language }: Facts, sheet: "settings" | "plan"): string {
+  return sheet === "settings" ? language.texts.settings.title : workbenchWords(language).result;
+}
+
+function sheetPanel(facts: Facts, bench: Bench, sheet: Sheet): TemplateResult | typeof nothing {
+  const { session } = facts;
+  if (sheet === "settings") return settingsPanel(facts, null);
+  if (sheet === "plan") return html`${modelSection(facts)}${plan(facts)}`;
+  if (session.result === null) return nothing;
+  if (sheet === "orientation") return orientationPanel(facts);
+  if (sheet === "profile") return chartPanel(facts, bench.placed);
+  return sheet === "quality" ? quality(facts, session.result) : maskPanel(facts, session.result);
+}
