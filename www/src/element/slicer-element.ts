@@ -2,12 +2,12 @@
  * What every element around a slicer has: its properties, attributes, events and gestures, and the session behind them. How
  * the panels are laid out is a subclass's: in cards for pages of shops, as a workbench on our own.
  */
-import { LitElement, type PropertyValues, type TemplateResult } from "lit";
+import { LitElement, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { SlicerError } from "../api/error.js";
 import { createSlicer, type Model, type Plan, type PrintFile, type Slicer } from "../api/index.js";
 import type { Source } from "../api/source.js";
 import type { Backend, Format, GpuMethod, Metric, Printer, Resin } from "../api/wire.js";
-import { languageOf, type Language } from "../texts/index.js";
+import { fetchLanguage, languageOf } from "../texts/index.js";
 import { Attributes, settingsOf } from "./state/attributes.js";
 import { isFiles } from "./state/choice.js";
 import type { CuspSlicerEvents } from "./events.js";
@@ -323,9 +323,15 @@ export abstract class SlicerElement extends LitElement {
   /** @internal The layout. */
   protected abstract layout(facts: Facts): TemplateResult;
 
-  override render(): TemplateResult {
+  override render(): TemplateResult | typeof nothing {
     const session = this.#session;
-    const language = this.#language();
+    const arriving = fetchLanguage(...this.#locales);
+    // Empty for a moment rather than in another language.
+    if (arriving !== null) {
+      void arriving.then(() => this.requestUpdate());
+      return nothing;
+    }
+    const language = languageOf(...this.#locales);
     return this.layout({
       session,
       language,
@@ -359,9 +365,8 @@ export abstract class SlicerElement extends LitElement {
     this.#orphaned = this.model === null;
   }
 
-  #language(): Language {
-    const locales = [this.locale, langOf(this), ...navigator.languages];
-    return languageOf(...locales.filter((locale) => locale !== null));
+  get #locales(): readonly string[] {
+    return [this.locale, langOf(this), ...navigator.languages].filter((locale) => locale !== null);
   }
 
   /** An invalid attribute concerns the page's developer: the element does not show it to customers. */

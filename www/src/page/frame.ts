@@ -2,7 +2,7 @@
 import { html, nothing, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
 import { chosen } from "../element/parts/chosen.js";
-import { LANGUAGES, languageOf, type Language } from "../texts/index.js";
+import { LANGUAGE_NAMES, LANGUAGES, type Language } from "../texts/index.js";
 import icon from "./icon.svg";
 import { pageWords } from "./texts/index.js";
 
@@ -36,7 +36,7 @@ export function frame(language: Language, { example, speak, open }: PageActions,
         <span class="hidden">${words.languages}</span>
         <select .value=${live(code)} @change=${(event: Event) => speak((event.target as HTMLSelectElement).value)}>
           ${LANGUAGES.map(
-            (it) => html`<option value=${it} lang=${it} ?selected=${it === code}>${languageOf(it).texts.language}</option>`,
+            (it) => html`<option value=${it} lang=${it} ?selected=${it === code}>${LANGUAGE_NAMES[it]}</option>`,
           )}
         </select>
       </label>

@@ -1,7 +1,7 @@
 /** The page around the element: its header, opening files anywhere, the example, the address, working offline. */
 import "../workbench/register.js";
 import { render } from "lit";
-import { languageOf } from "../texts/index.js";
+import { fetchLanguage, languageOf } from "../texts/index.js";
 import { ADDRESS_KEYS, addressOf, settingsOf } from "./address.js";
 import { binaryStl, exampleTriangles, EXAMPLE_NAME } from "./example.js";
 import { frame } from "./frame.js";
@@ -23,15 +23,17 @@ const own = new URLSearchParams([...asked].filter(([key]) => ADDRESS_KEYS.includ
 /** The print file on show, and the files that it was opened with. */
 let shown: readonly File[] | null = null;
 
+const locales = (): string[] => [own.get("locale"), ...navigator.languages].filter((locale) => locale !== null);
+
 function draw(): void {
-  const language = languageOf(...[own.get("locale"), ...navigator.languages].filter((locale) => locale !== null));
+  const language = languageOf(...locales());
   document.documentElement.lang = language.locale;
   document.title = pageWords(language).title;
   const files = shown;
   const [file] = files ?? [];
   const print = files === null || file === undefined ? null : { file, close, unknown: () => load(files) };
   document.body.classList.toggle("reading", print !== null);
-  render(frame(language, { example, speak, open: (files) => void open(files) }, print), place);
+  render(frame(language, { example, speak: (locale) => void speak(locale), open: (files) => void open(files) }, print), place);
 }
 
 /** Shows a print file, or opens models. Only the reader knows print files, so whatever is no STL by its name goes there first. */
@@ -62,8 +64,9 @@ function close(): void {
   draw();
 }
 
-function speak(locale: string): void {
+async function speak(locale: string): Promise<void> {
   own.set("locale", locale);
+  await fetchLanguage(...locales());
   draw();
   keep();
 }
@@ -79,6 +82,7 @@ function keep(): void {
   history.replaceState(null, "", addressOf(slicer.query, own) || location.pathname);
 }
 
+await fetchLanguage(...locales());
 draw();
 const slicer = found<CuspWorkbench>("cusp-workbench");
 slicer.query = settingsOf(asked);

@@ -1,10 +1,9 @@
-/** The languages of the element: one catalogue each; the compiler holds all of them to the same keys. */
-import * as de from "./de/index.js";
+/**
+ * The languages of the element: one catalogue each; the compiler holds all of them to the same keys. English is always there;
+ * each other language is fetched when somebody wants it.
+ */
 import * as en from "./en/index.js";
-import * as es from "./es/index.js";
 import { formatOf, type Format } from "./format.js";
-import * as fr from "./fr/index.js";
-import * as zh from "./zh/index.js";
 
 export type { Format } from "./format.js";
 
@@ -21,31 +20,68 @@ export interface Language {
   format: Format;
 }
 
-const CATALOGUES = {
-  en: { units: en.units, texts: en.en },
-  de: { units: de.units, texts: de.de },
-  es: { units: es.units, texts: es.es },
-  fr: { units: fr.units, texts: fr.fr },
-  zh: { units: zh.units, texts: zh.zh },
+interface Catalogue {
+  units: typeof en.units;
+  texts(format: Format): Texts;
+}
+
+const LOADERS = {
+  en: async (): Promise<Catalogue> => ENGLISH,
+  de: async (): Promise<Catalogue> => import("./de/index.js").then(({ units, de: texts }) => ({ units, texts })),
+  es: async (): Promise<Catalogue> => import("./es/index.js").then(({ units, es: texts }) => ({ units, texts })),
+  fr: async (): Promise<Catalogue> => import("./fr/index.js").then(({ units, fr: texts }) => ({ units, texts })),
+  zh: async (): Promise<Catalogue> => import("./zh/index.js").then(({ units, zh: texts }) => ({ units, texts })),
 } as const;
 
-export type LanguageCode = keyof typeof CATALOGUES;
+export type LanguageCode = keyof typeof LOADERS;
 
-export const LANGUAGES = Object.keys(CATALOGUES) as LanguageCode[];
+export const LANGUAGES = Object.keys(LOADERS) as LanguageCode[];
 
+/** What each language calls itself. */
+export const LANGUAGE_NAMES: Readonly<Record<LanguageCode, string>> = {
+  en: "English",
+  de: "Deutsch",
+  es: "Español",
+  fr: "Français",
+  zh: "中文",
+};
+
+const ENGLISH: Catalogue = { units: en.units, texts: en.en };
+
+const catalogues = new Map<LanguageCode, Catalogue>([["en", ENGLISH]]);
+const loading = new Map<LanguageCode, Promise<void>>();
 const made = new Map<string, Language>();
 
-/** The first of these locales with a catalogue; English if there is none. */
+/** The first of these locales with a language; English if there is none, or if that language is not there yet. */
 export function languageOf(...locales: readonly string[]): Language {
-  const locale = locales.find((locale) => codeOf(locale) !== null) ?? "en";
+  const wanted = locales.find((locale) => codeOf(locale) !== null) ?? "en";
+  const locale = catalogues.has(codeOf(wanted) ?? "en") ? wanted : "en";
   let language = made.get(locale);
   if (language === undefined) {
     const code = codeOf(locale) ?? "en";
-    const { units, texts } = CATALOGUES[code];
+    const { units, texts } = catalogues.get(code) ?? ENGLISH;
     const format = formatOf(locale, units);
     made.set(locale, (language = { code, locale, format, texts: texts(format) }));
   }
   return language;
+}
+
+/**
+ * Fetches the language that {@link languageOf} would take for these locales; null if it is there already, or could not be
+ * fetched before: English stands in for it then.
+ */
+export function fetchLanguage(...locales: readonly string[]): Promise<void> | null {
+  const code = locales.map(codeOf).find((code) => code !== null) ?? "en";
+  if (catalogues.has(code)) return null;
+  let arriving = loading.get(code);
+  if (arriving === undefined) {
+    arriving = LOADERS[code]().then(
+      (catalogue) => void catalogues.set(code, catalogue),
+      () => void catalogues.set(code, ENGLISH),
+    );
+    loading.set(code, arriving);
+  }
+  return arriving;
 }
 
 function codeOf(locale: string): LanguageCode | null {

@@ -34,6 +34,9 @@ export const workbenchStyles = css`
     grid-template: minmax(0, 1fr) auto / minmax(0, 1fr);
     gap: 0;
   }
+  .bench.narrow:has(.sheet) {
+    grid-template-rows: minmax(0, 9fr) minmax(0, 11fr) auto;
+  }
   .dragging {
     outline: 3px dashed var(--cusp-accent);
     outline-offset: -3px;
@@ -227,6 +230,7 @@ export const workbenchStyles = css`
     display: grid;
     justify-items: center;
     gap: 0.5rem;
+    max-height: calc(100% - 1.5rem);
     padding-inline: 0.75rem;
     pointer-events: none;
   }
@@ -240,7 +244,7 @@ export const workbenchStyles = css`
   .overlay .message {
     background-color: var(--cusp-card);
     background-image: linear-gradient(var(--cusp-bad-wash), var(--cusp-bad-wash));
-    max-height: 50cqh;
+    max-height: 14rem;
     overflow-y: auto;
   }
   .overlay .notice {
@@ -374,17 +378,13 @@ export const workbenchStyles = css`
     border-top-color: var(--cusp-accent);
     color: var(--cusp-accent);
   }
+  /* In the flow, so that the view above shows the whole model in what is left. */
   .sheet {
-    position: absolute;
-    z-index: 3;
-    inset: auto 0 0;
     display: flex;
     flex-direction: column;
-    height: 62%;
+    min-height: 0;
     border-top: 1px solid var(--cusp-line);
-    border-radius: 14px 14px 0 0;
     background: var(--cusp-card);
-    box-shadow: 0 -6px 24px rgb(0 0 0 / 0.18);
   }
   .sheet .close {
     margin-inline-start: auto;
@@ -396,14 +396,15 @@ export const workbenchStyles = css`
   }
   /* Between phone and desktop, a sheet stands at the side and leaves the view its height. */
   @container (min-width: 40rem) {
+    .bench.narrow:has(.sheet) {
+      grid-template: minmax(0, 1fr) auto / minmax(0, 1fr) 21rem;
+    }
     .narrow .sheet {
-      inset: 0 0 0 auto;
-      width: 22rem;
-      height: auto;
+      border-top: 0;
       border-inline-start: 1px solid var(--cusp-line);
-      border-radius: 0;
     }
     .narrow .bar {
+      grid-column: 1 / -1;
       grid-template-columns: auto minmax(0, 1fr);
       align-items: center;
     }

@@ -44,16 +44,15 @@ export function template(facts: Facts, bench: Bench): TemplateResult {
   const { session, isDragging } = facts;
   const { isWide } = bench;
   const isEmpty = session.model === null;
-  const classes = [isWide ? "wide" : "narrow", isEmpty ? "empty" : "full", isDragging ? "dragging" : ""].join(" ");
+  const classes = [isWide ? "wide" : "narrow", isEmpty ? "empty" : "", isDragging ? "dragging" : ""].join(" ");
   return html`
     <div class="bench ${classes}" aria-busy=${session.busy !== null}>
       ${isWide ? choicesSide(facts, bench) : nothing}
       <section class="stage" aria-label=${isEmpty ? facts.language.texts.open.region : facts.language.texts.view.region}>
         ${isEmpty ? start(facts, bench) : view(facts, bench)}
         <div class="overlay">${overlay(facts)}</div>
-        ${isWide ? nothing : sheet(facts, bench)}
       </section>
-      ${isWide ? answersSide(facts, bench) : bar(facts, bench)}
+      ${isWide ? answersSide(facts, bench) : html`${sheet(facts, bench)} ${bar(facts, bench)}`}
     </div>
     ${announcement(facts)}
   `;
@@ -86,7 +85,11 @@ function view(facts: Facts, { isWide, plot, placed }: Bench): TemplateResult {
       .language=${language}
       @cusp-layer=${(event: CustomEvent<number>) => session.selectLayer(event.detail)}
     ></cusp-layer-slider>
-    ${isWide ? html`<section class="profile" part="profile" aria-label=${language.texts.chart.region}>${chartPanel(facts, placed)}</section>` : nothing}`;
+    ${isWide
+      ? html`<section class="profile" part="profile" aria-label=${language.texts.chart.region}>
+          ${session.shown === null ? nothing : chartPanel(facts, placed)}
+        </section>`
+      : nothing}`;
 }
 
 /** Over the middle, where nobody misses it: what went wrong, what was stopped, what is under way. */
@@ -139,7 +142,11 @@ function answersSide(facts: Facts, { answer, answers }: Bench): TemplateResult {
     <section class="card tabbed" part="quality">
       <div class="tab-row">${tabs(words.answers, ANSWERS, answer, { quality: texts.quality.title, layers: words.mask }, "answer", answers)}</div>
       <div class="panel" id="answer" tabindex="0" role="tabpanel" aria-labelledby="tab-${answer}">
-        ${session.result === null ? nothing : answer === "quality" ? quality(facts, session.result) : maskPanel(facts, session.result)}
+        ${session.result === null
+          ? html`<p class="quiet">${texts.chart.none}</p>`
+          : answer === "quality"
+            ? quality(facts, session.result)
+            : maskPanel(facts, session.result)}
       </div>
     </section>
   </div>`;
@@ -243,11 +250,11 @@ function sheetName({ language }: Facts, sheet: "settings" | "plan"): string {
   return sheet === "settings" ? language.texts.settings.title : workbenchWords(language).result;
 }
 
-function sheetPanel(facts: Facts, bench: Bench, sheet: Sheet): TemplateResult | typeof nothing {
+function sheetPanel(facts: Facts, bench: Bench, sheet: Sheet): TemplateResult {
   const { session } = facts;
   if (sheet === "settings") return settingsPanel(facts, null);
   if (sheet === "plan") return html`${modelSection(facts)}${plan(facts)}`;
-  if (session.result === null) return nothing;
+  if (session.result === null) return html`<p class="quiet">${facts.language.texts.chart.none}</p>`;
   if (sheet === "orientation") return orientationPanel(facts);
   if (sheet === "profile") return chartPanel(facts, bench.placed);
   return sheet === "quality" ? quality(facts, session.result) : maskPanel(facts, session.result);

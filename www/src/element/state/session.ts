@@ -366,7 +366,9 @@ export class Session extends Preferences {
   /** Remembers what was refused, if it was: a cancelled plan may succeed later. */
   #refuse(options: Options, weights: Float32Array | null): void {
     const { failure } = this;
-    if (failure?.task === "plan" && !BY_CHANCE.has(failure.error.code)) this.#refused = { options, weights };
+    if (failure?.task !== "plan" || BY_CHANCE.has(failure.error.code)) return;
+    this.#refused = { options, weights };
+    this.#changed();
   }
 
   /** Plans with the settings that changed during the last task, if any; otherwise fetches the mask and the curve. */

@@ -10,7 +10,6 @@ import { view } from "./view.js";
 export const units = { hours: "h", minutes: "min" };
 
 export const de = (format: Format): Texts => ({
-  language: "Deutsch",
   ...model(),
   ...settings(),
   ...plan(format),

@@ -13,7 +13,6 @@ export const units = { hours: "h", minutes: "min" };
  * Numbers are passed as text, already formatted for the language, except where a plural depends on them.
  */
 export const en = (format: Format) => ({
-  language: "English",
   ...model(),
   ...settings(),
   ...plan(format),

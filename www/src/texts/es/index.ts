@@ -10,7 +10,6 @@ import { view } from "./view.js";
 export const units = { hours: "h", minutes: "min" };
 
 export const es = (format: Format): Texts => ({
-  language: "Español",
   ...model(),
   ...settings(),
   ...plan(format),

@@ -10,7 +10,6 @@ import { view } from "./view.js";
 export const units = { hours: "h", minutes: "min" };
 
 export const fr = (format: Format): Texts => ({
-  language: "Français",
   ...model(),
   ...settings(),
   ...plan(format),

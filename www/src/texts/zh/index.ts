@@ -10,7 +10,6 @@ import { view } from "./view.js";
 export const units = { hours: "小时", minutes: "分钟" };
 
 export const zh = (format: Format): Texts => ({
-  language: "中文",
   ...model(),
   ...settings(),
   ...plan(format),
