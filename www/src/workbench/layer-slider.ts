@@ -94,14 +94,22 @@ export class CuspLayerSlider extends elementWith(PROPERTIES) {
         border-radius: 8px;
         background: var(--cusp-accent);
       }
+      /* A list of selectors with one that an engine does not know is no rule at all: hence each twice. */
       @media (forced-colors: active) {
-        input::-webkit-slider-runnable-track,
-        input::-moz-range-track {
-          background: ButtonBorder;
-        }
-        input::-webkit-slider-thumb,
-        input::-moz-range-thumb {
+        input {
           forced-color-adjust: none;
+        }
+        input::-webkit-slider-runnable-track {
+          background: CanvasText;
+        }
+        input::-moz-range-track {
+          background: CanvasText;
+        }
+        input::-webkit-slider-thumb {
+          border-color: Canvas;
+          background: Highlight;
+        }
+        input::-moz-range-thumb {
           border-color: Canvas;
           background: Highlight;
         }
@@ -174,9 +182,10 @@ export class CuspLayerSlider extends elementWith(PROPERTIES) {
 
   #measure(): void {
     const over = this.#over?.getBoundingClientRect();
+    // The next plan brings a new plot to the place of one that is gone.
+    if (over?.height === 0) return;
     const own = this.getBoundingClientRect();
-    const isBeside = over !== undefined && over.height > 0 && over.top >= own.top && over.bottom <= own.bottom;
-    const span = isBeside ? { top_px: over.top - own.top, bottom_px: own.bottom - over.bottom } : ALONE;
+    const span = over === undefined ? ALONE : { top_px: over.top - own.top, bottom_px: own.bottom - over.bottom };
     if (span.top_px !== this.span.top_px || span.bottom_px !== this.span.bottom_px) this.span = span;
   }
 }

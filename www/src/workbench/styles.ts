@@ -260,9 +260,9 @@ export const workbenchStyles = css`
     }
   }
 
+  /* Its height is its own, whatever the result has to say: nothing below it moves. */
   .plan {
-    flex: 0 1 auto;
-    min-height: 14rem;
+    flex: 0 0 min(23.5rem, 56%);
     overflow: hidden auto;
     scrollbar-width: thin;
   }
@@ -410,9 +410,16 @@ export const workbenchStyles = css`
     }
   }
   @media (forced-colors: active) {
+    /* Here no border is transparent. */
+    .tabs button,
+    .bar-panels button,
+    .bar-figures {
+      border-color: Canvas;
+    }
     .tabs button[aria-selected="true"],
     .bar-panels button[aria-expanded="true"] {
-      border-color: Highlight;
+      border-color: Canvas;
+      border-bottom-color: Highlight;
       color: Highlight;
     }
   }

@@ -118,7 +118,7 @@ function choicesSide(facts: Facts, { choice, choose }: Bench): TemplateResult {
       <div class="tab-row">
         ${isEmpty
           ? html`<h2>${texts.settings.title}</h2>`
-          : tabs(words.choices, CHOICES, choice, { settings: texts.settings.title, orientation: texts.orientation.title }, "choice", choose)}
+          : tabs(words.choices, CHOICES, choice, namesOf(facts), "choice", choose)}
         ${undoButtons(facts)}
       </div>
       <div class="panel" id="choice" tabindex=${isEmpty ? nothing : 0} role=${isEmpty ? nothing : "tabpanel"} aria-labelledby=${isEmpty ? nothing : `tab-${choice}`}>
@@ -140,7 +140,7 @@ function answersSide(facts: Facts, { answer, answers }: Bench): TemplateResult {
   return html`<div class="side answers">
     <section class="card plan" part="plan" aria-label=${texts.plan.region}>${plan(facts)}</section>
     <section class="card tabbed" part="quality">
-      <div class="tab-row">${tabs(words.answers, ANSWERS, answer, { quality: texts.quality.title, layers: words.mask }, "answer", answers)}</div>
+      <div class="tab-row">${tabs(words.answers, ANSWERS, answer, namesOf(facts), "answer", answers)}</div>
       <div class="panel" id="answer" tabindex="0" role="tabpanel" aria-labelledby="tab-${answer}">
         ${session.result === null
           ? html`<p class="quiet">${texts.chart.none}</p>`
@@ -198,13 +198,7 @@ function bar(facts: Facts, { sheet, open }: Bench): TemplateResult {
   const { result, shown } = session;
   const { texts, format } = language;
   const words = workbenchWords(language);
-  const names: Readonly<Record<(typeof SHEETS)[number], string>> = {
-    settings: texts.settings.title,
-    orientation: texts.orientation.title,
-    profile: texts.chart.region,
-    quality: texts.quality.title,
-    layers: words.mask,
-  };
+  const names = namesOf(facts);
   const { layers, print_time_s } = shown ?? { layers: 0, print_time_s: 0 };
   return html`<div class="bar">
     ${session.model === null
@@ -238,7 +232,7 @@ function sheet(facts: Facts, bench: Bench): TemplateResult | typeof nothing {
   if (sheet === null) return nothing;
   return html`<section class="sheet" part=${sheet} data-sheet=${sheet}>
     <div class="tab-row">
-      ${sheet === "settings" || sheet === "plan" ? html`<h2>${sheetName(facts, sheet)}</h2>` : nothing}
+      <h2>${namesOf(facts)[sheet]}</h2>
       ${sheet === "settings" ? undoButtons(facts) : nothing}
       <button class="small close" @click=${() => open(null)}>${language.texts.notices.close}</button>
     </div>
@@ -246,8 +240,17 @@ function sheet(facts: Facts, bench: Bench): TemplateResult | typeof nothing {
   </section>`;
 }
 
-function sheetName({ language }: Facts, sheet: "settings" | "plan"): string {
-  return sheet === "settings" ? language.texts.settings.title : workbenchWords(language).result;
+function namesOf({ language }: Facts): Readonly<Record<Sheet, string>> {
+  const { texts } = language;
+  const { mask, result } = workbenchWords(language);
+  return {
+    settings: texts.settings.title,
+    orientation: texts.orientation.title,
+    profile: texts.chart.region,
+    quality: texts.quality.title,
+    layers: mask,
+    plan: result,
+  };
 }
 
 function sheetPanel(facts: Facts, bench: Bench, sheet: Sheet): TemplateResult {

@@ -112,6 +112,26 @@ test("cancelling the first plan leaves a model that can be planned again", async
   expect(session.result?.report.layers).toBe(10);
 });
 
+test("a plan that was refused is not on offer again, unless a setting changes; one that a crash ended is", async () => {
+  void session.open(new Blob(), "a.stl");
+  slicer.last.resolve(model);
+  await settle();
+  slicer.last.reject(new SlicerError("too-many-facets", "", { facets: 9, most: 8 }));
+  await settle();
+  expect(session.canPlan).toBe(false);
+  session.dismiss();
+  expect(session.canPlan).toBe(false);
+  session.change({ height: "9" });
+  expect(session.canPlan).toBe(true);
+  await settle();
+  slicer.last.reject(new SlicerError("crash", "", { system: "unreachable" }));
+  await settle();
+  expect(session.failure?.error.code).toBe("crash");
+  expect(session.canPlan).toBe(true);
+  session.change({ height: "x" });
+  expect(session.canPlan).toBe(false);
+});
+
 test("settings changed during an export are planned after it", async () => {
   await planned();
   const download = session.export();
