@@ -13,6 +13,7 @@ export function absentSlicer(): Slicer {
     tradeoff: reject,
     compare: reject,
     orient: reject,
+    measure: reject,
     export: reject,
     exportStream: () => new ReadableStream({ start: (controller) => controller.error(error()) }),
     positions: reject,

@@ -15,10 +15,10 @@
  */
 import { absentSlicer } from "./absent.js";
 import { Client, spawnWorker, type About, type Compiled, type WorkerHandle, type Wanted, type Watch } from "./client.js";
-import { orient, type OrientCall } from "./orient.js";
+import { measure, orient, type OrientCall } from "./orient.js";
 import { Pool } from "./pool.js";
 import { resolve, stemOf, type Source } from "./source.js";
-import type { Comparison, KnownPrinter, MeshInfo, Options, Preview, Profiled, Report, SearchOptions, SearchResult, Tradeoff, Warning } from "./wire.js";
+import type { Candidate, Comparison, KnownPrinter, MeshInfo, Options, Preview, Profiled, Report, SearchOptions, SearchResult, Tradeoff, Warning } from "./wire.js";
 
 export { isAbort, SlicerError, type ErrorCode, type ErrorDetails } from "./error.js";
 export type { WarningCode, WarningDetails } from "./warning.js";
@@ -105,6 +105,11 @@ export interface Slicer {
    * `options.rotation` to its `rotation` and, if the options have a `height_mm`, set that to its `size_mm[2]`.
    */
   orient(options?: Options, search?: SearchOptions, call?: OrientCall): Promise<OrientationReport>;
+  /**
+   * Measures one direction as a search does, so that any pose can be compared with its candidates. `direction` is the unit vector
+   * that points up from the plate, in the file's frame. The candidate has no `energy`, which is relative to others.
+   */
+  measure(options: Options, direction: Readonly<Candidate["direction"]>, call?: Watch): Promise<Candidate>;
   /** The print file of the last plan. With options, that of a plan for those, made first unless it is the last one. */
   export(options?: Options, call?: Watch): Promise<PrintFile>;
   /**
@@ -202,6 +207,7 @@ export function createSlicer(setup: Setup = {}): Slicer {
     async orient(options = {}, search = {}, call = {}) {
       return { schema: SCHEMA, ...(await orient(pool, about, options, search, call)) };
     },
+    measure: (options, direction, call = {}) => measure(pool, about, options, direction, call),
     async export(options, call = {}) {
       const { blob, of } = await main.archive(wanted(options), call);
       return printFile(`${stemOf(of.subject.name)}-cusp`, blob, of.report);

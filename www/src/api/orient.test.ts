@@ -161,6 +161,15 @@ afterEach(() => {
   vi.useRealTimers();
 });
 
+test("a direction of one's own is measured by one worker, without a search", async () => {
+  const { slicer, log } = faked({ workers: 3 });
+  await slicer.load(new Blob(["a"]));
+  log.length = 0;
+  expect(await slicer.measure({}, [7, 0, 0])).toEqual(candidateAt([7, 0, 0]));
+  expect(workersOf(log, "measure").size).toBe(1);
+  expect(log.filter((line) => line.endsWith("advance"))).toEqual([]);
+});
+
 test("candidates are rated and in the order of directions; the best are refined, lowest energy first", async () => {
   const { found } = await searched({ workers: 2 });
   expect(found.candidates.map(({ direction: [x] }) => x)).toEqual([...Array(COUNT).keys()]);

@@ -21,6 +21,16 @@ export interface OrientCall extends Watch {
 /** About how often `onCandidates` is called. */
 const RATINGS = 12;
 
+/** Measures one direction as a search does. */
+export function measure(pool: Pool, about: About, options: Options, direction: Readonly<Candidate["direction"]>, call: Watch): Promise<Candidate> {
+  return pool.run(about, call, async (team) => {
+    const results = await team.ask((remote) => remote.evaluate(options, [{ number: 0, directions: [[...direction]] }]));
+    const candidate = results[0]?.candidates[0];
+    if (candidate === undefined) throw new Error("the direction was not measured");
+    return candidate;
+  });
+}
+
 export function orient(pool: Pool, about: About, options: Options, search: SearchOptions, call: OrientCall): Promise<SearchResult> {
   const { onProgress, onCandidates } = call;
   return pool.run(about, call, async (team) => {

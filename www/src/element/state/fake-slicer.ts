@@ -1,7 +1,7 @@
 /** A fake slicer for tests of the session. */
 import { SlicerError } from "../../api/error.js";
 import { SCHEMA, type PreviewedPlan, type LoadCall, type Mask, type Model, type OrientCall, type OrientationReport, type Plan, type PrintFile, type TestTowers, type Watch } from "../../api/index.js";
-import type { Preview, MeshInfo, Options, Report, SearchOptions, Tradeoff } from "../../api/wire.js";
+import type { Candidate, Preview, MeshInfo, Options, Report, SearchOptions, Tradeoff } from "../../api/wire.js";
 
 const info = { facets: 1, size_mm: [1, 1, 10], warnings: [] } as unknown as MeshInfo;
 export const model: Model = { schema: SCHEMA, name: "a.stl", file: new Blob(), info };
@@ -26,6 +26,7 @@ export class FakeSlicer {
   readonly calibrateLayers = (options: Options = {}, call: Watch = {}): Promise<TestTowers> => this.#call("calibrateLayers", call, options);
   readonly orient = (options: Options = {}, _search?: SearchOptions, call: OrientCall = {}): Promise<OrientationReport> =>
     this.#call("orient", call, options);
+  readonly measure = (options: Options = {}): Promise<Candidate> => this.#call("measure", {}, options);
   readonly mask = async (layer: number): Promise<Mask> => {
     this.masks.push(layer);
     return { layer, width: 8, height: 1, bits: Uint8Array.of(255) };

@@ -31,6 +31,7 @@ export type SlicerCalls = Pick<
   | "load"
   | "plan"
   | "orient"
+  | "measure"
   | "mask"
   | "export"
   | "calibrateLayers"
