@@ -127,7 +127,7 @@ test("a mask is zoomed into, to its very pixels, and moved by keyboard", async (
     });
   await expect.poll(async () => (await row()).lit).toBeGreaterThan(0);
   for (let i = 0; i < 5; i++) await page.getByRole("button", { name: "Zoom in" }).click();
-  expect(await page.locator("cusp-mask .tools").innerText()).toContain("32 ×");
+  expect(await page.locator("cusp-mask .zoom").innerText()).toContain("32 ×");
   const { lit } = await row();
   // A quarter from the left, the rim of the ball is at 1/2 - √3/4 from the top; an arrow key moves by an eighth of the view.
   await canvas.focus();
@@ -137,7 +137,7 @@ test("a mask is zoomed into, to its very pixels, and moved by keyboard", async (
   expect((await row()).lit).toBeGreaterThan(0);
   expect((await row()).grey).toBe(0);
   await page.keyboard.press("-");
-  expect(await page.locator("cusp-mask .tools").innerText()).toContain("16 ×");
+  expect(await page.locator("cusp-mask .zoom").innerText()).toContain("16 ×");
 });
 
 test("a printer gives pixels and file; a model too large for it is scaled to fit by a button beside it", async () => {

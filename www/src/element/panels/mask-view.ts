@@ -1,5 +1,5 @@
 /** A layer's mask on a canvas that zooms, with a slider through the layers and a play button. */
-import { css, html, nothing, type PropertyValues, type TemplateResult } from "lit";
+import { html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
 import type { Mask } from "../../api/index.js";
 import type { Report } from "../../api/wire.js";
@@ -7,8 +7,9 @@ import { languageOf } from "../../texts/index.js";
 import { coverage, factorFor, wholeBytes } from "../parts/bitmap.js";
 import { css as cssColour, ofThickness } from "../../view/legend/palette.js";
 import { styled } from "../parts/styled.js";
+import { maskStyles } from "../styles/mask-styles.js";
 import { shared } from "../styles/shared.js";
-import { moved, WHOLE, windowOf, zoomed } from "../parts/window.js";
+import { dragged, moved, WHOLE, windowOf, zoomed, type Point } from "../parts/window.js";
 import { elementWith, given, own } from "../../view/properties.js";
 
 /** Minimum time between two layers during playback, normally and with reduced motion. */
@@ -43,102 +44,11 @@ const PROPERTIES = {
 export class CuspMask extends elementWith(PROPERTIES) {
   #resized: ResizeObserver | null = null;
   #timer: ReturnType<typeof setTimeout> | undefined;
-  /** The last position of the pointer that drags the picture, in client pixels; null while none does. */
-  #held: readonly [number, number] | null = null;
+  /** The pointers on the picture, by their id: one drags, two zoom. */
+  readonly #held = new Map<number, Point>();
   readonly #calm = matchMedia("(prefers-reduced-motion: reduce)");
 
-  static override styles = [
-    shared,
-    css`
-      :host {
-        display: flex;
-        flex-direction: column;
-        min-width: 0;
-        height: 100%;
-      }
-      .well {
-        position: relative;
-        flex: 1;
-        min-height: 18rem;
-        border-radius: 8px;
-        background: #000;
-        overflow: hidden;
-      }
-      canvas {
-        position: absolute;
-        inset: 0;
-        width: 100%;
-        height: 100%;
-        border-radius: 8px;
-      }
-      canvas:focus-visible {
-        outline-offset: -3px;
-      }
-      canvas.zoomed {
-        cursor: grab;
-        touch-action: none;
-      }
-      .tools {
-        display: flex;
-        align-items: center;
-        gap: 0.25rem;
-      }
-      .tools button {
-        min-width: 2.25rem;
-        padding: 0;
-      }
-      .scrub {
-        display: grid;
-        grid-template-columns: auto auto 1fr auto;
-        align-items: center;
-        gap: 0.5rem;
-        margin-top: 0.75rem;
-      }
-      .scrub button {
-        min-width: 2.75rem;
-        padding: 0;
-        font-size: 1.25rem;
-      }
-      .scrub svg {
-        width: 1rem;
-        height: 1rem;
-        fill: currentColor;
-      }
-      input {
-        width: 100%;
-        height: 2.75rem;
-        margin: 0;
-        accent-color: var(--cusp-accent);
-      }
-      dl {
-        display: flex;
-        flex-wrap: wrap;
-        justify-content: space-between;
-        gap: 0.25rem 1rem;
-        margin-top: 0.5rem;
-      }
-      dt {
-        color: var(--cusp-quiet);
-        font-size: 0.8125rem;
-      }
-      dd {
-        font-weight: 550;
-        white-space: nowrap;
-      }
-      .swatch {
-        display: inline-block;
-        width: 0.75em;
-        height: 0.75em;
-        margin-inline-end: 0.375em;
-        border-radius: 2px;
-      }
-      @media (max-width: 420px) {
-        dl {
-          font-size: 0.875rem;
-        }
-      }
-    `,
-  ];
+  static override styles = [shared, maskStyles];
 
   override connectedCallback(): void {
     super.connectedCallback();
@@ -165,15 +75,10 @@ export class CuspMask extends elementWith(PROPERTIES) {
     const thickness = format.height(thickness_mm);
     const said = words.said(format.count(layer + 1), format.count(layers), z, thickness);
     const isZoomed = place.zoom > 1;
+    // Two fingers zoom by any factor.
+    const zoom = place.zoom < 10 ? format.tick(Math.round(place.zoom * 10) / 10) : format.count(place.zoom);
     return html`
-      <div class="head">
-        <h3>${words.title}</h3>
-        <div class="tools">
-          <span class="quiet figures">${isZoomed ? words.zoom(format.count(place.zoom)) : nothing}</span>
-          <button class="small" aria-label=${words.zoomOut} ?disabled=${!isZoomed} @click=${() => this.#zoom(0.5)}>−</button>
-          <button class="small" aria-label=${words.zoomIn} @click=${() => this.#zoom(2)}>+</button>
-        </div>
-      </div>
+      <div class="head"><h3>${words.title}</h3></div>
       <div class="well">
         <canvas
           class=${isZoomed ? "zoomed" : ""}
@@ -181,13 +86,25 @@ export class CuspMask extends elementWith(PROPERTIES) {
           tabindex=${isZoomed ? 0 : -1}
           aria-label=${words.picture(said) + (isZoomed ? `. ${words.wellHint}` : "")}
           @keydown=${this.#key}
-          @dblclick=${() => this.#zoom(2)}
+          @dblclick=${this.#zoomHere}
+          @touchstart=${this.#touch}
+          @touchmove=${this.#touch}
           @pointerdown=${this.#grab}
-          @pointermove=${this.#drag}
+          @pointermove=${this.#pull}
           @pointerup=${this.#release}
           @pointercancel=${this.#release}
         ></canvas>
+        <div class="tools">
+          ${isZoomed ? html`<span class="zoom figures">${words.zoom(zoom)}</span>` : nothing}
+          <button class="small" aria-label=${words.zoomOut} ?disabled=${!isZoomed} @click=${() => this.#zoom(0.5)}>−</button>
+          <button class="small" aria-label=${words.zoomIn} @click=${() => this.#zoom(2)}>+</button>
+        </div>
       </div>
+      <p class="hint quiet">
+        <span class=${isZoomed ? "off" : ""}>${words.hint}</span>
+        <span class="hovers ${isZoomed ? "" : "off"}">${words.wellHint}</span>
+        <span class="taps ${isZoomed ? "" : "off"}">${words.touchHint}</span>
+      </p>
       <div class="scrub">
         <button aria-label=${this.playing ? words.pause : words.play} @click=${this.#toggle}>
           <svg viewBox="0 0 16 16" aria-hidden="true">
@@ -258,8 +175,7 @@ export class CuspMask extends elementWith(PROPERTIES) {
       canvas.removeAttribute("data-layer");
       return;
     }
-    const pitch = report.mask.pitch_y_mm / report.mask.pitch_mm;
-    const { part, scale } = windowOf(this.place, [mask.width, mask.height], [width, height], pitch);
+    const { part, scale } = windowOf(this.place, [mask.width, mask.height], [width, height], pitchOf(report));
     const whole = wholeBytes(part, mask.width, mask.height);
     const factor = factorFor(Math.max(...scale));
     const picture = pictureOf(coverage(mask.bits, mask.width, whole, factor));
@@ -309,23 +225,59 @@ export class CuspMask extends elementWith(PROPERTIES) {
     event.preventDefault();
   };
 
+  readonly #zoomHere = (event: MouseEvent): void => {
+    const at = this.#pointOf(event);
+    this.#drag({ times: 2, from: at, to: at });
+  };
+
+  /** Keeps two fingers for the picture: the browser would scroll by them. */
+  readonly #touch = (event: TouchEvent): void => {
+    if (event.touches.length > 1 && event.cancelable) event.preventDefault();
+  };
+
   readonly #grab = (event: PointerEvent): void => {
-    if (this.place.zoom === 1) return;
-    this.#held = [event.clientX, event.clientY];
+    this.#held.set(event.pointerId, this.#pointOf(event));
     this.#canvas.setPointerCapture(event.pointerId);
   };
 
-  readonly #drag = (event: PointerEvent): void => {
-    if (this.#held === null) return;
-    const { clientWidth, clientHeight } = this.#canvas;
-    const [x, y] = this.#held;
-    this.#held = [event.clientX, event.clientY];
-    this.place = moved(this.place, [(x - event.clientX) / clientWidth, (y - event.clientY) / clientHeight]);
+  readonly #pull = (event: PointerEvent): void => {
+    if (!this.#held.has(event.pointerId)) return;
+    const before = this.#grip();
+    this.#held.set(event.pointerId, this.#pointOf(event));
+    const after = this.#grip();
+    const times = before.spread_px > 0 && after.spread_px > 0 ? after.spread_px / before.spread_px : 1;
+    if (this.place.zoom > 1 || times !== 1) this.#drag({ times, from: before.middle, to: after.middle });
   };
 
-  readonly #release = (): void => {
-    this.#held = null;
+  readonly #release = (event: PointerEvent): void => {
+    this.#held.delete(event.pointerId);
   };
+
+  #drag(drag: { times?: number; from: Point; to: Point }): void {
+    const { mask, report } = this;
+    if (mask === null || report === null) return;
+    const { clientWidth, clientHeight } = this.#canvas;
+    this.place = dragged(this.place, drag, [mask.width, mask.height], [clientWidth, clientHeight], pitchOf(report));
+  }
+
+  /** The middle of the pointers, and how far the first two are apart; 0 for one. */
+  #grip(): { middle: Point; spread_px: number } {
+    const [[x, y] = [0, 0], other] = [...this.#held.values()];
+    if (other === undefined) return { middle: [x, y], spread_px: 0 };
+    const { clientWidth, clientHeight } = this.#canvas;
+    const spread_px = Math.hypot((x - other[0]) * clientWidth, (y - other[1]) * clientHeight);
+    return { middle: [(x + other[0]) / 2, (y + other[1]) / 2], spread_px };
+  }
+
+  #pointOf({ clientX, clientY }: MouseEvent): Point {
+    const { left, top, width, height } = this.#canvas.getBoundingClientRect();
+    return [(clientX - left) / width, (clientY - top) / height];
+  }
+}
+
+/** The height of a pixel divided by its width. */
+function pitchOf({ mask }: Layered): number {
+  return mask.pitch_y_mm / mask.pitch_mm;
 }
 
 function pictureOf({ width, height, values }: ReturnType<typeof coverage>): HTMLCanvasElement | null {

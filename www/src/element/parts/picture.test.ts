@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { coverage, factorFor, wholeBytes } from "./bitmap.js";
 import type { Rectangle } from "./bitmap.js";
-import { moved, WHOLE, windowOf, zoomed } from "./window.js";
+import { dragged, moved, WHOLE, windowOf, zoomed } from "./window.js";
 import { bands, densityEnd, type ChartData } from "./chart.js";
 import * as colour from "../../view/legend/palette.js";
 import { layerAt } from "../../view/scene/lookup.js";
@@ -64,6 +64,26 @@ test("zooming keeps the centre, and moving stops at the edges of the mask", () =
   const corner = moved(moved(twice, [9, 0]), [0, -9]);
   expect(windowOf(corner, [100, 100], [100, 100], 1).part).toEqual({ x: 50, y: 0, width: 50, height: 50 });
   expect(zoomed(corner, 0.5)).toEqual(WHOLE);
+});
+
+test("what two fingers hold stays under them, whatever the proportions, up to the edges of the mask", () => {
+  const [mask, screen, pitch] = [[200, 100], [300, 300], 1] as const;
+  const at = (place: typeof WHOLE, [x, y]: readonly [number, number]): number[] => {
+    const { part } = windowOf(place, mask, screen, pitch);
+    return [part.x + x * part.width, part.y + y * part.height];
+  };
+  const first = dragged(WHOLE, { times: 4, from: [0.4, 0.5], to: [0.4, 0.5] }, mask, screen, pitch);
+  expect(first.zoom).toBe(4);
+  const [x, y] = at(WHOLE, [0.4, 0.5]);
+  expect(at(first, [0.4, 0.5])[0]).toBeCloseTo(x ?? 0);
+  expect(at(first, [0.4, 0.5])[1]).toBeCloseTo(y ?? 0);
+  const second = dragged(first, { from: [0.5, 0.5], to: [0.55, 0.4] }, mask, screen, pitch);
+  const [u = 0, v = 0] = at(first, [0.5, 0.5]);
+  expect(at(second, [0.55, 0.4])[0]).toBeCloseTo(u);
+  expect(at(second, [0.55, 0.4])[1]).toBeCloseTo(v);
+  const far = windowOf(dragged(first, { from: [0, 0], to: [9, 9] }, mask, screen, pitch), mask, screen, pitch).part;
+  expect([far.x, far.y]).toEqual([0, 0]);
+  expect(dragged(second, { times: 0.1, from: [0, 0], to: [1, 1] }, mask, screen, pitch)).toEqual(WHOLE);
 });
 
 test("thin is red, thick is blue, and values outside the scale are clamped", () => {

@@ -38,6 +38,28 @@ export function zoomed({ zoom, centre }: Place, times: number): Place {
   return next === 1 ? WHOLE : { zoom: next, centre };
 }
 
+/** A point of the screen, as fractions of its width and height from the top left corner. */
+export type Point = readonly [number, number];
+
+/** Multiplies the zoom and moves, so that what was at `from` on the screen is at `to`, as far as the edges of the mask allow. */
+export function dragged(
+  place: Place,
+  { times = 1, from, to }: { times?: number; from: Point; to: Point },
+  ...[mask, screen, pitch]: [mask: readonly [number, number], screen: readonly [number, number], pitch: number]
+): Place {
+  const { part } = windowOf(place, mask, screen, pitch);
+  const { zoom } = zoomed(place, times);
+  if (zoom === 1) return WHOLE;
+  const centre = (axis: 0 | 1, start: number, seen: number): number => {
+    const half = (seen * place.zoom) / zoom / 2;
+    if (2 * half >= mask[axis]) return 0.5;
+    const held = start + from[axis] * seen;
+    return Math.min(mask[axis] - half, Math.max(half, held + (1 - 2 * to[axis]) * half)) / mask[axis];
+  };
+  const [x, y] = [centre(0, part.x, part.width), centre(1, part.y, part.height)];
+  return { zoom, centre: [x, y] };
+}
+
 /** Moves by fractions of the visible part, up to the edges of the mask. */
 export function moved({ zoom, centre: [x, y] }: Place, [dx, dy]: readonly [number, number]): Place {
   const inside = (value: number): number => Math.min(1 - 0.5 / zoom, Math.max(0.5 / zoom, value));

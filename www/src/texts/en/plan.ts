@@ -132,7 +132,8 @@ export const plan = ({ counted, plural, size }: Format) => ({
   },
   mask: {
     region: "Layers",
-    title: "Mask of a layer",
+    title: "Layer mask",
+    hint: "White is what the printer cures.",
     layer: "Layer",
     below: "Layer below",
     above: "Layer above",
@@ -144,6 +145,7 @@ export const plan = ({ counted, plural, size }: Format) => ({
     zoomOut: "Zoom out",
     zoom: (times: string) => `${times} ×`,
     wellHint: "Drag or use the arrow keys to move.",
+    touchHint: "Drag to move, pinch to zoom.",
     picture: (said: string) => `Mask. ${said}`,
     said: (layer: string, layers: string, height: string, thickness: string) =>
       `Layer ${layer} of ${layers}, at ${height}, ${thickness} thick`,

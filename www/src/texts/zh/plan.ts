@@ -122,6 +122,7 @@ export const plan = ({ count: number, size }: Format): PlanTexts => ({
   mask: {
     region: "各层",
     title: "单层掩膜",
+    hint: "白色部分由打印机固化。",
     layer: "层",
     below: "下一层",
     above: "上一层",
@@ -133,6 +134,7 @@ export const plan = ({ count: number, size }: Format): PlanTexts => ({
     zoomOut: "缩小",
     zoom: (times) => `${times} ×`,
     wellHint: "拖动或用方向键移动。",
+    touchHint: "拖动可移动，双指可缩放。",
     picture: (said) => `掩膜。${said}`,
     said: (layer, layers, height, thickness) => `第 ${layer} 层，共 ${layers} 层，高 ${height}，厚 ${thickness}`,
   },
