@@ -47,9 +47,9 @@ test("cancelling while rays are cast leaves the last good plan, its masks and it
   await drop(page, heavy);
   await state(page, "done");
   const count = await layers(page);
-  await cancelWhen(page, "Casting rays through it");
+  await cancelWhen(page, "Scanning its shape");
   await page.getByLabel("Resolution").selectOption("4096");
-  await expect.poll(() => cancelled(page)).toBe("Casting rays through it");
+  await expect.poll(() => cancelled(page)).toBe("Scanning its shape");
   await state(page, "done");
   expect(await layers(page)).toBe(count);
   await openPanel(page, "Mask");
@@ -81,7 +81,7 @@ test("cancelling while the masks are drawn gives no file; the next try does", as
   const page = await start();
   await drop(page, ballFile);
   await state(page, "done");
-  await cancelWhen(page, "Drawing the masks");
+  await cancelWhen(page, "Drawing the layers");
   await page.getByRole("button", { name: /Download print file/ }).click();
   await expect.poll(() => words(page)).toContain("The download was cancelled.");
   await state(page, "done");

@@ -192,7 +192,7 @@ test("by each metric: a plan within its tolerance, in its unit", async () => {
   await page.getByRole("button", { name: "Try the example" }).click();
   await state(page, "done");
   for (const [name, unit, usual] of [
-    ["Cusp height", "mm", "0.065"],
+    ["Step height", "mm", "0.065"],
     ["Deviation", "mm", "0.0325"],
     ["Surface roughness", "mm", "0.1"],
     ["Area deviation", "%", "10"],

@@ -28,7 +28,7 @@ test("the quality slider goes through the best plans, and says what is gained", 
   await page.keyboard.press("Home");
   await settled(page);
   expect(await layers(page)).toBeLessThan(fine);
-  expect((await said.innerText()).replace(/\s+/g, " ")).toMatch(/^\d+% less time than uniform 0.05 mm; the deviation is/);
+  expect((await said.innerText()).replace(/\s+/g, " ")).toMatch(/^\d+% less time than uniform 0.05 mm\. The largest step is/);
   expect(Number(await page.getByLabel("Tolerance", { exact: true }).inputValue())).toBeGreaterThan(0.1);
 });
 

@@ -8,10 +8,11 @@ const limits = [0.05, 0.15] as const;
 
 const curve = [0.05, 0.1, 0.2].map((max_error, i) => ({ tolerance: max_error, max_error, layers: 1, print_time_s: 300 - 100 * i }));
 
-test("the gain in words: the same quality in less time, or less time for a larger deviation", () => {
+test("the gain in words: the same quality in less time, or less time for a larger step", () => {
   const words = (patch: Partial<Report>): string => gainWords({ report: report(patch), limits }, languageOf("en"));
   expect(words({ max_error: 0.05 })).toBe("Same quality as uniform 0.05\u00a0mm, 32% less time.");
-  expect(words({})).toBe("32% less time than uniform 0.05\u00a0mm; the deviation is 0.065\u00a0mm instead of 0.05\u00a0mm.");
+  expect(words({})).toBe("32% less time than uniform 0.05\u00a0mm. The largest step is 0.065\u00a0mm instead of 0.05\u00a0mm.");
+  expect(words({ metric: "deviation" })).toContain(". The largest deviation is ");
   expect(words({ print_time_s: 13_200 })).toMatch(/^As slow as uniform/);
 });
 

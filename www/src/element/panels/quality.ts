@@ -33,14 +33,19 @@ export interface Picture {
  */
 export function pictureOf(points: readonly Planned[], { report }: Pick<Result, "report">): Picture {
   const { finest, coarsest } = report.uniform;
-  const times = [...points, report, finest, coarsest].map(({ print_time_s }) => print_time_s);
-  const [shortest, longest] = [Math.min(...times), Math.max(...times)];
+  const [shortest, longest] = timesOf(points, report);
   const mark = (plan: Planned): Mark => ({
     x: MARGIN + (placeAmong(points, plan) / (points.length - 1)) * (WIDTH - 2 * MARGIN),
     y: HEIGHT - MARGIN - (longest === shortest ? 0.5 : (plan.print_time_s - shortest) / (longest - shortest)) * (HEIGHT - 2 * MARGIN),
   });
   const dots = points.map(mark).reverse();
   return { dots, own: mark(report), finest: mark(finest), coarsest: mark(coarsest) };
+}
+
+/** The shortest and the longest print time in the picture: its bottom and its top. */
+function timesOf(points: readonly Planned[], report: Result["report"]): [number, number] {
+  const times = [...points, report, report.uniform.finest, report.uniform.coarsest].map(({ print_time_s }) => print_time_s);
+  return [Math.min(...times), Math.max(...times)];
 }
 
 /** What the plan gains over the finest uniform one, and at what cost, in a sentence. */
@@ -54,7 +59,7 @@ export function gainWords({ report, limits }: Pick<Result, "report" | "limits">,
   // Errors that read the same count as the same.
   const isSame = report.max_error <= finest.max_error || error(report.max_error) === error(finest.max_error);
   if (isSame) return texts.quality.same(part, uniform);
-  return texts.quality.near(part, uniform, error(report.max_error), error(finest.max_error));
+  return texts.quality.near(part, uniform, texts.metrics[report.metric].subject, error(report.max_error), error(finest.max_error));
 }
 
 const PROPERTIES = {
@@ -75,6 +80,7 @@ export class CuspQuality extends elementWith(PROPERTIES) {
         flex-direction: column;
         height: 100%;
         min-width: 0;
+        container-type: inline-size;
       }
       svg {
         display: block;
@@ -138,27 +144,79 @@ export class CuspQuality extends elementWith(PROPERTIES) {
         font-weight: 550;
         text-wrap: pretty;
       }
+      @container (max-width: 24rem) {
+        .gain {
+          font-size: 0.9375rem;
+          line-height: 1.4;
+        }
+      }
+      .axis {
+        direction: ltr;
+        font-size: 0.8125rem;
+      }
       .key {
-        display: flex;
-        flex-wrap: wrap;
+        display: grid;
+        grid-template-columns: repeat(auto-fit, minmax(min(100%, 15rem), 1fr));
         gap: 0.125rem 1.25rem;
-        margin-top: 0.5rem;
+        margin: 0.5rem 0 0;
+        padding: 0;
+        list-style: none;
+        font-size: 0.8125rem;
+      }
+      .key li {
+        display: grid;
+        grid-template-columns: 1rem minmax(0, 1fr);
+        gap: 0.375rem;
+        align-items: baseline;
       }
       .key i {
-        display: inline-block;
         box-sizing: border-box;
+        justify-self: center;
         width: 0.6875rem;
         height: 0.6875rem;
-        margin-inline-end: 0.375rem;
         border: 0.3125rem solid var(--cusp-quiet);
       }
-      .key i.coarse {
+      .key .point {
+        width: 0.375rem;
+        height: 0.375rem;
+        border: 0.1875rem solid var(--cusp-accent);
+        border-radius: 50%;
+        translate: 0 -0.125rem;
+      }
+      .key .this {
+        width: 1rem;
+        height: 1rem;
+        border: 0.25rem solid var(--cusp-accent);
+        border-radius: 50%;
+        translate: 0 0.1875rem;
+      }
+      .key .coarse {
         border-width: 2px;
       }
       .waiting {
         min-height: 7.5rem;
         display: grid;
         place-items: center;
+      }
+      @media (forced-colors: active) {
+        path,
+        .base,
+        .uniform {
+          stroke: CanvasText;
+        }
+        .own {
+          stroke: Highlight;
+        }
+        .own.inside,
+        .uniform.inside {
+          stroke: Canvas;
+        }
+        .key i {
+          border-color: CanvasText;
+        }
+        .key .this {
+          border-color: Highlight;
+        }
       }
     `,
   ];
@@ -172,11 +230,8 @@ export class CuspQuality extends elementWith(PROPERTIES) {
         <p class="waiting quiet">${points === null ? words.waiting : nothing}</p>`;
     }
     const { report, limits } = result;
-    const said = words.said(
-      METRICS[report.metric].error(report.max_error, format),
-      format.time(report.print_time_s),
-      report.layers,
-    );
+    const { head: error } = texts.metrics[report.metric];
+    const said = words.said(error, METRICS[report.metric].error(report.max_error, format), format.time(report.print_time_s), report.layers);
     const head = html`<div class="head">
       <h3>${words.title}</h3>
       <span class="quiet figures">${said}</span>
@@ -186,11 +241,12 @@ export class CuspQuality extends elementWith(PROPERTIES) {
     const { dots, own, finest, coarsest } = pictureOf(points, result);
     return html`
       ${head}
+      <p class="axis quiet figures"><span aria-hidden="true">↑</span> ${words.time(format.time(timesOf(points, report)[1]))}</p>
       <svg
         viewBox="0 0 ${WIDTH} ${HEIGHT}"
         preserveAspectRatio="none"
         role="img"
-        aria-label=${words.axis(texts.metrics[report.metric].name)}
+        aria-label=${words.axis(error)}
       >
         <path class="base" d="M0 ${HEIGHT}h${WIDTH}" />
         <path class="curve" d=${`M${dots.map(({ x, y }) => `${x} ${y}`).join("L")}`} />
@@ -213,10 +269,12 @@ export class CuspQuality extends elementWith(PROPERTIES) {
       />
       <div class="ends quiet"><span>${words.quick}</span><span>${words.fine}</span></div>
       ${gain}
-      <p class="key quiet">
-        <span><i class="coarse"></i>${words.coarsest(format.fine(limits[1]), format.time(report.uniform.coarsest.print_time_s))}</span>
-        <span><i></i>${words.finest(format.fine(limits[0]), format.time(report.uniform.finest.print_time_s))}</span>
-      </p>
+      <ul class="key quiet figures">
+        <li><i class="this"></i>${texts.plan.own}</li>
+        <li><i class="point"></i>${words.points}</li>
+        <li><i class="coarse"></i>${words.coarsest(format.fine(limits[1]), format.time(report.uniform.coarsest.print_time_s))}</li>
+        <li><i></i>${words.finest(format.fine(limits[0]), format.time(report.uniform.finest.print_time_s))}</li>
+      </ul>
     `;
   }
 

@@ -182,7 +182,7 @@ export function comparison(result: Result, { texts, format }: Language): Templat
           <th scope="col" class="number">${columns.layers}</th>
           <th class="bar" aria-hidden="true"></th>
           <th scope="col" class="number">${columns.time}</th>
-          <th scope="col">${columns.error}</th>
+          <th scope="col">${texts.metrics[report.metric].head}</th>
         </tr>
       </thead>
       <tbody>

@@ -35,9 +35,9 @@ test("a plan longer than a coarsest uniform plan that keeps the tolerance too sa
 
 test("a uniform plan over the tolerance says by how much, in the unit of its metric", () => {
   const over = { planner: "uniform", max_error: 0.1 };
-  expect(sentence(compared(over))).toMatch(/reaches 0.1\u00a0mm, more than the 0.065/);
-  expect(sentence(compared({ ...over, metric: "area" }))).toBe("The error reaches 10%, more than the 6.5% allowed.");
-  expect(sentence(compared({ ...over, metric: "volume", max_error: 11.26 }))).toMatch(/reaches 11.26\u00a0mm³/);
+  expect(sentence(compared(over))).toMatch(/^The largest step is 0.1\u00a0mm, more than the 0.065/);
+  expect(sentence(compared({ ...over, metric: "area" }))).toBe("The area deviation is 10%, more than the 6.5% allowed.");
+  expect(sentence(compared({ ...over, metric: "volume", max_error: 11.26 }))).toMatch(/^The volume deviation is 11.26\u00a0mm³/);
 });
 
 test("the coarsest row is over the tolerance; rounding of sums does not count as over", () => {

@@ -32,13 +32,13 @@ export function rows({ report, limits }: Compared): [Row, Row, Row] {
 }
 
 /** What the plan gains, in a sentence. */
-export function sentence(compared: Compared, { texts: { gain }, format }: Language): string {
+export function sentence(compared: Compared, { texts: { gain, metrics }, format }: Language): string {
   const { report, options, limits } = compared;
   const [finest, own, coarsest] = rows(compared);
   const error = (value: number): string => METRICS[report.metric].error(value, format);
   const tolerance = error(report.tolerance);
 
-  if (!own.holds) return gain.over(error(own.max_error), tolerance);
+  if (!own.holds) return gain.over(metrics[report.metric].subject, error(own.max_error), tolerance);
   if (report.planner === "uniform") return gain.isUniform(tolerance);
   const by = options.minimize ?? "layers";
   const of = ({ layers, print_time_s }: Row): number => (by === "time" ? print_time_s : layers);

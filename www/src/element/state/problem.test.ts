@@ -31,7 +31,7 @@ test("infeasible: where, and the core's two fixes, rounded so that they still wo
   expect(problem.title).toBe("No plan keeps the tolerance all the way up");
   expect(problem.text).toBe(
     "No plan keeps every layer's error within 0.02\u00a0mm: from z = 12.34 to 12.39\u00a0mm even a layer of 0.05\u00a0mm exceeds it. " +
-      "Allow a larger error, or thinner layers if your printer can make them.",
+      "Raise the tolerance, or allow thinner layers if your printer can make them.",
   );
   expect(problem.offers).toEqual([
     { label: "Tolerance 0.05\u00a0mm", change: { tolerances: { cusp: "0.05" } } },
@@ -42,7 +42,7 @@ test("infeasible: where, and the core's two fixes, rounded so that they still wo
 test("infeasible: only fixes that the core gives are offered", () => {
   const tolerance = infeasibleAt({}, { least_tolerance: 0.05, largest_layer_min_mm: null });
   expect(tolerance.offers.map(({ change }) => change)).toEqual([{ tolerances: { cusp: "0.05" } }]);
-  expect(tolerance.text).toMatch(/Allow a larger error\.$/);
+  expect(tolerance.text).toMatch(/Raise the tolerance\.$/);
   expect(infeasibleAt({}, { least_tolerance: null, largest_layer_min_mm: null }).offers).toEqual([]);
 });
 
@@ -79,7 +79,7 @@ test("a heading, and under it the catalogue's sentence with its figures", () => 
 
 test.each([
   [failed("no-hits", { pitch_mm: 1 }), "a.stl is too thin for these pixels"],
-  [failed("all-black", null), "Every mask would be black"],
+  [failed("all-black", null), "Every layer would be empty"],
   [failed("layer-too-thick", { layer_mm: 2, height_mm: 1 }), "The layers are too thick for this model"],
   [failed("layer-range-empty", { layer_min_mm: 1, layer_max_mm: 2, step_mm: 3 }), "No layer of whole motor steps lies in this range"],
   [failed("gpu-too-small", { facets: 3, needed_bytes: 2, limit_bytes: 1 }), "The GPU is too small for this model"],
@@ -125,7 +125,7 @@ test("no offer changes what the page has fixed", () => {
     [],
   ]);
   expect(thinner?.text).toMatch(/Allow thinner layers if your printer can make them\.$/);
-  expect(larger?.text).toMatch(/Allow a larger error\.$/);
+  expect(larger?.text).toMatch(/Raise the tolerance\.$/);
   expect(none?.text).toMatch(/exceeds it\.$/);
 });
 

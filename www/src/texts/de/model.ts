@@ -24,10 +24,10 @@ export const model = (): ModelTexts => ({
   progress: {
     load: "Modell wird gelesen",
     saliency: "Auffälliges wird gesucht",
-    ldi: "Strahlen werden geworfen",
+    ldi: "Form wird abgetastet",
     profile: "Oberfläche wird gemessen",
     plan: "Schichten werden geplant",
-    masks: "Masken werden gezeichnet",
+    masks: "Schichten werden gezeichnet",
     orientation: "Richtungen werden gemessen",
     left: (seconds) => `noch etwa ${seconds}`,
     cancel: "Abbrechen",

@@ -16,7 +16,7 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
     none: "Für dieses Modell gibt es noch keinen Plan.",
     make: "Schichten planen",
     said: (count, time) => `${counted(count, LAYERS)} geplant, etwa ${time} Druckzeit.`,
-    columns: { plan: "Plan", layers: "Schichten", time: "Zeit", error: "Größter Fehler" },
+    columns: { plan: "Plan", layers: "Schichten", time: "Zeit" },
     uniform: (thickness) => `Gleichmäßig ${thickness}`,
     own: "Dieser Plan",
     within: "innerhalb der Toleranz",
@@ -50,7 +50,7 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
       `Drucker für jede Schicht eine eigene Dicke; sind es ${size(0.5)} und ${size(1)}\u00a0mm oder ${size(1)} und ${size(2)}\u00a0mm, nimmt er eine für alle.`,
   },
   gain: {
-    over: (error, tolerance) => `Der Fehler erreicht ${error}, mehr als die erlaubten ${tolerance}.`,
+    over: (subject, error, tolerance) => `${subject} beträgt ${error}, mehr als die erlaubten ${tolerance}.`,
     isUniform: (tolerance) => `Gleichmäßige Schichten, überall innerhalb von ${tolerance}. Adaptiv reichen vielleicht weniger.`,
     coarsest: {
       layers: (uniform, tolerance) => `So wenige wie gleichmäßig ${uniform}, und überall innerhalb von ${tolerance}.`,
@@ -72,18 +72,19 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
   },
   quality: {
     title: "Qualität",
-    hint: "Jeder Punkt ist der beste Plan für seine Abweichung.",
     quick: "Schneller",
     fine: "Feiner",
     waiting: "Die besten Pläne werden gesucht",
-    said: (error, time, layers) => `Abweichung ${error}, ${time}, ${counted(layers, LAYERS)}`,
-    axis: (metric) => `Druckzeit über der Abweichung (${metric})`,
+    said: (head, error, time, layers) => `${head} ${error}, ${time}, ${counted(layers, LAYERS)}`,
+    axis: (head) => `Druckzeit nach Qualität (${head})`,
+    time: (longest) => `Druckzeit, bis ${longest}`,
+    points: "Der schnellste Plan je Qualität",
     finest: (uniform, time) => `Gleichmäßig ${uniform}, am feinsten: ${time}`,
     coarsest: (uniform, time) => `Gleichmäßig ${uniform}, am gröbsten: ${time}`,
     same: (part, uniform) => `Dieselbe Qualität wie gleichmäßig ${uniform}, ${part} weniger Zeit.`,
-    near: (part, uniform, error, finest) =>
-      `${part} weniger Zeit als gleichmäßig ${uniform}; die Abweichung ist ${error} statt ${finest}.`,
-    none: (uniform) => `So langsam wie gleichmäßig ${uniform}: lassen Sie dickeren Schichten mehr Raum.`,
+    near: (part, uniform, subject, error, finest) =>
+      `${part} weniger Zeit als gleichmäßig ${uniform}. ${subject} beträgt ${error} statt ${finest}.`,
+    none: (uniform) => `So langsam wie gleichmäßig ${uniform}. Ziehen Sie den Regler für dickere Schichten nach links.`,
     single: "Jede Qualität ergibt für dieses Modell dieselben Schichten.",
   },
   details: {

@@ -24,10 +24,10 @@ export const model = () => ({
   progress: {
     load: "Reading the model",
     saliency: "Finding what stands out",
-    ldi: "Casting rays through it",
+    ldi: "Scanning its shape",
     profile: "Measuring the surface",
     plan: "Planning the layers",
-    masks: "Drawing the masks",
+    masks: "Drawing the layers",
     orientation: "Measuring directions",
     left: (seconds: string) => `about ${seconds} left`,
     cancel: "Cancel",

@@ -18,7 +18,7 @@ export const plan = ({ counted, plural, size }: Format) => ({
     make: "Plan the layers",
     said: (count: number, time: string) =>
       `${counted(count, LAYERS)} planned, about ${time} to print.`,
-    columns: { plan: "Plan", layers: "Layers", time: "Time", error: "Largest error" },
+    columns: { plan: "Plan", layers: "Layers", time: "Time" },
     uniform: (thickness: string) => `Uniform ${thickness}`,
     own: "This plan",
     within: "within tolerance",
@@ -55,7 +55,7 @@ export const plan = ({ counted, plural, size }: Format) => ({
   },
   /** What the plan gains over uniform plans; `uniform` is a thickness, `figure` a number of layers or a time. */
   gain: {
-    over: (error: string, tolerance: string) => `The error reaches ${error}, more than the ${tolerance} allowed.`,
+    over: (subject: string, error: string, tolerance: string) => `${subject} is ${error}, more than the ${tolerance} allowed.`,
     isUniform: (tolerance: string) => `Uniform layers, within ${tolerance} all the way up. Adaptive ones may need fewer.`,
     coarsest: {
       layers: (uniform: string, tolerance: string) => `As few as uniform ${uniform}, and within ${tolerance} all the way up.`,
@@ -77,19 +77,20 @@ export const plan = ({ counted, plural, size }: Format) => ({
   },
   quality: {
     title: "Quality",
-    hint: "Each point is the best plan for its deviation.",
     quick: "Quicker",
     fine: "Finer",
     waiting: "Looking for the best plans",
-    said: (error: string, time: string, layers: number) =>
-      `Deviation ${error}, ${time}, ${counted(layers, LAYERS)}`,
-    axis: (metric: string) => `Print time over deviation (${metric})`,
+    said: (head: string, error: string, time: string, layers: number) =>
+      `${head} ${error}, ${time}, ${counted(layers, LAYERS)}`,
+    axis: (head: string) => `Chart of the print time by quality (${head})`,
+    time: (longest: string) => `Print time, up to ${longest}`,
+    points: "The quickest plan at each quality",
     finest: (uniform: string, time: string) => `Uniform ${uniform}, the finest: ${time}`,
     coarsest: (uniform: string, time: string) => `Uniform ${uniform}, the coarsest: ${time}`,
     same: (part: string, uniform: string) => `Same quality as uniform ${uniform}, ${part} less time.`,
-    near: (part: string, uniform: string, error: string, finest: string) =>
-      `${part} less time than uniform ${uniform}; the deviation is ${error} instead of ${finest}.`,
-    none: (uniform: string) => `As slow as uniform ${uniform}: give more room for thicker layers.`,
+    near: (part: string, uniform: string, subject: string, error: string, finest: string) =>
+      `${part} less time than uniform ${uniform}. ${subject} is ${error} instead of ${finest}.`,
+    none: (uniform: string) => `As slow as uniform ${uniform}. Move the slider to the left for thicker layers.`,
     single: "Every quality gives this model the same layers.",
   },
   details: {

@@ -27,7 +27,7 @@ export const problems = (format: Format) => ({
     tooHigh: () => "The model is too high for this printer",
     tooFine: () => "This resolution is too much for this computer",
     noHits: (name: string) => `${name} is too thin for these pixels`,
-    allBlack: () => "Every mask would be black",
+    allBlack: () => "Every layer would be empty",
     layerTooThick: () => "The layers are too thick for this model",
     rangeEmpty: () => "No layer of whole motor steps lies in this range",
     doNotFit: () => "These layers do not add up to the model’s height",
@@ -54,8 +54,8 @@ export const problems = (format: Format) => ({
   } satisfies Headings,
   /** What would help if no plan keeps the tolerance. */
   infeasible: {
-    either: "Allow a larger error, or thinner layers if your printer can make them.",
-    larger: "Allow a larger error.",
+    either: "Raise the tolerance, or allow thinner layers if your printer can make them.",
+    larger: "Raise the tolerance.",
     thinner: "Allow thinner layers if your printer can make them.",
     neither: "Change the range of layers.",
   },

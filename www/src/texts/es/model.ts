@@ -24,10 +24,10 @@ export const model = (): ModelTexts => ({
   progress: {
     load: "Leyendo el modelo",
     saliency: "Buscando lo que destaca",
-    ldi: "Lanzando rayos",
+    ldi: "Explorando la forma",
     profile: "Midiendo la superficie",
     plan: "Planificando las capas",
-    masks: "Dibujando las máscaras",
+    masks: "Dibujando las capas",
     orientation: "Midiendo direcciones",
     left: (seconds) => `quedan unos ${seconds}`,
     cancel: "Cancelar",

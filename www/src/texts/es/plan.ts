@@ -16,7 +16,7 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
     none: "Aún no hay plan para este modelo.",
     make: "Planificar las capas",
     said: (count, time) => `${counted(count, LAYERS)} planificadas, unos ${time} de impresión.`,
-    columns: { plan: "Plan", layers: "Capas", time: "Tiempo", error: "Error máximo" },
+    columns: { plan: "Plan", layers: "Capas", time: "Tiempo" },
     uniform: (thickness) => `Uniforme ${thickness}`,
     own: "Este plan",
     within: "dentro de la tolerancia",
@@ -50,7 +50,7 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
       `admite un espesor para cada capa; si es de ${size(0.5)} y ${size(1)}\u00a0mm, o de ${size(1)} y ${size(2)}\u00a0mm, uno solo para todas.`,
   },
   gain: {
-    over: (error, tolerance) => `El error llega a ${error}, más que los ${tolerance} permitidos.`,
+    over: (subject, error, tolerance) => `${subject} es de ${error}, más que los ${tolerance} permitidos.`,
     isUniform: (tolerance) => `Capas uniformes, siempre dentro de ${tolerance}. Con adaptativas quizá basten menos.`,
     coarsest: {
       layers: (uniform, tolerance) => `Tan pocas como uniforme ${uniform}, y siempre dentro de ${tolerance}.`,
@@ -72,18 +72,19 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
   },
   quality: {
     title: "Calidad",
-    hint: "Cada punto es el mejor plan para su desviación.",
     quick: "Más rápido",
     fine: "Más fino",
     waiting: "Buscando los mejores planes",
-    said: (error, time, layers) => `Desviación ${error}, ${time}, ${counted(layers, LAYERS)}`,
-    axis: (metric) => `Tiempo de impresión según la desviación (${metric})`,
+    said: (head, error, time, layers) => `${head} ${error}, ${time}, ${counted(layers, LAYERS)}`,
+    axis: (head) => `Tiempo de impresión según la calidad (${head})`,
+    time: (longest) => `Tiempo de impresión, hasta ${longest}`,
+    points: "El plan más rápido para cada calidad",
     finest: (uniform, time) => `Uniforme ${uniform}, el más fino: ${time}`,
     coarsest: (uniform, time) => `Uniforme ${uniform}, el más grueso: ${time}`,
     same: (part, uniform) => `La misma calidad que uniforme ${uniform}, ${part} menos de tiempo.`,
-    near: (part, uniform, error, finest) =>
-      `${part} menos de tiempo que uniforme ${uniform}; la desviación es ${error} en vez de ${finest}.`,
-    none: (uniform) => `Tan lento como uniforme ${uniform}: dé más margen a capas más gruesas.`,
+    near: (part, uniform, subject, error, finest) =>
+      `${part} menos de tiempo que uniforme ${uniform}. ${subject} es de ${error} en vez de ${finest}.`,
+    none: (uniform) => `Tan lento como uniforme ${uniform}. Mueva el control a la izquierda para capas más gruesas.`,
     single: "Este modelo tiene las mismas capas con cualquier calidad.",
   },
   details: {

@@ -24,10 +24,10 @@ export const model = (): ModelTexts => ({
   progress: {
     load: "Lecture du modèle",
     saliency: "Recherche de ce qui ressort",
-    ldi: "Lancer de rayons",
+    ldi: "Exploration de la forme",
     profile: "Mesure de la surface",
     plan: "Planification des couches",
-    masks: "Dessin des masques",
+    masks: "Dessin des couches",
     orientation: "Mesure des directions",
     left: (seconds) => `encore ${seconds} environ`,
     cancel: "Annuler",

@@ -16,7 +16,7 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
     none: "Il n’y a pas encore de plan pour ce modèle.",
     make: "Planifier les couches",
     said: (count, time) => `${counted(count, LAYERS)}, environ ${time} d’impression.`,
-    columns: { plan: "Plan", layers: "Couches", time: "Durée", error: "Plus grande erreur" },
+    columns: { plan: "Plan", layers: "Couches", time: "Durée" },
     uniform: (thickness) => `Uniforme ${thickness}`,
     own: "Ce plan",
     within: "dans la tolérance",
@@ -50,7 +50,7 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
       `une épaisseur par couche ; si elles font ${size(0.5)} et ${size(1)}\u00a0mm, ou ${size(1)} et ${size(2)}\u00a0mm, une seule pour toutes.`,
   },
   gain: {
-    over: (error, tolerance) => `L’erreur atteint ${error}, plus que les ${tolerance} permis.`,
+    over: (subject, error, tolerance) => `${subject} est de ${error}, plus que les ${tolerance} permis.`,
     isUniform: (tolerance) => `Couches uniformes, partout à ${tolerance} près. Adaptatives, il en faudrait peut-être moins.`,
     coarsest: {
       layers: (uniform, tolerance) => `Aussi peu qu’uniforme ${uniform}, et partout à ${tolerance} près.`,
@@ -72,18 +72,19 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
   },
   quality: {
     title: "Qualité",
-    hint: "Chaque point est le meilleur plan pour son écart.",
     quick: "Plus rapide",
     fine: "Plus fin",
     waiting: "Recherche des meilleurs plans",
-    said: (error, time, layers) => `Écart ${error}, ${time}, ${counted(layers, LAYERS)}`,
-    axis: (metric) => `Durée d’impression selon l’écart (${metric})`,
+    said: (head, error, time, layers) => `${head} ${error}, ${time}, ${counted(layers, LAYERS)}`,
+    axis: (head) => `Durée d’impression selon la qualité (${head})`,
+    time: (longest) => `Durée d’impression, jusqu’à ${longest}`,
+    points: "Le plan le plus rapide pour chaque qualité",
     finest: (uniform, time) => `Uniforme ${uniform}, le plus fin : ${time}`,
     coarsest: (uniform, time) => `Uniforme ${uniform}, le plus grossier : ${time}`,
     same: (part, uniform) => `La même qualité qu’uniforme ${uniform}, ${part} de temps en moins.`,
-    near: (part, uniform, error, finest) =>
-      `${part} de temps en moins qu’uniforme ${uniform} ; l’écart est de ${error} au lieu de ${finest}.`,
-    none: (uniform) => `Aussi lent qu’uniforme ${uniform} : laissez plus de place à des couches épaisses.`,
+    near: (part, uniform, subject, error, finest) =>
+      `${part} de temps en moins qu’uniforme ${uniform}. ${subject} est de ${error} au lieu de ${finest}.`,
+    none: (uniform) => `Aussi lent qu’uniforme ${uniform}. Glissez le curseur vers la gauche pour des couches plus épaisses.`,
     single: "Ce modèle a les mêmes couches, quelle que soit la qualité.",
   },
   details: {

@@ -24,10 +24,10 @@ export const model = (): ModelTexts => ({
   progress: {
     load: "正在读取模型",
     saliency: "正在找出显眼之处",
-    ldi: "正在投射光线",
+    ldi: "正在扫描形状",
     profile: "正在测量表面",
     plan: "正在规划分层",
-    masks: "正在绘制掩膜",
+    masks: "正在绘制各层",
     orientation: "正在测量各方向",
     left: (seconds) => `约剩 ${seconds}`,
     cancel: "取消",
