@@ -140,6 +140,47 @@ test("a search fills the sphere and offers three directions; one is applied by i
   expect(await layers(page)).toBe(before);
 });
 
+/** The number of layers on the card of the pose now; null while it is not measured. */
+async function layersNow(page: Page): Promise<number | null> {
+  const [said] = await panel(page).locator(".now strong").allInnerTexts();
+  return said === undefined ? null : Number(said.replace(/\D/g, ""));
+}
+
+test("the pose now is a card beside the best, which say what they have more or less of; a pose turned by hand is measured", async () => {
+  const page = await example();
+  await search(page);
+  expect(await layersNow(page)).toBe(await layers(page));
+  const poses = panel(page).locator(".pose");
+  const layersOf = async (place: number): Promise<number> => Number((await poses.nth(place).locator("strong").innerText()).replace(/\D/g, ""));
+  const said = async (place: number): Promise<string> => (await poses.nth(place).locator(".differs").allInnerTexts()).join(", ");
+  const words = (difference: number): string => {
+    if (difference === 0) return "Same number of layers";
+    return `${Math.abs(difference)} ${Math.abs(difference) === 1 ? "layer" : "layers"} ${difference < 0 ? "fewer" : "more"}`;
+  };
+  const compared = async (place: number): Promise<void> => {
+    const now = await layersNow(page);
+    expect(await said(place)).toContain(words((await layersOf(place)) - (now ?? NaN)));
+  };
+  // The goblet stands as in the best orientation.
+  expect(await said(0)).toBe("Current orientation");
+  await compared(2);
+  await poses.nth(2).click();
+  await settled(page);
+  await expect.poll(() => said(2)).toBe("Current orientation");
+  expect(await layersNow(page)).toBe(await layersOf(2));
+  await compared(0);
+
+  // 40° about x, which no candidate has.
+  await page.locator("cusp-model").evaluate((it) => {
+    const rotation = [Math.sin(Math.PI / 9), 0, 0, Math.cos(Math.PI / 9)];
+    it.dispatchEvent(new CustomEvent("cusp-rotate", { detail: { rotation, final: true } }));
+  });
+  await settled(page);
+  await expect.poll(async () => Math.abs(((await layersNow(page)) ?? NaN) - (await layers(page)))).toBeLessThanOrEqual(1);
+  for (const place of [0, 1, 2]) await compared(place);
+  expect(await panel(page).getByText("Found with other settings").count()).toBe(0);
+});
+
 test("a direction is applied by pointing and clicking, and by arrow keys and Enter; its metrics are shown before", async () => {
   const page = await example();
   const before = await layers(page);
@@ -148,7 +189,7 @@ test("a direction is applied by pointing and clicking, and by arrow keys and Ent
   await page.mouse.move(x, y);
   const promised = Number(await figure(page, "Layers"));
   expect(await figure(page, "Size")).toMatch(/mm$/);
-  expect(Number(await figure(page, "Energy"))).toBeGreaterThan(0);
+  expect(Number(await figure(page, "Score"))).toBeGreaterThan(0);
   // Another place is another direction.
   const elsewhere = await at(page, "Back", 0.2, 0.1);
   const shown = (): Promise<string | null> => panel(page).locator("[data-direction]").getAttribute("data-direction");

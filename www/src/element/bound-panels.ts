@@ -196,8 +196,8 @@ function beside<Name extends "cusp-model" | "cusp-orientation">(target: EventTar
   return ((target as Element).getRootNode() as ShadowRoot).querySelector(name);
 }
 
-function searchedOf({ orientation: { aims, found, best, busy, isCurrent, isPossible, options } }: Session): Searched {
-  return { aims, found, best, busy, isCurrent, isPossible, options };
+function searchedOf({ orientation: { aims, found, best, now, busy, isCurrent, isPossible, options } }: Session): Searched {
+  return { aims, found, best, now, busy, isCurrent, isPossible, options };
 }
 
 const rotations = new Map<string, Rotation>();

@@ -1,4 +1,4 @@
-/** The orientation panel: the aims of the search, the sphere of energies, and the best orientations to choose from. */
+/** The orientation panel: the aims of the search, the sphere of scores, the orientation now, and the best ones to choose from. */
 import { html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
 import type { Found, Slicer } from "../../api/index.js";
@@ -8,8 +8,8 @@ import { gradient, type PaletteName } from "../../view/legend/palette.js";
 import type { Rotation } from "../../view/scene/pose.js";
 import { orientationStyles } from "../styles/orientation-styles.js";
 import { energyRange, type Looked } from "./orientation-sphere.js";
-import type { Aims, OrientationSearch } from "../state/orientation.js";
-import { METRICS } from "../state/metric.js";
+import { differences, figure, type Term } from "../state/differences.js";
+import { isPose, type Aims, type OrientationSearch } from "../state/orientation.js";
 import { partFailure, partStyles, tellPartFailed } from "../parts/part.js";
 import { progressBar, progressStyles, type Busy } from "../parts/progress.js";
 import { rotationText } from "../state/settings.js";
@@ -19,14 +19,13 @@ import { elementWith, given, own } from "../../view/properties.js";
 
 const COSTS: readonly Aims["cost"][] = ["layers", "time"];
 const QUALITIES: readonly Aims["quality"][] = ["error", "roughness", "overhang"];
-const MICROMETRES = 1000;
 /** Number of steps of the slider. */
 const STEPS = 20;
 /** Side length of a thumbnail in pixels; it is shown at half that size. */
 const PICTURE_PX = 256;
 
 /** The part of a search that the panel shows. */
-export type Searched = Readonly<Pick<OrientationSearch, "aims" | "found" | "best" | "busy" | "isCurrent" | "isPossible" | "options">>;
+export type Searched = Readonly<Pick<OrientationSearch, "aims" | "found" | "best" | "now" | "busy" | "isCurrent" | "isPossible" | "options">>;
 
 const PROPERTIES = {
   slicer: given<Slicer | null>(null),
@@ -46,13 +45,17 @@ const PROPERTIES = {
 
 export class CuspOrientation extends elementWith(PROPERTIES) {
   #drawing: AbortController | null = null;
+  /** The rotation in which a canvas shows the model. */
+  #drawn = new WeakMap<HTMLCanvasElement, string>();
 
   static override styles = [shared, progressStyles, partStyles, orientationStyles];
 
   override firstUpdated(): void {
     // Thumbnails have the page's colours. Any change of those starts a transition on the probe.
     this.renderRoot.addEventListener("transitionrun", ({ target }) => {
-      if ((target as Element).classList.contains("probe")) void this.#drawThumbnails();
+      if (!(target as Element).classList.contains("probe")) return;
+      this.#drawn = new WeakMap();
+      void this.#drawThumbnails();
     });
   }
 
@@ -62,7 +65,10 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
   }
 
   override updated(changed: PropertyValues<this>): void {
-    if (changed.has("searched") && changed.get("searched")?.best !== this.searched?.best) void this.#drawThumbnails();
+    if (!changed.has("searched")) return;
+    const before = changed.get("searched");
+    const { searched } = this;
+    if (before?.best !== searched?.best || before?.now !== searched?.now) void this.#drawThumbnails();
   }
 
   override render(): TemplateResult {
@@ -82,15 +88,18 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
       </div>
       ${found === null && busy === null ? html`<p class="quiet hint">${words.hint}</p>` : nothing}
       ${found !== null && busy === null && !isCurrent ? html`<p class="stale">${words.stale}</p>` : nothing}
-      ${this.#aims(searched.aims)} ${busy === null ? nothing : this.#progress(busy, searched)}
+      ${this.#aims(searched)} ${busy === null ? nothing : this.#progress(busy, searched)}
       ${found === null ? nothing : this.#results(searched, found)}
       <p class="visually-hidden" role="status">${this.#announcement(searched)}</p>
     `;
   }
 
-  #aims({ alpha, cost, quality }: Aims): TemplateResult {
+  #aims({ aims: { alpha, cost, quality }, options }: Searched): TemplateResult {
     const { texts, format } = this.language;
     const { orientation: words } = texts;
+    const errors = texts.metrics[options?.metric ?? this.metric];
+    const qualities = { error: errors.head, ...words.qualities };
+    const better = { error: errors.less, ...words.better };
     const choice = <T extends string>(
       name: string,
       value: T,
@@ -99,14 +108,16 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
       set: (value: T) => void,
     ): TemplateResult => html`<label class="field">
       <span>${name}</span>
-      <select @change=${({ target }: Event) => set((target as HTMLSelectElement).value as T)}>
-        ${values.map((it) => html`<option value=${it} ?selected=${it === value}>${names[it]}</option>`)}
-      </select>
+      <span class="list">
+        <select @change=${({ target }: Event) => set((target as HTMLSelectElement).value as T)}>
+          ${values.map((it) => html`<option value=${it} ?selected=${it === value}>${names[it]}</option>`)}
+        </select>
+      </span>
     </label>`;
-    const said = words.parts(words.costs[cost], format.percent(alpha), words.qualities[quality], format.percent(1 - alpha));
+    const said = words.parts(words.costs[cost], format.percent(alpha), qualities[quality], format.percent(1 - alpha));
     return html`<div class="aims">
       ${choice(words.cost, cost, COSTS, words.costs, (cost) => this.#aim({ cost }))}
-      ${choice(words.quality, quality, QUALITIES, words.qualities, (quality) => this.#aim({ quality }))}
+      ${choice(words.quality, quality, QUALITIES, qualities, (quality) => this.#aim({ quality }))}
       <div class="balance">
         <label for="balance">${words.balance}</label>
         <input
@@ -118,7 +129,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
           aria-valuetext=${said}
           @input=${({ target }: Event) => this.#aim({ alpha: 1 - Number((target as HTMLInputElement).value) / STEPS })}
         />
-        <div class="ends quiet"><span>${words.fewer[cost]}</span><span>${words.better[quality]}</span></div>
+        <div class="ends quiet"><span>${words.fewer[cost]}</span><span>${better[quality]}</span></div>
       </div>
     </div>`;
   }
@@ -149,7 +160,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
         ${this.#legend(found)} ${this.#metrics(searched)}
       </div>
       <div class="best">
-        ${best.length > 0 ? html`<h4>${texts.orientation.best}</h4>` : nothing}
+        ${best.length > 0 ? html`${this.#now(searched)}<h4>${texts.orientation.best}</h4>` : nothing}
         ${this.isUnpictured && best.length > 0 ? partFailure(this.language, () => void this.#drawThumbnails()) : nothing}
         ${best.map((candidate, i) => this.#choice(candidate, i, searched))}
         ${!fits && busy === null ? html`<p class="quiet">${texts.orientation.none}</p>` : nothing}
@@ -182,24 +193,38 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
   #metrics({ options }: Searched): TemplateResult {
     const { looked, language } = this;
     const { orientation: words } = language.texts;
-    if (looked === null) return html`<p class="looked quiet hint">${words.point}</p>`;
+    if (looked === null) {
+      return html`<p class="looked quiet hint"><span class="hovers">${words.point}</span><span class="taps">${words.tap}</span></p>`;
+    }
     const { candidate, isChosen } = looked;
     const rows = metricRows(candidate, options?.metric ?? this.metric, language);
     return html`<div class="looked figures" data-direction=${candidate.direction.join()}>
       ${candidate.excluded === null ? nothing : html`<p class="why">${words.why[candidate.excluded]}</p>`}
-      <dl>${rows.map(([name, value]) => html`<div><dt>${name}</dt><dd>${value}</dd></div>`)}</dl>
+      <dl>${rows.map(([name, value, help]) => html`<div title=${help ?? nothing}><dt>${name}</dt><dd>${value}</dd></div>`)}</dl>
       ${isChosen && candidate.excluded === null
         ? html`<button class="small" @click=${() => this.#orient(candidate)}>${words.apply}</button>`
         : nothing}
     </div>`;
   }
 
-  #choice(candidate: Candidate, place: number, { options }: Searched): TemplateResult {
+  /** The pose of the model, to compare the best ones with; without figures until they are known, and while the model is being turned. */
+  #now(searched: Searched): TemplateResult {
+    const { orientation: words } = this.language.texts;
+    const now = this.#measuredNow(searched);
+    return html`<div class="now ${now === null ? "unknown" : ""}" role="group" aria-label=${words.current}>
+      <canvas width=${PICTURE_PX} height=${PICTURE_PX} aria-hidden="true"></canvas>
+      <span class="what">
+        <span class="tag">${words.now}</span>
+        ${now === null ? html`<span class="quiet">–</span>` : this.#figures(now, searched)}
+        ${now?.excluded == null ? nothing : html`<span class="why">${words.why[now.excluded]}</span>`}
+      </span>
+    </div>`;
+  }
+
+  #choice(candidate: Candidate, place: number, searched: Searched): TemplateResult {
     const { language } = this;
     const { texts, format } = language;
-    const { metrics } = candidate;
-    const isApplied = rotationText(candidate.rotation) === rotationText(this.rotation);
-    const { error } = METRICS[options?.metric ?? this.metric];
+    const isApplied = isPose(candidate.rotation, this.rotation);
     return html`<button
       class="pose"
       aria-pressed=${isApplied ? "true" : "false"}
@@ -208,16 +233,42 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
       <canvas width=${PICTURE_PX} height=${PICTURE_PX} aria-hidden="true"></canvas>
       <span class="rank" aria-hidden="true">${place + 1}</span>
       <span class="visually-hidden">${texts.orientation.rank(format.count(place + 1))}:</span>
-      ${metrics === null
-        ? nothing
-        : html`<span class="what">
-            <strong>${format.count(metrics.layers)} ${texts.plan.layers(metrics.layers)}</strong>
-            <span>${format.time(metrics.print_time_s)}</span>
-            <span class="quiet">${texts.orientation.error} ${error(metrics.max_error, format)}</span>
-            <span class="quiet">${texts.orientation.roughness} ${micrometres(metrics.roughness_mm, language)}</span>
-            <span class="quiet">${texts.orientation.overhang} ${format.area(metrics.overhang_mm2)}</span>
-          </span>`}
+      <span class="what">
+        ${this.#figures(
+          candidate,
+          searched,
+          isApplied ? [texts.orientation.current] : this.#differences(candidate, searched),
+        )}
+      </span>
     </button>`;
+  }
+
+  /** The figures of a pose; what it has more or less of comes after the layers and the time. */
+  #figures({ metrics }: Candidate, { options }: Searched, differing: readonly string[] = []): TemplateResult {
+    const { language } = this;
+    const { texts } = language;
+    const { orientation: words } = texts;
+    if (metrics === null) return html`${nothing}`;
+    const metric = options?.metric ?? this.metric;
+    const of = (term: Term): string => figure(term, metrics, metric, language);
+    return html`<span class="cost"><strong>${of("layers")} ${texts.plan.layers(metrics.layers)}</strong> <span>${of("time")}</span></span>
+      ${differing.map((it) => html`<span class="differs">${it}</span>`)}
+      <span class="rest quiet">
+        <span>${texts.metrics[metric].head} ${of("error")}</span>
+        <span title=${words.roughnessHelp}>${words.roughness} ${of("roughness")}</span>
+        <span title=${words.overhangHelp}>${words.overhang} ${of("overhang")}</span>
+      </span>`;
+  }
+
+  /** What a pose has more or less of than the pose of the model; nothing if that is not measured. */
+  #differences({ metrics }: Candidate, searched: Searched): string[] {
+    const now = this.#measuredNow(searched)?.metrics ?? null;
+    if (metrics === null || now === null) return [];
+    return differences(metrics, now, searched.aims, searched.options?.metric ?? this.metric, this.language);
+  }
+
+  #measuredNow({ now }: Searched): Candidate | null {
+    return now !== null && isPose(now.rotation, this.rotation) ? now.candidate : null;
   }
 
   #announcement({ busy, found, best, options }: Searched): string {
@@ -227,8 +278,9 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
       const { excluded, metrics } = looked.candidate;
       if (excluded !== null) return texts.orientation.why[excluded];
       if (metrics === null) return "";
-      const error = METRICS[options?.metric ?? this.metric].error(metrics.max_error, format);
-      return texts.orientation.said(metrics.layers, format.time(metrics.print_time_s), error);
+      const metric = options?.metric ?? this.metric;
+      const [time, error] = (["time", "error"] as const).map((term) => figure(term, metrics, metric, language)) as [string, string];
+      return texts.orientation.said(metrics.layers, time, texts.metrics[metric].head, error);
     }
     if (busy !== null) return texts.progress[busy.stage];
     return found !== null && best.length > 0 ? texts.orientation.found(format.count(found.candidates.length)) : "";
@@ -251,13 +303,20 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
     });
     this.isUnpictured = pictures === null;
     if (pictures === null || signal.aborted) return;
-    const canvases = [...this.renderRoot.querySelectorAll<HTMLCanvasElement>(".pose canvas")];
-    const thumbnails = searched.best.flatMap(({ rotation }, i) => {
+    const canvases = [...this.renderRoot.querySelectorAll<HTMLCanvasElement>(".best canvas")];
+    // The first card is that of the pose now.
+    const rotations = [searched.now?.rotation ?? this.rotation, ...searched.best.map(({ rotation }) => rotation)];
+    const thumbnails = rotations.flatMap((rotation, i) => {
       const canvas = canvases[i];
-      return canvas === undefined ? [] : [[canvas, rotation] as const];
+      return canvas === undefined || this.#drawn.get(canvas) === rotationText(rotation) ? [] : [[canvas, rotation] as const];
     });
+    if (thumbnails.length === 0) return;
     await pictures.drawThumbnails(positions, thumbnails, this, signal);
-    for (const [canvas] of thumbnails) canvas.dataset["drawn"] = "";
+    if (signal.aborted) return;
+    for (const [canvas, rotation] of thumbnails) {
+      canvas.dataset["drawn"] = "";
+      this.#drawn.set(canvas, rotationText(rotation));
+    }
   }
 
   #aim(change: Partial<Aims>): void {
@@ -273,25 +332,22 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
   }
 }
 
-function micrometres(mm: number, { format }: Language): string {
-  return `${format.tick(Math.round(mm * MICROMETRES * 10) / 10)}\u00a0µm`;
-}
-
-/** The metrics, energy and size of a candidate that are known, as pairs of name and value. */
-export function metricRows({ metrics, size_mm, energy }: Candidate, metric: Metric, language: Language): [string, string][] {
+/** The metrics, score and size of a candidate that are known: name, value, and what the name means if that needs words. */
+export function metricRows({ metrics, size_mm, energy }: Candidate, metric: Metric, language: Language): [string, string, string?][] {
   const { texts, format } = language;
   const { orientation: words } = texts;
-  const rows: [string, string][] = [];
+  const rows: [string, string, string?][] = [];
   if (metrics !== null) {
+    const of = (term: Term): string => figure(term, metrics, metric, language);
     rows.push(
-      [words.layers, format.count(metrics.layers)],
-      [words.time, format.time(metrics.print_time_s)],
-      [words.error, METRICS[metric].error(metrics.max_error, format)],
-      [words.roughness, micrometres(metrics.roughness_mm, language)],
-      [words.overhang, format.area(metrics.overhang_mm2)],
+      [words.layers, of("layers")],
+      [words.time, of("time")],
+      [texts.metrics[metric].head, of("error")],
+      [words.roughness, of("roughness"), words.roughnessHelp],
+      [words.overhang, of("overhang"), words.overhangHelp],
     );
   }
-  if (energy !== null) rows.push([words.energy, format.tick(energy)]);
+  if (energy !== null) rows.push([words.score, format.tick(energy), words.legend]);
   rows.push([words.size, format.dimensions(size_mm)]);
   return rows;
 }

@@ -1,4 +1,4 @@
-/** The energies of all directions on a Gaussian sphere, from the front and from behind, turned with the model beside it. */
+/** The scores of all directions on a Gaussian sphere, from the front and from behind, turned with the model beside it. */
 import { css, html, nothing, svg, type PropertyValues, type SVGTemplateResult, type TemplateResult } from "lit";
 import type { Found } from "../../api/index.js";
 import type { Candidate } from "../../api/wire.js";
@@ -136,6 +136,28 @@ export class CuspSphere extends elementWith(PROPERTIES) {
         font-weight: 650;
         text-anchor: middle;
         dominant-baseline: central;
+      }
+      /* The colours of the discs are data; the marks above them are not. */
+      @media (forced-colors: active) {
+        canvas {
+          forced-color-adjust: none;
+        }
+        .disc {
+          border: 1px solid CanvasText;
+        }
+        circle,
+        path {
+          stroke: CanvasText;
+        }
+        .halo {
+          stroke: Canvas;
+        }
+        .best circle {
+          fill: Canvas;
+        }
+        .best text {
+          fill: CanvasText;
+        }
       }
     `,
   ];

@@ -2,7 +2,7 @@ import { beforeEach, expect, test } from "vitest";
 import { SCHEMA, type OrientCall, type OrientationReport } from "../../api/index.js";
 import { SlicerError } from "../../api/error.js";
 import type { Candidate, Options, SearchOptions } from "../../api/wire.js";
-import { OrientationSearch, type Subject } from "./orientation.js";
+import { isPose, OrientationSearch, type Subject } from "./orientation.js";
 import { coloursOf, energyRange } from "../panels/orientation-sphere.js";
 import { metricRows } from "../panels/orientation-panel.js";
 import { moved, stepped } from "../parts/sphere-steps.js";
@@ -29,6 +29,8 @@ interface Asked {
 }
 
 let asked: Asked[];
+/** The directions to measure, each with what settles it. */
+let measuring: { direction: readonly number[]; answer(candidate: Candidate): Promise<void> }[];
 let subject: Subject | null;
 let failures: unknown[];
 let directions: OrientationSearch;
@@ -42,6 +44,7 @@ const last = (): Asked => {
 
 beforeEach(() => {
   asked = [];
+  measuring = [];
   failures = [];
   subject = { name: "a.stl", options: { tolerance: 0.05 }, weights: null };
   const orient = (options: Options = {}, search: SearchOptions = {}, call: OrientCall = {}): Promise<OrientationReport> =>
@@ -65,7 +68,15 @@ beforeEach(() => {
     progressed: () => undefined,
     failed: (error: unknown) => void failures.push(error),
   };
-  directions = new OrientationSearch(host, { orient });
+  const measure = (_: Options, direction: readonly number[]): Promise<Candidate> =>
+    new Promise((resolve) => {
+      const answer = async (candidate: Candidate): Promise<void> => {
+        resolve(candidate);
+        await settle();
+      };
+      measuring.push({ direction, answer });
+    });
+  directions = new OrientationSearch(host, { orient, measure });
 });
 
 test("a search shows measured candidates, its progress, and finally the best", async () => {
@@ -158,6 +169,61 @@ test("a height belongs to the pose: the search is outdated by another rotation, 
   expect(directions.isCurrent).toBe(true);
 });
 
+/** Puts the model in another pose, as a person does. */
+function pose(rotation: Options["rotation"]): void {
+  if (subject !== null) subject = { ...subject, options: { ...subject.options, rotation } };
+}
+
+test("the pose now is that of a candidate, if there is one, and else it is measured once", async () => {
+  const [upright, over] = [candidate(1), candidate(2, { rotation: [1, 0, 0, 0] })];
+  directions.start();
+  await directions.measure();
+  expect(directions.now).toBeNull();
+  await last().answer([upright, over]);
+  expect(directions.now).toEqual({ rotation: [0, 0, 0, 1], candidate: upright });
+  pose([1, 0, 0, 0]);
+  await directions.measure();
+  expect(directions.now).toEqual({ rotation: [1, 0, 0, 0], candidate: over });
+  expect(measuring).toEqual([]);
+
+  // On its side: the file's −y is up.
+  const turned = [Math.SQRT1_2, 0, 0, -Math.SQRT1_2] as [number, number, number, number];
+  pose(turned);
+  void directions.measure();
+  expect(measuring[0]?.direction.map((part) => Math.round(part * 1e6) / 1e6 + 0)).toEqual([0, -1, 0]);
+  const third = candidate(null, { rotation: turned });
+  await measuring[0]?.answer(third);
+  expect(directions.now).toEqual({ rotation: turned, candidate: third });
+  void directions.measure();
+  expect(measuring).toHaveLength(1);
+});
+
+test("a pose is not measured for settings that the search was not for, and a late answer is not that of another pose", async () => {
+  directions.start();
+  await last().answer([candidate(1)]);
+  const before = directions.now;
+  pose([0, 0.6, 0, 0.8]);
+  const given = subject;
+  if (given === null) throw new Error("there is a subject");
+  subject = { ...given, options: { ...given.options, tolerance: 0.1 } };
+  await directions.measure();
+  expect(measuring).toEqual([]);
+
+  subject = given;
+  void directions.measure();
+  pose([0.6, 0, 0, 0.8]);
+  await measuring[0]?.answer(candidate(9));
+  expect(directions.now).toBe(before);
+  directions.start();
+  expect(directions.now).toBeNull();
+});
+
+test("poses are the same to the digits that settings keep", () => {
+  expect(isPose([0, 0, 1e-7, 1], [0, 0, 0, 1])).toBe(true);
+  expect(isPose([0, 0, 1e-5, 1], [0, 0, 0, 1])).toBe(false);
+  expect(isPose(undefined, [0, 0, 0, 1])).toBe(false);
+});
+
 test("the highest energy is red, the lowest blue, excluded directions grey, unknown ones clear", () => {
   const candidates = [candidate(0.4), candidate(0.8), candidate(0.6), candidate(null, { excluded: "too-high" }), null, candidate(null)];
   expect(energyRange(candidates)).toEqual([0.4, 0.8]);
@@ -176,15 +242,15 @@ test("the highest energy is red, the lowest blue, excluded directions grey, unkn
 
 test("metrics are written in the language; an excluded candidate has only its size", () => {
   const { format } = languageOf("en");
-  const rows = Object.fromEntries(metricRows(candidate(0.5), "cusp", languageOf("en")));
+  const rows = Object.fromEntries(metricRows(candidate(0.5), "cusp", languageOf("en")).map(([name, value]) => [name, value]));
   expect(rows).toEqual({
     Layers: "1,200",
     "Print time": format.time(3600),
-    "Largest error": "0.06\u00a0mm",
-    "Mean roughness": "12.3\u00a0µm",
-    "Overhanging area": "50\u00a0mm²",
+    "Largest step": "0.06\u00a0mm",
+    Roughness: "12.3\u00a0µm",
+    Overhang: "50\u00a0mm²",
     Size: "1.0 × 2.0 × 3.0\u00a0mm",
-    Energy: "0.5",
+    Score: "0.5",
   });
   const out = candidate(null, { metrics: null, excluded: "too-large" });
   expect(metricRows(out, "cusp", languageOf("en")).map(([name]) => name)).toEqual(["Size"]);

@@ -3,6 +3,8 @@ import { isAbort } from "../../api/error.js";
 import type { Found, OrientCall, Slicer } from "../../api/index.js";
 import type { Candidate, Options, SearchOptions } from "../../api/wire.js";
 import { advanced, type Busy } from "../parts/progress.js";
+import type { Rotation } from "../../view/scene/pose.js";
+import { back, turn, unit, UPRIGHT } from "../../view/scene/turn.js";
 import { rotationText, type Settings } from "./settings.js";
 
 /** What candidates are rated by. */
@@ -14,6 +16,12 @@ export interface Subject {
   readonly name: string;
   readonly options: Options;
   readonly weights: Float32Array | null;
+}
+
+/** A pose of the model, measured as the candidates are. */
+export interface Posed {
+  readonly rotation: Rotation;
+  readonly candidate: Candidate;
 }
 
 export interface OrientationHost {
@@ -33,10 +41,12 @@ export class OrientationSearch {
   found: Found | null = null;
   /** The best candidates that differ from each other, best first; empty until known. */
   best: readonly Candidate[] = [];
+  /** The pose on show; null until it is measured. It is comparable with the candidates: one search's settings apply to all. */
+  now: Posed | null = null;
   /** The progress of the search; null if none runs. */
   busy: Busy | null = null;
   readonly #host: OrientationHost;
-  readonly #slicer: Pick<Slicer, "orient">;
+  readonly #slicer: Pick<Slicer, "orient" | "measure">;
   #of: Subject | null = null;
   /** Keys of the options that the results are valid for, one for each pose that was applied. */
   #keys = new Set<string>();
@@ -44,7 +54,7 @@ export class OrientationSearch {
   #measured: readonly Candidate[] | null = null;
   #abort: AbortController | null = null;
 
-  constructor(host: OrientationHost, slicer: Pick<Slicer, "orient">) {
+  constructor(host: OrientationHost, slicer: Pick<Slicer, "orient" | "measure">) {
     this.#host = host;
     this.#slicer = slicer;
   }
@@ -98,10 +108,26 @@ export class OrientationSearch {
     this.#keys.add(keyOf(options));
   }
 
+  /** Measures the pose on show, unless it is known: call this once the model has another, and has its plan. */
+  async measure(): Promise<void> {
+    const subject = this.#of;
+    const rotation = this.#host.subject()?.options.rotation ?? UPRIGHT;
+    if (subject === null || this.#measured === null || !this.isCurrent || isPose(this.now?.rotation, rotation)) return;
+    const candidate =
+      [...this.best, ...this.#measured].find((it) => isPose(it.rotation, rotation)) ??
+      // Without it, the candidates have nothing to be compared with. A broken worker is reported elsewhere.
+      (await this.#slicer.measure(subject.options, unit(turn(back(rotation), [0, 0, 1]))).catch(() => null));
+    // The model may have been turned on in the meantime.
+    if (candidate === null || this.#of !== subject || !isPose(this.#host.subject()?.options.rotation ?? UPRIGHT, rotation)) return;
+    this.now = { rotation, candidate };
+    this.#host.changed();
+  }
+
   forget(): void {
     this.cancel();
     this.found = null;
     this.best = [];
+    this.now = null;
     this.#of = null;
     this.#measured = null;
     this.#keys = new Set();
@@ -139,6 +165,7 @@ export class OrientationSearch {
         this.#measured = candidates;
         this.best = best;
       }
+      void this.measure();
     } catch (error) {
       if (isMine() && !isAbort(error)) this.#host.failed(error);
     } finally {
@@ -157,6 +184,11 @@ export class OrientationSearch {
  */
 function keyOf({ rotation, height_mm, rays: _rays, backend: _backend, gpu_method: _method, format: _format, ...options }: Options): string {
   return JSON.stringify(height_mm === undefined ? options : { ...options, height_mm, rotation });
+}
+
+/** Whether two rotations are the same pose, to the digits that settings keep. */
+export function isPose(one: Rotation | undefined, other: Rotation): boolean {
+  return one !== undefined && rotationText(one) === rotationText(other);
 }
 
 /** The change of settings that puts the model in a candidate's pose. */

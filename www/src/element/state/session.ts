@@ -396,6 +396,7 @@ export class Session extends Preferences {
     this.#curve.fit(result);
     this.#host.planned?.(result);
     this.#changed();
+    void this.orientation.measure();
   }
 
   /** Makes a file, then does what had to wait for it. */

@@ -3,6 +3,8 @@ import { css } from "lit";
 
 export const orientationStyles = css`
   :host {
+    /* What is for screen readers alone scrolls with the rest, instead of making the page longer. */
+    position: relative;
     display: block;
     min-width: 0;
     container-type: inline-size;
@@ -22,20 +24,37 @@ export const orientationStyles = css`
     background: var(--cusp-note-wash);
     font-size: 0.875rem;
   }
+  .hovers,
+  .taps {
+    display: none;
+  }
+  @media (hover: hover) {
+    .hovers {
+      display: inline;
+    }
+  }
+  @media not (hover: hover) {
+    .taps {
+      display: inline;
+    }
+  }
+  /* In a narrow column each choice is a line, so that no name is cut. */
   .aims {
     display: grid;
-    grid-template-columns: 1fr 1fr;
-    gap: 0.5rem 1rem;
+    grid-template-columns: auto minmax(0, 1fr);
+    gap: 0.375rem 0.75rem;
     margin-top: 0.5rem;
     font-size: 0.875rem;
   }
   .field {
     display: grid;
-    align-content: start;
+    grid-column: 1 / -1;
+    grid-template-columns: subgrid;
+    align-items: center;
     gap: 0.25rem;
     min-width: 0;
   }
-  .field span,
+  .field > span:first-child,
   .balance label {
     color: var(--cusp-quiet);
   }
@@ -43,14 +62,35 @@ export const orientationStyles = css`
     grid-column: 1 / -1;
   }
   select {
+    appearance: none;
     font: inherit;
     width: 100%;
     min-height: 2.25rem;
-    padding: 0.25rem 0.5rem;
+    padding-block: 0.25rem;
+    padding-inline: 0.625rem 2rem;
     border: 1px solid var(--cusp-field);
     border-radius: 8px;
     background: var(--cusp-card);
     color: var(--cusp-text);
+    text-overflow: ellipsis;
+  }
+  .list {
+    position: relative;
+    display: block;
+    min-width: 0;
+  }
+  /* The chevron is made of borders: these stay in forced colours, and need no image. */
+  .list::after {
+    content: "";
+    position: absolute;
+    inset-block-start: calc(50% - 0.3125rem);
+    inset-inline-end: 0.875rem;
+    width: 0.4375rem;
+    height: 0.4375rem;
+    border: solid var(--cusp-quiet);
+    border-width: 0 2px 2px 0;
+    rotate: 45deg;
+    pointer-events: none;
   }
   input[type="range"] {
     direction: ltr;
@@ -65,6 +105,9 @@ export const orientationStyles = css`
     display: flex;
     justify-content: space-between;
     gap: 1rem;
+  }
+  .ends span:last-child {
+    text-align: end;
   }
   .again {
     margin-top: 1rem;
@@ -160,26 +203,38 @@ export const orientationStyles = css`
     gap: 0.5rem;
     min-width: 0;
   }
-  .pose {
+  .pose,
+  .now {
     position: relative;
     display: grid;
-    grid-template-columns: 7rem minmax(0, 1fr);
+    grid-template-columns: 5rem minmax(0, 1fr);
     justify-content: start;
+    align-items: start;
     gap: 0.75rem;
     width: 100%;
     padding: 0.375rem;
-    padding-inline-end: 0.75rem;
-    border-color: var(--cusp-line);
+    padding-inline-end: 0.5rem;
+    border: 1px solid var(--cusp-line);
+    border-radius: 8px;
     text-align: start;
     font-weight: 400;
+    line-height: 1.25;
   }
-  .pose canvas {
+  .now {
+    border-style: dashed;
+    border-color: var(--cusp-field);
+  }
+  .best canvas {
     display: block;
-    width: 7rem;
-    height: 7rem;
+    width: 5rem;
+    height: 5rem;
     border-radius: 6px;
     background: color-mix(in srgb, var(--cusp-card) 94%, var(--cusp-text));
     opacity: var(--cusp-faded, 1);
+  }
+  /* The picture is that of the pose before. */
+  .unknown canvas {
+    opacity: 0.35;
   }
   .pose[aria-pressed="true"] {
     border-color: var(--cusp-accent);
@@ -202,8 +257,21 @@ export const orientationStyles = css`
   .what {
     display: grid;
     align-content: center;
+    gap: 0.1875rem;
+    align-self: center;
     font-size: 0.875rem;
     font-variant-numeric: tabular-nums;
+  }
+  .tag {
+    color: var(--cusp-quiet);
+    font-size: 0.8125rem;
+    font-weight: 650;
+  }
+  .cost,
+  .rest {
+    display: flex;
+    flex-wrap: wrap;
+    gap: 0 0.625rem;
   }
   .what .quiet {
     font-size: 0.8125rem;
@@ -220,6 +288,17 @@ export const orientationStyles = css`
       order: -1;
     }
   }
+  @container (min-width: 24rem) {
+    .aims {
+      grid-template-columns: 1fr 1fr;
+      gap: 0.5rem 1rem;
+    }
+    .field {
+      grid-column: auto;
+      grid-template-columns: minmax(0, 1fr);
+      align-content: start;
+    }
+  }
   @container (min-width: 44rem) {
     .aims {
       grid-template-columns: 11rem 11rem minmax(0, 1fr);
@@ -228,6 +307,14 @@ export const orientationStyles = css`
     .balance {
       grid-column: auto;
     }
+    .pose,
+    .now {
+      grid-template-columns: 7rem minmax(0, 1fr);
+    }
+    .best canvas {
+      width: 7rem;
+      height: 7rem;
+    }
     /* Its greatest height, so that pointing at another direction moves nothing. */
     .looked {
       min-height: 9rem;
@@ -235,6 +322,36 @@ export const orientationStyles = css`
     .results {
       grid-template-columns: minmax(0, 1.35fr) minmax(0, 1fr);
       gap: 2rem;
+    }
+  }
+  @media (forced-colors: active) {
+    .scale i,
+    .keys .excluded,
+    .best canvas {
+      forced-color-adjust: none;
+      border: 1px solid CanvasText;
+    }
+    .keys svg {
+      stroke: CanvasText;
+    }
+    .stale,
+    .now {
+      border: 1px dashed CanvasText;
+    }
+    .pose:hover {
+      border-color: Highlight;
+    }
+    .pose[aria-pressed="true"] {
+      border-color: Highlight;
+      outline: 2px solid Highlight;
+      outline-offset: -3px;
+    }
+    .pose:focus-visible {
+      outline: 3px solid CanvasText;
+      outline-offset: 2px;
+    }
+    .list::after {
+      border-color: FieldText;
     }
   }
 `;

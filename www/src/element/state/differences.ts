@@ -1,0 +1,67 @@
+/** The metrics of orientations as people read them, and what one orientation has more or less of than another. */
+import type { Candidate, Metric } from "../../api/wire.js";
+import type { Language } from "../../texts/index.js";
+import { METRICS } from "./metric.js";
+import type { Aims } from "./orientation.js";
+
+export type Metrics = NonNullable<Candidate["metrics"]>;
+
+/** What orientations are compared by. */
+export type Term = Aims["cost"] | Aims["quality"];
+
+const MICROMETRES = 1000;
+
+const VALUES: Readonly<Record<Term, (metrics: Metrics) => number>> = {
+  layers: ({ layers }) => layers,
+  time: ({ print_time_s }) => print_time_s,
+  error: ({ max_error }) => max_error,
+  roughness: ({ roughness_mm }) => roughness_mm,
+  overhang: ({ overhang_mm2 }) => overhang_mm2,
+};
+
+/** Writes values of a term, with their unit. */
+function writer(term: Term, metric: Metric, { format }: Language): (value: number) => string {
+  switch (term) {
+    case "layers":
+      return format.count;
+    case "time":
+      return format.time;
+    case "error":
+      return (value) => METRICS[metric].error(value, format);
+    case "roughness":
+      return (mm) => `${format.tick(Math.round(mm * MICROMETRES * 10) / 10)}\u00a0µm`;
+    case "overhang":
+      return (mm2) => `${format.count(mm2)}\u00a0mm²`;
+  }
+}
+
+/** A metric with its unit: of errors, in that of `metric`. */
+export function figure(term: Term, metrics: Metrics, metric: Metric, language: Language): string {
+  return writer(term, metric, language)(VALUES[term](metrics));
+}
+
+/**
+ * What `its` has more or less of than `now`: the chosen cost, the chosen quality, and the overhang, which may need support
+ * whatever was chosen. What reads the same is left out, except that the cost is said to be the same.
+ */
+export function differences(its: Metrics, now: Metrics, { cost, quality }: Aims, metric: Metric, language: Language): string[] {
+  const { metrics: names, orientation } = language.texts;
+  const { differs } = orientation;
+  const difference = (term: Term): { amount: number; written: string; isLess: boolean } | null => {
+    const [value, before] = [VALUES[term](its), VALUES[term](now)];
+    const write = writer(term, metric, language);
+    const amount = Math.abs(value - before);
+    const written = write(amount);
+    return write(value) === write(before) || written === write(0) ? null : { amount, written, isLess: value < before };
+  };
+  const words = (term: Term): string | null => {
+    const found = difference(term);
+    if (found === null) return null;
+    const { amount, written, isLess } = found;
+    if (term === "layers") return differs.layers(amount, isLess);
+    if (term === "error") return differs.error(names[metric].head, written, isLess);
+    return differs[term](written, isLess);
+  };
+  const qualities = quality === "overhang" ? [quality] : [quality, "overhang" as const];
+  return [words(cost) ?? differs.same[cost], ...qualities.flatMap((term) => words(term) ?? [])];
+}
