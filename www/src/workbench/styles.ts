@@ -66,12 +66,12 @@ export const workbenchStyles = css`
     justify-content: space-between;
     gap: 0.5rem;
     min-height: 3rem;
-    padding-inline: 1rem 0.75rem;
+    padding-inline: 1rem 0.5rem;
     border-bottom: 1px solid var(--cusp-line);
   }
   .tabs {
     display: flex;
-    gap: 1rem;
+    gap: 0.75rem;
     align-self: stretch;
   }
   .tabs button {
@@ -80,6 +80,7 @@ export const workbenchStyles = css`
     border-block: 2px solid transparent;
     border-radius: 0;
     color: var(--cusp-quiet);
+    font-size: 0.875rem;
   }
   .tabs button[aria-selected="true"] {
     border-bottom-color: var(--cusp-accent);
@@ -98,11 +99,12 @@ export const workbenchStyles = css`
   }
   .steps {
     display: flex;
-    gap: 0.25rem;
+    gap: 0.125rem;
   }
   .steps button {
-    min-width: 2.25rem;
+    min-width: 1.75rem;
     padding: 0;
+    border: 0;
   }
   .steps svg {
     width: 1.125rem;
@@ -114,6 +116,9 @@ export const workbenchStyles = css`
     stroke-linejoin: round;
   }
 
+  cusp-quality {
+    height: auto;
+  }
   .model dl {
     display: flex;
     flex-wrap: wrap;
@@ -289,6 +294,7 @@ export const workbenchStyles = css`
   }
   .download {
     width: 100%;
+    padding-inline: 0.5rem;
     margin-block: 0.75rem 0.5rem;
   }
   .plan #file {

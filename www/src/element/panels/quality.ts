@@ -145,7 +145,12 @@ export class CuspQuality extends elementWith(PROPERTIES) {
         text-wrap: pretty;
       }
       @container (max-width: 24rem) {
+        /* Room for the longest sentences, so that nothing moves when another plan says more. */
+        .head span {
+          min-block-size: 2lh;
+        }
         .gain {
+          min-block-size: 4lh;
           font-size: 0.9375rem;
           line-height: 1.4;
         }
@@ -268,13 +273,13 @@ export class CuspQuality extends elementWith(PROPERTIES) {
         @input=${this.#moved}
       />
       <div class="ends quiet"><span>${words.quick}</span><span>${words.fine}</span></div>
-      ${gain}
       <ul class="key quiet figures">
         <li><i class="this"></i>${texts.plan.own}</li>
         <li><i class="point"></i>${words.points}</li>
         <li><i class="coarse"></i>${words.coarsest(format.fine(limits[1]), format.time(report.uniform.coarsest.print_time_s))}</li>
         <li><i></i>${words.finest(format.fine(limits[0]), format.time(report.uniform.finest.print_time_s))}</li>
       </ul>
+      ${gain}
     `;
   }
 
