@@ -53,7 +53,7 @@ test("at 1280 × 800 nothing scrolls, from the drop to the download", async () =
 });
 
 test("the view grows with the window", async () => {
-  const page = await start("", DESKTOP);
+  const page = await start("", DESKTOP, true);
   await drop(page, ball);
   await state(page, "done");
   const area = async (): Promise<number> => {

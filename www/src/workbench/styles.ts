@@ -283,6 +283,7 @@ export const workbenchStyles = css`
     font-size: 1rem;
   }
   .plan .gain {
+    min-block-size: 2lh;
     font-size: 0.875rem;
   }
   .plan .replanning {
@@ -302,9 +303,9 @@ export const workbenchStyles = css`
     font-size: 0.8125rem;
   }
   .earlier {
-    margin-block: 0.5rem;
-    padding: 0.375rem 0.75rem;
-    border-radius: 6px;
+    padding: 0.5rem 1rem;
+    border: 1px solid var(--cusp-line);
+    border-radius: 8px;
     background: var(--cusp-note-wash);
     font-size: 0.875rem;
   }

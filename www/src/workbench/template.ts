@@ -98,7 +98,7 @@ function overlay(facts: Facts): TemplateResult {
   const { busy } = session;
   return html`
     ${problem === null ? nothing : problemBox(problem, language, (change) => session.change(change), () => session.dismiss())}
-    ${noticeBox(facts)}
+    ${noticeBox(facts)} ${earlierNote(facts)}
     ${busy === null
       ? nothing
       : html`<div class="card progressing ${session.result === null ? "" : "quick"}" part="toast">
@@ -161,7 +161,7 @@ function plan(facts: Facts): TemplateResult {
     <div class="${session.busy?.task === "plan" ? "replanning" : ""}">
       ${figures(result, session.shown ?? result.report, language)} ${exposure(facts, result)}
     </div>
-    ${downloadButton(facts)} ${earlierNote(facts)} ${fileLine(facts, result)} ${warnings(session, language, saveTowers)}
+    ${downloadButton(facts)} ${fileLine(facts, result)} ${warnings(session, language, saveTowers)} ${comparison(result, language)}
     ${details(result, language)}
   `;
 }
@@ -188,8 +188,10 @@ function exposure({ language }: Facts, { report: { resin } }: Result): TemplateR
   return html`<p class="exposure quiet">${workbenchWords(language).exposure(format.seconds(exposure_s), format.fine(layer_mm))}</p>`;
 }
 
+/** Uniform layers have a thickness, and no quality to choose. */
 function quality(facts: Facts, result: Result): TemplateResult {
-  return html`${result.report.planner === "uniform" ? nothing : qualityPanel(facts, result)} ${comparison(result, facts.language)}`;
+  if (result.report.planner === "uniform") return html`<p class="quiet">${facts.language.texts.settings.uniformHint}</p>`;
+  return qualityPanel(facts, result);
 }
 
 /** The bar of a narrow screen, which stays: figures, download, and the panels. */
