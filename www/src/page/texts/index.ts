@@ -17,6 +17,10 @@ export interface PageWords {
   tryExample: string;
   printFile: string;
   example: string;
+  /** Buttons of the header: models that this browser keeps, named settings, the list of keys. */
+  recent: string;
+  saved: string;
+  keys: string;
   /** What the page promises: a heading, and a sentence. */
   points: readonly (readonly [heading: string, sentence: string])[];
 }
