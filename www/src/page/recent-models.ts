@@ -4,11 +4,14 @@
  * An index lists the models, newest first. It is written last when a model comes and first when one goes, and browsers replace
  * a file as a whole, so that it never lists half a model, even if the tab is closed meanwhile. Tabs take turns.
  */
-import { readKept, writeKept } from "./storage.js";
+import { canKeep } from "./keeping.js";
 
 /** The models that are kept: at most so many, and so many bytes in all. */
 export const MOST_MODELS = 8;
 export const MOST_BYTES = 200_000_000;
+
+/** Side of a picture in pixels: sharp on dense screens, too. */
+export const PICTURE_PX = 120;
 
 export interface RecentModel {
   /** A digest of name and content: a model that is opened twice is kept once. */
@@ -192,9 +195,15 @@ async function digest(name: string, file: Blob): Promise<string> {
 
 const isFull = (error: unknown): boolean => error instanceof Error && error.name === "QuotaExceededError";
 
-/** The recent models of this browser; null where it cannot keep any: older Safari, some private windows, pages without TLS. */
-export async function recentModels(): Promise<RecentModels | null> {
-  if (!("locks" in navigator) || !("createWritable" in (globalThis.FileSystemFileHandle?.prototype ?? {}))) return null;
+/** The recent models of this browser; null where it keeps none: see {@link canKeep}. */
+export function recentModels(): Promise<RecentModels | null> {
+  return (found ??= find());
+}
+
+let found: Promise<RecentModels | null> | undefined;
+
+async function find(): Promise<RecentModels | null> {
+  if (!canKeep()) return null;
   const root = (): Promise<FileSystemDirectoryHandle> => navigator.storage.getDirectory();
   try {
     await root();
@@ -215,11 +224,4 @@ export function watchRecent(changed: () => void): () => void {
   const channel = new BroadcastChannel(CHANNEL);
   channel.onmessage = changed;
   return () => channel.close();
-}
-
-/** Whether the person wants models to be kept. */
-export const isKeeping = (): boolean => readKept("models") !== null;
-
-export function setKeeping(is: boolean): boolean {
-  return writeKept("models", is ? "kept" : null);
 }
