@@ -9,6 +9,7 @@ import { openAnywhere } from "./open-anywhere.js";
 import { workOffline } from "./offline.js";
 import type { CuspWorkbench } from "../workbench/cusp-workbench.js";
 import { pageWords } from "./texts/index.js";
+import { Visit } from "./visit.js";
 
 function found<E extends Element>(selector: string): E {
   const element = document.querySelector<E>(selector);
@@ -33,7 +34,8 @@ function draw(): void {
   const [file] = files ?? [];
   const print = files === null || file === undefined ? null : { file, close, unknown: () => load(files) };
   document.body.classList.toggle("reading", print !== null);
-  render(frame(language, { example, speak: (locale) => void speak(locale), open: (files) => void open(files) }, print), place);
+  const actions = { example, speak: (locale: string) => void speak(locale), open: (files: readonly File[]) => void open(files) };
+  render(frame(language, actions, print, visit), place);
 }
 
 /** Shows a print file, or opens models. Only the reader knows print files, so whatever is no STL by its name goes there first. */
@@ -67,6 +69,7 @@ function close(): void {
 async function speak(locale: string): Promise<void> {
   own.set("locale", locale);
   await fetchLanguage(...locales());
+  await visit.speak(languageOf(...locales()));
   draw();
   keep();
 }
@@ -82,10 +85,22 @@ function keep(): void {
   history.replaceState(null, "", addressOf(slicer.query, own) || location.pathname);
 }
 
+/** The first of these in the workbench. */
+const within = (selectors: string) => (): HTMLElement | null => slicer.renderRoot.querySelector<HTMLElement>(selectors);
+
+const visit = new Visit({
+  element: () => slicer,
+  link: () => new URL(addressOf(slicer.query, own) || location.pathname, location.href).href,
+  open: (files) => void open(files),
+  draw,
+  targets: [within(".stage"), within(".choices, .sheet, .bar-panels button"), within(".plan .download, .bar-result")],
+  clearance: () => within(".bar")()?.offsetHeight ?? 0,
+});
+
 await fetchLanguage(...locales());
 draw();
 const slicer = found<CuspWorkbench>("cusp-workbench");
-slicer.query = settingsOf(asked);
+visit.start(settingsOf(asked));
 const backend = own.get("backend");
 if (backend === "cpu" || backend === "gpu") slicer.backend = backend;
 const method = own.get("gpu-method");

@@ -2,7 +2,7 @@
  * The printer that a person chose, and what belongs to it: the resin, its exposures and the motor step. They are there at the
  * next visit, unless the address asks for others.
  */
-import type { CuspSlicer } from "../element/index.js";
+import type { SlicerElement } from "../element/slicer-element.js";
 import { check, DEFAULT_SETTINGS, fromAddress, toAddress, type Settings } from "../element/state/settings.js";
 import { readKept, writeKept } from "./storage.js";
 
@@ -43,7 +43,7 @@ function replaced(query: string, own: string): string {
 }
 
 /** What `remember` uses of the element. */
-type Chooser = Pick<CuspSlicer, "query" | "printer" | "addEventListener"> & { slicer: Pick<CuspSlicer["slicer"], "printers"> };
+type Chooser = Pick<SlicerElement, "query" | "printer" | "addEventListener"> & { slicer: Pick<SlicerElement["slicer"], "printers"> };
 
 /** Starts the element with the settings of an address and the remembered ones, and remembers those that a person chooses. */
 export function remember(element: Chooser, asked: string): void {

@@ -1,11 +1,7 @@
-/** The texts of what is fetched when a person asks for it: named settings, recent models, the tour and the list of keys. */
+/** The texts of what is fetched when a person asks for it, as they are themselves: named settings, recent models, the tour, the keys. */
 import type { Language, LanguageCode } from "../../../texts/index.js";
 import type { Does, KeyName } from "../../key-table.js";
-import { words as de } from "./de.js";
 import { words as en } from "./en.js";
-import { words as es } from "./es.js";
-import { words as fr } from "./fr.js";
-import { words as zh } from "./zh.js";
 
 export interface VisitWords {
   saved: {
@@ -64,8 +60,23 @@ export interface VisitWords {
   };
 }
 
-const CATALOGUES: Readonly<Record<LanguageCode, VisitWords>> = { de, en, es, fr, zh };
+const LOADERS: Readonly<Record<Exclude<LanguageCode, "en">, () => Promise<{ words: VisitWords }>>> = {
+  de: () => import("./de.js"),
+  es: () => import("./es.js"),
+  fr: () => import("./fr.js"),
+  zh: () => import("./zh.js"),
+};
 
+const catalogues = new Map<LanguageCode, VisitWords>([["en", en]]);
+
+/** Fetches the texts of a language; English stands in for those that cannot be fetched. */
+export async function fetchVisitWords({ code }: Language): Promise<void> {
+  if (code === "en" || catalogues.has(code)) return;
+  const { words } = await LOADERS[code]().catch(() => ({ words: en }));
+  catalogues.set(code, words);
+}
+
+/** The texts of a language that was fetched. */
 export function visitWords({ code }: Language): VisitWords {
-  return CATALOGUES[code];
+  return catalogues.get(code) ?? en;
 }
