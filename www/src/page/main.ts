@@ -97,18 +97,25 @@ const visit = new Visit({
   clearance: () => within(".bar")()?.offsetHeight ?? 0,
 });
 
-await fetchLanguage(...locales());
-draw();
-const slicer = found<CuspWorkbench>("cusp-workbench");
-visit.start(settingsOf(asked));
-const backend = own.get("backend");
-if (backend === "cpu" || backend === "gpu") slicer.backend = backend;
-const method = own.get("gpu-method");
-if (method === "fill" || method === "peel") slicer.gpuMethod = method;
-slicer.addEventListener("cusp-change", keep);
-openAnywhere({
-  dragging: (isDragging) => place.classList.toggle("dragging", isDragging),
-  open: (files) => void open(files),
-  cancel: () => (shown === null ? slicer.cancel() : close()),
-});
-workOffline();
+let slicer: CuspWorkbench;
+
+/** In a function, since a top-level await would part the page into many small files that wait for each other. */
+async function start(): Promise<void> {
+  await fetchLanguage(...locales());
+  draw();
+  slicer = found("cusp-workbench");
+  visit.start(settingsOf(asked));
+  const backend = own.get("backend");
+  if (backend === "cpu" || backend === "gpu") slicer.backend = backend;
+  const method = own.get("gpu-method");
+  if (method === "fill" || method === "peel") slicer.gpuMethod = method;
+  slicer.addEventListener("cusp-change", keep);
+  openAnywhere({
+    dragging: (isDragging) => place.classList.toggle("dragging", isDragging),
+    open: (files) => void open(files),
+    cancel: () => (shown === null ? slicer.cancel() : close()),
+  });
+  workOffline();
+}
+
+void start();
