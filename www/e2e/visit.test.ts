@@ -125,6 +125,9 @@ test("a link to the settings is copied, or shown where the browser does not let 
   await expect.poll(() => isFocused(field)).toBe(true);
   expect(await field.inputValue()).toBe(link);
   expect(await broken(page)).toEqual([]);
+  // The panel speaks the page's language, also when that changes.
+  await page.getByLabel("Language").selectOption("de");
+  await panel.getByRole("button", { name: "Link zu diesen Einstellungen kopieren" }).waitFor();
 });
 
 /** The files that the page keeps. */
@@ -230,6 +233,37 @@ test("the tour is shown on the first visit, takes no focus, and comes again when
   await tour.waitFor();
   await page.keyboard.press("Escape");
   expect(await tour.count()).toBe(0);
+});
+
+test.each(["en", "de", "es", "fr", "zh"])("on a phone, by touch, cards and panels stay in the window and clear of the bar: %s", async (locale) => {
+  const page = await start(`?locale=${locale}`, { viewport: { width: 390, height: 844 }, hasTouch: true }, true);
+  const inside = async (it: Locator): Promise<void> => {
+    const { x, y, width, height } = (await it.boundingBox()) ?? { x: -1, y: -1, width: 0, height: 0 };
+    expect(Math.min(x, y)).toBeGreaterThanOrEqual(0);
+    expect(x + width).toBeLessThanOrEqual(390);
+    expect(y + height).toBeLessThanOrEqual(844);
+  };
+  for (const id of ["recent", "saved"]) {
+    await page.locator(`[popovertarget=${id}]`).tap();
+    await page.locator(`#${id} .panel`).first().waitFor();
+    await inside(page.locator(`#${id}`));
+    await page.keyboard.press("Escape");
+  }
+  expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(390);
+
+  await page.evaluate(() => localStorage.removeItem("cusp.tour"));
+  await page.locator(".offers button").tap();
+  await state(page, "done");
+  const card = page.locator("cusp-tour .card");
+  const bar = await page.locator("cusp-workbench .bar").boundingBox();
+  for (const step of [1, 2, 3]) {
+    await expect.poll(() => card.locator(".quiet").innerText()).toContain(String(step));
+    await inside(card);
+    const box = await card.boundingBox();
+    expect((box?.y ?? 0) + (box?.height ?? 0)).toBeLessThanOrEqual(bar?.y ?? 0);
+    await card.getByRole("button").last().tap();
+  }
+  await expect.poll(() => card.count()).toBe(0);
 });
 
 test("question mark opens the list of keys, except where somebody types and where it is switched off", async () => {

@@ -46,6 +46,7 @@ export class CuspTour extends elementWith(PROPERTIES) {
       .card {
         width: min(17.5rem, 100vw - 1rem);
         padding: 1rem;
+        border-color: var(--cusp-field);
         box-shadow: 0 8px 30px rgb(0 0 0 / 0.25);
         animation: appear 150ms;
       }
