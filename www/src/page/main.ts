@@ -1,14 +1,13 @@
 /** The page around the element: its header, opening files anywhere, the example, the address, working offline. */
 import "../workbench/register.js";
 import { render } from "lit";
-import { fetchLanguage, languageOf } from "../texts/index.js";
+import { codeFor, fetchLanguage, languageOf } from "../texts/index.js";
 import { ADDRESS_KEYS, addressOf, settingsOf } from "./address.js";
-import { binaryStl, exampleTriangles, EXAMPLE_NAME } from "./example.js";
 import { frame } from "./frame.js";
 import { openAnywhere } from "./open-anywhere.js";
 import { workOffline } from "./offline.js";
 import type { CuspWorkbench } from "../workbench/cusp-workbench.js";
-import { pageWords } from "./texts/index.js";
+import { fetchPageWords, pageWords } from "./texts/index.js";
 import { Visit } from "./visit.js";
 
 function found<E extends Element>(selector: string): E {
@@ -26,6 +25,10 @@ let shown: readonly File[] | null = null;
 
 const locales = (): string[] => [own.get("locale"), ...navigator.languages].filter((locale) => locale !== null);
 
+async function fetchTexts(): Promise<void> {
+  await Promise.all([fetchLanguage(...locales()), fetchPageWords(codeFor(...locales()))]);
+}
+
 function draw(): void {
   const language = languageOf(...locales());
   document.documentElement.lang = language.locale;
@@ -34,7 +37,7 @@ function draw(): void {
   const [file] = files ?? [];
   const print = files === null || file === undefined ? null : { file, close, unknown: () => load(files) };
   document.body.classList.toggle("reading", print !== null);
-  const actions = { example, speak: (locale: string) => void speak(locale), open: (files: readonly File[]) => void open(files) };
+  const actions = { example: () => void example(), speak: (locale: string) => void speak(locale), open: (files: readonly File[]) => void open(files) };
   render(frame(language, actions, print, visit), place);
 }
 
@@ -68,13 +71,14 @@ function close(): void {
 
 async function speak(locale: string): Promise<void> {
   own.set("locale", locale);
-  await fetchLanguage(...locales());
+  await fetchTexts();
   await visit.speak(languageOf(...locales()));
   draw();
   keep();
 }
 
-function example(): void {
+async function example(): Promise<void> {
+  const { binaryStl, exampleTriangles, EXAMPLE_NAME } = await import("./example.js");
   close();
   slicer.willOrphan();
   slicer.load(new Blob([binaryStl(exampleTriangles())]), EXAMPLE_NAME).catch(() => undefined);
@@ -101,7 +105,7 @@ let slicer: CuspWorkbench;
 
 /** In a function, since a top-level await would part the page into many small files that wait for each other. */
 async function start(): Promise<void> {
-  await fetchLanguage(...locales());
+  await fetchTexts();
   draw();
   slicer = found("cusp-workbench");
   visit.start(settingsOf(asked));

@@ -1,6 +1,7 @@
 /** The texts of what is fetched when a person asks for it, as they are themselves: named settings, recent models, the tour, the keys. */
-import type { Language, LanguageCode } from "../../../texts/index.js";
+import type { Language } from "../../../texts/index.js";
 import type { Does, KeyName } from "../../key-table.js";
+import { Catalogues } from "../catalogues.js";
 import { words as en } from "./en.js";
 
 export interface VisitWords {
@@ -60,23 +61,17 @@ export interface VisitWords {
   };
 }
 
-const LOADERS: Readonly<Record<Exclude<LanguageCode, "en">, () => Promise<{ words: VisitWords }>>> = {
+const catalogues = new Catalogues<VisitWords>(en, {
   de: () => import("./de.js"),
   es: () => import("./es.js"),
   fr: () => import("./fr.js"),
   zh: () => import("./zh.js"),
-};
+});
 
-const catalogues = new Map<LanguageCode, VisitWords>([["en", en]]);
-
-/** Fetches the texts of a language; English stands in for those that cannot be fetched. */
-export async function fetchVisitWords({ code }: Language): Promise<void> {
-  if (code === "en" || catalogues.has(code)) return;
-  const { words } = await LOADERS[code]().catch(() => ({ words: en }));
-  catalogues.set(code, words);
+export function fetchVisitWords({ code }: Language): Promise<void> {
+  return catalogues.fetch(code);
 }
 
-/** The texts of a language that was fetched. */
 export function visitWords({ code }: Language): VisitWords {
-  return catalogues.get(code) ?? en;
+  return catalogues.of(code);
 }
