@@ -5,6 +5,7 @@ import { chosen } from "../element/parts/chosen.js";
 import { LANGUAGE_NAMES, LANGUAGES, type Language } from "../texts/index.js";
 import icon from "./icon.svg";
 import { pageWords } from "./texts/index.js";
+import type { Visit } from "./visit.js";
 
 export interface PageActions {
   example(): void;
@@ -21,7 +22,12 @@ export interface PrintOnShow {
   unknown(): void;
 }
 
-export function frame(language: Language, { example, speak, open }: PageActions, print: PrintOnShow | null): TemplateResult {
+export function frame(
+  language: Language,
+  { example, speak, open }: PageActions,
+  print: PrintOnShow | null,
+  visit: Visit,
+): TemplateResult {
   const { code, locale } = language;
   const words = pageWords(language);
   return html`
@@ -32,6 +38,7 @@ export function frame(language: Language, { example, speak, open }: PageActions,
       </div>
       <p class="tagline">${words.tagline}</p>
       <p class="private">${words.private}</p>
+      ${visit.tools(language)}
       <label class="language">
         <span class="hidden">${words.languages}</span>
         <select .value=${live(code)} @change=${(event: Event) => speak((event.target as HTMLSelectElement).value)}>
@@ -60,10 +67,12 @@ export function frame(language: Language, { example, speak, open }: PageActions,
             ${words.printFile}
           </label>
         </p>
+        <p slot="start" class="private phone">${words.private}</p>
         <div slot="empty" class="empty">
-          <ul class="points">
+          ${visit.recent(language) ??
+          html`<ul class="points">
             ${words.points.map(([title, text]) => html`<li><strong>${title}</strong> ${text}</li>`)}
-          </ul>
+          </ul>`}
         </div>
         <button slot="actions" class="link" @click=${example}>${words.example}</button>
       </cusp-workbench>

@@ -1,14 +1,14 @@
 /** The page around the element: its header, opening files anywhere, the example, the address, working offline. */
 import "../workbench/register.js";
 import { render } from "lit";
-import { fetchLanguage, languageOf } from "../texts/index.js";
+import { codeFor, fetchLanguage, languageOf } from "../texts/index.js";
 import { ADDRESS_KEYS, addressOf, settingsOf } from "./address.js";
-import { binaryStl, exampleTriangles, EXAMPLE_NAME } from "./example.js";
 import { frame } from "./frame.js";
 import { openAnywhere } from "./open-anywhere.js";
 import { workOffline } from "./offline.js";
 import type { CuspWorkbench } from "../workbench/cusp-workbench.js";
-import { pageWords } from "./texts/index.js";
+import { fetchPageWords, pageWords } from "./texts/index.js";
+import { Visit } from "./visit.js";
 
 function found<E extends Element>(selector: string): E {
   const element = document.querySelector<E>(selector);
@@ -25,6 +25,10 @@ let shown: readonly File[] | null = null;
 
 const locales = (): string[] => [own.get("locale"), ...navigator.languages].filter((locale) => locale !== null);
 
+async function fetchTexts(): Promise<void> {
+  await Promise.all([fetchLanguage(...locales()), fetchPageWords(codeFor(...locales()))]);
+}
+
 function draw(): void {
   const language = languageOf(...locales());
   document.documentElement.lang = language.locale;
@@ -33,7 +37,8 @@ function draw(): void {
   const [file] = files ?? [];
   const print = files === null || file === undefined ? null : { file, close, unknown: () => load(files) };
   document.body.classList.toggle("reading", print !== null);
-  render(frame(language, { example, speak: (locale) => void speak(locale), open: (files) => void open(files) }, print), place);
+  const actions = { example: () => void example(), speak: (locale: string) => void speak(locale), open: (files: readonly File[]) => void open(files) };
+  render(frame(language, actions, print, visit), place);
 }
 
 /** Shows a print file, or opens models. Only the reader knows print files, so whatever is no STL by its name goes there first. */
@@ -66,12 +71,14 @@ function close(): void {
 
 async function speak(locale: string): Promise<void> {
   own.set("locale", locale);
-  await fetchLanguage(...locales());
+  await fetchTexts();
+  await visit.speak(languageOf(...locales()));
   draw();
   keep();
 }
 
-function example(): void {
+async function example(): Promise<void> {
+  const { binaryStl, exampleTriangles, EXAMPLE_NAME } = await import("./example.js");
   close();
   slicer.willOrphan();
   slicer.load(new Blob([binaryStl(exampleTriangles())]), EXAMPLE_NAME).catch(() => undefined);
@@ -82,18 +89,37 @@ function keep(): void {
   history.replaceState(null, "", addressOf(slicer.query, own) || location.pathname);
 }
 
-await fetchLanguage(...locales());
-draw();
-const slicer = found<CuspWorkbench>("cusp-workbench");
-slicer.query = settingsOf(asked);
-const backend = own.get("backend");
-if (backend === "cpu" || backend === "gpu") slicer.backend = backend;
-const method = own.get("gpu-method");
-if (method === "fill" || method === "peel") slicer.gpuMethod = method;
-slicer.addEventListener("cusp-change", keep);
-openAnywhere({
-  dragging: (isDragging) => place.classList.toggle("dragging", isDragging),
+/** The first of these in the workbench. */
+const within = (selectors: string) => (): HTMLElement | null => slicer.renderRoot.querySelector<HTMLElement>(selectors);
+
+const visit = new Visit({
+  element: () => slicer,
+  link: () => new URL(addressOf(slicer.query, own) || location.pathname, location.href).href,
   open: (files) => void open(files),
-  cancel: () => (shown === null ? slicer.cancel() : close()),
+  draw,
+  targets: [within(".stage"), within(".choices, .sheet, .bar-panels button"), within(".plan .download, .bar-result")],
+  clearance: () => within(".bar")()?.offsetHeight ?? 0,
 });
-workOffline();
+
+let slicer: CuspWorkbench;
+
+/** In a function, since a top-level await would part the page into many small files that wait for each other. */
+async function start(): Promise<void> {
+  await fetchTexts();
+  draw();
+  slicer = found("cusp-workbench");
+  visit.start(settingsOf(asked));
+  const backend = own.get("backend");
+  if (backend === "cpu" || backend === "gpu") slicer.backend = backend;
+  const method = own.get("gpu-method");
+  if (method === "fill" || method === "peel") slicer.gpuMethod = method;
+  slicer.addEventListener("cusp-change", keep);
+  openAnywhere({
+    dragging: (isDragging) => place.classList.toggle("dragging", isDragging),
+    open: (files) => void open(files),
+    cancel: () => (shown === null ? slicer.cancel() : close()),
+  });
+  workOffline();
+}
+
+void start();

@@ -71,7 +71,7 @@ export function languageOf(...locales: readonly string[]): Language {
  * fetched before: English stands in for it then.
  */
 export function fetchLanguage(...locales: readonly string[]): Promise<void> | null {
-  const code = locales.map(codeOf).find((code) => code !== null) ?? "en";
+  const code = codeFor(...locales);
   if (catalogues.has(code)) return null;
   let arriving = loading.get(code);
   if (arriving === undefined) {
@@ -82,6 +82,11 @@ export function fetchLanguage(...locales: readonly string[]): Promise<void> | nu
     loading.set(code, arriving);
   }
   return arriving;
+}
+
+/** The first of these locales with a language, whether it is there or not; English if there is none. */
+export function codeFor(...locales: readonly string[]): LanguageCode {
+  return locales.map(codeOf).find((code) => code !== null) ?? "en";
 }
 
 function codeOf(locale: string): LanguageCode | null {

@@ -11,6 +11,9 @@ export const words: PageWords = {
   tryExample: "Das Beispiel ausprobieren",
   printFile: "Druckdatei ansehen",
   example: "Beispiel",
+  recent: "Letzte Modelle",
+  saved: "Profile",
+  keys: "Tasten",
   points: [
     ["So wenige Schichten wie möglich", "Unter allen Plänen innerhalb Ihrer Toleranz wird der kürzeste genommen."],
     ["Keine Stufe zu hoch", "Die Toleranz gilt in jeder Schicht, nicht im Mittel."],

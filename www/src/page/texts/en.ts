@@ -11,6 +11,9 @@ export const words: PageWords = {
   tryExample: "Try the example",
   printFile: "Look into a print file",
   example: "Example",
+  recent: "Recent models",
+  saved: "Presets",
+  keys: "Keys",
   points: [
     ["Fewest layers", "Every plan that keeps your tolerance is considered, and the shortest is taken."],
     ["No step too high", "The tolerance holds in each layer, not on average."],

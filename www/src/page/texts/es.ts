@@ -11,6 +11,9 @@ export const words: PageWords = {
   tryExample: "Probar el ejemplo",
   printFile: "Examinar un archivo de impresión",
   example: "Ejemplo",
+  recent: "Modelos recientes",
+  saved: "Perfiles",
+  keys: "Teclas",
   points: [
     ["El mínimo de capas", "De todos los planes que respetan su tolerancia se toma el más corto."],
     ["Ningún escalón de más", "La tolerancia se cumple en cada capa, no de media."],

@@ -11,6 +11,9 @@ export const words: PageWords = {
   tryExample: "Essayer l’exemple",
   printFile: "Examiner un fichier d’impression",
   example: "Exemple",
+  recent: "Modèles récents",
+  saved: "Préréglages",
+  keys: "Touches",
   points: [
     ["Le moins de couches", "Parmi tous les plans qui respectent votre tolérance, le plus court est retenu."],
     ["Aucune marche trop haute", "La tolérance tient dans chaque couche, pas en moyenne."],

@@ -1,10 +1,7 @@
 /** The texts of the page around the element, one catalogue per language. */
 import type { Language, LanguageCode } from "../../texts/index.js";
-import { words as de } from "./de.js";
+import { Catalogues } from "./catalogues.js";
 import { words as en } from "./en.js";
-import { words as es } from "./es.js";
-import { words as fr } from "./fr.js";
-import { words as zh } from "./zh.js";
 
 export interface PageWords {
   title: string;
@@ -17,12 +14,25 @@ export interface PageWords {
   tryExample: string;
   printFile: string;
   example: string;
+  /** Buttons of the header: models that this browser keeps, named settings, the list of keys. */
+  recent: string;
+  saved: string;
+  keys: string;
   /** What the page promises: a heading, and a sentence. */
   points: readonly (readonly [heading: string, sentence: string])[];
 }
 
-const CATALOGUES: Readonly<Record<LanguageCode, PageWords>> = { de, en, es, fr, zh };
+const catalogues = new Catalogues<PageWords>(en, {
+  de: () => import("./de.js"),
+  es: () => import("./es.js"),
+  fr: () => import("./fr.js"),
+  zh: () => import("./zh.js"),
+});
+
+export function fetchPageWords(code: LanguageCode): Promise<void> {
+  return catalogues.fetch(code);
+}
 
 export function pageWords({ code }: Language): PageWords {
-  return CATALOGUES[code];
+  return catalogues.of(code);
 }

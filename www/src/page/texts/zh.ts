@@ -11,6 +11,9 @@ export const words: PageWords = {
   tryExample: "试试示例",
   printFile: "查看打印文件",
   example: "示例",
+  recent: "最近的模型",
+  saved: "预设",
+  keys: "快捷键",
   points: [
     ["层数最少", "在所有满足公差的方案中选取最短的一个。"],
     ["没有过高的台阶", "每一层都满足公差，而不是平均满足。"],

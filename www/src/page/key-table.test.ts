@@ -1,0 +1,70 @@
+import { afterEach, expect, test, vi } from "vitest";
+import { watchGestures } from "../element/gestures.js";
+import { pressed, type Tool } from "../view/scene/keys.js";
+import { caps, KEY_TABLE, type Place } from "./key-table.js";
+import { words } from "./texts/visit/en.js";
+
+afterEach(() => vi.unstubAllGlobals());
+
+/** Every key of a usual keyboard, alone and with modifiers, as in the table. */
+const PRINTABLE = Array.from({ length: 94 }, (_, i) => String.fromCharCode(33 + i)).filter((key) => !/[A-Z]/.test(key));
+const NAMED = ["Arrow", "Page"].flatMap((kind) => ["Left", "Right", "Up", "Down"].map((way) => kind + way));
+const OTHERS = ["Enter", "Escape", "Tab", " ", "Home", "End", "Insert", "Delete", "Backspace", "F1", "F2"];
+const HELD = ["", "Mod+", "Shift+", "Mod+Shift+"];
+
+const presses = [...PRINTABLE, ...NAMED, ...OTHERS].flatMap((key) =>
+  HELD.map((held) => ({
+    name: held + key,
+    event: { key, ctrlKey: held.includes("Mod"), shiftKey: held.includes("Shift"), metaKey: false, altKey: false },
+  })),
+);
+
+const listed = (place: Place): string[] =>
+  KEY_TABLE.filter(([at]) => at === place).flatMap(([, rows]) =>
+    rows.flatMap(([, keys, held]) => keys.map((key) => (held === undefined ? key : `${held}+${key}`))),
+  );
+
+/** What a press is listed as: `=` is on the key of `+`, and Shift counts only where it makes a difference. */
+const same = (name: string, tool: Tool | null): string => {
+  const key = name.replace(/=$/, "+").replace("Mod+Shift+y", "Mod+y").replace(/^.*Escape$/, "Escape");
+  return tool === "rotate" && /Arrow|Page/.test(key) ? key : key.replace(/^Shift\+/, "");
+};
+
+test.each(["turn", "rotate", "flat", "paint"] as const)("the list names every key of the view: %s", (tool) => {
+  const names = new Set([...listed("turn"), ...listed(tool)]);
+  const found = new Set(presses.filter(({ event }) => pressed(event, tool) !== null).map(({ name }) => same(name, tool)));
+  expect([...found].filter((name) => !names.has(name))).toEqual([]);
+  // And no key that does nothing.
+  expect(listed(tool).filter((name) => !found.has(name))).toEqual([]);
+});
+
+test("the list names every key of the element", () => {
+  vi.stubGlobal("HTMLInputElement", class {});
+  const element = new EventTarget();
+  const acted: string[] = [];
+  const note = (what: string) => (): void => void acted.push(what);
+  watchGestures(element as HTMLElement, {
+    dragging: note("dragging"),
+    open: note("open"),
+    cancel: note("cancel"),
+    undo: note("undo"),
+    redo: note("redo"),
+  });
+  const names = new Set(listed("everywhere"));
+  const found = new Set<string>();
+  for (const { name, event } of presses) {
+    acted.length = 0;
+    element.dispatchEvent(Object.assign(new Event("keydown"), event, { composedPath: () => [element] }));
+    if (acted.length > 0) found.add(same(name, null));
+  }
+  expect([...found].filter((name) => !names.has(name))).toEqual([]);
+  expect(["Mod+z", "Mod+y", "Mod+Shift+z", "Escape"].filter((name) => !found.has(name))).toEqual([]);
+});
+
+test("keys have caps as on the person's keyboard", () => {
+  expect(caps("Mod+Shift+z", words.keys.names, false)).toEqual(["Ctrl", "Shift", "Z"]);
+  expect(caps("Mod+z", words.keys.names, true)).toEqual(["⌘", "Z"]);
+  expect(caps("Shift+ArrowLeft", words.keys.names, false)).toEqual(["Shift", "←"]);
+  expect(caps("+", words.keys.names, false)).toEqual(["+"]);
+  expect(caps("-", words.keys.names, false)).toEqual(["−"]);
+});

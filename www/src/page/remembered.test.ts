@@ -1,0 +1,104 @@
+import { afterEach, expect, test, vi } from "vitest";
+import type { KnownPrinter } from "../api/wire.js";
+import { fromAddress, toAddress } from "../element/state/settings.js";
+import { recalled, remember, rememberedOf } from "./remembered.js";
+import { readKept } from "./storage.js";
+
+afterEach(() => vi.unstubAllGlobals());
+
+/** A printer whose description is too long for an address. */
+const wordy = { name: "own", pixels: [100, 100], pitch_um: [50, 50], volume_mm: [5, 5, 5], note: "x".repeat(2000) };
+
+/** Storage as browsers have it, or one that is full or switched off. */
+function store(isBroken = false): Map<string, string> {
+  const texts = new Map<string, string>();
+  const guard = <T>(value: T): T => {
+    if (isBroken) throw new DOMException("no", "QuotaExceededError");
+    return value;
+  };
+  vi.stubGlobal("localStorage", {
+    getItem: (key: string) => guard(texts.get(key) ?? null),
+    setItem: (key: string, text: string) => void guard(texts.set(key, text)),
+    removeItem: (key: string) => void guard(texts.delete(key)),
+  });
+  return texts;
+}
+
+/** An element that has settings and nothing else. */
+class Element extends EventTarget {
+  printer = fromAddress("").printer;
+  #query = "";
+  readonly slicer: { printers(): Promise<KnownPrinter[]> };
+
+  constructor(...names: string[]) {
+    super();
+    this.slicer = { printers: () => Promise.resolve(names.map((name) => ({ name }) as KnownPrinter)) };
+  }
+  get query(): string {
+    return this.#query;
+  }
+  set query(query: string) {
+    const settings = fromAddress(query);
+    this.printer = settings.printer;
+    this.#query = toAddress(settings);
+    this.dispatchEvent(new Event("cusp-change"));
+  }
+}
+
+/** A visit to the page at this address. */
+function visit(asked: string, ...printers: string[]): Element {
+  const element = new Element(...printers);
+  remember(element, asked);
+  return element;
+}
+
+test("the printer, the resin and what belongs to them are remembered, and nothing else", () => {
+  expect(rememberedOf("printer=mars&height=60&exposure=2%2C5&tolerance=0.03&rotation=1,0,0,0&step=0.01&metric=area")).toBe(
+    "step=0.01&exposure=2%2C5&printer=mars",
+  );
+  expect(rememberedOf("height=60")).toBe("");
+  expect(rememberedOf("<junk>&&%%%=&printer={")).toBe("");
+});
+
+test("a field that is out of range is not remembered", () => {
+  expect(rememberedOf("printer=mars&exposure=9999&bottomLayers=2.5&step=x&planner=uniform")).toBe("printer=mars");
+});
+
+test("what the address asks for wins, printer and exposures as a whole", () => {
+  const kept = "printer=mars&exposure=3";
+  expect(recalled("height=60", kept)).toBe("height=60&exposure=3&printer=mars");
+  for (const asked of ["printer=saturn", "exposure=2", "step=0.01&height=60"]) expect(recalled(asked, kept)).toBe(asked);
+  expect(recalled("height=60", "")).toBe("height=60");
+});
+
+test("a printer too long for an address is remembered, also where the address has the rest", () => {
+  const kept = rememberedOf("exposure=3", wordy as unknown as ReturnType<typeof fromAddress>["printer"]);
+  expect(fromAddress(recalled("exposure=3&height=60", kept)).printer).toEqual(wordy);
+  expect(fromAddress(recalled("exposure=2", kept)).printer).toBe("");
+});
+
+test("a printer that a person chooses is there at the next visit; one that a link asks for is not", () => {
+  store();
+  const first = visit("printer=saturn", "saturn", "mars");
+  first.query = "printer=saturn&height=60";
+  expect(readKept("printer")).toBeNull();
+  first.query = "printer=mars&exposure=3&height=60";
+  expect(visit("metric=area", "saturn", "mars").query).toBe("metric=area&exposure=3&printer=mars");
+  expect(visit("printer=saturn", "saturn", "mars").query).toBe("printer=saturn");
+});
+
+test("a printer that no longer exists is dropped in silence, with what belongs to it", async () => {
+  const texts = store();
+  texts.set("cusp.printer", "printer=gone&exposure=3");
+  const element = visit("height=60", "mars");
+  expect(element.query).toBe("height=60&exposure=3&printer=gone");
+  await vi.waitFor(() => expect(element.query).toBe("height=60"));
+  expect(readKept("printer")).toBe("");
+});
+
+test("a storage that is full or switched off changes nothing else", () => {
+  store(true);
+  const element = visit("height=60", "mars");
+  element.query = "printer=mars";
+  expect(element.query).toBe("printer=mars");
+});

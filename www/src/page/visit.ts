@@ -1,0 +1,180 @@
+/**
+ * What makes a visit easier: the printer of the last one, named settings, recent models, a short tour on the first one, and the
+ * list of keys. Only what a person asks for is fetched, except the tour.
+ */
+import { html, nothing, type TemplateResult } from "lit";
+import type { Model } from "../api/index.js";
+import { chosen } from "../element/parts/chosen.js";
+import type { SlicerElement } from "../element/slicer-element.js";
+import { languageOf, type Language } from "../texts/index.js";
+import { closeFlyout, flyout } from "./flyout.js";
+import { canKeep, isKeeping } from "./keeping.js";
+import { asksForKeys } from "./question-mark.js";
+import { remember } from "./remembered.js";
+import { readKept, writeKept } from "./storage.js";
+import { pageWords } from "./texts/index.js";
+import type { Target } from "./tour.js";
+import "./visit.css";
+
+export interface VisitHost {
+  /** The element; called only after {@link Visit.start}. */
+  element(): SlicerElement;
+  /** The address of the current settings. */
+  link(): string;
+  open(files: readonly File[]): void;
+  /** Draws the page again. */
+  draw(): void;
+  /** What the tour shows, a step each. */
+  targets: readonly Target[];
+  /** The height of what stays at the bottom of the window, in CSS pixels. */
+  clearance(): number;
+}
+
+export class Visit {
+  readonly #host: VisitHost;
+  #canKeep = canKeep();
+  #language = languageOf();
+
+  constructor(host: VisitHost) {
+    this.#host = host;
+  }
+
+  /** The buttons for the header, with their panels. */
+  tools(language: Language): TemplateResult {
+    const words = pageWords(language);
+    const { link } = this.#host;
+    const tour = document.querySelector("cusp-tour");
+    if (tour !== null) tour.language = language;
+    this.#language = language;
+    const saved = html`<cusp-saved .language=${language} .link=${link} @cusp-apply=${this.#apply}></cusp-saved>`;
+    const keys = html`<cusp-keys .language=${language} @cusp-tour=${() => void this.#tour()}></cusp-keys>`;
+    return html`<div class="tools">
+      ${this.#canKeep
+        ? flyout({ id: "recent", label: words.recent, icon: "recent", content: this.#list(language, false), opening: () => void this.#fetchRecent() })
+        : nothing}
+      ${flyout({ id: "saved", label: words.saved, icon: "saved", content: saved, opening: () => void this.#fetchSaved() })}
+      <button class="keys" aria-label=${words.keys} title=${words.keys} @click=${() => void this.#keys()}>?</button>
+      ${keys}
+    </div>`;
+  }
+
+  /** For a page without a model: the recent ones, if any are kept. */
+  recent(language: Language): TemplateResult | null {
+    if (!this.#canKeep || !isKeeping()) return null;
+    return html`<section class="recent">
+      <h2>${pageWords(language).recent}</h2>
+      ${this.#list(language, true)}
+    </section>`;
+  }
+
+  #list(language: Language, isBare: boolean): TemplateResult {
+    const change = (): void => {
+      this.#host.draw();
+      void this.#keep();
+    };
+    return html`<cusp-recent .language=${language} .bare=${isBare} @cusp-files=${this.#open} @cusp-keeping=${change}></cusp-recent>`;
+  }
+
+  /** Starts the element with the settings of an address, now that it is in the page. */
+  start(asked: string): void {
+    const element = this.#host.element();
+    remember(element, asked);
+    element.addEventListener("cusp-load", () => void this.#keep());
+    element.addEventListener("cusp-plan", () => {
+      // Where nothing is kept, every visit would be the first.
+      if (readKept("tour") === null && writeKept("tour", "shown")) void this.#tour();
+    });
+    addEventListener("keydown", this.#key);
+    if (this.#canKeep && isKeeping()) void this.#fetchRecent();
+  }
+
+  /** Fetches the texts of a language that is to be shown next. */
+  async speak(language: Language): Promise<void> {
+    const { fetchVisitWords } = await import("./texts/visit/index.js");
+    await fetchVisitWords(language);
+  }
+
+  readonly #key = (event: KeyboardEvent): void => {
+    if (asksForKeys(event)) void this.#keys();
+    else if ((event.ctrlKey || event.metaKey) && !event.shiftKey && !event.altKey && event.key.toLowerCase() === "o") this.#choose();
+    else return;
+    event.preventDefault();
+  };
+
+  /** Opens the browser's dialog for files. */
+  #choose(): void {
+    const input = Object.assign(document.createElement("input"), { type: "file", multiple: true });
+    input.addEventListener("change", (event) => this.#host.open(chosen(event)));
+    input.click();
+  }
+
+  readonly #open = ({ detail }: CustomEvent<File[]>): void => {
+    closeFlyout("recent");
+    this.#host.open(detail);
+  };
+
+  readonly #apply = ({ detail }: CustomEvent<string>): void => {
+    closeFlyout("saved");
+    this.#host.element().query = detail;
+  };
+
+  async #fetchRecent(): Promise<void> {
+    await this.speak(this.#language);
+    const [{ recentModels }] = await Promise.all([import("./recent-models.js"), import("./recent-list.js")]);
+    if ((await recentModels()) !== null) return;
+    this.#canKeep = false;
+    this.#host.draw();
+  }
+
+  async #fetchSaved(): Promise<void> {
+    await this.speak(this.#language);
+    await import("./saved-list.js");
+    const list = document.querySelector("cusp-saved");
+    if (list !== null) list.query = this.#host.element().query;
+  }
+
+  async #keys(): Promise<void> {
+    await this.speak(this.#language);
+    await import("./keys.js");
+    const list = document.querySelector("cusp-keys");
+    if (list === null) return;
+    list.hasTour = this.#host.element().result !== null;
+    await list.show();
+  }
+
+  /** Shows the tour, unless it is on show. */
+  async #tour(): Promise<void> {
+    await this.speak(this.#language);
+    const { CuspTour } = await import("./tour.js");
+    if (document.querySelector("cusp-tour") !== null) return;
+    const { targets, clearance, element } = this.#host;
+    await element().updateComplete;
+    document.body.prepend(Object.assign(new CuspTour(), { targets, clearance, language: this.#language }));
+  }
+
+  /** Keeps the open model if the person allows it, with its picture once it is planned. */
+  async #keep(): Promise<void> {
+    const element = this.#host.element();
+    const { model } = element;
+    // The example is no file.
+    if (model === null || !(model.file instanceof File) || !isKeeping()) return;
+    const { recentModels, PICTURE_PX } = await import("./recent-models.js");
+    const models = await recentModels();
+    const kept = await models?.keep(model.name, model.file).catch(() => null);
+    // Switched off meanwhile, perhaps in another tab.
+    if (!isKeeping()) return models?.deleteAll();
+    if (models === null || kept == null || (await models.picture(kept)) !== null) return;
+    await planned(element, model);
+    if (element.model !== model) return;
+    // Without WebGL there is no picture.
+    await element.thumbnail(PICTURE_PX).then((png) => models.setPicture(kept, png)).catch(() => undefined);
+  }
+}
+
+/** Waits until the element shows a plan of this model, or another model. */
+async function planned(element: SlicerElement, model: Model): Promise<void> {
+  while (element.model === model && element.state !== "done") {
+    await new Promise((resolve) => element.addEventListener("cusp-plan", resolve, { once: true }));
+    await element.updateComplete;
+  }
+}
