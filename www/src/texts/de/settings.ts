@@ -69,6 +69,8 @@ export const settings = (): SettingsTexts => ({
     micrometres: (typed, mm) => `${typed} µm sind ${mm} mm.`,
     upsideDown: "Die dickste Schicht darf nicht dünner sein als die dünnste.",
     whole: "Geben Sie eine ganze Zahl ein.",
+    unit: (units) => `Dieses Feld nimmt ${units}.`,
+    grouped: "Geben Sie die Zahl ohne Tausendertrennzeichen ein.",
   },
   metrics: {
     cusp: {

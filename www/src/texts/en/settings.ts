@@ -69,6 +69,8 @@ export const settings = () => ({
     micrometres: (typed: string, mm: string) => `${typed} µm is ${mm} mm.`,
     upsideDown: "The thickest layer must not be thinner than the thinnest.",
     whole: "Enter a whole number.",
+    unit: (units: string) => `This field takes ${units}.`,
+    grouped: "Enter the number without a thousands separator.",
   },
   metrics: {
     cusp: {

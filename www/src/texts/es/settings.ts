@@ -69,6 +69,8 @@ export const settings = (): SettingsTexts => ({
     micrometres: (typed, mm) => `${typed} µm son ${mm} mm.`,
     upsideDown: "La capa más gruesa no puede ser más fina que la más fina.",
     whole: "Escriba un número entero.",
+    unit: (units) => `Este campo admite ${units}.`,
+    grouped: "Escriba el número sin separador de miles.",
   },
   metrics: {
     cusp: {

@@ -69,6 +69,8 @@ export const settings = (): SettingsTexts => ({
     micrometres: (typed, mm) => `${typed} µm font ${mm} mm.`,
     upsideDown: "La couche la plus épaisse ne peut être plus fine que la plus fine.",
     whole: "Entrez un nombre entier.",
+    unit: (units) => `Ce champ accepte ${units}.`,
+    grouped: "Entrez le nombre sans séparateur de milliers.",
   },
   metrics: {
     cusp: {

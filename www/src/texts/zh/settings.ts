@@ -69,6 +69,8 @@ export const settings = (): SettingsTexts => ({
     micrometres: (typed, mm) => `${typed} µm 即 ${mm} mm。`,
     upsideDown: "最厚层不能比最薄层薄。",
     whole: "请输入整数。",
+    unit: (units) => `此处可用 ${units}。`,
+    grouped: "请输入不带千位分隔符的数字。",
   },
   metrics: {
     cusp: {
