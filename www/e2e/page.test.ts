@@ -214,7 +214,7 @@ test("by each metric: a plan within its tolerance, in its unit", async () => {
     expect(found?.[3], name).toBe(unit);
     expect(Number(found?.[2]), name).toBeLessThanOrEqual(Number(tolerance));
     expect(Number(found?.[1]), name).toBe(await layers(page));
-    expect(await page.getByRole("img", { name: /^Chart of the profile/ }).count(), name).toBe(1);
+    expect(await page.getByRole("slider", { name: "Profile and plan" }).count(), name).toBe(1);
   }
 });
 

@@ -2,6 +2,8 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { download, drop, layers, maskOf, openPanel, settled, state, words } from "./browser.js";
+import type { CuspWorkbench } from "../src/workbench/cusp-workbench.js";
+import { LANGUAGES } from "../src/texts/index.js";
 import { pages } from "./pages.js";
 import { sphere } from "./solids.js";
 
@@ -186,7 +188,8 @@ test("the printers are listed by maker, and the file of one that takes one thick
 
   await list.selectOption({ label: "Photon Mono M5s" });
   await settled(page);
-  expect(await page.getByLabel("Print file").locator("option").first().innerText()).toBe("Anycubic, to 2023 – the printer’s own");
+  expect(await page.getByLabel("Print file").locator("option").first().innerText()).toBe("The printer’s own");
+  expect(await page.locator("#format-hint").innerText()).toBe("Anycubic, to 2023");
   const warning = page.locator(".warning", { hasText: "Anycubic Photon Mono M5s takes one thickness for all layers" });
   const offer = warning.getByRole("button", { name: /^Uniform layers of 0\.\d+ mm \(\d+ layers\)$/ });
   const offered = await offer.innerText();
@@ -234,4 +237,106 @@ test("a printer of one's own is opened from a file, kept in the address, and sta
   const again = await opened(new URL(page.url()).search);
   expect(await again.getByLabel("Printer", { exact: true }).locator("option:checked").innerText()).toBe("Big One");
   expect(await layers(again)).toBe(count);
+});
+
+test("numbers are typed with units, in the language's decimals; the field is tidied when it is left", async () => {
+  const page = await start("?locale=de");
+  await drop(page, ballFile);
+  await state(page, "done");
+  const field = page.getByLabel("Toleranz", { exact: true });
+  const search = (): string => new URL(page.url()).search;
+  expect(await field.inputValue()).toBe("0,065");
+  expect(await page.getByLabel("Auf Höhe skalieren").getAttribute("placeholder")).toBe("20,0");
+  await field.fill("");
+  await settled(page);
+  expect(await field.getAttribute("placeholder")).toBe("0,065");
+
+  await field.pressSequentially("55");
+  await page.keyboard.press("ArrowLeft");
+  await page.keyboard.type("_");
+  await page.keyboard.press("Backspace");
+  // The caret stays between the digits, and the text as it was typed.
+  await page.keyboard.type("0");
+  expect(await field.inputValue()).toBe("505");
+  await field.fill("55 µm");
+  await settled(page);
+  expect(await field.inputValue()).toBe("55 µm");
+  expect(search()).toContain("tolerance=0.055");
+  await field.blur();
+  expect(await field.inputValue()).toBe("0,055");
+
+  // What cannot be read stays, and says why.
+  const words = page.locator("#tolerance-hint");
+  for (const [typed, said] of [
+    ["5 s", "Dieses Feld nimmt mm, µm, cm, in oder thou."],
+    ["1.000", "Geben Sie die Zahl ohne Tausendertrennzeichen ein."],
+  ] as const) {
+    await field.fill(typed);
+    await field.blur();
+    await expect.poll(() => words.innerText()).toBe(said);
+    expect(await field.inputValue()).toBe(typed);
+  }
+  // Whatever changes the setting from elsewhere shows in the field, even while it has the focus.
+  await field.focus();
+  await page.evaluate(() => {
+    const element = document.querySelector<CuspWorkbench>("cusp-workbench");
+    if (element !== null) element.query = "tolerance=0,05";
+  });
+  await expect.poll(() => field.inputValue()).toBe("0,05");
+
+  const exposure = page.getByLabel("Belichtung", { exact: true });
+  expect(await exposure.getAttribute("placeholder")).toBe("3");
+  await exposure.fill("2500 ms");
+  await exposure.blur();
+  expect(await exposure.inputValue()).toBe("2,5");
+  await settled(page);
+  expect(search()).toContain("exposure=2.5");
+});
+
+test.each(LANGUAGES)("no list cuts its choice, no label its text, at 260 px: %s", async (locale) => {
+  for (const query of ["", "&printer=photon-mono-m5s"]) {
+    const page = await start(`?locale=${locale}${query}`);
+    await drop(page, ballFile);
+    await state(page, "done");
+    const form = page.locator("cusp-settings");
+    const cut = await form.evaluate((it) => {
+      it.style.width = "260px";
+      const root = it.shadowRoot;
+      const pen = document.createElement("canvas").getContext("2d");
+      if (!root || pen === null) throw new Error("there is no form");
+      const found: string[] = [];
+      for (const select of root.querySelectorAll("select")) {
+        const style = getComputedStyle(select);
+        pen.font = style.font;
+        const room = select.clientWidth - Number.parseFloat(style.paddingInlineStart) - Number.parseFloat(style.paddingInlineEnd);
+        if (select.id === "printer" && select.value !== "" && select.title === "") found.push("printer without a title");
+        for (const { text, parentElement } of select.options) {
+          // A printer's name may be long: it ends in an ellipsis, and the title has all of it.
+          if (parentElement?.localName !== "optgroup" && pen.measureText(text).width > room) found.push(text);
+        }
+      }
+      for (const label of root.querySelectorAll<HTMLElement>("label, legend, .hint")) if (label.scrollWidth > label.clientWidth + 1) found.push(label.innerText);
+      if (it.scrollWidth > 260) found.push("form");
+      return found;
+    });
+    expect(cut).toEqual([]);
+    // Without fonts of its own the page measures in those of the machine; still, what most people change is in sight.
+    const label = form.locator("label[for=height]");
+    const top = (await form.boundingBox())?.y ?? 0;
+    expect(((await label.boundingBox())?.y ?? 0) - top).toBeLessThan(740);
+  }
+});
+
+test("in forced colours the chosen half and a fault can be told without colour", async () => {
+  const page = await start("", {}, true);
+  await page.emulateMedia({ forcedColors: "active" });
+  await drop(page, ballFile);
+  await state(page, "done");
+  const form = page.locator("cusp-settings");
+  const [chosen, other] = await form.locator(".choice").first().locator("label").evaluateAll((labels) => labels.map((it) => getComputedStyle(it).backgroundColor));
+  expect(chosen).not.toBe(other);
+  await page.getByLabel("Tolerance", { exact: true }).fill("x");
+  await page.getByLabel("Tolerance", { exact: true }).blur();
+  await form.locator(".box.wrong").waitFor();
+  expect(await form.locator(".box.wrong").evaluate((it) => getComputedStyle(it).outlineStyle)).toBe("solid");
 });

@@ -128,6 +128,7 @@ export const DEFAULTS = {
   snap: "auto",
   saliency: false,
   weight_min: 0.25,
+  resin: { layer_mm: 0.05, exposure_s: 3, bottom_layers: 4, bottom_exposure_s: 30 },
 } as const;
 
 /**

@@ -47,9 +47,12 @@ export function formatOf(locale: string, { hours, minutes }: TimeUnits) {
     return metric === "volume" ? volume(value) : fine(value);
   };
   const micrometres = { minimumFractionDigits: 3, maximumFractionDigits: 3 };
+  const decimal = new Intl.NumberFormat(locale).formatToParts(0.5).find(({ type }) => type === "decimal")?.value ?? ".";
 
   return {
     locale,
+    /** The decimal mark: `.` or `,`. */
+    decimal,
     count,
     plural,
     counted,

@@ -1,13 +1,17 @@
-/** Puts the chart of chart.ts on the page: its size and colours, the marker of the selected layer, and clicks. */
-import { css, html, unsafeCSS, type PropertyValues, type TemplateResult } from "lit";
+/**
+ * Puts the chart of chart.ts on the page: its size and colours, its key, the marker of the selected layer, and what mouse,
+ * fingers and keys do. In a box of a given height it fills that; elsewhere it has its own.
+ */
+import { html, nothing, unsafeCSS, type PropertyValues, type TemplateResult } from "lit";
 import type uPlot from "uplot";
 import uplotStyles from "uplot/dist/uPlot.min.css?inline";
-import { chartData, chartOptions, type ChartData, type ChartTheme } from "../parts/chart.js";
-import { gradient } from "../../view/legend/palette.js";
+import { chartData, chartOptions, densityEnd, zoomHeights, type ChartData, type ChartTheme, type Heights } from "../parts/chart.js";
 import { languageOf } from "../../texts/index.js";
 import { layerAt } from "../../view/scene/lookup.js";
 import { METRICS } from "../state/metric.js";
+import { ZoomGestures } from "../parts/zoom-gestures.js";
 import { partFailure, partStyles, tellPartFailed } from "../parts/part.js";
+import { chartStyles } from "../styles/chart-styles.js";
 import { shared } from "../styles/shared.js";
 import { elementWith, given, own } from "../../view/properties.js";
 
@@ -16,15 +20,24 @@ export interface PlotPlace {
   /** The plot area; the heights span it from its lower to its upper edge. */
   over: HTMLElement;
   /** Lowest and highest, mm. */
-  heights_mm: readonly [number, number];
+  heights_mm: Heights;
 }
+
+/** How much a press of a key enlarges. */
+const KEY_ZOOM = 1.5;
+/** At least this many layers of the greatest thickness fit into a zoomed chart. */
+const LEAST_LAYERS = 4;
+/** Part of the largest density that has as many digits as any. */
+const MANY_DIGITS = 0.888;
+/** Layers that a page key moves by. */
+const PAGE = 10;
 
 const PROPERTIES = {
   data: given<ChartData | null>(null),
   layer: given(0),
   language: given(languageOf()),
   zoomed: own(false),
-  /** The bin under the pointer. */
+  /** The bin under the pointer, or where somebody tapped. */
   hovered: own<number | null>(null),
   /** Whether uPlot could not be loaded. */
   failed: own(false),
@@ -36,98 +49,88 @@ export class CuspChart extends elementWith(PROPERTIES) {
   #plot: uPlot | null = null;
   #marker: HTMLElement | null = null;
   #resized: ResizeObserver | null = null;
-  readonly #dark = matchMedia("(prefers-color-scheme: dark)");
+  /** The colours of the canvas are those of the page when it is drawn. */
+  readonly #schemes = ["(prefers-color-scheme: dark)", "(forced-colors: active)"].map((query) => matchMedia(query));
   readonly #redraw = (): void => this.#build();
+  /** Whether the last pointer was a finger: what it tapped stays, although browsers let their mouse of a finger leave at once. */
+  #isTouched = false;
+  readonly #gestures = new ZoomGestures({
+    shown: () => this.#shown,
+    under: (clientY) => this.#under(clientY),
+    zoom: (factor, z_mm, place, from) => this.#zoom(factor, z_mm, place, from),
+  });
 
   static override styles = [
     unsafeCSS(uplotStyles),
     shared,
     partStyles,
-    css`
-      :host {
-        display: block;
-        min-width: 0;
-      }
-      .legend {
-        display: flex;
-        white-space: nowrap;
-        align-items: center;
-        gap: 0.5rem;
-        font-size: 0.8125rem;
-        color: var(--cusp-quiet);
-      }
-      .scale {
-        background: ${unsafeCSS(gradient("classic"))};
-        width: 5rem;
-        height: 0.625rem;
-        border-radius: 3px;
-      }
-      .plot {
-        direction: ltr;
-        height: 30rem;
-        overflow: hidden;
-      }
-      .u-over {
-        cursor: crosshair;
-        border-radius: 2px;
-      }
-      .u-select {
-        background: rgb(16 19 26 / 0.25);
-      }
-      .marker {
-        position: absolute;
-        left: -5px;
-        right: -5px;
-        height: 0;
-        border-top: 2px solid var(--cusp-chart-ink);
-        outline: 1px solid var(--cusp-chart-paper);
-        pointer-events: none;
-      }
-      .marker::before {
-        content: "";
-        position: absolute;
-        left: -3px;
-        top: -6px;
-        border: 5px solid transparent;
-        border-left: 7px solid var(--cusp-text);
-      }
-      @media (max-width: 640px) {
-        .plot {
-          height: 24rem;
-        }
-      }
-    `,
+    chartStyles,
   ];
 
   override render(): TemplateResult {
     const [min, max] = this.data?.limits ?? [0, 0];
     const { texts, format } = this.language;
     if (this.failed) return html`<div class="head"><h3>${texts.chart.title}</h3></div>${partFailure(this.language, () => void this.#load())}`;
+    const words = texts.chart;
+    const { data, hovered } = this;
+    const isSlider = data !== null;
+    const description = this.#words();
     return html`
-      <div class="head">
-        <h3>${texts.chart.title}</h3>
-        <div class="legend figures">
-          <span>${format.fine(min)}</span>
-          <span class="scale"></span>
-          <span>${format.fine(max)}</span>
-        </div>
+      <div class="head"><h3>${words.title}</h3></div>
+      <div class="top">
+        <p>${words.heights}</p>
+        <button class="small whole ${this.zoomed ? "" : "off"}" aria-label=${words.whole} title=${words.whole} @click=${this.#showWhole}>
+          <svg viewBox="0 0 20 20" aria-hidden="true"><path d="M3 7V3h4m6 0h4v4m0 6v4h-4m-6 0H3v-4" /></svg>
+        </button>
       </div>
-      <div class="plot" role="img" aria-label=${this.#words()}></div>
-      <div class="foot">
-        <p class="quiet figures">${this.#hint()}</p>
-        ${this.zoomed ? html`<button class="small" @click=${this.#build}>${texts.chart.whole}</button>` : ""}
-      </div>
+      <div
+        class="plot"
+        role=${isSlider ? "slider" : "img"}
+        tabindex=${isSlider ? 0 : nothing}
+        aria-label=${isSlider ? words.title : description}
+        aria-describedby=${isSlider ? "words" : nothing}
+        aria-orientation=${isSlider ? "vertical" : nothing}
+        aria-valuemin=${isSlider ? 1 : nothing}
+        aria-valuemax=${isSlider ? data.thickness_mm.length : nothing}
+        aria-valuenow=${isSlider ? this.layer + 1 : nothing}
+        aria-valuetext=${isSlider ? this.#value(data) : nothing}
+        @keydown=${this.#pressed}
+        @pointerdown=${this.#down}
+        @pointermove=${this.#gestures.moved}
+        @pointerup=${this.#gestures.up}
+        @pointercancel=${this.#gestures.up}
+        @touchstart=${this.#gestures.touched}
+        @touchmove=${this.#gestures.touched}
+        @wheel=${this.#gestures.wheeled}
+      ></div>
+      <p class="visually-hidden" id="words">${description}</p>
+      ${data === null
+        ? nothing
+        : html`<p class="density">${texts.metrics[data.metric].axis}</p>
+            <ul class="key">
+              <li><span class="line"></span>${words.line}</li>
+              <li class="colours">
+                ${words.colours}
+                <span class="limits figures">${format.tick(min)} <span class="scale"></span> ${format.fine(max)}</span>
+              </li>
+            </ul>
+            <div class="foot figures">
+              <p class="mouse ${hovered === null ? "" : "off"}">${words.hint}</p>
+              <p class="touch ${hovered === null ? "" : "off"}">${words.touchHint}</p>
+              <p>${hovered === null ? nothing : this.#at(data, hovered, data.profile[hovered] ?? 0)}</p>
+              <p class="off" aria-hidden="true">${this.#at(data, data.profile.length - 1, MANY_DIGITS * densityEnd(data))}</p>
+            </div>`}
     `;
   }
 
   override connectedCallback(): void {
     super.connectedCallback();
-    this.#dark.addEventListener("change", this.#redraw);
+    for (const scheme of this.#schemes) scheme.addEventListener("change", this.#redraw);
   }
 
   override disconnectedCallback(): void {
     super.disconnectedCallback();
-    this.#dark.removeEventListener("change", this.#redraw);
+    for (const scheme of this.#schemes) scheme.removeEventListener("change", this.#redraw);
     this.#resized?.disconnect();
     this.#resized = null;
     this.#plot?.destroy();
@@ -140,7 +143,10 @@ export class CuspChart extends elementWith(PROPERTIES) {
 
   override updated(changed: PropertyValues<this>): void {
     if (changed.has("data") || changed.has("language")) this.#build();
-    else if (changed.has("layer")) this.#mark();
+    else if (changed.has("layer")) {
+      this.#reveal();
+      this.#mark();
+    }
   }
 
   async #load(): Promise<void> {
@@ -166,14 +172,18 @@ export class CuspChart extends elementWith(PROPERTIES) {
     return frame;
   }
 
-  /** The value under the pointer, or a hint at what the pointer can do. */
-  #hint(): string {
-    const { data, hovered } = this;
-    const density = hovered === null ? undefined : data?.profile[hovered];
+  /** The density of a bin, with its height. */
+  #at({ metric, bin_mm }: ChartData, bin: number, density: number): string {
     const { texts, format } = this.language;
-    if (data === null || hovered === null || density === undefined) return texts.chart.hint;
-    const value = METRICS[data.metric].density(density, format);
-    return texts.chart.at(format.height((hovered + 0.5) * data.bin_mm), texts.metrics[data.metric].density(value));
+    const value = METRICS[metric].density(density, format);
+    return texts.chart.at(format.height((bin + 0.5) * bin_mm), texts.metrics[metric].density(value));
+  }
+
+  /** The selected layer in words. */
+  #value({ z_mm, thickness_mm }: ChartData): string {
+    const { layer, language: { texts, format } } = this;
+    const [z, thickness] = [format.height(z_mm[layer] ?? 0), format.height(thickness_mm[layer] ?? 0)];
+    return texts.mask.said(format.count(layer + 1), format.count(thickness_mm.length), z, thickness);
   }
 
   /** The chart in words, for screen readers. */
@@ -191,12 +201,13 @@ export class CuspChart extends elementWith(PROPERTIES) {
     this.#plot = null;
     this.zoomed = false;
     this.hovered = null;
+    this.#gestures.drop();
     const { data } = this;
     const library = this.#library;
     if (library === null || data === null || !this.isConnected) return;
     const frame = this.#frame;
     const options = chartOptions(data, this.#theme(), this.language, [frame.clientWidth, frame.clientHeight]);
-    const whole = data.profile.length * data.bin_mm;
+    const whole = this.#whole;
     options.hooks = {
       ...options.hooks,
       // When uPlot draws, initially or after a zoom, its scales are settled.
@@ -210,7 +221,8 @@ export class CuspChart extends elementWith(PROPERTIES) {
       ],
       setCursor: [
         (u) => {
-          this.hovered = u.cursor.idx ?? null;
+          const bin = u.cursor.idx ?? null;
+          if (bin !== null || !this.#isTouched) this.hovered = bin;
         },
       ],
     };
@@ -224,17 +236,98 @@ export class CuspChart extends elementWith(PROPERTIES) {
   };
 
   /** Reports the chart's position and heights to the view beside it, which aligns with them. */
-  #place(heights_mm: readonly [number, number]): void {
+  #place(heights_mm: Heights): void {
     if (this.#plot === null) return;
     const detail: PlotPlace = { over: this.#plot.over, heights_mm };
     this.dispatchEvent(new CustomEvent<PlotPlace>("cusp-plot", { detail }));
   }
 
+  readonly #down = (event: PointerEvent): void => {
+    this.#isTouched = event.pointerType === "touch";
+    this.#gestures.down(event);
+  };
+
   readonly #clicked = (event: MouseEvent): void => {
-    const plot = this.#plot;
-    if (plot === null || this.data === null) return;
-    const z = plot.posToVal(event.clientY - plot.over.getBoundingClientRect().top, "x");
-    this.dispatchEvent(new CustomEvent<number>("cusp-layer", { detail: layerAt(this.data.z_mm, z) }));
+    if (this.data === null) return;
+    const [, z] = this.#under(event.clientY);
+    this.hovered = Math.min(this.data.profile.length - 1, Math.max(0, Math.floor(z / this.data.bin_mm)));
+    this.#select(layerAt(this.data.z_mm, z));
+  };
+
+  #select(layer: number): void {
+    this.dispatchEvent(new CustomEvent<number>("cusp-layer", { detail: layer }));
+  }
+
+  /** The height of the profile, mm. */
+  get #whole(): number {
+    return this.data === null ? 0 : this.data.profile.length * this.data.bin_mm;
+  }
+
+  /** The heights on show. */
+  get #shown(): Heights {
+    const { min, max } = this.#plot?.scales["x"] ?? {};
+    return min == null || max == null ? [0, this.#whole] : [min, max];
+  }
+
+  /** The middle of the selected layer, mm. */
+  get #middle(): number {
+    const { data, layer } = this;
+    return data === null ? 0 : ((data.z_mm[layer] ?? 0) + (data.z_mm[layer + 1] ?? 0)) / 2;
+  }
+
+  /** Shows the heights `from`, enlarged by a factor and moved so that a height lies at a place: see {@link zoomHeights}. */
+  #zoom(factor: number, z_mm: number, place: number, from = this.#shown): void {
+    const thickest_mm = this.data?.limits[1] ?? 0;
+    const [min, max] = zoomHeights(from, factor, z_mm, place, this.#whole, Math.min(this.#whole, LEAST_LAYERS * thickest_mm));
+    this.#plot?.setScale("x", { min, max });
+  }
+
+  /** The place of a point on the screen, 0 the lower and 1 the upper edge of the plot, and its height. */
+  #under(clientY: number): [place: number, z_mm: number] {
+    const { bottom = 0, height = 1 } = this.#plot?.over.getBoundingClientRect() ?? {};
+    const [low, high] = this.#shown;
+    const place = (bottom - clientY) / height;
+    return [place, low + place * (high - low)];
+  }
+
+  /** Moves heights that are zoomed to where the selected layer is. */
+  #reveal(): void {
+    const [low, high] = this.#shown;
+    if (this.#middle < low || this.#middle > high) this.#zoom(1, this.#middle, 0.5);
+  }
+
+  readonly #showWhole = (): void => {
+    // The button hides.
+    this.#frame.focus({ preventScroll: true });
+    this.#plot?.setScale("x", { min: 0, max: this.#whole });
+  };
+
+  readonly #pressed = (event: KeyboardEvent): void => {
+    const { data, layer } = this;
+    if (data === null || event.ctrlKey || event.metaKey || event.altKey) return;
+    const last = data.thickness_mm.length - 1;
+    const [low, high] = this.#shown;
+    // Around the selected layer, which #reveal keeps on show.
+    const zoom = (factor: number): void => this.#zoom(factor, this.#middle, (this.#middle - low) / (high - low));
+    const move = (to: number): void => this.#select(Math.min(last, Math.max(0, to)));
+    const actions: Partial<Record<string, () => void>> = {
+      ArrowUp: () => move(layer + 1),
+      ArrowRight: () => move(layer + 1),
+      ArrowDown: () => move(layer - 1),
+      ArrowLeft: () => move(layer - 1),
+      PageUp: () => move(layer + PAGE),
+      PageDown: () => move(layer - PAGE),
+      Home: () => move(0),
+      End: () => move(last),
+      "+": () => zoom(KEY_ZOOM),
+      "=": () => zoom(KEY_ZOOM),
+      "-": () => zoom(1 / KEY_ZOOM),
+      "0": this.#showWhole,
+    };
+    const action = actions[event.key];
+    if (action === undefined) return;
+    event.preventDefault();
+    action();
   };
 
   #fit(): void {
@@ -246,10 +339,9 @@ export class CuspChart extends elementWith(PROPERTIES) {
   }
 
   #mark(): void {
-    const [plot, marker, data] = [this.#plot, this.#marker, this.data];
-    if (plot === null || marker === null || data === null) return;
-    const middle = ((data.z_mm[this.layer] ?? 0) + (data.z_mm[this.layer + 1] ?? 0)) / 2;
-    const top = plot.valToPos(middle, "x");
+    const [plot, marker] = [this.#plot, this.#marker];
+    if (plot === null || marker === null || this.data === null) return;
+    const top = plot.valToPos(this.#middle, "x");
     marker.hidden = !(top >= 0 && top <= plot.over.clientHeight);
     marker.style.transform = `translateY(${Math.round(top) - 1}px)`;
   }
@@ -258,6 +350,7 @@ export class CuspChart extends elementWith(PROPERTIES) {
     const style = getComputedStyle(this);
     // A canvas does not accept `light-dark()`: let an element resolve each custom property.
     const probe = document.createElement("span");
+    probe.style.setProperty("forced-color-adjust", "none");
     this.#frame.append(probe);
     const colour = (name: string): string => {
       probe.style.color = `var(--cusp-${name})`;

@@ -1,4 +1,7 @@
-/** The settings as a form. It keeps no settings: it shows those that it is given, and reports what is typed. */
+/**
+ * The settings as a form. It keeps no settings: it shows those that it is given, with the decimal mark of the language, and
+ * reports what is typed in canonical form. What is typed stays on the screen as it is until the field is left.
+ */
 import { html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
 import { DEFAULTS, type MeshInfo, type Printer } from "../../api/wire.js";
@@ -8,14 +11,15 @@ import type { Choice, Problem } from "../state/problem.js";
 import { problemBox, problemStyles } from "../parts/problem-box.js";
 import { towersOffer, type TowersState } from "../parts/towers-offer.js";
 import { byMaker, FORMATS, formatFor, modelOf, printerOf } from "../state/printer.js";
-import { DEFAULT_SETTINGS, faultWords, RAYS, usualTolerance, withTolerance } from "../state/settings.js";
+import { DEFAULT_SETTINGS, faultWords, RAYS, unitOf, usualTolerance, withTolerance } from "../state/settings.js";
 import type { Faults, Field, Offered, Settings } from "../state/settings.js";
+import { canonical, localised, read } from "../state/typed.js";
 import { settingsStyles } from "../styles/settings-styles.js";
 import { shared } from "../styles/shared.js";
 import { elementWith, given, own } from "../../view/properties.js";
 
 /** Settings that are hidden at first, unless one differs from its default. */
-const MORE = ["minimize", "snap", "step", "exposure", "bottomExposure", "bottomLayers"] as const;
+const MORE = ["minimize", "snap", "step", "bottomExposure", "bottomLayers"] as const;
 
 /** Whether the form shows the field of a problem, so that the problem can be shown beside it. */
 export function hasPlace({ field }: Problem, { printer }: Settings, { printers }: Offered): boolean {
@@ -35,8 +39,17 @@ interface Choosing {
   value?: string;
   /** What a choice does, if it does not set the setting. */
   change?: (value: string) => void;
+  /** The chosen option in full, if it may be too long for the list's width. */
+  title?: string;
   /** Shown below. */
   more?: TemplateResult | typeof nothing;
+}
+
+/** What a typed field has besides its name. */
+interface Typing {
+  hint?: string;
+  /** Canonical, as the value is. */
+  placeholder?: string;
 }
 
 const options = (choices: readonly (readonly [value: string, name: string])[], chosen: string): TemplateResult[] =>
@@ -64,11 +77,17 @@ export class CuspSettings extends elementWith(PROPERTIES) {
   #moreAtFirst: boolean | null = null;
   /** The last printer of one's own. */
   #own: Printer | null = null;
+  /** What was typed in fields, as it was, and the setting that it gave. */
+  readonly #typed = new Map<Field, { text: string; said: string }>();
 
   static override styles = [shared, problemStyles, settingsStyles];
 
   override willUpdate(changed: PropertyValues<this>): void {
     if (typeof this.settings.printer === "object") this.#own = this.settings.printer;
+    for (const [field, { said }] of this.#typed) {
+      // Changed from elsewhere: undone, offered, or set by a slider.
+      if (changed.has("settings") && this.#setting(field) !== said) this.#typed.delete(field);
+    }
     // Settings changed by the URL must be visible. After that, the user expands and collapses them.
     if (!changed.has("settings") || this.#moreAtFirst !== null) return;
     this.#moreAtFirst = MORE.some((key) => this.settings[key] !== DEFAULT_SETTINGS[key]);
@@ -79,22 +98,24 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     const { texts, format } = this.language;
     const words = texts.settings;
     const isUniform = settings.planner === "uniform";
-    const own = info === null ? "" : format.size(info.size_mm[2]);
+    const own = info === null ? "" : info.size_mm[2].toFixed(1);
     return html`
       <form novalidate @submit=${(event: Event) => event.preventDefault()}>
+        ${offered.printers.length === 0 ? nothing : this.#printer()}
+        ${offered.resins.length === 0 ? nothing : this.#resin()}
+        ${this.#exposure()}
         ${this.#radios("planner", words.layers, [["optimal", words.adaptive], ["uniform", words.uniform]], this.#plannerHint())}
-        ${isUniform ? this.#length("uniform", words.thickness) : nothing}
+        ${isUniform ? this.#field("uniform", words.thickness) : nothing}
+        ${this.#tolerance()}
+        <div class="pair">${this.#field("layerMin", words.thinnest)} ${this.#field("layerMax", words.thickest)}</div>
+        ${isUniform ? html`<p class="hint">${words.rangeHint}</p>` : nothing}
+        ${this.#field("height", words.height, { placeholder: own })}
         ${this.#select(
           "metric",
           words.metric,
           options(METRIC_NAMES.map((metric) => [metric, texts.metrics[metric].name]), settings.metric),
-          { hint: texts.metrics[settings.metric].help },
         )}
-        ${this.#tolerance()}
-        <div class="pair">${this.#length("layerMin", words.thinnest)} ${this.#length("layerMax", words.thickest)}</div>
-        ${isUniform ? html`<p class="hint">${words.rangeHint}</p>` : nothing}
-        ${this.#length("height", words.height, info === null ? words.heightHint : words.heightOwn(`${own}\u00a0mm`), own)}
-        ${offered.printers.length === 0 ? nothing : this.#printer()}
+        ${this.#format()}
         ${settings.printer === ""
           ? this.#select(
               "rays",
@@ -103,14 +124,6 @@ export class CuspSettings extends elementWith(PROPERTIES) {
               { hint: words.resolutionHint },
             )
           : nothing}
-        ${this.#format()}
-        ${offered.resins.length === 0
-          ? nothing
-          : this.#select(
-              "resin",
-              words.resin,
-              options([["", words.resinUsual], ...offered.resins.map(({ name = "" }) => [name, name] as const)], settings.resin),
-            )}
         ${this.#more(isUniform)}
       </form>
     `;
@@ -139,11 +152,14 @@ export class CuspSettings extends elementWith(PROPERTIES) {
       if (!this.isOpening) this.#say({ printer: value === OWN ? (this.#own ?? "") : value });
     };
     const more = isOpening ? this.#opener() : nothing;
-    return this.#select("printer", words.printer, list, { value, change, more, hint: isOpening ? words.ownPrinterHint : this.#printerHint() });
+    const hint = isOpening ? words.ownPrinterHint : this.#printerHint();
+    const chosen = isOpening ? null : printerOf(settings.printer, offered.printers);
+    return this.#select("printer", words.printer, list, { value, change, more, hint, title: chosen === null ? "" : modelOf(chosen) });
   }
 
   #printerHint(): string {
     const { settings, offered, language: { texts, format } } = this;
+    if (settings.printer === "") return texts.settings.noPrinterHint;
     const printer = printerOf(settings.printer, offered.printers);
     if (printer === null) return "";
     const { pixels, pitch_um, volume_mm } = printer;
@@ -168,19 +184,38 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     </label>`;
   }
 
+  #resin(): TemplateResult {
+    const { settings: { resin: chosen }, offered: { resins } } = this;
+    const words = this.language.texts.settings;
+    const list = options([["", words.resinUsual], ...resins.map(({ name = "" }) => [name, name] as const)], chosen);
+    return this.#select("resin", words.resin, list, { title: chosen });
+  }
+
+  /** What the resin has of its own, to be used unless another value is typed. */
+  get #cure(): Record<keyof typeof DEFAULTS.resin, number> {
+    return { ...DEFAULTS.resin, ...this.offered.resins.find(({ name }) => name === this.settings.resin) };
+  }
+
+  #exposure(): TemplateResult {
+    const { texts: { settings: words }, format } = this.language;
+    const { exposure_s, layer_mm } = this.#cure;
+    return this.#field("exposure", words.exposure, { hint: words.exposureHint(format.fine(layer_mm)), placeholder: String(exposure_s) });
+  }
+
   #format(): TemplateResult {
     const { settings: { printer, format }, offered } = this;
     const words = this.language.texts.settings;
     const value = format === "" && printer === "" ? "png" : format;
     const usual = formatFor({ printer, format: "" }, offered.printers);
-    const list = html`${printer === "" ? nothing : options([["", words.formatUsual(words.formats[usual])]], value)}
+    const list = html`${printer === "" ? nothing : options([["", words.formatUsual]], value)}
       ${options(FORMATS.map((format) => [format, words.formats[format]]), value)}`;
-    return this.#select("format", words.format, list, { value });
+    return this.#select("format", words.format, list, { value, hint: value === "" ? words.formats[usual] : "" });
   }
 
   /** Settings that few users need. */
   #more(isUniform: boolean): TemplateResult {
     const words = this.language.texts.settings;
+    const { bottom_layers, bottom_exposure_s } = this.#cure;
     return html`<details ?open=${this.#moreAtFirst}>
       <summary>${words.more}</summary>
       <div class="more">
@@ -188,10 +223,10 @@ export class CuspSettings extends elementWith(PROPERTIES) {
           ? nothing
           : html`${this.#radios("minimize", words.least, [["layers", words.leastLayers], ["time", words.leastTime]], words.leastHint)}
             ${this.#radios("snap", words.flats, [["auto", words.on], ["off", words.off]], words.flatsHint)}
-            ${this.#length("step", words.step, words.stepHint)}`}
-        ${this.#typed("exposure", words.exposure, "s", words.exposureHint)}
+            ${this.#field("step", words.step, { hint: words.stepHint })}`}
         <div class="pair">
-          ${this.#typed("bottomLayers", words.bottomLayers, "")} ${this.#typed("bottomExposure", words.bottomExposure, "s")}
+          ${this.#field("bottomLayers", words.bottomLayers, { placeholder: String(bottom_layers) })}
+          ${this.#field("bottomExposure", words.bottomExposure, { placeholder: String(bottom_exposure_s) })}
         </div>
         ${this.settings.printer === "" || this.fixed.has("printer")
           ? nothing
@@ -200,38 +235,44 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     </details>`;
   }
 
+  /** The tolerance, with what it means, or why the core took another than usual. */
   #tolerance(): TemplateResult {
-    const { settings, taken } = this;
+    const { settings: { metric }, taken } = this;
     const { texts, format } = this.language;
-    const { metric, tolerances } = settings;
-    const { unit, error } = METRICS[metric];
     const least = DEFAULTS.tolerance[metric];
-    const hint = taken !== null && taken > least ? texts.settings.toleranceTaken(error(least, format)) : "";
-    const usual = usualTolerance(metric, taken);
-    const change = (text: string): Partial<Settings> => withTolerance(settings, text);
-    return this.#field("tolerance", texts.settings.tolerance, tolerances[metric] ?? usual, unit, hint, change, usual);
+    const isMore = taken !== null && taken > least;
+    const hint = isMore ? texts.settings.toleranceTaken(METRICS[metric].error(least, format)) : texts.metrics[metric].help;
+    return this.#field("tolerance", texts.settings.tolerance, { hint, placeholder: usualTolerance(metric, taken) });
   }
 
-  #length(field: Exclude<Field, "tolerance">, label: string, hint = "", placeholder = ""): TemplateResult {
-    return this.#typed(field, label, "mm", hint, placeholder);
+  /** The setting of a field; undefined for a tolerance that nobody has typed. */
+  #setting(field: Field): string | undefined {
+    const { settings } = this;
+    return field === "tolerance" ? settings.tolerances[settings.metric] : settings[field];
   }
 
-  #typed(field: Exclude<Field, "tolerance">, label: string, unit: string, hint = "", placeholder = ""): TemplateResult {
-    return this.#field(field, label, this.settings[field], unit, hint, (text) => ({ [field]: text }), placeholder);
-  }
-
-  #field(
-    field: Field,
-    label: string,
-    value: string,
-    unit: string,
-    hint: string,
-    change: (text: string) => Partial<Settings>,
-    placeholder = "",
-  ): TemplateResult {
+  #field(field: Field, label: string, { hint = "", placeholder = "" }: Typing = {}): TemplateResult {
+    const { settings, language: { format } } = this;
+    const unit = unitOf(field, settings.metric);
+    // A tolerance is shown although nobody has typed it, so that it can be judged.
+    const value = this.#typed.get(field)?.text ?? localised(this.#setting(field) ?? placeholder, format.decimal);
     const fault = this.faults[field];
     const isFixed = this.fixed.has(field === "tolerance" ? "tolerances" : field);
     const words = fault === undefined ? this.#hint(hint, isFixed) : faultWords(fault, this.language);
+    const typed = ({ target }: Event): void => {
+      const { value: text } = target as HTMLInputElement;
+      const said = canonical(text, unit, format.decimal);
+      this.#typed.set(field, { text, said });
+      if (said === this.#setting(field)) return;
+      this.#say(field === "tolerance" ? withTolerance(settings, said) : { [field]: said });
+    };
+    const left = ({ target }: Event): void => {
+      const { value: text } = target as HTMLInputElement;
+      // A text that cannot be read stays as it is, to be mended.
+      if (text.trim() !== "" && read(text, unit, format.decimal).value === null) return;
+      this.#typed.delete(field);
+      this.requestUpdate();
+    };
     return html`<div class="field">
       <label for=${field}>${label}</label>
       <div class="box ${fault === undefined ? "" : "wrong"}">
@@ -240,12 +281,13 @@ export class CuspSettings extends elementWith(PROPERTIES) {
           inputmode="decimal"
           autocomplete="off"
           id=${field}
-          placeholder=${placeholder}
+          placeholder=${localised(placeholder, format.decimal)}
           aria-invalid=${fault === undefined ? "false" : "true"}
           aria-describedby=${words === "" ? nothing : `${field}-hint`}
           ?disabled=${isFixed}
           .value=${live(value)}
-          @input=${(event: Event) => this.#say(change((event.target as HTMLInputElement).value))}
+          @input=${typed}
+          @blur=${left}
         />${unit === "" ? nothing : html`<span class="unit">${unit}</span>`}
       </div>
       ${words === "" ? nothing : html`<p class=${fault === undefined ? "hint" : "fault"} id="${field}-hint">${words}</p>`}
@@ -253,15 +295,16 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     </div>`;
   }
 
-  #select(key: Choice, label: string, list: unknown, { hint = "", value, change, more = nothing }: Choosing = {}): TemplateResult {
+  #select(key: Choice, label: string, list: unknown, { hint = "", value, change, title = "", more = nothing }: Choosing = {}): TemplateResult {
     const isFixed = this.fixed.has(key);
     const say = change ?? ((value: string): void => this.#say({ [key]: value }));
     const words = this.#hint(hint, isFixed);
     return html`<div class="field">
       <label for=${key}>${label}</label>
-      <div class="box">
+      <div class="box list">
         <select
           id=${key}
+          title=${title === "" ? nothing : title}
           aria-describedby=${words === "" ? nothing : `${key}-hint`}
           ?disabled=${isFixed}
           .value=${live(value ?? this.settings[key])}

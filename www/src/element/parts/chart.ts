@@ -45,7 +45,23 @@ const FADED = 0.45;
 /** Factor beyond the greatest value, so that its line is visible. */
 const MARGIN = 1.01;
 
+/** Where a density axis has its ticks, as parts of the bound: in a narrow chart, quarters would run into each other. */
 const QUARTERS = [0, 0.25, 0.5, 0.75, 1];
+const HALVES = [0, 0.5, 1];
+const NARROW_PX = 260;
+
+/** Lowest and highest height on show, mm. */
+export type Heights = readonly [low: number, high: number];
+
+/**
+ * Heights enlarged by `factor` and moved so that `z_mm` lies at `place`, 0 the lower and 1 the upper edge. They stay within
+ * the model, from 0 to `whole_mm`, and span `least_mm` or more.
+ */
+export function zoomHeights([low, high]: Heights, factor: number, z_mm: number, place: number, whole_mm: number, least_mm: number): Heights {
+  const span = Math.min(whole_mm, Math.max(least_mm, (high - low) / factor));
+  const start = Math.min(whole_mm - span, Math.max(0, z_mm - place * span));
+  return [start, start + span];
+}
 
 /** The end of the density axis: just beyond the metric's bound, or else beyond the greatest value of the profile. */
 export function densityEnd({ metric, profile }: ChartData): number {
@@ -118,11 +134,11 @@ function drawFaded(u: uPlot, pattern: CanvasPattern | string, theme: ChartTheme)
   ctx.restore();
 }
 
-/** The uPlot options for a chart of this size in CSS pixels. */
+/** The uPlot options for a chart of this size in CSS pixels. Its axes are labelled outside, where long labels can wrap. */
 export function chartOptions(
   data: ChartData,
   theme: ChartTheme,
-  { texts, format }: Language,
+  { format }: Language,
   [width, height]: readonly [number, number],
 ): uPlot.Options {
   const total = data.profile.length * data.bin_mm;
@@ -132,8 +148,6 @@ export function chartOptions(
   const axis: uPlot.Axis = {
     stroke: theme.text,
     font: `12px ${theme.font}`,
-    labelFont: `12px ${theme.font}`,
-    labelSize: 22,
     grid: { show: false },
     ticks: { stroke: theme.grid, size: 4, width: 1 },
   };
@@ -154,15 +168,14 @@ export function chartOptions(
       density: { ori: 0, dir: 1, range: [0, end] },
     },
     axes: [
-      { ...axis, scale: "x", side: 3, label: texts.chart.heights, size: 44, values: (_u, ticks) => ticks.map((value) => format.tick(value)) },
+      { ...axis, scale: "x", side: 3, size: 44, values: (_u, ticks) => ticks.map((value) => format.tick(value)) },
       {
         ...axis,
         scale: "density",
         side: 2,
-        label: texts.metrics[data.metric].axis,
         size: 30,
         // Quarters of the bound, if there is one; otherwise uPlot picks round numbers.
-        ...(bound !== null && { splits: QUARTERS.map((part) => part * bound) }),
+        ...(bound !== null && { splits: (u) => (u.width < NARROW_PX ? HALVES : QUARTERS).map((part) => part * bound) }),
         values: (_u, ticks) => ticks.map((value) => tick(value, format)),
       },
     ],

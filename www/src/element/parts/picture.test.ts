@@ -2,7 +2,7 @@ import { expect, test } from "vitest";
 import { coverage, factorFor, wholeBytes } from "./bitmap.js";
 import type { Rectangle } from "./bitmap.js";
 import { dragged, moved, WHOLE, windowOf, zoomed } from "./window.js";
-import { bands, densityEnd, type ChartData } from "./chart.js";
+import { bands, densityEnd, zoomHeights, type ChartData } from "./chart.js";
 import * as colour from "../../view/legend/palette.js";
 import { layerAt } from "../../view/scene/lookup.js";
 
@@ -130,4 +130,14 @@ test("the axis ends at the metric's bound, or at the largest area of the model",
   expect(end("area", 0.5)).toBeCloseTo(2, 1);
   expect(end("volume", 0, 300, 200)).toBeCloseTo(303);
   expect(end("volume", 0)).toBe(1);
+});
+
+test("heights are zoomed around a point that keeps its place, within the model, down to a least span", () => {
+  expect(zoomHeights([0, 20], 2, 10, 0.5, 20, 1)).toEqual([5, 15]);
+  expect(zoomHeights([5, 15], 1, 10, 0.25, 20, 1)).toEqual([7.5, 17.5]);
+  // The ends of the model.
+  expect(zoomHeights([5, 15], 1, 10, 1, 20, 1)).toEqual([0, 10]);
+  expect(zoomHeights([5, 15], 1, 18, 0.5, 20, 1)).toEqual([10, 20]);
+  expect(zoomHeights([5, 15], 0.25, 10, 0.5, 20, 1)).toEqual([0, 20]);
+  expect(zoomHeights([5, 15], 1000, 10, 0.5, 20, 1)).toEqual([9.5, 10.5]);
 });

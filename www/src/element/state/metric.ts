@@ -1,10 +1,11 @@
 /** The metrics: their units, and how their values are written. Their names are in the text catalogues. */
 import type { Metric } from "../../api/wire.js";
 import type { Format } from "../../texts/index.js";
+import type { FieldUnit } from "./typed.js";
 
 export interface Measure {
   /** The unit that tolerances are typed in. */
-  unit: string;
+  unit: FieldUnit;
   /** The factor from the core's unit to that unit. */
   scale: number;
   /** Smallest and largest valid tolerance, in that unit: the largest is not above what layers of 1 mm can reach. */
@@ -29,7 +30,7 @@ const length = {
   scale: 1,
   tick: plainTick,
   density: plainTick,
-};
+} as const;
 
 export const METRICS: Readonly<Record<Metric, Measure>> = {
   cusp: { ...length, error: errorOf("cusp"), tolerances: [0.001, 1], bound: 1 },

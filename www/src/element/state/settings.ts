@@ -5,8 +5,9 @@ import type { Language } from "../../texts/index.js";
 import { METRIC_NAMES, METRICS } from "./metric.js";
 import { FORMATS, printerFrom, printerOf, printerText, type ChosenPrinter } from "./printer.js";
 import * as round from "./round.js";
+import { canonical, read, UNITS_SHOWN, type FieldUnit, type Misread } from "./typed.js";
 
-/** Lengths in mm as typed, so that a half-typed number stays on the screen. */
+/** Lengths in mm: canonical numbers, or what was typed instead of one. */
 interface Lengths {
   height: string;
   layerMin: string;
@@ -15,7 +16,7 @@ interface Lengths {
   step: string;
 }
 
-/** Exposures in s and a count, as typed; if one is empty, the resin's own applies. */
+/** Exposures in s and a count, likewise; if one is empty, the resin's own applies. */
 interface Curing {
   exposure: string;
   bottomExposure: string;
@@ -47,7 +48,7 @@ interface Names {
 }
 
 export interface Settings extends Lengths, Curing, Choices, Names {
-  /** Tolerances as typed, each in the unit of its metric. If one is absent or empty, the core's default applies. */
+  /** Tolerances, likewise, each in the unit of its metric. If one is absent or empty, the core's default applies. */
   tolerances: Readonly<Partial<Record<Metric, string>>>;
 }
 
@@ -56,7 +57,7 @@ export type Field = keyof Lengths | keyof Curing | "tolerance";
 
 /** What is wrong with a field. */
 export type Fault =
-  | { kind: "number" | "range"; value: number | null; least: number; most: number; unit: string }
+  | { kind: Misread | "range"; value: number | null; least: number; most: number; unit: FieldUnit }
   | { kind: "upsideDown" | "whole" };
 
 export type Faults = Partial<Record<Field, Fault>>;
@@ -96,20 +97,26 @@ export const DEFAULT_SETTINGS: Settings = {
   tolerances: {},
 };
 
-/** Every key whose value is free text. */
-const TYPED: readonly (keyof Lengths | keyof Curing | keyof Names)[] = [
-  "height",
-  "layerMin",
-  "layerMax",
-  "uniform",
-  "step",
-  "exposure",
-  "bottomExposure",
-  "bottomLayers",
-  "printer",
-  "resin",
-  "rotation",
-];
+/** The units of the typed numbers, in the order of an address. */
+const UNITS: Readonly<Record<keyof Lengths | keyof Curing, FieldUnit>> = {
+  height: "mm",
+  layerMin: "mm",
+  layerMax: "mm",
+  uniform: "mm",
+  step: "mm",
+  exposure: "s",
+  bottomExposure: "s",
+  bottomLayers: "",
+};
+
+const NUMBERS = Object.keys(UNITS) as (keyof typeof UNITS)[];
+
+/** The unit that a field is shown in, and that applies if none is typed. */
+export function unitOf(field: Field, metric: Metric): FieldUnit {
+  return field === "tolerance" ? METRICS[metric].unit : UNITS[field];
+}
+
+const NAMES: readonly (keyof Names)[] = ["printer", "resin", "rotation"];
 
 const CHOICES: { readonly [Key in keyof Choices]: readonly Choices[Key][] } = {
   planner: ["optimal", "uniform"],
@@ -124,7 +131,8 @@ const CHOICES: { readonly [Key in keyof Choices]: readonly Choices[Key][] } = {
 
 /**
  * The defaults with the settings of a URL query, such as `?height=60&metric=area&tolerance=5`; other parameters are ignored.
- * Numbers are checked later, like typed ones; an unknown choice is ignored, as no field could show it.
+ * Numbers are checked later, like typed ones, and may have a decimal comma and a unit; an unknown choice is ignored, as no field
+ * could show it.
  */
 export function fromAddress(query: string): Settings {
   const address = new URLSearchParams(query);
@@ -134,14 +142,19 @@ export function fromAddress(query: string): Settings {
     if (choice !== undefined) (settings as Choices)[key] = choice;
   };
   for (const key of Object.keys(CHOICES) as (keyof Choices)[]) choose(key);
-  for (const key of TYPED) {
+  for (const key of NUMBERS) {
+    const text = address.get(key);
+    if (text !== null) settings[key] = canonical(text, UNITS[key]);
+  }
+  for (const key of NAMES) {
     const text = address.get(key);
     if (text === null) continue;
     if (key === "printer") settings.printer = printerFrom(text);
     else settings[key] = text;
   }
   const tolerance = address.get("tolerance");
-  return tolerance === null ? settings : { ...settings, ...withTolerance(settings, tolerance) };
+  if (tolerance === null) return settings;
+  return { ...settings, ...withTolerance(settings, canonical(tolerance, unitOf("tolerance", settings.metric))) };
 }
 
 /**
@@ -150,7 +163,7 @@ export function fromAddress(query: string): Settings {
  */
 export function toAddress(settings: Settings): string {
   const address = new URLSearchParams();
-  for (const key of [...(Object.keys(CHOICES) as (keyof Choices)[]), ...TYPED]) {
+  for (const key of [...(Object.keys(CHOICES) as (keyof Choices)[]), ...NUMBERS, ...NAMES]) {
     const text = key === "printer" ? printerText(settings.printer) : settings[key];
     if (text !== DEFAULT_SETTINGS[key]) address.set(key, text);
   }
@@ -159,7 +172,7 @@ export function toAddress(settings: Settings): string {
   return address.toString();
 }
 
-/** The change of settings that sets the tolerance of the current metric, as typed. */
+/** The change of settings that sets the tolerance of the current metric. */
 export function withTolerance({ metric, tolerances }: Settings, text: string): Pick<Settings, "tolerances"> {
   return { tolerances: { ...tolerances, [metric]: text } };
 }
@@ -189,14 +202,15 @@ const NONE: Offered = { printers: [], resins: [] };
 export function check(settings: Settings, { printers, resins }: Offered = NONE): Checked {
   const faults: Faults = {};
 
-  const read = (field: Field, text: string, least: number, most: number, unit = "mm"): number => {
-    const value = parse(text);
-    if (value === null) faults[field] = { kind: "number", value, least, most, unit };
+  const { metric, planner } = settings;
+  const within = (field: Field, text: string, least: number, most: number): number => {
+    const unit = unitOf(field, metric);
+    const { value, fault } = read(text, unit);
+    if (value === null) faults[field] = { kind: fault, value, least, most, unit };
     else if (value < least || value > most) faults[field] = { kind: "range", value, least, most, unit };
     return value ?? Number.NaN;
   };
 
-  const { metric, planner } = settings;
   const options: Options = { metric };
   if (settings.saliency === "on") options.saliency = true;
   if (settings.weightMin !== DEFAULT_SETTINGS.weightMin) options.weight_min = Number(settings.weightMin);
@@ -207,8 +221,8 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
   if (settings.format !== "") options.format = settings.format;
   const [thinnest, thickest] = printer?.layer_mm ?? [THINNEST_MM, THICKEST_MM];
   const layer = (field: "layerMin" | "layerMax" | "uniform"): number =>
-    read(field, settings[field], thinnest, thickest);
-  if (settings.height.trim() !== "") options.height_mm = read("height", settings.height, 0.1, TALLEST_MM);
+    within(field, settings[field], thinnest, thickest);
+  if (settings.height.trim() !== "") options.height_mm = within("height", settings.height, 0.1, TALLEST_MM);
 
   if (planner === "uniform") {
     options.planner = { kind: planner, layer_mm: layer("uniform") };
@@ -216,7 +230,7 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
     options.planner = { kind: planner };
     options.minimize = settings.minimize;
     options.snap = settings.snap;
-    if (planner === "optimal" && settings.step.trim() !== "") options.step_mm = read("step", settings.step, THINNEST_MM, THICKEST_MM);
+    if (planner === "optimal" && settings.step.trim() !== "") options.step_mm = within("step", settings.step, THINNEST_MM, THICKEST_MM);
   }
   // The range also sets the two uniform plans that the result is compared with, so both planners need it.
   const min = (options.layer_min_mm = layer("layerMin"));
@@ -225,17 +239,17 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
 
   const typed = settings.tolerances[metric] ?? "";
   if (typed.trim() !== "") {
-    const { tolerances, unit, scale } = METRICS[metric];
-    options.tolerance = read("tolerance", typed, ...tolerances, unit) / scale;
+    const { tolerances, scale } = METRICS[metric];
+    options.tolerance = within("tolerance", typed, ...tolerances) / scale;
   }
 
   const resin: Resin = { ...resins.find(({ name }) => name === settings.resin) };
-  if (settings.exposure.trim() !== "") resin.exposure_s = read("exposure", settings.exposure, 0.1, LONGEST_S, "s");
+  if (settings.exposure.trim() !== "") resin.exposure_s = within("exposure", settings.exposure, 0.1, LONGEST_S);
   if (settings.bottomExposure.trim() !== "") {
-    resin.bottom_exposure_s = read("bottomExposure", settings.bottomExposure, 0.1, LONGEST_S, "s");
+    resin.bottom_exposure_s = within("bottomExposure", settings.bottomExposure, 0.1, LONGEST_S);
   }
   if (settings.bottomLayers.trim() !== "") {
-    const layers = (resin.bottom_layers = read("bottomLayers", settings.bottomLayers, 0, MOST_BOTTOM_LAYERS, ""));
+    const layers = (resin.bottom_layers = within("bottomLayers", settings.bottomLayers, 0, MOST_BOTTOM_LAYERS));
     if (!Number.isInteger(layers)) faults.bottomLayers ??= { kind: "whole" };
   }
   if (Object.keys(resin).length > 0) options.resin = resin;
@@ -248,21 +262,28 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
 
 /** A fault in words, for the user who typed it. */
 export function faultWords(fault: Fault, { texts: { faults }, format }: Language): string {
-  if (fault.kind !== "number" && fault.kind !== "range") return faults[fault.kind];
-  const { kind, value, least, most, unit } = fault;
-  const range = faults.between(format.tick(least), format.tick(most), unit === "" ? "" : ` ${unit}`);
-  const words = faults[kind](range);
-  if (value === null) return words;
-  const asMicrometres = value / 1000;
-  const isSlip = unit === "mm" && value > most && asMicrometres >= least && most < TALLEST_MM;
-  return isSlip ? `${words} ${faults.micrometres(format.tick(value), format.tick(asMicrometres))}` : words;
+  switch (fault.kind) {
+    case "upsideDown":
+    case "whole":
+    case "grouped":
+      return faults[fault.kind];
+    case "unit":
+      return faults.unit(format.either(UNITS_SHOWN[fault.unit]));
+    default: {
+      const { kind, value, least, most, unit } = fault;
+      const range = faults.between(format.tick(least), format.tick(most), unit === "" ? "" : ` ${unit}`);
+      const words = faults[kind](range);
+      if (value === null) return words;
+      const asMicrometres = value / 1000;
+      const isSlip = unit === "mm" && value > most && asMicrometres >= least && most < TALLEST_MM;
+      return isSlip ? `${words} ${faults.micrometres(format.tick(value), format.tick(asMicrometres))}` : words;
+    }
+  }
 }
 
-/** A number as typed, with a decimal point or comma; null if the text is not one. */
+/** The number of a setting; null if it is none. */
 export function parse(text: string): number | null {
-  const tidy = text.trim().replace(",", ".");
-  if (!/^\d*\.?\d+$|^\d+\.$/.test(tidy)) return null;
-  return Number(tidy);
+  return read(text, "").value;
 }
 
 /** The unit quaternion x, y, z, w of the setting `rotation`; null if that is empty or invalid. */

@@ -5,10 +5,11 @@ export const settingsStyles = css`
   form,
   .more {
     display: grid;
-    gap: 1rem;
+    grid-template-columns: minmax(0, 1fr);
+    gap: 0.875rem;
   }
   .more {
-    margin-top: 1rem;
+    margin-top: 0.875rem;
   }
   details summary {
     width: fit-content;
@@ -16,10 +17,20 @@ export const settingsStyles = css`
     font-weight: 550;
     cursor: pointer;
   }
+  /* Two fields share their rows, so that the boxes stay level if only one of the labels wraps. */
   .pair {
     display: grid;
-    grid-template-columns: 1fr 1fr;
-    gap: 0.75rem;
+    grid-template: auto auto auto / minmax(0, 1fr) minmax(0, 1fr);
+    column-gap: 0.75rem;
+  }
+  .pair .field {
+    display: grid;
+    grid-row: span 3;
+    grid-template-rows: subgrid;
+    grid-template-columns: minmax(0, 1fr);
+  }
+  .pair label {
+    align-self: end;
   }
   label,
   legend {
@@ -43,6 +54,21 @@ export const settingsStyles = css`
     outline: 3px solid var(--cusp-focus);
     outline-offset: 1px;
   }
+  .list {
+    position: relative;
+  }
+  .list::after {
+    content: "";
+    position: absolute;
+    inset-inline-end: 0.875rem;
+    width: 0.4375rem;
+    height: 0.4375rem;
+    border: solid var(--cusp-quiet);
+    border-width: 0 2px 2px 0;
+    translate: 0 -2px;
+    rotate: 45deg;
+    pointer-events: none;
+  }
   .box.wrong {
     border-color: var(--cusp-bad);
     box-shadow: inset 0 0 0 1px var(--cusp-bad);
@@ -60,6 +86,12 @@ export const settingsStyles = css`
     outline: none;
     background: transparent;
     color: inherit;
+  }
+  select {
+    appearance: none;
+    padding-inline-end: 2rem;
+    text-overflow: ellipsis;
+    cursor: pointer;
   }
   .box:has(:disabled) {
     background: var(--cusp-page);
@@ -117,6 +149,27 @@ export const settingsStyles = css`
   .choice label:has(:checked) {
     background: var(--cusp-accent);
     color: var(--cusp-on-accent);
+  }
+  @media (forced-colors: active) {
+    .choice label:has(:checked) {
+      forced-color-adjust: none;
+      background: Highlight;
+      color: HighlightText;
+    }
+    .box.wrong {
+      outline: 1px solid CanvasText;
+      outline-offset: -4px;
+    }
+    .box:focus-within,
+    .open:has(:focus-visible),
+    .choice:focus-within:has(:focus-visible) {
+      outline: 3px solid Highlight;
+      outline-offset: 1px;
+    }
+    input:disabled,
+    select:disabled {
+      color: GrayText;
+    }
   }
   .problem {
     margin: 0.5rem 0 0;

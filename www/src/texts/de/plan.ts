@@ -116,7 +116,10 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
   chart: {
     region: "Profil",
     title: "Profil und Plan",
+    line: "Profil: je weiter rechts, desto dünner die Schichten",
+    colours: "Schichtdicke",
     hint: "Klicken zeigt eine Schicht, Ziehen vergrößert.",
+    touchHint: "Tippen zeigt eine Schicht, Spreizen vergrößert.",
     at: (height, density) => `Bei ${height}: ${density}`,
     whole: "Ganzes Modell",
     heights: "Höhe (mm)",

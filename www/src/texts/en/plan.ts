@@ -122,7 +122,10 @@ export const plan = ({ counted, plural, size }: Format) => ({
   chart: {
     region: "Profile",
     title: "Profile and plan",
+    line: "Profile: the further right, the thinner the layers",
+    colours: "Layer thickness",
     hint: "Click to see a layer. Drag to zoom.",
+    touchHint: "Tap to see a layer. Pinch to zoom.",
     at: (height: string, density: string) => `At ${height}: ${density}`,
     whole: "Whole model",
     heights: "Height (mm)",

@@ -116,7 +116,10 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
   chart: {
     region: "Perfil",
     title: "Perfil y plan",
+    line: "Perfil: cuanto más a la derecha, más finas las capas",
+    colours: "Espesor de capa",
     hint: "Haga clic para ver una capa. Arrastre para ampliar.",
+    touchHint: "Toque para ver una capa. Separe dos dedos para ampliar.",
     at: (height, density) => `A ${height}: ${density}`,
     whole: "Todo el modelo",
     heights: "Altura (mm)",

@@ -116,7 +116,10 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
   chart: {
     region: "Profil",
     title: "Profil et plan",
+    line: "Profil : plus il va à droite, plus les couches sont fines",
+    colours: "Épaisseur de couche",
     hint: "Cliquez pour voir une couche. Glissez pour agrandir.",
+    touchHint: "Touchez pour voir une couche. Écartez deux doigts pour agrandir.",
     at: (height, density) => `À ${height} : ${density}`,
     whole: "Tout le modèle",
     heights: "Hauteur (mm)",

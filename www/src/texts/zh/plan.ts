@@ -112,7 +112,10 @@ export const plan = ({ count: number, size }: Format): PlanTexts => ({
   chart: {
     region: "轮廓",
     title: "轮廓与方案",
+    line: "轮廓：越靠右，层越薄",
+    colours: "层厚",
     hint: "单击查看某层，拖动放大。",
+    touchHint: "轻点查看某层，双指放大。",
     at: (height, density) => `${height} 处：${density}`,
     whole: "整个模型",
     heights: "高度（mm）",

@@ -1,0 +1,176 @@
+/** The styles of the chart. */
+import { css, unsafeCSS } from "lit";
+import { gradient } from "../../view/legend/palette.js";
+
+export const chartStyles = css`
+  :host {
+    display: flex;
+    flex-direction: column;
+    container-type: inline-size;
+    min-width: 0;
+  }
+  .head,
+  .top,
+  .density,
+  .key,
+  .foot {
+    flex: none;
+  }
+  .head {
+    min-height: 0;
+    margin: 0;
+  }
+  /* As high as its button, which comes and goes. */
+  .top {
+    display: flex;
+    align-items: center;
+    justify-content: space-between;
+    gap: 0.5rem;
+    min-height: 2.25rem;
+  }
+  .whole {
+    flex: none;
+    min-width: 2.25rem;
+    padding: 0;
+  }
+  .whole svg {
+    width: 1.125rem;
+    height: 1.125rem;
+    fill: none;
+    stroke: currentColor;
+    stroke-width: 1.75;
+    stroke-linecap: round;
+    stroke-linejoin: round;
+  }
+  .top p,
+  .density,
+  .key,
+  .foot {
+    font-size: 0.8125rem;
+    line-height: 1.4;
+    color: var(--cusp-quiet);
+  }
+  .density {
+    text-align: center;
+  }
+  .key {
+    display: grid;
+    gap: 0.25rem;
+    margin: 0.5rem 0 0;
+    padding: 0;
+    list-style: none;
+  }
+  .colours {
+    display: flex;
+    flex-wrap: wrap;
+    align-items: center;
+    gap: 0 0.75rem;
+  }
+  .limits {
+    display: flex;
+    min-width: 0;
+    align-items: center;
+    gap: 0.375rem;
+    white-space: nowrap;
+  }
+  .line {
+    display: inline-block;
+    width: 1.25rem;
+    margin-inline-end: 0.375rem;
+    border-top: 2px solid var(--cusp-chart-ink);
+    vertical-align: middle;
+  }
+  .scale {
+    background: ${unsafeCSS(gradient("classic"))};
+    width: 3rem;
+    min-width: 1rem;
+    height: 0.625rem;
+    border-radius: 3px;
+    forced-color-adjust: none;
+  }
+  .plot {
+    flex: 1 1 30rem;
+    min-height: 6rem;
+    direction: ltr;
+    overflow: hidden;
+    border-radius: 4px;
+    /* One finger scrolls the page; two are the chart's. */
+    touch-action: pan-y;
+  }
+  .u-over {
+    cursor: crosshair;
+    border-radius: 2px;
+  }
+  .u-select {
+    background: var(--cusp-chart-ink);
+    opacity: 0.25;
+    forced-color-adjust: none;
+  }
+  .marker {
+    position: absolute;
+    left: -5px;
+    right: -5px;
+    height: 0;
+    border-top: 2px solid var(--cusp-chart-ink);
+    outline: 1px solid var(--cusp-chart-paper);
+    pointer-events: none;
+    forced-color-adjust: none;
+  }
+  .marker::before {
+    content: "";
+    position: absolute;
+    left: -3px;
+    top: -6px;
+    border: 5px solid transparent;
+    border-left: 7px solid var(--cusp-text);
+  }
+  /* One cell for the hint, the value that replaces it, and the longest such value, so that nothing moves. */
+  .foot {
+    display: grid;
+    min-height: 0;
+    align-items: start;
+    margin-top: 0.5rem;
+  }
+  .foot > * {
+    grid-area: 1 / 1;
+  }
+  .off {
+    visibility: hidden;
+  }
+  .touch {
+    display: none;
+  }
+  @media (hover: none) {
+    .mouse {
+      display: none;
+    }
+    .touch {
+      display: block;
+    }
+  }
+  @container (max-width: 21rem) {
+    .plot {
+      flex-basis: 24rem;
+    }
+  }
+  /* As a column beside the view: the key says what the axis means. */
+  @container (max-width: 15rem) {
+    .density {
+      display: none;
+    }
+  }
+  @media (forced-colors: active) {
+    :host {
+      --cusp-chart-ink: CanvasText;
+      --cusp-chart-paper: Canvas;
+      --cusp-text: CanvasText;
+      --cusp-field: CanvasText;
+    }
+    .marker {
+      border-top-color: Highlight;
+    }
+    .marker::before {
+      border-left-color: Highlight;
+    }
+  }
+`;
