@@ -34,6 +34,13 @@ export const viewStyles = css`
     cursor: grab;
     user-select: none;
     -webkit-user-select: none;
+    /* One finger that moves up or down scrolls the page, unless its host says that the page does not scroll. */
+    touch-action: var(--cusp-view-touch, pan-y);
+  }
+  /* The finger turns or paints the model. */
+  .scene[data-tool="rotate"],
+  .scene[data-tool="paint"] {
+    touch-action: none;
   }
   .scene:active {
     cursor: grabbing;
@@ -49,9 +56,7 @@ export const viewStyles = css`
   }
   canvas {
     display: block;
-    width: 100%;
-    height: 100%;
-    touch-action: pan-y;
+    touch-action: inherit;
   }
   ${visuallyHidden}
   /* Marks where the keyboard lays a face flat or paints. */

@@ -21,6 +21,13 @@ export interface Inset {
 /** A range of heights, mm. */
 export type Heights = readonly [bottom: number, top: number];
 
+/** Where an aligned view shows which heights. */
+export interface Alignment {
+  /** Null for the whole model. */
+  readonly heights_mm: Heights | null;
+  readonly inset: Inset;
+}
+
 const FIELD_OF_VIEW_DEG = 26;
 
 /** Room around the model in the free view. */
@@ -75,15 +82,15 @@ export class Cameras {
   #size_mm: Triple = [1, 1, 1];
   #view: readonly [number, number] = [1, 1];
   /** Where the free camera was before the view was aligned, to be restored afterwards. */
-  #left: { readonly position: Vector3; readonly target: Vector3 } | null = null;
+  #left: { readonly position: Triple; readonly target: Triple } | null = null;
 
+  /** @param surface gets its `touch-action` from the style sheet, not from here */
   constructor(surface: HTMLElement) {
     this.#side.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.#free, surface);
     this.controls.rotateSpeed = 0.9;
     this.controls.zoomSpeed = 1.2;
-    // Two fingers control the view; one that moves up or down scrolls the page as usual.
-    surface.style.touchAction = "pan-y";
+    surface.style.touchAction = "";
   }
 
   get current(): PerspectiveCamera | OrthographicCamera {
@@ -143,7 +150,7 @@ export class Cameras {
   setAligned(aligned: boolean): void {
     if (aligned === this.#aligned) return;
     const { controls } = this;
-    if (aligned) this.#left = { position: this.#free.position.clone(), target: controls.target.clone() };
+    if (aligned) this.#left = this.#viewpoint;
     this.#aligned = aligned;
     controls.object = this.current;
     controls.enableZoom = controls.enablePan = !aligned;
@@ -151,23 +158,22 @@ export class Cameras {
     controls.maxPolarAngle = aligned ? QUARTER_TURN : Math.PI;
     if (aligned) this.#lookAlong(QUARTER_TURN, 0);
     else if (this.#left !== null) {
-      this.#free.position.copy(this.#left.position);
-      controls.target.copy(this.#left.target);
       this.#limit();
-      controls.update();
+      this.#goTo(this.#left);
     } else this.reset();
   }
 
   /** Prepares the current camera for drawing; returns where heights appear, or `null` in perspective. */
-  prepare(heights: Heights | null, inset: Inset): Frame | null {
+  prepare(alignment: Alignment | null): Frame | null {
     const reach = Math.hypot(...this.#size_mm);
-    if (!this.#aligned) {
+    if (!this.#aligned || alignment === null) {
       const away = this.#free.position.distanceTo(this.controls.target);
       this.#free.near = Math.max(away - 4 * reach, 0.005 * away);
       this.#free.far = away + 40 * reach;
       this.#free.updateProjectionMatrix();
       return null;
     }
+    const { heights_mm: heights, inset } = alignment;
     const [width, height] = this.#view;
     const [bottom, top] = heights ?? [0, this.#size_mm[2]];
     const room = Math.max(1, height - inset.top_px - inset.bottom_px);
@@ -204,6 +210,18 @@ export class Cameras {
 
   dispose(): void {
     this.controls.dispose();
+  }
+
+  get #viewpoint(): { readonly position: Triple; readonly target: Triple } {
+    const { position } = this.#free;
+    const { target } = this.controls;
+    return { position: [position.x, position.y, position.z], target: [target.x, target.y, target.z] };
+  }
+
+  #goTo({ position, target }: { readonly position: Triple; readonly target: Triple }): void {
+    this.#free.position.set(...position);
+    this.controls.target.set(...target);
+    this.controls.update();
   }
 
   #limit(): void {
