@@ -7,6 +7,7 @@
  * element, since a bundler may leave out a module's side effects.
  */
 import type { PropertyValues, TemplateResult } from "lit";
+import { Approach } from "./scene/approach.js";
 import { Beside } from "./scene/beside.js";
 import type { Alignment, Frame } from "./scene/cameras.js";
 import { Derived } from "./steps/derived.js";
@@ -37,6 +38,7 @@ export class CuspView extends elementWith(PROPERTIES) {
   /** The camera's rotation in the last `cusp-camera`. */
   #camera: Rotation | null = null;
   #isHeld = false;
+  #approach: Approach | null = null;
   #beside: Beside | null = null;
   #pointing: Pointing | null = null;
   #painting: Painting | null = null;
@@ -147,6 +149,7 @@ export class CuspView extends elementWith(PROPERTIES) {
     this.#reducedMotion.addEventListener("change", this.#damp, { signal: life.signal });
     const resize = (): void => scene.setSize(holder.clientWidth, holder.clientHeight);
     this.#beside = new Beside(holder, resize, life.signal);
+    this.#approach = new Approach(scene);
     this.#damp();
     this.#recolour();
     this.#show(scene, () => true);
@@ -160,7 +163,8 @@ export class CuspView extends elementWith(PROPERTIES) {
     this.#printed.want(null, false);
     this.#derived?.dispose();
     this.#derived = null;
-    this.#beside = null;
+    this.#approach?.dispose();
+    this.#approach = this.#beside = null;
     this.#scene?.dispose();
     this.#scene = null;
     this.#pointing = null;
@@ -195,7 +199,16 @@ export class CuspView extends elementWith(PROPERTIES) {
     }
     if ((["positions", "look", "heat", "saliency", "least"] as const).some(has)) this.#heat(null);
     if ((["positions", "rotation", "scale", "z_mm", "look"] as const).some(has)) this.#print();
+    this.#near();
     scene.invalidate();
+  }
+
+  #near(): void {
+    const { near, aligned, positions, z_mm } = this;
+    const isCalm = this.#reducedMotion.matches;
+    // An aligned view has another camera, so nobody would see the way back.
+    if (!near) this.#approach?.leave(isCalm || aligned);
+    else if (!aligned && positions !== null && z_mm.length >= 2) this.#approach?.go({ positions, z_mm }, isCalm);
   }
 
   #alignment(): Alignment | null {

@@ -41,6 +41,8 @@ export const PROPERTIES = {
   plot: given<HTMLElement | null>(null),
   /** Room above and below those heights when aligned without a plot. */
   inset: given<Inset>({ top_px: 12, bottom_px: 12 }),
+  /** Whether the camera is near the largest stair steps of the side that faces the viewer. Needs a plan. */
+  near: given(false),
   /** Painted weight of each facet, 0 to 1; null: all 1. Ignored during a stroke. */
   weights: given<Float32Array | null>(null),
   /** Saliency of each facet, 0 to 1; null: all 1. */

@@ -89,6 +89,10 @@ export const viewStyles = css`
     white-space: nowrap;
     pointer-events: none;
   }
+  /* Above the progress of the work under way. */
+  .label:has(~ .building) {
+    inset-block-end: 2.25rem;
+  }
   .label.beside {
     inset: 0 auto auto 0;
   }

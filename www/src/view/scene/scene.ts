@@ -23,6 +23,7 @@ import type { Rgb } from "../legend/palette.js";
 import { Picker, type Hit } from "./picker.js";
 import { Plate, type BuildVolume } from "./plate.js";
 import type { Rotation } from "./pose.js";
+import type { Viewpoint } from "./viewpoint.js";
 
 /** Highest pixel ratio that is drawn: twice as many pixels each way would cost four times as much, unseen. */
 const DENSITY_LIMIT = 2;
@@ -212,6 +213,11 @@ export class Scene {
     return this.#picked(this.cameras.current, [x_px, y_px]);
   }
 
+  /** What a camera there would have in the middle of the view. */
+  seenFrom(place: Viewpoint): Promise<Hit | null> {
+    return this.#picked(this.cameras.tried(place), [this.#size[0] / 2, this.#size[1] / 2]);
+  }
+
   /** The ray through a point of the view, CSS pixels, in the file's pose. */
   rayAt(x_px: number, y_px: number): Ray {
     const [width, height] = this.#size;
@@ -255,10 +261,11 @@ export class Scene {
 
   readonly #frame = (): void => {
     this.#asked = 0;
+    const flying = this.cameras.advance(performance.now());
     // True while damping still moves the view after the pointer was released.
     const moving = this.cameras.controls.enabled && this.cameras.controls.update();
     this.#draw();
-    if (moving) this.invalidate();
+    if (flying || moving) this.invalidate();
   };
 
   async #picked(camera: PerspectiveCamera | OrthographicCamera, at: readonly [number, number]): Promise<Hit | null> {
