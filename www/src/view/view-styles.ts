@@ -159,4 +159,38 @@ export const viewStyles = css`
   .bad {
     color: var(--cusp-bad, #c0303a);
   }
+  @media (forced-colors: active) {
+    :host {
+      background: Canvas;
+    }
+    .probe {
+      forced-color-adjust: none;
+    }
+    .ink {
+      color: CanvasText;
+    }
+    .accent {
+      color: Highlight;
+    }
+    /* There is no colour of errors; links stand out from text. */
+    .bad {
+      color: LinkText;
+    }
+    /* What gradients draw would vanish. */
+    .cross {
+      forced-color-adjust: none;
+      color: CanvasText;
+    }
+    .label {
+      outline: 1px solid CanvasText;
+    }
+    .building progress::-webkit-progress-value {
+      forced-color-adjust: none;
+      background: Highlight;
+    }
+    .building progress::-moz-progress-bar {
+      forced-color-adjust: none;
+      background: Highlight;
+    }
+  }
 `;
