@@ -26,7 +26,7 @@ test.each(["light", "dark"] as const)("nothing is amiss in any state: %s", async
   await page.getByRole("button", { name: "Use this orientation" }).waitFor();
   expect(await broken(page)).toEqual([]);
 
-  await page.getByRole("button", { name: "What matters" }).click();
+  await page.getByRole("radio", { name: "What matters" }).click();
   await page.getByRole("checkbox", { name: "Fill a smooth region" }).check();
   expect(await broken(page)).toEqual([]);
 

@@ -88,7 +88,7 @@ const VISITS: readonly Visit[] = [
     states: {
       printed: async (page) => {
         await example(page);
-        await page.getByRole("button", { name: "As printed" }).click();
+        await page.getByRole("switch", { name: "As printed" }).click();
       },
     },
   },

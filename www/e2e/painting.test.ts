@@ -39,7 +39,7 @@ async function brushInHand(query = "?backend=cpu&rays=512"): Promise<Page> {
   const page = await start(query);
   await drop(page, ball);
   await state(page, "done");
-  await page.getByRole("button", { name: "What matters" }).click();
+  await page.getByRole("radio", { name: "What matters" }).click();
   await page.waitForSelector("cusp-view");
   return page;
 }
@@ -189,7 +189,7 @@ test("weights of another model are a clear error", async () => {
   });
   await drop(page, { name: "smaller.stl", bytes: sphere(RADIUS, 48).bytes });
   await state(page, "done");
-  await page.getByRole("button", { name: "What matters" }).click();
+  await page.getByRole("radio", { name: "What matters" }).click();
   const give = (buffer: Buffer): Promise<void> =>
     page.getByLabel("Load weights").setInputFiles({ name: "ball.weights", mimeType: "application/octet-stream", buffer });
   await give(Buffer.from(other));
@@ -204,7 +204,7 @@ test("what stands out counts in the plan when that is switched on", async () => 
   await page.getByRole("button", { name: "Try the example" }).click();
   await state(page, "done");
   const before = await plan(page);
-  await page.getByRole("button", { name: "What matters" }).click();
+  await page.getByRole("radio", { name: "What matters" }).click();
   await page.getByRole("checkbox", { name: "What stands out matters more" }).check();
   await settled(page);
   const after = await plan(page);

@@ -25,8 +25,8 @@ async function orientation(page: Page, path: string): Promise<void> {
 }
 
 async function distances(page: Page, path: string): Promise<void> {
-  await page.getByRole("button", { name: "As printed" }).click();
-  await page.getByRole("button", { name: "Distance from the model" }).click();
+  await page.getByRole("switch", { name: "As printed" }).click();
+  await page.getByRole("switch", { name: "Distance from the model" }).click();
   await page.locator("cusp-view .legend .heading", { hasText: "Distance" }).waitFor({ timeout: 180_000 });
   // Software draws the many steps late.
   await page.waitForTimeout(3000);

@@ -7,76 +7,27 @@
  * element, since a bundler may leave out a module's side effects.
  */
 import type { PropertyValues, TemplateResult } from "lit";
-import type { Frame, Heights, Inset } from "./scene/cameras.js";
-import { BRUSH } from "./paint/brush.js";
+import { Approach } from "./scene/approach.js";
+import { Beside } from "./scene/beside.js";
+import type { Alignment, Frame } from "./scene/cameras.js";
 import { Derived } from "./steps/derived.js";
 import { isMeasured } from "./steps/distances.js";
 import type { HeightDetail, PaintDetail, RotateDetail, ViewErrorDetail, ViewEvents } from "./events.js";
-import { pressed, type Tool } from "./scene/keys.js";
-import type { Heat } from "./paint/heat.js";
+import { pressed } from "./scene/keys.js";
 import { legendStyles } from "./legend/legend.js";
-import type { Look } from "./scene/model.js";
 import { Painting } from "./paint/painting.js";
-import type { PaletteName } from "./legend/palette.js";
-import type { BuildVolume } from "./scene/plate.js";
+import { sharePage } from "./scene/page-gestures.js";
 import { placeIn, watchPointer, type Point } from "./scene/pointer.js";
 import { Pointing, type Shown } from "./scene/pointing.js";
-import { layFlat, turned, UPRIGHT, type Rotation } from "./scene/pose.js";
+import { layFlat, turned, type Rotation } from "./scene/pose.js";
 import { Printed } from "./steps/printed.js";
 import { Scene } from "./scene/scene.js";
 import { contextOf, place } from "./scene/surface.js";
 import { template } from "./template.js";
-import { ENGLISH } from "./texts.js";
 import { themeOf } from "./scene/theme.js";
 import { viewStyles } from "./view-styles.js";
-import { elementWith, given, own } from "./properties.js";
-
-const PROPERTIES = {
-  /** Nine numbers a facet, mm, in the file's pose; a new array is a new model. */
-  positions: given<Float32Array | null>(null),
-  /** Turns the model before it is put on the plate. Ignored while the model is being dragged by its rings. */
-  rotation: given<Rotation>(UPRIGHT),
-  /** Factor applied to the file's lengths. */
-  scale: given(1),
-  /** Layer boundaries from 0 to the top, mm; empty without a plan. */
-  z_mm: given<readonly number[]>([]),
-  /** One for each layer. */
-  thickness_mm: given<readonly number[]>([]),
-  /** Thicknesses at the ends of the colour scale, mm. */
-  limits: given<readonly [number, number]>([0, 0]),
-  /** The selected layer, counted from 0. */
-  layer: given<number | null>(null),
-  /** The printer's build volume; without one the plate is a grid that fades out. */
-  plate: given<BuildVolume | null>(null),
-  look: given<Look>("thickness"),
-  palette: given<PaletteName>("classic"),
-  tool: given<Tool>("turn"),
-  /** Looks from the front without perspective, so that a height is a row of pixels: see `cusp-frame`. */
-  aligned: given(false),
-  /** The heights shown when aligned; null for the whole model. */
-  heights_mm: given<Heights | null>(null),
-  /** Room above and below those heights when aligned. */
-  inset: given<Inset>({ top_px: 12, bottom_px: 12 }),
-  /** Painted weight of each facet, 0 to 1; null: all 1. Ignored during a stroke. */
-  weights: given<Float32Array | null>(null),
-  /** Saliency of each facet, 0 to 1; null: all 1. */
-  saliency: given<Float32Array | null>(null),
-  /** Which quantity the look `weights` shows. */
-  heat: given<Heat>("paint"),
-  /** Least value of the product of weight and saliency, when that is shown. */
-  least: given(0),
-  brush: given(BRUSH),
-  showsLegend: given(true),
-  texts: given(ENGLISH),
-  /** Progress of computing the stair steps, 0 to 1; null when idle. */
-  building: own<number | null>(null),
-  /** Progress of measuring their distances from the model. */
-  measuring: own<number | null>(null),
-  /** The largest of these distances, mm; null until they are measured. */
-  greatest_mm: own<number | null>(null),
-  /** Whether WebGL is missing. */
-  broken: own(false),
-};
+import { elementWith } from "./properties.js";
+import { PROPERTIES } from "./view-properties.js";
 
 // oxlint-disable-next-line typescript/no-unsafe-declaration-merging -- it only types listeners, which are the base's
 export class CuspView extends elementWith(PROPERTIES) {
@@ -87,6 +38,8 @@ export class CuspView extends elementWith(PROPERTIES) {
   /** The camera's rotation in the last `cusp-camera`. */
   #camera: Rotation | null = null;
   #isHeld = false;
+  #approach: Approach | null = null;
+  #beside: Beside | null = null;
   #pointing: Pointing | null = null;
   #painting: Painting | null = null;
   /** The rotation that the rings have reached while they are dragged. */
@@ -169,8 +122,9 @@ export class CuspView extends elementWith(PROPERTIES) {
         held: (on) => (this.#isHeld = on),
         turned: (rotation) => this.#rotate(rotation, false),
         done: (rotation) => this.#rotate(rotation, true),
+        drawn: (frame) => this.#drawn(frame),
+        alignment: () => this.#alignment(),
       },
-      (frame) => this.#drawn(frame),
     );
     this.#scene = scene;
     const pointing = new Pointing(scene, () => this.#shown(), {
@@ -190,17 +144,16 @@ export class CuspView extends elementWith(PROPERTIES) {
     };
     watchPointer(canvas, { clicked: (at) => void pointing.clicked(at), hovered }, life.signal);
     painting.watch(holder, (event) => placeIn(canvas, event), life.signal);
-    // The wheel scrolls the page until the view has the focus, by a click or by keyboard.
-    holder.addEventListener("wheel", this.#wheel, { capture: true, signal: life.signal });
+    sharePage(holder, () => this.shadowRoot?.activeElement === holder, life.signal);
     this.renderRoot.addEventListener("transitionrun", this.#recolour, { signal: life.signal });
     this.#reducedMotion.addEventListener("change", this.#damp, { signal: life.signal });
-    const resized = new ResizeObserver(() => scene.setSize(holder.clientWidth, holder.clientHeight));
-    resized.observe(holder);
-    life.signal.addEventListener("abort", () => resized.disconnect());
+    const resize = (): void => scene.setSize(holder.clientWidth, holder.clientHeight);
+    this.#beside = new Beside(holder, resize, life.signal);
+    this.#approach = new Approach(scene);
     this.#damp();
     this.#recolour();
     this.#show(scene, () => true);
-    scene.setSize(holder.clientWidth, holder.clientHeight);
+    resize();
     // The size and the grid were not known when the view was rendered.
     this.requestUpdate();
   }
@@ -210,6 +163,8 @@ export class CuspView extends elementWith(PROPERTIES) {
     this.#printed.want(null, false);
     this.#derived?.dispose();
     this.#derived = null;
+    this.#approach?.dispose();
+    this.#approach = this.#beside = null;
     this.#scene?.dispose();
     this.#scene = null;
     this.#pointing = null;
@@ -234,9 +189,7 @@ export class CuspView extends elementWith(PROPERTIES) {
     if (has("palette")) model.setPalette(this.palette);
     if (has("look")) model.setLook(this.look);
     if (has("layer") || has("z_mm")) model.setBand(this.#band());
-    if (has("aligned") || has("heights_mm") || has("inset")) {
-      scene.setAligned(this.aligned, this.heights_mm, this.inset);
-    }
+    if (has("plot") && this.#beside !== null) this.#beside.plot = this.plot;
     if (has("tool")) scene.setTool(this.tool);
     if ((has("tool") || has("positions")) && this.tool !== "turn") void this.#prepare();
     if (has("tool") || has("positions")) this.#painting?.prepare(this.#derived, this.tool === "paint");
@@ -246,7 +199,27 @@ export class CuspView extends elementWith(PROPERTIES) {
     }
     if ((["positions", "look", "heat", "saliency", "least"] as const).some(has)) this.#heat(null);
     if ((["positions", "rotation", "scale", "z_mm", "look"] as const).some(has)) this.#print();
+    this.#near();
     scene.invalidate();
+  }
+
+  #near(): void {
+    const { near, aligned, positions, z_mm } = this;
+    const isCalm = this.#reducedMotion.matches;
+    // An aligned view has another camera, so nobody would see the way back.
+    if (!near) this.#approach?.leave(isCalm || aligned);
+    else if (!aligned && positions !== null && z_mm.length >= 2) this.#approach?.go({ positions, z_mm }, isCalm);
+  }
+
+  #alignment(): Alignment | null {
+    const beside = this.#beside?.inset;
+    const isBeside = beside === undefined ? null : beside !== null;
+    if (isBeside !== this.isBeside) {
+      this.isBeside = isBeside;
+      this.#tell<boolean>("cusp-beside", isBeside === true);
+    }
+    const inset = beside === undefined ? this.inset : beside;
+    return this.aligned && inset !== null ? { heights_mm: this.heights_mm, inset } : null;
   }
 
   /** Finds the distinct points, which make turning faster, before the first turn. */
@@ -333,11 +306,6 @@ export class CuspView extends elementWith(PROPERTIES) {
       else this.redo();
     } else if (this.tool === "paint") void this.#painting?.stamp([this.clientWidth / 2, this.clientHeight / 2]);
     else void this.#pointing?.clicked([this.clientWidth / 2, this.clientHeight / 2]);
-  };
-
-  readonly #wheel = (event: WheelEvent): void => {
-    const chosen = this.shadowRoot?.activeElement?.classList.contains("scene") === true;
-    if (!chosen && !event.ctrlKey) event.stopPropagation();
   };
 
   /** No damping where frames take long: it would go on for seconds. */

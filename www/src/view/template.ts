@@ -5,7 +5,7 @@ import { distanceLegend, heatLegend, legend } from "./legend/legend.js";
 
 type Properties = Pick<
   CuspView,
-  "texts" | "broken" | "tool" | "positions" | "thickness_mm" | "layer" | "limits" | "look" | "palette" | "showsLegend" | "aligned" | "building" | "measuring" | "greatest_mm"
+  "texts" | "broken" | "tool" | "positions" | "thickness_mm" | "layer" | "limits" | "look" | "palette" | "showsLegend" | "aligned" | "isBeside" | "building" | "measuring" | "greatest_mm"
 >;
 
 /** Facts about the scene; defaults until it exists. */
@@ -41,11 +41,14 @@ export function template(view: Properties, { size_mm, step_mm, layerWords, keyed
     <p class="visually-hidden" id="keys">${texts.keys[view.tool]}</p>
     <span class="label" part="label" hidden>${layerWords}</span>
     ${scale(view)}
-    ${view.positions === null || view.aligned ? nothing : html`<span class="grid">${texts.grid(step_mm)}</span>`}
+    ${view.positions === null || isAligned(view) ? nothing : html`<span class="grid">${texts.grid(step_mm)}</span>`}
     ${working(view)}
     <span class="probe ink"></span><span class="probe accent"></span><span class="probe bad"></span>
   `;
 }
+
+/** Whether the heights are those of a chart, or would be. */
+const isAligned = ({ aligned, isBeside }: Properties): boolean => aligned && isBeside !== false;
 
 /** The progress of the work under way, if there is any. */
 function working({ texts, building, measuring }: Properties): TemplateResult | typeof nothing {
@@ -60,7 +63,9 @@ function working({ texts, building, measuring }: Properties): TemplateResult | t
 
 /** The colour scale of the current look, if it has one. */
 function scale(view: Properties): TemplateResult | typeof nothing {
-  const { texts, positions, thickness_mm, layer, limits, look, palette, showsLegend, greatest_mm } = view;
+  const { texts, positions, thickness_mm, layer, limits, look, palette, isBeside, greatest_mm } = view;
+  // A chart beside the view has a scale of its own.
+  const showsLegend = view.showsLegend && !(isAligned(view) && isBeside === true);
   if (look === "weights") return positions === null ? nothing : heatLegend(texts);
   if (look === "distance") return greatest_mm === null ? nothing : distanceLegend(greatest_mm, texts);
   if (look !== "thickness" || !showsLegend || thickness_mm.length === 0) return nothing;

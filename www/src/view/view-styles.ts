@@ -34,6 +34,13 @@ export const viewStyles = css`
     cursor: grab;
     user-select: none;
     -webkit-user-select: none;
+    /* One finger that moves up or down scrolls the page, unless its host says that the page does not scroll. */
+    touch-action: var(--cusp-view-touch, pan-y);
+  }
+  /* The finger turns or paints the model. */
+  .scene[data-tool="rotate"],
+  .scene[data-tool="paint"] {
+    touch-action: none;
   }
   .scene:active {
     cursor: grabbing;
@@ -49,9 +56,7 @@ export const viewStyles = css`
   }
   canvas {
     display: block;
-    width: 100%;
-    height: 100%;
-    touch-action: pan-y;
+    touch-action: inherit;
   }
   ${visuallyHidden}
   /* Marks where the keyboard lays a face flat or paints. */
@@ -83,6 +88,10 @@ export const viewStyles = css`
     font-variant-numeric: tabular-nums;
     white-space: nowrap;
     pointer-events: none;
+  }
+  /* Above the progress of the work under way. */
+  .label:has(~ .building) {
+    inset-block-end: 2.25rem;
   }
   .label.beside {
     inset: 0 auto auto 0;
@@ -149,5 +158,39 @@ export const viewStyles = css`
   }
   .bad {
     color: var(--cusp-bad, #c0303a);
+  }
+  @media (forced-colors: active) {
+    :host {
+      background: Canvas;
+    }
+    .probe {
+      forced-color-adjust: none;
+    }
+    .ink {
+      color: CanvasText;
+    }
+    .accent {
+      color: Highlight;
+    }
+    /* There is no colour of errors; links stand out from text. */
+    .bad {
+      color: LinkText;
+    }
+    /* What gradients draw would vanish. */
+    .cross {
+      forced-color-adjust: none;
+      color: CanvasText;
+    }
+    .label {
+      outline: 1px solid CanvasText;
+    }
+    .building progress::-webkit-progress-value {
+      forced-color-adjust: none;
+      background: Highlight;
+    }
+    .building progress::-moz-progress-bar {
+      forced-color-adjust: none;
+      background: Highlight;
+    }
   }
 `;

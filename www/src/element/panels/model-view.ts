@@ -3,7 +3,6 @@ import { css, html, nothing, type PropertyValues, type TemplateResult } from "li
 import type { Model, Slicer } from "../../api/index.js";
 import type { Printer } from "../../api/wire.js";
 import { languageOf, type Language } from "../../texts/index.js";
-import type { Inset } from "../../view/scene/cameras.js";
 import type { Look } from "../../view/scene/model.js";
 import type { PaletteName } from "../../view/legend/palette.js";
 import type { BuildVolume } from "../../view/scene/plate.js";
@@ -19,17 +18,15 @@ import type { Painted } from "../events.js";
 import { define } from "../define.js";
 import { partFailure, partStyles, tellPartFailed } from "../parts/part.js";
 import { paintStyles, paintTools, type Colours } from "./paint-tools.js";
+import { barStyles, viewBar } from "./view-bar.js";
 import type { PlotPlace } from "./profile-chart.js";
 import type { Shown } from "../state/result.js";
 import { DEFAULT_SETTINGS } from "../state/settings.js";
 import { shared } from "../styles/shared.js";
 import { elementWith, given, own } from "../../view/properties.js";
 
-/** Room around the model without a chart beside it. */
-const ALONE: Inset = { top_px: 12, bottom_px: 12 };
 /** Initial size of the brush, as a fraction of the model's longest side. */
 const BRUSH_PART = 0.2;
-const TOOLS: readonly Tool[] = ["turn", "rotate", "flat", "paint"];
 
 export interface Scaled {
   readonly height_mm: number;
@@ -47,18 +44,21 @@ const PROPERTIES = {
   scaled: given<Scaled | null>(null, (a: unknown, b: unknown) => JSON.stringify(a) !== JSON.stringify(b)),
   printer: given<Printer | null>(null),
   language: given(languageOf()),
-  /** The position and heights of the chart beside it; null without a chart. */
+  /** The chart's plot and its heights, which the view aligns with where the plot is beside it; null without a chart. */
   plot: given<PlotPlace | null>(null),
-  inset: own(ALONE),
+  /** Whether the plot is beside the view. */
+  canAlign: own(false),
   positions: own<Float32Array | null>(null),
   /** Whether the view has been fetched. */
   isThere: own(false),
   /** Whether it could not be fetched. */
   isMissing: own(false),
+  /** Whether the browser has no WebGL. */
+  isBroken: own(false),
   tool: own<Tool>("turn"),
   look: own<Look>("thickness"),
   palette: own<PaletteName>("classic"),
-  /** Whether to align heights with the chart, if that is beside the view. */
+  /** Whether to align heights with the chart, if that is beside the view, and neither painting nor the printed look need another camera. */
   aligned: own(true),
   settings: given(DEFAULT_SETTINGS),
   /** How much each facet matters; null: all equally. */
@@ -77,50 +77,64 @@ export class CuspModel extends elementWith(PROPERTIES) {
   #scale = 1;
   #texts: { of: Language; words: ViewTexts } | null = null;
   #asked: Model | null = null;
-  readonly #resized = new ResizeObserver(() => this.requestUpdate());
+  #canAlign = false;
 
   static override styles = [
     shared,
     paintStyles,
     partStyles,
+    barStyles,
     css`
       :host {
         display: flex;
         flex-direction: column;
         min-width: 0;
         height: 100%;
+        container-type: inline-size;
+      }
+      /* Their bases make the height where the parent has none, and shrink where it has one: the tools first. */
+      .stage {
+        flex: 1 1 auto;
+        display: flex;
+        flex-direction: column;
+        gap: 0.75rem;
+        min-height: 0;
       }
       .view {
-        flex: 1;
+        flex: 1 1 28rem;
         display: grid;
-        min-height: 28rem;
+        min-width: 0;
+        min-height: min(22rem, 65%);
       }
-      .tools {
-        display: flex;
-        flex-wrap: wrap;
-        gap: 0.375rem;
-        margin-top: 0.75rem;
+      .beside {
+        flex: 0 999 auto;
+        display: grid;
+        grid-template: minmax(0, 1fr) / minmax(0, 1fr);
+        min-height: 9rem;
       }
-      [aria-pressed="true"] {
-        border-color: transparent;
-        background: var(--cusp-accent);
-        color: var(--cusp-on-accent);
-      }
-      [aria-pressed="true"]:hover:not(:disabled) {
-        background: var(--cusp-accent-hover);
+      /* Wide enough for both: the tools scroll at the view's side, and make nothing taller. */
+      @container (min-width: 36rem) {
+        .stage {
+          flex: 1 1 28rem;
+          flex-direction: row;
+        }
+        .view {
+          flex: 1;
+          min-height: 0;
+        }
+        .beside {
+          flex: none;
+          position: relative;
+          width: 16rem;
+          min-height: 0;
+        }
+        .beside .paint {
+          position: absolute;
+          inset: 0;
+        }
       }
     `,
   ];
-
-  override connectedCallback(): void {
-    super.connectedCallback();
-    this.#resized.observe(this);
-  }
-
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    this.#resized.disconnect();
-  }
 
   override firstUpdated(): void {
     void this.#load();
@@ -133,30 +147,38 @@ export class CuspModel extends elementWith(PROPERTIES) {
     if (shows && this.positions !== null && this.saliency === null && !this.isFinding) void this.#find();
   }
 
-  override updated(): void {
-    // The position of the view is known only after layout.
-    const inset = this.#beside();
-    const { top_px, bottom_px } = this.inset;
-    if (inset.top_px !== top_px || inset.bottom_px !== bottom_px) this.inset = inset;
-  }
-
   override render(): TemplateResult {
     const { shown, language, tool } = this;
-    const canAlign = this.inset !== ALONE;
     const isPainting = tool === "paint";
-    // An aligned view shows the model from the side only, so its top could not be painted.
-    const isBeside = canAlign && this.aligned && !isPainting;
+    const isMeasured = this.look === "distance" && !isPainting;
+    const isPrinted = isMeasured || (this.look === "printed" && !isPainting);
+    // An aligned view shows all of the model, and from the side only: no single steps, and no top to paint.
+    const isAligned = this.aligned && !isPainting && !isPrinted;
     const showsHeat = isPainting && this.colours !== "layers";
     const heat = this.colours === "layers" ? "paint" : this.colours;
     const { texts } = language;
     const words = texts.view;
     const isTurned = this.rotation.some((part, i) => part !== (i === 3 ? 1 : 0));
-    const isMeasured = this.look === "distance";
-    const isPrinted = this.look === "printed" || isMeasured;
-    const toggle = (name: string, isOn: boolean, act: () => void): TemplateResult =>
-      html`<button class="small" aria-pressed=${isOn ? "true" : "false"} @click=${act}>${name}</button>`;
     return html`
-      <div class="head"><h3>${words.title}</h3></div>
+      <h3 class="visually-hidden">${words.title}</h3>
+      ${viewBar({
+        tool,
+        isPrinted,
+        isMeasured,
+        isSafe: this.palette === "safe",
+        isAligned: isAligned && this.canAlign,
+        isBeside: this.plot === null ? null : this.canAlign,
+        isTurned,
+        isPossible: !this.isMissing && !this.isBroken,
+        language,
+        chosen: (tool) => (this.tool = tool),
+        printed: (on) => this.#look(on ? "printed" : "thickness"),
+        measured: (on) => this.#look(on ? "distance" : "printed"),
+        safe: this.#otherPalette,
+        aligned: this.#align,
+        upright: this.#upright,
+      })}
+      <div class="stage">
       <div class="view">
         ${this.isThere
           ? html`<cusp-view
@@ -177,28 +199,23 @@ export class CuspModel extends elementWith(PROPERTIES) {
               @cusp-paint=${this.#painted}
               .palette=${this.palette}
               .tool=${tool}
-              .aligned=${isBeside}
-              .showsLegend=${!isBeside}
-              .heights_mm=${isBeside ? (this.plot?.heights_mm ?? null) : null}
-              .inset=${isBeside ? this.inset : ALONE}
+              .aligned=${isAligned && this.plot !== null}
+              .plot=${this.plot?.over ?? null}
+              .heights_mm=${isAligned ? (this.plot?.heights_mm ?? null) : null}
+              .near=${isPrinted}
               .texts=${this.#words()}
               @cusp-rotate=${(event: CustomEvent<RotateDetail>) => this.#tell(event)}
               @cusp-layer=${(event: CustomEvent<number>) => this.#tell(event)}
               @cusp-camera=${(event: CustomEvent<Rotation>) => this.#tell(event)}
+              @cusp-beside=${this.#besides}
+              @cusp-view-error=${() => (this.isBroken = true)}
             ></cusp-view>`
           : this.isMissing
             ? partFailure(language, () => void this.#load())
             : nothing}
       </div>
-      <div class="tools" role="group" aria-label=${words.title}>
-        ${TOOLS.map((it) => toggle(words.tools[it], tool === it, () => (this.tool = it)))}
-        ${toggle(words.printed, isPrinted, () => (this.look = isPrinted ? "thickness" : "printed"))}
-        ${isPrinted ? toggle(words.measured, isMeasured, () => (this.look = isMeasured ? "printed" : "distance")) : nothing}
-        ${toggle(words.safe, this.palette === "safe", this.#otherPalette)}
-        ${!canAlign || isPainting ? nothing : toggle(words.aligned, this.aligned, () => (this.aligned = !this.aligned))}
-        ${isTurned ? html`<button class="small" @click=${this.#upright}>${words.upright}</button>` : nothing}
+      ${isPainting ? html`<div class="beside">${this.#paintTools()}</div>` : nothing}
       </div>
-      ${isPainting ? this.#paintTools() : nothing}
     `;
   }
 
@@ -217,6 +234,26 @@ export class CuspModel extends elementWith(PROPERTIES) {
   readonly #otherPalette = (): void => {
     this.palette = this.palette === "safe" ? "classic" : "safe";
     this.#say<PaletteName>("cusp-palette", this.palette);
+  };
+
+  /** Leaves the brush, which has its own colours. */
+  #look(look: Look): void {
+    this.look = look;
+    if (this.tool === "paint") this.tool = "turn";
+  }
+
+  /** Leaves what needs another camera. */
+  readonly #align = (on: boolean): void => {
+    this.aligned = on;
+    if (!on) return;
+    if (this.tool === "paint") this.tool = "turn";
+    this.look = "thickness";
+  };
+
+  /** In the next frame: in this one the layout is being settled. */
+  readonly #besides = ({ detail }: CustomEvent<boolean>): void => {
+    this.#canAlign = detail;
+    requestAnimationFrame(() => (this.canAlign = this.#canAlign));
   };
 
   /** Whether saliency counts in the plan. */
@@ -283,15 +320,6 @@ export class CuspModel extends elementWith(PROPERTIES) {
 
   #say<Detail>(type: string, detail: Detail): void {
     this.dispatchEvent(new CustomEvent<Detail>(type, { detail }));
-  }
-
-  /** Room around the model that aligns heights with the chart, if the chart is beside the view and not above or below it. */
-  #beside(): Inset {
-    const view = this.renderRoot.querySelector("cusp-view")?.getBoundingClientRect();
-    const plot = this.plot?.over.getBoundingClientRect();
-    if (view === undefined || plot === undefined) return ALONE;
-    const isBeside = plot.top >= view.top && plot.bottom <= view.bottom && plot.height > 0;
-    return isBeside ? { top_px: plot.top - view.top, bottom_px: view.bottom - plot.bottom } : ALONE;
   }
 
   /** Cached per language: a new object would count as a change of the texts. */

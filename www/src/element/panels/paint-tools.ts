@@ -144,10 +144,13 @@ export function paintTools(tools: PaintTools): TemplateResult {
 export const paintStyles = css`
   .paint {
     display: grid;
+    align-content: start;
     gap: 0.75rem;
-    margin-top: 0.75rem;
-    padding-top: 0.75rem;
-    border-top: 1px solid var(--cusp-line);
+    min-width: 0;
+    overflow: auto;
+    scrollbar-width: thin;
+    /* Room for focus rings and for the scroll bar. */
+    padding: 0.25rem 0.75rem 0.25rem 0.25rem;
     font-size: 0.875rem;
   }
   .paint legend {

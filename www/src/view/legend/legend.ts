@@ -37,8 +37,8 @@ export interface LegendData {
   readonly texts: ViewTexts;
 }
 
-/** The ticks of the scale of weights. */
-const WEIGHTS = [0, 0.25, 0.5, 0.75, 1];
+/** The ticks of the scale of weights: few enough for languages with a space before the per cent sign. */
+const WEIGHTS = [0, 0.5, 1];
 
 const across = (place: number): string => `${(100 * place).toFixed(2)}%`;
 
@@ -147,5 +147,18 @@ export const legendStyles = css`
     height: 0.25rem;
     background: currentColor;
     opacity: 0.5;
+  }
+  @media (forced-colors: active) {
+    .legend {
+      background: Canvas;
+    }
+    .scale {
+      forced-color-adjust: none;
+      outline: 1px solid CanvasText;
+    }
+    .mark {
+      background: CanvasText;
+      outline-color: Canvas;
+    }
   }
 `;

@@ -3,6 +3,7 @@ import { MathUtils, OrthographicCamera, PerspectiveCamera, Vector3 } from "three
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Rotation, Triple } from "./pose.js";
 import { FIRST_LOOK } from "./turn.js";
+import { areSame, between, eased, type Viewpoint } from "./viewpoint.js";
 
 /** Where heights appear in the view, CSS pixels from its upper edge. */
 export interface Frame {
@@ -20,6 +21,13 @@ export interface Inset {
 
 /** A range of heights, mm. */
 export type Heights = readonly [bottom: number, top: number];
+
+/** Where an aligned view shows which heights. */
+export interface Alignment {
+  /** Null for the whole model. */
+  readonly heights_mm: Heights | null;
+  readonly inset: Inset;
+}
 
 const FIELD_OF_VIEW_DEG = 26;
 
@@ -67,6 +75,14 @@ export function lookFirst(camera: PerspectiveCamera, size_mm: Triple): void {
 
 const QUARTER_TURN = Math.PI / 2;
 
+/** The camera on its way. */
+interface Flight {
+  readonly from: Viewpoint;
+  readonly to: Viewpoint;
+  readonly start_ms: number;
+  readonly duration_ms: number;
+}
+
 export class Cameras {
   readonly controls: OrbitControls;
   readonly #free = perspective();
@@ -75,15 +91,21 @@ export class Cameras {
   #size_mm: Triple = [1, 1, 1];
   #view: readonly [number, number] = [1, 1];
   /** Where the free camera was before the view was aligned, to be restored afterwards. */
-  #left: { readonly position: Vector3; readonly target: Vector3 } | null = null;
+  #left: Viewpoint | null = null;
+  #flight: Flight | null = null;
+  /** The least distance where the camera has approached a place. */
+  #nearest = Infinity;
+  /** Where the free camera was before it approached a place, and where it went. */
+  #approached: { readonly from: Viewpoint; readonly to: Viewpoint } | null = null;
 
+  /** @param surface gets its `touch-action` from the style sheet, not from here */
   constructor(surface: HTMLElement) {
     this.#side.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.#free, surface);
     this.controls.rotateSpeed = 0.9;
     this.controls.zoomSpeed = 1.2;
-    // Two fingers control the view; one that moves up or down scrolls the page as usual.
-    surface.style.touchAction = "pan-y";
+    surface.style.touchAction = "";
+    this.controls.addEventListener("start", () => (this.#flight = null));
   }
 
   get current(): PerspectiveCamera | OrthographicCamera {
@@ -106,6 +128,7 @@ export class Cameras {
     const risen = (size_mm[2] - this.#size_mm[2]) / 2;
     this.#size_mm = size_mm;
     if (this.#aligned) return;
+    this.#flight = null;
     this.controls.target.z += risen;
     this.#free.position.z += risen;
     this.#limit();
@@ -114,7 +137,8 @@ export class Cameras {
   /** Returns to the first view of the whole model. */
   reset(size_mm: Triple = this.#size_mm): void {
     this.#size_mm = size_mm;
-    this.#left = null;
+    this.#left = this.#flight = this.#approached = null;
+    this.#nearest = Infinity;
     const target = new Vector3(0, 0, size_mm[2] / 2);
     if (this.#aligned) {
       this.#lookAlong(QUARTER_TURN, 0);
@@ -128,6 +152,7 @@ export class Cameras {
 
   /** Turns about the target: to the right and upwards, degrees. */
   turn(right_deg: number, up_deg: number): void {
+    this.#flight = null;
     this.controls.rotateLeft(-MathUtils.degToRad(right_deg));
     this.controls.rotateUp(-MathUtils.degToRad(up_deg));
     this.controls.update();
@@ -136,6 +161,7 @@ export class Cameras {
   /** Zooms in by this factor; a factor below one zooms out. */
   zoom(factor: number): void {
     if (this.#aligned) return;
+    this.#flight = null;
     this.controls.dollyIn(1 / factor);
     this.controls.update();
   }
@@ -143,7 +169,8 @@ export class Cameras {
   setAligned(aligned: boolean): void {
     if (aligned === this.#aligned) return;
     const { controls } = this;
-    if (aligned) this.#left = { position: this.#free.position.clone(), target: controls.target.clone() };
+    if (aligned) this.#left = this.#viewpoint;
+    this.#flight = null;
     this.#aligned = aligned;
     controls.object = this.current;
     controls.enableZoom = controls.enablePan = !aligned;
@@ -151,23 +178,85 @@ export class Cameras {
     controls.maxPolarAngle = aligned ? QUARTER_TURN : Math.PI;
     if (aligned) this.#lookAlong(QUARTER_TURN, 0);
     else if (this.#left !== null) {
-      this.#free.position.copy(this.#left.position);
-      controls.target.copy(this.#left.target);
       this.#limit();
-      controls.update();
+      this.#goTo(this.#left);
     } else this.reset();
   }
 
+  /** The direction in which to approach a place: that of the free camera now, but not steeper than half-way from above. */
+  get approach(): Triple {
+    const { position, target } = this.#viewpoint;
+    const [x, y, z] = [position[0] - target[0], position[1] - target[1], position[2] - target[2]];
+    const level = Math.hypot(x, y);
+    const height = Math.sign(z) * Math.min(Math.abs(z), Math.max(level, 1e-9));
+    // Straight from above there is no level direction: the front then.
+    const away = new Vector3(level > 0 ? x : 0, level > 0 ? y : -1, level > 0 ? height : Math.sign(z)).normalize();
+    return [away.x, away.y, away.z];
+  }
+
+  /** The distance at which a length across the line of sight covers so many pixels of the view; at most that of the whole model. */
+  distanceFor(length_mm: number, pixels: number): number {
+    const slope = Math.tan(MathUtils.degToRad(FIELD_OF_VIEW_DEG / 2));
+    const whole = distanceOf(this.#size_mm, FIRST, this.#free.aspect);
+    return Math.min(whole, (this.#view[1] * length_mm) / (2 * slope * pixels));
+  }
+
+  /** A camera there, of the view's shape, to try what it sees. */
+  tried({ position, target }: Viewpoint): PerspectiveCamera {
+    const camera = perspective();
+    const away = new Vector3(...position).distanceTo(new Vector3(...target));
+    camera.aspect = this.#free.aspect;
+    camera.near = 0.005 * away;
+    camera.far = away + 40 * Math.hypot(...this.#size_mm);
+    camera.position.set(...position);
+    camera.lookAt(new Vector3(...target));
+    camera.updateMatrixWorld();
+    camera.updateProjectionMatrix();
+    return camera;
+  }
+
+  /** Moves the free camera to a place, from which `withdraw` brings it back. */
+  approachTo(to: Viewpoint, duration_ms: number): void {
+    if (this.#aligned) return;
+    const from = this.#viewpoint;
+    this.#approached = { from, to };
+    const away = new Vector3(...to.position).distanceTo(new Vector3(...to.target));
+    this.#nearest = NEAREST * away;
+    this.#limit();
+    this.#fly(from, to, duration_ms);
+  }
+
+  /** Brings the free camera back to where it was before it approached a place, unless it was moved since. */
+  withdraw(duration_ms: number): void {
+    const approached = this.#approached;
+    this.#approached = null;
+    if (approached === null || this.#aligned) return;
+    const now = this.#viewpoint;
+    const isUntouched = this.#flight?.to === approached.to || areSame(now, approached.to);
+    if (isUntouched) this.#fly(now, approached.from, duration_ms);
+  }
+
+  /** Takes the camera further on its way; returns whether it has not arrived. */
+  advance(now_ms: number): boolean {
+    const flight = this.#flight;
+    if (flight === null) return false;
+    const part = Math.min(1, Math.max(0, (now_ms - flight.start_ms) / flight.duration_ms));
+    if (part === 1) this.#flight = null;
+    this.#goTo(part === 1 ? flight.to : between(flight.from, flight.to, eased(part)));
+    return part < 1;
+  }
+
   /** Prepares the current camera for drawing; returns where heights appear, or `null` in perspective. */
-  prepare(heights: Heights | null, inset: Inset): Frame | null {
+  prepare(alignment: Alignment | null): Frame | null {
     const reach = Math.hypot(...this.#size_mm);
-    if (!this.#aligned) {
+    if (!this.#aligned || alignment === null) {
       const away = this.#free.position.distanceTo(this.controls.target);
       this.#free.near = Math.max(away - 4 * reach, 0.005 * away);
       this.#free.far = away + 40 * reach;
       this.#free.updateProjectionMatrix();
       return null;
     }
+    const { heights_mm: heights, inset } = alignment;
     const [width, height] = this.#view;
     const [bottom, top] = heights ?? [0, this.#size_mm[2]];
     const room = Math.max(1, height - inset.top_px - inset.bottom_px);
@@ -206,9 +295,26 @@ export class Cameras {
     this.controls.dispose();
   }
 
+  get #viewpoint(): Viewpoint {
+    const { position } = this.#free;
+    const { target } = this.controls;
+    return { position: [position.x, position.y, position.z], target: [target.x, target.y, target.z] };
+  }
+
+  #fly(from: Viewpoint, to: Viewpoint, duration_ms: number): void {
+    this.#flight = duration_ms > 0 ? { from, to, start_ms: performance.now(), duration_ms } : null;
+    if (duration_ms <= 0) this.#goTo(to);
+  }
+
+  #goTo({ position, target }: Viewpoint): void {
+    this.#free.position.set(...position);
+    this.controls.target.set(...target);
+    this.controls.update();
+  }
+
   #limit(): void {
     const distance = distanceOf(this.#size_mm, FIRST, this.#free.aspect);
-    this.controls.minDistance = NEAREST * distance;
+    this.controls.minDistance = Math.min(NEAREST * distance, this.#nearest);
     this.controls.maxDistance = FARTHEST * distance;
   }
 

@@ -25,16 +25,14 @@ export interface GizmoReports {
 
 export class Gizmo {
   readonly #controls: TransformControls;
-  readonly #surface: HTMLElement;
   readonly #snap = ({ shiftKey }: KeyboardEvent): void => {
     this.#controls.setRotationSnap(shiftKey ? SNAP : null);
   };
 
   constructor(camera: Camera, surface: HTMLElement, scene: Object3D, reports: GizmoReports) {
-    this.#surface = surface;
-    const before = surface.style.touchAction;
     const controls = new TransformControls(camera, surface);
-    surface.style.touchAction = before;
+    // The style sheet says which touches are the page's.
+    surface.style.touchAction = "";
     this.#controls = controls;
     controls.setMode("rotate");
     controls.setSpace("world");
@@ -74,8 +72,6 @@ export class Gizmo {
     this.#controls.enabled = object !== null;
     if (object === null) this.#controls.detach();
     else if (this.#controls.object !== object) this.#controls.attach(object);
-    // While the rings are shown, a touch must not scroll the page.
-    this.#surface.style.touchAction = object === null ? "pan-y" : "none";
   }
 
   dispose(): void {

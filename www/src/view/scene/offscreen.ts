@@ -41,6 +41,15 @@ class CanvasLike extends WebGLRenderTarget {
   readonly isXRRenderTarget = true;
 }
 
+export interface OffscreenReports {
+  /** The canvas must get the picture's size now. */
+  fit(): void;
+  /** The picture is on the canvas. */
+  shown(): void;
+  /** The next picture may be drawn. */
+  free(): void;
+}
+
 export class Offscreen {
   readonly #renderer: WebGLRenderer;
   readonly #target: CanvasLike;
@@ -49,6 +58,7 @@ export class Offscreen {
   #isBusy = false;
   #timer = 0;
   #asked = 0;
+  #done: WebGLSync | null = null;
 
   constructor(renderer: WebGLRenderer) {
     this.#renderer = renderer;
@@ -81,26 +91,26 @@ export class Offscreen {
     return this.#isBusy;
   }
 
-  /**
-   * Draws a picture of the canvas's size. Calls `shown` once it is on the canvas, and `free` when the next one may be
-   * drawn. Must not be called while busy.
-   */
-  draw(scene: Scene, camera: Camera, shown: () => void, free: () => void): void {
+  /** Draws a picture of so many pixels. Must not be called while busy. */
+  draw(scene: Scene, camera: Camera, [width, height]: readonly [number, number], { fit, shown, free }: OffscreenReports): void {
     const gl = this.#renderer.getContext() as WebGL2RenderingContext;
-    this.#target.setSize(gl.drawingBufferWidth, gl.drawingBufferHeight);
+    this.#target.setSize(width, height);
     this.#renderer.setRenderTarget(this.#target);
     this.#renderer.render(scene, camera);
     this.#renderer.setRenderTarget(null);
     const done = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
     gl.flush();
     this.#isBusy = true;
+    this.#done = done;
     const look = (): void => {
       if (done !== null && !gl.isContextLost() && gl.clientWaitSync(done, 0, 0) === gl.TIMEOUT_EXPIRED) {
         this.#timer = window.setTimeout(look, LOOK_EVERY_MS);
         return;
       }
       gl.deleteSync(done);
+      this.#done = null;
       this.#asked = requestAnimationFrame(() => {
+        fit();
         this.#renderer.render(this.#copy, this.#eye);
         shown();
         // If the next picture started before the browser has fetched this one, the browser would wait for both.
@@ -114,9 +124,17 @@ export class Offscreen {
     this.#timer = window.setTimeout(look);
   }
 
-  dispose(): void {
+  /** Gives up the picture under way. */
+  cancel(): void {
     clearTimeout(this.#timer);
     cancelAnimationFrame(this.#asked);
+    (this.#renderer.getContext() as WebGL2RenderingContext).deleteSync(this.#done);
+    this.#done = null;
+    this.#isBusy = false;
+  }
+
+  dispose(): void {
+    this.cancel();
     this.#target.dispose();
     this.#copy.geometry.dispose();
     this.#copy.material.dispose();

@@ -9,11 +9,13 @@ import {
   Scene as ThreeScene,
   Vector2,
   Vector3,
+  type OrthographicCamera,
+  type PerspectiveCamera,
   type Ray,
   WebGLRenderer,
 } from "three";
 import { Offscreen } from "./offscreen.js";
-import { Cameras, type Frame, type Heights, type Inset } from "./cameras.js";
+import { Cameras, type Alignment, type Frame } from "./cameras.js";
 import { Gizmo, type GizmoReports } from "./gizmo.js";
 import type { Tool } from "./keys.js";
 import { Model } from "./model.js";
@@ -21,6 +23,7 @@ import type { Rgb } from "../legend/palette.js";
 import { Picker, type Hit } from "./picker.js";
 import { Plate, type BuildVolume } from "./plate.js";
 import type { Rotation } from "./pose.js";
+import type { Viewpoint } from "./viewpoint.js";
 
 /** Highest pixel ratio that is drawn: twice as many pixels each way would cost four times as much, unseen. */
 const DENSITY_LIMIT = 2;
@@ -41,8 +44,15 @@ export interface Theme {
   readonly shadow: number;
 }
 
-/** Called after a frame has been drawn. */
-export type Drawn = (frame: Frame | null) => void;
+export interface SceneReports extends Omit<GizmoReports, "changed"> {
+  /** A frame has been drawn. */
+  drawn(frame: Frame | null): void;
+  /**
+   * Where heights belong; null: nowhere, in perspective. Asked before every frame, since it depends on the page's layout:
+   * remembered from an earlier one, it would be wrong after a change of layout, for a frame at least.
+   */
+  alignment(): Alignment | null;
+}
 
 export class Scene {
   readonly model = new Model();
@@ -64,10 +74,12 @@ export class Scene {
       polygonOffsetUnits: -2,
     }),
   );
-  readonly #drawn: Drawn;
-  #heights: Heights | null = null;
-  #inset: Inset = { top_px: 0, bottom_px: 0 };
+  readonly #reports: SceneReports;
+  #isAligned = false;
+  /** Size of the view, CSS pixels. */
   #size: readonly [number, number] = [0, 0];
+  /** Size of the canvas, which follows that of the view when a picture of that size is there. */
+  #fitted: readonly [number, number] = [0, 0];
   #asked = 0;
   /** Whether something has changed since the offscreen picture under way was started. */
   #isStale = false;
@@ -79,13 +91,12 @@ export class Scene {
   constructor(
     canvas: HTMLCanvasElement,
     context: WebGL2RenderingContext,
-    reports: Omit<GizmoReports, "changed">,
-    drawn: Drawn,
+    reports: SceneReports,
   ) {
     this.#renderer = new WebGLRenderer({ canvas, context });
     this.#renderer.setClearColor(0x000000, 0);
     this.#offscreen = new Offscreen(this.#renderer);
-    this.#drawn = drawn;
+    this.#reports = reports;
     this.cameras = new Cameras(canvas);
     this.cameras.controls.addEventListener("change", this.invalidate);
     this.plate = new Plate(this.model.facets);
@@ -120,12 +131,16 @@ export class Scene {
   setSize(width_px: number, height_px: number): void {
     if (width_px < 1 || height_px < 1) return;
     this.#size = [width_px, height_px];
-    this.#renderer.setPixelRatio(Math.min(devicePixelRatio, DENSITY_LIMIT));
-    this.#renderer.setSize(width_px, height_px, false);
     this.cameras.setView(width_px, height_px);
     this.#gizmo.fit(width_px / height_px);
-    // Resizing clears the canvas; drawing only in the next frame would flash.
-    this.#draw();
+    this.drawNow();
+  }
+
+  /** Draws before the browser paints, where the layout has changed after the frame was drawn. */
+  drawNow(): void {
+    // A GPU is quick enough to draw any model at once.
+    if (this.isSmooth) this.#offscreen.cancel();
+    this.#draw(this.isSmooth);
   }
 
   /** Sets a new model and shows all of it. */
@@ -158,21 +173,22 @@ export class Scene {
     this.invalidate();
   }
 
-  setAligned(aligned: boolean, heights: Heights | null, inset: Inset): void {
-    this.#heights = heights;
-    this.#inset = inset;
-    this.cameras.setAligned(aligned);
-    this.setTool(this.#tool);
-    this.plate.group.visible = !aligned;
-    this.invalidate();
+  /** Takes the camera that the layout asks for. */
+  align(): Alignment | null {
+    const alignment = this.#reports.alignment();
+    const isAligned = alignment !== null;
+    if (isAligned === this.#isAligned) return alignment;
+    this.#isAligned = isAligned;
+    this.cameras.setAligned(isAligned);
+    this.plate.group.visible = !isAligned;
+    this.#showRings();
+    return alignment;
   }
 
   setTool(tool: Tool): void {
     this.#tool = tool;
     if (tool !== "flat") this.setFace(null);
-    this.#gizmo.show(tool === "rotate" ? this.model.pivot : null, this.cameras.current);
-    // While painting, a touch must not scroll the page.
-    if (tool === "paint") this.#renderer.domElement.style.touchAction = "none";
+    this.#showRings();
     this.invalidate();
   }
 
@@ -193,13 +209,13 @@ export class Scene {
 
   /** The facet and the height under a point of the view, CSS pixels. */
   async pick(x_px: number, y_px: number): Promise<Hit | null> {
-    const [width, height] = this.#size;
-    if (this.#isGone || width === 0 || this.#renderer.getContext().isContextLost()) return null;
-    this.#scene.updateMatrixWorld();
     this.cameras.current.updateMatrixWorld();
-    const { current } = this.cameras;
-    const hit = await this.#picker.pick(this.#renderer, current, this.model.facets, [x_px, y_px], [width, height]);
-    return this.#isGone ? null : hit;
+    return this.#picked(this.cameras.current, [x_px, y_px]);
+  }
+
+  /** What a camera there would have in the middle of the view. */
+  seenFrom(place: Viewpoint): Promise<Hit | null> {
+    return this.#picked(this.cameras.tried(place), [this.#size[0] / 2, this.#size[1] / 2]);
   }
 
   /** The ray through a point of the view, CSS pixels, in the file's pose. */
@@ -245,27 +261,59 @@ export class Scene {
 
   readonly #frame = (): void => {
     this.#asked = 0;
+    const flying = this.cameras.advance(performance.now());
     // True while damping still moves the view after the pointer was released.
     const moving = this.cameras.controls.enabled && this.cameras.controls.update();
     this.#draw();
-    if (moving) this.invalidate();
+    if (flying || moving) this.invalidate();
   };
 
-  #draw(): void {
+  async #picked(camera: PerspectiveCamera | OrthographicCamera, at: readonly [number, number]): Promise<Hit | null> {
+    if (this.#isGone || this.#size[0] === 0 || this.#renderer.getContext().isContextLost()) return null;
+    this.#scene.updateMatrixWorld();
+    const hit = await this.#picker.pick(this.#renderer, camera, this.model.facets, at, this.#size);
+    return this.#isGone ? null : hit;
+  }
+
+  #showRings(): void {
+    this.#gizmo.show(this.#tool === "rotate" ? this.model.pivot : null, this.cameras.current);
+  }
+
+  /** @param isAtOnce draws even a large model on the canvas itself */
+  #draw(isAtOnce = false): void {
     if (this.#size[0] === 0 || this.#renderer.getContext().isContextLost()) return;
     this.#isStale = this.#offscreen.isBusy;
     if (this.#isStale) return;
-    const frame = this.cameras.prepare(this.#heights, this.#inset);
+    const frame = this.cameras.prepare(this.align());
     this.#scene.updateMatrixWorld();
     this.plate.prepare(this.#renderer, this.model.facets);
-    if (this.model.positions.length < 9 * LARGE_FACETS) {
+    const size = this.#size;
+    if (isAtOnce || this.model.positions.length < 9 * LARGE_FACETS) {
+      this.#fit(size);
       this.#renderer.render(this.#scene, this.cameras.current);
-      this.#drawn(frame);
+      this.#reports.drawn(frame);
       return;
     }
     const free = (): void => {
       if (this.#isStale) this.invalidate();
     };
-    this.#offscreen.draw(this.#scene, this.cameras.current, () => this.#drawn(frame), free);
+    const pixels = size.map((px) => Math.floor(px * density())) as unknown as readonly [number, number];
+    const fit = (): void => this.#fit(size);
+    this.#offscreen.draw(this.#scene, this.cameras.current, pixels, { fit, shown: () => this.#reports.drawn(frame), free });
+  }
+
+  /**
+   * Gives the canvas the size of the picture that it is about to show. Setting the size clears it, so a picture must follow
+   * before the browser paints; until then the canvas keeps its old size, since a stretched picture would be wrong.
+   */
+  #fit(size: readonly [number, number]): void {
+    const [width, height] = this.#fitted;
+    const isSame = width === size[0] && height === size[1] && this.#renderer.getPixelRatio() === density();
+    if (isSame) return;
+    this.#fitted = size;
+    this.#renderer.setPixelRatio(density());
+    this.#renderer.setSize(...size);
   }
 }
+
+const density = (): number => Math.min(devicePixelRatio, DENSITY_LIMIT);

@@ -1,0 +1,99 @@
+/** Brings the camera near the largest stair steps of a model, and back to where it was. */
+import { Vector3 } from "three";
+import type { Triple } from "./pose.js";
+import type { Scene } from "./scene.js";
+import { spotsOf } from "./spots.js";
+import { inParts } from "../steps/work.js";
+import { FLIGHT_MS, type Viewpoint } from "./viewpoint.js";
+
+/** Height of a stair step on the screen once the camera is near it, CSS pixels. */
+const STEP_PX = 8;
+
+/** What is to be seen from near. */
+export interface Stepped {
+  readonly positions: Float32Array;
+  /** Layer boundaries from 0 to the top, mm. */
+  readonly z_mm: readonly number[];
+}
+
+export class Approach {
+  readonly #scene: Scene;
+  /** The model that the camera has been sent to. */
+  #of: Float32Array | null = null;
+  #stop = new AbortController();
+
+  constructor(scene: Scene) {
+    this.#scene = scene;
+  }
+
+  /**
+   * Sends the camera to where the model has its largest stair steps on the side that faces the viewer, once for each model, so
+   * near that single steps can be told apart.
+   *
+   * @param isCalm whether to go there at once
+   */
+  go(to: Stepped, isCalm: boolean): void {
+    if (to.positions === this.#of) return;
+    this.#of = to.positions;
+    this.#stop.abort();
+    this.#stop = new AbortController();
+    void this.#go(to, this.#flight(isCalm), this.#stop.signal);
+  }
+
+  /** Brings the camera back to where it was, unless it was moved since. */
+  leave(isCalm: boolean): void {
+    if (this.#of === null) return;
+    this.dispose();
+    this.#scene.cameras.withdraw(this.#flight(isCalm));
+    this.#scene.invalidate();
+  }
+
+  dispose(): void {
+    this.#of = null;
+    this.#stop.abort();
+  }
+
+  /** No flight where frames take long: it would be a few jumps. */
+  #flight(isCalm: boolean): number {
+    return isCalm || !this.#scene.isSmooth ? 0 : FLIGHT_MS;
+  }
+
+  async #go(to: Stepped, duration_ms: number, signal: AbortSignal): Promise<void> {
+    // The view may still be aligned, and the camera another.
+    if (this.#scene.align() !== null) return;
+    let place: Viewpoint | null;
+    try {
+      place = await this.#nearest(to, signal);
+    } catch (error) {
+      if (signal.aborted) return;
+      throw error;
+    }
+    if (place === null || signal.aborted) return;
+    this.#scene.cameras.approachTo(place, duration_ms);
+    this.#scene.invalidate();
+  }
+
+  /** A place near the largest steps that nothing hides; if all are hidden, near the largest. */
+  async #nearest({ positions, z_mm }: Stepped, signal: AbortSignal): Promise<Viewpoint | null> {
+    const { cameras, model } = this.#scene;
+    model.pivot.updateMatrixWorld();
+    const matrix = model.facets.matrixWorld.clone();
+    const direction = new Vector3(...cameras.approach);
+    const towards = direction.clone().transformDirection(matrix.clone().invert()).toArray() as unknown as Triple;
+    const [, , x = 0, , , , y = 0, , , , z = 0, , , , offset = 0] = matrix.elements;
+    const spots = await inParts(spotsOf(positions, z_mm, { height: [x, y, z, offset], towards }), signal);
+    let first: Viewpoint | null = null;
+    for (const { facet, point, thickness_mm } of spots) {
+      const target = new Vector3(...point).applyMatrix4(matrix);
+      // Seen from above, a step is lower.
+      const seen_mm = thickness_mm * Math.hypot(direction.x, direction.y);
+      const position = target.clone().addScaledVector(direction, cameras.distanceFor(seen_mm, STEP_PX));
+      const place: Viewpoint = { position: position.toArray(), target: target.toArray() };
+      first ??= place;
+      const hit = await this.#scene.seenFrom(place);
+      signal.throwIfAborted();
+      if (hit?.facet === facet) return place;
+    }
+    return first;
+  }
+}
