@@ -80,18 +80,14 @@ export function modelPanel({ session, language, slicer, saveWeights }: Facts): T
   ></cusp-model>`;
 }
 
-/** @param placed hears where the plot is, besides the view beside it */
-export function chartPanel({ session, language }: Facts, placed?: (place: PlotPlace) => void): TemplateResult {
+/** @param placed hears where the plot is; otherwise the view beside it does */
+export function chartPanel({ session, language }: Facts, placed = besideView): TemplateResult {
   return html`<cusp-chart
     .data=${session.shown}
     .layer=${session.layer}
     .language=${language}
     @cusp-layer=${(event: CustomEvent<number>) => session.selectLayer(event.detail)}
-    @cusp-plot=${({ target, detail }: CustomEvent<PlotPlace>) => {
-      const view = beside(target, "cusp-model");
-      if (view !== null) view.plot = detail;
-      placed?.(detail);
-    }}
+    @cusp-plot=${placed}
   ></cusp-chart>`;
 }
 
@@ -179,6 +175,12 @@ function announced({ busy, result, notice, earlier }: Session, language: Facts["
 /** The session reports the weights, and the element fires the event again. */
 function painted(session: Session, event: CustomEvent<Painted>): void {
   session.setWeights(event.detail.weights, event.detail.final);
+}
+
+/** Passes the chart's position and heights to the view beside it. */
+export function besideView({ target, detail }: CustomEvent<PlotPlace>): void {
+  const view = beside(target, "cusp-model");
+  if (view !== null) view.plot = detail;
 }
 
 /** Passes the view's camera to the orientation panel beside it. */

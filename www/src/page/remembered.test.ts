@@ -54,7 +54,7 @@ function visit(asked: string, ...printers: string[]): Element {
 
 test("the printer, the resin and what belongs to them are remembered, and nothing else", () => {
   expect(rememberedOf("printer=mars&height=60&exposure=2%2C5&tolerance=0.03&rotation=1,0,0,0&step=0.01&metric=area")).toBe(
-    "step=0.01&exposure=2%2C5&printer=mars",
+    "step=0.01&exposure=2.5&printer=mars",
   );
   expect(rememberedOf("height=60")).toBe("");
   expect(rememberedOf("<junk>&&%%%=&printer={")).toBe("");

@@ -5,6 +5,8 @@ export const workbenchStyles = css`
   :host {
     height: 100%;
     --cusp-radius: 10px;
+    /* Nothing scrolls below the view: one finger turns it. */
+    --cusp-view-touch: none;
     /* The tabs say it. */
     --cusp-title-position: absolute;
     --cusp-title-clip: inset(50%);
@@ -36,6 +38,10 @@ export const workbenchStyles = css`
   }
   .bench.narrow:has(.sheet) {
     grid-template-rows: minmax(0, 9fr) minmax(0, 11fr) auto;
+  }
+  /* In what is left of the view, the scale would hide the model. */
+  .bench.narrow:has(.sheet) cusp-model {
+    --cusp-view-legend: none;
   }
   .dragging {
     outline: 3px dashed var(--cusp-accent);
@@ -116,6 +122,9 @@ export const workbenchStyles = css`
     stroke-linejoin: round;
   }
 
+  cusp-chart {
+    height: 100%;
+  }
   cusp-quality {
     height: auto;
   }
@@ -184,8 +193,8 @@ export const workbenchStyles = css`
   .stage > .model-name {
     position: absolute;
     z-index: 1;
-    inset-block-start: 0.375rem;
-    inset-inline: 0.75rem 4rem;
+    inset-block-start: 3.5rem;
+    inset-inline: 0.75rem 45%;
     overflow: hidden;
     font-size: 0.875rem;
     text-overflow: ellipsis;
@@ -405,6 +414,9 @@ export const workbenchStyles = css`
   @container (min-width: 40rem) {
     .bench.narrow:has(.sheet) {
       grid-template: minmax(0, 1fr) auto / minmax(0, 1fr) 21rem;
+    }
+    .bench.narrow:has(.sheet) cusp-model {
+      --cusp-view-legend: block;
     }
     .narrow .sheet {
       border-top: 0;

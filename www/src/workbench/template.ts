@@ -2,6 +2,7 @@
 import { html, nothing, type TemplateResult } from "lit";
 import {
   announcement,
+  besideView,
   chartPanel,
   downloadButton,
   earlierNote,
@@ -87,7 +88,12 @@ function view(facts: Facts, { isWide, plot, placed }: Bench): TemplateResult {
     ></cusp-layer-slider>
     ${isWide
       ? html`<section class="profile" part="profile" aria-label=${language.texts.chart.region}>
-          ${session.shown === null ? nothing : chartPanel(facts, placed)}
+          ${session.shown === null
+            ? nothing
+            : chartPanel(facts, (event) => {
+                besideView(event);
+                placed(event.detail);
+              })}
         </section>`
       : nothing}`;
 }
@@ -261,6 +267,6 @@ function sheetPanel(facts: Facts, bench: Bench, sheet: Sheet): TemplateResult {
   if (sheet === "plan") return html`${modelSection(facts)}${plan(facts)}`;
   if (session.result === null) return html`<p class="quiet">${facts.language.texts.chart.none}</p>`;
   if (sheet === "orientation") return orientationPanel(facts);
-  if (sheet === "profile") return chartPanel(facts, bench.placed);
+  if (sheet === "profile") return chartPanel(facts, () => undefined);
   return sheet === "quality" ? quality(facts, session.result) : maskPanel(facts, session.result);
 }

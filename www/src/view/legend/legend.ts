@@ -90,6 +90,7 @@ export function distanceLegend(greatest_mm: number, texts: ViewTexts): TemplateR
 
 export const legendStyles = css`
   .legend {
+    display: var(--cusp-view-legend, block);
     position: absolute;
     inset-block-start: 0.75rem;
     inset-inline-end: 0.75rem;
