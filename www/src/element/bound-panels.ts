@@ -10,6 +10,7 @@ import type { Facts } from "./facts.js";
 import type { Scaled } from "./panels/model-view.js";
 import type { Searched } from "./panels/orientation-panel.js";
 import type { PlotPlace } from "./panels/profile-chart.js";
+import { FetchedPanel } from "./parts/part.js";
 import { fileWords } from "./parts/file-words.js";
 import { sentence } from "./state/comparison.js";
 import type { Aims } from "./state/orientation.js";
@@ -91,7 +92,14 @@ export function chartPanel({ session, language }: Facts, placed = besideView): T
   ></cusp-chart>`;
 }
 
-export function orientationPanel({ session, language, slicer }: Facts): TemplateResult {
+/** Few people search for an orientation, and the sphere of directions is a good part of the code. */
+const orientationCode = new FetchedPanel("orientation", async () => {
+  const { defineOrientation } = await import("./panels/orientation-panel.js");
+  defineOrientation();
+});
+
+export function orientationPanel({ element, session, language, slicer }: Facts): TemplateResult | typeof nothing {
+  if (!orientationCode.isThere) return orientationCode.instead(element, language);
   const { orientation, settings, turning } = session;
   return html`<cusp-orientation
     .slicer=${slicer}

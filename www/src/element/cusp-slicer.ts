@@ -7,6 +7,7 @@ import type { TemplateResult } from "lit";
 import type { Facts } from "./facts.js";
 import { summaryStyles } from "./panels/summary.js";
 import { problemStyles } from "./parts/problem-box.js";
+import { partStyles } from "./parts/part.js";
 import { progressStyles } from "./parts/progress.js";
 import { SlicerElement } from "./slicer-element.js";
 import { layoutStyles } from "./styles/layout.js";
@@ -15,7 +16,7 @@ import { theme } from "./styles/theme.js";
 import { template } from "./template.js";
 
 export class CuspSlicer extends SlicerElement {
-  static override styles = [theme, shared, summaryStyles, progressStyles, problemStyles, layoutStyles];
+  static override styles = [theme, shared, summaryStyles, progressStyles, problemStyles, partStyles, layoutStyles];
 
   protected override layout(facts: Facts): TemplateResult {
     return template(facts, this.clientWidth >= WIDE_PX);

@@ -333,6 +333,7 @@ export abstract class SlicerElement extends LitElement {
     }
     const language = languageOf(...this.#locales);
     return this.layout({
+      element: this,
       session,
       language,
       problem: session.failure === null ? null : explain(session.failure, language, session.fixed),

@@ -8,6 +8,7 @@ import type { Facts } from "../element/facts.js";
 import type { PlotPlace } from "../element/panels/profile-chart.js";
 import { summaryStyles } from "../element/panels/summary.js";
 import { problemStyles } from "../element/parts/problem-box.js";
+import { partStyles } from "../element/parts/part.js";
 import { progressStyles } from "../element/parts/progress.js";
 import { SlicerElement } from "../element/slicer-element.js";
 import { shared } from "../element/styles/shared.js";
@@ -18,7 +19,7 @@ import { workbenchStyles } from "./styles.js";
 import { template } from "./template.js";
 
 export class CuspWorkbench extends SlicerElement {
-  static override styles = [theme, shared, summaryStyles, progressStyles, problemStyles, workbenchStyles];
+  static override styles = [theme, shared, summaryStyles, progressStyles, problemStyles, partStyles, workbenchStyles];
 
   #isWide = true;
   #choice: ChoicePanel = "settings";

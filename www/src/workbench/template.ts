@@ -212,7 +212,8 @@ function bar(facts: Facts, { sheet, open }: Bench): TemplateResult {
     ${session.model === null
       ? nothing
       : html`<div class="bar-result">
-          <button class="bar-figures" aria-label=${words.more} aria-expanded=${sheet === "plan" ? "true" : "false"} @click=${() => open(sheet === "plan" ? null : "plan")}>
+          <button class="bar-figures" aria-expanded=${sheet === "plan" ? "true" : "false"} @click=${() => open(sheet === "plan" ? null : "plan")}>
+            <span class="visually-hidden">${words.more}</span>
             ${result === null
               ? html`<strong>–</strong>`
               : html`<strong data-layers=${layers}>${format.count(layers)} ${texts.plan.layers(layers)}</strong>
@@ -244,7 +245,7 @@ function sheet(facts: Facts, bench: Bench): TemplateResult | typeof nothing {
       ${sheet === "settings" ? undoButtons(facts) : nothing}
       <button class="small close" @click=${() => open(null)}>${language.texts.notices.close}</button>
     </div>
-    <div class="panel">${sheetPanel(facts, bench, sheet)}</div>
+    <div class="panel">${sheetPanel(facts, sheet)}</div>
   </section>`;
 }
 
@@ -261,7 +262,7 @@ function namesOf({ language }: Facts): Readonly<Record<Sheet, string>> {
   };
 }
 
-function sheetPanel(facts: Facts, bench: Bench, sheet: Sheet): TemplateResult {
+function sheetPanel(facts: Facts, sheet: Sheet): TemplateResult | typeof nothing {
   const { session } = facts;
   if (sheet === "settings") return settingsPanel(facts, null);
   if (sheet === "plan") return html`${modelSection(facts)}${plan(facts)}`;

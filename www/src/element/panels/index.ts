@@ -1,7 +1,7 @@
 /** The custom elements of the panels. */
 import { define } from "../define.js";
-import { CuspOrientation } from "./orientation-panel.js";
-import { CuspSphere } from "./orientation-sphere.js";
+import type { CuspOrientation } from "./orientation-panel.js";
+import type { CuspSphere } from "./orientation-sphere.js";
 import { CuspModel } from "./model-view.js";
 import { CuspMask } from "./mask-view.js";
 import { CuspChart } from "./profile-chart.js";
@@ -14,11 +14,9 @@ const PARTS = {
   "cusp-mask": CuspMask,
   "cusp-quality": CuspQuality,
   "cusp-model": CuspModel,
-  "cusp-orientation": CuspOrientation,
-  "cusp-sphere": CuspSphere,
 } as const;
 
-/** Registers the panels' elements once. Called when an element is created, not when this file is imported. */
+/** Registers the panels' elements once, except that of orientation, which is fetched when first shown. Called when an element is created, not when this file is imported. */
 export function definePanels(): void {
   for (const [name, part] of Object.entries(PARTS)) define(name, part);
 }

@@ -6,8 +6,9 @@ import type { Candidate, Metric } from "../../api/wire.js";
 import { languageOf, type Language } from "../../texts/index.js";
 import { gradient, type PaletteName } from "../../view/legend/palette.js";
 import type { Rotation } from "../../view/scene/pose.js";
+import { define } from "../define.js";
 import { orientationStyles } from "../styles/orientation-styles.js";
-import { energyRange, type Looked } from "./orientation-sphere.js";
+import { CuspSphere, energyRange, type Looked } from "./orientation-sphere.js";
 import { differences, figure, type Term } from "../state/differences.js";
 import { isPose, type Aims, type OrientationSearch } from "../state/orientation.js";
 import { partFailure, partStyles, tellPartFailed } from "../parts/part.js";
@@ -350,4 +351,10 @@ export function metricRows({ metrics, size_mm, energy }: Candidate, metric: Metr
   if (energy !== null) rows.push([words.score, format.tick(energy), words.legend]);
   rows.push([words.size, format.dimensions(size_mm)]);
   return rows;
+}
+
+/** Registers the panel's elements once. */
+export function defineOrientation(): void {
+  define("cusp-orientation", CuspOrientation);
+  define("cusp-sphere", CuspSphere);
 }

@@ -194,15 +194,18 @@ export const barStyles = css`
     width: 0.5rem;
     border-radius: 50%;
     background: var(--cusp-field);
-    transition: inset-inline-start 120ms;
+    transition: translate 120ms;
   }
   :checked ~ .track {
     border-color: var(--cusp-accent);
     background: var(--cusp-accent);
   }
   :checked ~ .track::before {
-    inset-inline-start: calc(100% - 0.5rem - 2px);
+    translate: calc(1.25rem - 0.5rem - 4px);
     background: var(--cusp-on-accent);
+  }
+  :checked ~ .track:dir(rtl)::before {
+    translate: calc(4px + 0.5rem - 1.25rem);
   }
   .mode:has(:focus-visible),
   .switch:has(:focus-visible) {

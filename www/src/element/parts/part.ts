@@ -1,10 +1,10 @@
 /** Parts that are fetched when first shown, and what a panel shows if one cannot be loaded. */
-import { css, html, type TemplateResult } from "lit";
+import { css, html, nothing, type ReactiveElement, type TemplateResult } from "lit";
 import { said, SlicerError } from "../../api/error.js";
 import type { Language } from "../../texts/index.js";
 
-/** The 3-D view; the pictures of the best orientations; the chart of the profile. */
-export type Part = "view" | "pictures" | "chart";
+/** The 3-D view; the chart of the profile; the panel of orientation, and the pictures of the best ones. */
+export type Part = "view" | "chart" | "orientation" | "pictures";
 
 export function partError(part: Part, cause: unknown): SlicerError {
   const system = said(cause);
@@ -22,6 +22,39 @@ export function partFailure({ texts }: Language, again: () => void): TemplateRes
     <p>${texts.notices.partFailed}</p>
     <button class="small" @click=${again}>${texts.offers.again}</button>
   </div>`;
+}
+
+/** A panel's code that is fetched when it is first shown, once for all elements of the page. */
+export class FetchedPanel {
+  isThere = false;
+  readonly #part: Part;
+  readonly #fetch: () => Promise<void>;
+  #arriving: Promise<void> | null = null;
+  #isMissing = false;
+
+  constructor(part: Part, fetch: () => Promise<void>) {
+    this.#part = part;
+    this.#fetch = fetch;
+  }
+
+  /** What stands in the panel's place until it is there. Fetches it, and has the element rendered again then. */
+  instead(element: ReactiveElement, language: Language): TemplateResult | typeof nothing {
+    if (this.#isMissing) {
+      return partFailure(language, () => {
+        this.#isMissing = false;
+        element.requestUpdate();
+      });
+    }
+    this.#arriving ??= this.#fetch()
+      .then(() => void (this.isThere = true))
+      .catch((error: unknown) => {
+        this.#arriving = null;
+        this.#isMissing = true;
+        tellPartFailed(element, this.#part, error);
+      });
+    void this.#arriving.then(() => element.requestUpdate());
+    return nothing;
+  }
 }
 
 export const partStyles = css`

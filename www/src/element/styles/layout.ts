@@ -205,6 +205,10 @@ export const layoutStyles = css`
   .span {
     grid-column: 1 / -1;
   }
+  /* About as high as it will be once its code is there. */
+  [part="orientation"] {
+    min-height: 14rem;
+  }
 
   @container (min-width: 56rem) {
     .work {
