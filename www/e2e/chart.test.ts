@@ -190,7 +190,7 @@ test.each(LANGUAGES)("nothing is cut or overlaps in a narrow box, nor moves unde
       }
       expect(before.at(-1)?.bottom).toBeLessThanOrEqual(bottom + 0.5);
       if (height !== null) expect(before.at(-1)?.bottom).toBeGreaterThan(height - 1);
-      else expect(await box.locator(".plot").evaluate((it) => it.clientHeight)).toBe(24 * 16);
+      else expect(await box.locator(".plot").evaluate((it) => it.clientHeight)).toBe(30 * 16);
       const hint = await box.locator(".foot").innerText();
       await box.locator(".u-over").hover();
       await expect.poll(() => box.locator(".foot").innerText()).not.toBe(hint);

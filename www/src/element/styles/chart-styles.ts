@@ -90,12 +90,15 @@ export const chartStyles = css`
   }
   .plot {
     flex: 1 1 30rem;
-    min-height: 6rem;
+    min-height: 10rem;
     direction: ltr;
     overflow: hidden;
     border-radius: 4px;
     /* One finger scrolls the page; two are the chart's. */
     touch-action: pan-y;
+  }
+  .plot:focus-visible {
+    outline-offset: -3px;
   }
   .u-over {
     cursor: crosshair;
@@ -146,11 +149,6 @@ export const chartStyles = css`
     }
     .touch {
       display: block;
-    }
-  }
-  @container (max-width: 21rem) {
-    .plot {
-      flex-basis: 24rem;
     }
   }
   /* As a column beside the view: the key says what the axis means. */
