@@ -55,6 +55,7 @@ export const chartStyles = css`
   }
   .key {
     display: grid;
+    grid-template-columns: minmax(0, 1fr);
     gap: 0.25rem;
     margin: 0.5rem 0 0;
     padding: 0;
