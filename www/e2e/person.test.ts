@@ -119,7 +119,7 @@ test("the plan of the example is one click from a first visit", async () => {
   await state(page, "done");
   expect(await layers(page)).toBeGreaterThan(0);
   // The tour that comes with a first plan is beside it, not before it.
-  await page.locator("cusp-tour").waitFor();
+  await page.locator("cusp-tour .card").waitFor();
   expect((await downloaded(page)).name).toBe("goblet-cusp.zip");
 });
 

@@ -244,7 +244,7 @@ test("what the page's own buttons have chosen no undo takes back", async () => {
   await page.getByRole("slider", { name: "Quality" }).press("ArrowRight");
   await state(page, "done");
   await page.getByText(resin.name).click();
-  await page.getByText("Large").click();
+  await page.getByText("Large", { exact: true }).click();
   await page.evaluate(() => document.querySelector("cusp-slicer")?.undo());
   await page.evaluate(() => document.querySelector("cusp-slicer")?.plan());
   const { printer, resin: poured } = await page.evaluate(() => {

@@ -266,7 +266,7 @@ describe("the printed look", () => {
     for (const [i, row] of found.slice(1).entries()) expect(row - (found[i] ?? 0)).toBeGreaterThanOrEqual(6);
     await printed(page);
     await drawn(page);
-    expect((await canvas(page)).equals(before)).toBe(true);
+    await expect.poll(async () => (await canvas(page)).equals(before)).toBe(true);
   });
 
   it("stays where the person went meanwhile", async () => {
@@ -300,7 +300,7 @@ describe("the printed look", () => {
     expect((await treads(page)).length).toBeGreaterThan(8);
     await printed(page);
     await drawn(page);
-    expect((await canvas(page)).equals(before)).toBe(true);
+    await expect.poll(async () => (await canvas(page)).equals(before)).toBe(true);
   });
 });
 

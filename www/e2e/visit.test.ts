@@ -255,7 +255,7 @@ test.each(["en", "de", "es", "fr", "zh"])("on a phone, by touch, cards and panel
   await page.locator(".offers button").tap();
   await state(page, "done");
   const card = page.locator("cusp-tour .card");
-  const bar = await page.locator("cusp-workbench .bar").boundingBox();
+  const bar = await page.locator("cusp-workbench .bar-panels").locator("..").boundingBox();
   for (const step of [1, 2, 3]) {
     await expect.poll(() => card.locator(".quiet").innerText()).toContain(String(step));
     await inside(card);

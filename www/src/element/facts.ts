@@ -1,5 +1,5 @@
 /** What a layout of an element's panels is a function of. */
-import type { ReactiveElement } from "lit";
+import type { LitElement } from "lit";
 import type { Slicer } from "../api/index.js";
 import type { Language } from "../texts/index.js";
 import type { Panel } from "./state/panel-names.js";
@@ -7,7 +7,7 @@ import type { Problem } from "./state/problem.js";
 import type { Session } from "./state/session.js";
 
 export interface Facts {
-  element: ReactiveElement;
+  element: LitElement;
   session: Session;
   language: Language;
   /** The session's failure in words; null if there is none. */

@@ -1,5 +1,5 @@
 /** Parts that are fetched when first shown, and what a panel shows if one cannot be loaded. */
-import { css, html, nothing, type ReactiveElement, type TemplateResult } from "lit";
+import { css, html, nothing, type LitElement, type TemplateResult } from "lit";
 import { said, SlicerError } from "../../api/error.js";
 import type { Language } from "../../texts/index.js";
 
@@ -38,7 +38,7 @@ export class FetchedPanel {
   }
 
   /** What stands in the panel's place until it is there. Fetches it, and has the element rendered again then. */
-  instead(element: ReactiveElement, language: Language): TemplateResult | typeof nothing {
+  instead(element: LitElement, language: Language): TemplateResult | typeof nothing {
     if (this.#isMissing) {
       return partFailure(language, () => {
         this.#isMissing = false;

@@ -124,17 +124,10 @@ export class Offscreen {
     this.#timer = window.setTimeout(look);
   }
 
-  /** Gives up the picture under way. */
-  cancel(): void {
+  dispose(): void {
     clearTimeout(this.#timer);
     cancelAnimationFrame(this.#asked);
     (this.#renderer.getContext() as WebGL2RenderingContext).deleteSync(this.#done);
-    this.#done = null;
-    this.#isBusy = false;
-  }
-
-  dispose(): void {
-    this.cancel();
     this.#target.dispose();
     this.#copy.geometry.dispose();
     this.#copy.material.dispose();

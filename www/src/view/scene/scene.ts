@@ -138,9 +138,7 @@ export class Scene {
 
   /** Draws before the browser paints, where the layout has changed after the frame was drawn. */
   drawNow(): void {
-    // A GPU is quick enough to draw any model at once.
-    if (this.isSmooth) this.#offscreen.cancel();
-    this.#draw(this.isSmooth);
+    this.#draw();
   }
 
   /** Sets a new model and shows all of it. */
@@ -279,8 +277,7 @@ export class Scene {
     this.#gizmo.show(this.#tool === "rotate" ? this.model.pivot : null, this.cameras.current);
   }
 
-  /** @param isAtOnce draws even a large model on the canvas itself */
-  #draw(isAtOnce = false): void {
+  #draw(): void {
     if (this.#size[0] === 0 || this.#renderer.getContext().isContextLost()) return;
     this.#isStale = this.#offscreen.isBusy;
     if (this.#isStale) return;
@@ -288,7 +285,7 @@ export class Scene {
     this.#scene.updateMatrixWorld();
     this.plate.prepare(this.#renderer, this.model.facets);
     const size = this.#size;
-    if (isAtOnce || this.model.positions.length < 9 * LARGE_FACETS) {
+    if (this.model.positions.length < 9 * LARGE_FACETS) {
       this.#fit(size);
       this.#renderer.render(this.#scene, this.cameras.current);
       this.#reports.drawn(frame);
