@@ -1,7 +1,7 @@
 /** Compares the page with recorded pictures of it: `npm run goldens` records them again. */
 import type { BrowserContextOptions, Page, PageScreenshotOptions } from "playwright-core";
 import { expect, test } from "vitest";
-import { downloaded, drop, openPanel, state } from "./browser.js";
+import { downloaded, drop, openPanel, settled, state } from "./browser.js";
 import { difference, golden, goldenFonts, isAlike, keep, record, recordFonts, small, TOLERANCE } from "./golden.js";
 import { pages } from "./pages.js";
 import { sphere } from "./solids.js";
@@ -38,7 +38,8 @@ const STILL = 3;
 async function example(page: Page): Promise<void> {
   await page.getByRole("button", { name: "Try the example" }).click();
   await state(page, "done");
-  await page.waitForSelector("cusp-view");
+  // It appears with the first frame of the plan.
+  await page.locator("cusp-view .label:not([hidden])").waitFor();
   // The last thing to appear is the curve, and with it the quality slider.
   if (await page.locator("cusp-quality").count()) await expect.poll(() => page.locator("cusp-quality input[type=range]").count()).toBe(1);
 }
@@ -61,6 +62,8 @@ const VISITS: readonly Visit[] = [
       settings: async (page) => {
         await openPanel(page, "Settings");
         await page.getByText("More settings").click();
+        await page.getByText("Uniform", { exact: true }).click();
+        await settled(page);
       },
     },
   },
@@ -71,6 +74,7 @@ const VISITS: readonly Visit[] = [
       error: async (page) => {
         await drop(page, { name: "ball.stl", bytes: sphere(10, 96).bytes });
         await state(page, "error");
+        await page.locator("cusp-view .grid").waitFor();
       },
     },
   },

@@ -2,7 +2,7 @@
 import { mkdir, stat } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
 import type { BrowserContextOptions, Page } from "playwright-core";
-import { downloaded, drop, launch, maskOf, open, openPanel, state } from "./browser.js";
+import { downloaded, drop, launch, open, openPanel, state } from "./browser.js";
 import { serve } from "./serve.js";
 
 /** Everyone who clones the repository fetches its pictures. */
@@ -12,7 +12,7 @@ interface Shot {
   name: string;
   query?: string;
   options: BrowserContextOptions;
-  /** Takes the picture, if it is not of the page from its top. */
+  /** Takes the picture, if it is not of the page as it is then. */
   take?: (page: Page, path: string) => Promise<unknown>;
 }
 
@@ -21,7 +21,7 @@ async function orientation(page: Page, path: string): Promise<void> {
   await page.getByRole("button", { name: "Find the best orientation" }).click();
   await page.locator("cusp-orientation .pose canvas[data-drawn]").nth(2).waitFor();
   await page.locator("cusp-sphere .disc").first().hover({ position: { x: 60, y: 120 } });
-  await page.locator("cusp-workbench [part=orientation]").screenshot({ path });
+  await page.screenshot({ path });
 }
 
 async function distances(page: Page, path: string): Promise<void> {
@@ -42,20 +42,27 @@ async function printFile(page: Page, path: string): Promise<void> {
   await page.screenshot({ path });
 }
 
-/** The page from its top: the whole page would be too large a picture. */
-async function top(page: Page, path: string): Promise<void> {
-  await page.evaluate(() => scrollTo(0, 0));
+async function whole(page: Page, path: string): Promise<void> {
   await page.waitForTimeout(500);
   await page.screenshot({ path });
 }
 
+async function mask(page: Page, path: string): Promise<void> {
+  await openPanel(page, "Mask");
+  await page.waitForSelector("canvas[data-layer]");
+  await whole(page, path);
+}
+
+/** Where the page is a workbench, and no picture of it too large. */
+const DESKTOP = { width: 1060, height: 650 };
+
 const SHOTS: readonly Shot[] = [
-  { name: "page-wide", options: { viewport: { width: 1180, height: 780 } } },
-  { name: "page-dark", options: { viewport: { width: 1180, height: 780 }, colorScheme: "dark" } },
-  { name: "page-narrow", options: { viewport: { width: 390, height: 1500 } } },
-  { name: "page-orientation", options: { viewport: { width: 1180, height: 780 } }, take: orientation },
-  { name: "page-distance", options: { viewport: { width: 1180, height: 780 } }, take: distances },
-  { name: "page-print-file", query: "?printer=mars-4-ultra", options: { viewport: { width: 1040, height: 540 } }, take: printFile },
+  { name: "page-wide", options: { viewport: DESKTOP } },
+  { name: "page-dark", options: { viewport: DESKTOP, colorScheme: "dark" }, take: mask },
+  { name: "page-narrow", options: { viewport: { width: 390, height: 800 } } },
+  { name: "page-orientation", options: { viewport: { width: 1000, height: 640 } }, take: orientation },
+  { name: "page-distance", options: { viewport: DESKTOP }, take: distances },
+  { name: "page-print-file", query: "?printer=mars-4-ultra", options: { viewport: { width: 1020, height: 530 } }, take: printFile },
 ];
 
 export async function main([folder]: string[]): Promise<void> {
@@ -64,16 +71,13 @@ export async function main([folder]: string[]): Promise<void> {
   const served = await serve();
   const browser = await launch();
   try {
-    for (const { name, query = "", options, take = top } of SHOTS) {
+    for (const { name, query = "", options, take = whole } of SHOTS) {
       const { page } = await open(browser, served.address + query, { reducedMotion: "reduce", ...options });
       await page.getByRole("button", { name: "Try the example" }).click();
       await state(page, "done");
-      await openPanel(page, "Mask");
-      await page.waitForSelector("canvas[data-layer]");
-      const slider = page.getByRole("slider", { name: "Layer", exact: true });
-      const layer = Math.round(0.72 * Number(await slider.getAttribute("max")));
-      await slider.fill(String(layer));
-      await maskOf(page, layer - 1);
+      await page.waitForSelector("cusp-view");
+      const slider = page.getByRole("slider", { name: "Layer in the view" });
+      await slider.fill(String(0.45 * Number(await slider.getAttribute("max"))));
       await page.evaluate(() => document.fonts.ready);
       const path = `${into}/${name}.png`;
       await take(page, path);

@@ -210,6 +210,29 @@ describe("drawing", () => {
     expect(Math.abs((await after(8, 2)) - few)).toBeLessThanOrEqual(2);
   });
 
+  it("shows the whole model at any size until somebody moves it", async () => {
+    const page = await start({ viewport: { width: 644, height: 640 } });
+    await page.evaluate(async () => {
+      const { harness } = window;
+      harness.show();
+      await harness.set({ positions: harness.solids.ball(10, 32), showsLegend: false });
+    });
+    /** Whether the model reaches the edge of the view. */
+    const isCut = async (): Promise<boolean> => {
+      const { width = 0, height = 0 } = (await page.locator("cusp-view").boundingBox()) ?? {};
+      const at = await picture(page);
+      // The model is much darker than what is behind it.
+      return at(3, height / 2)[0] - at(width / 2, height / 2)[0] < 30;
+    };
+    await expect.poll(isCut).toBe(false);
+    await page.setViewportSize({ width: 260, height: 640 });
+    await expect.poll(isCut).toBe(false);
+    await page.locator("cusp-view .scene").focus();
+    for (let i = 0; i < 5; i++) await page.keyboard.press("+");
+    await page.setViewportSize({ width: 240, height: 640 });
+    await expect.poll(isCut).toBe(true);
+  });
+
   it("follows the page's theme", async () => {
     const page = await start();
     await page.evaluate(async () => {

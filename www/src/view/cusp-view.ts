@@ -145,7 +145,8 @@ export class CuspView extends elementWith(PROPERTIES) {
     watchPointer(canvas, { clicked: (at) => void pointing.clicked(at), hovered }, life.signal);
     painting.watch(holder, (event) => placeIn(canvas, event), life.signal);
     sharePage(holder, () => this.shadowRoot?.activeElement === holder, life.signal);
-    this.renderRoot.addEventListener("transitionrun", this.#recolour, { signal: life.signal });
+    // At its start a transition may still have the colour from before.
+    for (const type of ["transitionrun", "transitionend"]) this.renderRoot.addEventListener(type, this.#recolour, { signal: life.signal });
     this.#reducedMotion.addEventListener("change", this.#damp, { signal: life.signal });
     const resize = (): void => scene.setSize(holder.clientWidth, holder.clientHeight);
     this.#beside = new Beside(holder, resize, life.signal);

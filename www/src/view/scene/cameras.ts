@@ -117,10 +117,19 @@ export class Cameras {
     this.controls.dampingFactor = 0.12;
   }
 
+  /** Takes the size of the view. A camera that nobody has moved goes on showing the whole model. */
   setView(width_px: number, height_px: number): void {
+    const at = this.#aligned ? this.#left : this.#viewpoint;
+    const isFirst = this.#flight === null && at !== null && areSame(at, this.#first);
     this.#view = [width_px, height_px];
     this.#free.aspect = width_px / height_px;
     this.#free.updateProjectionMatrix();
+    if (!isFirst) return;
+    if (this.#aligned) this.#left = this.#first;
+    else {
+      this.#limit();
+      this.#goTo(this.#first);
+    }
   }
 
   /** Follows a model that has changed its pose: moves up or down with the model's middle. */
@@ -139,15 +148,12 @@ export class Cameras {
     this.#size_mm = size_mm;
     this.#left = this.#flight = this.#approached = null;
     this.#nearest = Infinity;
-    const target = new Vector3(0, 0, size_mm[2] / 2);
     if (this.#aligned) {
       this.#lookAlong(QUARTER_TURN, 0);
       return;
     }
-    this.controls.target.copy(target);
-    this.#free.position.copy(target).addScaledVector(FIRST, distanceOf(size_mm, FIRST, this.#free.aspect));
     this.#limit();
-    this.controls.update();
+    this.#goTo(this.#first);
   }
 
   /** Turns about the target: to the right and upwards, degrees. */
@@ -293,6 +299,13 @@ export class Cameras {
 
   dispose(): void {
     this.controls.dispose();
+  }
+
+  /** Where all of the model is seen first. */
+  get #first(): Viewpoint {
+    const middle = this.#size_mm[2] / 2;
+    const [x, y, z] = FIRST.toArray().map((part) => part * distanceOf(this.#size_mm, FIRST, this.#free.aspect)) as [number, number, number];
+    return { position: [x, y, middle + z], target: [0, 0, middle] };
   }
 
   get #viewpoint(): Viewpoint {
