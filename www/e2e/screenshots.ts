@@ -53,15 +53,15 @@ async function mask(page: Page, path: string): Promise<void> {
   await whole(page, path);
 }
 
-/** Where the page is a workbench, and no picture of it too large. */
-const DESKTOP = { width: 1060, height: 650 };
+/** The page as a workbench, a little smaller than on a screen: no picture may be too large. */
+const DESKTOP = { viewport: { width: 1280, height: 800 }, deviceScaleFactor: 0.8 };
 
 const SHOTS: readonly Shot[] = [
-  { name: "page-wide", options: { viewport: DESKTOP } },
-  { name: "page-dark", options: { viewport: DESKTOP, colorScheme: "dark" }, take: mask },
+  { name: "page-wide", options: DESKTOP },
+  { name: "page-dark", options: { ...DESKTOP, colorScheme: "dark" }, take: mask },
   { name: "page-narrow", options: { viewport: { width: 390, height: 800 } } },
-  { name: "page-orientation", options: { viewport: { width: 1000, height: 640 } }, take: orientation },
-  { name: "page-distance", options: { viewport: DESKTOP }, take: distances },
+  { name: "page-orientation", options: { ...DESKTOP, viewport: { width: 1280, height: 1000 } }, take: orientation },
+  { name: "page-distance", options: { viewport: { width: 1280, height: 800 } }, take: distances },
   { name: "page-print-file", query: "?printer=mars-4-ultra", options: { viewport: { width: 1020, height: 530 } }, take: printFile },
 ];
 

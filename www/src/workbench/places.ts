@@ -12,5 +12,5 @@ export type AnswerPanel = (typeof ANSWERS)[number];
 /** The result is a sheet, too: its figures in the bar open it. */
 export type Sheet = (typeof SHEETS)[number] | "plan";
 
-/** From this width on, both sides stand beside the view. */
-export const WIDE_PX = 960;
+/** From this width on, both sides stand beside the view, and leave it more room than either has. */
+export const WIDE_PX = 1180;
