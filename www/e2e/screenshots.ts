@@ -21,7 +21,7 @@ async function orientation(page: Page, path: string): Promise<void> {
   await page.getByRole("button", { name: "Find the best orientation" }).click();
   await page.locator("cusp-orientation .pose canvas[data-drawn]").nth(2).waitFor();
   await page.locator("cusp-sphere .disc").first().hover({ position: { x: 60, y: 120 } });
-  await page.screenshot({ path });
+  await page.locator("[part=settings]").screenshot({ path });
 }
 
 async function distances(page: Page, path: string): Promise<void> {
@@ -54,15 +54,15 @@ async function mask(page: Page, path: string): Promise<void> {
 }
 
 /** The page as a workbench, a little smaller than on a screen: no picture may be too large. */
-const DESKTOP = { viewport: { width: 1280, height: 800 }, deviceScaleFactor: 0.8 };
+const DESKTOP = { viewport: { width: 1280, height: 800 }, deviceScaleFactor: 0.75 };
 
 const SHOTS: readonly Shot[] = [
   { name: "page-wide", options: DESKTOP },
   { name: "page-dark", options: { ...DESKTOP, colorScheme: "dark" }, take: mask },
   { name: "page-narrow", options: { viewport: { width: 390, height: 800 } } },
-  { name: "page-orientation", options: { ...DESKTOP, viewport: { width: 1280, height: 1000 } }, take: orientation },
+  { name: "page-orientation", options: { viewport: { width: 1280, height: 1240 } }, take: orientation },
   { name: "page-distance", options: { viewport: { width: 1280, height: 800 } }, take: distances },
-  { name: "page-print-file", query: "?printer=mars-4-ultra", options: { viewport: { width: 1020, height: 530 } }, take: printFile },
+  { name: "page-print-file", query: "?printer=mars-4-ultra", options: { viewport: { width: 960, height: 500 } }, take: printFile },
 ];
 
 export async function main([folder]: string[]): Promise<void> {
