@@ -1,5 +1,6 @@
 /** What the page's own panels share beyond the element's styles: they are as wide as their place, and lists have rows. */
 import { css } from "lit";
+import { lineIcon } from "../element/styles/shared.js";
 
 export const visitStyles = css`
   :host {
@@ -60,13 +61,7 @@ export const visitStyles = css`
     color: var(--cusp-quiet);
   }
   .icon svg {
-    width: 1.125rem;
-    height: 1.125rem;
-    fill: none;
-    stroke: currentColor;
-    stroke-width: 1.75;
-    stroke-linecap: round;
-    stroke-linejoin: round;
+    ${lineIcon}
   }
   input[type="text"] {
     font: inherit;

@@ -1,5 +1,6 @@
 /** The styles of the workbench. It fills its host, which has a definite height; what does not fit scrolls inside its panel. */
 import { css } from "lit";
+import { lineIcon } from "../element/styles/shared.js";
 
 export const workbenchStyles = css`
   :host {
@@ -113,13 +114,7 @@ export const workbenchStyles = css`
     border: 0;
   }
   .steps svg {
-    width: 1.125rem;
-    height: 1.125rem;
-    fill: none;
-    stroke: currentColor;
-    stroke-width: 1.75;
-    stroke-linecap: round;
-    stroke-linejoin: round;
+    ${lineIcon}
   }
 
   cusp-chart {
@@ -326,16 +321,6 @@ export const workbenchStyles = css`
   }
   details.quiet {
     margin-top: 0.625rem;
-  }
-  details.quiet summary {
-    width: fit-content;
-    cursor: pointer;
-  }
-  .facts {
-    display: flex;
-    flex-wrap: wrap;
-    gap: 0.5rem 2rem;
-    margin-top: 0.5rem;
   }
 
   .narrow .stage {

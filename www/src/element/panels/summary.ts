@@ -7,6 +7,16 @@ import type { Result, Shown } from "../state/result.js";
 import { styled } from "../parts/styled.js";
 
 export const summaryStyles = css`
+  details.quiet summary {
+    width: fit-content;
+    cursor: pointer;
+  }
+  .facts {
+    display: flex;
+    flex-wrap: wrap;
+    gap: 0.5rem 2rem;
+    margin-top: 0.5rem;
+  }
   .answer {
     display: flex;
     flex-wrap: wrap;

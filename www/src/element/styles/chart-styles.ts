@@ -1,6 +1,7 @@
 /** The styles of the chart. */
 import { css, unsafeCSS } from "lit";
 import { gradient } from "../../view/legend/palette.js";
+import { lineIcon } from "./shared.js";
 
 export const chartStyles = css`
   :host {
@@ -34,13 +35,7 @@ export const chartStyles = css`
     padding: 0;
   }
   .whole svg {
-    width: 1.125rem;
-    height: 1.125rem;
-    fill: none;
-    stroke: currentColor;
-    stroke-width: 1.75;
-    stroke-linecap: round;
-    stroke-linejoin: round;
+    ${lineIcon}
   }
   .top p,
   .density,

@@ -1,5 +1,6 @@
 /** The layout of the element's panels. */
 import { css } from "lit";
+import { lineIcon } from "./shared.js";
 
 export const layoutStyles = css`
   :host([hidden]) {
@@ -139,13 +140,7 @@ export const layoutStyles = css`
     padding: 0;
   }
   .steps svg {
-    width: 1.125rem;
-    height: 1.125rem;
-    fill: none;
-    stroke: currentColor;
-    stroke-width: 1.75;
-    stroke-linecap: round;
-    stroke-linejoin: round;
+    ${lineIcon}
   }
   .results {
     display: grid;
@@ -170,16 +165,6 @@ export const layoutStyles = css`
   }
   details.quiet {
     margin-top: 0.75rem;
-  }
-  details.quiet summary {
-    width: fit-content;
-    cursor: pointer;
-  }
-  .facts {
-    display: flex;
-    flex-wrap: wrap;
-    gap: 0.5rem 2rem;
-    margin-top: 0.5rem;
   }
   /* Appears after a delay, so that quick plans do not flash. */
   .toast {

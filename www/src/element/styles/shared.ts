@@ -2,6 +2,17 @@
 import { css } from "lit";
 import { visuallyHidden } from "../../view/visually-hidden.js";
 
+/** An icon drawn in lines, as high as the text of its button. */
+export const lineIcon = css`
+  width: 1.125rem;
+  height: 1.125rem;
+  fill: none;
+  stroke: currentColor;
+  stroke-width: 1.75;
+  stroke-linecap: round;
+  stroke-linejoin: round;
+`;
+
 export const shared = css`
   *,
   *::before,
