@@ -5,6 +5,7 @@
  */
 import type { TemplateResult } from "lit";
 import type { Facts } from "./facts.js";
+import { modelStyles } from "./panels/model-card.js";
 import { summaryStyles } from "./panels/summary.js";
 import { problemStyles } from "./parts/problem-box.js";
 import { partStyles } from "./parts/part.js";
@@ -16,7 +17,7 @@ import { theme } from "./styles/theme.js";
 import { template } from "./template.js";
 
 export class CuspSlicer extends SlicerElement {
-  static override styles = [theme, shared, summaryStyles, progressStyles, problemStyles, partStyles, layoutStyles];
+  static override styles = [theme, shared, modelStyles, summaryStyles, progressStyles, problemStyles, partStyles, layoutStyles];
 
   protected override layout(facts: Facts): TemplateResult {
     return template(facts, this.clientWidth >= WIDE_PX);

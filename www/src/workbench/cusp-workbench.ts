@@ -6,6 +6,7 @@ import type { TemplateResult } from "lit";
 import { define } from "../element/define.js";
 import type { Facts } from "../element/facts.js";
 import type { PlotPlace } from "../element/panels/profile-chart.js";
+import { modelStyles } from "../element/panels/model-card.js";
 import { summaryStyles } from "../element/panels/summary.js";
 import { problemStyles } from "../element/parts/problem-box.js";
 import { partStyles } from "../element/parts/part.js";
@@ -19,7 +20,7 @@ import { workbenchStyles } from "./styles.js";
 import { template } from "./template.js";
 
 export class CuspWorkbench extends SlicerElement {
-  static override styles = [theme, shared, summaryStyles, progressStyles, problemStyles, partStyles, workbenchStyles];
+  static override styles = [theme, shared, modelStyles, summaryStyles, progressStyles, problemStyles, partStyles, workbenchStyles];
 
   #isWide = true;
   #choice: ChoicePanel = "settings";

@@ -130,27 +130,12 @@ export const workbenchStyles = css`
     margin-top: 0.375rem;
     font-size: 0.875rem;
   }
-  dt {
-    color: var(--cusp-quiet);
-    font-size: 0.8125rem;
-  }
   .files,
   .open-other {
     display: flex;
     align-items: center;
     gap: 0.5rem;
     margin-top: 0.625rem;
-  }
-  .files button {
-    min-width: 2.25rem;
-    padding: 0;
-    font-size: 1.25rem;
-  }
-  .flip:dir(rtl) {
-    scale: -1 1;
-  }
-  .open-other label {
-    position: relative;
   }
   .drop:has(:focus-visible),
   .open-other label:has(:focus-visible) {

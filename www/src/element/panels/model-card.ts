@@ -1,10 +1,28 @@
 /** The card of the open model. */
-import { html, nothing, type TemplateResult } from "lit";
+import { css, html, nothing, type TemplateResult } from "lit";
 import type { Language } from "../../texts/index.js";
 import { offerButtons } from "../parts/problem-box.js";
 import { towersOffer } from "../parts/towers-offer.js";
 import { advise } from "../state/problem.js";
 import type { Session } from "../state/session.js";
+
+export const modelStyles = css`
+  dt {
+    color: var(--cusp-quiet);
+    font-size: 0.8125rem;
+  }
+  .files button {
+    min-width: 2.25rem;
+    padding: 0;
+    font-size: 1.25rem;
+  }
+  .flip:dir(rtl) {
+    scale: -1 1;
+  }
+  .open-other label {
+    position: relative;
+  }
+`;
 
 export interface ModelActions {
   picked(event: Event): void;

@@ -83,10 +83,6 @@ export const layoutStyles = css`
     background: var(--cusp-note-wash);
     font-size: 0.875rem;
   }
-  dt {
-    color: var(--cusp-quiet);
-    font-size: 0.8125rem;
-  }
   .warning {
     margin-top: 0.75rem;
     padding-inline-start: 0.75rem;
@@ -99,22 +95,11 @@ export const layoutStyles = css`
     gap: 0.5rem;
     margin-top: 1rem;
   }
-  .files button {
-    min-width: 2.25rem;
-    padding: 0;
-    font-size: 1.25rem;
-  }
-  .flip:dir(rtl) {
-    scale: -1 1;
-  }
   .open-other {
     display: flex;
     align-items: center;
     gap: 0.75rem;
     margin-top: 1rem;
-  }
-  .open-other label {
-    position: relative;
   }
   .settings summary {
     cursor: pointer;
