@@ -68,6 +68,8 @@ pub mod plan;
 pub mod mask;
 
 pub mod archive;
+#[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
+pub mod contour;
 pub mod orientation;
 
 pub mod job;

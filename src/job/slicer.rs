@@ -19,6 +19,7 @@ use crate::ldi::gpu::Gpu;
 use crate::mask::{MaskCursor, Masks, Side};
 use crate::model::{Mesh, ModelFile, Pose, read, saliency, weights};
 use crate::orientation::Surface;
+use crate::plan::Plan;
 use crate::profile::facet_bins::FacetBins;
 use crate::profile::{Metric, Profile, Source};
 
@@ -342,6 +343,15 @@ impl Slicer {
             |measured: &&Arc<Measured>| measured.shapes.has_areas() || !metric.needs_areas();
         let measured = measured.find(has_it).ok_or(Error::NoPlan)?;
         Ok(measured.shapes.profile(metric, source))
+    }
+
+    /// The model on the plate, with holes closed, and the layers of the last plan.
+    ///
+    /// # Errors
+    /// [`Error::NoPlan`].
+    pub fn planned(&self) -> Result<(&Mesh, &Plan), Error> {
+        let current = self.current.as_ref().ok_or(Error::NoPlan)?;
+        Ok((&current.planned.of.of.mesh, &current.planned.plan))
     }
 
     /// The mask of a layer of the last plan: see [`MaskCursor::whole`].

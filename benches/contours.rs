@@ -1,0 +1,97 @@
+//! Contours of scans: `cargo xtask bench contours MODEL.stl …`.
+//!
+//! For each model, 60 mm high in 800 layers, and for a ball of 131,072 facets: points and time of cutting all layers, without a file, with a tolerance
+//! and without; and the size of the SVG and the CLI file, and the time with writing it.
+
+use std::time::Instant;
+
+use cusp_slicer::contour::cli::Cli;
+use cusp_slicer::contour::svg::Svg;
+use cusp_slicer::contour::{Contours, Heading, Lattice, LayerHeights, Polygon, cut};
+use cusp_slicer::model::{Mesh, Pose};
+use cusp_slicer::progress::{Cancelled, silent};
+
+#[path = "common/mod.rs"]
+mod common;
+#[path = "../tests/common/solids.rs"]
+#[allow(dead_code, reason = "a bench uses few solids")]
+mod solids;
+
+const LAYERS: usize = 800;
+
+/// Repeats, of which the fastest counts.
+const REPEATS: usize = 3;
+
+fn main() {
+    let ball = common::on_plate(&solids::sphere(30.0, 7), &Pose::of_height(60.0));
+    println!(
+        "| model | facets | simplified | points | cut (ms) | cut and written as SVG (ms) | SVG (MB) | as CLI (ms) | CLI (MB) |\n\
+         |---|---:|---:|---:|---:|---:|---:|---:|---:|"
+    );
+    for (name, mesh) in common::named().chain([("ball".to_owned(), ball)]) {
+        for simplify_mm in [0.0, 0.005] {
+            row(&name, &mesh, simplify_mm);
+        }
+    }
+}
+
+fn row(name: &str, mesh: &Mesh, simplify_mm: f64) {
+    let height_mm = mesh.bounds().size().z;
+    let plane = |layer: usize| height_mm * layer as f64 / LAYERS as f64;
+    let layers: Vec<LayerHeights> = (0..LAYERS)
+        .map(|layer| LayerHeights {
+            bottom_mm: plane(layer),
+            top_mm: plane(layer + 1),
+            section_mm: (plane(layer) + plane(layer + 1)) / 2.0,
+        })
+        .collect();
+    let heading = Heading {
+        title: name,
+        lattice: Lattice::of(&mesh.bounds()),
+        bounds: mesh.bounds(),
+        layers: LAYERS,
+    };
+    let run = |collect: &mut dyn FnMut(&Contours)| {
+        cut(mesh, &layers, simplify_mm, &mut silent, |contours| {
+            collect(&contours);
+            Ok::<_, Cancelled>(())
+        })
+        .expect("contours");
+    };
+    let (ms, points) = fastest(|| {
+        let mut points = 0;
+        run(&mut |contours| {
+            let rings = contours.polygons.iter().flat_map(Polygon::rings);
+            points += rings.map(|ring| ring.points.len()).sum::<usize>();
+        });
+        points
+    });
+    let (svg_ms, svg_bytes) = fastest(|| {
+        let mut svg = Svg::begin(Vec::new(), heading.clone()).expect("an SVG");
+        run(&mut |contours| svg.write(contours).expect("a layer"));
+        svg.end().expect("an SVG").len()
+    });
+    let (cli_ms, cli_bytes) = fastest(|| {
+        let mut cli = Cli::begin(Vec::new(), heading.clone()).expect("a CLI file");
+        run(&mut |contours| cli.write(contours).expect("a layer"));
+        cli.end().expect("a CLI file").len()
+    });
+    println!(
+        "| {name} | {} | {simplify_mm} mm | {points} | {ms:.0} | {svg_ms:.0} | {:.1} | {cli_ms:.0} | {:.1} |",
+        mesh.surface_facets,
+        svg_bytes as f64 / 1e6,
+        cli_bytes as f64 / 1e6,
+    );
+}
+
+/// The least time of several runs in milliseconds, and the result.
+fn fastest<T>(mut work: impl FnMut() -> T) -> (f64, T) {
+    let mut least = f64::INFINITY;
+    let mut result = None;
+    for _ in 0..REPEATS {
+        let clock = Instant::now();
+        result = Some(work());
+        least = least.min(clock.elapsed().as_secs_f64() * 1000.0);
+    }
+    (least, result.expect("a run"))
+}
