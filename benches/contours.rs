@@ -3,8 +3,6 @@
 //! For each model, 60 mm high in 800 layers, and for a ball of 131,072 facets: points and time of cutting all layers, without a file, with a tolerance
 //! and without; and the size of the SVG and the CLI file, and the time with writing it.
 
-use std::time::Instant;
-
 use cusp_slicer::contour::cli::Cli;
 use cusp_slicer::contour::svg::Svg;
 use cusp_slicer::contour::{Contours, Heading, Lattice, LayerHeights, Polygon, cut};
@@ -17,18 +15,17 @@ mod common;
 #[allow(dead_code, reason = "a bench uses few solids")]
 mod solids;
 
+use common::{named, on_plate, time};
+
 const LAYERS: usize = 800;
 
-/// Repeats, of which the fastest counts.
-const REPEATS: usize = 3;
-
 fn main() {
-    let ball = common::on_plate(&solids::sphere(30.0, 7), &Pose::of_height(60.0));
+    let ball = on_plate(&solids::sphere(30.0, 7), &Pose::of_height(60.0));
     println!(
         "| model | facets | simplified | points | cut (ms) | cut and written as SVG (ms) | SVG (MB) | as CLI (ms) | CLI (MB) |\n\
          |---|---:|---:|---:|---:|---:|---:|---:|---:|"
     );
-    for (name, mesh) in common::named().chain([("ball".to_owned(), ball)]) {
+    for (name, mesh) in named().chain([("ball".to_owned(), ball)]) {
         for simplify_mm in [0.0, 0.005] {
             row(&name, &mesh, simplify_mm);
         }
@@ -58,7 +55,7 @@ fn row(name: &str, mesh: &Mesh, simplify_mm: f64) {
         })
         .expect("contours");
     };
-    let (ms, points) = fastest(|| {
+    let (cut_s, points) = time(|| {
         let mut points = 0;
         run(&mut |contours| {
             let rings = contours.polygons.iter().flat_map(Polygon::rings);
@@ -66,32 +63,24 @@ fn row(name: &str, mesh: &Mesh, simplify_mm: f64) {
         });
         points
     });
-    let (svg_ms, svg_bytes) = fastest(|| {
+    let (svg_s, svg_bytes) = time(|| {
         let mut svg = Svg::begin(Vec::new(), heading.clone()).expect("an SVG");
         run(&mut |contours| svg.write(contours).expect("a layer"));
         svg.end().expect("an SVG").len()
     });
-    let (cli_ms, cli_bytes) = fastest(|| {
+    let (cli_s, cli_bytes) = time(|| {
         let mut cli = Cli::begin(Vec::new(), heading.clone()).expect("a CLI file");
         run(&mut |contours| cli.write(contours).expect("a layer"));
         cli.end().expect("a CLI file").len()
     });
+    let ms = |seconds: f64| format!("{:.0}", seconds * 1000.0);
     println!(
-        "| {name} | {} | {simplify_mm} mm | {points} | {ms:.0} | {svg_ms:.0} | {:.1} | {cli_ms:.0} | {:.1} |",
+        "| {name} | {} | {simplify_mm} mm | {points} | {} | {} | {:.1} | {} | {:.1} |",
         mesh.surface_facets,
+        ms(cut_s),
+        ms(svg_s),
         svg_bytes as f64 / 1e6,
+        ms(cli_s),
         cli_bytes as f64 / 1e6,
     );
-}
-
-/// The least time of several runs in milliseconds, and the result.
-fn fastest<T>(mut work: impl FnMut() -> T) -> (f64, T) {
-    let mut least = f64::INFINITY;
-    let mut result = None;
-    for _ in 0..REPEATS {
-        let clock = Instant::now();
-        result = Some(work());
-        least = least.min(clock.elapsed().as_secs_f64() * 1000.0);
-    }
-    (least, result.expect("a run"))
 }

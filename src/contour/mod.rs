@@ -8,6 +8,7 @@
 
 pub mod cli;
 mod lattice;
+mod report;
 mod section;
 mod simplify;
 pub mod svg;
@@ -18,6 +19,7 @@ use crate::parallel;
 use crate::plan::Plan;
 use crate::progress::{Cancelled, Progress};
 pub use lattice::Lattice;
+pub use report::{ContoursReport, SectionReport};
 use section::{Crossings, Loops};
 
 /// A closed outline on the [`Lattice`]. The last point is joined to the first.

@@ -5,6 +5,7 @@
 mod calibrate;
 #[path = "../common/mod.rs"]
 mod common;
+mod contours;
 mod convert;
 mod files;
 mod info;

@@ -146,12 +146,15 @@ pub fn contains(polygons: &[Polygon], half_steps: [i64; 2]) -> Option<bool> {
         .then(|| places.iter().filter(|&&place| place == Place::In).count() % 2 == 1)
 }
 
-/// The distance of a point from a segment.
+/// The distance of a point from a segment, which may be a point.
 pub fn distance(point: [f64; 2], [a, b]: [Point; 2]) -> f64 {
     let [a, b] = [a, b].map(|end| end.map(f64::from));
     let [along, to] = [b, point].map(|end| [end[0] - a[0], end[1] - a[1]]);
     let squared = along[0] * along[0] + along[1] * along[1];
-    let share = ((along[0] * to[0] + along[1] * to[1]) / squared).clamp(0.0, 1.0);
+    let share = match (along[0] * to[0] + along[1] * to[1]) / squared {
+        share if share.is_nan() => 0.0,
+        share => share.clamp(0.0, 1.0),
+    };
     (to[0] - share * along[0]).hypot(to[1] - share * along[1])
 }
 

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod calibrate;
+mod contours;
 mod convert;
 mod files;
 mod inspect;
@@ -20,6 +21,7 @@ use clap::{Parser, Subcommand};
 
 use arguments::{Orienting, Slicing};
 use calibrate::Calibrating;
+use contours::Contouring;
 use convert::Converting;
 use inspect::Inspecting;
 use simulate::Simulating;
@@ -52,6 +54,9 @@ enum Command {
         #[command(flatten)]
         slicing: Slicing,
     },
+    /// Write the exact section of each layer as polygons, for tool paths of other processes
+    #[command(allow_negative_numbers = true)]
+    Contours(Contouring),
     /// Show how layers, time and error depend on each other
     #[command(allow_negative_numbers = true)]
     Tradeoff {
@@ -123,6 +128,7 @@ fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Slice { slicing, output } => slice::slice(&slicing, &output),
         Command::Plan { slicing } => slice::plan(&slicing),
+        Command::Contours(contouring) => contours::contours(&contouring),
         Command::Tradeoff { slicing, points } => slice::tradeoff(&slicing, points as usize),
         Command::Orient(orienting) => orient::orient(&orienting),
         Command::Compare { slicing } => slice::compare(&slicing),

@@ -38,7 +38,8 @@ pub fn plan(slicing: &Slicing) -> Result<(), Failure> {
     show(slicing, report)
 }
 
-fn make_plan<'a>(
+/// Makes the plan that the options ask for.
+pub fn make_plan<'a>(
     slicer: &'a mut Slicer,
     slicing: &Slicing,
     bar: &Bar,
