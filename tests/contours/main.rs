@@ -12,7 +12,7 @@ mod simplify;
 mod union;
 
 use common::{on_plate, solids::Triangles};
-use cusp_slicer::contour::{Contours, Lattice, LayerHeights, Polygon, cut};
+use cusp_slicer::contour::{Contours, Lattice, LayerHeights, Polygon, Ring, cut};
 use cusp_slicer::model::Mesh;
 use cusp_slicer::progress::{Cancelled, silent};
 
@@ -43,7 +43,7 @@ fn section(triangles: &Triangles, section_mm: f64) -> (f64, f64, Vec<Polygon>) {
     let found = contours_of(&mesh, &[section_mm], 0.0).remove(0).polygons;
     let step_mm = Lattice::of(&mesh.bounds()).step_mm();
     let rings = || found.iter().flat_map(Polygon::rings);
-    let area: f64 = rings().map(|ring| ring.area()).sum();
-    let length: f64 = rings().map(|ring| ring.length()).sum();
+    let area: f64 = rings().map(Ring::area).sum();
+    let length: f64 = rings().map(Ring::length).sum();
     (area * step_mm * step_mm, length * step_mm, found)
 }

@@ -5,7 +5,7 @@ use glam::Vec3;
 use crate::common::on_plate;
 use crate::common::solids::{self, Triangles};
 use crate::{contours_of, oracle};
-use cusp_slicer::contour::{Lattice, Polygon};
+use cusp_slicer::contour::{Lattice, Polygon, Ring};
 
 const SIDE: usize = 12;
 
@@ -74,8 +74,8 @@ fn random_boxes_are_their_raster() {
             }
             let rings = || contours.polygons.iter().flat_map(Polygon::rings);
             let (area, length): (f64, f64) = (
-                rings().map(|ring| ring.area()).sum(),
-                rings().map(|ring| ring.length()).sum(),
+                rings().map(Ring::area).sum(),
+                rings().map(Ring::length).sum(),
             );
             let steps = steps as f64;
             assert_eq!(
@@ -111,7 +111,7 @@ fn bodies_askew_are_valid_and_have_the_area_of_their_raster() {
         let (least, most) = corners.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(a, b), &c| {
             (a.min(c), b.max(c))
         });
-        let foot = Vec3::new((least.x + most.x) / 2.0, (least.y + most.y) / 2.0, least.z);
+        let foot = least.midpoint(most).with_z(least.z);
         let lattice = Lattice::of(&mesh.bounds());
         let sections: Vec<f64> = (1..8)
             .map(|eighth| mesh.bounds().size().z * f64::from(eighth) / 8.0)
