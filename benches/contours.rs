@@ -1,26 +1,26 @@
 //! Contours of scans: `cargo xtask bench contours MODEL.stl …`.
 //!
-//! For each model, 60 mm high in 800 layers, and for a ball of 131,072 facets: points and time of cutting all layers, without a file, with a tolerance
+//! For each model, 60 mm high, and for a ball of 131,072 facets, 10 mm high, in 800 layers: points and time of cutting all layers, without a file, with a tolerance
 //! and without; and the size of the SVG and the CLI file, and the time with writing it.
 
 use cusp_slicer::contour::cli::Cli;
 use cusp_slicer::contour::svg::Svg;
 use cusp_slicer::contour::{Contours, Heading, Lattice, LayerHeights, Polygon, cut};
-use cusp_slicer::model::{Mesh, Pose};
+use cusp_slicer::model::Mesh;
 use cusp_slicer::progress::{Cancelled, silent};
 
 #[path = "common/mod.rs"]
 mod common;
 #[path = "../tests/common/solids.rs"]
-#[allow(dead_code, reason = "a bench uses few solids")]
+#[expect(dead_code, reason = "the tests use the other solids")]
 mod solids;
 
-use common::{named, on_plate, time};
+use common::{balls, named, time};
 
 const LAYERS: usize = 800;
 
 fn main() {
-    let ball = on_plate(&solids::sphere(30.0, 7), &Pose::of_height(60.0));
+    let ball = balls(1, 1, 7);
     println!(
         "| model | facets | simplified | points | cut (ms) | cut and written as SVG (ms) | SVG (MB) | as CLI (ms) | CLI (MB) |\n\
          |---|---:|---:|---:|---:|---:|---:|---:|---:|"
@@ -39,7 +39,7 @@ fn row(name: &str, mesh: &Mesh, simplify_mm: f64) {
         .map(|layer| LayerHeights {
             bottom_mm: plane(layer),
             top_mm: plane(layer + 1),
-            section_mm: (plane(layer) + plane(layer + 1)) / 2.0,
+            section_mm: height_mm * (layer as f64 + 0.5) / LAYERS as f64,
         })
         .collect();
     let heading = Heading {
