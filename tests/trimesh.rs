@@ -1,5 +1,5 @@
-//! Sections of layers, against those of trimesh, which does its own reading, cutting and joining. Needs a Python with trimesh, shapely, networkx, scipy
-//! and rtree: `python3`, or that of the variable `CUSP_PYTHON`. Without, the tests are reported as ignored.
+//! Sections of layers, against those of trimesh, which does its own reading, cutting and joining. Needs a Python with trimesh, shapely,
+//! networkx, scipy and rtree: `python3`, or that of the variable `CUSP_PYTHON`. Without, the test is reported as ignored.
 
 #[path = "common/mod.rs"]
 mod common;

@@ -1,8 +1,8 @@
 //! The exact section of every layer of a plan, as polygons: for tool paths of other processes.
 //!
-//! [`cut`] cuts the mesh at the middle of each layer, where masks are sampled as well, joins the segments to loops ([`section`]), makes the
-//! union of all bodies ([`union`](mod@union)) and leaves out points within a tolerance ([`mod@simplify`]). Polygons never cross themselves or each
-//! other; outer rings are counter-clockwise, holes clockwise. [`svg`] and [`cli`] write them.
+//! [`cut`] cuts the mesh at the middle of each layer, where masks are sampled as well, joins the segments to loops (`section.rs`), unites all
+//! bodies (`union.rs`) and leaves out points within a tolerance (`simplify.rs`). Polygons never cross themselves or each other; outer rings
+//! are counter-clockwise, holes clockwise. [`svg`] and [`cli`] write them.
 //!
 //! Points lie on a [`Lattice`] of a tenth of a micrometre, and everything after the section is decided by integers.
 
@@ -115,10 +115,10 @@ pub struct Heading<'a> {
     pub layers: usize,
 }
 
-/// Cuts a mesh, as it stands on the plate, at every layer, and passes the contours to `collect` from the plate upward.
+/// Cuts a mesh, as it stands on the plate, at every layer, in ascending order, and passes the contours to `collect` from the plate upward.
 ///
-/// No point of the contours is farther than `simplify_mm` from the exact section of the union, and none of the section is farther than that from
-/// them, apart from rounding to the lattice; 0 keeps every point.
+/// No point of the contours is farther than `simplify_mm` from the outline of the exact section, and none of that outline is farther than that
+/// from the contours, apart from rounding to the lattice; 0 keeps every point.
 ///
 /// Cost: linear in facets, plus, in each layer, the facets that cross it, times their logarithm. Memory: 4 bytes per facet and layer that
 /// it crosses.

@@ -1,8 +1,8 @@
 //! Contours as SVG: one file with a group for each layer.
 //!
-//! Groups and their heights are named as Slic3r names them, `<g id="layer0" slic3r:z="0.025">`, for the programs that read its files; z is the
-//! height of the section. Each polygon is a path: its outer ring, then its holes. Coordinates are those of the model in millimetres, with y
-//! upward, and the group turns y over for the screen.
+//! Groups and their heights are named as Slic3r names them, `<g id="layer0" slic3r:z="0.025">`, for the programs that read its files; z is
+//! the height of the section. Each polygon is a path: its outer ring, then its holes. Coordinates are those of the model in millimetres,
+//! with y upward, and the group turns y over for the screen.
 
 use std::io::{self, Write};
 

@@ -87,8 +87,8 @@ fn neither_outline_is_farther_than_the_tolerance_from_the_other() {
     }
 }
 
-/// Thin tubes side by side, one within another, and small bodies in the corners that chords would cut off: with a tolerance that is larger than
-/// all their distances, much would cross.
+/// Thin tubes, one within another, and small bodies in the corners that chords would cut off: with a tolerance that is larger than all
+/// their distances, much would cross.
 #[test]
 fn what_is_nearer_to_each_other_than_the_tolerance_stays_apart() {
     let mut close = solids::cylinder(5.0, 2.0, 24);
