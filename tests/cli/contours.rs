@@ -32,7 +32,7 @@ fn contours_have_the_layers_of_the_plan() {
         for (section, planes) in sections.iter().zip(planes.windows(2)) {
             let number = |name: &str| section[name].as_f64().unwrap();
             assert_eq!([number("bottom_mm"), number("top_mm")], planes);
-            assert!((number("section_mm") - (planes[0] + planes[1]) / 2.0).abs() < 1e-9);
+            assert!((number("section_mm") - planes[0].midpoint(planes[1])).abs() < 1e-9);
             // The facets of the ball are between two spheres.
             let radius = |of: f64| {
                 (of * of - (number("section_mm") - 3.0).powi(2))
