@@ -59,7 +59,7 @@ fn thickest_straight(errors: &LayerErrors, segment: &Segment, plane: u32, tolera
     let lower = segment.boundary(plane);
     let bins = match errors {
         // Both grow in proportion to the thickness on an even slope.
-        LayerErrors::Sum(_) | LayerErrors::Deviation(_) => {
+        LayerErrors::Sum(_) | LayerErrors::Deviation(_) | LayerErrors::Largest(_) => {
             let a_bin = errors.steps_between(lower, lower + 1).max(1);
             tolerance as f64 / a_bin as f64
         }

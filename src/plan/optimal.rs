@@ -3,7 +3,7 @@
 use super::preferred::{Preferred, SnapPlanes};
 use super::segment::{Segment, Segments, boundaries_below};
 use super::{Limits, Plan, PlanError, timed, tradeoff};
-use crate::profile::{ErrorSum, LayerErrors, LayersAbove, Reach};
+use crate::profile::{LayerErrors, LayersAbove, Reach};
 use crate::resin::Resin;
 
 /// What a plan minimises.
@@ -134,10 +134,19 @@ fn fewest(
     for (index, segment) in segments.iter().enumerate() {
         let preferred = Preferred::within(segment, snap_planes, 1);
         let table = match errors {
-            LayerErrors::Sum(errors) => fill_fewest(errors, segment, &preferred, tolerance),
-            LayerErrors::Volume(_) | LayerErrors::Deviation(_) => {
-                fill_cheapest(errors, segment, &preferred, tolerance, |_| 1)
-            }
+            LayerErrors::Sum(errors) => fill_fewest(
+                |lower, upper| errors.steps_between(lower, upper),
+                segment,
+                &preferred,
+                tolerance,
+            ),
+            errors if errors.is_monotone() => fill_fewest(
+                |lower, upper| errors.steps_between(lower, upper),
+                segment,
+                &preferred,
+                tolerance,
+            ),
+            errors => fill_cheapest(errors, segment, &preferred, tolerance, |_| 1),
         };
         if !table.reaches_top() {
             return Err(Stuck {
@@ -238,21 +247,21 @@ struct Candidate {
     /// less what is above it.
     cost: [u64; 2],
     worst: u64,
-    /// The error of everything below it.
-    steps_below: u64,
+    /// The plane as a boundary of bins.
+    boundary: u32,
 }
 
-/// Lines 1 to 7 of Procedure 1 under an additive metric: the fewest layers up to every plane, and among those plans the
-/// smallest maximum error.
+/// Lines 1 to 7 of Procedure 1 for errors that never shrink as a layer grows: the fewest layers up to every plane, and among
+/// those plans the smallest maximum error. `error_between` is the error of the layer between two boundaries, in steps.
 ///
-/// A queue replaces the inner loop. No density is negative, so the lowest plane within tolerance only moves up. A plane is
+/// A queue replaces the inner loop. Errors grow with the layer, so the lowest plane within tolerance only moves up. A plane is
 /// obsolete once a higher one has neither a higher cost nor, at equal cost, a larger error. The candidates that
 /// remain increase upward in cost, then in error.
 ///
 /// Among the candidates of the least cost, the error below the candidate increases upward and that of the layer on
 /// top decreases. The best candidate is where the two cross, and that place also only moves up.
 pub fn fill_fewest(
-    errors: &ErrorSum,
+    error_between: impl Fn(u32, u32) -> u64,
     segment: &Segment,
     preferred: &Preferred,
     tolerance: u64,
@@ -281,11 +290,11 @@ pub fn fill_fewest(
                 plane: highest,
                 cost,
                 worst,
-                steps_below: errors.steps_below(segment.boundary(highest)),
+                boundary: segment.boundary(highest),
             });
         }
-        let steps = errors.steps_below(segment.boundary(plane));
-        let error_from = |below: &Candidate| steps - below.steps_below;
+        let boundary = segment.boundary(plane);
+        let error_from = |below: &Candidate| error_between(below.boundary, boundary);
         while queue
             .get(front)
             .is_some_and(|below| plane - below.plane > greatest || error_from(below) > tolerance)

@@ -5,6 +5,7 @@ mod creases;
 pub mod cusp;
 pub mod deviation;
 pub mod facet_bins;
+pub mod largest;
 pub mod normal_cones;
 pub mod roughness;
 pub mod section;
@@ -18,6 +19,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::grid::Bins;
 use deviation::{DeviationError, DeviationsAbove};
+use largest::{LargestAbove, LargestError};
 use volume::VolumeError;
 
 /// What a profile measures.
@@ -223,6 +225,8 @@ pub enum LayerErrors {
     Volume(VolumeError),
     /// The deviation, which depends on where the layer begins and ends.
     Deviation(DeviationError),
+    /// The largest over several models.
+    Largest(LargestError),
 }
 
 impl LayerErrors {
@@ -232,11 +236,26 @@ impl LayerErrors {
             Self::Sum(errors) => errors.bins,
             Self::Volume(errors) => errors.bins,
             Self::Deviation(errors) => errors.bins,
+            Self::Largest(errors) => errors.bins(),
+        }
+    }
+
+    /// Whether errors never shrink as a layer grows at either end.
+    pub fn is_monotone(&self) -> bool {
+        match self {
+            Self::Sum(_) => true,
+            Self::Volume(_) | Self::Deviation(_) => false,
+            Self::Largest(errors) => errors.is_monotone(),
         }
     }
 
     /// The error of the layer between two boundaries, in steps. Above the last bin nothing is added.
     pub fn steps_between(&self, lower: u32, upper: u32) -> u64 {
+        match self {
+            Self::Sum(errors) => return errors.steps_between(lower, upper),
+            Self::Largest(errors) => return errors.steps_between(lower, upper),
+            Self::Volume(_) | Self::Deviation(_) => {}
+        }
         match self.layers_above(lower, u64::MAX).up_to(upper) {
             Reach::Within(error) => error,
             // Nothing exceeds this tolerance.
@@ -253,6 +272,7 @@ impl LayerErrors {
                 Self::Sum(errors) => ErrorsAbove::Sum(errors),
                 Self::Volume(errors) => ErrorsAbove::Volume(errors, lower, 0),
                 Self::Deviation(errors) => ErrorsAbove::Deviation(errors.above(lower, tolerance)),
+                Self::Largest(errors) => ErrorsAbove::Largest(errors.above(lower, tolerance)),
             },
         }
     }
@@ -263,6 +283,7 @@ impl LayerErrors {
                 STEPS_PER_BIN / bins.size_mm
             }
             Self::Volume(errors) => errors.steps_per_mm3(),
+            Self::Largest(errors) => errors.tallest().steps_per_unit(),
         }
     }
 
@@ -291,6 +312,7 @@ enum ErrorsAbove<'a> {
     /// With the boundary up to which errors have been added up, and their sum.
     Volume(&'a VolumeError, u32, u64),
     Deviation(DeviationsAbove<'a>),
+    Largest(LargestAbove<'a>),
 }
 
 /// Whether a layer is within the tolerance.
@@ -317,6 +339,7 @@ impl LayersAbove<'_> {
                 *error
             }
             ErrorsAbove::Deviation(deviations) => return deviations.up_to(upper),
+            ErrorsAbove::Largest(largest) => return largest.up_to(upper),
         };
         if error <= self.tolerance {
             Reach::Within(error)

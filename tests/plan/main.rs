@@ -7,6 +7,7 @@ mod cases;
 #[path = "../common/mod.rs"]
 mod common;
 mod gradual;
+mod largest;
 mod least_sum;
 mod limits;
 mod optimal;

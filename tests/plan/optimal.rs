@@ -4,7 +4,7 @@
 use cusp_slicer::plan::PlanError;
 use cusp_slicer::plan::optimal::{self, Objective, Table, fill_cheapest, fill_fewest};
 use cusp_slicer::plan::preferred::{Preferred, SnapPlanes};
-use cusp_slicer::profile::LayerErrors;
+use cusp_slicer::profile::{ErrorSum, LayerErrors};
 use cusp_slicer::resin::Resin;
 
 use crate::cases::{self, Case};
@@ -13,11 +13,16 @@ use crate::{
     FIGURE_3, error_sum, in_tenths, limits, plan, random_tenths, resin, segment, sum, volume,
 };
 
+/// The error of the layer between two boundaries.
+fn between(errors: &ErrorSum) -> impl Fn(u32, u32) -> u64 {
+    |lower, upper| errors.steps_between(lower, upper)
+}
+
 #[test]
 fn figure_3_has_its_k_d_and_s() {
     let errors = sum(&FIGURE_3);
     let table = fill_fewest(
-        &error_sum(&FIGURE_3),
+        |lower, upper| errors.steps_between(lower, upper),
         &segment(8, (2, 3)),
         &Preferred::default(),
         errors.to_steps(0.6),
@@ -45,7 +50,7 @@ fn the_linear_planner_has_the_k_of_procedure_1_written_literally() {
         let errors = error_sum(&in_tenths(&tenths));
         let steps = LayerErrors::Sum(errors.clone()).to_steps(tolerance as f64 / 10.0);
         let segment = segment(count, (least as u32, greatest as u32));
-        let table = fill_fewest(&errors, &segment, &Preferred::default(), steps);
+        let table = fill_fewest(between(&errors), &segment, &Preferred::default(), steps);
         let (k, _) = oracle::procedure_1(&tenths, (least, greatest), tolerance);
         assert_eq!(table.cost, k, "{tenths:?} {least} {greatest} {tolerance}");
     }
@@ -66,7 +71,7 @@ fn the_linear_planner_has_the_least_largest_error_of_all_plans_as_short() {
         let errors = error_sum(&density);
         let all = LayerErrors::Sum(errors.clone());
         let tolerance = all.to_steps(random.f64() * 8.0);
-        let found = fill_fewest(&errors, &segment, &Preferred::default(), tolerance);
+        let found = fill_fewest(between(&errors), &segment, &Preferred::default(), tolerance);
         let expected = fill_cheapest(&all, &segment, &Preferred::default(), tolerance, |_| 1);
         assert_eq!(
             found.cost, expected.cost,
