@@ -16,7 +16,7 @@ mod zip;
 
 use std::io::Write;
 
-pub use preview::Look;
+pub use preview::{Look, Standing};
 use serde::Serialize;
 use serde_json::Value;
 use survey::{Bounds, Survey};

@@ -21,28 +21,92 @@ const LEFT: u8 = 1;
 /// Maximum pixels of the longer side: more than any preview has.
 const LONGEST: u32 = 1024;
 
+/// A model in the picture, and where it stands.
+#[derive(Debug, Clone, Copy)]
+pub struct Standing<'a> {
+    /// What the rays were sampled from.
+    pub mesh: &'a Mesh,
+    /// Its rays.
+    pub ldi: &'a Ldi,
+    /// Column and row of its first ray among those of the whole plate.
+    pub first_ray: [i64; 2],
+}
+
+impl Standing<'_> {
+    /// Its first column and row, and those after the last.
+    fn rays(&self) -> [[i64; 2]; 2] {
+        let size = [self.ldi.grid.width, self.ldi.grid.height].map(i64::from);
+        let last = [0, 1].map(|axis| self.first_ray[axis] + size[axis]);
+        [self.first_ray, last]
+    }
+
+    /// The brightness where a ray of the plate meets it; 0 if it does not.
+    fn brightness(&self, column: i64, row: i64, top_mm: f64) -> u8 {
+        let grid = &self.ldi.grid;
+        let (column, row) = (column - self.first_ray[0], row - self.first_ray[1]);
+        if column < 0 || row < 0 || column >= i64::from(grid.width) || row >= i64::from(grid.height)
+        {
+            return 0;
+        }
+        let hits = self
+            .ldi
+            .ray((row * i64::from(grid.width) + column) as usize);
+        let Some(top) = hits.last() else { return 0 };
+        let [a, b, c] = self.mesh.corners(top.facet() as usize);
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        let light = normal.dot(glam::DVec3::new(-0.4, 0.4, 0.82)).max(0.0);
+        let height = f64::from(top.z_mm) / top_mm;
+        (60.0 + 195.0 * light * (0.6 + 0.4 * height)).min(255.0) as u8
+    }
+}
+
 impl Look {
     /// Looks down along the rays of `ldi`, which was sampled from `mesh`.
     pub fn new(mesh: &Mesh, ldi: &Ldi) -> Self {
-        let grid = &ldi.grid;
-        let step = grid.width.max(grid.height).div_ceil(LONGEST).max(1);
-        let (columns, rows) = (grid.width.div_ceil(step), grid.height.div_ceil(step));
-        let top_mm = mesh.bounds().max.z.max(f64::MIN_POSITIVE);
-        let brightness = (0..rows * columns)
-            .map(|pixel| {
-                let (row, column) = (pixel / columns * step, pixel % columns * step);
-                let hits = ldi.ray((row * grid.width + column) as usize);
-                let Some(top) = hits.last() else { return 0 };
-                let [a, b, c] = mesh.corners(top.facet() as usize);
-                let normal = (b - a).cross(c - a).normalize_or_zero();
-                let light = normal.dot(glam::DVec3::new(-0.4, 0.4, 0.82)).max(0.0);
-                let height = f64::from(top.z_mm) / top_mm;
-                (60.0 + 195.0 * light * (0.6 + 0.4 * height)).min(255.0) as u8
-            })
-            .collect();
+        Self::of_copies(&[Standing {
+            mesh,
+            ldi,
+            first_ray: [0; 2],
+        }])
+    }
+
+    /// Looks down at several models, of which there must be at least one. Their rays are equally far apart.
+    pub fn of_copies(copies: &[Standing<'_>]) -> Self {
+        let grid = &copies[0].ldi.grid;
+        let all = copies.iter().map(Standing::rays);
+        let all = all.reduce(|[first, last], [start, end]| {
+            [
+                [0, 1].map(|axis| first[axis].min(start[axis])),
+                [0, 1].map(|axis| last[axis].max(end[axis])),
+            ]
+        });
+        let [first, last] = all.unwrap_or_default();
+        let [width, height] = [0, 1].map(|axis| (last[axis] - first[axis]) as u32);
+        let step = width.max(height).div_ceil(LONGEST).max(1);
+        let (columns, rows) = (width.div_ceil(step), height.div_ceil(step));
+        let tops_mm = copies.iter().map(|copy| copy.mesh.bounds().max.z);
+        let top_mm = tops_mm.fold(f64::MIN_POSITIVE, f64::max);
+        let (columns, rows, step) = (columns as usize, rows as usize, step as usize);
+        let mut brightness = vec![0; columns * rows];
+        for copy in copies {
+            let [start, end] = copy.rays();
+            let within = |axis: usize| {
+                let place = |ray: i64| (ray - first[axis]) as usize;
+                place(start[axis]) / step..place(end[axis]).div_ceil(step)
+            };
+            for row in within(1) {
+                for column in within(0) {
+                    let pixel = &mut brightness[row * columns + column];
+                    let ray = |place: usize, axis: usize| (place * step) as i64 + first[axis];
+                    *pixel = copy
+                        .brightness(ray(column, 0), ray(row, 1), top_mm)
+                        .max(*pixel);
+                }
+            }
+        }
         Self {
-            width: columns as usize,
-            height: rows as usize,
+            width: columns,
+            height: rows,
             side: [1.0, grid.pitch_y_mm / grid.pitch_mm],
             brightness,
         }
