@@ -68,6 +68,7 @@ pub mod plan;
 pub mod mask;
 
 pub mod archive;
+pub mod arrange;
 #[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
 pub mod contour;
 pub mod orientation;

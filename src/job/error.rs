@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::OptionsError;
 use crate::archive::ArchiveError;
+use crate::arrange::ArrangeError;
 use crate::grid::GridError;
 use crate::ldi::LdiError;
 use crate::model::MeshError;
@@ -66,6 +67,10 @@ pub enum Error {
     #[error(transparent)]
     #[serde(untagged)]
     Plan(#[from] PlanError),
+    /// Models cannot be arranged on plates, or cannot stay where they are.
+    #[error(transparent)]
+    #[serde(untagged)]
+    Arrange(#[from] ArrangeError),
     /// The print file could not be written.
     #[error(transparent)]
     #[serde(untagged)]

@@ -22,6 +22,32 @@ impl Pose {
         }
     }
 
+    /// This pose, turned about z by so many times 15°, counter-clockwise as seen from above.
+    #[must_use]
+    pub fn turned(&self, turns: u32) -> Self {
+        let step = turns as usize % 24;
+        if step == 0 {
+            return *self;
+        }
+        // Half the angle, as quaternions have it.
+        let cos = if step <= 12 {
+            COSINES[step]
+        } else {
+            -COSINES[24 - step]
+        };
+        let sin = COSINES[step.abs_diff(12)];
+        let [x, y, z, w] = self.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]);
+        Self {
+            rotation: Some([
+                cos * x - sin * y,
+                cos * y + sin * x,
+                cos * z + sin * w,
+                cos * w - sin * z,
+            ]),
+            ..*self
+        }
+    }
+
     /// The direction that points up from the plate, as a unit vector in the coordinates of the file.
     ///
     /// # Errors
@@ -34,6 +60,23 @@ impl Pose {
         Ok(up.to_array())
     }
 }
+
+/// The cosines of 0°, 7.5° and so on up to 90°: constants, as libraries differ in the last bit.
+const COSINES: [f64; 13] = [
+    1.0,
+    0.9914448613738104,
+    0.9659258262890683,
+    0.9238795325112867,
+    0.8660254037844387,
+    0.7933533402912352,
+    0.7071067811865476,
+    0.6087614290087207,
+    0.5,
+    0.38268343236508984,
+    0.25881904510252074,
+    0.1305261922200517,
+    0.0,
+];
 
 /// The rotation matrix of a quaternion x, y, z, w of any length except 0.
 pub(crate) fn rotation_matrix(rotation: [f64; 4]) -> Result<DMat3, MeshError> {

@@ -5,6 +5,7 @@ use serde_json::Value;
 
 use super::Error;
 use crate::archive::ArchiveError;
+use crate::arrange::ArrangeError;
 use crate::format::Format;
 use crate::grid::GridError;
 use crate::job::OptionsError;
@@ -93,6 +94,20 @@ fn grid_errors() -> Vec<GridError> {
         },
         ModelTooHigh { model_mm_z: 300.5, printer_mm_z: 180.25, fitting_scale: 0.5998 },
         TooManyBins { height_mm: 5000.5, bin_mm: 0.001 },
+    )
+}
+
+fn arrange_errors() -> Vec<ArrangeError> {
+    one_of_each!(ArrangeError except []:
+        Empty {},
+        NoSize {},
+        BadSpacing { spacing_mm: -1.5 },
+        BadTurn { turn_deg: 50 },
+        TooLarge { model_number: 2, size_mm: [200.5, 100.25], plate_mm: [143.75, 89.5] },
+        Outside { model_number: 3, plate_number: 2 },
+        Collision { model_numbers: [3, 4], plate_number: 2 },
+        NoModel { model_number: 7, models: 3 },
+        NoPlate { plate_number: 7, plates: 3 },
     )
 }
 
@@ -215,7 +230,7 @@ fn merge_errors() -> Vec<MergeError> {
 }
 
 fn errors() -> Vec<Error> {
-    let mut errors = one_of_each!(Error except [Options, Read, Mesh, Grid, Weights, Ldi, Plan, Archive, Search, Merge]:
+    let mut errors = one_of_each!(Error except [Options, Read, Mesh, Grid, Weights, Ldi, Plan, Arrange, Archive, Search, Merge]:
         NoLayer { layer: 12, layers: 10 },
         NoPlan {},
     );
@@ -229,6 +244,7 @@ fn errors() -> Vec<Error> {
     errors.extend(grid_errors().into_iter().map(Error::from));
     errors.extend(weights_errors().into_iter().map(Error::from));
     errors.extend(ldi_errors().into_iter().map(Error::from));
+    errors.extend(arrange_errors().into_iter().map(Error::from));
     errors.extend(plan_errors().into_iter().map(Error::from));
     errors.extend(archive_errors().into_iter().map(Error::from));
     errors.extend(search_errors().into_iter().map(Error::from));

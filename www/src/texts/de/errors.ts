@@ -105,6 +105,17 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
     `Das Modell misst ${exact(model_mm_x)} × ${mm(model_mm_y)}, das Bild des Druckers nur ${exact(grid_mm_x)} × ${mm(grid_mm_y)}; mit dem Maßstab ${exact(fitting_scale)} passt es.`,
   "model-too-high": ({ model_mm_z, printer_mm_z, fitting_scale }) =>
     `Das Modell ist ${mm(model_mm_z)} hoch, der Drucker druckt aber nur ${mm(printer_mm_z)}; mit dem Maßstab ${exact(fitting_scale)} passt es.`,
+  "plate-empty": () => "Auf der Platte steht kein Modell; fügen Sie eines hinzu.",
+  "plate-without-size": () => "Die Größe der Platte ist nicht bekannt; wählen Sie einen Drucker, oder geben Sie Pixel und Pixelabstand an.",
+  "bad-spacing": ({ spacing_mm }) => `Der Abstand muss 0 bis 100 mm sein, nicht ${mm(spacing_mm)}.`,
+  "bad-turn": ({ turn_deg }) => `Modelle drehen sich in Schritten von 0, 15, 30, 45, 60, 90, 120 oder 180°, nicht ${exact(turn_deg)}°.`,
+  "plate-too-small": ({ model_number, size_mm, plate_mm }) =>
+    `Modell ${count(model_number)} misst ${mm(size_mm[0])} × ${mm(size_mm[1])}, die Platte ${mm(plate_mm[0])} × ${mm(plate_mm[1])}; skalieren Sie es, oder wählen Sie eine andere Orientierung oder einen anderen Drucker.`,
+  "plate-outside": ({ model_number, plate_number }) => `Eine Kopie von Modell ${count(model_number)} ragt über Platte ${count(plate_number)} hinaus; verschieben Sie sie, oder ordnen Sie die Platte an.`,
+  "plate-collision": ({ model_numbers, plate_number }) =>
+    `Kopien der Modelle ${count(model_numbers[0])} und ${count(model_numbers[1])} überschneiden sich auf Platte ${count(plate_number)}; verschieben Sie eine, oder ordnen Sie die Platte an.`,
+  "plate-no-model": ({ model_number, models }) => `Es gibt kein Modell ${count(model_number)}; die Platte hat ${count(models)}.`,
+  "no-such-plate": ({ plate_number, plates }) => `Es gibt keine Platte ${count(plate_number)}; es sind ${count(plates)}.`,
   "too-many-bins": ({ height_mm, bin_mm }) =>
     `${mm(height_mm)} in Intervallen von ${mm(bin_mm)} sind zu viele; wählen Sie ein größeres Intervall.`,
   "not-whole-bins": ({ quantity, length_mm, bin_mm }) =>

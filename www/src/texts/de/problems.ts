@@ -23,6 +23,7 @@ export const problems = (format: Format): ProblemTexts => ({
     damaged: (name) => `${name} ist beschädigt`,
     unusable: (name) => `${name} lässt sich nicht schneiden`,
     tooLarge: () => "Das Modell ist zu groß für diesen Drucker",
+    plate: () => "So lässt sich die Platte nicht drucken",
     tooHigh: () => "Das Modell ist zu hoch für diesen Drucker",
     tooFine: () => "Diese Auflösung ist zu viel für diesen Computer",
     noHits: (name) => `${name} ist zu dünn für diese Pixel`,

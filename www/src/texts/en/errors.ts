@@ -106,6 +106,17 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
     `The model is ${exact(model_mm_x)} × ${mm(model_mm_y)}, but the grid covers only ${exact(grid_mm_x)} × ${mm(grid_mm_y)}; a scale of ${exact(fitting_scale)} fits.`,
   "model-too-high": ({ model_mm_z, printer_mm_z, fitting_scale }) =>
     `The model is ${mm(model_mm_z)} high, but the printer only prints ${mm(printer_mm_z)}; a scale of ${exact(fitting_scale)} fits.`,
+  "plate-empty": () => "There is no model on the plate; add one.",
+  "plate-without-size": () => "The size of the plate is not known; choose a printer, or give pixels and pitch.",
+  "bad-spacing": ({ spacing_mm }) => `The spacing must be 0 to 100 mm, not ${mm(spacing_mm)}.`,
+  "bad-turn": ({ turn_deg }) => `Models turn in steps of 0, 15, 30, 45, 60, 90, 120 or 180°, not ${exact(turn_deg)}°.`,
+  "plate-too-small": ({ model_number, size_mm, plate_mm }) =>
+    `Model ${count(model_number)} is ${mm(size_mm[0])} × ${mm(size_mm[1])}, and the plate ${mm(plate_mm[0])} × ${mm(plate_mm[1])}; scale it, or choose another orientation or printer.`,
+  "plate-outside": ({ model_number, plate_number }) => `A copy of model ${count(model_number)} extends beyond plate ${count(plate_number)}; move it, or arrange the plate.`,
+  "plate-collision": ({ model_numbers, plate_number }) =>
+    `Copies of models ${count(model_numbers[0])} and ${count(model_numbers[1])} overlap on plate ${count(plate_number)}; move one, or arrange the plate.`,
+  "plate-no-model": ({ model_number, models }) => `There is no model ${count(model_number)}; the plate has ${count(models)}.`,
+  "no-such-plate": ({ plate_number, plates }) => `There is no plate ${count(plate_number)}; there are ${count(plates)}.`,
   "too-many-bins": ({ height_mm, bin_mm }) => `${mm(height_mm)} in bins of ${mm(bin_mm)} are too many; choose a larger bin.`,
   "not-whole-bins": ({ quantity, length_mm, bin_mm }) =>
     `${QUANTITIES[quantity]} of ${mm(length_mm)} is no whole number of bins of ${mm(bin_mm)}; choose a bin that divides it.`,

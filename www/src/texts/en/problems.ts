@@ -24,6 +24,7 @@ export const problems = (format: Format) => ({
     damaged: (name: string) => `${name} is damaged`,
     unusable: (name: string) => `${name} cannot be sliced`,
     tooLarge: () => "The model is too large for this printer",
+    plate: () => "The plate cannot be printed like this",
     tooHigh: () => "The model is too high for this printer",
     tooFine: () => "This resolution is too much for this computer",
     noHits: (name: string) => `${name} is too thin for these pixels`,

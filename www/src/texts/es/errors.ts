@@ -104,6 +104,17 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
     `El modelo mide ${exact(model_mm_x)} × ${mm(model_mm_y)}, pero la cuadrícula solo cubre ${exact(grid_mm_x)} × ${mm(grid_mm_y)}; cabe con una escala de ${exact(fitting_scale)}.`,
   "model-too-high": ({ model_mm_z, printer_mm_z, fitting_scale }) =>
     `El modelo tiene ${mm(model_mm_z)} de alto, pero la impresora solo imprime ${mm(printer_mm_z)}; cabe con una escala de ${exact(fitting_scale)}.`,
+  "plate-empty": () => "No hay ningún modelo en la placa; añada uno.",
+  "plate-without-size": () => "No se conoce el tamaño de la placa; elija una impresora, o indique los píxeles y su paso.",
+  "bad-spacing": ({ spacing_mm }) => `La separación debe ser de 0 a 100 mm, no ${mm(spacing_mm)}.`,
+  "bad-turn": ({ turn_deg }) => `Los modelos giran en pasos de 0, 15, 30, 45, 60, 90, 120 o 180°, no ${exact(turn_deg)}°.`,
+  "plate-too-small": ({ model_number, size_mm, plate_mm }) =>
+    `El modelo ${count(model_number)} mide ${mm(size_mm[0])} × ${mm(size_mm[1])}, y la placa ${mm(plate_mm[0])} × ${mm(plate_mm[1])}; cambie su escala, o elija otra orientación u otra impresora.`,
+  "plate-outside": ({ model_number, plate_number }) => `Una copia del modelo ${count(model_number)} sobresale de la placa ${count(plate_number)}; muévala, o distribuya la placa.`,
+  "plate-collision": ({ model_numbers, plate_number }) =>
+    `Copias de los modelos ${count(model_numbers[0])} y ${count(model_numbers[1])} se superponen en la placa ${count(plate_number)}; mueva una, o distribuya la placa.`,
+  "plate-no-model": ({ model_number, models }) => `No hay modelo ${count(model_number)}; la placa tiene ${count(models)}.`,
+  "no-such-plate": ({ plate_number, plates }) => `No hay placa ${count(plate_number)}; hay ${count(plates)}.`,
   "too-many-bins": ({ height_mm, bin_mm }) =>
     `${mm(height_mm)} en intervalos de ${mm(bin_mm)} son demasiados; elija un intervalo más grande.`,
   "not-whole-bins": ({ quantity, length_mm, bin_mm }) =>

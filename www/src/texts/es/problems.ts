@@ -23,6 +23,7 @@ export const problems = (format: Format): ProblemTexts => ({
     damaged: (name) => `${name} está dañado`,
     unusable: (name) => `${name} no se puede cortar`,
     tooLarge: () => "El modelo es demasiado grande para esta impresora",
+    plate: () => "La placa no se puede imprimir así",
     tooHigh: () => "El modelo es demasiado alto para esta impresora",
     tooFine: () => "Esta resolución es demasiado para este ordenador",
     noHits: (name) => `${name} es demasiado fino para estos píxeles`,

@@ -104,6 +104,17 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
     `Le modèle mesure ${exact(model_mm_x)} × ${mm(model_mm_y)}, mais la grille ne couvre que ${exact(grid_mm_x)} × ${mm(grid_mm_y)} ; une échelle de ${exact(fitting_scale)} convient.`,
   "model-too-high": ({ model_mm_z, printer_mm_z, fitting_scale }) =>
     `Le modèle a ${mm(model_mm_z)} de haut, mais l’imprimante n’imprime que ${mm(printer_mm_z)} ; une échelle de ${exact(fitting_scale)} convient.`,
+  "plate-empty": () => "Il n’y a pas de modèle sur le plateau ; ajoutez-en un.",
+  "plate-without-size": () => "La taille du plateau n’est pas connue ; choisissez une imprimante, ou indiquez les pixels et leur pas.",
+  "bad-spacing": ({ spacing_mm }) => `L’écart doit être de 0 à 100 mm, et non ${mm(spacing_mm)}.`,
+  "bad-turn": ({ turn_deg }) => `Les modèles tournent par pas de 0, 15, 30, 45, 60, 90, 120 ou 180°, et non ${exact(turn_deg)}°.`,
+  "plate-too-small": ({ model_number, size_mm, plate_mm }) =>
+    `Le modèle ${count(model_number)} mesure ${mm(size_mm[0])} × ${mm(size_mm[1])}, et le plateau ${mm(plate_mm[0])} × ${mm(plate_mm[1])} ; changez son échelle, ou choisissez une autre orientation ou une autre imprimante.`,
+  "plate-outside": ({ model_number, plate_number }) => `Une copie du modèle ${count(model_number)} dépasse du plateau ${count(plate_number)} ; déplacez-la, ou disposez le plateau.`,
+  "plate-collision": ({ model_numbers, plate_number }) =>
+    `Des copies des modèles ${count(model_numbers[0])} et ${count(model_numbers[1])} se chevauchent sur le plateau ${count(plate_number)} ; déplacez-en une, ou disposez le plateau.`,
+  "plate-no-model": ({ model_number, models }) => `Il n’y a pas de modèle ${count(model_number)} ; le plateau en a ${count(models)}.`,
+  "no-such-plate": ({ plate_number, plates }) => `Il n’y a pas de plateau ${count(plate_number)} ; il y en a ${count(plates)}.`,
   "too-many-bins": ({ height_mm, bin_mm }) =>
     `${mm(height_mm)} en intervalles de ${mm(bin_mm)}, c’est trop ; choisissez un intervalle plus grand.`,
   "not-whole-bins": ({ quantity, length_mm, bin_mm }) =>

@@ -23,6 +23,7 @@ export const problems = (format: Format): ProblemTexts => ({
     damaged: (name) => `${name} est abîmé`,
     unusable: (name) => `${name} ne peut être tranché`,
     tooLarge: () => "Le modèle est trop grand pour cette imprimante",
+    plate: () => "Ce plateau ne peut pas être imprimé ainsi",
     tooHigh: () => "Le modèle est trop haut pour cette imprimante",
     tooFine: () => "Cette résolution est trop forte pour cet ordinateur",
     noHits: (name) => `${name} est trop fin pour ces pixels`,

@@ -103,6 +103,17 @@ export const errors = ({ count, exact, mm, measure, error }: Format): ErrorSente
     `模型为 ${exact(model_mm_x)} × ${mm(model_mm_y)}，而画面只有 ${exact(grid_mm_x)} × ${mm(grid_mm_y)}；按 ${exact(fitting_scale)} 的比例可放下。`,
   "model-too-high": ({ model_mm_z, printer_mm_z, fitting_scale }) =>
     `模型高 ${mm(model_mm_z)}，而打印机只能打印 ${mm(printer_mm_z)}；按 ${exact(fitting_scale)} 的比例可放下。`,
+  "plate-empty": () => "平台上没有模型；请添加一个。",
+  "plate-without-size": () => "平台尺寸未知；请选择打印机，或给出像素数和像素间距。",
+  "bad-spacing": ({ spacing_mm }) => `间距必须为 0 到 100 mm，而不是 ${mm(spacing_mm)}。`,
+  "bad-turn": ({ turn_deg }) => `模型的旋转步长为 0、15、30、45、60、90、120 或 180°，而不是 ${exact(turn_deg)}°。`,
+  "plate-too-small": ({ model_number, size_mm, plate_mm }) =>
+    `模型 ${count(model_number)} 为 ${mm(size_mm[0])} × ${mm(size_mm[1])}，而平台为 ${mm(plate_mm[0])} × ${mm(plate_mm[1])}；请缩小它，或选择其他朝向或打印机。`,
+  "plate-outside": ({ model_number, plate_number }) => `模型 ${count(model_number)} 的一个副本超出了平台 ${count(plate_number)}；请移动它，或排列平台。`,
+  "plate-collision": ({ model_numbers, plate_number }) =>
+    `模型 ${count(model_numbers[0])} 与 ${count(model_numbers[1])} 的副本在平台 ${count(plate_number)} 上重叠；请移动其中一个，或排列平台。`,
+  "plate-no-model": ({ model_number, models }) => `没有模型 ${count(model_number)}；平台上有 ${count(models)} 个。`,
+  "no-such-plate": ({ plate_number, plates }) => `没有平台 ${count(plate_number)}；共有 ${count(plates)} 个。`,
   "too-many-bins": ({ height_mm, bin_mm }) => `${mm(height_mm)} 按 ${mm(bin_mm)} 划分的区间过多；请选择更大的区间。`,
   "not-whole-bins": ({ quantity, length_mm, bin_mm }) =>
     `${QUANTITIES[quantity]} ${mm(length_mm)} 不是区间 ${mm(bin_mm)} 的整数倍；请选择能整除它的区间。`,

@@ -22,6 +22,7 @@ export const problems = (format: Format): ProblemTexts => ({
     damaged: (name) => `${name} 已损坏`,
     unusable: (name) => `${name} 无法切片`,
     tooLarge: () => "模型对该打印机过大",
+    plate: () => "平台无法这样打印",
     tooHigh: () => "模型对该打印机过高",
     tooFine: () => "此分辨率超出这台电脑的能力",
     noHits: (name) => `${name} 对这些像素来说太薄`,

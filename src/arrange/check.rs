@@ -1,0 +1,99 @@
+//! Whether copies stay on their plate and apart from each other.
+
+use super::outline::Outline;
+use super::sheet::bits_at;
+use super::{ArrangeError, Screen};
+
+/// A copy to be checked. Its outline is in cells of one pixel: see [`Screen::by_pixels`].
+#[derive(Debug, Clone, Copy)]
+pub struct Standing<'a> {
+    /// The model, by its index.
+    pub item: usize,
+    /// Its shadow at the middle of the plate.
+    pub outline: &'a Outline,
+    /// Columns to the right and rows downward from there.
+    pub offset: [i32; 2],
+}
+
+impl Standing<'_> {
+    /// First column and row of the pixels that are covered, and those after the last.
+    fn pixels(&self) -> [[i64; 2]; 2] {
+        let end = |end: [i64; 2]| [0, 1].map(|axis| end[axis] + i64::from(self.offset[axis]));
+        self.outline.pixels.map(end)
+    }
+
+    fn overlaps(&self, other: &Self) -> bool {
+        let ([first, last], [start, end]) = (self.pixels(), other.pixels());
+        let apart = |axis: usize| last[axis] <= start[axis] || end[axis] <= first[axis];
+        if apart(0) || apart(1) {
+            return false;
+        }
+        let corner = |standing: &Self| {
+            let offset = standing.offset.map(i64::from);
+            [0, 1].map(|axis| standing.outline.first[axis] + offset[axis])
+        };
+        let (a, b) = (corner(self), corner(other));
+        let (cells, others) = (&self.outline.cells, &other.outline.cells);
+        (0..cells.rows as i64).any(|row| {
+            let Ok(within) = usize::try_from(row + a[1] - b[1]) else {
+                return false;
+            };
+            if within >= others.rows {
+                return false;
+            }
+            let taken = others.row(within);
+            let words = cells.row(row as usize).iter().zip(0i64..);
+            let mut words = words.filter(|(word, _)| **word != 0);
+            words.any(|(&word, place)| word & bits_at(taken, a[0] - b[0] + place * 64) != 0)
+        })
+    }
+}
+
+/// What is wrong with the copies on one plate: those that extend beyond it, then those that overlap, each pair of models once.
+///
+/// Cost: quadratic in copies as far as their boxes overlap, and in the pixels of those that do.
+pub fn problems(screen: &Screen, plate: usize, copies: &[Standing<'_>]) -> Vec<ArrangeError> {
+    let mut problems = Vec::new();
+    let mut add = |problem: ArrangeError| {
+        if !problems.contains(&problem) {
+            problems.push(problem);
+        }
+    };
+    for copy in copies {
+        if !copy.is_on(screen) {
+            add(ArrangeError::Outside {
+                model_number: copy.item + 1,
+                plate_number: plate + 1,
+            });
+        }
+    }
+    let mut by_left: Vec<&Standing<'_>> = copies.iter().collect();
+    by_left.sort_by_key(|copy| copy.pixels()[0][0]);
+    for (place, copy) in by_left.iter().enumerate() {
+        let right = copy.pixels()[1][0];
+        let beside = by_left[place + 1..].iter();
+        for other in beside.take_while(|other| other.pixels()[0][0] < right) {
+            if copy.overlaps(other) {
+                let mut model_numbers = [copy.item + 1, other.item + 1];
+                model_numbers.sort_unstable();
+                add(ArrangeError::Collision {
+                    model_numbers,
+                    plate_number: plate + 1,
+                });
+            }
+        }
+    }
+    problems
+}
+
+impl Standing<'_> {
+    fn is_on(&self, screen: &Screen) -> bool {
+        let [first, last] = self.pixels();
+        // A model that just fits may touch the pixel beyond, by rounding; it lights none there.
+        let alone = self.offset == [0; 2];
+        let slack = i64::from(alone);
+        (0..2).all(|axis| {
+            first[axis] >= -slack && last[axis] <= i64::from(screen.pixels[axis]) + slack
+        })
+    }
+}

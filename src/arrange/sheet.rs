@@ -1,0 +1,171 @@
+//! A plate that is being filled.
+
+use rustc_hash::FxHashMap;
+
+use super::outline::Cells;
+use super::{Screen, Shape};
+
+/// A copy on a plate.
+pub(super) struct Copy {
+    pub item: usize,
+    /// The place of its shape among those of the item.
+    pub shape: usize,
+    /// Cells to the right and downward from the middle of the plate.
+    pub cells: [i64; 2],
+}
+
+/// A plate with the cells that are covered or kept free.
+pub(super) struct Sheet {
+    taken: Cells,
+    pub copies: Vec<Copy>,
+    /// Where the search goes on for each item and shape: nothing before it is free, as cells are only ever taken.
+    next: FxHashMap<(usize, usize), Option<[i64; 2]>>,
+}
+
+impl Sheet {
+    pub fn new([columns, rows]: [usize; 2]) -> Self {
+        Self {
+            taken: Cells::new(columns, rows),
+            copies: Vec::new(),
+            next: FxHashMap::default(),
+        }
+    }
+
+    /// Places a copy in the shape that ends farthest back, and returns whether there was room. `ranges` are the places that
+    /// each shape may have.
+    pub fn place(
+        &mut self,
+        item: usize,
+        shapes: &[Shape],
+        ranges: &[Option<[[i64; 2]; 2]>],
+    ) -> bool {
+        let mut best: Option<([i64; 2], Copy)> = None;
+        for (number, (shape, range)) in shapes.iter().zip(ranges).enumerate() {
+            let Some([first, last]) = *range else {
+                continue;
+            };
+            let from = *self.next.entry((item, number)).or_insert(Some(first));
+            let found = from.and_then(|from| self.first_free(shape, from, first, last));
+            self.next.insert((item, number), found);
+            let Some(cells) = found else {
+                continue;
+            };
+            let outline = &shape.outline;
+            let end = [
+                cells[1] + outline.first[1] + outline.cells.rows as i64,
+                cells[0] + outline.first[0] + outline.cells.columns as i64,
+            ];
+            if best.as_ref().is_none_or(|(best, _)| end < *best) {
+                let copy = Copy {
+                    item,
+                    shape: number,
+                    cells,
+                };
+                best = Some((end, copy));
+            }
+        }
+        let Some((_, copy)) = best else {
+            return false;
+        };
+        self.take(&shapes[copy.shape], copy.cells);
+        self.copies.push(copy);
+        true
+    }
+
+    /// The first free place from `from` on, row by row.
+    fn first_free(
+        &self,
+        shape: &Shape,
+        from: [i64; 2],
+        first: [i64; 2],
+        last: [i64; 2],
+    ) -> Option<[i64; 2]> {
+        let mut column = from[0];
+        for row in from[1]..=last[1] {
+            while column <= last[0] {
+                if self.is_free(shape, [column, row]) {
+                    return Some([column, row]);
+                }
+                column += 1;
+            }
+            column = first[0];
+        }
+        None
+    }
+
+    fn is_free(&self, shape: &Shape, at: [i64; 2]) -> bool {
+        let outline = &shape.outline;
+        let [column, row] = [0, 1].map(|axis| at[axis] + outline.first[axis]);
+        (0..outline.cells.rows).all(|within| {
+            let row = row + within as i64;
+            // Cells beyond the screen hold no pixels.
+            if row < 0 || row >= self.taken.rows as i64 {
+                return true;
+            }
+            let taken = self.taken.row(row as usize);
+            let words = outline.cells.row(within).iter().zip(0i64..);
+            let mut words = words.filter(|(word, _)| **word != 0);
+            words.all(|(&word, place)| word & bits_at(taken, column + place * 64) == 0)
+        })
+    }
+
+    fn take(&mut self, shape: &Shape, at: [i64; 2]) {
+        let kept = &shape.kept_free;
+        let [column, row] =
+            [0, 1].map(|axis| at[axis] + shape.outline.first[axis] - shape.margin[axis] as i64);
+        let (columns, rows) = (self.taken.columns as i64, self.taken.rows as i64);
+        for within in 0..kept.rows {
+            let onto = row + within as i64;
+            if !(0..rows).contains(&onto) {
+                continue;
+            }
+            for cell in (0..kept.columns).filter(|&cell| kept.has(cell, within)) {
+                let onto_column = column + cell as i64;
+                if (0..columns).contains(&onto_column) {
+                    let start = onto_column as usize;
+                    self.taken.fill(onto as usize, start..start + 1);
+                }
+            }
+        }
+    }
+
+    /// Pixels by which to move all copies so that they are centred on the plate. A copy alone stays at the middle, where it would
+    /// be without a plate.
+    pub fn to_middle(&self, screen: &Screen, shapes: &[Vec<Shape>]) -> [i64; 2] {
+        let ends = self.copies.iter().map(|copy| {
+            let pixels = shapes[copy.item][copy.shape].outline.pixels;
+            pixels.map(|end| {
+                [0, 1].map(|axis| end[axis] + copy.cells[axis] * i64::from(screen.cell[axis]))
+            })
+        });
+        let all = ends.reduce(|[first, last], [start, end]| {
+            [
+                [0, 1].map(|axis| first[axis].min(start[axis])),
+                [0, 1].map(|axis| last[axis].max(end[axis])),
+            ]
+        });
+        let Some([first, last]) = all else {
+            return [0; 2];
+        };
+        if let [copy] = &self.copies[..] {
+            return [0, 1].map(|axis| -copy.cells[axis] * i64::from(screen.cell[axis]));
+        }
+        [0, 1].map(|axis| (i64::from(screen.pixels[axis]) - first[axis] - last[axis]).div_euclid(2))
+    }
+}
+
+/// 64 cells of a row from a column on; those beyond the row are free.
+pub(super) fn bits_at(row: &[u64], column: i64) -> u64 {
+    let word = |index: i64| {
+        usize::try_from(index)
+            .ok()
+            .and_then(|index| row.get(index))
+            .copied()
+    };
+    let (index, shift) = (column.div_euclid(64), column.rem_euclid(64) as u32);
+    let low = word(index).unwrap_or(0) >> shift;
+    match shift {
+        0 => low,
+        _ => low | word(index + 1).unwrap_or(0) << (64 - shift),
+    }
+}
