@@ -9,11 +9,20 @@ use cusp_slicer::grid::{Bins, Grid};
 use cusp_slicer::ldi::cpu;
 use cusp_slicer::ldi::visibility::{Visibility, visibility};
 use cusp_slicer::model::Mesh;
-use cusp_slicer::profile::facet_bins::FacetBins;
-use cusp_slicer::profile::snap_planes::snap_planes;
+use cusp_slicer::profile::facet_bins::{FacetBins, Flat};
+use cusp_slicer::profile::snap_planes::{Surface, snap_planes};
 use cusp_slicer::profile::{Metric, Profile, Shape, area, roughness, section, steepest};
 use cusp_slicer::progress::silent;
 use glam::Vec3;
+
+/// The surface of a model that is printed once.
+fn surface<'a>(flats: &'a [Flat], steepest: &'a [f32]) -> Surface<'a> {
+    Surface {
+        flats,
+        steepest,
+        copies: 1,
+    }
+}
 
 fn bins_of(mesh: &Mesh, bin_mm: f64) -> Bins {
     Bins::of_height(mesh.bounds().size().z, bin_mm).unwrap()
@@ -262,14 +271,40 @@ fn flats_come_before_sharp_changes_and_larger_before_smaller() {
     let facet_bins = FacetBins::of(&mesh, bins);
     let steepest = steepest::exact(&facet_bins, &hidden);
     let flats = facet_bins.flats_but(&hidden);
-    let found = snap_planes(&flats, &steepest, bins, 1.0);
+    let found = snap_planes(&[surface(&flats, &steepest)], bins, 1.0);
     assert_eq!(found[..2], [100, 120]);
     // At each flat the density changes sharply, and where the walls begin; at the top there is a plane anyway.
     let mut sharp = found[2..].to_vec();
     sharp.sort_unstable();
     assert_eq!(sharp, [1, 100, 120], "{found:?}");
-    let large = snap_planes(&flats, &[], bins, 50.0);
+    let large = snap_planes(&[surface(&flats, &[])], bins, 50.0);
     assert_eq!(large, [100]);
+}
+
+#[test]
+fn flats_of_all_models_and_copies_add_up() {
+    let of = |side: f32, height: f32| {
+        let mesh = on_plate(&solids::cuboid(Vec3::new(side, side, height)));
+        FacetBins::of(&mesh, bins_of(&mesh, 0.1)).flats
+    };
+    // Tops of 4 mm² at 3 mm, and of 25 mm² at 5 mm, under something 9 mm high.
+    let (small, large) = (of(2.0, 3.0), of(5.0, 5.0));
+    let bins = Bins {
+        count: 90,
+        size_mm: 0.1,
+    };
+    let surfaces = |copies| {
+        [
+            Surface {
+                copies,
+                ..surface(&small, &[])
+            },
+            surface(&large, &[]),
+        ]
+    };
+    assert_eq!(snap_planes(&surfaces(1), bins, 1.0), [50, 30]);
+    assert_eq!(snap_planes(&surfaces(1), bins, 5.0), [50]);
+    assert_eq!(snap_planes(&surfaces(7), bins, 5.0), [30, 50]);
 }
 
 #[test]
@@ -286,7 +321,7 @@ fn a_sharp_change_is_where_the_surface_turns() {
     let mesh = on_plate(&solids::profiled(&outline, 5.0));
     let bins = bins_of(&mesh, 0.1);
     let steepest = steepest::exact(&FacetBins::of(&mesh, bins), &[]);
-    let mut found = snap_planes(&[], &steepest, bins, 1.0);
+    let mut found = snap_planes(&[surface(&[], &steepest)], bins, 1.0);
     found.sort_unstable();
     assert_eq!(found, [1, 20, 40]);
 }
@@ -300,7 +335,7 @@ fn bins_that_no_ray_meets_are_no_sharp_changes() {
     let facet_bins = FacetBins::of(&mesh, bins);
     let sampled = steepest::sampled(&facet_bins, &ldi, &[]);
     assert!(sampled.contains(&steepest::NO_SURFACE));
-    assert_eq!(snap_planes(&[], &sampled, bins, 1.0), [0u32; 0]);
+    assert_eq!(snap_planes(&[surface(&[], &sampled)], bins, 1.0), [0u32; 0]);
 }
 
 #[test]

@@ -8,7 +8,7 @@ use crate::plan::optimal::{self, Objective};
 use crate::plan::preferred::SnapPlanes;
 use crate::plan::tradeoff::{self, Goal};
 use crate::plan::{Limits, Plan, PlanError, least_sum};
-use crate::profile::{LayerErrors, Metric};
+use crate::profile::{LayerErrors, Metric, Source};
 
 impl Slicer {
     /// The plans of the least sum of volume deviations beside those of the smallest maximum error, for some `points` numbers of layers
@@ -40,7 +40,7 @@ impl Planning<'_> {
         points: usize,
         progress: &mut StageProgress<'_>,
     ) -> Result<Vec<FrontPoint>, Error> {
-        let volumes = self.shapes.exact.errors(Metric::Volume);
+        let volumes = self.unweighted(Metric::Volume, Source::Exact);
         let without_tolerance = self.layering.limits(f64::MAX);
         report(progress, Stage::Plan, 0.0)?;
         let plans = least_sum::plans(&volumes, &without_tolerance, usize::MAX)?;

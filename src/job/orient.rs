@@ -330,7 +330,7 @@ impl Evaluator<'_> {
             Ok::<_, Error>(extra)
         };
         let shapes = shapes_of(&facet_bins, extra, layering, self.weights.clone()).ok()?;
-        let planning = Planning::new(height_mm, &shapes, layering);
+        let planning = Planning::alone(height_mm, &shapes, layering);
         let plan = planning.plan_freely().ok()?;
         let max_error = planning.max_error(&plan);
         let print_time_s = plan.print_time_s(&layering.resin);

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::measured::Measured;
 use super::parts::{Layering, Target, Thicknesses};
+use super::sampled::Sampled;
 use super::{Error, Planner, PlannerReport, UniformReport};
 use crate::grid::Bins;
 use crate::ldi::LdiError;
@@ -16,17 +17,53 @@ use crate::plan::tradeoff::{self, Goal, TradeoffPoint};
 use crate::plan::uniform::UniformLayers;
 use crate::plan::{Limits, Plan, PlanError, gradual, greedy, optimal, thicknesses, uniform};
 use crate::profile::facet_bins::FacetBins;
+use crate::profile::largest::{LargestError, Strictness};
 use crate::profile::normal_cones::{Cone, cones};
 use crate::profile::shapes::Shapes;
-use crate::profile::snap_planes::snap_planes;
+use crate::profile::snap_planes::{Surface, snap_planes};
 use crate::profile::{LayerErrors, Metric, Source, area, section};
 use crate::progress::Progress;
 use crate::warning::Warning;
 
+/// A model of a plan, as it was measured.
+#[derive(Debug, Clone)]
+pub struct PlannedModel {
+    pub measured: Arc<Measured>,
+    /// Its own tolerance, in place of the plan's.
+    pub tolerance: Option<f64>,
+    /// How often it is printed.
+    pub copies: usize,
+}
+
+impl PlannedModel {
+    /// A model alone.
+    pub fn alone(measured: &Arc<Measured>) -> Self {
+        Self {
+            measured: Arc::clone(measured),
+            tolerance: None,
+            copies: 1,
+        }
+    }
+
+    fn part(&self) -> Part<'_> {
+        Part {
+            height_mm: self.measured.of.height_mm,
+            shapes: &self.measured.shapes,
+            tolerance: self.tolerance,
+            copies: self.copies,
+        }
+    }
+
+    pub fn sampled(&self) -> &Sampled {
+        &self.measured.of
+    }
+}
+
 /// A plan with what it was made from. Immutable and shared, so its masks always come from its own rays.
 #[derive(Debug)]
 pub struct Planned {
-    pub of: Arc<Measured>,
+    /// The models; there is at least one.
+    pub models: Vec<PlannedModel>,
     /// What it was planned with.
     pub layering: Layering,
     pub plan: Plan,
@@ -39,51 +76,93 @@ impl Planned {
     /// # Errors
     /// [`Error::Plan`]; [`Error::Ldi`] if `progress` cancels.
     pub fn new(
-        of: &Arc<Measured>,
+        models: Vec<PlannedModel>,
         layering: &Layering,
         progress: &mut Progress<'_>,
     ) -> Result<Self, Error> {
-        let planning = Planning::of(of, layering);
+        let parts = models.iter().map(PlannedModel::part).collect();
+        let planning = Planning::new(parts, layering);
         let plan = planning.plan(progress)?;
         Ok(Self {
             findings: planning.findings(&plan)?,
-            of: Arc::clone(of),
+            models,
             layering: layering.clone(),
             plan,
         })
     }
 
-    /// The thickest uniform layers within tolerance, between the limits.
-    pub fn best_uniform(&self) -> Option<UniformLayers> {
-        Planning::of(&self.of, &self.layering).best_uniform()
+    /// Whether this is the plan of these models with this layering.
+    pub fn is_of(&self, models: &[PlannedModel], layering: &Layering) -> bool {
+        let is_same = |(a, b): (&PlannedModel, &PlannedModel)| {
+            Arc::ptr_eq(&a.measured, &b.measured)
+                && a.tolerance == b.tolerance
+                && a.copies == b.copies
+        };
+        self.layering == *layering
+            && self.models.len() == models.len()
+            && self.models.iter().zip(models).all(is_same)
     }
 
-    /// The masks of the plan, seen from one side.
-    pub fn masks(&self, side: Side) -> Masks {
-        let sampled = &self.of.of;
-        let samples = sampled.sampling.samples;
-        let Layering { growth, resin, .. } = &self.layering;
-        if growth.is_none() {
-            return Masks::new(&sampled.ldi, &self.plan, &sampled.grid, samples, side);
-        }
-        let shrinking = Shrinking {
-            xy_mm: growth.of_layers_mm(self.plan.layers(), resin.bottom_layers),
-            z_mm: growth.z_mm,
-        };
-        Masks::shrunk(
-            &sampled.ldi,
-            &self.plan,
-            &sampled.grid,
-            samples,
-            side,
-            &shrinking,
-        )
+    /// The first model, or the only one.
+    pub fn first(&self) -> &Arc<Measured> {
+        &self.models[0].measured
+    }
+
+    /// The thickest uniform layers within tolerance, between the limits.
+    pub fn best_uniform(&self) -> Option<UniformLayers> {
+        let parts = self.models.iter().map(PlannedModel::part).collect();
+        Planning::new(parts, &self.layering).best_uniform()
+    }
+
+    /// The masks of a model by its index, as if it stood alone, seen from one side.
+    pub fn masks(&self, model: usize, side: Side) -> Masks {
+        let sampled = self.models[model].sampled();
+        masks_of(sampled, &self.plan, &self.layering, side)
     }
 }
 
-/// Everything that planners need to know about a model.
+/// The masks of a sampled model under a plan, seen from one side.
+fn masks_of(sampled: &Sampled, plan: &Plan, layering: &Layering, side: Side) -> Masks {
+    let Sampled { ldi, grid, .. } = sampled;
+    let samples = sampled.sampling.samples;
+    let Layering { growth, resin, .. } = layering;
+    if growth.is_none() {
+        return Masks::new(ldi, plan, grid, samples, side);
+    }
+    let shrinking = Shrinking {
+        xy_mm: growth.of_layers_mm(plan.layers(), resin.bottom_layers),
+        z_mm: growth.z_mm,
+    };
+    Masks::shrunk(ldi, plan, grid, samples, side, &shrinking)
+}
+
+/// A model that a plan is made for, alone or with others.
+#[derive(Debug, Clone, Copy)]
+pub struct Part<'a> {
+    pub height_mm: f64,
+    pub shapes: &'a Shapes,
+    /// Its own tolerance, in place of the plan's.
+    pub tolerance: Option<f64>,
+    /// How often it is printed.
+    pub copies: usize,
+}
+
+impl<'a> Part<'a> {
+    /// A model alone.
+    pub fn alone(height_mm: f64, shapes: &'a Shapes) -> Self {
+        Self {
+            height_mm,
+            shapes,
+            tolerance: None,
+            copies: 1,
+        }
+    }
+}
+
+/// Everything that planners need to know about the models of a plan.
 pub struct Planning<'a> {
-    pub(super) shapes: &'a Shapes,
+    /// The models; there is at least one.
+    pub(super) parts: Vec<Part<'a>>,
     pub(super) layering: &'a Layering,
     height_mm: f64,
     /// Errors of layers under the metric, from the source that plans are made from.
@@ -113,32 +192,54 @@ pub struct Findings {
 impl<'a> Planning<'a> {
     /// For a sampled model.
     pub fn of(measured: &'a Measured, layering: &'a Layering) -> Self {
-        Self::new(measured.of.height_mm, &measured.shapes, layering)
+        Self::alone(measured.of.height_mm, &measured.shapes, layering)
     }
 
     /// For the shapes of a model of this height.
-    pub fn new(height_mm: f64, shapes: &'a Shapes, layering: &'a Layering) -> Self {
-        let exact = shapes.errors(layering.metric, Source::Exact);
+    pub fn alone(height_mm: f64, shapes: &'a Shapes, layering: &'a Layering) -> Self {
+        Self::new(vec![Part::alone(height_mm, shapes)], layering)
+    }
+
+    /// For several models, all in bins of the same size. The error of a layer is the largest over the models that reach it.
+    pub fn new(parts: Vec<Part<'a>>, layering: &'a Layering) -> Self {
+        let of = |source| errors_of(&parts, layering, layering.metric, source);
+        let exact = of(Source::Exact);
         let errors = match layering.source {
             Source::Exact => exact.clone(),
-            Source::Sampled => shapes.errors(layering.metric, Source::Sampled),
+            Source::Sampled => of(Source::Sampled),
         };
         let snap_planes = match layering.snap_mm2 {
             None => Vec::new(),
             Some(area_mm2) => {
-                let shape = shapes.of(layering.source);
-                snap_planes(&shapes.flats, &shape.steepest, shape.bins, area_mm2)
+                let surfaces: Vec<Surface<'_>> = parts
+                    .iter()
+                    .map(|part| Surface {
+                        flats: &part.shapes.flats,
+                        steepest: &part.shapes.of(layering.source).steepest,
+                        copies: part.copies,
+                    })
+                    .collect();
+                snap_planes(&surfaces, errors.bins(), area_mm2)
             }
         };
+        let heights_mm = parts.iter().map(|part| part.height_mm);
         Self {
-            shapes,
-            height_mm,
+            height_mm: heights_mm.fold(0.0, f64::max),
+            parts,
             tolerance: tolerance(&errors, layering),
             layering,
             errors,
             exact,
             snap_planes,
         }
+    }
+
+    /// The errors of layers under another metric, without weights and without tolerances of models' own.
+    pub(super) fn unweighted(&self, metric: Metric, source: Source) -> LayerErrors {
+        largest(self.parts.iter().map(|part| {
+            let errors = part.shapes.of(source).errors(metric);
+            (errors, Strictness::NONE)
+        }))
     }
 
     /// The snap planes of the optimal planner. Where layers or time are given, they must not cost any.
@@ -159,6 +260,15 @@ impl<'a> Planning<'a> {
     /// The largest error of a plan on the mesh itself, in the metric's unit.
     pub fn max_error(&self, plan: &Plan) -> f64 {
         plan.max_error(&self.exact)
+    }
+
+    /// The largest distance from the print to the models. A fixed first layer counts.
+    pub fn max_deviation_mm(&self, plan: &Plan) -> f64 {
+        let all_layers = Plan {
+            exempt_layers: 0,
+            ..plan.clone()
+        };
+        all_layers.max_error(&self.unweighted(Metric::Deviation, Source::Exact))
     }
 
     /// The plan that the options ask for.
@@ -298,7 +408,8 @@ impl<'a> Planning<'a> {
                 max_error,
             });
         }
-        if self.shapes.overlaps && layering.metric.needs_areas() {
+        let overlaps = self.parts.iter().any(|part| part.shapes.overlaps);
+        if overlaps && layering.metric.needs_areas() {
             warnings.push(Warning::SampledSections);
         }
         let top_mm = bins.boundary_mm(plan.boundaries[plan.layers()]);
@@ -308,18 +419,20 @@ impl<'a> Planning<'a> {
                 height_mm: self.height_mm,
             });
         }
-        let exact = |metric| self.shapes.exact.errors(metric);
+        let exact = |metric| self.unweighted(metric, Source::Exact);
         let unweighted = |metric| plan.max_error(&exact(metric));
         let true_error = match layering.metric {
-            Metric::Area => area::largest_change(&self.shapes.exact.areas_mm2, plan.covered()),
+            Metric::Area => {
+                let changes = self
+                    .parts
+                    .iter()
+                    .map(|part| area::largest_change(&part.shapes.exact.areas_mm2, plan.covered()));
+                changes.fold(0.0, f64::max)
+            }
             metric => unweighted(metric),
         };
         // This holds for every point of the print, so for a fixed first layer as well.
-        let all_layers = Plan {
-            exempt_layers: 0,
-            ..plan.clone()
-        };
-        let max_deviation_mm = all_layers.max_error(&exact(Metric::Deviation));
+        let max_deviation_mm = self.max_deviation_mm(plan);
         Ok(Findings {
             snapped_mm: plan
                 .snap_planes
@@ -328,7 +441,12 @@ impl<'a> Planning<'a> {
                 .collect(),
             tolerance,
             max_error,
-            sampled_error: plan.max_error(&self.shapes.errors(layering.metric, Source::Sampled)),
+            sampled_error: plan.max_error(&errors_of(
+                &self.parts,
+                layering,
+                layering.metric,
+                Source::Sampled,
+            )),
             true_error,
             max_error_mm: unweighted(Metric::Cusp),
             max_deviation_mm,
@@ -350,6 +468,37 @@ impl<'a> Planning<'a> {
             &self.layering.resin,
             points,
         )
+    }
+}
+
+/// The errors of layers under a metric, with weights and with tolerances of models' own.
+fn errors_of(
+    parts: &[Part<'_>],
+    layering: &Layering,
+    metric: Metric,
+    source: Source,
+) -> LayerErrors {
+    largest(parts.iter().map(|part| {
+        let errors = part.shapes.errors(metric, source);
+        let strictness = match (part.tolerance, layering.target) {
+            (Some(own), Target::Tolerance(of)) => {
+                Strictness::new(errors.to_steps(own), errors.to_steps(of))
+            }
+            _ => Strictness::NONE,
+        };
+        (errors, strictness)
+    }))
+}
+
+/// The errors of one model as they are, or the largest over several.
+fn largest(errors: impl Iterator<Item = (LayerErrors, Strictness)>) -> LayerErrors {
+    let mut errors: Vec<_> = errors.collect();
+    match errors.pop() {
+        Some((alone, Strictness::NONE)) if errors.is_empty() => alone,
+        last => {
+            errors.extend(last);
+            LayerErrors::Largest(LargestError::new(errors))
+        }
     }
 }
 

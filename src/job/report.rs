@@ -5,10 +5,12 @@ use serde_json::Value;
 #[cfg(target_arch = "wasm32")]
 use tsify::Tsify;
 
-use super::Options;
 use super::parts::Output;
-use super::planned::Planned;
+use super::planned::{Planned, PlannedModel};
+use super::sampled::Sampled;
+use super::{Options, PlateReport};
 use crate::format::Format;
+use crate::ldi::Solid;
 use crate::mask::black_layers;
 use crate::model::{Mesh, ModelFile, weights};
 use crate::orientation;
@@ -347,6 +349,9 @@ pub struct Report {
     pub mask: MaskReport,
     /// The format in which the plan is exported.
     pub print_file: PrintFileReport,
+    /// The plate, if several models or copies are printed together. `model` is then the first of them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plate: Option<PlateReport>,
     /// Warnings.
     pub warnings: Vec<Warning>,
     /// Times of the stages.
@@ -387,20 +392,29 @@ pub(super) fn report_of(
     timings_ms: Timings,
 ) -> Report {
     let Planned {
-        of: measured,
+        models,
         layering,
         plan,
         findings,
     } = planned;
-    let sampled = &measured.of;
+    let sampled = &planned.first().of;
     let Origin {
         file,
         options,
         painted,
     } = origin;
-    let mut warnings = sampled.warnings.clone();
-    warnings.extend(findings.warnings.iter().cloned());
-    let black = black_layers(&sampled.solid, plan, sampled.sampling.samples);
+    let mut warnings: Vec<Warning> = Vec::new();
+    let of_models = models.iter().flat_map(|model| &model.sampled().warnings);
+    for warning in of_models.chain(&findings.warnings) {
+        if !warnings.contains(warning) {
+            warnings.push(warning.clone());
+        }
+    }
+    let solids = models
+        .iter()
+        .map(|model| (&model.sampled().solid, model.copies));
+    let solid = Solid::of_copies(solids);
+    let black = black_layers(&solid, plan, sampled.sampling.samples);
     if let Some(&lowest) = black.first() {
         warnings.push(Warning::BlackLayers {
             layers: black.len(),
@@ -415,13 +429,16 @@ pub(super) fn report_of(
         options: options.without_backend(),
         weights_crc32: painted.map(weights::crc_of),
         layers: plan.layers(),
-        height_mm: sampled.height_mm,
+        height_mm: models
+            .iter()
+            .map(|model| model.sampled().height_mm)
+            .fold(0.0, f64::max),
         z_mm: plan.z_mm(),
         exposure_s: layering.resin.exposures_s(&thickness_mm),
         overhead_s: layering.resin.overhead_s(),
         resin: layering.resin.clone(),
         thickness_mm,
-        resin_ml: sampled.solid.volume_mm3 / 1e3,
+        resin_ml: solid.volume_mm3 / 1e3,
         printer: output.printer.as_ref().map(|printer| printer.name.clone()),
         snapped_mm: findings.snapped_mm.clone(),
         metric: layering.metric,
@@ -441,8 +458,8 @@ pub(super) fn report_of(
         bins: plan.bins.count,
         bin_mm: plan.bins.size_mm,
         layer_range_mm: layering.layer_range_mm(plan.bins),
-        facets: sampled.mesh.surface_facets,
-        hits: sampled.ldi.hits.len(),
+        facets: sum(models, |sampled| sampled.mesh.surface_facets),
+        hits: sum(models, |sampled| sampled.ldi.hits.len()),
         uniform: findings.uniform.clone(),
         mask: MaskReport {
             width: sampled.grid.width,
@@ -453,9 +470,14 @@ pub(super) fn report_of(
             is_mirrored: output.is_mirrored,
         },
         print_file: PrintFileReport::new(output.format, output.printer.as_deref()),
+        plate: None,
         warnings,
         timings_ms,
     }
+}
+
+fn sum(models: &[PlannedModel], of: impl Fn(&Sampled) -> usize) -> usize {
+    models.iter().map(|model| of(model.sampled())).sum()
 }
 
 /// The warning about layers of several thicknesses on this printer, or in its file.

@@ -7,7 +7,7 @@ use web_time::Instant;
 
 use super::measured::Measured;
 use super::parts::{Job, Layering, Output, Sampling};
-use super::planned::{Extra, Planned, Planning, shapes_of};
+use super::planned::{Extra, Planned, PlannedModel, Planning, shapes_of};
 use super::report::{Origin, report_of};
 use super::sampled::{Sampled, Sampler};
 use super::stage::{Stage, StageProgress, ms_since, report};
@@ -16,12 +16,13 @@ use crate::archive::{self, Layer, Look, PrintJob, Screen};
 use crate::grid::Bins;
 use crate::ldi::LdiError;
 use crate::ldi::gpu::Gpu;
-use crate::mask::{MaskCursor, Masks, Side};
+use crate::mask::{MaskCursor, Masks, RunSource, Side};
 use crate::model::{Mesh, ModelFile, Pose, read, saliency, weights};
 use crate::orientation::Surface;
 use crate::plan::Plan;
 use crate::profile::facet_bins::FacetBins;
 use crate::profile::{Metric, Profile, Source};
+use crate::progress::Progress;
 
 /// A loaded model with the results of the stages. A change of options repeats only the stages that depend on it.
 #[derive(Debug)]
@@ -153,6 +154,11 @@ impl Slicer {
         self.layering_weights(&options.resolve()?.layering, progress)
     }
 
+    /// CRC-32 of the user's weights, if any.
+    pub(super) fn weights_crc32(&self) -> Option<u32> {
+        self.painted.as_deref().map(weights::crc_of)
+    }
+
     pub(super) fn layering_weights(
         &mut self,
         layering: &Layering,
@@ -196,7 +202,7 @@ impl Slicer {
         let extra = || Ok::<_, Error>(Extra::of(&mesh, layering.metric, bins));
         let weights = self.known_weights(layering);
         let shapes = shapes_of(&facet_bins, extra, layering, weights)?;
-        let planning = Planning::new(height_mm, &shapes, layering);
+        let planning = Planning::alone(height_mm, &shapes, layering);
         let plan = planning.plan_freely()?;
         let preview = Preview {
             layers: plan.layers(),
@@ -225,7 +231,7 @@ impl Slicer {
         let last = self.current.take();
         let job = options.resolve()?;
         // Old rays are freed before new ones are sampled.
-        let last = last.filter(|last| last.planned.of.of.sampling == job.sampling);
+        let last = last.filter(|last| last.planned.first().of.sampling == job.sampling);
         let mut timings = Timings {
             load: self.load_ms,
             ..Timings::default()
@@ -234,15 +240,17 @@ impl Slicer {
 
         report(progress, Stage::Plan, 0.0)?;
         let holds = |Current { planned, .. }: &Current| {
-            Arc::ptr_eq(&planned.of, &measured) && planned.layering == job.layering
+            Arc::ptr_eq(planned.first(), &measured) && planned.layering == job.layering
         };
         let (planned, seen) = if let Some(kept) = last.filter(holds) {
             (kept.planned, kept.seen)
         } else {
             let clock = Instant::now();
-            let planned = Planned::new(&measured, &job.layering, &mut |fraction| {
-                progress(Stage::Plan, fraction)
-            });
+            let planned = Planned::new(
+                vec![PlannedModel::alone(&measured)],
+                &job.layering,
+                &mut |fraction| progress(Stage::Plan, fraction),
+            );
             let planned = planned.map_err(|error| options.typeable(error))?;
             timings.plan = ms_since(clock);
             (Arc::new(planned), None)
@@ -337,7 +345,7 @@ impl Slicer {
     /// # Errors
     /// [`Error::NoPlan`], also for a metric of areas if no plan has measured them.
     pub fn profile(&self, metric: Metric, source: Source) -> Result<Profile, Error> {
-        let planned = self.current.as_ref().map(|current| &current.planned.of);
+        let planned = self.current.as_ref().map(|current| current.planned.first());
         let mut measured = planned.into_iter().chain(&self.measured);
         let has_it =
             |measured: &&Arc<Measured>| measured.shapes.has_areas() || !metric.needs_areas();
@@ -391,7 +399,7 @@ impl Slicer {
         let current = self.current.as_mut().ok_or(Error::NoPlan)?;
         let mut mask_progress = |fraction| progress(Stage::Masks, fraction);
         let is_mirrored = current.output.is_mirrored;
-        let mirrored = is_mirrored.then(|| current.planned.masks(Side::Below));
+        let mirrored = is_mirrored.then(|| current.planned.masks(0, Side::Below));
         if !is_mirrored {
             current.seen();
         }
@@ -403,32 +411,17 @@ impl Slicer {
         } = current;
         let masks = mirrored.as_ref().or(seen.as_ref().map(|seen| &seen.0));
         let masks = masks.ok_or(Error::NoPlan)?;
-        let sampled = &planned.of.of;
-        let layers: Vec<Layer> = (0..report.layers)
-            .map(|layer| Layer {
-                z_mm: report.z_mm[layer + 1],
-                thickness_mm: report.thickness_mm[layer],
-                exposure_s: report.exposure_s[layer],
-            })
-            .collect();
-        let job = PrintJob {
-            screen: Screen {
-                pixels: [masks.grid.width, masks.grid.height],
-                pitch_mm: [masks.grid.pitch_mm, masks.grid.pitch_y_mm],
-                is_mirrored,
-                antialias: masks.samples.sublayers,
-            },
-            layers: &layers,
+        let sampled = &planned.first().of;
+        let look = || Look::new(&sampled.mesh, &sampled.ldi);
+        let writer = write_print(
+            planned,
+            output,
+            report,
             masks,
-            height_mm: report.height_mm,
-            resin: &planned.layering.resin,
-            resin_ml: report.resin_ml,
-            printer: output.printer.as_deref(),
-            best_uniform: &|| planned.best_uniform(),
-            look: &|| Look::new(&sampled.mesh, &sampled.ldi),
-            manifest: &|| report.manifest(),
-        };
-        let writer = archive::write(output.format, &job, writer, &mut mask_progress)?;
+            &look,
+            writer,
+            &mut mask_progress,
+        )?;
         report.timings_ms.masks = ms_since(clock);
         report.timings_ms.sum_up();
         Ok((writer, report))
@@ -439,11 +432,52 @@ impl Current {
     /// The masks seen from above, and a cursor at the last layer that was read.
     fn seen(&mut self) -> &mut (Masks, MaskCursor) {
         self.seen.get_or_insert_with(|| {
-            let masks = self.planned.masks(Side::Above);
+            let masks = self.planned.masks(0, Side::Above);
             let cursor = masks.cursor();
             (masks, cursor)
         })
     }
+}
+
+/// Writes the print file of a plan that is exported as `output`, with these masks.
+///
+/// # Errors
+/// [`Error::Archive`].
+pub(super) fn write_print<W: Write>(
+    planned: &Planned,
+    output: &Output,
+    report: &Report,
+    masks: &dyn RunSource,
+    look: &dyn Fn() -> Look,
+    writer: W,
+    progress: &mut Progress<'_>,
+) -> Result<W, Error> {
+    let layers: Vec<Layer> = (0..report.layers)
+        .map(|layer| Layer {
+            z_mm: report.z_mm[layer + 1],
+            thickness_mm: report.thickness_mm[layer],
+            exposure_s: report.exposure_s[layer],
+        })
+        .collect();
+    let grid = &planned.first().of.grid;
+    let job = PrintJob {
+        screen: Screen {
+            pixels: [grid.width, grid.height],
+            pitch_mm: [grid.pitch_mm, grid.pitch_y_mm],
+            is_mirrored: output.is_mirrored,
+            antialias: planned.first().of.sampling.samples.sublayers,
+        },
+        layers: &layers,
+        masks,
+        height_mm: report.height_mm,
+        resin: &planned.layering.resin,
+        resin_ml: report.resin_ml,
+        printer: output.printer.as_deref(),
+        best_uniform: &|| planned.best_uniform(),
+        look,
+        manifest: &|| report.manifest(),
+    };
+    Ok(archive::write(output.format, &job, writer, progress)?)
 }
 
 /// Vertex positions of the surface facets, nine numbers per facet.

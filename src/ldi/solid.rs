@@ -41,6 +41,22 @@ impl Solid {
             heights_mm: heights.into_ranges(),
         }
     }
+
+    /// Several solids side by side, each a number of times.
+    pub fn of_copies<'a>(solids: impl Iterator<Item = (&'a Self, usize)>) -> Self {
+        let mut volume_mm3 = 0.0;
+        let mut heights = Heights::default();
+        for (solid, copies) in solids {
+            volume_mm3 += solid.volume_mm3 * copies as f64;
+            for &(z_in, z_out) in &solid.heights_mm {
+                heights.add(z_in, z_out);
+            }
+        }
+        Self {
+            volume_mm3,
+            heights_mm: heights.into_ranges(),
+        }
+    }
 }
 
 /// A union of height ranges.

@@ -43,6 +43,35 @@ pub struct HeightRange {
     pub layer_max_mm: f64,
 }
 
+impl HeightRange {
+    /// Ranges that may overlap as ranges that do not, in ascending order: where several meet, layers must be within the limits of
+    /// all. If they cannot be, that range is empty, and there is no plan.
+    pub fn joined(ranges: &[Self]) -> Vec<Self> {
+        let mut ends: Vec<f64> = ranges
+            .iter()
+            .flat_map(|range| [range.from_mm, range.to_mm])
+            .collect();
+        ends.sort_unstable_by(f64::total_cmp);
+        ends.dedup();
+        let between = ends.windows(2).filter_map(|ends| {
+            let meeting = ranges
+                .iter()
+                .filter(|range| range.from_mm <= ends[0] && ends[1] <= range.to_mm);
+            let all = meeting.copied().reduce(|all, range| Self {
+                layer_min_mm: all.layer_min_mm.max(range.layer_min_mm),
+                layer_max_mm: all.layer_max_mm.min(range.layer_max_mm),
+                ..all
+            });
+            all.map(|all| Self {
+                from_mm: ends[0],
+                to_mm: ends[1],
+                ..all
+            })
+        });
+        between.collect()
+    }
+}
+
 impl Limits {
     /// The unit of thickness in bins: the motor step, or 1.
     ///

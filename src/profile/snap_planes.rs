@@ -10,12 +10,39 @@ use crate::order::ascending;
 /// A change is sharp if the cusp height densities of neighbouring bins differ by more than this.
 pub const SHARP: f32 = 0.5;
 
-/// Boundaries of bins that deserve a plane, the most important first: heights at which horizontal facets have a total
-/// area of at least `flat_area_mm2`, by area; then changes of the cusp height's density by more than [`SHARP`], by size. `steepest` is
-/// the largest `n_z²` of each bin; bins without surface have no density, so nothing changes there.
-pub fn snap_planes(flats: &[Flat], steepest: &[f32], bins: Bins, flat_area_mm2: f64) -> Vec<u32> {
-    let mut flats = levels(flats, bins);
+/// The surface of a model, as far as it decides on planes.
+#[derive(Debug, Clone, Copy)]
+pub struct Surface<'a> {
+    /// Its horizontal facets.
+    pub flats: &'a [Flat],
+    /// The largest `n_z²` of each bin; bins without surface have no density, so nothing changes there.
+    pub steepest: &'a [f32],
+    /// How often it is printed.
+    pub copies: usize,
+}
+
+/// Boundaries of bins that deserve a plane, the most important first: heights at which horizontal facets of all models have a
+/// total area of at least `flat_area_mm2`, by area; then changes of a model's cusp height density by more than [`SHARP`], by size.
+pub fn snap_planes(surfaces: &[Surface<'_>], bins: Bins, flat_area_mm2: f64) -> Vec<u32> {
+    let mut flats = levels(surfaces, bins);
     flats.retain(|&(_, area_mm2)| area_mm2 >= flat_area_mm2);
+    let mut sharp: Vec<(u32, f64)> = Vec::new();
+    for surface in surfaces {
+        sharp.extend(sharp_changes(surface.steepest, bins));
+    }
+    if surfaces.len() > 1 {
+        // Where several models change, the largest change counts.
+        let order = ascending(sharp.iter().map(|&(_, change)| -change));
+        let mut largest: Vec<(u32, f64)> = order.into_iter().map(|place| sharp[place]).collect();
+        largest.sort_by_key(|&(boundary, _)| boundary);
+        sharp = largest;
+        sharp.dedup_by_key(|&mut (boundary, _)| boundary);
+    }
+    [largest_first(&flats), largest_first(&sharp)].concat()
+}
+
+/// The boundaries at which the density of a model changes sharply, in ascending order, and by how much.
+fn sharp_changes(steepest: &[f32], bins: Bins) -> Vec<(u32, f64)> {
     let changes = steepest.windows(2).zip(1u32..);
     let mut sharp: Vec<(u32, f64)> = changes
         .filter(|(pair, _)| !pair.contains(&NO_SURFACE))
@@ -27,7 +54,7 @@ pub fn snap_planes(flats: &[Flat], steepest: &[f32], bins: Bins, flat_area_mm2: 
         .collect();
     // A flat is both a rise and a fall.
     sharp.dedup_by_key(|&mut (boundary, _)| boundary);
-    [largest_first(&flats), largest_first(&sharp)].concat()
+    sharp
 }
 
 /// Boundaries by what they are worth, of equals the lowest first. They come in ascending order.
@@ -37,14 +64,20 @@ fn largest_first(boundaries: &[(u32, f64)]) -> Vec<u32> {
 }
 
 /// The boundaries nearest to horizontal facets, in ascending order, and the total area of those facets in mm².
-fn levels(flats: &[Flat], bins: Bins) -> Vec<(u32, f64)> {
-    let order = ascending(flats.iter().map(|flat| f64::from(flat.boundary)));
-    let flats: Vec<&Flat> = order.into_iter().map(|place| &flats[place]).collect();
+fn levels(surfaces: &[Surface<'_>], bins: Bins) -> Vec<(u32, f64)> {
+    let flats = surfaces.iter().flat_map(|surface| {
+        let copies = surface.copies as f64;
+        let area = move |flat: &Flat| (flat.boundary, flat.area_mm2 * copies);
+        surface.flats.iter().map(area)
+    });
+    let flats: Vec<(u32, f64)> = flats.collect();
+    let order = ascending(flats.iter().map(|&(boundary, _)| f64::from(boundary)));
+    let flats: Vec<(u32, f64)> = order.into_iter().map(|place| flats[place]).collect();
     flats
-        .chunk_by(|a, b| a.boundary == b.boundary)
+        .chunk_by(|a, b| a.0 == b.0)
         .map(|level| {
-            let area_mm2 = level.iter().map(|flat| flat.area_mm2).sum();
-            (level[0].boundary, area_mm2)
+            let area_mm2 = level.iter().map(|&(_, area_mm2)| area_mm2).sum();
+            (level[0].0, area_mm2)
         })
         .filter(|&(boundary, _)| boundary > 0 && (boundary as usize) < bins.count)
         .collect()

@@ -1,0 +1,93 @@
+//! Several models in one job, as users specify them.
+
+use serde::{Deserialize, Serialize};
+
+use super::Options;
+use crate::arrange::Arranging;
+use crate::plan::HeightRange;
+
+/// How a model of a plate differs from the options of the job, and how often it is printed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(default, deny_unknown_fields)]
+pub struct ModelOptions {
+    /// Number of copies.
+    pub copies: usize,
+    /// Rotation from the pose in the file: a quaternion x, y, z, w of any length except 0. That of the options if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rotation: Option<[f64; 4]>,
+    /// Height to which the model is scaled uniformly. That of the options if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub height_mm: Option<f64>,
+    /// Maximum error of a layer on this model, in the metric's unit. That of the options if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
+    /// Height ranges of this model with a layer thickness of their own, besides those of the options. Where ranges of several
+    /// models meet, layers are within all of them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub ranges: Vec<HeightRange>,
+}
+
+impl Default for ModelOptions {
+    fn default() -> Self {
+        Self {
+            copies: 1,
+            rotation: None,
+            height_mm: None,
+            tolerance: None,
+            ranges: Vec::new(),
+        }
+    }
+}
+
+/// Where a copy of a model stands.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(deny_unknown_fields)]
+pub struct Placement {
+    /// The model, by its index.
+    pub model: usize,
+    /// The plate, from 0.
+    #[serde(default)]
+    pub plate: usize,
+    /// Position of the model's middle from the middle of the plate, to the right; the nearest whole pixel counts.
+    pub x_mm: f64,
+    /// The same to the back.
+    pub y_mm: f64,
+    /// Turn about z after the rotation, counter-clockwise as seen from above: a multiple of 15.
+    #[serde(default)]
+    pub turn_deg: u32,
+}
+
+/// Several models in one job. All share the options.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(default, deny_unknown_fields)]
+pub struct PlateOptions {
+    /// What holds for all models; printer, layers and resin among it.
+    pub options: Options,
+    /// The models, in the order in which they were loaded.
+    pub models: Vec<ModelOptions>,
+    /// How to arrange the copies.
+    pub arranging: Arranging,
+    /// Where each copy stands. If empty, copies are arranged.
+    pub placements: Vec<Placement>,
+}
+
+impl PlateOptions {
+    /// The options of a model by its index. If it is the only one, they say all that its own say.
+    pub(super) fn of_model(&self, model: usize) -> ModelOptions {
+        self.models.get(model).cloned().unwrap_or_default()
+    }
+
+    /// The options of the only model, alone on its plate.
+    pub(super) fn alone(&self) -> Options {
+        let own = self.of_model(0);
+        let mut options = self.options.clone();
+        options.rotation = own.rotation.or(options.rotation);
+        options.height_mm = own.height_mm.or(options.height_mm);
+        options.tolerance = own.tolerance.or(options.tolerance);
+        options.ranges.extend(own.ranges);
+        options
+    }
+}

@@ -1,0 +1,58 @@
+//! Several models in one job: arranging, planning for all, and masks of copies, against the models alone and naive oracles.
+
+#![cfg(not(target_arch = "wasm32"))]
+
+mod arranging;
+#[path = "../common/mod.rs"]
+mod common;
+mod masks;
+mod sharing;
+
+use common::{binary_stl, quiet, solids};
+use cusp_slicer::Error;
+use cusp_slicer::job::{Backend, ModelOptions, Options, Plate, PlateOptions, PlatesReport, Slicer};
+
+/// Options with a screen of 40 × 30 mm in pixels of 0.1 mm.
+fn options() -> Options {
+    Options {
+        pixels: Some([400, 300]),
+        pitch_mm: Some(0.1),
+        backend: Backend::Cpu,
+        ..Options::default()
+    }
+}
+
+fn load(triangles: &solids::Triangles) -> Slicer {
+    Slicer::load(&binary_stl(triangles)).unwrap()
+}
+
+fn plate(models: &[&solids::Triangles]) -> Plate {
+    Plate::new(models.iter().map(|model| load(model)).collect())
+}
+
+/// A job of these numbers of copies.
+fn job(options: Options, copies: &[usize]) -> PlateOptions {
+    let models = copies.iter().map(|&copies| ModelOptions {
+        copies,
+        ..ModelOptions::default()
+    });
+    PlateOptions {
+        options,
+        models: models.collect(),
+        ..PlateOptions::default()
+    }
+}
+
+fn plan(plate: &mut Plate, options: &PlateOptions) -> Result<PlatesReport, Error> {
+    pollster::block_on(plate.plan(options, &mut quiet))
+}
+
+/// The mask of a layer as rows of pixels.
+fn pixels(bits: &[u8], width: usize) -> Vec<Vec<bool>> {
+    let rows = bits.chunks(width.div_ceil(8));
+    rows.map(|row| {
+        let lit = |column: usize| row[column / 8] & (0x80 >> (column % 8)) != 0;
+        (0..width).map(lit).collect()
+    })
+    .collect()
+}

@@ -1,0 +1,180 @@
+//! What copies share: rays, plans, time.
+
+use cusp_slicer::job::{ModelOptions, PlateOptions, Slicer};
+use cusp_slicer::profile::{Metric, Source};
+use glam::Vec3;
+
+use crate::common::{assert_near, quiet, solids};
+use crate::{job, load, options, plan, plate};
+
+#[test]
+fn copies_cost_the_rays_of_one() {
+    let ball = solids::sphere(1.5, 3);
+    let mut alone = load(&ball);
+    let one = pollster::block_on(alone.plan(&options(), &mut quiet)).unwrap();
+    let mut many = plate(&[&ball]);
+    let report = plan(&mut many, &job(options(), &[40])).unwrap();
+    let [report] = &report.plates[..] else {
+        panic!("one plate")
+    };
+    assert_eq!(report.hits, one.hits);
+    assert_eq!((&report.z_mm, report.max_error), (&one.z_mm, one.max_error));
+    assert_near(report.resin_ml, 40.0 * one.resin_ml, 1e-9);
+    assert_eq!(report.plate.as_ref().unwrap().placements.len(), 40);
+}
+
+#[test]
+fn plates_of_the_same_models_have_one_plan() {
+    let square = solids::cuboid(Vec3::new(8.0, 8.0, 1.0));
+    let mut many = plate(&[&square]);
+    let report = plan(&mut many, &job(options(), &[30])).unwrap();
+    assert_eq!(report.plates.len(), 3);
+    assert_eq!(report.plates[0].z_mm, report.plates[1].z_mm);
+    let copies = |plate: usize| report.plates[plate].plate.as_ref().unwrap().models[0].copies;
+    assert_eq!([copies(0), copies(1), copies(2)], [12, 12, 6]);
+    assert_near(
+        report.print_time_s,
+        3.0 * report.plates[0].print_time_s,
+        1e-6,
+    );
+}
+
+/// The largest errors of a plan on a model, by its exact profile.
+fn errors(model: &mut Slicer, z_mm: &[f64], bin_mm: f64) -> f64 {
+    let options = cusp_slicer::job::Options {
+        bin_mm: Some(bin_mm),
+        ..options()
+    };
+    pollster::block_on(model.plan(&options, &mut quiet)).unwrap();
+    let density = model.profile(Metric::Cusp, Source::Exact).unwrap().density;
+    let boundary = |z_mm: f64| ((z_mm / bin_mm).round() as usize).min(density.len());
+    let layers = z_mm.windows(2).map(|pair| {
+        let bins = &density[boundary(pair[0])..boundary(pair[1])];
+        bins.iter().map(|&value| f64::from(value)).sum::<f64>() * bin_mm
+    });
+    layers.fold(0.0, f64::max)
+}
+
+#[test]
+fn no_model_of_a_plate_exceeds_its_own_tolerance_and_each_alone_needs_fewer_layers() {
+    let (ball, cone) = (solids::sphere(3.0, 4), solids::cone(3.0, 11.0, 16));
+    for own in [None, Some(0.03), Some(0.12)] {
+        let mut both = plate(&[&ball, &cone]);
+        let options = PlateOptions {
+            models: vec![
+                ModelOptions::default(),
+                ModelOptions {
+                    tolerance: own,
+                    ..ModelOptions::default()
+                },
+            ],
+            ..job(options(), &[])
+        };
+        let report = plan(&mut both, &options).unwrap();
+        let report = &report.plates[0];
+        let models = &report.plate.as_ref().unwrap().models;
+        for (model, (solid, tolerance)) in [(&ball, 0.065), (&cone, own.unwrap_or(0.065))]
+            .into_iter()
+            .enumerate()
+        {
+            let error = errors(&mut load(solid), &report.z_mm, report.bin_mm);
+            assert!(error <= tolerance + 1e-6, "{model}: {error} of {tolerance}");
+            assert_near(models[model].max_error, error, 1e-5);
+            let mut alone = load(solid);
+            let of_model = cusp_slicer::job::Options {
+                tolerance: Some(tolerance),
+                ..crate::options()
+            };
+            let alone = pollster::block_on(alone.plan(&of_model, &mut quiet)).unwrap();
+            assert!(alone.layers <= models[model].layers + 1);
+        }
+        assert!(models[0].layers < models[1].layers);
+    }
+}
+
+#[test]
+fn time_is_shared_by_the_copies_that_a_layer_reaches() {
+    // Two columns of the same shadow, one twice as high, in layers of one exposure.
+    let (low, high) = (
+        solids::cuboid(Vec3::new(5.0, 5.0, 4.0)),
+        solids::cuboid(Vec3::new(5.0, 5.0, 8.0)),
+    );
+    let mut options = job(options(), &[3, 1]);
+    options.options.resin.bottom_layers = 0;
+    let mut both = plate(&[&low, &high]);
+    let report = plan(&mut both, &options).unwrap();
+    let report = &report.plates[0];
+    let models = &report.plate.as_ref().unwrap().models;
+    let layer_s = |bottom_mm: f64, top_mm: f64| {
+        let layers = report.z_mm.windows(2).zip(&report.exposure_s);
+        let within =
+            layers.filter(|(pair, _)| pair[0] >= bottom_mm - 1e-9 && pair[1] <= top_mm + 1e-9);
+        within
+            .map(|(_, exposure_s)| exposure_s + report.overhead_s)
+            .sum::<f64>()
+    };
+    let quarter_s = layer_s(0.0, 4.0) / 4.0;
+    assert_near(models[0].print_time_s, quarter_s, 1e-3);
+    assert_near(models[1].print_time_s, quarter_s + layer_s(4.0, 8.0), 1e-3);
+    let all_s = 3.0 * models[0].print_time_s + models[1].print_time_s;
+    assert_near(all_s, report.print_time_s, 1e-3);
+}
+
+#[test]
+fn height_ranges_of_models_are_joined() {
+    let cube = solids::cube(8.0);
+    let range = |from_mm, to_mm, layer_min_mm, layer_max_mm| cusp_slicer::plan::HeightRange {
+        from_mm,
+        to_mm,
+        layer_min_mm,
+        layer_max_mm,
+    };
+    let own = |ranges| ModelOptions {
+        ranges,
+        ..ModelOptions::default()
+    };
+    let mut both = plate(&[&cube, &cube]);
+    let mut options = PlateOptions {
+        models: vec![
+            own(vec![range(1.0, 4.0, 0.05, 0.1)]),
+            own(vec![range(3.0, 6.0, 0.08, 0.15)]),
+        ],
+        ..job(options(), &[])
+    };
+    let report = plan(&mut both, &options).unwrap();
+    let layers = report.plates[0].z_mm.windows(2);
+    for pair in layers {
+        let thickness_mm = pair[1] - pair[0];
+        let (least, greatest) = match pair[0] {
+            z if z < 1.0 - 1e-9 || z > 6.0 - 1e-9 => (0.05, 0.15),
+            z if z < 3.0 - 1e-9 => (0.05, 0.1),
+            z if z < 4.0 - 1e-9 => (0.08, 0.1),
+            _ => (0.08, 0.15),
+        };
+        assert!(
+            (least - 1e-9..=greatest + 1e-9).contains(&thickness_mm),
+            "{pair:?}"
+        );
+    }
+    options.models[1].ranges = vec![range(3.0, 6.0, 0.12, 0.15)];
+    let refused = plan(&mut both, &options).unwrap_err();
+    assert_eq!(refused.code(), "layer-range-empty");
+}
+
+#[test]
+fn a_change_of_places_repeats_neither_rays_nor_plan() {
+    let ball = solids::sphere(2.0, 3);
+    let mut two = plate(&[&ball]);
+    let options = job(options(), &[2]);
+    let first = plan(&mut two, &options).unwrap();
+    let mut placements = first.plates[0].plate.as_ref().unwrap().placements.clone();
+    placements[0].x_mm -= 5.0;
+    let moved = PlateOptions {
+        placements,
+        ..options
+    };
+    let second = plan(&mut two, &moved).unwrap();
+    assert_eq!(second.plates[0].timings_ms.ldi, 0.0);
+    assert_eq!(second.plates[0].z_mm, first.plates[0].z_mm);
+    assert_ne!(second.plates[0].plate, first.plates[0].plate);
+}
