@@ -1,6 +1,8 @@
-//! The library in the browser: the only file that exports to it.
+//! The library in the browser: the only module that exports to it.
 //!
 //! Errors are thrown as `{ code, message, detail }`; see [`crate::job::Error`].
+
+mod plate;
 
 use std::io::{self, BufWriter, Write};
 use std::ops::ControlFlow;

@@ -82,9 +82,22 @@ impl Plate {
         &self.models
     }
 
-    /// A model, to set its weights.
-    pub fn model_mut(&mut self, model: usize) -> Option<&mut Slicer> {
-        self.models.get_mut(model)
+    /// A model by its index.
+    ///
+    /// # Errors
+    /// [`Error::Arrange`] if there is no such model.
+    pub fn model(&self, model: usize) -> Result<&Slicer, Error> {
+        self.check_model(model)?;
+        Ok(&self.models[model])
+    }
+
+    /// The same, to set its weights.
+    ///
+    /// # Errors
+    /// [`Error::Arrange`] if there is no such model.
+    pub fn model_mut(&mut self, model: usize) -> Result<&mut Slicer, Error> {
+        self.check_model(model)?;
+        Ok(&mut self.models[model])
     }
 
     /// Adds a model and returns its index.

@@ -1,0 +1,160 @@
+//! Several models in one job, in the browser.
+
+use js_sys::Function;
+use tsify::Ts;
+use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
+
+use super::{Chunks, progress_to, throw, throw_conversion};
+use crate::job::{self, Placement, PlateOptions};
+use crate::js::to_js;
+use crate::profile::{Metric, Source};
+
+/// Models that are printed together. A change of options repeats only what depends on it.
+#[wasm_bindgen]
+#[derive(Default)]
+pub struct Plate {
+    plate: job::Plate,
+}
+
+#[wasm_bindgen]
+impl Plate {
+    /// A plate without models.
+    #[wasm_bindgen(constructor)]
+    pub fn new() -> Plate {
+        Self::default()
+    }
+
+    /// Reads a model and adds it. Its index is the number of models before.
+    ///
+    /// # Errors
+    /// Throws a `CuspError` if the bytes are no usable model.
+    #[wasm_bindgen(unchecked_return_type = "MeshInfo")]
+    pub fn add(&mut self, file: &[u8]) -> Result<JsValue, JsValue> {
+        let model = job::Slicer::load(file).map_err(throw)?;
+        let info = to_js(&model.info());
+        self.plate.add(model);
+        Ok(info)
+    }
+
+    /// Removes a model. The indices of those after it become one less.
+    ///
+    /// # Errors
+    /// Throws a `CuspError` if there is no such model.
+    pub fn remove(&mut self, model: usize) -> Result<(), JsValue> {
+        self.plate.remove(model).map(|_| ()).map_err(throw)
+    }
+
+    /// Vertex positions of a model, as those of a slicer.
+    ///
+    /// # Errors
+    /// Throws a `CuspError` if there is no such model.
+    pub fn positions(&self, model: usize) -> Result<Vec<f32>, JsValue> {
+        Ok(self.plate.model(model).map_err(throw)?.positions())
+    }
+
+    /// Sets a weight from 0 to 1 for each facet of a model, or removes all weights.
+    ///
+    /// # Errors
+    /// Throws a `CuspError`.
+    pub fn set_weights(&mut self, model: usize, weights: Option<Vec<f32>>) -> Result<(), JsValue> {
+        let model = self.plate.model_mut(model).map_err(throw)?;
+        model.set_weights(weights).map_err(throw)
+    }
+
+    /// Where copies stand when they are arranged.
+    ///
+    /// # Errors
+    /// Throws a `CuspError`.
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "values from JavaScript come by value"
+    )]
+    #[wasm_bindgen(unchecked_return_type = "Placement[]")]
+    pub fn arrange(&self, options: Ts<PlateOptions>) -> Result<JsValue, JsValue> {
+        let options = options.to_rust().map_err(throw_conversion)?;
+        Ok(to_js(&self.plate.arrange(&options).map_err(throw)?))
+    }
+
+    /// What is wrong with the placements of the options: copies that extend beyond their plate, and copies that overlap.
+    ///
+    /// # Errors
+    /// Throws a `CuspError`.
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "values from JavaScript come by value"
+    )]
+    #[wasm_bindgen(unchecked_return_type = "ArrangeError[]")]
+    pub fn problems(&self, options: Ts<PlateOptions>) -> Result<JsValue, JsValue> {
+        let options = options.to_rust().map_err(throw_conversion)?;
+        let placements: &[Placement] = &options.placements;
+        let problems = self.plate.problems(&options, placements);
+        Ok(to_js(&problems.map_err(throw)?))
+    }
+
+    /// Plans the layers of all plates.
+    ///
+    /// # Errors
+    /// Throws a `CuspError`.
+    #[wasm_bindgen(unchecked_return_type = "PlatesReport")]
+    pub async fn plan(
+        &mut self,
+        options: Ts<PlateOptions>,
+        #[wasm_bindgen(
+            unchecked_param_type = "(stage: Stage, fraction: number, done: number) => void"
+        )]
+        progress: Function,
+    ) -> Result<JsValue, JsValue> {
+        let options = options.to_rust().map_err(throw_conversion)?;
+        let report = self.plate.plan(&options, &mut progress_to(&progress)).await;
+        Ok(to_js(&report.map_err(throw)?))
+    }
+
+    /// The profile of a metric on a plate, from 0: in each bin the largest of its models.
+    ///
+    /// # Errors
+    /// Throws a `CuspError` if there is no plan.
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "values from JavaScript come by value"
+    )]
+    pub fn profile(
+        &mut self,
+        plate: usize,
+        metric: Ts<Metric>,
+        source: Ts<Source>,
+    ) -> Result<Vec<f32>, JsValue> {
+        let metric = metric.to_rust().map_err(throw_conversion)?;
+        let source = source.to_rust().map_err(throw_conversion)?;
+        let profile = self.plate.profile(plate, metric, source);
+        Ok(profile.map_err(throw)?.density)
+    }
+
+    /// The mask of a layer of a plate, both from 0, as that of a slicer.
+    ///
+    /// # Errors
+    /// Throws a `CuspError` if there is no plan, no such plate or no such layer.
+    pub fn mask(&mut self, plate: usize, layer: usize) -> Result<Vec<u8>, JsValue> {
+        self.plate.mask(plate, layer).map_err(throw)
+    }
+
+    /// Writes the print file of a plate, from 0, by calling `take` with one chunk after another.
+    ///
+    /// # Errors
+    /// Throws a `CuspError`, or what `take` throws.
+    pub fn archive(
+        &mut self,
+        plate: usize,
+        #[wasm_bindgen(unchecked_param_type = "(chunk: Uint8Array) => void")] take: &Function,
+        #[wasm_bindgen(
+            unchecked_param_type = "(stage: Stage, fraction: number, done: number) => void"
+        )]
+        progress: &Function,
+    ) -> Result<(), JsValue> {
+        let mut writer = Chunks::to(take);
+        let written = self
+            .plate
+            .write_archive(plate, &mut writer, &mut progress_to(progress))
+            .map(|_| ());
+        Chunks::end(writer, written)
+    }
+}
