@@ -69,7 +69,7 @@ impl Screen {
     }
 
     /// A point in pixels from the corner with the least x and the greatest y; 0, 0 is the middle of the plate.
-    fn to_pixels(&self, point_mm: DVec2) -> DVec2 {
+    fn pixels_to(&self, point_mm: DVec2) -> DVec2 {
         let [columns, rows] = self.pixels.map(f64::from);
         DVec2::new(
             point_mm.x / self.pitch_mm[0] + columns * 0.5,
@@ -277,8 +277,8 @@ impl Shape {
     /// The places, in cells to the right and downward from the middle of the plate, at which all pixels are on the screen:
     /// the first and the last in each direction. `None` if there are none.
     fn places(&self, screen: &Screen) -> Option<[[i64; 2]; 2]> {
-        let mut range = [[0; 2]; 2];
-        for axis in 0..2 {
+        let [mut lowest, mut highest] = [[0; 2]; 2];
+        for axis in [0, 1] {
             let [first, last] = [0, 1].map(|end| self.outline.pixels[end][axis]);
             let cell = i64::from(screen.cell[axis]);
             // Beyond the rounding that models as large as the plate need.
@@ -286,13 +286,13 @@ impl Shape {
             if first >= -slack && last <= side + slack && last - first >= side - 2 * slack {
                 continue;
             }
-            range[0][axis] = -first.div_euclid(cell);
-            range[1][axis] = (side - last).div_euclid(cell);
-            if range[0][axis] > range[1][axis] {
+            lowest[axis] = -first.div_euclid(cell);
+            highest[axis] = (side - last).div_euclid(cell);
+            if lowest[axis] > highest[axis] {
                 return None;
             }
         }
-        Some(range)
+        Some([lowest, highest])
     }
 }
 

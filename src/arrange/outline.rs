@@ -106,8 +106,8 @@ impl Outline {
     /// Cost: linear in facets and in the cells that they cover.
     pub fn of(mesh: &Mesh, screen: &Screen) -> Self {
         let bounds = mesh.bounds();
-        let first = screen.to_pixels(DVec2::new(bounds.min.x, bounds.max.y)) + INSET;
-        let last = screen.to_pixels(DVec2::new(bounds.max.x, bounds.min.y)) - INSET;
+        let first = screen.pixels_to(DVec2::new(bounds.min.x, bounds.max.y)) + INSET;
+        let last = screen.pixels_to(DVec2::new(bounds.max.x, bounds.min.y)) - INSET;
         let pixels = [
             [first.x.floor() as i64, first.y.floor() as i64],
             // A model that is thinner than a pixel still has one.
@@ -126,7 +126,7 @@ impl Outline {
             (first_cell[1] * cell[1]) as f64,
         );
         let side = DVec2::new(cell[0] as f64, cell[1] as f64);
-        let place = |corner: DVec3| (screen.to_pixels(corner.truncate()) - origin) / side;
+        let place = |corner: DVec3| (screen.pixels_to(corner.truncate()) - origin) / side;
         let inset = INSET / side;
         for facet in 0..mesh.facets.len() {
             cover(&mut cells, mesh.corners(facet).map(place), inset);

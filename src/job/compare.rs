@@ -1,7 +1,7 @@
 //! Planners side by side.
 
 use super::parts::Thicknesses;
-use super::planned::Planning;
+use super::planning::Planning;
 use super::stage::{Stage, StageProgress, report};
 use super::{Comparison, Error, Options, Planner, PlannerReport, Slicer, Timings};
 use crate::progress::Progress;

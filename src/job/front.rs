@@ -1,7 +1,7 @@
 //! The least sum of volume deviations beside the smallest maximum error: two ends of what layers of varying thickness can be
 //! planned for.
 
-use super::planned::Planning;
+use super::planning::Planning;
 use super::stage::{Stage, StageProgress, report};
 use super::{Error, FrontPoint, Options, Slicer, SumAndMaximum, Timings};
 use crate::plan::optimal::{self, Objective};

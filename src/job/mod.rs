@@ -13,9 +13,9 @@ mod options_error;
 mod orient;
 mod parts;
 mod planned;
+mod planning;
 mod plate;
-mod plate_options;
-mod plate_report;
+mod print;
 mod report;
 mod resolve;
 mod sampled;
@@ -32,9 +32,9 @@ pub use options_error::OptionsError;
 #[cfg(not(target_arch = "wasm32"))]
 pub use orient::OrientationPart;
 pub use orient::OrientationReport;
-pub use plate::Plate;
-pub use plate_options::*;
-pub use plate_report::{PlateModelReport, PlateReport, PlatesReport};
+pub use plate::{
+    ModelOptions, Placement, Plate, PlateModelReport, PlateOptions, PlateReport, PlatesReport,
+};
 pub use report::*;
 pub use resolve::BIN_MM;
 pub use slicer::Slicer;

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::parts::Job;
-use super::planned::{Extra, Planning, shapes_of};
+use super::planning::{Extra, Planning, shapes_of};
 use super::slicer::Slicer;
 use super::stage::{Stage, StageProgress};
 use super::{Error, Options, SCHEMA};

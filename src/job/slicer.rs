@@ -7,22 +7,23 @@ use web_time::Instant;
 
 use super::measured::Measured;
 use super::parts::{Job, Layering, Output, Sampling};
-use super::planned::{Extra, Planned, PlannedModel, Planning, shapes_of};
+use super::planned::{Planned, PlannedModel};
+use super::planning::{Extra, Planning, shapes_of};
+use super::print::write_print;
 use super::report::{Origin, report_of};
 use super::sampled::{Sampled, Sampler};
 use super::stage::{Stage, StageProgress, ms_since, report};
 use super::{Error, MeshInfo, Options, Preview, Report, Timings, Tradeoff};
-use crate::archive::{self, Layer, Look, PrintJob, Screen};
+use crate::archive::Look;
 use crate::grid::Bins;
 use crate::ldi::LdiError;
 use crate::ldi::gpu::Gpu;
-use crate::mask::{MaskCursor, Masks, RunSource, Side};
+use crate::mask::{MaskCursor, Masks, Side};
 use crate::model::{Mesh, ModelFile, Pose, read, saliency, weights};
 use crate::orientation::Surface;
 use crate::plan::Plan;
 use crate::profile::facet_bins::FacetBins;
 use crate::profile::{Metric, Profile, Source};
-use crate::progress::Progress;
 
 /// A loaded model with the results of the stages. A change of options repeats only the stages that depend on it.
 #[derive(Debug)]
@@ -437,47 +438,6 @@ impl Current {
             (masks, cursor)
         })
     }
-}
-
-/// Writes the print file of a plan that is exported as `output`, with these masks.
-///
-/// # Errors
-/// [`Error::Archive`].
-pub(super) fn write_print<W: Write>(
-    planned: &Planned,
-    output: &Output,
-    report: &Report,
-    masks: &dyn RunSource,
-    look: &dyn Fn() -> Look,
-    writer: W,
-    progress: &mut Progress<'_>,
-) -> Result<W, Error> {
-    let layers: Vec<Layer> = (0..report.layers)
-        .map(|layer| Layer {
-            z_mm: report.z_mm[layer + 1],
-            thickness_mm: report.thickness_mm[layer],
-            exposure_s: report.exposure_s[layer],
-        })
-        .collect();
-    let grid = &planned.first().of.grid;
-    let job = PrintJob {
-        screen: Screen {
-            pixels: [grid.width, grid.height],
-            pitch_mm: [grid.pitch_mm, grid.pitch_y_mm],
-            is_mirrored: output.is_mirrored,
-            antialias: planned.first().of.sampling.samples.sublayers,
-        },
-        layers: &layers,
-        masks,
-        height_mm: report.height_mm,
-        resin: &planned.layering.resin,
-        resin_ml: report.resin_ml,
-        printer: output.printer.as_deref(),
-        best_uniform: &|| planned.best_uniform(),
-        look,
-        manifest: &|| report.manifest(),
-    };
-    Ok(archive::write(output.format, &job, writer, progress)?)
 }
 
 /// Vertex positions of the surface facets, nine numbers per facet.

@@ -113,7 +113,7 @@ impl RunReader for Reader<'_> {
         let plate = self.plate;
         LayerRuns::new(parallel::map((0..layers).collect(), |layer| {
             let runs = alone.iter().map(|runs| runs.of_layer(layer).collect());
-            plate.stamped(runs.collect())
+            plate.stamped(&runs.collect::<Vec<_>>())
         }))
     }
 }
@@ -135,10 +135,10 @@ impl Copy<'_> {
 
 impl PlateMasks {
     /// The runs of a layer, given those of each model alone.
-    fn stamped(&self, alone: Vec<Vec<Run>>) -> Vec<Run> {
+    fn stamped(&self, alone: &[Vec<Run>]) -> Vec<Run> {
         let width = self.grid.width;
         let mut waiting: Vec<Copy<'_>> = Vec::new();
-        for (stamp, runs) in self.stamps.iter().zip(&alone) {
+        for (stamp, runs) in self.stamps.iter().zip(alone) {
             waiting.extend(stamp.offsets.iter().map(|&[right, down]| Copy {
                 runs,
                 offset: i64::from(down) * i64::from(width) + i64::from(right),

@@ -133,7 +133,7 @@ fn the_masks_of_a_plate_are_those_of_its_models_moved_to_their_places() {
             pollster::block_on(model.plan(&own, &mut quiet)).unwrap();
         }
         for layer in (0..report.layers).step_by(7).chain([report.layers - 1]) {
-            let middle_mm = (report.z_mm[layer] + report.z_mm[layer + 1]) / 2.0;
+            let middle_mm = f64::midpoint(report.z_mm[layer], report.z_mm[layer + 1]);
             let mut expected = vec![vec![false; 400]; 300];
             for place in &placements {
                 if middle_mm > heights_mm[place.model] {

@@ -146,7 +146,7 @@ fn height_ranges_of_models_are_joined() {
     for pair in layers {
         let thickness_mm = pair[1] - pair[0];
         let (least, greatest) = match pair[0] {
-            z if z < 1.0 - 1e-9 || z > 6.0 - 1e-9 => (0.05, 0.15),
+            z if !(1.0 - 1e-9..=6.0 - 1e-9).contains(&z) => (0.05, 0.15),
             z if z < 3.0 - 1e-9 => (0.05, 0.1),
             z if z < 4.0 - 1e-9 => (0.08, 0.1),
             _ => (0.08, 0.15),

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Options;
+use super::super::Options;
 use crate::arrange::Arranging;
 use crate::plan::HeightRange;
 
@@ -76,12 +76,12 @@ pub struct PlateOptions {
 
 impl PlateOptions {
     /// The options of a model by its index. If it is the only one, they say all that its own say.
-    pub(super) fn of_model(&self, model: usize) -> ModelOptions {
+    pub(in crate::job) fn of_model(&self, model: usize) -> ModelOptions {
         self.models.get(model).cloned().unwrap_or_default()
     }
 
     /// The options of the only model, alone on its plate.
-    pub(super) fn alone(&self) -> Options {
+    pub(in crate::job) fn alone(&self) -> Options {
         let own = self.of_model(0);
         let mut options = self.options.clone();
         options.rotation = own.rotation.or(options.rotation);

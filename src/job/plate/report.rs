@@ -2,7 +2,15 @@
 
 use serde::Serialize;
 
-use super::{ModelOptions, Placement};
+use super::super::Report;
+use super::super::parts::Job;
+use super::super::planned::Planned;
+use super::super::planning::{Part, Planning};
+use super::places::{placement, pose_of};
+use super::shapes::Shape;
+use super::{ModelOptions, Placement, Plate, PlateOptions};
+use crate::Error;
+use crate::arrange::{Place, Screen};
 use crate::model::ModelFile;
 use crate::plan::Plan;
 use crate::resin::Resin;
@@ -55,23 +63,83 @@ pub struct PlateModelReport {
     pub warnings: Vec<Warning>,
 }
 
+impl Plate {
+    pub(super) fn plate_report(
+        &self,
+        options: &PlateOptions,
+        job: &Job,
+        screen: &Screen,
+        on_plate: &[Place],
+        planned: &Planned,
+    ) -> Result<PlateReport, Error> {
+        let mut models = Vec::new();
+        let mut sharers = Vec::new();
+        for same in on_plate.chunk_by(|a, b| a.item == b.item) {
+            let model = same[0].item;
+            let shapes = self.shapes.iter().filter(|shape| {
+                shape.model == model && same.iter().any(|place| place.turns == shape.turns)
+            });
+            let shapes: Vec<&Shape> = shapes.collect();
+            let sampled = &shapes[0].measured.of;
+            let pose = pose_of(options, job, model);
+            sharers.push(Sharer {
+                height_mm: sampled.height_mm,
+                shadow_mm2: self.outline(model, &pose, 0, screen)?.area_mm2,
+                copies: same.len(),
+            });
+            let parts = shapes
+                .iter()
+                .map(|shape| Part::alone(shape.measured.of.height_mm, &shape.measured.shapes));
+            let planning = Planning::new(parts.collect(), &planned.layering);
+            models.push(PlateModelReport {
+                model,
+                file: self.models[model].file.clone(),
+                options: options.of_model(model),
+                weights_crc32: self.models[model].weights_crc32(),
+                copies: same.len(),
+                size_mm: self.size_mm(options, job, model)?,
+                layers: layers_reaching(&planned.plan, sampled.height_mm),
+                resin_ml: sampled.solid.volume_mm3 / 1e3,
+                print_time_s: 0.0,
+                max_error: planning.max_error(&planned.plan),
+                max_deviation_mm: planning.max_deviation_mm(&planned.plan),
+                warnings: sampled.warnings.clone(),
+            });
+        }
+        let shares_s = time_shares_s(&planned.plan, &planned.layering.resin, &sharers);
+        for (model, share_s) in models.iter_mut().zip(shares_s) {
+            model.print_time_s = share_s;
+        }
+        Ok(PlateReport {
+            plate: 0,
+            plates: 0,
+            models,
+            placements: on_plate
+                .iter()
+                .map(|place| placement(screen, place))
+                .collect(),
+            spacing_mm: options.arranging.spacing_mm,
+        })
+    }
+}
+
 /// A model as it shares the cost of layers.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Sharer {
-    pub height_mm: f64,
-    pub shadow_mm2: f64,
-    pub copies: usize,
+struct Sharer {
+    height_mm: f64,
+    shadow_mm2: f64,
+    copies: usize,
 }
 
 /// Number of layers that reach a height.
-pub(super) fn layers_reaching(plan: &Plan, height_mm: f64) -> usize {
+fn layers_reaching(plan: &Plan, height_mm: f64) -> usize {
     let bottoms_mm = plan.z_mm();
     let reached = bottoms_mm[..plan.layers()].partition_point(|&z_mm| z_mm < height_mm);
     reached.max(1)
 }
 
 /// Each copy's share of the print time in seconds.
-pub(super) fn time_shares_s(plan: &Plan, resin: &Resin, sharers: &[Sharer]) -> Vec<f64> {
+fn time_shares_s(plan: &Plan, resin: &Resin, sharers: &[Sharer]) -> Vec<f64> {
     let exposures_s = resin.exposures_s(&plan.thickness_mm());
     let reached: Vec<usize> = sharers
         .iter()
@@ -98,12 +166,12 @@ pub(super) fn time_shares_s(plan: &Plan, resin: &Resin, sharers: &[Sharer]) -> V
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct PlatesReport {
-    /// The schema version of this object: [`super::SCHEMA`].
+    /// The schema version of this object: [`crate::job::SCHEMA`].
     pub schema: u32,
     /// Print time of all plates, one after the other.
     pub print_time_s: f64,
     /// Volume of resin in all copies.
     pub resin_ml: f64,
     /// The report of each plate.
-    pub plates: Vec<super::Report>,
+    pub plates: Vec<Report>,
 }

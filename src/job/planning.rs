@@ -1,0 +1,448 @@
+//! What planners get of the models of a plan: errors, tolerance and snap planes; and what is known about a plan.
+
+use super::measured::Measured;
+use super::parts::{Layering, Target, Thicknesses};
+use super::{Error, Planner, PlannerReport, UniformReport};
+use crate::grid::Bins;
+use crate::ldi::LdiError;
+use crate::model::Mesh;
+use crate::plan::optimal::Objective;
+use crate::plan::preferred::{Price, SnapPlanes};
+use crate::plan::tradeoff::{self, Goal, TradeoffPoint};
+use crate::plan::uniform::UniformLayers;
+use crate::plan::{Limits, Plan, PlanError, gradual, greedy, optimal, thicknesses, uniform};
+use crate::profile::facet_bins::FacetBins;
+use crate::profile::largest::{LargestError, Strictness};
+use crate::profile::normal_cones::{Cone, cones};
+use crate::profile::shapes::Shapes;
+use crate::profile::snap_planes::{Surface, snap_planes};
+use crate::profile::{LayerErrors, Metric, Source, area, section};
+use crate::progress::Progress;
+use crate::warning::Warning;
+
+/// A model that a plan is made for, alone or with others.
+#[derive(Debug, Clone, Copy)]
+pub struct Part<'a> {
+    pub height_mm: f64,
+    pub shapes: &'a Shapes,
+    /// Its own tolerance, in place of the plan's.
+    pub tolerance: Option<f64>,
+    /// How often it is printed.
+    pub copies: usize,
+}
+
+impl<'a> Part<'a> {
+    /// A model alone.
+    pub fn alone(height_mm: f64, shapes: &'a Shapes) -> Self {
+        Self {
+            height_mm,
+            shapes,
+            tolerance: None,
+            copies: 1,
+        }
+    }
+}
+
+/// Everything that planners need to know about the models of a plan.
+pub struct Planning<'a> {
+    /// The models; there is at least one.
+    pub(super) parts: Vec<Part<'a>>,
+    pub(super) layering: &'a Layering,
+    height_mm: f64,
+    /// Errors of layers under the metric, from the source that plans are made from.
+    pub(super) errors: LayerErrors,
+    /// Errors of layers under the metric, from the exact shape, for reports.
+    exact: LayerErrors,
+    snap_planes: Vec<u32>,
+    /// The tolerance that the options give or ask to find, or the error if none can be found.
+    tolerance: Result<f64, PlanError>,
+}
+
+/// What is known about a plan besides its layers.
+#[derive(Debug)]
+pub struct Findings {
+    pub snapped_mm: Vec<f64>,
+    pub tolerance: f64,
+    pub max_error: f64,
+    pub sampled_error: f64,
+    pub true_error: f64,
+    pub max_error_mm: f64,
+    pub max_deviation_mm: f64,
+    pub print_time_s: f64,
+    pub uniform: UniformReport,
+    pub warnings: Vec<Warning>,
+}
+
+impl<'a> Planning<'a> {
+    /// For a sampled model.
+    pub fn of(measured: &'a Measured, layering: &'a Layering) -> Self {
+        Self::alone(measured.of.height_mm, &measured.shapes, layering)
+    }
+
+    /// For the shapes of a model of this height.
+    pub fn alone(height_mm: f64, shapes: &'a Shapes, layering: &'a Layering) -> Self {
+        Self::new(vec![Part::alone(height_mm, shapes)], layering)
+    }
+
+    /// For several models, all in bins of the same size. The error of a layer is the largest over the models that reach it.
+    pub fn new(parts: Vec<Part<'a>>, layering: &'a Layering) -> Self {
+        let of = |source| errors_of(&parts, layering, layering.metric, source);
+        let exact = of(Source::Exact);
+        let errors = match layering.source {
+            Source::Exact => exact.clone(),
+            Source::Sampled => of(Source::Sampled),
+        };
+        let snap_planes = match layering.snap_mm2 {
+            None => Vec::new(),
+            Some(area_mm2) => {
+                let surfaces: Vec<Surface<'_>> = parts
+                    .iter()
+                    .map(|part| Surface {
+                        flats: &part.shapes.flats,
+                        steepest: &part.shapes.of(layering.source).steepest,
+                        copies: part.copies,
+                    })
+                    .collect();
+                snap_planes(&surfaces, errors.bins(), area_mm2)
+            }
+        };
+        let heights_mm = parts.iter().map(|part| part.height_mm);
+        Self {
+            height_mm: heights_mm.fold(0.0, f64::max),
+            parts,
+            tolerance: tolerance(&errors, layering),
+            layering,
+            errors,
+            exact,
+            snap_planes,
+        }
+    }
+
+    /// The errors of layers under another metric, without weights and without tolerances of models' own.
+    pub(super) fn unweighted(&self, metric: Metric, source: Source) -> LayerErrors {
+        largest(self.parts.iter().map(|part| {
+            let errors = part.shapes.of(source).errors(metric);
+            (errors, Strictness::NONE)
+        }))
+    }
+
+    /// The snap planes of the optimal planner. Where layers or time are given, they must not cost any.
+    fn snap_planes(&self) -> SnapPlanes<'_> {
+        SnapPlanes {
+            planes: &self.snap_planes,
+            price: match self.layering.target {
+                Target::Tolerance(_) | Target::AtLeast(_) => Price::Layer,
+                Target::Layers(_) | Target::Time(_) => Price::Nothing,
+            },
+        }
+    }
+
+    fn limits(&self) -> Result<Limits, PlanError> {
+        Ok(self.layering.limits(self.tolerance.clone()?))
+    }
+
+    /// The largest error of a plan on the mesh itself, in the metric's unit.
+    pub fn max_error(&self, plan: &Plan) -> f64 {
+        plan.max_error(&self.exact)
+    }
+
+    /// The largest distance from the print to the models. A fixed first layer counts.
+    pub fn max_deviation_mm(&self, plan: &Plan) -> f64 {
+        let all_layers = Plan {
+            exempt_layers: 0,
+            ..plan.clone()
+        };
+        all_layers.max_error(&self.unweighted(Metric::Deviation, Source::Exact))
+    }
+
+    /// The plan that the options ask for.
+    ///
+    /// # Errors
+    /// [`Error::Plan`]; [`Error::Ldi`] if `progress` cancels.
+    pub fn plan(&self, progress: &mut Progress<'_>) -> Result<Plan, Error> {
+        let errors = &self.errors;
+        let limits = || self.limits();
+        Ok(match &self.layering.thicknesses {
+            Thicknesses::Any => self.plan_freely()?,
+            Thicknesses::Of(thicknesses_mm) => thicknesses::of(errors, &limits()?, thicknesses_mm)?,
+            Thicknesses::AtMost(count) => {
+                let steps = thicknesses::DEFAULT_STEPS;
+                let found = thicknesses::at_most(errors, &limits()?, *count, steps, progress);
+                found.map_err(LdiError::from)??.plan
+            }
+            Thicknesses::Gradual(change_mm) => gradual::plan(errors, &limits()?, *change_mm)?,
+        })
+    }
+
+    /// The plan of the options' planner if layers may have any thickness within the limits. It never takes long.
+    ///
+    /// # Errors
+    /// [`PlanError`].
+    pub fn plan_freely(&self) -> Result<Plan, PlanError> {
+        self.plan_by(self.layering.planner)
+    }
+
+    fn plan_by(&self, planner: Planner) -> Result<Plan, PlanError> {
+        let (errors, snap_planes) = (&self.errors, &self.snap_planes);
+        let bins = errors.bins();
+        let greedily = |sight| greedy::plan(errors, &self.limits()?, snap_planes, sight);
+        match planner {
+            Planner::Optimal => {
+                // A target of time minimizes time, whatever the options minimize.
+                let objective = match self.layering.target {
+                    Target::Time(_) => Objective::Time(&self.layering.resin),
+                    _ => self.layering.objective(),
+                };
+                optimal::plan(errors, &self.limits()?, self.snap_planes(), objective)
+            }
+            Planner::Greedy => greedily(greedy::Sight::Profile),
+            Planner::Local => greedily(greedy::Sight::Plane),
+            Planner::Uniform { layer_mm } => self.uniform(layer_mm),
+            Planner::Finest | Planner::Coarsest => {
+                let limits = self.layering.limits(0.0);
+                let thickness = limits.thickness(bins, limits.layer_min_mm, limits.layer_max_mm)?;
+                let units = match planner {
+                    Planner::Finest => *thickness.start(),
+                    _ => *thickness.end(),
+                };
+                let layer_mm = bins.boundary_mm(units * limits.unit(bins)?);
+                match self.uniform(layer_mm) {
+                    // A model lower than half a layer is one layer here, as it is for the optimal planner.
+                    Err(PlanError::LayerTooThick { .. }) => Ok(Plan {
+                        bins,
+                        boundaries: vec![0, bins.count as u32],
+                        snap_planes: Vec::new(),
+                        exempt_layers: 0,
+                    }),
+                    plan => plan,
+                }
+            }
+        }
+    }
+
+    fn uniform(&self, layer_mm: f64) -> Result<Plan, PlanError> {
+        let bins = self.errors.bins();
+        let first_layer = self.layering.limits(0.0).first_layer(bins)?;
+        uniform::plan(bins, self.height_mm, layer_mm, first_layer)
+    }
+
+    pub(super) fn best_uniform(&self) -> Option<UniformLayers> {
+        let bins = self.errors.bins();
+        let limits = self.limits().ok()?;
+        let unit = limits.unit(bins).ok()?;
+        let range = limits.thickness(bins, limits.layer_min_mm, limits.layer_max_mm);
+        let steps = self.errors.to_steps(limits.tolerance);
+        range.ok()?.rev().find_map(|units| {
+            let layer_mm = bins.boundary_mm(units * unit);
+            let plan = self.uniform(layer_mm).ok()?;
+            (plan.max_error_steps(&self.errors) <= steps).then(|| UniformLayers {
+                layer_mm,
+                layers: plan.layers(),
+            })
+        })
+    }
+
+    pub(super) fn row(&self, planner: Planner) -> Result<PlannerReport, PlanError> {
+        Ok(self.row_of(planner.name(), &self.plan_by(planner)?))
+    }
+
+    pub(super) fn row_of(&self, planner: &str, plan: &Plan) -> PlannerReport {
+        PlannerReport {
+            planner: planner.to_owned(),
+            layers: plan.layers(),
+            max_error: self.max_error(plan),
+            print_time_s: plan.print_time_s(&self.layering.resin),
+        }
+    }
+
+    pub(super) fn findings(&self, plan: &Plan) -> Result<Findings, PlanError> {
+        let layering = self.layering;
+        let (finest, coarsest) = match layering.planner {
+            // Uniform layers may be planned without a valid range of thicknesses. They then stand for both ends.
+            Planner::Uniform { .. } if layering.limits(1.0).check(plan.bins).is_err() => {
+                (layering.planner, layering.planner)
+            }
+            _ => (Planner::Finest, Planner::Coarsest),
+        };
+        let bins = plan.bins;
+        let is_adaptive = matches!(
+            layering.planner,
+            Planner::Optimal | Planner::Greedy | Planner::Local
+        );
+        let tolerance = match self.tolerance.clone() {
+            Ok(tolerance) => tolerance,
+            Err(error) if is_adaptive => return Err(error),
+            Err(_) => layering.metric.default_tolerance(),
+        };
+        let max_error = self.max_error(plan);
+        let mut warnings = Vec::new();
+        let planned_steps = plan.max_error_steps(&self.errors);
+        if planned_steps > self.errors.to_steps(tolerance) {
+            let planned = self.errors.to_value(planned_steps);
+            warnings.push(Warning::ToleranceExceeded {
+                planner: layering.planner.name().to_owned(),
+                metric: layering.metric,
+                tolerance,
+                max_error: planned,
+            });
+        } else if plan.max_error_steps(&self.exact) > self.exact.to_steps(tolerance) {
+            warnings.push(Warning::ToleranceExceededOnMesh {
+                metric: layering.metric,
+                tolerance,
+                max_error,
+            });
+        }
+        let overlaps = self.parts.iter().any(|part| part.shapes.overlaps);
+        if overlaps && layering.metric.needs_areas() {
+            warnings.push(Warning::SampledSections);
+        }
+        let top_mm = bins.boundary_mm(plan.boundaries[plan.layers()]);
+        if (top_mm - self.height_mm).abs() > bins.size_mm && is_adaptive {
+            warnings.push(Warning::TopMoved {
+                top_mm,
+                height_mm: self.height_mm,
+            });
+        }
+        let exact = |metric| self.unweighted(metric, Source::Exact);
+        let unweighted = |metric| plan.max_error(&exact(metric));
+        let true_error = match layering.metric {
+            Metric::Area => {
+                let changes = self
+                    .parts
+                    .iter()
+                    .map(|part| area::largest_change(&part.shapes.exact.areas_mm2, plan.covered()));
+                changes.fold(0.0, f64::max)
+            }
+            metric => unweighted(metric),
+        };
+        // This holds for every point of the print, so for a fixed first layer as well.
+        let max_deviation_mm = self.max_deviation_mm(plan);
+        Ok(Findings {
+            snapped_mm: plan
+                .snap_planes
+                .iter()
+                .map(|&snap_plane| bins.boundary_mm(snap_plane))
+                .collect(),
+            tolerance,
+            max_error,
+            sampled_error: plan.max_error(&errors_of(
+                &self.parts,
+                layering,
+                layering.metric,
+                Source::Sampled,
+            )),
+            true_error,
+            max_error_mm: unweighted(Metric::Cusp),
+            max_deviation_mm,
+            print_time_s: plan.print_time_s(&layering.resin),
+            uniform: UniformReport {
+                finest: self.row(finest)?,
+                coarsest: self.row(coarsest)?,
+            },
+            warnings,
+        })
+    }
+
+    pub fn tradeoff(&self, points: usize) -> Result<Vec<TradeoffPoint>, PlanError> {
+        tradeoff::curve(
+            &self.errors,
+            &self.layering.limits(0.0),
+            self.snap_planes(),
+            self.layering.objective(),
+            &self.layering.resin,
+            points,
+        )
+    }
+}
+
+/// The errors of layers under a metric, with weights and with tolerances of models' own.
+fn errors_of(
+    parts: &[Part<'_>],
+    layering: &Layering,
+    metric: Metric,
+    source: Source,
+) -> LayerErrors {
+    largest(parts.iter().map(|part| {
+        let errors = part.shapes.errors(metric, source);
+        let strictness = match (part.tolerance, layering.target) {
+            (Some(own), Target::Tolerance(of)) => {
+                Strictness::new(errors.to_steps(own), errors.to_steps(of))
+            }
+            _ => Strictness::NONE,
+        };
+        (errors, strictness)
+    }))
+}
+
+/// The errors of one model as they are, or the largest over several.
+fn largest(errors: impl Iterator<Item = (LayerErrors, Strictness)>) -> LayerErrors {
+    let mut errors: Vec<_> = errors.collect();
+    match errors.pop() {
+        Some((alone, Strictness::NONE)) if errors.is_empty() => alone,
+        last => {
+            errors.extend(last);
+            LayerErrors::Largest(LargestError::new(errors))
+        }
+    }
+}
+
+/// The tolerance of the target, given or found.
+fn tolerance(errors: &LayerErrors, layering: &Layering) -> Result<f64, PlanError> {
+    let goal = match layering.target {
+        Target::Tolerance(tolerance) => return Ok(tolerance),
+        Target::AtLeast(usual) => {
+            let limits = layering.limits(usual);
+            let steps = errors.to_steps(usual);
+            if optimal::within(errors, &limits, SnapPlanes::NONE, Objective::Layers, steps)?.is_ok()
+            {
+                return Ok(usual);
+            }
+            let least = tradeoff::least_tolerance(errors, &limits, Objective::Layers);
+            return Ok(least.unwrap_or(usual));
+        }
+        Target::Layers(layers) => Goal::Layers(layers),
+        Target::Time(time_s) => Goal::Time(time_s),
+    };
+    let limits = layering.limits(0.0);
+    tradeoff::tolerance_for(errors, &limits, &layering.resin, goal)
+}
+
+/// What some metrics need besides facets by bins. The other lists stay empty.
+#[derive(Debug, Default)]
+pub struct Extra {
+    /// Areas of sections.
+    areas_mm2: Vec<f64>,
+    /// Normal cones.
+    pub cones: Vec<Cone>,
+}
+
+impl Extra {
+    /// What a metric needs, of a mesh that stands on the plate.
+    pub fn of(mesh: &Mesh, metric: Metric, bins: Bins) -> Self {
+        let mut extra = Self::default();
+        if metric.needs_areas() {
+            extra.areas_mm2 = section::exact(mesh, &[], bins);
+        }
+        if metric.needs_cones() {
+            extra.cones = cones(mesh, bins);
+        }
+        extra
+    }
+}
+
+/// The shapes from facets alone, weighted for the metric. Calls `extra` only if the metric needs any of it.
+pub fn shapes_of<E>(
+    facet_bins: &FacetBins,
+    extra: impl FnOnce() -> Result<Extra, E>,
+    layering: &Layering,
+    weights: Option<Vec<f32>>,
+) -> Result<Shapes, E> {
+    let metric = layering.metric;
+    let Extra { areas_mm2, cones } = if metric.needs_areas() || metric.needs_cones() {
+        extra()?
+    } else {
+        Extra::default()
+    };
+    let shapes = Shapes::of_facets(facet_bins, areas_mm2, cones);
+    Ok(shapes.weighed(facet_bins, None, layering.metric, weights))
+}

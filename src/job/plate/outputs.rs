@@ -1,0 +1,193 @@
+//! What is made of the plan of a plate: profiles, masks and print files.
+
+use std::io::Write;
+use std::sync::Arc;
+
+use web_time::Instant;
+
+use super::super::Report;
+use super::super::parts::Job;
+use super::super::planned::Planned;
+use super::super::print::write_print;
+use super::super::sampled::Sampled;
+use super::super::stage::{Stage, StageProgress, ms_since};
+use super::Plate;
+use crate::Error;
+use crate::archive::{Look, Standing};
+use crate::arrange::ArrangeError;
+use crate::mask::{MaskCursor, PlateMasks, Side, Stamp};
+use crate::profile::{Metric, Profile, Source};
+
+/// A plate with its plan and its report.
+#[derive(Debug)]
+pub(super) struct Current {
+    pub planned: Arc<Planned>,
+    /// For each model of the plan, where its copies stand as seen from above.
+    pub offsets: Vec<Vec<[i32; 2]>>,
+    pub job: Job,
+    pub report: Report,
+    /// The masks seen from above, and cursors at the last layer that was read.
+    pub seen: Option<(PlateMasks, Vec<MaskCursor>)>,
+}
+
+impl Plate {
+    fn current(&mut self, plate: usize) -> Result<&mut Current, Error> {
+        let plates = self.plates.len();
+        if plates == 0 {
+            return Err(Error::NoPlan);
+        }
+        let current = self.plates.get_mut(plate);
+        Ok(current.ok_or(ArrangeError::NoPlate {
+            plate_number: plate + 1,
+            plates,
+        })?)
+    }
+
+    /// The profile of a metric on a plate: in each bin the largest of its models.
+    ///
+    /// # Errors
+    /// [`Error::NoPlan`], [`Error::Arrange`].
+    pub fn profile(
+        &mut self,
+        plate: usize,
+        metric: Metric,
+        source: Source,
+    ) -> Result<Profile, Error> {
+        let planned = &self.current(plate)?.planned;
+        let mut largest = Profile {
+            bins: planned.plan.bins,
+            density: vec![0.0; planned.plan.bins.count],
+        };
+        for model in &planned.models {
+            let shapes = &model.measured.shapes;
+            if metric.needs_areas() && !shapes.has_areas() {
+                return Err(Error::NoPlan);
+            }
+            let density = shapes.profile(metric, source).density;
+            for (most, density) in largest.density.iter_mut().zip(density) {
+                *most = most.max(density);
+            }
+        }
+        Ok(largest)
+    }
+
+    /// The mask of a layer of a plate: see [`MaskCursor::whole`].
+    ///
+    /// # Errors
+    /// [`Error::NoPlan`], [`Error::NoLayer`], [`Error::Arrange`].
+    pub fn mask(&mut self, plate: usize, layer: usize) -> Result<Vec<u8>, Error> {
+        let current = self.current(plate)?;
+        let layers = current.planned.plan.layers();
+        if layer >= layers {
+            return Err(Error::NoLayer { layer, layers });
+        }
+        let (masks, cursors) = current.seen();
+        Ok(masks.whole(cursors, layer))
+    }
+
+    /// Writes the print file of a plate in the format of its options. Returns the writer, and the report with the time that this
+    /// took.
+    ///
+    /// # Errors
+    /// [`Error::NoPlan`], [`Error::Archive`], [`Error::Arrange`].
+    pub fn write_archive<W: Write>(
+        &mut self,
+        plate: usize,
+        writer: W,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<(W, &Report), Error> {
+        let clock = Instant::now();
+        let current = self.current(plate)?;
+        let mirrored = current
+            .job
+            .output
+            .is_mirrored
+            .then(|| current.masks(Side::Below));
+        if mirrored.is_none() {
+            current.seen();
+        }
+        let Current {
+            planned,
+            offsets,
+            job,
+            report,
+            seen,
+        } = current;
+        let masks = mirrored.as_ref().or(seen.as_ref().map(|seen| &seen.0));
+        let masks = masks.ok_or(Error::NoPlan)?;
+        let look = || look_of(planned, offsets);
+        let mut within = |fraction| progress(Stage::Masks, fraction);
+        let writer = write_print(
+            planned,
+            &job.output,
+            report,
+            masks,
+            &look,
+            writer,
+            &mut within,
+        )?;
+        report.timings_ms.masks = ms_since(clock);
+        report.timings_ms.sum_up();
+        Ok((writer, report))
+    }
+}
+
+impl Current {
+    fn masks(&self, side: Side) -> PlateMasks {
+        let stamps = self
+            .offsets
+            .iter()
+            .enumerate()
+            .map(|(model, offsets)| Stamp {
+                masks: self.planned.masks(model, side),
+                offsets: match side {
+                    Side::Above => offsets.clone(),
+                    Side::Below => offsets
+                        .iter()
+                        .map(|&[right, down]| [-right, down])
+                        .collect(),
+                },
+            });
+        PlateMasks {
+            grid: self.planned.first().of.grid,
+            stamps: stamps.collect(),
+        }
+    }
+
+    fn seen(&mut self) -> &mut (PlateMasks, Vec<MaskCursor>) {
+        if self.seen.is_none() {
+            let masks = self.masks(Side::Above);
+            let cursors = masks
+                .stamps
+                .iter()
+                .map(|stamp| stamp.masks.cursor())
+                .collect();
+            self.seen = Some((masks, cursors));
+        }
+        self.seen.as_mut().expect("it was just made")
+    }
+}
+
+/// The plate seen from above.
+fn look_of(planned: &Planned, offsets: &[Vec<[i32; 2]>]) -> Look {
+    let mut copies = Vec::new();
+    for (model, offsets) in planned.models.iter().zip(offsets) {
+        let Sampled {
+            mesh,
+            ldi,
+            grid,
+            sampling,
+            ..
+        } = model.sampled();
+        let rays = sampling.samples.rays();
+        let first = grid.refined(rays).offset_of(&ldi.grid);
+        copies.extend(offsets.iter().map(|offset| Standing {
+            mesh,
+            ldi,
+            first_ray: [0, 1].map(|axis| {
+                i64::from(first[axis]) + i64::from(offset[axis]) * i64::from(rays[axis])
+            }),
+        }));
+    }
+    Look::of_copies(&copies)
+}

@@ -1,0 +1,197 @@
+//! Where the copies of a plate stand.
+
+use std::cell::RefCell;
+
+use super::super::parts::{Job, Raster, Sampling};
+use super::{Placement, Plate, PlateOptions};
+use crate::Error;
+use crate::arrange::{
+    ArrangeError, Item, Outline, Place, Screen, Standing, TURN_DEG, TURNS, arrange, problems,
+};
+use crate::model::Pose;
+
+impl Plate {
+    /// Where copies stand when they are arranged: for the fewest plates, then the lowest.
+    ///
+    /// # Errors
+    /// [`Error::Arrange`], [`Error::Options`], [`Error::Mesh`].
+    pub fn arrange(&self, options: &PlateOptions) -> Result<Vec<Placement>, Error> {
+        let job = options.options.resolve()?;
+        let screen = screen_of(&job.sampling)?;
+        let places = self.arranged(options, &job, &screen)?;
+        Ok(places
+            .iter()
+            .map(|place| placement(&screen, place))
+            .collect())
+    }
+
+    pub(super) fn arranged(
+        &self,
+        options: &PlateOptions,
+        job: &Job,
+        screen: &Screen,
+    ) -> Result<Vec<Place>, Error> {
+        if self.models.is_empty() {
+            return Err(ArrangeError::Empty.into());
+        }
+        // The first error of a mesh; an outline cannot return it.
+        let mut failed = None;
+        let failed = RefCell::new(&mut failed);
+        let mut outlines: Vec<_> = (0..self.models.len())
+            .map(|model| {
+                let pose = pose_of(options, job, model);
+                let failed = &failed;
+                move |turns| {
+                    let outline = self.outline(model, &pose, turns, screen);
+                    outline.map_err(|error| {
+                        **failed.borrow_mut() = Some(error);
+                        ArrangeError::Empty
+                    })
+                }
+            })
+            .collect();
+        let mut items = Vec::new();
+        for (model, outline) in outlines.iter_mut().enumerate() {
+            items.push(Item {
+                copies: options.of_model(model).copies,
+                height_mm: self.size_mm(options, job, model)?[2],
+                outline,
+            });
+        }
+        if items.iter().all(|item| item.copies == 0) {
+            return Err(ArrangeError::Empty.into());
+        }
+        let places = arrange(screen, &options.arranging, &mut items);
+        drop(items);
+        drop(outlines);
+        if let Some(error) = failed.into_inner().take() {
+            return Err(error);
+        }
+        Ok(places?)
+    }
+
+    /// Extent of a model in x, y and z before turns.
+    pub(super) fn size_mm(
+        &self,
+        options: &PlateOptions,
+        job: &Job,
+        model: usize,
+    ) -> Result<[f64; 3], Error> {
+        let pose = pose_of(options, job, model);
+        let size = self.models[model].model.on_plate(&pose)?.bounds().size();
+        Ok([size.x, size.y, pose.height_mm.unwrap_or(size.z)])
+    }
+
+    pub(super) fn outline(
+        &self,
+        model: usize,
+        pose: &Pose,
+        turns: u32,
+        screen: &Screen,
+    ) -> Result<Outline, Error> {
+        let mesh = self.models[model].model.on_plate(&pose.turned(turns))?;
+        Ok(Outline::of(&mesh, screen))
+    }
+
+    /// What is wrong with placements: copies that extend beyond their plate, and copies that overlap.
+    ///
+    /// # Errors
+    /// [`Error::Arrange`], [`Error::Options`], [`Error::Mesh`].
+    pub fn problems(
+        &self,
+        options: &PlateOptions,
+        placements: &[Placement],
+    ) -> Result<Vec<ArrangeError>, Error> {
+        let job = options.options.resolve()?;
+        let screen = screen_of(&job.sampling)?;
+        let places = self.places(&screen, placements)?;
+        self.problems_of(options, &job, &screen, &places)
+    }
+
+    pub(super) fn places(
+        &self,
+        screen: &Screen,
+        placements: &[Placement],
+    ) -> Result<Vec<Place>, ArrangeError> {
+        let places = placements.iter().map(|placement| {
+            self.check_model(placement.model)?;
+            if placement.turn_deg % TURN_DEG != 0 {
+                return Err(ArrangeError::BadTurn {
+                    turn_deg: placement.turn_deg,
+                });
+            }
+            Ok(Place {
+                item: placement.model,
+                turns: placement.turn_deg / TURN_DEG % TURNS,
+                offset: screen.offset(placement.x_mm, placement.y_mm),
+                plate: placement.plate,
+            })
+        });
+        let mut places = places.collect::<Result<Vec<_>, _>>()?;
+        places.sort_by_key(|place| (place.plate, place.item));
+        Ok(places)
+    }
+
+    pub(super) fn problems_of(
+        &self,
+        options: &PlateOptions,
+        job: &Job,
+        screen: &Screen,
+        places: &[Place],
+    ) -> Result<Vec<ArrangeError>, Error> {
+        let pixels = screen.by_pixels();
+        let mut kinds: Vec<(usize, u32)> = places
+            .iter()
+            .map(|place| (place.item, place.turns))
+            .collect();
+        kinds.sort_unstable();
+        kinds.dedup();
+        let outlines = kinds.iter().map(|&(model, turns)| {
+            self.outline(model, &pose_of(options, job, model), turns, &pixels)
+        });
+        let outlines = outlines.collect::<Result<Vec<_>, _>>()?;
+        let mut found = Vec::new();
+        for on_plate in places.chunk_by(|a, b| a.plate == b.plate) {
+            let standing = on_plate.iter().filter_map(|place| {
+                let kind = kinds.binary_search(&(place.item, place.turns)).ok()?;
+                Some(Standing {
+                    item: place.item,
+                    outline: &outlines[kind],
+                    offset: place.offset,
+                })
+            });
+            let standing: Vec<_> = standing.collect();
+            found.extend(problems(&pixels, on_plate[0].plate, &standing));
+        }
+        Ok(found)
+    }
+}
+
+/// The pose of a model before turns.
+pub(super) fn pose_of(options: &PlateOptions, job: &Job, model: usize) -> Pose {
+    let own = options.of_model(model);
+    let shared = &job.sampling.pose;
+    Pose {
+        rotation: own.rotation.or(shared.rotation),
+        height_mm: own.height_mm.or(shared.height_mm),
+    }
+}
+
+/// The screen that the plate has.
+pub(super) fn screen_of(sampling: &Sampling) -> Result<Screen, ArrangeError> {
+    match sampling.raster {
+        Raster::Plate { pixels, pitch_mm } => Ok(Screen::new(pixels, pitch_mm)),
+        _ => Err(ArrangeError::NoSize),
+    }
+}
+
+pub(super) fn placement(screen: &Screen, place: &Place) -> Placement {
+    let [x_mm, y_mm] = screen.offset_mm(place.offset);
+    Placement {
+        model: place.item,
+        plate: place.plate,
+        x_mm,
+        y_mm,
+        turn_deg: place.turns * TURN_DEG,
+    }
+}

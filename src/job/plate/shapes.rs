@@ -1,0 +1,96 @@
+//! The models of a plate, sampled and measured.
+
+use std::sync::Arc;
+
+use web_time::Instant;
+
+use super::super::Timings;
+use super::super::measured::Measured;
+use super::super::parts::{Job, Sampling};
+use super::super::stage::{Stage, StageProgress, ms_since, report};
+use super::places::pose_of;
+use super::{Plate, PlateOptions};
+use crate::Error;
+use crate::arrange::Place;
+
+/// A model after some turns of 15°, sampled and measured. All copies that stand like this share it.
+#[derive(Debug, Clone)]
+pub(super) struct Shape {
+    pub model: usize,
+    pub turns: u32,
+    pub measured: Arc<Measured>,
+}
+
+impl Plate {
+    /// Samples and measures each model in each of its turns, or reuses results that are still valid.
+    pub(super) async fn measure(
+        &mut self,
+        options: &PlateOptions,
+        job: &Job,
+        places: &[Place],
+        timings: &mut Timings,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<(), Error> {
+        let mut kinds: Vec<(usize, u32)> = places
+            .iter()
+            .map(|place| (place.item, place.turns))
+            .collect();
+        kinds.sort_unstable();
+        kinds.dedup();
+        let wanted: Vec<(usize, u32, Sampling)> = kinds
+            .into_iter()
+            .map(|(model, turns)| {
+                let sampling = Sampling {
+                    pose: pose_of(options, job, model).turned(turns),
+                    ..job.sampling.clone()
+                };
+                (model, turns, sampling)
+            })
+            .collect();
+        // Old rays are freed before new ones are sampled.
+        self.shapes.retain(|shape| {
+            wanted.iter().any(|(model, _, sampling)| {
+                shape.model == *model && shape.measured.of.sampling == *sampling
+            })
+        });
+        let kept = std::mem::take(&mut self.shapes);
+        let count = wanted.len() as f64;
+        for (number, (model, turns, sampling)) in wanted.into_iter().enumerate() {
+            let mut within = |stage, fraction| progress(stage, (number as f64 + fraction) / count);
+            let weights = self.models[model].layering_weights(&job.layering, &mut within)?;
+            let known = kept
+                .iter()
+                .find(|shape| shape.model == model && shape.measured.of.sampling == sampling);
+            let sampled = if let Some(known) = known {
+                Arc::clone(&known.measured.of)
+            } else {
+                let mesh = &self.models[model].model;
+                let sampled = self.sampler.sample(mesh, &sampling, timings, &mut within);
+                Arc::new(sampled.await?)
+            };
+            let clock = Instant::now();
+            let known = known.map(|known| Arc::clone(&known.measured));
+            let measured = Measured::new(&sampled, &job.layering, weights, known)?;
+            timings.profile += ms_since(clock);
+            self.shapes.push(Shape {
+                model,
+                turns,
+                measured,
+            });
+        }
+        report(progress, Stage::Profile, 1.0)?;
+        Ok(())
+    }
+
+    /// The shapes on a plate, with the places of their copies.
+    pub(super) fn standing(&self, on_plate: &[Place]) -> Vec<(Shape, Vec<[i32; 2]>)> {
+        let of = |shape: &Shape| {
+            let copies = on_plate
+                .iter()
+                .filter(|place| place.item == shape.model && place.turns == shape.turns);
+            let offsets: Vec<_> = copies.map(|place| place.offset).collect();
+            (!offsets.is_empty()).then(|| (shape.clone(), offsets))
+        };
+        self.shapes.iter().filter_map(of).collect()
+    }
+}
