@@ -360,7 +360,7 @@ impl Slicer {
     /// [`Error::NoPlan`].
     pub fn planned(&self) -> Result<(&Mesh, &Plan), Error> {
         let current = self.current.as_ref().ok_or(Error::NoPlan)?;
-        Ok((&current.planned.of.of.mesh, &current.planned.plan))
+        Ok((&current.planned.first().of.mesh, &current.planned.plan))
     }
 
     /// The mask of a layer of the last plan: see [`MaskCursor::whole`].
