@@ -7,8 +7,6 @@ use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, ValueEnum};
 use cusp_slicer::format::Format;
 use cusp_slicer::job::{BIN_MM, Backend, GpuMethod, Minimize, Options, Planner, Snap};
-use cusp_slicer::orientation::shard::Shard;
-use cusp_slicer::orientation::{Cost, MAX_DIRECTIONS, Quality, SearchOptions};
 use cusp_slicer::plan::HeightRange;
 use cusp_slicer::printer::PrinterChoice;
 use cusp_slicer::profile::{Metric, Source};
@@ -17,8 +15,7 @@ use cusp_slicer::resin::Resin;
 use crate::Cli;
 use crate::files::{Failure, WeightsFile, in_file};
 use crate::values::{
-    antialias, fraction, height_range, length, not_negative, pitch, pixels, positive, rotation,
-    shard, uniform_layer,
+    antialias, height_range, length, not_negative, pitch, pixels, positive, rotation, uniform_layer,
 };
 
 /// A model, and how to slice it.
@@ -291,58 +288,4 @@ fn bin_help() -> String {
     format!(
         "Height of a bin of the profile [default: {BIN_MM}, or what the step or a thickness needs]"
     )
-}
-
-/// The options of the orientation search.
-#[derive(Args)]
-pub struct Orienting {
-    /// STL files, binary or ASCII
-    #[arg(required = true, value_name = "MODEL")]
-    pub models: Vec<PathBuf>,
-    /// Print one JSON object per model, each on its own line
-    #[arg(long)]
-    pub json: bool,
-    /// Directions to evaluate, spread evenly; the axes and the normals of large flats are added
-    #[arg(long, value_name = "N", default_value_t = SearchOptions::default().directions as u32, value_parser = clap::value_parser!(u32).range(1..=MAX_DIRECTIONS as i64), help_heading = "Search")]
-    directions: u32,
-    /// Weight of the cost against the quality, 0 to 1
-    #[arg(long, value_name = "A", default_value_t = SearchOptions::default().alpha, value_parser = fraction, help_heading = "Search")]
-    alpha: f64,
-    /// What counts as cost
-    #[arg(long, value_enum, default_value_t = SearchOptions::default().cost, help_heading = "Search")]
-    cost: Cost,
-    /// What counts as quality; less is better
-    #[arg(long, value_enum, default_value_t = SearchOptions::default().quality, help_heading = "Search")]
-    quality: Quality,
-    /// Write the model in the Kth best orientation to -o; for a single model
-    #[arg(long, value_name = "K", requires = "output", conflicts_with = "shard", value_parser = clap::value_parser!(u32).range(1..=3), help_heading = "Search")]
-    pub apply: Option<u32>,
-    /// Where to write the oriented model
-    #[arg(
-        short,
-        long,
-        value_name = "FILE",
-        requires = "apply",
-        help_heading = "Search"
-    )]
-    pub output: Option<PathBuf>,
-    /// Measure only shard I of N, and print a part for --merge
-    #[arg(long, value_name = "I/N", value_parser = shard, help_heading = "Several machines")]
-    pub shard: Option<Shard>,
-    /// Measure nothing: merge these parts, made with the same models and options
-    #[arg(long, value_name = "PART", num_args = 1.., conflicts_with = "shard", help_heading = "Several machines")]
-    pub merge: Vec<PathBuf>,
-    #[command(flatten)]
-    pub choices: Choices,
-}
-
-impl Orienting {
-    pub fn search(&self) -> SearchOptions {
-        SearchOptions {
-            directions: self.directions as usize,
-            alpha: self.alpha,
-            cost: self.cost,
-            quality: self.quality,
-        }
-    }
 }

@@ -19,11 +19,12 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use arguments::{Orienting, Slicing};
+use arguments::Slicing;
 use calibrate::Calibrating;
 use contours::Contouring;
 use convert::Converting;
 use inspect::Inspecting;
+use orient::Orienting;
 use simulate::Simulating;
 use terminal::say;
 

@@ -2,16 +2,75 @@
 
 use std::fmt::Write as _;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use clap::Args;
 use cusp_slicer::job::{Options, OrientationPart, OrientationReport, Slicer};
 use cusp_slicer::model::Pose;
-use cusp_slicer::orientation::{Candidate, Exclusion};
+use cusp_slicer::orientation::shard::Shard;
+use cusp_slicer::orientation::{
+    Candidate, Cost, Exclusion, MAX_DIRECTIONS, Quality, SearchOptions,
+};
 use stl_io::{Normal, Triangle, Vertex};
 
-use crate::arguments::Orienting;
+use crate::arguments::Choices;
 use crate::files::{Failure, Output, WeightsFile, in_file, load_painted};
 use crate::terminal::{Bar, duration, is_interrupted, print, say, stop_on_interrupt, to_json};
+use crate::values::{fraction, shard};
+
+/// The options of the orientation search.
+#[derive(Args)]
+pub struct Orienting {
+    /// STL files, binary or ASCII
+    #[arg(required = true, value_name = "MODEL")]
+    models: Vec<PathBuf>,
+    /// Print one JSON object per model, each on its own line
+    #[arg(long)]
+    json: bool,
+    /// Directions to evaluate, spread evenly; the axes and the normals of large flats are added
+    #[arg(long, value_name = "N", default_value_t = SearchOptions::default().directions as u32, value_parser = clap::value_parser!(u32).range(1..=MAX_DIRECTIONS as i64), help_heading = "Search")]
+    directions: u32,
+    /// Weight of the cost against the quality, 0 to 1
+    #[arg(long, value_name = "A", default_value_t = SearchOptions::default().alpha, value_parser = fraction, help_heading = "Search")]
+    alpha: f64,
+    /// What counts as cost
+    #[arg(long, value_enum, default_value_t = SearchOptions::default().cost, help_heading = "Search")]
+    cost: Cost,
+    /// What counts as quality; less is better
+    #[arg(long, value_enum, default_value_t = SearchOptions::default().quality, help_heading = "Search")]
+    quality: Quality,
+    /// Write the model in the Kth best orientation to -o; for a single model
+    #[arg(long, value_name = "K", requires = "output", conflicts_with = "shard", value_parser = clap::value_parser!(u32).range(1..=3), help_heading = "Search")]
+    apply: Option<u32>,
+    /// Where to write the oriented model
+    #[arg(
+        short,
+        long,
+        value_name = "FILE",
+        requires = "apply",
+        help_heading = "Search"
+    )]
+    output: Option<PathBuf>,
+    /// Measure only shard I of N, and print a part for --merge
+    #[arg(long, value_name = "I/N", value_parser = shard, help_heading = "Several machines")]
+    shard: Option<Shard>,
+    /// Measure nothing: merge these parts, made with the same models and options
+    #[arg(long, value_name = "PART", num_args = 1.., conflicts_with = "shard", help_heading = "Several machines")]
+    merge: Vec<PathBuf>,
+    #[command(flatten)]
+    choices: Choices,
+}
+
+impl Orienting {
+    fn search(&self) -> SearchOptions {
+        SearchOptions {
+            directions: self.directions as usize,
+            alpha: self.alpha,
+            cost: self.cost,
+            quality: self.quality,
+        }
+    }
+}
 
 pub fn orient(orienting: &Orienting) -> Result<(), Failure> {
     orienting.choices.check("orient");
