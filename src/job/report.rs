@@ -153,6 +153,22 @@ impl PrintFileReport {
     }
 }
 
+impl Options {
+    /// Describes the print files that a plan with these options gives, whatever the model.
+    ///
+    /// # Errors
+    /// [`Error::Options`], [`Error::Plan`].
+    ///
+    /// [`Error::Options`]: super::Error::Options
+    /// [`Error::Plan`]: super::Error::Plan
+    pub fn print_file(&self) -> Result<PrintFileReport, super::Error> {
+        let Output {
+            format, printer, ..
+        } = self.resolve()?.output;
+        Ok(PrintFileReport::new(format, printer.as_deref()))
+    }
+}
+
 /// Uniform layers within the same range of thicknesses, for comparison.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]

@@ -3,8 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use clap::error::ErrorKind;
-use clap::{Args, CommandFactory, ValueEnum};
+use clap::{Args, ValueEnum};
 use cusp_slicer::format::Format;
 use cusp_slicer::job::{BIN_MM, Backend, GpuMethod, Minimize, Options, Planner, Snap};
 use cusp_slicer::plan::HeightRange;
@@ -12,16 +11,31 @@ use cusp_slicer::printer::PrinterChoice;
 use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::resin::Resin;
 
-use crate::Cli;
+use crate::config::{self, SettingsFile};
 use crate::files::{Failure, WeightsFile, in_file};
+use crate::usage::{Given, wrong_usage};
 use crate::values::{
-    antialias, height_range, length, not_negative, pitch, pixels, positive, rotation, uniform_layer,
+    PrinterName, antialias, height_range, length, not_negative, pitch, pixels, positive, rotation,
+    uniform_layer,
 };
 
-/// A model, and how to slice it.
+/// Models, and how to slice them.
 #[derive(Args)]
 pub struct Slicing {
-    /// STL file, binary or ASCII
+    /// STL files, binary or ASCII; - is standard input
+    #[arg(required = true, value_name = "MODEL")]
+    pub models: Vec<PathBuf>,
+    /// Print one JSON object; for a batch one per model, each on its own line
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub choices: Choices,
+}
+
+/// A model, and how it would be sliced.
+#[derive(Args)]
+pub struct Studying {
+    /// STL file, binary or ASCII; - is standard input
     pub model: PathBuf,
     /// Print one JSON object
     #[arg(long)]
@@ -34,7 +48,7 @@ pub struct Slicing {
 #[derive(Args)]
 pub struct Target {
     /// Printer, which sets pixels, pitch, mirroring and format: a name of `cusp printers`, or a JSON file that describes it
-    #[arg(long, value_name = "NAME|FILE.json", help_heading = "Printer")]
+    #[arg(long, value_name = "NAME|FILE.json", value_parser = PrinterName, hide_possible_values = true, help_heading = "Printer")]
     pub printer: Option<String>,
     #[arg(long, value_name = "WxH", value_parser = pixels, help = pixels_help(), requires = "pitch", help_heading = "Printer")]
     pixels: Option<[u32; 2]>,
@@ -58,17 +72,36 @@ pub struct Target {
 impl Target {
     /// The options that it sets; all others have their defaults.
     pub fn options(&self) -> Result<Options, Failure> {
-        Ok(Options {
-            printer: self.printer.as_deref().map(printer_choice).transpose()?,
-            pixels: self.pixels,
-            pitch_mm: self.pitch.map(|pitch| pitch[0]),
-            pitch_y_mm: self.pitch.map(|pitch| pitch[1]),
+        let mut options = Options {
             antialias: self.aa,
-            mirror: self.mirror,
-            format: self.format,
-            resin: read_resin(self.resin.as_deref())?,
             ..Options::default()
-        })
+        };
+        self.put_into(&mut options)?;
+        Ok(options)
+    }
+
+    /// Puts what is on the command line in place of what a file says; anti-aliasing, which has a default there, is left out.
+    fn put_into(&self, options: &mut Options) -> Result<(), Failure> {
+        if let Some(printer) = &self.printer {
+            options.printer = Some(printer_choice(printer)?);
+        }
+        if let Some([x_mm, y_mm]) = self.pitch {
+            (options.pitch_mm, options.pitch_y_mm) = (Some(x_mm), Some(y_mm));
+        }
+        if let Some(resin) = &self.resin {
+            options.resin = read_resin(Some(resin))?;
+        }
+        put(&mut options.pixels, self.pixels);
+        put(&mut options.mirror, self.mirror);
+        put(&mut options.format, self.format);
+        Ok(())
+    }
+}
+
+/// Puts a value that is on the command line in place of another.
+fn put<T>(place: &mut Option<T>, given: Option<T>) {
+    if given.is_some() {
+        *place = given;
     }
 }
 
@@ -84,6 +117,12 @@ pub fn read_resin(path: Option<&Path>) -> Result<Resin, Failure> {
 /// The options of every command that plans.
 #[derive(Args)]
 pub struct Choices {
+    // First: the fields after it take their values away.
+    #[command(flatten)]
+    given: Given,
+    /// Settings by the names that reports have under `options`, as TOML; options on the command line go before them
+    #[arg(long, value_name = "FILE.toml")]
+    config: Option<PathBuf>,
     /// Rotate the model by a quaternion
     #[arg(long, value_name = "X,Y,Z,W", value_parser = rotation, allow_hyphen_values = true, help_heading = "Model")]
     rotation: Option<[f64; 4]>,
@@ -93,8 +132,8 @@ pub struct Choices {
     #[command(flatten)]
     pub target: Target,
     /// Weight facets by saliency: how much they stand out
-    #[arg(long, help_heading = "Weights")]
-    saliency: bool,
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true", help_heading = "Weights")]
+    saliency: Option<bool>,
     /// Weight facets by this file; with --saliency, by the product of both
     #[arg(long, value_name = "FILE", help_heading = "Weights")]
     weights: Option<PathBuf>,
@@ -192,6 +231,12 @@ enum PlannerArg {
     Uniform,
 }
 
+/// What to plan with, from the command line and a file.
+pub struct Settings {
+    pub options: Options,
+    pub weights: Option<WeightsFile>,
+}
+
 impl Choices {
     /// Exits with a usage error if options of `command` contradict each other in a way that clap's
     /// attributes cannot express.
@@ -199,55 +244,84 @@ impl Choices {
         if self.layer.is_some() && self.planner != PlannerArg::Uniform {
             let message = "--layer is for --planner uniform only; other planners take --layer-min \
                            and --layer-max";
-            let mut cli = Cli::command();
-            cli.build();
-            let command = cli.find_subcommand_mut(command);
-            command
-                .expect("the command that was parsed")
-                .error(ErrorKind::ArgumentConflict, message)
-                .exit();
+            wrong_usage(command, message);
         }
     }
 
-    /// Reads the file of weights, if one is given.
-    pub fn read_weights(&self) -> Result<Option<WeightsFile<'_>>, Failure> {
-        let path = self.weights.as_deref();
-        path.map(WeightsFile::read).transpose()
+    /// The settings of the file, if one is given, with those of the command line in their place.
+    pub fn settings(&self) -> Result<Settings, Failure> {
+        let file = self.config.as_deref().map(config::read).transpose()?;
+        let SettingsFile {
+            mut options,
+            weights,
+        } = file.unwrap_or_default();
+        self.target.put_into(&mut options)?;
+        self.put_into(&mut options);
+        let weights = self.weights.as_ref().or(weights.as_ref());
+        Ok(Settings {
+            options,
+            weights: weights.map(|path| WeightsFile::read(path)).transpose()?,
+        })
     }
 
-    pub fn options(&self) -> Result<Options, Failure> {
-        Ok(Options {
-            rotation: self.rotation,
-            height_mm: self.height,
-            layer_min_mm: self.layer_min,
-            layer_max_mm: self.layer_max,
-            first_layer_mm: self.first_layer,
-            thicknesses_mm: self.thicknesses.clone(),
-            max_thicknesses: self.max_thicknesses.map(|count| count as usize),
-            max_change_mm: self.max_change,
-            tolerance: self.tolerance,
-            max_layers: self.max_layers,
-            max_time_s: self.max_time,
-            bin_mm: self.bin,
-            step_mm: self.step,
-            ranges: self.ranges.clone(),
-            planes_mm: self.planes.clone(),
-            snap: self.snap,
-            metric: self.metric,
-            source: self.source,
-            saliency: self.saliency,
-            weight_min: self.weight_min,
-            planner: match (self.planner, self.layer) {
-                (PlannerArg::Optimal, _) => Planner::Optimal,
-                (PlannerArg::Greedy, _) => Planner::Greedy,
-                (PlannerArg::Local, _) => Planner::Local,
-                (PlannerArg::Uniform, layer) => layer.unwrap_or(Planner::Finest),
-            },
-            minimize: self.minimize,
-            backend: self.backend,
-            gpu_method: self.gpu_method,
-            ..self.target.options()?
-        })
+    fn put_into(&self, options: &mut Options) {
+        self.put_goal(options);
+        self.put_thicknesses(options);
+        put(&mut options.rotation, self.rotation);
+        put(&mut options.height_mm, self.height);
+        put(&mut options.first_layer_mm, self.first_layer);
+        put(&mut options.bin_mm, self.bin);
+        put(&mut options.step_mm, self.step);
+        if !self.ranges.is_empty() {
+            options.ranges.clone_from(&self.ranges);
+        }
+        if !self.planes.is_empty() {
+            options.planes_mm.clone_from(&self.planes);
+        }
+        if let Some(saliency) = self.saliency {
+            options.saliency = saliency;
+        }
+        let given = &self.given;
+        given.put("aa", &mut options.antialias, self.target.aa);
+        given.put("weight_min", &mut options.weight_min, self.weight_min);
+        given.put("metric", &mut options.metric, self.metric);
+        given.put("source", &mut options.source, self.source);
+        given.put("minimize", &mut options.minimize, self.minimize);
+        given.put("snap", &mut options.snap, self.snap);
+        given.put("backend", &mut options.backend, self.backend);
+        given.put("gpu_method", &mut options.gpu_method, self.gpu_method);
+        let planner = match (self.planner, self.layer) {
+            (PlannerArg::Optimal, _) => Planner::Optimal,
+            (PlannerArg::Greedy, _) => Planner::Greedy,
+            (PlannerArg::Local, _) => Planner::Local,
+            (PlannerArg::Uniform, layer) => layer.unwrap_or(Planner::Finest),
+        };
+        given.put("planner", &mut options.planner, planner);
+    }
+
+    /// A plan has one goal, so one on the command line replaces whichever the file has.
+    fn put_goal(&self, options: &mut Options) {
+        if self.tolerance.is_some() || self.max_layers.is_some() || self.max_time.is_some() {
+            options.tolerance = self.tolerance;
+            options.max_layers = self.max_layers;
+            options.max_time_s = self.max_time;
+        }
+    }
+
+    /// So is it with rules for thicknesses, of which single ones go in place of a range.
+    fn put_thicknesses(&self, options: &mut Options) {
+        let has_range = self.given.has("layer_min") || self.given.has("layer_max");
+        let has_rule = self.max_thicknesses.is_some() || self.max_change.is_some();
+        if has_rule || !self.thicknesses.is_empty() {
+            options.max_thicknesses = self.max_thicknesses.map(|count| count as usize);
+            options.max_change_mm = self.max_change;
+        }
+        if has_rule || has_range || !self.thicknesses.is_empty() {
+            options.thicknesses_mm.clone_from(&self.thicknesses);
+        }
+        let given = &self.given;
+        given.put("layer_min", &mut options.layer_min_mm, self.layer_min);
+        given.put("layer_max", &mut options.layer_max_mm, self.layer_max);
     }
 }
 

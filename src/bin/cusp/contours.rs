@@ -10,8 +10,8 @@ use cusp_slicer::contour::{Contours, ContoursReport, Heading, Lattice, LayerHeig
 use cusp_slicer::job::Slicer;
 use cusp_slicer::progress::Cancelled;
 
-use crate::arguments::Slicing;
-use crate::files::{Failure, Output, Writer, load_weighted};
+use crate::arguments::Studying;
+use crate::files::{Failure, Output, Writer, load_painted};
 use crate::slice::make_plan;
 use crate::terminal::{Bar, print, print_json, stop_on_interrupt, warn};
 use crate::values::not_negative;
@@ -20,7 +20,7 @@ use crate::values::not_negative;
 #[derive(Args)]
 pub struct Contouring {
     #[command(flatten)]
-    slicing: Slicing,
+    studying: Studying,
     /// Where to write the contours: FILE.svg, or FILE.cli in the Common Layer Interface
     #[arg(short, long, value_name = "FILE", value_parser = contour_file)]
     output: PathBuf,
@@ -46,23 +46,26 @@ fn is_svg(path: &Path) -> Option<bool> {
 
 pub fn contours(contouring: &Contouring) -> Result<(), Failure> {
     let Contouring {
-        slicing, output, ..
+        studying, output, ..
     } = contouring;
-    slicing.choices.check("contours");
+    studying.choices.check("contours");
+    let model = &*studying.model;
     let is_svg = is_svg(output) == Some(true);
-    let output = Output::new(output, Some(&slicing.model), "model")?;
-    let mut slicer = load_weighted(&slicing.model, &slicing.choices)?;
+    let output = Output::new(output, Some(model), "model")?;
+    let settings = studying.choices.settings()?;
+    let mut slicer = load_painted(model, settings.weights.as_ref())?;
     stop_on_interrupt();
     let bar = Bar::new();
     let (warnings, report) = output.write(|writer| {
-        let plan = make_plan(&mut slicer, slicing, &bar)?;
+        let mut progress = |stage, fraction| bar.report(stage, fraction);
+        let plan = make_plan(&mut slicer, model, &settings.options, &mut progress)?;
         let warnings = plan.warnings.clone();
         let (writer, report) = write(contouring, &slicer, &output, is_svg, writer, &bar)?;
         Ok((writer, (warnings, report)))
     })?;
     drop(bar);
     warn(&warnings);
-    if slicing.json {
+    if studying.json {
         return Ok(print_json(&report)?);
     }
     Ok(print(&format!(
@@ -81,7 +84,7 @@ fn write(
     writer: Writer,
     bar: &Bar,
 ) -> Result<(Writer, ContoursReport), Failure> {
-    let model = &contouring.slicing.model;
+    let model = &contouring.studying.model;
     let (mesh, plan) = slicer
         .planned()
         .map_err(|error| Failure::in_file(model, &error))?;

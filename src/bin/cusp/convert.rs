@@ -1,6 +1,5 @@
 //! Makes a print file from another.
 
-use std::fs;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -11,21 +10,22 @@ use cusp_slicer::job::{Conversion, Target};
 use cusp_slicer::printer::format_of;
 
 use crate::arguments::{printer_choice, read_resin};
-use crate::files::{Failure, Output, in_file};
+use crate::files::{Failure, Output, in_file, read};
 use crate::terminal::{Bar, duration, print, stop_on_interrupt, warn};
+use crate::values::PrinterName;
 
 /// A print file, and what to make of it.
 #[derive(Args)]
 pub struct Converting {
-    /// Print file to read, whoever wrote it
+    /// Print file to read, whoever wrote it; - is standard input
     #[arg(value_name = "IN")]
     input: PathBuf,
-    /// Print file to write; an existing file is replaced only once the new one is complete
+    /// Print file to write; an existing file is replaced only once the new one is complete; - is standard output
     #[arg(value_name = "OUT")]
     output: PathBuf,
     /// Printer, whose screen must be that of the masks: a name of `cusp printers`, or a JSON file that describes it [default: the
     /// printer that IN names]
-    #[arg(long, value_name = "NAME|FILE.json")]
+    #[arg(long, value_name = "NAME|FILE.json", value_parser = PrinterName, hide_possible_values = true)]
     printer: Option<String>,
     /// Format [default: the printer's, or that of OUT's extension, where a zip is png]
     #[arg(long, value_enum)]
@@ -60,7 +60,7 @@ pub fn convert(converting: &Converting) -> Result<(), Failure> {
     let input = &*converting.input;
     let output = Output::new(&converting.output, Some(input), "print file to read")?;
     let target = converting.target(&output)?;
-    let bytes = fs::read(input).map_err(|error| in_file(input, &error))?;
+    let bytes = read(input)?;
     let file = PrintFile::open(&*bytes).map_err(|error| in_file(input, &error))?;
     stop_on_interrupt();
     let bar = Bar::new();

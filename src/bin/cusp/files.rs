@@ -1,28 +1,49 @@
 //! Reads models, and writes files either completely or not at all.
 
 use std::fs;
-use std::io::{self, BufWriter, Write as _};
+use std::io::{self, BufWriter, Read as _, Write};
 use std::path::{Path, PathBuf};
 
 use cusp_slicer::Error;
 use cusp_slicer::job::Slicer;
 use cusp_slicer::model::weights::{self, WeightsError};
 use cusp_slicer::progress::Cancelled;
+use serde::Serialize;
+use serde_json::Value;
 use tempfile::NamedTempFile;
 
-use crate::arguments::Choices;
+use crate::terminal::{is_on_terminal, take_stdout};
 
 /// Why a command failed.
 pub struct Failure {
     pub exit_code: u8,
     /// The message for the user; `None` if it has already been shown.
     pub message: Option<String>,
+    /// The same for programs.
+    pub problem: Option<Problem>,
+}
+
+/// What failed, for programs.
+#[derive(Debug, Clone, Serialize)]
+pub struct Problem {
+    /// The code of the library's error; `file` if a file cannot be read or written.
+    pub code: String,
+    /// One sentence that says what to do.
+    pub message: String,
+    /// The typed details that the code has, if any.
+    #[serde(skip_serializing_if = "Value::is_null")]
+    pub detail: Value,
 }
 
 impl From<String> for Failure {
     fn from(message: String) -> Self {
         Self {
             exit_code: 1,
+            problem: Some(Problem {
+                code: "file".to_owned(),
+                message: message.clone(),
+                detail: Value::Null,
+            }),
             message: Some(message),
         }
     }
@@ -31,10 +52,19 @@ impl From<String> for Failure {
 impl Failure {
     /// A failure of the library that concerns a file. An interrupt does not name the file.
     pub fn in_file(path: &Path, error: &cusp_slicer::Error) -> Self {
-        if error.code() == "cancelled" {
-            Self::interrupted()
-        } else {
-            in_file(path, error).into()
+        let code = error.code();
+        if code == "cancelled" {
+            return Self::interrupted();
+        }
+        let mut serialised = serde_json::to_value(error).unwrap_or_default();
+        Self {
+            exit_code: 1,
+            message: Some(in_file(path, error)),
+            problem: Some(Problem {
+                code,
+                message: error.to_string(),
+                detail: serialised["detail"].take(),
+            }),
         }
     }
 
@@ -42,6 +72,7 @@ impl Failure {
         Self {
             exit_code: 130,
             message: Some(Cancelled.to_string()),
+            problem: None,
         }
     }
 
@@ -49,32 +80,56 @@ impl Failure {
     pub const TOLD: Self = Self {
         exit_code: 1,
         message: None,
+        problem: None,
     };
 }
 
 pub fn in_file(path: &Path, error: &dyn std::fmt::Display) -> String {
+    if is_standard(path) {
+        return format!("standard input: {error}");
+    }
     format!("{}: {error}", path.display())
 }
 
+/// Whether this stands for standard input or output.
+pub fn is_standard(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+/// Reads a file, or standard input to its end.
+pub fn read(path: &Path) -> Result<Vec<u8>, Failure> {
+    let bytes = if is_standard(path) {
+        let mut bytes = Vec::new();
+        let read = io::stdin().read_to_end(&mut bytes);
+        read.map(|_| bytes)
+    } else {
+        fs::read(path)
+    };
+    Ok(bytes.map_err(|error| in_file(path, &error))?)
+}
+
 pub fn load(model: &Path) -> Result<Slicer, Failure> {
-    let bytes = fs::read(model).map_err(|error| in_file(model, &error))?;
+    let bytes = read(model)?;
     Slicer::load(&bytes).map_err(|error| Failure::in_file(model, &error))
 }
 
 /// A file of weights, not yet matched to a model.
-pub struct WeightsFile<'a> {
-    path: &'a Path,
+pub struct WeightsFile {
+    path: PathBuf,
     bytes: Vec<u8>,
 }
 
-impl<'a> WeightsFile<'a> {
-    pub fn read(path: &'a Path) -> Result<Self, Failure> {
+impl WeightsFile {
+    pub fn read(path: &Path) -> Result<Self, Failure> {
         let bytes = fs::read(path).map_err(|error| in_file(path, &error))?;
         // This is wrong for every model.
         if let Err(error @ WeightsError::NotWeights) = weights::from_bytes(&bytes, &[]) {
             return Err(in_file(path, &error).into());
         }
-        Ok(Self { path, bytes })
+        Ok(Self {
+            path: path.to_owned(),
+            bytes,
+        })
     }
 
     /// Applies these weights to the facets of the slicer's `model`.
@@ -82,17 +137,15 @@ impl<'a> WeightsFile<'a> {
         let weights = weights::from_bytes(&self.bytes, &slicer.positions());
         let painted = weights.map_err(Error::from);
         let painted = painted.and_then(|weights| slicer.set_weights(Some(weights)));
-        painted.map_err(|error| in_file(model, &in_file(self.path, &error)).into())
+        painted.map_err(|error| Failure {
+            message: Some(in_file(model, &in_file(&self.path, &error))),
+            ..Failure::in_file(model, &error)
+        })
     }
 }
 
-/// Loads a model, with the weights of its facets if any are given.
-pub fn load_weighted(model: &Path, choices: &Choices) -> Result<Slicer, Failure> {
-    load_painted(model, choices.read_weights()?.as_ref())
-}
-
 /// Loads a model, and applies weights that have been read.
-pub fn load_painted(model: &Path, weights: Option<&WeightsFile<'_>>) -> Result<Slicer, Failure> {
+pub fn load_painted(model: &Path, weights: Option<&WeightsFile>) -> Result<Slicer, Failure> {
     let mut slicer = load(model)?;
     if let Some(weights) = weights {
         weights.paint(&mut slicer, model)?;
@@ -100,20 +153,31 @@ pub fn load_painted(model: &Path, weights: Option<&WeightsFile<'_>>) -> Result<S
     Ok(slicer)
 }
 
-/// A file to write, either completely or not at all.
+/// A file to write, either completely or not at all; or standard output, for which that cannot be promised.
 pub struct Output<'a> {
     /// As the user named it.
     path: &'a Path,
-    /// The file itself, or the target of a link, so that links stay links.
-    place: PathBuf,
+    /// The file itself, or the target of a link, so that links stay links. `None` for standard output.
+    place: Option<PathBuf>,
 }
 
 impl<'a> Output<'a> {
     /// Checks that a file can be written at `path`, and that it is not the `input`, called `noun`, so that the user learns it
     /// before any work is done.
     pub fn new(path: &'a Path, input: Option<&Path>, noun: &str) -> Result<Self, Failure> {
-        let place = place_for(path, input, noun).map_err(|reason| in_file(path, &reason))?;
-        Ok(Self { path, place })
+        if !is_standard(path) {
+            let place = place_for(path, input, noun).map_err(|reason| in_file(path, &reason))?;
+            return Ok(Self {
+                path,
+                place: Some(place),
+            });
+        }
+        take_stdout();
+        let output = Self { path, place: None };
+        if is_on_terminal() {
+            return Err(output.failed(&"this is a terminal; redirect it, or name a file"));
+        }
+        Ok(output)
     }
 
     /// Writes the file: what `write` returns takes the place of an older one once it is complete.
@@ -122,11 +186,18 @@ impl<'a> Output<'a> {
         write: impl FnOnce(Writer) -> Result<(Writer, T), Failure>,
     ) -> Result<T, Failure> {
         // Created before the work, so that a folder without write permission fails at once.
-        let file = file_beside(&self.place).map_err(|error| self.failed(&error))?;
-        let (writer, result) = write(BufWriter::new(file))?;
-        let file = writer.into_inner().map_err(|error| self.failed(&error))?;
-        let kept = file.persist(&self.place);
-        kept.map_err(|error| self.failed(&error.error))?;
+        let sink = match &self.place {
+            Some(place) => file_beside(place).map(Sink::File),
+            None => Ok(Sink::Standard(io::stdout())),
+        };
+        let sink = sink.map_err(|error| self.failed(&error))?;
+        let (writer, result) = write(BufWriter::new(sink))?;
+        let sink = writer.into_inner().map_err(|error| self.failed(&error))?;
+        let kept = match (sink, &self.place) {
+            (Sink::File(file), Some(place)) => file.persist(place).map_err(|it| it.error).map(drop),
+            (mut sink, _) => sink.flush(),
+        };
+        kept.map_err(|error| self.failed(&error))?;
         Ok(result)
     }
 
@@ -141,17 +212,29 @@ impl<'a> Output<'a> {
 
     /// A failure that concerns this file.
     pub fn failed(&self, error: &dyn std::fmt::Display) -> Failure {
-        in_file(self.path, error).into()
+        format!("{}: {error}", self.name()).into()
     }
 
     /// A failure of the library that concerns this file.
     pub fn failure(&self, error: &Error) -> Failure {
-        Failure::in_file(self.path, error)
+        let failure = Failure::in_file(self.path, error);
+        let message = failure.message.as_ref();
+        Failure {
+            // The problem is there unless it was an interrupt, whose message names no file.
+            message: match &failure.problem {
+                Some(problem) => Some(format!("{}: {}", self.name(), problem.message)),
+                None => message.cloned(),
+            },
+            ..failure
+        }
     }
 
     /// Its name, as the user gave it.
     pub fn name(&self) -> std::path::Display<'_> {
-        self.path.display()
+        match &self.place {
+            Some(_) => self.path.display(),
+            None => Path::new("standard output").display(),
+        }
     }
 
     /// The extension that the user named.
@@ -160,8 +243,30 @@ impl<'a> Output<'a> {
     }
 }
 
-/// Writes to a file that is not in its place yet.
-pub type Writer = BufWriter<NamedTempFile>;
+/// Writes to a file that is not in its place yet, or to standard output.
+pub type Writer = BufWriter<Sink>;
+
+/// Where an output goes first.
+pub enum Sink {
+    File(NamedTempFile),
+    Standard(io::Stdout),
+}
+
+impl Write for Sink {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self {
+            Self::File(file) => file.write(bytes),
+            Self::Standard(stdout) => stdout.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match self {
+            Self::File(file) => file.flush(),
+            Self::Standard(stdout) => stdout.flush(),
+        }
+    }
+}
 
 fn place_for(output: &Path, input: Option<&Path>, noun: &str) -> Result<PathBuf, String> {
     match fs::metadata(output) {

@@ -1,18 +1,18 @@
 //! Says what is in a print file, and whether it is whole.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use cusp_slicer::archive::read::{About, Inspection, PrintFile, inspect as look_through};
 
-use crate::files::{Failure, Output, in_file};
+use crate::files::{Failure, Output, in_file, read};
 use crate::terminal::{Bar, duration, print, print_json, stop_on_interrupt, warn};
+use crate::usage::check_json;
 
 /// A print file, and perhaps one of its layers.
 #[derive(Args)]
 pub struct Inspecting {
-    /// Print file: goo, prz, ctb, pwmx and its kin, pwsz and its kin, nanodlp, sl1, uvj, or a zip of masks
+    /// Print file: goo, prz, ctb, pwmx and its kin, pwsz and its kin, nanodlp, sl1, uvj, or a zip of masks; - is standard input
     #[arg(value_name = "PRINTFILE")]
     print: PathBuf,
     /// Print one JSON object, with the values of every layer
@@ -21,7 +21,7 @@ pub struct Inspecting {
     /// Write the mask of this layer as well, as it is stored; the first is 1
     #[arg(long, value_name = "N", requires = "output", value_parser = clap::value_parser!(u32).range(1..))]
     layer: Option<u32>,
-    /// Where to write the mask, a PNG
+    /// Where to write the mask, a PNG; - is standard output
     #[arg(short, long, value_name = "FILE", requires = "layer")]
     output: Option<PathBuf>,
 }
@@ -29,9 +29,10 @@ pub struct Inspecting {
 pub fn inspect(inspecting: &Inspecting) -> Result<(), Failure> {
     let path = &*inspecting.print;
     let output = inspecting.output.as_deref();
+    check_json("inspect", output, inspecting.json);
     let output = output.map(|output| Output::new(output, Some(path), "print file"));
     let output = output.transpose()?;
-    let bytes = fs::read(path).map_err(|error| in_file(path, &error))?;
+    let bytes = read(path)?;
     let file = PrintFile::open(&*bytes).map_err(|error| in_file(path, &error))?;
     stop_on_interrupt();
     if let (Some(layer), Some(output)) = (inspecting.layer, &output) {

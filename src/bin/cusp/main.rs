@@ -1,16 +1,20 @@
 //! The command line: the only part that uses a file system, arguments and a terminal.
 
 mod arguments;
+mod batch;
 mod calibrate;
+mod config;
 mod contours;
 mod convert;
 mod files;
 mod inspect;
 mod models;
 mod orient;
+mod packaging;
 mod simulate;
 mod slice;
 mod terminal;
+mod usage;
 mod values;
 mod verify;
 
@@ -19,7 +23,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use arguments::Slicing;
+use arguments::{Slicing, Studying};
 use calibrate::Calibrating;
 use contours::Contouring;
 use convert::Converting;
@@ -40,16 +44,17 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Slice a model into a print file: masks with a manifest, or a printer's format
+    /// Slice models into print files: masks with a manifest, or a printer's format
     #[command(allow_negative_numbers = true)]
     Slice {
         #[command(flatten)]
         slicing: Slicing,
-        /// Where to write the print file; an existing file is replaced only once the new one is complete
-        #[arg(short, long, value_name = "FILE")]
+        /// Where to write the print file; an existing file is replaced only once the new one is complete. In a folder each model
+        /// has a print file of its own name; - is standard output
+        #[arg(short, long, value_name = "FILE|FOLDER/")]
         output: PathBuf,
     },
-    /// Plan the layers of a model without writing masks
+    /// Plan the layers of models without writing masks
     #[command(allow_negative_numbers = true)]
     Plan {
         #[command(flatten)]
@@ -62,7 +67,7 @@ enum Command {
     #[command(allow_negative_numbers = true)]
     Tradeoff {
         #[command(flatten)]
-        slicing: Slicing,
+        studying: Studying,
         /// Number of plans on the curve
         #[arg(long, default_value_t = 100, value_parser = clap::value_parser!(u32).range(2..=1000))]
         points: u32,
@@ -71,7 +76,7 @@ enum Command {
     #[command(allow_negative_numbers = true)]
     Compare {
         #[command(flatten)]
-        slicing: Slicing,
+        studying: Studying,
     },
     /// Find the best orientations of a model: few layers, and little error, roughness or overhang
     #[command(allow_negative_numbers = true)]
@@ -103,9 +108,9 @@ enum Command {
     Convert(Converting),
     /// Write the saliency of each facet, how much it stands out, as a file of weights
     Saliency {
-        /// STL file, binary or ASCII
+        /// STL file, binary or ASCII; - is standard input
         model: PathBuf,
-        /// Where to write the weights
+        /// Where to write the weights; - is standard output
         #[arg(short, long, value_name = "FILE")]
         output: PathBuf,
     },
@@ -115,13 +120,26 @@ enum Command {
         #[arg(long)]
         json: bool,
     },
-    /// Describe a model: size, facets, volume, defects
+    /// Describe models: size, facets, volume, defects
     Info {
-        /// STL file, binary or ASCII
-        model: PathBuf,
-        /// Print one JSON object
+        /// STL files, binary or ASCII; - is standard input
+        #[arg(required = true, value_name = "MODEL")]
+        models: Vec<PathBuf>,
+        /// Print one JSON object; for several models one per model, each on its own line
         #[arg(long)]
         json: bool,
+    },
+    /// Print the completions for a shell
+    Completions {
+        /// The shell
+        #[arg(value_enum)]
+        shell: clap_complete::Shell,
+    },
+    /// Print the manual page, or write those of all commands to a folder
+    Man {
+        /// Where to write cusp.1, cusp-slice.1 and the others
+        #[arg(short, long, value_name = "FOLDER")]
+        output: Option<PathBuf>,
     },
 }
 
@@ -130,9 +148,9 @@ fn main() -> ExitCode {
         Command::Slice { slicing, output } => slice::slice(&slicing, &output),
         Command::Plan { slicing } => slice::plan(&slicing),
         Command::Contours(contouring) => contours::contours(&contouring),
-        Command::Tradeoff { slicing, points } => slice::tradeoff(&slicing, points as usize),
+        Command::Tradeoff { studying, points } => slice::tradeoff(&studying, points as usize),
         Command::Orient(orienting) => orient::orient(&orienting),
-        Command::Compare { slicing } => slice::compare(&slicing),
+        Command::Compare { studying } => slice::compare(&studying),
         Command::Verify {
             plan,
             model,
@@ -146,7 +164,9 @@ fn main() -> ExitCode {
         Command::Convert(converting) => convert::convert(&converting),
         Command::Saliency { model, output } => models::saliency(&model, &output),
         Command::Printers { json } => models::printers(json),
-        Command::Info { model, json } => models::info(&model, json),
+        Command::Info { models, json } => models::info(&models, json),
+        Command::Completions { shell } => packaging::completions(shell),
+        Command::Man { output } => packaging::man(output.as_deref()),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -2,16 +2,27 @@
 
 use std::fmt::Write as _;
 use std::io::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use cusp_slicer::job::MeshInfo;
 use cusp_slicer::model::weights;
 use cusp_slicer::printer::PRINTERS;
 
+use crate::batch::{Batch, check_inputs, workers};
 use crate::files::{Failure, Output, load};
 use crate::terminal::{Bar, print, print_json, stop_on_interrupt};
 
-pub fn info(model: &Path, json: bool) -> Result<(), Failure> {
+pub fn info(models: &[PathBuf], json: bool) -> Result<(), Failure> {
+    check_inputs("info", models);
+    let [model] = models else {
+        let batch = Batch {
+            models,
+            outputs: Vec::new(),
+            is_json: json,
+            workers: workers(),
+        };
+        return batch.run(|place, _| Ok(load(&models[place])?.info()));
+    };
     let info = load(model)?.info();
     if json {
         print_json(&info)?;

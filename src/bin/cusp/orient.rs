@@ -13,9 +13,11 @@ use cusp_slicer::orientation::{
 };
 use stl_io::{Normal, Triangle, Vertex};
 
-use crate::arguments::Choices;
+use crate::arguments::{Choices, Settings};
+use crate::batch::check_inputs;
 use crate::files::{Failure, Output, WeightsFile, in_file, load_painted};
 use crate::terminal::{Bar, duration, is_interrupted, print, say, stop_on_interrupt, to_json};
+use crate::usage::check_json;
 use crate::values::{fraction, shard};
 
 /// The options of the orientation search.
@@ -74,18 +76,20 @@ impl Orienting {
 
 pub fn orient(orienting: &Orienting) -> Result<(), Failure> {
     orienting.choices.check("orient");
-    let options = orienting.choices.options()?;
+    let Settings { options, weights } = orienting.choices.settings()?;
     if orienting.models.len() > 1 && orienting.apply.is_some() {
         return Err("--apply is for one model".to_owned().into());
     }
+    check_inputs("orient", &orienting.models);
     let target = orienting.output.as_deref();
+    check_json("orient", target, orienting.json);
     let target = target.map(|output| Output::new(output, Some(&orienting.models[0]), "model"));
     let target = target.transpose()?;
     // Wrong options are wrong for every model: report them once.
     options.check().map_err(|error| error.to_string())?;
     let task = Task {
         options,
-        weights: orienting.choices.read_weights()?,
+        weights,
         parts: read_parts(orienting)?,
         target,
     };
@@ -101,6 +105,7 @@ pub fn orient(orienting: &Orienting) -> Result<(), Failure> {
             Err(Failure {
                 exit_code: 1,
                 message,
+                ..
             }) => {
                 say(&message.unwrap_or_default());
                 is_any_bad = true;
@@ -117,7 +122,7 @@ pub fn orient(orienting: &Orienting) -> Result<(), Failure> {
 /// What all models of a batch share.
 struct Task<'a> {
     options: Options,
-    weights: Option<WeightsFile<'a>>,
+    weights: Option<WeightsFile>,
     parts: Vec<OrientationPart>,
     /// The file to write: as the user named it, and where it is.
     target: Option<Output<'a>>,

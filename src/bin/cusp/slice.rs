@@ -3,52 +3,135 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use cusp_slicer::job::{Comparison, FrontPoint, Options, Report, Slicer, StageProgress};
+use cusp_slicer::job::{Backend, Comparison, FrontPoint, Options, Report, Slicer, StageProgress};
 use cusp_slicer::profile::Metric;
 use serde::Serialize;
 
-use crate::arguments::Slicing;
-use crate::files::{Failure, Output, load_weighted};
+use crate::arguments::{Settings, Slicing, Studying};
+use crate::batch::{Batch, check_inputs, outputs_in, workers};
+use crate::files::{Failure, Output, in_file, is_standard, load_painted};
 use crate::terminal::{Bar, duration, open_gpu, print, print_json, stop_on_interrupt, warn};
+use crate::usage::{check_json, wrong_usage};
 
 pub fn slice(slicing: &Slicing, output: &Path) -> Result<(), Failure> {
     slicing.choices.check("slice");
-    let output = Output::new(output, Some(&slicing.model), "model")?;
-    let mut slicer = load_weighted(&slicing.model, &slicing.choices)?;
+    check_inputs("slice", &slicing.models);
+    if is_folder(output) {
+        return slice_all(slicing, output);
+    }
+    let [model] = &*slicing.models else {
+        let message = "several models become a print file each, in a folder: -o prints/";
+        wrong_usage("slice", message);
+    };
+    check_json("slice", Some(output), slicing.json);
+    let output = Output::new(output, Some(model), "model")?;
+    let settings = slicing.choices.settings()?;
+    let mut slicer = load_painted(model, settings.weights.as_ref())?;
     stop_on_interrupt();
     let bar = Bar::new();
-    let report = output.write(|writer| {
-        make_plan(&mut slicer, slicing, &bar)?;
-        let mut progress = |stage, fraction| bar.report(stage, fraction);
-        let written = slicer.write_archive(writer, &mut progress);
-        let (writer, report) = written.map_err(|error| output.failure(&error))?;
-        Ok((writer, report.clone()))
-    })?;
+    let mut progress = |stage, fraction| bar.report(stage, fraction);
+    let report = slice_one(&mut slicer, model, &settings, &output, &mut progress)?;
     drop(bar);
     show(slicing, &report)
 }
 
 pub fn plan(slicing: &Slicing) -> Result<(), Failure> {
     slicing.choices.check("plan");
-    let mut slicer = load_weighted(&slicing.model, &slicing.choices)?;
+    check_inputs("plan", &slicing.models);
+    let [model] = &*slicing.models else {
+        return plan_all(slicing);
+    };
+    let settings = slicing.choices.settings()?;
+    let mut slicer = load_painted(model, settings.weights.as_ref())?;
     stop_on_interrupt();
     let bar = Bar::new();
-    let report = make_plan(&mut slicer, slicing, &bar)?;
+    let mut progress = |stage, fraction| bar.report(stage, fraction);
+    let report = make_plan(&mut slicer, model, &settings.options, &mut progress)?;
     drop(bar);
     show(slicing, report)
+}
+
+/// Whether print files go into it: a folder that is there, or is named as one.
+fn is_folder(output: &Path) -> bool {
+    let names_folder = output.to_string_lossy().ends_with(std::path::is_separator);
+    names_folder || (!is_standard(output) && output.is_dir())
+}
+
+/// Slices each model into a print file in a folder.
+fn slice_all(slicing: &Slicing, folder: &Path) -> Result<(), Failure> {
+    if !folder.is_dir() {
+        return Err(in_file(folder, &"there is no such folder; create it first").into());
+    }
+    let settings = slicing.choices.settings()?;
+    // Wrong options are wrong for every model: they are reported once.
+    let print_file = settings.options.print_file();
+    let print_file = print_file.map_err(|error| error.to_string())?;
+    let batch = Batch {
+        outputs: outputs_in(folder, &slicing.models, &print_file.extension)?,
+        ..batch_of(slicing, &settings)
+    };
+    let outputs = batch.outputs.iter().zip(batch.models);
+    let outputs = outputs.map(|(output, model)| Output::new(output, Some(model), "model"));
+    let outputs = outputs.collect::<Result<Vec<_>, _>>()?;
+    batch.run(|place, progress| {
+        let model = &batch.models[place];
+        let mut slicer = load_painted(model, settings.weights.as_ref())?;
+        slice_one(&mut slicer, model, &settings, &outputs[place], progress)
+    })
+}
+
+/// Plans each model.
+fn plan_all(slicing: &Slicing) -> Result<(), Failure> {
+    let settings = slicing.choices.settings()?;
+    let options = &settings.options;
+    options.check().map_err(|error| error.to_string())?;
+    let batch = batch_of(slicing, &settings);
+    batch.run(|place, progress| {
+        let model = &batch.models[place];
+        let mut slicer = load_painted(model, settings.weights.as_ref())?;
+        make_plan(&mut slicer, model, options, progress).cloned()
+    })
+}
+
+fn batch_of<'a>(slicing: &'a Slicing, settings: &Settings) -> Batch<'a> {
+    Batch {
+        models: &slicing.models,
+        outputs: Vec::new(),
+        is_json: slicing.json,
+        workers: match settings.options.backend {
+            // A GPU works on one model at a time.
+            Backend::Gpu => 1,
+            Backend::Auto | Backend::Cpu => workers(),
+        },
+    }
+}
+
+/// Plans a model and writes its print file.
+fn slice_one(
+    slicer: &mut Slicer,
+    model: &Path,
+    settings: &Settings,
+    output: &Output<'_>,
+    progress: &mut StageProgress<'_>,
+) -> Result<Report, Failure> {
+    output.write(|writer| {
+        make_plan(slicer, model, &settings.options, progress)?;
+        let written = slicer.write_archive(writer, progress);
+        let (writer, report) = written.map_err(|error| output.failure(&error))?;
+        Ok((writer, report.clone()))
+    })
 }
 
 /// Makes the plan that the options ask for.
 pub fn make_plan<'a>(
     slicer: &'a mut Slicer,
-    slicing: &Slicing,
-    bar: &Bar,
+    model: &Path,
+    options: &Options,
+    progress: &mut StageProgress<'_>,
 ) -> Result<&'a Report, Failure> {
-    let options = slicing.choices.options()?;
     open_gpu(slicer, options.backend);
-    let mut progress = |stage, fraction| bar.report(stage, fraction);
-    pollster::block_on(slicer.plan(&options, &mut progress))
-        .map_err(|error| Failure::in_file(&slicing.model, &error))
+    pollster::block_on(slicer.plan(options, progress))
+        .map_err(|error| Failure::in_file(model, &error))
 }
 
 fn show(slicing: &Slicing, report: &Report) -> Result<(), Failure> {
@@ -107,26 +190,27 @@ fn describe_plan(report: &Report) -> String {
 
 /// Loads the model and runs `ask`, which makes no plan, with a progress bar.
 fn study<T>(
-    slicing: &Slicing,
-    options: &Options,
+    studying: &Studying,
+    settings: &Settings,
     ask: impl AsyncFnOnce(&mut Slicer, &mut StageProgress<'_>) -> Result<T, cusp_slicer::Error>,
 ) -> Result<T, Failure> {
-    let mut slicer = load_weighted(&slicing.model, &slicing.choices)?;
+    let mut slicer = load_painted(&studying.model, settings.weights.as_ref())?;
     stop_on_interrupt();
-    open_gpu(&mut slicer, options.backend);
+    open_gpu(&mut slicer, settings.options.backend);
     let bar = Bar::new();
     let mut progress = |stage, fraction| bar.report(stage, fraction);
     pollster::block_on(ask(&mut slicer, &mut progress))
-        .map_err(|error| Failure::in_file(&slicing.model, &error))
+        .map_err(|error| Failure::in_file(&studying.model, &error))
 }
 
-pub fn tradeoff(slicing: &Slicing, points: usize) -> Result<(), Failure> {
-    slicing.choices.check("tradeoff");
-    let options = slicing.choices.options()?;
-    let curve = study(slicing, &options, async |slicer, progress| {
-        slicer.tradeoff(&options, points, progress).await
+pub fn tradeoff(studying: &Studying, points: usize) -> Result<(), Failure> {
+    studying.choices.check("tradeoff");
+    let settings = studying.choices.settings()?;
+    let options = &settings.options;
+    let curve = study(studying, &settings, async |slicer, progress| {
+        slicer.tradeoff(options, points, progress).await
     })?;
-    if slicing.json {
+    if studying.json {
         return Ok(print_json(&curve)?);
     }
     let mut text = format!(
@@ -157,15 +241,16 @@ struct Compared {
 /// Numbers of layers for which `compare` shows the front.
 const FRONT_POINTS: usize = 9;
 
-pub fn compare(slicing: &Slicing) -> Result<(), Failure> {
-    slicing.choices.check("compare");
-    let options = slicing.choices.options()?;
-    let (comparison, front) = study(slicing, &options, async |slicer, progress| {
-        let comparison = slicer.compare(&options, progress).await?;
-        let front = slicer.front(&options, FRONT_POINTS, progress).await?;
+pub fn compare(studying: &Studying) -> Result<(), Failure> {
+    studying.choices.check("compare");
+    let settings = studying.choices.settings()?;
+    let options = &settings.options;
+    let (comparison, front) = study(studying, &settings, async |slicer, progress| {
+        let comparison = slicer.compare(options, progress).await?;
+        let front = slicer.front(options, FRONT_POINTS, progress).await?;
         Ok((comparison, front))
     })?;
-    if slicing.json {
+    if studying.json {
         return Ok(print_json(&Compared { comparison, front })?);
     }
     let mut text = format!(

@@ -1,5 +1,6 @@
 //! Terminal output, progress and Ctrl-C.
 
+use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::{self, IsTerminal, Write as _};
 use std::ops::ControlFlow;
@@ -11,6 +12,19 @@ use serde::Serialize;
 
 /// Set by Ctrl-C; stages check it whenever they report progress.
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+
+/// Whether standard output carries a file, so that nothing else may go there.
+static STDOUT_IS_TAKEN: AtomicBool = AtomicBool::new(false);
+
+/// From here on, standard output carries a file: what is printed for people goes to stderr.
+pub fn take_stdout() {
+    STDOUT_IS_TAKEN.store(true, Ordering::Relaxed);
+}
+
+/// Whether standard output is a terminal.
+pub fn is_on_terminal() -> bool {
+    io::stdout().is_terminal()
+}
 
 /// Writes a message to stderr; a closed stderr is no reason to stop.
 pub fn say(message: &str) {
@@ -34,6 +48,10 @@ pub fn print_json(value: &impl Serialize) -> Result<(), String> {
 
 /// Prints a line. A reader that has closed the pipe, such as `head`, is not an error.
 pub fn print(text: &str) -> Result<(), String> {
+    if STDOUT_IS_TAKEN.load(Ordering::Relaxed) {
+        let _ = writeln!(io::stderr(), "{text}");
+        return Ok(());
+    }
     match writeln!(io::stdout(), "{text}") {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error.to_string()),
         _ => Ok(()),
@@ -124,8 +142,13 @@ impl Bar {
         self.show(stage.name(), stage.done(fraction))
     }
 
+    /// Prints without the bar in between.
+    pub fn suspend<T>(&self, print: impl FnOnce() -> T) -> T {
+        self.bar.suspend(print)
+    }
+
     /// Shows what is being done, and which fraction of the whole task is.
-    pub fn show(&self, name: &'static str, done: f64) -> ControlFlow<()> {
+    pub fn show(&self, name: impl Into<Cow<'static, str>>, done: f64) -> ControlFlow<()> {
         self.bar.set_message(name);
         let steps = self.bar.length().unwrap_or_default() as f64;
         self.bar.set_position((done * steps) as u64);

@@ -1,9 +1,37 @@
 //! Values of arguments, as text.
 
+use std::ffi::OsStr;
+
+use clap::builder::{PossibleValue, StringValueParser, TypedValueParser};
+use clap::{Arg, Command};
 use cusp_slicer::job::Planner;
 use cusp_slicer::mask::LEVELS;
 use cusp_slicer::orientation::shard::Shard;
 use cusp_slicer::plan::HeightRange;
+use cusp_slicer::printer::PRINTERS;
+
+/// The names of printers, which shells complete; other text is a file, or is refused with the names that are like it.
+#[derive(Clone)]
+pub struct PrinterName;
+
+impl TypedValueParser for PrinterName {
+    type Value = String;
+
+    fn parse_ref(
+        &self,
+        command: &Command,
+        argument: Option<&Arg>,
+        value: &OsStr,
+    ) -> Result<String, clap::Error> {
+        StringValueParser::new().parse_ref(command, argument, value)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue>>> {
+        let known = PRINTERS.iter();
+        let values = known.map(|it| PossibleValue::new(&*it.name).help(&*it.model));
+        Some(Box::new(values))
+    }
+}
 
 /// Parses a positive length.
 pub fn length(text: &str) -> Result<f64, String> {

@@ -1,0 +1,70 @@
+//! What is on the command line, and errors of usage that clap's attributes cannot express.
+
+use std::collections::HashSet;
+use std::path::Path;
+
+use clap::error::ErrorKind;
+use clap::parser::ValueSource;
+use clap::{ArgMatches, Args, Command, CommandFactory as _, FromArgMatches, Id};
+
+use crate::Cli;
+use crate::files::is_standard;
+
+/// The names of arguments that are on the command line. All others have their defaults, before which a file of settings goes.
+pub struct Given(HashSet<String>);
+
+impl Given {
+    pub fn has(&self, name: &str) -> bool {
+        self.0.contains(name)
+    }
+
+    /// Puts a value in place of another if it is not merely the default.
+    pub fn put<T>(&self, name: &str, place: &mut T, value: T) {
+        if self.has(name) {
+            *place = value;
+        }
+    }
+}
+
+impl FromArgMatches for Given {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let names = matches.ids().map(Id::as_str);
+        let given =
+            names.filter(|name| matches.value_source(name) == Some(ValueSource::CommandLine));
+        Ok(Self(given.map(str::to_owned).collect()))
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+impl Args for Given {
+    fn augment_args(command: Command) -> Command {
+        command
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        command
+    }
+}
+
+/// Exits with a usage error of a command.
+pub fn wrong_usage(command: &str, message: &str) -> ! {
+    let mut cli = Cli::command();
+    cli.build();
+    let command = cli.find_subcommand_mut(command);
+    command
+        .expect("the command that was parsed")
+        .error(ErrorKind::ArgumentConflict, message)
+        .exit()
+}
+
+/// Exits with a usage error if both a file and a report would go to standard output.
+pub fn check_json(command: &str, output: Option<&Path>, json: bool) {
+    if json && output.is_some_and(is_standard) {
+        let message = "--json and -o - would both write to standard output; leave one of them out";
+        wrong_usage(command, message);
+    }
+}
