@@ -47,13 +47,14 @@ fn an_output_that_cannot_be_is_refused_before_the_model_is_read() {
     let folder = TempDir::new().unwrap();
     let poem = model(&folder, "poem.stl", b"a poem about a cube");
     let inside = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
-    std::fs::create_dir(inside("folder")).unwrap();
+    std::fs::create_dir_all(inside("folder/poem.zip")).unwrap();
     for (output, words) in [
         (poem.clone(), "is the model itself"),
         (inside("folder/../poem.stl"), "is the model itself"),
-        (inside("folder"), "is a folder"),
+        // In a folder the print file has the model's name.
+        (inside("folder"), "poem.zip: is a folder"),
         (inside("nowhere/out.zip"), "there is no folder"),
-        (inside("nowhere/"), "there is no folder"),
+        (inside("nowhere/"), "there is no such folder"),
     ] {
         assert_fails(&on_cpu(&["slice", &poem, "-o", &output]), 1, words);
     }

@@ -166,3 +166,43 @@ fn an_interrupt_leaves_the_old_file_and_no_other() {
     assert_eq!(names(&folder), ["ball.stl", "out.zip"]);
     assert_eq!(std::fs::read(&zip).unwrap(), b"precious");
 }
+
+#[test]
+fn an_interrupted_batch_leaves_whole_files_alone() {
+    let folder = TempDir::new().unwrap();
+    let small = model(&folder, "small.stl", &binary_stl(&solids::cube(1.0)));
+    let ball = model(&folder, "ball.stl", &binary_stl(&solids::sphere(10.0, 4)));
+    let other = model(&folder, "other.stl", &binary_stl(&solids::sphere(9.0, 4)));
+    let prints = folder.path().join("prints");
+    std::fs::create_dir(&prints).unwrap();
+    // The small one takes a moment, the others many seconds.
+    let mut child = with_default_signals()
+        .args(["slice", &small, &ball, &other, "--json", "--backend", "cpu"])
+        .arg("-o")
+        .arg(&prints)
+        .args([
+            "--planner",
+            "uniform",
+            "--layer",
+            "0.0005",
+            "--bin",
+            "0.0005",
+        ])
+        .args(["--layer-min", "0.0005", "--pitch", "0.02"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // Its line comes as soon as it is done.
+    let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
+    let line = lines.next().unwrap().unwrap();
+    assert!(line.contains("small.zip"), "{line}");
+    interrupt(&child);
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "cusp: cancelled\n");
+    assert_eq!(output.status.code(), Some(130));
+    assert!(lines.next().is_none());
+    let files = std::fs::read_dir(&prints).unwrap();
+    let files: Vec<_> = files.map(|file| file.unwrap().file_name()).collect();
+    assert_eq!(files, ["small.zip"]);
+}

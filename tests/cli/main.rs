@@ -2,9 +2,11 @@
 
 #![cfg(not(target_arch = "wasm32"))]
 
+mod batch;
 mod calibrate;
 #[path = "../common/mod.rs"]
 mod common;
+mod config;
 mod contours;
 mod convert;
 mod files;
@@ -13,8 +15,10 @@ mod inspect;
 #[cfg(unix)]
 mod interrupt;
 mod orient;
+mod packaging;
 mod plan;
 mod simulate;
+mod standard;
 mod thicknesses;
 mod usage;
 mod verify;
