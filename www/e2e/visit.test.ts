@@ -1,4 +1,5 @@
 /** A first visit and the ones after it: what the page remembers, the tour, and the list of keys. */
+import { readFile } from "node:fs/promises";
 import type { Locator, Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { broken } from "./axe.js";
@@ -107,6 +108,19 @@ test("settings are saved, applied, renamed, replaced and deleted by keyboard, an
   await visitAgain(page);
   await page.getByRole("button", { name: "Presets" }).click();
   await expect.poll(() => panel.locator(".row").allInnerTexts()).toEqual(["Fine", "quick"]);
+});
+
+test("the settings are saved as a file for the command line", async () => {
+  const page = await start("?tolerance=0.02&height=12", {}, true);
+  await page.getByRole("button", { name: "Presets" }).click();
+  const [file] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "Save as cusp.toml" }).click()]);
+  expect(file.suggestedFilename()).toBe("cusp.toml");
+  const text = await readFile(await file.path(), "utf8");
+  expect(text).toContain("tolerance = 0.02\n");
+  // The height is the model's.
+  expect(text).not.toContain("height");
+  expect(await page.locator("cusp-saved").getByRole("status").innerText()).toBe("cusp.toml saved.");
+  expect(await broken(page)).toEqual([]);
 });
 
 test("a link to the settings is copied, or shown where the browser does not let the page copy", async () => {

@@ -5,12 +5,14 @@
 import { css, html, nothing, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
 import { define } from "../element/define.js";
+import { saveFile } from "../element/parts/save-file.js";
 import { shared } from "../element/styles/shared.js";
 import { theme } from "../element/styles/theme.js";
 import { languageOf, type Language } from "../texts/index.js";
 import { elementWith, given, own } from "../view/properties.js";
 import { icon } from "./icons.js";
 import { appliedTo, isNamed, LONGEST_NAME, savedIn, savedQuery, withoutSaved, withSaved, type SavedSettings } from "./saved-settings.js";
+import { FILE_NAME, settingsFile } from "./settings-file.js";
 import { readKept, writeKept } from "./storage.js";
 import { visitWords } from "./texts/visit/index.js";
 import { visitStyles } from "./visit-styles.js";
@@ -114,6 +116,8 @@ export class CuspSaved extends elementWith(PROPERTIES) {
         ${shown === null
           ? nothing
           : html`<label>${words.copyByHand}<input type="text" readonly .value=${shown} @focus=${selected} /></label>`}
+        <button class="small" aria-describedby="file" ?disabled=${settingsFile(this.query) === null} @click=${this.#save}>${words.toFile}</button>
+        <p class="about" id="file">${words.aboutFile}</p>
       </div>
     </div>`;
   }
@@ -199,6 +203,13 @@ export class CuspSaved extends elementWith(PROPERTIES) {
       this.shown = link;
       await this.#focus("[readonly]");
     }
+  };
+
+  readonly #save = (): void => {
+    const text = settingsFile(this.query);
+    if (text === null) return;
+    saveFile({ name: FILE_NAME, blob: new Blob([text], { type: "application/toml" }) });
+    this.said = { text: visitWords(this.language).saved.inFile };
   };
 
   async #focus(selector: string): Promise<HTMLElement | null> {

@@ -17,6 +17,9 @@ export const words: VisitWords = {
     copyLink: "Link zu diesen Einstellungen kopieren",
     copied: "Link kopiert.",
     copyByHand: "Diesen Link kopieren",
+    toFile: "Als cusp.toml speichern",
+    aboutFile: "Für die Befehlszeile: cusp slice --config cusp.toml. Ohne Höhe und Drehung des Modells.",
+    inFile: "cusp.toml gespeichert.",
   },
   recent: {
     keep: "Modelle in diesem Browser behalten",

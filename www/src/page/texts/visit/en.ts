@@ -17,6 +17,9 @@ export const words: VisitWords = {
     copyLink: "Copy link to these settings",
     copied: "Link copied.",
     copyByHand: "Copy this link",
+    toFile: "Save as cusp.toml",
+    aboutFile: "For the command line: cusp slice --config cusp.toml. Without the model’s height and rotation.",
+    inFile: "cusp.toml saved.",
   },
   recent: {
     keep: "Keep models in this browser",

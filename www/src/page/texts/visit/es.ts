@@ -17,6 +17,9 @@ export const words: VisitWords = {
     copyLink: "Copiar enlace a estos ajustes",
     copied: "Enlace copiado.",
     copyByHand: "Copie este enlace",
+    toFile: "Guardar como cusp.toml",
+    aboutFile: "Para la línea de comandos: cusp slice --config cusp.toml. Sin la altura ni el giro del modelo.",
+    inFile: "cusp.toml guardado.",
   },
   recent: {
     keep: "Conservar los modelos en este navegador",

@@ -17,6 +17,9 @@ export const words: VisitWords = {
     copyLink: "Copier le lien vers ces réglages",
     copied: "Lien copié.",
     copyByHand: "Copiez ce lien",
+    toFile: "Enregistrer comme cusp.toml",
+    aboutFile: "Pour la ligne de commande : cusp slice --config cusp.toml. Sans la hauteur ni la rotation du modèle.",
+    inFile: "cusp.toml enregistré.",
   },
   recent: {
     keep: "Garder les modèles dans ce navigateur",

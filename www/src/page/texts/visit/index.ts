@@ -25,6 +25,12 @@ export interface VisitWords {
     copied: string;
     /** Where the browser does not let the page copy: label of a field with the link. */
     copyByHand: string;
+    /** Saves the current settings as a file. */
+    toFile: string;
+    /** What the file is for, and what is not in it. */
+    aboutFile: string;
+    /** The file was saved. */
+    inFile: string;
   };
   recent: {
     keep: string;

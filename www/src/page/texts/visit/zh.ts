@@ -17,6 +17,9 @@ export const words: VisitWords = {
     copyLink: "复制当前设置的链接",
     copied: "链接已复制。",
     copyByHand: "请复制此链接",
+    toFile: "另存为 cusp.toml",
+    aboutFile: "供命令行使用：cusp slice --config cusp.toml。不含模型的高度和旋转。",
+    inFile: "已保存 cusp.toml。",
   },
   recent: {
     keep: "在此浏览器中保留模型",
