@@ -6,6 +6,7 @@ use crate::quantity::QuantityError;
 
 /// Measured growth of a print, which masks make up for. A resin has one, and a printer may have another; they add up.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(default, deny_unknown_fields)]
 pub struct Growth {

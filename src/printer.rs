@@ -10,6 +10,7 @@ use crate::growth::Growth;
 
 /// A resin printer: its screen, its build volume and the file that it takes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(deny_unknown_fields)]
 #[expect(
@@ -72,6 +73,7 @@ pub struct Printer {
 
 /// Whether a printer prints layers of several thicknesses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "lowercase")]
 pub enum VariableLayers {
@@ -260,6 +262,7 @@ pub fn similar(name: &str) -> Vec<String> {
 
 /// The printer of options: the name of a known one, or a description of one's own.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(untagged)]
 pub enum PrinterChoice {

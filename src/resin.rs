@@ -11,6 +11,7 @@ use crate::quantity::{Quantity, QuantityError};
 /// The cure depth is the layer thickness plus a fixed overcure, so the exposure is proportional to
 /// exp(thickness / penetration depth).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(default, deny_unknown_fields)]
 pub struct Resin {

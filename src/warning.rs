@@ -9,6 +9,7 @@ use crate::profile::Metric;
 /// Something that the user should know although the job went on: a stable code and typed details. `Display` writes one
 /// sentence.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]
 #[serde(tag = "code", content = "detail", rename_all = "kebab-case")]
 #[non_exhaustive]

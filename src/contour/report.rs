@@ -6,6 +6,7 @@ use super::{Contours, Lattice, Polygon, shown};
 
 /// A plan's contours in figures.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 pub struct ContoursReport {
     /// Tolerance within which points were left out; 0 if none were.
     pub simplify_mm: f64,
@@ -27,6 +28,7 @@ pub struct ContoursReport {
 
 /// The section of a layer in figures.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 pub struct SectionReport {
     /// Bottom of the layer.
     pub bottom_mm: f64,

@@ -26,6 +26,7 @@ const TASKS: usize = 2;
 
 /// The result of an orientation search, with the model and the search options.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 pub struct OrientationReport {
     /// The version of this object: [`SCHEMA`].
     pub schema: u32,

@@ -22,6 +22,7 @@ use crate::warning::Warning;
 
 /// Smallest and largest coordinates.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 pub struct BoundsReport {
     /// Smallest x, y and z in millimetres.
@@ -32,6 +33,7 @@ pub struct BoundsReport {
 
 /// A mesh in the frame of its file.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 pub struct MeshInfo {
     /// Number of facets with an area.
@@ -105,10 +107,11 @@ pub fn mesh_warnings(mesh: &Mesh) -> Vec<Warning> {
 pub const SCHEMA: u32 = 2;
 
 /// Keys of a report that depend on the machine, not on the plan.
-pub(crate) const OF_THE_MACHINE: [&str; 4] = ["timings_ms", "backend", "adapter", "gpu_method"];
+pub const OF_THE_MACHINE: [&str; 4] = ["timings_ms", "backend", "adapter", "gpu_method"];
 
 /// The pixels of the masks.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 pub struct MaskReport {
     /// Columns.
@@ -127,6 +130,7 @@ pub struct MaskReport {
 
 /// The format of a print file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 pub struct PrintFileReport {
     /// The requested format, or the printer's.
@@ -171,6 +175,7 @@ impl Options {
 
 /// Uniform layers within the same range of thicknesses, for comparison.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 pub struct UniformReport {
     /// Layers of the minimum thickness.
@@ -181,6 +186,7 @@ pub struct UniformReport {
 
 /// The result of a planner.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 pub struct PlannerReport {
     /// Name of the planner.
@@ -195,6 +201,7 @@ pub struct PlannerReport {
 
 /// Planners side by side, as in table 3.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 pub struct Comparison {
     /// Number of facets of the model.
@@ -213,6 +220,7 @@ pub struct Comparison {
 /// Slicing, 2017), and the one with the smallest maximum error.
 #[cfg(not(target_arch = "wasm32"))]
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 pub struct FrontPoint {
     /// Number of layers of both.
     pub layers: usize,
@@ -225,6 +233,7 @@ pub struct FrontPoint {
 /// The two errors of a plan that [`FrontPoint`] compares.
 #[cfg(not(target_arch = "wasm32"))]
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 pub struct SumAndMaximum {
     /// The sum of the volume deviations of all layers (eq. 20), without weights.
     pub volume_mm3: f64,
@@ -234,6 +243,7 @@ pub struct SumAndMaximum {
 
 /// The trade-off curve.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 pub struct Tradeoff {
     /// Its points, from the smallest tolerance to the largest.
@@ -242,6 +252,7 @@ pub struct Tradeoff {
 
 /// Wall-clock times of the stages, in milliseconds; 0 for a stage whose result was reused.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 pub struct Timings {
     /// Reading the STL, building the mesh and placing it.
@@ -291,6 +302,7 @@ pub struct Preview {
 
 /// A plan and how it was made: what `--json` prints and the page shows.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify), tsify(missing_as_null))]
 pub struct Report {
     /// The schema version of this object: [`SCHEMA`].

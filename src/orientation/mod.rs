@@ -25,6 +25,7 @@ pub(crate) use surface::{Placement, Surface, search_bytes};
 
 /// Options of the orientation search.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 #[serde(default, deny_unknown_fields)]
 pub struct SearchOptions {
@@ -71,6 +72,7 @@ impl SearchOptions {
 
 /// The cost of an orientation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 #[serde(rename_all = "lowercase")]
@@ -84,6 +86,7 @@ pub enum Cost {
 
 /// The quality of the surface in an orientation; less is better.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 #[serde(rename_all = "lowercase")]
@@ -100,6 +103,7 @@ pub enum Quality {
 
 /// An orientation with its metrics.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify), tsify(missing_as_null))]
 pub struct Candidate {
     /// The unit vector that points up from the plate, in the frame of the file.
@@ -118,6 +122,7 @@ pub struct Candidate {
 
 /// Why an orientation cannot be printed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 #[serde(rename_all = "kebab-case")]
 pub enum Exclusion {
@@ -131,6 +136,7 @@ pub enum Exclusion {
 
 /// Metrics of an orientation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 pub struct Metrics {
     /// Number of layers, K.
@@ -148,6 +154,7 @@ pub struct Metrics {
 
 /// What the terms of energies are relative to: the largest terms of all directions.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 pub struct Scale {
     /// The largest cost: layers, or seconds.

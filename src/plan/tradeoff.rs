@@ -10,6 +10,7 @@ use crate::resin::Resin;
 
 /// A point of the trade-off curve.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct TradeoffPoint {
     /// The tolerance, in the metric's unit.

@@ -9,6 +9,7 @@ use crate::quantity::Quantity;
 
 /// Uniform layers in short.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct UniformLayers {
     /// Thickness of each in millimetres.

@@ -5,6 +5,7 @@ use serde::Serialize;
 
 /// Distances from the points of one surface to the nearest points of the other.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 pub struct Deviation {
     /// The greatest distance, in millimetres.
     pub max_mm: f64,
@@ -19,6 +20,7 @@ pub struct Deviation {
 
 /// The distances of points of one layer. What a layer has no points for is absent.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 pub struct LayerDeviation {
     /// Top of the layer, in millimetres above the plate.
     pub z_mm: f64,

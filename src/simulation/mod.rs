@@ -45,6 +45,7 @@ pub struct Knowledge {
 
 /// Where the masks are relative to the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Placement {
     /// The file says that the model's bounding box is at their centre.
@@ -57,6 +58,7 @@ pub enum Placement {
 
 /// The printed solid, measured against the model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 pub struct Simulation {
     /// Format of the print file.
     pub format: Format,

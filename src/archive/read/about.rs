@@ -10,6 +10,7 @@ use crate::printer::{PRINTERS, Printer};
 
 /// What a print file says of the print as a whole. What it does not say is absent.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]
 pub struct About {
     /// The format.
@@ -130,6 +131,7 @@ impl About {
 /// What a print file says of a layer, whether or not that counts ([`About::uses_layer_values`]). What it does not say is
 /// absent.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]
 pub struct Layer {
     /// Top of the layer, in millimetres above the plate.

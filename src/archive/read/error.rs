@@ -167,6 +167,7 @@ impl PrintFileError {
 
 /// What is wrong with the mask of a layer.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]
 #[serde(tag = "code", content = "detail", rename_all = "kebab-case")]
 #[non_exhaustive]

@@ -7,6 +7,7 @@ use super::{About, Layer, LayerFault};
 /// Something in a print file that its user should know: a stable code and typed details. `Display` writes one sentence.
 /// Layers are numbered from 1; where several have the same fault, the details are the first one's.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]
 #[serde(tag = "code", content = "detail", rename_all = "kebab-case")]
 #[non_exhaustive]

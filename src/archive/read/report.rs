@@ -10,6 +10,7 @@ use crate::progress::{Cancelled, Progress, report};
 
 /// What a print file says, and what its masks hold.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]
 pub struct Inspection {
     /// What the file says of the print as a whole.
@@ -35,6 +36,7 @@ pub struct Inspection {
 
 /// Size of a preview.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]
 pub struct PreviewSize {
     /// Columns.
@@ -45,6 +47,7 @@ pub struct PreviewSize {
 
 /// What a file says of a layer, and what its mask holds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]
 pub struct LayerInspection {
     /// What the file says.

@@ -25,6 +25,7 @@ pub struct Failure {
 
 /// What failed, for programs.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Problem {
     /// The code of the library's error; `file` if a file cannot be read or written.
     pub code: String,

@@ -11,6 +11,8 @@ mod inspect;
 mod models;
 mod orient;
 mod packaging;
+#[cfg(test)]
+mod schemas;
 mod simulate;
 mod slice;
 mod terminal;

@@ -232,7 +232,8 @@ pub fn tradeoff(studying: &Studying, points: usize) -> Result<(), Failure> {
 
 /// What `compare` prints as JSON.
 #[derive(Serialize)]
-struct Compared {
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct Compared {
     #[serde(flatten)]
     comparison: Comparison,
     front: Vec<FrontPoint>,

@@ -12,7 +12,8 @@ use crate::terminal::{Bar, open_gpu, print, print_json, stop_on_interrupt, warn}
 
 /// The result of a successful verification.
 #[derive(Serialize)]
-struct Verified {
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct Verified {
     layers: usize,
     max_error: f64,
     tolerance: f64,

@@ -18,6 +18,7 @@ use crate::warning::Warning;
 
 /// The models of a plate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct PlateReport {
     /// The plate, from 0.
@@ -34,6 +35,7 @@ pub struct PlateReport {
 
 /// A model on a plate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct PlateModelReport {
     /// The model, by its index in the job.

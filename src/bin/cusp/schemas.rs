@@ -1,0 +1,145 @@
+//! The schemas of what `--json` prints, recorded in docs/schemas. `examples/cluster/test_schemas.py` holds real output to them.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use cusp_slicer::archive::read::Inspection;
+use cusp_slicer::contour::ContoursReport;
+use cusp_slicer::job::{MeshInfo, Options, OrientationReport, Report, Tradeoff};
+use cusp_slicer::printer::Printer;
+use cusp_slicer::resin::Resin;
+use cusp_slicer::simulation::Simulation;
+use schemars::generate::SchemaSettings;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde_json::{Value, json};
+
+use crate::batch::BatchLine;
+use crate::slice::Compared;
+use crate::verify::Verified;
+
+/// Draft 7, which most validators know.
+fn generator() -> SchemaGenerator {
+    SchemaSettings::draft07().for_serialize().into_generator()
+}
+
+fn output<T: JsonSchema>() -> Value {
+    generator().into_root_schema_for::<T>().to_value()
+}
+
+/// What users write, where fields have defaults.
+fn input<T: JsonSchema>() -> Value {
+    let settings = SchemaSettings::draft07().for_deserialize();
+    settings
+        .into_generator()
+        .into_root_schema_for::<T>()
+        .to_value()
+}
+
+/// A report without what depends on the machine.
+fn manifest() -> Value {
+    let mut schema = output::<Report>();
+    let is_kept = |key: &str| !cusp_slicer::job::OF_THE_MACHINE.contains(&key);
+    let properties = schema["properties"].as_object_mut().unwrap();
+    properties.retain(|key, _| is_kept(key));
+    let required = schema["required"].as_array_mut().unwrap();
+    required.retain(|key| key.as_str().is_some_and(is_kept));
+    schema["definitions"]
+        .as_object_mut()
+        .unwrap()
+        .remove("Timings");
+    let number = |description: &str| json!({ "description": description, "type": "number" });
+    schema["definitions"]["LayerEntry"] = json!({
+        "description": "A layer of the print file.",
+        "type": "object",
+        "properties": {
+            "file": { "description": "Name of the mask in the zip.", "type": "string" },
+            "z_mm": number("Top of the layer, in millimetres above the plate."),
+            "thickness_mm": number("Thickness of the layer in millimetres."),
+            "exposure_s": number("Exposure in seconds."),
+            "lit_pixels": {
+                "description": "Number of pixels of the mask that are not black.",
+                "type": "integer",
+                "minimum": 0,
+            },
+        },
+        "required": ["file", "z_mm", "thickness_mm", "exposure_s", "lit_pixels"],
+        "additionalProperties": false,
+    });
+    schema["properties"]["layer_files"] = json!({
+        "description": "The layers, from the plate upward.",
+        "type": "array",
+        "items": { "$ref": "#/definitions/LayerEntry" },
+    });
+    let required = schema["required"].as_array_mut().unwrap();
+    required.push(json!("layer_files"));
+    schema["title"] = json!("Manifest");
+    schema["description"] = json!(
+        "What `manifest.json` in a zip of masks says: a report without what depends on the machine, and the layers."
+    );
+    schema
+}
+
+/// The settings of a file, as JSON has them.
+fn settings() -> Value {
+    let mut schema = input::<Options>();
+    schema["title"] = json!("Settings");
+    schema["description"] = json!("What `--config` reads, as TOML. Lengths are in millimetres.");
+    let properties = &mut schema["properties"];
+    properties["weights"] = json!({
+        "description": "Path of a file of weights, from the folder of these settings.",
+        "type": "string",
+    });
+    let resin = properties["resin"].take();
+    properties["resin"] = json!({
+        "description": "The resin, or the path of a file that describes it.",
+        "anyOf": [resin, { "type": "string" }],
+    });
+    schema
+}
+
+/// BLESS=1 records them again.
+#[test]
+fn the_schemas_of_reports_are_recorded() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/schemas");
+    let schemas = [
+        ("batch-info", output::<BatchLine<MeshInfo>>()),
+        ("batch-plan", output::<BatchLine<Report>>()),
+        ("compare", output::<Compared>()),
+        ("contours", output::<ContoursReport>()),
+        ("info", output::<MeshInfo>()),
+        ("inspect", output::<Inspection>()),
+        ("manifest", manifest()),
+        ("orient", output::<OrientationReport>()),
+        ("plan", output::<Report>()),
+        ("printer", input::<Printer>()),
+        ("printers", output::<Vec<Arc<Printer>>>()),
+        ("resin", input::<Resin>()),
+        ("settings", settings()),
+        ("simulate", output::<Simulation>()),
+        ("tradeoff", output::<Tradeoff>()),
+        ("verify", output::<Verified>()),
+    ];
+    let mut names: Vec<String> = Vec::new();
+    for (name, schema) in schemas {
+        let schema = Schema::try_from(schema).unwrap();
+        let text = serde_json::to_string_pretty(&schema).unwrap() + "\n";
+        let name = format!("{name}.schema.json");
+        let path = folder.join(&name);
+        if std::env::var_os("BLESS").is_some() {
+            std::fs::create_dir_all(&folder).unwrap();
+            std::fs::write(&path, &text).unwrap();
+        }
+        let recorded = std::fs::read_to_string(&path).unwrap_or_default();
+        assert!(
+            recorded == text,
+            "run again with BLESS=1: {}",
+            path.display()
+        );
+        names.push(name);
+    }
+    let files = std::fs::read_dir(&folder).unwrap();
+    let files = files.map(|file| file.unwrap().file_name().into_string().unwrap());
+    let mut files: Vec<String> = files.collect();
+    files.sort();
+    assert_eq!(files, names);
+}
