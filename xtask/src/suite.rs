@@ -42,7 +42,7 @@ pub enum Step {
     Unit,
     /// The built page in a headless browser
     E2e,
-    /// The orientation search in shards on several worker processes (examples/cluster)
+    /// Orientation searches and batches on several worker processes (examples/cluster)
     Cluster,
 }
 
@@ -187,7 +187,7 @@ fn gpu_on_swiftshader(project: &Project, scratch: &Path) -> Result<(Verdict, Tal
     )
 }
 
-/// The example that distributes a search among worker processes.
+/// The examples that distribute searches and batches among worker processes.
 fn cluster(project: &Project) -> Result<(Verdict, Tally)> {
     let python = match python::ensure_environment(project) {
         Ok(python) => python,
@@ -199,7 +199,14 @@ fn cluster(project: &Project) -> Result<(Verdict, Tally)> {
     let (status, text) = process::tee(
         process::command(python)
             .current_dir(python::example(project))
-            .args(["-m", "unittest", "-v", "test_orient"])
+            .args([
+                "-m",
+                "unittest",
+                "-v",
+                "test_orient",
+                "test_slice",
+                "test_schemas",
+            ])
             .env("CUSP", cusp)
             .env("PYTHONDONTWRITEBYTECODE", "1"),
     )?;
