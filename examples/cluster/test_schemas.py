@@ -94,6 +94,7 @@ class Schemas(unittest.TestCase):
     def test_studies(self) -> None:
         self.check("tradeoff", self.planned("tradeoff", self.wedge, "--points=5"))
         self.check("compare", self.planned("compare", self.wedge))
+        self.check("contours", self.planned("contours", self.wedge, "-o", self.folder / "wedge.svg"))
         # In some directions it does not fit.
         search = ["--directions=30", "--backend=cpu", "--json", "--pixels=75x60"]
         found = self.check("orient", self.cusp("orient", self.wedge, "--pitch=0.1", *search))

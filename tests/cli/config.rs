@@ -191,10 +191,13 @@ fn every_command_that_plans_takes_a_file_of_settings() {
     let ball = sphere(&folder);
     let config = model(&folder, "cusp.toml", b"layer_min_mm = 0.2\n");
     let print = folder.path().join("x.zip").display().to_string();
-    for command in ["slice", "plan", "tradeoff", "compare", "orient"] {
+    let outlines = folder.path().join("x.svg").display().to_string();
+    for command in ["slice", "plan", "tradeoff", "compare", "contours", "orient"] {
         let mut arguments = vec![command, &ball, "--config", &config];
-        if command == "slice" {
-            arguments.extend(["-o", &print]);
+        match command {
+            "slice" => arguments.extend(["-o", &print]),
+            "contours" => arguments.extend(["-o", &outlines]),
+            _ => {}
         }
         assert_fails(&on_cpu(&arguments), 1, "widen the range");
     }
