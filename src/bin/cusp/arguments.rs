@@ -7,6 +7,7 @@ use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, ValueEnum};
 use cusp_slicer::format::Format;
 use cusp_slicer::job::{BIN_MM, Backend, GpuMethod, Minimize, Options, Planner, Snap};
+use cusp_slicer::model::ModelUnit;
 use cusp_slicer::orientation::shard::Shard;
 use cusp_slicer::orientation::{Cost, MAX_DIRECTIONS, Quality, SearchOptions};
 use cusp_slicer::plan::HeightRange;
@@ -24,7 +25,7 @@ use crate::values::{
 /// A model, and how to slice it.
 #[derive(Args)]
 pub struct Slicing {
-    /// STL file, binary or ASCII
+    /// Model: 3MF, OBJ or STL
     pub model: PathBuf,
     /// Print one JSON object
     #[arg(long)]
@@ -93,6 +94,15 @@ pub struct Choices {
     /// Scale the model uniformly to this height
     #[arg(long, value_name = "MM", value_parser = length, help_heading = "Model")]
     height: Option<f64>,
+    /// Unit of the coordinates in a file that states none: micron, millimeter, centimeter, inch, foot or meter
+    #[arg(
+        long,
+        value_enum,
+        hide_possible_values = true,
+        value_name = "UNIT",
+        help_heading = "Model"
+    )]
+    unit: Option<ModelUnit>,
     #[command(flatten)]
     pub target: Target,
     /// Weight facets by saliency: how much they stand out
@@ -222,6 +232,7 @@ impl Choices {
         Ok(Options {
             rotation: self.rotation,
             height_mm: self.height,
+            unit: self.unit,
             layer_min_mm: self.layer_min,
             layer_max_mm: self.layer_max,
             first_layer_mm: self.first_layer,
@@ -296,7 +307,7 @@ fn bin_help() -> String {
 /// The options of the orientation search.
 #[derive(Args)]
 pub struct Orienting {
-    /// STL files, binary or ASCII
+    /// Models: 3MF, OBJ or STL
     #[arg(required = true, value_name = "MODEL")]
     pub models: Vec<PathBuf>,
     /// Print one JSON object per model, each on its own line

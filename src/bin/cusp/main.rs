@@ -79,7 +79,7 @@ enum Command {
     Verify {
         /// Plan from `cusp plan --json` or from the page, or the manifest of a zip of masks
         plan: PathBuf,
-        /// Model that the plan was made from: STL file, binary or ASCII
+        /// Model that the plan was made from: 3MF, OBJ or STL
         model: PathBuf,
         /// Recompute this print file as well, and compare every byte
         #[arg(long, value_name = "FILE")]
@@ -102,7 +102,7 @@ enum Command {
     Convert(Converting),
     /// Write the saliency of each facet, how much it stands out, as a file of weights
     Saliency {
-        /// STL file, binary or ASCII
+        /// Model: 3MF, OBJ or STL
         model: PathBuf,
         /// Where to write the weights
         #[arg(short, long, value_name = "FILE")]
@@ -116,7 +116,7 @@ enum Command {
     },
     /// Describe a model: size, facets, volume, defects
     Info {
-        /// STL file, binary or ASCII
+        /// Model: 3MF, OBJ or STL
         model: PathBuf,
         /// Print one JSON object
         #[arg(long)]
