@@ -21,26 +21,17 @@ pub enum Namespace {
 impl Namespace {
     /// Versions differ in their year and their host.
     fn of(uri: &[u8]) -> Self {
-        const KNOWN: [&str; 9] = [
-            "material",
-            "slice",
-            "beamlattice",
-            "trianglesets",
-            "displacement",
-            "booleanoperations",
-            "volumetric",
-            "implicit",
-            "dcm",
-        ];
-        let text = str::from_utf8(uri).unwrap_or_default();
-        let Some((_, rest)) = text.split_once("/3dmanufacturing/") else {
+        // http://HOST/3dmanufacturing/NAME/YEAR/MONTH
+        let mut steps = uri.split(|&byte| byte == b'/').skip(3);
+        if steps.next() != Some(b"3dmanufacturing") {
             return Self::Other;
-        };
-        match rest.split('/').next().unwrap_or_default() {
-            "core" => Self::Core,
-            "production" => Self::Production,
-            "securecontent" => Self::SecureContent,
-            name if KNOWN.contains(&name) => Self::Known,
+        }
+        match steps.next().unwrap_or_default() {
+            b"core" => Self::Core,
+            b"production" => Self::Production,
+            b"securecontent" => Self::SecureContent,
+            b"material" | b"slice" | b"beamlattice" | b"trianglesets" | b"displacement"
+            | b"booleanoperations" | b"volumetric" | b"implicit" => Self::Known,
             _ => Self::Other,
         }
     }

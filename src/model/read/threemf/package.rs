@@ -31,9 +31,13 @@ impl<'a> Package<'a> {
         let mut entries = Vec::new();
         let mut records = zip.entries();
         while let Some(record) = records.next_entry().map_err(damaged)? {
-            let name = String::from_utf8_lossy(record.file_path().as_ref()).replace('\\', "/");
+            let mut name = record.file_path().as_ref().to_vec();
+            for byte in name.iter_mut().filter(|byte| **byte == b'\\') {
+                *byte = b'/';
+            }
             entries.push(Entry {
-                name: name.trim_start_matches('/').to_owned(),
+                name: String::from_utf8_lossy(name.strip_prefix(b"/").unwrap_or(&name))
+                    .into_owned(),
                 method: record.compression_method(),
                 is_encrypted: record.flags().is_encrypted(),
                 place: record.wayfinder(),
@@ -56,7 +60,7 @@ impl<'a> Package<'a> {
 
     /// The name by which the package knows a part, since the case of letters does not count and some writers encode them.
     pub fn find(&self, part: &str) -> Option<&str> {
-        let part = part.trim_start_matches('/');
+        let part = part.strip_prefix('/').unwrap_or(part);
         let with_name = |name: &str| {
             let mut entries = self.entries.iter();
             entries.find(|entry| entry.name.eq_ignore_ascii_case(name))
