@@ -32,7 +32,12 @@ fn torus() -> (Vec<Vec3>, Vec<[u32; 3]>) {
             let z = 10.0 * b.sin();
             vertices.push(glam::DVec3::new(radius * a.cos(), radius * a.sin(), z).as_vec3());
             let place = |i: u32, j: u32| (i % AROUND) * ACROSS + j % ACROSS;
-            let [p, q, r, s] = [place(i, j), place(i + 1, j), place(i + 1, j + 1), place(i, j + 1)];
+            let [p, q, r, s] = [
+                place(i, j),
+                place(i + 1, j),
+                place(i + 1, j + 1),
+                place(i, j + 1),
+            ];
             facets.extend([[p, q, r], [p, r, s]]);
         }
     }
@@ -82,7 +87,9 @@ fn measure(name: &str, bytes: &[u8]) {
         let clock = Instant::now();
         let contents = read(bytes).expect("a model");
         reading.push(clock.elapsed().as_secs_f64());
-        facets = Mesh::from_triangles(&contents.triangles).expect("a mesh").surface_facets;
+        facets = Mesh::from_triangles(&contents.triangles)
+            .expect("a mesh")
+            .surface_facets;
         all.push(clock.elapsed().as_secs_f64());
     }
     println!(
@@ -94,15 +101,23 @@ fn measure(name: &str, bytes: &[u8]) {
 }
 
 fn main() {
-    let arguments: Vec<String> = std::env::args().skip(1).filter(|it| it != "--bench").collect();
+    let arguments: Vec<String> = std::env::args()
+        .skip(1)
+        .filter(|it| it != "--bench")
+        .collect();
     let (vertices, facets) = torus();
-    let triangles: Vec<_> = facets.iter().map(|it| it.map(|corner| vertices[corner as usize])).collect();
+    let triangles: Vec<_> = facets
+        .iter()
+        .map(|it| it.map(|corner| vertices[corner as usize]))
+        .collect();
     let files = [
         ("torus.stl", solids::binary_stl(&triangles)),
         ("torus.obj", obj(&vertices, &facets)),
         ("torus.3mf", threemf(&vertices, &facets)),
     ];
-    if let [write, folder] = &*arguments && write == "--write" {
+    if let [write, folder] = &*arguments
+        && write == "--write"
+    {
         for (name, bytes) in files {
             std::fs::write(Path::new(folder).join(name), bytes).expect("a file");
         }

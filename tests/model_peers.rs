@@ -103,7 +103,10 @@ fn models_are_read_as_they_were_written() -> Result<(), Failed> {
         }
         let size = found.size_mm.iter().copied().fold(0.0, f64::max);
         let bounds = [found.bounds_mm.min, found.bounds_mm.max];
-        for (found, expected) in bounds.iter().zip(model["bounds"].as_array().ok_or("no bounds")?) {
+        for (found, expected) in bounds
+            .iter()
+            .zip(model["bounds"].as_array().ok_or("no bounds")?)
+        {
             for (found, expected) in found.iter().zip(numbers(expected)) {
                 near(name, *found, expected, 1e-6 * size)?;
             }
@@ -116,10 +119,14 @@ fn models_are_read_as_they_were_written() -> Result<(), Failed> {
 
 /// What `prusa-slicer --info` says of a file.
 fn prusa_info(path: &Path) -> Result<HashMap<String, f64>, Failed> {
-    let output = Command::new(PRUSA_SLICER).arg("--info").arg(path).output()?;
+    let output = Command::new(PRUSA_SLICER)
+        .arg("--info")
+        .arg(path)
+        .output()?;
     let text = String::from_utf8(output.stdout)?;
     let lines = text.lines().filter_map(|line| line.split_once(" = "));
-    let numbers = lines.filter_map(|(name, value)| Some((name.to_owned(), value.trim().parse().ok()?)));
+    let numbers =
+        lines.filter_map(|(name, value)| Some((name.to_owned(), value.trim().parse().ok()?)));
     Ok(numbers.collect())
 }
 
@@ -142,7 +149,14 @@ fn assert_same_as_prusa(path: &Path) -> Result<(), Failed> {
 fn prusa_slicer_sees_the_same() -> Result<(), Failed> {
     let folder = TempDir::new()?;
     write_models(folder.path())?;
-    for name in ["millimeter.3mf", "centimeter.3mf", "inch.3mf", "foot.3mf", "trimesh.obj", "ball.stl"] {
+    for name in [
+        "millimeter.3mf",
+        "centimeter.3mf",
+        "inch.3mf",
+        "foot.3mf",
+        "trimesh.obj",
+        "ball.stl",
+    ] {
         assert_same_as_prusa(&folder.path().join(name))?;
     }
     Ok(())
@@ -150,7 +164,10 @@ fn prusa_slicer_sees_the_same() -> Result<(), Failed> {
 
 fn what_prusa_slicer_writes_is_what_it_read() -> Result<(), Failed> {
     let folder = TempDir::new()?;
-    for (name, triangles) in [("ball", solids::sphere(6.0, 5)), ("cone", solids::cone(3.0, 9.0, 40))] {
+    for (name, triangles) in [
+        ("ball", solids::sphere(6.0, 5)),
+        ("cone", solids::cone(3.0, 9.0, 40)),
+    ] {
         let model = folder.path().join(format!("{name}.stl"));
         fs::write(&model, binary_stl(&triangles))?;
         for format in ["3mf", "obj"] {
@@ -164,7 +181,12 @@ fn what_prusa_slicer_writes_is_what_it_read() -> Result<(), Failed> {
             }
             assert_same_as_prusa(&written)?;
             let (ours, theirs) = (info(&model)?, info(&written)?);
-            near(name, theirs.volume_mm3, ours.volume_mm3, 1e-5 * ours.volume_mm3)?;
+            near(
+                name,
+                theirs.volume_mm3,
+                ours.volume_mm3,
+                1e-5 * ours.volume_mm3,
+            )?;
             near(name, theirs.facets as f64, ours.facets as f64, 0.0)?;
         }
     }
@@ -180,7 +202,9 @@ fn main() {
                 return Ok(Completion::ignored_with("no CUSP_PEERS_PYTHON"));
             }
             if needs_prusa && Command::new(PRUSA_SLICER).arg("--help").output().is_err() {
-                return Ok(Completion::ignored_with(format!("no {PRUSA_SLICER} on PATH")));
+                return Ok(Completion::ignored_with(format!(
+                    "no {PRUSA_SLICER} on PATH"
+                )));
             }
             test().map(|()| Completion::Completed)
         })

@@ -9,6 +9,7 @@ mod damage;
 mod kinds;
 mod obj;
 mod package;
+mod refused;
 mod stl;
 mod threemf;
 mod units;

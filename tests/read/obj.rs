@@ -141,7 +141,7 @@ fn assert_cut_well(outline: &[DVec3]) {
     let normal = whole.normalize();
     let mut sum = 0.0;
     for corners in triangles {
-        let [a, b, c] = corners.map(|corner| corner.as_dvec3());
+        let [a, b, c] = corners.map(glam::Vec3::as_dvec3);
         let part = (b - a).cross(c - a).dot(normal);
         assert!(
             part > -1e-5 * whole.length(),

@@ -7,6 +7,9 @@ const STL_FACET_BYTES = 50;
 /** Enough to tell text from anything else. */
 const HEAD_BYTES = 1024;
 
+/** The letters that a zip begins with: PK. */
+const ZIP = [0x50, 0x4b] as const;
+
 /** Where the directory of a zip ends: before a comment of at most 64 KiB. */
 const TAIL_BYTES = 1 << 17;
 
@@ -20,10 +23,8 @@ export async function isModel(file: Blob): Promise<boolean> {
     const facets = new DataView(head.buffer).getUint32(STL_HEADER_BYTES - 4, true);
     if (facets > 0 && Math.floor((file.size - STL_HEADER_BYTES) / STL_FACET_BYTES) === facets) return true;
   }
-  if (startsWith(head, "PK")) return /\.model/i.test(latin(await file.slice(-TAIL_BYTES).arrayBuffer()));
+  if (head[0] === ZIP[0] && head[1] === ZIP[1]) return /\.model/i.test(latin(await file.slice(-TAIL_BYTES).arrayBuffer()));
   return !head.includes(0);
 }
 
 const latin = (bytes: ArrayBuffer): string => new TextDecoder("latin1").decode(bytes);
-
-const startsWith = (bytes: Uint8Array, text: string): boolean => [...text].every((letter, i) => bytes[i] === letter.charCodeAt(0));

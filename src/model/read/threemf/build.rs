@@ -117,7 +117,7 @@ impl<'a> Build<'a> {
         }
         let mut to_mm = to_mm * reference.transform;
         if model.unit != from.unit {
-            to_mm = to_mm * DAffine3::from_scale(DVec3::splat(model.unit.mm() / from.unit.mm()));
+            to_mm *= DAffine3::from_scale(DVec3::splat(model.unit.mm() / from.unit.mm()));
         }
         if !self.add(object, to_mm) {
             return Err(ThreeMfError::Overflow {

@@ -9,6 +9,7 @@ mod error;
 mod model;
 mod namespaces;
 mod package;
+mod values;
 mod xml;
 
 use super::kind::FileKind;

@@ -1,14 +1,15 @@
 //! A model part: its objects, and what is to be built of them.
 
-use glam::{DAffine3, DMat3, DVec3, Vec3};
+use glam::{DAffine3, Vec3};
 use rustc_hash::FxHashMap;
 
 use super::namespaces::{Namespace, Namespaces, split};
 use super::package::Part;
+use super::values::{Fault, bad, facet, number, transform, vertex};
 use super::xml::{Attributes, Tag, Tags, unescaped};
 use super::{ThreeMfError, ThreeMfFeature, XmlFault};
 use crate::model::ModelUnit;
-use crate::model::read::text::{named, quoted};
+use crate::model::read::text::named;
 
 /// Elements inside each other; a model has six.
 const MOST_DEPTH: usize = 64;
@@ -104,50 +105,6 @@ pub fn read(part: Part<'_>) -> Result<Model, ThreeMfError> {
     Ok(reader.model)
 }
 
-/// What is wrong with a tag, before it is known where it is.
-enum Fault {
-    Xml(XmlFault),
-    Attribute {
-        attribute: &'static str,
-        found: String,
-    },
-    NoVertex {
-        vertex: u32,
-        vertices: u64,
-    },
-    Encrypted,
-    Extension(String),
-}
-
-impl From<XmlFault> for Fault {
-    fn from(fault: XmlFault) -> Self {
-        Self::Xml(fault)
-    }
-}
-
-impl Fault {
-    fn at(self, tags: &Tags<'_>) -> ThreeMfError {
-        let (part, line) = (tags.part().to_owned(), tags.line());
-        match self {
-            Self::Xml(fault) => tags.fault(fault),
-            Self::Attribute { attribute, found } => ThreeMfError::BadAttribute {
-                part,
-                line,
-                attribute: attribute.to_owned(),
-                found,
-            },
-            Self::NoVertex { vertex, vertices } => ThreeMfError::NoVertex {
-                part,
-                line,
-                vertex,
-                vertices,
-            },
-            Self::Encrypted => ThreeMfError::Encrypted { part },
-            Self::Extension(extension) => ThreeMfError::Extension { part, extension },
-        }
-    }
-}
-
 /// Makes a model of tags.
 struct Reader {
     model: Model,
@@ -228,13 +185,14 @@ impl Reader {
                 return Ok(Element::Vertex);
             }
             (Some(Element::Triangles), b"triangle") => {
-                let facet = self.facet(attributes)?;
+                let facet = facet(attributes)?;
                 self.object.facets.push(facet);
                 return Ok(Element::Triangle);
             }
             _ => (),
         }
-        self.namespaces.declare(self.open.len() + 1, attributes)?;
+        self.namespaces
+            .declare(self.open.len() + 1, attributes.clone())?;
         let (namespace, local) = self.namespaces.split(name);
         let element = if namespace == Namespace::Core {
             Element::within(parent, local)
@@ -342,19 +300,6 @@ impl Reader {
         self.object.feature = Some(feature);
     }
 
-    fn facet(&self, attributes: Attributes<'_>) -> Result<[u32; 3], Fault> {
-        const NAMES: [&str; 3] = ["v1", "v2", "v3"];
-        let mut corners = [None; 3];
-        for attribute in attributes {
-            let (name, value) = attribute?;
-            if let [b'v', digit @ b'1'..=b'3'] = *name {
-                let place = usize::from(digit - b'1');
-                corners[place] = Some(number(NAMES[place], value)?);
-            }
-        }
-        all(corners, NAMES)
-    }
-
     fn reference(&self, attributes: Attributes<'_>) -> Result<Reference, Fault> {
         let mut object = None;
         let mut reference = Reference {
@@ -380,66 +325,5 @@ impl Reader {
         }
         reference.object = object.ok_or_else(|| bad("objectid", b""))?;
         Ok(reference)
-    }
-}
-
-fn vertex(attributes: Attributes<'_>) -> Result<Vec3, Fault> {
-    const NAMES: [&str; 3] = ["x", "y", "z"];
-    let mut vertex = [None; 3];
-    for attribute in attributes {
-        let (name, value) = attribute?;
-        if let [axis @ b'x'..=b'z'] = *name {
-            let axis = usize::from(axis - b'x');
-            let coordinate: f32 = number(NAMES[axis], value)?;
-            if !coordinate.is_finite() {
-                return Err(bad(NAMES[axis], value));
-            }
-            vertex[axis] = Some(coordinate);
-        }
-    }
-    all(vertex, NAMES).map(Vec3::from_array)
-}
-
-/// Twelve numbers: four rows of three, by which a row is multiplied from the left.
-fn transform(value: &[u8]) -> Result<DAffine3, Fault> {
-    let mut rows = [0.0; 12];
-    let words = value.split(u8::is_ascii_whitespace);
-    let mut words = words.filter(|word| !word.is_empty());
-    for place in &mut rows {
-        let word = words.next().unwrap_or_default();
-        *place = f64::from(number::<f32>("transform", word)?);
-    }
-    if words.next().is_some() || rows.iter().any(|number| !number.is_finite()) {
-        return Err(bad("transform", value));
-    }
-    let row = |row: usize| DVec3::from_slice(&rows[3 * row..]);
-    Ok(DAffine3 {
-        matrix3: DMat3::from_cols(row(0), row(1), row(2)),
-        translation: row(3),
-    })
-}
-
-/// All values, or the error of the first that is missing.
-fn all<T: Copy>(values: [Option<T>; 3], names: [&'static str; 3]) -> Result<[T; 3], Fault> {
-    match values {
-        [Some(a), Some(b), Some(c)] => Ok([a, b, c]),
-        _ => {
-            let missing = values.iter().position(Option::is_none).unwrap_or_default();
-            Err(bad(names[missing], b""))
-        }
-    }
-}
-
-fn number<T: std::str::FromStr>(attribute: &'static str, value: &[u8]) -> Result<T, Fault> {
-    let text = unescaped(value);
-    let number = str::from_utf8(text.trim_ascii()).ok();
-    let number = number.and_then(|text| text.parse().ok());
-    number.ok_or_else(|| bad(attribute, value))
-}
-
-fn bad(attribute: &'static str, value: &[u8]) -> Fault {
-    Fault::Attribute {
-        attribute,
-        found: quoted(value),
     }
 }

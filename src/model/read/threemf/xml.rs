@@ -12,7 +12,7 @@ const CHUNK_BYTES: usize = 1 << 16;
 const MOST_TAG_BYTES: usize = 1 << 20;
 
 /// A tag.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub enum Tag<'b> {
     /// The start of an element.
     Start {
@@ -155,6 +155,10 @@ impl<'a> Tags<'a> {
     }
 }
 
+#[expect(
+    clippy::naive_bytecount,
+    reason = "the compiler makes vectors of it, and a crate would be one more"
+)]
 fn line_ends(text: &[u8]) -> u64 {
     text.iter().filter(|&&byte| byte == b'\n').count() as u64
 }
@@ -204,7 +208,7 @@ fn tag(text: &[u8]) -> Tag<'_> {
 }
 
 /// The attributes of a tag: names, with prefixes, and values as they are in the file.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Attributes<'b> {
     rest: &'b [u8],
 }
