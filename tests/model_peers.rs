@@ -1,5 +1,5 @@
 //! Models that other programs write, and what others say of them: lib3mf and trimesh in the Python of `CUSP_PEERS_PYTHON`, which `cargo
-//! xtask test` makes, and PrusaSlicer. Where one is absent, its tests are reported as ignored.
+//! xtask test` makes, and `PrusaSlicer`. Where one is absent, its tests are reported as ignored.
 
 #![cfg(not(target_arch = "wasm32"))]
 
