@@ -69,7 +69,7 @@ fn numbers(value: &Value) -> Vec<f64> {
     items.filter_map(Value::as_f64).collect()
 }
 
-/// Fails unless two numbers differ by at most this part of `scale`.
+/// Fails unless two numbers differ by at most `tolerance`.
 fn near(what: &str, found: f64, expected: f64, tolerance: f64) -> Result<(), Failed> {
     if (found - expected).abs() <= tolerance {
         return Ok(());
@@ -77,7 +77,7 @@ fn near(what: &str, found: f64, expected: f64, tolerance: f64) -> Result<(), Fai
     Err(format!("{what}: {found}, not {expected}").into())
 }
 
-/// lib3mf writes six decimals, so that a curved surface may lie half a millionth of its unit aside.
+/// lib3mf writes six decimals, of transforms too, so that what they move may lie a few millionths of its size aside.
 fn models_are_read_as_they_were_written() -> Result<(), Failed> {
     let folder = TempDir::new()?;
     let written = write_models(folder.path())?;
@@ -108,11 +108,11 @@ fn models_are_read_as_they_were_written() -> Result<(), Failed> {
             .zip(model["bounds"].as_array().ok_or("no bounds")?)
         {
             for (found, expected) in found.iter().zip(numbers(expected)) {
-                near(name, *found, expected, 1e-6 * size)?;
+                near(name, *found, expected, 4e-6 * size)?;
             }
         }
         let volume = model["volume"].as_f64().ok_or("no volume")?;
-        near(name, found.volume_mm3, volume, 2e-6 * volume)?;
+        near(name, found.volume_mm3, volume, 4e-6 * volume)?;
     }
     Ok(())
 }
@@ -130,7 +130,8 @@ fn prusa_info(path: &Path) -> Result<HashMap<String, f64>, Failed> {
     Ok(numbers.collect())
 }
 
-fn assert_same_as_prusa(path: &Path) -> Result<(), Failed> {
+/// `is_placed` is false where it puts the model elsewhere when it reads it.
+fn assert_same_as_prusa(path: &Path, is_placed: bool) -> Result<(), Failed> {
     let (ours, theirs) = (info(path)?, prusa_info(path)?);
     let name = path.display().to_string();
     let of = |key: &str| theirs.get(key).copied().ok_or(format!("{name}: no {key}"));
@@ -138,7 +139,9 @@ fn assert_same_as_prusa(path: &Path) -> Result<(), Failed> {
         let size = of(&format!("size_{letter}"))?;
         near(&name, ours.size_mm[axis], size, 2e-6 * size.max(1.0))?;
         let least = of(&format!("min_{letter}"))?;
-        near(&name, ours.bounds_mm.min[axis], least, 2e-6 * size.max(1.0))?;
+        if is_placed {
+            near(&name, ours.bounds_mm.min[axis], least, 2e-6 * size.max(1.0))?;
+        }
     }
     let volume = of("volume")?;
     near(&name, ours.volume_mm3, volume, 1e-5 * volume.max(1.0))?;
@@ -157,7 +160,7 @@ fn prusa_slicer_sees_the_same() -> Result<(), Failed> {
         "trimesh.obj",
         "ball.stl",
     ] {
-        assert_same_as_prusa(&folder.path().join(name))?;
+        assert_same_as_prusa(&folder.path().join(name), true)?;
     }
     Ok(())
 }
@@ -179,7 +182,7 @@ fn what_prusa_slicer_writes_is_what_it_read() -> Result<(), Failed> {
             if !output.status.success() {
                 return Err(String::from_utf8_lossy(&output.stderr).into_owned().into());
             }
-            assert_same_as_prusa(&written)?;
+            assert_same_as_prusa(&written, false)?;
             let (ours, theirs) = (info(&model)?, info(&written)?);
             near(
                 name,
