@@ -54,7 +54,8 @@ fn main() {
     );
     for path in std::env::args().skip(1).filter(|it| !it.starts_with('-')) {
         let bytes = std::fs::read(&path).expect("a model to read");
-        let mesh = Mesh::from_triangles(&read::read(&bytes).expect("an STL")).expect("a mesh");
+        let mesh =
+            Mesh::from_triangles(&read::read(&bytes).expect("an STL").triangles).expect("a mesh");
         let name = Path::new(&path).file_stem().unwrap_or_default();
         let mut slicer = Slicer::load(&bytes).expect("a model");
         for (plan, options) in &plans {

@@ -119,7 +119,7 @@ fn main() {
 /// Slices a model in uniform layers with cusp and, `with_peer`, with `prusa-slicer`, alternating each round.
 fn compare(path: &Path, folder: &Path, with_peer: bool) {
     let bytes = fs::read(path).expect("a model to read");
-    let mesh = Mesh::from_triangles(&read::read(&bytes).expect("an STL"))
+    let mesh = Mesh::from_triangles(&read::read(&bytes).expect("an STL").triangles)
         .and_then(|mesh| mesh.on_plate(&Pose::of_height(HEIGHT_MM)))
         .expect("a mesh");
     let size = mesh.bounds().size();

@@ -3,8 +3,19 @@
 use serde::Serialize;
 
 use crate::ldi::GpuFault;
+use crate::model::ModelUnit;
 use crate::plan::uniform::UniformLayers;
 use crate::profile::Metric;
+
+/// How long a model is if its file is in a unit.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+pub struct UnitReading {
+    /// The unit.
+    pub unit: ModelUnit,
+    /// The longest side in millimetres.
+    pub size_mm: f64,
+}
 
 /// Something that the user should know although the job went on: a stable code and typed details. `Display` writes one
 /// sentence.
@@ -27,6 +38,25 @@ pub enum Warning {
         open_edges: usize,
         /// Holes that were closed.
         holes: usize,
+    },
+    /// Objects of a 3MF are not printed: supports of other programs, surfaces, and what a user turned off.
+    SkippedObjects {
+        /// Number of such objects.
+        objects: usize,
+    },
+    /// The file states no unit, and in millimetres the model is under 1 mm, or wider than any plate that is known.
+    OddSize {
+        /// The longest side, if the file is in millimetres.
+        size_mm: f64,
+        /// The same in other units, where that is usual.
+        readings: Vec<UnitReading>,
+    },
+    /// The file states another unit than the options, and its own counts.
+    UnitStated {
+        /// The unit of the file.
+        stated: ModelUnit,
+        /// The unit of the options.
+        given: ModelUnit,
     },
     /// Rays pass through holes of the mesh, and are closed by the caps alone.
     UnclosedRays {
@@ -118,6 +148,28 @@ impl std::fmt::Display for Warning {
                 "the mesh is not closed: {} without a partner, {} closed by flat caps; look at the masks",
                 counted(*open_edges, "edge"),
                 counted(*holes, "hole"),
+            ),
+            Self::SkippedObjects { objects } => write!(
+                f,
+                "{} of the file left out: supports, surfaces, or not to be printed",
+                counted(*objects, "object")
+            ),
+            Self::OddSize { size_mm, readings } => {
+                write!(
+                    f,
+                    "the file states no unit, and in millimeters the model is {size_mm} mm long; "
+                )?;
+                for reading in readings {
+                    let UnitReading { unit, size_mm } = reading;
+                    write!(f, "in {} it would be {size_mm} mm; ", unit.plural())?;
+                }
+                f.write_str("give its unit if it is another")
+            }
+            Self::UnitStated { stated, given } => write!(
+                f,
+                "the file is in {}, as it states, and not in {}",
+                stated.plural(),
+                given.plural()
             ),
             Self::UnclosedRays { unclosed, rays } => write!(
                 f,

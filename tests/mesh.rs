@@ -185,8 +185,8 @@ fn a_mesh_on_the_plate_has_the_height_asked_for() {
     for height_mm in [None, Some(60.0), Some(0.1), Some(123.4)] {
         let bounds = model
             .on_plate(&Pose {
-                rotation: None,
                 height_mm,
+                ..Pose::default()
             })
             .unwrap()
             .bounds();

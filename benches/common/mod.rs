@@ -42,7 +42,9 @@ pub fn named() -> impl Iterator<Item = (String, Mesh)> {
     let paths = std::env::args().skip(1).filter(|it| !it.starts_with('-'));
     paths.map(|path| {
         let name = std::path::Path::new(&path).file_stem().unwrap_or_default();
-        let triangles = read::read(&std::fs::read(&path).expect("a file")).expect("a model");
+        let triangles = read::read(&std::fs::read(&path).expect("a file"))
+            .expect("a model")
+            .triangles;
         let mesh = on_plate(&triangles, &Pose::of_height(60.0));
         (name.to_string_lossy().into_owned(), mesh)
     })

@@ -84,7 +84,8 @@ fn layers(model: &Model) -> (Vec<Layer>, f64) {
     let (print_file, _) = slicer
         .write_archive(Vec::new(), &mut quiet)
         .expect("a file");
-    let in_file = Mesh::from_triangles(&read::read(&model.bytes).expect("an STL")).expect("a mesh");
+    let in_file =
+        Mesh::from_triangles(&read::read(&model.bytes).expect("an STL").triangles).expect("a mesh");
     let simulation = simulate(&in_file, &print_file, &Knowledge::default(), &mut silent);
     let simulation = simulation.expect("a simulation");
 

@@ -63,7 +63,7 @@ fn models() -> Vec<Model> {
         .filter(|argument| !argument.starts_with('-'))
         .map(|path| {
             let bytes = std::fs::read(&path).expect("a model to read");
-            let facets = read::read(&bytes).expect("an STL").len();
+            let facets = read::read(&bytes).expect("an STL").triangles.len();
             let name = Path::new(&path).file_stem().unwrap_or_default();
             Model {
                 name: name.to_string_lossy().into_owned(),
@@ -97,7 +97,7 @@ fn options(model: &Model) -> Options {
 
 /// The model scaled and on the plate.
 fn mesh_of(model: &Model) -> Mesh {
-    Mesh::from_triangles(&read::read(&model.bytes).expect("an STL"))
+    Mesh::from_triangles(&read::read(&model.bytes).expect("an STL").triangles)
         .and_then(|mesh| mesh.on_plate(&Pose::of_height(model.height_mm)))
         .expect("a mesh")
 }

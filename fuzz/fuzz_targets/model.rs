@@ -7,7 +7,7 @@ use cusp_slicer::model::read::read;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
-    if let Ok(triangles) = read(bytes) {
-        let _ = Mesh::from_triangles(&triangles);
+    if let Ok(contents) = read(bytes) {
+        let _ = Mesh::from_triangles(&contents.triangles);
     }
 });

@@ -17,7 +17,7 @@ impl Slicer {
         options: &Options,
         progress: &mut StageProgress<'_>,
     ) -> Result<Comparison, Error> {
-        let job = options.resolve()?;
+        let job = self.job(options)?;
         let mut timings = Timings::default();
         let measured = self.measure(&job, &mut timings, progress).await?;
         report(progress, Stage::Plan, 0.0)?;

@@ -22,7 +22,7 @@ impl Slicer {
         points: usize,
         progress: &mut StageProgress<'_>,
     ) -> Result<Vec<FrontPoint>, Error> {
-        let mut job = options.resolve()?;
+        let mut job = self.job(options)?;
         let mut timings = Timings::default();
         // What is measured for volumes stays when the metric of the options is measured.
         let metric = std::mem::replace(&mut job.layering.metric, Metric::Volume);

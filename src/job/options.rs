@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::format::Format;
+use crate::model::ModelUnit;
 use crate::plan::HeightRange;
 use crate::printer::PrinterChoice;
 use crate::profile::{Metric, Source};
@@ -116,6 +117,10 @@ pub struct Options {
     pub rotation: Option<[f64; 4]>,
     /// Height to which the model is scaled uniformly; not scaled if absent.
     pub height_mm: Option<f64>,
+    /// The unit of the coordinates in a file that states none, as STL and OBJ; millimetres if absent. A file that states its
+    /// unit ignores it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unit: Option<ModelUnit>,
     /// Name of a known printer, see [`crate::printer::PRINTERS`], or the description of another. It provides pixels, pitch,
     /// mirroring, format and step where these are absent.
     pub printer: Option<PrinterChoice>,
@@ -192,6 +197,7 @@ impl Default for Options {
         Self {
             rotation: None,
             height_mm: None,
+            unit: None,
             printer: None,
             pixels: None,
             pitch_mm: None,

@@ -123,7 +123,7 @@ impl Slicer {
     /// # Errors
     /// [`Error::Mesh`].
     pub fn directions(&mut self, options: &Options, count: usize) -> Result<Vec<[f64; 3]>, Error> {
-        Ok(self.surface(&options.resolve()?)?.directions(count))
+        Ok(self.surface(&self.job(options)?)?.directions(count))
     }
 
     fn directions_of(
@@ -186,7 +186,7 @@ impl Slicer {
     ) -> Result<Search, Error> {
         let directions = self.directions_of(options, search)?;
         // Options that are invalid in every direction made every shard fail. Report that, rather than missing parts.
-        self.check_for_all_directions(&options.resolve()?)?;
+        self.check_for_all_directions(&self.job(options)?)?;
         let none = Shard {
             number: 0,
             count: 0,
@@ -212,9 +212,16 @@ impl Slicer {
     }
 
     fn surface(&mut self, job: &Job) -> Result<&Surface, Error> {
-        // The pose matters only if it has a height to scale to.
+        // The rotation matters only if there is a height to scale to.
         let pose = job.sampling.pose;
-        let scaled = pose.height_mm.map(|_| pose);
+        let scaled = match (pose.height_mm, pose.unit) {
+            (Some(_), _) => Some(pose),
+            (None, None) => None,
+            (None, unit) => Some(Pose {
+                unit,
+                ..Pose::default()
+            }),
+        };
         let surface = match self.surface.take().filter(|kept| kept.0 == scaled) {
             Some(kept) => kept,
             None => (scaled, Surface::new(&self.model, self.scale(scaled)?)),
@@ -222,15 +229,19 @@ impl Slicer {
         Ok(&self.surface.insert(surface).1)
     }
 
-    /// The factor that scales the model to the height of a pose; 1 without one.
+    /// The factor that scales the model to the height of a pose, or by its unit; 1 without either.
     fn scale(&self, scaled: Option<Pose>) -> Result<f64, Error> {
-        let Some((pose, height_mm)) = scaled.and_then(|pose| Some((pose, pose.height_mm?))) else {
+        let Some(pose) = scaled else {
             return Ok(1.0);
+        };
+        let Some(height_mm) = pose.height_mm else {
+            return Ok(pose.unit_mm());
         };
         // This call returns the error of an invalid height.
         self.model.on_plate(&pose)?;
         let unscaled = Pose {
             height_mm: None,
+            unit: None,
             ..pose
         };
         let size = self.model.on_plate(&unscaled)?.bounds().size();
@@ -250,7 +261,7 @@ impl Slicer {
         options: &Options,
         progress: &mut StageProgress<'_>,
     ) -> Result<Evaluator<'a>, Error> {
-        let job = options.resolve()?;
+        let job = self.job(options)?;
         self.check_for_all_directions(&job)?;
         self.surface(&job)?;
         let weights = self.layering_weights(&job.layering, progress)?;
@@ -323,7 +334,7 @@ impl Evaluator<'_> {
         let extra = || {
             let pose = Pose {
                 rotation: Some(placement.rotation),
-                height_mm: Some(height_mm),
+                ..Pose::of_height(height_mm)
             };
             let mesh = self.model.on_plate(&pose)?;
             let mut extra = Extra::of(&mesh, layering.metric, bins);

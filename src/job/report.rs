@@ -12,13 +12,13 @@ use super::{Options, PlateReport};
 use crate::format::Format;
 use crate::ldi::Solid;
 use crate::mask::black_layers;
-use crate::model::{Mesh, ModelFile, weights};
+use crate::model::{Mesh, ModelFile, ModelUnit, weights};
 use crate::orientation;
 use crate::plan::tradeoff::TradeoffPoint;
-use crate::printer::{Printer, Refusal, VariableLayers, are_equal, check_thicknesses};
+use crate::printer::{PRINTERS, Printer, Refusal, VariableLayers, are_equal, check_thicknesses};
 use crate::profile::{Metric, Source};
 use crate::resin::Resin;
-use crate::warning::Warning;
+use crate::warning::{UnitReading, Warning};
 
 /// Smallest and largest coordinates.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -34,8 +34,10 @@ pub struct BoundsReport {
 /// A mesh in the frame of its file.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
-#[cfg_attr(target_arch = "wasm32", derive(Tsify))]
+#[cfg_attr(target_arch = "wasm32", derive(Tsify), tsify(missing_as_null))]
 pub struct MeshInfo {
+    /// The unit that the file states, from which lengths were converted; without one they are the file's own numbers.
+    pub unit: Option<ModelUnit>,
     /// Number of facets with an area.
     pub facets: usize,
     /// Number of facets of the file without an area.
@@ -65,6 +67,7 @@ impl MeshInfo {
     pub fn of(mesh: &Mesh) -> Self {
         let bounds = mesh.bounds();
         Self {
+            unit: None,
             facets: mesh.surface_facets,
             degenerate_facets: mesh.degenerate_facets,
             vertices: mesh.vertices.len(),
@@ -101,6 +104,37 @@ pub fn mesh_warnings(mesh: &Mesh) -> Vec<Warning> {
         });
     }
     warnings
+}
+
+/// Units that a file may be in that states none, the likeliest first.
+const LIKELY_UNITS: [ModelUnit; 4] = [
+    ModelUnit::Inch,
+    ModelUnit::Centimeter,
+    ModelUnit::Meter,
+    ModelUnit::Micron,
+];
+
+/// The warning about a model that is under a millimetre, or wider than the widest plate that is known, if its coordinates are in
+/// millimetres.
+pub(super) fn odd_size(mesh: &Mesh) -> Option<Warning> {
+    let side = mesh.bounds().size().max_element();
+    let plates = PRINTERS.iter().flat_map(|printer| printer.volume_mm);
+    let usual_mm = 1.0..=plates.fold(1.0, f64::max);
+    if usual_mm.contains(&side) {
+        return None;
+    }
+    let rounded = |mm: f64| (mm * 1e3).round() / 1e3;
+    let readings = LIKELY_UNITS.map(|unit| UnitReading {
+        unit,
+        size_mm: rounded(side * unit.mm()),
+    });
+    let readings = readings.into_iter();
+    Some(Warning::OddSize {
+        size_mm: rounded(side),
+        readings: readings
+            .filter(|it| usual_mm.contains(&it.size_mm))
+            .collect(),
+    })
 }
 
 /// The schema version of reports. It increases when a name or a meaning changes, not when something is added.
@@ -405,11 +439,14 @@ impl Report {
 }
 
 /// What a plan comes from, besides its stages.
-#[derive(Clone, Copy)]
 pub(super) struct Origin<'a> {
     pub file: &'a ModelFile,
     pub options: &'a Options,
     pub painted: Option<&'a [f32]>,
+    /// Whether the file states its unit, so that the options' does not count.
+    pub states_unit: bool,
+    /// What to know about the file.
+    pub warnings: Vec<Warning>,
 }
 
 /// The report of a plan that is exported as `output`.
@@ -430,8 +467,9 @@ pub(super) fn report_of(
         file,
         options,
         painted,
+        states_unit,
+        mut warnings,
     } = origin;
-    let mut warnings: Vec<Warning> = Vec::new();
     let of_models = models.iter().flat_map(|model| &model.sampled().warnings);
     for warning in of_models.chain(&findings.warnings) {
         if !warnings.contains(warning) {
@@ -454,7 +492,10 @@ pub(super) fn report_of(
     Report {
         schema: SCHEMA,
         model: file.clone(),
-        options: options.without_backend(),
+        options: Options {
+            unit: options.unit.filter(|_| !states_unit),
+            ..options.without_backend()
+        },
         weights_crc32: painted.map(weights::crc_of),
         layers: plan.layers(),
         height_mm: models

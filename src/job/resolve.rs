@@ -85,6 +85,7 @@ impl Options {
             pose: Pose {
                 rotation: self.rotation,
                 height_mm: self.height_mm,
+                unit: self.unit,
             },
             raster,
             greatest_height_mm: printer.map(|printer| printer.volume_mm[2]),

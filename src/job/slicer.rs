@@ -10,7 +10,7 @@ use super::parts::{Job, Layering, Output, Sampling};
 use super::planned::{Planned, PlannedModel};
 use super::planning::{Extra, Planning, shapes_of};
 use super::print::write_print;
-use super::report::{Origin, report_of};
+use super::report::{Origin, odd_size, report_of};
 use super::sampled::{Sampled, Sampler};
 use super::stage::{Stage, StageProgress, ms_since, report};
 use super::{Error, MeshInfo, Options, Preview, Report, Timings, Tradeoff};
@@ -19,17 +19,21 @@ use crate::grid::Bins;
 use crate::ldi::LdiError;
 use crate::ldi::gpu::Gpu;
 use crate::mask::{MaskCursor, Masks, Side};
-use crate::model::{Mesh, ModelFile, Pose, read, saliency, weights};
+use crate::model::{Mesh, ModelFile, ModelUnit, Pose, read, saliency, weights};
 use crate::orientation::Surface;
 use crate::plan::Plan;
 use crate::profile::facet_bins::FacetBins;
 use crate::profile::{Metric, Profile, Source};
+use crate::warning::Warning;
 
 /// A loaded model with the results of the stages. A change of options repeats only the stages that depend on it.
 #[derive(Debug)]
 pub struct Slicer {
     pub(super) model: Mesh,
     pub(super) file: ModelFile,
+    /// The unit that the file states, and how many of its objects are not printed.
+    pub(super) unit: Option<ModelUnit>,
+    skipped_objects: usize,
     /// Saliency of each facet of the surface, once computed.
     saliency: Option<Vec<f32>>,
     /// The user's weight of each facet of the surface, if set.
@@ -60,13 +64,16 @@ impl Slicer {
     /// [`Error::Read`], [`Error::Mesh`].
     pub fn load(bytes: &[u8]) -> Result<Self, Error> {
         let clock = Instant::now();
-        let model = Mesh::from_triangles(&read::read(bytes)?)?;
+        let contents = read::read(bytes)?;
+        let model = Mesh::from_triangles(&contents.triangles)?;
         Ok(Self {
             model,
             file: ModelFile {
                 bytes: bytes.len(),
                 crc32: rawzip::crc32(bytes),
             },
+            unit: contents.unit,
+            skipped_objects: contents.skipped_objects,
             saliency: None,
             painted: None,
             load_ms: ms_since(clock),
@@ -93,7 +100,34 @@ impl Slicer {
 
     /// Describes the model in the frame of its file.
     pub fn info(&self) -> MeshInfo {
-        MeshInfo::of(&self.model)
+        let mut info = MeshInfo::of(&self.model);
+        info.unit = self.unit;
+        info.warnings
+            .extend(self.file_warnings(&Options::default()));
+        info
+    }
+
+    /// What to know about the file, given these options.
+    pub(super) fn file_warnings(&self, options: &Options) -> Vec<Warning> {
+        let objects = self.skipped_objects;
+        let skipped = (objects > 0).then_some(Warning::SkippedObjects { objects });
+        let is_open = self.unit.or(options.unit).is_none() && options.height_mm.is_none();
+        let odd = is_open.then(|| odd_size(&self.model)).flatten();
+        let stated = self
+            .unit
+            .zip(options.unit)
+            .filter(|(stated, given)| stated != given);
+        let ignored = stated.map(|(stated, given)| Warning::UnitStated { stated, given });
+        skipped.into_iter().chain(odd).chain(ignored).collect()
+    }
+
+    /// Resolves options for this model. A unit that the file states beats theirs.
+    pub(super) fn job(&self, options: &Options) -> Result<Job, Error> {
+        let mut job = options.resolve()?;
+        if self.unit.is_some() {
+            job.sampling.pose.unit = None;
+        }
+        Ok(job)
     }
 
     /// The identity of the model's file.
@@ -112,7 +146,8 @@ impl Slicer {
     /// # Errors
     /// [`Error::Mesh`].
     pub fn positions_on_plate(&self, pose: &Pose) -> Result<Vec<f32>, Error> {
-        Ok(positions(&self.model.on_plate(pose)?))
+        let unit = pose.unit.filter(|_| self.unit.is_none());
+        Ok(positions(&self.model.on_plate(&Pose { unit, ..*pose })?))
     }
 
     /// Sets a weight from 0 to 1 for each facet of the surface, or removes all weights. Later plans use them.
@@ -194,7 +229,7 @@ impl Slicer {
     pub fn preview(&self, options: &Options) -> Result<(Preview, Profile), Error> {
         let Job {
             sampling, layering, ..
-        } = &options.resolve()?;
+        } = &self.job(options)?;
         let mesh = self.model.on_plate(&sampling.pose)?;
         let size = mesh.bounds().size();
         let height_mm = sampling.height_mm(size.z);
@@ -230,7 +265,7 @@ impl Slicer {
         progress: &mut StageProgress<'_>,
     ) -> Result<&Report, Error> {
         let last = self.current.take();
-        let job = options.resolve()?;
+        let job = self.job(options)?;
         // Old rays are freed before new ones are sampled.
         let last = last.filter(|last| last.planned.first().of.sampling == job.sampling);
         let mut timings = Timings {
@@ -264,6 +299,8 @@ impl Slicer {
             file: &self.file,
             options,
             painted: self.painted.as_deref(),
+            states_unit: self.unit.is_some(),
+            warnings: self.file_warnings(options),
         };
         let report = report_of(&planned, &job.output, origin, timings);
         let current = Current {
@@ -286,7 +323,7 @@ impl Slicer {
         points: usize,
         progress: &mut StageProgress<'_>,
     ) -> Result<Tradeoff, Error> {
-        let job = options.resolve()?;
+        let job = self.job(options)?;
         let mut timings = Timings::default();
         let measured = self.measure(&job, &mut timings, progress).await?;
         report(progress, Stage::Plan, 0.0)?;

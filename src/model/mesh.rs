@@ -239,7 +239,7 @@ impl Mesh {
         let scale = match pose.height_mm {
             Some(height_mm) if height_mm.is_finite() && height_mm > 0.0 => height_mm / size.z,
             Some(height_mm) => return Err(MeshError::BadHeight { height_mm }),
-            None => 1.0,
+            None => pose.unit_mm(),
         };
         let middle = (bounds.min + bounds.max) * 0.5;
         let foot = DVec3::new(middle.x, middle.y, bounds.min.z);

@@ -10,6 +10,7 @@ mod mesh;
 mod pose;
 pub mod read;
 pub mod saliency;
+mod unit;
 pub mod weights;
 
 pub(crate) use bodies::bodies;
@@ -19,3 +20,4 @@ pub use file::ModelFile;
 pub use mesh::{Bounds, Mesh, MeshError};
 pub use pose::Pose;
 pub(crate) use pose::rotation_matrix;
+pub use unit::ModelUnit;

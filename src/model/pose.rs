@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DQuat, DVec3};
 
-use super::MeshError;
+use super::{MeshError, ModelUnit};
 
 /// How a model stands on the plate.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -11,14 +11,16 @@ pub struct Pose {
     pub rotation: Option<[f64; 4]>,
     /// The height in millimetres to which the model is then scaled uniformly.
     pub height_mm: Option<f64>,
+    /// The unit of the coordinates in the file; millimetres if absent. It does not matter if there is a height.
+    pub unit: Option<ModelUnit>,
 }
 
 impl Pose {
     /// The pose in the file, scaled uniformly to a height.
     pub fn of_height(height_mm: f64) -> Self {
         Self {
-            rotation: None,
             height_mm: Some(height_mm),
+            ..Self::default()
         }
     }
 
@@ -46,6 +48,11 @@ impl Pose {
             ]),
             ..*self
         }
+    }
+
+    /// The factor from the coordinates in the file to millimetres, if there is no height.
+    pub(crate) fn unit_mm(&self) -> f64 {
+        self.unit.map_or(1.0, ModelUnit::mm)
     }
 
     /// The direction that points up from the plate, as a unit vector in the coordinates of the file.

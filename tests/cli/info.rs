@@ -24,6 +24,22 @@ fn info_describes_the_model() {
 }
 
 #[test]
+fn a_model_without_a_unit_and_of_an_odd_size_is_asked_about() {
+    let folder = TempDir::new().unwrap();
+    let cube = "v 0 0 0\nv 0.5 0 0\nv 0.5 0.5 0\nv 0 0.5 0\nv 0 0 0.5\nv 0.5 0 0.5\nv 0.5 0.5 0.5\nv 0 0.5 0.5\n\
+        f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+    let model = model(&folder, "cube.obj", cube.as_bytes());
+    let text = String::from_utf8(cusp(&["info", &model]).stdout).unwrap();
+    assert!(text.contains("in inches it would be 12.7 mm"), "{text}");
+    for unit in ["inch", "in"] {
+        let plan = json(&cusp(&["plan", &model, "--unit", unit, "--json"]));
+        assert_near(plan["height_mm"].as_f64().unwrap(), 12.7, 1e-6);
+        assert_eq!(plan["options"]["unit"], "inch");
+        assert_eq!(plan["warnings"], serde_json::json!([]));
+    }
+}
+
+#[test]
 fn printers_say_which_files_they_read() {
     let text = String::from_utf8(cusp(&["printers"]).stdout).unwrap();
     let line = |name: &str| text.lines().find(|line| line.starts_with(name)).unwrap();

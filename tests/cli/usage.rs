@@ -83,7 +83,7 @@ fn bad_input_is_one_clear_sentence_and_exit_code_1() {
     let flat = binary_stl(&solids::cube(1.0)[2..4]);
     for (bytes, words) in [
         (&b""[..], "empty"),
-        (b"a poem about a cube", "no STL"),
+        (b"a poem about a cube", "no model that Cusp reads"),
         (&good[..200], "ends at byte 200"),
         (&nan, "byte 96"),
         (
@@ -123,9 +123,9 @@ fn bad_input_is_one_clear_sentence_and_exit_code_1() {
 #[test]
 fn a_file_of_another_kind_is_named() {
     let folder = TempDir::new().unwrap();
-    let head = b"PK\x03\x04\x14\0\x06\0\x08\0[Content_Types].xml";
+    let head = b"ISO-10303-21;\nHEADER;\n";
     let model = model(&folder, "part.stl", head);
-    let said = "this is a 3MF file, no STL; export the model as STL";
+    let said = "this is a STEP file, which Cusp does not read; export the model as STL, 3MF or OBJ";
     for command in ["info", "plan", "orient"] {
         assert_fails(&cusp(&[command, &model]), 1, said);
     }

@@ -161,7 +161,7 @@ fn roughness_is_that_of_every_facet_in_its_layers() {
         let (preview, _) = slicer.preview(&there).unwrap();
         let pose = Pose {
             rotation,
-            height_mm: None,
+            ..Pose::default()
         };
         let corners = slicer.positions_on_plate(&pose).unwrap();
         let naive = naive_roughness(&corners, &preview.z_mm);

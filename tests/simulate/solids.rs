@@ -154,6 +154,7 @@ fn the_pose_is_the_manifests_or_the_callers() {
     let pose = Pose {
         rotation: Some([0.0, 0.6, 0.0, 0.8]),
         height_mm: Some(5.0),
+        unit: None,
     };
     let options = cusp_slicer::Options {
         rotation: pose.rotation,

@@ -111,7 +111,7 @@ test("files that will not do are refused in words, and the page goes on", async 
   const page = await start();
   await drop(page, { name: "notes.txt", bytes: new TextEncoder().encode("hello") });
   await state(page, "error");
-  expect(await page.getByRole("alert").innerText()).toContain("notes.txt is not an STL file");
+  expect(await page.getByRole("alert").innerText()).toContain("notes.txt is not a model that Cusp reads");
 
   await drop(page, { name: "prose.stl", bytes: new TextEncoder().encode("once upon a time there was no solid at all") });
   await expect.poll(() => page.getByRole("alert").innerText()).toContain("prose.stl");

@@ -98,7 +98,7 @@ test("what is neither a print file nor a model gets the slicer's advice", async 
   const page = await start();
   await drop(page, { name: "model.zip", bytes: zipSync({ "model.stl": ballFile.bytes }) });
   await state(page, "error");
-  expect(await words(page)).toContain("unpack it, and open the STL inside");
+  expect(await words(page)).toContain("unpack it, and open the model inside");
   await page.locator("cusp-print").waitFor({ state: "detached" });
   // A model by any other name is a model.
   await drop(page, { name: "ball", bytes: ballFile.bytes });

@@ -1,4 +1,4 @@
-//! Python: the cluster example and its packages.
+//! Python: the cluster example, the peers of the tests, and their packages.
 
 use std::{
     fs,
@@ -13,7 +13,7 @@ use crate::{
     project::Project,
 };
 
-/// The oldest Python that the example and its packages support.
+/// The oldest Python that these packages support.
 const OLDEST_PYTHON: (u32, u32) = (3, 11);
 
 /// The example's folder.
@@ -21,18 +21,25 @@ pub fn example(project: &Project) -> PathBuf {
     project.root.join("examples/cluster")
 }
 
+/// The folder of the peers that are in Python.
+pub fn peers(project: &Project) -> PathBuf {
+    project.root.join("peers/python")
+}
+
 /// The Python of a virtual environment with exactly the packages that the
-/// example's list names; recreated when the list changes.
+/// list of a folder names; recreated when the list changes.
 ///
 /// # Errors
 ///
 /// Fails when Python or its venv module is missing or too old, or the packages
 /// cannot be installed.
-pub fn ensure_environment(project: &Project) -> Result<PathBuf> {
-    let list = example(project).join("requirements.txt");
+pub fn ensure_environment(project: &Project, of: &Path) -> Result<PathBuf> {
+    let list = of.join("requirements.txt");
     let wanted =
         fs::read_to_string(&list).with_context(|| format!("cannot read {}", list.display()))?;
-    let folder = project.target.join("cluster");
+    let name = of.strip_prefix(&project.root).unwrap_or(of);
+    let name = name.to_string_lossy().replace(['/', '\\'], "-");
+    let folder = project.target.join("python").join(name);
     // Written last, so that an interrupted environment is recreated.
     let stamp = folder.join("installed.txt");
     let python = folder.join(if cfg!(windows) {
@@ -58,7 +65,7 @@ pub fn ensure_environment(project: &Project) -> Result<PathBuf> {
             .args(["install", "--quiet", "--no-deps", "--requirement"])
             .arg(&list),
     )
-    .context("cannot install the packages of examples/cluster")?;
+    .with_context(|| format!("cannot install the packages of {}", list.display()))?;
     fs::write(&stamp, wanted).with_context(|| format!("cannot write {}", stamp.display()))?;
     Ok(python)
 }

@@ -97,10 +97,14 @@ impl Step {
         match self {
             Self::Native => {
                 ensure_vulkan();
-                cargo_test(
-                    process::cargo(project).args(["test", "--workspace", "--no-fail-fast"]),
-                    scratch,
-                )
+                let mut cargo = process::cargo(project);
+                cargo.args(["test", "--workspace", "--no-fail-fast"]);
+                // Without it, the tests that need it are reported as ignored.
+                match python::ensure_environment(project, &python::peers(project)) {
+                    Ok(python) => drop(cargo.env("CUSP_PEERS_PYTHON", python)),
+                    Err(error) => eprintln!("no peers in Python: {error:#}"),
+                }
+                cargo_test(&mut cargo, scratch)
             }
             Self::Peers => cargo_test(&mut peers(project), scratch),
             Self::Gpu => {
@@ -189,7 +193,7 @@ fn gpu_on_swiftshader(project: &Project, scratch: &Path) -> Result<(Verdict, Tal
 
 /// The examples that distribute searches and batches among worker processes.
 fn cluster(project: &Project) -> Result<(Verdict, Tally)> {
-    let python = match python::ensure_environment(project) {
+    let python = match python::ensure_environment(project, &python::example(project)) {
         Ok(python) => python,
         Err(error) => return Ok((Verdict::Skipped(format!("{error:#}")), Tally::default())),
     };

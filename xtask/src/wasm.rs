@@ -31,7 +31,7 @@ const MODULES: [Module; 2] = [
         package: "cusp-slicer",
         folder: ".",
         files: "pkg/cusp_slicer",
-        budget: 464_000,
+        budget: 520_000,
     },
     Module {
         package: "cusp-reader",

@@ -6,7 +6,7 @@ use super::about::with_thicknesses;
 use super::bytes::clean;
 use super::container::Archive;
 use super::{About, Coding, Contents, Format, Layer, Places, PrintFileError, positive};
-use crate::model::Pose;
+use crate::model::{ModelUnit, Pose};
 
 const FILE: &str = "manifest.json";
 
@@ -86,8 +86,13 @@ fn pose(options: &Value) -> Option<Pose> {
         Value::Null => None,
         height => Some(height.as_f64()?),
     };
+    let unit = match &options["unit"] {
+        Value::Null => None,
+        unit => Some(ModelUnit::named(unit.as_str()?.as_bytes())?),
+    };
     Some(Pose {
         rotation,
         height_mm,
+        unit,
     })
 }

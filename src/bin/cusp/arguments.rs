@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use cusp_slicer::format::Format;
 use cusp_slicer::job::{BIN_MM, Backend, GpuMethod, Minimize, Options, Planner, Snap};
+use cusp_slicer::model::ModelUnit;
 use cusp_slicer::plan::HeightRange;
 use cusp_slicer::printer::PrinterChoice;
 use cusp_slicer::profile::{Metric, Source};
@@ -22,7 +23,7 @@ use crate::values::{
 /// Models, and how to slice them.
 #[derive(Args)]
 pub struct Slicing {
-    /// STL files, binary or ASCII; - is standard input
+    /// Models: 3MF, OBJ or STL; - is standard input
     #[arg(required = true, value_name = "MODEL")]
     pub models: Vec<PathBuf>,
     /// Print one JSON object; for a batch one per model, each on its own line
@@ -35,7 +36,7 @@ pub struct Slicing {
 /// A model, and how it would be sliced.
 #[derive(Args)]
 pub struct Studying {
-    /// STL file, binary or ASCII; - is standard input
+    /// Model: 3MF, OBJ or STL; - is standard input
     pub model: PathBuf,
     /// Print one JSON object
     #[arg(long)]
@@ -129,6 +130,15 @@ pub struct Choices {
     /// Scale the model uniformly to this height
     #[arg(long, value_name = "MM", value_parser = length, help_heading = "Model")]
     height: Option<f64>,
+    /// Unit of the coordinates in a file that states none: micron, millimeter, centimeter, inch, foot or meter
+    #[arg(
+        long,
+        value_enum,
+        hide_possible_values = true,
+        value_name = "UNIT",
+        help_heading = "Model"
+    )]
+    unit: Option<ModelUnit>,
     #[command(flatten)]
     pub target: Target,
     /// Weight facets by saliency: how much they stand out
@@ -269,6 +279,7 @@ impl Choices {
         self.put_thicknesses(options);
         put(&mut options.rotation, self.rotation);
         put(&mut options.height_mm, self.height);
+        put(&mut options.unit, self.unit);
         put(&mut options.first_layer_mm, self.first_layer);
         put(&mut options.bin_mm, self.bin);
         put(&mut options.step_mm, self.step);

@@ -87,7 +87,7 @@ enum Command {
     Verify {
         /// Plan from `cusp plan --json` or from the page, or the manifest of a zip of masks
         plan: PathBuf,
-        /// Model that the plan was made from: STL file, binary or ASCII
+        /// Model that the plan was made from: 3MF, OBJ or STL
         model: PathBuf,
         /// Recompute this print file as well, and compare every byte
         #[arg(long, value_name = "FILE")]
@@ -110,7 +110,7 @@ enum Command {
     Convert(Converting),
     /// Write the saliency of each facet, how much it stands out, as a file of weights
     Saliency {
-        /// STL file, binary or ASCII; - is standard input
+        /// Model: 3MF, OBJ or STL; - is standard input
         model: PathBuf,
         /// Where to write the weights; - is standard output
         #[arg(short, long, value_name = "FILE")]
@@ -124,7 +124,7 @@ enum Command {
     },
     /// Describe models: size, facets, volume, defects
     Info {
-        /// STL files, binary or ASCII; - is standard input
+        /// Models: 3MF, OBJ or STL; - is standard input
         #[arg(required = true, value_name = "MODEL")]
         models: Vec<PathBuf>,
         /// Print one JSON object; for several models one per model, each on its own line

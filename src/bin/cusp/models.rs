@@ -41,6 +41,9 @@ fn describe_mesh(info: &MeshInfo) -> String {
         info.volume_mm3 / 1e3,
         if info.closed { "yes" } else { "no" },
     );
+    if let Some(unit) = info.unit {
+        let _ = write!(text, "\nunit     {}, as the file states", unit.name());
+    }
     for warning in &info.warnings {
         let _ = write!(text, "\nwarning  {warning}");
     }

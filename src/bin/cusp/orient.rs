@@ -186,6 +186,7 @@ fn apply(
     let pose = Pose {
         rotation: Some(candidate.rotation),
         height_mm: options.height_mm.map(|_| candidate.size_mm[2]),
+        unit: options.unit,
     };
     let corners = slicer.positions_on_plate(&pose);
     let corners = corners.map_err(|error| output.failure(&error))?;

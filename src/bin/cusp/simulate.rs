@@ -4,7 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use clap::Args;
-use cusp_slicer::model::{Mesh, Pose, read};
+use cusp_slicer::model::{Mesh, ModelUnit, Pose, read};
 use cusp_slicer::simulation::{
     Deviation, Knowledge, Placement, Simulation, SimulationError, simulate as measure,
 };
@@ -16,7 +16,7 @@ use crate::values::{length, rotation};
 /// A model and a print file of it.
 #[derive(Args)]
 pub struct Simulating {
-    /// STL file, binary or ASCII
+    /// Model: 3MF, OBJ or STL
     model: PathBuf,
     /// Print file in any format that `cusp inspect` reads, by whichever program
     #[arg(value_name = "PRINTFILE")]
@@ -30,16 +30,21 @@ pub struct Simulating {
     /// Height to which the model was scaled, where the print file does not say it
     #[arg(long, value_name = "MM", value_parser = length)]
     height: Option<f64>,
+    /// Unit of a model that states none, where the print file does not say it
+    #[arg(long, value_enum, hide_possible_values = true, value_name = "UNIT")]
+    unit: Option<ModelUnit>,
     /// Whether the masks are mirrored left to right [default: what the print file says]
     #[arg(long, value_name = "BOOL")]
     mirror: Option<bool>,
 }
 
 impl Simulating {
-    fn knowledge(&self) -> Knowledge {
+    /// What is known besides the print file. A unit that the model states is already accounted for.
+    fn knowledge(&self, stated: Option<ModelUnit>) -> Knowledge {
         let pose = Pose {
             rotation: self.rotation,
             height_mm: self.height,
+            unit: self.unit.filter(|_| stated.is_none()),
         };
         Knowledge {
             pose: (pose != Pose::default()).then_some(pose),
@@ -51,20 +56,23 @@ impl Simulating {
 pub fn simulate(simulating: &Simulating) -> Result<(), Failure> {
     let (model, print_file) = (&*simulating.model, &*simulating.print);
     let bytes = fs::read(model).map_err(|error| in_file(model, &error))?;
-    let triangles = read::read(&bytes).map_err(|error| in_file(model, &error))?;
-    let mesh = Mesh::from_triangles(&triangles).map_err(|error| in_file(model, &error))?;
+    let contents = read::read(&bytes).map_err(|error| in_file(model, &error))?;
+    let mesh = Mesh::from_triangles(&contents.triangles).map_err(|error| in_file(model, &error))?;
     let printed = fs::read(print_file).map_err(|error| in_file(print_file, &error))?;
     stop_on_interrupt();
     let bar = Bar::new();
     let mut progress = |fraction| bar.show("simulate", fraction);
-    let simulation =
-        measure(&mesh, &printed, &simulating.knowledge(), &mut progress).map_err(|error| {
-            match error {
-                SimulationError::Cancelled(_) => Failure::interrupted(),
-                SimulationError::Mesh(error) => in_file(model, &error).into(),
-                error => in_file(print_file, &error).into(),
-            }
-        })?;
+    let simulation = measure(
+        &mesh,
+        &printed,
+        &simulating.knowledge(contents.unit),
+        &mut progress,
+    )
+    .map_err(|error| match error {
+        SimulationError::Cancelled(_) => Failure::interrupted(),
+        SimulationError::Mesh(error) => in_file(model, &error).into(),
+        error => in_file(print_file, &error).into(),
+    })?;
     drop(bar);
     if simulating.json {
         return Ok(print_json(&simulation)?);

@@ -10,11 +10,13 @@ use crate::format::Format;
 use crate::grid::GridError;
 use crate::job::OptionsError;
 use crate::ldi::{GpuFault, LdiError};
-use crate::model::MeshError;
 use crate::model::read::ReadError;
 use crate::model::read::kind::FileKind;
+use crate::model::read::obj::ObjError;
 use crate::model::read::stl::{StlError, StlExpected};
+use crate::model::read::threemf::{ThreeMfError, ThreeMfFeature, XmlFault};
 use crate::model::weights::WeightsError;
+use crate::model::{MeshError, ModelUnit};
 use crate::orientation::SearchError;
 use crate::orientation::shard::{MergeError, Shard};
 use crate::plan::PlanError;
@@ -22,7 +24,7 @@ use crate::plan::uniform::UniformLayers;
 use crate::profile::Metric;
 use crate::progress::Cancelled;
 use crate::quantity::{Quantity, QuantityError, Unit};
-use crate::warning::Warning;
+use crate::warning::{UnitReading, Warning};
 
 /// Makes one value of each variant that does not hold another error. A missing variant does not compile.
 macro_rules! one_of_each {
@@ -36,12 +38,14 @@ macro_rules! one_of_each {
 }
 
 fn read_errors() -> Vec<ReadError> {
-    let mut errors = one_of_each!(ReadError except [Stl]:
+    let mut errors = one_of_each!(ReadError except [Stl, ThreeMf, Obj]:
         Empty {},
-        OtherKind { kind: FileKind::ThreeMf },
+        OtherKind { kind: FileKind::Step },
         UnknownKind {},
     );
     errors.extend(stl_errors().into_iter().map(ReadError::from));
+    errors.extend(threemf_errors().into_iter().map(ReadError::from));
+    errors.extend(obj_errors().into_iter().map(ReadError::from));
     errors
 }
 
@@ -54,6 +58,38 @@ fn stl_errors() -> Vec<StlError> {
         Syntax { line: 6, expected: StlExpected::Coordinate, found: "1,5".to_owned() },
         EndOfText { line: 8, expected: StlExpected::Endloop },
         NoFacets {},
+    )
+}
+
+fn threemf_errors() -> Vec<ThreeMfError> {
+    let part = || "3D/3dmodel.model".to_owned();
+    one_of_each!(ThreeMfError except []:
+        NoDirectory {},
+        NoPart { part: part() },
+        DamagedPart { part: part() },
+        Packed { part: part(), method: 14 },
+        TooLarge { part: part(), most_bytes: 67_108_864 },
+        Xml { part: part(), line: 12, fault: XmlFault::CutShort },
+        BadAttribute { part: part(), line: 13, attribute: "v2".to_owned(), found: "1,5".to_owned() },
+        NoVertex { part: part(), line: 14, vertex: 8, vertices: 7 },
+        NoObject { part: part(), line: 15, object: 3 },
+        Nested { part: part(), line: 16, object: 4, most_levels: 64 },
+        TooMany { most_facets: 16_777_216 },
+        Overflow { part: part(), object: 5 },
+        Feature { part: part(), object: 6, feature: ThreeMfFeature::BeamLattice },
+        Encrypted { part: part() },
+        Extension { part: part(), extension: "https://example.org/2026/01".to_owned() },
+        NoFacets { skipped: 2 },
+    )
+}
+
+fn obj_errors() -> Vec<ObjError> {
+    one_of_each!(ObjError except []:
+        BadVertex { line: 7, found: "1,5".to_owned() },
+        BadCorner { line: 8, found: "9//9".to_owned(), vertices: 6 },
+        FewCorners { line: 9, corners: 2 },
+        FreeForm { line: 10, keyword: "surf".to_owned() },
+        NoFaces {},
     )
 }
 
@@ -258,6 +294,15 @@ fn warnings() -> Vec<Warning> {
         DegenerateFacets { facets: 12 },
         InsideOut {},
         OpenMesh { open_edges: 12, holes: 3 },
+        SkippedObjects { objects: 2 },
+        OddSize {
+            size_mm: 0.8,
+            readings: vec![
+                UnitReading { unit: ModelUnit::Inch, size_mm: 20.32 },
+                UnitReading { unit: ModelUnit::Centimeter, size_mm: 8.0 },
+            ],
+        },
+        UnitStated { stated: ModelUnit::Centimeter, given: ModelUnit::Inch },
         UnclosedRays { unclosed: 12, rays: 345 },
         ToleranceExceeded { planner: "greedy".to_owned(), metric, tolerance: 0.05, max_error: 0.0712 },
         ToleranceExceededOnMesh { metric, tolerance: 0.05, max_error: 0.0712 },

@@ -186,6 +186,11 @@ impl Plate {
                 file: &first.file,
                 options: shared,
                 painted: first.painted.as_deref(),
+                states_unit: is_alone && first.unit.is_some(),
+                warnings: standing
+                    .iter()
+                    .flat_map(|(shape, _)| self.models[shape.model].file_warnings(shared))
+                    .collect(),
             };
             let mut report = report_of(&planned, &job.output, origin, timings.clone());
             if !is_alone {

@@ -39,7 +39,7 @@ impl Plate {
         let failed = RefCell::new(&mut failed);
         let mut outlines: Vec<_> = (0..self.models.len())
             .map(|model| {
-                let pose = pose_of(options, job, model);
+                let pose = self.pose_of(options, job, model);
                 let failed = &failed;
                 move |turns| {
                     let outline = self.outline(model, &pose, turns, screen);
@@ -77,7 +77,7 @@ impl Plate {
         job: &Job,
         model: usize,
     ) -> Result<[f64; 3], Error> {
-        let pose = pose_of(options, job, model);
+        let pose = self.pose_of(options, job, model);
         let size = self.models[model].model.on_plate(&pose)?.bounds().size();
         Ok([size.x, size.y, pose.height_mm.unwrap_or(size.z)])
     }
@@ -91,6 +91,17 @@ impl Plate {
     ) -> Result<Outline, Error> {
         let mesh = self.models[model].model.on_plate(&pose.turned(turns))?;
         Ok(Outline::of(&mesh, screen))
+    }
+
+    /// The pose of a model before turns.
+    pub(super) fn pose_of(&self, options: &PlateOptions, job: &Job, model: usize) -> Pose {
+        let own = options.of_model(model);
+        let shared = &job.sampling.pose;
+        Pose {
+            rotation: own.rotation.or(shared.rotation),
+            height_mm: own.height_mm.or(shared.height_mm),
+            unit: shared.unit.filter(|_| self.models[model].unit.is_none()),
+        }
     }
 
     /// What is wrong with placements: copies that extend beyond their plate, and copies that overlap.
@@ -147,7 +158,7 @@ impl Plate {
         kinds.sort_unstable();
         kinds.dedup();
         let outlines = kinds.iter().map(|&(model, turns)| {
-            self.outline(model, &pose_of(options, job, model), turns, &pixels)
+            self.outline(model, &self.pose_of(options, job, model), turns, &pixels)
         });
         let outlines = outlines.collect::<Result<Vec<_>, _>>()?;
         let mut found = Vec::new();
@@ -164,16 +175,6 @@ impl Plate {
             found.extend(problems(&pixels, on_plate[0].plate, &standing));
         }
         Ok(found)
-    }
-}
-
-/// The pose of a model before turns.
-pub(super) fn pose_of(options: &PlateOptions, job: &Job, model: usize) -> Pose {
-    let own = options.of_model(model);
-    let shared = &job.sampling.pose;
-    Pose {
-        rotation: own.rotation.or(shared.rotation),
-        height_mm: own.height_mm.or(shared.height_mm),
     }
 }
 

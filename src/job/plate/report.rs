@@ -6,7 +6,7 @@ use super::super::Report;
 use super::super::parts::Job;
 use super::super::planned::Planned;
 use super::super::planning::{Part, Planning};
-use super::places::{placement, pose_of};
+use super::places::placement;
 use super::shapes::Shape;
 use super::{ModelOptions, Placement, Plate, PlateOptions};
 use crate::Error;
@@ -83,7 +83,7 @@ impl Plate {
             });
             let shapes: Vec<&Shape> = shapes.collect();
             let sampled = &shapes[0].measured.of;
-            let pose = pose_of(options, job, model);
+            let pose = self.pose_of(options, job, model);
             sharers.push(Sharer {
                 height_mm: sampled.height_mm,
                 shadow_mm2: self.outline(model, &pose, 0, screen)?.area_mm2,

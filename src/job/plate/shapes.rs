@@ -8,7 +8,6 @@ use super::super::Timings;
 use super::super::measured::Measured;
 use super::super::parts::{Job, Sampling};
 use super::super::stage::{Stage, StageProgress, ms_since, report};
-use super::places::pose_of;
 use super::{Plate, PlateOptions};
 use crate::Error;
 use crate::arrange::Place;
@@ -41,7 +40,7 @@ impl Plate {
             .into_iter()
             .map(|(model, turns)| {
                 let sampling = Sampling {
-                    pose: pose_of(options, job, model).turned(turns),
+                    pose: self.pose_of(options, job, model).turned(turns),
                     ..job.sampling.clone()
                 };
                 (model, turns, sampling)

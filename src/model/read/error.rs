@@ -3,7 +3,9 @@
 use serde::Serialize;
 
 use super::kind::FileKind;
+use super::obj::ObjError;
 use super::stl::StlError;
+use super::threemf::ThreeMfError;
 
 /// Why a file could not be read as a model.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
@@ -12,22 +14,30 @@ use super::stl::StlError;
 #[non_exhaustive]
 pub enum ReadError {
     /// The file has no bytes.
-    #[error("the file is empty; export the model again as STL")]
+    #[error("the file is empty; export the model again")]
     #[serde(rename = "file-empty")]
     Empty,
     /// A file of another known kind.
-    #[error("this is a {} file, no STL; {}", kind.name(), kind.advice())]
+    #[error("this is a {} file, which Cusp does not read; {}", kind.name(), kind.advice())]
     #[serde(rename = "other-file-kind")]
     OtherKind {
         /// The kind of the file.
         kind: FileKind,
     },
     /// A file of an unknown kind.
-    #[error("this is no STL file; export the model as binary or ASCII STL")]
+    #[error("this is no model that Cusp reads; export it as STL, 3MF or OBJ")]
     #[serde(rename = "unknown-file-kind")]
     UnknownKind,
     /// An STL that is damaged.
     #[error(transparent)]
     #[serde(untagged)]
     Stl(#[from] StlError),
+    /// A 3MF that is damaged, or holds what is not read.
+    #[error(transparent)]
+    #[serde(untagged)]
+    ThreeMf(#[from] ThreeMfError),
+    /// An OBJ that is damaged, or holds what is not read.
+    #[error(transparent)]
+    #[serde(untagged)]
+    Obj(#[from] ObjError),
 }

@@ -1,21 +1,16 @@
-//! Kinds of files that are not STL but are often opened as models. They are recognised by their first bytes, so that errors
+//! Kinds of files that cannot be read but are often opened as models. They are recognised by their first bytes, so that errors
 //! can name them.
 
 use serde::Serialize;
 
-/// A kind of file other than STL.
+/// A kind of file that cannot be read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum FileKind {
-    /// 3MF: a zip with a model inside.
-    #[serde(rename = "3mf")]
-    ThreeMf,
     /// AMF, as XML or in a zip.
     Amf,
-    /// Wavefront OBJ.
-    Obj,
     /// PLY, also called Stanford.
     Ply,
     /// STEP: exact surfaces, for CAD programs.
@@ -34,9 +29,7 @@ impl FileKind {
     /// Its usual name.
     pub fn name(self) -> &'static str {
         match self {
-            Self::ThreeMf => "3MF",
             Self::Amf => "AMF",
-            Self::Obj => "OBJ",
             Self::Ply => "PLY",
             Self::Step => "STEP",
             Self::Gltf => "glTF",
@@ -49,18 +42,18 @@ impl FileKind {
     /// What the user can do with it instead.
     pub(crate) fn advice(self) -> &'static str {
         match self {
-            Self::Zip | Self::Gzip => "unpack it, and open the STL inside",
+            Self::Zip | Self::Gzip => "unpack it, and open the model inside",
             Self::Html => {
                 "download the model itself; the address may need a login, or lead to a page about the model"
             }
-            _ => "export the model as STL",
+            _ => "export the model as STL, 3MF or OBJ",
         }
     }
 
-    /// The kind of a file that begins with these bytes. `None` for STL and for unknown kinds.
+    /// The kind of a file that begins with these bytes. `None` for models and for unknown kinds.
     pub fn of(head: &[u8]) -> Option<Self> {
         if head.starts_with(b"PK\x03\x04") {
-            return Some(Self::of_zip(head));
+            return Self::of_zip(head);
         }
         if head.starts_with(b"\x1f\x8b") {
             return Some(Self::Gzip);
@@ -86,34 +79,19 @@ impl FileKind {
         if starts_with(b"ply\n") || starts_with(b"ply\r") {
             return Some(Self::Ply);
         }
-        is_obj(text).then_some(Self::Obj)
+        None
     }
 
-    /// The kind of a zip, by the file names in it, which zips do not compress.
-    fn of_zip(head: &[u8]) -> Self {
+    /// The kind of a zip, by the file names in it, which zips do not compress. `None` for a 3MF.
+    pub(crate) fn of_zip(head: &[u8]) -> Option<Self> {
         if contains(head, b".amf") {
-            Self::Amf
+            Some(Self::Amf)
         } else if contains(head, b"[Content_Types].xml") || contains(head, b"3D/") {
-            Self::ThreeMf
+            None
         } else {
-            Self::Zip
+            Some(Self::Zip)
         }
     }
-}
-
-/// Whether the first line that is neither empty nor a comment begins with a word of OBJ, and goes on after it.
-fn is_obj(text: &[u8]) -> bool {
-    const WORDS: [&[u8]; 9] = [
-        b"v", b"vn", b"vt", b"f", b"o", b"g", b"s", b"mtllib", b"usemtl",
-    ];
-    let mut lines = text.split(|byte| matches!(byte, b'\n' | b'\r'));
-    let first = lines.find(|line| {
-        let line = line.trim_ascii();
-        !line.is_empty() && !line.starts_with(b"#")
-    });
-    let first = first.unwrap_or_default().trim_ascii();
-    let word = first.split(u8::is_ascii_whitespace).next();
-    word.is_some_and(|word| WORDS.contains(&word) && word.len() < first.len())
 }
 
 fn contains(text: &[u8], part: &[u8]) -> bool {

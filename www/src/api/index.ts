@@ -89,7 +89,7 @@ export interface LoadCall extends Watch {
 }
 
 export interface Slicer {
-  /** Reads an STL, binary or ASCII. */
+  /** Reads a model: 3MF, OBJ or STL. */
   load(source: Source, call?: LoadCall): Promise<Model>;
   /** Plans the layers of the model. A change of options recomputes only what depends on it. */
   plan(options?: Options, call?: Watch): Promise<Plan>;

@@ -13,7 +13,7 @@ export interface Named {
 const NAMELESS = "model.stl";
 
 /** A model's name without its extension. */
-export const stemOf = (model: string): string => model.replace(/\.stl$/i, "").trim() || "model";
+export const stemOf = (model: string): string => model.replace(/\.(stl|3mf|obj)$/i, "").trim() || "model";
 
 /** The source as a named Blob. Fetches a URL; rejects with `fetch-failed`, or with the signal's reason on an abort. */
 export async function resolve(source: Source, signal?: AbortSignal): Promise<Named> {

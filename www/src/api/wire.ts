@@ -19,16 +19,19 @@ export type {
   HeightRange,
   Metrics,
   Minimize,
+  ModelUnit,
   Planner,
   PlannerReport,
   Quantity,
   Resin,
   Snap,
   StlExpected,
+  ThreeMfFeature,
   TradeoffPoint,
   UniformLayers,
   Unit,
   Warning,
+  XmlFault,
 } from "../../pkg/cusp_slicer.js";
 
 /** A printer that is known by name. Its description is complete, except for `machine` and `file_version`, which few have. */
@@ -138,6 +141,7 @@ export const DEFAULTS = {
 export function sameRays(a: Options, b: Options): boolean {
   return (
     a.height_mm === b.height_mm &&
+    a.unit === b.unit &&
     a.rays === b.rays &&
     a.antialias === b.antialias &&
     JSON.stringify(a.printer) === JSON.stringify(b.printer) &&

@@ -72,7 +72,7 @@ const api: SlicerWorker = {
   },
   async open(file, progress) {
     progress("load", 0, 0);
-    // Reject a file that is no STL before reading all of it.
+    // Reject a file that is no model before reading all of it.
     identify(await bytesOf(file.slice(0, head_bytes())), file.size);
     const opened = new Slicer(await bytesOf(file));
     slicer?.free();

@@ -219,9 +219,9 @@ function rotationOf(text: string): Rotation {
   return rotation;
 }
 
-/** A requested height is that of the model in its pose, or in the one that it is being turned to. */
+/** A requested height, or the one that a unit gives, is that of the model in its pose, or in the one that it is being turned to. */
 function scaledOf({ result, turning, shown }: Session): Scaled | null {
-  if (result?.options.height_mm === undefined) return null;
+  if (result === null || (result.options.height_mm === undefined && result.options.unit === undefined)) return null;
   const height_mm = turning === null ? result.report.height_mm : (shown?.z_mm.at(-1) ?? result.report.height_mm);
   return { height_mm, rotation: turning ?? result.options.rotation ?? UPRIGHT };
 }

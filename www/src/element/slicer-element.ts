@@ -32,7 +32,7 @@ export type State = "empty" | "busy" | "error" | "done" | "ready";
 export abstract class SlicerElement extends LitElement {
   static override properties = { ...DECLARATIONS, dragging: { state: true } };
 
-  /** URL of an STL, opened when set. */
+  /** URL of a model (3MF, OBJ or STL), opened when set. */
   declare src: string | null;
   /** @internal */
   declare dragging: boolean;

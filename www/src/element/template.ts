@@ -21,6 +21,7 @@ import { comparison, details, figures } from "./panels/summary.js";
 import { layersPicture } from "./parts/layers-picture.js";
 import { problemBox } from "./parts/problem-box.js";
 import { progressBar } from "./parts/progress.js";
+import { MODEL_FILES } from "./state/choice.js";
 import type { Result } from "./state/result.js";
 
 interface Drawn extends Facts {
@@ -62,7 +63,7 @@ function start({ session, language, panels, picked }: Drawn): TemplateResult {
         </div>`
       : panels.has("open")
         ? html`<label class="drop" part="drop">
-            <input class="visually-hidden" type="file" accept=".stl,model/stl" multiple @change=${picked} />
+            <input class="visually-hidden" type="file" accept=${MODEL_FILES} multiple @change=${picked} />
             ${layersPicture}
             <span class="drop-title">${texts.open.drop}</span>
             <span class="button primary">${texts.open.choose}</span>

@@ -4,6 +4,7 @@ import { render } from "lit";
 import { codeFor, fetchLanguage, languageOf } from "../texts/index.js";
 import { ADDRESS_KEYS, addressOf, settingsOf } from "./address.js";
 import { frame } from "./frame.js";
+import { isModel } from "./is-model.js";
 import { openAnywhere } from "./open-anywhere.js";
 import { workOffline } from "./offline.js";
 import type { CuspWorkbench } from "../workbench/cusp-workbench.js";
@@ -41,11 +42,12 @@ function draw(): void {
   render(frame(language, actions, print, visit), place);
 }
 
-/** Shows a print file, or opens models. Only the reader knows print files, so whatever is no STL by its name goes there first. */
+/** Shows a print file, or opens models. Only the reader knows print files, so whatever is no model by its content goes there first. */
 async function open(files: readonly File[]): Promise<void> {
   const [first] = files;
   if (first === undefined) return;
-  if (first.name.toLowerCase().endsWith(".stl")) return load(files);
+  // A file that cannot be read is the slicer's to report.
+  if (await isModel(first).catch(() => true)) return load(files);
   try {
     const { definePrint } = await import("../print/cusp-print.js");
     definePrint();

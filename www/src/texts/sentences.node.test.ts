@@ -49,12 +49,12 @@ const sentencesOf = (code: LanguageCode): { format: Format; errors: Sentences; w
 /** Details that offers show, or that readers do not need. */
 const UNSAID = ["least_tolerance", "largest_layer_min_mm", "may_be_zero", "planner"];
 /** Words that a catalogue translates. */
-const TRANSLATED = ["kind", "expected", "quantity", "fault", "metric", "unit"];
+const TRANSLATED = ["kind", "expected", "quantity", "fault", "feature", "metric", "unit", "stated", "given"];
 
 /** Whether a sentence contains a number as the language writes it, or a name unchanged. */
 function says(sentence: string, value: unknown, format: Format): boolean {
   if (value === null) return true;
-  if (typeof value === "object") return Object.values(value).every((item) => says(sentence, item, format));
+  if (typeof value === "object") return Object.entries(value).every(([key, item]) => TRANSLATED.includes(key) || says(sentence, item, format));
   if (typeof value !== "number") return sentence.includes(value as string);
   return [format.exact, format.bareHeight, format.tick].some((write) => sentence.includes(write(value)));
 }

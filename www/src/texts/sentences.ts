@@ -14,7 +14,7 @@ export type StlNouns = Readonly<Record<StlExpected, string>>;
 
 /** Names of the kinds of file, the same in every language. */
 export const FILE_KINDS: Readonly<Record<FileKind, string>> = {
-  ...{ "3mf": "3MF", amf: "AMF", obj: "OBJ", ply: "PLY", step: "STEP", gltf: "glTF" },
+  ...{ amf: "AMF", ply: "PLY", step: "STEP", gltf: "glTF" },
   ...{ zip: "zip", gzip: "gzip", html: "HTML" },
 };
 

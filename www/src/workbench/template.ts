@@ -22,6 +22,7 @@ import { comparison, details, figures } from "../element/panels/summary.js";
 import { layersPicture } from "../element/parts/layers-picture.js";
 import { problemBox } from "../element/parts/problem-box.js";
 import { progressBar } from "../element/parts/progress.js";
+import { MODEL_FILES } from "../element/state/choice.js";
 import type { Result } from "../element/state/result.js";
 import { ANSWERS, CHOICES, SHEETS, type AnswerPanel, type ChoicePanel, type Sheet } from "./places.js";
 import { tabs } from "./tabs.js";
@@ -64,7 +65,7 @@ function start({ session, language: { texts }, picked }: Facts, { isWide }: Benc
   return html`<div class="start">
     ${session.busy === null
       ? html`<label class="drop" part="drop">
-          <input class="visually-hidden" type="file" accept=".stl,model/stl" multiple @change=${picked} />
+          <input class="visually-hidden" type="file" accept=${MODEL_FILES} multiple @change=${picked} />
           ${layersPicture}
           <span class="drop-title">${texts.open.drop}</span>
           <span class="button primary">${texts.open.choose}</span>

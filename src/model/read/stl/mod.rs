@@ -8,6 +8,8 @@ mod error;
 
 use glam::Vec3;
 
+use super::text::quoted;
+
 pub use error::{StlError, StlExpected};
 
 /// Bytes before the first facet of a binary STL: an 80 byte header and the facet count.
@@ -230,21 +232,6 @@ fn trim_blanks(bytes: &[u8]) -> &[u8] {
     let is_blank = |byte: &u8| byte.is_ascii_whitespace() && !matches!(byte, b'\n' | b'\r');
     let start = bytes.iter().position(|byte| !is_blank(byte));
     &bytes[start.unwrap_or(bytes.len())..]
-}
-
-/// A word as errors show it: its first 40 characters. Those that do not print are escaped, so that bytes of a file cannot
-/// control a terminal.
-fn quoted(word: &[u8]) -> String {
-    // No character takes more than four bytes.
-    let text = String::from_utf8_lossy(&word[..word.len().min(160)]);
-    let mut quoted = String::new();
-    for character in text.chars().take(40) {
-        match character {
-            '\'' | '"' | '\\' => quoted.push(character),
-            _ => quoted.extend(character.escape_debug()),
-        }
-    }
-    quoted
 }
 
 fn is(word: &[u8], keyword: &str) -> bool {

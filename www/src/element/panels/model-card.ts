@@ -1,8 +1,10 @@
 /** The card of the open model. */
 import { css, html, nothing, type TemplateResult } from "lit";
+import type { Warning } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
 import { offerButtons } from "../parts/problem-box.js";
 import { towersOffer } from "../parts/towers-offer.js";
+import { MODEL_FILES } from "../state/choice.js";
 import { advise } from "../state/problem.js";
 import type { Session } from "../state/session.js";
 
@@ -31,8 +33,11 @@ export interface ModelActions {
 
 /** The warnings of the model and its plan, with what may help. */
 export function warnings(session: Session, language: Language, saveTowers: () => void): readonly TemplateResult[] {
-  const { model, result, fixed } = session;
-  const all = [...(model?.info.warnings ?? []), ...(result?.report.warnings ?? [])];
+  const { model, result, fixed, settings } = session;
+  // The size is not odd once a unit or a height is chosen.
+  const isSized = settings.unit !== "" || settings.height.trim() !== "";
+  const asked = (all: readonly Warning[]): Warning[] => all.filter(({ code }) => code !== "odd-size" || !isSized);
+  const all = asked([...(model?.info.warnings ?? []), ...(result?.report.warnings ?? [])]);
   return advise(all, language, fixed).map(
     ({ text, offers, towers }) => html`<div class="warning">
       <p>${text}</p>
@@ -93,7 +98,7 @@ export function modelCard(
         </div>`}
     <div class="open-other">
       <label class="button small">
-        <input class="visually-hidden" type="file" accept=".stl,model/stl" multiple @change=${picked} />${texts.open.another}
+        <input class="visually-hidden" type="file" accept=${MODEL_FILES} multiple @change=${picked} />${texts.open.another}
       </label>
       <slot name="actions"></slot>
     </div>

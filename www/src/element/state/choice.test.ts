@@ -4,10 +4,10 @@ import { choose } from "./choice.js";
 test.each([
   [[], []],
   // The core inspects the content and reports what it is.
-  [["a.txt", "b.3mf"], ["a.txt"]],
+  [["a.txt", "b.step"], ["a.txt"]],
   [["A.STL"], ["A.STL"]],
   [["model"], ["model"]],
-  [["notes.txt", "b.stl", "c.stl"], ["b.stl", "c.stl"]],
-])("of %j, the STLs are taken", (names, taken) => {
+  [["notes.txt", "b.stl", "c.3MF", "d.obj"], ["b.stl", "c.3MF", "d.obj"]],
+])("of %j, the models are taken", (names, taken) => {
   expect(choose(names.map((name) => ({ name }))).map(({ name }) => name)).toEqual(taken);
 });

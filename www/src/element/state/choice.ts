@@ -5,13 +5,16 @@ export interface Named {
   readonly name: string;
 }
 
-/** By its name alone; a name without any extension is given the benefit of the doubt. */
-const isStl = (name: string): boolean => /\.stl$/i.test(name) || !/\.[a-z0-9]+$/i.test(name);
+/** What a file dialog shows. */
+export const MODEL_FILES = ".stl,.3mf,.obj,model/stl,model/3mf,model/obj";
 
-/** The STLs of several files. If no name looks like one, the first file: the core inspects it and reports what it is. */
+/** By its name alone; a name without any extension is given the benefit of the doubt. */
+const isModel = (name: string): boolean => /\.(stl|3mf|obj)$/i.test(name) || !/\.[a-z0-9]+$/i.test(name);
+
+/** The models of several files. If no name looks like one, the first file: the core inspects it and reports what it is. */
 export function choose<T extends Named>(files: readonly T[]): readonly T[] {
-  const stls = files.filter(({ name }) => isStl(name));
-  return stls.length > 0 ? stls : files.slice(0, 1);
+  const models = files.filter(({ name }) => isModel(name));
+  return models.length > 0 ? models : files.slice(0, 1);
 }
 
 /** The name of a model's weight file: `bunny.stl` gives `bunny.weights`. */

@@ -168,12 +168,12 @@ test("a printer whose description is wrong is blamed, and may be left out; a fil
 });
 
 test.each([
-  ["3mf", "This is a 3MF file, no STL; export the model as STL."],
-  ["gzip", "This is a gzip file, no STL; unpack it, and open the STL inside."],
-  ["html", "This is a HTML file, no STL; download the model itself; the address may need a login, or lead to a page about the model."],
+  ["step", "This is a STEP file, which Cusp does not read; export the model as STL, 3MF or OBJ."],
+  ["gzip", "This is a gzip file, which Cusp does not read; unpack it, and open the model inside."],
+  ["html", "This is a HTML file, which Cusp does not read; download the model itself; the address may need a login, or lead to a page about the model."],
 ] as const)("a file of another kind is named: %s", (kind, text) => {
   const problem = explain(failed("other-file-kind", { kind }), "a", DEFAULT_SETTINGS);
-  expect(problem.title).toBe("a is not an STL file");
+  expect(problem.title).toBe("a is not a model that Cusp reads");
   expect(problem.text).toBe(text);
 });
 
@@ -212,6 +212,20 @@ test("test towers are offered where the printer decides, not the format, and not
   expect(towers(taken("Anycubic Photon M3"))).toEqual([true]);
   expect(towers(taken("Anycubic Photon M3"), ["printer"])).toEqual([false]);
   expect(towers(taken("sl1"))).toEqual([false]);
+});
+
+test("where a size is odd, the units that make it usual are offered", () => {
+  const readings = [
+    { unit: "inch", size_mm: 20.32 },
+    { unit: "centimeter", size_mm: 8 },
+  ] as const;
+  const odd: Warning = { code: "odd-size", detail: { size_mm: 0.8, readings: [...readings] } };
+  const [advice] = advise([odd], languageOf("en"), new Set());
+  expect(advice?.offers).toEqual([
+    { label: "It is in inches", change: { unit: "inch" } },
+    { label: "It is in centimeters", change: { unit: "centimeter" } },
+  ]);
+  expect(advise([odd], languageOf("en"), new Set(["unit"]))[0]?.offers).toEqual([]);
 });
 
 test("a format that cannot hold test towers offers no other settings for them", () => {

@@ -1,7 +1,7 @@
 /** Failures in words: what happened, which field caused it, and what may fix it. */
 import type { ErrorCode, ErrorDetails, SlicerError } from "../../api/error.js";
 import type { WarningCode, WarningDetails } from "../../api/warning.js";
-import type { UniformLayers, Warning } from "../../api/wire.js";
+import type { ModelUnit, UniformLayers, Warning } from "../../api/wire.js";
 import type { Language, Texts } from "../../texts/index.js";
 import type { Busy } from "../parts/progress.js";
 import { METRICS } from "./metric.js";
@@ -46,11 +46,32 @@ const KINDS: Readonly<Record<ErrorCode, Kind>> = {
   "file-empty": "empty",
   "stl-no-facets": "empty",
   "stl-truncated": "cutShort",
-  "unknown-file-kind": "notStl",
-  "other-file-kind": "notStl",
+  "unknown-file-kind": "notModel",
+  "other-file-kind": "notModel",
   "stl-wrong-facet-count": "damaged",
   "stl-not-finite": "damaged",
   "stl-syntax": "damaged",
+  "threemf-no-directory": "cutShort",
+  "threemf-no-part": "damaged",
+  "threemf-damaged-part": "damaged",
+  "threemf-packed": "damaged",
+  "threemf-too-large": "damaged",
+  "threemf-xml": "damaged",
+  "threemf-bad-attribute": "damaged",
+  "threemf-no-vertex": "damaged",
+  "threemf-no-object": "damaged",
+  "threemf-nested": "damaged",
+  "threemf-too-many": "unusable",
+  "threemf-overflow": "unusable",
+  "threemf-feature": "unusable",
+  "threemf-encrypted": "unusable",
+  "threemf-extension": "unusable",
+  "threemf-no-facets": "empty",
+  "obj-bad-vertex": "damaged",
+  "obj-bad-corner": "damaged",
+  "obj-few-corners": "damaged",
+  "obj-free-form": "unusable",
+  "obj-no-faces": "empty",
   "mesh-no-area": "unusable",
   "mesh-zero-height": "unusable",
   "mesh-overflow": "unusable",
@@ -306,11 +327,14 @@ export function advise(warnings: readonly Warning[], language: Language, fixed: 
     if (warning.code === "untried-thicknesses" && fixed.has("printer")) continue;
     const text = warningOf(warning.code, "detail" in warning ? warning.detail : null, language.texts);
     const best = warning.code === "one-thickness" ? warning.detail.best : null;
-    const offers = allowed(best ? [bestUniform(best, language)] : [], fixed);
+    const units = warning.code === "odd-size" ? warning.detail.readings : [];
+    const offers = allowed([...(best ? [bestUniform(best, language)] : []), ...units.map(({ unit }) => inUnit(unit, language))], fixed);
     advice.set(text, { text, offers, towers: isOfPrinter(warning) && !fixed.has("printer") });
   }
   return [...advice.values()];
 }
+
+const inUnit = (unit: ModelUnit, { texts }: Language): Offer => ({ label: texts.offers.unit(unit), change: { unit } });
 
 /** Whether the printer decides on several thicknesses, not the format. */
 const isOfPrinter = (warning: Warning): boolean =>

@@ -35,14 +35,24 @@ test("quick turns are one undo step, and turning back at once is another", async
   expect(session.canUndo).toBe(false);
 });
 
-test("another model has the pose of its file; the first one takes the rotation of the settings", async () => {
-  start({ settings: { ...DEFAULT_SETTINGS, rotation: "0,0,1,0" } });
+test("another model has the pose and the unit of its file; the first one takes those of the settings", async () => {
+  start({ settings: { ...DEFAULT_SETTINGS, rotation: "0,0,1,0", unit: "inch" } });
   await planned();
-  expect(slicer.last.options?.rotation).toEqual([0, 0, 1, 0]);
+  expect(slicer.last.options).toMatchObject({ rotation: [0, 0, 1, 0], unit: "inch" });
   void session.open(new Blob(), "b.stl");
   slicer.last.resolve({ ...model, name: "b.stl" });
   await settle();
   expect(slicer.last.options).not.toHaveProperty("rotation");
+  expect(slicer.last.options).not.toHaveProperty("unit");
+});
+
+test("a unit is applied by a button, and undone like any setting", async () => {
+  await planned();
+  session.change({ unit: "inch" });
+  await settle();
+  expect(slicer.last.options?.unit).toBe("inch");
+  session.undo();
+  expect(session.settings.unit).toBe("");
 });
 
 test("a stroke is previewed, and planned at its end although the options are the same", async () => {

@@ -139,7 +139,7 @@ export class Session extends Preferences {
     return result?.report.metric === settings.metric && result.options.tolerance === undefined ? result.report.tolerance : null;
   }
 
-  /** Opens the first STL of a drop or a file dialog and keeps the others; null if that failed or was cancelled. */
+  /** Opens the first model of a drop or a file dialog and keeps the others; null if that failed or was cancelled. */
   async choose(files: readonly File[]): Promise<Model | null> {
     if (files.length === 0) return null;
     const { files: before, place } = this;
@@ -309,8 +309,9 @@ export class Session extends Preferences {
       return null;
     }
     this.#next = null;
-    // The rotation of the previous model does not apply to this one.
-    if (this.model !== null && this.settings.rotation !== "") this.preset({ rotation: "" });
+    // The rotation of the previous model does not apply to this one, nor does its unit.
+    const { rotation, unit } = this.settings;
+    if (this.model !== null && (rotation !== "" || unit !== "")) this.preset({ rotation: "", unit: "" });
     this.model = model;
     this.result = null;
     this.#refused = null;

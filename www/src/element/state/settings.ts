@@ -1,6 +1,6 @@
 /** The form's settings: what was typed or chosen, whether it is valid, and the options that it gives. */
 import { DEFAULTS } from "../../api/wire.js";
-import type { Format as FileFormat, KnownPrinter, Metric, Minimize, Options, Resin, Snap } from "../../api/wire.js";
+import type { Format as FileFormat, KnownPrinter, Metric, Minimize, ModelUnit, Options, Resin, Snap } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
 import { METRIC_NAMES, METRICS } from "./metric.js";
 import { FORMATS, printerFrom, printerOf, printerText, type ChosenPrinter } from "./printer.js";
@@ -36,6 +36,8 @@ interface Choices {
   weightMin: string;
   /** Empty for the printer's own. */
   format: FileFormat | "";
+  /** The unit of a file that states none; empty for millimetres. */
+  unit: ModelUnit | "";
 }
 
 /** Settings without a fixed list of values; empty for none. */
@@ -88,6 +90,7 @@ export const DEFAULT_SETTINGS: Settings = {
   saliency: DEFAULTS.saliency ? "on" : "off",
   weightMin: String(DEFAULTS.weight_min),
   format: "",
+  unit: "",
   printer: "",
   resin: "",
   rotation: "",
@@ -127,6 +130,7 @@ const CHOICES: { readonly [Key in keyof Choices]: readonly Choices[Key][] } = {
   saliency: ["off", "on"],
   weightMin: WEIGHT_STEPS,
   format: ["", ...FORMATS],
+  unit: ["", "micron", "millimeter", "centimeter", "inch", "foot", "meter"],
 };
 
 /**
@@ -219,6 +223,7 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
   if (settings.printer === "") options.rays = Number(settings.rays);
   else options.printer = settings.printer;
   if (settings.format !== "") options.format = settings.format;
+  if (settings.unit !== "") options.unit = settings.unit;
   const [thinnest, thickest] = printer?.layer_mm ?? [THINNEST_MM, THICKEST_MM];
   const layer = (field: "layerMin" | "layerMax" | "uniform"): number =>
     within(field, settings[field], thinnest, thickest);

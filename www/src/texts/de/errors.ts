@@ -2,6 +2,7 @@ import type { UniformLayers } from "../../api/wire.js";
 import type { Format } from "../format.js";
 import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type GpuFaults, type QuantityNouns, type StlNouns } from "../sentences.js";
 import { FACETS } from "./nouns.js";
+import { readers } from "./readers.js";
 
 const QUANTITIES: QuantityNouns = {
   pitch: "Der Pixelabstand",
@@ -43,12 +44,13 @@ const inPlace = (best: UniformLayers | null | undefined, { count, mm }: Pick<For
   best ? `${count(best.layers)} gleichmäßige Schichten von ${mm(best.layer_mm)}, die die Toleranz einhalten` : "gleichmäßige Schichten";
 
 export const errors = ({ count, counted, exact, mm, measure, error }: Format): ErrorSentences => ({
-  "file-empty": () => "Die Datei ist leer; exportieren Sie das Modell noch einmal als STL.",
-  "unknown-file-kind": () => "Das ist keine STL-Datei; exportieren Sie das Modell als binäres oder Text-STL.",
+  ...readers({ count }),
+  "file-empty": () => "Die Datei ist leer; exportieren Sie das Modell noch einmal.",
+  "unknown-file-kind": () => "Das ist kein Modell, das Cusp liest; exportieren Sie es als STL, 3MF oder OBJ.",
   "other-file-kind": ({ kind }) =>
-    `Das ist eine ${FILE_KINDS[kind]}-Datei, kein STL; ${adviceOn(kind, {
-      model: "exportieren Sie das Modell als STL",
-      packed: "entpacken Sie sie, und öffnen Sie das STL darin",
+    `Das ist eine ${FILE_KINDS[kind]}-Datei, die Cusp nicht liest; ${adviceOn(kind, {
+      model: "exportieren Sie das Modell als STL, 3MF oder OBJ",
+      packed: "entpacken Sie sie, und öffnen Sie das Modell darin",
       page: "laden Sie das Modell selbst herunter; vielleicht verlangt die Adresse eine Anmeldung, oder sie führt zu einer Seite über das Modell",
     })}.`,
   "stl-truncated": (detail) =>

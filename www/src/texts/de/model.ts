@@ -3,7 +3,7 @@ import type { ModelTexts } from "../en/model.js";
 export const model = (): ModelTexts => ({
   open: {
     region: "Modell öffnen",
-    drop: "STL hier ablegen",
+    drop: "Modell hier ablegen",
     choose: "Datei auswählen",
     another: "Weitere öffnen",
     opening: (name) => `${name} wird geöffnet`,

@@ -3,3 +3,4 @@ export const LAYERS = { one: "Schicht", other: "Schichten" };
 export const FACETS = { one: "Dreieck", other: "Dreiecke" };
 export const EDGES = { one: "Kante", other: "Kanten" };
 export const HOLES = { one: "Loch", other: "Löcher" };
+export const OBJECTS = { one: "Objekt", other: "Objekte" };

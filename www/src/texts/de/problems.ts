@@ -2,6 +2,7 @@ import type { ProblemTexts } from "../en/problems.js";
 import type { Format } from "../format.js";
 import { errors } from "./errors.js";
 import { LAYERS } from "./nouns.js";
+import { UNITS } from "./readers.js";
 import { warnings } from "./warnings.js";
 
 export const problems = (format: Format): ProblemTexts => ({
@@ -14,10 +15,11 @@ export const problems = (format: Format): ProblemTexts => ({
     bestUniform: (thickness, layers) => `Gleichmäßige Schichten von ${thickness} (${format.counted(layers, LAYERS)})`,
     images: "Als Bilder speichern",
     noPrinter: "Ohne Drucker",
+    unit: (unit) => `Es ist in ${UNITS[unit]}`,
     again: "Noch einmal",
   },
   problems: {
-    notStl: (name) => `${name} ist keine STL-Datei`,
+    notModel: (name) => `${name} ist kein Modell, das Cusp liest`,
     empty: (name) => `${name} ist leer`,
     cutShort: (name) => `${name} ist abgeschnitten`,
     damaged: (name) => `${name} ist beschädigt`,

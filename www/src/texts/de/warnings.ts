@@ -1,13 +1,20 @@
 import type { Format } from "../format.js";
 import type { WarningSentences } from "../sentences.js";
 import { FAULTS } from "./errors.js";
-import { LAYERS, FACETS, EDGES, HOLES } from "./nouns.js";
+import { LAYERS, FACETS, EDGES, HOLES, OBJECTS } from "./nouns.js";
+import { UNITS } from "./readers.js";
 
 export const warnings = ({ count, counted, mm, height, error }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `${counted(facets, FACETS)} ohne Fläche weggelassen.`,
   "inside-out": () => "Das Netz war von innen nach außen gekehrt und wurde umgedreht.",
   "open-mesh": ({ open_edges, holes }) =>
     `Das Netz ist nicht geschlossen: ${counted(open_edges, EDGES)} ohne Gegenstück, ${counted(holes, HOLES)} eben geschlossen. Sehen Sie sich die Masken an.`,
+  "skipped-objects": ({ objects }) => `${counted(objects, OBJECTS)} der Datei weggelassen: Stützen, Flächen oder nicht zum Drucken.`,
+  "odd-size": ({ size_mm, readings }) =>
+    `Die Datei nennt keine Einheit, und in Millimetern ist das Modell ${mm(size_mm)} lang; ` +
+    readings.map(({ unit, size_mm }) => `in ${UNITS[unit]} wären es ${mm(size_mm)}; `).join("") +
+    "geben Sie die Einheit an, wenn es eine andere ist.",
+  "unit-stated": ({ stated, given }) => `Die Datei ist, wie sie sagt, in ${UNITS[stated]} und nicht in ${UNITS[given]}.`,
   "unclosed-rays": ({ unclosed, rays }) =>
     `${count(unclosed)} von ${count(rays)} Strahlen gehen durch Löcher des Netzes, die eben geschlossen sind. Sehen Sie sich die Masken an.`,
   "tolerance-exceeded": ({ metric, tolerance, max_error }) =>

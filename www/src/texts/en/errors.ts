@@ -3,6 +3,7 @@ import type { UniformLayers } from "../../api/wire.js";
 import type { Format } from "../format.js";
 import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type GpuFaults, type QuantityNouns, type StlNouns } from "../sentences.js";
 import { FACETS } from "./nouns.js";
+import { readers } from "./readers.js";
 
 const QUANTITIES: QuantityNouns = {
   pitch: "The pixel pitch",
@@ -45,12 +46,13 @@ const inPlace = (best: UniformLayers | null | undefined, { count, mm }: Pick<For
   best ? `${count(best.layers)} uniform layers of ${mm(best.layer_mm)}, which keep the tolerance` : "the uniform planner";
 
 export const errors = ({ count, counted, exact, mm, measure, error }: Format): ErrorSentences => ({
-  "file-empty": () => "The file is empty; export the model again as STL.",
-  "unknown-file-kind": () => "This is no STL file; export the model as binary or ASCII STL.",
+  ...readers({ count }),
+  "file-empty": () => "The file is empty; export the model again.",
+  "unknown-file-kind": () => "This is no model that Cusp reads; export it as STL, 3MF or OBJ.",
   "other-file-kind": ({ kind }) =>
-    `This is a ${FILE_KINDS[kind]} file, no STL; ${adviceOn(kind, {
-      model: "export the model as STL",
-      packed: "unpack it, and open the STL inside",
+    `This is a ${FILE_KINDS[kind]} file, which Cusp does not read; ${adviceOn(kind, {
+      model: "export the model as STL, 3MF or OBJ",
+      packed: "unpack it, and open the model inside",
       page: "download the model itself; the address may need a login, or lead to a page about the model",
     })}.`,
   "stl-truncated": (detail) =>

@@ -3,7 +3,7 @@
 export const model = () => ({
   open: {
     region: "Open a model",
-    drop: "Drop an STL here",
+    drop: "Drop a model here",
     choose: "Choose a file",
     another: "Open another",
     opening: (name: string) => `Opening ${name}`,

@@ -3,3 +3,4 @@ export const LAYERS = { one: "layer", other: "layers" };
 export const FACETS = { one: "facet", other: "facets" };
 export const EDGES = { one: "edge", other: "edges" };
 export const HOLES = { one: "hole", other: "holes" };
+export const OBJECTS = { one: "object", other: "objects" };

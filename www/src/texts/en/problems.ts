@@ -1,7 +1,9 @@
 /** Failures, what would help, and warnings. */
+import type { ModelUnit } from "../../api/wire.js";
 import type { Format } from "../format.js";
 import { errors } from "./errors.js";
 import { LAYERS } from "./nouns.js";
+import { UNITS } from "./readers.js";
 import { warnings } from "./warnings.js";
 
 export const problems = (format: Format) => ({
@@ -14,11 +16,12 @@ export const problems = (format: Format) => ({
     bestUniform: (thickness: string, layers: number) => `Uniform layers of ${thickness} (${format.counted(layers, LAYERS)})`,
     images: "Save as images",
     noPrinter: "Without a printer",
+    unit: (unit: ModelUnit) => `It is in ${UNITS[unit]}`,
     again: "Try again",
   },
   /** A heading for each kind of failure; the sentence below it is that of the failure's code. */
   problems: {
-    notStl: (name: string) => `${name} is not an STL file`,
+    notModel: (name: string) => `${name} is not a model that Cusp reads`,
     empty: (name: string) => `${name} is empty`,
     cutShort: (name: string) => `${name} is cut short`,
     damaged: (name: string) => `${name} is damaged`,

@@ -2,13 +2,20 @@
 import type { Format } from "../format.js";
 import type { WarningSentences } from "../sentences.js";
 import { FAULTS } from "./errors.js";
-import { LAYERS, FACETS, EDGES, HOLES } from "./nouns.js";
+import { LAYERS, FACETS, EDGES, HOLES, OBJECTS } from "./nouns.js";
+import { UNITS } from "./readers.js";
 
 export const warnings = ({ count, counted, mm, height, error }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `${counted(facets, FACETS)} without area left out.`,
   "inside-out": () => "The mesh was inside out, and was turned over.",
   "open-mesh": ({ open_edges, holes }) =>
     `The mesh is not closed: ${counted(open_edges, EDGES)} without a partner, ${counted(holes, HOLES)} closed by flat caps; look at the masks.`,
+  "skipped-objects": ({ objects }) => `${counted(objects, OBJECTS)} of the file left out: supports, surfaces, or not to be printed.`,
+  "odd-size": ({ size_mm, readings }) =>
+    `The file states no unit, and in millimeters the model is ${mm(size_mm)} long; ` +
+    readings.map(({ unit, size_mm }) => `in ${UNITS[unit]} it would be ${mm(size_mm)}; `).join("") +
+    "give its unit if it is another.",
+  "unit-stated": ({ stated, given }) => `The file is in ${UNITS[stated]}, as it states, and not in ${UNITS[given]}.`,
   "unclosed-rays": ({ unclosed, rays }) =>
     `${count(unclosed)} of ${count(rays)} rays pass holes of the mesh, which flat caps close; look at the masks.`,
   "tolerance-exceeded": ({ metric, tolerance, max_error }) =>

@@ -2,6 +2,7 @@ import type { UniformLayers } from "../../api/wire.js";
 import type { Format } from "../format.js";
 import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type GpuFaults, type QuantityNouns, type StlNouns } from "../sentences.js";
 import { FACETS } from "./nouns.js";
+import { readers } from "./readers.js";
 
 const QUANTITIES: QuantityNouns = {
   pitch: "El paso de los píxeles",
@@ -43,12 +44,13 @@ const inPlace = (best: UniformLayers | null | undefined, { count, mm }: Pick<For
   best ? `${count(best.layers)} capas uniformes de ${mm(best.layer_mm)}, que cumplen la tolerancia` : "capas uniformes";
 
 export const errors = ({ count, counted, exact, mm, measure, error }: Format): ErrorSentences => ({
-  "file-empty": () => "El archivo está vacío; exporte el modelo de nuevo como STL.",
-  "unknown-file-kind": () => "No es un archivo STL; exporte el modelo como STL binario o de texto.",
+  ...readers({ count }),
+  "file-empty": () => "El archivo está vacío; exporte el modelo de nuevo.",
+  "unknown-file-kind": () => "No es un modelo que Cusp lea; expórtelo como STL, 3MF u OBJ.",
   "other-file-kind": ({ kind }) =>
-    `Es un archivo ${FILE_KINDS[kind]}, no un STL; ${adviceOn(kind, {
-      model: "exporte el modelo como STL",
-      packed: "descomprímalo y abra el STL que contiene",
+    `Es un archivo ${FILE_KINDS[kind]}, que Cusp no lee; ${adviceOn(kind, {
+      model: "exporte el modelo como STL, 3MF u OBJ",
+      packed: "descomprímalo y abra el modelo que contiene",
       page: "descargue el modelo mismo; quizá la dirección pida iniciar sesión o lleve a una página sobre él",
     })}.`,
   "stl-truncated": (detail) =>

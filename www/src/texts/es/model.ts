@@ -3,7 +3,7 @@ import type { ModelTexts } from "../en/model.js";
 export const model = (): ModelTexts => ({
   open: {
     region: "Abrir un modelo",
-    drop: "Suelte un STL aquí",
+    drop: "Suelte un modelo aquí",
     choose: "Elegir un archivo",
     another: "Abrir otro",
     opening: (name) => `Abriendo ${name}`,

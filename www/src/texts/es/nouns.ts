@@ -4,3 +4,4 @@ export const FACETS = { one: "faceta", other: "facetas" };
 export const OMITTED = { one: "omitida", other: "omitidas" };
 export const EDGES = { one: "arista", other: "aristas" };
 export const HOLES = { one: "agujero tapado", other: "agujeros tapados" };
+export const OBJECTS = { one: "objeto", other: "objetos" };

@@ -2,6 +2,7 @@ import type { ProblemTexts } from "../en/problems.js";
 import type { Format } from "../format.js";
 import { errors } from "./errors.js";
 import { LAYERS } from "./nouns.js";
+import { UNITS } from "./readers.js";
 import { warnings } from "./warnings.js";
 
 export const problems = (format: Format): ProblemTexts => ({
@@ -14,10 +15,11 @@ export const problems = (format: Format): ProblemTexts => ({
     bestUniform: (thickness, layers) => `Capas uniformes de ${thickness} (${format.counted(layers, LAYERS)})`,
     images: "Guardar como imágenes",
     noPrinter: "Sin impresora",
+    unit: (unit) => `Está en ${UNITS[unit]}`,
     again: "Intentar de nuevo",
   },
   problems: {
-    notStl: (name) => `${name} no es un archivo STL`,
+    notModel: (name) => `${name} no es un modelo que Cusp lea`,
     empty: (name) => `${name} está vacío`,
     cutShort: (name) => `${name} está cortado`,
     damaged: (name) => `${name} está dañado`,

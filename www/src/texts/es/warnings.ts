@@ -1,13 +1,20 @@
 import type { Format } from "../format.js";
 import type { WarningSentences } from "../sentences.js";
 import { FAULTS } from "./errors.js";
-import { LAYERS, FACETS, OMITTED, EDGES, HOLES } from "./nouns.js";
+import { LAYERS, FACETS, OMITTED, EDGES, HOLES, OBJECTS } from "./nouns.js";
+import { UNITS } from "./readers.js";
 
 export const warnings = ({ count, counted, plural, mm, height, error }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `${counted(facets, FACETS)} sin área, ${plural(facets, OMITTED)}.`,
   "inside-out": () => "La malla estaba del revés y se le dio la vuelta.",
   "open-mesh": ({ open_edges, holes }) =>
     `La malla no está cerrada: ${counted(open_edges, EDGES)} sin pareja, ${counted(holes, HOLES)} con planos. Mire las máscaras.`,
+  "skipped-objects": ({ objects }) => `Del archivo se omite: ${counted(objects, OBJECTS)}, que son soportes, superficies o no se imprimen.`,
+  "odd-size": ({ size_mm, readings }) =>
+    `El archivo no dice su unidad, y en milímetros el modelo mide ${mm(size_mm)}; ` +
+    readings.map(({ unit, size_mm }) => `en ${UNITS[unit]} serían ${mm(size_mm)}; `).join("") +
+    "indique la unidad si es otra.",
+  "unit-stated": ({ stated, given }) => `El archivo está en ${UNITS[stated]}, como dice, y no en ${UNITS[given]}.`,
   "unclosed-rays": ({ unclosed, rays }) =>
     `${count(unclosed)} de ${count(rays)} rayos atraviesan agujeros de la malla, tapados con planos. Mire las máscaras.`,
   "tolerance-exceeded": ({ metric, tolerance, max_error }) =>

@@ -2,6 +2,7 @@ import type { UniformLayers } from "../../api/wire.js";
 import type { Format } from "../format.js";
 import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type GpuFaults, type QuantityNouns, type StlNouns } from "../sentences.js";
 import { FACETS } from "./nouns.js";
+import { readers } from "./readers.js";
 
 const QUANTITIES: QuantityNouns = {
   pitch: "Le pas des pixels",
@@ -43,12 +44,13 @@ const inPlace = (best: UniformLayers | null | undefined, { count, mm }: Pick<For
   best ? `${count(best.layers)} couches uniformes de ${mm(best.layer_mm)}, qui respectent la tolérance` : "des couches uniformes";
 
 export const errors = ({ count, counted, exact, mm, measure, error }: Format): ErrorSentences => ({
-  "file-empty": () => "Le fichier est vide ; exportez à nouveau le modèle en STL.",
-  "unknown-file-kind": () => "Ce n’est pas un fichier STL ; exportez le modèle en STL binaire ou texte.",
+  ...readers({ count }),
+  "file-empty": () => "Le fichier est vide ; exportez à nouveau le modèle.",
+  "unknown-file-kind": () => "Ce n’est pas un modèle que Cusp lit ; exportez-le en STL, 3MF ou OBJ.",
   "other-file-kind": ({ kind }) =>
-    `C’est un fichier ${FILE_KINDS[kind]}, pas un STL ; ${adviceOn(kind, {
-      model: "exportez le modèle en STL",
-      packed: "décompressez-le et ouvrez le STL qu’il contient",
+    `C’est un fichier ${FILE_KINDS[kind]}, que Cusp ne lit pas ; ${adviceOn(kind, {
+      model: "exportez le modèle en STL, 3MF ou OBJ",
+      packed: "décompressez-le et ouvrez le modèle qu’il contient",
       page: "téléchargez le modèle lui-même ; l’adresse demande peut-être une connexion, ou mène à une page sur le modèle",
     })}.`,
   "stl-truncated": (detail) =>

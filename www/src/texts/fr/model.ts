@@ -3,7 +3,7 @@ import type { ModelTexts } from "../en/model.js";
 export const model = (): ModelTexts => ({
   open: {
     region: "Ouvrir un modèle",
-    drop: "Déposez un STL ici",
+    drop: "Déposez un modèle ici",
     choose: "Choisir un fichier",
     another: "En ouvrir un autre",
     opening: (name) => `Ouverture de ${name}`,

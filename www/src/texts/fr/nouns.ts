@@ -4,3 +4,4 @@ export const FACETS = { one: "facette", other: "facettes" };
 export const OMITTED = { one: "omise", other: "omises" };
 export const EDGES = { one: "arête", other: "arêtes" };
 export const HOLES = { one: "trou bouché", other: "trous bouchés" };
+export const OBJECTS = { one: "objet", other: "objets" };

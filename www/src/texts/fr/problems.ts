@@ -2,6 +2,7 @@ import type { ProblemTexts } from "../en/problems.js";
 import type { Format } from "../format.js";
 import { errors } from "./errors.js";
 import { LAYERS } from "./nouns.js";
+import { UNITS } from "./readers.js";
 import { warnings } from "./warnings.js";
 
 export const problems = (format: Format): ProblemTexts => ({
@@ -14,10 +15,11 @@ export const problems = (format: Format): ProblemTexts => ({
     bestUniform: (thickness, layers) => `Couches uniformes de ${thickness} (${format.counted(layers, LAYERS)})`,
     images: "Enregistrer en images",
     noPrinter: "Sans imprimante",
+    unit: (unit) => `Il est en ${UNITS[unit]}`,
     again: "Réessayer",
   },
   problems: {
-    notStl: (name) => `${name} n’est pas un fichier STL`,
+    notModel: (name) => `${name} n’est pas un modèle que Cusp lit`,
     empty: (name) => `${name} est vide`,
     cutShort: (name) => `${name} est tronqué`,
     damaged: (name) => `${name} est abîmé`,

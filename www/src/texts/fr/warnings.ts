@@ -1,13 +1,20 @@
 import type { Format } from "../format.js";
 import type { WarningSentences } from "../sentences.js";
 import { FAULTS } from "./errors.js";
-import { LAYERS, FACETS, OMITTED, EDGES, HOLES } from "./nouns.js";
+import { LAYERS, FACETS, OMITTED, EDGES, HOLES, OBJECTS } from "./nouns.js";
+import { UNITS } from "./readers.js";
 
 export const warnings = ({ count, counted, plural, mm, height, error }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `${counted(facets, FACETS)} sans aire, ${plural(facets, OMITTED)}.`,
   "inside-out": () => "Le maillage était à l’envers et a été retourné.",
   "open-mesh": ({ open_edges, holes }) =>
     `Le maillage n’est pas fermé : ${counted(open_edges, EDGES)} sans vis-à-vis, ${counted(holes, HOLES)} à plat. Regardez les masques.`,
+  "skipped-objects": ({ objects }) => `Du fichier sont omis : ${counted(objects, OBJECTS)}, des supports, des surfaces ou ce qui ne s’imprime pas.`,
+  "odd-size": ({ size_mm, readings }) =>
+    `Le fichier ne dit pas son unité, et en millimètres le modèle mesure ${mm(size_mm)} ; ` +
+    readings.map(({ unit, size_mm }) => `en ${UNITS[unit]} ce serait ${mm(size_mm)} ; `).join("") +
+    "donnez l’unité si c’en est une autre.",
+  "unit-stated": ({ stated, given }) => `Le fichier est en ${UNITS[stated]}, comme il le dit, et non en ${UNITS[given]}.`,
   "unclosed-rays": ({ unclosed, rays }) =>
     `${count(unclosed)} rayons sur ${count(rays)} traversent des trous du maillage, bouchés à plat. Regardez les masques.`,
   "tolerance-exceeded": ({ metric, tolerance, max_error }) =>

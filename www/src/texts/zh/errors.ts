@@ -1,6 +1,7 @@
 import type { UniformLayers } from "../../api/wire.js";
 import type { Format } from "../format.js";
 import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type GpuFaults, type QuantityNouns, type StlNouns } from "../sentences.js";
+import { readers } from "./readers.js";
 
 const QUANTITIES: QuantityNouns = {
   pitch: "像素间距",
@@ -42,12 +43,13 @@ const inPlace = (best: UniformLayers | null | undefined, { count, mm }: Pick<For
   best ? `使用 ${count(best.layers)} 个 ${mm(best.layer_mm)} 的均匀层，误差在公差以内` : "使用均匀分层";
 
 export const errors = ({ count, exact, mm, measure, error }: Format): ErrorSentences => ({
-  "file-empty": () => "文件是空的；请重新将模型导出为 STL。",
-  "unknown-file-kind": () => "这不是 STL 文件；请将模型导出为二进制或文本 STL。",
+  ...readers({ count }),
+  "file-empty": () => "文件是空的；请重新导出模型。",
+  "unknown-file-kind": () => "这不是 Cusp 能读取的模型；请导出为 STL、3MF 或 OBJ。",
   "other-file-kind": ({ kind }) =>
-    `这是 ${FILE_KINDS[kind]} 文件，不是 STL；${adviceOn(kind, {
-      model: "请将模型导出为 STL",
-      packed: "请先解压，再打开其中的 STL",
+    `这是 ${FILE_KINDS[kind]} 文件，Cusp 无法读取；${adviceOn(kind, {
+      model: "请将模型导出为 STL、3MF 或 OBJ",
+      packed: "请先解压，再打开其中的模型",
       page: "请下载模型本身；该地址可能需要登录，或指向介绍模型的页面",
     })}。`,
   "stl-truncated": (detail) =>

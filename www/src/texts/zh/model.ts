@@ -3,7 +3,7 @@ import type { ModelTexts } from "../en/model.js";
 export const model = (): ModelTexts => ({
   open: {
     region: "打开模型",
-    drop: "将 STL 拖放到此处",
+    drop: "将模型拖放到此处",
     choose: "选择文件",
     another: "打开其他文件",
     opening: (name) => `正在打开 ${name}`,

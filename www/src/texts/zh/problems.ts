@@ -1,6 +1,7 @@
 import type { ProblemTexts } from "../en/problems.js";
 import type { Format } from "../format.js";
 import { errors } from "./errors.js";
+import { UNITS } from "./readers.js";
 import { warnings } from "./warnings.js";
 
 export const problems = (format: Format): ProblemTexts => ({
@@ -13,10 +14,11 @@ export const problems = (format: Format): ProblemTexts => ({
     bestUniform: (thickness, layers) => `均匀层厚 ${thickness}（${format.count(layers)} 层）`,
     images: "保存为图像",
     noPrinter: "不指定打印机",
+    unit: (unit) => `单位是${UNITS[unit]}`,
     again: "再试一次",
   },
   problems: {
-    notStl: (name) => `${name} 不是 STL 文件`,
+    notModel: (name) => `${name} 不是 Cusp 能读取的模型`,
     empty: (name) => `${name} 是空的`,
     cutShort: (name) => `${name} 不完整`,
     damaged: (name) => `${name} 已损坏`,

@@ -1,12 +1,19 @@
 import type { Format } from "../format.js";
 import type { WarningSentences } from "../sentences.js";
 import { FAULTS } from "./errors.js";
+import { UNITS } from "./readers.js";
 
 export const warnings = ({ count, mm, height, error }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `已略去 ${count(facets)} 个没有面积的三角面。`,
   "inside-out": () => "网格内外颠倒，已翻转。",
   "open-mesh": ({ open_edges, holes }) =>
     `网格不封闭：${count(open_edges)} 条边没有对边，${count(holes)} 个孔洞已用平面封上。请查看掩膜。`,
+  "skipped-objects": ({ objects }) => `文件中略去 ${count(objects)} 个对象：支撑、曲面或不打印的对象。`,
+  "odd-size": ({ size_mm, readings }) =>
+    `文件没有说明单位，按毫米计模型长 ${mm(size_mm)}；` +
+    readings.map(({ unit, size_mm }) => `按${UNITS[unit]}计则为 ${mm(size_mm)}；`).join("") +
+    "若是其他单位，请指定。",
+  "unit-stated": ({ stated, given }) => `文件说明其单位为${UNITS[stated]}，而非${UNITS[given]}。`,
   "unclosed-rays": ({ unclosed, rays }) => `${count(rays)} 条光线中有 ${count(unclosed)} 条穿过用平面封上的孔洞。请查看掩膜。`,
   "tolerance-exceeded": ({ metric, tolerance, max_error }) =>
     `误差达到 ${error(metric, max_error)}，超过公差 ${error(metric, tolerance)}。`,

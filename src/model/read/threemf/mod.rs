@@ -1,0 +1,92 @@
+//! 3MF to triangles: a zip of XML parts, with objects, their components, and the items to build of them.
+//!
+//! Facets count, and where they are: units, transforms, components in other parts (the production extension). Colours,
+//! materials, textures and slicers' settings do not. A part is inflated and read as a stream; only the objects of the file are
+//! held in memory, and then their triangles.
+
+mod build;
+mod error;
+mod model;
+mod namespaces;
+mod package;
+mod values;
+mod xml;
+
+use super::kind::FileKind;
+use super::{Contents, ReadError, head_of};
+use build::Build;
+use package::Package;
+use xml::{Tag, Tags, unescaped};
+
+pub use error::{ThreeMfError, ThreeMfFeature, XmlFault};
+
+/// The type of the relationship that leads to the model.
+const MODEL: &[u8] = b"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel";
+/// Where it nearly always is.
+const USUAL_MODEL: &str = "3D/3dmodel.model";
+
+/// Whether a file with these first bytes may be a 3MF: any zip. Only the directory, at its end, knows.
+pub(super) fn is_zip(head: &[u8]) -> bool {
+    head.starts_with(b"PK\x03\x04")
+}
+
+/// Reads what a 3MF builds: the facets of all its items, each as often as it is placed, in file order.
+///
+/// # Errors
+/// [`ThreeMfError`], with the part and the line where reading failed; [`ReadError::OtherKind`] for other zips.
+pub(super) fn read(bytes: &[u8]) -> Result<Contents, ReadError> {
+    let package = Package::new(bytes).map_err(|error| match FileKind::of_zip(head_of(bytes)) {
+        None => ReadError::from(error),
+        Some(kind) => ReadError::OtherKind { kind },
+    })?;
+    let start = match start(&package)? {
+        Some(start) => start,
+        None if package.has_ending(".amf") => {
+            let kind = FileKind::Amf;
+            return Err(ReadError::OtherKind { kind });
+        }
+        None if package.has_ending(".model") => USUAL_MODEL.to_owned(),
+        None => {
+            let kind = FileKind::Zip;
+            return Err(ReadError::OtherKind { kind });
+        }
+    };
+    let (build, root) = Build::of(&package, &start)?;
+    if build.triangles.is_empty() {
+        let skipped = build.skipped;
+        return Err(ThreeMfError::NoFacets { skipped }.into());
+    }
+    Ok(Contents {
+        unit: Some(root.unit),
+        skipped_objects: build.skipped,
+        triangles: build.triangles,
+    })
+}
+
+/// The part that the package's relationships name as the model.
+fn start(package: &Package<'_>) -> Result<Option<String>, ThreeMfError> {
+    let usual = || package.find(USUAL_MODEL).map(str::to_owned);
+    let Some(part) = package.find("_rels/.rels") else {
+        return Ok(usual());
+    };
+    let mut tags = Tags::of(package.open(part)?)?;
+    let mut found = None;
+    while let Some(tag) = tags.next()? {
+        let Tag::Start { attributes, .. } = tag else {
+            continue;
+        };
+        let (mut is_model, mut target) = (false, None);
+        for attribute in attributes {
+            match attribute {
+                Ok((b"Type", MODEL)) => is_model = true,
+                Ok((b"Target", value)) => target = Some(unescaped(value).into_owned()),
+                Ok(_) => (),
+                Err(fault) => return Err(tags.fault(fault)),
+            }
+        }
+        if let Some(target) = target.filter(|_| is_model && found.is_none()) {
+            found = Some(String::from_utf8_lossy(&target).into_owned());
+        }
+    }
+    Ok(found.or_else(usual))
+}

@@ -1,0 +1,15 @@
+//! Reading models: valid files of every kind, and an error with its position for every invalid one.
+
+#![cfg(not(target_arch = "wasm32"))]
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod damage;
+mod kinds;
+mod obj;
+mod package;
+mod refused;
+mod stl;
+mod threemf;
+mod units;
