@@ -46,6 +46,7 @@
 //! - Row 0 of a mask is at the largest y; a mask is sampled at the middle of its layer.
 //! - Whatever decides uses integers, basic IEEE arithmetic and square roots: a plan is the same on every machine.
 
+mod crc;
 mod order;
 mod parallel;
 pub mod progress;

@@ -65,7 +65,7 @@ impl Slicer {
             model,
             file: ModelFile {
                 bytes: bytes.len(),
-                crc32: rawzip::crc32(bytes),
+                crc32: crate::crc::crc32(bytes),
             },
             saliency: None,
             painted: None,
