@@ -46,6 +46,7 @@
 //! - Row 0 of a mask is at the largest y; a mask is sampled at the middle of its layer.
 //! - Whatever decides uses integers, basic IEEE arithmetic and square roots: a plan is the same on every machine.
 
+mod crc;
 mod order;
 mod parallel;
 pub mod progress;
@@ -78,7 +79,7 @@ pub mod job;
 pub mod js;
 #[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
 pub mod simulation;
-#[cfg(all(target_arch = "wasm32", not(feature = "read")))]
+#[cfg(all(target_arch = "wasm32", not(any(feature = "gpu", feature = "read"))))]
 mod wasm;
 
 pub use job::{Error, Options, Report, Slicer, Stage};

@@ -13,6 +13,7 @@ use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use crate::job::{self, Calibration, Error, Options, OptionsError, Stage};
 use crate::js::{thrown, to_js};
+use crate::ldi::gpu;
 use crate::model::read::{self, HEAD_BYTES};
 use crate::model::weights;
 use crate::orientation::{Candidate, Search, SearchOptions, Task, TaskResult};
@@ -76,6 +77,34 @@ pub fn identify(head: &[u8], length: f64) -> Result<(), JsValue> {
 #[wasm_bindgen]
 pub fn head_bytes() -> usize {
     HEAD_BYTES
+}
+
+/// A GPU that the module for GPUs has opened, and the function that opens one.
+#[wasm_bindgen(typescript_custom_section)]
+const OPEN_GPU: &str = r"
+export interface OpenGpu {
+  name(): string;
+  peels(): boolean;
+  is_emulated(): boolean;
+  find(
+    vertices: Float32Array,
+    vertices_of: Uint32Array,
+    grid: Float64Array,
+    side: number,
+    peels: boolean,
+    progress: (fraction: number) => boolean,
+  ): Promise<Uint32Array[]>;
+}
+";
+
+/// Opens GPUs by `open` from now on: the module that does is fetched when a plan wants a GPU. It is told whether the GPU must
+/// be hardware, and rejects with a `CuspError`.
+#[wasm_bindgen]
+pub fn open_gpus_by(
+    #[wasm_bindgen(unchecked_param_type = "(hardware: boolean) => Promise<OpenGpu>")]
+    open: Function,
+) {
+    gpu::open_by(open);
 }
 
 /// The printers known by name.

@@ -126,7 +126,7 @@ pub(super) fn wrap([width, height]: [u32; 2], depth: Depth, stream: &[u8]) -> Ve
         let first = bytes.len();
         bytes.extend(kind);
         bytes.extend(data);
-        let crc = rawzip::crc32(&bytes[first..]);
+        let crc = crate::crc::crc32(&bytes[first..]);
         bytes.extend(crc.to_be_bytes());
     }
     bytes

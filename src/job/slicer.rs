@@ -70,7 +70,7 @@ impl Slicer {
             model,
             file: ModelFile {
                 bytes: bytes.len(),
-                crc32: rawzip::crc32(bytes),
+                crc32: crate::crc::crc32(bytes),
             },
             unit: contents.unit,
             skipped_objects: contents.skipped_objects,

@@ -8,10 +8,10 @@
 
 use std::ops::Range;
 
-use glam::DVec2;
+use glam::{DVec2, Vec3};
 
 use crate::grid::Grid;
-use crate::model::{FacetClasses, Mesh};
+use crate::model::Mesh;
 
 /// Lattice steps per pixel.
 pub const STEPS: i64 = 256;
@@ -21,7 +21,10 @@ const HALF: i64 = STEPS / 2;
 /// The vertices of a mesh over a grid, in lattice steps: columns to the right, rows downward.
 #[derive(Debug, Clone)]
 pub struct Projection<'a> {
-    mesh: &'a Mesh,
+    /// The vertices in millimetres.
+    pub vertices: &'a [Vec3],
+    /// The vertices of each facet.
+    pub vertices_of: &'a [[u32; 3]],
     /// Position of each vertex, snapped to the nearest lattice point inside the grid.
     pub positions: Vec<[i32; 2]>,
     /// Columns and rows of the grid; facets cover none outside it.
@@ -32,9 +35,13 @@ pub struct Projection<'a> {
 impl<'a> Projection<'a> {
     /// Snaps the vertices of `mesh`, which lies inside `grid` up to rounding.
     pub fn new(mesh: &'a Mesh, grid: &Grid) -> Self {
+        Self::of(&mesh.vertices, &mesh.facets, grid)
+    }
+
+    /// Snaps the vertices of facets, which lie inside `grid` up to rounding.
+    pub fn of(vertices: &'a [Vec3], vertices_of: &'a [[u32; 3]], grid: &Grid) -> Self {
         let limit = DVec2::new(f64::from(grid.width), f64::from(grid.height)) * STEPS as f64;
-        let positions = mesh
-            .vertices
+        let positions = vertices
             .iter()
             .map(|vertex| {
                 let position = grid.to_pixels(vertex.as_dvec3().truncate()) * STEPS as f64;
@@ -43,35 +50,34 @@ impl<'a> Projection<'a> {
             })
             .collect();
         Self {
-            mesh,
+            vertices,
+            vertices_of,
             positions,
             columns: grid.width,
             rows: grid.height,
         }
     }
 
-    /// What the facets belong to.
-    pub fn classes(&self) -> FacetClasses {
-        self.mesh.classes
-    }
-
     /// Number of facets.
     pub fn facets(&self) -> usize {
-        self.mesh.facets.len()
+        self.vertices_of.len()
     }
 
     /// A facet seen from above, or `None` if it is edge-on to the rays after snapping.
     pub fn facet(&self, facet: usize) -> Option<ProjectedFacet> {
-        let vertices = self.mesh.facets[facet];
         let corners = self.corners(facet).map(|corner| corner.map(i64::from));
         let outline = Outline::of(corners)?;
-        let z = vertices.map(|vertex| self.mesh.vertices[vertex as usize].z);
-        Some(ProjectedFacet::new(outline, corners, z))
+        Some(ProjectedFacet::new(outline, corners, self.heights(facet)))
+    }
+
+    /// The heights of a facet's corners, in millimetres.
+    pub fn heights(&self, facet: usize) -> [f32; 3] {
+        self.vertices_of[facet].map(|vertex| self.vertices[vertex as usize].z)
     }
 
     /// The corners of a facet.
     pub fn corners(&self, facet: usize) -> [[i32; 2]; 3] {
-        self.mesh.facets[facet].map(|vertex| self.positions[vertex as usize])
+        self.vertices_of[facet].map(|vertex| self.positions[vertex as usize])
     }
 
     /// The outline of a facet, or `None` if it is edge-on to the rays after snapping.

@@ -111,5 +111,5 @@ pub(crate) fn crc_of(numbers: &[f32]) -> u32 {
         .iter()
         .flat_map(|number| number.to_le_bytes())
         .collect();
-    rawzip::crc32(&bytes)
+    crate::crc::crc32(&bytes)
 }

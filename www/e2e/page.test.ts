@@ -368,6 +368,25 @@ test("the GPU gives the plan that the CPU gives, by either method", async (conte
   expect(new Set(counts).size).toBe(1);
 });
 
+test("what drives a GPU is fetched when a plan wants one, and a plan that cannot have it says so", async () => {
+  const fetched: string[] = [];
+  for (const [query, ends] of [
+    ["backend=cpu", "done"],
+    ["backend=auto", "done"],
+    ["backend=gpu", "error"],
+  ] as const) {
+    const page = await start(`?rays=512&${query}`);
+    await page.route(/cusp_gpu_bg[^/]*\.wasm$/, async (route) => {
+      fetched.push(query);
+      await route.abort();
+    });
+    await drop(page, ballFile);
+    await state(page, ends, 60_000);
+    if (ends === "error") expect(await words(page)).toContain("No usable GPU");
+  }
+  expect(fetched).toEqual(["backend=gpu"]);
+});
+
 test("a GPU of WebGPU's compatibility mode peels", async (context) => {
   if (!(await hasAdapter())) context.skip("this browser offers no WebGPU adapter");
   const page = await start("?backend=gpu&rays=512");

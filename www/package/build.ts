@@ -16,8 +16,8 @@ import { anyLanguage } from "./any-language.js";
 const root = fileURLToPath(new URL("..", import.meta.url));
 const out = join(root, "dist-package");
 
-/** Limit of everything except three.js, gzipped. */
-const LIMIT_BYTES = 665_000;
+/** Limit of everything except what is loaded only when it is wanted, three.js and the module for GPUs, gzipped. */
+const LIMIT_BYTES = 610_000;
 
 const ENTRIES = {
   index: "src/api/index.ts",
@@ -38,13 +38,16 @@ const FRAMEWORKS = {
 } as const;
 
 const WASM = "cusp_slicer_bg.wasm";
+/** Fetched when a plan wants a GPU. */
+const GPU = "cusp_gpu_bg.wasm";
 
 /** Rewrites addresses for a package whose files lie in one folder. */
 const flatAddresses: Plugin = {
   name: "cusp:flat-addresses",
   transform: {
     filter: { id: /src\/api\/(client|worker)\.ts$/ },
-    handler: (code) => code.replace(`"./worker.ts"`, `"./worker.js"`).replace(`"../../pkg/${WASM}"`, `"./${WASM}"`),
+    handler: (code) =>
+      code.replace(`"./worker.ts"`, `"./worker.js"`).replace(`"../../pkg/${WASM}"`, `"./${WASM}"`).replace(`"../../pkg/gpu/${GPU}"`, `"./${GPU}"`),
   },
 };
 
@@ -158,6 +161,7 @@ async function describe(chunks: readonly OutputChunk[]): Promise<void> {
       ...Object.fromEntries(Object.keys(FRAMEWORKS).map((name) => [`./${name}`, entry(name, "element")])),
       "./worker.js": "./worker.js",
       [`./${WASM}`]: `./${WASM}`,
+      [`./${GPU}`]: `./${GPU}`,
       "./package.json": "./package.json",
     },
     peerDependencies: Object.fromEntries(peers.map((name) => [name, "*"])),
@@ -170,12 +174,13 @@ async function describe(chunks: readonly OutputChunk[]): Promise<void> {
   for (const name of ["LICENSE-APACHE", "LICENSE-MIT"]) await copyFile(join(root, "..", name), join(out, name));
 }
 
-/** Gzipped size of what a browser fetches: all of it, and the share of three.js, which comes with the 3-D view. */
-async function weigh(chunks: readonly OutputChunk[]): Promise<{ all: number; three: number }> {
+/** Gzipped size of what a browser fetches: at once, with the 3-D view, which is three.js, and for a GPU. */
+async function weigh(chunks: readonly OutputChunk[]): Promise<{ first: number; three: number; gpu: number }> {
   const gzipped = (bytes: string | Uint8Array): number => gzipSync(bytes, { level: 9 }).length;
   const sum = (some: readonly OutputChunk[]): number => some.reduce((total, { code }) => total + gzipped(code), 0);
   const three = sum(chunks.filter(({ name }) => name === "three"));
-  return { all: sum(chunks) + gzipped(await readFile(join(out, WASM))), three };
+  const first = sum(chunks) - three + gzipped(await readFile(join(out, WASM)));
+  return { first, three, gpu: gzipped(await readFile(join(out, GPU))) };
 }
 
 export async function main(): Promise<void> {
@@ -184,11 +189,12 @@ export async function main(): Promise<void> {
   const loaded = loadedAtOnce(chunks);
   if (chunks.some(({ name, fileName }) => name === "three" && loaded.has(fileName))) throw new Error("three is loaded before it is needed");
   await copyFile(join(root, "pkg", WASM), join(out, WASM));
+  await copyFile(join(root, "pkg/gpu", GPU), join(out, GPU));
   await declare();
   await describe(chunks);
-  const { all, three } = await weigh(chunks);
-  console.log(`gzipped ${all - three} bytes, and ${three} of three for the 3-D view`);
-  if (all - three > LIMIT_BYTES) throw new Error(`that is more than ${LIMIT_BYTES} bytes`);
+  const { first, three, gpu } = await weigh(chunks);
+  console.log(`gzipped ${first} bytes, ${three} of three for the 3-D view, and ${gpu} to drive a GPU`);
+  if (first > LIMIT_BYTES) throw new Error(`that is more than ${LIMIT_BYTES} bytes`);
   const packed = execFileSync("npm", ["pack", "--json", "--loglevel=error"], { cwd: out, encoding: "utf8" });
   const [tarball] = JSON.parse(packed) as { filename: string; size: number }[];
   if (tarball === undefined) throw new Error("npm pack made no tarball");

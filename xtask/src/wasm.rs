@@ -25,13 +25,20 @@ struct Module {
     budget: usize,
 }
 
-/// The slicer, and the reader of print files, which the page fetches when somebody opens one.
-const MODULES: [Module; 2] = [
+/// The slicer, what drives a GPU for it, which the page fetches when a plan wants one, and the reader of print files, which
+/// it fetches when somebody opens one.
+const MODULES: [Module; 3] = [
     Module {
         package: "cusp-slicer",
         folder: ".",
         files: "pkg/cusp_slicer",
-        budget: 520_000,
+        budget: 450_000,
+    },
+    Module {
+        package: "cusp-gpu",
+        folder: "gpu",
+        files: "pkg/gpu/cusp_gpu",
+        budget: 100_000,
     },
     Module {
         package: "cusp-reader",
@@ -55,6 +62,8 @@ impl Module {
 /// Leaves out the command line, a default feature: cargo would otherwise compile
 /// it for wasm along with the tests.
 const NO_COMMAND_LINE: &str = "--no-default-features";
+/// Tests drive the GPU themselves.
+const WITH_GPU: [&str; 2] = ["--features", "gpu"];
 /// Software GPUs are slow; the runner's own limit is 20 seconds for all tests.
 const BROWSER_TEST_SECONDS: &str = "900";
 
@@ -151,6 +160,7 @@ pub fn test_command(project: &Project) -> Result<Command> {
     cargo
         .args(["test", "--release", "--target", WASM_TARGET])
         .args(["--test", "web", NO_COMMAND_LINE])
+        .args(WITH_GPU)
         .env(
             "CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUNNER",
             &tools.test_runner,
@@ -178,21 +188,21 @@ pub fn test_command(project: &Project) -> Result<Command> {
 pub fn clippy(project: &Project) -> Result<()> {
     let toolchain = Toolchain::ensure(project)?;
     toolchain.ensure_clippy()?;
-    process::run(
-        toolchain
-            .cargo(project, [])?
-            // In release, to share the macros and build scripts with the build.
-            .args(["clippy", "--release", "--target", WASM_TARGET])
-            .args(["--lib", "--test", "web", NO_COMMAND_LINE])
-            .args(["--", "-D", "warnings"]),
-    )?;
-    // Apart from the slicer, which leaves out the readers.
-    process::run(
-        toolchain
-            .cargo(project, [])?
-            .args(["clippy", "--release", "--target", WASM_TARGET])
-            .args(["--package", "cusp-reader", "--", "-D", "warnings"]),
-    )
+    let clippy = |arguments: &[&str]| {
+        process::run(
+            toolchain
+                .cargo(project, [])?
+                // In release, to share the macros and build scripts with the build.
+                .args(["clippy", "--release", "--target", WASM_TARGET])
+                .args(arguments)
+                .args(["--", "-D", "warnings"]),
+        )
+    };
+    // One by one: each module has other features.
+    for module in &MODULES {
+        clippy(&["--package", module.package, "--lib", NO_COMMAND_LINE])?;
+    }
+    clippy(&[&["--test", "web", NO_COMMAND_LINE], &WITH_GPU[..]].concat())
 }
 
 /// Reports the sizes of the built modules. Returns `false` if one is over its budget.

@@ -215,7 +215,7 @@ impl Deflater {
         }
         Ok(Deflated {
             bytes,
-            crc: rawzip::crc32(file),
+            crc: crate::crc::crc32(file),
             length: file.len() as u64,
         })
     }

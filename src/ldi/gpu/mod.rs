@@ -4,26 +4,62 @@
 //!
 //! The same integers decide coverage as in the CPU backend, and the same function computes heights. The two
 //! backends therefore return the same [`Ldi`], bit for bit, on every adapter.
-mod cells;
-mod device;
-mod fill;
-mod layers;
-mod peel;
-mod scan;
+//!
+//! In the browser the GPU is a module of its own, which the page fetches when a plan wants a GPU: see `remote.rs`.
+
+#[cfg(any(feature = "gpu", not(target_arch = "wasm32")))]
+mod direct;
+#[cfg(all(target_arch = "wasm32", not(feature = "gpu")))]
+mod remote;
 mod tiles;
 
-pub use device::{Adapters, Gpu, Method};
-pub use tiles::Tiling;
+#[cfg(any(feature = "gpu", not(target_arch = "wasm32")))]
+pub use direct::{Gpu, find};
+#[cfg(all(target_arch = "wasm32", not(feature = "gpu")))]
+pub use remote::{Gpu, find, open_by};
+pub use tiles::{Meetings, Region, Tiling};
 
-use self::device::failed;
-use self::fill::Filler;
-use self::peel::Peeler;
-use self::tiles::{Meetings, Region};
 use super::projection::Projection;
 use super::{GpuFault, Ldi, LdiError};
 use crate::grid::Grid;
 use crate::model::Mesh;
 use crate::progress::{Progress, report};
+
+/// Which adapters may be used.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Adapters {
+    /// Any adapter, including software emulation.
+    Any,
+    /// Hardware only: an emulated GPU is slower than the CPU backend.
+    Hardware,
+}
+
+/// How the facets that each ray hits are found. Both methods find the same.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// Two passes whatever the depth: count, then fill. Needs storage buffers in the vertex and fragment stages.
+    Fill,
+    /// Depth peeling: one pass for every two facets along the deepest ray. Runs where those stages have no storage buffers.
+    Peel,
+}
+
+impl Method {
+    /// The name of the method, as in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Fill => "fill",
+            Self::Peel => "peel",
+        }
+    }
+}
+
+/// The error of a fault that the system said nothing about.
+fn failed(fault: GpuFault) -> LdiError {
+    LdiError::GpuFailed {
+        fault,
+        system: None,
+    }
+}
 
 /// The facets from which on a search for a GPU can be worth its time.
 const MANY_FACETS: usize = 1_000_000;
@@ -34,22 +70,6 @@ const MANY_FACETS: usize = 1_000_000;
 /// all that the CPU backend does (docs/ldi.md, "When a GPU is used"; `cargo xtask bench gpu` checks it).
 pub fn can_be_faster(facets: usize, rays: usize) -> bool {
     facets >= MANY_FACETS && facets / 4 >= rays
-}
-
-/// A method with the mesh on the GPU.
-enum Sampler<'a> {
-    Fill(Filler<'a>),
-    Peel(Peeler<'a>),
-}
-
-impl Sampler<'_> {
-    /// The facets that the rays of one tile meet, or `None` if they do not fit into a buffer.
-    async fn sample(&self, region: Region) -> Result<Option<Meetings>, LdiError> {
-        match self {
-            Self::Fill(filler) => filler.sample(region).await,
-            Self::Peel(peeler) => peeler.sample(region).await,
-        }
-    }
 }
 
 /// Samples `mesh`, which lies inside `grid` and above z = 0.
@@ -68,32 +88,6 @@ pub async fn sample(
     super::check_facets(mesh)?;
     report(progress, 0.0)?;
     let projection = Projection::new(mesh, grid);
-    let sampler = match method {
-        Method::Fill => Sampler::Fill(Filler::new(gpu, mesh, &projection)?),
-        Method::Peel => Sampler::Peel(Peeler::new(gpu, mesh, &projection)),
-    };
-
-    let most = gpu.device().limits().max_texture_dimension_2d;
-    let most = match method {
-        Method::Fill => most,
-        Method::Peel => most.min(peel::MOST_SIDE),
-    };
-    let side = tiling.side.clamp(1, most);
-    let mut waiting = tiles::cut(grid, side);
-    waiting.reverse();
-    let mut sampled = Vec::new();
-    while let Some(region) = waiting.pop() {
-        match sampler.sample(region).await? {
-            Some(rays) => sampled.push((region, rays)),
-            // More rays or hits than a buffer holds: halve the tile.
-            None => waiting.extend(
-                region
-                    .halves()
-                    .ok_or_else(|| failed(GpuFault::TooManyHits))?,
-            ),
-        }
-        let done = sampled.len() as f64;
-        report(progress, 0.8 * done / (done + waiting.len() as f64))?;
-    }
-    tiles::join(&projection, grid, &sampled, progress)
+    let found = find(&projection, grid, gpu, tiling, method, progress).await?;
+    tiles::join(&projection, grid, mesh.classes, &found, progress)
 }

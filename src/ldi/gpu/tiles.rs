@@ -1,9 +1,10 @@
-//! Cuts a grid into tiles, and joins what was sampled on them.
+//! Tiles of a grid, and what was sampled on them joined.
 
-use super::device::failed;
+use super::failed;
 use crate::grid::Grid;
 use crate::ldi::projection::Projection;
 use crate::ldi::{GpuFault, Ldi, LdiError, assemble};
+use crate::model::FacetClasses;
 use crate::progress::Progress;
 
 /// The size of tiles, which bounds the GPU memory that sampling takes.
@@ -24,97 +25,32 @@ const MAX_SIDE: u32 = 4096;
 
 /// A rectangle of the grid, in pixels.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Region {
-    pub(super) column: u32,
-    pub(super) row: u32,
-    pub(super) width: u32,
-    pub(super) height: u32,
-}
-
-impl Region {
-    pub(super) fn rays(self) -> usize {
-        self.width as usize * self.height as usize
-    }
-
-    pub(super) fn extent(self) -> wgpu::Extent3d {
-        wgpu::Extent3d {
-            width: self.width,
-            height: self.height,
-            depth_or_array_layers: 1,
-        }
-    }
-
-    /// The region in two halves, or `None` if it is a single ray.
-    pub(super) fn halves(self) -> Option<[Self; 2]> {
-        let Self {
-            column,
-            row,
-            width,
-            height,
-        } = self;
-        if height > 1 {
-            let upper = height / 2;
-            let lower = height - upper;
-            Some([
-                Self {
-                    row: row + upper,
-                    height: lower,
-                    ..self
-                },
-                Self {
-                    height: upper,
-                    ..self
-                },
-            ])
-        } else if width > 1 {
-            let left = width / 2;
-            let right = width - left;
-            Some([
-                Self {
-                    column: column + left,
-                    width: right,
-                    ..self
-                },
-                Self {
-                    width: left,
-                    ..self
-                },
-            ])
-        } else {
-            None
-        }
-    }
-}
-
-/// Cuts the grid into regions of at most `side` × `side` pixels.
-pub(super) fn cut(grid: &Grid, side: u32) -> Vec<Region> {
-    let parts = |length: u32| {
-        let firsts = (0..length).step_by(side as usize);
-        firsts.map(move |first| (first, side.min(length - first)))
-    };
-    parts(grid.height)
-        .flat_map(|(row, height)| {
-            parts(grid.width).map(move |(column, width)| Region {
-                column,
-                row,
-                width,
-                height,
-            })
-        })
-        .collect()
+pub struct Region {
+    /// Its first column.
+    pub column: u32,
+    /// Its first row.
+    pub row: u32,
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
 }
 
 /// The facets that the rays of a region meet, in compressed rows: those of ray i are
 /// `facets[offsets[i]..offsets[i + 1]]`, in any order.
-pub(super) struct Meetings {
-    pub(super) offsets: Vec<u32>,
-    pub(super) facets: Vec<u32>,
+#[derive(Debug)]
+pub struct Meetings {
+    /// Where each ray begins, and where the last one ends.
+    pub offsets: Vec<u32>,
+    /// The facets of all rays.
+    pub facets: Vec<u32>,
 }
 
 /// Joins the tiles, computes heights and sorts the hits of each ray.
 pub(super) fn join(
     projection: &Projection<'_>,
     grid: &Grid,
+    classes: FacetClasses,
     sampled: &[(Region, Meetings)],
     progress: &mut Progress<'_>,
 ) -> Result<Ldi, LdiError> {
@@ -149,6 +85,6 @@ pub(super) fn join(
         grid: *grid,
         offsets,
         hits,
-        classes: projection.classes(),
+        classes,
     })
 }

@@ -1,6 +1,7 @@
 /** The worker: the only file that imports the WebAssembly package. One model is open at a time. */
 import * as Comlink from "comlink";
-import init, { calibrate_layers, head_bytes, identify, OrientationSearch, printers, Slicer } from "../../pkg/cusp_slicer.js";
+import init, { calibrate_layers, head_bytes, identify, open_gpus_by, OrientationSearch, printers, Slicer } from "../../pkg/cusp_slicer.js";
+import initGpu, { OpenGpu } from "../../pkg/gpu/cusp_gpu.js";
 import { acceptCompatible } from "./adapters.js";
 import { bytesOf } from "./bytes.js";
 import type { Candidate, KnownPrinter, OnProgress, SlicerWorker } from "./wire.js";
@@ -25,6 +26,12 @@ async function compile(): Promise<WebAssembly.Module> {
   // Streaming needs the right content type, which plain file hosts do not always send.
   const typed = response.headers.get("content-type")?.startsWith("application/wasm") ?? false;
   return typed ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
+}
+
+/** Opens a GPU, once the core wants one: what drives it is a module of its own. */
+async function openGpu(hardware: boolean): Promise<OpenGpu> {
+  await initGpu({ module_or_path: new URL("../../pkg/gpu/cusp_gpu_bg.wasm", import.meta.url) });
+  return OpenGpu.open(hardware);
 }
 
 /** Wraps a callback for the core in a plain function: the one from comlink is a proxy, which has every property. */
@@ -68,6 +75,7 @@ const api: SlicerWorker = {
   async boot(module) {
     const compiled = module ?? (await compile());
     ({ memory } = await init({ module_or_path: compiled }));
+    open_gpus_by(openGpu);
     return compiled;
   },
   async open(file, progress) {

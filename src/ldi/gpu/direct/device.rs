@@ -2,22 +2,14 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::tiles::Region;
+use super::super::tiles::Region;
+use super::super::{Adapters, Method};
 use crate::ldi::layout::Tile;
 use crate::ldi::projection::STEPS;
 use crate::ldi::{GpuFault, LdiError};
 
 /// Bytes of a count, an offset or a facet.
 pub(super) const WORD: u64 = 4;
-
-/// Which adapters may be used.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Adapters {
-    /// Any adapter, including software emulation.
-    Any,
-    /// Hardware only: an emulated GPU is slower than the CPU backend.
-    Hardware,
-}
 
 /// An open GPU. Any number of meshes may be sampled on it.
 #[derive(Debug)]
@@ -30,53 +22,34 @@ pub struct Gpu {
     failure: Failure,
 }
 
-/// How the facets that each ray hits are found. Both methods find the same.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Method {
-    /// Two passes whatever the depth: count, then fill. Needs storage buffers in the vertex and fragment stages.
-    Fill,
-    /// Depth peeling: one pass for every two facets along the deepest ray. Runs where those stages have no storage buffers.
-    Peel,
-}
-
-impl Method {
-    /// The name of the method, as in reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Fill => "fill",
-            Self::Peel => "peel",
-        }
-    }
-
-    /// The faster method of those that a device can do.
-    async fn of(device: &wgpu::Device) -> Self {
-        // wgpu does not tell how many storage buffers a stage may have; so ask for what filling needs.
-        let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
-        let entry = |binding, visibility, read_only| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility,
-            ty: wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Storage { read_only },
-                has_dynamic_offset: false,
-                min_binding_size: None,
-            },
-            count: None,
-        };
-        let entries = [
-            entry(1, wgpu::ShaderStages::VERTEX, true),
-            entry(2, wgpu::ShaderStages::VERTEX, true),
-            entry(3, wgpu::ShaderStages::FRAGMENT, false),
-            entry(4, wgpu::ShaderStages::FRAGMENT, true),
-            entry(5, wgpu::ShaderStages::FRAGMENT, false),
-        ];
-        let _ = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("probe"),
-            entries: &entries,
-        });
-        match scope.pop().await {
-            None => Self::Fill,
-            Some(_) => Self::Peel,
-        }
+/// The faster method of those that a device can do.
+async fn faster_method(device: &wgpu::Device) -> Method {
+    // wgpu does not tell how many storage buffers a stage may have; so ask for what filling needs.
+    let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
+    let entry = |binding, visibility, read_only| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    };
+    let entries = [
+        entry(1, wgpu::ShaderStages::VERTEX, true),
+        entry(2, wgpu::ShaderStages::VERTEX, true),
+        entry(3, wgpu::ShaderStages::FRAGMENT, false),
+        entry(4, wgpu::ShaderStages::FRAGMENT, true),
+        entry(5, wgpu::ShaderStages::FRAGMENT, false),
+    ];
+    let _ = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("probe"),
+        entries: &entries,
+    });
+    match scope.pop().await {
+        None => Method::Fill,
+        Some(_) => Method::Peel,
     }
 }
 
@@ -102,14 +75,6 @@ impl Failure {
 fn no_gpu(error: impl std::fmt::Display) -> LdiError {
     LdiError::NoGpu {
         system: error.to_string(),
-    }
-}
-
-/// The error of a fault that the system said nothing about.
-pub(super) fn failed(fault: GpuFault) -> LdiError {
-    LdiError::GpuFailed {
-        fault,
-        system: None,
     }
 }
 
@@ -165,7 +130,7 @@ impl Gpu {
     ///
     /// Its callbacks for uncaptured errors and for its loss are replaced.
     pub async fn with_device(name: String, device: wgpu::Device, queue: wgpu::Queue) -> Self {
-        let method = Method::of(&device).await;
+        let method = faster_method(&device).await;
         let failure = Failure::default();
         let of_device = failure.clone();
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
@@ -270,6 +235,15 @@ impl Gpu {
         // In a browser, dropping frees nothing before garbage is collected.
         readback.destroy();
         Ok(words)
+    }
+
+    /// The size of textures for a region.
+    pub(super) fn extent(region: Region) -> wgpu::Extent3d {
+        wgpu::Extent3d {
+            width: region.width,
+            height: region.height,
+            depth_or_array_layers: 1,
+        }
     }
 
     /// The uniform that tells shaders where a tile lies.

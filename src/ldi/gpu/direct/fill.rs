@@ -1,12 +1,12 @@
 //! Samples one tile in two passes over the mesh (shaders/fill.wgsl), with a prefix sum between them.
 
-use super::device::{Gpu, WORD, failed};
+use super::super::failed;
+use super::super::tiles::{Meetings, Region};
+use super::device::{Gpu, WORD};
 use super::scan::{Rows, Scan};
-use super::tiles::{Meetings, Region};
 use crate::ldi::layout::FILL;
 use crate::ldi::projection::Projection;
 use crate::ldi::{GpuFault, LdiError};
-use crate::model::Mesh;
 
 /// Format of the render target. A render pass needs one, though these passes write nothing to it.
 const CANVAS: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
@@ -23,18 +23,14 @@ pub(super) struct Filler<'a> {
 }
 
 impl<'a> Filler<'a> {
-    pub(super) fn new(
-        gpu: &'a Gpu,
-        mesh: &Mesh,
-        projection: &Projection<'_>,
-    ) -> Result<Self, LdiError> {
+    pub(super) fn new(gpu: &'a Gpu, projection: &Projection<'_>) -> Result<Self, LdiError> {
         let limit_bytes = gpu.limit_bytes();
-        let corner_bytes = std::mem::size_of_val(mesh.facets.as_slice()) as u64;
+        let corner_bytes = std::mem::size_of_val(projection.vertices_of) as u64;
         let position_bytes = std::mem::size_of_val(projection.positions.as_slice()) as u64;
         let needed_bytes = corner_bytes.max(position_bytes);
         if needed_bytes > limit_bytes {
             return Err(LdiError::GpuTooSmall {
-                facets: mesh.facets.len() as u64,
+                facets: projection.facets() as u64,
                 needed_bytes,
                 limit_bytes,
             });
@@ -49,9 +45,9 @@ impl<'a> Filler<'a> {
             });
         Ok(Self {
             gpu,
-            vertices: mesh.facets.len() as u32 * 3,
+            vertices: projection.facets() as u32 * 3,
             positions: storage("positions", bytemuck::cast_slice(&projection.positions)),
-            corners: storage("corners", bytemuck::cast_slice(&mesh.facets)),
+            corners: storage("corners", bytemuck::cast_slice(projection.vertices_of)),
             count: render_pipeline(&gpu.device, &module, "count"),
             fill: render_pipeline(&gpu.device, &module, "fill"),
             scan: Scan::new(gpu),
@@ -67,7 +63,7 @@ impl<'a> Filler<'a> {
         let tile = self.gpu.tile(region);
         let canvas = device.create_texture(&wgpu::TextureDescriptor {
             label: Some("canvas"),
-            size: region.extent(),
+            size: Gpu::extent(region),
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,

@@ -1,8 +1,8 @@
 //! The textures that depth peeling draws on (shaders/peel.wgsl): two layers of a tile, which passes read and write in turn.
 
+use super::super::tiles::Region;
 use super::cells::Cells;
 use super::device::Gpu;
-use super::tiles::Region;
 use crate::ldi::layout::PEEL;
 use crate::ldi::projection::Projection;
 
@@ -57,7 +57,7 @@ impl<'a> Layers<'a> {
         let textures = ["even layers", "odd layers"].map(|label| {
             gpu.device.create_texture(&wgpu::TextureDescriptor {
                 label: Some(label),
-                size: region.extent(),
+                size: Gpu::extent(region),
                 mip_level_count: 1,
                 sample_count: 1,
                 dimension: wgpu::TextureDimension::D2,

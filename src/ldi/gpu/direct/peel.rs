@@ -7,15 +7,15 @@
 
 use rustc_hash::FxHashMap;
 
+use super::super::failed;
+use super::super::tiles::{Meetings, Region};
 use super::cells::{Cells, LEAST_SIDE};
-use super::device::{Gpu, WORD, failed};
+use super::device::{Gpu, WORD};
 use super::layers::{ALL, FACET_BYTES, Layers, clear, render_pipeline};
 use super::scan::{Rows, Scan};
-use super::tiles::{Meetings, Region};
 use crate::ldi::layout::{COLLECT, Cell};
 use crate::ldi::projection::Projection;
 use crate::ldi::{GpuFault, LdiError};
-use crate::model::Mesh;
 use crate::order::ascending;
 
 /// Rays of so many facets are left to the CPU, which is faster at a few of them than a pass for every two facets.
@@ -37,9 +37,9 @@ pub(super) struct Peeler<'a> {
 }
 
 impl<'a> Peeler<'a> {
-    pub fn new(gpu: &'a Gpu, mesh: &Mesh, projection: &'a Projection<'a>) -> Self {
-        let heights = mesh.facets.iter().map(|facet| {
-            let [a, b, c] = facet.map(|vertex| f64::from(mesh.vertices[vertex as usize].z));
+    pub fn new(gpu: &'a Gpu, projection: &'a Projection<'a>) -> Self {
+        let heights = (0..projection.facets()).map(|facet| {
+            let [a, b, c] = projection.heights(facet).map(f64::from);
             a + b + c
         });
         let order = ascending(heights)
@@ -47,7 +47,7 @@ impl<'a> Peeler<'a> {
             .filter(|&facet| projection.outline(facet).is_some());
         let collect = gpu
             .device
-            .create_shader_module(wgpu::include_wgsl!("../../../shaders/collect.wgsl"));
+            .create_shader_module(wgpu::include_wgsl!("../../../../shaders/collect.wgsl"));
         Self {
             gpu,
             projection,
