@@ -82,6 +82,11 @@ pub enum Warning {
         /// Make and model of the printer.
         model: String,
     },
+    /// Nobody has told whether these slicers print the layers of a plan as they are.
+    UntriedSlicer {
+        /// Names of the slicers.
+        slicers: Vec<&'static str>,
+    },
     /// The mesh does not fit into the buffers of the GPU; the CPU was used instead.
     GpuTooSmall {
         /// Bytes that the mesh needs.
@@ -171,6 +176,12 @@ impl std::fmt::Display for Warning {
                 f,
                 "nobody has told whether the {model} prints layers of several thicknesses; print what `cusp calibrate layers` \
                  makes and measure it, or choose the uniform planner"
+            ),
+            Self::UntriedSlicer { slicers } => write!(
+                f,
+                "nobody has told whether {} prints the layers of such a file as planned; compare the number and the heights of the \
+                 layers in its preview before you print",
+                slicers.join(" or ")
             ),
             Self::GpuTooSmall {
                 needed_bytes,

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, ValueEnum};
+use cusp_slicer::filament::USUAL_NOZZLE_MM;
 use cusp_slicer::format::Format;
-use cusp_slicer::job::{BIN_MM, Backend, GpuMethod, Minimize, Options, Planner, Snap};
+use cusp_slicer::job::{BIN_MM, Backend, GpuMethod, LAYERS_MM, Minimize, Options, Planner, Snap};
 use cusp_slicer::orientation::shard::Shard;
 use cusp_slicer::orientation::{Cost, MAX_DIRECTIONS, Quality, SearchOptions};
 use cusp_slicer::plan::HeightRange;
@@ -53,6 +54,8 @@ pub struct Target {
     /// Format of the print file [default: the printer's, or png]
     #[arg(long, value_enum, help_heading = "Printer")]
     format: Option<Format>,
+    #[arg(long, value_name = "MM", value_parser = length, help = nozzle_help(), help_heading = "Printer")]
+    nozzle: Option<f64>,
     /// Resin, as a JSON file: exposures, bottom layers, lift
     #[arg(long, value_name = "FILE", help_heading = "Printer")]
     resin: Option<PathBuf>,
@@ -69,6 +72,7 @@ impl Target {
             antialias: self.aa,
             mirror: self.mirror,
             format: self.format,
+            nozzle_mm: self.nozzle,
             resin: read_resin(self.resin.as_deref())?,
             ..Options::default()
         })
@@ -109,13 +113,12 @@ pub struct Choices {
         help_heading = "Weights"
     )]
     weight_min: f64,
-    /// Minimum layer thickness
-    #[arg(long, value_name = "MM", default_value_t = Options::default().layer_min_mm, value_parser = length, help_heading = "Layers")]
-    layer_min: f64,
-    /// Maximum layer thickness
-    #[arg(long, value_name = "MM", default_value_t = Options::default().layer_max_mm, value_parser = length, help_heading = "Layers")]
-    layer_max: f64,
-    /// Thickness of the first layer, whatever its error: the tolerance holds above it
+    #[arg(long, value_name = "MM", value_parser = length, help = limit_help("Minimum", LAYERS_MM[0]), help_heading = "Layers")]
+    layer_min: Option<f64>,
+    #[arg(long, value_name = "MM", value_parser = length, help = limit_help("Maximum", LAYERS_MM[1]), help_heading = "Layers")]
+    layer_max: Option<f64>,
+    /// Thickness of the first layer, whatever its error: the tolerance holds above it [default for filament printers: half the
+    /// width of the nozzle]
     #[arg(long, value_name = "MM", value_parser = length, help_heading = "Layers")]
     first_layer: Option<f64>,
     /// The only layer thicknesses, in place of a range: each needs an exposure of its own
@@ -284,6 +287,20 @@ fn pixels_help() -> String {
     format!(
         "Columns and rows of the masks, with the model at the centre [default: the model's bounding box at {rays} pixels \
          along its longer side]"
+    )
+}
+
+/// The help of `--layer-min` and `--layer-max`.
+fn limit_help(which: &str, usual_mm: f64) -> String {
+    format!(
+        "{which} layer thickness [default: {usual_mm}; for filament printers, what the nozzle prints]"
+    )
+}
+
+fn nozzle_help() -> String {
+    let formats = Format::FILAMENT.map(Format::name).join(" and ");
+    format!(
+        "Width of a filament printer's nozzle, for the formats {formats}: it sets the limits of layers [default: {USUAL_NOZZLE_MM}]"
     )
 }
 
