@@ -28,11 +28,19 @@ pub enum Format {
     Ctb,
     /// `NanoDLP`, for layers of one thickness.
     Nanodlp,
+    /// A 3MF for `PrusaSlicer`: the model, and the heights of its layers, which filament printers print.
+    #[serde(rename = "prusa-3mf")]
+    #[cfg_attr(feature = "cli", value(name = "prusa-3mf"))]
+    Prusa3mf,
+    /// The same for `OrcaSlicer` and Bambu Studio; untried.
+    #[serde(rename = "orca-3mf")]
+    #[cfg_attr(feature = "cli", value(name = "orca-3mf"))]
+    Orca3mf,
 }
 
 impl Format {
-    /// All formats.
-    pub const ALL: [Self; 9] = [
+    /// The formats that hold masks, for resin printers.
+    pub const MASKS: [Self; 9] = [
         Self::Png,
         Self::Chitubox,
         Self::Uvj,
@@ -43,6 +51,19 @@ impl Format {
         Self::Ctb,
         Self::Nanodlp,
     ];
+
+    /// The formats for slicers of filament printers: they hold a model and the heights of its layers, and no masks.
+    pub const FILAMENT: [Self; 2] = [Self::Prusa3mf, Self::Orca3mf];
+
+    /// All formats.
+    pub fn all() -> impl Iterator<Item = Self> {
+        Self::MASKS.into_iter().chain(Self::FILAMENT)
+    }
+
+    /// Whether its files hold masks, for resin printers.
+    pub fn has_masks(self) -> bool {
+        Self::MASKS.contains(&self)
+    }
 
     /// The formats that have a thickness for every layer, and that some printer or program is known to read it from.
     pub const VARIABLE: [Self; 5] = [Self::Goo, Self::Ctb, Self::Chitubox, Self::Uvj, Self::Png];
@@ -68,6 +89,8 @@ impl Format {
             Self::AnycubicZip => "anycubic-zip",
             Self::Ctb => "ctb",
             Self::Nanodlp => "nanodlp",
+            Self::Prusa3mf => "prusa-3mf",
+            Self::Orca3mf => "orca-3mf",
         }
     }
 
@@ -82,6 +105,7 @@ impl Format {
             Self::AnycubicZip => "pwsz",
             Self::Ctb => "ctb",
             Self::Nanodlp => "nanodlp",
+            Self::Prusa3mf | Self::Orca3mf => "3mf",
         }
     }
 
@@ -90,6 +114,7 @@ impl Format {
     pub fn media_type(self) -> &'static str {
         match self {
             Self::Png | Self::Chitubox => "application/zip",
+            Self::Prusa3mf | Self::Orca3mf => "model/3mf",
             _ => "application/octet-stream",
         }
     }

@@ -36,7 +36,7 @@
 //! # Modules, in pipeline order
 //! [`model`] reads, welds and poses a mesh; [`ldi`] samples it; [`profile`] and [`plan`] find the layers; [`mask`] images them;
 //! [`archive`] writes the print file; [`orientation`] searches for the way up. [`job`] resolves [`Options`] and runs the stages.
-//! [`format`](mod@format), [`printer`], [`resin`], [`quantity`] and [`grid`] are data that the others look things up in.
+//! [`format`](mod@format), [`filament`], [`printer`], [`resin`], [`quantity`] and [`grid`] are data that the others look things up in.
 //!
 //! # Conventions
 //! - Millimetres and seconds wherever a number leaves the library, with the unit in its name; times of stages are in
@@ -51,6 +51,7 @@ mod order;
 mod parallel;
 pub mod progress;
 
+pub mod filament;
 pub mod format;
 pub mod grid;
 pub mod growth;

@@ -214,12 +214,10 @@ pub static PRINTERS: LazyLock<Vec<Arc<Printer>>> = LazyLock::new(|| {
 });
 
 /// The format of print files that end in this extension, without its dot: those of printers that read them, or those that the
-/// format has. Where there are several, the first of [`Format::ALL`].
+/// format has. Where there are several, the first of [`Format::all`].
 pub fn format_of(extension: &str) -> Option<Format> {
     let extension = extension.to_ascii_lowercase();
-    let by_name = Format::ALL
-        .into_iter()
-        .find(|format| format.extension() == extension);
+    let by_name = Format::all().find(|format| format.extension() == extension);
     by_name.or_else(|| {
         let mut readers = PRINTERS.iter().filter(|printer| printer.reads_format);
         let reader = readers.find(|printer| printer.reads.contains(&extension));

@@ -9,6 +9,7 @@ use crate::profile::Metric;
 
 /// How long a model is if its file is in a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct UnitReading {
     /// The unit.
@@ -112,6 +113,11 @@ pub enum Warning {
     UntriedThicknesses {
         /// Make and model of the printer.
         model: String,
+    },
+    /// Nobody has told whether these slicers print the layers of a plan as they are.
+    UntriedSlicer {
+        /// Names of the slicers.
+        slicers: Vec<&'static str>,
     },
     /// The mesh does not fit into the buffers of the GPU; the CPU was used instead.
     GpuTooSmall {
@@ -224,6 +230,12 @@ impl std::fmt::Display for Warning {
                 f,
                 "nobody has told whether the {model} prints layers of several thicknesses; print what `cusp calibrate layers` \
                  makes and measure it, or choose the uniform planner"
+            ),
+            Self::UntriedSlicer { slicers } => write!(
+                f,
+                "nobody has told whether {} prints the layers of such a file as planned; compare the number and the heights of the \
+                 layers in its preview before you print",
+                slicers.join(" or ")
             ),
             Self::GpuTooSmall {
                 needed_bytes,

@@ -113,10 +113,10 @@ pub fn printers() -> JsValue {
     to_js(&*PRINTERS)
 }
 
-/// The default options.
+/// The default options, with the limits of layers that apply if none are given.
 #[wasm_bindgen(unchecked_return_type = "Required<Options>")]
 pub fn defaults() -> JsValue {
-    to_js(&Options::default())
+    to_js(&Options::default().settled())
 }
 
 /// A search for the best orientation. It hands out directions to measure, and measures nothing itself. Several slicers with

@@ -4,7 +4,7 @@
 
 use std::fmt::Write;
 
-use cusp_slicer::job::Options;
+use cusp_slicer::job::{LAYERS_MM, Options};
 use cusp_slicer::orientation::SearchOptions;
 use cusp_slicer::printer::PRINTERS;
 use cusp_slicer::profile::Metric;
@@ -39,8 +39,7 @@ fn the_command_lines_document_names_the_defaults_of_the_library() {
         let said = said.trim_start_matches("tolerance is ");
         assert!(said.starts_with(&tolerance(metric)), "{row}");
     }
-    let options = Options::default();
-    let (min_mm, max_mm) = (options.layer_min_mm, options.layer_max_mm);
+    let [min_mm, max_mm] = LAYERS_MM;
     let thickness = format!("`--layer-min {min_mm}`, `--layer-max {max_mm}`");
     assert_says(row(CLI, &thickness), "these are the defaults");
     let directions = SearchOptions::default().directions;
@@ -58,7 +57,7 @@ fn the_elements_document_names_the_defaults_of_the_library() {
         let is_default = row(EMBED, "`metric`").contains(&format!("`{name}` (the default)"));
         assert_eq!(is_default, metric == options.metric, "{name}");
     }
-    let (min_mm, max_mm) = (options.layer_min_mm, options.layer_max_mm);
+    let [min_mm, max_mm] = LAYERS_MM;
     let said = format!("by default {min_mm} and {max_mm} mm");
     assert_says(row(EMBED, "`layer-min`, `layer-max`"), &said);
     let said = format!("`weight_min` ({} by default)", options.weight_min);

@@ -29,11 +29,11 @@ fn numbers_of_layers_are_refused_by_name_bound_and_unit() {
         "the bin height must be greater than 0, not 0 mm"
     );
     assert_eq!(
-        refusal(|options| options.layer_min_mm = -0.05),
+        refusal(|options| options.layer_min_mm = Some(-0.05)),
         "the minimum layer thickness must be greater than 0, not -0.05 mm"
     );
     assert_eq!(
-        refusal(|options| options.layer_max_mm = f64::INFINITY),
+        refusal(|options| options.layer_max_mm = Some(f64::INFINITY)),
         "the maximum layer thickness must be greater than 0, not inf mm"
     );
     assert_eq!(

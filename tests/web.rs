@@ -182,7 +182,8 @@ async fn check_plan_and_masks() {
     assert_eq!(archive(&mut slicer), 0x5583_4511_6bf4_6186);
     // Every metric, source and objective.
     let mut plans = Vec::new();
-    for metric in Metric::ALL {
+    let recorded_first = |metric: &Metric| *metric != Metric::Thread;
+    for metric in Metric::ALL.into_iter().filter(recorded_first) {
         for (source, minimize) in [
             (Source::Exact, Minimize::Layers),
             (Source::Exact, Minimize::Time),
@@ -206,6 +207,14 @@ async fn check_plan_and_masks() {
         plans.extend(point.layers.to_le_bytes().iter().take(4));
     }
     assert_eq!(fingerprint(&plans), 0x8921_2f2c_7b8c_ea9d);
+    // A plan for filament printers, and its file.
+    let filament = Options {
+        metric: Metric::Thread,
+        format: Some(Format::Prusa3mf),
+        ..options()
+    };
+    slicer.plan(&filament, &mut quiet).await.unwrap();
+    assert_eq!(archive(&mut slicer), 0);
 }
 
 #[cfg(not(target_arch = "wasm32"))]

@@ -84,8 +84,8 @@ fn models() -> Vec<Model> {
 fn options(model: &Model) -> Options {
     Options {
         height_mm: Some(model.height_mm),
-        layer_min_mm: LAYER_MM[0],
-        layer_max_mm: LAYER_MM[1],
+        layer_min_mm: Some(LAYER_MM[0]),
+        layer_max_mm: Some(LAYER_MM[1]),
         tolerance: Some(TOLERANCE_MM),
         bin_mm: Some(BIN_MM),
         // The paper's planes at sharp changes are mandatory, and its tables do not count them.

@@ -3,6 +3,7 @@
 mod ctb;
 mod fields;
 mod goo;
+pub mod layer_profile;
 mod photon_workshop;
 pub mod png;
 mod preview;
@@ -29,9 +30,9 @@ use crate::printer::{Printer, Refusal, are_equal, check_thicknesses};
 use crate::progress::{Cancelled, Progress, report};
 use crate::resin::Resin;
 
-/// The encoder of a format.
-fn encoder(format: Format) -> &'static dyn Encoder {
-    match format {
+/// The encoder of a format; `None` if its files have no masks: [`layer_profile`] writes these.
+fn encoder(format: Format) -> Option<&'static dyn Encoder> {
+    Some(match format {
         Format::Png => &zip::Zip(&zip::masks::Masks),
         Format::Chitubox => &zip::Zip(&zip::chitubox::Chitubox),
         Format::Uvj => &zip::Zip(&zip::uvj::Uvj),
@@ -41,7 +42,8 @@ fn encoder(format: Format) -> &'static dyn Encoder {
         Format::AnycubicZip => &zip::Zip(&zip::anycubic::Anycubic),
         Format::Ctb => &ctb::Ctb,
         Format::Nanodlp => &zip::Zip(&zip::nanodlp::Nanodlp),
-    }
+        Format::Prusa3mf | Format::Orca3mf => return None,
+    })
 }
 
 /// What differs between formats. A zip of masks implements [`zip::Container`] instead, and [`zip::Zip`] encodes it.
@@ -99,6 +101,28 @@ pub enum ArchiveError {
         model: String,
         /// The thickest uniform layers within tolerance, if any are.
         best: Option<UniformLayers>,
+    },
+    /// The format is for slicers of filament printers: its files have no masks.
+    #[error(
+        "{} files hold a model and its layers, and no masks; slice the model itself into this format, or choose another",
+        format.name()
+    )]
+    #[serde(rename = "no-masks")]
+    NoMasks {
+        /// The format asked for.
+        format: Format,
+    },
+    /// The first layer is not as thick as the slicer is told to print it.
+    #[error(
+        "the first layer of this plan is {layer_mm} mm thick, not {first_layer_mm} mm as set; the model is lower than that, \
+         so choose a thinner first layer"
+    )]
+    #[serde(rename = "other-first-layer")]
+    OtherFirstLayer {
+        /// Thickness of the plan's first layer.
+        layer_mm: f64,
+        /// Thickness that the slicer prints.
+        first_layer_mm: f64,
     },
     /// Bytes could not be written: the disk is full, say.
     #[error("the print file could not be written: {system}")]
@@ -281,8 +305,9 @@ pub fn write<W: Write>(
     progress: &mut Progress<'_>,
 ) -> Result<W, ArchiveError> {
     report(progress, 0.0)?;
+    let encoder = encoder(format).ok_or(ArchiveError::NoMasks { format })?;
     job.check(format)?;
-    encoder(format).encode(job, &mut writer, progress)?;
+    encoder.encode(job, &mut writer, progress)?;
     Ok(writer)
 }
 

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::Vec3;
 use serde::Serialize;
 
+use super::parts::Output;
 use super::slicer::Slicer;
 use super::stage::StageProgress;
 use super::{Backend, Error, Options, Report, Snap};
@@ -148,7 +149,12 @@ impl Calibration {
         sections: Vec<Section>,
         options: &Options,
     ) -> Result<Self, Error> {
-        let printer = options.resolve()?.output.printer;
+        let Output {
+            printer, format, ..
+        } = options.resolve()?.output;
+        if !format.has_masks() {
+            return Err(ArchiveError::NoMasks { format }.into());
+        }
         // Whether it prints them is what the print shall tell.
         let printer = printer.map(|printer| {
             let mut printer = Arc::unwrap_or_clone(printer);
@@ -177,8 +183,8 @@ impl Calibration {
                 .iter()
                 .map(|section| section.from_mm)
                 .collect(),
-            layer_min_mm: thickness_mm().fold(f64::INFINITY, f64::min),
-            layer_max_mm: thickness_mm().fold(0.0, f64::max),
+            layer_min_mm: Some(thickness_mm().fold(f64::INFINITY, f64::min)),
+            layer_max_mm: Some(thickness_mm().fold(0.0, f64::max)),
             snap: Snap::Off,
             backend: Backend::Cpu,
             ..Options::default()

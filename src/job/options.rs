@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::filament::{FilamentSlicer, USUAL_NOZZLE_MM};
 use crate::format::Format;
 use crate::model::ModelUnit;
 use crate::plan::HeightRange;
@@ -107,6 +108,9 @@ pub enum Snap {
     Off,
 }
 
+/// Minimum and maximum layer thickness on resin printers if none are given, in millimetres.
+pub const LAYERS_MM: [f64; 2] = [0.05, 0.15];
+
 /// What to slice and how. All lengths are in millimetres.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
@@ -139,12 +143,16 @@ pub struct Options {
     /// Anti-aliasing level, 1, 2, 4 or 8: the number of rays per pixel, and of heights per layer, over which grey is
     /// averaged. At 1, pixels are either lit or dark.
     pub antialias: u32,
-    /// Minimum layer thickness.
-    pub layer_min_mm: f64,
-    /// Maximum layer thickness.
-    pub layer_max_mm: f64,
-    /// Thickness of the first layer, whatever its error and the range of thicknesses. The tolerance holds above it.
+    /// Minimum layer thickness. If absent, 0.05 mm, or, for filament printers, what the nozzle prints.
+    pub layer_min_mm: Option<f64>,
+    /// Maximum layer thickness. If absent, 0.15 mm, or, for filament printers, what the nozzle prints.
+    pub layer_max_mm: Option<f64>,
+    /// Thickness of the first layer, whatever its error and the range of thicknesses. The tolerance holds above it. If absent,
+    /// it is chosen like the others, or, for filament printers, half the width of the nozzle.
     pub first_layer_mm: Option<f64>,
+    /// Width of the nozzle of a filament printer, for formats that these have; 0.4 mm if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub nozzle_mm: Option<f64>,
     /// The only layer thicknesses of the optimal planner, in place of a range; any in the range if empty.
     pub thicknesses_mm: Vec<f64>,
     /// The optimal planner chooses at most this many distinct layer thicknesses.
@@ -153,7 +161,7 @@ pub struct Options {
     pub max_change_mm: Option<f64>,
     /// Maximum error of a layer, in the metric's unit: mm, mm, a fraction or mm³. If absent, 0.065 mm of cusp height, 0.1 mm
     /// of roughness, 0.1 of the area, or 1 mm³ of volume; if no plan keeps that volume, the smallest tolerance that a plan
-    /// keeps.
+    /// keeps. For filament printers, larger in proportion to the least thickness that the nozzle prints.
     pub tolerance: Option<f64>,
     /// Find the smallest tolerance that needs at most this many layers.
     pub max_layers: Option<usize>,
@@ -206,9 +214,10 @@ impl Default for Options {
             format: None,
             rays: 2048,
             antialias: 1,
-            layer_min_mm: 0.05,
-            layer_max_mm: 0.15,
+            layer_min_mm: None,
+            layer_max_mm: None,
             first_layer_mm: None,
+            nozzle_mm: None,
             thicknesses_mm: Vec::new(),
             max_thicknesses: None,
             max_change_mm: None,
@@ -235,12 +244,49 @@ impl Default for Options {
 }
 
 impl Options {
-    /// These options with the default backend and method, since neither affects a plan.
-    pub(crate) fn without_backend(&self) -> Self {
+    /// These options with the limits of layers that apply if none are given. They give the same plan.
+    #[must_use]
+    pub fn settled(&self) -> Self {
+        let (nozzle_mm, first_layer_mm, [layer_min_mm, layer_max_mm]) = match self.filament() {
+            None => (self.nozzle_mm, None, LAYERS_MM),
+            Some(filament) => {
+                let nozzle_mm = self.nozzle_mm.unwrap_or(USUAL_NOZZLE_MM);
+                let layers = filament.layers(nozzle_mm);
+                let range_mm = [layers.least_mm, layers.most_mm];
+                (Some(nozzle_mm), Some(layers.first_mm), range_mm)
+            }
+        };
+        Self {
+            nozzle_mm,
+            first_layer_mm: self.first_layer_mm.or(first_layer_mm),
+            layer_min_mm: self.layer_min_mm.or(Some(layer_min_mm)),
+            layer_max_mm: self.layer_max_mm.or(Some(layer_max_mm)),
+            ..self.clone()
+        }
+    }
+
+    /// The tolerance if none is given, in the metric's unit. Those of metrics are chosen for layers from 0.05 mm up, so they grow with
+    /// the least thickness that a nozzle prints: models that have a plan on a resin printer then have one through a nozzle.
+    pub fn default_tolerance(&self) -> f64 {
+        let usual = self.metric.default_tolerance();
+        let Some(filament) = self.filament() else {
+            return usual;
+        };
+        let layers = filament.layers(self.nozzle_mm.unwrap_or(USUAL_NOZZLE_MM));
+        (usual * layers.least_mm / LAYERS_MM[0] * 1e6).round() / 1e6
+    }
+
+    /// The slicer of filament printers that the format is for, if it is for one.
+    pub(crate) fn filament(&self) -> Option<FilamentSlicer> {
+        self.format.and_then(FilamentSlicer::of)
+    }
+
+    /// These options as a report has them: settled, and with the default backend and method, since neither affects a plan.
+    pub(crate) fn as_reported(&self) -> Self {
         Self {
             backend: Backend::default(),
             gpu_method: GpuMethod::default(),
-            ..self.clone()
+            ..self.settled()
         }
     }
 }

@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use crate::format::Format;
+
 /// Options that cannot be read, are out of bounds, contradict each other, or exceed what the printer can do.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
@@ -104,5 +106,59 @@ pub enum OptionsError {
         printer_step_mm: f64,
         /// The requested step.
         step_mm: f64,
+    },
+    /// The format is for filament printers, and the printer is none.
+    #[error(
+        "{} files are for filament printers, and the {model} prints resin; leave the printer out, or choose a format that it reads",
+        format.name()
+    )]
+    #[serde(rename = "resin-printer")]
+    ResinPrinter {
+        /// The requested format.
+        format: Format,
+        /// Make and model of the printer.
+        model: String,
+    },
+    /// A nozzle is given for a format that is not for filament printers.
+    #[error(
+        "a nozzle goes with the formats for filament printers only: {}; choose one of them, or leave the nozzle out",
+        formats.map(Format::name).join(", ")
+    )]
+    #[serde(rename = "nozzle-without-filament")]
+    NozzleWithoutFilament {
+        /// The formats for filament printers.
+        formats: [Format; 2],
+    },
+    /// No nozzle has this width.
+    #[error("the nozzle must be {least_mm} to {most_mm} mm wide, not {nozzle_mm} mm")]
+    #[serde(rename = "bad-nozzle")]
+    BadNozzle {
+        /// The requested width.
+        nozzle_mm: f64,
+        /// The least width.
+        least_mm: f64,
+        /// The greatest width.
+        most_mm: f64,
+    },
+    /// The options allow layer thicknesses that the slicer does not print through the nozzle.
+    #[error(
+        "through a nozzle of {nozzle_mm} mm {} prints layers of {nozzle_min_mm} to {nozzle_max_mm} mm, not {layer_min_mm} to \
+         {layer_max_mm} mm; stay within its limits, or name another nozzle",
+        slicers.join(" or ")
+    )]
+    #[serde(rename = "nozzle-layers")]
+    NozzleLayers {
+        /// Names of the slicers.
+        slicers: Vec<&'static str>,
+        /// Width of the nozzle.
+        nozzle_mm: f64,
+        /// Minimum layer thickness of the nozzle.
+        nozzle_min_mm: f64,
+        /// Maximum layer thickness of the nozzle.
+        nozzle_max_mm: f64,
+        /// Requested minimum thickness: of all layers, of a height range, of uniform layers, or of the first layer.
+        layer_min_mm: f64,
+        /// Requested maximum thickness of the same layers.
+        layer_max_mm: f64,
     },
 }

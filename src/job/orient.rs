@@ -202,7 +202,7 @@ impl Slicer {
         OrientationPart {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             model: self.file.clone(),
-            options: options.without_backend(),
+            options: options.as_reported(),
             weights_crc32: self.painted.as_deref().map(weights::crc_of),
             shard,
             directions,

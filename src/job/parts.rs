@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::{Backend, GpuMethod, Minimize, Planner};
+use crate::filament::FilamentSlicer;
 use crate::format::Format;
 use crate::grid::{Bins, Grid, GridError};
 use crate::growth::Growth;
@@ -101,6 +102,16 @@ pub(crate) struct Output {
     pub format: Format,
     pub is_mirrored: bool,
     pub printer: Option<Arc<Printer>>,
+    /// For a slicer of filament printers, in place of masks.
+    pub filament: Option<Filament>,
+}
+
+/// What a file for a slicer of filament printers depends on, besides plan and model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Filament {
+    pub slicer: FilamentSlicer,
+    pub nozzle_mm: f64,
+    pub first_layer_mm: f64,
 }
 
 impl Sampling {

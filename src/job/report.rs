@@ -5,10 +5,11 @@ use serde_json::Value;
 #[cfg(target_arch = "wasm32")]
 use tsify::Tsify;
 
-use super::parts::Output;
+use super::parts::{Filament, Output};
 use super::planned::{Planned, PlannedModel};
 use super::sampled::Sampled;
 use super::{Options, PlateReport};
+use crate::filament::FilamentReport;
 use crate::format::Format;
 use crate::ldi::Solid;
 use crate::mask::black_layers;
@@ -163,7 +164,7 @@ pub struct MaskReport {
 }
 
 /// The format of a print file.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
 pub struct PrintFileReport {
@@ -175,6 +176,9 @@ pub struct PrintFileReport {
     pub media_type: String,
     /// Whether a printer is named and reads the format without a converter.
     pub is_read_by_printer: bool,
+    /// What must match in the slicer, if the format is for one of filament printers.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub filament: Option<FilamentReport>,
 }
 
 impl PrintFileReport {
@@ -187,6 +191,22 @@ impl PrintFileReport {
             extension: own.unwrap_or_else(|| format.extension().to_owned()),
             media_type: format.media_type().to_owned(),
             is_read_by_printer: reader.is_some(),
+            filament: None,
+        }
+    }
+
+    fn of(output: &Output) -> Self {
+        let filament = output.filament.map(|it| {
+            let Filament {
+                slicer,
+                nozzle_mm,
+                first_layer_mm,
+            } = it;
+            FilamentReport::new(slicer, nozzle_mm, first_layer_mm)
+        });
+        Self {
+            filament,
+            ..Self::new(output.format, output.printer.as_deref())
         }
     }
 }
@@ -489,12 +509,19 @@ pub(super) fn report_of(
     }
     let thickness_mm = plan.thickness_mm();
     warnings.extend(thickness_warning(planned, output, &thickness_mm));
+    if let Some(Filament { slicer, .. }) = output.filament
+        && !slicer.is_tried()
+    {
+        warnings.push(Warning::UntriedSlicer {
+            slicers: slicer.names().to_vec(),
+        });
+    }
     Report {
         schema: SCHEMA,
         model: file.clone(),
         options: Options {
             unit: options.unit.filter(|_| !states_unit),
-            ..options.without_backend()
+            ..options.as_reported()
         },
         weights_crc32: painted.map(weights::crc_of),
         layers: plan.layers(),
@@ -538,7 +565,7 @@ pub(super) fn report_of(
             antialias: sampled.sampling.samples.sublayers,
             is_mirrored: output.is_mirrored,
         },
-        print_file: PrintFileReport::new(output.format, output.printer.as_deref()),
+        print_file: PrintFileReport::of(output),
         plate: None,
         warnings,
         timings_ms,

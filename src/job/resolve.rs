@@ -3,8 +3,10 @@
 
 use std::sync::Arc;
 
-use super::parts::{Job, Layering, Output, Raster, Sampling, Target, Thicknesses};
-use super::{Error, Minimize, Options, OptionsError, Planner, Snap};
+use super::parts::{Filament, Job, Layering, Output, Raster, Sampling, Target, Thicknesses};
+use super::{Error, LAYERS_MM, Minimize, Options, OptionsError, Planner, Snap};
+use crate::filament::NOZZLES_MM;
+use crate::format::Format;
 use crate::grid::Bins;
 use crate::mask::{LEVELS, Samples};
 use crate::model::Pose;
@@ -18,7 +20,12 @@ impl Options {
     /// # Errors
     /// [`Error::Options`], [`Error::Plan`].
     pub(crate) fn resolve(&self) -> Result<Job, Error> {
+        self.settled().resolve_settled()
+    }
+
+    fn resolve_settled(&self) -> Result<Job, Error> {
         let printer = find_printer(self.printer.as_ref())?;
+        let filament = self.check_filament(printer.as_deref())?;
         Ok(Job {
             layering: self.layering(printer.as_deref())?,
             sampling: self.sampling(printer.as_deref())?,
@@ -32,6 +39,7 @@ impl Options {
                     .or(printer.as_deref().map(|printer| printer.is_mirrored))
                     .unwrap_or(false),
                 printer,
+                filament,
             },
         })
     }
@@ -46,12 +54,12 @@ impl Options {
         {
             let bin_mm_at = |layer_min_mm: f64| {
                 let options = Self {
-                    layer_min_mm,
+                    layer_min_mm: Some(layer_min_mm),
                     ..self.clone()
                 };
                 options.resolve().ok().map(|job| job.layering.bin_mm)
             };
-            let bin_mm = bin_mm_at(self.layer_min_mm);
+            let bin_mm = bin_mm_at(self.settled().range_mm()[0]);
             *largest_mm = largest_mm.and_then(|largest_mm| {
                 let below_um = (largest_mm * 1e3 + ROUNDING).floor();
                 let mut choices_mm = [below_um, below_um - 1.0].map(|um| um / 1e3).into_iter();
@@ -105,7 +113,7 @@ impl Options {
             return Err(OptionsError::BadWeightMin { weight_min }.into());
         }
         self.resin.check().map_err(PlanError::from)?;
-        let usual = self.metric.default_tolerance();
+        let usual = self.default_tolerance();
         let target = match (self.tolerance, self.max_layers, self.max_time_s) {
             (Some(tolerance), None, None) => Target::Tolerance(tolerance),
             (None, Some(layers), None) => Target::Layers(layers),
@@ -196,11 +204,70 @@ impl Options {
     fn range_mm(&self) -> [f64; 2] {
         let mut given_mm = self.thicknesses_mm.iter().copied();
         let Some(first_mm) = given_mm.next() else {
-            return [self.layer_min_mm, self.layer_max_mm];
+            let [least_mm, most_mm] = LAYERS_MM;
+            let least_mm = self.layer_min_mm.unwrap_or(least_mm);
+            return [least_mm, self.layer_max_mm.unwrap_or(most_mm)];
         };
         given_mm.fold([first_mm; 2], |[least_mm, greatest_mm], mm| {
             [least_mm.min(mm), greatest_mm.max(mm)]
         })
+    }
+
+    /// What a file for a slicer of filament printers depends on, if the format is for one: a nozzle that prints the layers, and
+    /// nothing that only resin printers have.
+    fn check_filament(&self, printer: Option<&Printer>) -> Result<Option<Filament>, OptionsError> {
+        let (slicer, nozzle_mm, first_layer_mm) =
+            match (self.filament(), self.nozzle_mm, self.first_layer_mm) {
+                (None, None, _) => return Ok(None),
+                (Some(slicer), Some(nozzle_mm), Some(first_layer_mm)) => {
+                    (slicer, nozzle_mm, first_layer_mm)
+                }
+                _ => {
+                    return Err(OptionsError::NozzleWithoutFilament {
+                        formats: Format::FILAMENT,
+                    });
+                }
+            };
+        if let (Some(format), Some(printer)) = (self.format, printer) {
+            return Err(OptionsError::ResinPrinter {
+                format,
+                model: printer.model.clone(),
+            });
+        }
+        let of_resin = [
+            self.max_time_s.map(|_| "max_time_s"),
+            (self.minimize == Minimize::Time).then_some("minimize"),
+        ];
+        if let (Some(other), Some(format)) = (of_resin.into_iter().flatten().next(), self.format) {
+            let option = format.name();
+            return Err(OptionsError::Contradictory { option, other });
+        }
+        let [least_mm, most_mm] = NOZZLES_MM;
+        if !(least_mm..=most_mm).contains(&nozzle_mm) {
+            return Err(OptionsError::BadNozzle {
+                nozzle_mm,
+                least_mm,
+                most_mm,
+            });
+        }
+        let layers = slicer.layers(nozzle_mm);
+        for [layer_min_mm, layer_max_mm] in self.thicknesses_mm() {
+            if layer_min_mm < layers.least_mm || layer_max_mm > layers.most_mm {
+                return Err(OptionsError::NozzleLayers {
+                    slicers: slicer.names().to_vec(),
+                    nozzle_mm,
+                    nozzle_min_mm: layers.least_mm,
+                    nozzle_max_mm: layers.most_mm,
+                    layer_min_mm,
+                    layer_max_mm,
+                });
+            }
+        }
+        Ok(Some(Filament {
+            slicer,
+            nozzle_mm,
+            first_layer_mm,
+        }))
     }
 
     /// Checks that the printer can make the layers and the step.

@@ -15,6 +15,7 @@ use super::sampled::{Sampled, Sampler};
 use super::stage::{Stage, StageProgress, ms_since, report};
 use super::{Error, MeshInfo, Options, Preview, Report, Timings, Tradeoff};
 use crate::archive::Look;
+use crate::archive::layer_profile::{self, LayeredModel};
 use crate::grid::Bins;
 use crate::ldi::LdiError;
 use crate::ldi::gpu::Gpu;
@@ -436,6 +437,18 @@ impl Slicer {
         let clock = Instant::now();
         let current = self.current.as_mut().ok_or(Error::NoPlan)?;
         let mut mask_progress = |fraction| progress(Stage::Masks, fraction);
+        if let Some(filament) = current.output.filament {
+            let report = &mut current.report;
+            let model = LayeredModel {
+                mesh: &current.planned.first().of.mesh,
+                z_mm: &report.z_mm,
+                first_layer_mm: filament.first_layer_mm,
+            };
+            let writer = layer_profile::write(filament.slicer, &model, writer, &mut mask_progress)?;
+            report.timings_ms.masks = ms_since(clock);
+            report.timings_ms.sum_up();
+            return Ok((writer, report));
+        }
         let is_mirrored = current.output.is_mirrored;
         let mirrored = is_mirrored.then(|| current.planned.masks(0, Side::Below));
         if !is_mirrored {

@@ -1,4 +1,4 @@
-//! Metric profiles: the error density along z, one value per bin (section 3.1), for five metrics and from two sources.
+//! Metric profiles: the error density along z, one value per bin (section 3.1), for six metrics and from two sources.
 
 pub mod area;
 mod creases;
@@ -12,6 +12,7 @@ pub mod section;
 pub(crate) mod shapes;
 pub mod snap_planes;
 pub mod steepest;
+pub mod thread;
 pub mod volume;
 pub mod weighted;
 
@@ -34,6 +35,8 @@ pub enum Metric {
     Cusp,
     /// Distance from the print to the model, in millimetres: see [`deviation`].
     Deviation,
+    /// Cusp height with the roundness of a thread, for filament printers, in millimetres: see [`thread`].
+    Thread,
     /// Surface roughness Ra, in millimetres (eq. 7 to 10).
     Roughness,
     /// Area deviation, a fraction (eq. 11 to 14).
@@ -44,9 +47,10 @@ pub enum Metric {
 
 impl Metric {
     /// All metrics.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Cusp,
         Self::Deviation,
+        Self::Thread,
         Self::Roughness,
         Self::Area,
         Self::Volume,
@@ -57,6 +61,7 @@ impl Metric {
         match self {
             Self::Cusp => "cusp",
             Self::Deviation => "deviation",
+            Self::Thread => "thread",
             Self::Roughness => "roughness",
             Self::Area => "area",
             Self::Volume => "volume",
@@ -76,7 +81,7 @@ impl Metric {
     /// The unit of its errors and tolerances; empty for a fraction.
     pub fn unit(self) -> &'static str {
         match self {
-            Self::Cusp | Self::Deviation | Self::Roughness => "mm",
+            Self::Cusp | Self::Deviation | Self::Thread | Self::Roughness => "mm",
             Self::Area => "",
             Self::Volume => "mm³",
         }
@@ -101,6 +106,7 @@ impl Metric {
         match self {
             Self::Cusp => cusp::DEFAULT_TOLERANCE_MM,
             Self::Deviation => deviation::DEFAULT_TOLERANCE_MM,
+            Self::Thread => thread::DEFAULT_TOLERANCE_MM,
             Self::Roughness => roughness::DEFAULT_TOLERANCE_MM,
             Self::Area => area::DEFAULT_TOLERANCE,
             Self::Volume => volume::DEFAULT_TOLERANCE_MM3,
@@ -143,6 +149,7 @@ impl Shape {
         let density = match metric {
             Metric::Cusp => cusp::density(&self.steepest),
             Metric::Deviation => cusp::density(&self.cones),
+            Metric::Thread => thread::density(&self.steepest),
             Metric::Roughness => roughness::density(&self.steepest),
             Metric::Area => area::density(&self.areas_mm2, self.bins),
             Metric::Volume => self.areas_mm2.iter().map(|&area| area as f32).collect(),

@@ -6,7 +6,7 @@ use super::facet_bins::FacetBins;
 use super::normal_cones::{self, Cone};
 use super::steepest::{self, NO_SURFACE};
 use super::volume::VolumeError;
-use super::{LayerErrors, Metric, Profile, Shape, area, cusp, roughness};
+use super::{LayerErrors, Metric, Profile, Shape, area, cusp, roughness, thread};
 use crate::ldi::Ldi;
 
 /// For each bin the largest weighted density (eq. 21, 22), negative where there is no surface. The area and volume
@@ -25,6 +25,7 @@ fn value_of(facet_bins: &FacetBins, metric: Metric, weights: &[f32]) -> impl Fn(
         let (weight, square) = (weights[facet], facet_bins.n_z_squared[facet]);
         match metric {
             Metric::Cusp => weight * cusp::density_of(square),
+            Metric::Thread => weight * thread::density_of(square),
             Metric::Roughness => weight * roughness::density_of(square),
             Metric::Deviation | Metric::Area | Metric::Volume => weight,
         }
@@ -89,7 +90,7 @@ impl Weighted {
     /// Multiplying the areas themselves, as eq. 24 does, would find errors on an upright prism wherever its weight changes.
     pub fn profile(&self, shape: &Shape) -> Profile {
         let density = match self.metric {
-            Metric::Cusp | Metric::Deviation | Metric::Roughness => {
+            Metric::Cusp | Metric::Deviation | Metric::Thread | Metric::Roughness => {
                 steepest::densities(&self.values, |value| value)
             }
             Metric::Area => {

@@ -34,8 +34,8 @@ fn options(planner: Planner) -> Options {
     Options {
         printer: Some(own(Format::Goo, None)),
         height_mm: Some(2.0),
-        layer_min_mm: 0.05,
-        layer_max_mm: 0.2,
+        layer_min_mm: Some(0.05),
+        layer_max_mm: Some(0.2),
         tolerance: Some(0.06),
         planner,
         backend: Backend::Cpu,
@@ -59,7 +59,7 @@ fn every_format_becomes_every_other() {
             antialias,
             ..options(planner)
         };
-        let formats: Vec<Format> = Format::ALL
+        let formats: Vec<Format> = Format::MASKS
             .into_iter()
             .filter(|format| planner == UNIFORM || format.thicknesses() == FormatThicknesses::Any)
             .collect();

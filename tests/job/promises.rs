@@ -16,8 +16,8 @@ fn output_that_would_be_black_is_an_error() {
     let mut low = load(&solids::cuboid(Vec3::new(1.0, 1.0, 0.4)));
     let coarse = Options {
         bin_mm: Some(1.0),
-        layer_min_mm: 1.0,
-        layer_max_mm: 1.0,
+        layer_min_mm: Some(1.0),
+        layer_max_mm: Some(1.0),
         tolerance: Some(10.0),
         ..options()
     };
@@ -134,7 +134,7 @@ fn a_sampled_plan_that_fails_on_the_mesh_says_so() {
     let sampled = Options {
         source: Source::Sampled,
         tolerance: Some(0.02),
-        layer_min_mm: 0.1,
+        layer_min_mm: Some(0.1),
         bin_mm: Some(0.01),
         snap: Snap::Off,
         ..options()

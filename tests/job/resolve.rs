@@ -28,7 +28,7 @@ fn options_that_no_model_could_make_good_are_refused_before_sampling() {
         ),
         (
             Options {
-                layer_min_mm: 0.2,
+                layer_min_mm: Some(0.2),
                 ..options()
             },
             "layer-range-empty",
@@ -106,7 +106,7 @@ fn bins_follow_from_the_step_or_the_thicknesses() {
         (step(0.001), 0.001),
         (
             Options {
-                layer_min_mm: 0.025,
+                layer_min_mm: Some(0.025),
                 ..options()
             },
             0.001,
@@ -147,8 +147,8 @@ fn a_printer_prints_neither_thinner_nor_thicker_nor_finer_than_it_can() {
     };
     let of_printer = Options {
         printer: Some("sl1s".into()),
-        layer_min_mm: 0.05,
-        layer_max_mm: 0.1,
+        layer_min_mm: Some(0.05),
+        layer_max_mm: Some(0.1),
         ..options()
     };
     assert_eq!(of_printer.check().map_err(|error| error.code()), Ok(()));
@@ -156,7 +156,7 @@ fn a_printer_prints_neither_thinner_nor_thicker_nor_finer_than_it_can() {
     for (options, expected) in [
         (
             Options {
-                layer_max_mm: 0.5,
+                layer_max_mm: Some(0.5),
                 ..of_printer.clone()
             },
             "printer-layers",
@@ -255,7 +255,7 @@ fn any_height_takes_layers_that_divide_it() {
         let height_mm = f64::from(twentieths) / 20.0;
         let options = Options {
             height_mm: Some(height_mm),
-            layer_max_mm: 0.05,
+            layer_max_mm: Some(0.05),
             rays: 4,
             ..options()
         };
@@ -279,8 +279,8 @@ fn a_thinner_least_thickness_is_whole_micrometres_and_holds() {
         (0.05, 0.15, Some(0.0025)),
     ] {
         let options = Options {
-            layer_min_mm,
-            layer_max_mm,
+            layer_min_mm: Some(layer_min_mm),
+            layer_max_mm: Some(layer_max_mm),
             step_mm,
             tolerance: Some(0.03),
             ..options()
@@ -295,7 +295,7 @@ fn a_thinner_least_thickness_is_whole_micrometres_and_holds() {
         };
         assert_near(offer_mm * 1e3, (offer_mm * 1e3).round(), 1e-6);
         let taken = Options {
-            layer_min_mm: offer_mm,
+            layer_min_mm: Some(offer_mm),
             ..options
         };
         plan(&mut slicer, &taken).unwrap();

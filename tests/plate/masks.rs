@@ -56,8 +56,8 @@ fn what_the_only_model_says_of_itself_counts_like_an_option() {
     let range = HeightRange {
         from_mm: 1.0,
         to_mm: 2.0,
-        layer_min_mm: 0.05,
-        layer_max_mm: 0.05,
+        layer_min_mm: Some(0.05),
+        layer_max_mm: Some(0.05),
     };
     let of_model = PlateOptions {
         options: options(),
@@ -115,8 +115,8 @@ fn the_masks_of_a_plate_are_those_of_its_models_moved_to_their_places() {
         // Each model alone under the same planes: layers of fixed heights.
         let fixed = Options {
             planes_mm: report.z_mm[1..report.layers].to_vec(),
-            layer_max_mm: 1.0,
-            layer_min_mm: 0.002,
+            layer_max_mm: Some(1.0),
+            layer_min_mm: Some(0.002),
             tolerance: Some(100.0),
             bin_mm: Some(report.bin_mm),
             snap: cusp_slicer::job::Snap::Off,

@@ -151,7 +151,7 @@ impl Encoder for Zip {
 
 /// The modification time of all files: the earliest that a zip can store. With the real time, the same plan would give
 /// different bytes each time.
-const MODIFIED: UtcDateTime = match UtcDateTime::from_components(1980, 1, 1, 0, 0, 0, 0) {
+pub const MODIFIED: UtcDateTime = match UtcDateTime::from_components(1980, 1, 1, 0, 0, 0, 0) {
     Some(date) => date,
     None => unreachable!(),
 };

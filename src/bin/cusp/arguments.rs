@@ -4,8 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
+use cusp_slicer::filament::USUAL_NOZZLE_MM;
 use cusp_slicer::format::Format;
-use cusp_slicer::job::{BIN_MM, Backend, GpuMethod, Minimize, Options, Planner, Snap};
+use cusp_slicer::job::{BIN_MM, Backend, GpuMethod, LAYERS_MM, Minimize, Options, Planner, Snap};
 use cusp_slicer::model::ModelUnit;
 use cusp_slicer::plan::HeightRange;
 use cusp_slicer::printer::PrinterChoice;
@@ -65,6 +66,8 @@ pub struct Target {
     /// Format of the print file [default: the printer's, or png]
     #[arg(long, value_enum, help_heading = "Printer")]
     format: Option<Format>,
+    #[arg(long, value_name = "MM", value_parser = length, help = nozzle_help(), help_heading = "Printer")]
+    nozzle: Option<f64>,
     /// Resin, as a JSON file: exposures, bottom layers, lift
     #[arg(long, value_name = "FILE", help_heading = "Printer")]
     resin: Option<PathBuf>,
@@ -95,6 +98,7 @@ impl Target {
         put(&mut options.pixels, self.pixels);
         put(&mut options.mirror, self.mirror);
         put(&mut options.format, self.format);
+        put(&mut options.nozzle_mm, self.nozzle);
         Ok(())
     }
 }
@@ -155,13 +159,12 @@ pub struct Choices {
         help_heading = "Weights"
     )]
     weight_min: f64,
-    /// Minimum layer thickness
-    #[arg(long, value_name = "MM", default_value_t = Options::default().layer_min_mm, value_parser = length, help_heading = "Layers")]
-    layer_min: f64,
-    /// Maximum layer thickness
-    #[arg(long, value_name = "MM", default_value_t = Options::default().layer_max_mm, value_parser = length, help_heading = "Layers")]
-    layer_max: f64,
-    /// Thickness of the first layer, whatever its error: the tolerance holds above it
+    #[arg(long, value_name = "MM", value_parser = length, help = limit_help("Minimum", LAYERS_MM[0]), help_heading = "Layers")]
+    layer_min: Option<f64>,
+    #[arg(long, value_name = "MM", value_parser = length, help = limit_help("Maximum", LAYERS_MM[1]), help_heading = "Layers")]
+    layer_max: Option<f64>,
+    /// Thickness of the first layer, whatever its error: the tolerance holds above it [default for filament printers: half the
+    /// width of the nozzle]
     #[arg(long, value_name = "MM", value_parser = length, help_heading = "Layers")]
     first_layer: Option<f64>,
     /// The only layer thicknesses, in place of a range: each needs an exposure of its own
@@ -321,7 +324,7 @@ impl Choices {
 
     /// So is it with rules for thicknesses, of which single ones go in place of a range.
     fn put_thicknesses(&self, options: &mut Options) {
-        let has_range = self.given.has("layer_min") || self.given.has("layer_max");
+        let has_range = self.layer_min.is_some() || self.layer_max.is_some();
         let has_rule = self.max_thicknesses.is_some() || self.max_change.is_some();
         if has_rule || !self.thicknesses.is_empty() {
             options.max_thicknesses = self.max_thicknesses.map(|count| count as usize);
@@ -330,9 +333,8 @@ impl Choices {
         if has_rule || has_range || !self.thicknesses.is_empty() {
             options.thicknesses_mm.clone_from(&self.thicknesses);
         }
-        let given = &self.given;
-        given.put("layer_min", &mut options.layer_min_mm, self.layer_min);
-        given.put("layer_max", &mut options.layer_max_mm, self.layer_max);
+        put(&mut options.layer_min_mm, self.layer_min);
+        put(&mut options.layer_max_mm, self.layer_max);
     }
 }
 
@@ -366,6 +368,20 @@ fn pixels_help() -> String {
     format!(
         "Columns and rows of the masks, with the model at the centre [default: the model's bounding box at {rays} pixels \
          along its longer side]"
+    )
+}
+
+/// The help of `--layer-min` and `--layer-max`.
+fn limit_help(which: &str, usual_mm: f64) -> String {
+    format!(
+        "{which} layer thickness [default: {usual_mm}; for filament printers, what the nozzle prints]"
+    )
+}
+
+fn nozzle_help() -> String {
+    let formats = Format::FILAMENT.map(Format::name).join(" and ");
+    format!(
+        "Width of a filament printer's nozzle, for the formats {formats}: it sets the limits of layers [default: {USUAL_NOZZLE_MM}]"
     )
 }
 

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use cusp_slicer::filament::FilamentReport;
 use cusp_slicer::job::{Backend, Comparison, FrontPoint, Options, Report, Slicer, StageProgress};
 use cusp_slicer::profile::Metric;
 use serde::Serialize;
@@ -145,12 +146,50 @@ fn show(slicing: &Slicing, report: &Report) -> Result<(), Failure> {
 }
 
 fn describe_plan(report: &Report) -> String {
-    let (thinnest, thickest) = report
-        .thickness_mm
-        .iter()
-        .fold((f64::INFINITY, 0f64), |(low, high), &t| {
-            (low.min(t), high.max(t))
-        });
+    match &report.print_file.filament {
+        Some(filament) => describe_filament(report, filament),
+        None => describe_resin(report),
+    }
+}
+
+/// A plan for a filament printer: what masks, exposures and resin mean nothing for, and what to set in the slicer.
+fn describe_filament(report: &Report, filament: &FilamentReport) -> String {
+    let words = |error| report.metric.format(error);
+    let uniform = &report.uniform;
+    let [thinnest, thickest] = thinnest_and_thickest(report);
+    format!(
+        "layers    {} of {thinnest:.3} to {thickest:.3} mm, {:.3} mm in total\n\
+         uniform   {} at minimum thickness (error {}), {} at maximum thickness (error {})\n\
+         error     {} above the first layer, tolerance {}\n\
+         deviation {} from the model at most\n\
+         planes    {} at flats and sharp changes\n\
+         sampled   {} hits on {}, {:.0} ms in total\n\
+         slicer    {filament}",
+        report.layers,
+        report.height_mm,
+        uniform.finest.layers,
+        words(uniform.finest.max_error),
+        uniform.coarsest.layers,
+        words(uniform.coarsest.max_error),
+        words(report.max_error),
+        words(report.tolerance),
+        Metric::Deviation.format(report.max_deviation_mm),
+        report.snapped_mm.len(),
+        report.hits,
+        report.adapter.as_deref().unwrap_or("the CPU"),
+        report.timings_ms.total,
+    )
+}
+
+fn thinnest_and_thickest(report: &Report) -> [f64; 2] {
+    let thickness_mm = report.thickness_mm.iter();
+    thickness_mm.fold([f64::INFINITY, 0.0], |[low, high], &layer_mm| {
+        [low.min(layer_mm), high.max(layer_mm)]
+    })
+}
+
+fn describe_resin(report: &Report) -> String {
+    let [thinnest, thickest] = thinnest_and_thickest(report);
     let words = |error| report.metric.format(error);
     let unweighted = match report.true_error {
         error if error == report.max_error => String::new(),

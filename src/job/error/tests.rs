@@ -212,6 +212,8 @@ fn archive_errors() -> Vec<ArchiveError> {
             model: "Anycubic Photon Mono M5s".to_owned(),
             best: None,
         },
+        NoMasks { format: Format::Prusa3mf },
+        OtherFirstLayer { layer_mm: 0.15, first_layer_mm: 0.2 },
         Write { system: "No space left on device.".to_owned() },
     )
 }
@@ -241,6 +243,17 @@ fn options_errors() -> Vec<OptionsError> {
             layer_max_mm: 0.5,
         },
         PrinterStep { model: "Phrozen Shuffle".to_owned(), printer_step_mm: 0.01, step_mm: 0.015 },
+        ResinPrinter { format: Format::Prusa3mf, model: "Phrozen Shuffle".to_owned() },
+        NozzleWithoutFilament { formats: Format::FILAMENT },
+        BadNozzle { nozzle_mm: 4.0, least_mm: 0.15, most_mm: 2.5 },
+        NozzleLayers {
+            slicers: vec!["OrcaSlicer", "Bambu Studio"],
+            nozzle_mm: 0.4,
+            nozzle_min_mm: 0.08,
+            nozzle_max_mm: 0.28,
+            layer_min_mm: 0.05,
+            layer_max_mm: 0.3,
+        },
     )
 }
 
@@ -314,14 +327,16 @@ fn warnings() -> Vec<Warning> {
             best: Some(UniformLayers { layer_mm: 0.07, layers: 857 }),
         },
         UntriedThicknesses { model: "Elegoo Saturn 3".to_owned() },
+        UntriedSlicer { slicers: vec!["OrcaSlicer", "Bambu Studio"] },
         GpuTooSmall { needed_bytes: 345, limit_bytes: 234 },
         GpuFailed { fault: GpuFault::Error, system: Some("Out of memory.".to_owned()) },
     )
 }
 
 /// Keys of text that is shown untranslated in every language: messages of the system, and names.
-const VERBATIM: [&str; 9] = [
+const VERBATIM: [&str; 10] = [
     "system", "adapter", "model", "printer", "similar", "known", "taker", "theirs", "ours",
+    "slicers",
 ];
 
 /// Collects what a sentence must contain: numbers, and untranslated text. Fails on other prose.
@@ -399,7 +414,7 @@ fn the_samples_that_catalogues_are_tested_with_are_these() {
 
 #[test]
 fn words_of_errors_are_those_they_are_serialised_with() {
-    for format in Format::ALL {
+    for format in Format::all() {
         assert_eq!(serde_json::to_value(format).unwrap(), format.name());
     }
     for unit in [

@@ -4,16 +4,15 @@
  * The types of the core are re-exported from the generated package, never copied: a change there is a type error here.
  */
 import type { Comparison, Preview, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff } from "../../pkg/cusp_slicer.js";
-import type { Candidate, SearchOptions, Task } from "../../pkg/cusp_slicer.js";
+import type { Candidate, Format, SearchOptions, Task } from "../../pkg/cusp_slicer.js";
 
 export type { Comparison, Preview, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff };
-export type { Candidate, SearchOptions, Task };
+export type { Candidate, Format, SearchOptions, Task };
 export type {
   Backend,
   CuspError,
   Exclusion,
   FileKind,
-  Format,
   GpuFault,
   GpuMethod,
   HeightRange,
@@ -125,7 +124,12 @@ export const DEFAULTS = {
   layer_min_mm: 0.05,
   layer_max_mm: 0.15,
   /** In the metric's unit: mm, mm, a fraction, mm³. For volume, the core allows more if the model needs it. */
-  tolerance: { cusp: 0.065, deviation: 0.0325, roughness: 0.1, area: 0.1, volume: 1 } satisfies Record<Metric, number>,
+  tolerance: { cusp: 0.065, deviation: 0.0325, thread: 0.065, roughness: 0.1, area: 0.1, volume: 1 } satisfies Record<Metric, number>,
+  /** Limits of layers for slicers of filament printers, through a nozzle of 0.4 mm; tolerances are larger in proportion. */
+  filament: {
+    "prusa-3mf": { layer_min_mm: 0.07, layer_max_mm: 0.3, first_layer_mm: 0.2 },
+    "orca-3mf": { layer_min_mm: 0.08, layer_max_mm: 0.28, first_layer_mm: 0.2 },
+  },
   metric: "cusp",
   minimize: "layers",
   snap: "auto",
@@ -133,6 +137,19 @@ export const DEFAULTS = {
   weight_min: 0.25,
   resin: { layer_mm: 0.05, exposure_s: 3, bottom_layers: 4, bottom_exposure_s: 30 },
 } as const;
+
+/** A format for slicers of filament printers. */
+export type FilamentFormat = keyof typeof DEFAULTS.filament;
+
+/** Whether a format is for slicers of filament printers. */
+export const isFilament = (format: Format | ""): format is FilamentFormat => Object.hasOwn(DEFAULTS.filament, format);
+
+/** The tolerance that applies if none is given; for volume, the core allows more if the model needs it. */
+export function usualOf(metric: Metric, format: Format | ""): number {
+  const usual = DEFAULTS.tolerance[metric];
+  if (!isFilament(format)) return usual;
+  return Number(((usual * DEFAULTS.filament[format].layer_min_mm) / DEFAULTS.layer_min_mm).toFixed(6));
+}
 
 /**
  * Whether two sets of options cast the same rays. If so, planning for one after the other takes milliseconds and is not worth

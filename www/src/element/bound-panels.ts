@@ -1,6 +1,6 @@
 /** The panels, bound to a session: what each shows of it, and what it changes there. Layouts put them in their places. */
 import { html, nothing, type TemplateResult } from "lit";
-import type { Candidate } from "../api/wire.js";
+import { isFilament, type Candidate } from "../api/wire.js";
 import type { RotateDetail } from "../view/events.js";
 import type { PaletteName } from "../view/legend/palette.js";
 import type { Rotation } from "../view/scene/pose.js";
@@ -176,8 +176,9 @@ function announced({ busy, result, notice, earlier }: Session, language: Facts["
   if (busy !== null) return busy.task === "open" ? texts.open.opening(busy.name) : texts.progress[busy.stage];
   if (notice !== null) return texts.notices[notice];
   if (result === null || earlier) return "";
-  const { layers, print_time_s } = result.report;
-  return `${texts.plan.said(layers, format.time(print_time_s))} ${sentence(result, language)}`;
+  const { layers, print_time_s, print_file } = result.report;
+  const planned = isFilament(print_file.format) ? `${format.count(layers)} ${texts.plan.layers(layers)}.` : texts.plan.said(layers, format.time(print_time_s));
+  return `${planned} ${sentence(result, language)}`;
 }
 
 /** The session reports the weights, and the element fires the event again. */

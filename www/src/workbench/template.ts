@@ -15,6 +15,7 @@ import {
   settingsPanel,
   undoButtons,
 } from "../element/bound-panels.js";
+import { isFilament } from "../api/wire.js";
 import type { Facts } from "../element/facts.js";
 import { modelCard, warnings } from "../element/panels/model-card.js";
 import type { PlotPlace } from "../element/panels/profile-chart.js";
@@ -218,7 +219,7 @@ function bar(facts: Facts, { sheet, open }: Bench): TemplateResult {
             ${result === null
               ? html`<strong>–</strong>`
               : html`<strong data-layers=${layers}>${format.count(layers)} ${texts.plan.layers(layers)}</strong>
-                  <span>${format.time(print_time_s)}</span>`}
+                  ${isFilament(result.report.print_file.format) ? nothing : html`<span>${format.time(print_time_s)}</span>`}`}
           </button>
           ${result === null ? nothing : downloadButton(facts)}
         </div>`}

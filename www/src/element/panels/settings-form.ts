@@ -4,14 +4,14 @@
  */
 import { html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
-import { DEFAULTS, type MeshInfo, type Printer } from "../../api/wire.js";
+import { DEFAULTS, isFilament, usualOf, type Format, type MeshInfo, type Printer } from "../../api/wire.js";
 import { languageOf } from "../../texts/index.js";
 import { METRIC_NAMES, METRICS } from "../state/metric.js";
 import type { Choice, Problem } from "../state/problem.js";
 import { problemBox, problemStyles } from "../parts/problem-box.js";
 import { towersOffer, type TowersState } from "../parts/towers-offer.js";
 import { byMaker, FORMATS, formatFor, modelOf, printerOf } from "../state/printer.js";
-import { DEFAULT_SETTINGS, faultWords, RAYS, unitOf, usualTolerance, withTolerance } from "../state/settings.js";
+import { DEFAULT_SETTINGS, faultWords, RAYS, unitOf, usualTolerance, withFormat, withPrinter, withTolerance } from "../state/settings.js";
 import type { Faults, Field, Offered, Settings } from "../state/settings.js";
 import { canonical, localised, read } from "../state/typed.js";
 import { settingsStyles } from "../styles/settings-styles.js";
@@ -103,7 +103,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
       <form novalidate @submit=${(event: Event) => event.preventDefault()}>
         ${offered.printers.length === 0 ? nothing : this.#printer()}
         ${offered.resins.length === 0 ? nothing : this.#resin()}
-        ${this.#exposure()}
+        ${isFilament(settings.format) ? nothing : this.#exposure()}
         ${this.#radios("planner", words.layers, [["optimal", words.adaptive], ["uniform", words.uniform]], this.#plannerHint())}
         ${isUniform ? this.#field("uniform", words.thickness) : nothing}
         ${this.#tolerance()}
@@ -149,7 +149,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     const change = (value: string): void => {
       // Not a file dialog at once: arrow keys change a closed list, too.
       this.isOpening = value === OPEN;
-      if (!this.isOpening) this.#say({ printer: value === OWN ? (this.#own ?? "") : value });
+      if (!this.isOpening) this.#say(withPrinter(settings, value === OWN ? (this.#own ?? "") : value));
     };
     const more = isOpening ? this.#opener() : nothing;
     const hint = isOpening ? words.ownPrinterHint : this.#printerHint();
@@ -209,25 +209,31 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     const usual = formatFor({ printer, format: "" }, offered.printers);
     const list = html`${printer === "" ? nothing : options([["", words.formatUsual]], value)}
       ${options(FORMATS.map((format) => [format, words.formats[format]]), value)}`;
-    return this.#select("format", words.format, list, { value, hint: value === "" ? words.formats[usual] : "" });
+    const change = (value: string): void => this.#say(withFormat(this.settings, value as Format | ""));
+    return this.#select("format", words.format, list, { value, change, hint: value === "" ? words.formats[usual] : "" });
   }
 
   /** Settings that few users need. */
   #more(isUniform: boolean): TemplateResult {
     const words = this.language.texts.settings;
     const { bottom_layers, bottom_exposure_s } = this.#cure;
+    const isResin = !isFilament(this.settings.format);
     return html`<details ?open=${this.#moreAtFirst}>
       <summary>${words.more}</summary>
       <div class="more">
         ${isUniform
           ? nothing
-          : html`${this.#radios("minimize", words.least, [["layers", words.leastLayers], ["time", words.leastTime]], words.leastHint)}
+          : html`${isResin
+              ? this.#radios("minimize", words.least, [["layers", words.leastLayers], ["time", words.leastTime]], words.leastHint)
+              : nothing}
             ${this.#radios("snap", words.flats, [["auto", words.on], ["off", words.off]], words.flatsHint)}
             ${this.#field("step", words.step, { hint: words.stepHint })}`}
-        <div class="pair">
-          ${this.#field("bottomLayers", words.bottomLayers, { placeholder: String(bottom_layers) })}
-          ${this.#field("bottomExposure", words.bottomExposure, { placeholder: String(bottom_exposure_s) })}
-        </div>
+        ${isResin
+          ? html`<div class="pair">
+              ${this.#field("bottomLayers", words.bottomLayers, { placeholder: String(bottom_layers) })}
+              ${this.#field("bottomExposure", words.bottomExposure, { placeholder: String(bottom_exposure_s) })}
+            </div>`
+          : nothing}
         ${this.settings.printer === "" || this.fixed.has("printer")
           ? nothing
           : towersOffer(this.towers, this.language, () => this.dispatchEvent(new CustomEvent("cusp-towers")))}
@@ -237,12 +243,12 @@ export class CuspSettings extends elementWith(PROPERTIES) {
 
   /** The tolerance, with what it means, or why the core took another than usual. */
   #tolerance(): TemplateResult {
-    const { settings: { metric }, taken } = this;
+    const { settings: { metric, format: file }, taken } = this;
     const { texts, format } = this.language;
-    const least = DEFAULTS.tolerance[metric];
+    const least = usualOf(metric, file);
     const isMore = taken !== null && taken > least;
     const hint = isMore ? texts.settings.toleranceTaken(METRICS[metric].error(least, format)) : texts.metrics[metric].help;
-    return this.#field("tolerance", texts.settings.tolerance, { hint, placeholder: usualTolerance(metric, taken) });
+    return this.#field("tolerance", texts.settings.tolerance, { hint, placeholder: usualTolerance(metric, taken, file) });
   }
 
   /** The setting of a field; undefined for a tolerance that nobody has typed. */

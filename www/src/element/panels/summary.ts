@@ -1,5 +1,6 @@
 /** A result in figures: layers, print time, what that saves, and the two uniform plans to compare. */
 import { css, html, nothing, type TemplateResult } from "lit";
+import { isFilament } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
 import { rows, sentence } from "../state/comparison.js";
 import { METRICS } from "../state/metric.js";
@@ -171,8 +172,10 @@ export function figures(result: Result, shown: Pick<Shown, "layers" | "print_tim
   return html`<div>
     <div class="figure">
       <p class="count" data-layers=${shown.layers}>${format.count(shown.layers)}<span>${texts.plan.layers(shown.layers)}</span></p>
-      <p class="time">${texts.plan.time(format.time(shown.print_time_s))}</p>
-      <p class="time resin">${texts.plan.resin(format.millilitres(report.resin_ml))}</p>
+      ${isFilament(report.print_file.format)
+        ? nothing
+        : html`<p class="time">${texts.plan.time(format.time(shown.print_time_s))}</p>
+            <p class="time resin">${texts.plan.resin(format.millilitres(report.resin_ml))}</p>`}
     </div>
     <p class="gain">${sentence(result, language)}</p>
   </div>`;
@@ -184,6 +187,8 @@ export function comparison(result: Result, { texts, format }: Language): Templat
   const compared = rows(result);
   const most = Math.max(...compared.map(({ layers }) => layers));
   const { columns } = texts.plan;
+  // The times of exposures mean nothing to a filament printer.
+  const isResin = !isFilament(report.print_file.format);
   return html`<div class="comparison">
     <table>
       <thead>
@@ -191,7 +196,7 @@ export function comparison(result: Result, { texts, format }: Language): Templat
           <th scope="col">${columns.plan}</th>
           <th scope="col" class="number">${columns.layers}</th>
           <th class="bar" aria-hidden="true"></th>
-          <th scope="col" class="number">${columns.time}</th>
+          ${isResin ? html`<th scope="col" class="number">${columns.time}</th>` : nothing}
           <th scope="col">${texts.metrics[report.metric].head}</th>
         </tr>
       </thead>
@@ -201,7 +206,7 @@ export function comparison(result: Result, { texts, format }: Language): Templat
             <th scope="row">${uniform_mm === null ? texts.plan.own : texts.plan.uniform(format.fine(uniform_mm))}</th>
             <td class="number">${format.count(layers)}</td>
             <td class="bar" aria-hidden="true"><div ${styled({ width: `${(100 * layers) / most}%` })}></div></td>
-            <td class="number">${format.time(print_time_s)}</td>
+            ${isResin ? html`<td class="number">${format.time(print_time_s)}</td>` : nothing}
             <td>
               ${METRICS[report.metric].error(max_error, format)}
               <span class="holds ${holds ? "within" : "over"}">${holds ? texts.plan.within : texts.plan.over}</span>

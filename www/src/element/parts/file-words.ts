@@ -1,12 +1,22 @@
 /** The line at the download button: what the file is, whether the printer reads it, and that the model prints as it is. */
-import type { KnownPrinter } from "../../api/wire.js";
+import type { Format, KnownPrinter } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
 import { modelOf, printerOf } from "../state/printer.js";
 import type { Result } from "../state/result.js";
 
-export function fileWords({ report }: Pick<Result, "report">, printers: readonly KnownPrinter[], { texts, format: { either } }: Language): string {
+/** What slicers of filament printers call the thickness of the first layer, with the way to it: the same in every language. */
+const SETTINGS: Partial<Record<Format, string>> = {
+  "prusa-3mf": "Print Settings → Layers and perimeters → First layer height",
+  "orca-3mf": "Quality → Layer height → First layer height / Initial layer height",
+};
+
+export function fileWords({ report }: Pick<Result, "report">, printers: readonly KnownPrinter[], { texts, format: { either, mm } }: Language): string {
   const { file: words } = texts;
-  const { format, extension, is_read_by_printer: isRead } = report.print_file;
+  const { format, extension, is_read_by_printer: isRead, filament } = report.print_file;
+  if (filament !== undefined) {
+    const set = words.match(mm(filament.first_layer_mm), SETTINGS[format] ?? "");
+    return words.together([words.kinds[format](extension), set]);
+  }
   const printer = printerOf(report.options.printer, printers);
   const reading = (): string[] => {
     const refused = report.warnings.find(({ code }) => code === "one-thickness");

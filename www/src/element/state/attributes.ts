@@ -7,7 +7,7 @@ import { ATTRIBUTES, SETTING_NAMES, SETTINGS, type SettingName } from "../proper
 import { METRICS } from "./metric.js";
 import type { Preferences } from "./preferences.js";
 import { noneOf, type Read, type Reader, type Wrong } from "./readers.js";
-import { DEFAULT_SETTINGS, withTolerance, type Fault, type Settings } from "./settings.js";
+import { DEFAULT_SETTINGS, defaultsOf, limitsFor, withTolerance, type Fault, type Settings } from "./settings.js";
 
 /** The settings that these attributes set. */
 export function settingsOf(names: readonly SettingName[]): ReadonlySet<keyof Settings> {
@@ -168,10 +168,11 @@ function patchOf(values: Values, base: Settings): Partial<Settings> {
   const patch: Partial<Settings> = {};
   if (printer !== undefined) patch.printer = printer ?? "";
   if (resin !== undefined) patch.resin = resin ?? "";
-  if (format !== undefined) patch.format = format ?? "";
+  if (format !== undefined) Object.assign(patch, limitsFor(base, format ?? ""), { format: format ?? "" });
   if (metric !== undefined) patch.metric = metric ?? DEFAULT_SETTINGS.metric;
-  if (thinnest !== undefined) patch.layerMin = thinnest === null ? DEFAULT_SETTINGS.layerMin : String(thinnest);
-  if (thickest !== undefined) patch.layerMax = thickest === null ? DEFAULT_SETTINGS.layerMax : String(thickest);
+  const usual = defaultsOf(patch.format ?? base.format);
+  if (thinnest !== undefined) patch.layerMin = thinnest === null ? usual.layerMin : String(thinnest);
+  if (thickest !== undefined) patch.layerMax = thickest === null ? usual.layerMax : String(thickest);
   if (tolerance !== undefined) {
     const { scale } = METRICS[patch.metric ?? base.metric];
     Object.assign(patch, withTolerance({ ...base, ...patch }, tolerance === null ? "" : String(tolerance * scale)));

@@ -35,6 +35,7 @@ const length = {
 export const METRICS: Readonly<Record<Metric, Measure>> = {
   cusp: { ...length, error: errorOf("cusp"), tolerances: [0.001, 1], bound: 1 },
   deviation: { ...length, error: errorOf("deviation"), tolerances: [0.0005, 0.5], bound: 1 },
+  thread: { ...length, error: errorOf("thread"), tolerances: [0.001, 1], bound: 1 },
   roughness: { ...length, error: errorOf("roughness"), tolerances: [0.001, 2], bound: 2 },
   area: {
     unit: "%",

@@ -69,6 +69,19 @@ test.each<[string, { printer?: string; format?: PrintFormat; taker?: string }, s
   for (const other of others) expect(other).not.toContain("undefined");
 });
 
+test.each<[PrintFormat, string]>([
+  ["prusa-3mf", "A 3MF for PrusaSlicer. Set the first layer to 0.2\u00a0mm there (Print Settings → Layers and perimeters → First layer height)"],
+  ["orca-3mf", "A 3MF for OrcaSlicer and Bambu Studio, in which nobody has tried it yet. Set the first layer to 0.2\u00a0mm there (Quality"],
+])("the line at the download says what must match in the slicer of %s", (format, said) => {
+  const filament = { slicers: ["PrusaSlicer"], nozzle_mm: 0.4, first_layer_mm: 0.2, is_tried: true };
+  const print_file = { format, extension: "3mf", media_type: "model/3mf", is_read_by_printer: false, filament };
+  const words = (language: Language): string => fileWords({ report: report({ print_file }) }, PRINTERS, language);
+  expect(words(languageOf("en"))).toContain(said);
+  const others = LANGUAGES.map((code) => words(languageOf(code)));
+  expect(new Set(others).size).toBe(LANGUAGES.length);
+  for (const other of others) expect(other).toMatch(/0[.,]2\u00a0mm/);
+});
+
 const MINE: Printer = { pixels: [3840, 2400], pitch_um: [50, 50], volume_mm: [192, 120, 245], format: "goo", reads: ["goo"] };
 
 test("a printer of one's own is meant by its description, whatever its name", () => {

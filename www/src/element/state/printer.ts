@@ -16,6 +16,8 @@ export const FORMATS = [
   "anycubic-zip",
   "ctb",
   "nanodlp",
+  "prusa-3mf",
+  "orca-3mf",
 ] as const satisfies readonly Format[];
 
 /** The longest description that an address carries, as JSON: mail programs and servers cut or refuse very long addresses. */

@@ -16,6 +16,8 @@ import {
   type Offered,
   type Settings,
   usualTolerance,
+  withFormat,
+  withPrinter,
   withTolerance,
 } from "./settings.js";
 
@@ -46,6 +48,7 @@ test("the default settings are the core's defaults", () => {
 test.each([
   ["cusp", "0.065", "0.05", 0.05],
   ["deviation", "0.0325", "0.01", 0.01],
+  ["thread", "0.065", "0.06", 0.06],
   ["roughness", "0.1", "0,2", 0.2],
   ["area", "10", "5", 0.05],
   ["volume", "1", "20", 20],
@@ -231,4 +234,26 @@ test("a rotation is written with few digits, and the identity as empty text", ()
 test("a rotation is four numbers, normalised; anything else gives null", () => {
   expect(quaternion("0,0,2,0")).toEqual([0, 0, 1, 0]);
   expect(["", "1,2", "0,0,0,0", "a,b,c,d", "1,2,3,4,5"].map(quaternion)).toEqual([null, null, null, null, null]);
+});
+
+test("a format for filament printers brings its limits, and takes them away again", () => {
+  const chosen = { ...DEFAULT_SETTINGS, printer: "saturn-3", ...withFormat(DEFAULT_SETTINGS, "prusa-3mf") };
+  expect(chosen).toMatchObject({ format: "prusa-3mf", printer: "", layerMin: "0.07", layerMax: "0.3" });
+  expect(options(chosen)).toMatchObject({ format: "prusa-3mf", layer_min_mm: 0.07, layer_max_mm: 0.3 });
+  expect(usualTolerance("cusp", null, "prusa-3mf")).toBe("0.091");
+  expect({ ...chosen, ...withFormat(chosen, "orca-3mf") }).toMatchObject({ layerMin: "0.08", layerMax: "0.28" });
+  expect({ ...chosen, ...withFormat(chosen, "") }).toEqual(DEFAULT_SETTINGS);
+  // What was typed stays.
+  const typed = { ...chosen, layerMax: "0.25" };
+  expect({ ...typed, ...withFormat(typed, "") }).toEqual({ ...DEFAULT_SETTINGS, layerMax: "0.25" });
+  // A resin printer has a format of its own.
+  expect({ ...chosen, ...withPrinter(chosen, "saturn-3") }).toEqual({ ...DEFAULT_SETTINGS, printer: "saturn-3" });
+  const goo = { ...DEFAULT_SETTINGS, format: "goo" } as const;
+  expect(withPrinter(goo, "saturn-3")).toEqual({ printer: "saturn-3" });
+});
+
+test.each(["format=prusa-3mf", "format=orca-3mf", "format=orca-3mf&layerMax=0.15"])("the address %s stays as it is", (query) => {
+  const settings = fromAddress(query);
+  expect(settings.layerMin).toBe(query.includes("prusa") ? "0.07" : "0.08");
+  expect(toAddress(settings)).toBe(query);
 });

@@ -1,5 +1,5 @@
 /** The form's settings: what was typed or chosen, whether it is valid, and the options that it gives. */
-import { DEFAULTS } from "../../api/wire.js";
+import { DEFAULTS, isFilament, usualOf } from "../../api/wire.js";
 import type { Format as FileFormat, KnownPrinter, Metric, Minimize, ModelUnit, Options, Resin, Snap } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
 import { METRIC_NAMES, METRICS } from "./metric.js";
@@ -100,6 +100,32 @@ export const DEFAULT_SETTINGS: Settings = {
   tolerances: {},
 };
 
+/** The defaults of a format: slicers of filament printers have other limits of layers. */
+export function defaultsOf(format: FileFormat | ""): Settings {
+  if (!isFilament(format)) return { ...DEFAULT_SETTINGS, format };
+  const { layer_min_mm, layer_max_mm, first_layer_mm } = DEFAULTS.filament[format];
+  return { ...DEFAULT_SETTINGS, format, layerMin: String(layer_min_mm), layerMax: String(layer_max_mm), uniform: String(first_layer_mm) };
+}
+
+/** The change of limits that belongs to a change of format: those that were the defaults stay the defaults. */
+export function limitsFor(settings: Settings, format: FileFormat | ""): Partial<Settings> {
+  const [before, after] = [defaultsOf(settings.format), defaultsOf(format)];
+  const change: Partial<Settings> = {};
+  for (const key of ["layerMin", "layerMax", "uniform"] as const) if (settings[key] === before[key]) change[key] = after[key];
+  return change;
+}
+
+/** The change of settings that chooses a format. What only resin printers have is left out for filament printers. */
+export function withFormat(settings: Settings, format: FileFormat | ""): Partial<Settings> {
+  const change = { ...limitsFor(settings, format), format };
+  return isFilament(format) ? { ...change, printer: "", minimize: DEFAULT_SETTINGS.minimize } : change;
+}
+
+/** The change of settings that chooses a printer, which has a format of its own. */
+export function withPrinter(settings: Settings, printer: ChosenPrinter): Partial<Settings> {
+  return printer !== "" && isFilament(settings.format) ? { ...withFormat(settings, ""), printer } : { printer };
+}
+
 /** The units of the typed numbers, in the order of an address. */
 const UNITS: Readonly<Record<keyof Lengths | keyof Curing, FieldUnit>> = {
   height: "mm",
@@ -140,7 +166,8 @@ const CHOICES: { readonly [Key in keyof Choices]: readonly Choices[Key][] } = {
  */
 export function fromAddress(query: string): Settings {
   const address = new URLSearchParams(query);
-  const settings = { ...DEFAULT_SETTINGS };
+  const asked = address.get("format");
+  const settings = { ...defaultsOf(CHOICES.format.find((format) => format === asked) ?? "") };
   const choose = <Key extends keyof Choices>(key: Key): void => {
     const choice = CHOICES[key].find((choice) => choice === address.get(key));
     if (choice !== undefined) (settings as Choices)[key] = choice;
@@ -167,9 +194,10 @@ export function fromAddress(query: string): Settings {
  */
 export function toAddress(settings: Settings): string {
   const address = new URLSearchParams();
+  const usual: Settings = { ...defaultsOf(settings.format), format: DEFAULT_SETTINGS.format };
   for (const key of [...(Object.keys(CHOICES) as (keyof Choices)[]), ...NUMBERS, ...NAMES]) {
     const text = key === "printer" ? printerText(settings.printer) : settings[key];
-    if (text !== DEFAULT_SETTINGS[key]) address.set(key, text);
+    if (text !== usual[key]) address.set(key, text);
   }
   const tolerance = settings.tolerances[settings.metric];
   if (tolerance !== undefined) address.set("tolerance", tolerance);
@@ -182,11 +210,11 @@ export function withTolerance({ metric, tolerances }: Settings, text: string): P
 }
 
 /** The tolerance that applies if none is typed, in the form's unit: the one that the core chose, or will choose. */
-export function usualTolerance(metric: Metric, taken: number | null): string {
-  const usual = DEFAULTS.tolerance[metric];
+export function usualTolerance(metric: Metric, taken: number | null, format: FileFormat | "" = ""): string {
+  const usual = usualOf(metric, format);
   const { scale } = METRICS[metric];
   // The default is short enough as it is.
-  return String(taken === null || taken === usual ? usual * scale : round.up(taken * scale));
+  return String(taken === null || taken === usual ? Number((usual * scale).toFixed(6)) : round.up(taken * scale));
 }
 
 export type Checked = { ok: true; options: Options } | { ok: false; faults: Faults };

@@ -43,7 +43,7 @@ export const FAULTS: GpuFaults = {
 const inPlace = (best: UniformLayers | null | undefined, { count, mm }: Pick<Format, "count" | "mm">): string =>
   best ? `${count(best.layers)} gleichmäßige Schichten von ${mm(best.layer_mm)}, die die Toleranz einhalten` : "gleichmäßige Schichten";
 
-export const errors = ({ count, counted, exact, mm, measure, error }: Format): ErrorSentences => ({
+export const errors = ({ count, counted, exact, mm, measure, error, either }: Format): ErrorSentences => ({
   ...readers({ count }),
   "file-empty": () => "Die Datei ist leer; exportieren Sie das Modell noch einmal.",
   "unknown-file-kind": () => "Das ist kein Modell, das Cusp liest; exportieren Sie es als STL, 3MF oder OBJ.",
@@ -99,6 +99,14 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
     "bleiben Sie in diesen Grenzen, oder wählen Sie einen anderen Drucker.",
   "printer-step": ({ model, printer_step_mm, step_mm }) =>
     `Der ${model} fährt in Schritten von ${mm(printer_step_mm)}, und ${mm(step_mm)} sind keine ganze Zahl davon; wählen Sie ein Vielfaches von ${mm(printer_step_mm)}.`,
+  "resin-printer": ({ format, model }) =>
+    `${format}-Dateien sind für Filamentdrucker, und der ${model} druckt Harz; lassen Sie den Drucker weg, oder wählen Sie ein Format, das er liest.`,
+  "nozzle-without-filament": ({ formats }) =>
+    `Eine Düse gehört nur zu den Formaten für Filamentdrucker: ${formats.join(", ")}; wählen Sie eins davon, oder lassen Sie die Düse weg.`,
+  "bad-nozzle": ({ nozzle_mm, least_mm, most_mm }) => `Die Düse muss ${exact(least_mm)} bis ${mm(most_mm)} weit sein, nicht ${mm(nozzle_mm)}.`,
+  "nozzle-layers": ({ slicers, nozzle_mm, nozzle_min_mm, nozzle_max_mm, layer_min_mm, layer_max_mm }) =>
+    `Durch eine Düse von ${mm(nozzle_mm)} druckt ${either(slicers)} Schichten von ${exact(nozzle_min_mm)} bis ${mm(nozzle_max_mm)}, ` +
+    `nicht von ${exact(layer_min_mm)} bis ${mm(layer_max_mm)}; bleiben Sie in diesen Grenzen, oder nennen Sie eine andere Düse.`,
   "grid-bad-size": ({ width, height, max_side, max_pixels }) =>
     `Eine Maske von ${count(width)} × ${count(height)} Pixeln ist nicht möglich: je Seite 1 bis ${count(max_side)}, insgesamt höchstens ${count(max_pixels)}.`,
   "grid-too-fine": ({ width, height, max_side, max_pixels }) =>
@@ -172,6 +180,10 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
     `Diese Gewichte gehören zu einem anderen Netz aus ${count(weights_facets)} Dreiecken; dieses hat ${count(mesh_facets)}; ` +
     "bemalen Sie es noch einmal, oder öffnen Sie das Modell, für das sie gemacht wurden.",
   "weights-out-of-range": ({ facet, weight }) => `Das Gewicht von Dreieck ${count(facet)} ist ${exact(weight)}; Gewichte liegen zwischen 0 und 1.`,
+  "no-masks": ({ format }) =>
+    `${format}-Dateien enthalten ein Modell und seine Schichten, aber keine Masken; schneiden Sie das Modell selbst in dieses Format, oder wählen Sie ein anderes.`,
+  "other-first-layer": ({ layer_mm, first_layer_mm }) =>
+    `Die erste Schicht dieses Plans ist ${mm(layer_mm)} dick, nicht ${mm(first_layer_mm)} wie eingestellt; das Modell ist niedriger, wählen Sie also eine dünnere erste Schicht.`,
   "archive-write": ({ system }) => `Die Druckdatei ließ sich nicht schreiben: ${ended(system)}`,
   cancelled: () => "Abgebrochen.",
   "bad-attribute": ({ attribute, value, known }) =>

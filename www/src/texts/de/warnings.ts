@@ -4,7 +4,7 @@ import { FAULTS } from "./errors.js";
 import { LAYERS, FACETS, EDGES, HOLES, OBJECTS } from "./nouns.js";
 import { UNITS } from "./readers.js";
 
-export const warnings = ({ count, counted, mm, height, error }: Format): WarningSentences => ({
+export const warnings = ({ count, counted, mm, height, error, either }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `${counted(facets, FACETS)} ohne Fläche weggelassen.`,
   "inside-out": () => "Das Netz war von innen nach außen gekehrt und wurde umgedreht.",
   "open-mesh": ({ open_edges, holes }) =>
@@ -33,6 +33,8 @@ export const warnings = ({ count, counted, mm, height, error }: Format): Warning
       : `${count(best.layers)} gleichmäßige Schichten von ${mm(best.layer_mm)} halten die Toleranz ein.`),
   "untried-thicknesses": ({ model }) =>
     `Niemand hat berichtet, ob der ${model} verschieden dicke Schichten druckt; drucken Sie die Testtürme, oder wählen Sie gleichmäßige Schichten.`,
+  "untried-slicer": ({ slicers }) =>
+    `Niemand hat berichtet, ob ${either(slicers)} die Schichten einer solchen Datei wie geplant druckt; vergleichen Sie vor dem Druck Zahl und Höhen der Schichten in der Vorschau dort.`,
   "gpu-too-small": ({ needed_bytes, limit_bytes }) =>
     `Die CPU hat die Arbeit der GPU übernommen: Das Netz braucht einen Puffer von ${count(needed_bytes)} Byte, und die GPU bietet ${count(limit_bytes)}.`,
   "gpu-failed": ({ fault, system }) =>

@@ -45,7 +45,7 @@ export const FAULTS: GpuFaults = {
 const inPlace = (best: UniformLayers | null | undefined, { count, mm }: Pick<Format, "count" | "mm">): string =>
   best ? `${count(best.layers)} uniform layers of ${mm(best.layer_mm)}, which keep the tolerance` : "the uniform planner";
 
-export const errors = ({ count, counted, exact, mm, measure, error }: Format): ErrorSentences => ({
+export const errors = ({ count, counted, exact, mm, measure, error, either }: Format): ErrorSentences => ({
   ...readers({ count }),
   "file-empty": () => "The file is empty; export the model again.",
   "unknown-file-kind": () => "This is no model that Cusp reads; export it as STL, 3MF or OBJ.",
@@ -100,6 +100,14 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
     "stay within its limits, or choose another printer.",
   "printer-step": ({ model, printer_step_mm, step_mm }) =>
     `The ${model} moves in steps of ${mm(printer_step_mm)}, and ${mm(step_mm)} is not a whole number of them; use a multiple of ${mm(printer_step_mm)}.`,
+  "resin-printer": ({ format, model }) =>
+    `${format} files are for filament printers, and the ${model} prints resin; leave the printer out, or choose a format that it reads.`,
+  "nozzle-without-filament": ({ formats }) =>
+    `A nozzle goes with the formats for filament printers only: ${formats.join(", ")}; choose one of them, or leave the nozzle out.`,
+  "bad-nozzle": ({ nozzle_mm, least_mm, most_mm }) => `The nozzle must be ${exact(least_mm)} to ${mm(most_mm)} wide, not ${mm(nozzle_mm)}.`,
+  "nozzle-layers": ({ slicers, nozzle_mm, nozzle_min_mm, nozzle_max_mm, layer_min_mm, layer_max_mm }) =>
+    `Through a nozzle of ${mm(nozzle_mm)} ${either(slicers)} prints layers of ${exact(nozzle_min_mm)} to ${mm(nozzle_max_mm)}, ` +
+    `not ${exact(layer_min_mm)} to ${mm(layer_max_mm)}; stay within its limits, or name another nozzle.`,
   "grid-bad-size": ({ width, height, max_side, max_pixels }) =>
     `A mask of ${count(width)} × ${count(height)} pixels is not possible: there can be 1 to ${count(max_side)} a side, and ${count(max_pixels)} in all.`,
   "grid-too-fine": ({ width, height, max_side, max_pixels }) =>
@@ -172,6 +180,10 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
     `These weights are for another mesh, of ${counted(weights_facets, FACETS)}; this one has ${count(mesh_facets)}; ` +
     "paint it again, or open the model that they were made for.",
   "weights-out-of-range": ({ facet, weight }) => `The weight of facet ${count(facet)} is ${exact(weight)}, and weights are 0 to 1.`,
+  "no-masks": ({ format }) =>
+    `${format} files hold a model and its layers, and no masks; slice the model itself into this format, or choose another.`,
+  "other-first-layer": ({ layer_mm, first_layer_mm }) =>
+    `The first layer of this plan is ${mm(layer_mm)} thick, not ${mm(first_layer_mm)} as set; the model is lower than that, so choose a thinner first layer.`,
   "archive-write": ({ system }) => `The print file could not be written: ${ended(system)}`,
   cancelled: () => "Cancelled.",
   "bad-attribute": ({ attribute, value, known }) =>

@@ -5,7 +5,7 @@ import { FAULTS } from "./errors.js";
 import { LAYERS, FACETS, EDGES, HOLES, OBJECTS } from "./nouns.js";
 import { UNITS } from "./readers.js";
 
-export const warnings = ({ count, counted, mm, height, error }: Format): WarningSentences => ({
+export const warnings = ({ count, counted, mm, height, error, either }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `${counted(facets, FACETS)} without area left out.`,
   "inside-out": () => "The mesh was inside out, and was turned over.",
   "open-mesh": ({ open_edges, holes }) =>
@@ -31,6 +31,8 @@ export const warnings = ({ count, counted, mm, height, error }: Format): Warning
     (best === null ? "choose the uniform planner." : `${count(best.layers)} uniform layers of ${mm(best.layer_mm)} keep the tolerance.`),
   "untried-thicknesses": ({ model }) =>
     `Nobody has told whether the ${model} prints layers of several thicknesses; print the test towers, or choose uniform layers.`,
+  "untried-slicer": ({ slicers }) =>
+    `Nobody has told whether ${either(slicers)} prints the layers of such a file as planned; compare the number and the heights of the layers in its preview before you print.`,
   "gpu-too-small": ({ needed_bytes, limit_bytes }) =>
     `The CPU did the work of the GPU: the mesh needs a buffer of ${count(needed_bytes)} bytes, and the GPU offers ${count(limit_bytes)}.`,
   "gpu-failed": ({ fault, system }) =>

@@ -43,7 +43,7 @@ export const FAULTS: GpuFaults = {
 const inPlace = (best: UniformLayers | null | undefined, { count, mm }: Pick<Format, "count" | "mm">): string =>
   best ? `${count(best.layers)} capas uniformes de ${mm(best.layer_mm)}, que cumplen la tolerancia` : "capas uniformes";
 
-export const errors = ({ count, counted, exact, mm, measure, error }: Format): ErrorSentences => ({
+export const errors = ({ count, counted, exact, mm, measure, error, either }: Format): ErrorSentences => ({
   ...readers({ count }),
   "file-empty": () => "El archivo está vacío; exporte el modelo de nuevo.",
   "unknown-file-kind": () => "No es un modelo que Cusp lea; expórtelo como STL, 3MF u OBJ.",
@@ -98,6 +98,14 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
     "quédese dentro de sus límites o elija otra impresora.",
   "printer-step": ({ model, printer_step_mm, step_mm }) =>
     `La ${model} se mueve en pasos de ${mm(printer_step_mm)}, y ${mm(step_mm)} no es un número entero de ellos; use un múltiplo de ${mm(printer_step_mm)}.`,
+  "resin-printer": ({ format, model }) =>
+    `Los archivos ${format} son para impresoras de filamento, y la ${model} imprime resina; quite la impresora o elija un formato que lea.`,
+  "nozzle-without-filament": ({ formats }) =>
+    `Una boquilla solo va con los formatos para impresoras de filamento: ${formats.join(", ")}; elija uno de ellos o quite la boquilla.`,
+  "bad-nozzle": ({ nozzle_mm, least_mm, most_mm }) => `La boquilla debe medir de ${exact(least_mm)} a ${mm(most_mm)}, no ${mm(nozzle_mm)}.`,
+  "nozzle-layers": ({ slicers, nozzle_mm, nozzle_min_mm, nozzle_max_mm, layer_min_mm, layer_max_mm }) =>
+    `Con una boquilla de ${mm(nozzle_mm)}, ${either(slicers)} imprime capas de ${exact(nozzle_min_mm)} a ${mm(nozzle_max_mm)}, ` +
+    `no de ${exact(layer_min_mm)} a ${mm(layer_max_mm)}; quédese dentro de sus límites o indique otra boquilla.`,
   "grid-bad-size": ({ width, height, max_side, max_pixels }) =>
     `Una máscara de ${count(width)} × ${count(height)} píxeles no es posible: puede haber de 1 a ${count(max_side)} por lado, y ${count(max_pixels)} en total.`,
   "grid-too-fine": ({ width, height, max_side, max_pixels }) =>
@@ -172,6 +180,10 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
     `Estos pesos son de otra malla, de ${counted(weights_facets, FACETS)}; esta tiene ${count(mesh_facets)}; ` +
     "píntela de nuevo o abra el modelo para el que se hicieron.",
   "weights-out-of-range": ({ facet, weight }) => `El peso de la faceta ${count(facet)} es ${exact(weight)}, y los pesos van de 0 a 1.`,
+  "no-masks": ({ format }) =>
+    `Los archivos ${format} contienen un modelo y sus capas, pero no máscaras; corte el modelo mismo en este formato o elija otro.`,
+  "other-first-layer": ({ layer_mm, first_layer_mm }) =>
+    `La primera capa de este plan mide ${mm(layer_mm)}, no ${mm(first_layer_mm)} como se indicó; el modelo es más bajo, así que elija una primera capa más fina.`,
   "archive-write": ({ system }) => `No se pudo escribir el archivo de impresión: ${ended(system)}`,
   cancelled: () => "Cancelado.",
   "bad-attribute": ({ attribute, value, known }) =>

@@ -4,7 +4,7 @@ import { FAULTS } from "./errors.js";
 import { LAYERS, FACETS, OMITTED, EDGES, HOLES, OBJECTS } from "./nouns.js";
 import { UNITS } from "./readers.js";
 
-export const warnings = ({ count, counted, plural, mm, height, error }: Format): WarningSentences => ({
+export const warnings = ({ count, counted, plural, mm, height, error, either }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `${counted(facets, FACETS)} sin área, ${plural(facets, OMITTED)}.`,
   "inside-out": () => "La malla estaba del revés y se le dio la vuelta.",
   "open-mesh": ({ open_edges, holes }) =>
@@ -31,6 +31,8 @@ export const warnings = ({ count, counted, plural, mm, height, error }: Format):
     (best === null ? "elija capas uniformes." : `${count(best.layers)} capas uniformes de ${mm(best.layer_mm)} cumplen la tolerancia.`),
   "untried-thicknesses": ({ model }) =>
     `Nadie ha dicho si la ${model} imprime capas de distinto espesor; imprima las torres de prueba o elija capas uniformes.`,
+  "untried-slicer": ({ slicers }) =>
+    `Nadie ha dicho si ${either(slicers)} imprime las capas de un archivo así como está planeado; compare allí, en la vista previa, el número y las alturas de las capas antes de imprimir.`,
   "gpu-too-small": ({ needed_bytes, limit_bytes }) =>
     `La CPU hizo el trabajo de la GPU: la malla necesita un búfer de ${count(needed_bytes)} bytes, y la GPU ofrece ${count(limit_bytes)}.`,
   "gpu-failed": ({ fault, system }) =>

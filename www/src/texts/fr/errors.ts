@@ -43,7 +43,7 @@ export const FAULTS: GpuFaults = {
 const inPlace = (best: UniformLayers | null | undefined, { count, mm }: Pick<Format, "count" | "mm">): string =>
   best ? `${count(best.layers)} couches uniformes de ${mm(best.layer_mm)}, qui respectent la tolérance` : "des couches uniformes";
 
-export const errors = ({ count, counted, exact, mm, measure, error }: Format): ErrorSentences => ({
+export const errors = ({ count, counted, exact, mm, measure, error, either }: Format): ErrorSentences => ({
   ...readers({ count }),
   "file-empty": () => "Le fichier est vide ; exportez à nouveau le modèle.",
   "unknown-file-kind": () => "Ce n’est pas un modèle que Cusp lit ; exportez-le en STL, 3MF ou OBJ.",
@@ -98,6 +98,14 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
     "restez dans ces limites, ou choisissez une autre imprimante.",
   "printer-step": ({ model, printer_step_mm, step_mm }) =>
     `La ${model} avance par pas de ${mm(printer_step_mm)}, et ${mm(step_mm)} n’en est pas un nombre entier ; prenez un multiple de ${mm(printer_step_mm)}.`,
+  "resin-printer": ({ format, model }) =>
+    `Les fichiers ${format} sont pour imprimantes à filament, et la ${model} imprime de la résine ; retirez l’imprimante, ou choisissez un format qu’elle lit.`,
+  "nozzle-without-filament": ({ formats }) =>
+    `Une buse ne va qu’avec les formats pour imprimantes à filament : ${formats.join(", ")} ; choisissez l’un d’eux, ou retirez la buse.`,
+  "bad-nozzle": ({ nozzle_mm, least_mm, most_mm }) => `La buse doit mesurer de ${exact(least_mm)} à ${mm(most_mm)}, pas ${mm(nozzle_mm)}.`,
+  "nozzle-layers": ({ slicers, nozzle_mm, nozzle_min_mm, nozzle_max_mm, layer_min_mm, layer_max_mm }) =>
+    `Par une buse de ${mm(nozzle_mm)}, ${either(slicers)} imprime des couches de ${exact(nozzle_min_mm)} à ${mm(nozzle_max_mm)}, ` +
+    `pas de ${exact(layer_min_mm)} à ${mm(layer_max_mm)} ; restez dans ces limites, ou indiquez une autre buse.`,
   "grid-bad-size": ({ width, height, max_side, max_pixels }) =>
     `Un masque de ${count(width)} × ${count(height)} pixels n’est pas possible : il peut y en avoir de 1 à ${count(max_side)} par côté, et ${count(max_pixels)} en tout.`,
   "grid-too-fine": ({ width, height, max_side, max_pixels }) =>
@@ -173,6 +181,10 @@ export const errors = ({ count, counted, exact, mm, measure, error }: Format): E
     "peignez-le à nouveau, ou ouvrez le modèle pour lequel ils ont été faits.",
   "weights-out-of-range": ({ facet, weight }) =>
     `Le poids de la facette ${count(facet)} est ${exact(weight)}, et les poids vont de 0 à 1.`,
+  "no-masks": ({ format }) =>
+    `Les fichiers ${format} contiennent un modèle et ses couches, mais pas de masques ; découpez le modèle lui-même dans ce format, ou choisissez-en un autre.`,
+  "other-first-layer": ({ layer_mm, first_layer_mm }) =>
+    `La première couche de ce plan fait ${mm(layer_mm)}, et non ${mm(first_layer_mm)} comme réglé ; le modèle est plus bas, choisissez donc une première couche plus fine.`,
   "archive-write": ({ system }) => `Le fichier d’impression n’a pas pu être écrit : ${ended(system)}`,
   cancelled: () => "Annulé.",
   "bad-attribute": ({ attribute, value, known }) =>

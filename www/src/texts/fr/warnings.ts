@@ -4,7 +4,7 @@ import { FAULTS } from "./errors.js";
 import { LAYERS, FACETS, OMITTED, EDGES, HOLES, OBJECTS } from "./nouns.js";
 import { UNITS } from "./readers.js";
 
-export const warnings = ({ count, counted, plural, mm, height, error }: Format): WarningSentences => ({
+export const warnings = ({ count, counted, plural, mm, height, error, either }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `${counted(facets, FACETS)} sans aire, ${plural(facets, OMITTED)}.`,
   "inside-out": () => "Le maillage était à l’envers et a été retourné.",
   "open-mesh": ({ open_edges, holes }) =>
@@ -31,6 +31,8 @@ export const warnings = ({ count, counted, plural, mm, height, error }: Format):
     (best === null ? "choisissez des couches uniformes." : `${count(best.layers)} couches uniformes de ${mm(best.layer_mm)} respectent la tolérance.`),
   "untried-thicknesses": ({ model }) =>
     `Personne n’a dit si l’imprimante ${model} imprime des couches d’épaisseurs différentes ; imprimez les tours de test, ou choisissez des couches uniformes.`,
+  "untried-slicer": ({ slicers }) =>
+    `Personne n’a dit si ${either(slicers)} imprime les couches d’un tel fichier comme prévu ; avant d’imprimer, comparez-y le nombre et les hauteurs des couches dans l’aperçu.`,
   "gpu-too-small": ({ needed_bytes, limit_bytes }) =>
     `Le CPU a fait le travail du GPU : le maillage demande un tampon de ${count(needed_bytes)} octets, et le GPU en offre ${count(limit_bytes)}.`,
   "gpu-failed": ({ fault, system }) =>

@@ -42,7 +42,7 @@ export const FAULTS: GpuFaults = {
 const inPlace = (best: UniformLayers | null | undefined, { count, mm }: Pick<Format, "count" | "mm">): string =>
   best ? `使用 ${count(best.layers)} 个 ${mm(best.layer_mm)} 的均匀层，误差在公差以内` : "使用均匀分层";
 
-export const errors = ({ count, exact, mm, measure, error }: Format): ErrorSentences => ({
+export const errors = ({ count, exact, mm, measure, error, either }: Format): ErrorSentences => ({
   ...readers({ count }),
   "file-empty": () => "文件是空的；请重新导出模型。",
   "unknown-file-kind": () => "这不是 Cusp 能读取的模型；请导出为 STL、3MF 或 OBJ。",
@@ -97,6 +97,12 @@ export const errors = ({ count, exact, mm, measure, error }: Format): ErrorSente
     "请留在此范围内，或选择其他打印机。",
   "printer-step": ({ model, printer_step_mm, step_mm }) =>
     `${model} 的步距为 ${mm(printer_step_mm)}，${mm(step_mm)} 不是其整数倍；请使用 ${mm(printer_step_mm)} 的倍数。`,
+  "resin-printer": ({ format, model }) => `${format} 文件用于丝材打印机，而 ${model} 打印树脂；请去掉打印机，或选择它能读取的格式。`,
+  "nozzle-without-filament": ({ formats }) => `喷嘴只用于丝材打印机的格式：${formats.join(", ")}；请选择其中之一，或去掉喷嘴。`,
+  "bad-nozzle": ({ nozzle_mm, least_mm, most_mm }) => `喷嘴直径必须为 ${exact(least_mm)} 到 ${mm(most_mm)}，而不是 ${mm(nozzle_mm)}。`,
+  "nozzle-layers": ({ slicers, nozzle_mm, nozzle_min_mm, nozzle_max_mm, layer_min_mm, layer_max_mm }) =>
+    `用 ${mm(nozzle_mm)} 的喷嘴，${either(slicers)} 可打印 ${exact(nozzle_min_mm)} 到 ${mm(nozzle_max_mm)} 的层，` +
+    `而不是 ${exact(layer_min_mm)} 到 ${mm(layer_max_mm)}；请留在此范围内，或指定其他喷嘴。`,
   "grid-bad-size": ({ width, height, max_side, max_pixels }) =>
     `不可能有 ${count(width)} × ${count(height)} 像素的掩膜：每边可有 1 到 ${count(max_side)} 个，总共至多 ${count(max_pixels)} 个。`,
   "grid-too-fine": ({ width, height, max_side, max_pixels }) =>
@@ -163,6 +169,9 @@ export const errors = ({ count, exact, mm, measure, error }: Format): ErrorSente
   "weights-other-mesh": ({ weights_facets, mesh_facets }) =>
     `这些权重属于另一个有 ${count(weights_facets)} 个三角面的网格；当前网格有 ${count(mesh_facets)} 个；请重新涂绘，或打开制作权重时所用的模型。`,
   "weights-out-of-range": ({ facet, weight }) => `三角面 ${count(facet)} 的权重是 ${exact(weight)}，而权重在 0 到 1 之间。`,
+  "no-masks": ({ format }) => `${format} 文件包含模型及其分层，不含掩膜；请直接把模型切片为此格式，或选择其他格式。`,
+  "other-first-layer": ({ layer_mm, first_layer_mm }) =>
+    `本方案的第一层厚 ${mm(layer_mm)}，而不是所设的 ${mm(first_layer_mm)}；模型比它低，请选择更薄的第一层。`,
   "archive-write": ({ system }) => `无法写入打印文件：${ended(system)}`,
   cancelled: () => "已取消。",
   "bad-attribute": ({ attribute, value, known }) =>

@@ -3,7 +3,7 @@ import type { WarningSentences } from "../sentences.js";
 import { FAULTS } from "./errors.js";
 import { UNITS } from "./readers.js";
 
-export const warnings = ({ count, mm, height, error }: Format): WarningSentences => ({
+export const warnings = ({ count, mm, height, error, either }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `已略去 ${count(facets)} 个没有面积的三角面。`,
   "inside-out": () => "网格内外颠倒，已翻转。",
   "open-mesh": ({ open_edges, holes }) =>
@@ -28,6 +28,8 @@ export const warnings = ({ count, mm, height, error }: Format): WarningSentences
     (best === null ? "请使用均匀分层。" : `${count(best.layers)} 个 ${mm(best.layer_mm)} 的均匀层，误差在公差以内。`),
   "untried-thicknesses": ({ model }) =>
     `尚无人验证 ${model} 能否打印不同厚度的层；请打印测试塔，或使用均匀分层。`,
+  "untried-slicer": ({ slicers }) =>
+    `尚无人验证 ${either(slicers)} 是否按方案打印此类文件的各层；打印前请在其预览中核对层数和各层高度。`,
   "gpu-too-small": ({ needed_bytes, limit_bytes }) =>
     `由 CPU 代替 GPU 计算：网格需要 ${count(needed_bytes)} 字节的缓冲区，而 GPU 只有 ${count(limit_bytes)}。`,
   "gpu-failed": ({ fault, system }) => `GPU 出错，由 CPU 代为计算：${FAULTS[fault]}${system === null ? "" : `（${system}）`}。`,
