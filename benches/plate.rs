@@ -43,11 +43,11 @@ fn load(triangles: &solids::Triangles) -> Slicer {
 fn seconds(models: &[solids::Triangles], options: &PlateOptions) -> [f64; 2] {
     let read = || Plate::new(models.iter().map(load).collect());
     let mut read_s = time(|| drop(read())).0;
-    let (plan_s, _) = time(|| {
+    let (plan_s, ()) = time(|| {
         let mut plate = read();
         pollster::block_on(plate.plan(options, &mut quiet)).expect("a plan");
     });
-    let (mask_s, _) = time(|| {
+    let (mask_s, ()) = time(|| {
         let mut plate = read();
         pollster::block_on(plate.plan(options, &mut quiet)).expect("a plan");
         plate.mask(0, 0).expect("a mask");

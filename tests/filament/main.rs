@@ -176,6 +176,7 @@ fn the_mesh_is_the_model_in_its_pose_and_closed() {
         let pose = cusp_slicer::model::Pose {
             rotation: options.rotation,
             height_mm: options.height_mm,
+            unit: options.unit,
         };
         let positions = slicer.positions_on_plate(&pose).unwrap();
         let corners: Vec<[f32; 3]> = positions.as_chunks::<3>().0.to_vec();

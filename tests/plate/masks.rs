@@ -56,8 +56,8 @@ fn what_the_only_model_says_of_itself_counts_like_an_option() {
     let range = HeightRange {
         from_mm: 1.0,
         to_mm: 2.0,
-        layer_min_mm: Some(0.05),
-        layer_max_mm: Some(0.05),
+        layer_min_mm: 0.05,
+        layer_max_mm: 0.05,
     };
     let of_model = PlateOptions {
         options: options(),
