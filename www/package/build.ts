@@ -43,7 +43,7 @@ const WASM = "cusp_slicer_bg.wasm";
 const flatAddresses: Plugin = {
   name: "cusp:flat-addresses",
   transform: {
-    filter: { id: /src\/api\/(client|worker)\.ts$/ },
+    filter: { id: /src\/api\/(calls|worker)\.ts$/ },
     handler: (code) => code.replace(`"./worker.ts"`, `"./worker.js"`).replace(`"../../pkg/${WASM}"`, `"./${WASM}"`),
   },
 };

@@ -1,6 +1,7 @@
 import { beforeEach, expect, test } from "vitest";
+import type { Watch, WorkerHandle } from "./calls.js";
+import { Client, type About } from "./client.js";
 import { SlicerError } from "./error.js";
-import { Client, type About, type WorkerHandle, type Watch } from "./client.js";
 import type { CuspError, Preview, MeshInfo, OnProgress, Options, Profiled, Report, SlicerWorker } from "./wire.js";
 
 /** The calls to the fake workers, in order: `worker number: call`. */

@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { createSlicer, SCHEMA, type Slicer } from "./index.js";
 import { resolve } from "./source.js";
-import type { WorkerHandle } from "./client.js";
+import type { WorkerHandle } from "./calls.js";
 import type { Preview, MeshInfo, Options, Report, SlicerWorker } from "./wire.js";
 
 /** A fake report: the width of its masks is the tolerance. */

@@ -14,7 +14,8 @@
  * can be created, but its calls reject with `no-browser`.
  */
 import { absentSlicer } from "./absent.js";
-import { Client, spawnWorker, type About, type Compiled, type WorkerHandle, type Wanted, type Watch } from "./client.js";
+import { spawnWorker, type Compiled, type WorkerHandle, type Watch } from "./calls.js";
+import { Client, type About, type Wanted } from "./client.js";
 import { measure, orient, type OrientCall } from "./orient.js";
 import { Pool } from "./pool.js";
 import { resolve, stemOf, type Source } from "./source.js";
@@ -23,7 +24,7 @@ import type { Candidate, Comparison, KnownPrinter, MeshInfo, Options, Preview, P
 export { isAbort, SlicerError, type ErrorCode, type ErrorDetails } from "./error.js";
 export type { WarningCode, WarningDetails } from "./warning.js";
 export type { Source } from "./source.js";
-export type { Watch } from "./client.js";
+export type { Watch } from "./calls.js";
 export type { Found, OrientCall } from "./orient.js";
 export type * from "./wire.js";
 

@@ -1,5 +1,5 @@
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
-import type { WorkerHandle } from "./client.js";
+import type { WorkerHandle } from "./calls.js";
 import { createSlicer, type OrientCall, type Slicer } from "./index.js";
 import { workersFor } from "./pool.js";
 import type { Candidate, MeshInfo, Preview, Profiled, Report, SearchResult, SearchStep, Task, TaskResult } from "./wire.js";
