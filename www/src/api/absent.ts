@@ -1,12 +1,28 @@
 /** The slicer without workers, as in server-side rendering: it does nothing, and every call rejects with `no-browser`. */
 import { SlicerError } from "./error.js";
 import type { Slicer } from "./index.js";
+import type { Plate } from "./plate.js";
 
 export function absentSlicer(): Slicer {
   const error = (): SlicerError => new SlicerError("no-browser", "there is no browser here: call this in the page");
   const reject = (): Promise<never> => Promise.reject(error());
   const nothing = (): void => undefined;
+  const plate: Plate = {
+    add: reject,
+    update: reject,
+    remove: reject,
+    models: reject,
+    setWeights: reject,
+    positions: reject,
+    arrange: reject,
+    problems: reject,
+    plan: reject,
+    mask: reject,
+    export: reject,
+  };
   return {
+    plate,
+    add: reject,
     load: reject,
     plan: reject,
     mask: reject,

@@ -1,6 +1,8 @@
 import { beforeEach, expect, test } from "vitest";
+import type { Watch, WorkerHandle } from "./calls.js";
+import { Client, type About } from "./client.js";
 import { SlicerError } from "./error.js";
-import { Client, type About, type WorkerHandle, type Watch } from "./client.js";
+import { fakePlate } from "./fake-plate.js";
 import type { CuspError, Preview, MeshInfo, OnProgress, Options, Profiled, Report, SlicerWorker } from "./wire.js";
 
 /** The calls to the fake workers, in order: `worker number: call`. */
@@ -18,6 +20,7 @@ class FakeWorker implements WorkerHandle {
   planned: Options = {};
 
   readonly remote: SlicerWorker = {
+    ...fakePlate((what) => this.#work(what)),
     boot: async (module) => {
       this.#say(module === null ? "boot, compiling" : "boot");
       return {};

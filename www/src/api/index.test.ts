@@ -1,7 +1,8 @@
 import { expect, test } from "vitest";
 import { createSlicer, SCHEMA, type Slicer } from "./index.js";
+import { fakePlate } from "./fake-plate.js";
 import { resolve } from "./source.js";
-import type { WorkerHandle } from "./client.js";
+import type { WorkerHandle } from "./calls.js";
 import type { Preview, MeshInfo, Options, Report, SlicerWorker } from "./wire.js";
 
 /** A fake report: the width of its masks is the tolerance. */
@@ -20,6 +21,7 @@ function faked(): { slicer: Slicer; log: string[] } {
     const number = ++workers;
     const say = (what: string): void => void log.push(`${number}: ${what}`);
     const remote: SlicerWorker = {
+      ...fakePlate(async (what) => say(what)),
       boot: async () => ({}),
       open: async (file) => {
         say(`open ${await file.text()}`);

@@ -14,26 +14,23 @@
  * can be created, but its calls reject with `no-browser`.
  */
 import { absentSlicer } from "./absent.js";
-import { Client, spawnWorker, type About, type Compiled, type WorkerHandle, type Wanted, type Watch } from "./client.js";
+import { spawnWorker, type Compiled, type WorkerHandle, type Watch } from "./calls.js";
+import { Client, type About, type Wanted } from "./client.js";
 import { measure, orient, type OrientCall } from "./orient.js";
+import { createPlate, type AddCall, type ModelChange, type Plate, type PlateModel } from "./plate.js";
 import { Pool } from "./pool.js";
+import { printFile, SCHEMA, type Mask, type PrintFile, type Versioned } from "./results.js";
 import { resolve, stemOf, type Source } from "./source.js";
-import type { Candidate, Comparison, KnownPrinter, MeshInfo, Options, Preview, Profiled, Report, SearchOptions, SearchResult, Tradeoff, Warning } from "./wire.js";
+import type { Candidate, Comparison, KnownPrinter, MeshInfo, Options, Preview, Profiled, Report, SearchOptions, SearchResult, Tradeoff } from "./wire.js";
 
 export { isAbort, SlicerError, type ErrorCode, type ErrorDetails } from "./error.js";
 export type { WarningCode, WarningDetails } from "./warning.js";
 export type { Source } from "./source.js";
-export type { Watch } from "./client.js";
+export type { Watch } from "./calls.js";
 export type { Found, OrientCall } from "./orient.js";
+export type { AddCall, ModelChange, Plate, PlateCall, PlateModel, PlatesPlan } from "./plate.js";
+export { SCHEMA, type Mask, type PrintFile } from "./results.js";
 export type * from "./wire.js";
-
-/** The version of the result format. It increases when a field is removed or changes its meaning, not when one is added. */
-export const SCHEMA = 2;
-
-interface Versioned {
-  /** See {@link SCHEMA}. */
-  schema: typeof SCHEMA;
-}
 
 /** A model as read from its file. */
 export interface Model extends Versioned {
@@ -52,28 +49,6 @@ export interface PreviewedPlan extends Versioned, Profiled<Preview> {}
 /** The result of an orientation search. */
 export interface OrientationReport extends Versioned, SearchResult {}
 
-/** The mask of a layer. */
-export interface Mask {
-  /** Counted from 0, the layer on the plate. */
-  layer: number;
-  /** In pixels. */
-  width: number;
-  height: number;
-  /** One bit per pixel, rows from the top, most significant bit first, ⌈width / 8⌉ bytes per row; 1 is lit. */
-  bits: Uint8Array;
-}
-
-/** A print file. */
-export interface PrintFile extends Versioned {
-  /** The name to save it under: that of the model and `-cusp`, or what it is, and its extension, as in `cup-cusp.uvj`. */
-  name: string;
-  /** Its media type: `application/zip`, or `application/octet-stream` if the format has an extension of its own. */
-  type: string;
-  blob: Blob;
-  /** The warnings of its plan. */
-  warnings: Warning[];
-}
-
 /**
  * The print file of two towers side by side: both have ten layers of 0.05 mm, and one goes on with ten of 0.1 mm. Printed, they
  * are 0.5 and 1.5 mm high if the printer takes a thickness for each layer; 0.5 and 1.0 mm, or 1.0 and 2.0 mm, if it takes one for all.
@@ -89,6 +64,10 @@ export interface LoadCall extends Watch {
 }
 
 export interface Slicer {
+  /** Several models in one job. They and the model of {@link load} leave each other alone. */
+  readonly plate: Plate;
+  /** Adds a model to the plate: `plate.add()`. */
+  add(source: Source, own?: ModelChange, call?: AddCall): Promise<PlateModel>;
   /** Reads a model: 3MF, OBJ or STL. */
   load(source: Source, call?: LoadCall): Promise<Model>;
   /** Plans the layers of the model. A change of options recomputes only what depends on it. */
@@ -173,12 +152,15 @@ export function createSlicer(setup: Setup = {}): Slicer {
   // Previews must not wait for a plan that takes seconds: they have a worker of their own, which starts on first use.
   const side = new Client(spawn, compiled);
   const pool = new Pool(() => new Client(spawn, compiled), workers);
+  const plate = createPlate(spawn, compiled);
   /** The subject of a call made now, resolved once earlier loads have settled. */
   let about: About = Promise.resolve(null);
 
   const wanted = (options: Options | undefined): Wanted => (options === undefined ? null : { about, options });
 
   return {
+    plate,
+    add: (source, own, call) => plate.add(source, own, call),
     async load(source, { name, ...call } = {}) {
       const before = about;
       const named = resolve(source, call.signal);
@@ -265,19 +247,16 @@ export function createSlicer(setup: Setup = {}): Slicer {
     rest() {
       main.rest();
       side.rest();
+      plate.rest();
       pool.rest();
     },
     dispose() {
       main.dispose();
       side.dispose();
+      plate.dispose();
       pool.dispose();
     },
   };
-}
-
-function printFile(stem: string, blob: Blob, { print_file, warnings }: Report): PrintFile {
-  const { extension, media_type: type } = print_file;
-  return { schema: SCHEMA, name: `${stem}.${extension}`, type, blob: blob.slice(0, blob.size, type), warnings };
 }
 
 /** The name of the printer that the options have, for the name of a file. */

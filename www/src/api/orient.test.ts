@@ -1,5 +1,6 @@
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
-import type { WorkerHandle } from "./client.js";
+import type { WorkerHandle } from "./calls.js";
+import { fakePlate } from "./fake-plate.js";
 import { createSlicer, type OrientCall, type Slicer } from "./index.js";
 import { workersFor } from "./pool.js";
 import type { Candidate, MeshInfo, Preview, Profiled, Report, SearchResult, SearchStep, Task, TaskResult } from "./wire.js";
@@ -114,6 +115,7 @@ function faked({ workers, slowness = () => 0, hangs, fails, within = 4 }: Setup)
       throw new Error("not asked for by a search");
     };
     const remote: WorkerHandle["remote"] = {
+      ...fakePlate(unused),
       boot: async () => ({}),
       open: async (file) => {
         const text = await file.text();

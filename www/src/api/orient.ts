@@ -1,5 +1,6 @@
 /** The orientation search, which the core drives: one worker of the pool holds it, and all run its tasks. */
-import type { About, Watch } from "./client.js";
+import type { Watch } from "./calls.js";
+import type { About } from "./client.js";
 import type { Pool } from "./pool.js";
 import type { Candidate, Options, SearchOptions, SearchResult, SearchStep, Task, TaskResult } from "./wire.js";
 

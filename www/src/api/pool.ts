@@ -1,5 +1,6 @@
 /** A pool of workers for work that splits into many tasks: each holds the model, and a free one takes the next tasks. */
-import { disposed, present, untilAborted, type About, type Client, type Remote, type Subject, type Watch } from "./client.js";
+import { disposed, untilAborted, type Remote, type Watch } from "./calls.js";
+import { present, type About, type Client, type Subject } from "./client.js";
 
 /** More workers are no faster, and each holds the model. */
 const MOST_WORKERS = 8;

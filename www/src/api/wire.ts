@@ -4,11 +4,12 @@
  * The types of the core are re-exported from the generated package, never copied: a change there is a type error here.
  */
 import type { Comparison, Preview, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff } from "../../pkg/cusp_slicer.js";
-import type { Candidate, Format, SearchOptions, Task } from "../../pkg/cusp_slicer.js";
+import type { ArrangeError, Candidate, Format, Placement, PlateOptions, PlatesReport, SearchOptions, Task } from "../../pkg/cusp_slicer.js";
 
 export type { Comparison, Preview, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff };
-export type { Candidate, Format, SearchOptions, Task };
+export type { ArrangeError, Candidate, Format, Placement, PlateOptions, PlatesReport, SearchOptions, Task };
 export type {
+  Arranging,
   Backend,
   CuspError,
   Exclusion,
@@ -18,8 +19,11 @@ export type {
   HeightRange,
   Metrics,
   Minimize,
+  ModelOptions,
   ModelUnit,
   Planner,
+  PlateModelReport,
+  PlateReport,
   PlannerReport,
   Quantity,
   Resin,
@@ -55,6 +59,12 @@ export interface Written {
   report: Report;
 }
 
+/** The reports of all plates, and the profile of each plate. */
+export interface ProfiledPlates {
+  report: PlatesReport;
+  profiles: Float32Array[];
+}
+
 /** The result of a task: a candidate for each of its directions, in their order. */
 export interface TaskResult {
   number: number;
@@ -84,7 +94,7 @@ export interface SearchStep {
 }
 
 /** The worker's interface through comlink. Everything it throws is an `Error` or a plain `CuspError`. */
-export interface SlicerWorker {
+export interface SlicerWorker extends PlateWorker {
   /** Starts the core from its compiled module, or compiles it if that is null. Returns the module for the next worker. */
   boot(module: WebAssembly.Module | null): Promise<WebAssembly.Module>;
   /** Reads a model. If this fails, the previous one stays open. */
@@ -116,6 +126,20 @@ export interface SlicerWorker {
   /** The print file of the test towers; neither the open model nor its plan changes. */
   calibrateLayers(options: Options, progress: OnProgress): Promise<Written>;
   printers(): KnownPrinter[];
+}
+
+/** What a worker does for a plate. Models are counted from 0 in their order, and so are plates. */
+export interface PlateWorker {
+  /** Reads a model and adds it after the others. */
+  addToPlate(file: Blob, progress: OnProgress): Promise<MeshInfo>;
+  removeFromPlate(model: number): void;
+  platePositions(model: number): Float32Array;
+  setPlateWeights(model: number, weights: Float32Array | null): void;
+  arrangePlate(options: PlateOptions): Placement[];
+  plateProblems(options: PlateOptions): ArrangeError[];
+  planPlate(options: PlateOptions, progress: OnProgress): Promise<ProfiledPlates>;
+  plateMask(plate: number, layer: number): Uint8Array;
+  archivePlate(plate: number, progress: OnProgress): Blob;
 }
 
 /** The core's own defaults, which a form shows before the worker has started. A test compares them with the core. */

@@ -1,15 +1,16 @@
-/** The worker: the only file that imports the WebAssembly package. One model is open at a time. */
+/** The worker: the only file that imports the WebAssembly package. One model is open at a time, and there is one plate. */
 import * as Comlink from "comlink";
-import init, { calibrate_layers, head_bytes, identify, open_gpus_by, OrientationSearch, printers, Slicer } from "../../pkg/cusp_slicer.js";
+import init, { calibrate_layers, head_bytes, identify, open_gpus_by, OrientationSearch, Plate, printers, Slicer } from "../../pkg/cusp_slicer.js";
 import initGpu, { OpenGpu } from "../../pkg/gpu/cusp_gpu.js";
 import { acceptCompatible } from "./adapters.js";
 import { bytesOf } from "./bytes.js";
-import type { Candidate, KnownPrinter, OnProgress, SlicerWorker } from "./wire.js";
+import type { Candidate, KnownPrinter, OnProgress, PlateWorker, SlicerWorker } from "./wire.js";
 
 /** Chunks of a print file are merged into a Blob at this many bytes; the browser may keep that on disk. */
 const BLOB_PART_BYTES = 8 << 20;
 
 let slicer: Slicer | null = null;
+let plate: Plate | null = null;
 let search: OrientationSearch | null = null;
 let memory: WebAssembly.Memory | null = null;
 
@@ -71,7 +72,51 @@ class BlobSink {
   }
 }
 
+/** The plate, empty at first. */
+const onPlate = (): Plate => (plate ??= new Plate());
+
+/** The bytes of a model; a file that is no STL is rejected before all of it is read. */
+async function modelBytes(file: Blob): Promise<Uint8Array> {
+  identify(await bytesOf(file.slice(0, head_bytes())), file.size);
+  return bytesOf(file);
+}
+
+const plateApi: PlateWorker = {
+  async addToPlate(file, progress) {
+    progress("load", 0, 0);
+    return onPlate().add(await modelBytes(file));
+  },
+  removeFromPlate(model) {
+    onPlate().remove(model);
+  },
+  platePositions(model) {
+    const positions = onPlate().positions(model);
+    return Comlink.transfer(positions, [positions.buffer]);
+  },
+  setPlateWeights(model, weights) {
+    onPlate().set_weights(model, weights);
+  },
+  arrangePlate: (options) => onPlate().arrange(options),
+  plateProblems: (options) => onPlate().problems(options),
+  async planPlate(options, progress) {
+    const report = await onPlate().plan(options, plain(progress));
+    const profiles = report.plates.map(({ metric, source }, number) => onPlate().profile(number, metric, source));
+    const buffers = profiles.map(({ buffer }) => buffer);
+    return Comlink.transfer({ report, profiles }, buffers);
+  },
+  plateMask(number, layer) {
+    const bits = onPlate().mask(number, layer);
+    return Comlink.transfer(bits, [bits.buffer]);
+  },
+  archivePlate(number, progress) {
+    const sink = new BlobSink();
+    onPlate().archive(number, sink.take, plain(progress));
+    return sink.finish();
+  },
+};
+
 const api: SlicerWorker = {
+  ...plateApi,
   async boot(module) {
     const compiled = module ?? (await compile());
     ({ memory } = await init({ module_or_path: compiled }));
@@ -80,9 +125,7 @@ const api: SlicerWorker = {
   },
   async open(file, progress) {
     progress("load", 0, 0);
-    // Reject a file that is no model before reading all of it.
-    identify(await bytesOf(file.slice(0, head_bytes())), file.size);
-    const opened = new Slicer(await bytesOf(file));
+    const opened = new Slicer(await modelBytes(file));
     slicer?.free();
     slicer = opened;
     return opened.info();

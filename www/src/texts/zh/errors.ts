@@ -116,7 +116,7 @@ export const errors = ({ count, exact, mm, measure, error, either }: Format): Er
   "bad-spacing": ({ spacing_mm }) => `间距必须为 0 到 100 mm，而不是 ${mm(spacing_mm)}。`,
   "bad-turn": ({ turn_deg }) => `模型的旋转步长为 0、15、30、45、60、90、120 或 180°，而不是 ${exact(turn_deg)}°。`,
   "plate-too-small": ({ model_number, size_mm, plate_mm }) =>
-    `模型 ${count(model_number)} 为 ${mm(size_mm[0])} × ${mm(size_mm[1])}，而平台为 ${mm(plate_mm[0])} × ${mm(plate_mm[1])}；请缩小它，或选择其他朝向或打印机。`,
+    `模型 ${count(model_number)} 为 ${exact(size_mm[0])} × ${mm(size_mm[1])}，而平台为 ${exact(plate_mm[0])} × ${mm(plate_mm[1])}；请缩小它，或选择其他朝向或打印机。`,
   "plate-outside": ({ model_number, plate_number }) => `模型 ${count(model_number)} 的一个副本超出了平台 ${count(plate_number)}；请移动它，或排列平台。`,
   "plate-collision": ({ model_numbers, plate_number }) =>
     `模型 ${count(model_numbers[0])} 与 ${count(model_numbers[1])} 的副本在平台 ${count(plate_number)} 上重叠；请移动其中一个，或排列平台。`,

@@ -1,0 +1,184 @@
+/**
+ * Calls to one worker after another, presented as one.
+ *
+ * WebAssembly cannot be interrupted, so cancelling terminates the worker, and the next call starts another. What a worker holds
+ * is up to the client of these calls, which restores what it needs in a fresh one.
+ */
+import * as Comlink from "comlink";
+import { isAbort, ofCore, said, SlicerError } from "./error.js";
+import type { OnProgress, SlicerWorker } from "./wire.js";
+
+/** The worker's interface as seen from this side, where every method may return a promise. */
+export type Remote = {
+  [Name in keyof SlicerWorker]: (
+    ...given: Parameters<SlicerWorker[Name]>
+  ) => ReturnType<SlicerWorker[Name]> | Promise<Awaited<ReturnType<SlicerWorker[Name]>>>;
+};
+
+/** What a {@link Client} needs of a worker; tests pass a fake. */
+export interface WorkerHandle {
+  remote: Remote;
+  /** Ends the worker at once, whatever it is doing. */
+  terminate(): void;
+  /** Calls back if the worker breaks outside a call, such as when its script cannot be loaded. */
+  onBroken(callback: (message: string) => void): void;
+}
+
+/** Progress and cancellation of a call. */
+export interface Watch {
+  /** Aborts the call within 0.1 s at any stage; the previous model and plan stay. */
+  signal?: AbortSignal | undefined;
+  onProgress?: OnProgress | undefined;
+}
+
+export function spawnWorker(): WorkerHandle {
+  const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module", name: "cusp-slicer" });
+  return {
+    remote: Comlink.wrap<SlicerWorker>(worker),
+    terminate: () => worker.terminate(),
+    onBroken: (callback) => {
+      worker.addEventListener("error", (event) => callback(event.message || "the worker could not be started"));
+      worker.addEventListener("messageerror", () => callback("a message could not be read"));
+    },
+  };
+}
+
+/** Holds the compiled module, which all clients share. */
+export interface Compiled {
+  module: WebAssembly.Module | null;
+}
+
+/** A running worker. `fate` rejects when the worker is terminated, so that no call waits for ever. */
+export interface Life<Held> {
+  readonly handle: WorkerHandle;
+  readonly booted: Promise<unknown>;
+  readonly fate: Promise<never>;
+  end(reason: unknown): void;
+  /** What the client knows of what the worker holds. */
+  readonly held: Held;
+}
+
+export class Calls<Held> {
+  readonly #spawn: () => WorkerHandle;
+  readonly #compiled: Compiled;
+  readonly #empty: () => Held;
+  #life: Life<Held> | null = null;
+  /** Calls run one at a time: the core accepts no second call while one is waiting for the GPU. */
+  #queue: Promise<unknown> = Promise.resolve();
+  #disposed = false;
+
+  /** @param empty what a fresh worker holds */
+  constructor(spawn: () => WorkerHandle, compiled: Compiled, empty: () => Held) {
+    this.#spawn = spawn;
+    this.#compiled = compiled;
+    this.#empty = empty;
+  }
+
+  /** Starts the worker before it is needed. The first real call reports a failure. */
+  warm(): void {
+    if (!this.#disposed) this.#live().booted.catch(() => undefined);
+  }
+
+  /** Terminates the worker. The next call starts another. */
+  rest(): void {
+    this.#life?.end(new DOMException("the slicer was sent to rest", "AbortError"));
+  }
+
+  /** Terminates the worker for good: later calls reject with an `AbortError`. */
+  dispose(): void {
+    this.#disposed = true;
+    this.#life?.end(disposed());
+  }
+
+  /** Enqueues a task at once. When its turn comes, it waits for `needed`, then for the worker. */
+  run<N, T>(
+    { signal, onProgress }: Watch,
+    needed: Promise<N> | null,
+    task: (life: Life<Held>, needed: N, progress: OnProgress) => Promise<T>,
+  ): Promise<T> {
+    // If `needed` rejects early, the call reports it when its turn comes.
+    needed?.catch(() => undefined);
+    const result = this.#queue.then(async () => {
+      signal?.throwIfAborted();
+      const needs = (needed === null ? null : await untilAborted(needed, signal)) as N;
+      if (this.#disposed) throw disposed();
+      const life = this.#live();
+      const abort = (): void => life.end(signal?.reason);
+      signal?.addEventListener("abort", abort, { once: true });
+      const progress = Comlink.proxy<OnProgress>((stage, fraction, done) => {
+        // Ignore progress that arrives after an abort.
+        if (signal?.aborted !== true) onProgress?.(stage, fraction, done);
+      });
+      try {
+        return await Promise.race([life.booted.then(() => task(life, needs, progress)), life.fate]);
+      } catch (error) {
+        throw this.#understand(error, life, signal);
+      } finally {
+        signal?.removeEventListener("abort", abort);
+      }
+    });
+    // The next call waits for this one to settle. The queue does not hold the result, which may be large.
+    const forget = (): void => undefined;
+    this.#queue = result.then(forget, forget);
+    // A queued call rejects on abort at once, before its turn.
+    return untilAborted(result, signal);
+  }
+
+  /** Passes on aborts and the core's own errors. Anything else means that the core broke, so its worker is terminated. */
+  #understand(error: unknown, life: Life<Held>, signal: AbortSignal | undefined): unknown {
+    if (isAbort(error, signal)) return error;
+    const described = ofCore(error);
+    if (described !== null && described.code !== "start-failed" && described.code !== "crash") return described;
+    const broken = described ?? broke("crash", error);
+    life.end(broken);
+    return broken;
+  }
+
+  #live(): Life<Held> {
+    if (this.#life !== null) return this.#life;
+    const handle = this.#spawn();
+    let end: (reason: unknown) => void = () => undefined;
+    const fate = new Promise<never>((_, reject) => {
+      end = (reason) => {
+        handle.terminate();
+        if (this.#life?.handle === handle) this.#life = null;
+        reject(reason);
+      };
+    });
+    fate.catch(() => undefined);
+    let started = false;
+    handle.onBroken((message) => end(broke(started ? "crash" : "start-failed", message)));
+    const booted = handle.remote.boot(this.#compiled.module).then(
+      (module) => {
+        started = true;
+        this.#compiled.module = module;
+      },
+      (error: unknown) => {
+        throw broke("start-failed", error);
+      },
+    );
+    booted.catch(() => undefined);
+    this.#life = { handle, booted, fate, end, held: this.#empty() };
+    return this.#life;
+  }
+}
+
+/** Settles as `answer` does, or rejects with the signal's reason if that aborts first. */
+export function untilAborted<T>(answer: Promise<T>, signal: AbortSignal | undefined): Promise<T> {
+  if (signal === undefined) return answer;
+  const aborted = new Promise<never>((_, reject) => {
+    const abort = (): void => reject(signal.reason as Error);
+    if (signal.aborted) abort();
+    signal.addEventListener("abort", abort, { once: true });
+    const forget = (): void => signal.removeEventListener("abort", abort);
+    answer.then(forget, forget);
+  });
+  return Promise.race([answer, aborted]);
+}
+
+export const disposed = (): DOMException => new DOMException("the slicer was disposed of", "AbortError");
+
+function broke(code: "crash" | "start-failed", cause: unknown): SlicerError {
+  const system = said(cause);
+  return new SlicerError(code, system, { system });
+}
