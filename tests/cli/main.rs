@@ -17,6 +17,7 @@ mod interrupt;
 mod orient;
 mod packaging;
 mod plan;
+mod plate;
 mod simulate;
 mod standard;
 mod thicknesses;

@@ -15,6 +15,7 @@ use cusp_slicer::resin::Resin;
 
 use crate::config::{self, SettingsFile};
 use crate::files::{Failure, WeightsFile, in_file};
+use crate::plate::Places;
 use crate::usage::{Given, wrong_usage};
 use crate::values::{
     PrinterName, antialias, height_range, length, not_negative, pitch, pixels, positive, rotation,
@@ -24,12 +25,17 @@ use crate::values::{
 /// Models, and how to slice them.
 #[derive(Args)]
 pub struct Slicing {
-    /// Models: 3MF, OBJ or STL; - is standard input
+    /// Models: 3MF, OBJ or STL; - is standard input. Or one job file of `cusp plate`
     #[arg(required = true, value_name = "MODEL")]
     pub models: Vec<PathBuf>,
     /// Print one JSON object; for a batch one per model, each on its own line
     #[arg(long)]
     pub json: bool,
+    /// Print all models together, on the fewest plates: MODEL:3 is three copies
+    #[arg(long, help_heading = "Plate")]
+    pub arrange: bool,
+    #[command(flatten)]
+    pub places: Places,
     #[command(flatten)]
     pub choices: Choices,
 }
@@ -263,11 +269,19 @@ impl Choices {
 
     /// The settings of the file, if one is given, with those of the command line in their place.
     pub fn settings(&self) -> Result<Settings, Failure> {
+        self.settings_over(Options::default())
+    }
+
+    /// The same, with `options` in place of the defaults. A file of settings goes before all of them.
+    pub fn settings_over(&self, options: Options) -> Result<Settings, Failure> {
         let file = self.config.as_deref().map(config::read).transpose()?;
         let SettingsFile {
             mut options,
             weights,
-        } = file.unwrap_or_default();
+        } = file.unwrap_or(SettingsFile {
+            options,
+            weights: None,
+        });
         self.target.put_into(&mut options)?;
         self.put_into(&mut options);
         let weights = self.weights.as_ref().or(weights.as_ref());

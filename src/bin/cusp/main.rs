@@ -8,9 +8,11 @@ mod contours;
 mod convert;
 mod files;
 mod inspect;
+mod job_file;
 mod models;
 mod orient;
 mod packaging;
+mod plate;
 #[cfg(test)]
 mod schemas;
 mod simulate;
@@ -31,6 +33,7 @@ use contours::Contouring;
 use convert::Converting;
 use inspect::Inspecting;
 use orient::Orienting;
+use plate::Plating;
 use simulate::Simulating;
 use terminal::say;
 
@@ -65,6 +68,9 @@ enum Command {
     /// Write the exact section of each layer as polygons, for tool paths of other processes
     #[command(allow_negative_numbers = true)]
     Contours(Contouring),
+    /// Arrange models on plates, and write a job file that `cusp slice` takes
+    #[command(allow_negative_numbers = true)]
+    Plate(Plating),
     /// Show how layers, time and error depend on each other
     #[command(allow_negative_numbers = true)]
     Tradeoff {
@@ -149,6 +155,7 @@ fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Slice { slicing, output } => slice::slice(&slicing, &output),
         Command::Plan { slicing } => slice::plan(&slicing),
+        Command::Plate(plating) => plate::plate(&plating),
         Command::Contours(contouring) => contours::contours(&contouring),
         Command::Tradeoff { studying, points } => slice::tradeoff(&studying, points as usize),
         Command::Orient(orienting) => orient::orient(&orienting),

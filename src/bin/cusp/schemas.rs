@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use cusp_slicer::archive::read::Inspection;
 use cusp_slicer::contour::ContoursReport;
-use cusp_slicer::job::{MeshInfo, Options, OrientationReport, Report, Tradeoff};
+use cusp_slicer::job::{MeshInfo, Options, OrientationReport, PlatesReport, Report, Tradeoff};
 use cusp_slicer::printer::Printer;
 use cusp_slicer::resin::Resin;
 use cusp_slicer::simulation::Simulation;
@@ -14,6 +14,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::{Value, json};
 
 use crate::batch::BatchLine;
+use crate::job_file::JobFile;
 use crate::slice::Compared;
 use crate::verify::Verified;
 
@@ -111,6 +112,8 @@ fn the_schemas_of_reports_are_recorded() {
         ("manifest", manifest()),
         ("orient", output::<OrientationReport>()),
         ("plan", output::<Report>()),
+        ("plate", input::<JobFile>()),
+        ("plates", output::<PlatesReport>()),
         ("printer", input::<Printer>()),
         ("printers", output::<Vec<Arc<Printer>>>()),
         ("resin", input::<Resin>()),

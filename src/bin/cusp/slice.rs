@@ -11,17 +11,21 @@ use serde::Serialize;
 use crate::arguments::{Settings, Slicing, Studying};
 use crate::batch::{Batch, check_inputs, outputs_in, workers};
 use crate::files::{Failure, Output, in_file, is_standard, load_painted};
+use crate::plate;
 use crate::terminal::{Bar, duration, open_gpu, print, print_json, stop_on_interrupt, warn};
 use crate::usage::{check_json, wrong_usage};
 
 pub fn slice(slicing: &Slicing, output: &Path) -> Result<(), Failure> {
     slicing.choices.check("slice");
     check_inputs("slice", &slicing.models);
+    if let Some(job) = plate::job("slice", slicing)? {
+        return plate::slice(job, slicing, output);
+    }
     if is_folder(output) {
         return slice_all(slicing, output);
     }
     let [model] = &*slicing.models else {
-        let message = "several models become a print file each, in a folder: -o prints/";
+        let message = "several models become a print file each, in a folder: -o prints/; or one in all: --arrange";
         wrong_usage("slice", message);
     };
     check_json("slice", Some(output), slicing.json);
@@ -39,6 +43,9 @@ pub fn slice(slicing: &Slicing, output: &Path) -> Result<(), Failure> {
 pub fn plan(slicing: &Slicing) -> Result<(), Failure> {
     slicing.choices.check("plan");
     check_inputs("plan", &slicing.models);
+    if let Some(job) = plate::job("plan", slicing)? {
+        return plate::plan(job, slicing);
+    }
     let [model] = &*slicing.models else {
         return plan_all(slicing);
     };
@@ -53,7 +60,7 @@ pub fn plan(slicing: &Slicing) -> Result<(), Failure> {
 }
 
 /// Whether print files go into it: a folder that is there, or is named as one.
-fn is_folder(output: &Path) -> bool {
+pub fn is_folder(output: &Path) -> bool {
     let names_folder = output.to_string_lossy().ends_with(std::path::is_separator);
     names_folder || (!is_standard(output) && output.is_dir())
 }

@@ -6,7 +6,7 @@ use std::io::{self, IsTerminal, Write as _};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use cusp_slicer::job::{Backend, Slicer, Stage};
+use cusp_slicer::job::{Backend, Plate, Slicer, Stage};
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use serde::Serialize;
 
@@ -85,6 +85,13 @@ pub fn open_gpu(slicer: &mut Slicer, backend: Backend) {
     #[cfg(unix)]
     let _silence = Silence::begin();
     pollster::block_on(slicer.open_gpu());
+}
+
+/// The same for a plate of several models.
+pub fn open_gpu_of_plate(plate: &mut Plate) {
+    #[cfg(unix)]
+    let _silence = Silence::begin();
+    pollster::block_on(plate.open_gpu());
 }
 
 /// While it lives, nothing reaches stderr. Drivers write to the file descriptor itself, so the descriptor is redirected and

@@ -75,7 +75,7 @@ class BlobSink {
 /** The plate, empty at first. */
 const onPlate = (): Plate => (plate ??= new Plate());
 
-/** The bytes of a model; a file that is no STL is rejected before all of it is read. */
+/** The bytes of a model; a file that is no model is rejected before all of it is read. */
 async function modelBytes(file: Blob): Promise<Uint8Array> {
   identify(await bytesOf(file.slice(0, head_bytes())), file.size);
   return bytesOf(file);

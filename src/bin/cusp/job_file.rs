@@ -1,0 +1,202 @@
+//! Job files: models, options and places of plates.
+
+use std::path::{Path, PathBuf};
+
+use cusp_slicer::arrange::Arranging;
+use cusp_slicer::job::{ModelOptions, Options, Placement, Plate, PlateOptions};
+use cusp_slicer::plan::HeightRange;
+use serde::{Deserialize, Serialize};
+
+use crate::arguments::Choices;
+use crate::files::{Failure, WeightsFile, in_file, is_standard, load_painted, read};
+use crate::plate::Places;
+use crate::usage::wrong_usage;
+
+/// A job file: models, options and places. Paths are relative to the file.
+#[derive(Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct JobFile {
+    /// The models.
+    pub models: Vec<JobModel>,
+    /// What holds for all of them: the names that reports have under `options`.
+    #[serde(default)]
+    pub options: Options,
+    /// How to arrange the copies.
+    #[serde(default)]
+    pub arranging: Arranging,
+    /// Where each copy stands. If empty, copies are arranged.
+    #[serde(default)]
+    pub placements: Vec<Placement>,
+}
+
+/// A model of a job file.
+#[derive(Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct JobModel {
+    /// The file.
+    pub file: PathBuf,
+    /// Number of copies.
+    #[serde(default = "one")]
+    pub copies: usize,
+    /// Rotation from the pose in the file: a quaternion x, y, z, w.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rotation: Option<[f64; 4]>,
+    /// Height to which the model is scaled.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height_mm: Option<f64>,
+    /// Maximum error of a layer on this model.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
+    /// Height ranges of this model with a layer thickness of their own.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub ranges: Vec<HeightRange>,
+    /// A file of weights of its facets.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub weights: Option<PathBuf>,
+}
+
+fn one() -> usize {
+    1
+}
+
+impl JobModel {
+    pub fn new(file: PathBuf, copies: usize) -> Self {
+        Self {
+            file,
+            ..Self::of(&ModelOptions {
+                copies,
+                ..ModelOptions::default()
+            })
+        }
+    }
+
+    /// A model without a file.
+    pub fn of(own: &ModelOptions) -> Self {
+        Self {
+            file: PathBuf::new(),
+            copies: own.copies,
+            rotation: own.rotation,
+            height_mm: own.height_mm,
+            tolerance: own.tolerance,
+            ranges: own.ranges.clone(),
+            weights: None,
+        }
+    }
+
+    fn own(&self) -> ModelOptions {
+        ModelOptions {
+            copies: self.copies,
+            rotation: self.rotation,
+            height_mm: self.height_mm,
+            tolerance: self.tolerance,
+            ranges: self.ranges.clone(),
+        }
+    }
+}
+
+/// Models that are read, and what to do with them.
+pub struct Job {
+    pub paths: Vec<PathBuf>,
+    /// The file of weights of each model, if it has one.
+    pub weights: Vec<Option<PathBuf>>,
+    pub plate: Plate,
+    pub options: PlateOptions,
+}
+
+/// The job file, if the only argument is one: JSON, by its content.
+pub fn job_file(models: &[PathBuf]) -> Result<Option<JobFile>, Failure> {
+    let [path] = models else {
+        return Ok(None);
+    };
+    let is_json = path
+        .extension()
+        .is_some_and(|end| end.eq_ignore_ascii_case("json"));
+    if is_standard(path) || !is_json {
+        return Ok(None);
+    }
+    let bytes = read(path)?;
+    let job = serde_json::from_slice(&bytes);
+    Ok(Some(job.map_err(|error| in_file(path, &error))?))
+}
+
+pub fn read_job(
+    command: &str,
+    file: Option<JobFile>,
+    models: &[PathBuf],
+    places: &Places,
+    choices: &Choices,
+) -> Result<Job, Failure> {
+    let copies = places.copies.map_or(1, |copies| copies as usize);
+    let (folder, file) = match file {
+        Some(file) => (models[0].parent().map(Path::to_owned), file),
+        None => {
+            let models = models.iter().map(|model| {
+                let (file, own) = with_copies(model);
+                JobModel::new(file, own.unwrap_or(copies))
+            });
+            let file = JobFile {
+                models: models.collect(),
+                options: Options::default(),
+                arranging: Arranging::default(),
+                placements: Vec::new(),
+            };
+            (None, file)
+        }
+    };
+    let settings = choices.settings_over(file.options)?;
+    if settings.weights.is_some() {
+        let message = "weights belong to a model: name them beside it in a job file";
+        wrong_usage(command, message);
+    }
+    let within = |path: &Path| {
+        folder
+            .as_deref()
+            .map_or_else(|| path.to_owned(), |it| it.join(path))
+    };
+    let mut plate = Plate::default();
+    let (mut paths, mut all_weights, mut own) = (Vec::new(), Vec::new(), Vec::new());
+    for model in &file.models {
+        let path = within(&model.file);
+        let weights = model.weights.as_deref().map(within);
+        let read = weights.as_deref().map(WeightsFile::read).transpose()?;
+        plate.add(load_painted(&path, read.as_ref())?);
+        all_weights.push(weights);
+        own.push(model.own());
+        paths.push(path);
+    }
+    Ok(Job {
+        paths,
+        weights: all_weights,
+        plate,
+        options: PlateOptions {
+            options: settings.options,
+            models: own,
+            arranging: places.arranging(file.arranging),
+            placements: file.placements,
+        },
+    })
+}
+
+/// A model and its number of copies: `part.stl:3`, unless there is a file of that name.
+fn with_copies(model: &Path) -> (PathBuf, Option<usize>) {
+    let text = model.to_string_lossy();
+    let parts = text.rsplit_once(':').filter(|_| !model.exists());
+    let copies = parts.and_then(|(file, copies)| Some((file, copies.parse().ok()?)));
+    copies.map_or_else(
+        || (model.to_owned(), None),
+        |(file, copies)| (PathBuf::from(file), Some(copies)),
+    )
+}
+
+/// A path that is valid from the folder of a job file, too.
+pub fn path_from(job_file: Option<&Path>, path: &Path) -> PathBuf {
+    let folder = job_file.and_then(Path::parent);
+    let is_here = folder.is_none_or(|folder| folder.as_os_str().is_empty());
+    if is_here || path.is_absolute() {
+        path.to_owned()
+    } else {
+        path.canonicalize().unwrap_or_else(|_| path.to_owned())
+    }
+}
