@@ -169,6 +169,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
         isAligned: isAligned && this.canAlign,
         isBeside: this.plot === null ? null : this.canAlign,
         isTurned,
+        hasCopies: false,
         isPossible: !this.isMissing && !this.isBroken,
         language,
         chosen: (tool) => (this.tool = tool),
