@@ -22,7 +22,7 @@ const BLOCK = 6;
 const CHROMA_PART = 0.5;
 
 /** The differences allowed, as fractions of the range from black to white. */
-export const TOLERANCE = { mean: 0.02, worst: 0.16, height: 0.04 };
+export const TOLERANCE = { mean: 0.02, worst: 0.14, height: 0.04 };
 
 export interface Picture {
   width: number;

@@ -132,15 +132,11 @@ test("files that will not do are refused in words, and the page goes on", async 
   await state(page, "done");
 });
 
-test("of several files the first STL is opened, and the others are a button away", async () => {
-  const page = await start();
+test("of several files the STLs are opened, as models of one plate", async () => {
+  const page = await start("?printer=mars-4-ultra");
   await drop(page, { name: "notes.txt", bytes: new Uint8Array(3) }, ballFile, { name: "other.stl", bytes: ball.bytes });
   await state(page, "done");
-  expect(await words(page)).toContain("Model 1 of 2");
-  await page.getByRole("button", { name: "Next model" }).click();
-  await expect.poll(() => page.locator(".model-name").innerText()).toBe("other.stl");
-  await state(page, "done");
-  expect(await page.getByRole("button", { name: "Next model" }).isDisabled()).toBe(true);
+  expect(await page.locator("cusp-plate .name").allInnerTexts()).toEqual(["ball.stl", "other.stl"]);
 });
 
 test("settings plan again by themselves; nonsense is explained where it stands", async () => {

@@ -23,7 +23,7 @@ use crate::values::{fraction, shard};
 /// The options of the orientation search.
 #[derive(Args)]
 pub struct Orienting {
-    /// STL files, binary or ASCII
+    /// Models: 3MF, OBJ or STL
     #[arg(required = true, value_name = "MODEL")]
     models: Vec<PathBuf>,
     /// Print one JSON object per model, each on its own line

@@ -17,7 +17,8 @@ import { absentSlicer } from "./absent.js";
 import { spawnWorker, type Compiled, type WorkerHandle, type Watch } from "./calls.js";
 import { Client, type About, type Wanted } from "./client.js";
 import { measure, orient, type OrientCall } from "./orient.js";
-import { createPlate, type AddCall, type ModelChange, type Plate, type PlateModel } from "./plate.js";
+import { fetchedPlate } from "./fetched-plate.js";
+import type { AddCall, ModelChange, Plate, PlateModel } from "./plate.js";
 import { Pool } from "./pool.js";
 import { printFile, SCHEMA, type Mask, type PrintFile, type Versioned } from "./results.js";
 import { resolve, stemOf, type Source } from "./source.js";
@@ -152,7 +153,7 @@ export function createSlicer(setup: Setup = {}): Slicer {
   // Previews must not wait for a plan that takes seconds: they have a worker of their own, which starts on first use.
   const side = new Client(spawn, compiled);
   const pool = new Pool(() => new Client(spawn, compiled), workers);
-  const plate = createPlate(spawn, compiled);
+  const plate = fetchedPlate(async () => (await import("./plate.js")).createPlate(spawn, compiled));
   /** The subject of a call made now, resolved once earlier loads have settled. */
   let about: About = Promise.resolve(null);
 

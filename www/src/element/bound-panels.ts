@@ -2,6 +2,7 @@
 import { html, nothing, type TemplateResult } from "lit";
 import { isFilament, type Candidate } from "../api/wire.js";
 import type { RotateDetail } from "../view/events.js";
+import type { MoveDetail } from "../view/scene/moving.js";
 import type { PaletteName } from "../view/legend/palette.js";
 import type { Rotation } from "../view/scene/pose.js";
 import { UPRIGHT } from "../view/scene/turn.js";
@@ -15,6 +16,7 @@ import { fileWords } from "./parts/file-words.js";
 import { sentence } from "./state/comparison.js";
 import type { Aims } from "./state/orientation.js";
 import { printerOf } from "./state/printer.js";
+import type { Entry } from "./state/plate.js";
 import type { Problem } from "./state/problem.js";
 import type { Result } from "./state/result.js";
 import type { Session } from "./state/session.js";
@@ -67,6 +69,11 @@ export function modelPanel({ session, language, slicer, saveWeights }: Facts): T
     .rotation=${turning ?? rotationOf(settings.rotation)}
     .scaled=${scaledOf(session)}
     .printer=${printerOf(settings.printer, session.printers)}
+    .copies=${session.plate.copies}
+    .crowded=${session.plate.crowded}
+    .shapes=${session.plate}
+    @cusp-move=${({ detail: { place, final, ...to } }: CustomEvent<MoveDetail>) => session.plate.move(place, to, final)}
+    @cusp-entry=${(event: CustomEvent<Entry>) => session.plate.select(session.plate.entries.indexOf(event.detail))}
     .settings=${settings}
     .weights=${session.weights}
     .language=${language}
@@ -221,8 +228,11 @@ function rotationOf(text: string): Rotation {
 }
 
 /** A requested height, or the one that a unit gives, is that of the model in its pose, or in the one that it is being turned to. */
-function scaledOf({ result, turning, shown }: Session): Scaled | null {
+function scaledOf({ result, turning, shown, plate }: Session): Scaled | null {
   if (result === null || (result.options.height_mm === undefined && result.options.unit === undefined)) return null;
+  // A plate is as high as the highest of its models.
+  const own_mm = plate.heightOf(plate.selected);
+  if (own_mm !== null) return { height_mm: own_mm, rotation: result.options.rotation ?? UPRIGHT };
   const height_mm = turning === null ? result.report.height_mm : (shown?.z_mm.at(-1) ?? result.report.height_mm);
   return { height_mm, rotation: turning ?? result.options.rotation ?? UPRIGHT };
 }

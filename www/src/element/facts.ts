@@ -16,7 +16,11 @@ export interface Facts {
   slicer: Slicer;
   isDragging: boolean;
   picked(event: Event): void;
+  /** Adds the chosen files to the open model. */
+  added(event: Event): void;
   save(): void;
+  /** Saves the print files of all plates. */
+  saveAll(): void;
   saveTowers(): void;
   saveWeights(): void;
 }

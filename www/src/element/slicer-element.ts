@@ -57,7 +57,7 @@ export abstract class SlicerElement extends LitElement {
     this.dragging = false;
     watchGestures(this, {
       dragging: (isOver) => (this.dragging = isOver),
-      open: (files) => void this.#session.choose(files),
+      open: (files) => void this.#choose(files),
       cancel: () => this.cancel(),
       undo: () => this.undo(),
       redo: () => this.redo(),
@@ -261,7 +261,7 @@ export abstract class SlicerElement extends LitElement {
    * @throws SlicerError; an `AbortError` if it was cancelled, or if another model was opened meanwhile.
    */
   async load(source: Source | readonly File[], name?: string): Promise<Model> {
-    const model = isFiles(source) ? await this.#session.choose(source) : await this.#session.open(source, name);
+    const model = isFiles(source) ? await this.#choose(source) : await this.#session.open(source, name);
     if (model !== null) return model;
     throw this.#reason();
   }
@@ -341,7 +341,9 @@ export abstract class SlicerElement extends LitElement {
       slicer: this.slicer,
       isDragging: this.dragging,
       picked: this.#picked,
+      added: (event) => void session.add(chosen(event)),
       save: () => void this.#save(),
+      saveAll: () => void this.#saveAll(),
       saveTowers: () => void saveMade(session.calibrateLayers()),
       saveWeights: () => void saveMade(session.saveWeights()),
     });
@@ -366,6 +368,15 @@ export abstract class SlicerElement extends LitElement {
     this.#orphaned = this.model === null;
   }
 
+  /** @internal Whether files that are opened together stand on one plate; otherwise the first of them is opened. */
+  protected get hasPlate(): boolean {
+    return false;
+  }
+
+  #choose(files: readonly File[]): Promise<Model | null> {
+    return this.hasPlate ? this.#session.openAll(files) : this.#session.choose(files);
+  }
+
   get #locales(): readonly string[] {
     return [this.locale, langOf(this), ...navigator.languages].filter((locale) => locale !== null);
   }
@@ -384,8 +395,16 @@ export abstract class SlicerElement extends LitElement {
   readonly #picked = (event: Event): void => {
     const files = chosen(event);
     if (files.length > 0) this.willOrphan();
-    void this.#session.choose(files);
+    void this.#choose(files);
   };
+
+  async #saveAll(): Promise<void> {
+    for (let plate = 0; plate < this.#session.plate.plates; plate++) {
+      const download = await this.#session.exportPlate(plate);
+      if (download === null) return;
+      if (this.#reports.tell("cusp-export", download)) saveFile(download);
+    }
+  }
 
   readonly #save = async (): Promise<void> => {
     const download = await this.#session.export();

@@ -27,10 +27,11 @@ const listed = (place: Place): string[] =>
 /** What a press is listed as: `=` is on the key of `+`, and Shift counts only where it makes a difference. */
 const same = (name: string, tool: Tool | null): string => {
   const key = name.replace(/=$/, "+").replace("Mod+Shift+y", "Mod+y").replace(/^.*Escape$/, "Escape");
-  return tool === "rotate" && /Arrow|Page/.test(key) ? key : key.replace(/^Shift\+/, "");
+  const counts = (tool === "rotate" && /Arrow|Page/.test(key)) || (tool === "move" && /Arrow|^(Shift\+)?r$/.test(key));
+  return counts ? key : key.replace(/^Shift\+/, "");
 };
 
-test.each(["turn", "rotate", "flat", "paint"] as const)("the list names every key of the view: %s", (tool) => {
+test.each(["turn", "move", "rotate", "flat", "paint"] as const)("the list names every key of the view: %s", (tool) => {
   const names = new Set([...listed("turn"), ...listed(tool)]);
   const found = new Set(presses.filter(({ event }) => pressed(event, tool) !== null).map(({ name }) => same(name, tool)));
   expect([...found].filter((name) => !names.has(name))).toEqual([]);

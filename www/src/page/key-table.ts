@@ -5,6 +5,7 @@ import type { Tool } from "../view/scene/keys.js";
 export type Does =
   | "keys" | "open" | "paste" | "undo" | "redo" | "cancel"
   | "turnView" | "zoom" | "whole" | "pickLayer"
+  | "moveCopy" | "moveFar" | "turnCopy" | "turnCopyFar"
   | "turnModel" | "turnFinely" | "lay" | "paint" | "undoStroke" | "redoStroke"
   | "layer" | "layers" | "ends" | "zoomChart"
   | "move" | "direction" | "use";
@@ -38,6 +39,15 @@ export const KEY_TABLE: readonly (readonly [Place, readonly Row[]])[] = [
     ],
   ],
   ["turn", [TURN_VIEW, ZOOM, ["whole", ["0"]], ["pickLayer", ["Enter"]]]],
+  [
+    "move",
+    [
+      ["moveCopy", ARROWS],
+      ["moveFar", ARROWS, "Shift"],
+      ["turnCopy", ["r"]],
+      ["turnCopyFar", ["r"], "Shift"],
+    ],
+  ],
   [
     "rotate",
     [

@@ -15,6 +15,7 @@ import { isMeasured } from "./steps/distances.js";
 import type { HeightDetail, PaintDetail, RotateDetail, ViewErrorDetail, ViewEvents } from "./events.js";
 import { pressed } from "./scene/keys.js";
 import { legendStyles } from "./legend/legend.js";
+import { Moving, type MoveDetail } from "./scene/moving.js";
 import { Painting } from "./paint/painting.js";
 import { sharePage } from "./scene/page-gestures.js";
 import { placeIn, watchPointer, type Point } from "./scene/pointer.js";
@@ -42,6 +43,7 @@ export class CuspView extends elementWith(PROPERTIES) {
   #beside: Beside | null = null;
   #pointing: Pointing | null = null;
   #painting: Painting | null = null;
+  #moving: Moving | null = null;
   /** The rotation that the rings have reached while they are dragged. */
   #turned: Rotation | null = null;
   #unsaid: RotateDetail | null = null;
@@ -143,6 +145,12 @@ export class CuspView extends elementWith(PROPERTIES) {
       void pointing.hovered(at);
     };
     watchPointer(canvas, { clicked: (at) => void pointing.clicked(at), hovered }, life.signal);
+    const moving = new Moving(scene, {
+      selected: (place) => this.#tell<number>("cusp-select", place),
+      moved: (detail) => this.#tell<MoveDetail>("cusp-move", detail),
+    });
+    this.#moving = moving;
+    moving.watch(holder, (event) => placeIn(canvas, event), life.signal);
     painting.watch(holder, (event) => placeIn(canvas, event), life.signal);
     sharePage(holder, () => this.shadowRoot?.activeElement === holder, life.signal);
     // At its start a transition may still have the colour from before.
@@ -169,7 +177,7 @@ export class CuspView extends elementWith(PROPERTIES) {
     this.#scene?.dispose();
     this.#scene = null;
     this.#pointing = null;
-    this.#painting = null;
+    this.#painting = this.#moving = null;
     this.renderRoot.querySelector("canvas")?.remove();
     this.#frame = null;
     this.#isHeld = false;
@@ -185,6 +193,11 @@ export class CuspView extends elementWith(PROPERTIES) {
       this.#derived = this.positions === null ? null : new Derived(this.positions);
       scene.setPositions(this.positions ?? new Float32Array(0), this.rotation, this.scale);
     } else if (has("rotation") || has("scale")) scene.setPose(this.rotation, this.scale, !this.#isHeld);
+    if (has("copies") || has("selected")) scene.setCopies(this.copies, this.selected);
+    if (this.#moving !== null) {
+      this.#moving.isOn = this.tool === "move";
+      this.#moving.copies = this.copies;
+    }
     if (has("z_mm")) model.setPlan(this.z_mm);
     if (has("limits")) model.setLimits(this.limits);
     if (has("palette")) model.setPalette(this.palette);
@@ -299,6 +312,7 @@ export class CuspView extends elementWith(PROPERTIES) {
     if (action.do === "turn-view") cameras.turn(action.right_deg, action.up_deg);
     else if (action.do === "zoom") cameras.zoom(action.factor);
     else if (action.do === "reset") cameras.reset();
+    else if (action.do === "move-copy") this.#moving?.step(this.selected, action.x_mm, action.y_mm, action.turn_deg);
     else if (action.do === "turn-model") this.#rotate(turned(this.rotation, action.axis, action.degrees), true);
     else if (action.do === "undo-stroke" || action.do === "redo-stroke") {
       // The page's own undo must not react too.

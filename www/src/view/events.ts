@@ -1,4 +1,5 @@
 /** The events of the view. */
+import type { MoveDetail } from "./scene/moving.js";
 import type { Frame } from "./scene/cameras.js";
 import type { Rotation } from "./scene/pose.js";
 
@@ -43,5 +44,9 @@ export interface ViewEvents {
   /** Rotation of the camera: turns its right, up and backward axes into the plate's frame. */
   "cusp-camera": CustomEvent<Rotation>;
   "cusp-paint": CustomEvent<PaintDetail>;
+  /** A copy was moved over the plate. The view shows it when `copies` say so. */
+  "cusp-move": CustomEvent<MoveDetail>;
+  /** A copy was pressed: its place. */
+  "cusp-select": CustomEvent<number>;
   "cusp-view-error": CustomEvent<ViewErrorDetail>;
 }

@@ -2,6 +2,7 @@
 import type { Heights, Inset } from "./scene/cameras.js";
 import { BRUSH } from "./paint/brush.js";
 import type { Tool } from "./scene/keys.js";
+import type { Copy } from "./scene/copies.js";
 import type { Heat } from "./paint/heat.js";
 import type { Look } from "./scene/model.js";
 import type { PaletteName } from "./legend/palette.js";
@@ -27,6 +28,10 @@ export const PROPERTIES = {
   layer: given<number | null>(null),
   /** The printer's build volume; without one the plate is a grid that fades out. */
   plate: given<BuildVolume | null>(null),
+  /** The copies on the plate, of which the model is the one at `selected`; empty: it is alone in the middle. */
+  copies: given<readonly Copy[]>([]),
+  /** The place of the selected copy. */
+  selected: given<number | null>(null),
   look: given<Look>("thickness"),
   palette: given<PaletteName>("classic"),
   tool: given<Tool>("turn"),

@@ -14,13 +14,14 @@ import { progressStyles } from "../element/parts/progress.js";
 import { SlicerElement } from "../element/slicer-element.js";
 import { shared } from "../element/styles/shared.js";
 import { theme } from "../element/styles/theme.js";
+import { copiesStyles } from "./copies-styles.js";
 import { CuspLayerSlider } from "./layer-slider.js";
 import { WIDE_PX, type AnswerPanel, type ChoicePanel, type Sheet } from "./places.js";
 import { workbenchStyles } from "./styles.js";
 import { template } from "./template.js";
 
 export class CuspWorkbench extends SlicerElement {
-  static override styles = [theme, shared, modelStyles, summaryStyles, progressStyles, problemStyles, partStyles, workbenchStyles];
+  static override styles = [theme, shared, modelStyles, summaryStyles, progressStyles, problemStyles, partStyles, copiesStyles, workbenchStyles];
 
   #isWide = true;
   #choice: ChoicePanel = "settings";
@@ -49,6 +50,10 @@ export class CuspWorkbench extends SlicerElement {
   override disconnectedCallback(): void {
     super.disconnectedCallback();
     this.#resized.disconnect();
+  }
+
+  protected override get hasPlate(): boolean {
+    return true;
   }
 
   protected override layout(facts: Facts): TemplateResult {

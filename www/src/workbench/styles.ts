@@ -123,9 +123,16 @@ export const workbenchStyles = css`
   cusp-quality {
     height: auto;
   }
+  /* The settings below keep their place, however many models there are. */
+  .side .model:has(cusp-plate) {
+    flex: 0 1 auto;
+    min-height: 12rem;
+    max-height: 62%;
+    overflow: hidden auto;
+    scrollbar-width: thin;
+  }
   .model dl {
     display: flex;
-    flex-wrap: wrap;
     gap: 0.25rem 1.25rem;
     margin-top: 0.375rem;
     font-size: 0.875rem;
@@ -133,6 +140,7 @@ export const workbenchStyles = css`
   .files,
   .open-other {
     display: flex;
+    flex-wrap: wrap;
     align-items: center;
     gap: 0.5rem;
     margin-top: 0.625rem;

@@ -26,6 +26,7 @@ import { progressBar } from "../element/parts/progress.js";
 import { MODEL_FILES } from "../element/state/choice.js";
 import type { Result } from "../element/state/result.js";
 import { ANSWERS, CHOICES, SHEETS, type AnswerPanel, type ChoicePanel, type Sheet } from "./places.js";
+import { platePanel } from "./plate.js";
 import { tabs } from "./tabs.js";
 import { workbenchWords } from "./texts/index.js";
 
@@ -136,8 +137,10 @@ function choicesSide(facts: Facts, { choice, choose }: Bench): TemplateResult {
   </div>`;
 }
 
-function modelSection({ session, language, picked }: Facts): TemplateResult {
-  return modelCard(session, language, { picked, openFile: (place) => void session.openFile(place) });
+function modelSection(facts: Facts): TemplateResult {
+  const { session, language, picked } = facts;
+  const actions = { picked, openFile: (place: number) => void session.openFile(place) };
+  return modelCard(session, language, actions, nothing, platePanel(facts));
 }
 
 function answersSide(facts: Facts, { answer, answers }: Bench): TemplateResult {
@@ -198,6 +201,7 @@ function exposure({ language }: Facts, { report: { resin } }: Result): TemplateR
 
 /** Uniform layers have a thickness, and no quality to choose. */
 function quality(facts: Facts, result: Result): TemplateResult {
+  if (facts.session.plate.planned !== null) return html`<p class="quiet">${workbenchWords(facts.language).plate.quality}</p>`;
   if (result.report.planner === "uniform") return html`<p class="quiet">${facts.language.texts.settings.uniformHint}</p>`;
   return qualityPanel(facts, result);
 }

@@ -47,19 +47,24 @@ export function warnings(session: Session, language: Language, saveTowers: () =>
   );
 }
 
-/** @param more shown below the facts of the model */
+/**
+ * @param more shown below the facts of the model
+ * @param below shown below the button that opens another model
+ */
 export function modelCard(
   session: Session,
   language: Language,
   { picked, openFile }: ModelActions,
   more: unknown = nothing,
+  below: unknown = nothing,
 ): TemplateResult {
   const { model, result, files, place } = session;
   const { texts, format } = language;
   if (model === null) return html``;
   const { name, info } = model;
   const own = info.size_mm;
-  const scale = result === null || own[2] === 0 ? 1 : result.report.height_mm / own[2];
+  // A plate is as high as the highest of its models.
+  const scale = result === null || own[2] === 0 || session.plate.isSeveral ? 1 : result.report.height_mm / own[2];
   const isScaled = session.settings.rotation === "" && Math.abs(scale - 1) > 1e-3;
   const size = (isScaled ? own.map((mm) => mm * scale) : own) as [number, number, number];
   return html`<section class="card model" part="model" aria-label=${texts.model.region}>
@@ -102,5 +107,6 @@ export function modelCard(
       </label>
       <slot name="actions"></slot>
     </div>
+    ${below}
   </section>`;
 }

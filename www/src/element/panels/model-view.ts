@@ -8,11 +8,14 @@ import type { PaletteName } from "../../view/legend/palette.js";
 import type { BuildVolume } from "../../view/scene/plate.js";
 import type { Rotation } from "../../view/scene/pose.js";
 import { heightOf } from "../../view/scene/turn.js";
+import type { Copy as Standing } from "../../view/scene/copies.js";
+import type { MoveDetail } from "../../view/scene/moving.js";
 import { BRUSH, rebased } from "../../view/paint/brush.js";
 import type { CuspView } from "../../view/cusp-view.js";
 import type { PaintDetail, RotateDetail } from "../../view/events.js";
 import type { Tool } from "../../view/scene/keys.js";
 import type { ViewTexts } from "../../view/texts.js";
+import { PlateView } from "../parts/plate-view.js";
 import { viewTexts } from "../parts/view-texts.js";
 import type { Painted } from "../events.js";
 import { define } from "../define.js";
@@ -20,6 +23,7 @@ import { partFailure, partStyles, tellPartFailed } from "../parts/part.js";
 import { paintStyles, paintTools, type Colours } from "./paint-tools.js";
 import { barStyles, viewBar } from "./view-bar.js";
 import type { PlotPlace } from "./profile-chart.js";
+import type { Copy, Entry } from "../state/plate.js";
 import type { Shown } from "../state/result.js";
 import { DEFAULT_SETTINGS } from "../state/settings.js";
 import { shared } from "../styles/shared.js";
@@ -43,6 +47,12 @@ const PROPERTIES = {
   /** The height that the model is scaled to, and the pose in which it has that height; null for the file's own size. */
   scaled: given<Scaled | null>(null, (a: unknown, b: unknown) => JSON.stringify(a) !== JSON.stringify(b)),
   printer: given<Printer | null>(null),
+  /** The copies on the plate shown; none if the model is alone. */
+  copies: given<readonly Copy[]>([]),
+  /** Those that may overlap others, or extend beyond the plate. */
+  crowded: given<ReadonlySet<Entry>>(new Set()),
+  /** Fetches the positions of a model of the plate. */
+  shapes: given<Shapes | null>(null),
   language: given(languageOf()),
   /** The chart's plot and its heights, which the view aligns with where the plot is beside it; null without a chart. */
   plot: given<PlotPlace | null>(null),
@@ -70,7 +80,16 @@ const PROPERTIES = {
   colours: own<Colours>("product"),
   canUndo: own(false),
   canRedo: own(false),
+  /** The copies as the view draws them. */
+  standing: own<readonly Standing[]>([]),
+  /** The copy that was pressed last, by its place. */
+  pressed: own<number | null>(null),
 };
+
+/** Fetches the positions of the models on a plate. */
+export interface Shapes {
+  positionsOf(entry: Entry): Promise<Float32Array>;
+}
 
 export class CuspModel extends elementWith(PROPERTIES) {
   /** The factor from the file's lengths to those of the model. */
@@ -78,6 +97,9 @@ export class CuspModel extends elementWith(PROPERTIES) {
   #texts: { of: Language; words: ViewTexts } | null = null;
   #asked: Model | null = null;
   #canAlign = false;
+  readonly #plate = new PlateView((copies) => (this.standing = copies));
+  /** The model whose positions are shown. */
+  #shownModel: Model | null = null;
 
   static override styles = [
     shared,
@@ -143,6 +165,10 @@ export class CuspModel extends elementWith(PROPERTIES) {
   override willUpdate(changed: PropertyValues<this>): void {
     if (changed.has("model") && this.model !== this.#asked) void this.#fetch();
     if (changed.has("positions") || changed.has("scaled")) this.#fit();
+    if (changed.has("copies") || changed.has("crowded") || changed.has("positions")) {
+      this.#plate.show(this.copies, this.crowded, this.shapes);
+      if (this.copies.length === 0 && this.tool === "move") this.tool = "turn";
+    }
     const shows = this.tool === "paint" && (this.colours === "saliency" || this.#counts);
     if (shows && this.positions !== null && this.saliency === null && !this.isFinding) void this.#find();
   }
@@ -152,8 +178,9 @@ export class CuspModel extends elementWith(PROPERTIES) {
     const isPainting = tool === "paint";
     const isMeasured = this.look === "distance" && !isPainting;
     const isPrinted = isMeasured || (this.look === "printed" && !isPainting);
-    // An aligned view shows all of the model, and from the side only: no single steps, and no top to paint.
-    const isAligned = this.aligned && !isPainting && !isPrinted;
+    // An aligned view shows all of the model, and from the side only: no single steps, no top to paint, and no plate with copies.
+    const isPlate = this.copies.length > 0;
+    const isAligned = this.aligned && !isPainting && !isPrinted && !isPlate;
     const showsHeat = isPainting && this.colours !== "layers";
     const heat = this.colours === "layers" ? "paint" : this.colours;
     const { texts } = language;
@@ -167,8 +194,9 @@ export class CuspModel extends elementWith(PROPERTIES) {
         isMeasured,
         isSafe: this.palette === "safe",
         isAligned: isAligned && this.canAlign,
-        isBeside: this.plot === null ? null : this.canAlign,
+        isBeside: this.plot === null ? null : this.canAlign && !isPlate,
         isTurned,
+        hasCopies: isPlate,
         isPossible: !this.isMissing && !this.isBroken,
         language,
         chosen: (tool) => (this.tool = tool),
@@ -196,6 +224,10 @@ export class CuspModel extends elementWith(PROPERTIES) {
               .heat=${heat}
               .least=${Number(this.settings.weightMin)}
               .brush=${this.brush}
+              .copies=${this.standing}
+              .selected=${this.#selected}
+              @cusp-move=${(event: CustomEvent<MoveDetail>) => this.#tell(event)}
+              @cusp-select=${this.#pressed}
               @cusp-paint=${this.#painted}
               .palette=${this.palette}
               .tool=${tool}
@@ -218,6 +250,18 @@ export class CuspModel extends elementWith(PROPERTIES) {
       </div>
     `;
   }
+
+  /** The place of the copy that the model is drawn as; null while its positions arrive. */
+  get #selected(): number | null {
+    const own = this.copies.filter(({ entry }) => entry.model === this.#shownModel);
+    return (own.find(({ place }) => place === this.pressed) ?? own[0])?.place ?? null;
+  }
+
+  readonly #pressed = ({ detail: place }: CustomEvent<number>): void => {
+    this.pressed = place;
+    const entry = this.copies.find((copy) => copy.place === place)?.entry;
+    if (entry !== undefined && entry.model !== this.model) this.#say<Entry>("cusp-entry", entry);
+  };
 
   async #load(): Promise<void> {
     this.isMissing = false;
@@ -340,6 +384,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
   async #fetch(): Promise<void> {
     const { model, slicer } = this;
     this.#asked = model;
+    this.#shownModel = null;
     this.positions = null;
     this.saliency = null;
     this.brush = BRUSH;
@@ -348,6 +393,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
     // Without positions the view is empty; a broken worker is reported elsewhere.
     const positions = await slicer.positions().catch(() => null);
     if (this.#asked !== model) return;
+    this.#shownModel = model;
     this.positions = positions;
     this.brush = { ...BRUSH, size_mm: BRUSH_PART * this.#reach };
   }

@@ -20,6 +20,8 @@ export interface ViewBar {
   readonly isTurned: boolean;
   /** Whether there is a 3-D view. */
   readonly isPossible: boolean;
+  /** Whether there are copies to move. */
+  readonly hasCopies: boolean;
   readonly language: Language;
   chosen(tool: Tool): void;
   printed(on: boolean): void;
@@ -29,11 +31,12 @@ export interface ViewBar {
   upright(): void;
 }
 
-const TOOLS: readonly Tool[] = ["turn", "rotate", "flat", "paint"];
+const TOOLS: readonly Tool[] = ["turn", "move", "rotate", "flat", "paint"];
 
 /** Drawn in a square of 20 units. */
 const ICONS = {
   turn: "M2 10s3-5 8-5 8 5 8 5-3 5-8 5-8-5-8-5zM12.5 10a2.5 2.5 0 1 1-5 0 2.5 2.5 0 0 1 5 0z",
+  move: "M10 2.5v15M2.5 10h15M7.5 5 10 2.5 12.5 5M7.5 15l2.5 2.5 2.5-2.5M5 7.5 2.5 10 5 12.5M15 7.5l2.5 2.5-2.5 2.5",
   rotate: "M4 3.5V8h4.5M4.4 8A6.5 6.5 0 1 1 3.5 11",
   flat: "M2.5 17h15M3.5 14h13M5.5 10.5 9 4l6.5 3.5-2 3.5M12 9v2.5M10.5 10l1.5 1.5 1.5-1.5",
   paint: "m17 3-8 8.5M9 11.5c-2.6-.6-4 1-4 2.8 0 1.2-.9 1.9-2 1.9 1.6 1.6 7.3 1.7 7.5-2.3 0-1.2-.5-2-1.5-2.4z",
@@ -80,7 +83,7 @@ export function viewBar(bar: ViewBar): TemplateResult {
   return html`<div class="bar">
       <fieldset class="group modes">
         <legend class="visually-hidden">${words.modes}</legend>
-        ${TOOLS.map(mode)}
+        ${TOOLS.filter((tool) => tool !== "move" || bar.hasCopies).map(mode)}
       </fieldset>
       ${bar.isTurned
         ? html`<button class="small upright" title=${words.upright} @click=${bar.upright}>

@@ -1,4 +1,5 @@
 /** A fake slicer for tests of the session. */
+import { absentSlicer } from "../../api/absent.js";
 import { SlicerError } from "../../api/error.js";
 import { SCHEMA, type PreviewedPlan, type LoadCall, type Mask, type Model, type OrientCall, type OrientationReport, type Plan, type PrintFile, type TestTowers, type Watch } from "../../api/index.js";
 import type { Candidate, Preview, MeshInfo, Options, Report, SearchOptions, Tradeoff } from "../../api/wire.js";
@@ -18,6 +19,7 @@ export class FakeSlicer {
   readonly calls: { what: string; options?: Options; resolve(value: unknown): void; reject(error: unknown): void }[] = [];
   readonly masks: number[] = [];
 
+  readonly plate = absentSlicer().plate;
   readonly warm = (): void => undefined;
   readonly printers = async (): Promise<[]> => [];
   readonly load = (_source: unknown, call: LoadCall = {}): Promise<Model> => this.#call("open", call);

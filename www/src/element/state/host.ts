@@ -29,6 +29,7 @@ export interface Setup {
 export type SlicerCalls = Pick<
   Slicer,
   | "load"
+  | "plate"
   | "plan"
   | "orient"
   | "measure"

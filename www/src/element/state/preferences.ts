@@ -17,7 +17,7 @@ export abstract class Preferences implements Offered {
   resins: readonly Resin[] = [];
   /** Settings that only the page may change. */
   fixed: ReadonlySet<keyof Settings> = new Set();
-  readonly #history = new History<Settings>();
+  #history = new History<Settings>();
 
   constructor(settings: Settings, backend: Backend | null) {
     this.settings = { ...settings };
@@ -90,6 +90,12 @@ export abstract class Preferences implements Offered {
   redo(): void {
     const after = this.#history.redo(this.settings);
     if (after !== null) this.#set(this.#allowed(after), 0);
+  }
+
+  /** Sets what belongs to another model; the steps of the one before do not apply to it. */
+  protected swap(patch: Partial<Settings>): void {
+    this.#history = new History<Settings>();
+    this.settings = { ...this.settings, ...patch };
   }
 
   /** These settings, with the fixed ones unchanged. */

@@ -18,6 +18,7 @@ import type { Failure } from "./problem.js";
 import type { Busy } from "../parts/progress.js";
 import type { TowersState } from "../parts/towers-offer.js";
 import { areSame, shownOf, type Result, type Shown } from "./result.js";
+import { Plate, type Entry } from "./plate.js";
 import { Runner } from "./runner.js";
 import { DEFAULT_SETTINGS, rotationText, type Settings } from "./settings.js";
 import { Preferences } from "./preferences.js";
@@ -42,6 +43,8 @@ export class Session extends Preferences {
   place = 0;
 
   readonly orientation: OrientationSearch;
+  /** The models, of which {@link model} is the selected one. */
+  readonly plate: Plate;
 
   readonly #host: Host;
   readonly #slicer: SlicerCalls;
@@ -59,6 +62,8 @@ export class Session extends Preferences {
   /** What the core has refused to plan: it would refuse it again. */
   #refused: { options: Options; weights: Float32Array | null } | null = null;
   #archive: { of: Result; file: PrintFile } | null = null;
+  /** The selected model, while the slicer reads it again. */
+  #selecting: Entry | null = null;
 
   constructor(host: Host, slicer: SlicerCalls, { settings = DEFAULT_SETTINGS, backend = null }: Setup = {}) {
     super(settings, backend);
@@ -75,8 +80,17 @@ export class Session extends Preferences {
     };
     this.orientation = new OrientationSearch({ ...reports, subject }, slicer);
     this.#runner = new Runner(reports);
+    this.plate = new Plate(
+      {
+        ...reports,
+        replate: () => this.#replate(),
+        show: (plan) => this.#showPlate(plan),
+        selected: (entry) => void this.#select(entry),
+      },
+      slicer,
+    );
     const isFree = (): boolean => this.#runner.task === null;
-    this.#beside = new Beside(this, { ...reports, isFree, curved: () => this.#takeQuality() }, slicer, this.#curve);
+    this.#beside = new Beside(this, { ...reports, isFree, curved: () => this.#takeQuality() }, this.plate, this.#curve);
     this.#follower = new Follower(slicer, (shown) => {
       this.shown = shown;
       this.#changed();
@@ -158,10 +172,37 @@ export class Session extends Preferences {
     return this.#open(file, file.name);
   }
 
-  /** Opens a single model; null if that failed or was cancelled. */
-  async open(source: Source, name?: string): Promise<Model | null> {
+  /**
+   * Opens a single model; null if that failed or was cancelled.
+   *
+   * @param waits whether its plan has to wait, as for other models
+   */
+  async open(source: Source, name?: string, waits = false): Promise<Model | null> {
     this.files = [];
-    return this.#open(source, name);
+    return this.#open(source, name, waits);
+  }
+
+  /** Opens all STLs of a drop or a file dialog, as models of one job; null if the first cannot be opened or that was cancelled. */
+  async openAll(files: readonly File[]): Promise<Model | null> {
+    const [first, ...others] = choose(files);
+    if (first === undefined) return null;
+    const model = await this.open(first, first.name, others.length > 0);
+    if (model !== null && others.length > 0) await this.add(others);
+    return model;
+  }
+
+  /** Adds models to the open one; without one, opens them. */
+  async add(files: readonly File[]): Promise<void> {
+    const chosen = choose(files);
+    const [first] = chosen;
+    if (this.model === null) return void (await this.openAll(files));
+    if (first === undefined) return;
+    this.#drop();
+    this.dismiss();
+    const added = await this.#run("open", first.name, null, (watch) => this.plate.add(chosen, watch));
+    // What went wrong stays on show, and so does the plan before.
+    if (added === null) return this.#resume();
+    this.#replate();
   }
 
   /** Turns the model: previews it while it is being turned, and plans when it is released. */
@@ -184,6 +225,7 @@ export class Session extends Preferences {
   /** Sets the weights: previews them during a stroke, and plans at its end. */
   setWeights(weights: Float32Array | null, isFinal: boolean): void {
     this.weights = weights;
+    this.plate.keep({ weights });
     // If the core refuses the weights, the plan fails and reports it.
     if (this.model !== null) this.#slicer.setWeights(weights).catch(() => undefined);
     this.#host.painted?.(weights, isFinal);
@@ -271,9 +313,15 @@ export class Session extends Preferences {
     const { result } = this;
     if (result === null || this.busy !== null) return null;
     if (this.#archive?.of === result) return this.#archive.file;
-    const file = await this.#write("export", (watch) => this.#slicer.export(undefined, watch));
+    const file = await this.#write("export", (watch) => this.plate.export(watch));
     if (file !== null) this.#archive = { of: result, file };
     return file;
+  }
+
+  /** Makes the print file of a plate; null as for {@link export}. */
+  async exportPlate(plate: number): Promise<PrintFile | null> {
+    if (this.result === null || this.busy !== null) return null;
+    return this.#write("export", (watch) => this.plate.export(watch, plate));
   }
 
   /** Makes the print file of test towers for the printer; null if it cannot be made now, failed or was cancelled. */
@@ -296,7 +344,7 @@ export class Session extends Preferences {
     this.#changed();
   }
 
-  async #open(source: Source, name?: string): Promise<Model | null> {
+  async #open(source: Source, name?: string, waits = false): Promise<Model | null> {
     this.#drop();
     this.notice = null;
     this.failure = null;
@@ -321,8 +369,9 @@ export class Session extends Preferences {
     this.#beside.mask = null;
     this.orientation.forget();
     this.#curve.forget();
+    this.plate.open(model);
     this.#host.loaded?.(model);
-    this.replan();
+    if (!waits) this.replan();
     return model;
   }
 
@@ -357,11 +406,54 @@ export class Session extends Preferences {
     }
     this.failure = null;
     this.#failed = true;
-    const { weights } = this;
-    const plan = await this.#run("plan", model.name, options, (watch) => this.#slicer.plan(options, watch));
+    const { weights, settings } = this;
+    const { rotation, height_mm } = options;
+    const own = { ...(rotation !== undefined && { rotation }), ...(height_mm !== undefined && { height_mm }) };
+    this.plate.keep({ pose: { rotation: settings.rotation, height: settings.height }, own });
+    const plan = await this.#run("plan", model.name, options, (watch) => this.plate.plan(options, watch));
     if (plan !== null) this.#show(plan, options, weights);
     else this.#refuse(options, weights);
     await this.#resume();
+  }
+
+  /** Plans again after a change of the models: the running plan is for the earlier ones. */
+  #replate(): void {
+    this.#drop();
+    this.#refused = null;
+    this.#curve.forget();
+    this.failure = null;
+    this.notice = null;
+    this.replan();
+  }
+
+  /** Shows the plan of another plate, for the same options. */
+  #showPlate(plan: Plan): void {
+    const { result } = this;
+    if (result === null) return;
+    this.#archive = null;
+    this.#beside.mask = null;
+    this.#show(plan, result.options, this.#weightsOf);
+    void this.#beside.fetch();
+  }
+
+  /** Takes another model of the plate as the open one. */
+  async #select(entry: Entry): Promise<void> {
+    this.#drop();
+    this.#follower.stop();
+    this.orientation.forget();
+    this.#selecting = entry;
+    const { model, weights, pose } = entry;
+    this.swap(pose);
+    this.model = model;
+    this.weights = weights;
+    this.#changed();
+    const read = await this.#run("open", model.name, null, (watch) => this.#slicer.load(model.file, { ...watch, name: model.name }));
+    if (this.#selecting !== entry) return;
+    // Previews are of the selected model, also where somebody did not wait for it.
+    if (read === null) this.#slicer.load(model.file, { name: model.name }).catch(() => undefined);
+    if (weights !== null) this.#slicer.setWeights(weights).catch(() => undefined);
+    this.#host.settingsChanged?.(this.settings);
+    this.#replate();
   }
 
   /** Remembers what was refused, if it was: a cancelled plan may succeed later. */

@@ -9,6 +9,7 @@ export const view = ({ counted }: Format): ViewWords => ({
     kind: "3-D-Ansicht",
     keys: {
       turn: "Pfeiltasten drehen die Ansicht, Plus und Minus vergrößern und verkleinern, 0 zeigt das ganze Modell.",
+      move: "Pfeiltasten verschieben die gewählte Kopie um 1 mm, mit der Umschalttaste um 10 mm; R dreht sie um 15°, mit der Umschalttaste um 45°.",
       rotate: "Pfeiltasten, Bild auf und Bild ab drehen das Modell um 5°, mit der Umschalttaste um 1°.",
       flat: "Eingabe legt die Fläche in der Mitte auf die Platte. Pfeiltasten drehen die Ansicht.",
       paint: "Eingabe malt in der Mitte der Ansicht, Strg+Z nimmt es zurück. Pfeiltasten drehen die Ansicht.",
@@ -23,7 +24,7 @@ export const view = ({ counted }: Format): ViewWords => ({
     building: (part) => `Stufen werden berechnet: ${part}`,
     measuring: (part) => `Abstände werden gemessen: ${part}`,
     unavailable: "Dieser Browser zeigt keine 3-D-Ansicht: WebGL 2 ist abgeschaltet oder fehlt.",
-    tools: { turn: "Umsehen", rotate: "Modell drehen", flat: "Fläche hinlegen", paint: "Was zählt" },
+    tools: { turn: "Umsehen", move: "Auf der Platte verschieben", rotate: "Modell drehen", flat: "Fläche hinlegen", paint: "Was zählt" },
     modes: "Modus",
     switches: "Anzeige",
     impossible: "Diese Werkzeuge brauchen die 3-D-Ansicht, und die ist nicht verfügbar.",

@@ -13,7 +13,7 @@ export const view = ({ counted }: Format) => ({
     grid: (step: string) => `Grid ${step}`,
     building: (part: string) => `Working out the steps: ${part}`,
     measuring: (part: string) => `Measuring the distances: ${part}`,
-    tools: { turn: "Look around", rotate: "Turn the model", flat: "Lay a face flat", paint: "What matters" },
+    tools: { turn: "Look around", move: "Move on the plate", rotate: "Turn the model", flat: "Lay a face flat", paint: "What matters" },
     modes: "Mode",
     switches: "Display",
     impossible: "These tools need the 3-D view, which is not available.",

@@ -9,6 +9,7 @@ export const view = ({ counted }: Format): ViewWords => ({
     kind: "Vista 3D",
     keys: {
       turn: "Las flechas giran la vista, más y menos acercan y alejan, 0 muestra todo el modelo.",
+      move: "Las flechas mueven la copia elegida 1 mm, con Mayús 10 mm; R la gira 15°, con Mayús 45°.",
       rotate: "Las flechas, Re Pág y Av Pág giran el modelo 5°, con Mayús 1°.",
       flat: "Intro apoya en la base la cara del centro. Las flechas giran la vista.",
       paint: "Intro pinta en el centro de la vista, Ctrl+Z lo deshace. Las flechas giran la vista.",
@@ -23,7 +24,7 @@ export const view = ({ counted }: Format): ViewWords => ({
     building: (part) => `Calculando los escalones: ${part}`,
     measuring: (part) => `Midiendo las distancias: ${part}`,
     unavailable: "Este navegador no muestra la vista 3D: WebGL 2 está desactivado o falta.",
-    tools: { turn: "Mirar alrededor", rotate: "Girar el modelo", flat: "Apoyar una cara", paint: "Qué importa" },
+    tools: { turn: "Mirar alrededor", move: "Mover en la placa", rotate: "Girar el modelo", flat: "Apoyar una cara", paint: "Qué importa" },
     modes: "Modo",
     switches: "Visualización",
     impossible: "Estas herramientas necesitan la vista 3D, que no está disponible.",

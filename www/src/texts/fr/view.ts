@@ -9,6 +9,7 @@ export const view = ({ counted }: Format): ViewWords => ({
     kind: "Vue 3D",
     keys: {
       turn: "Les flèches tournent la vue, plus et moins zooment, 0 montre tout le modèle.",
+      move: "Les flèches déplacent la copie choisie de 1 mm, avec Maj de 10 mm ; R la tourne de 15°, avec Maj de 45°.",
       rotate: "Les flèches, Page préc. et Page suiv. tournent le modèle de 5°, avec Maj de 1°.",
       flat: "Entrée pose sur le plateau la face du milieu. Les flèches tournent la vue.",
       paint: "Entrée peint au milieu de la vue, Ctrl+Z annule. Les flèches tournent la vue.",
@@ -23,7 +24,7 @@ export const view = ({ counted }: Format): ViewWords => ({
     building: (part) => `Calcul des marches : ${part}`,
     measuring: (part) => `Mesure des écarts : ${part}`,
     unavailable: "Ce navigateur n’affiche pas la vue 3D : WebGL 2 est désactivé ou absent.",
-    tools: { turn: "Regarder autour", rotate: "Tourner le modèle", flat: "Poser une face", paint: "Ce qui compte" },
+    tools: { turn: "Regarder autour", move: "Déplacer sur le plateau", rotate: "Tourner le modèle", flat: "Poser une face", paint: "Ce qui compte" },
     modes: "Mode",
     switches: "Affichage",
     impossible: "Ces outils ont besoin de la vue 3D, qui n’est pas disponible.",

@@ -8,6 +8,7 @@ export const view = ({ count: number }: Format): ViewWords => ({
     kind: "三维视图",
     keys: {
       turn: "方向键转动视图，加号和减号缩放，0 显示整个模型。",
+      move: "方向键将所选副本移动 1 毫米，按住 Shift 为 10 毫米；R 将其转动 15°，按住 Shift 为 45°。",
       rotate: "方向键和上下翻页键将模型转动 5°，按住 Shift 为 1°。",
       flat: "回车键将视图中央的面放平到底板上。方向键转动视图。",
       paint: "回车键在视图中央涂抹，Ctrl+Z 撤销。方向键转动视图。",
@@ -22,7 +23,7 @@ export const view = ({ count: number }: Format): ViewWords => ({
     building: (part) => `正在计算台阶：${part}`,
     measuring: (part) => `正在测量距离：${part}`,
     unavailable: "此浏览器无法显示三维视图：WebGL 2 已关闭或缺失。",
-    tools: { turn: "查看", rotate: "转动模型", flat: "放平一个面", paint: "重要之处" },
+    tools: { turn: "查看", move: "在底板上移动", rotate: "转动模型", flat: "放平一个面", paint: "重要之处" },
     modes: "模式",
     switches: "显示",
     impossible: "这些工具需要三维视图，而三维视图当前不可用。",

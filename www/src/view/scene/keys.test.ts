@@ -30,3 +30,12 @@ it("puts the ticks of a scale at round thicknesses, clear of its ends", () => {
   expect(ticks([0.05, 0.15])).toEqual([0.075, 0.1, 0.125]);
   expect(ticks([0.05, 0.05])).toEqual([]);
 });
+
+it("moves a copy by the arrow keys and turns it by R, farther with Shift", () => {
+  const key = (key: string, shiftKey = false) => pressed({ key, shiftKey, ctrlKey: false, metaKey: false, altKey: false }, "move");
+  expect(key("ArrowLeft")).toEqual({ do: "move-copy", x_mm: -1, y_mm: 0, turn_deg: 0 });
+  expect(key("ArrowUp", true)).toEqual({ do: "move-copy", x_mm: 0, y_mm: 10, turn_deg: 0 });
+  expect(key("r")).toEqual({ do: "move-copy", x_mm: 0, y_mm: 0, turn_deg: 15 });
+  expect(key("R", true)).toEqual({ do: "move-copy", x_mm: 0, y_mm: 0, turn_deg: 45 });
+  expect(key("PageUp")).toBeNull();
+});

@@ -1,10 +1,11 @@
 /** Maps keys to actions of the view. */
 
 /** What the pointer does. */
-export type Tool = "turn" | "rotate" | "flat" | "paint";
+export type Tool = "turn" | "move" | "rotate" | "flat" | "paint";
 
 export type Action =
   | { readonly do: "turn-view"; readonly right_deg: number; readonly up_deg: number }
+  | { readonly do: "move-copy"; readonly x_mm: number; readonly y_mm: number; readonly turn_deg: number }
   | { readonly do: "turn-model"; readonly axis: "x" | "y" | "z"; readonly degrees: number }
   | { readonly do: "zoom"; readonly factor: number }
   | { readonly do: "reset" }
@@ -17,6 +18,12 @@ const VIEW_DEG = 10;
 /** Degrees by which a key press turns the model, without and with Shift. */
 const MODEL_DEG = 5;
 const MODEL_FINE_DEG = 1;
+
+/** Millimetres by which a key press moves a copy, without and with Shift, and degrees by which it turns it. */
+const MOVE_MM = 1;
+const MOVE_FAR_MM = 10;
+const COPY_DEG = 15;
+const COPY_FAR_DEG = 45;
 
 const ZOOM = 1.2;
 
@@ -44,9 +51,16 @@ export function pressed(
   if (key === "-") return { do: "zoom", factor: 1 / ZOOM };
   if (key === "0") return { do: "reset" };
   if (key === "Enter") return { do: "pick-middle" };
+  if (tool === "move" && key.toLowerCase() === "r") {
+    return { do: "move-copy", x_mm: 0, y_mm: 0, turn_deg: shiftKey ? COPY_FAR_DEG : COPY_DEG };
+  }
   const way = WAYS[key];
   if (way === undefined) return null;
   const [across, up, third] = way;
+  if (tool === "move" && third === 0) {
+    const mm = shiftKey ? MOVE_FAR_MM : MOVE_MM;
+    return { do: "move-copy", x_mm: across * mm, y_mm: up * mm, turn_deg: 0 };
+  }
   if (tool !== "rotate") return third === 0 ? { do: "turn-view", right_deg: VIEW_DEG * across, up_deg: VIEW_DEG * up } : null;
   const degrees = shiftKey ? MODEL_FINE_DEG : MODEL_DEG;
   if (across !== 0) return { do: "turn-model", axis: "z", degrees: across * degrees };

@@ -61,6 +61,8 @@ function bounded(geometry: BufferGeometry): BufferGeometry {
 }
 
 export class Model {
+  /** Stands where the selected copy does: in the middle, if it is alone. */
+  readonly stand = new Group();
   /** Turns about the middle of the model; the gizmo is attached to it. */
   readonly pivot = new Group();
   readonly facets: Mesh<BufferGeometry, RawShaderMaterial>;
@@ -108,6 +110,12 @@ export class Model {
     });
     this.facets = new Mesh(new BufferGeometry(), this.#material);
     this.pivot.add(this.facets);
+    this.stand.add(this.pivot, this.steps);
+    this.stand.matrixAutoUpdate = false;
+  }
+
+  get material(): RawShaderMaterial {
+    return this.#material;
   }
 
   get positions(): Float32Array {

@@ -81,6 +81,7 @@ export class Plate {
   #bad: Rgb = [200, 40, 40];
   #fits = true;
   #stale = true;
+  #shadowStrength = 0.5;
 
   constructor(model: Mesh) {
     this.#ground = new Mesh(
@@ -127,6 +128,7 @@ export class Plate {
     this.#ink = ink;
     this.#bad = bad;
     this.#set("ink", new Vector3(...ink).divideScalar(255));
+    this.#shadowStrength = shadowStrength;
     this.#set("shadowStrength", shadowStrength);
     this.#colourEdges();
   }
@@ -154,6 +156,13 @@ export class Plate {
     const reach = this.#shade.uniforms["reach"];
     if (reach !== undefined) reach.value = SHADOW_REACH * span;
     this.#stale = true;
+  }
+
+  /** Whether all copies can stay where they are, and whether the model casts a shadow: that of one model would not be all. */
+  setPlated(isGood: boolean, hasShadow: boolean): void {
+    this.#fits &&= isGood;
+    this.#colourEdges();
+    this.#set("shadowStrength", hasShadow ? this.#shadowStrength : 0);
   }
 
   /** Redraws the shadow if the model has changed. */

@@ -3,6 +3,7 @@ import {
   BufferAttribute,
   BufferGeometry,
   DoubleSide,
+  Matrix4,
   Mesh,
   MeshBasicMaterial,
   Raycaster,
@@ -16,13 +17,14 @@ import {
 } from "three";
 import { Offscreen } from "./offscreen.js";
 import { Cameras, type Alignment, type Frame } from "./cameras.js";
+import { Copies, crowdedOf, matrixOf, sizeOfAll, type Copy } from "./copies.js";
 import { Gizmo, type GizmoReports } from "./gizmo.js";
 import type { Tool } from "./keys.js";
 import { Model } from "./model.js";
 import type { Rgb } from "../legend/palette.js";
 import { Picker, type Hit } from "./picker.js";
 import { Plate, type BuildVolume } from "./plate.js";
-import type { Rotation } from "./pose.js";
+import type { Rotation, Triple } from "./pose.js";
 import type { Viewpoint } from "./viewpoint.js";
 
 /** Highest pixel ratio that is drawn: twice as many pixels each way would cost four times as much, unseen. */
@@ -58,6 +60,7 @@ export class Scene {
   readonly model = new Model();
   readonly cameras: Cameras;
   readonly plate: Plate;
+  readonly copies: Copies;
   readonly #renderer: WebGLRenderer;
   readonly #scene = new ThreeScene();
   readonly #gizmo: Gizmo;
@@ -86,6 +89,9 @@ export class Scene {
   #isGone = false;
   #tool: Tool = "turn";
   #volume: BuildVolume | null = null;
+  /** All copies on the plate; none if the model is alone. */
+  #copied: readonly Copy[] = [];
+  #isCrowded = false;
 
   /** @param context of the canvas, with alpha */
   constructor(
@@ -100,9 +106,10 @@ export class Scene {
     this.cameras = new Cameras(canvas);
     this.cameras.controls.addEventListener("change", this.invalidate);
     this.plate = new Plate(this.model.facets);
+    this.copies = new Copies(this.model.material.uniforms);
     this.#face.frustumCulled = false;
     this.model.facets.add(this.#face);
-    this.#scene.add(this.model.pivot, this.model.steps, this.plate.group);
+    this.#scene.add(this.model.stand, this.copies.group, this.plate.group);
     this.#gizmo = new Gizmo(this.cameras.current, canvas, this.#scene, {
       ...reports,
       held: (on) => {
@@ -145,27 +152,59 @@ export class Scene {
   setPositions(positions: Float32Array, rotation: Rotation, scale: number): void {
     this.model.setPositions(positions, rotation, scale);
     this.setFace(null);
-    this.plate.fit(this.model.size_mm, this.#volume);
-    this.cameras.reset(this.model.size_mm);
+    this.#fitPlate();
+    // Where several models stand, the camera has them all in view already.
+    if (this.#copied.length === 0) this.cameras.reset(this.model.size_mm);
     this.invalidate();
+  }
+
+  /**
+   * Sets the copies on the plate; the model is the one at `selected`. Without copies it is alone in the middle.
+   */
+  setCopies(copies: readonly Copy[], selected: number | null): void {
+    const count = this.#copied.length;
+    this.#copied = copies;
+    const own = copies.find(({ place }) => place === selected);
+    this.model.stand.matrix.copy(own === undefined ? new Matrix4() : matrixOf(own));
+    this.model.stand.visible = copies.length === 0 || own !== undefined;
+    const volume = this.#volume;
+    const crowded = crowdedOf(copies, (shape) => this.copies.sizeOf(shape), volume === null ? null : [volume.width_mm, volume.depth_mm]);
+    this.#isCrowded = crowded.size > 0;
+    this.model.facets.material = own !== undefined && crowded.has(own) ? this.copies.crowded : this.model.material;
+    this.copies.set(copies, selected, crowded);
+    this.#fitPlate();
+    if (copies.length !== count) this.cameras.reset(this.#size_mm);
+    this.invalidate();
+  }
+
+  /** Size of the model, or of all that stands on the plate. */
+  get #size_mm(): Triple {
+    return this.#copied.length === 0 ? this.model.size_mm : sizeOfAll(this.#copied, (shape) => this.copies.sizeOf(shape));
+  }
+
+  #fitPlate(): void {
+    const isAlone = this.#copied.length === 0;
+    this.plate.fit(isAlone ? this.model.size_mm : [0, 0, this.#size_mm[2]], this.#volume);
+    this.plate.setPlated(!this.#isCrowded, isAlone);
   }
 
   /** @param follow whether the camera follows the model's middle */
   setPose(rotation: Rotation, scale: number, follow: boolean): void {
     this.model.setPose(rotation, scale);
-    this.plate.fit(this.model.size_mm, this.#volume);
-    if (follow) this.cameras.follow(this.model.size_mm);
+    this.#fitPlate();
+    if (follow) this.cameras.follow(this.#size_mm);
     this.invalidate();
   }
 
   setVolume(volume: BuildVolume | null): void {
     this.#volume = volume;
-    this.plate.fit(this.model.size_mm, volume);
+    this.#fitPlate();
     this.invalidate();
   }
 
   setTheme({ ink, accent, bad, resin, shadow }: Theme): void {
     this.plate.setTheme(ink, bad, shadow);
+    this.copies.setBad(bad);
     this.model.setResin(resin);
     this.#face.material.color.setRGB(accent[0] / 255, accent[1] / 255, accent[2] / 255, "srgb");
     this.invalidate();
@@ -218,12 +257,17 @@ export class Scene {
 
   /** The ray through a point of the view, CSS pixels, in the file's pose. */
   rayAt(x_px: number, y_px: number): Ray {
+    return this.worldRayAt(x_px, y_px).applyMatrix4(this.model.facets.matrixWorld.clone().invert());
+  }
+
+  /** The same on the plate. */
+  worldRayAt(x_px: number, y_px: number): Ray {
     const [width, height] = this.#size;
     this.#scene.updateMatrixWorld();
     this.cameras.current.updateMatrixWorld();
     const caster = new Raycaster();
     caster.setFromCamera(new Vector2((x_px / width) * 2 - 1, 1 - (y_px / height) * 2), this.cameras.current);
-    return caster.ray.applyMatrix4(this.model.facets.matrixWorld.clone().invert());
+    return caster.ray;
   }
 
   /** Where the right edge of the model's bounds is at a height, CSS pixels: the place of a label. */
@@ -232,7 +276,8 @@ export class Scene {
     const right = new Vector3().setFromMatrixColumn(camera.matrixWorld, 0);
     const [x, y] = this.model.size_mm;
     const reach = 0.5 * (Math.abs(right.x) * x + Math.abs(right.y) * y);
-    return this.cameras.project(right.multiplyScalar(reach).setZ(z_mm));
+    const middle = new Vector3().setFromMatrixPosition(this.model.stand.matrix);
+    return this.cameras.project(middle.addScaledVector(right, reach).setZ(z_mm));
   }
 
   dispose(): void {
@@ -244,6 +289,7 @@ export class Scene {
     this.#picker.dispose();
     this.#offscreen.dispose();
     this.plate.dispose();
+    this.copies.dispose();
     this.model.dispose();
     this.#face.geometry.dispose();
     this.#face.material.dispose();

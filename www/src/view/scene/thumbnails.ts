@@ -19,7 +19,7 @@ async function withScene<T>(draw: (studio: Studio) => Promise<T>): Promise<T | n
   renderer.setClearColor(0x000000, 0);
   const model = new Model();
   const plate = new Plate(model.facets);
-  const scene = new Scene().add(model.pivot, plate.group);
+  const scene = new Scene().add(model.stand, plate.group);
   const camera = perspective();
   const shoot = (width_px: number, height_px: number): HTMLCanvasElement => {
     plate.fit(model.size_mm, null);

@@ -1,0 +1,157 @@
+import { beforeEach, expect, test } from "vitest";
+import type { WorkerHandle } from "../../api/calls.js";
+import { fakePlate } from "../../api/fake-plate.js";
+import { createPlate } from "../../api/plate.js";
+import type { ArrangeError, Placement, PlateOptions, SlicerWorker } from "../../api/wire.js";
+import { FakeSlicer, model, planOf } from "./fake-slicer.js";
+import { MOST_COPIES, Plate, type Entry } from "./plate.js";
+
+/** What the fake worker was asked, and what it answers. */
+let log: string[];
+let jobs: PlateOptions[];
+let answers: ArrangeError[];
+/** What the plate told its host. */
+let told: string[];
+let slicer: FakeSlicer;
+let plate: Plate;
+
+beforeEach(() => {
+  log = [];
+  jobs = [];
+  answers = [];
+  told = [];
+  const spawn = (): WorkerHandle => {
+    const fake = fakePlate(async (what) => void log.push(what));
+    const planPlate: SlicerWorker["planPlate"] = (options, progress) => {
+      jobs.push(options);
+      return fake.planPlate(options, progress);
+    };
+    const plateProblems = (): ArrangeError[] => answers;
+    const remote = { boot: async () => ({}), ...fake, planPlate, plateProblems } as unknown as SlicerWorker;
+    return { remote, terminate: () => undefined, onBroken: () => undefined };
+  };
+  slicer = Object.assign(new FakeSlicer(), { plate: createPlate(spawn, { module: null }) });
+  const host = {
+    changed: () => undefined,
+    replate: () => told.push("replate"),
+    show: () => told.push("show"),
+    selected: ({ model }: Entry) => told.push(`selected ${model.name}`),
+  };
+  plate = new Plate(host, slicer);
+  plate.open({ ...model, file: new Blob(["cup"]) });
+});
+
+const ring = new File(["ring"], "ring.stl");
+
+test("a single copy is planned by the slicer itself, with all of its options", async () => {
+  const planned = plate.plan({ tolerance: 1, height_mm: 5 }, {});
+  slicer.last.resolve(planOf(3));
+  expect((await planned).report.layers).toBe(3);
+  expect(slicer.last.options).toEqual({ tolerance: 1, height_mm: 5 });
+  expect(log).toEqual([]);
+});
+
+test("several are planned on the plate, each in its own pose", async () => {
+  plate.keep({ own: { height_mm: 5 } });
+  await plate.add([ring], {});
+  plate.setCopies(1, 3);
+  await plate.plan({ tolerance: 1, height_mm: 5, rotation: [0, 0, 1, 0] }, {});
+  expect(jobs[0]?.options).toEqual({ tolerance: 1 });
+  expect(jobs[0]?.models).toEqual([{ copies: 1, height_mm: 5 }, { copies: 3 }]);
+  expect(log).toEqual(["add cup", "add ring", "plan 1 of cup ring, 1 3 copies"]);
+  expect(slicer.calls).toEqual([]);
+});
+
+test("a file that cannot be read leaves the models as they were, also those read before it", async () => {
+  const adding = plate.add([ring, new File(["bad"], "bad.stl")], {});
+  await expect(adding).rejects.toMatchObject({ code: "empty-file" });
+  expect(plate.entries).toHaveLength(1);
+  plate.setCopies(0, 2);
+  await plate.plan({ tolerance: 1 }, {});
+  expect(log.at(-1)).toBe("plan 1 of cup, 2 copies");
+});
+
+test("two copies of one model are a plate; taking one away goes back to the slicer", async () => {
+  plate.setCopies(0, 2);
+  expect(plate.isSeveral).toBe(true);
+  await plate.plan({}, {});
+  expect(plate.planned).not.toBeNull();
+  plate.setCopies(0, 1);
+  expect(plate.isSeveral).toBe(false);
+  void plate.plan({}, {});
+  expect(slicer.last.what).toBe("plan");
+  expect(plate.planned).toBeNull();
+  expect(told).toEqual(["replate", "replate"]);
+});
+
+test("the number of copies stays within bounds, and what is no number changes nothing", () => {
+  plate.setCopies(0, 0);
+  expect(plate.entries[0]?.copies).toBe(1);
+  plate.setCopies(0, 1e9);
+  expect(plate.entries[0]?.copies).toBe(MOST_COPIES);
+  plate.setCopies(0, Number.NaN);
+  expect(plate.entries[0]?.copies).toBe(MOST_COPIES);
+});
+
+test("removing the selected model selects another; the last one stays", async () => {
+  await plate.add([ring], {});
+  plate.select(1);
+  plate.remove(1);
+  expect(told).toEqual(["selected ring.stl", "selected a.stl"]);
+  expect(plate.selected).toBe(0);
+  plate.remove(0);
+  expect(plate.entries).toHaveLength(1);
+});
+
+test("removing a model before the selected one keeps that selected", async () => {
+  await plate.add([ring, new File(["pin"], "pin.stl")], {});
+  plate.select(2);
+  plate.remove(0);
+  expect(plate.entries[plate.selected]?.model.name).toBe("pin.stl");
+  await plate.plan({ tolerance: 1 }, {});
+  expect(log.at(-1)).toBe("plan 1 of ring pin, 1 1 copies");
+});
+
+const placements: Placement[] = [
+  { model: 0, plate: 0, x_mm: 0, y_mm: 0, turn_deg: 0 },
+  { model: 0, plate: 0, x_mm: 5, y_mm: 0, turn_deg: 0 },
+  { model: 0, plate: 1, x_mm: 0, y_mm: 0, turn_deg: 0 },
+];
+
+test("a moved copy stays where it is put until the plate is arranged again", async () => {
+  plate.setCopies(0, 3);
+  plate.placements = placements;
+  plate.move(1, { x_mm: 9 }, false);
+  expect(told).toEqual(["replate"]);
+  plate.move(1, { turn_deg: 45 }, true);
+  expect(told).toEqual(["replate", "replate"]);
+  expect(plate.copies.map(({ x_mm, turn_deg }) => [x_mm, turn_deg])).toEqual([[0, 0], [9, 45]]);
+  await plate.plan({}, {});
+  expect(jobs[0]?.placements?.[1]).toMatchObject({ x_mm: 9, turn_deg: 45 });
+  plate.arrange({ spacing_mm: 4 });
+  await plate.plan({}, {});
+  expect(jobs[1]).toMatchObject({ placements: [], arranging: { spacing_mm: 4, turn_deg: 45 } });
+});
+
+test("what is wrong with the places is asked while a copy is moved", async () => {
+  plate.setCopies(0, 3);
+  plate.placements = placements;
+  answers = [{ code: "plate-collision", detail: { model_numbers: [1, 1], plate_number: 1 } }];
+  plate.move(1, { x_mm: 1 }, false);
+  await expect.poll(() => plate.problems).toEqual(answers);
+  expect([...plate.crowded]).toEqual([plate.entries[0]]);
+});
+
+test("another plate is shown without planning again, and its masks and file are its own", async () => {
+  plate.setCopies(0, 3);
+  await plate.plan({ tolerance: 1 }, {});
+  expect(plate.planned?.plates).toHaveLength(2);
+  plate.show(1);
+  expect(told).toEqual(["replate", "show"]);
+  await plate.mask(4);
+  const { name } = await plate.export({});
+  expect(log.slice(-2)).toEqual(["mask 4 of plate 1", "archive 1"]);
+  expect(name).toBe("plate-2-cusp.uvj");
+  plate.show(7);
+  expect(plate.number).toBe(1);
+});

@@ -1,0 +1,136 @@
+/** Moves copies over the plate, by pointer and by keyboard. */
+import { Box3, Matrix4, Plane, Vector3, type Ray } from "three";
+import { matrixOf, type Copy } from "./copies.js";
+import type { Point } from "./pointer.js";
+import type { Scene } from "./scene.js";
+
+/** A copy was moved. */
+export interface MoveDetail {
+  /** The copy's place among all. */
+  readonly place: number;
+  readonly x_mm: number;
+  readonly y_mm: number;
+  readonly turn_deg: number;
+  /** False while it is still being moved. */
+  readonly final: boolean;
+}
+
+export interface MovingReports {
+  /** A copy was pressed. */
+  selected(place: number): void;
+  moved(detail: MoveDetail): void;
+}
+
+/** Places are rounded to this, in millimetres. */
+const STEP_MM = 0.05;
+
+const GROUND = new Plane(new Vector3(0, 0, 1), 0);
+
+const rounded = (mm: number): number => Math.round(mm / STEP_MM) * STEP_MM;
+
+interface Drag {
+  readonly id: number;
+  readonly place: number;
+  /** From the point that was grasped to the copy's middle, at the height of that point. */
+  readonly grasp: Vector3;
+  readonly plane: Plane;
+  hasMoved: boolean;
+}
+
+export class Moving {
+  isOn = false;
+  copies: readonly Copy[] = [];
+  readonly #scene: Scene;
+  readonly #reports: MovingReports;
+  #drag: Drag | null = null;
+
+  constructor(scene: Scene, reports: MovingReports) {
+    this.#scene = scene;
+    this.#reports = reports;
+  }
+
+  /** Watches presses on copies, before the camera's controls see them. */
+  watch(holder: HTMLElement, placeOf: (event: PointerEvent) => Point, signal: AbortSignal): void {
+    const options = { signal, capture: true };
+    const down = (event: PointerEvent): void => {
+      if (!this.isOn || !event.isPrimary || event.button !== 0 || !this.#begin(event.pointerId, placeOf(event))) return;
+      event.stopPropagation();
+      holder.setPointerCapture(event.pointerId);
+    };
+    const move = (event: PointerEvent): void => {
+      if (event.pointerId !== this.#drag?.id) return;
+      event.stopPropagation();
+      this.#follow(placeOf(event), false);
+    };
+    const up = (event: PointerEvent): void => {
+      if (event.pointerId !== this.#drag?.id) return;
+      event.stopPropagation();
+      if (this.#drag.hasMoved) this.#follow(placeOf(event), true);
+      this.#drag = null;
+    };
+    holder.addEventListener("pointerdown", down, options);
+    holder.addEventListener("pointermove", move, options);
+    holder.addEventListener("pointerup", up, options);
+    holder.addEventListener("pointercancel", up, options);
+  }
+
+  /** Moves a copy by keyboard. */
+  step(place: number | null, x_mm: number, y_mm: number, turn_deg: number): void {
+    const copy = this.#at(place);
+    if (copy === undefined) return;
+    this.#reports.moved({
+      place: copy.place,
+      x_mm: rounded(copy.x_mm + x_mm),
+      y_mm: rounded(copy.y_mm + y_mm),
+      turn_deg: (copy.turn_deg + turn_deg) % 360,
+      final: true,
+    });
+  }
+
+  #at(place: number | null): Copy | undefined {
+    return this.copies.find((copy) => copy.place === place);
+  }
+
+  #begin(id: number, at: Point): boolean {
+    const ray = this.#scene.worldRayAt(...at);
+    const hit = hitBy(ray, this.copies, (copy) => this.#scene.copies.sizeOf(copy.shape));
+    if (hit === null) return false;
+    const { copy, point } = hit;
+    this.#drag = {
+      id,
+      place: copy.place,
+      grasp: new Vector3(copy.x_mm, copy.y_mm, 0).sub(point).setZ(0),
+      plane: GROUND.clone().translate(new Vector3(0, 0, point.z)),
+      hasMoved: false,
+    };
+    this.#reports.selected(copy.place);
+    return true;
+  }
+
+  #follow(at: Point, final: boolean): void {
+    const drag = this.#drag;
+    const copy = this.#at(drag?.place ?? null);
+    if (drag === null || copy === undefined) return;
+    const point = this.#scene.worldRayAt(...at).intersectPlane(drag.plane, new Vector3());
+    if (point === null) return;
+    const to = point.add(drag.grasp);
+    const [x_mm, y_mm] = [rounded(to.x), rounded(to.y)];
+    if (!final && x_mm === copy.x_mm && y_mm === copy.y_mm) return;
+    drag.hasMoved = true;
+    this.#reports.moved({ place: copy.place, x_mm, y_mm, turn_deg: copy.turn_deg, final });
+  }
+}
+
+/** The nearest copy whose box a ray meets, and where. */
+export function hitBy(ray: Ray, copies: readonly Copy[], sizeOf: (copy: Copy) => readonly [number, number, number]): { copy: Copy; point: Vector3 } | null {
+  let nearest: { copy: Copy; point: Vector3 } | null = null;
+  for (const copy of copies) {
+    const [x, y, z] = sizeOf(copy);
+    const to = matrixOf(copy);
+    const own = ray.clone().applyMatrix4(new Matrix4().copy(to).invert());
+    const point = own.intersectBox(new Box3(new Vector3(-x / 2, -y / 2, 0), new Vector3(x / 2, y / 2, z)), new Vector3())?.applyMatrix4(to);
+    if (point === undefined) continue;
+    if (nearest === null || point.distanceToSquared(ray.origin) < nearest.point.distanceToSquared(ray.origin)) nearest = { copy, point };
+  }
+  return nearest;
+}

@@ -1,0 +1,51 @@
+/** What the workbench has for several models: copies, the button that adds a model, and the list, fetched with the second copy. */
+import { html, nothing, type TemplateResult } from "lit";
+import type { Facts } from "../element/facts.js";
+import { MODEL_FILES } from "../element/state/choice.js";
+import { FetchedPanel } from "../element/parts/part.js";
+import { copiesField } from "./copies-field.js";
+import { workbenchWords } from "./texts/index.js";
+
+const plateCode = new FetchedPanel("plate", async () => {
+  const { definePlate } = await import("./plate-panel.js");
+  definePlate();
+});
+
+function addButton({ language, added }: Facts): TemplateResult {
+  return html`<label class="button small">
+    <input class="visually-hidden" type="file" accept=${MODEL_FILES} multiple @change=${added} />${workbenchWords(language).plate.add}
+  </label>`;
+}
+
+/** The number of copies of the only model, or the list of all. */
+export function platePanel(facts: Facts): TemplateResult | typeof nothing {
+  const { element, session, language, saveAll } = facts;
+  const { plate, busy, failure } = session;
+  const [only] = plate.entries;
+  if (only === undefined) return nothing;
+  if (!plate.isSeveral) {
+    const { copies } = workbenchWords(language).plate;
+    return html`<div class="copies-row">
+      <span aria-hidden="true">${copies}</span>${copiesField(only, language, (count) => plate.setCopies(0, count))} ${addButton(facts)}
+    </div>`;
+  }
+  if (!plateCode.isThere) return plateCode.instead(element, language);
+  return html`<div class="copies-row">
+      ${addButton(facts)}
+      <button class="small" @click=${() => plate.arrange()}>${workbenchWords(language).plate.arrange}</button>
+    </div>
+    <cusp-plate
+    .plate=${plate}
+    .entries=${plate.entries}
+    .selected=${plate.selected}
+    .arranging=${plate.arranging}
+    .number=${plate.number}
+    .plates=${plate.plates}
+    .planned=${plate.planned}
+    .placed=${plate.placed}
+    .problems=${plate.problems}
+    .isBusy=${busy !== null || failure !== null}
+    .language=${language}
+    @cusp-save-all=${saveAll}
+  ></cusp-plate>`;
+}
