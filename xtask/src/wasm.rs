@@ -32,7 +32,7 @@ const MODULES: [Module; 3] = [
         package: "cusp-slicer",
         folder: ".",
         files: "pkg/cusp_slicer",
-        budget: 450_000,
+        budget: 540_000,
     },
     Module {
         package: "cusp-gpu",
