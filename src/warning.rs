@@ -160,17 +160,7 @@ impl std::fmt::Display for Warning {
                 "{} of the file left out: supports, surfaces, or not to be printed",
                 counted(*objects, "object")
             ),
-            Self::OddSize { size_mm, readings } => {
-                write!(
-                    f,
-                    "the file states no unit, and in millimeters the model is {size_mm} mm long; "
-                )?;
-                for reading in readings {
-                    let UnitReading { unit, size_mm } = reading;
-                    write!(f, "in {} it would be {size_mm} mm; ", unit.plural())?;
-                }
-                f.write_str("give its unit if it is another")
-            }
+            Self::OddSize { size_mm, readings } => odd_size(f, *size_mm, readings),
             Self::UnitStated { stated, given } => write!(
                 f,
                 "the file is in {}, as it states, and not in {}",
@@ -250,6 +240,23 @@ impl std::fmt::Display for Warning {
             }
         }
     }
+}
+
+/// Asks for the unit of a model of an odd size.
+fn odd_size(
+    f: &mut std::fmt::Formatter<'_>,
+    size_mm: f64,
+    readings: &[UnitReading],
+) -> std::fmt::Result {
+    write!(
+        f,
+        "the file states no unit, and in millimeters the model is {size_mm} mm long; "
+    )?;
+    for reading in readings {
+        let UnitReading { unit, size_mm } = reading;
+        write!(f, "in {} it would be {size_mm} mm; ", unit.plural())?;
+    }
+    f.write_str("give its unit if it is another")
 }
 
 /// A number with its noun: "1 hole", "2 holes".

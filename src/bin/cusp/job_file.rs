@@ -129,32 +129,25 @@ pub fn read_job(
     choices: &Choices,
 ) -> Result<Job, Failure> {
     let copies = places.copies.map_or(1, |copies| copies as usize);
-    let (folder, file) = match file {
-        Some(file) => (models[0].parent().map(Path::to_owned), file),
-        None => {
-            let models = models.iter().map(|model| {
-                let (file, own) = with_copies(model);
-                JobModel::new(file, own.unwrap_or(copies))
-            });
-            let file = JobFile {
-                models: models.collect(),
-                options: Options::default(),
-                arranging: Arranging::default(),
-                placements: Vec::new(),
-            };
-            (None, file)
+    let folder = file.is_some().then(|| models[0].parent()).flatten();
+    let file = file.unwrap_or_else(|| {
+        let models = models.iter().map(|model| {
+            let (file, own) = with_copies(model);
+            JobModel::new(file, own.unwrap_or(copies))
+        });
+        JobFile {
+            models: models.collect(),
+            options: Options::default(),
+            arranging: Arranging::default(),
+            placements: Vec::new(),
         }
-    };
+    });
     let settings = choices.settings_over(file.options)?;
     if settings.weights.is_some() {
         let message = "weights belong to a model: name them beside it in a job file";
         wrong_usage(command, message);
     }
-    let within = |path: &Path| {
-        folder
-            .as_deref()
-            .map_or_else(|| path.to_owned(), |it| it.join(path))
-    };
+    let within = |path: &Path| folder.map_or_else(|| path.to_owned(), |it| it.join(path));
     let mut plate = Plate::default();
     let (mut paths, mut all_weights, mut own) = (Vec::new(), Vec::new(), Vec::new());
     for model in &file.models {
