@@ -134,7 +134,7 @@ fn a_bad_model_does_not_stop_the_batch_and_is_told_again_at_the_end() {
         lines[2]["error"]["message"]
             .as_str()
             .unwrap()
-            .contains("no STL")
+            .contains("no model")
     );
     assert_eq!(files_in(&prints), ["ball.zip"]);
 }
