@@ -71,9 +71,11 @@ impl Gpu {
             return Err(LdiError::NoGpu { system });
         };
         let hardware = (adapters == Adapters::Hardware).into();
-        let promise = open.call1(&JsValue::NULL, &hardware).map_err(error_of)?;
+        let promise = open
+            .call1(&JsValue::NULL, &hardware)
+            .map_err(|thrown| error_of(&thrown))?;
         let opened = js_sys::futures::JsFuture::from(js_sys::Promise::resolve(&promise)).await;
-        let opened: Opened = opened.map_err(error_of)?.unchecked_into();
+        let opened: Opened = opened.map_err(|thrown| error_of(&thrown))?.unchecked_into();
         let name = opened.name();
         Ok(Self { opened, name })
     }
@@ -143,9 +145,9 @@ pub async fn find(
     if let Some(cancelled) = cancelled {
         return Err(cancelled.into());
     }
-    let tiles = found.map_err(error_of)?.to_vec();
+    let tiles = found.map_err(|thrown| error_of(&thrown))?.to_vec();
     let (tiles, _) = tiles.as_chunks::<3>();
-    tiles.iter().map(|tile| tile_of(tile)).collect()
+    tiles.iter().map(tile_of).collect()
 }
 
 /// A tile of the other module.
@@ -166,12 +168,12 @@ fn tile_of(tile: &[JsValue; 3]) -> Result<(Region, Meetings), LdiError> {
 }
 
 /// The error that the other module threw, or the failure to fetch it.
-fn error_of(thrown: JsValue) -> LdiError {
+fn error_of(thrown: &JsValue) -> LdiError {
     let get = |of: &JsValue, name: &str| Reflect::get(of, &name.into()).unwrap_or_default();
-    let detail = get(&thrown, "detail");
+    let detail = get(thrown, "detail");
     let text = |name| get(&detail, name).as_string();
     let number = |name| get(&detail, name).as_f64().unwrap_or_default() as u64;
-    match get(&thrown, "code").as_string().as_deref() {
+    match get(thrown, "code").as_string().as_deref() {
         Some("gpu-emulated") => LdiError::GpuEmulated {
             adapter: text("adapter").unwrap_or_default(),
         },
@@ -194,7 +196,7 @@ fn error_of(thrown: JsValue) -> LdiError {
             system: text("system").unwrap_or_default(),
         },
         _ => LdiError::NoGpu {
-            system: get(&thrown, "message").as_string().unwrap_or_default(),
+            system: get(thrown, "message").as_string().unwrap_or_default(),
         },
     }
 }
