@@ -6,24 +6,44 @@ use std::sync::LazyLock;
 const SLICE: usize = 16;
 
 /// The CRC-32 of `bytes`, with the polynomial of zip and PNG.
+pub fn crc32(bytes: &[u8]) -> u32 {
+    let mut crc = Crc32::default();
+    crc.update(bytes);
+    crc.checksum()
+}
+
+/// The CRC-32 of bytes that come in parts.
 ///
 /// The tables are computed when they are first used, in less time than 16 KB of them take to download: they do not compress.
-pub fn crc32(bytes: &[u8]) -> u32 {
-    let tables = &*TABLES;
-    let (slices, rest) = bytes.as_chunks::<SLICE>();
-    let mut crc = !0_u32;
-    for slice in slices {
-        let mut slice = *slice;
-        for (byte, of_crc) in slice.iter_mut().zip(crc.to_le_bytes()) {
-            *byte ^= of_crc;
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Crc32 {
+    checksum: u32,
+}
+
+impl Crc32 {
+    /// Adds bytes behind those before.
+    pub fn update(&mut self, bytes: &[u8]) {
+        let tables = &*TABLES;
+        let (slices, rest) = bytes.as_chunks::<SLICE>();
+        let mut crc = !self.checksum;
+        for slice in slices {
+            let mut slice = *slice;
+            for (byte, of_crc) in slice.iter_mut().zip(crc.to_le_bytes()) {
+                *byte ^= of_crc;
+            }
+            let looked_up = slice.iter().zip(tables.iter().rev());
+            crc = looked_up.fold(0, |sum, (&byte, table)| sum ^ table[usize::from(byte)]);
         }
-        let looked_up = slice.iter().zip(tables.iter().rev());
-        crc = looked_up.fold(0, |sum, (&byte, table)| sum ^ table[usize::from(byte)]);
+        for &byte in rest {
+            crc = crc >> 8 ^ tables[0][usize::from(crc as u8 ^ byte)];
+        }
+        self.checksum = !crc;
     }
-    for &byte in rest {
-        crc = crc >> 8 ^ tables[0][usize::from(crc as u8 ^ byte)];
+
+    /// The checksum of all bytes so far.
+    pub fn checksum(self) -> u32 {
+        self.checksum
     }
-    !crc
 }
 
 /// Table n has the checksum of each byte with n zeros after it.
@@ -57,6 +77,10 @@ mod tests {
         for end in 0..bytes.len() {
             let part = &bytes[end / 7..end];
             assert_eq!(crc32(part), rawzip::crc32(part), "{} bytes", part.len());
+            let mut in_parts = Crc32::default();
+            part.chunks(1 + end / 3)
+                .for_each(|part| in_parts.update(part));
+            assert_eq!(in_parts.checksum(), crc32(part));
         }
         assert_eq!(crc32(b"123456789"), 0xCBF4_3926);
     }

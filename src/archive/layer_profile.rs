@@ -5,14 +5,15 @@
 //! profile, a little above the layer's bottom, and stops where the middle of a layer would be above the model. A profile with
 //! two points for each layer, at its bottom and at its top, therefore gives exactly the layers of the plan.
 
-use std::io::Write;
+use std::io::{self, BufWriter, Write};
 
 use flate2::Compression;
 use flate2::write::DeflateEncoder;
-use rawzip::{CompressionMethod, ZipArchiveWriter};
+use rawzip::{CompressionMethod, DataDescriptorOutput, ZipArchiveWriter};
 
 use super::ArchiveError;
 use super::zip::MODIFIED;
+use crate::crc::Crc32;
 use crate::filament::FilamentSlicer;
 use crate::model::Mesh;
 use crate::progress::{Progress, report};
@@ -205,15 +206,50 @@ fn add<W: Write>(
         .new_file(name)
         .compression_method(CompressionMethod::DEFLATE)
         .last_modified(MODIFIED);
-    let (mut entry, config) = builder.start().map_err(ArchiveError::write)?;
+    let (mut entry, _) = builder.start().map_err(ArchiveError::write)?;
     let deflater = DeflateEncoder::new(&mut entry, Compression::new(LEVEL));
-    let mut file = std::io::BufWriter::new(config.wrap(deflater));
+    let sum = summed(deflater, write)?;
+    entry.finish(sum).map_err(ArchiveError::write)?;
+    Ok(())
+}
+
+/// Writes all of a file, and sums it up.
+fn summed<W: Write>(
+    deflater: DeflateEncoder<W>,
+    write: impl FnOnce(&mut dyn Write) -> Result<(), ArchiveError>,
+) -> Result<DataDescriptorOutput, ArchiveError> {
+    let mut file = BufWriter::new(Summed::new(deflater));
     write(&mut file)?;
     let file = file
         .into_inner()
         .map_err(|error| ArchiveError::write(error.error()))?;
-    let (deflater, sum) = file.finish().map_err(ArchiveError::write)?;
-    deflater.finish()?;
-    entry.finish(sum).map_err(ArchiveError::write)?;
-    Ok(())
+    file.inner.finish()?;
+    Ok(DataDescriptorOutput::new(file.crc.checksum(), file.length))
+}
+
+/// A writer that sums up what passes. Rawzip's has the table of checksums with it: see [`crate::crc`].
+struct Summed<W> {
+    inner: W,
+    crc: Crc32,
+    length: u64,
+}
+
+impl<W> Summed<W> {
+    fn new(inner: W) -> Self {
+        let (crc, length) = (Crc32::default(), 0);
+        Self { inner, crc, length }
+    }
+}
+
+impl<W: Write> Write for Summed<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let count = self.inner.write(bytes)?;
+        self.crc.update(&bytes[..count]);
+        self.length += count as u64;
+        Ok(count)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.inner.flush()
+    }
 }

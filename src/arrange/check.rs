@@ -3,6 +3,7 @@
 use super::outline::Outline;
 use super::sheet::bits_at;
 use super::{ArrangeError, Screen};
+use crate::order::sort_by_number;
 
 /// A copy to be checked. Its outline is in cells of one pixel: see [`Screen::by_pixels`].
 #[derive(Debug, Clone, Copy)]
@@ -68,7 +69,7 @@ pub fn problems(screen: &Screen, plate: usize, copies: &[Standing<'_>]) -> Vec<A
         }
     }
     let mut by_left: Vec<&Standing<'_>> = copies.iter().collect();
-    by_left.sort_by_key(|copy| copy.pixels()[0][0]);
+    sort_by_number(&mut by_left, |copy| copy.pixels()[0][0] as f64);
     for (place, copy) in by_left.iter().enumerate() {
         let right = copy.pixels()[1][0];
         let beside = by_left[place + 1..].iter();

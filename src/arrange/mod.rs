@@ -12,6 +12,7 @@ mod sheet;
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
+use crate::order::sort_by_number;
 pub use check::{Standing, problems};
 pub use error::ArrangeError;
 pub use outline::Outline;
@@ -329,10 +330,9 @@ impl Arrangement {
             }
         };
         let mut queue: Vec<usize> = (0..items.len()).collect();
-        queue.sort_by(|&a, &b| {
-            let (a, b) = (key(a), key(b));
-            b[0].total_cmp(&a[0]).then(b[1].total_cmp(&a[1]))
-        });
+        for number in [1, 0] {
+            sort_by_number(&mut queue, |&item| -key(item)[number]);
+        }
         let mut sheets: Vec<Sheet> = Vec::new();
         for item in queue {
             let ranges: Vec<_> = shapes[item]
@@ -389,7 +389,7 @@ impl Arrangement {
                     plate,
                 })
                 .collect();
-            on_plate.sort_by_key(|place| place.item);
+            sort_by_number(&mut on_plate, |place| place.item as f64);
             places.extend(on_plate);
         }
         places

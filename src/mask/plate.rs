@@ -5,6 +5,7 @@
 
 use super::{LayerRuns, MaskCursor, Masks, Run, RunReader, RunSource, row_bytes};
 use crate::grid::Grid;
+use crate::order::sort_by_number;
 use crate::parallel;
 
 /// The masks of a model, and where its copies stand.
@@ -119,6 +120,7 @@ impl RunReader for Reader<'_> {
 }
 
 /// The runs of a copy that are still to be placed.
+#[derive(Clone)]
 struct Copy<'a> {
     runs: &'a [Run],
     /// Pixels from the copy alone to its place, counted row by row.
@@ -146,7 +148,9 @@ impl PlateMasks {
         }
         waiting.retain(|copy| !copy.runs.is_empty());
         // The copy that begins lowest in the list begins highest on the screen.
-        waiting.sort_by_key(|copy| std::cmp::Reverse(copy.next()));
+        sort_by_number(&mut waiting, |copy| {
+            copy.next().map_or(0.0, |next| -f64::from(next))
+        });
         let mut placed = Vec::with_capacity(waiting.iter().map(|copy| copy.runs.len()).sum());
         let mut crossing: Vec<Copy<'_>> = Vec::new();
         loop {

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use super::{Limits, PlanError};
 use crate::grid::Bins;
-use crate::order::ascending;
+use crate::order::{ascending, sort_by_number};
 
 /// A height range between two mandatory planes, to be filled with layers.
 ///
@@ -53,7 +53,7 @@ impl Segment {
             // The middle of the last layer, where its mask is sampled, lies below the model's top.
             .filter(|end| 2 * (end * unit) < 2 * height + reach)
             .collect();
-        ends.sort_by_key(|end| ((end * unit).abs_diff(height), *end));
+        sort_by_number(&mut ends, |end| (end * unit).abs_diff(height) as f64);
         ends.into_iter().map(|end| end as u32).collect()
     }
 

@@ -5,7 +5,7 @@ use super::cusp::density_of;
 use super::facet_bins::Flat;
 use super::steepest::NO_SURFACE;
 use crate::grid::Bins;
-use crate::order::ascending;
+use crate::order::{ascending, sort_by_number};
 
 /// A change is sharp if the cusp height densities of neighbouring bins differ by more than this.
 pub const SHARP: f32 = 0.5;
@@ -34,7 +34,7 @@ pub fn snap_planes(surfaces: &[Surface<'_>], bins: Bins, flat_area_mm2: f64) -> 
         // Where several models change, the largest change counts.
         let order = ascending(sharp.iter().map(|&(_, change)| -change));
         let mut largest: Vec<(u32, f64)> = order.into_iter().map(|place| sharp[place]).collect();
-        largest.sort_by_key(|&(boundary, _)| boundary);
+        sort_by_number(&mut largest, |&(boundary, _)| f64::from(boundary));
         sharp = largest;
         sharp.dedup_by_key(|&mut (boundary, _)| boundary);
     }

@@ -9,6 +9,7 @@ use crate::arrange::{
     ArrangeError, Item, Outline, Place, Screen, Standing, TURN_DEG, TURNS, arrange, problems,
 };
 use crate::model::Pose;
+use crate::order::sort_by_number;
 
 impl Plate {
     /// Where copies stand when they are arranged: for the fewest plates, then the lowest.
@@ -139,7 +140,8 @@ impl Plate {
             })
         });
         let mut places = places.collect::<Result<Vec<_>, _>>()?;
-        places.sort_by_key(|place| (place.plate, place.item));
+        sort_by_number(&mut places, |place| place.item as f64);
+        sort_by_number(&mut places, |place| place.plate as f64);
         Ok(places)
     }
 

@@ -1,9 +1,10 @@
 //! The zip of a 3MF, and its parts as streams.
 
 use flate2::{Decompress, FlushDecompress, Status};
-use rawzip::{CompressionMethod, Crc32, ZipArchive, ZipArchiveEntryWayfinder, ZipSliceArchive};
+use rawzip::{CompressionMethod, ZipArchive, ZipArchiveEntryWayfinder, ZipSliceArchive};
 
 use super::ThreeMfError;
+use crate::crc::Crc32;
 use crate::model::read::text::named;
 
 /// A part may always inflate to this many bytes,
@@ -96,7 +97,7 @@ impl<'a> Package<'a> {
             most_bytes: ALWAYS_BYTES.max(MOST_RATIO * rest.len() as u64),
             rest,
             claim: found.claim_verifier(),
-            crc: Crc32::new(),
+            crc: Crc32::default(),
             length: 0,
         })
     }
