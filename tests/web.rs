@@ -214,7 +214,7 @@ async fn check_plan_and_masks() {
         ..options()
     };
     slicer.plan(&filament, &mut quiet).await.unwrap();
-    assert_eq!(archive(&mut slicer), 0xce1e_ffbd_43fd_422a);
+    assert_eq!(archive(&mut slicer), 0x4917_f72b_d89f_39f2);
 }
 
 #[cfg(not(target_arch = "wasm32"))]

@@ -59,10 +59,6 @@ impl OpenGpu {
     ///
     /// # Errors
     /// Throws an error of the slicer: `gpu-too-small`, `gpu-failed`, `cancelled`.
-    #[expect(
-        clippy::needless_pass_by_value,
-        reason = "values from JavaScript come by value"
-    )]
     #[wasm_bindgen(unchecked_return_type = "Uint32Array[]")]
     pub async fn find(
         &self,
