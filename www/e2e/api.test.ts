@@ -151,7 +151,7 @@ test("errors have codes and details", async () => {
     const found = [
       await code(slicer.plan()),
       await code(slicer.load("bad.stl")),
-      await code(slicer.load(new Blob(["PK\u0003\u0004 [Content_Types].xml"]))),
+      await code(slicer.load(new Blob(["glTF\u0002"]))),
       await code(slicer.load("nowhere.stl")),
       await code(slicer.load("ball.stl")),
       await code(slicer.mask(0)),
