@@ -17,6 +17,8 @@ pub struct Weighted {
     values: Vec<f32>,
     /// For the deviation, the largest `n_z²` over the normal cones of each bin whose weight is at least a level, with that level.
     levels: Vec<(f32, Vec<f32>)>,
+    /// The density of a vertical wall under the metric thread, with the largest weight: rays meet no upright walls.
+    wall: f32,
 }
 
 /// The value of a facet under a metric: its weighted density, or its weight.
@@ -47,9 +49,15 @@ impl Weighted {
             None => steepest::exact_maxima(facet_bins, hidden, value),
             Some(ldi) => steepest::sampled_maxima(facet_bins, ldi, hidden, value),
         };
+        let largest = weights.iter().fold(
+            0.0,
+            |most: f32, &weight| if most < weight { weight } else { most },
+        );
+        let wall = largest * thread::OF_A_WALL;
         if metric != Metric::Deviation {
             return Self {
                 metric,
+                wall,
                 values: maxima(&value_of(facet_bins, metric, weights)),
                 levels: Vec::new(),
             };
@@ -79,6 +87,7 @@ impl Weighted {
         }
         Self {
             metric,
+            wall,
             values,
             levels,
         }
@@ -90,9 +99,20 @@ impl Weighted {
     /// Multiplying the areas themselves, as eq. 24 does, would find errors on an upright prism wherever its weight changes.
     pub fn profile(&self, shape: &Shape) -> Profile {
         let density = match self.metric {
-            Metric::Cusp | Metric::Deviation | Metric::Thread | Metric::Roughness => {
+            Metric::Cusp | Metric::Deviation | Metric::Roughness => {
                 steepest::densities(&self.values, |value| value)
             }
+            Metric::Thread => self
+                .values
+                .iter()
+                .map(|&value| {
+                    if value == NO_SURFACE {
+                        self.wall
+                    } else {
+                        value
+                    }
+                })
+                .collect(),
             Metric::Area => {
                 let densities = area::density(&shape.areas_mm2, shape.bins);
                 densities

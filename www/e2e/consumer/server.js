@@ -12,7 +12,8 @@ for (const name of quiet) slicer[name]();
 
 const codes = {};
 for (const [name, call] of Object.entries(slicer)) {
-  if (quiet.includes(name)) continue;
+  // The plate is an object with calls of its own.
+  if (quiet.includes(name) || name === "plate") continue;
   const answer = name === "exportStream" ? call().getReader().read() : call("https://shop.example/model.stl");
   codes[name] = await answer.then(
     () => "answered",
