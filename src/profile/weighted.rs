@@ -14,11 +14,11 @@ use crate::ldi::Ldi;
 #[derive(Debug, Clone)]
 pub struct Weighted {
     metric: Metric,
+    /// The density of a vertical wall under the metric thread, with the largest weight: rays meet no upright walls.
+    wall: f32,
     values: Vec<f32>,
     /// For the deviation, the largest `n_z²` over the normal cones of each bin whose weight is at least a level, with that level.
     levels: Vec<(f32, Vec<f32>)>,
-    /// The density of a vertical wall under the metric thread, with the largest weight: rays meet no upright walls.
-    wall: f32,
 }
 
 /// The value of a facet under a metric: its weighted density, or its weight.
