@@ -185,13 +185,13 @@ impl Arranging {
 const MAX_SPACING_MM: f64 = 100.0;
 
 /// A model to be arranged.
-pub struct Item<'a> {
+pub struct Item<'a, E> {
     /// How many copies.
     pub copies: usize,
     /// Height of the model in millimetres.
     pub height_mm: f64,
     /// Its shadow after a number of turns of 15°.
-    pub outline: &'a mut dyn FnMut(u32) -> Result<Outline, ArrangeError>,
+    pub outline: &'a mut dyn FnMut(u32) -> Result<Outline, E>,
 }
 
 /// Where a copy stands.
@@ -210,12 +210,12 @@ pub struct Place {
 /// Arranges all copies of all models. Places are listed by plate, then by model.
 ///
 /// # Errors
-/// [`ArrangeError`].
-pub fn arrange(
+/// [`ArrangeError`], and what outlines return.
+pub fn arrange<E: From<ArrangeError>>(
     screen: &Screen,
     arranging: &Arranging,
-    items: &mut [Item<'_>],
-) -> Result<Vec<Place>, ArrangeError> {
+    items: &mut [Item<'_, E>],
+) -> Result<Vec<Place>, E> {
     arranging.check()?;
     let reach = screen.reach(arranging.spacing_mm);
     let mut best: Option<Arrangement> = None;
@@ -247,11 +247,11 @@ pub fn arrange(
         let item = item.unwrap_or_default();
         let [first, last] = shapes[item][0].outline.pixels;
         let size_mm = [0, 1].map(|axis| (last[axis] - first[axis]) as f64 * screen.pitch_mm[axis]);
-        return Err(ArrangeError::TooLarge {
+        return Err(E::from(ArrangeError::TooLarge {
             model_number: item + 1,
             size_mm,
             plate_mm: screen.size_mm(),
-        });
+        }));
     };
     Ok(best.places(screen, &shapes))
 }
@@ -316,9 +316,9 @@ struct Arrangement {
 
 impl Arrangement {
     /// Places all copies, or fails if one is too large for the plate.
-    fn of(
+    fn of<E>(
         screen: &Screen,
-        items: &[Item<'_>],
+        items: &[Item<'_, E>],
         shapes: &[Vec<Shape>],
         order: Order,
     ) -> Option<Self> {

@@ -1,7 +1,5 @@
 //! Where the copies of a plate stand.
 
-use std::cell::RefCell;
-
 use super::super::parts::{Job, Raster, Sampling};
 use super::{Placement, Plate, PlateOptions};
 use crate::Error;
@@ -35,22 +33,11 @@ impl Plate {
         if self.models.is_empty() {
             return Err(ArrangeError::Empty.into());
         }
-        // The first error of a mesh; an outline cannot return it.
-        let mut failed = None;
-        let failed = RefCell::new(&mut failed);
-        let mut outlines: Vec<_> = (0..self.models.len())
-            .map(|model| {
-                let pose = self.pose_of(options, job, model);
-                let failed = &failed;
-                move |turns| {
-                    let outline = self.outline(model, &pose, turns, screen);
-                    outline.map_err(|error| {
-                        **failed.borrow_mut() = Some(error);
-                        ArrangeError::Empty
-                    })
-                }
-            })
-            .collect();
+        let outline_of = |model| {
+            let pose = self.pose_of(options, job, model);
+            move |turns| self.outline(model, &pose, turns, screen)
+        };
+        let mut outlines: Vec<_> = (0..self.models.len()).map(outline_of).collect();
         let mut items = Vec::new();
         for (model, outline) in outlines.iter_mut().enumerate() {
             items.push(Item {
@@ -62,13 +49,7 @@ impl Plate {
         if items.iter().all(|item| item.copies == 0) {
             return Err(ArrangeError::Empty.into());
         }
-        let places = arrange(screen, &options.arranging, &mut items);
-        drop(items);
-        drop(outlines);
-        if let Some(error) = failed.into_inner().take() {
-            return Err(error);
-        }
-        Ok(places?)
+        arrange(screen, &options.arranging, &mut items)
     }
 
     /// Extent of a model in x, y and z before turns.
@@ -153,12 +134,7 @@ impl Plate {
         places: &[Place],
     ) -> Result<Vec<ArrangeError>, Error> {
         let pixels = screen.by_pixels();
-        let mut kinds: Vec<(usize, u32)> = places
-            .iter()
-            .map(|place| (place.item, place.turns))
-            .collect();
-        kinds.sort_unstable();
-        kinds.dedup();
+        let kinds = kinds(places);
         let outlines = kinds.iter().map(|&(model, turns)| {
             self.outline(model, &self.pose_of(options, job, model), turns, &pixels)
         });
@@ -197,4 +173,13 @@ pub(super) fn placement(screen: &Screen, place: &Place) -> Placement {
         y_mm,
         turn_deg: place.turns * TURN_DEG,
     }
+}
+
+/// The models and turns in which copies stand, in ascending order.
+pub(super) fn kinds(places: &[Place]) -> Vec<(usize, u32)> {
+    let kinds = places.iter().map(|place| (place.item, place.turns));
+    let mut kinds: Vec<_> = kinds.collect();
+    kinds.sort_unstable();
+    kinds.dedup();
+    kinds
 }

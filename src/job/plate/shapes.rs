@@ -8,6 +8,7 @@ use super::super::Timings;
 use super::super::measured::Measured;
 use super::super::parts::{Job, Sampling};
 use super::super::stage::{Stage, StageProgress, ms_since, report};
+use super::places::kinds;
 use super::{Plate, PlateOptions};
 use crate::Error;
 use crate::arrange::Place;
@@ -30,12 +31,7 @@ impl Plate {
         timings: &mut Timings,
         progress: &mut StageProgress<'_>,
     ) -> Result<(), Error> {
-        let mut kinds: Vec<(usize, u32)> = places
-            .iter()
-            .map(|place| (place.item, place.turns))
-            .collect();
-        kinds.sort_unstable();
-        kinds.dedup();
+        let kinds = kinds(places);
         let wanted: Vec<(usize, u32, Sampling)> = kinds
             .into_iter()
             .map(|(model, turns)| {
