@@ -147,6 +147,14 @@ impl Plate {
             .await?;
 
         tell(progress, Stage::Plan, 0.0)?;
+        // Measured once, however many plates a model is on.
+        let extents = if is_alone {
+            Vec::new()
+        } else {
+            let all =
+                (0..self.models.len()).map(|model| self.extent(options, &job, model, &screen));
+            all.collect::<Result<Vec<_>, _>>()?
+        };
         let plates: Vec<&[Place]> = places.chunk_by(|a, b| a.plate == b.plate).collect();
         for (number, on_plate) in plates.iter().enumerate() {
             let clock = Instant::now();
@@ -194,7 +202,7 @@ impl Plate {
             };
             let mut report = report_of(&planned, &job.output, origin, timings.clone());
             if !is_alone {
-                let plate = self.plate_report(options, &job, &screen, on_plate, &planned)?;
+                let plate = self.plate_report(options, &screen, &extents, on_plate, &planned);
                 report.plate = Some(PlateReport {
                     plate: number,
                     plates: plates.len(),

@@ -9,6 +9,15 @@ use crate::arrange::{
 use crate::model::Pose;
 use crate::order::sort_by_number;
 
+/// How large a model is, before turns about z.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Extent {
+    /// In x, y and z.
+    pub size_mm: [f64; 3],
+    /// Area of its shadow on the plate.
+    pub shadow_mm2: f64,
+}
+
 impl Plate {
     /// Where copies stand when they are arranged: for the fewest plates, then the lowest.
     ///
@@ -62,6 +71,21 @@ impl Plate {
         let pose = self.pose_of(options, job, model);
         let size = self.models[model].model.on_plate(&pose)?.bounds().size();
         Ok([size.x, size.y, pose.height_mm.unwrap_or(size.z)])
+    }
+
+    /// The extent of a model and of its shadow before turns.
+    pub(super) fn extent(
+        &self,
+        options: &PlateOptions,
+        job: &Job,
+        model: usize,
+        screen: &Screen,
+    ) -> Result<Extent, Error> {
+        let outline = self.outline(model, &self.pose_of(options, job, model), 0, screen)?;
+        Ok(Extent {
+            size_mm: self.size_mm(options, job, model)?,
+            shadow_mm2: outline.area_mm2,
+        })
     }
 
     pub(super) fn outline(

@@ -3,13 +3,11 @@
 use serde::Serialize;
 
 use super::super::Report;
-use super::super::parts::Job;
 use super::super::planned::Planned;
 use super::super::planning::{Part, Planning};
-use super::places::placement;
+use super::places::{Extent, placement};
 use super::shapes::Shape;
 use super::{ModelOptions, Placement, Plate, PlateOptions};
-use crate::Error;
 use crate::arrange::{Place, Screen};
 use crate::model::ModelFile;
 use crate::plan::Plan;
@@ -69,11 +67,11 @@ impl Plate {
     pub(super) fn plate_report(
         &self,
         options: &PlateOptions,
-        job: &Job,
         screen: &Screen,
+        extents: &[Extent],
         on_plate: &[Place],
         planned: &Planned,
-    ) -> Result<PlateReport, Error> {
+    ) -> PlateReport {
         let mut models = Vec::new();
         let mut sharers = Vec::new();
         for same in on_plate.chunk_by(|a, b| a.item == b.item) {
@@ -83,10 +81,9 @@ impl Plate {
             });
             let shapes: Vec<&Shape> = shapes.collect();
             let sampled = &shapes[0].measured.of;
-            let pose = self.pose_of(options, job, model);
             sharers.push(Sharer {
                 height_mm: sampled.height_mm,
-                shadow_mm2: self.outline(model, &pose, 0, screen)?.area_mm2,
+                shadow_mm2: extents[model].shadow_mm2,
                 copies: same.len(),
             });
             let parts = shapes
@@ -99,7 +96,7 @@ impl Plate {
                 options: options.of_model(model),
                 weights_crc32: self.models[model].weights_crc32(),
                 copies: same.len(),
-                size_mm: self.size_mm(options, job, model)?,
+                size_mm: extents[model].size_mm,
                 layers: layers_reaching(&planned.plan, sampled.height_mm),
                 resin_ml: sampled.solid.volume_mm3 / 1e3,
                 print_time_s: 0.0,
@@ -112,7 +109,7 @@ impl Plate {
         for (model, share_s) in models.iter_mut().zip(shares_s) {
             model.print_time_s = share_s;
         }
-        Ok(PlateReport {
+        PlateReport {
             plate: 0,
             plates: 0,
             models,
@@ -121,7 +118,7 @@ impl Plate {
                 .map(|place| placement(screen, place))
                 .collect(),
             spacing_mm: options.arranging.spacing_mm,
-        })
+        }
     }
 }
 
