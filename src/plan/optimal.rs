@@ -134,6 +134,7 @@ fn fewest(
     for (index, segment) in segments.iter().enumerate() {
         let preferred = Preferred::within(segment, snap_planes, 1);
         let table = match errors {
+            // Apart from the next, as asking which kind of errors these are for every layer takes twice as long.
             LayerErrors::Sum(errors) => fill_fewest(
                 |lower, upper| errors.steps_between(lower, upper),
                 segment,
