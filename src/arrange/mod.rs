@@ -12,6 +12,7 @@ mod sheet;
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
+use crate::model::TURNS;
 use crate::order::sort_by_number;
 pub use check::{Standing, problems};
 pub use error::ArrangeError;
@@ -143,10 +144,8 @@ impl Default for Arranging {
     }
 }
 
-/// Steps of 15° in a whole turn.
-pub const TURNS: u32 = 24;
-/// Degrees of a step.
-pub const TURN_DEG: u32 = 15;
+/// Degrees of a step by which copies turn.
+pub const TURN_DEG: u32 = 360 / TURNS;
 
 impl Arranging {
     /// # Errors

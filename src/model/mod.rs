@@ -18,6 +18,6 @@ pub use class::{FacetClass, FacetClasses, Winding};
 pub use edges::{Across, Neighbours};
 pub use file::ModelFile;
 pub use mesh::{Bounds, Mesh, MeshError};
-pub use pose::Pose;
 pub(crate) use pose::rotation_matrix;
+pub use pose::{Pose, TURNS};
 pub use unit::ModelUnit;

@@ -27,7 +27,7 @@ impl Pose {
     /// This pose, turned about z by so many times 15°, counter-clockwise as seen from above.
     #[must_use]
     pub fn turned(&self, turns: u32) -> Self {
-        let step = turns as usize % 24;
+        let step = (turns % TURNS) as usize;
         if step == 0 {
             return *self;
         }
@@ -35,7 +35,7 @@ impl Pose {
         let cos = if step <= 12 {
             COSINES[step]
         } else {
-            -COSINES[24 - step]
+            -COSINES[TURNS as usize - step]
         };
         let sin = COSINES[step.abs_diff(12)];
         let [x, y, z, w] = self.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]);
@@ -67,6 +67,9 @@ impl Pose {
         Ok(up.to_array())
     }
 }
+
+/// Steps of 15° in a whole turn about z.
+pub const TURNS: u32 = 24;
 
 /// The cosines of 0°, 7.5° and so on up to 90°: constants, as libraries differ in the last bit.
 const COSINES: [f64; 13] = [

@@ -4,9 +4,9 @@ use super::super::parts::{Job, Raster, Sampling};
 use super::{Placement, Plate, PlateOptions};
 use crate::Error;
 use crate::arrange::{
-    ArrangeError, Item, Outline, Place, Screen, Standing, TURN_DEG, TURNS, arrange, problems,
+    ArrangeError, Item, Outline, Place, Screen, Standing, TURN_DEG, arrange, problems,
 };
-use crate::model::Pose;
+use crate::model::{Pose, TURNS};
 use crate::order::sort_by_number;
 
 /// How large a model is, before turns about z.
