@@ -5,6 +5,7 @@ mod compare;
 #[cfg(feature = "read")]
 mod convert;
 mod error;
+mod facet_shapes;
 #[cfg(not(target_arch = "wasm32"))]
 mod front;
 mod measured;
@@ -21,6 +22,7 @@ mod resolve;
 mod sampled;
 mod slicer;
 mod stage;
+mod tolerances;
 mod verify;
 
 pub use calibration::{Calibration, Section};

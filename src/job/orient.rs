@@ -2,8 +2,9 @@
 
 use serde::Serialize;
 
+use super::facet_shapes::{Extra, shapes_of};
 use super::parts::Job;
-use super::planning::{Extra, Planning, shapes_of};
+use super::planning::Planning;
 use super::slicer::Slicer;
 use super::stage::{Stage, StageProgress};
 use super::{Error, Options, SCHEMA};

@@ -16,6 +16,8 @@ use crate::progress::Progress;
 #[derive(Debug, Clone)]
 pub struct PlannedModel {
     pub measured: Arc<Measured>,
+    /// The model, by its index in the job.
+    pub model: usize,
     /// Its own tolerance, in place of the plan's.
     pub tolerance: Option<f64>,
     /// How often it is printed.
@@ -27,6 +29,7 @@ impl PlannedModel {
     pub fn alone(measured: &Arc<Measured>) -> Self {
         Self {
             measured: Arc::clone(measured),
+            model: 0,
             tolerance: None,
             copies: 1,
         }
@@ -36,6 +39,7 @@ impl PlannedModel {
         Part {
             height_mm: self.measured.of.height_mm,
             shapes: &self.measured.shapes,
+            model: self.model,
             tolerance: self.tolerance,
             copies: self.copies,
         }
@@ -82,6 +86,7 @@ impl Planned {
     pub fn is_of(&self, models: &[PlannedModel], layering: &Layering) -> bool {
         let is_same = |(a, b): (&PlannedModel, &PlannedModel)| {
             Arc::ptr_eq(&a.measured, &b.measured)
+                && a.model == b.model
                 && a.tolerance == b.tolerance
                 && a.copies == b.copies
         };

@@ -2,22 +2,19 @@
 
 use super::measured::Measured;
 use super::parts::{Layering, Target, Thicknesses};
+use super::tolerances::{Sharing, errors_of, largest, sharing, tolerance};
 use super::{Error, Planner, PlannerReport, UniformReport};
-use crate::grid::Bins;
 use crate::ldi::LdiError;
-use crate::model::Mesh;
 use crate::plan::optimal::Objective;
 use crate::plan::preferred::{Price, SnapPlanes};
-use crate::plan::tradeoff::{self, Goal, TradeoffPoint};
+use crate::plan::tradeoff::{self, TradeoffPoint};
 use crate::plan::uniform::UniformLayers;
 use crate::plan::{Limits, Plan, PlanError, gradual, greedy, optimal, thicknesses, uniform};
-use crate::profile::facet_bins::FacetBins;
-use crate::profile::largest::{LargestError, Strictness};
-use crate::profile::normal_cones::{Cone, cones};
+use crate::profile::largest::Strictness;
 use crate::profile::shapes::Shapes;
 use crate::profile::snap_planes::{Surface, snap_planes};
-use crate::profile::{LayerErrors, Metric, Source, area, section};
-use crate::progress::Progress;
+use crate::profile::{LayerErrors, Metric, Source, area};
+use crate::progress::{Progress, silent};
 use crate::warning::Warning;
 
 /// A model that a plan is made for, alone or with others.
@@ -25,6 +22,8 @@ use crate::warning::Warning;
 pub struct Part<'a> {
     pub height_mm: f64,
     pub shapes: &'a Shapes,
+    /// The model, by its index in the job.
+    pub model: usize,
     /// Its own tolerance, in place of the plan's.
     pub tolerance: Option<f64>,
     /// How often it is printed.
@@ -37,6 +36,7 @@ impl<'a> Part<'a> {
         Self {
             height_mm,
             shapes,
+            model: 0,
             tolerance: None,
             copies: 1,
         }
@@ -160,6 +160,50 @@ impl<'a> Planning<'a> {
     /// # Errors
     /// [`Error::Plan`]; [`Error::Ldi`] if `progress` cancels.
     pub fn plan(&self, progress: &mut Progress<'_>) -> Result<Plan, Error> {
+        self.plan_as_asked(progress).map_err(|error| match error {
+            Error::Plan(error) => self.in_own_figures(error).into(),
+            error => error,
+        })
+    }
+
+    /// An error of a plan in which models have tolerances of their own, with the tolerance that prevents it, and what it would have
+    /// to be. If several do, each alone would have to be larger, and the next plan says so of the next.
+    fn in_own_figures(&self, error: PlanError) -> PlanError {
+        let Target::Tolerance(of) = self.layering.target else {
+            return error;
+        };
+        if self.parts.iter().all(|part| part.tolerance.is_none()) {
+            return error;
+        }
+        let advice_on = |errors: &LayerErrors, sharing: &Sharing| {
+            let planning = Planning {
+                parts: Vec::new(),
+                layering: self.layering,
+                height_mm: self.height_mm,
+                errors: errors.clone(),
+                exact: errors.clone(),
+                snap_planes: Vec::new(),
+                tolerance: Ok(sharing.tolerance),
+            };
+            let Err(Error::Plan(own)) = planning.plan_as_asked(&mut silent) else {
+                return None;
+            };
+            let least = own.least_tolerance()?;
+            // Beyond every tolerance: another model prevents the plan as well.
+            let is_possible = errors.to_steps(least) < u64::MAX / 2;
+            is_possible.then(|| error.of_model(sharing.model_number, sharing.tolerance, least))
+        };
+        let sharing = sharing(&self.parts, self.layering, of);
+        let both = sharing.iter().find_map(|it| advice_on(&it.errors, it));
+        let alone = || {
+            sharing
+                .iter()
+                .find_map(|it| advice_on(&it.errors_alone, it))
+        };
+        both.or_else(alone).unwrap_or(error)
+    }
+
+    fn plan_as_asked(&self, progress: &mut Progress<'_>) -> Result<Plan, Error> {
         let errors = &self.errors;
         let limits = || self.limits();
         Ok(match &self.layering.thicknesses {
@@ -353,96 +397,4 @@ impl<'a> Planning<'a> {
             points,
         )
     }
-}
-
-/// The errors of layers under a metric, with weights and with tolerances of models' own.
-fn errors_of(
-    parts: &[Part<'_>],
-    layering: &Layering,
-    metric: Metric,
-    source: Source,
-) -> LayerErrors {
-    largest(parts.iter().map(|part| {
-        let errors = part.shapes.errors(metric, source);
-        let strictness = match (part.tolerance, layering.target) {
-            (Some(own), Target::Tolerance(of)) => {
-                Strictness::new(errors.to_steps(own), errors.to_steps(of))
-            }
-            _ => Strictness::NONE,
-        };
-        (errors, strictness)
-    }))
-}
-
-/// The errors of one model as they are, or the largest over several.
-fn largest(errors: impl Iterator<Item = (LayerErrors, Strictness)>) -> LayerErrors {
-    let mut errors: Vec<_> = errors.collect();
-    match errors.pop() {
-        Some((alone, Strictness::NONE)) if errors.is_empty() => alone,
-        last => {
-            errors.extend(last);
-            LayerErrors::Largest(LargestError::new(errors))
-        }
-    }
-}
-
-/// The tolerance of the target, given or found.
-fn tolerance(errors: &LayerErrors, layering: &Layering) -> Result<f64, PlanError> {
-    let goal = match layering.target {
-        Target::Tolerance(tolerance) => return Ok(tolerance),
-        Target::AtLeast(usual) => {
-            let limits = layering.limits(usual);
-            let steps = errors.to_steps(usual);
-            if optimal::within(errors, &limits, SnapPlanes::NONE, Objective::Layers, steps)?.is_ok()
-            {
-                return Ok(usual);
-            }
-            let least = tradeoff::least_tolerance(errors, &limits, Objective::Layers);
-            return Ok(least.unwrap_or(usual));
-        }
-        Target::Layers(layers) => Goal::Layers(layers),
-        Target::Time(time_s) => Goal::Time(time_s),
-    };
-    let limits = layering.limits(0.0);
-    tradeoff::tolerance_for(errors, &limits, &layering.resin, goal)
-}
-
-/// What some metrics need besides facets by bins. The other lists stay empty.
-#[derive(Debug, Default)]
-pub struct Extra {
-    /// Areas of sections.
-    areas_mm2: Vec<f64>,
-    /// Normal cones.
-    pub cones: Vec<Cone>,
-}
-
-impl Extra {
-    /// What a metric needs, of a mesh that stands on the plate.
-    pub fn of(mesh: &Mesh, metric: Metric, bins: Bins) -> Self {
-        let mut extra = Self::default();
-        if metric.needs_areas() {
-            extra.areas_mm2 = section::exact(mesh, &[], bins);
-        }
-        if metric.needs_cones() {
-            extra.cones = cones(mesh, bins);
-        }
-        extra
-    }
-}
-
-/// The shapes from facets alone, weighted for the metric. Calls `extra` only if the metric needs any of it.
-pub fn shapes_of<E>(
-    facet_bins: &FacetBins,
-    extra: impl FnOnce() -> Result<Extra, E>,
-    layering: &Layering,
-    weights: Option<Vec<f32>>,
-) -> Result<Shapes, E> {
-    let metric = layering.metric;
-    let Extra { areas_mm2, cones } = if metric.needs_areas() || metric.needs_cones() {
-        extra()?
-    } else {
-        Extra::default()
-    };
-    let shapes = Shapes::of_facets(facet_bins, areas_mm2, cones);
-    Ok(shapes.weighed(facet_bins, None, layering.metric, weights))
 }

@@ -5,10 +5,11 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
+use super::facet_shapes::{Extra, shapes_of};
 use super::measured::Measured;
 use super::parts::{Job, Layering, Output, Sampling};
 use super::planned::{Planned, PlannedModel};
-use super::planning::{Extra, Planning, shapes_of};
+use super::planning::Planning;
 use super::print::write_print;
 use super::report::{Origin, odd_size, report_of};
 use super::sampled::{Sampled, Sampler};

@@ -110,6 +110,8 @@ pub enum PlanError {
         from_mm: f64,
         /// The top of the layer of least thickness above it, which exceeds the tolerance.
         to_mm: f64,
+        /// The model, counted from 1, if the tolerance is its own.
+        model_number: Option<usize>,
         /// The tolerance asked for, in the metric's unit.
         tolerance: f64,
         /// The least layer thickness there.
@@ -143,6 +145,8 @@ pub enum PlanError {
         from_mm: f64,
         /// The plane that they do not reach.
         to_mm: f64,
+        /// The model, counted from 1, if the tolerance is its own.
+        model_number: Option<usize>,
         /// The tolerance asked for, in the metric's unit.
         tolerance: f64,
         /// The thicknesses, ascending.
@@ -197,10 +201,58 @@ pub enum PlanError {
     Quantity(#[from] QuantityError),
 }
 
+impl PlanError {
+    /// The least tolerance that would do, if the error is that there is no plan within a tolerance.
+    pub(crate) fn least_tolerance(&self) -> Option<f64> {
+        match self {
+            Self::Infeasible {
+                least_tolerance, ..
+            }
+            | Self::ThicknessesDoNotFit {
+                least_tolerance, ..
+            } => *least_tolerance,
+            _ => None,
+        }
+    }
+
+    /// The same error with another tolerance, that of a model if it has its own.
+    pub(crate) fn of_model(&self, number: Option<usize>, own: f64, least: f64) -> Self {
+        let mut error = self.clone();
+        if let Self::Infeasible {
+            model_number,
+            tolerance,
+            least_tolerance,
+            ..
+        }
+        | Self::ThicknessesDoNotFit {
+            model_number,
+            tolerance,
+            least_tolerance,
+            ..
+        } = &mut error
+        {
+            (*model_number, *tolerance, *least_tolerance) = (number, own, Some(least));
+        }
+        error
+    }
+}
+
+/// Whose tolerance it is, as a noun and after an error.
+fn owner(model_number: Option<usize>) -> [String; 2] {
+    match model_number {
+        None => ["the tolerance".to_owned(), String::new()],
+        Some(number) => [
+            format!("the tolerance of model {number}"),
+            format!(" on model {number}"),
+        ],
+    }
+}
+
 fn infeasible_message(error: &PlanError) -> String {
     let PlanError::Infeasible {
         from_mm,
         to_mm,
+        model_number,
         tolerance,
         layer_min_mm,
         least_tolerance,
@@ -209,8 +261,9 @@ fn infeasible_message(error: &PlanError) -> String {
     else {
         return String::new();
     };
+    let [whose, on_model] = owner(*model_number);
     let ways = [
-        least_tolerance.map(|tolerance| format!("raise the tolerance to {tolerance}")),
+        least_tolerance.map(|tolerance| format!("raise {whose} to {tolerance}")),
         largest_layer_min_mm
             .map(|layer_mm| format!("lower the minimum thickness to {layer_mm} mm")),
     ];
@@ -221,7 +274,7 @@ fn infeasible_message(error: &PlanError) -> String {
         ways.join(" or ")
     };
     format!(
-        "no plan keeps every layer's error within {tolerance}: from z = {from_mm} to {to_mm} mm even a layer of \
+        "no plan keeps every layer's error{on_model} within {tolerance}: from z = {from_mm} to {to_mm} mm even a layer of \
          {layer_min_mm} mm exceeds it; {ways}"
     )
 }
@@ -230,6 +283,7 @@ fn thicknesses_message(error: &PlanError) -> String {
     let PlanError::ThicknessesDoNotFit {
         from_mm,
         to_mm,
+        model_number,
         tolerance,
         thicknesses_mm,
         least_tolerance,
@@ -238,12 +292,13 @@ fn thicknesses_message(error: &PlanError) -> String {
         return String::new();
     };
     let all: Vec<String> = thicknesses_mm.iter().map(f64::to_string).collect();
+    let [whose, on_model] = owner(*model_number);
     let way = match least_tolerance {
-        Some(tolerance) => format!("raise the tolerance to {tolerance} or add a thickness"),
+        Some(tolerance) => format!("raise {whose} to {tolerance} or add a thickness"),
         None => "add a thickness or move the planes".to_owned(),
     };
     format!(
-        "layers of {} mm do not lead from z = {from_mm} to {to_mm} mm within the tolerance of {tolerance}; {way}",
+        "layers of {} mm do not lead from z = {from_mm} to {to_mm} mm within the tolerance of {tolerance}{on_model}; {way}",
         all.join(", ")
     )
 }

@@ -50,6 +50,7 @@ pub(super) fn infeasible(
     PlanError::Infeasible {
         from_mm: mm(blocked.reached),
         to_mm: mm(blocked.next),
+        model_number: None,
         tolerance: limits.tolerance,
         layer_min_mm: mm(thinnest),
         least_tolerance: tradeoff::least_tolerance(errors, limits, objective),

@@ -60,6 +60,7 @@ pub fn of(
     Err(PlanError::ThicknessesDoNotFit {
         from_mm: bins.boundary_mm(stuck.reached),
         to_mm: bins.boundary_mm(stuck.upper),
+        model_number: None,
         tolerance: limits.tolerance,
         thicknesses_mm: set
             .into_iter()

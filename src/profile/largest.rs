@@ -40,6 +40,11 @@ impl Strictness {
         }
     }
 
+    /// That of a model whose errors count nothing up to `own` steps, and are beyond every tolerance above.
+    pub fn within_or_not(own: u64) -> Self {
+        Self { own, of: 0 }
+    }
+
     /// An error as the plan counts it. It exceeds the tolerance of the plan if and only if the error exceeds the model's own.
     fn counted(self, steps: u64) -> u64 {
         match self {

@@ -1,6 +1,8 @@
 //! What copies share: rays, plans, time.
 
-use cusp_slicer::job::{ModelOptions, PlateOptions, Slicer};
+use cusp_slicer::Error;
+use cusp_slicer::job::{ModelOptions, Options, PlateOptions, Slicer};
+use cusp_slicer::plan::PlanError;
 use cusp_slicer::profile::{Metric, Source};
 use glam::Vec3;
 
@@ -89,6 +91,85 @@ fn no_model_of_a_plate_exceeds_its_own_tolerance_and_each_alone_needs_fewer_laye
             assert!(alone.layers <= models[model].layers + 1);
         }
         assert!(models[0].layers < models[1].layers);
+    }
+}
+
+/// The model that a failure names, its tolerance, and the one that it advises.
+fn advice(error: Error) -> (Option<usize>, f64, f64) {
+    match error {
+        Error::Plan(
+            PlanError::Infeasible {
+                model_number,
+                tolerance,
+                least_tolerance: Some(least),
+                ..
+            }
+            | PlanError::ThicknessesDoNotFit {
+                model_number,
+                tolerance,
+                least_tolerance: Some(least),
+                ..
+            },
+        ) => (model_number, tolerance, least),
+        other => panic!("{other}"),
+    }
+}
+
+#[test]
+fn the_advice_on_a_tolerance_that_cannot_be_kept_works_in_the_figures_of_whom_it_names() {
+    let (ball, cone) = (solids::sphere(3.0, 4), solids::cone(3.0, 11.0, 16));
+    let of = |own: [Option<f64>; 2], tolerance: f64, thicknesses_mm: &[f64]| PlateOptions {
+        models: own
+            .map(|tolerance| ModelOptions {
+                tolerance,
+                ..ModelOptions::default()
+            })
+            .to_vec(),
+        ..job(
+            Options {
+                tolerance: Some(tolerance),
+                thicknesses_mm: thicknesses_mm.to_vec(),
+                ..options()
+            },
+            &[],
+        )
+    };
+    for thicknesses_mm in [&[][..], &[0.05, 0.1]] {
+        // The ball's tolerance alone, the job's alone, and both with one below its reach.
+        for (own, tolerance, named) in [
+            ([Some(0.01), None], 0.3, &[Some(1)][..]),
+            ([Some(0.3), Some(0.001)], 0.2, &[Some(2)]),
+            ([Some(0.3), None], 0.001, &[None]),
+            ([Some(0.01), Some(0.001)], 0.3, &[Some(1), Some(2)]),
+        ] {
+            let mut own = own;
+            let mut tolerance = tolerance;
+            let mut both = plate(&[&ball, &cone]);
+            for &expected in named {
+                let options = of(own, tolerance, thicknesses_mm);
+                let (model, stated, least) = advice(plan(&mut both, &options).unwrap_err());
+                assert_eq!(model, expected);
+                let slot = match model {
+                    Some(number) => own[number - 1].as_mut().unwrap(),
+                    None => &mut tolerance,
+                };
+                assert_eq!(stated.to_bits(), slot.to_bits());
+                // A little less does not do.
+                *slot = least * 0.999;
+                let options = of(own, tolerance, thicknesses_mm);
+                assert_eq!(advice(plan(&mut both, &options).unwrap_err()).0, model);
+                let slot = match model {
+                    Some(number) => own[number - 1].as_mut().unwrap(),
+                    None => &mut tolerance,
+                };
+                *slot = least;
+            }
+            let report = plan(&mut both, &of(own, tolerance, thicknesses_mm)).unwrap();
+            let models = &report.plates[0].plate.as_ref().unwrap().models;
+            for (model, own) in models.iter().zip(own) {
+                assert!(model.max_error <= own.unwrap_or(tolerance) + 1e-6);
+            }
+        }
     }
 }
 

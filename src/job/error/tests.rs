@@ -179,6 +179,7 @@ fn plan_errors() -> Vec<PlanError> {
         Infeasible {
             from_mm: 12.34,
             to_mm: 12.39,
+            model_number: Some(2),
             tolerance: 0.02,
             layer_min_mm: 0.05,
             least_tolerance: Some(0.0487),
@@ -188,6 +189,7 @@ fn plan_errors() -> Vec<PlanError> {
         ThicknessesDoNotFit {
             from_mm: 1.5,
             to_mm: 1.625,
+            model_number: None,
             tolerance: 0.065,
             thicknesses_mm: vec![0.05, 0.1],
             least_tolerance: None,

@@ -160,17 +160,7 @@ impl Plate {
             let clock = Instant::now();
             let standing = self.standing(on_plate);
             let known = last.iter().chain(&self.plates);
-            let models: Vec<PlannedModel> = standing
-                .iter()
-                .map(|(shape, copies)| PlannedModel {
-                    measured: Arc::clone(&shape.measured),
-                    tolerance: options
-                        .of_model(shape.model)
-                        .tolerance
-                        .filter(|_| !is_alone),
-                    copies: copies.len(),
-                })
-                .collect();
+            let models = models_of(options, &standing, is_alone);
             let layering = layering_of(options, &job, &standing, is_alone);
             let kept = known
                 .map(|it| &it.planned)
@@ -255,6 +245,22 @@ fn check_own(options: &PlateOptions, job: &Job) -> Result<(), OptionsError> {
         });
     }
     Ok(())
+}
+
+/// The models of a plate as its plan takes them.
+fn models_of(
+    options: &PlateOptions,
+    standing: &[(Shape, Vec<[i32; 2]>)],
+    is_alone: bool,
+) -> Vec<PlannedModel> {
+    let own = |model| options.of_model(model).tolerance.filter(|_| !is_alone);
+    let planned = standing.iter().map(|(shape, copies)| PlannedModel {
+        measured: Arc::clone(&shape.measured),
+        model: shape.model,
+        tolerance: own(shape.model),
+        copies: copies.len(),
+    });
+    planned.collect()
 }
 
 /// The layering of a plate: that of the options, with the height ranges of the models on it.

@@ -21,7 +21,7 @@ const failed = <Code extends ErrorCode>(code: Code, detail: ErrorDetails[Code]):
 type Ways = Pick<ErrorDetails["infeasible"], "least_tolerance" | "largest_layer_min_mm">;
 
 const infeasible = (ways: Ways): SlicerError =>
-  failed("infeasible", { from_mm: 12.34, to_mm: 12.39, tolerance: 0.02, layer_min_mm: 0.05, ...ways });
+  failed("infeasible", { from_mm: 12.34, to_mm: 12.39, model_number: null, tolerance: 0.02, layer_min_mm: 0.05, ...ways });
 
 const infeasibleAt = (patch: Partial<Settings>, detail: Ways): ReturnType<typeof explain> =>
   explain(infeasible(detail), "bunny.stl", { ...DEFAULT_SETTINGS, ...patch });

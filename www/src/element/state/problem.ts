@@ -246,7 +246,8 @@ function waysOut(
   const { scale, error: written } = METRICS[settings.metric];
   const offers: Offer[] = [];
 
-  const least = fixed.has("tolerances") ? null : detail.least_tolerance;
+  // A tolerance that a model has of its own is the page's.
+  const least = fixed.has("tolerances") || detail.model_number !== null ? null : detail.least_tolerance;
   if (least !== null) {
     const short = round.up(least * scale);
     const label = texts.offers.tolerance(written(short / scale, format));

@@ -139,8 +139,8 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "layers-do-not-fit": ({ from_mm, to_mm, layer_min_mm, layer_max_mm }) =>
     `Schichten von ${exact(layer_min_mm)} bis ${mm(layer_max_mm)} ergeben nicht die Höhe von ${exact(from_mm)} bis ${mm(to_mm)}; ` +
     "erweitern Sie den Bereich der Dicken, oder verschieben Sie die Ebenen.",
-  "thicknesses-do-not-fit": ({ from_mm, to_mm, tolerance, thicknesses_mm, least_tolerance }) =>
-    `Schichten von ${thicknesses_mm.map(mm).join(", ")} führen nicht innerhalb der Toleranz von ${exact(tolerance)} von z = ${exact(from_mm)} bis ${mm(to_mm)}; ` +
+  "thicknesses-do-not-fit": ({ from_mm, to_mm, model_number, tolerance, thicknesses_mm, least_tolerance }) =>
+    `Schichten von ${thicknesses_mm.map(mm).join(", ")} führen nicht innerhalb der Toleranz von ${exact(tolerance)}${model_number === null ? "" : ` an Modell ${count(model_number)}`} von z = ${exact(from_mm)} bis ${mm(to_mm)}; ` +
     (least_tolerance === null
       ? "fügen Sie eine Dicke hinzu, oder verschieben Sie die Ebenen."
       : `erhöhen Sie die Toleranz auf ${exact(least_tolerance)}, oder fügen Sie eine Dicke hinzu.`),
@@ -151,8 +151,8 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "bad-range": ({ from_mm, to_mm }) =>
     `Der Höhenbereich von ${exact(from_mm)} bis ${mm(to_mm)} ist leer oder überlappt einen anderen; geben Sie Bereiche aufsteigend und getrennt an.`,
   "bad-plane": ({ z_mm, height_mm }) => `Bei ${mm(z_mm)} kann in einem Modell von ${mm(height_mm)} Höhe keine Ebene liegen.`,
-  infeasible: ({ from_mm, to_mm, tolerance, layer_min_mm }, metric) =>
-    `Kein Plan hält den Fehler jeder Schicht unter ${error(metric, tolerance)}: Von z = ${exact(from_mm)} bis ${mm(to_mm)} überschreitet ihn selbst eine Schicht von ${mm(layer_min_mm)}.`,
+  infeasible: ({ from_mm, to_mm, model_number, tolerance, layer_min_mm }, metric) =>
+    `Kein Plan hält den Fehler jeder Schicht${model_number === null ? "" : ` an Modell ${count(model_number)}`} unter ${error(metric, tolerance)}: Von z = ${exact(from_mm)} bis ${mm(to_mm)} überschreitet ihn selbst eine Schicht von ${mm(layer_min_mm)}.`,
   "out-of-reach": (detail) =>
     "layers" in detail
       ? `Kein Plan hat höchstens ${count(detail.layers)} Schichten; mindestens ${count(detail.least_layers)} sind nötig.`

@@ -139,8 +139,8 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "layers-do-not-fit": ({ from_mm, to_mm, layer_min_mm, layer_max_mm }) =>
     `Layers of ${exact(layer_min_mm)} to ${mm(layer_max_mm)} do not add up to the height from ${exact(from_mm)} to ${mm(to_mm)}; ` +
     "widen the range of thicknesses or move the planes.",
-  "thicknesses-do-not-fit": ({ from_mm, to_mm, tolerance, thicknesses_mm, least_tolerance }) =>
-    `Layers of ${thicknesses_mm.map(exact).join(", ")} mm do not lead from z = ${exact(from_mm)} to ${mm(to_mm)} within the tolerance of ${exact(tolerance)}; ` +
+  "thicknesses-do-not-fit": ({ from_mm, to_mm, model_number, tolerance, thicknesses_mm, least_tolerance }) =>
+    `Layers of ${thicknesses_mm.map(exact).join(", ")} mm do not lead from z = ${exact(from_mm)} to ${mm(to_mm)} within the tolerance of ${exact(tolerance)}${model_number === null ? "" : ` on model ${count(model_number)}`}; ` +
     (least_tolerance === null
       ? "add a thickness or move the planes."
       : `raise the tolerance to ${exact(least_tolerance)} or add a thickness.`),
@@ -151,8 +151,8 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "bad-range": ({ from_mm, to_mm }) =>
     `The height range from ${exact(from_mm)} to ${mm(to_mm)} is empty or overlaps another; give ranges upward and apart.`,
   "bad-plane": ({ z_mm, height_mm }) => `There can be no plane at ${mm(z_mm)} in a model that is ${mm(height_mm)} high.`,
-  infeasible: ({ from_mm, to_mm, tolerance, layer_min_mm }, metric) =>
-    `No plan keeps every layer's error within ${error(metric, tolerance)}: from z = ${exact(from_mm)} to ${mm(to_mm)} even a layer of ${mm(layer_min_mm)} exceeds it.`,
+  infeasible: ({ from_mm, to_mm, model_number, tolerance, layer_min_mm }, metric) =>
+    `No plan keeps every layer's error${model_number === null ? "" : ` on model ${count(model_number)}`} within ${error(metric, tolerance)}: from z = ${exact(from_mm)} to ${mm(to_mm)} even a layer of ${mm(layer_min_mm)} exceeds it.`,
   "out-of-reach": (detail) =>
     "layers" in detail
       ? `No plan has at most ${count(detail.layers)} layers; it takes at least ${count(detail.least_layers)}.`

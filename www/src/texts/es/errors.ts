@@ -139,8 +139,8 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "layers-do-not-fit": ({ from_mm, to_mm, layer_min_mm, layer_max_mm }) =>
     `Las capas de ${exact(layer_min_mm)} a ${mm(layer_max_mm)} no suman la altura de ${exact(from_mm)} a ${mm(to_mm)}; ` +
     "amplíe el intervalo de espesores o mueva los planos.",
-  "thicknesses-do-not-fit": ({ from_mm, to_mm, tolerance, thicknesses_mm, least_tolerance }) =>
-    `Las capas de ${thicknesses_mm.map(mm).join(", ")} no llevan de z = ${exact(from_mm)} a ${mm(to_mm)} dentro de la tolerancia de ${exact(tolerance)}; ` +
+  "thicknesses-do-not-fit": ({ from_mm, to_mm, model_number, tolerance, thicknesses_mm, least_tolerance }) =>
+    `Las capas de ${thicknesses_mm.map(mm).join(", ")} no llevan de z = ${exact(from_mm)} a ${mm(to_mm)} dentro de la tolerancia de ${exact(tolerance)}${model_number === null ? "" : ` en el modelo ${count(model_number)}`}; ` +
     (least_tolerance === null
       ? "añada un espesor o mueva los planos."
       : `aumente la tolerancia a ${exact(least_tolerance)} o añada un espesor.`),
@@ -151,8 +151,8 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "bad-range": ({ from_mm, to_mm }) =>
     `El intervalo de altura de ${exact(from_mm)} a ${mm(to_mm)} está vacío o se solapa con otro; indique intervalos ascendentes y separados.`,
   "bad-plane": ({ z_mm, height_mm }) => `No puede haber un plano a ${mm(z_mm)} en un modelo de ${mm(height_mm)} de alto.`,
-  infeasible: ({ from_mm, to_mm, tolerance, layer_min_mm }, metric) =>
-    `Ningún plan mantiene el error de cada capa dentro de ${error(metric, tolerance)}: de z = ${exact(from_mm)} a ${mm(to_mm)} lo supera incluso una capa de ${mm(layer_min_mm)}.`,
+  infeasible: ({ from_mm, to_mm, model_number, tolerance, layer_min_mm }, metric) =>
+    `Ningún plan mantiene el error de cada capa${model_number === null ? "" : ` en el modelo ${count(model_number)}`} dentro de ${error(metric, tolerance)}: de z = ${exact(from_mm)} a ${mm(to_mm)} lo supera incluso una capa de ${mm(layer_min_mm)}.`,
   "out-of-reach": (detail) =>
     "layers" in detail
       ? `Ningún plan tiene como máximo ${count(detail.layers)} capas; hacen falta al menos ${count(detail.least_layers)}.`

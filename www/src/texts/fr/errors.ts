@@ -139,8 +139,8 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "layers-do-not-fit": ({ from_mm, to_mm, layer_min_mm, layer_max_mm }) =>
     `Des couches de ${exact(layer_min_mm)} à ${mm(layer_max_mm)} ne font pas la hauteur de ${exact(from_mm)} à ${mm(to_mm)} ; ` +
     "élargissez l’intervalle d’épaisseurs ou déplacez les plans.",
-  "thicknesses-do-not-fit": ({ from_mm, to_mm, tolerance, thicknesses_mm, least_tolerance }) =>
-    `Des couches de ${thicknesses_mm.map(mm).join(", ")} ne mènent pas de z = ${exact(from_mm)} à ${mm(to_mm)} dans la tolérance de ${exact(tolerance)} ; ` +
+  "thicknesses-do-not-fit": ({ from_mm, to_mm, model_number, tolerance, thicknesses_mm, least_tolerance }) =>
+    `Des couches de ${thicknesses_mm.map(mm).join(", ")} ne mènent pas de z = ${exact(from_mm)} à ${mm(to_mm)} dans la tolérance de ${exact(tolerance)}${model_number === null ? "" : ` sur le modèle ${count(model_number)}`} ; ` +
     (least_tolerance === null
       ? "ajoutez une épaisseur ou déplacez les plans."
       : `portez la tolérance à ${exact(least_tolerance)} ou ajoutez une épaisseur.`),
@@ -151,8 +151,8 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "bad-range": ({ from_mm, to_mm }) =>
     `L’intervalle de hauteur de ${exact(from_mm)} à ${mm(to_mm)} est vide ou en chevauche un autre ; donnez des intervalles croissants et séparés.`,
   "bad-plane": ({ z_mm, height_mm }) => `Il ne peut y avoir de plan à ${mm(z_mm)} dans un modèle de ${mm(height_mm)} de haut.`,
-  infeasible: ({ from_mm, to_mm, tolerance, layer_min_mm }, metric) =>
-    `Aucun plan ne garde l’erreur de chaque couche sous ${error(metric, tolerance)} : de z = ${exact(from_mm)} à ${mm(to_mm)}, même une couche de ${mm(layer_min_mm)} la dépasse.`,
+  infeasible: ({ from_mm, to_mm, model_number, tolerance, layer_min_mm }, metric) =>
+    `Aucun plan ne garde l’erreur de chaque couche${model_number === null ? "" : ` sur le modèle ${count(model_number)}`} sous ${error(metric, tolerance)} : de z = ${exact(from_mm)} à ${mm(to_mm)}, même une couche de ${mm(layer_min_mm)} la dépasse.`,
   "out-of-reach": (detail) =>
     "layers" in detail
       ? `Aucun plan n’a au plus ${count(detail.layers)} couches ; il en faut au moins ${count(detail.least_layers)}.`

@@ -132,8 +132,8 @@ export const errors = ({ count, exact, mm, measure, error, either }: Format): Er
   "layer-too-thick": ({ layer_mm, height_mm }) => `${mm(layer_mm)} 的层对高 ${mm(height_mm)} 的模型来说太厚。`,
   "layers-do-not-fit": ({ from_mm, to_mm, layer_min_mm, layer_max_mm }) =>
     `${exact(layer_min_mm)} 到 ${mm(layer_max_mm)} 的层无法凑成从 ${exact(from_mm)} 到 ${mm(to_mm)} 的高度；请扩大层厚范围，或移动分层面。`,
-  "thicknesses-do-not-fit": ({ from_mm, to_mm, tolerance, thicknesses_mm, least_tolerance }) =>
-    `${thicknesses_mm.map(mm).join("、")} 的层无法在公差 ${exact(tolerance)} 之内从 z = ${exact(from_mm)} 到达 ${mm(to_mm)}；` +
+  "thicknesses-do-not-fit": ({ from_mm, to_mm, model_number, tolerance, thicknesses_mm, least_tolerance }) =>
+    `${thicknesses_mm.map(mm).join("、")} 的层无法在${model_number === null ? "" : `模型 ${count(model_number)} 的`}公差 ${exact(tolerance)} 之内从 z = ${exact(from_mm)} 到达 ${mm(to_mm)}；` +
     (least_tolerance === null
       ? "请增加一种层厚，或移动分层面。"
       : `请将公差放宽到 ${exact(least_tolerance)}，或增加一种层厚。`),
@@ -144,8 +144,8 @@ export const errors = ({ count, exact, mm, measure, error, either }: Format): Er
   "bad-range": ({ from_mm, to_mm }) =>
     `从 ${exact(from_mm)} 到 ${mm(to_mm)} 的高度范围为空，或与另一范围重叠；请自下而上给出互不重叠的范围。`,
   "bad-plane": ({ z_mm, height_mm }) => `高 ${mm(height_mm)} 的模型中，${mm(z_mm)} 处不能有分层面。`,
-  infeasible: ({ from_mm, to_mm, tolerance, layer_min_mm }, metric) =>
-    `没有方案能使每层误差不超过 ${error(metric, tolerance)}：从 z = ${exact(from_mm)} 到 ${mm(to_mm)}，即使一层只有 ${mm(layer_min_mm)} 也会超出。`,
+  infeasible: ({ from_mm, to_mm, model_number, tolerance, layer_min_mm }, metric) =>
+    `没有方案能使${model_number === null ? "" : `模型 ${count(model_number)} 的`}每层误差不超过 ${error(metric, tolerance)}：从 z = ${exact(from_mm)} 到 ${mm(to_mm)}，即使一层只有 ${mm(layer_min_mm)} 也会超出。`,
   "out-of-reach": (detail) =>
     "layers" in detail
       ? `没有至多 ${count(detail.layers)} 层的方案；至少需要 ${count(detail.least_layers)} 层。`
