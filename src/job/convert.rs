@@ -191,6 +191,9 @@ impl<'a> Conversion<'a> {
             .format
             .or(printer.as_deref().map(|printer| printer.format))
             .ok_or(ConvertError::NoFormat)?;
+        if Format::FILAMENT.contains(&format) {
+            return Err(ArchiveError::NoMasks { format }.into());
+        }
 
         let (screen, flips, says_mirroring) = screen(about, printer.as_deref(), target.mirror);
         let greys = inspection.layer_values.iter();

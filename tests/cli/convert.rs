@@ -86,10 +86,36 @@ fn what_cannot_be_converted_leaves_no_file() {
         &[&print, &new, "--format", "sl1"],
         "one exposure above the bottom layers",
     );
+    let no_masks = "hold a model and its layers, and no masks; slice the model itself";
+    for format in ["prusa-3mf", "orca-3mf"] {
+        fails(&[&print, &new, "--format", format], no_masks);
+    }
     let ball = folder.path().join("ball.stl").display().to_string();
     fails(&[&ball, &new], "it is no print file");
     let half = fs::read(&print).unwrap();
     let half = model(&folder, "half.goo", &half[..half.len() / 2]);
     fails(&[&half, &new], "cut short");
     assert_eq!(names(&folder), ["ball.stl", "half.goo", "print.goo"]);
+}
+
+#[test]
+fn a_model_with_layers_is_no_print_file_and_every_command_says_so() {
+    let folder = TempDir::new().unwrap();
+    let ball = sphere(&folder);
+    let [filament, new] =
+        ["ball.3mf", "new.goo"].map(|name| folder.path().join(name).display().to_string());
+    let words = "ball.3mf: it is a 3MF model with layers for slicers of filament printers, not a print file: it has no masks; \
+                 open it in that slicer, or slice it here for a resin printer";
+    for format in ["prusa-3mf", "orca-3mf"] {
+        let sliced = on_cpu(&["slice", &ball, "-o", &filament, "--format", format]);
+        assert!(sliced.status.success());
+        for arguments in [
+            &["inspect", &filament][..],
+            &["simulate", &ball, &filament],
+            &["convert", &filament, &new],
+        ] {
+            assert_fails(&cusp(arguments), 1, words);
+        }
+    }
+    assert_eq!(names(&folder), ["ball.3mf", "ball.stl"]);
 }

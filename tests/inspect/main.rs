@@ -150,6 +150,17 @@ fn what_is_no_print_file_is_named() {
     }
     let zip = zipped(&[("readme.txt".to_owned(), b"hello".to_vec())]);
     assert_eq!(error(&zip), PrintFileError::UnknownZip);
+    let model = ("3D/3dmodel.model".to_owned(), b"<model/>".to_vec());
+    for layers in [
+        None,
+        Some("Metadata/Slic3r_PE_layer_heights_profile.txt"),
+        Some("Metadata/layer_heights_profile.txt"),
+    ] {
+        let layers_file = layers.map(|name| (name.to_owned(), b"1|0;0.2".to_vec()));
+        let files: Vec<_> = [model.clone()].into_iter().chain(layers_file).collect();
+        let has_layers = layers.is_some();
+        assert_eq!(error(&zipped(&files)), PrintFileError::Model { has_layers });
+    }
     let damaged = error(&zip[..zip.len() - 30]);
     assert!(matches!(damaged, PrintFileError::DamagedZip { .. }));
 }

@@ -53,6 +53,20 @@ pub enum PrintFileError {
          unknown; give a print file in the format {KNOWN}"
     )]
     UnknownZip,
+    /// A 3MF: a model without masks, maybe with layers for slicers of filament printers.
+    #[error(
+        "it is a 3MF model{}, not a print file: it has no masks; {}",
+        if *has_layers { " with layers for slicers of filament printers" } else { "" },
+        if *has_layers {
+            "open it in that slicer, or slice it here for a resin printer"
+        } else {
+            "slice it first"
+        }
+    )]
+    Model {
+        /// Whether it has layers, as the formats prusa-3mf and orca-3mf have.
+        has_layers: bool,
+    },
     /// A CTB that only its maker's programs and printers can read.
     #[error(
         "it is an encrypted CTB file, which cannot be read without its maker's key; save it again as plain CTB, as GOO or \

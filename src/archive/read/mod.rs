@@ -334,8 +334,24 @@ fn read_archive(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
         ("anycubic_photon_resins.pwsp", anycubic_zip::read),
     ];
     let found = by_name.iter().find(|(name, _)| archive.has(name));
-    let (_, read) = found.ok_or(PrintFileError::UnknownZip)?;
+    let (_, read) = found.ok_or_else(|| without_masks(archive))?;
     read(archive)
+}
+
+/// Why a zip without the settings of a print file cannot be read.
+fn without_masks(archive: &Archive<'_>) -> PrintFileError {
+    /// Where slicers of filament printers look for layers.
+    const LAYERS: [&str; 2] = [
+        "Metadata/Slic3r_PE_layer_heights_profile.txt",
+        "Metadata/layer_heights_profile.txt",
+    ];
+    if archive.has("3D/3dmodel.model") {
+        PrintFileError::Model {
+            has_layers: LAYERS.iter().any(|name| archive.has(name)),
+        }
+    } else {
+        PrintFileError::UnknownZip
+    }
 }
 
 /// A length that a file states, if it is a positive number.

@@ -286,7 +286,7 @@ export class CuspPrint extends elementWith(PROPERTIES) {
       const described: PrintFileError | ReadError = isCoded(error) ? error : { code: "crash", detail: { system: said(error) } };
       this.state = { is: "failed", error: described };
       // No print file at all: whoever opened it may know better.
-      if (described.code === "unknown-kind" || described.code === "unknown-zip") this.dispatchEvent(new CustomEvent("cusp-unknown"));
+      if (["unknown-kind", "unknown-zip", "model"].includes(described.code)) this.dispatchEvent(new CustomEvent("cusp-unknown"));
     }
   }
 

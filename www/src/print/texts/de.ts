@@ -81,6 +81,10 @@ export const errors = ({ count }: Format): ErrorSentences => ({
   "unknown-kind": () => `Das ist keine lesbare Druckdatei; öffnen Sie ${KNOWN}.`,
   "damaged-zip": ({ system }) => `Das Zip ist beschädigt (${system}); kopieren oder exportieren Sie es noch einmal.`,
   "unknown-zip": () => `Dieses Zip enthält keine Einstellungen eines bekannten Formats, wie run.gcode oder manifest.json; öffnen Sie ${KNOWN}.`,
+  model: ({ has_layers }) =>
+    has_layers
+      ? "Diese 3MF ist ein Modell mit Schichten für Slicer von Filamentdruckern und hat keine Masken; öffnen Sie sie in jenem Slicer, oder öffnen Sie sie hier als Modell und schneiden Sie es für einen Harzdrucker."
+      : "Diese 3MF ist ein Modell und hat keine Masken; öffnen Sie sie als Modell und schneiden Sie es.",
   "encrypted-ctb": () =>
     "Diese CTB-Datei ist verschlüsselt und ohne den Schlüssel des Herstellers nicht lesbar; speichern Sie sie als unverschlüsseltes CTB, als GOO oder als Zip mit Masken.",
   unread: ({ kind }) =>

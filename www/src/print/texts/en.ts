@@ -82,6 +82,10 @@ export const errors = ({ count }: Format): ErrorSentences => ({
   "unknown-kind": () => `This is no print file that can be read; open ${KNOWN}.`,
   "damaged-zip": ({ system }) => `The zip is damaged (${system}); copy or export it again.`,
   "unknown-zip": () => `This zip has no settings of a known format, such as run.gcode or manifest.json; open ${KNOWN}.`,
+  model: ({ has_layers }) =>
+    has_layers
+      ? "This 3MF is a model with layers for slicers of filament printers and has no masks; open it in that slicer, or open it here as a model and slice it for a resin printer."
+      : "This 3MF is a model and has no masks; open it as a model and slice it.",
   "encrypted-ctb": () =>
     "This CTB file is encrypted and cannot be read without its maker's key; save it again as plain CTB, as GOO or as a zip of masks.",
   unread: ({ kind }) =>

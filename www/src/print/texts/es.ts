@@ -81,6 +81,10 @@ export const errors = ({ count }: Format): ErrorSentences => ({
   "unknown-kind": () => `No es un archivo de impresión que se pueda leer; abra ${KNOWN}.`,
   "damaged-zip": ({ system }) => `El zip está dañado (${system}); cópielo o expórtelo de nuevo.`,
   "unknown-zip": () => `Este zip no tiene los ajustes de ningún formato conocido, como run.gcode o manifest.json; abra ${KNOWN}.`,
+  model: ({ has_layers }) =>
+    has_layers
+      ? "Este 3MF es un modelo con capas para laminadores de impresoras de filamento y no tiene máscaras; ábralo en ese laminador, o ábralo aquí como modelo y lamínelo para una impresora de resina."
+      : "Este 3MF es un modelo y no tiene máscaras; ábralo como modelo y lamínelo.",
   "encrypted-ctb": () =>
     "Este archivo CTB está cifrado y no se puede leer sin la clave del fabricante; guárdelo como CTB sin cifrar, como GOO o como zip de máscaras.",
   unread: ({ kind }) =>

@@ -81,6 +81,10 @@ export const errors = ({ count }: Format): ErrorSentences => ({
   "unknown-kind": () => `Ce n’est pas un fichier d’impression lisible ; ouvrez ${KNOWN}.`,
   "damaged-zip": ({ system }) => `Le zip est endommagé (${system}) ; copiez-le ou exportez-le à nouveau.`,
   "unknown-zip": () => `Ce zip ne contient les réglages d’aucun format connu, comme run.gcode ou manifest.json ; ouvrez ${KNOWN}.`,
+  model: ({ has_layers }) =>
+    has_layers
+      ? "Ce 3MF est un modèle avec des couches pour les trancheurs d’imprimantes à filament et n’a pas de masques ; ouvrez-le dans ce trancheur, ou ouvrez-le ici comme modèle et tranchez-le pour une imprimante à résine."
+      : "Ce 3MF est un modèle et n’a pas de masques ; ouvrez-le comme modèle et tranchez-le.",
   "encrypted-ctb": () =>
     "Ce fichier CTB est chiffré et illisible sans la clé du fabricant ; enregistrez-le en CTB non chiffré, en GOO ou en zip de masques.",
   unread: ({ kind }) =>

@@ -77,6 +77,10 @@ export const errors = ({ count }: Format): ErrorSentences => ({
   "unknown-kind": () => `这不是可以读取的打印文件；请打开 ${KNOWN}。`,
   "damaged-zip": ({ system }) => `zip 已损坏（${system}）；请重新复制或导出。`,
   "unknown-zip": () => `这个 zip 中没有任何已知格式的设置，例如 run.gcode 或 manifest.json；请打开 ${KNOWN}。`,
+  model: ({ has_layers }) =>
+    has_layers
+      ? "此 3MF 是带有分层、供丝材打印机切片软件使用的模型，没有掩膜；请在该软件中打开，或在此作为模型打开并为树脂打印机切片。"
+      : "此 3MF 是模型，没有掩膜；请作为模型打开并切片。",
   "encrypted-ctb": () => "这个 CTB 文件已加密，没有厂商的密钥无法读取；请另存为未加密的 CTB、GOO 或蒙版 zip。",
   unread: ({ kind }) =>
     ({
