@@ -10,6 +10,8 @@ use crate::order::sort_by_number;
 pub struct Standing<'a> {
     /// The model, by its index.
     pub item: usize,
+    /// The copy of that model, by its index.
+    pub copy: usize,
     /// Its shadow at the middle of the plate.
     pub outline: &'a Outline,
     /// Columns to the right and rows downward from there.
@@ -50,38 +52,41 @@ impl Standing<'_> {
     }
 }
 
-/// What is wrong with the copies on one plate: those that extend beyond it, then those that overlap, each pair of models once.
+/// What is wrong with the copies on one plate: those that extend beyond it, then those that overlap. Each copy that overlaps
+/// another is named at least once, and there are no more overlaps than copies.
 ///
 /// Cost: quadratic in copies as far as their boxes overlap, and in the pixels of those that do.
 pub fn problems(screen: &Screen, plate: usize, copies: &[Standing<'_>]) -> Vec<ArrangeError> {
-    let mut problems = Vec::new();
-    let mut add = |problem: ArrangeError| {
-        if !problems.contains(&problem) {
-            problems.push(problem);
-        }
-    };
-    for copy in copies {
-        if !copy.is_on(screen) {
-            add(ArrangeError::Outside {
-                model_number: copy.item + 1,
-                plate_number: plate + 1,
-            });
-        }
-    }
+    let plate_number = plate + 1;
+    let outside = copies.iter().filter(|copy| !copy.is_on(screen));
+    let mut problems: Vec<_> = outside
+        .map(|copy| ArrangeError::Outside {
+            model_number: copy.item + 1,
+            copy_number: copy.copy + 1,
+            plate_number,
+        })
+        .collect();
     let mut by_left: Vec<&Standing<'_>> = copies.iter().collect();
     sort_by_number(&mut by_left, |copy| copy.pixels()[0][0] as f64);
+    let mut named = vec![false; by_left.len()];
     for (place, copy) in by_left.iter().enumerate() {
         let right = copy.pixels()[1][0];
-        let beside = by_left[place + 1..].iter();
-        for other in beside.take_while(|other| other.pixels()[0][0] < right) {
-            if copy.overlaps(other) {
-                let mut model_numbers = [copy.item + 1, other.item + 1];
-                model_numbers.sort_unstable();
-                add(ArrangeError::Collision {
-                    model_numbers,
-                    plate_number: plate + 1,
-                });
+        for other in place + 1..by_left.len() {
+            let beside = by_left[other];
+            if beside.pixels()[0][0] >= right {
+                break;
             }
+            if (named[place] && named[other]) || !copy.overlaps(beside) {
+                continue;
+            }
+            [named[place], named[other]] = [true; 2];
+            let mut both = [copy, &beside].map(|it| [it.item + 1, it.copy + 1]);
+            both.sort_unstable();
+            problems.push(ArrangeError::Collision {
+                model_numbers: both.map(|[model, _]| model),
+                copy_numbers: both.map(|[_, copy]| copy),
+                plate_number,
+            });
         }
     }
     problems

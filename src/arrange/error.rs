@@ -46,24 +46,28 @@ pub enum ArrangeError {
     },
     /// A copy extends beyond the plate.
     #[error(
-        "a copy of model {model_number} extends beyond plate {plate_number}; move it, or arrange the plate"
+        "copy {copy_number} of model {model_number} extends beyond plate {plate_number}; move it, or arrange the plate"
     )]
     #[serde(rename = "plate-outside")]
     Outside {
         /// The model, counted from 1.
         model_number: usize,
+        /// The copy of that model, counted from 1.
+        copy_number: usize,
         /// The plate, counted from 1.
         plate_number: usize,
     },
     /// Two copies overlap.
     #[error(
-        "copies of models {} and {} overlap on plate {plate_number}; move one, or arrange the plate",
-        model_numbers[0], model_numbers[1]
+        "copy {} of model {} and copy {} of model {} overlap on plate {plate_number}; move one, or arrange the plate",
+        copy_numbers[0], model_numbers[0], copy_numbers[1], model_numbers[1]
     )]
     #[serde(rename = "plate-collision")]
     Collision {
         /// The models, counted from 1.
         model_numbers: [usize; 2],
+        /// The copy of each, counted from 1.
+        copy_numbers: [usize; 2],
         /// The plate, counted from 1.
         plate_number: usize,
     },

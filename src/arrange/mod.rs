@@ -4,16 +4,16 @@
 //! Copies are placed one after the other, each at the first place that is free: far back and to the left. Places are whole cells
 //! apart, so copies share rays.
 
+mod arranging;
 mod check;
 mod error;
 mod outline;
 mod sheet;
 
 use glam::DVec2;
-use serde::{Deserialize, Serialize};
 
-use crate::model::TURNS;
 use crate::order::sort_by_number;
+pub use arranging::{Arranging, TURN_DEG};
 pub use check::{Standing, problems};
 pub use error::ArrangeError;
 pub use outline::Outline;
@@ -122,67 +122,6 @@ impl Screen {
     }
 }
 
-/// How to arrange copies.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
-#[serde(default, deny_unknown_fields)]
-pub struct Arranging {
-    /// Least distance between two copies, in millimetres.
-    pub spacing_mm: f64,
-    /// Copies may be turned about z by multiples of this many degrees, itself a multiple of 15 that divides 360; 0 leaves them
-    /// as they are. They are turned only where that saves a plate.
-    pub turn_deg: u32,
-}
-
-impl Default for Arranging {
-    fn default() -> Self {
-        Self {
-            spacing_mm: 2.0,
-            turn_deg: 45,
-        }
-    }
-}
-
-/// Degrees of a step by which copies turn.
-pub const TURN_DEG: u32 = 360 / TURNS;
-
-impl Arranging {
-    /// # Errors
-    /// [`ArrangeError::BadSpacing`], [`ArrangeError::BadTurn`].
-    pub fn check(&self) -> Result<(), ArrangeError> {
-        let Self {
-            spacing_mm,
-            turn_deg,
-        } = *self;
-        if !(0.0..=MAX_SPACING_MM).contains(&spacing_mm) {
-            return Err(ArrangeError::BadSpacing { spacing_mm });
-        }
-        if turn_deg % TURN_DEG != 0 || (turn_deg > 0 && 360 % turn_deg != 0) {
-            return Err(ArrangeError::BadTurn { turn_deg });
-        }
-        Ok(())
-    }
-
-    /// Sets of turns to try, in steps of 15°, from the fewest to the most.
-    fn turns(&self) -> Vec<Vec<u32>> {
-        let mut sets = vec![vec![0]];
-        let step = self.turn_deg / TURN_DEG;
-        if step > 0 {
-            for step in [TURNS / 4, step] {
-                let set: Vec<u32> = (0..TURNS).step_by(step as usize).collect();
-                if step % (self.turn_deg / TURN_DEG) == 0 && !sets.contains(&set) {
-                    sets.push(set);
-                }
-            }
-        }
-        sets
-    }
-}
-
-/// The greatest distance between copies that can be asked for.
-const MAX_SPACING_MM: f64 = 100.0;
-
 /// A model to be arranged.
 pub struct Item<'a, E> {
     /// How many copies.
@@ -198,6 +137,8 @@ pub struct Item<'a, E> {
 pub struct Place {
     /// The model, by its index.
     pub item: usize,
+    /// The copy of that model, by its index.
+    pub copy: usize,
     /// Turns of 15° about z, counter-clockwise as seen from above.
     pub turns: u32,
     /// Columns to the right and rows downward from the middle of the plate.
@@ -373,6 +314,7 @@ impl Arrangement {
     /// The places of all copies, those of each plate centred on it.
     fn places(&self, screen: &Screen, shapes: &[Vec<Shape>]) -> Vec<Place> {
         let mut places = Vec::new();
+        let mut placed = vec![0; shapes.len()];
         for (plate, sheet) in self.sheets.iter().enumerate() {
             let to_middle = sheet.to_middle(screen, shapes);
             let mut on_plate: Vec<Place> = sheet
@@ -380,6 +322,7 @@ impl Arrangement {
                 .iter()
                 .map(|copy| Place {
                     item: copy.item,
+                    copy: 0,
                     turns: shapes[copy.item][copy.shape].turns,
                     offset: [0, 1].map(|axis| {
                         let cells = copy.cells[axis] * i64::from(screen.cell[axis]);
@@ -389,6 +332,10 @@ impl Arrangement {
                 })
                 .collect();
             sort_by_number(&mut on_plate, |place| place.item as f64);
+            for place in &mut on_plate {
+                place.copy = placed[place.item];
+                placed[place.item] += 1;
+            }
             places.extend(on_plate);
         }
         places

@@ -1,6 +1,6 @@
 //! Where copies stand: apart from each other, on the plate, and on the fewest plates.
 
-use cusp_slicer::arrange::Arranging;
+use cusp_slicer::arrange::{ArrangeError, Arranging};
 use cusp_slicer::job::{ModelOptions, Options, Placement, Plate, PlateOptions};
 use glam::Vec3;
 
@@ -268,12 +268,66 @@ fn copies_that_overlap_or_leave_the_plate_are_found() {
     assert_eq!(codes(&[place(0, 18.0, -13.0)]), [""; 0]);
     assert_eq!(
         codes(&[place(1, 0.0, 13.5), place(1, 0.0, 13.5)]),
-        ["plate-outside", "plate-collision"]
+        ["plate-outside", "plate-outside", "plate-collision"]
     );
     assert_eq!(
         code(plate(&[&cube]).problems(&job(options(), &[1]), &[place(1, 0.0, 0.0)])),
         "plate-no-model"
     );
+}
+
+#[test]
+fn every_copy_that_overlaps_is_named_and_no_more_overlaps_than_copies() {
+    let (cube, ball) = (solids::cube(4.0), solids::sphere(2.0, 3));
+    let place = |model, plate, x_mm| Placement {
+        model,
+        plate,
+        x_mm,
+        y_mm: 0.0,
+        turn_deg: 0,
+    };
+    let problems = |placements: &[Placement]| {
+        let options = job(options(), &[1, 1]);
+        let found = plate(&[&cube, &ball]).problems(&options, placements);
+        found.unwrap()
+    };
+    // Copies are counted in the order of placements, over all plates.
+    let placements = [
+        place(0, 1, 0.0),
+        place(1, 0, 10.0),
+        place(0, 0, 0.0),
+        place(0, 0, 13.0),
+        place(1, 1, 18.5),
+        place(0, 0, -9.0),
+    ];
+    assert_eq!(
+        problems(&placements),
+        [
+            ArrangeError::Collision {
+                model_numbers: [1, 2],
+                copy_numbers: [3, 1],
+                plate_number: 1
+            },
+            ArrangeError::Outside {
+                model_number: 2,
+                copy_number: 2,
+                plate_number: 2
+            },
+        ]
+    );
+    // 60 copies in one place overlap in 1,770 pairs.
+    let crowd = problems(&vec![place(0, 0, 0.0); 60]);
+    assert!(crowd.len() < 60);
+    let mut named: Vec<usize> = crowd
+        .iter()
+        .flat_map(|problem| match problem {
+            ArrangeError::Collision { copy_numbers, .. } => copy_numbers.to_vec(),
+            other => panic!("{other:?}"),
+        })
+        .collect();
+    named.sort_unstable();
+    named.dedup();
+    assert_eq!(named, (1..=60).collect::<Vec<_>>());
 }
 
 #[test]

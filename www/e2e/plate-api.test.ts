@@ -125,6 +125,6 @@ test("cancelling a plan keeps the plate; copies that overlap are told", async ()
     slicer.dispose();
     return { problems, refused, outcome, copies: plates[0]?.report.plate?.models[0]?.copies };
   });
-  expect(found.problems).toEqual([{ code: "plate-collision", detail: { model_numbers: [1, 1], plate_number: 1 } }]);
+  expect(found.problems).toEqual([{ code: "plate-collision", detail: { model_numbers: [1, 1], copy_numbers: [1, 2], plate_number: 1 } }]);
   expect(found).toMatchObject({ refused: "plate-collision", outcome: "AbortError", copies: 2 });
 });

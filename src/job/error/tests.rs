@@ -140,8 +140,8 @@ fn arrange_errors() -> Vec<ArrangeError> {
         BadSpacing { spacing_mm: -1.5 },
         BadTurn { turn_deg: 50 },
         TooLarge { model_number: 2, size_mm: [200.5, 100.25], plate_mm: [143.75, 89.5] },
-        Outside { model_number: 3, plate_number: 2 },
-        Collision { model_numbers: [3, 4], plate_number: 2 },
+        Outside { model_number: 3, copy_number: 5, plate_number: 2 },
+        Collision { model_numbers: [3, 4], copy_numbers: [5, 1], plate_number: 2 },
         NoModel { model_number: 7, models: 3 },
         NoPlate { plate_number: 7, plates: 3 },
     )

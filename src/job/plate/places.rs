@@ -130,8 +130,11 @@ impl Plate {
         screen: &Screen,
         placements: &[Placement],
     ) -> Result<Vec<Place>, ArrangeError> {
+        let mut placed = vec![0; self.models.len()];
         let places = placements.iter().map(|placement| {
             self.check_model(placement.model)?;
+            let copy = placed[placement.model];
+            placed[placement.model] += 1;
             if placement.turn_deg % TURN_DEG != 0 {
                 return Err(ArrangeError::BadTurn {
                     turn_deg: placement.turn_deg,
@@ -139,6 +142,7 @@ impl Plate {
             }
             Ok(Place {
                 item: placement.model,
+                copy,
                 turns: placement.turn_deg / TURN_DEG % TURNS,
                 offset: screen.offset(placement.x_mm, placement.y_mm),
                 plate: placement.plate,
@@ -169,6 +173,7 @@ impl Plate {
                 let kind = kinds.binary_search(&(place.item, place.turns)).ok()?;
                 Some(Standing {
                     item: place.item,
+                    copy: place.copy,
                     outline: &outlines[kind],
                     offset: place.offset,
                 })

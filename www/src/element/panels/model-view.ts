@@ -5,7 +5,6 @@ import type { Printer } from "../../api/wire.js";
 import { languageOf, type Language } from "../../texts/index.js";
 import type { Look } from "../../view/scene/model.js";
 import type { PaletteName } from "../../view/legend/palette.js";
-import type { BuildVolume } from "../../view/scene/plate.js";
 import type { Rotation } from "../../view/scene/pose.js";
 import { heightOf } from "../../view/scene/turn.js";
 import type { Copy as Standing } from "../../view/scene/copies.js";
@@ -15,7 +14,8 @@ import type { CuspView } from "../../view/cusp-view.js";
 import type { PaintDetail, RotateDetail } from "../../view/events.js";
 import type { Tool } from "../../view/scene/keys.js";
 import type { ViewTexts } from "../../view/texts.js";
-import { PlateView } from "../parts/plate-view.js";
+import { volumeOf } from "../parts/build-volume.js";
+import { PlateView, type Shapes } from "../parts/plate-view.js";
 import { viewTexts } from "../parts/view-texts.js";
 import type { Painted } from "../events.js";
 import { define } from "../define.js";
@@ -49,8 +49,8 @@ const PROPERTIES = {
   printer: given<Printer | null>(null),
   /** The copies on the plate shown; none if the model is alone. */
   copies: given<readonly Copy[]>([]),
-  /** Those that may overlap others, or extend beyond the plate. */
-  crowded: given<ReadonlySet<Entry>>(new Set()),
+  /** The places of those that overlap others, or extend beyond the plate. */
+  crowded: given<ReadonlySet<number>>(new Set()),
   /** Fetches the positions of a model of the plate. */
   shapes: given<Shapes | null>(null),
   language: given(languageOf()),
@@ -85,11 +85,6 @@ const PROPERTIES = {
   /** The copy that was pressed last, by its place. */
   pressed: own<number | null>(null),
 };
-
-/** Fetches the positions of the models on a plate. */
-export interface Shapes {
-  positionsOf(entry: Entry): Promise<Float32Array>;
-}
 
 export class CuspModel extends elementWith(PROPERTIES) {
   /** The factor from the file's lengths to those of the model. */
@@ -397,16 +392,4 @@ export class CuspModel extends elementWith(PROPERTIES) {
     this.positions = positions;
     this.brush = { ...BRUSH, size_mm: BRUSH_PART * this.#reach };
   }
-}
-
-const volumes = new WeakMap<Printer, BuildVolume>();
-
-function volumeOf(printer: Printer | null): BuildVolume | null {
-  if (printer === null) return null;
-  let volume = volumes.get(printer);
-  if (volume === undefined) {
-    const [width_mm, depth_mm, height_mm] = printer.volume_mm;
-    volumes.set(printer, (volume = { width_mm, depth_mm, height_mm }));
-  }
-  return volume;
 }

@@ -3,6 +3,11 @@ import { heightOf, UPRIGHT } from "../../view/scene/turn.js";
 import type { Copy as Standing, Shape } from "../../view/scene/copies.js";
 import type { Copy, Entry } from "../state/plate.js";
 
+/** Fetches the positions of the models on a plate. */
+export interface Shapes {
+  positionsOf(entry: Entry): Promise<Float32Array>;
+}
+
 interface Shaped {
   readonly shape: Shape;
   readonly pose: string;
@@ -18,7 +23,7 @@ export class PlateView {
     this.#draw = draw;
   }
 
-  show(copies: readonly Copy[], crowded: ReadonlySet<Entry>, source: { positionsOf(entry: Entry): Promise<Float32Array> } | null): void {
+  show(copies: readonly Copy[], crowded: ReadonlySet<number>, source: Shapes | null): void {
     const show = ++this.#shows;
     if (copies.length === 0 || source === null) return this.#draw([]);
     const heights = new Map(copies.map(({ entry, height_mm }) => [entry, height_mm]));
@@ -32,7 +37,7 @@ export class PlateView {
         if (show !== this.#shows) return;
         const shapes = new Map(shaped);
         this.#draw(
-          copies.map(({ entry, place, x_mm, y_mm, turn_deg }) => ({ place, x_mm, y_mm, turn_deg, shape: shapes.get(entry) as Shape, isCrowded: crowded.has(entry) })),
+          copies.map(({ entry, place, x_mm, y_mm, turn_deg }) => ({ place, x_mm, y_mm, turn_deg, shape: shapes.get(entry) as Shape, isCrowded: crowded.has(place) })),
         );
       },
       // A broken worker is reported elsewhere.

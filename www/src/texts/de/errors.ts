@@ -121,9 +121,10 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "bad-turn": ({ turn_deg }) => `Modelle drehen sich in Schritten von 0, 15, 30, 45, 60, 90, 120 oder 180°, nicht ${exact(turn_deg)}°.`,
   "plate-too-small": ({ model_number, size_mm, plate_mm }) =>
     `Modell ${count(model_number)} misst ${exact(size_mm[0])} × ${mm(size_mm[1])}, die Platte ${exact(plate_mm[0])} × ${mm(plate_mm[1])}; skalieren Sie es, oder wählen Sie eine andere Orientierung oder einen anderen Drucker.`,
-  "plate-outside": ({ model_number, plate_number }) => `Eine Kopie von Modell ${count(model_number)} ragt über Platte ${count(plate_number)} hinaus; verschieben Sie sie, oder ordnen Sie die Platte an.`,
-  "plate-collision": ({ model_numbers, plate_number }) =>
-    `Kopien der Modelle ${count(model_numbers[0])} und ${count(model_numbers[1])} überschneiden sich auf Platte ${count(plate_number)}; verschieben Sie eine, oder ordnen Sie die Platte an.`,
+  "plate-outside": ({ model_number, copy_number, plate_number }) =>
+    `Kopie ${count(copy_number)} von Modell ${count(model_number)} ragt über Platte ${count(plate_number)} hinaus; verschieben Sie sie, oder ordnen Sie die Platte an.`,
+  "plate-collision": ({ model_numbers, copy_numbers, plate_number }) =>
+    `Kopie ${count(copy_numbers[0])} von Modell ${count(model_numbers[0])} und Kopie ${count(copy_numbers[1])} von Modell ${count(model_numbers[1])} überschneiden sich auf Platte ${count(plate_number)}; verschieben Sie eine, oder ordnen Sie die Platte an.`,
   "plate-no-model": ({ model_number, models }) => `Es gibt kein Modell ${count(model_number)}; die Platte hat ${count(models)}.`,
   "no-such-plate": ({ plate_number, plates }) => `Es gibt keine Platte ${count(plate_number)}; es sind ${count(plates)}.`,
   "too-many-bins": ({ height_mm, bin_mm }) =>

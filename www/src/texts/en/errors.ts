@@ -122,9 +122,10 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "bad-turn": ({ turn_deg }) => `Models turn in steps of 0, 15, 30, 45, 60, 90, 120 or 180°, not ${exact(turn_deg)}°.`,
   "plate-too-small": ({ model_number, size_mm, plate_mm }) =>
     `Model ${count(model_number)} is ${exact(size_mm[0])} × ${mm(size_mm[1])}, and the plate ${exact(plate_mm[0])} × ${mm(plate_mm[1])}; scale it, or choose another orientation or printer.`,
-  "plate-outside": ({ model_number, plate_number }) => `A copy of model ${count(model_number)} extends beyond plate ${count(plate_number)}; move it, or arrange the plate.`,
-  "plate-collision": ({ model_numbers, plate_number }) =>
-    `Copies of models ${count(model_numbers[0])} and ${count(model_numbers[1])} overlap on plate ${count(plate_number)}; move one, or arrange the plate.`,
+  "plate-outside": ({ model_number, copy_number, plate_number }) =>
+    `Copy ${count(copy_number)} of model ${count(model_number)} extends beyond plate ${count(plate_number)}; move it, or arrange the plate.`,
+  "plate-collision": ({ model_numbers, copy_numbers, plate_number }) =>
+    `Copy ${count(copy_numbers[0])} of model ${count(model_numbers[0])} and copy ${count(copy_numbers[1])} of model ${count(model_numbers[1])} overlap on plate ${count(plate_number)}; move one, or arrange the plate.`,
   "plate-no-model": ({ model_number, models }) => `There is no model ${count(model_number)}; the plate has ${count(models)}.`,
   "no-such-plate": ({ plate_number, plates }) => `There is no plate ${count(plate_number)}; there are ${count(plates)}.`,
   "too-many-bins": ({ height_mm, bin_mm }) => `${mm(height_mm)} in bins of ${mm(bin_mm)} are too many; choose a larger bin.`,

@@ -120,9 +120,10 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "bad-turn": ({ turn_deg }) => `Los modelos giran en pasos de 0, 15, 30, 45, 60, 90, 120 o 180°, no ${exact(turn_deg)}°.`,
   "plate-too-small": ({ model_number, size_mm, plate_mm }) =>
     `El modelo ${count(model_number)} mide ${exact(size_mm[0])} × ${mm(size_mm[1])}, y la placa ${exact(plate_mm[0])} × ${mm(plate_mm[1])}; cambie su escala, o elija otra orientación u otra impresora.`,
-  "plate-outside": ({ model_number, plate_number }) => `Una copia del modelo ${count(model_number)} sobresale de la placa ${count(plate_number)}; muévala, o distribuya la placa.`,
-  "plate-collision": ({ model_numbers, plate_number }) =>
-    `Copias de los modelos ${count(model_numbers[0])} y ${count(model_numbers[1])} se superponen en la placa ${count(plate_number)}; mueva una, o distribuya la placa.`,
+  "plate-outside": ({ model_number, copy_number, plate_number }) =>
+    `La copia ${count(copy_number)} del modelo ${count(model_number)} sobresale de la placa ${count(plate_number)}; muévala, o distribuya la placa.`,
+  "plate-collision": ({ model_numbers, copy_numbers, plate_number }) =>
+    `La copia ${count(copy_numbers[0])} del modelo ${count(model_numbers[0])} y la copia ${count(copy_numbers[1])} del modelo ${count(model_numbers[1])} se superponen en la placa ${count(plate_number)}; mueva una, o distribuya la placa.`,
   "plate-no-model": ({ model_number, models }) => `No hay modelo ${count(model_number)}; la placa tiene ${count(models)}.`,
   "no-such-plate": ({ plate_number, plates }) => `No hay placa ${count(plate_number)}; hay ${count(plates)}.`,
   "too-many-bins": ({ height_mm, bin_mm }) =>

@@ -120,9 +120,10 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "bad-turn": ({ turn_deg }) => `Les modèles tournent par pas de 0, 15, 30, 45, 60, 90, 120 ou 180°, et non ${exact(turn_deg)}°.`,
   "plate-too-small": ({ model_number, size_mm, plate_mm }) =>
     `Le modèle ${count(model_number)} mesure ${exact(size_mm[0])} × ${mm(size_mm[1])}, et le plateau ${exact(plate_mm[0])} × ${mm(plate_mm[1])} ; changez son échelle, ou choisissez une autre orientation ou une autre imprimante.`,
-  "plate-outside": ({ model_number, plate_number }) => `Une copie du modèle ${count(model_number)} dépasse du plateau ${count(plate_number)} ; déplacez-la, ou disposez le plateau.`,
-  "plate-collision": ({ model_numbers, plate_number }) =>
-    `Des copies des modèles ${count(model_numbers[0])} et ${count(model_numbers[1])} se chevauchent sur le plateau ${count(plate_number)} ; déplacez-en une, ou disposez le plateau.`,
+  "plate-outside": ({ model_number, copy_number, plate_number }) =>
+    `La copie ${count(copy_number)} du modèle ${count(model_number)} dépasse du plateau ${count(plate_number)} ; déplacez-la, ou disposez le plateau.`,
+  "plate-collision": ({ model_numbers, copy_numbers, plate_number }) =>
+    `La copie ${count(copy_numbers[0])} du modèle ${count(model_numbers[0])} et la copie ${count(copy_numbers[1])} du modèle ${count(model_numbers[1])} se chevauchent sur le plateau ${count(plate_number)} ; déplacez-en une, ou disposez le plateau.`,
   "plate-no-model": ({ model_number, models }) => `Il n’y a pas de modèle ${count(model_number)} ; le plateau en a ${count(models)}.`,
   "no-such-plate": ({ plate_number, plates }) => `Il n’y a pas de plateau ${count(plate_number)} ; il y en a ${count(plates)}.`,
   "too-many-bins": ({ height_mm, bin_mm }) =>

@@ -117,9 +117,10 @@ export const errors = ({ count, exact, mm, measure, error, either }: Format): Er
   "bad-turn": ({ turn_deg }) => `模型的旋转步长为 0、15、30、45、60、90、120 或 180°，而不是 ${exact(turn_deg)}°。`,
   "plate-too-small": ({ model_number, size_mm, plate_mm }) =>
     `模型 ${count(model_number)} 为 ${exact(size_mm[0])} × ${mm(size_mm[1])}，而平台为 ${exact(plate_mm[0])} × ${mm(plate_mm[1])}；请缩小它，或选择其他朝向或打印机。`,
-  "plate-outside": ({ model_number, plate_number }) => `模型 ${count(model_number)} 的一个副本超出了平台 ${count(plate_number)}；请移动它，或排列平台。`,
-  "plate-collision": ({ model_numbers, plate_number }) =>
-    `模型 ${count(model_numbers[0])} 与 ${count(model_numbers[1])} 的副本在平台 ${count(plate_number)} 上重叠；请移动其中一个，或排列平台。`,
+  "plate-outside": ({ model_number, copy_number, plate_number }) =>
+    `模型 ${count(model_number)} 的第 ${count(copy_number)} 个副本超出了平台 ${count(plate_number)}；请移动它，或排列平台。`,
+  "plate-collision": ({ model_numbers, copy_numbers, plate_number }) =>
+    `模型 ${count(model_numbers[0])} 的第 ${count(copy_numbers[0])} 个副本与模型 ${count(model_numbers[1])} 的第 ${count(copy_numbers[1])} 个副本在平台 ${count(plate_number)} 上重叠；请移动其中一个，或排列平台。`,
   "plate-no-model": ({ model_number, models }) => `没有模型 ${count(model_number)}；平台上有 ${count(models)} 个。`,
   "no-such-plate": ({ plate_number, plates }) => `没有平台 ${count(plate_number)}；共有 ${count(plates)} 个。`,
   "too-many-bins": ({ height_mm, bin_mm }) => `${mm(height_mm)} 按 ${mm(bin_mm)} 划分的区间过多；请选择更大的区间。`,

@@ -1,6 +1,6 @@
 import { Ray, Vector3 } from "three";
 import { expect, test } from "vitest";
-import { crowdedOf, matrixOf, sizeOfAll, type Copy, type Shape } from "./copies.js";
+import { matrixOf, sizeOfAll, type Copy, type Shape } from "./copies.js";
 import { hitBy } from "./moving.js";
 import type { Triple } from "./pose.js";
 
@@ -8,9 +8,7 @@ const shape: Shape = { positions: new Float32Array(0), rotation: [0, 0, 0, 1], s
 const size: Triple = [10, 4, 6];
 const sizeOf = (): Triple => size;
 
-const copy = (place: number, x_mm: number, y_mm: number, turn_deg = 0, isCrowded = true): Copy => ({ place, shape, x_mm, y_mm, turn_deg, isCrowded });
-
-const places = (copies: Iterable<Copy>): number[] => [...copies].map(({ place }) => place);
+const copy = (place: number, x_mm: number, y_mm: number, turn_deg = 0): Copy => ({ place, shape, x_mm, y_mm, turn_deg, isCrowded: false });
 
 test("a copy is turned counter-clockwise about its own middle, then moved", () => {
   const corner = new Vector3(5, 2, 0).applyMatrix4(matrixOf(copy(0, 100, 50, 90)));
@@ -21,18 +19,6 @@ test("the box of all copies is about the middle of the plate", () => {
   expect(sizeOfAll([copy(0, -20, 3)], sizeOf)).toEqual([50, 10, 6]);
   const [x, y] = sizeOfAll([copy(0, -20, 3, 90)], sizeOf);
   expect([x, y].map(Math.round)).toEqual([44, 16]);
-});
-
-test("of the models that the core names, the copies whose boxes overlap are crowded", () => {
-  const copies = [copy(0, 0, 0), copy(1, 9, 3), copy(2, 30, 0), copy(3, 1, 1, 0, false)];
-  expect(places(crowdedOf(copies, sizeOf, null))).toEqual([0, 1]);
-});
-
-test("a copy beyond the plate's edge is crowded, also by its turn alone", () => {
-  const plate_mm = [40, 12] as const;
-  expect(places(crowdedOf([copy(0, 0, 3.9)], sizeOf, plate_mm))).toEqual([]);
-  expect(places(crowdedOf([copy(0, 0, 3.9, 90)], sizeOf, plate_mm))).toEqual([0]);
-  expect(places(crowdedOf([copy(0, 15.1, 0)], sizeOf, plate_mm))).toEqual([0]);
 });
 
 test("a ray meets the nearest copy, also a turned one", () => {

@@ -22,7 +22,7 @@ export interface Copy {
   readonly y_mm: number;
   /** Counter-clockwise as seen from above. */
   readonly turn_deg: number;
-  /** Whether a copy of its model overlaps another, or extends beyond the plate: which one, the boxes say. */
+  /** Whether it overlaps another, or extends beyond the plate. */
   readonly isCrowded: boolean;
 }
 
@@ -71,12 +71,12 @@ export class Copies {
   }
 
   /** Shows these copies, except the one at `selected`. */
-  set(copies: readonly Copy[], selected: number | null, crowded: ReadonlySet<Copy> = new Set()): void {
+  set(copies: readonly Copy[], selected: number | null): void {
     this.group.clear();
     for (const copy of copies) {
       if (copy.place === selected) continue;
       const { geometry, matrix } = this.#of(copy.shape);
-      const mesh = new Mesh(geometry, crowded.has(copy) ? this.#crowded : this.#plain);
+      const mesh = new Mesh(geometry, copy.isCrowded ? this.#crowded : this.#plain);
       mesh.matrixAutoUpdate = false;
       mesh.matrix.copy(matrixOf(copy)).multiply(matrix);
       this.group.add(mesh);
@@ -117,16 +117,6 @@ function boxOf({ shape, turn_deg }: Copy, sizeOf: (shape: Shape) => Triple): rea
   const [width, depth] = sizeOf(shape);
   const [across, along] = [Math.abs(Math.cos((turn_deg * Math.PI) / 180)), Math.abs(Math.sin((turn_deg * Math.PI) / 180))];
   return [across * width + along * depth, along * width + across * depth];
-}
-
-/** The copies of crowded models whose boxes overlap each other, or extend beyond a plate of this width and depth. */
-export function crowdedOf(copies: readonly Copy[], sizeOf: (shape: Shape) => Triple, plate_mm: readonly [number, number] | null): ReadonlySet<Copy> {
-  const boxes = copies.filter(({ isCrowded }) => isCrowded).map((copy) => ({ copy, box: boxOf(copy, sizeOf) }));
-  const overlap = (a: (typeof boxes)[number], b: (typeof boxes)[number]): boolean =>
-    Math.abs(a.copy.x_mm - b.copy.x_mm) < (a.box[0] + b.box[0]) / 2 && Math.abs(a.copy.y_mm - b.copy.y_mm) < (a.box[1] + b.box[1]) / 2;
-  const isOut = ({ copy, box }: (typeof boxes)[number]): boolean =>
-    plate_mm !== null && (2 * Math.abs(copy.x_mm) + box[0] > plate_mm[0] || 2 * Math.abs(copy.y_mm) + box[1] > plate_mm[1]);
-  return new Set(boxes.filter((one) => isOut(one) || boxes.some((other) => other !== one && overlap(one, other))).map(({ copy }) => copy));
 }
 
 /** The smallest box about the middle of the plate that holds all copies. */

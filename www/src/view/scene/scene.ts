@@ -17,7 +17,7 @@ import {
 } from "three";
 import { Offscreen } from "./offscreen.js";
 import { Cameras, type Alignment, type Frame } from "./cameras.js";
-import { Copies, crowdedOf, matrixOf, sizeOfAll, type Copy } from "./copies.js";
+import { Copies, matrixOf, sizeOfAll, type Copy } from "./copies.js";
 import { Gizmo, type GizmoReports } from "./gizmo.js";
 import type { Tool } from "./keys.js";
 import { Model } from "./model.js";
@@ -167,11 +167,9 @@ export class Scene {
     const own = copies.find(({ place }) => place === selected);
     this.model.stand.matrix.copy(own === undefined ? new Matrix4() : matrixOf(own));
     this.model.stand.visible = copies.length === 0 || own !== undefined;
-    const volume = this.#volume;
-    const crowded = crowdedOf(copies, (shape) => this.copies.sizeOf(shape), volume === null ? null : [volume.width_mm, volume.depth_mm]);
-    this.#isCrowded = crowded.size > 0;
-    this.model.facets.material = own !== undefined && crowded.has(own) ? this.copies.crowded : this.model.material;
-    this.copies.set(copies, selected, crowded);
+    this.#isCrowded = copies.some(({ isCrowded }) => isCrowded);
+    this.model.facets.material = own?.isCrowded === true ? this.copies.crowded : this.model.material;
+    this.copies.set(copies, selected);
     this.#fitPlate();
     if (copies.length !== count) this.cameras.reset(this.#size_mm);
     this.invalidate();

@@ -1,0 +1,16 @@
+/** What the view draws of a printer. */
+import type { Printer } from "../../api/wire.js";
+import type { BuildVolume } from "../../view/scene/plate.js";
+
+const volumes = new WeakMap<Printer, BuildVolume>();
+
+/** The same object for a printer: a new one would count as a change. */
+export function volumeOf(printer: Printer | null): BuildVolume | null {
+  if (printer === null) return null;
+  let volume = volumes.get(printer);
+  if (volume === undefined) {
+    const [width_mm, depth_mm, height_mm] = printer.volume_mm;
+    volumes.set(printer, (volume = { width_mm, depth_mm, height_mm }));
+  }
+  return volume;
+}
