@@ -5,9 +5,16 @@ use tsify::Ts;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use super::{Chunks, progress_to, throw, throw_conversion};
+use crate::arrange::Arranging;
 use crate::job::{self, Placement, PlateOptions};
 use crate::js::to_js;
 use crate::profile::{Metric, Source};
+
+/// How copies are arranged if nothing else is asked for.
+#[wasm_bindgen(unchecked_return_type = "Required<Arranging>")]
+pub fn default_arranging() -> JsValue {
+    to_js(&Arranging::default())
+}
 
 /// Models that are printed together. A change of options repeats only what depends on it.
 #[wasm_bindgen]

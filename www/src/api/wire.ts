@@ -157,6 +157,7 @@ export const DEFAULTS = {
   metric: "cusp",
   minimize: "layers",
   snap: "auto",
+  arranging: { spacing_mm: 2, turn_deg: 45 },
   saliency: false,
   weight_min: 0.25,
   resin: { layer_mm: 0.05, exposure_s: 3, bottom_layers: 4, bottom_exposure_s: 30 },
