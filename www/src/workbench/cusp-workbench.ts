@@ -12,9 +12,9 @@ import { problemStyles } from "../element/parts/problem-box.js";
 import { partStyles } from "../element/parts/part.js";
 import { progressStyles } from "../element/parts/progress.js";
 import { SlicerElement } from "../element/slicer-element.js";
+import { copiesStyles } from "../element/styles/copies-styles.js";
 import { shared } from "../element/styles/shared.js";
 import { theme } from "../element/styles/theme.js";
-import { copiesStyles } from "./copies-styles.js";
 import { CuspLayerSlider } from "./layer-slider.js";
 import { WIDE_PX, type AnswerPanel, type ChoicePanel, type Sheet } from "./places.js";
 import { workbenchStyles } from "./styles.js";
@@ -50,10 +50,6 @@ export class CuspWorkbench extends SlicerElement {
   override disconnectedCallback(): void {
     super.disconnectedCallback();
     this.#resized.disconnect();
-  }
-
-  protected override get hasPlate(): boolean {
-    return true;
   }
 
   protected override layout(facts: Facts): TemplateResult {

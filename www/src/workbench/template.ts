@@ -16,6 +16,7 @@ import {
   undoButtons,
 } from "../element/bound-panels.js";
 import { isFilament } from "../api/wire.js";
+import { platePanel } from "../element/bound-plate.js";
 import type { Facts } from "../element/facts.js";
 import { modelCard, warnings } from "../element/panels/model-card.js";
 import type { PlotPlace } from "../element/panels/profile-chart.js";
@@ -26,7 +27,6 @@ import { progressBar } from "../element/parts/progress.js";
 import { MODEL_FILES } from "../element/state/choice.js";
 import type { Result } from "../element/state/result.js";
 import { ANSWERS, CHOICES, SHEETS, type AnswerPanel, type ChoicePanel, type Sheet } from "./places.js";
-import { platePanel } from "./plate.js";
 import { tabs } from "./tabs.js";
 import { workbenchWords } from "./texts/index.js";
 
@@ -201,7 +201,7 @@ function exposure({ language }: Facts, { report: { resin } }: Result): TemplateR
 
 /** Uniform layers have a thickness, and no quality to choose. */
 function quality(facts: Facts, result: Result): TemplateResult {
-  if (facts.session.plate.planned !== null) return html`<p class="quiet">${workbenchWords(facts.language).plate.quality}</p>`;
+  if (facts.session.plate.planned !== null) return html`<p class="quiet">${facts.language.texts.plate.quality}</p>`;
   if (result.report.planner === "uniform") return html`<p class="quiet">${facts.language.texts.settings.uniformHint}</p>`;
   return qualityPanel(facts, result);
 }

@@ -2,6 +2,7 @@ import type { Format } from "../format.js";
 import { orientation } from "./orientation.js";
 import { model } from "./model.js";
 import { plan } from "./plan.js";
+import { plate } from "./plate.js";
 import { problems } from "./problems.js";
 import { settings } from "./settings.js";
 import { view } from "./view.js";
@@ -16,6 +17,7 @@ export const en = (format: Format) => ({
   ...model(),
   ...settings(),
   ...plan(format),
+  ...plate(),
   ...view(format),
   ...orientation(format),
   ...problems(format),

@@ -3,6 +3,7 @@ import type { Texts } from "../index.js";
 import { orientation } from "./orientation.js";
 import { model } from "./model.js";
 import { plan } from "./plan.js";
+import { plate } from "./plate.js";
 import { problems } from "./problems.js";
 import { settings } from "./settings.js";
 import { view } from "./view.js";
@@ -13,6 +14,7 @@ export const zh = (format: Format): Texts => ({
   ...model(),
   ...settings(),
   ...plan(format),
+  ...plate(),
   ...view(format),
   ...orientation(format),
   ...problems(format),

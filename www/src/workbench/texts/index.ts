@@ -18,19 +18,6 @@ export interface WorkbenchWords {
   layer: string;
   /** Exposure of a layer of a thickness. */
   exposure: (seconds: string, thickness: string) => string;
-  plate: CopiesWords;
-}
-
-/** What the workbench says about copies before there are several: the list of models has texts of its own. */
-export interface CopiesWords {
-  add: string;
-  copies: string;
-  copiesOf: (name: string) => string;
-  fewer: string;
-  more: string;
-  arrange: string;
-  /** Instead of the choice of quality. */
-  quality: string;
 }
 
 const CATALOGUES: Readonly<Record<LanguageCode, WorkbenchWords>> = { de, en, es, fr, zh };

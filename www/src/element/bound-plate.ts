@@ -1,19 +1,18 @@
-/** What the workbench has for several models: copies, the button that adds a model, and the list, fetched with the second copy. */
+/** What layouts have for several models: copies, the button that adds a model, and the list, fetched with the second copy. */
 import { html, nothing, type TemplateResult } from "lit";
-import type { Facts } from "../element/facts.js";
-import { MODEL_FILES } from "../element/state/choice.js";
-import { FetchedPanel } from "../element/parts/part.js";
-import { copiesField } from "./copies-field.js";
-import { workbenchWords } from "./texts/index.js";
+import type { Facts } from "./facts.js";
+import { MODEL_FILES } from "./state/choice.js";
+import { FetchedPanel } from "./parts/part.js";
+import { copiesField } from "./panels/copies-field.js";
 
 const plateCode = new FetchedPanel("plate", async () => {
-  const { definePlate } = await import("./plate-panel.js");
+  const { definePlate } = await import("./panels/plate-panel.js");
   definePlate();
 });
 
 function addButton({ language, added }: Facts): TemplateResult {
   return html`<label class="button small">
-    <input class="visually-hidden" type="file" accept=${MODEL_FILES} multiple @change=${added} />${workbenchWords(language).plate.add}
+    <input class="visually-hidden" type="file" accept=${MODEL_FILES} multiple @change=${added} />${language.texts.plate.add}
   </label>`;
 }
 
@@ -24,7 +23,7 @@ export function platePanel(facts: Facts): TemplateResult | typeof nothing {
   const [only] = plate.entries;
   if (only === undefined) return nothing;
   if (!plate.isSeveral) {
-    const { copies } = workbenchWords(language).plate;
+    const { copies } = language.texts.plate;
     return html`<div class="copies-row">
       <span aria-hidden="true">${copies}</span>${copiesField(only, language, (count) => plate.setCopies(0, count))} ${addButton(facts)}
     </div>`;
@@ -32,7 +31,7 @@ export function platePanel(facts: Facts): TemplateResult | typeof nothing {
   if (!plateCode.isThere) return plateCode.instead(element, language);
   return html`<div class="copies-row">
       ${addButton(facts)}
-      <button class="small" @click=${() => plate.arrange()}>${workbenchWords(language).plate.arrange}</button>
+      <button class="small" @click=${() => plate.arrange()}>${language.texts.plate.arrange}</button>
     </div>
     <cusp-plate
     .plate=${plate}

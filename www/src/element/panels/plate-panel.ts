@@ -1,16 +1,15 @@
 /** `<cusp-plate>`: the models on the plate, their copies, how they are arranged, and the plates. */
 import { css, html, nothing, type TemplateResult } from "lit";
-import { define } from "../element/define.js";
-import type { PlatesPlan } from "../api/index.js";
-import type { ArrangeError, Arranging, Placement } from "../api/wire.js";
-import type { Entry, Plate } from "../element/state/plate.js";
-import { quaternion } from "../element/state/settings.js";
-import { shared } from "../element/styles/shared.js";
-import { languageOf, type Language } from "../texts/index.js";
-import { elementWith, given } from "../view/properties.js";
+import type { PlatesPlan } from "../../api/index.js";
+import type { ArrangeError, Arranging, Placement } from "../../api/wire.js";
+import { languageOf, type Language } from "../../texts/index.js";
+import { elementWith, given } from "../../view/properties.js";
+import { define } from "../define.js";
+import type { Entry, Plate } from "../state/plate.js";
+import { quaternion } from "../state/settings.js";
+import { copiesStyles } from "../styles/copies-styles.js";
+import { shared } from "../styles/shared.js";
 import { copiesField } from "./copies-field.js";
-import { copiesStyles } from "./copies-styles.js";
-import { plateWords } from "./texts/plate/index.js";
 
 /** Side of a thumbnail, CSS pixels. */
 const THUMBNAIL_PX = 40;
@@ -20,6 +19,9 @@ const TURNS_DEG = [0, 15, 45, 90, 180] as const;
 
 /** The largest spacing, mm: the core's. */
 const MOST_SPACING_MM = 100;
+
+/** How many problems are told in words; the view marks all. */
+const MOST_SENTENCES = 3;
 
 const UPRIGHT = [0, 0, 0, 1] as const;
 
@@ -130,12 +132,14 @@ export class CuspPlate extends elementWith(PROPERTIES) {
   override render(): TemplateResult | typeof nothing {
     const { plate, language, problems, placed } = this;
     if (plate === null) return nothing;
-    const words = plateWords(language);
-    const sentences = problems.map((problem) => sentenceOf(problem, language));
+    const words = language.texts.plate;
+    const sentences = problems.slice(0, MOST_SENTENCES).map((problem) => sentenceOf(problem, language));
+    const more = problems.length - sentences.length;
     return html`
       <h3>${words.title}</h3>
       <div aria-live="polite">
         ${sentences.map((sentence) => html`<p class="problem">${sentence}</p>`)}
+        ${more > 0 ? html`<p class="problem">${words.others(language.format.count(more))}</p>` : nothing}
         ${placed.length > 0 && problems.length === 0 ? html`<p class="quiet">${words.moved}</p>` : nothing}
       </div>
       ${this.plates > 1 ? this.#steps(plate) : nothing}
@@ -158,7 +162,7 @@ export class CuspPlate extends elementWith(PROPERTIES) {
   #item(plate: Plate, entry: Entry, place: number): TemplateResult {
     const { language, entries, planned } = this;
     const { format } = language;
-    const words = plateWords(language);
+    const words = language.texts.plate;
     const isSelected = place === this.selected;
     const share = planned?.plates.flatMap(({ report }) => report.plate?.models ?? []).find(({ model }) => model === place);
     return html`<li class=${isSelected ? "selected" : ""}>
@@ -178,7 +182,7 @@ export class CuspPlate extends elementWith(PROPERTIES) {
 
   #arranging(plate: Plate): TemplateResult {
     const { arranging, language } = this;
-    const words = plateWords(language);
+    const words = language.texts.plate;
     const spaced = ({ target }: Event): void => {
       const input = target as HTMLInputElement;
       const spacing_mm = Number(input.value.trim().replace(",", "."));
@@ -208,7 +212,7 @@ export class CuspPlate extends elementWith(PROPERTIES) {
   #steps(plate: Plate): TemplateResult {
     const { number, plates, planned, language, isBusy } = this;
     const { format } = language;
-    const words = plateWords(language);
+    const words = language.texts.plate;
     const step = (name: string, sign: string, to: number): TemplateResult => html`<button
       class="small to"
       aria-label=${name}
@@ -242,7 +246,7 @@ export class CuspPlate extends elementWith(PROPERTIES) {
     this.#drawing?.abort();
     const { signal } = (this.#drawing = new AbortController());
     try {
-      const { drawThumbnails } = await import("../view/scene/thumbnails.js");
+      const { drawThumbnails } = await import("../../view/scene/thumbnails.js");
       for (const { canvas, entry, key } of stale) {
         const positions = await plate.positionsOf(entry);
         if (signal.aborted) return;

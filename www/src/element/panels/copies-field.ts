@@ -1,12 +1,11 @@
 /** The number of copies of a model: typed, or stepped. */
 import { html, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
-import { MOST_COPIES, type Entry } from "../element/state/plate.js";
-import type { Language } from "../texts/index.js";
-import { workbenchWords } from "./texts/index.js";
+import { MOST_COPIES, type Entry } from "../state/plate.js";
+import type { Language } from "../../texts/index.js";
 
 export function copiesField({ copies, model }: Entry, language: Language, changed: (copies: number) => void): TemplateResult {
-  const { plate: words } = workbenchWords(language);
+  const words = language.texts.plate;
   const typed = ({ target }: Event): void => {
     const input = target as HTMLInputElement;
     const count = Math.round(Number(input.value.trim()));
