@@ -2,7 +2,7 @@
 import type { Locator, Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { broken } from "./axe.js";
-import { downloaded, drop, state, words } from "./browser.js";
+import { downloaded, drop, settled, state, words } from "./browser.js";
 import { pages } from "./pages.js";
 import { prism, sphere } from "./solids.js";
 
@@ -104,11 +104,43 @@ test("a copy is moved by keyboard; one that overlaps another is told, and arrang
   // To the right, into the block.
   for (let i = 0; i < 2; i++) await scene.press("Shift+ArrowRight");
   await state(page, "error");
-  expect(await page.getByRole("alert").innerText()).toContain("overlap on plate 1");
+  expect(await page.getByRole("alert").innerText()).toContain("Copy 1 of model 1 and copy 1 of model 2 overlap on plate 1");
   expect(await broken(page)).toEqual([]);
   await page.getByRole("button", { name: "Arrange", exact: true }).click();
   await state(page, "done");
   expect(await moved(page).count()).toBe(0);
+});
+
+test("copies, moves and removals are undone and redone, by keyboard and by button", async () => {
+  const page = await both();
+  await page.getByRole("button", { name: "One more: Copies of block.stl" }).click();
+  await state(page, "done");
+  await page.getByRole("radio", { name: "Move on the plate" }).click();
+  const scene = page.locator("cusp-view .scene");
+  await scene.focus();
+  await scene.press("ArrowDown");
+  await moved(page).waitFor();
+  await settled(page);
+  await page.getByRole("button", { name: "Remove block.stl" }).click();
+  await expect.poll(() => page.locator("cusp-plate").count()).toBe(0);
+  await settled(page);
+  const undo = page.getByRole("button", { name: "Undo" });
+  await undo.click();
+  await moved(page).waitFor();
+  expect(await listed(page)).toEqual(["ball.stl", "block.stl"]);
+  await settled(page);
+  await scene.focus();
+  await page.keyboard.press("Control+z");
+  await expect.poll(() => moved(page).count()).toBe(0);
+  expect(await copies(page, "block.stl").inputValue()).toBe("2");
+  await page.keyboard.press("Control+z");
+  await expect.poll(() => copies(page, "block.stl").inputValue()).toBe("1");
+  await settled(page);
+  await page.keyboard.press("Control+Shift+z");
+  await page.keyboard.press("Control+Shift+z");
+  await moved(page).waitFor();
+  expect(await copies(page, "block.stl").inputValue()).toBe("2");
+  await settled(page);
 });
 
 test("a copy is dragged with the pointer, and stays where it is released", async () => {

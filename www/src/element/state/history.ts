@@ -41,4 +41,11 @@ export class History<T> {
     this.#last = null;
     return after;
   }
+
+  /** Forgets the steps that lead to the same value, seen in another light, and those undone. */
+  forget(isSame: (before: T, after: T) => boolean, now: T): void {
+    this.#past = this.#past.filter((value, place) => !isSame(value, this.#past[place + 1] ?? now));
+    this.#future = [];
+    this.#last = null;
+  }
 }

@@ -4,7 +4,7 @@ import { fakePlate } from "../../api/fake-plate.js";
 import { createPlate } from "../../api/plate.js";
 import type { ArrangeError, Placement, PlateOptions, SlicerWorker } from "../../api/wire.js";
 import { FakeSlicer, model, planOf } from "./fake-slicer.js";
-import { MOST_COPIES, Plate, type Entry } from "./plate.js";
+import { MOST_COPIES, Plate, type Added, type Entry } from "./plate.js";
 
 /** What the fake worker was asked, and what it answers. */
 let log: string[];
@@ -12,6 +12,8 @@ let jobs: PlateOptions[];
 let answers: ArrangeError[];
 /** What the plate told its host. */
 let told: string[];
+/** The kinds of its undo steps. */
+let steps: string[];
 let slicer: FakeSlicer;
 let plate: Plate;
 
@@ -20,6 +22,7 @@ beforeEach(() => {
   jobs = [];
   answers = [];
   told = [];
+  steps = [];
   const spawn = (): WorkerHandle => {
     const fake = fakePlate(async (what) => void log.push(what));
     const planPlate: SlicerWorker["planPlate"] = (options, progress) => {
@@ -33,6 +36,7 @@ beforeEach(() => {
   slicer = Object.assign(new FakeSlicer(), { plate: createPlate(spawn, { module: null }) });
   const host = {
     changed: () => undefined,
+    changing: (kind: string | null) => void (kind !== null && steps.push(kind)),
     replate: () => told.push("replate"),
     show: () => told.push("show"),
     selected: ({ model }: Entry) => told.push(`selected ${model.name}`),
@@ -41,7 +45,9 @@ beforeEach(() => {
   plate.open({ ...model, file: new Blob(["cup"]) });
 });
 
-const ring = new File(["ring"], "ring.stl");
+const added = (name: string): Added => ({ source: new File([name], `${name}.stl`), own: {} });
+
+const ring = added("ring");
 
 test("a single copy is planned by the slicer itself, with all of its options", async () => {
   const planned = plate.plan({ tolerance: 1, height_mm: 5 }, {});
@@ -63,7 +69,7 @@ test("several are planned on the plate, each in its own pose", async () => {
 });
 
 test("a file that cannot be read leaves the models as they were, also those read before it", async () => {
-  const adding = plate.add([ring, new File(["bad"], "bad.stl")], {});
+  const adding = plate.add([ring, added("bad")], {});
   await expect(adding).rejects.toMatchObject({ code: "empty-file" });
   expect(plate.entries).toHaveLength(1);
   plate.setCopies(0, 2);
@@ -104,7 +110,7 @@ test("removing the selected model selects another; the last one stays", async ()
 });
 
 test("removing a model before the selected one keeps that selected", async () => {
-  await plate.add([ring, new File(["pin"], "pin.stl")], {});
+  await plate.add([ring, added("pin")], {});
   plate.select(2);
   plate.remove(0);
   expect(plate.entries[plate.selected]?.model.name).toBe("pin.stl");
@@ -136,10 +142,10 @@ test("a moved copy stays where it is put until the plate is arranged again", asy
 test("what is wrong with the places is asked while a copy is moved", async () => {
   plate.setCopies(0, 3);
   plate.placements = placements;
-  answers = [{ code: "plate-collision", detail: { model_numbers: [1, 1], plate_number: 1 } }];
+  answers = [{ code: "plate-collision", detail: { model_numbers: [1, 1], copy_numbers: [1, 3], plate_number: 1 } }];
   plate.move(1, { x_mm: 1 }, false);
   await expect.poll(() => plate.problems).toEqual(answers);
-  expect([...plate.crowded]).toEqual([plate.entries[0]]);
+  expect([...plate.crowded]).toEqual([0, 2]);
 });
 
 test("another plate is shown without planning again, and its masks and file are its own", async () => {
@@ -154,4 +160,18 @@ test("another plate is shown without planning again, and its masks and file are 
   expect(name).toBe("plate-2-cusp.uvj");
   plate.show(7);
   expect(plate.number).toBe(1);
+});
+
+test("a model that comes back between others is read again with those after it, in their order", async () => {
+  await plate.add([ring, added("pin")], {});
+  await plate.plan({ tolerance: 1 }, {});
+  const { state } = plate;
+  plate.remove(1);
+  await plate.plan({ tolerance: 1 }, {});
+  expect(log.at(-1)).toBe("plan 1 of cup pin, 1 1 copies");
+  expect(plate.restore(state, { pose: { rotation: "", height: "" } })).toBe(true);
+  await plate.plan({ tolerance: 1 }, {});
+  expect(log.at(-1)).toBe("plan 1 of cup ring pin, 1 1 1 copies");
+  expect(plate.restore(state, { pose: { rotation: "", height: "" } })).toBe(false);
+  expect(steps).toEqual(["add", expect.stringMatching(/^remove /)]);
 });

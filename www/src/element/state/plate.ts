@@ -2,23 +2,51 @@
  * The models of a session, of which one is selected. It stands between the session and the slicer: a single copy of one model goes
  * the slicer's own way, several go to its plate, and the session shows the plan of one plate as it shows that of a model.
  */
-import { SCHEMA, type Mask, type Model, type Plan, type PlateModel, type PlatesPlan, type PrintFile, type Watch } from "../../api/index.js";
+import { SCHEMA, type Mask, type Model, type Plan, type PlatesPlan, type PrintFile, type Watch } from "../../api/index.js";
+import type { Source } from "../../api/source.js";
+import { DEFAULTS } from "../../api/wire.js";
 import type { ArrangeError, Arranging, ModelOptions, Options, Placement, Tradeoff } from "../../api/wire.js";
+import { Brought } from "./brought.js";
+import { placesOf } from "./crowded.js";
 import type { SlicerCalls } from "./host.js";
-import type { Settings } from "./settings.js";
+import { quaternion, rotationText, type Settings } from "./settings.js";
 
 /** What the settings say about the selected model alone. */
 export type Pose = Pick<Settings, "rotation" | "height">;
 
+/** The same as options. */
+export type Own = Pick<ModelOptions, "rotation" | "height_mm">;
+
+/** A pose as the settings have it and, where these are valid, as options. */
+export interface Posed {
+  readonly pose: Pose;
+  readonly own?: Own;
+}
+
+/** A model to add, in a pose and with copies of its own. */
+export interface Added {
+  readonly source: Source;
+  readonly own: Own & { readonly copies?: number };
+  /** That of the source if absent. */
+  readonly name?: string;
+}
+
 /** A model of the session. */
-export interface Entry {
+export interface Entry extends Required<Posed> {
   readonly key: number;
   readonly model: Model;
   readonly copies: number;
-  /** Its pose, as the settings have it while it is selected, and as options. */
-  readonly pose: Pose;
-  readonly own: Pick<ModelOptions, "rotation" | "height_mm">;
   readonly weights: Float32Array | null;
+}
+
+/** The models, copies and places that undo goes back to. */
+export interface PlateState {
+  /** Tells the models from those that were opened before. */
+  readonly job: number;
+  readonly entries: readonly Entry[];
+  readonly selected: number;
+  readonly arranging: Required<Arranging>;
+  readonly placed: readonly Placement[];
 }
 
 /** A copy on the plate shown. */
@@ -35,6 +63,8 @@ export interface Copy {
 
 export interface PlateHost {
   changed(): void;
+  /** Models, copies or places are about to change; `kind` is that of an undo step, and null if the change is none. */
+  changing(kind: string | null): void;
   /** The models, their copies or their places have changed: they are to be planned. */
   replate(): void;
   /** Another plate is to be shown. */
@@ -43,17 +73,8 @@ export interface PlateHost {
   selected(entry: Entry): void;
 }
 
-/** What the slicer's plate has of an entry. */
-interface There {
-  readonly id: number;
-  own: string;
-  weights: Float32Array | null;
-}
-
 /** The most copies of a model. */
 export const MOST_COPIES = 1000;
-
-const UPRIGHT: Pose = { rotation: "", height: "" };
 
 export class Plate {
   entries: readonly Entry[] = [];
@@ -61,7 +82,7 @@ export class Plate {
   selected = 0;
   /** The plate shown, from 0. */
   number = 0;
-  arranging: Required<Arranging> = { spacing_mm: 2, turn_deg: 45 };
+  arranging: Required<Arranging> = DEFAULTS.arranging;
   /** Where copies stand by hand; empty: as they are arranged. */
   placed: readonly Placement[] = [];
   /** Where copies stand in the plan or by hand. */
@@ -70,22 +91,26 @@ export class Plate {
   problems: readonly ArrangeError[] = [];
   readonly #host: PlateHost;
   readonly #slicer: SlicerCalls;
-  readonly #there = new Map<number, There>();
+  readonly #brought: Brought;
   #keys = 0;
+  #job = 0;
+  /** Whether a copy is being moved and has not been released. */
+  #isMoving = false;
+  #drags = 0;
   /** The last answers of `copies` and `crowded`: a new object would count as a change. */
   #copies: { entries: unknown; placements: unknown; number: number; planned: unknown; copies: readonly Copy[] } = {
     ...{ entries: null, placements: null, number: 0, planned: null },
     copies: [],
   };
-  #crowded: { entries: unknown; problems: unknown; those: ReadonlySet<Entry> } = { entries: null, problems: null, those: new Set() };
+  #crowded: { placements: unknown; problems: unknown; places: ReadonlySet<number> } = { placements: null, problems: null, places: new Set() };
   #options: Options = {};
   #isAsking = false;
   #asked: readonly Placement[] | null = null;
-  readonly #positions = new Map<number, Promise<Float32Array>>();
 
   constructor(host: PlateHost, slicer: SlicerCalls) {
     this.#host = host;
     this.#slicer = slicer;
+    this.#brought = new Brought(slicer);
   }
 
   /** Whether the job is more than one copy of one model. */
@@ -116,56 +141,49 @@ export class Plate {
     });
   }
 
-  /** The models that problems name: which of their copies it is, their boxes say. */
-  get crowded(): ReadonlySet<Entry> {
-    const { entries, problems } = this;
-    if (this.#crowded.entries === entries && this.#crowded.problems === problems) return this.#crowded.those;
-    const those = this.#crowdedNow();
-    this.#crowded = { entries, problems, those };
-    return those;
-  }
-
-  #crowdedNow(): ReadonlySet<Entry> {
-    const numbers = this.problems.flatMap((problem) => {
-      if (problem.code === "plate-outside") return [problem.detail.model_number];
-      return problem.code === "plate-collision" ? problem.detail.model_numbers : [];
-    });
-    return new Set(numbers.flatMap((number) => this.entries[number - 1] ?? []));
+  /** The places of the copies that problems name. */
+  get crowded(): ReadonlySet<number> {
+    const { placements, problems } = this;
+    if (this.#crowded.placements === placements && this.#crowded.problems === problems) return this.#crowded.places;
+    const places = placesOf(problems, placements);
+    this.#crowded = { placements, problems, places };
+    return places;
   }
 
   /** Starts again with one model. */
   open(model: Model): void {
-    for (const { key } of this.entries) this.#leave(key);
-    this.entries = [this.#entryOf(model)];
+    this.#job++;
+    this.#take([this.#entryOf(model)]);
     this.selected = 0;
     this.#forget();
   }
 
   /** Reads models and adds them after the others: all, or on a failure none. Returns the new ones. */
-  async add(files: readonly File[], watch: Watch): Promise<readonly Entry[]> {
-    const read: Entry[] = [];
+  async add(added: readonly Added[], watch: Watch): Promise<readonly Entry[]> {
+    const entries: Entry[] = [];
     try {
-      await this.#bring(watch);
-      for (const file of files) {
-        const { id, name, info } = await this.#slicer.plate.add(file, {}, watch);
-        const entry = this.#entryOf({ schema: SCHEMA, name, file, info });
-        this.#there.set(entry.key, { id, own: "{}", weights: null });
-        read.push(entry);
+      await this.#brought.bring(this.entries, watch);
+      for (const { source, own, name } of added) {
+        const { id, ...read } = await this.#slicer.plate.add(source, {}, name === undefined ? watch : { ...watch, name });
+        const entry = this.#entryOf({ schema: SCHEMA, name: read.name, file: read.file, info: read.info }, own);
+        this.#brought.note(entry, id);
+        entries.push(entry);
       }
     } catch (error) {
-      for (const { key } of read) this.#leave(key);
+      for (const entry of entries) this.#brought.leave(entry);
       throw error;
     }
-    this.entries = [...this.entries, ...read];
+    this.#host.changing("add");
+    this.entries = [...this.entries, ...entries];
     this.#forget();
-    return read;
+    return entries;
   }
 
   remove(place: number): void {
     const entry = this.entries[place];
     if (entry === undefined || this.entries.length < 2) return;
-    this.#leave(entry.key);
-    this.entries = this.entries.filter((_, other) => other !== place);
+    this.#host.changing(`remove ${entry.key}`);
+    this.#take(this.entries.filter((_, other) => other !== place));
     this.#forget();
     if (place < this.selected) this.selected--;
     else if (place === this.selected) {
@@ -178,8 +196,9 @@ export class Plate {
 
   setCopies(place: number, copies: number): void {
     const entry = this.entries[place];
-    const within = Math.min(Math.max(1, Math.round(copies)), MOST_COPIES);
+    const within = countOf(copies);
     if (entry === undefined || Number.isNaN(within) || within === entry.copies) return;
+    this.#host.changing(`copies ${entry.key}`);
     this.#change(place, { copies: within });
     this.#forget();
     this.#host.replate();
@@ -187,17 +206,48 @@ export class Plate {
 
   select(place: number): void {
     if (place === this.selected || this.entries[place] === undefined) return;
+    this.#host.changing(null);
     this.selected = place;
     this.#tellSelected();
   }
 
-  /** Keeps what the settings and the brush say about the selected model. */
-  keep(kept: Partial<Pick<Entry, "pose" | "own" | "weights">>): void {
+  /** Keeps what settings, brush and page say about the selected model. */
+  keep(kept: Partial<Omit<Entry, "key" | "model">>): void {
     this.#change(this.selected, kept);
+  }
+
+  /** What undo goes back to. */
+  get state(): PlateState {
+    const { entries, selected, arranging, placed } = this;
+    return { job: this.#job, entries, selected, arranging, placed };
+  }
+
+  /** Goes back to a state, with this pose of the model selected then. False if that is how things are. */
+  restore(state: PlateState, posed: Posed): boolean {
+    const { job, entries, selected, arranging, placed } = state;
+    const chosen = entries[selected];
+    if (job !== this.#job || chosen === undefined) return false;
+    const isSame = entries.length === this.entries.length && entries.every(({ key, copies }, i) => key === this.entries[i]?.key && copies === this.entries[i].copies);
+    const isSelected = chosen.key === this.entries[this.selected]?.key;
+    if (isSame && isSelected && arranging === this.arranging && placed === this.placed) return false;
+    const { number } = this;
+    // What was painted has steps of its own.
+    const painted = new Map(this.entries.map(({ key, weights }) => [key, weights]));
+    this.#take(entries.map((entry) => ({ ...entry, weights: painted.has(entry.key) ? (painted.get(entry.key) ?? null) : entry.weights })));
+    this.selected = selected;
+    this.keep(posed);
+    this.arranging = arranging;
+    this.#forget();
+    this.placed = this.placements = placed;
+    if (placed.length > 0) this.number = Math.min(number, this.plates - 1);
+    if (isSelected) this.#host.replate();
+    else this.#tellSelected();
+    return true;
   }
 
   /** Arranges all copies again, also those that were moved. */
   arrange(arranging: Arranging = {}): void {
+    this.#host.changing(`arrange ${Object.keys(arranging).join()}`);
     this.arranging = { ...this.arranging, ...arranging };
     this.#forget();
     this.#host.replate();
@@ -207,6 +257,9 @@ export class Plate {
   move(place: number, to: Partial<Pick<Placement, "x_mm" | "y_mm" | "turn_deg">>, isFinal: boolean): void {
     const moved = this.placements[place];
     if (moved === undefined) return;
+    // A drag is one step, however many places it passes; so are presses of the arrow keys without a pause.
+    if (!this.#isMoving) this.#host.changing(isFinal ? `move ${place}` : `drag ${++this.#drags}`);
+    this.#isMoving = !isFinal;
     this.placements = this.placed = this.placements.map((it, other) => (other === place ? { ...moved, ...to } : it));
     this.#host.changed();
     void this.#check();
@@ -229,14 +282,7 @@ export class Plate {
 
   /** The corners of all facets of a model, fetched once. */
   positionsOf(entry: Entry): Promise<Float32Array> {
-    let positions = this.#positions.get(entry.key);
-    if (positions === undefined) {
-      const there = this.#there.get(entry.key);
-      positions = there === undefined ? Promise.resolve(new Float32Array(0)) : this.#slicer.plate.positions(there.id);
-      positions.catch(() => this.#positions.delete(entry.key));
-      if (there !== undefined) this.#positions.set(entry.key, positions);
-    }
-    return positions;
+    return this.#brought.positionsOf(entry);
   }
 
   async plan(options: Options, watch: Watch): Promise<Plan> {
@@ -247,7 +293,7 @@ export class Plate {
     }
     const { placed, arranging } = this;
     this.#options = jobOf(options);
-    await this.#bring(watch);
+    await this.#brought.bring(this.entries, watch);
     const planned = await this.#slicer.plate.plan(this.#options, { ...watch, arranging, placements: placed });
     this.planned = planned;
     this.number = Math.min(this.number, planned.plates.length - 1);
@@ -273,27 +319,6 @@ export class Plate {
     return this.#slicer.tradeoff(options, points, watch);
   }
 
-  /** Tells the slicer's plate what has changed since the last call. Its models are in the order of the entries. */
-  async #bring(watch: Watch): Promise<void> {
-    const { plate } = this.#slicer;
-    for (const { key, model, copies, own, weights } of this.entries) {
-      let there = this.#there.get(key);
-      if (there === undefined) {
-        const { id }: PlateModel = await plate.add(model.file, {}, { ...watch, name: model.name });
-        this.#there.set(key, (there = { id, own: "{}", weights: null }));
-      }
-      const now = { copies, rotation: own.rotation, height_mm: own.height_mm };
-      if (there.own !== JSON.stringify(now)) {
-        await plate.update(there.id, now);
-        there.own = JSON.stringify(now);
-      }
-      if (there.weights !== weights) {
-        await plate.setWeights(there.id, weights, watch);
-        there.weights = weights;
-      }
-    }
-  }
-
   /** Asks what is wrong with the places, one call at a time; the newest counts. */
   async #check(): Promise<void> {
     this.#asked = this.placements;
@@ -315,19 +340,19 @@ export class Plate {
     }
   }
 
-  #entryOf(model: Model): Entry {
-    return { key: ++this.#keys, model, copies: 1, pose: UPRIGHT, own: {}, weights: null };
+  #entryOf(model: Model, { copies = 1, ...own }: Added["own"] = {}): Entry {
+    return { key: ++this.#keys, model, copies: countOf(copies) || 1, pose: poseOf(own), own, weights: null };
+  }
+
+  /** Replaces the models; those that are gone leave the slicer's plate. */
+  #take(entries: readonly Entry[]): void {
+    const kept = new Set(entries.map(({ key }) => key));
+    for (const entry of this.entries) if (!kept.has(entry.key)) this.#brought.leave(entry);
+    this.entries = entries;
   }
 
   #change(place: number, changed: Partial<Entry>): void {
     this.entries = this.entries.map((entry, other) => (other === place ? { ...entry, ...changed } : entry));
-  }
-
-  #leave(key: number): void {
-    const there = this.#there.get(key);
-    this.#there.delete(key);
-    this.#positions.delete(key);
-    if (there !== undefined) this.#slicer.plate.remove(there.id).catch(() => undefined);
   }
 
   #tellSelected(): void {
@@ -342,6 +367,15 @@ export class Plate {
     this.number = 0;
   }
 }
+
+/** A pose of options, as settings have it. */
+export function poseOf({ rotation, height_mm }: Own): Pose {
+  const unit = quaternion(String(rotation));
+  return { rotation: unit === null ? "" : rotationText(unit), height: height_mm === undefined ? "" : String(height_mm) };
+}
+
+/** A number of copies within bounds; NaN if it is none. */
+const countOf = (copies: number): number => Math.min(Math.max(1, Math.round(copies)), MOST_COPIES);
 
 /** The options of a job: each model has its own pose. */
 function jobOf(options: Options): Options {

@@ -1,11 +1,18 @@
-/** What the user wants: the settings, with their undo steps, and the printers and resins to choose from. */
+/** What the user wants: the settings, with the steps to undo, and the printers and resins to choose from. */
 import type { Backend, GpuMethod, KnownPrinter, Options, Resin } from "../../api/wire.js";
 import { History } from "./history.js";
+import type { PlateState } from "./plate.js";
 import { readPrinter } from "./printer.js";
 import { check, type Faults, type Offered, type Settings } from "./settings.js";
 
 /** Pause after the last keystroke before the settings are planned. */
 const DEBOUNCE_MS = 250;
+
+/** What undo goes back to: the settings, and the models with their copies and places. */
+interface Step {
+  readonly settings: Settings;
+  readonly plate: PlateState;
+}
 
 export abstract class Preferences implements Offered {
   settings: Settings;
@@ -17,7 +24,7 @@ export abstract class Preferences implements Offered {
   resins: readonly Resin[] = [];
   /** Settings that only the page may change. */
   fixed: ReadonlySet<keyof Settings> = new Set();
-  #history = new History<Settings>();
+  readonly #history = new History<Step>();
 
   constructor(settings: Settings, backend: Backend | null) {
     this.settings = { ...settings };
@@ -26,6 +33,12 @@ export abstract class Preferences implements Offered {
 
   /** Called when the settings have changed: they are to be planned after this time, unless they change again. */
   protected abstract preferred(delay_ms: number): void;
+
+  /** The models as they are. */
+  protected abstract standing(): PlateState;
+
+  /** Brings the models back to a state, in the pose of the settings, and plans them. False if that is how they are. */
+  protected abstract stand(state: PlateState): boolean;
 
   /** Called when a file cannot be read, with its name: a failure to show. */
   protected abstract refused(error: unknown, name: string): void;
@@ -69,8 +82,13 @@ export abstract class Preferences implements Offered {
    * one `kind` are a single step.
    */
   change(patch: Partial<Settings>, kind = Object.keys(patch).join()): void {
-    this.#history.note(this.settings, kind, performance.now());
+    this.note(kind);
     this.#set(this.#allowed({ ...this.settings, ...patch }), DEBOUNCE_MS);
+  }
+
+  /** Makes an undo step of the change that follows. */
+  protected note(kind: string): void {
+    this.#history.note(this.#now(), kind, performance.now());
   }
 
   /** Chooses the printer that a file describes. */
@@ -83,19 +101,26 @@ export abstract class Preferences implements Offered {
   }
 
   undo(): void {
-    const before = this.#history.undo(this.settings);
-    if (before !== null) this.#set(this.#allowed(before), 0);
+    if (this.canUndo) this.#go(this.#history.undo(this.#now()));
   }
 
   redo(): void {
-    const after = this.#history.redo(this.settings);
-    if (after !== null) this.#set(this.#allowed(after), 0);
+    if (this.canRedo) this.#go(this.#history.redo(this.#now()));
   }
 
-  /** Sets what belongs to another model; the steps of the one before do not apply to it. */
-  protected swap(patch: Partial<Settings>): void {
-    this.#history = new History<Settings>();
-    this.settings = { ...this.settings, ...patch };
+  /** Forgets the steps that only changed models which are no longer there. */
+  protected forgetModels(): void {
+    this.#history.forget((before, after) => before.settings === after.settings, this.#now());
+  }
+
+  #now(): Step {
+    return { settings: this.settings, plate: this.standing() };
+  }
+
+  #go(step: Step | null): void {
+    if (step === null) return;
+    this.settings = this.#allowed(step.settings);
+    if (!this.stand(step.plate)) this.preferred(0);
   }
 
   /** These settings, with the fixed ones unchanged. */

@@ -38,24 +38,145 @@ test("a file that cannot be added is explained, and the plan stays", async () =>
   expect(session.plate.entries).toHaveLength(1);
 });
 
-test("each model keeps its pose, and undo does not reach into the pose of another", async () => {
+/** Selects a model and waits until it is planned. */
+async function select(place: number): Promise<void> {
+  session.plate.select(place);
+  await read();
+}
+
+/** Lets the slicer read the selected model. */
+async function read(): Promise<void> {
+  expect(slicer.last.what).toBe("open");
+  slicer.last.resolve(model);
+  await settle();
+}
+
+const names = (): string[] => session.plate.entries.map(({ model }) => model.name);
+
+test("each model keeps its pose, and undo goes back to the model whose pose it changes", async () => {
   await planned(10);
   plates();
-  session.change({ height: "5" });
-  await settle();
-  slicer.last.resolve(planOf(5));
-  await settle();
   await session.add([ring]);
   await settle();
-  session.plate.select(1);
-  slicer.last.resolve(model);
-  await settle();
+  session.change({ height: "5" });
+  // Not planned yet.
+  await select(1);
   expect(session.model?.name).toBe("ring.stl");
   expect(session.settings.height).toBe("");
-  expect(session.canUndo).toBe(false);
-  session.plate.select(0);
-  slicer.last.resolve(model);
-  await settle();
-  expect(session.settings.height).toBe("5");
   expect(session.plate.entries.map(({ own }) => own.height_mm)).toEqual([5, undefined]);
+  session.undo();
+  await read();
+  expect(session.model?.name).toBe("a.stl");
+  expect(session.settings.height).toBe("");
+  expect(session.plate.entries.map(({ own }) => own.height_mm)).toEqual([undefined, undefined]);
+  session.redo();
+  await read();
+  expect(session.model?.name).toBe("ring.stl");
+  expect(session.plate.entries.map(({ own }) => own.height_mm)).toEqual([5, undefined]);
+});
+
+test("a model that was added goes with undo, and comes back with redo", async () => {
+  await planned(10);
+  plates();
+  await session.add([ring]);
+  await settle();
+  session.undo();
+  expect(names()).toEqual(["a.stl"]);
+  expect(slicer.last.what).toBe("plan");
+  session.redo();
+  await settle();
+  expect(names()).toEqual(["a.stl", "ring.stl"]);
+});
+
+test("a removed model comes back to its place, with its copies and weights", async () => {
+  await planned(10);
+  plates();
+  await session.add([ring]);
+  await settle();
+  session.plate.setCopies(0, 3);
+  const weights = Float32Array.of(0.5);
+  session.setWeights(weights, true);
+  await settle();
+  session.plate.remove(0);
+  await read();
+  expect([names(), session.weights]).toEqual([["ring.stl"], null]);
+  session.undo();
+  await read();
+  expect(names()).toEqual(["a.stl", "ring.stl"]);
+  expect(session.plate.entries[0]).toMatchObject({ copies: 3, weights });
+  expect(session.weights).toBe(weights);
+});
+
+test("copies are undone like typing, and settings keep steps of their own between them", async () => {
+  await planned(10);
+  plates();
+  session.plate.setCopies(0, 2);
+  session.plate.setCopies(0, 3);
+  await settle();
+  session.change({ tolerances: { volume: "20" } });
+  await settle();
+  session.undo();
+  await settle();
+  expect([session.settings.tolerances, session.plate.entries[0]?.copies]).toEqual([{}, 3]);
+  session.undo();
+  expect(session.plate.entries[0]?.copies).toBe(1);
+  expect(session.canUndo).toBe(false);
+  session.redo();
+  expect(session.plate.entries[0]?.copies).toBe(3);
+});
+
+test("a drag is one step; undone, the copy is back where it stood, by hand or arranged", async () => {
+  await planned(10);
+  plates();
+  session.plate.setCopies(0, 2);
+  await settle();
+  session.plate.placements = [0, 9].map((x_mm) => ({ model: 0, plate: 0, x_mm, y_mm: 0, turn_deg: 0 }));
+  for (const x_mm of [10, 11, 12]) session.plate.move(1, { x_mm }, false);
+  session.plate.move(1, { x_mm: 13 }, true);
+  await settle();
+  session.plate.move(1, { x_mm: 18 }, false);
+  session.plate.move(1, { x_mm: 20 }, true);
+  await settle();
+  const stood = (): (number | undefined)[] => session.plate.placed.map(({ x_mm }) => x_mm);
+  session.undo();
+  expect(stood()).toEqual([0, 13]);
+  session.undo();
+  expect(stood()).toEqual([]);
+  expect(session.plate.entries[0]?.copies).toBe(2);
+});
+
+test("another job forgets the steps of the models before, and keeps those of the settings", async () => {
+  await planned(10);
+  plates();
+  session.change({ tolerances: { volume: "20" } });
+  await settle();
+  slicer.last.resolve(planOf(9));
+  await settle();
+  session.plate.setCopies(0, 2);
+  await settle();
+  await planned(12);
+  expect(session.plate.entries[0]?.copies).toBe(1);
+  session.undo();
+  expect([session.settings.tolerances, session.canUndo]).toEqual([{}, false]);
+  expect(session.plate.entries[0]?.copies).toBe(1);
+});
+
+test("models are added with copies and a pose of their own; without an open one, the first is opened", async () => {
+  plates();
+  const adding = session.addAll([
+    { source: new Blob(["cup"]), own: { copies: 2, height_mm: 7 }, name: "cup.stl" },
+    { source: ring, own: { rotation: [0, 0, 2, 0] } },
+  ]);
+  slicer.last.resolve({ ...model, name: "cup.stl" });
+  const added = await adding;
+  expect(added?.map(({ name }) => name)).toEqual(["cup.stl", "ring.stl"]);
+  await settle();
+  const { entries } = session.plate;
+  expect(entries.map(({ copies, own }) => ({ copies, ...own }))).toEqual([
+    { copies: 2, height_mm: 7 },
+    { copies: 1, rotation: [0, 0, 2, 0] },
+  ]);
+  expect(entries[1]?.pose.rotation).toBe("0,0,1,0");
+  expect(session.settings.height).toBe("7");
+  expect(session.canUndo).toBe(true);
 });

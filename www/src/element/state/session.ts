@@ -1,57 +1,37 @@
 /**
- * The state of an element: one model, its settings, the last good result, and at most one running task.
+ * The state of an element: its models, their settings, the last good result, and at most one running task.
  *
  * There is no DOM here: an element or a test hosts the session, is notified of changes, and renders its state.
  */
-import { asSlicerError, isAbort } from "../../api/error.js";
-import type { Model, Plan, Mask, PrintFile, Watch } from "../../api/index.js";
+import type { Mask, Plan, PrintFile, Watch } from "../../api/index.js";
 import { sameRays, type Candidate, type Options, type TradeoffPoint } from "../../api/wire.js";
-import type { Source } from "../../api/source.js";
 import { Beside } from "./beside.js";
-import { choose, weightsName } from "./choice.js";
 import { Curve, withPoint } from "./curve.js";
-import type { Download, Host, Setup, SlicerCalls } from "./host.js";
+import type { Host, Setup, SlicerCalls } from "./host.js";
 import { OrientationSearch, withPose, type Subject } from "./orientation.js";
 import { Follower, type Rotation } from "./follow.js";
 import { layerAt } from "../../view/scene/lookup.js";
-import type { Failure } from "./problem.js";
+import { Models } from "./models.js";
 import type { Busy } from "../parts/progress.js";
 import type { TowersState } from "../parts/towers-offer.js";
 import { areSame, shownOf, type Result, type Shown } from "./result.js";
-import { Plate, type Entry } from "./plate.js";
-import { Runner } from "./runner.js";
-import { DEFAULT_SETTINGS, rotationText, type Settings } from "./settings.js";
-import { Preferences } from "./preferences.js";
+import { DEFAULT_SETTINGS, rotationText } from "./settings.js";
 
 /** Failures that another try may not meet again. */
 const BY_CHANCE: ReadonlySet<string> = new Set(["crash", "start-failed"]);
 
-export class Session extends Preferences {
-  model: Model | null = null;
+export class Session extends Models {
   result: Result | null = null;
-  failure: Failure | null = null;
-  /** A notice to show that is not a failure. */
-  notice: "cancelled" | "exportCancelled" | null = null;
   /** The selected layer, counted from 0. */
   layer = 0;
-  /** How much each facet matters, 0 to 1, as painted; null: all equally. */
-  weights: Float32Array | null = null;
   /** What charts and the view draw; null before there is a plan. */
   shown: Shown | null = null;
-  /** Files that were opened together, and the index of the open one. */
-  files: readonly File[] = [];
-  place = 0;
 
   readonly orientation: OrientationSearch;
-  /** The models, of which {@link model} is the selected one. */
-  readonly plate: Plate;
 
-  readonly #host: Host;
-  readonly #slicer: SlicerCalls;
   readonly #curve = new Curve();
   readonly #beside: Beside;
   readonly #follower: Follower;
-  readonly #runner: Runner;
   #timer: ReturnType<typeof setTimeout> | undefined;
   /** Options to plan with once the running task has ended. */
   #next: Options | null = null;
@@ -62,44 +42,25 @@ export class Session extends Preferences {
   /** What the core has refused to plan: it would refuse it again. */
   #refused: { options: Options; weights: Float32Array | null } | null = null;
   #archive: { of: Result; file: PrintFile } | null = null;
-  /** The selected model, while the slicer reads it again. */
-  #selecting: Entry | null = null;
 
   constructor(host: Host, slicer: SlicerCalls, { settings = DEFAULT_SETTINGS, backend = null }: Setup = {}) {
-    super(settings, backend);
-    this.#host = host;
-    this.#slicer = slicer;
+    super(host, slicer, settings, backend);
     const reports = {
-      changed: () => this.#changed(),
-      progressed: (busy: Busy) => this.#host.progressed?.(busy),
-      failed: (error: unknown) => this.#fail(error, this.model?.name ?? "", this.settings),
+      changed: () => this.changed(),
+      progressed: (busy: Busy) => host.progressed?.(busy),
+      failed: (error: unknown) => this.fail(error, this.model?.name ?? "", this.settings),
     };
     const subject = (): Subject | null => {
       const { model, options, weights } = this;
       return model === null || options === null ? null : { name: model.name, options, weights };
     };
     this.orientation = new OrientationSearch({ ...reports, subject }, slicer);
-    this.#runner = new Runner(reports);
-    this.plate = new Plate(
-      {
-        ...reports,
-        replate: () => this.#replate(),
-        show: (plan) => this.#showPlate(plan),
-        selected: (entry) => void this.#select(entry),
-      },
-      slicer,
-    );
-    const isFree = (): boolean => this.#runner.task === null;
+    const isFree = (): boolean => this.runner.task === null;
     this.#beside = new Beside(this, { ...reports, isFree, curved: () => this.#takeQuality() }, this.plate, this.#curve);
     this.#follower = new Follower(slicer, (shown) => {
       this.shown = shown;
-      this.#changed();
+      this.changed();
     });
-  }
-
-  /** The progress of the running task; null if none runs. */
-  get busy(): Busy | null {
-    return this.#runner.busy;
   }
 
   /** The mask of the selected layer, or the previous mask while it is fetched. */
@@ -125,13 +86,13 @@ export class Session extends Preferences {
 
   /** Starts the worker and fetches the list of printers. */
   start(): void {
-    this.#slicer.warm();
+    this.slicer.warm();
     // A worker that does not start is reported by the next call.
-    void this.#slicer.printers().then(
+    void this.slicer.printers().then(
       (printers) => {
         this.printers = printers;
-        this.#host.offered?.();
-        this.#changed();
+        this.host.offered?.();
+        this.changed();
       },
       () => undefined,
     );
@@ -153,58 +114,6 @@ export class Session extends Preferences {
     return result?.report.metric === settings.metric && result.options.tolerance === undefined ? result.report.tolerance : null;
   }
 
-  /** Opens the first model of a drop or a file dialog and keeps the others; null if that failed or was cancelled. */
-  async choose(files: readonly File[]): Promise<Model | null> {
-    if (files.length === 0) return null;
-    const { files: before, place } = this;
-    this.files = choose(files);
-    const model = await this.openFile(0);
-    // If the file cannot be opened, the previous files stay.
-    if (model === null) [this.files, this.place] = [before, place];
-    return model;
-  }
-
-  /** Opens another of the files that were opened together; null if that failed or was cancelled. */
-  async openFile(place: number): Promise<Model | null> {
-    const file = this.files[place];
-    if (file === undefined) return null;
-    this.place = place;
-    return this.#open(file, file.name);
-  }
-
-  /**
-   * Opens a single model; null if that failed or was cancelled.
-   *
-   * @param waits whether its plan has to wait, as for other models
-   */
-  async open(source: Source, name?: string, waits = false): Promise<Model | null> {
-    this.files = [];
-    return this.#open(source, name, waits);
-  }
-
-  /** Opens all STLs of a drop or a file dialog, as models of one job; null if the first cannot be opened or that was cancelled. */
-  async openAll(files: readonly File[]): Promise<Model | null> {
-    const [first, ...others] = choose(files);
-    if (first === undefined) return null;
-    const model = await this.open(first, first.name, others.length > 0);
-    if (model !== null && others.length > 0) await this.add(others);
-    return model;
-  }
-
-  /** Adds models to the open one; without one, opens them. */
-  async add(files: readonly File[]): Promise<void> {
-    const chosen = choose(files);
-    const [first] = chosen;
-    if (this.model === null) return void (await this.openAll(files));
-    if (first === undefined) return;
-    this.#drop();
-    this.dismiss();
-    const added = await this.#run("open", first.name, null, (watch) => this.plate.add(chosen, watch));
-    // What went wrong stays on show, and so does the plan before.
-    if (added === null) return this.#resume();
-    this.#replate();
-  }
-
   /** Turns the model: previews it while it is being turned, and plans when it is released. */
   turn(rotation: Rotation, isFinal: boolean): void {
     if (!isFinal) return this.#follower.turn(rotation, this.options);
@@ -219,16 +128,10 @@ export class Session extends Preferences {
     this.#follower.stop();
     this.change(withPose(this.settings, candidate));
     if (this.options !== null) this.orientation.applied(this.options);
-    this.#host.oriented?.(candidate);
+    this.host.oriented?.(candidate);
   }
 
-  /** Sets the weights: previews them during a stroke, and plans at its end. */
-  setWeights(weights: Float32Array | null, isFinal: boolean): void {
-    this.weights = weights;
-    this.plate.keep({ weights });
-    // If the core refuses the weights, the plan fails and reports it.
-    if (this.model !== null) this.#slicer.setWeights(weights).catch(() => undefined);
-    this.#host.painted?.(weights, isFinal);
+  protected override painted(isFinal: boolean): void {
     const { options } = this;
     if (!isFinal) {
       if (options !== null) void this.#follower.follow(options);
@@ -237,24 +140,6 @@ export class Session extends Preferences {
     this.#follower.stop();
     this.#curve.forget();
     this.replan();
-  }
-
-  /** Reads the weights of a file and applies them; a failure is shown. */
-  async openWeights(file: File): Promise<void> {
-    const { model } = this;
-    try {
-      const weights = await this.#slicer.readWeights(file);
-      if (this.model === model) this.setWeights(weights, true);
-    } catch (error) {
-      if (this.model === model && !isAbort(error)) this.refused(error, file.name);
-    }
-  }
-
-  /** A file of the current weights; null if there are none. */
-  async saveWeights(): Promise<Download | null> {
-    const { weights, model } = this;
-    if (weights === null || model === null) return null;
-    return { name: weightsName(model.name), blob: await this.#slicer.weightsFile(weights) };
   }
 
   /** Applies the tolerance of a point of the curve, as if it had been typed. */
@@ -285,9 +170,9 @@ export class Session extends Preferences {
     return options !== null && !(areSame(this.#refused?.options ?? null, options) && this.#refused?.weights === weights);
   }
 
-  replan(delay_ms = 0): void {
+  override replan(delay_ms = 0): void {
     this.#forgetTimer();
-    this.#changed();
+    this.changed();
     const { options } = this;
     if (options === null || this.model === null) return;
     if (delay_ms === 0) return void this.#plan(options);
@@ -301,10 +186,10 @@ export class Session extends Preferences {
   cancel(): void {
     if (this.busy === null) return;
     const { task } = this.busy;
-    this.#drop();
+    this.drop();
     this.notice = task === "export" || task === "towers" ? "exportCancelled" : "cancelled";
-    this.#host.cancelled?.();
-    this.#changed();
+    this.host.cancelled?.();
+    this.changed();
     void this.#beside.fetch();
   }
 
@@ -328,69 +213,39 @@ export class Session extends Preferences {
   async calibrateLayers(): Promise<PrintFile | null> {
     const { options, towers } = this;
     if (options === null || towers !== "ready") return null;
-    return this.#write("towers", (watch) => this.#slicer.calibrateLayers(options, watch));
+    return this.#write("towers", (watch) => this.slicer.calibrateLayers(options, watch));
   }
 
   selectLayer(layer: number): void {
     if (this.result === null) return;
     this.layer = Math.min(Math.max(0, Math.round(layer)), this.result.report.layers - 1);
-    this.#changed();
+    this.changed();
     void this.#beside.fetch();
-  }
-
-  dismiss(): void {
-    this.failure = null;
-    this.notice = null;
-    this.#changed();
-  }
-
-  async #open(source: Source, name?: string, waits = false): Promise<Model | null> {
-    this.#drop();
-    this.notice = null;
-    this.failure = null;
-    const shown = name ?? (source instanceof URL || typeof source === "string" ? String(source).split("/").at(-1) ?? "" : "");
-    const model = await this.#run("open", shown, null, (watch) =>
-      this.#slicer.load(source, name === undefined ? watch : { ...watch, name }),
-    );
-    if (model === null) {
-      await this.#resume();
-      return null;
-    }
-    this.#next = null;
-    // The rotation of the previous model does not apply to this one, nor does its unit.
-    const { rotation, unit } = this.settings;
-    if (this.model !== null && (rotation !== "" || unit !== "")) this.preset({ rotation: "", unit: "" });
-    this.model = model;
-    this.result = null;
-    this.#refused = null;
-    this.shown = null;
-    this.#follower.stop();
-    this.weights = null;
-    this.#beside.mask = null;
-    this.orientation.forget();
-    this.#curve.forget();
-    this.plate.open(model);
-    this.#host.loaded?.(model);
-    if (!waits) this.replan();
-    return model;
   }
 
   protected override preferred(delay_ms: number): void {
     this.failure = null;
     this.notice = null;
-    this.#host.settingsChanged?.(this.settings);
+    this.host.settingsChanged?.(this.settings);
     this.replan(delay_ms);
   }
 
-  protected override refused(error: unknown, name: string): void {
-    this.#fail(error, name, this.settings);
-    this.#changed();
+  protected override left(isNew: boolean): void {
+    this.#follower.stop();
+    this.orientation.forget();
+    if (!isNew) return;
+    this.#next = null;
+    this.result = null;
+    this.#refused = null;
+    this.shown = null;
+    this.#beside.mask = null;
+    this.#curve.forget();
   }
 
   async #plan(options: Options): Promise<void> {
     const { model } = this;
     if (model === null) return;
-    const { task } = this.#runner;
+    const { task } = this.runner;
     if (task !== null) {
       if (areSame(task.options, options) && task.weights === this.weights) {
         this.#next = null;
@@ -402,23 +257,20 @@ export class Session extends Preferences {
         this.#next = options;
         return;
       }
-      this.#drop();
+      this.drop();
     }
     this.failure = null;
     this.#failed = true;
-    const { weights, settings } = this;
-    const { rotation, height_mm } = options;
-    const own = { ...(rotation !== undefined && { rotation }), ...(height_mm !== undefined && { height_mm }) };
-    this.plate.keep({ pose: { rotation: settings.rotation, height: settings.height }, own });
-    const plan = await this.#run("plan", model.name, options, (watch) => this.plate.plan(options, watch));
+    const { weights } = this;
+    this.keepPose();
+    const plan = await this.run("plan", model.name, options, (watch) => this.plate.plan(options, watch));
     if (plan !== null) this.#show(plan, options, weights);
     else this.#refuse(options, weights);
-    await this.#resume();
+    await this.resume();
   }
 
-  /** Plans again after a change of the models: the running plan is for the earlier ones. */
-  #replate(): void {
-    this.#drop();
+  protected override replate(): void {
+    this.drop();
     this.#refused = null;
     this.#curve.forget();
     this.failure = null;
@@ -426,8 +278,7 @@ export class Session extends Preferences {
     this.replan();
   }
 
-  /** Shows the plan of another plate, for the same options. */
-  #showPlate(plan: Plan): void {
+  protected override showPlate(plan: Plan): void {
     const { result } = this;
     if (result === null) return;
     this.#archive = null;
@@ -436,38 +287,18 @@ export class Session extends Preferences {
     void this.#beside.fetch();
   }
 
-  /** Takes another model of the plate as the open one. */
-  async #select(entry: Entry): Promise<void> {
-    this.#drop();
-    this.#follower.stop();
-    this.orientation.forget();
-    this.#selecting = entry;
-    const { model, weights, pose } = entry;
-    this.swap(pose);
-    this.model = model;
-    this.weights = weights;
-    this.#changed();
-    const read = await this.#run("open", model.name, null, (watch) => this.#slicer.load(model.file, { ...watch, name: model.name }));
-    if (this.#selecting !== entry) return;
-    // Previews are of the selected model, also where somebody did not wait for it.
-    if (read === null) this.#slicer.load(model.file, { name: model.name }).catch(() => undefined);
-    if (weights !== null) this.#slicer.setWeights(weights).catch(() => undefined);
-    this.#host.settingsChanged?.(this.settings);
-    this.#replate();
-  }
-
   /** Remembers what was refused, if it was: a cancelled plan may succeed later. */
   #refuse(options: Options, weights: Float32Array | null): void {
     const { failure } = this;
     if (failure?.task !== "plan" || BY_CHANCE.has(failure.error.code)) return;
     this.#refused = { options, weights };
-    this.#changed();
+    this.changed();
   }
 
   /** Plans with the settings that changed during the last task, if any; otherwise fetches the mask and the curve. */
-  async #resume(): Promise<void> {
+  protected override async resume(): Promise<void> {
     const next = this.#next;
-    if (this.#runner.task !== null) return;
+    if (this.runner.task !== null) return;
     if (next === null) return this.#beside.fetch();
     this.#next = null;
     await this.#plan(next);
@@ -487,31 +318,17 @@ export class Session extends Preferences {
     if (before === undefined && this.notice === "cancelled") this.notice = null;
     if (before === undefined) this.#beside.mask = null;
     this.#curve.fit(result);
-    this.#host.planned?.(result);
-    this.#changed();
+    this.host.planned?.(result);
+    this.changed();
     void this.orientation.measure();
   }
 
   /** Makes a file, then does what had to wait for it. */
   async #write(kind: Busy["task"], call: (watch: Watch) => Promise<PrintFile>): Promise<PrintFile | null> {
     this.failure = null;
-    const file = await this.#run(kind, this.model?.name ?? "", null, call);
-    void this.#resume();
+    const file = await this.run(kind, this.model?.name ?? "", null, call);
+    void this.resume();
     return file;
-  }
-
-  /** Runs one task and shows its progress; null if it was cancelled or failed. A failure is shown. */
-  #run<T>(kind: Busy["task"], name: string, options: Options | null, call: (watch: Watch) => Promise<T>): Promise<T | null> {
-    const { settings, weights } = this;
-    return this.#runner.run({ kind, name, options, weights }, (error) => this.#fail(error, name, settings, kind), call);
-  }
-
-  #fail(thrown: unknown, name: string, settings: Settings, task: Busy["task"] | null = null): void {
-    const error = asSlicerError(thrown);
-    const own_mm = this.model?.info.size_mm[2] ?? null;
-    const asked_mm = Number(settings.height.replace(",", "."));
-    this.failure = { error, task, name, settings, height_mm: own_mm === null ? null : asked_mm > 0 ? asked_mm : own_mm };
-    this.#host.failed?.(error);
   }
 
   #forgetTimer(): void {
@@ -519,20 +336,15 @@ export class Session extends Preferences {
     this.#timer = undefined;
   }
 
-  /** Aborts the running task, and drops any waiting one. */
-  #drop(): void {
+  protected override drop(): void {
     this.#forgetTimer();
     this.#next = null;
-    this.#runner.drop();
+    this.runner.drop();
   }
 
   #takeQuality(): void {
     const index = this.#curve.takeWanted();
     const point = index === null ? undefined : this.curve?.[index];
     if (point !== undefined) this.preset(withPoint(this.settings, point));
-  }
-
-  #changed(): void {
-    this.#host.requestUpdate();
   }
 }
