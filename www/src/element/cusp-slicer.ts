@@ -11,13 +11,14 @@ import { problemStyles } from "./parts/problem-box.js";
 import { partStyles } from "./parts/part.js";
 import { progressStyles } from "./parts/progress.js";
 import { SlicerElement } from "./slicer-element.js";
+import { copiesStyles } from "./styles/copies-styles.js";
 import { layoutStyles } from "./styles/layout.js";
 import { shared } from "./styles/shared.js";
 import { theme } from "./styles/theme.js";
 import { template } from "./template.js";
 
 export class CuspSlicer extends SlicerElement {
-  static override styles = [theme, shared, modelStyles, summaryStyles, progressStyles, problemStyles, partStyles, layoutStyles];
+  static override styles = [theme, shared, modelStyles, summaryStyles, progressStyles, problemStyles, partStyles, copiesStyles, layoutStyles];
 
   protected override layout(facts: Facts): TemplateResult {
     return template(facts, this.clientWidth >= WIDE_PX);

@@ -68,7 +68,7 @@ export const PROPERTIES = { ...ATTRIBUTE_PROPERTIES, weights: null, resins: null
 export type PropertyName = keyof typeof PROPERTIES;
 
 /** Properties that can only be read; `state` is reflected in an attribute of that name. */
-export const READ_ONLY = ["state", "model", "result"] as const;
+export const READ_ONLY = ["state", "model", "models", "result", "plates"] as const;
 
 /** Declarations for Lit. All except `src` have setters of their own, which receive an attribute's text unconverted. */
 export const DECLARATIONS: Readonly<Record<string, PropertyDeclaration>> = {

@@ -14,6 +14,7 @@ import {
   settingsPanel,
   undoButtons,
 } from "./bound-panels.js";
+import { platePanel } from "./bound-plate.js";
 import type { Facts } from "./facts.js";
 import { modelCard, warnings } from "./panels/model-card.js";
 import { hasPlace } from "./panels/settings-form.js";
@@ -74,26 +75,27 @@ function start({ session, language, panels, picked }: Drawn): TemplateResult {
 }
 
 function work(drawn: Drawn): TemplateResult {
-  const { session, language, panels, picked, saveTowers } = drawn;
+  const { session, panels } = drawn;
   const { busy, result } = session;
-  const isPlain = !panels.has("model") && !panels.has("settings");
+  const isPlain = !panels.has("model") && !panels.has("plate") && !panels.has("settings");
   return html`<div class="work ${isPlain ? "plain" : ""}">
-    ${panels.has("model")
-      ? modelCard(
-          session,
-          language,
-          { picked, openFile: (place) => void session.openFile(place) },
-          warnings(session, language, saveTowers),
-        )
-      : nothing}
-    ${panels.has("settings") ? settingsCard(drawn) : nothing}
+    ${modelsCard(drawn)} ${panels.has("settings") ? settingsCard(drawn) : nothing}
     <div class="results ${busy?.task === "plan" && result !== null ? "replanning" : ""}">
       ${result === null ? waiting(drawn) : results(drawn, result)}
     </div>
     ${busy !== null && result !== null
-      ? html`<div class="card toast" part="toast">${progressBar(busy, language, () => session.cancel())}</div>`
+      ? html`<div class="card toast" part="toast">${progressBar(busy, drawn.language, () => session.cancel())}</div>`
       : nothing}
   </div>`;
+}
+
+/** The open model, with the list of all. */
+function modelsCard(drawn: Drawn): TemplateResult | typeof nothing {
+  const { session, language, panels, picked, saveTowers } = drawn;
+  const list = panels.has("plate") ? platePanel(drawn) : nothing;
+  if (!panels.has("model")) return list === nothing ? nothing : html`<section class="card model" part="model">${list}</section>`;
+  const actions = { picked, openFile: (place: number) => void session.openFile(place) };
+  return modelCard(session, language, actions, warnings(session, language, saveTowers), list);
 }
 
 function settingsCard(drawn: Drawn): TemplateResult {
@@ -144,7 +146,9 @@ function results(drawn: Drawn, result: Result): TemplateResult {
       ? html`<section class="card span" part="orientation" aria-label=${texts.orientation.title}>${orientationPanel(drawn)}</section>`
       : nothing}
     ${panels.has("quality") && result.report.planner !== "uniform"
-      ? html`<section class="card" part="quality" aria-label=${texts.quality.title}>${qualityPanel(drawn, result)}</section>`
+      ? html`<section class="card" part="quality" aria-label=${texts.quality.title}>
+          ${session.plate.planned === null ? qualityPanel(drawn, result) : html`<p class="quiet">${texts.plate.quality}</p>`}
+        </section>`
       : nothing}
     ${panels.has("layers")
       ? html`<section class="card" part="layers" aria-label=${texts.mask.region}>${maskPanel(drawn, result)}</section>`

@@ -13,9 +13,15 @@ const MOST_PX = 2048;
  * A PNG of the model in the layers of a plan. Rejects with `part-failed` if the renderer cannot be loaded or there is no
  * WebGL.
  *
+ * @param height_mm height of the model in the plan
  * @param size_px length of each side in pixels, clamped to 16 to 2048
  */
-export async function thumbnailOf(slicer: Pick<Slicer, "positions">, { report, options, limits }: Result, size_px: number): Promise<Blob> {
+export async function thumbnailOf(
+  slicer: Pick<Slicer, "positions">,
+  { report, options, limits }: Result,
+  height_mm: number,
+  size_px: number,
+): Promise<Blob> {
   const drawing = import("../../view/scene/thumbnails.js").catch((cause: unknown) => {
     throw partError("pictures", cause);
   });
@@ -24,7 +30,7 @@ export async function thumbnailOf(slicer: Pick<Slicer, "positions">, { report, o
   const own_mm = heightOf(positions, rotation);
   const picture = {
     ...{ positions, rotation, limits, palette: "classic" as const, z_mm: report.z_mm },
-    scale: own_mm > 0 ? report.height_mm / own_mm : 1,
+    scale: own_mm > 0 ? height_mm / own_mm : 1,
   };
   const side_px = Math.min(MOST_PX, Math.max(LEAST_PX, Math.round(size_px)));
   const png = await thumbnail(picture, side_px);

@@ -101,6 +101,10 @@ export const layoutStyles = css`
     gap: 0.75rem;
     margin-top: 1rem;
   }
+  /* The card is narrow: in a line of its own, the button begins where the line does. */
+  .copies-row .copies ~ .button {
+    margin-inline-start: 0;
+  }
   .settings summary {
     cursor: pointer;
   }

@@ -1,0 +1,197 @@
+/** The element's properties as a page sets them: read and checked by `Attributes`, kept by the session or here. */
+import { LitElement } from "lit";
+import type { SlicerError } from "../api/error.js";
+import { createSlicer, type Slicer } from "../api/index.js";
+import type { Backend, Format, GpuMethod, Metric, Printer, Resin } from "../api/wire.js";
+import type { SettingName } from "./properties.js";
+import { Reports } from "./reports.js";
+import { Attributes, settingsOf } from "./state/attributes.js";
+import { METRICS } from "./state/metric.js";
+import { PANELS, type Panel } from "./state/panel-names.js";
+import { Session } from "./state/session.js";
+import { fromAddress, parse, toAddress } from "./state/settings.js";
+
+export abstract class SettableElement extends LitElement {
+  /** The headless slicer behind the element; a page may call it for more than the element shows. */
+  readonly slicer: Slicer = createSlicer();
+  /** @internal */
+  protected readonly reports: Reports = new Reports(this, {
+    isCurrent: () => this.session.isCurrent,
+    offered: () => this.judged.offered(),
+  });
+  /** @internal */
+  protected readonly session = new Session(this.reports, this.slicer);
+  /** @internal */
+  protected readonly judged = new Attributes(this.session, (error) => this.#misused(error));
+  #locale: string | null = null;
+  #panels: readonly Panel[] | null = null;
+  #fixed: readonly SettingName[] | null = null;
+
+  /** @internal The panels to show. */
+  protected get shownPanels(): ReadonlySet<Panel> {
+    return new Set(this.#panels ?? PANELS);
+  }
+
+  /** BCP 47 language tag; if null, the nearest `lang`, then the browser's languages. */
+  get locale(): string | null {
+    return this.#locale;
+  }
+  set locale(locale: string | null) {
+    const read = this.judged.read("locale", locale);
+    if (read === undefined) return;
+    this.#locale = read;
+    this.requestUpdate();
+  }
+
+  /** Panels to show, separated by spaces: see {@link PANELS}. Null shows all. */
+  get panels(): string | null {
+    return this.#panels?.join(" ") ?? null;
+  }
+  set panels(panels: string | null) {
+    const read = this.judged.read("panels", panels);
+    if (read === undefined) return;
+    this.#panels = read;
+    this.requestUpdate();
+  }
+
+  /**
+   * Attributes that only the page may change, separated by spaces: printer, format, resin, metric, tolerance, layer-min,
+   * layer-max. The form shows them read-only; undo, offers and the property `query` leave them alone.
+   */
+  get fixed(): string | null {
+    return this.#fixed?.join(" ") ?? null;
+  }
+  set fixed(fixed: string | null) {
+    const read = this.judged.read("fixed", fixed);
+    if (read === undefined) return;
+    this.#fixed = read;
+    this.session.fixed = settingsOf(read ?? []);
+    this.requestUpdate();
+  }
+
+  /** Name of a printer (see `slicer.printers()`), or the description of another; empty for none. */
+  get printer(): string | Printer {
+    return this.session.settings.printer;
+  }
+  set printer(printer: string | Printer | null) {
+    this.judged.set("printer", printer);
+  }
+
+  /** Name of one of {@link resins}; empty for the default one. */
+  get resin(): string {
+    return this.session.settings.resin;
+  }
+  set resin(resin: string | null) {
+    this.judged.set("resin", resin);
+  }
+
+  /** Largest error of a layer: mm (cusp, deviation, roughness), a fraction (area) or mm³ (volume). Null for the default. */
+  get tolerance(): number | null {
+    const { metric, tolerances } = this.session.settings;
+    const typed = parse(tolerances[metric] ?? "");
+    return typed === null ? null : typed / METRICS[metric].scale;
+  }
+  set tolerance(tolerance: number | null) {
+    this.judged.set("tolerance", tolerance);
+  }
+
+  /** Minimum layer thickness in mm. */
+  get layerMin(): number {
+    return parse(this.session.settings.layerMin) ?? Number.NaN;
+  }
+  set layerMin(mm: number | null) {
+    this.judged.set("layer-min", mm);
+  }
+
+  /** Maximum layer thickness in mm. */
+  get layerMax(): number {
+    return parse(this.session.settings.layerMax) ?? Number.NaN;
+  }
+  set layerMax(mm: number | null) {
+    this.judged.set("layer-max", mm);
+  }
+
+  /** The metric of the tolerance. */
+  get metric(): Metric {
+    return this.session.settings.metric;
+  }
+  set metric(metric: Metric | null) {
+    this.judged.set("metric", metric);
+  }
+
+  /** The format of the print file; null for the printer's own. */
+  get format(): Format | null {
+    const { format } = this.session.settings;
+    return format === "" ? null : format;
+  }
+  set format(format: Format | null) {
+    this.judged.set("format", format);
+  }
+
+  /**
+   * Instead of a tolerance, a point on the trade-off curve from 0, the fastest print worth having, to 1, the finest.
+   * Null until the curve is known.
+   */
+  get quality(): number | null {
+    return this.session.quality;
+  }
+  set quality(quality: number | null) {
+    const read = this.judged.read("quality", quality);
+    if (read !== undefined) this.session.quality = read;
+  }
+
+  /** Where rays are cast: `cpu`, `gpu`, or null for whichever is faster. */
+  get backend(): Backend | null {
+    return this.session.backend;
+  }
+  set backend(backend: Backend | null) {
+    const read = this.judged.read("backend", backend);
+    if (read === undefined) return;
+    this.session.backend = read;
+    this.session.replan();
+  }
+
+  /** How a GPU casts them: by `fill` or by depth peeling, `peel`; null for the faster one that it can do. */
+  get gpuMethod(): GpuMethod | null {
+    return this.session.gpuMethod;
+  }
+  set gpuMethod(method: GpuMethod | null) {
+    const read = this.judged.read("gpu-method", method);
+    if (read === undefined) return;
+    this.session.gpuMethod = read;
+    this.session.replan();
+  }
+
+  /** How much each facet matters, 0 to 1 in the order of `slicer.positions()`; null: all equally. Setting it plans again. */
+  get weights(): Float32Array | null {
+    return this.session.weights;
+  }
+  set weights(weights: Float32Array | null) {
+    this.session.setWeights(weights, true);
+  }
+
+  /** Resins to choose from; each needs a name. */
+  get resins(): readonly Resin[] {
+    return this.session.resins;
+  }
+  set resins(resins: readonly Resin[]) {
+    this.session.resins = resins;
+    this.judged.offered();
+    this.requestUpdate();
+  }
+
+  /** All settings as a URL query, such as `metric=area&tolerance=5`; defaults are left out. */
+  get query(): string {
+    return toAddress(this.session.settings);
+  }
+  set query(query: string) {
+    this.judged.settle();
+    this.session.restore(fromAddress(query));
+  }
+
+  /** An invalid attribute concerns the page's developer: the element does not show it to customers. */
+  #misused(error: SlicerError): void {
+    console.warn(`<${this.localName}>: ${error.message}`, this);
+    this.reports.tell("cusp-error", error);
+  }
+}
