@@ -340,3 +340,31 @@ test("in forced colours the chosen half and a fault can be told without colour",
   await form.locator(".box.wrong").waitFor();
   expect(await form.locator(".box.wrong").evaluate((it) => getComputedStyle(it).outlineStyle)).toBe("solid");
 });
+
+test("a nozzle brings the limits of its layers, for filament printers alone", async () => {
+  const page = await opened();
+  expect(await page.getByLabel("Nozzle").count()).toBe(0);
+  await page.getByLabel("Print file", { exact: true }).selectOption("PrusaSlicer (filament)");
+  await settled(page);
+  const nozzle = page.getByLabel("Nozzle");
+  expect(await nozzle.getAttribute("placeholder")).toBe("0.4");
+  const before = await layers(page);
+  await nozzle.fill("0.8");
+  await settled(page);
+  expect(await page.getByLabel("Thickest layer").inputValue()).toBe("0.6");
+  expect(await layers(page)).toBeLessThan(before);
+  await nozzle.fill("3");
+  await expect.poll(() => page.locator("#nozzle-hint").innerText()).toContain("0.15 to 2 mm");
+});
+
+test("the unit of a file that states none is chosen, and undone", async () => {
+  const page = await opened();
+  const unit = page.getByLabel("The file is in");
+  expect(await unit.inputValue()).toBe("millimeter");
+  await unit.selectOption("centimeters");
+  await settled(page);
+  await expect.poll(() => words(page)).toContain("200.0 × 200.0 × 200.0 mm");
+  await page.getByRole("button", { name: "Undo" }).click();
+  await settled(page);
+  expect(await unit.inputValue()).toBe("millimeter");
+});

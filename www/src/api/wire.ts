@@ -149,31 +149,45 @@ export const DEFAULTS = {
   layer_max_mm: 0.15,
   /** In the metric's unit: mm, mm, a fraction, mm³. For volume, the core allows more if the model needs it. */
   tolerance: { cusp: 0.065, deviation: 0.0325, thread: 0.065, roughness: 0.1, area: 0.1, volume: 1 } satisfies Record<Metric, number>,
-  /** Limits of layers for slicers of filament printers, through a nozzle of 0.4 mm; tolerances are larger in proportion. */
-  filament: {
-    "prusa-3mf": { layer_min_mm: 0.07, layer_max_mm: 0.3, first_layer_mm: 0.2 },
-    "orca-3mf": { layer_min_mm: 0.08, layer_max_mm: 0.28, first_layer_mm: 0.2 },
-  },
+  /** Width of the nozzle of filament printers. */
+  nozzle_mm: 0.4,
   metric: "cusp",
   minimize: "layers",
   snap: "auto",
-  arranging: { spacing_mm: 2, turn_deg: 45 },
   saliency: false,
   weight_min: 0.25,
   resin: { layer_mm: 0.05, exposure_s: 3, bottom_layers: 4, bottom_exposure_s: 30 },
+  arranging: { spacing_mm: 2, turn_deg: 45 },
 } as const;
 
+/** What slicers of filament printers print: at least and at most so many hundredths of the nozzle's width, or of a millimetre. */
+const FILAMENT = {
+  "prusa-3mf": { least: () => 0.07, most: 75 },
+  "orca-3mf": { least: (nozzle_mm: number) => Math.ceil(nozzle_mm * 20 - ROUNDING) / 100, most: 70 },
+} as const satisfies Partial<Record<Format, unknown>>;
+
+/** Products such as 0.4 · 75 are not whole. */
+const ROUNDING = 1e-6;
+
 /** A format for slicers of filament printers. */
-export type FilamentFormat = keyof typeof DEFAULTS.filament;
+export type FilamentFormat = keyof typeof FILAMENT;
 
 /** Whether a format is for slicers of filament printers. */
-export const isFilament = (format: Format | ""): format is FilamentFormat => Object.hasOwn(DEFAULTS.filament, format);
+export const isFilament = (format: Format | ""): format is FilamentFormat => Object.hasOwn(FILAMENT, format);
+
+/** The limits of layers and the first layer that apply for a slicer of filament printers and a nozzle if none are given. */
+export function nozzleLayers(format: FilamentFormat, nozzle_mm: number): { layer_min_mm: number; layer_max_mm: number; first_layer_mm: number } {
+  const { least, most } = FILAMENT[format];
+  const down = (hundredths: number): number => Math.floor(nozzle_mm * hundredths + ROUNDING) / 100;
+  const [layer_min_mm, layer_max_mm] = [least(nozzle_mm), down(most)];
+  return { layer_min_mm, layer_max_mm, first_layer_mm: Math.min(Math.max(down(50), layer_min_mm), layer_max_mm) };
+}
 
 /** The tolerance that applies if none is given; for volume, the core allows more if the model needs it. */
-export function usualOf(metric: Metric, format: Format | ""): number {
+export function usualOf(metric: Metric, format: Format | "", nozzle_mm: number = DEFAULTS.nozzle_mm): number {
   const usual = DEFAULTS.tolerance[metric];
   if (!isFilament(format)) return usual;
-  return Number(((usual * DEFAULTS.filament[format].layer_min_mm) / DEFAULTS.layer_min_mm).toFixed(6));
+  return Number(((usual * nozzleLayers(format, nozzle_mm).layer_min_mm) / DEFAULTS.layer_min_mm).toFixed(6));
 }
 
 /**

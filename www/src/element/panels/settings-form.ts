@@ -4,14 +4,14 @@
  */
 import { html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
-import { DEFAULTS, isFilament, usualOf, type Format, type MeshInfo, type Printer } from "../../api/wire.js";
+import { DEFAULTS, isFilament, usualOf, type Format, type MeshInfo, type ModelUnit, type Printer } from "../../api/wire.js";
 import { languageOf } from "../../texts/index.js";
 import { METRIC_NAMES, METRICS } from "../state/metric.js";
 import type { Choice, Problem } from "../state/problem.js";
 import { problemBox, problemStyles } from "../parts/problem-box.js";
 import { towersOffer, type TowersState } from "../parts/towers-offer.js";
 import { byMaker, FORMATS, formatFor, modelOf, printerOf } from "../state/printer.js";
-import { DEFAULT_SETTINGS, faultWords, RAYS, unitOf, usualTolerance, withFormat, withPrinter, withTolerance } from "../state/settings.js";
+import { DEFAULT_SETTINGS, faultWords, nozzleOf, RAYS, unitOf, usualTolerance, withFormat, withNozzle, withPrinter, withTolerance } from "../state/settings.js";
 import type { Faults, Field, Offered, Settings } from "../state/settings.js";
 import { canonical, localised, read } from "../state/typed.js";
 import { settingsStyles } from "../styles/settings-styles.js";
@@ -27,6 +27,9 @@ export function hasPlace({ field }: Problem, { printer }: Settings, { printers }
   if (field === "printer") return printers.length > 0;
   return field !== "rays" || printer === "";
 }
+
+/** The units of files; the first is that of files that state none. */
+const UNITS = ["millimeter", "inch", "centimeter", "meter", "foot", "micron"] as const satisfies readonly ModelUnit[];
 
 /** Options of the list of printers that are no names. */
 const OWN = "{}";
@@ -109,13 +112,16 @@ export class CuspSettings extends elementWith(PROPERTIES) {
         ${this.#tolerance()}
         <div class="pair">${this.#field("layerMin", words.thinnest)} ${this.#field("layerMax", words.thickest)}</div>
         ${isUniform ? html`<p class="hint">${words.rangeHint}</p>` : nothing}
-        ${this.#field("height", words.height, { placeholder: own })}
+        ${this.#field("height", words.height, { placeholder: own })} ${this.#unit()}
         ${this.#select(
           "metric",
           words.metric,
           options(METRIC_NAMES.map((metric) => [metric, texts.metrics[metric].name]), settings.metric),
         )}
         ${this.#format()}
+        ${isFilament(settings.format)
+          ? this.#field("nozzle", words.nozzle, { hint: words.nozzleHint, placeholder: String(DEFAULTS.nozzle_mm) })
+          : nothing}
         ${settings.printer === ""
           ? this.#select(
               "rays",
@@ -213,6 +219,16 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     return this.#select("format", words.format, list, { value, change, hint: value === "" ? words.formats[usual] : "" });
   }
 
+  /** The unit of a file that states none. */
+  #unit(): TemplateResult | typeof nothing {
+    const { settings: { unit }, info } = this;
+    if (info === null || (info.unit ?? null) !== null) return nothing;
+    const words = this.language.texts.settings;
+    const list = options(UNITS.map((unit) => [unit, words.units[unit]]), unit || UNITS[0]);
+    const change = (value: string): void => this.#say({ unit: value === UNITS[0] ? "" : (value as ModelUnit) });
+    return this.#select("unit", words.unit, list, { value: unit || UNITS[0], change });
+  }
+
   /** Settings that few users need. */
   #more(isUniform: boolean): TemplateResult {
     const words = this.language.texts.settings;
@@ -243,12 +259,12 @@ export class CuspSettings extends elementWith(PROPERTIES) {
 
   /** The tolerance, with what it means, or why the core took another than usual. */
   #tolerance(): TemplateResult {
-    const { settings: { metric, format: file }, taken } = this;
+    const { settings: { metric, format: file, nozzle }, taken } = this;
     const { texts, format } = this.language;
-    const least = usualOf(metric, file);
+    const least = usualOf(metric, file, nozzleOf(nozzle));
     const isMore = taken !== null && taken > least;
     const hint = isMore ? texts.settings.toleranceTaken(METRICS[metric].error(least, format)) : texts.metrics[metric].help;
-    return this.#field("tolerance", texts.settings.tolerance, { hint, placeholder: usualTolerance(metric, taken, file) });
+    return this.#field("tolerance", texts.settings.tolerance, { hint, placeholder: usualTolerance(metric, taken, file, nozzle) });
   }
 
   /** The setting of a field; undefined for a tolerance that nobody has typed. */
@@ -270,7 +286,8 @@ export class CuspSettings extends elementWith(PROPERTIES) {
       const said = canonical(text, unit, format.decimal);
       this.#typed.set(field, { text, said });
       if (said === this.#setting(field)) return;
-      this.#say(field === "tolerance" ? withTolerance(settings, said) : { [field]: said });
+      if (field === "tolerance") this.#say(withTolerance(settings, said));
+      else this.#say(field === "nozzle" ? withNozzle(settings, said) : { [field]: said });
     };
     const left = ({ target }: Event): void => {
       const { value: text } = target as HTMLInputElement;

@@ -170,7 +170,7 @@ function patchOf(values: Values, base: Settings): Partial<Settings> {
   if (resin !== undefined) patch.resin = resin ?? "";
   if (format !== undefined) Object.assign(patch, limitsFor(base, format ?? ""), { format: format ?? "" });
   if (metric !== undefined) patch.metric = metric ?? DEFAULT_SETTINGS.metric;
-  const usual = defaultsOf(patch.format ?? base.format);
+  const usual = defaultsOf(patch.format ?? base.format, base.nozzle);
   if (thinnest !== undefined) patch.layerMin = thinnest === null ? usual.layerMin : String(thinnest);
   if (thickest !== undefined) patch.layerMax = thickest === null ? usual.layerMax : String(thickest);
   if (tolerance !== undefined) {

@@ -17,6 +17,7 @@ import {
   type Settings,
   usualTolerance,
   withFormat,
+  withNozzle,
   withPrinter,
   withTolerance,
 } from "./settings.js";
@@ -250,6 +251,25 @@ test("a format for filament printers brings its limits, and takes them away agai
   expect({ ...chosen, ...withPrinter(chosen, "saturn-3") }).toEqual({ ...DEFAULT_SETTINGS, printer: "saturn-3" });
   const goo = { ...DEFAULT_SETTINGS, format: "goo" } as const;
   expect(withPrinter(goo, "saturn-3")).toEqual({ printer: "saturn-3" });
+});
+
+test("a nozzle brings its limits, unless others are typed, and is for filament printers alone", () => {
+  const chosen = { ...DEFAULT_SETTINGS, ...withFormat(DEFAULT_SETTINGS, "orca-3mf") };
+  const wide = { ...chosen, ...withNozzle(chosen, "0.6") };
+  expect(wide).toMatchObject({ nozzle: "0.6", layerMin: "0.12", layerMax: "0.42", uniform: "0.3" });
+  expect(options(wide)).toMatchObject({ nozzle_mm: 0.6, layer_min_mm: 0.12, layer_max_mm: 0.42 });
+  expect(usualTolerance("cusp", null, "orca-3mf", "0.6")).toBe("0.156");
+  expect({ ...wide, ...withNozzle(wide, "") }).toEqual(chosen);
+  // What is no nozzle, such as one half typed, has the limits of the usual one.
+  expect({ ...wide, ...withNozzle(wide, "0.") }).toMatchObject({ layerMin: "0.08", layerMax: "0.28" });
+  const typed = { ...chosen, layerMax: "0.2" };
+  expect({ ...typed, ...withNozzle(typed, "0.6") }).toMatchObject({ layerMin: "0.12", layerMax: "0.2" });
+  expect(check({ ...chosen, nozzle: "4" })).toMatchObject({ ok: false, faults: { nozzle: { kind: "range", least: 0.15, most: 2 } } });
+  expect(options({ ...wide, ...withFormat(wide, "goo") })).not.toHaveProperty("nozzle_mm");
+});
+
+test.each(["format=orca-3mf&nozzle=0.6", "format=prusa-3mf&layerMax=0.3&nozzle=0.8"])("the nozzle of the address %s stays as it is", (query) => {
+  expect(toAddress(fromAddress(query))).toBe(query);
 });
 
 test.each(["format=prusa-3mf", "format=orca-3mf", "format=orca-3mf&layerMax=0.15"])("the address %s stays as it is", (query) => {

@@ -1,5 +1,5 @@
 /** The form's settings: what was typed or chosen, whether it is valid, and the options that it gives. */
-import { DEFAULTS, isFilament, usualOf } from "../../api/wire.js";
+import { DEFAULTS, isFilament, nozzleLayers, usualOf } from "../../api/wire.js";
 import type { Format as FileFormat, KnownPrinter, Metric, Minimize, ModelUnit, Options, Resin, Snap } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
 import { METRIC_NAMES, METRICS } from "./metric.js";
@@ -14,6 +14,8 @@ interface Lengths {
   layerMax: string;
   uniform: string;
   step: string;
+  /** Width of a filament printer's nozzle; empty for the usual one. */
+  nozzle: string;
 }
 
 /** Exposures in s and a count, likewise; if one is empty, the resin's own applies. */
@@ -82,6 +84,7 @@ export const DEFAULT_SETTINGS: Settings = {
   layerMax: String(DEFAULTS.layer_max_mm),
   uniform: String(DEFAULTS.layer_min_mm),
   step: "",
+  nozzle: "",
   planner: "optimal",
   metric: DEFAULTS.metric,
   minimize: DEFAULTS.minimize,
@@ -100,19 +103,31 @@ export const DEFAULT_SETTINGS: Settings = {
   tolerances: {},
 };
 
-/** The defaults of a format: slicers of filament printers have other limits of layers. */
-export function defaultsOf(format: FileFormat | ""): Settings {
-  if (!isFilament(format)) return { ...DEFAULT_SETTINGS, format };
-  const { layer_min_mm, layer_max_mm, first_layer_mm } = DEFAULTS.filament[format];
-  return { ...DEFAULT_SETTINGS, format, layerMin: String(layer_min_mm), layerMax: String(layer_max_mm), uniform: String(first_layer_mm) };
+/** The defaults of a format: slicers of filament printers have other limits of layers, which depend on the nozzle. */
+export function defaultsOf(format: FileFormat | "", nozzle = ""): Settings {
+  if (!isFilament(format)) return { ...DEFAULT_SETTINGS, format, nozzle };
+  const { layer_min_mm, layer_max_mm, first_layer_mm } = nozzleLayers(format, nozzleOf(nozzle));
+  const limits = { layerMin: String(layer_min_mm), layerMax: String(layer_max_mm), uniform: String(first_layer_mm) };
+  return { ...DEFAULT_SETTINGS, format, nozzle, ...limits };
 }
 
-/** The change of limits that belongs to a change of format: those that were the defaults stay the defaults. */
-export function limitsFor(settings: Settings, format: FileFormat | ""): Partial<Settings> {
-  const [before, after] = [defaultsOf(settings.format), defaultsOf(format)];
+/** The width of a nozzle as typed; the usual one if that is none. */
+export function nozzleOf(nozzle: string): number {
+  const typed = parse(nozzle) ?? Number.NaN;
+  return typed >= THINNEST_NOZZLE_MM && typed <= WIDEST_NOZZLE_MM ? typed : DEFAULTS.nozzle_mm;
+}
+
+/** The change of limits that belongs to a change of format or nozzle: those that were the defaults stay the defaults. */
+export function limitsFor(settings: Settings, format: FileFormat | "", nozzle = settings.nozzle): Partial<Settings> {
+  const [before, after] = [defaultsOf(settings.format, settings.nozzle), defaultsOf(format, nozzle)];
   const change: Partial<Settings> = {};
   for (const key of ["layerMin", "layerMax", "uniform"] as const) if (settings[key] === before[key]) change[key] = after[key];
   return change;
+}
+
+/** The change of settings that chooses a nozzle. */
+export function withNozzle(settings: Settings, nozzle: string): Partial<Settings> {
+  return { ...limitsFor(settings, settings.format, nozzle), nozzle };
 }
 
 /** The change of settings that chooses a format. What only resin printers have is left out for filament printers. */
@@ -133,6 +148,7 @@ const UNITS: Readonly<Record<keyof Lengths | keyof Curing, FieldUnit>> = {
   layerMax: "mm",
   uniform: "mm",
   step: "mm",
+  nozzle: "mm",
   exposure: "s",
   bottomExposure: "s",
   bottomLayers: "",
@@ -167,7 +183,8 @@ const CHOICES: { readonly [Key in keyof Choices]: readonly Choices[Key][] } = {
 export function fromAddress(query: string): Settings {
   const address = new URLSearchParams(query);
   const asked = address.get("format");
-  const settings = { ...defaultsOf(CHOICES.format.find((format) => format === asked) ?? "") };
+  const nozzle = canonical(address.get("nozzle") ?? "", UNITS.nozzle);
+  const settings = { ...defaultsOf(CHOICES.format.find((format) => format === asked) ?? "", nozzle) };
   const choose = <Key extends keyof Choices>(key: Key): void => {
     const choice = CHOICES[key].find((choice) => choice === address.get(key));
     if (choice !== undefined) (settings as Choices)[key] = choice;
@@ -194,7 +211,8 @@ export function fromAddress(query: string): Settings {
  */
 export function toAddress(settings: Settings): string {
   const address = new URLSearchParams();
-  const usual: Settings = { ...defaultsOf(settings.format), format: DEFAULT_SETTINGS.format };
+  const { format, nozzle } = DEFAULT_SETTINGS;
+  const usual: Settings = { ...defaultsOf(settings.format, settings.nozzle), format, nozzle };
   for (const key of [...(Object.keys(CHOICES) as (keyof Choices)[]), ...NUMBERS, ...NAMES]) {
     const text = key === "printer" ? printerText(settings.printer) : settings[key];
     if (text !== usual[key]) address.set(key, text);
@@ -210,8 +228,8 @@ export function withTolerance({ metric, tolerances }: Settings, text: string): P
 }
 
 /** The tolerance that applies if none is typed, in the form's unit: the one that the core chose, or will choose. */
-export function usualTolerance(metric: Metric, taken: number | null, format: FileFormat | "" = ""): string {
-  const usual = usualOf(metric, format);
+export function usualTolerance(metric: Metric, taken: number | null, format: FileFormat | "" = "", nozzle = ""): string {
+  const usual = usualOf(metric, format, nozzleOf(nozzle));
   const { scale } = METRICS[metric];
   // The default is short enough as it is.
   return String(taken === null || taken === usual ? Number((usual * scale).toFixed(6)) : round.up(taken * scale));
@@ -223,6 +241,8 @@ export type Checked = { ok: true; options: Options } | { ok: false; faults: Faul
 const THICKEST_MM = 1;
 const THINNEST_MM = 0.001;
 const TALLEST_MM = 1000;
+const THINNEST_NOZZLE_MM = 0.15;
+const WIDEST_NOZZLE_MM = 2;
 const LONGEST_S = 600;
 const MOST_BOTTOM_LAYERS = 100;
 
@@ -251,6 +271,9 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
   if (settings.printer === "") options.rays = Number(settings.rays);
   else options.printer = settings.printer;
   if (settings.format !== "") options.format = settings.format;
+  if (isFilament(settings.format) && settings.nozzle.trim() !== "") {
+    options.nozzle_mm = within("nozzle", settings.nozzle, THINNEST_NOZZLE_MM, WIDEST_NOZZLE_MM);
+  }
   if (settings.unit !== "") options.unit = settings.unit;
   const [thinnest, thickest] = printer?.layer_mm ?? [THINNEST_MM, THICKEST_MM];
   const layer = (field: "layerMin" | "layerMax" | "uniform"): number =>

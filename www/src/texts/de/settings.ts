@@ -1,4 +1,5 @@
 import type { SettingsTexts } from "../en/settings.js";
+import { UNITS } from "./readers.js";
 
 export const settings = (): SettingsTexts => ({
   settings: {
@@ -20,6 +21,10 @@ export const settings = (): SettingsTexts => ({
     thickest: "Dickste Schicht",
     rangeHint: "Damit wird der gleichmäßige Plan verglichen.",
     height: "Auf Höhe skalieren",
+    unit: "Die Datei ist in",
+    units: UNITS,
+    nozzle: "Düse",
+    nozzleHint: "Nach ihr richten sich die Grenzen der Schichten.",
     printer: "Drucker",
     noPrinter: "Kein Drucker",
     noPrinterHint: "Masken so breit wie das Modell.",

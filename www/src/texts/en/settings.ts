@@ -1,5 +1,7 @@
 /** The settings form, the faults of what is typed there, and the metrics of error. */
 
+import { UNITS } from "./readers.js";
+
 export const settings = () => ({
   settings: {
     title: "Settings",
@@ -20,6 +22,10 @@ export const settings = () => ({
     thickest: "Thickest layer",
     rangeHint: "What the uniform plan is compared with.",
     height: "Scale to height",
+    unit: "The file is in",
+    units: UNITS,
+    nozzle: "Nozzle",
+    nozzleHint: "It sets the limits of layers.",
     printer: "Printer",
     noPrinter: "No printer",
     noPrinterHint: "Masks as wide as the model.",

@@ -1,4 +1,5 @@
 import type { SettingsTexts } from "../en/settings.js";
+import { UNITS } from "./readers.js";
 
 export const settings = (): SettingsTexts => ({
   settings: {
@@ -20,6 +21,10 @@ export const settings = (): SettingsTexts => ({
     thickest: "Capa más gruesa",
     rangeHint: "El plan uniforme se compara con este rango.",
     height: "Escalar a la altura",
+    unit: "El archivo está en",
+    units: UNITS,
+    nozzle: "Boquilla",
+    nozzleHint: "Fija los límites de las capas.",
     printer: "Impresora",
     noPrinter: "Sin impresora",
     noPrinterHint: "Máscaras tan anchas como el modelo.",

@@ -1,4 +1,5 @@
 import type { SettingsTexts } from "../en/settings.js";
+import { UNITS } from "./readers.js";
 
 export const settings = (): SettingsTexts => ({
   settings: {
@@ -20,6 +21,10 @@ export const settings = (): SettingsTexts => ({
     thickest: "Couche la plus épaisse",
     rangeHint: "Le plan uniforme est comparé à cette plage.",
     height: "Mettre à la hauteur",
+    unit: "Le fichier est en",
+    units: UNITS,
+    nozzle: "Buse",
+    nozzleHint: "Elle fixe les limites des couches.",
     printer: "Imprimante",
     noPrinter: "Sans imprimante",
     noPrinterHint: "Masques aussi larges que le modèle.",

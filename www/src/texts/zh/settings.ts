@@ -1,4 +1,5 @@
 import type { SettingsTexts } from "../en/settings.js";
+import { UNITS } from "./readers.js";
 
 export const settings = (): SettingsTexts => ({
   settings: {
@@ -20,6 +21,10 @@ export const settings = (): SettingsTexts => ({
     thickest: "最厚层",
     rangeHint: "均匀方案与此范围比较。",
     height: "缩放到高度",
+    unit: "文件的单位",
+    units: UNITS,
+    nozzle: "喷嘴",
+    nozzleHint: "它决定层厚的范围。",
     printer: "打印机",
     noPrinter: "无打印机",
     noPrinterHint: "掩膜与模型同宽。",
