@@ -4,8 +4,10 @@
 use serde::Deserialize;
 use serde_json::Value;
 
+use super::plate::ClaimedPlate;
 use super::report::OF_THE_MACHINE;
-use super::{Options, Report, SCHEMA};
+use super::stage::StageProgress;
+use super::{Error, Options, Plate, Report, SCHEMA};
 use crate::model::ModelFile;
 use crate::warning::Warning;
 
@@ -32,6 +34,17 @@ pub enum VerifyError {
         bytes: usize,
         /// CRC-32 of that model's file.
         crc32: u32,
+    },
+    /// It is of a plate, and a model was given.
+    #[error("it is a plan of a plate; give the job file in place of the model")]
+    OfPlate,
+    /// A plate has a model that the job does not have.
+    #[error("it has a model {model_number}, and the job has {models}")]
+    NoModel {
+        /// The model, counted from 1.
+        model_number: usize,
+        /// Number of models of the job.
+        models: usize,
     },
     /// The plan was made with other weights of facets than were given here.
     #[error(
@@ -67,12 +80,22 @@ pub enum VerifyError {
 pub struct Claim {
     report: Value,
     options: Options,
+    plate: Option<ClaimedPlate>,
 }
 
 #[derive(Deserialize)]
 struct Head {
     model: ModelFile,
     options: Options,
+    #[serde(default)]
+    plate: Option<ClaimedPlate>,
+}
+
+#[derive(Deserialize)]
+struct Whole {
+    print_time_s: f64,
+    resin_ml: f64,
+    plates: Vec<Value>,
 }
 
 impl Claim {
@@ -81,30 +104,102 @@ impl Claim {
     /// # Errors
     /// [`VerifyError::NotAPlan`], [`VerifyError::OtherSchema`], [`VerifyError::OtherModel`].
     pub fn read(json: &str, model: &ModelFile) -> Result<Self, VerifyError> {
-        let not_a_plan = |error: serde_json::Error| VerifyError::NotAPlan {
-            system: error.to_string(),
-        };
-        let report: Value = serde_json::from_str(json).map_err(not_a_plan)?;
-        let found = report["schema"].as_u64().unwrap_or(u64::from(SCHEMA));
-        if found != u64::from(SCHEMA) {
-            return Err(VerifyError::OtherSchema { found });
+        let report = read(json)?;
+        if report["plates"].is_array() || report["plate"].is_object() {
+            return Err(VerifyError::OfPlate);
         }
+        Self::of(report, std::slice::from_ref(&model))
+    }
+
+    /// Reads the plans of all plates of a job, or the manifest of one plate's print file, and checks that they are for these models.
+    ///
+    /// # Errors
+    /// [`VerifyError::NotAPlan`], [`VerifyError::OtherSchema`], [`VerifyError::OtherModel`], [`VerifyError::NoModel`]; and
+    /// [`VerifyError::Differs`] if the plates of a job are not numbered one after the other, or do not add up to its time and resin.
+    pub fn read_plates(json: &str, models: &[&ModelFile]) -> Result<Vec<Self>, VerifyError> {
+        let report = read(json)?;
+        if !report["plates"].is_array() {
+            return Ok(vec![Self::of(report, models)?]);
+        }
+        let Whole {
+            print_time_s,
+            resin_ml,
+            plates,
+        } = Whole::deserialize(&report).map_err(not_a_plan)?;
+        let sum = |key: &str| plates.iter().filter_map(|plate| plate[key].as_f64()).sum();
+        let sums: [f64; 2] = ["print_time_s", "resin_ml"].map(sum);
+        compare("print_time_s", &print_time_s.into(), &sums[0].into())?;
+        compare("resin_ml", &resin_ml.into(), &sums[1].into())?;
+        let count = plates.len();
+        for (number, plate) in plates.iter().enumerate() {
+            // A copy that is alone has no plate.
+            if count > 1 || plate["plate"].is_object() {
+                let key = format!("plates[{number}].plate");
+                compare(
+                    &format!("{key}.plate"),
+                    &plate["plate"]["plate"],
+                    &number.into(),
+                )?;
+                compare(
+                    &format!("{key}.plates"),
+                    &plate["plate"]["plates"],
+                    &count.into(),
+                )?;
+            }
+        }
+        let claims = plates.into_iter().map(|plate| Self::of(plate, models));
+        claims.collect()
+    }
+
+    fn of(report: Value, models: &[&ModelFile]) -> Result<Self, VerifyError> {
         let Head {
-            model: claimed,
+            model: first,
             options,
+            plate,
         } = Head::deserialize(&report).map_err(not_a_plan)?;
-        if claimed != *model {
-            return Err(VerifyError::OtherModel {
+        let check = |claimed: &ModelFile, model: usize| match models.get(model) {
+            None => Err(VerifyError::NoModel {
+                model_number: model + 1,
+                models: models.len(),
+            }),
+            Some(found) if claimed == *found => Ok(()),
+            Some(_) => Err(VerifyError::OtherModel {
                 bytes: claimed.bytes,
                 crc32: claimed.crc32,
-            });
-        }
-        Ok(Self { report, options })
+            }),
+        };
+        match &plate {
+            None if models.len() > 1 => Err(VerifyError::NotAPlan {
+                system: "it is of one model, and the job has several".to_owned(),
+            }),
+            None => check(&first, 0),
+            Some(plate) => plate
+                .files()
+                .try_for_each(|(file, model)| check(file, model)),
+        }?;
+        Ok(Self {
+            report,
+            options,
+            plate,
+        })
     }
 
     /// The options that the plan claims to have been made with.
     pub fn options(&self) -> &Options {
         &self.options
+    }
+
+    /// Plans the plate again, on a plate of the job's models. Its plan is then the only one.
+    ///
+    /// # Errors
+    /// Those of [`Plate::plan`].
+    pub async fn plan_again<'a>(
+        &self,
+        models: &'a mut Plate,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<&'a Report, Error> {
+        let plate = self.plate.as_ref();
+        models.plan_claimed(plate, &self.options, progress).await
     }
 
     /// Compares the plan with `made`, which was planned again with [`Self::options`]. Then checks that the tolerance holds
@@ -119,9 +214,7 @@ impl Claim {
         // A round trip through text, like that of the claim, so that both have their numbers parsed alike.
         let text = serde_json::to_string(made);
         let value = text.and_then(|text| serde_json::from_str(&text));
-        let expected: Value = value.map_err(|error| VerifyError::NotAPlan {
-            system: error.to_string(),
-        })?;
+        let expected: Value = value.map_err(not_a_plan)?;
         for (key, expected) in expected.as_object().into_iter().flatten() {
             // Some warnings are about the machine; the others follow from the rest of the report.
             if !OF_THE_MACHINE.contains(&key.as_str()) && key != "warnings" {
@@ -143,12 +236,31 @@ impl Claim {
     }
 }
 
+#[expect(clippy::needless_pass_by_value, reason = "errors are mapped by value")]
+fn not_a_plan(error: serde_json::Error) -> VerifyError {
+    VerifyError::NotAPlan {
+        system: error.to_string(),
+    }
+}
+
+/// The JSON of a report of this version.
+fn read(json: &str) -> Result<Value, VerifyError> {
+    let report: Value = serde_json::from_str(json).map_err(not_a_plan)?;
+    let found = report["schema"].as_u64().unwrap_or(u64::from(SCHEMA));
+    if found == u64::from(SCHEMA) {
+        Ok(report)
+    } else {
+        Err(VerifyError::OtherSchema { found })
+    }
+}
+
 /// Finds the first difference between two values. 5 and 5.0 are equal, and so are an absent value and null.
 fn compare(key: &str, claimed: &Value, expected: &Value) -> Result<(), VerifyError> {
     match (claimed, expected) {
         (Value::Object(claimed), Value::Object(expected)) => {
             let keys = claimed.keys().chain(expected.keys());
-            for inner in keys {
+            // Those of a plate's models are like those of a report.
+            for inner in keys.filter(|inner| *inner != "warnings") {
                 let [claimed, expected] = [claimed, expected].map(|it| it.get(inner));
                 let null = &Value::Null;
                 compare(

@@ -119,3 +119,89 @@ fn weights_go_from_file_to_plan_and_back_through_verify() {
     let refused = on_cpu(&["plan", &model, "--weight-min", "2"]);
     assert_fails(&refused, 1, "from 0 to 1");
 }
+
+#[test]
+fn the_plans_of_plates_are_verified_by_the_job_file_whole_and_one_by_one() {
+    let folder = TempDir::new().unwrap();
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let ball = sphere(&folder);
+    let weights = path("ball.weights");
+    assert!(cusp(&["saliency", &ball, "-o", &weights]).status.success());
+    let column = solids::cuboid(Vec3::new(3.0, 2.0, 5.0));
+    model(&folder, "column.stl", &binary_stl(&column));
+    let job = path("job.json");
+    let written = r#"{
+        "models": [
+            { "file": "column.stl", "copies": 12, "tolerance": 0.05 },
+            { "file": "ball.stl", "copies": 2, "height_mm": 4, "weights": "ball.weights" }
+        ],
+        "options": { "pixels": [200, 120], "pitch_mm": 0.1, "backend": "cpu", "format": "png" }
+    }"#;
+    std::fs::write(&job, written).unwrap();
+    let (plan, print) = (path("plan.json"), path("print.zip"));
+    let sliced = cusp(&["slice", &job, "-o", &print, "--json"]);
+    std::fs::write(&plan, &sliced.stdout).unwrap();
+    let whole = json(&sliced);
+    let count = whole["plates"].as_array().unwrap().len();
+    assert_eq!(count, 2);
+    let verified = json(&cusp(&["verify", &plan, &job, "--json"]));
+    assert_eq!(verified["resin_ml"], whole["resin_ml"]);
+    assert_eq!(verified["plates"].as_array().unwrap().len(), count);
+
+    // The manifest and the masks of each print file.
+    for number in 1..=count {
+        let print = path(&format!("print-{number}.zip"));
+        let mut zip = zip::ZipArchive::new(std::fs::File::open(&print).unwrap()).unwrap();
+        let manifest = path("manifest.json");
+        let mut file = std::fs::File::create(&manifest).unwrap();
+        std::io::copy(&mut zip.by_name("manifest.json").unwrap(), &mut file).unwrap();
+        let output = cusp(&["verify", &manifest, &job, "--print", &print, "--json"]);
+        assert_eq!(json(&output)["plates"][0]["print_is_same"], true);
+        let other = path(&format!("print-{}.zip", count + 1 - number));
+        let output = cusp(&["verify", &manifest, &job, "--print", &other]);
+        assert_fails(&output, 1, "not the print file that this plan gives");
+        assert_fails(&cusp(&["verify", &manifest, &ball]), 1, "give the job file");
+    }
+
+    // A lie anywhere is found.
+    let refuses = |change: &dyn Fn(&mut Value), words: &str| {
+        let mut lie = whole.clone();
+        change(&mut lie);
+        std::fs::write(&plan, lie.to_string()).unwrap();
+        assert_fails(&cusp(&["verify", &plan, &job]), 1, words);
+    };
+    let first = |lie: &mut Value, key: &str, value: Value| lie["plates"][0]["plate"][key] = value;
+    refuses(&|lie| lie["resin_ml"] = 0.5.into(), "resin_ml is 0.5");
+    refuses(
+        &|lie| lie["plates"].as_array_mut().unwrap().truncate(1),
+        "print_time_s is",
+    );
+    refuses(&|lie| first(lie, "plate", 1.into()), "plate is 1");
+    refuses(
+        &|lie| {
+            let key = "print_time_s";
+            lie["plates"][0]["plate"]["models"][0][key] = 1.0.into();
+        },
+        "print_time_s is 1.0",
+    );
+    refuses(
+        &|lie| lie["plates"][0]["plate"]["models"][0]["options"]["tolerance"] = 0.5.into(),
+        "it is not what the model and its options give",
+    );
+    refuses(
+        &|lie| {
+            let place = lie["plates"][0]["plate"]["placements"][0].clone();
+            lie["plates"][0]["plate"]["placements"][1] = place;
+        },
+        "overlap on plate 1",
+    );
+    refuses(
+        &|lie| lie["plates"][0]["plate"]["models"][0]["model"] = 7.into(),
+        "a model 8, and the job has 2",
+    );
+    // Another file in the place of a model.
+    std::fs::write(&plan, whole.to_string()).unwrap();
+    let other = binary_stl(&solids::cube(2.0));
+    std::fs::write(path("column.stl"), other).unwrap();
+    assert_fails(&cusp(&["verify", &plan, &job]), 1, "another model");
+}

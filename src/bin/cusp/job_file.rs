@@ -142,34 +142,51 @@ pub fn read_job(
             placements: Vec::new(),
         }
     });
-    let settings = choices.settings_over(file.options)?;
+    let settings = choices.settings_over(file.options.clone())?;
     if settings.weights.is_some() {
         let message = "weights belong to a model: name them beside it in a job file";
         wrong_usage(command, message);
     }
-    let within = |path: &Path| folder.map_or_else(|| path.to_owned(), |it| it.join(path));
-    let mut plate = Plate::default();
-    let (mut paths, mut all_weights, mut own) = (Vec::new(), Vec::new(), Vec::new());
-    for model in &file.models {
-        let path = within(&model.file);
-        let weights = model.weights.as_deref().map(within);
-        let read = weights.as_deref().map(WeightsFile::read).transpose()?;
-        plate.add(load_painted(&path, read.as_ref())?);
-        all_weights.push(weights);
-        own.push(model.own());
-        paths.push(path);
-    }
+    let read = file.read_models(folder)?;
     Ok(Job {
-        paths,
-        weights: all_weights,
-        plate,
+        paths: read.paths,
+        weights: read.weights,
+        plate: read.plate,
         options: PlateOptions {
             options: settings.options,
-            models: own,
+            models: file.models.iter().map(JobModel::own).collect(),
             arranging: places.arranging(file.arranging),
             placements: file.placements,
         },
     })
+}
+
+/// The models of a job file.
+pub struct JobModels {
+    pub paths: Vec<PathBuf>,
+    pub weights: Vec<Option<PathBuf>>,
+    pub plate: Plate,
+}
+
+impl JobFile {
+    /// Reads all models, whose paths are relative to this folder.
+    pub fn read_models(&self, folder: Option<&Path>) -> Result<JobModels, Failure> {
+        let within = |path: &Path| folder.map_or_else(|| path.to_owned(), |it| it.join(path));
+        let (mut paths, mut weights, mut plate) = (Vec::new(), Vec::new(), Plate::default());
+        for model in &self.models {
+            let path = within(&model.file);
+            let painted = model.weights.as_deref().map(within);
+            let read = painted.as_deref().map(WeightsFile::read).transpose()?;
+            plate.add(load_painted(&path, read.as_ref())?);
+            weights.push(painted);
+            paths.push(path);
+        }
+        Ok(JobModels {
+            paths,
+            weights,
+            plate,
+        })
+    }
 }
 
 /// A model and its number of copies: `part.stl:3`, unless there is a file of that name.

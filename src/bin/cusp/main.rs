@@ -93,7 +93,7 @@ enum Command {
     Verify {
         /// Plan from `cusp plan --json` or from the page, or the manifest of a zip of masks
         plan: PathBuf,
-        /// Model that the plan was made from: 3MF, OBJ or STL
+        /// Model that the plan was made from: 3MF, OBJ or STL. For plates, the job file
         model: PathBuf,
         /// Recompute this print file as well, and compare every byte
         #[arg(long, value_name = "FILE")]

@@ -16,7 +16,7 @@ use serde_json::{Value, json};
 use crate::batch::BatchLine;
 use crate::job_file::JobFile;
 use crate::slice::Compared;
-use crate::verify::Verified;
+use crate::verify::{Verified, VerifiedPlates};
 
 /// Draft 7, which most validators know.
 fn generator() -> SchemaGenerator {
@@ -120,6 +120,7 @@ fn the_schemas_of_reports_are_recorded() {
         ("settings", settings()),
         ("simulate", output::<Simulation>()),
         ("tradeoff", output::<Tradeoff>()),
+        ("verify-plates", output::<VerifiedPlates>()),
         ("verify", output::<Verified>()),
     ];
     let mut names: Vec<String> = Vec::new();

@@ -1,5 +1,6 @@
 //! Several models in one job: each is sampled and measured alone, all that stand on a plate share its plan.
 
+mod claimed;
 mod options;
 mod outputs;
 mod places;
@@ -10,6 +11,7 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
+pub(super) use claimed::ClaimedPlate;
 pub use options::{ModelOptions, Placement, PlateOptions};
 pub use report::{PlateModelReport, PlateReport, PlatesReport};
 

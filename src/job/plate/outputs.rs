@@ -31,7 +31,7 @@ pub(super) struct Current {
 }
 
 impl Plate {
-    fn current(&mut self, plate: usize) -> Result<&mut Current, Error> {
+    pub(super) fn current(&mut self, plate: usize) -> Result<&mut Current, Error> {
         let plates = self.plates.len();
         if plates == 0 {
             return Err(Error::NoPlan);

@@ -1,0 +1,80 @@
+//! A plate of a submitted plan, to be planned again.
+
+use serde::Deserialize;
+
+use super::super::Report;
+use super::super::stage::StageProgress;
+use super::{ModelOptions, Placement, Plate, PlateOptions};
+use crate::Error;
+use crate::arrange::Arranging;
+use crate::job::Options;
+use crate::model::ModelFile;
+
+/// What a submitted plan says of its plate. Unlike a report it says how copies stand, and nothing that follows from it.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct ClaimedPlate {
+    plate: usize,
+    plates: usize,
+    models: Vec<ClaimedModel>,
+    placements: Vec<Placement>,
+    spacing_mm: f64,
+}
+
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+struct ClaimedModel {
+    model: usize,
+    file: ModelFile,
+    options: ModelOptions,
+}
+
+impl ClaimedPlate {
+    /// The files of its models, and their indices in the job.
+    pub(in crate::job) fn files(&self) -> impl Iterator<Item = (&ModelFile, usize)> {
+        self.models.iter().map(|model| (&model.file, model.model))
+    }
+
+    /// The job that has only this plate, with the options that the plan claims.
+    fn job(&self, options: &Options) -> PlateOptions {
+        let count = self.models.iter().map(|model| model.model + 1).max();
+        let mut models = vec![ModelOptions::default(); count.unwrap_or(0)];
+        for model in &self.models {
+            models[model.model] = model.options.clone();
+        }
+        PlateOptions {
+            options: options.clone(),
+            models,
+            arranging: Arranging {
+                spacing_mm: self.spacing_mm,
+                ..Arranging::default()
+            },
+            placements: self.placements.clone(),
+        }
+    }
+}
+
+impl Plate {
+    /// Plans a submitted plate again, as the only one, and numbers it as it was. Without a plate it is the only model, alone.
+    ///
+    /// # Errors
+    /// Those of [`Plate::plan`].
+    pub(in crate::job) async fn plan_claimed(
+        &mut self,
+        claimed: Option<&ClaimedPlate>,
+        options: &Options,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<&Report, Error> {
+        let job = match claimed {
+            Some(claimed) => claimed.job(options),
+            None => PlateOptions {
+                options: options.clone(),
+                ..PlateOptions::default()
+            },
+        };
+        self.plan(&job, progress).await?;
+        let report = &mut self.current(0)?.report;
+        if let (Some(plate), Some(claimed)) = (&mut report.plate, claimed) {
+            (plate.plate, plate.plates) = (claimed.plate, claimed.plates);
+        }
+        Ok(report)
+    }
+}
