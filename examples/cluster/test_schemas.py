@@ -91,6 +91,15 @@ class Schemas(unittest.TestCase):
         plan.write_text(self.planned("plan", self.wedge, "--max-thicknesses=2"))
         self.check("verify", self.cusp("verify", plan, self.wedge, "--print", self.print, "--json"))
 
+    def test_plates(self) -> None:
+        job, plan = self.folder / "job.json", self.folder / "plates.json"
+        plate = ["--pixels=200x150", "--pitch=0.1", "--backend=cpu"]
+        self.check("plate", self.cusp("plate", f"{self.wedge}:5", self.open, *plate, "-o", job, "--json"))
+        plan.write_text(self.cusp("plan", job, "--json"))
+        report = self.check("plates", plan.read_text())
+        self.assertGreater(len(report["plates"]), 1)
+        self.check("verify-plates", self.cusp("verify", plan, job, "--json"))
+
     def test_studies(self) -> None:
         self.check("tradeoff", self.planned("tradeoff", self.wedge, "--points=5"))
         self.check("compare", self.planned("compare", self.wedge))
