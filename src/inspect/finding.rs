@@ -1,0 +1,199 @@
+//! What the checks find, and how it is said.
+
+use std::fmt::{self, Display, Formatter};
+
+use serde::Serialize;
+
+use super::limits::Severity;
+
+/// The kinds of findings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(
+    all(target_arch = "wasm32", not(feature = "read")),
+    derive(tsify::Tsify)
+)]
+#[serde(rename_all = "kebab-case")]
+pub enum Code {
+    /// Lit pixels with nothing below, which join something later.
+    Island,
+    /// A body that touches neither the plate nor another body.
+    LooseBody,
+    /// A body on the plate that touches no other, except the largest.
+    SeparateBody,
+    /// A loose body of a few pixels or of one layer.
+    Speck,
+    /// A surface that is too flat to support itself reaches out too far.
+    Overhang,
+    /// A hollow that is open only away from the plate while it is printed.
+    Cup,
+    /// A hollow that is open nowhere once it is printed.
+    Trap,
+    /// A wall, or another part, that is too thin within layers.
+    ThinWall,
+    /// A floor, a roof, or another part, that is too thin along z.
+    ThinFloor,
+    /// A gap, or a hole, that is too narrow within layers.
+    NarrowGap,
+    /// A gap that is too low along z.
+    LowGap,
+    /// A layer that is too large to peel off.
+    PeelArea,
+    /// A layer that is too much larger than the one below.
+    PeelJump,
+    /// Too little area on the plate.
+    SmallContact,
+}
+
+impl Code {
+    /// All kinds, in the order in which findings are listed.
+    pub const ALL: [Self; 14] = [
+        Self::Island,
+        Self::LooseBody,
+        Self::SeparateBody,
+        Self::Speck,
+        Self::Overhang,
+        Self::Cup,
+        Self::Trap,
+        Self::ThinWall,
+        Self::ThinFloor,
+        Self::NarrowGap,
+        Self::LowGap,
+        Self::PeelArea,
+        Self::PeelJump,
+        Self::SmallContact,
+    ];
+
+    /// The code, as in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Island => "island",
+            Self::LooseBody => "loose-body",
+            Self::SeparateBody => "separate-body",
+            Self::Speck => "speck",
+            Self::Overhang => "overhang",
+            Self::Cup => "cup",
+            Self::Trap => "trap",
+            Self::ThinWall => "thin-wall",
+            Self::ThinFloor => "thin-floor",
+            Self::NarrowGap => "narrow-gap",
+            Self::LowGap => "low-gap",
+            Self::PeelArea => "peel-area",
+            Self::PeelJump => "peel-jump",
+            Self::SmallContact => "small-contact",
+        }
+    }
+}
+
+/// Something that may fail, and where.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(
+    all(target_arch = "wasm32", not(feature = "read")),
+    derive(tsify::Tsify)
+)]
+pub struct Finding {
+    /// What it is.
+    pub code: Code,
+    /// How much it matters.
+    pub severity: Severity,
+    /// A point of it: x, y and z in millimetres, with the model centred on x = y = 0 and the plate at z = 0.
+    pub at_mm: [f64; 3],
+    /// The smallest and the largest x, y and z of it.
+    pub bounds_mm: [[f64; 3]; 2],
+    /// The first and the last layer of it, from 0.
+    pub layers: [usize; 2],
+    /// Its largest area in a layer, in mm².
+    pub area_mm2: f64,
+    /// Its volume in mm³: what is lit of a body or an island until it joins another, and the dark in a cup or a trap.
+    pub volume_mm3: f64,
+    /// For islands, the layer that joins them with something else, from 0.
+    pub joins_layer: Option<usize>,
+    /// The limit that it exceeds or falls below, in the unit of the limit.
+    pub limit: f64,
+}
+
+impl Finding {
+    /// By how much it is larger than another of its kind.
+    pub(super) fn weight(&self) -> f64 {
+        match self.code {
+            Code::Cup | Code::PeelArea | Code::PeelJump | Code::SmallContact => self.area_mm2,
+            _ => self.volume_mm3,
+        }
+    }
+}
+
+/// One sentence that says what it is, and what to do.
+impl Display for Finding {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let [first, last] = self.layers.map(|layer| layer + 1);
+        let (area, volume, limit) = (self.area_mm2, self.volume_mm3, self.limit);
+        match self.code {
+            Code::Island => {
+                let joins = self.joins_layer.map_or(last + 1, |layer| layer + 1);
+                write!(
+                    f,
+                    "nothing is below it in layer {first}, and it joins the rest in layer {joins}, with {volume:.3} mm³ by then; \
+                     support it, or turn the model"
+                )
+            }
+            Code::LooseBody => write!(
+                f,
+                "a body of {volume:.3} mm³ touches neither the plate nor another body; support it, join it, or leave it out"
+            ),
+            Code::SeparateBody => write!(
+                f,
+                "a body of {volume:.3} mm³ on the plate touches no other; join them if they are meant to be one"
+            ),
+            Code::Speck => write!(
+                f,
+                "a few pixels touch nothing, {area:.4} mm² in {} layers; remove them from the model",
+                last + 1 - first
+            ),
+            Code::Overhang => write!(
+                f,
+                "{area:.2} mm² reach out by more than {limit} mm, too flat to support themselves; support them, or turn the model"
+            ),
+            Code::Cup => write!(
+                f,
+                "a hollow of {:.3} ml is open only away from the plate, and sucks with up to {area:.1} mm²; make a hole near the \
+                 plate, or turn the model",
+                volume / 1e3
+            ),
+            Code::Trap => write!(
+                f,
+                "{:.3} ml of resin are enclosed; make two holes to drain them",
+                volume / 1e3
+            ),
+            Code::ThinWall => write!(
+                f,
+                "a wall is thinner than {limit} mm over {volume:.3} mm³; make it thicker, or the model larger"
+            ),
+            Code::ThinFloor => write!(
+                f,
+                "a floor is thinner than {limit} mm along z over {area:.2} mm²; make it thicker, or the model larger"
+            ),
+            Code::NarrowGap => write!(
+                f,
+                "a gap is narrower than {limit} mm over {volume:.3} mm³ and may close; make it wider, or the model larger"
+            ),
+            Code::LowGap => write!(
+                f,
+                "a gap is lower than {limit} mm along z over {area:.2} mm² and may close; make it higher, or turn the model"
+            ),
+            Code::PeelArea => write!(
+                f,
+                "the layer has {area:.1} mm² to peel off, more than {limit}; turn the model, or hollow it"
+            ),
+            Code::PeelJump => write!(
+                f,
+                "the layer has {area:.1} mm² more to peel off than the one below, more than {limit}; turn the model"
+            ),
+            Code::SmallContact => write!(
+                f,
+                "only {area:.2} mm² hold the print on the plate, less than {limit} of its largest layer; put it on a raft, or turn \
+                 it"
+            ),
+        }
+    }
+}

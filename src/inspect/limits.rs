@@ -1,0 +1,234 @@
+//! What a shop accepts: thresholds, and how much each kind of finding matters.
+
+use serde::{Deserialize, Serialize};
+
+use super::finding::Code;
+
+/// How much a finding matters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(
+    all(target_arch = "wasm32", not(feature = "read")),
+    derive(tsify::Tsify)
+)]
+#[serde(rename_all = "lowercase")]
+pub enum Severity {
+    /// Not looked for.
+    Ignore,
+    /// Somebody should look at it before it is printed.
+    Review,
+    /// Not printed like this.
+    Reject,
+}
+
+/// Thresholds of the checks, and the severity of what they find. The defaults are the least strict of the rules that printing
+/// services publish for resin, so what they find, most services would ask about.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(
+    all(target_arch = "wasm32", not(feature = "read")),
+    derive(tsify::Tsify)
+)]
+#[serde(default, deny_unknown_fields)]
+pub struct Limits {
+    /// Islands count from this area on: the largest of a layer before they join something, in mm².
+    pub island_mm2: f64,
+    /// A body that touches no other and has fewer pixels than this in every layer is a speck.
+    pub speck_px: u32,
+    /// The flattest surface that supports itself, as its rise over its run.
+    pub self_supporting_slope: f64,
+    /// How far a flatter surface may reach out, in millimetres.
+    pub overhang_mm: f64,
+    /// Cups count from this area on: the largest of a layer, in mm².
+    pub cup_mm2: f64,
+    /// Traps count from this volume on, in millilitres.
+    pub trap_ml: f64,
+    /// The thinnest wall, across layers, in millimetres.
+    pub wall_mm: f64,
+    /// The thinnest floor or roof, along z, in millimetres.
+    pub floor_mm: f64,
+    /// The narrowest gap, across layers, in millimetres.
+    pub gap_mm: f64,
+    /// The lowest gap, along z, in millimetres.
+    pub low_gap_mm: f64,
+    /// The largest area of a layer, in mm²; no limit if absent.
+    pub peel_mm2: Option<f64>,
+    /// The largest growth of the area from one layer to the next, in mm²; no limit if absent.
+    pub peel_jump_mm2: Option<f64>,
+    /// The least area on the plate as a fraction of the largest layer's; no limit if absent.
+    pub contact: Option<f64>,
+    /// How much each kind of finding matters.
+    pub severity: Severities,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            island_mm2: 0.0,
+            speck_px: 4,
+            // 19° from level.
+            self_supporting_slope: 0.344,
+            overhang_mm: 1.0,
+            cup_mm2: 1.0,
+            trap_ml: 0.001,
+            wall_mm: 0.4,
+            floor_mm: 0.4,
+            gap_mm: 0.3,
+            low_gap_mm: 0.3,
+            peel_mm2: None,
+            peel_jump_mm2: None,
+            contact: None,
+            severity: Severities::default(),
+        }
+    }
+}
+
+/// The severity of each kind of finding, by its code.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(
+    all(target_arch = "wasm32", not(feature = "read")),
+    derive(tsify::Tsify)
+)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Severities {
+    /// Lit pixels with nothing below, which join something later.
+    pub island: Severity,
+    /// A body that touches neither the plate nor another body.
+    pub loose_body: Severity,
+    /// A body on the plate that touches no other.
+    pub separate_body: Severity,
+    /// A loose body of a few pixels or of one layer.
+    pub speck: Severity,
+    /// A surface that reaches out too far.
+    pub overhang: Severity,
+    /// A hollow that is open only away from the plate.
+    pub cup: Severity,
+    /// A hollow that is open nowhere.
+    pub trap: Severity,
+    /// A wall that is too thin.
+    pub thin_wall: Severity,
+    /// A floor or a roof that is too thin.
+    pub thin_floor: Severity,
+    /// A gap that is too narrow.
+    pub narrow_gap: Severity,
+    /// A gap that is too low.
+    pub low_gap: Severity,
+    /// A layer that is too large.
+    pub peel_area: Severity,
+    /// A layer that is too much larger than the one below.
+    pub peel_jump: Severity,
+    /// Too little area on the plate.
+    pub small_contact: Severity,
+}
+
+impl Default for Severities {
+    fn default() -> Self {
+        Self {
+            island: Severity::Review,
+            loose_body: Severity::Reject,
+            separate_body: Severity::Ignore,
+            speck: Severity::Review,
+            overhang: Severity::Review,
+            cup: Severity::Review,
+            trap: Severity::Reject,
+            thin_wall: Severity::Review,
+            thin_floor: Severity::Review,
+            narrow_gap: Severity::Review,
+            low_gap: Severity::Review,
+            peel_area: Severity::Review,
+            peel_jump: Severity::Review,
+            small_contact: Severity::Review,
+        }
+    }
+}
+
+impl Severities {
+    /// The severity of a kind of finding.
+    pub fn of(&self, code: Code) -> Severity {
+        match code {
+            Code::Island => self.island,
+            Code::LooseBody => self.loose_body,
+            Code::SeparateBody => self.separate_body,
+            Code::Speck => self.speck,
+            Code::Overhang => self.overhang,
+            Code::Cup => self.cup,
+            Code::Trap => self.trap,
+            Code::ThinWall => self.thin_wall,
+            Code::ThinFloor => self.thin_floor,
+            Code::NarrowGap => self.narrow_gap,
+            Code::LowGap => self.low_gap,
+            Code::PeelArea => self.peel_area,
+            Code::PeelJump => self.peel_jump,
+            Code::SmallContact => self.small_contact,
+        }
+    }
+}
+
+/// The largest thickness or distance that is looked for, in millimetres.
+const MOST_MM: f64 = 20.0;
+
+/// Why limits cannot be used.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LimitsError {
+    /// A number is out of bounds.
+    #[error("{name} is {value}, but must be from {least} to {most}")]
+    OutOfBounds {
+        /// The field.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// The smallest possible value.
+        least: f64,
+        /// The largest possible value.
+        most: f64,
+    },
+}
+
+impl Limits {
+    /// Whether findings of a kind matter at all.
+    pub fn looks_for(&self, code: Code) -> bool {
+        self.severity.of(code) != Severity::Ignore
+    }
+
+    /// Checks that every number is within its bounds.
+    ///
+    /// # Errors
+    /// [`LimitsError`].
+    pub fn check(&self) -> Result<(), LimitsError> {
+        let lengths = [
+            ("overhang_mm", self.overhang_mm),
+            ("wall_mm", self.wall_mm),
+            ("floor_mm", self.floor_mm),
+            ("gap_mm", self.gap_mm),
+            ("low_gap_mm", self.low_gap_mm),
+        ];
+        let others = [
+            ("island_mm2", Some(self.island_mm2)),
+            ("cup_mm2", Some(self.cup_mm2)),
+            ("trap_ml", Some(self.trap_ml)),
+            ("peel_mm2", self.peel_mm2),
+            ("peel_jump_mm2", self.peel_jump_mm2),
+            ("contact", self.contact),
+        ];
+        let slope = (
+            "self_supporting_slope",
+            self.self_supporting_slope,
+            0.01,
+            100.0,
+        );
+        let lengths = lengths.map(|(name, value)| (name, value, 0.0, MOST_MM));
+        let others = others.map(|(name, value)| (name, value.unwrap_or(0.0), 0.0, f64::MAX));
+        let mut all = lengths.into_iter().chain(others).chain([slope]);
+        match all.find(|(_, value, least, most)| !(*least..=*most).contains(value)) {
+            Some((name, value, least, most)) => Err(LimitsError::OutOfBounds {
+                name,
+                value,
+                least,
+                most,
+            }),
+            None => Ok(()),
+        }
+    }
+}
