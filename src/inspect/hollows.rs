@@ -1,0 +1,131 @@
+//! Cups and traps: dark places that the outside does not reach.
+//!
+//! The part hangs from the plate, and the film is below its newest layer. A dark place that no dark passage through the layers
+//! so far joins with the outside, and that is open in the newest layer, sucks at the film: a cup. Once a layer covers the last
+//! opening, what is in it stays: a trap. Dark pixels of the first layer lie on the plate, which closes them.
+
+use super::collect::{Collector, Frame};
+use super::components::{Components, Patch};
+use super::finding::{Code, Finding};
+use super::forest::{End, Forest, Joining, Step, Tree};
+use super::limits::Limits;
+use super::rows::Rows;
+
+/// The dark places between lit pixels of a layer, and which of them are open sideways.
+#[derive(Default)]
+pub(super) struct Gaps {
+    pub components: Components,
+    /// Those that meet the outside in their own layer.
+    is_open: Vec<bool>,
+}
+
+impl Gaps {
+    /// Dark pixels before the first and after the last lit one of a row are outside, and no part of any component.
+    pub fn new(lit: &Rows) -> Self {
+        let components = Components::new(lit.gaps());
+        let mut is_open = vec![false; components.patches.len()];
+        if !is_open.is_empty() {
+            components.open_to(lit, -1, &mut is_open);
+            components.open_to(lit, 1, &mut is_open);
+        }
+        Self {
+            components,
+            is_open,
+        }
+    }
+}
+
+/// How the gaps of a layer meet those of the layer below, and the outside.
+#[derive(Default)]
+pub(super) struct Meetings {
+    contacts: Vec<[u32; 2]>,
+    /// Components of the layer that are open to the outside, in it or in the layer below.
+    open: Vec<u32>,
+    /// Components of the layer below that are open to the outside in the layer.
+    open_below: Vec<u32>,
+}
+
+impl Meetings {
+    /// `below` is absent for the first layer.
+    pub fn new(here: &Gaps, lit: &Rows, below: Option<(&Gaps, &Rows)>) -> Self {
+        let mut is_open = here.is_open.clone();
+        let mut is_open_below = Vec::new();
+        let mut contacts = Vec::new();
+        if let Some((gaps, lit_below)) = below {
+            contacts = here.components.contacts(&gaps.components);
+            here.components.open_to(lit_below, 0, &mut is_open);
+            is_open_below = vec![false; gaps.is_open.len()];
+            gaps.components.open_to(lit, 0, &mut is_open_below);
+        }
+        let those = |is_open: &[bool]| {
+            let all = is_open.iter().zip(0..);
+            all.filter(|it| *it.0).map(|it| it.1).collect()
+        };
+        Self {
+            contacts,
+            open: those(&is_open),
+            open_below: those(&is_open_below),
+        }
+    }
+}
+
+/// The hollows of the layers so far.
+pub(super) struct Hollows<'a> {
+    frame: &'a Frame<'a>,
+    limits: &'a Limits,
+    forest: Forest,
+}
+
+impl<'a> Hollows<'a> {
+    pub fn new(frame: &'a Frame<'a>, limits: &'a Limits) -> Self {
+        Self {
+            frame,
+            limits,
+            forest: Forest::with_outside(Joining::Unites, &Patch::NOWHERE),
+        }
+    }
+
+    pub fn advance(
+        &mut self,
+        layer: usize,
+        gaps: &Gaps,
+        meetings: &Meetings,
+        collector: &mut Collector<'_>,
+    ) {
+        let step = Step {
+            layer,
+            bins: self.frame.bins(layer),
+            patches: &gaps.components.patches,
+            contacts: &meetings.contacts,
+            fixed: &meetings.open,
+            fixed_below: &meetings.open_below,
+        };
+        let (frame, limits) = (self.frame, self.limits);
+        self.forest.advance(&step, |tree, end| {
+            add(tree, end, frame, limits, collector);
+        });
+    }
+
+    pub fn finish(self, collector: &mut Collector<'_>) {
+        let (frame, limits) = (self.frame, self.limits);
+        self.forest
+            .finish(|tree, end| add(tree, end, frame, limits, collector));
+    }
+}
+
+fn add(tree: &Tree, end: End, frame: &Frame<'_>, limits: &Limits, collector: &mut Collector<'_>) {
+    if tree.is_fixed {
+        return;
+    }
+    let is_trap = end == End::Closed;
+    let code = if is_trap { Code::Trap } else { Code::Cup };
+    let finding = frame.finding(code, tree);
+    let (size, limit) = if is_trap {
+        (finding.volume_mm3 / 1e3, limits.trap_ml)
+    } else {
+        (finding.area_mm2, limits.cup_mm2)
+    };
+    if size >= limit {
+        collector.add(Finding { limit, ..finding });
+    }
+}

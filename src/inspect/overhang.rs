@@ -1,0 +1,128 @@
+//! Overhangs: surfaces that are too flat to support themselves and reach out too far.
+//!
+//! A pixel is supported if the layer below has a supported pixel within the width that the least self-supporting slope spans in
+//! this layer. All of the first layer is. Of an island, too: whoever supports it does so there. An overhang is where
+//! unsupported pixels are farther than a limit from all supported pixels of their layer.
+
+use super::collect::{Collector, Frame};
+use super::components::Components;
+use super::finding::Code;
+use super::layer::Layer;
+use super::limits::Limits;
+use super::regions::Regions;
+use super::rows::{Beyond, Disc, Rows, Span};
+
+/// What a slope spans in a layer, in pixels.
+pub(super) fn width(layer: usize, frame: &Frame<'_>, limits: &Limits) -> Disc {
+    let pitch_mm = frame.grid.pitch_mm.max(frame.grid.pitch_y_mm);
+    let run_mm = frame.thickness_mm(layer) / limits.self_supporting_slope;
+    // Masks round to whole pixels: half a pixel makes up for it, and less than one is no slope at all.
+    let width_mm = (run_mm + pitch_mm / 2.0).max(pitch_mm);
+    Disc::new(width_mm, frame.grid)
+}
+
+/// The pixels of a layer that are too far from the layer below, if all of that is supported. Islands have none.
+pub(super) fn unsupported(
+    here: &Components,
+    below: &Rows,
+    contacts: &[[u32; 2]],
+    width: &Disc,
+) -> Rows {
+    let touches = touching(here, contacts);
+    let mut found = Rows::default();
+    let mut beyond = Beyond::default();
+    let mut spans = Vec::new();
+    for row in 0..here.rows.len() {
+        spans_of(here, row, &touches, &mut spans);
+        found.push_row(beyond.find(&spans, below, row, width));
+    }
+    found
+}
+
+/// Whether each component touches the layer below.
+fn touching(here: &Components, contacts: &[[u32; 2]]) -> Vec<bool> {
+    let mut touches = vec![false; here.patches.len()];
+    for &[_, over] in contacts {
+        touches[over as usize] = true;
+    }
+    touches
+}
+
+/// The spans of a row whose components touch the layer below.
+fn spans_of(here: &Components, row: i32, touches: &[bool], spans: &mut Vec<Span>) {
+    spans.clear();
+    let of_row = here.of_row(row);
+    spans.extend(of_row.filter(|it| touches[it.1 as usize]).map(|it| it.0));
+}
+
+/// The overhangs of the layers so far.
+pub(super) struct Overhangs {
+    reach: Disc,
+    /// The unsupported pixels of the last layer, if there are any.
+    unsupported: Option<Rows>,
+    /// The supported pixels of the last layer, if some are not.
+    supported: Rows,
+    regions: Regions,
+    beyond: Beyond,
+}
+
+impl Overhangs {
+    pub fn new(frame: &Frame<'_>, limits: &Limits) -> Self {
+        Self {
+            reach: Disc::new(limits.overhang_mm, frame.grid),
+            unsupported: None,
+            supported: Rows::default(),
+            regions: Regions::new(Code::Overhang, limits.overhang_mm, limits.speck_px, 0.0),
+            beyond: Beyond::default(),
+        }
+    }
+
+    pub fn advance(&mut self, layer: &Layer, frame: &Frame<'_>, collector: &mut Collector<'_>) {
+        let carried = self
+            .unsupported
+            .take()
+            .map(|below| self.carried(layer, &below));
+        let unsupported = carried.as_ref().unwrap_or(&layer.flat);
+        let mut found = Rows::default();
+        if !unsupported.is_blank() {
+            self.supported = layer.alone.lit.rows.without(unsupported);
+            for row in 0..unsupported.len() {
+                let spans = unsupported.row(row);
+                found.push_row(self.beyond.find(spans, &self.supported, row, &self.reach));
+            }
+            self.unsupported = Some(unsupported.clone());
+        }
+        self.regions.advance(layer.number, found, frame, collector);
+    }
+
+    /// The unsupported pixels of a layer above one that has some: only rows near those can have more than `flat` has.
+    fn carried(&mut self, layer: &Layer, below: &Rows) -> Rows {
+        let Layer { flat, width, .. } = layer;
+        let here = &layer.alone.lit;
+        let touches = touching(here, &layer.contacts);
+        let mut spans = Vec::new();
+        let mut found = Rows::default();
+        let mut next = -width.rows();
+        // The last row so far of the layer below that has unsupported pixels.
+        let mut near = i32::MIN / 2;
+        for row in 0..here.rows.len() {
+            while next <= row + width.rows() {
+                if !below.row(next).is_empty() {
+                    near = next;
+                }
+                next += 1;
+            }
+            if near < row - width.rows() {
+                found.push_row(flat.row(row));
+                continue;
+            }
+            spans_of(here, row, &touches, &mut spans);
+            found.push_row(self.beyond.find(&spans, &self.supported, row, width));
+        }
+        found
+    }
+
+    pub fn finish(self, frame: &Frame<'_>, collector: &mut Collector<'_>) {
+        self.regions.finish(frame, collector);
+    }
+}
