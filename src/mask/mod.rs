@@ -4,6 +4,7 @@
 //! sampling heights. All masks together are therefore a list of changes, sorted by layer and at most as
 //! long as the list of hits. No mask is computed from scratch, and only one is in memory at a time.
 
+mod columns;
 mod plate;
 mod runs;
 mod samples;
@@ -12,6 +13,7 @@ mod window;
 
 use std::ops::Range;
 
+pub(crate) use columns::Until;
 pub use plate::{PlateMasks, Stamp};
 pub use runs::{LayerRuns, Run, RunReader, RunSource};
 pub use samples::{LEVELS, Samples};

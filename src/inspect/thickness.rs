@@ -1,0 +1,187 @@
+//! Walls and gaps that are too thin within a layer.
+//!
+//! A pixel is thick if a disc of the limit's diameter fits into the lit pixels, or into the dark ones, with its centre within
+//! the limit of the pixel. Allowing for the distance of the centre leaves out corners of 60° and more.
+//!
+//! A disc fits wherever a square around it does, and squares are found with few looks at each row, so these come first: they
+//! leave little for discs to decide.
+
+use super::rows::{Beyond, Disc, FAR, Rows, Span, intersect, subtract};
+use crate::grid::Grid;
+
+/// Finds what is thinner than a limit.
+pub(super) struct Thickness {
+    /// The disc that must fit.
+    disc: Disc,
+    /// How far its centre may be.
+    reach: Disc,
+    /// Rows that are looked at together.
+    block_rows: i32,
+    /// Blocks whose rows hold the disc.
+    blocks: i32,
+}
+
+impl Thickness {
+    /// `None` if the limit is less than what pixels resolve, so that nothing is thin.
+    pub fn new(limit_mm: f64, grid: &Grid) -> Option<Self> {
+        let pitch_mm = grid.pitch_mm.max(grid.pitch_y_mm);
+        // A wall may be a pixel thinner in masks than it is.
+        let disc = Disc::new((limit_mm - pitch_mm) / 2.0, grid);
+        if disc.rows() == 0 && disc.half_width(0) == Some(0) {
+            return None;
+        }
+        let disc_rows = 2 * disc.rows() + 1;
+        let block_rows = (disc_rows / 4).max(1);
+        Some(Self {
+            reach: Disc::new(limit_mm, grid),
+            blocks: (disc_rows + block_rows - 1) / block_rows,
+            block_rows,
+            disc,
+        })
+    }
+
+    /// The lit pixels that are thin.
+    pub fn thin_walls(&self, lit: &Rows) -> Rows {
+        self.thin(lit, 0, [-FAR, FAR])
+    }
+
+    /// The dark pixels that are thin, in so many columns. Outside the rows all is dark.
+    pub fn thin_gaps(&self, lit: &Rows, columns: i32) -> Rows {
+        let margin = self.reach.rows() + 2 * self.disc.rows() + 2 * self.block_rows;
+        self.thin(&lit.inverted(margin), margin, [0, columns])
+    }
+
+    /// The thin pixels in these columns, and without the first and the last `margin` rows.
+    fn thin(&self, solid: &Rows, margin: i32, columns: [i32; 2]) -> Rows {
+        let squares = self.squares(solid);
+        let doubtful = self.doubtful(solid, &squares, margin, columns);
+        let mut thin = Rows::default();
+        if doubtful.is_blank() {
+            for _ in margin..solid.len() - margin {
+                thin.end_row();
+            }
+            return thin;
+        }
+        let centres = self.centres(solid, &doubtful);
+        let mut beyond = Beyond::default();
+        for row in margin..solid.len() - margin {
+            thin.push_row(beyond.find(doubtful.row(row), &centres, row, &self.reach));
+        }
+        thin
+    }
+
+    /// For each block, the columns at which a square fits that begins with the block's first row.
+    fn squares(&self, solid: &Rows) -> Rows {
+        let mut blocks = Rows::default();
+        let mut both = [Vec::new(), Vec::new()];
+        for first in (0..solid.len()).step_by(self.block_rows as usize) {
+            let [common, next] = &mut both;
+            common.clear();
+            common.extend_from_slice(solid.row(first));
+            for row in first + 1..first + self.block_rows {
+                next.clear();
+                intersect(common, solid.row(row), 0, next);
+                std::mem::swap(common, next);
+                if common.is_empty() {
+                    break;
+                }
+            }
+            blocks.push_row(common);
+        }
+        let half_width = self.disc.half_width(0).unwrap_or(0);
+        let mut squares = Rows::default();
+        for block in 0..blocks.len() {
+            let [common, next] = &mut both;
+            common.clear();
+            for span in blocks.row(block) {
+                let (start, end) = (span.start + half_width, span.end - half_width);
+                if start < end {
+                    common.push(Span { start, end });
+                }
+            }
+            for other in block + 1..block + self.blocks {
+                if common.is_empty() {
+                    break;
+                }
+                next.clear();
+                intersect(common, blocks.row(other), half_width, next);
+                std::mem::swap(common, next);
+            }
+            squares.push_row(common);
+        }
+        squares
+    }
+
+    /// The pixels that squares do not show to be thick.
+    fn doubtful(&self, solid: &Rows, squares: &Rows, margin: i32, columns: [i32; 2]) -> Rows {
+        let mut doubtful = Rows::default();
+        let (mut rest, mut less) = (Vec::new(), Vec::new());
+        for row in 0..solid.len() {
+            if row < margin || row >= solid.len() - margin {
+                doubtful.end_row();
+                continue;
+            }
+            let block = row / self.block_rows;
+            rest.clear();
+            for span in solid.row(row) {
+                let (start, end) = (span.start.max(columns[0]), span.end.min(columns[1]));
+                if start < end {
+                    rest.push(Span { start, end });
+                }
+            }
+            // Squares around the row, below it and above it.
+            let firsts = [block - self.blocks / 2, block, block + 1 - self.blocks];
+            for first in firsts {
+                if rest.is_empty() {
+                    break;
+                }
+                let middle = first * self.block_rows + self.disc.rows();
+                let Some(half_width) = self.reach.half_width(middle - row) else {
+                    continue;
+                };
+                less.clear();
+                subtract(&rest, squares.row(first), half_width, &mut less);
+                std::mem::swap(&mut rest, &mut less);
+            }
+            doubtful.push_row(&rest);
+        }
+        doubtful
+    }
+
+    /// The centres of discs that fit, in the rows near doubtful pixels.
+    fn centres(&self, solid: &Rows, doubtful: &Rows) -> Rows {
+        let reach = self.reach.rows();
+        let mut centres = Rows::default();
+        let mut both = [Vec::new(), Vec::new()];
+        let mut next_row = 0;
+        let mut near = i32::MIN / 2;
+        for row in 0..solid.len() {
+            while next_row <= row + reach {
+                if !doubtful.row(next_row).is_empty() {
+                    near = next_row;
+                }
+                next_row += 1;
+            }
+            if near < row - reach {
+                centres.end_row();
+                continue;
+            }
+            let [common, next] = &mut both;
+            common.clear();
+            common.push(Span {
+                start: -FAR,
+                end: FAR,
+            });
+            for (step, half_width) in self.disc.steps() {
+                next.clear();
+                intersect(common, solid.row(row + step), half_width, next);
+                std::mem::swap(common, next);
+                if common.is_empty() {
+                    break;
+                }
+            }
+            centres.push_row(common);
+        }
+        centres
+    }
+}
