@@ -35,7 +35,7 @@
 //!
 //! # Modules, in pipeline order
 //! [`model`] reads, welds and poses a mesh; [`ldi`] samples it; [`profile`] and [`plan`] find the layers; [`mask`] images them;
-//! [`archive`] writes the print file; [`orientation`] searches for the way up. [`job`] resolves [`Options`] and runs the stages.
+//! [`inspect`] finds what will fail; [`archive`] writes the print file; [`orientation`] searches for the way up. [`job`] resolves [`Options`] and runs the stages.
 //! [`format`](mod@format), [`filament`], [`printer`], [`resin`], [`quantity`] and [`grid`] are data that the others look things up in.
 //!
 //! # Conventions
@@ -68,6 +68,8 @@ pub mod profile;
 pub mod plan;
 
 pub mod mask;
+
+pub mod inspect;
 
 pub mod archive;
 pub mod arrange;

@@ -18,6 +18,7 @@ use super::{Error, MeshInfo, Options, Preview, Report, Timings, Tradeoff};
 use crate::archive::Look;
 use crate::archive::layer_profile::{self, LayeredModel};
 use crate::grid::Bins;
+use crate::inspect::{self, Printability};
 use crate::ldi::LdiError;
 use crate::ldi::gpu::Gpu;
 use crate::mask::{MaskCursor, Masks, Side};
@@ -415,6 +416,23 @@ impl Slicer {
         let (masks, cursor) = current.seen();
         cursor.seek(masks, layer);
         Ok(cursor.whole(masks))
+    }
+
+    /// What will fail when the last plan is printed, by these limits.
+    ///
+    /// # Errors
+    /// [`Error::NoPlan`]; [`Error::Ldi`] if `progress` cancels.
+    pub fn inspect(
+        &mut self,
+        limits: &inspect::Limits,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<Printability, Error> {
+        let current = self.current.as_mut().ok_or(Error::NoPlan)?;
+        let planned = Arc::clone(&current.planned);
+        let (masks, _) = current.seen();
+        let mut progress = |fraction| progress(Stage::Inspect, fraction);
+        let found = inspect::inspect(masks, &planned.plan, limits, &mut progress);
+        Ok(found.map_err(LdiError::from)?)
     }
 
     /// Gives the layers of the last plan exposures of their own, in seconds.

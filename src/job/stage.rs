@@ -27,6 +27,8 @@ pub enum Stage {
     Plan,
     /// Making and writing the masks.
     Masks,
+    /// Checking the masks.
+    Inspect,
 }
 
 impl Stage {
@@ -40,6 +42,7 @@ impl Stage {
             Self::Profile => "profile",
             Self::Plan => "plan",
             Self::Masks => "masks",
+            Self::Inspect => "inspect",
         }
     }
 

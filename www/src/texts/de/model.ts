@@ -28,6 +28,7 @@ export const model = (): ModelTexts => ({
     profile: "Oberfläche wird gemessen",
     plan: "Schichten werden geplant",
     masks: "Schichten werden gezeichnet",
+    inspect: "Druckprobleme werden gesucht",
     orientation: "Richtungen werden gemessen",
     left: (seconds) => `noch etwa ${seconds}`,
     cancel: "Abbrechen",

@@ -28,6 +28,7 @@ export const model = () => ({
     profile: "Measuring the surface",
     plan: "Planning the layers",
     masks: "Drawing the layers",
+    inspect: "Looking for what will fail",
     orientation: "Measuring directions",
     left: (seconds: string) => `about ${seconds} left`,
     cancel: "Cancel",

@@ -28,6 +28,7 @@ export const model = (): ModelTexts => ({
     profile: "Midiendo la superficie",
     plan: "Planificando las capas",
     masks: "Dibujando las capas",
+    inspect: "Buscando lo que fallará",
     orientation: "Midiendo direcciones",
     left: (seconds) => `quedan unos ${seconds}`,
     cancel: "Cancelar",

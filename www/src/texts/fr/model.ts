@@ -28,6 +28,7 @@ export const model = (): ModelTexts => ({
     profile: "Mesure de la surface",
     plan: "Planification des couches",
     masks: "Dessin des couches",
+    inspect: "Recherche de ce qui échouera",
     orientation: "Mesure des directions",
     left: (seconds) => `encore ${seconds} environ`,
     cancel: "Annuler",

@@ -28,6 +28,7 @@ export const model = (): ModelTexts => ({
     profile: "正在测量表面",
     plan: "正在规划分层",
     masks: "正在绘制各层",
+    inspect: "检查可打印性",
     orientation: "正在测量各方向",
     left: (seconds) => `约剩 ${seconds}`,
     cancel: "取消",

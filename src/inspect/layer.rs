@@ -1,0 +1,181 @@
+//! Layers as the checks see them: what can be told from a layer and the one below, many layers at a time.
+
+use std::sync::Arc;
+
+use super::collect::Frame;
+use super::columns;
+use super::components::Components;
+use super::finding::Code;
+use super::hollows::{Gaps, Meetings};
+use super::limits::Limits;
+use super::overhang;
+use super::rows::{Disc, Rows};
+use super::thickness::Thickness;
+use crate::mask::{LayerRuns, Masks, RunReader, RunSource};
+use crate::parallel;
+
+/// Layers that are read at a time.
+const GROUP: usize = 64;
+
+/// What the pixels of a layer tell.
+pub(super) struct Alone {
+    pub lit: Components,
+    pub gaps: Gaps,
+}
+
+/// What a layer and the one below tell.
+pub(super) struct Layer {
+    pub number: usize,
+    pub alone: Arc<Alone>,
+    /// Pairs of lit components of the layer below and of this one.
+    pub contacts: Vec<[u32; 2]>,
+    pub meetings: Meetings,
+    /// What a self-supporting slope spans in the layer.
+    pub width: Disc,
+    /// Pixels that would be unsupported if all of the layer below were supported.
+    pub flat: Rows,
+    pub thin: Thin,
+}
+
+/// The pixels of a layer that are too thin.
+#[derive(Default)]
+pub(super) struct Thin {
+    pub walls: Rows,
+    pub gaps: Rows,
+    pub floors: Rows,
+    pub low_gaps: Rows,
+}
+
+/// Reads the layers of masks from the plate upward.
+pub(super) struct Reader<'a> {
+    checks: Checks<'a>,
+    masks: Box<dyn RunReader + 'a>,
+    /// Short columns, lit ones and dark ones, unless there are none.
+    short: [Option<Box<dyn RunReader + 'a>>; 2],
+    next: usize,
+    last: Option<Arc<Alone>>,
+}
+
+/// The checks that need no more than a layer and the one below.
+struct Checks<'a> {
+    frame: &'a Frame<'a>,
+    limits: &'a Limits,
+    walls: Option<Thickness>,
+    gaps: Option<Thickness>,
+}
+
+impl<'a> Reader<'a> {
+    /// `short` are the short columns of the masks.
+    pub fn new(
+        masks: &'a Masks,
+        short: &'a [Masks; 2],
+        frame: &'a Frame<'a>,
+        limits: &'a Limits,
+    ) -> Self {
+        let thickness = |code, limit_mm| {
+            let is_wanted = limits.looks_for(code);
+            is_wanted
+                .then(|| Thickness::new(limit_mm, frame.grid))
+                .flatten()
+        };
+        let checks = Checks {
+            frame,
+            limits,
+            walls: thickness(Code::ThinWall, limits.wall_mm),
+            gaps: thickness(Code::NarrowGap, limits.gap_mm),
+        };
+        Self {
+            checks,
+            masks: masks.reader(),
+            short: short
+                .each_ref()
+                .map(|it| (!it.is_black()).then(|| it.reader())),
+            next: 0,
+            last: None,
+        }
+    }
+
+    /// Fraction of the layers that have been read.
+    pub fn done(&self) -> f64 {
+        self.next as f64 / self.checks.frame.layers() as f64
+    }
+
+    /// The next layers; none at the top.
+    pub fn next(&mut self) -> Vec<Layer> {
+        let first = self.next;
+        let count = GROUP.min(self.checks.frame.layers() - first);
+        self.next += count;
+        let runs = self.masks.next(count);
+        let short = self
+            .short
+            .each_mut()
+            .map(|reader| reader.as_mut().map(|reader| reader.next(count)));
+        let (checks, last) = (&self.checks, self.last.as_ref());
+        let alone = parallel::map((0..count).collect(), |place| {
+            let lit = Rows::of_layer(&runs, place, &checks.frame.area);
+            Arc::new(Alone::new(lit))
+        });
+        let layers = parallel::map((0..count).collect(), |place| {
+            let below = place.checked_sub(1).map(|below| &alone[below]);
+            let below = below.or(last).map(Arc::as_ref);
+            let thin = checks.thin(&alone[place].lit.rows, &short, place);
+            checks.layer(first + place, &alone[place], below, thin)
+        });
+        self.last = alone.into_iter().next_back().or(self.last.take());
+        layers
+    }
+}
+
+impl Checks<'_> {
+    fn layer(&self, number: usize, alone: &Arc<Alone>, below: Option<&Alone>, thin: Thin) -> Layer {
+        let lit = &alone.lit;
+        let contacts = below.map_or(Vec::new(), |below| lit.contacts(&below.lit));
+        let width = overhang::width(number, self.frame, self.limits);
+        let of_below = below.map(|below| (&below.gaps, &below.lit.rows));
+        let meetings = Meetings::new(&alone.gaps, &lit.rows, of_below);
+        let below = below.filter(|_| self.limits.looks_for(Code::Overhang));
+        let flat = below.map_or(Rows::default(), |below| {
+            overhang::unsupported(lit, &below.lit.rows, &contacts, &width)
+        });
+        Layer {
+            number,
+            meetings,
+            alone: Arc::clone(alone),
+            contacts,
+            width,
+            flat,
+            thin,
+        }
+    }
+
+    fn thin(&self, lit: &Rows, short: &[Option<LayerRuns>; 2], place: usize) -> Thin {
+        let area = &self.frame.area;
+        let [floors, low_gaps] = short.each_ref().map(|runs| {
+            let rows = runs.as_ref().map(|runs| Rows::of_layer(runs, place, area));
+            rows.filter(|rows| !rows.is_blank())
+        });
+        let wall = |thickness: &Thickness| thickness.thin_walls(lit);
+        let gap = |thickness: &Thickness| thickness.thin_gaps(lit, area.columns);
+        let disc = |limit_mm| Disc::new(limit_mm, self.frame.grid);
+        Thin {
+            walls: self.walls.as_ref().map(wall).unwrap_or_default(),
+            gaps: self.gaps.as_ref().map(gap).unwrap_or_default(),
+            floors: floors.map_or(Rows::default(), |short| {
+                columns::thin(&short, lit, &disc(self.limits.floor_mm))
+            }),
+            low_gaps: low_gaps.map_or(Rows::default(), |short| {
+                let limit = disc(self.limits.low_gap_mm);
+                columns::thin(&short, &lit.inverted(limit.rows()), &limit)
+            }),
+        }
+    }
+}
+
+impl Alone {
+    fn new(lit: Rows) -> Self {
+        Self {
+            gaps: Gaps::new(&lit),
+            lit: Components::new(lit),
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! Printability: what will fail, and where, found on the masks of a plan before anything is printed.
+//!
+//! All checks see the plan's own layers, so thicker layers have their own overhangs and islands. A pixel is solid if at least
+//! half of its samples are lit. Lit and dark pixels alike hang together across sides: four in a layer, and the pixels above and
+//! below. Where something is decided there are whole pixels and whole bins, so results are the same on every machine.
+//! `docs/printability.md` defines each check with a picture.
+
+mod bodies;
+mod collect;
+mod columns;
+mod components;
+mod finding;
+mod forest;
+mod hollows;
+mod layer;
+mod limits;
+mod overhang;
+mod peel;
+mod regions;
+mod rows;
+mod sweep;
+mod thickness;
+
+use serde::Serialize;
+
+pub use finding::{Code, Finding};
+pub use limits::{Limits, LimitsError, Severities, Severity};
+pub use peel::Peel;
+
+use crate::mask::Masks;
+use crate::plan::Plan;
+use crate::progress::{Cancelled, Progress, report};
+use collect::{Collector, Frame};
+use layer::Reader;
+use rows::Area;
+use sweep::Sweep;
+
+/// What a shop does with a print.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(
+    all(target_arch = "wasm32", not(feature = "read")),
+    derive(tsify::Tsify)
+)]
+#[serde(rename_all = "lowercase")]
+pub enum Verdict {
+    /// Prints it.
+    Ok,
+    /// Has somebody look at it.
+    Review,
+    /// Does not print it like this.
+    Reject,
+}
+
+/// How many findings of a kind there are. The largest are listed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(
+    all(target_arch = "wasm32", not(feature = "read")),
+    derive(tsify::Tsify)
+)]
+pub struct Count {
+    /// The kind.
+    pub code: Code,
+    /// How many there are.
+    pub found: usize,
+}
+
+/// What was found.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(
+    all(target_arch = "wasm32", not(feature = "read")),
+    derive(tsify::Tsify)
+)]
+pub struct Printability {
+    /// The largest severity of all findings.
+    pub verdict: Verdict,
+    /// The findings, by kind, from the largest down: at most a hundred of each kind.
+    pub findings: Vec<Finding>,
+    /// The kinds that were found.
+    pub counts: Vec<Count>,
+    /// Number of bodies that touch no other.
+    pub bodies: usize,
+    /// What has to be peeled off, layer by layer.
+    pub peel: Peel,
+}
+
+/// Checks the masks of a plan, which must be seen from above.
+///
+/// The result does not depend on the number of threads.
+///
+/// Cost: linear in the runs of all layers. Memory: a few dozen layers as runs.
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn inspect(
+    masks: &Masks,
+    plan: &Plan,
+    limits: &Limits,
+    progress: &mut Progress<'_>,
+) -> Result<Printability, Cancelled> {
+    report(progress, 0.0)?;
+    let area = Area::new(&masks.window, &masks.grid);
+    let frame = Frame::new(&masks.grid, area, plan);
+    let mut collector = Collector::new(limits);
+    let short = columns::short(masks, &frame, limits);
+    report(progress, 0.1)?;
+    let mut sweep = Sweep::new(&frame, limits);
+    let mut reader = Reader::new(masks, &short, &frame, limits);
+    while reader.done() < 1.0 {
+        for layer in reader.next() {
+            sweep.advance(layer, &mut collector);
+        }
+        report(progress, 0.1 + 0.9 * reader.done())?;
+    }
+    let (bodies, peel) = sweep.finish(&mut collector);
+    let (findings, counts) = collector.finish();
+    let worst = findings.iter().map(|finding| finding.severity).max();
+    Ok(Printability {
+        verdict: match worst {
+            None | Some(Severity::Ignore) => Verdict::Ok,
+            Some(Severity::Review) => Verdict::Review,
+            Some(Severity::Reject) => Verdict::Reject,
+        },
+        counts: counts
+            .into_iter()
+            .map(|(code, found)| Count { code, found })
+            .collect(),
+        findings,
+        bodies,
+        peel,
+    })
+}

@@ -1,0 +1,87 @@
+//! All checks, going through the layers from the plate upward.
+
+use super::bodies::Bodies;
+use super::collect::{Collector, Frame};
+use super::finding::Code;
+use super::forest::Step;
+use super::hollows::Hollows;
+use super::layer::Layer;
+use super::limits::Limits;
+use super::overhang::Overhangs;
+use super::peel::{Peel, Peeling};
+use super::regions::Regions;
+
+/// The checks of the layers so far.
+pub(super) struct Sweep<'a> {
+    frame: &'a Frame<'a>,
+    bodies: Bodies<'a>,
+    hollows: Hollows<'a>,
+    overhangs: Overhangs,
+    walls: Regions,
+    gaps: Regions,
+    floors: Regions,
+    low_gaps: Regions,
+    peeling: Peeling<'a>,
+}
+
+impl<'a> Sweep<'a> {
+    pub fn new(frame: &'a Frame<'a>, limits: &'a Limits) -> Self {
+        let regions = |code, limit_mm, least_height_mm| {
+            Regions::new(code, limit_mm, limits.speck_px, least_height_mm)
+        };
+        Self {
+            frame,
+            bodies: Bodies::new(frame, limits),
+            hollows: Hollows::new(frame, limits),
+            overhangs: Overhangs::new(frame, limits),
+            // What is as low as it is thin is the tip of something, or thin along z.
+            walls: regions(Code::ThinWall, limits.wall_mm, limits.wall_mm),
+            gaps: regions(Code::NarrowGap, limits.gap_mm, limits.gap_mm),
+            floors: regions(Code::ThinFloor, limits.floor_mm, 0.0),
+            low_gaps: regions(Code::LowGap, limits.low_gap_mm, 0.0),
+            peeling: Peeling::new(frame, limits),
+        }
+    }
+
+    pub fn advance(&mut self, layer: Layer, collector: &mut Collector<'_>) {
+        let frame = self.frame;
+        let (number, lit) = (layer.number, &layer.alone.lit);
+        let patches = &lit.patches;
+        let on_plate: Vec<u32> = (0..patches.len() as u32).collect();
+        let step = Step {
+            layer: number,
+            bins: frame.bins(number),
+            patches,
+            contacts: &layer.contacts,
+            fixed: if number == 0 { &on_plate } else { &[] },
+            fixed_below: &[],
+        };
+        self.bodies.advance(&step, collector);
+        self.hollows
+            .advance(number, &layer.alone.gaps, &layer.meetings, collector);
+        self.overhangs.advance(&layer, frame, collector);
+        let thin = layer.thin;
+        let regions = [
+            (&mut self.walls, thin.walls),
+            (&mut self.gaps, thin.gaps),
+            (&mut self.floors, thin.floors),
+            (&mut self.low_gaps, thin.low_gaps),
+        ];
+        for (regions, rows) in regions {
+            regions.advance(number, rows, frame, collector);
+        }
+        self.peeling.advance(patches);
+    }
+
+    /// The number of bodies, and what has to be peeled off.
+    pub fn finish(self, collector: &mut Collector<'_>) -> (usize, Peel) {
+        let frame = self.frame;
+        self.overhangs.finish(frame, collector);
+        for regions in [self.walls, self.gaps, self.floors, self.low_gaps] {
+            regions.finish(frame, collector);
+        }
+        self.hollows.finish(collector);
+        let bodies = self.bodies.finish(collector);
+        (bodies, self.peeling.finish(collector))
+    }
+}
