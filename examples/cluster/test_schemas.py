@@ -89,6 +89,7 @@ class Schemas(unittest.TestCase):
         self.check("simulate", self.cusp("simulate", self.wedge, self.print, "--json"))
         plan = self.folder / "plan.json"
         plan.write_text(self.planned("plan", self.wedge, "--max-thicknesses=2"))
+        self.check("check", self.planned("check", self.wedge))
         self.check("verify", self.cusp("verify", plan, self.wedge, "--print", self.print, "--json"))
 
     def test_plates(self) -> None:

@@ -4,6 +4,7 @@
 
 mod batch;
 mod calibrate;
+mod check;
 #[path = "../common/mod.rs"]
 mod common;
 mod config;

@@ -3,6 +3,7 @@
 mod arguments;
 mod batch;
 mod calibrate;
+mod check;
 mod config;
 mod contours;
 mod convert;
@@ -29,6 +30,7 @@ use clap::{Parser, Subcommand};
 
 use arguments::{Slicing, Studying};
 use calibrate::Calibrating;
+use check::Checking;
 use contours::Contouring;
 use convert::Converting;
 use inspect::Inspecting;
@@ -86,6 +88,11 @@ enum Command {
         #[command(flatten)]
         studying: Studying,
     },
+    /// Find what will fail when a model is printed: islands, overhangs, cups, traps, thin walls and gaps
+    ///
+    /// Exit codes: 0 nothing to reject, 1 something to reject or bad input, 2 usage, 130 interrupted.
+    #[command(allow_negative_numbers = true)]
+    Check(Checking),
     /// Find the best orientations of a model: few layers, and little error, roughness or overhang
     #[command(allow_negative_numbers = true)]
     Orient(Orienting),
@@ -158,6 +165,7 @@ fn main() -> ExitCode {
         Command::Plate(plating) => plate::plate(&plating),
         Command::Contours(contouring) => contours::contours(&contouring),
         Command::Tradeoff { studying, points } => slice::tradeoff(&studying, points as usize),
+        Command::Check(checking) => check::check(&checking),
         Command::Orient(orienting) => orient::orient(&orienting),
         Command::Compare { studying } => slice::compare(&studying),
         Command::Verify {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use cusp_slicer::archive::read::Inspection;
 use cusp_slicer::contour::ContoursReport;
+use cusp_slicer::inspect::Limits;
 use cusp_slicer::job::{MeshInfo, Options, OrientationReport, PlatesReport, Report, Tradeoff};
 use cusp_slicer::printer::Printer;
 use cusp_slicer::resin::Resin;
@@ -14,6 +15,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::{Value, json};
 
 use crate::batch::BatchLine;
+use crate::check::Checked;
 use crate::job_file::JobFile;
 use crate::slice::Compared;
 use crate::verify::{Verified, VerifiedPlates};
@@ -105,10 +107,12 @@ fn the_schemas_of_reports_are_recorded() {
     let schemas = [
         ("batch-info", output::<BatchLine<MeshInfo>>()),
         ("batch-plan", output::<BatchLine<Report>>()),
+        ("check", output::<Checked>()),
         ("compare", output::<Compared>()),
         ("contours", output::<ContoursReport>()),
         ("info", output::<MeshInfo>()),
         ("inspect", output::<Inspection>()),
+        ("limits", input::<Limits>()),
         ("manifest", manifest()),
         ("orient", output::<OrientationReport>()),
         ("plan", output::<Report>()),

@@ -1,0 +1,144 @@
+//! Says what will fail when a model is printed, and where.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use cusp_slicer::inspect::{Finding, Limits, Printability, Severity, Verdict};
+use cusp_slicer::job::Report;
+use serde::Serialize;
+
+use crate::arguments::Studying;
+use crate::files::{Failure, in_file, load_painted};
+use crate::slice::make_plan;
+use crate::terminal::{Bar, print, print_json, stop_on_interrupt, warn};
+
+/// A model, and what a shop accepts.
+#[derive(Args)]
+pub struct Checking {
+    #[command(flatten)]
+    studying: Studying,
+    /// Thresholds and severities of a shop, as a JSON file
+    #[arg(long, value_name = "FILE.json")]
+    limits: Option<PathBuf>,
+    /// Findings of a kind to show, of which the largest come first
+    #[arg(long, value_name = "N", default_value_t = 5)]
+    show: usize,
+}
+
+/// What `check` prints as JSON.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct Checked {
+    /// What was found.
+    #[serde(flatten)]
+    printability: Printability,
+    /// What it was checked by.
+    limits: Limits,
+    /// Number of layers.
+    layers: usize,
+    /// Height of the print.
+    height_mm: f64,
+}
+
+pub fn check(checking: &Checking) -> Result<(), Failure> {
+    let Checking { studying, .. } = checking;
+    studying.choices.check("check");
+    let limits = checking.limits.as_deref().map(read_limits).transpose()?;
+    let limits = limits.unwrap_or_default();
+    let settings = studying.choices.settings()?;
+    let mut slicer = load_painted(&studying.model, settings.weights.as_ref())?;
+    stop_on_interrupt();
+    let bar = Bar::new();
+    let mut progress = |stage, fraction| bar.report(stage, fraction);
+    let report = make_plan(
+        &mut slicer,
+        &studying.model,
+        &settings.options,
+        &mut progress,
+    )?;
+    let report = report.clone();
+    let printability = slicer
+        .inspect(&limits, &mut progress)
+        .map_err(|error| Failure::in_file(&studying.model, &error))?;
+    drop(bar);
+    warn(&report.warnings);
+    let verdict = printability.verdict;
+    if studying.json {
+        print_json(&Checked {
+            printability,
+            limits,
+            layers: report.layers,
+            height_mm: report.height_mm,
+        })?;
+    } else {
+        print(&describe(&printability, &report, checking.show))?;
+    }
+    if verdict == Verdict::Reject {
+        return Err(Failure::TOLD);
+    }
+    Ok(())
+}
+
+fn read_limits(path: &Path) -> Result<Limits, Failure> {
+    let text = fs::read_to_string(path).map_err(|error| in_file(path, &error))?;
+    let limits: Limits = serde_json::from_str(&text).map_err(|error| in_file(path, &error))?;
+    limits.check().map_err(|error| in_file(path, &error))?;
+    Ok(limits)
+}
+
+fn describe(printability: &Printability, report: &Report, show: usize) -> String {
+    let verdict = match printability.verdict {
+        Verdict::Ok => "ok",
+        Verdict::Review => "review",
+        Verdict::Reject => "reject",
+    };
+    let peel = &printability.peel;
+    let mut text = format!(
+        "verdict   {verdict}\n\
+         layers    {} of {:.3} mm in total\n\
+         bodies    {}\n\
+         peel      at most {:.1} mm², in layer {}; {:.0} % of that on the plate; the largest jump is {:.1} mm², to layer {}",
+        report.layers,
+        report.height_mm,
+        printability.bodies,
+        peel.area_mm2[peel.largest_layer],
+        peel.largest_layer + 1,
+        peel.contact * 100.0,
+        peel.jump_mm2,
+        peel.jump_layer + 1,
+    );
+    for count in &printability.counts {
+        let findings = printability.findings.iter();
+        let findings = findings.filter(|finding| finding.code == count.code);
+        let severity = findings.clone().next().map(|finding| finding.severity);
+        let severity = match severity {
+            Some(Severity::Reject) => ", reject",
+            Some(Severity::Review) => ", review",
+            _ => "",
+        };
+        let _ = write!(
+            text,
+            "\n\n{} × {}{severity}",
+            count.found,
+            count.code.name()
+        );
+        for finding in findings.take(show) {
+            let _ = write!(text, "\n  {}", describe_finding(finding));
+        }
+        if count.found > show {
+            let _ = write!(text, "\n  … and {} smaller", count.found - show);
+        }
+    }
+    text
+}
+
+fn describe_finding(finding: &Finding) -> String {
+    let [x, y, z] = finding.at_mm;
+    let layers = match finding.layers.map(|layer| layer + 1) {
+        [first, last] if first == last => format!("layer {first}"),
+        [first, last] => format!("layers {first} to {last}"),
+    };
+    format!("at {x:.2}, {y:.2}, {z:.2}, {layers}: {finding}")
+}
