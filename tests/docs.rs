@@ -4,6 +4,7 @@
 
 use std::fmt::Write;
 
+use cusp_slicer::inspect::{Code, Limits, Severity};
 use cusp_slicer::job::{LAYERS_MM, Options};
 use cusp_slicer::orientation::SearchOptions;
 use cusp_slicer::printer::PRINTERS;
@@ -12,6 +13,7 @@ use cusp_slicer::profile::Metric;
 const PRINT_FILES: &str = "docs/print-files.md";
 const CLI: &str = include_str!("../docs/cli.md");
 const EMBED: &str = include_str!("../docs/embed.md");
+const PRINTABILITY: &str = include_str!("../docs/printability.md");
 
 /// The row of a table that begins with this cell.
 fn row<'a>(document: &'a str, cell: &str) -> &'a str {
@@ -106,5 +108,48 @@ fn known_printers_are_in_the_document() {
         std::fs::write(path, [before, HEAD, &expected, END, after].concat()).unwrap();
     } else {
         assert!(table == expected, "run again with BLESS=1: {PRINT_FILES}");
+    }
+}
+
+#[test]
+fn the_document_on_printability_names_the_defaults_of_the_library() {
+    let limits = Limits::default();
+    let severity = |severity| match severity {
+        Severity::Ignore => "ignore",
+        Severity::Review => "review",
+        Severity::Reject => "reject",
+    };
+    let fields = [
+        ("island_mm2", Some(limits.island_mm2), Code::Island),
+        ("speck_px", Some(f64::from(limits.speck_px)), Code::Speck),
+        ("overhang_mm", Some(limits.overhang_mm), Code::Overhang),
+        ("cup_mm2", Some(limits.cup_mm2), Code::Cup),
+        ("trap_ml", Some(limits.trap_ml), Code::Trap),
+        ("wall_mm", Some(limits.wall_mm), Code::ThinWall),
+        ("floor_mm", Some(limits.floor_mm), Code::ThinFloor),
+        ("gap_mm", Some(limits.gap_mm), Code::NarrowGap),
+        ("low_gap_mm", Some(limits.low_gap_mm), Code::LowGap),
+        ("peel_mm2", limits.peel_mm2, Code::PeelArea),
+        ("peel_jump_mm2", limits.peel_jump_mm2, Code::PeelJump),
+        ("contact", limits.contact, Code::SmallContact),
+    ];
+    for (field, value, code) in fields {
+        let row = row(PRINTABILITY, &format!("`{field}`"));
+        let value = value.map_or("none".to_owned(), |value| value.to_string());
+        assert_says(row, &format!("| {value}"));
+        assert_says(row, &format!("| `{}` |", code.name()));
+        assert_says(row, severity(limits.severity.of(code)));
+    }
+    let slope = limits.self_supporting_slope.to_string();
+    assert_says(row(PRINTABILITY, "`overhang_mm`"), &slope);
+    for code in Code::ALL {
+        assert_says(
+            PRINTABILITY,
+            &format!(
+                "| `{}` | {}",
+                code.name(),
+                severity(limits.severity.of(code))
+            ),
+        );
     }
 }
