@@ -1,0 +1,175 @@
+//! Against brute force on voxels.
+
+use cusp_slicer::inspect::{Code, Limits, Printability, Severity, inspect};
+use cusp_slicer::mask::{Masks, Samples};
+use cusp_slicer::plan::Plan;
+use cusp_slicer::progress::silent;
+
+use crate::common::{on_plate, solids};
+use crate::voxels::{Found, Voxels};
+use crate::{block, hole, masks_of, plan_of, strict};
+
+/// The findings in whole numbers.
+fn in_whole_numbers(found: &Printability, masks: &Masks, plan: &Plan) -> Vec<Found> {
+    let has_area = |code| {
+        [
+            Code::Island,
+            Code::LooseBody,
+            Code::SeparateBody,
+            Code::Speck,
+            Code::Cup,
+            Code::Trap,
+        ]
+        .contains(&code)
+    };
+    let pixel_mm2 = masks.grid.pixel_mm2();
+    let mut all: Vec<Found> = found
+        .findings
+        .iter()
+        .map(|finding| {
+            let volume = (finding.volume_mm3 / pixel_mm2 / plan.bins.size_mm).round() as u64;
+            let area = (finding.area_mm2 / pixel_mm2).round() as u64;
+            let area = if has_area(finding.code) { area } else { 0 };
+            (
+                finding.code,
+                finding.layers,
+                volume,
+                area,
+                finding.joins_layer,
+            )
+        })
+        .collect();
+    all.sort();
+    all
+}
+
+fn by_brute_force(masks: &Masks, plan: &Plan, limits: &Limits) -> Vec<Found> {
+    let voxels = Voxels::new(masks, plan);
+    let mut all = voxels.bodies(limits);
+    all.extend(voxels.hollows());
+    all.extend(voxels.overhangs(limits));
+    all.extend(voxels.thin_walls(limits));
+    all.extend(voxels.narrow_gaps(limits));
+    all.extend(voxels.thin_floors(limits));
+    all.extend(voxels.low_gaps(limits));
+    all.sort();
+    all
+}
+
+#[track_caller]
+fn compare(name: &str, masks: &Masks, plan: &Plan, limits: &Limits) -> usize {
+    let found = inspect(masks, plan, limits, &mut silent).unwrap();
+    let mut listed = in_whole_numbers(&found, masks, plan);
+    let mut expected = by_brute_force(masks, plan, limits);
+    for count in &found.counts {
+        let of_code = expected.iter().filter(|it| it.0 == count.code).count();
+        assert_eq!(count.found, of_code, "{name}: {:?}", count.code);
+        if count.found > 100 {
+            listed.retain(|it| it.0 != count.code);
+            expected.retain(|it| it.0 != count.code);
+        }
+    }
+    assert_eq!(listed, expected, "{name}");
+    expected.len()
+}
+
+/// Boxes and holes on whole pixels.
+pub fn random_boxes(rng: &mut fastrand::Rng, pitch_mm: [f64; 2]) -> solids::Triangles {
+    let mut all = Vec::new();
+    let side = |rng: &mut fastrand::Rng, most: u32| {
+        let from = rng.u32(0..most);
+        [from, rng.u32(from + 1..=most.min(from + 9))]
+    };
+    for _ in 0..rng.u32(3..16) {
+        let [x, y, z] = [side(rng, 20), side(rng, 18), side(rng, 40)];
+        let at = |end: usize| {
+            [
+                (f64::from(x[end]) * pitch_mm[0]) as f32,
+                (f64::from(y[end]) * pitch_mm[1]) as f32,
+                (f64::from(z[end]) * 0.02) as f32,
+            ]
+        };
+        let make = if rng.u32(0..4) == 0 { hole } else { block };
+        all.extend(make(at(0), at(1)));
+    }
+    all
+}
+
+/// Layers of one to four bins.
+fn random_plan(rng: &mut fastrand::Rng, height_mm: f64) -> Plan {
+    let mut boundaries = vec![0];
+    while f64::from(*boundaries.last().unwrap()) * 0.02 < height_mm {
+        boundaries.push(boundaries.last().unwrap() + rng.u32(1..=4));
+    }
+    plan_of(0.02, boundaries)
+}
+
+#[test]
+pub fn random_boxes_have_the_findings_of_brute_force() {
+    let mut all = 0;
+    for seed in 0..300 {
+        let rng = &mut fastrand::Rng::with_seed(seed);
+        let pitch_mm = [[0.1; 2], [0.1, 0.07], [0.05, 0.08]][rng.usize(0..3)];
+        let triangles = random_boxes(rng, pitch_mm);
+        let plan = random_plan(rng, on_plate(&triangles).bounds().size().z);
+        let masks = masks_of(&triangles, pitch_mm, &plan, Samples::ONE);
+        let length = |rng: &mut fastrand::Rng| f64::from(rng.u32(0..12)) * 0.05;
+        let limits = Limits {
+            wall_mm: length(rng),
+            floor_mm: length(rng) / 2.0,
+            gap_mm: length(rng),
+            low_gap_mm: length(rng) / 2.0,
+            overhang_mm: length(rng) / 2.0,
+            self_supporting_slope: [0.2, 0.344, 1.0][rng.usize(0..3)],
+            speck_px: rng.u32(0..6),
+            ..strict()
+        };
+        all += compare(&format!("seed {seed}"), &masks, &plan, &limits);
+    }
+    assert!(all > 2000, "{all} findings in all");
+}
+
+#[test]
+fn solids_have_the_findings_of_brute_force() {
+    let torture = solids::torture().into_iter();
+    let torture = torture.map(|(name, triangles, _)| (name, triangles));
+    for (name, triangles) in solids::all().into_iter().chain(torture) {
+        let mesh = on_plate(&triangles);
+        let size = mesh.bounds().size();
+        let pitch_mm = size.x.max(size.y).max(size.z / 4.0) / 30.0;
+        let bin_mm = size.z / 100.0;
+        let rng = &mut fastrand::Rng::with_seed(5);
+        let mut boundaries = vec![0];
+        while *boundaries.last().unwrap() < 100 {
+            boundaries.push((boundaries.last().unwrap() + rng.u32(2..=6)).min(100));
+        }
+        let plan = plan_of(bin_mm, boundaries);
+        let limits = Limits {
+            wall_mm: 6.0 * pitch_mm,
+            floor_mm: 9.0 * bin_mm,
+            gap_mm: 5.0 * pitch_mm,
+            low_gap_mm: 9.0 * bin_mm,
+            overhang_mm: 3.0 * pitch_mm,
+            ..strict()
+        };
+        for samples in [Samples::ONE, Samples::of_level(4).unwrap()] {
+            let masks = masks_of(&triangles, [pitch_mm; 2], &plan, samples);
+            compare(name, &masks, &plan, &limits);
+        }
+    }
+}
+
+#[test]
+fn what_is_ignored_is_not_found() {
+    let triangles = crate::common::solids::frame();
+    let plan = crate::layers_of(10.0);
+    let masks = masks_of(&triangles, [0.1; 2], &plan, Samples::ONE);
+    let mut limits = strict();
+    let has_overhang = |limits: &Limits| {
+        let found = inspect(&masks, &plan, limits, &mut silent).unwrap();
+        found.findings.iter().any(|it| it.code == Code::Overhang)
+    };
+    assert!(has_overhang(&limits));
+    limits.severity.overhang = Severity::Ignore;
+    assert!(!has_overhang(&limits));
+}
