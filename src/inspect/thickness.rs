@@ -6,7 +6,9 @@
 //! A disc fits wherever a square around it does, and squares are found with few looks at each row, so these come first: they
 //! leave little for discs to decide.
 
-use super::rows::{Beyond, Disc, FAR, Rows, Span, intersect, subtract};
+use std::ops::Range;
+
+use super::rows::{Disc, FAR, Rows, Span, intersect, subtract};
 use crate::grid::Grid;
 
 /// Finds what is thinner than a limit.
@@ -62,10 +64,20 @@ impl Thickness {
             }
             return thin;
         }
-        let centres = self.centres(solid, &doubtful);
-        let mut beyond = Beyond::default();
+        let mut centres = Centres::new(solid, &self.disc);
+        let (mut rest, mut less) = (Vec::new(), Vec::new());
         for row in margin..solid.len() - margin {
-            thin.push_row(beyond.find(doubtful.row(row), &centres, row, &self.reach));
+            rest.clear();
+            rest.extend_from_slice(doubtful.row(row));
+            for (step, half_width) in self.reach.steps() {
+                if rest.is_empty() {
+                    break;
+                }
+                less.clear();
+                subtract(&rest, centres.row(row + step), half_width, &mut less);
+                std::mem::swap(&mut rest, &mut less);
+            }
+            thin.push_row(&rest);
         }
         thin
     }
@@ -147,41 +159,61 @@ impl Thickness {
         }
         doubtful
     }
+}
 
-    /// The centres of discs that fit, in the rows near doubtful pixels.
-    fn centres(&self, solid: &Rows, doubtful: &Rows) -> Rows {
-        let reach = self.reach.rows();
-        let mut centres = Rows::default();
-        let mut both = [Vec::new(), Vec::new()];
-        let mut next_row = 0;
-        let mut near = i32::MIN / 2;
-        for row in 0..solid.len() {
-            while next_row <= row + reach {
-                if !doubtful.row(next_row).is_empty() {
-                    near = next_row;
-                }
-                next_row += 1;
-            }
-            if near < row - reach {
-                centres.end_row();
-                continue;
-            }
-            let [common, next] = &mut both;
-            common.clear();
-            common.push(Span {
-                start: -FAR,
-                end: FAR,
-            });
-            for (step, half_width) in self.disc.steps() {
-                next.clear();
-                intersect(common, solid.row(row + step), half_width, next);
-                std::mem::swap(common, next);
-                if common.is_empty() {
-                    break;
-                }
-            }
-            centres.push_row(common);
+/// The centres of discs that fit, found row by row as they are asked for.
+struct Centres<'a> {
+    solid: &'a Rows,
+    disc: &'a Disc,
+    spans: Vec<Span>,
+    /// Where the spans of each row are, if they have been asked for.
+    places: Vec<Option<Range<usize>>>,
+    common: Vec<Span>,
+    next: Vec<Span>,
+}
+
+impl<'a> Centres<'a> {
+    fn new(solid: &'a Rows, disc: &'a Disc) -> Self {
+        Self {
+            solid,
+            disc,
+            spans: Vec::new(),
+            places: vec![None; solid.len() as usize],
+            common: Vec::new(),
+            next: Vec::new(),
         }
-        centres
+    }
+
+    fn row(&mut self, row: i32) -> &[Span] {
+        if row < 0 || row >= self.solid.len() {
+            return &[];
+        }
+        let place = match &self.places[row as usize] {
+            Some(known) => known.clone(),
+            None => self.find(row),
+        };
+        &self.spans[place]
+    }
+
+    fn find(&mut self, row: i32) -> Range<usize> {
+        let Self { common, next, .. } = self;
+        common.clear();
+        common.push(Span {
+            start: -FAR,
+            end: FAR,
+        });
+        for (step, half_width) in self.disc.steps() {
+            next.clear();
+            intersect(common, self.solid.row(row + step), half_width, next);
+            std::mem::swap(common, next);
+            if common.is_empty() {
+                break;
+            }
+        }
+        let start = self.spans.len();
+        self.spans.extend_from_slice(common);
+        let place = start..self.spans.len();
+        self.places[row as usize] = Some(place.clone());
+        place
     }
 }
