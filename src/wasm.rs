@@ -15,7 +15,7 @@ use crate::job::{self, Calibration, Error, Options, OptionsError, Stage};
 use crate::js::{thrown, to_js};
 use crate::ldi::gpu;
 use crate::model::read::{self, HEAD_BYTES};
-use crate::model::weights;
+use crate::model::{FileFacts, weights};
 use crate::orientation::{Candidate, Search, SearchOptions, Task, TaskResult};
 use crate::printer::PRINTERS;
 use crate::profile::{Metric, Source};
@@ -64,13 +64,14 @@ pub struct Slicer {
     preview_density: Vec<f32>,
 }
 
-/// Checks by the first bytes and the length of a file that it can be a model, before it is read.
+/// The format of a model by the first bytes and the length of its file, before it is read.
 ///
 /// # Errors
 /// Throws a `CuspError` that names what it is instead.
-#[wasm_bindgen]
-pub fn identify(head: &[u8], length: f64) -> Result<(), JsValue> {
-    read::identify(head, length as u64).map_err(throw)
+#[wasm_bindgen(unchecked_return_type = "ModelFormat")]
+pub fn identify(head: &[u8], length: f64) -> Result<JsValue, JsValue> {
+    let format = read::identify(head, length as u64).map_err(throw)?;
+    Ok(to_js(&format))
 }
 
 /// Number of bytes that [`identify`] needs.
@@ -202,6 +203,15 @@ fn to_rust(candidates: &[Ts<Candidate>]) -> Result<Vec<Candidate>, JsValue> {
         .map_err(throw_conversion)
 }
 
+impl Slicer {
+    fn of(slicer: job::Slicer) -> Self {
+        Self {
+            slicer,
+            preview_density: Vec::new(),
+        }
+    }
+}
+
 #[wasm_bindgen]
 impl Slicer {
     /// Reads an STL, binary or ASCII.
@@ -210,11 +220,22 @@ impl Slicer {
     /// Throws a `CuspError` if the bytes are not a usable STL.
     #[wasm_bindgen(constructor)]
     pub fn new(stl: &[u8]) -> Result<Slicer, JsValue> {
-        let slicer = job::Slicer::load(stl).map_err(throw)?;
-        Ok(Self {
-            slicer,
-            preview_density: Vec::new(),
-        })
+        job::Slicer::load(stl).map(Self::of).map_err(throw)
+    }
+
+    /// A model that the module for other formats has read: nine coordinates per triangle, and what else its file tells.
+    ///
+    /// # Errors
+    /// Throws a `CuspError` if the triangles are no usable model.
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "values from JavaScript come by value"
+    )]
+    pub fn of_triangles(coordinates: &[f32], facts: Ts<FileFacts>) -> Result<Slicer, JsValue> {
+        let facts = facts.to_rust().map_err(throw_conversion)?;
+        let (triangles, _) = coordinates.as_chunks::<9>();
+        let slicer = job::Slicer::of_triangles(bytemuck::cast_slice(triangles), facts);
+        slicer.map(Self::of).map_err(throw)
     }
 
     /// Vertex positions of the surface facets, nine numbers per facet, in millimetres, in the file's frame.

@@ -15,11 +15,12 @@ pub mod runs;
 mod survey;
 mod zip;
 
+use std::collections::BTreeMap;
 use std::io::Write;
 
 pub use preview::{Look, Standing};
 use serde::Serialize;
-use serde_json::Value;
+use serde_json::value::RawValue;
 use survey::{Bounds, Survey};
 
 use crate::format::Format;
@@ -228,8 +229,12 @@ pub struct PrintJob<'a> {
     /// Finds the thickest uniform layers within tolerance.
     pub best_uniform: &'a dyn Fn() -> Option<UniformLayers>,
     /// Makes an object that describes the whole job, for formats of our own.
-    pub manifest: &'a dyn Fn() -> Result<Value, serde_json::Error>,
+    pub manifest: &'a dyn Fn() -> Result<Manifest, serde_json::Error>,
 }
+
+/// The members of a JSON object by name, each as text: a second writer, for values in memory, would make the module of the
+/// browser larger.
+pub type Manifest = BTreeMap<String, Box<RawValue>>;
 
 impl PrintJob<'_> {
     /// Total time of all layers, in seconds.

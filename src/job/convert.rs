@@ -3,14 +3,14 @@
 use std::sync::Arc;
 
 use serde::Serialize;
-use serde_json::{Value, json};
+use serde_json::json;
 
 use super::resolve::find_printer;
 use super::{OptionsError, SCHEMA};
 use crate::archive::read::{
     About, Finding, Flips, Inspection, Layer as LayerRead, Preview, PrintFile,
 };
-use crate::archive::{self, ArchiveError, Layer, Look, PrintJob, Screen};
+use crate::archive::{self, ArchiveError, Layer, Look, Manifest, PrintJob, Screen};
 use crate::format::{Format, FormatThicknesses};
 use crate::mask::{LEVELS, LayerRuns, Run, RunReader, RunSource};
 use crate::parallel;
@@ -290,7 +290,7 @@ impl<'a> Conversion<'a> {
             printer: self.printer(),
             look: &|| self.look(),
             best_uniform: &|| None,
-            manifest: &|| Ok(self.manifest()),
+            manifest: &|| self.manifest(),
         };
         archive::write(self.format, &job, writer, progress)
     }
@@ -334,9 +334,9 @@ impl<'a> Conversion<'a> {
     }
 
     /// What a zip of masks says of a print that no plan was made for.
-    fn manifest(&self) -> Value {
+    fn manifest(&self) -> Result<Manifest, serde_json::Error> {
         let screen = &self.screen;
-        json!({
+        let manifest = json!({
             "schema": SCHEMA,
             "converted_from": self.file.about().format,
             "layers": self.layers.len(),
@@ -353,7 +353,8 @@ impl<'a> Conversion<'a> {
                 "antialias": screen.antialias,
                 "is_mirrored": screen.is_mirrored,
             },
-        })
+        });
+        serde_json::from_str(&manifest.to_string())
     }
 }
 

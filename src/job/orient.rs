@@ -109,7 +109,7 @@ impl Slicer {
         now.energy = options.energy(&now, &scale);
         Ok(OrientationReport {
             schema: SCHEMA,
-            model: self.file.clone(),
+            model: self.facts.file.clone(),
             search: options,
             scale,
             now,
@@ -202,7 +202,7 @@ impl Slicer {
     fn part(&self, options: &Options, shard: Shard, directions: usize) -> OrientationPart {
         OrientationPart {
             version: env!("CARGO_PKG_VERSION").to_owned(),
-            model: self.file.clone(),
+            model: self.facts.file.clone(),
             options: options.as_reported(),
             weights_crc32: self.painted.as_deref().map(weights::crc_of),
             shard,

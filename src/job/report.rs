@@ -1,7 +1,7 @@
 //! The data that leaves the library: reports on plans and meshes, with units in the names of fields.
 
 use serde::Serialize;
-use serde_json::Value;
+use serde_json::value::to_raw_value;
 #[cfg(target_arch = "wasm32")]
 use tsify::Tsify;
 
@@ -9,6 +9,7 @@ use super::parts::{Filament, Output};
 use super::planned::{Planned, PlannedModel};
 use super::sampled::Sampled;
 use super::{Options, PlateReport};
+use crate::archive::Manifest;
 use crate::filament::FilamentReport;
 use crate::format::Format;
 use crate::ldi::Solid;
@@ -446,14 +447,13 @@ impl Report {
     ///
     /// # Errors
     /// [`serde_json::Error`], which no report causes.
-    pub(crate) fn manifest(&self) -> Result<Value, serde_json::Error> {
-        let mut manifest = serde_json::to_value(self)?;
+    pub(crate) fn manifest(&self) -> Result<Manifest, serde_json::Error> {
+        let mut manifest: Manifest = serde_json::from_str(&serde_json::to_string(self)?)?;
         let warnings = self.warnings.iter();
         let warnings = warnings.filter(|warning| !warning.is_of_the_machine());
-        manifest["warnings"] = serde_json::to_value(warnings.collect::<Vec<_>>())?;
-        if let Some(manifest) = manifest.as_object_mut() {
-            manifest.retain(|key, _| !OF_THE_MACHINE.contains(&&**key));
-        }
+        let warnings = to_raw_value(&warnings.collect::<Vec<_>>())?;
+        manifest.insert("warnings".to_owned(), warnings);
+        manifest.retain(|key, _| !OF_THE_MACHINE.contains(&&**key));
         Ok(manifest)
     }
 }

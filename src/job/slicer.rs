@@ -3,6 +3,7 @@
 use std::io::Write;
 use std::sync::Arc;
 
+use glam::Vec3;
 use web_time::Instant;
 
 use super::facet_shapes::{Extra, shapes_of};
@@ -22,7 +23,7 @@ use crate::inspect::{self, Printability};
 use crate::ldi::LdiError;
 use crate::ldi::gpu::Gpu;
 use crate::mask::{MaskCursor, Masks, Side};
-use crate::model::{Mesh, ModelFile, ModelUnit, Pose, read, saliency, weights};
+use crate::model::{FileFacts, Mesh, ModelFile, Pose, read, saliency, weights};
 use crate::orientation::Surface;
 use crate::plan::Plan;
 use crate::profile::facet_bins::FacetBins;
@@ -33,10 +34,7 @@ use crate::warning::Warning;
 #[derive(Debug)]
 pub struct Slicer {
     pub(super) model: Mesh,
-    pub(super) file: ModelFile,
-    /// The unit that the file states, and how many of its objects are not printed.
-    pub(super) unit: Option<ModelUnit>,
-    skipped_objects: usize,
+    pub(super) facts: FileFacts,
     /// Saliency of each facet of the surface, once computed.
     saliency: Option<Vec<f32>>,
     /// The user's weight of each facet of the surface, if set.
@@ -68,15 +66,22 @@ impl Slicer {
     pub fn load(bytes: &[u8]) -> Result<Self, Error> {
         let clock = Instant::now();
         let contents = read::read(bytes)?;
-        let model = Mesh::from_triangles(&contents.triangles)?;
+        let facts = FileFacts::new(bytes, &contents);
+        let mut slicer = Self::of_triangles(&contents.triangles, facts)?;
+        slicer.load_ms = ms_since(clock);
+        Ok(slicer)
+    }
+
+    /// A model that was read elsewhere.
+    ///
+    /// # Errors
+    /// [`Error::Mesh`].
+    pub fn of_triangles(triangles: &[[Vec3; 3]], facts: FileFacts) -> Result<Self, Error> {
+        let clock = Instant::now();
+        let model = Mesh::from_triangles(triangles)?;
         Ok(Self {
             model,
-            file: ModelFile {
-                bytes: bytes.len(),
-                crc32: crate::crc::crc32(bytes),
-            },
-            unit: contents.unit,
-            skipped_objects: contents.skipped_objects,
+            facts,
             saliency: None,
             painted: None,
             load_ms: ms_since(clock),
@@ -104,7 +109,7 @@ impl Slicer {
     /// Describes the model in the frame of its file.
     pub fn info(&self) -> MeshInfo {
         let mut info = MeshInfo::of(&self.model);
-        info.unit = self.unit;
+        info.unit = self.facts.unit;
         info.warnings
             .extend(self.file_warnings(&Options::default()));
         info
@@ -112,12 +117,12 @@ impl Slicer {
 
     /// What to know about the file, given these options.
     pub(super) fn file_warnings(&self, options: &Options) -> Vec<Warning> {
-        let objects = self.skipped_objects;
+        let objects = self.facts.skipped_objects;
         let skipped = (objects > 0).then_some(Warning::SkippedObjects { objects });
-        let is_open = self.unit.or(options.unit).is_none() && options.height_mm.is_none();
+        let is_open = self.facts.unit.or(options.unit).is_none() && options.height_mm.is_none();
         let odd = is_open.then(|| odd_size(&self.model)).flatten();
         let stated = self
-            .unit
+            .facts.unit
             .zip(options.unit)
             .filter(|(stated, given)| stated != given);
         let ignored = stated.map(|(stated, given)| Warning::UnitStated { stated, given });
@@ -127,7 +132,7 @@ impl Slicer {
     /// Resolves options for this model. A unit that the file states beats theirs.
     pub(super) fn job(&self, options: &Options) -> Result<Job, Error> {
         let mut job = options.resolve()?;
-        if self.unit.is_some() {
+        if self.facts.unit.is_some() {
             job.sampling.pose.unit = None;
         }
         Ok(job)
@@ -135,7 +140,7 @@ impl Slicer {
 
     /// The identity of the model's file.
     pub fn model_file(&self) -> &ModelFile {
-        &self.file
+        &self.facts.file
     }
 
     /// Vertex positions of the surface facets, nine numbers per facet, in millimetres, in the file's frame.
@@ -149,7 +154,7 @@ impl Slicer {
     /// # Errors
     /// [`Error::Mesh`].
     pub fn positions_on_plate(&self, pose: &Pose) -> Result<Vec<f32>, Error> {
-        let unit = pose.unit.filter(|_| self.unit.is_none());
+        let unit = pose.unit.filter(|_| self.facts.unit.is_none());
         Ok(positions(&self.model.on_plate(&Pose { unit, ..*pose })?))
     }
 
@@ -299,10 +304,10 @@ impl Slicer {
         timings.sum_up();
         self.load_ms = 0.0;
         let origin = Origin {
-            file: &self.file,
+            file: &self.facts.file,
             options,
             painted: self.painted.as_deref(),
-            states_unit: self.unit.is_some(),
+            states_unit: self.facts.unit.is_some(),
             warnings: self.file_warnings(options),
         };
         let report = report_of(&planned, &job.output, origin, timings);

@@ -16,7 +16,7 @@ pub mod weights;
 pub(crate) use bodies::bodies;
 pub use class::{FacetClass, FacetClasses, Winding};
 pub use edges::{Across, Neighbours};
-pub use file::ModelFile;
+pub use file::{FileFacts, ModelFile};
 pub use mesh::{Bounds, Mesh, MeshError};
 pub(crate) use pose::rotation_matrix;
 pub use pose::{Pose, TURNS};

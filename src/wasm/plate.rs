@@ -4,7 +4,7 @@ use js_sys::Function;
 use tsify::Ts;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
-use super::{Chunks, progress_to, throw, throw_conversion};
+use super::{Chunks, Slicer, progress_to, throw, throw_conversion};
 use crate::arrange::Arranging;
 use crate::job::{self, Placement, PlateOptions};
 use crate::js::to_js;
@@ -31,16 +31,9 @@ impl Plate {
         Self::default()
     }
 
-    /// Reads a model and adds it. Its index is the number of models before.
-    ///
-    /// # Errors
-    /// Throws a `CuspError` if the bytes are no usable model.
-    #[wasm_bindgen(unchecked_return_type = "MeshInfo")]
-    pub fn add(&mut self, file: &[u8]) -> Result<JsValue, JsValue> {
-        let model = job::Slicer::load(file).map_err(throw)?;
-        let info = to_js(&model.info());
-        self.plate.add(model);
-        Ok(info)
+    /// Adds a model. Its index is the number of models before.
+    pub fn add(&mut self, model: Slicer) {
+        self.plate.add(model.slicer);
     }
 
     /// Removes a model. The indices of those after it become one less.

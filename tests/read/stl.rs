@@ -2,7 +2,7 @@
 
 use crate::common::{binary_stl, solids};
 use cusp_slicer::model::read::stl::{StlError, StlExpected};
-use cusp_slicer::model::read::{HEAD_BYTES, ReadError, identify, read as any};
+use cusp_slicer::model::read::{HEAD_BYTES, ModelFormat, ReadError, identify, read as any};
 use glam::Vec3;
 
 const ASCII: &str = "solid part one
@@ -265,8 +265,8 @@ fn a_binary_file_whose_length_is_right_is_an_stl_whatever_its_header_says() {
 fn the_head_of_a_file_is_enough_to_refuse_it() {
     let bytes = binary_stl(&solids::sphere(3.0, 6));
     let head = &bytes[..HEAD_BYTES];
-    assert_eq!(identify(head, bytes.len() as u64), Ok(()));
-    assert_eq!(identify(ASCII.as_bytes(), 1 << 40), Ok(()));
+    assert_eq!(identify(head, bytes.len() as u64), Ok(ModelFormat::Stl));
+    assert_eq!(identify(ASCII.as_bytes(), 1 << 40), Ok(ModelFormat::Stl));
     let cut = identify(head, bytes.len() as u64 - 51);
     assert!(
         matches!(cut, Err(ReadError::Stl(StlError::Truncated { .. }))),

@@ -1,4 +1,5 @@
 /** Models whose volume is known. Lengths in mm. */
+import { strToU8, zipSync } from "fflate";
 import { binaryStl } from "../src/page/example.js";
 
 export interface Solid {
@@ -78,4 +79,39 @@ export function volume(triangles: Float32Array): number {
     six += ax * (by * cz - bz * cy) - ay * (bx * cz - bz * cx) + az * (bx * cy - by * cx);
   }
   return six / 6;
+}
+
+/** The corners of the triangles of a binary STL, one line each, without repetition, and the triangles as three places in that list. */
+function indexed(stl: Uint8Array): { corners: readonly string[]; triangles: readonly (readonly number[])[] } {
+  const view = new DataView(stl.buffer, stl.byteOffset);
+  const places = new Map<string, number>();
+  const place = (at: number): number => {
+    const corner = [0, 4, 8].map((axis) => view.getFloat32(at + axis, true)).join(" ");
+    const known = places.get(corner) ?? places.size;
+    places.set(corner, known);
+    return known;
+  };
+  const triangles = Array.from({ length: view.getUint32(80, true) }, (_, facet) => [12, 24, 36].map((corner) => place(84 + 50 * facet + corner)));
+  return { corners: [...places.keys()], triangles };
+}
+
+/** The model of an STL as an OBJ. */
+export function objOf(stl: Uint8Array): Uint8Array {
+  const { corners, triangles } = indexed(stl);
+  const lines = [...corners.map((corner) => `v ${corner}`), ...triangles.map((places) => `f ${places.map((place) => place + 1).join(" ")}`)];
+  return new TextEncoder().encode(`${lines.join("\n")}\n`);
+}
+
+/** The model of an STL as a 3MF. */
+export function threeMfOf(stl: Uint8Array): Uint8Array {
+  const { corners, triangles } = indexed(stl);
+  const tag = (name: string, keys: readonly string[], values: readonly (string | number)[]): string =>
+    `<${name} ${keys.map((key, i) => `${key}="${values[i]}"`).join(" ")}/>`;
+  const vertices = corners.map((corner) => tag("vertex", ["x", "y", "z"], corner.split(" ")));
+  const facets = triangles.map((places) => tag("triangle", ["v1", "v2", "v3"], places));
+  const mesh = `<mesh><vertices>${vertices.join("")}</vertices><triangles>${facets.join("")}</triangles></mesh>`;
+  const model = `<?xml version="1.0"?><model unit="millimeter" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"><resources><object id="1">${mesh}</object></resources><build><item objectid="1"/></build></model>`;
+  const types = `<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types"><Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/></Types>`;
+  const start = `<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Id="r" Target="/3D/model.model" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>`;
+  return zipSync({ "[Content_Types].xml": strToU8(types), "_rels/.rels": strToU8(start), "3D/model.model": strToU8(model) });
 }

@@ -38,16 +38,16 @@ const FRAMEWORKS = {
 } as const;
 
 const WASM = "cusp_slicer_bg.wasm";
-/** Fetched when a plan wants a GPU. */
-const GPU = "cusp_gpu_bg.wasm";
+/** Modules that are fetched when they are wanted, by their folders: for a GPU, and for a model that is no STL. */
+const FETCHED = { gpu: "cusp_gpu_bg.wasm", models: "cusp_models_bg.wasm" } as const;
+const MODULES = [["", WASM], ...Object.entries(FETCHED).map(([folder, file]) => [`${folder}/`, file] as const)] as const;
 
 /** Rewrites addresses for a package whose files lie in one folder. */
 const flatAddresses: Plugin = {
   name: "cusp:flat-addresses",
   transform: {
     filter: { id: /src\/api\/(calls|worker)\.ts$/ },
-    handler: (code) =>
-      code.replace(`"./worker.ts"`, `"./worker.js"`).replace(`"../../pkg/${WASM}"`, `"./${WASM}"`).replace(`"../../pkg/gpu/${GPU}"`, `"./${GPU}"`),
+    handler: (code) => MODULES.reduce((text, [folder, file]) => text.replace(`"../../pkg/${folder}${file}"`, `"./${file}"`), code.replace(`"./worker.ts"`, `"./worker.js"`)),
   },
 };
 
@@ -123,10 +123,12 @@ async function declare(): Promise<void> {
     cwd: root,
     stdio: "inherit",
   });
-  await mkdir(join(types, "pkg"), { recursive: true });
-  // The type library of a host may not have `Symbol.dispose` yet.
-  const core = await readFile(join(root, "pkg/cusp_slicer.d.ts"), "utf8");
-  await writeFile(join(types, "pkg/cusp_slicer.d.ts"), core.replaceAll(/^.*\[Symbol\.dispose\].*\n/gm, ""));
+  await mkdir(join(types, "pkg/models"), { recursive: true });
+  for (const name of ["pkg/cusp_slicer.d.ts", "pkg/models/cusp_models.d.ts"]) {
+    const declarations = await readFile(join(root, name), "utf8");
+    // The type library of a host may not have `Symbol.dispose` yet.
+    await writeFile(join(types, name), declarations.replaceAll(/^.*\[Symbol\.dispose\].*\n/gm, ""));
+  }
   await copyFile(join(root, "package/lit.d.ts"), join(types, "lit.d.ts"));
   await cp(join(root, "package/types"), types, { recursive: true });
   for (const name of await readdir(types, { recursive: true })) {
@@ -160,8 +162,7 @@ async function describe(chunks: readonly OutputChunk[]): Promise<void> {
       "./element-class": entry("src/element/index", "element-class"),
       ...Object.fromEntries(Object.keys(FRAMEWORKS).map((name) => [`./${name}`, entry(name, "element")])),
       "./worker.js": "./worker.js",
-      [`./${WASM}`]: `./${WASM}`,
-      [`./${GPU}`]: `./${GPU}`,
+      ...Object.fromEntries(MODULES.map(([, file]) => [`./${file}`, `./${file}`])),
       "./package.json": "./package.json",
     },
     peerDependencies: Object.fromEntries(peers.map((name) => [name, "*"])),
@@ -174,13 +175,13 @@ async function describe(chunks: readonly OutputChunk[]): Promise<void> {
   for (const name of ["LICENSE-APACHE", "LICENSE-MIT"]) await copyFile(join(root, "..", name), join(out, name));
 }
 
-/** Gzipped size of what a browser fetches: at once, with the 3-D view, which is three.js, and for a GPU. */
-async function weigh(chunks: readonly OutputChunk[]): Promise<{ first: number; three: number; gpu: number }> {
+/** Gzipped size of what a browser fetches: at once, with the 3-D view, which is three.js, for a GPU, and for a model that is no STL. */
+async function weigh(chunks: readonly OutputChunk[]): Promise<{ first: number; three: number; gpu: number; models: number }> {
   const gzipped = (bytes: string | Uint8Array): number => gzipSync(bytes, { level: 9 }).length;
   const sum = (some: readonly OutputChunk[]): number => some.reduce((total, { code }) => total + gzipped(code), 0);
   const three = sum(chunks.filter(({ name }) => name === "three"));
-  const first = sum(chunks) - three + gzipped(await readFile(join(out, WASM)));
-  return { first, three, gpu: gzipped(await readFile(join(out, GPU))) };
+  const [first = 0, gpu = 0, models = 0] = await Promise.all([WASM, FETCHED.gpu, FETCHED.models].map(async (file) => gzipped(await readFile(join(out, file)))));
+  return { first: sum(chunks) - three + first, three, gpu, models };
 }
 
 export async function main(): Promise<void> {
@@ -188,12 +189,11 @@ export async function main(): Promise<void> {
   const chunks = [...(await bundle(ENTRIES)), ...(await bundle(WORKER))];
   const loaded = loadedAtOnce(chunks);
   if (chunks.some(({ name, fileName }) => name === "three" && loaded.has(fileName))) throw new Error("three is loaded before it is needed");
-  await copyFile(join(root, "pkg", WASM), join(out, WASM));
-  await copyFile(join(root, "pkg/gpu", GPU), join(out, GPU));
+  for (const [folder, file] of MODULES) await copyFile(join(root, "pkg", folder, file), join(out, file));
   await declare();
   await describe(chunks);
-  const { first, three, gpu } = await weigh(chunks);
-  console.log(`gzipped ${first} bytes, ${three} of three for the 3-D view, and ${gpu} to drive a GPU`);
+  const { first, three, gpu, models } = await weigh(chunks);
+  console.log(`gzipped ${first} bytes, ${three} of three for the 3-D view, ${gpu} to drive a GPU, and ${models} to read models other than STL`);
   if (first > LIMIT_BYTES) throw new Error(`that is more than ${LIMIT_BYTES} bytes`);
   const packed = execFileSync("npm", ["pack", "--json", "--loglevel=error"], { cwd: out, encoding: "utf8" });
   const [tarball] = JSON.parse(packed) as { filename: string; size: number }[];

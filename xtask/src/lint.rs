@@ -70,8 +70,6 @@ fn format_apart(project: &Project, manifest: &str) -> Result<()> {
 /// Lints the TypeScript. Its rules know types, and without those that the wasm
 /// package declares they would report every value of them.
 fn oxlint(project: &Project) -> Result<()> {
-    if !project.www.join("pkg/cusp_slicer.d.ts").exists() {
-        wasm::build(project)?;
-    }
+    wasm::build(project)?;
     process::run(node::npm(project)?.args(["run", "--silent", "lint"]))
 }

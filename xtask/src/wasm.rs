@@ -25,20 +25,26 @@ struct Module {
     budget: usize,
 }
 
-/// The slicer, what drives a GPU for it, which the page fetches when a plan wants one, and the reader of print files, which
-/// it fetches when somebody opens one.
-const MODULES: [Module; 3] = [
+/// The slicer, and what the page fetches when it is wanted: what drives a GPU for a plan, the readers of models other than STL,
+/// and those of print files.
+const MODULES: [Module; 4] = [
     Module {
         package: "cusp-slicer",
         folder: ".",
         files: "pkg/cusp_slicer",
-        budget: 540_000,
+        budget: 475_000,
     },
     Module {
         package: "cusp-gpu",
         folder: "gpu",
         files: "pkg/gpu/cusp_gpu",
         budget: 100_000,
+    },
+    Module {
+        package: "cusp-models",
+        folder: "models",
+        files: "pkg/models/cusp_models",
+        budget: 80_000,
     },
     Module {
         package: "cusp-reader",

@@ -3,7 +3,7 @@
 //! The masks are `layers/00000.png` and so on, from the plate upward: white where the resin is cured, row 0 at the largest
 //! y. `manifest.json` is the job's manifest with an entry for each layer.
 
-use serde_json::json;
+use serde_json::value::to_raw_value;
 
 use super::{Container, File, LayerEntry};
 use crate::archive::png::{self, Depth};
@@ -27,7 +27,8 @@ impl Container for Masks {
 
     fn files(&self, job: &PrintJob<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
         let mut manifest = (job.manifest)().map_err(ArchiveError::write)?;
-        manifest["layer_files"] = json!(layers);
+        let layers = to_raw_value(layers).map_err(ArchiveError::write)?;
+        manifest.insert("layer_files".to_owned(), layers);
         let json = serde_json::to_vec(&manifest).map_err(ArchiveError::write)?;
         Ok(vec![("manifest.json".to_owned(), json)])
     }

@@ -183,10 +183,10 @@ impl Plate {
             timings.sum_up();
             let first = &self.models[standing[0].0.model];
             let origin = Origin {
-                file: &first.file,
+                file: &first.facts.file,
                 options: shared,
                 painted: first.painted.as_deref(),
-                states_unit: is_alone && first.unit.is_some(),
+                states_unit: is_alone && first.facts.unit.is_some(),
                 warnings: standing
                     .iter()
                     .flat_map(|(shape, _)| self.models[shape.model].file_warnings(shared))

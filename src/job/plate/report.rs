@@ -92,7 +92,7 @@ impl Plate {
             let planning = Planning::new(parts.collect(), &planned.layering);
             models.push(PlateModelReport {
                 model,
-                file: self.models[model].file.clone(),
+                file: self.models[model].facts.file.clone(),
                 options: options.of_model(model),
                 weights_crc32: self.models[model].weights_crc32(),
                 copies: same.len(),

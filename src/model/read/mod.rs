@@ -1,10 +1,13 @@
 //! Model files. Each format has a source file of its own, and is recognised by content, never by the file's name.
 
 mod error;
+mod format;
 pub mod kind;
+#[cfg(feature = "models")]
 pub mod obj;
 pub mod stl;
 mod text;
+#[cfg(feature = "models")]
 pub mod threemf;
 
 use glam::Vec3;
@@ -12,6 +15,7 @@ use glam::Vec3;
 use super::ModelUnit;
 
 pub use error::ReadError;
+pub use format::ModelFormat;
 use kind::FileKind;
 
 /// Number of bytes at the beginning of a file that are enough to tell its kind.
@@ -42,57 +46,36 @@ impl Contents {
     }
 }
 
-/// A format of model files.
-struct Format {
-    /// Whether a file with these first bytes and this length has the format.
-    is: fn(head: &[u8], length: u64) -> bool,
-    /// Reads a file of the format.
-    read: fn(bytes: &[u8]) -> Result<Contents, ReadError>,
-}
-
-/// The first that fits counts: a binary STL may begin with anything.
-const FORMATS: [Format; 3] = [
-    Format {
-        is: stl::is_stl,
-        read: |bytes| Ok(Contents::without_unit(stl::read(bytes)?)),
-    },
-    Format {
-        is: |head, _| threemf::is_zip(head),
-        read: threemf::read,
-    },
-    Format {
-        is: |head, _| obj::is_obj(head),
-        read: |bytes| Ok(obj::read(bytes)?),
-    },
-];
-
-/// Reads a model.
+/// Reads a model. Without the feature `models`, only STL is read.
 ///
 /// # Errors
 /// [`ReadError`], with the byte offset, or the line and the part, where reading failed.
 pub fn read(bytes: &[u8]) -> Result<Contents, ReadError> {
-    (format_of(head_of(bytes), bytes.len() as u64)?.read)(bytes)
+    match identify(head_of(bytes), bytes.len() as u64)? {
+        ModelFormat::Stl => Ok(Contents::without_unit(stl::read(bytes)?)),
+        #[cfg(feature = "models")]
+        ModelFormat::ThreeMf => threemf::read(bytes),
+        #[cfg(feature = "models")]
+        ModelFormat::Obj => Ok(obj::read(bytes)?),
+        #[cfg(not(feature = "models"))]
+        ModelFormat::ThreeMf | ModelFormat::Obj => Err(ReadError::UnknownKind),
+    }
 }
 
 fn head_of(bytes: &[u8]) -> &[u8] {
     &bytes[..bytes.len().min(HEAD_BYTES)]
 }
 
-/// Checks by the first [`HEAD_BYTES`] of a file and its length that it can be a model, so that other files are rejected
-/// before they are read. Of a zip only the whole tells.
+/// The format of a file by its first [`HEAD_BYTES`] and its length, so that files that cannot be models are rejected before
+/// they are read. Of a zip only the whole tells.
 ///
 /// # Errors
 /// [`ReadError`], which names what the file is instead.
-pub fn identify(head: &[u8], length: u64) -> Result<(), ReadError> {
-    format_of(head, length).map(|_| ())
-}
-
-fn format_of(head: &[u8], length: u64) -> Result<&'static Format, ReadError> {
+pub fn identify(head: &[u8], length: u64) -> Result<ModelFormat, ReadError> {
     if length == 0 {
         return Err(ReadError::Empty);
     }
-    let mut formats = FORMATS.iter();
-    if let Some(format) = formats.find(|format| (format.is)(head, length)) {
+    if let Some(format) = ModelFormat::of(head, length) {
         return Ok(format);
     }
     if let Some(kind) = FileKind::of(head) {

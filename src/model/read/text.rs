@@ -1,4 +1,6 @@
-//! What errors show of a file's text.
+//! The text of files: lines and words, and what errors show of it.
+
+use std::borrow::Cow;
 
 /// A word as errors show it: its first 40 characters.
 pub fn quoted(word: &[u8]) -> String {
@@ -23,4 +25,40 @@ fn shown(word: &[u8], most: usize) -> String {
         }
     }
     quoted
+}
+
+/// The words of a line.
+pub fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
+    let words = line.split(u8::is_ascii_whitespace);
+    words.filter(|word| !word.is_empty())
+}
+
+/// The lines of a text with their numbers, from 1. Lines end with LF, CR or both; those that go on in the next are joined.
+pub fn lines(bytes: &[u8]) -> impl Iterator<Item = (u64, Cow<'_, [u8]>)> {
+    let mut rest = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let mut number = 0;
+    std::iter::from_fn(move || {
+        if rest.is_empty() {
+            return None;
+        }
+        number += 1;
+        let first = number;
+        let mut line = Cow::Borrowed(next_line(&mut rest));
+        while line.ends_with(b"\\") {
+            let joined = line.to_mut();
+            joined.pop();
+            joined.push(b' ');
+            joined.extend(next_line(&mut rest));
+            number += 1;
+        }
+        Some((first, line))
+    })
+}
+
+fn next_line<'a>(rest: &mut &'a [u8]) -> &'a [u8] {
+    let end = rest.iter().position(|byte| matches!(byte, b'\n' | b'\r'));
+    let (line, after) = rest.split_at(end.unwrap_or(rest.len()));
+    let length = after.len().min(1 + usize::from(after.starts_with(b"\r\n")));
+    *rest = &after[length..];
+    line
 }

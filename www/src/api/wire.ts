@@ -29,13 +29,12 @@ export type {
   Resin,
   Snap,
   StlExpected,
-  ThreeMfFeature,
   TradeoffPoint,
   UniformLayers,
   Unit,
   Warning,
-  XmlFault,
 } from "../../pkg/cusp_slicer.js";
+export type { ThreeMfFeature, XmlFault } from "../../pkg/models/cusp_models.js";
 
 /** A printer that is known by name. Its description is complete, except for `machine` and `file_version`, which few have. */
 export type KnownPrinter = Printer & Required<Omit<Printer, "machine" | "file_version">>;

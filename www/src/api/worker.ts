@@ -2,8 +2,10 @@
 import * as Comlink from "comlink";
 import init, { calibrate_layers, head_bytes, identify, open_gpus_by, OrientationSearch, Plate, printers, Slicer } from "../../pkg/cusp_slicer.js";
 import initGpu, { OpenGpu } from "../../pkg/gpu/cusp_gpu.js";
+import initModels, { ModelRead } from "../../pkg/models/cusp_models.js";
 import { acceptCompatible } from "./adapters.js";
 import { bytesOf } from "./bytes.js";
+import { said } from "./error.js";
 import type { Candidate, KnownPrinter, OnProgress, PlateWorker, SlicerWorker } from "./wire.js";
 
 /** Chunks of a print file are merged into a Blob at this many bytes; the browser may keep that on disk. */
@@ -75,16 +77,36 @@ class BlobSink {
 /** The plate, empty at first. */
 const onPlate = (): Plate => (plate ??= new Plate());
 
-/** The bytes of a model; a file that is no model is rejected before all of it is read. */
-async function modelBytes(file: Blob): Promise<Uint8Array> {
-  identify(await bytesOf(file.slice(0, head_bytes())), file.size);
-  return bytesOf(file);
+/** Fetches what reads other formats than STL: a module of its own. */
+async function fetchModels(): Promise<void> {
+  try {
+    await initModels({ module_or_path: new URL("../../pkg/models/cusp_models_bg.wasm", import.meta.url) });
+  } catch (error) {
+    const system = said(error);
+    // An instance of a class would lose its code on the way to the page.
+    throw { code: "part-failed", message: `a part of the slicer could not be loaded: models (${system})`, detail: { part: "models", system } };
+  }
+}
+
+/** Reads a model; a file that is none is rejected before all of it is read. */
+async function read(file: Blob): Promise<Slicer> {
+  const format = identify(await bytesOf(file.slice(0, head_bytes())), file.size);
+  if (format === "stl") return new Slicer(await bytesOf(file));
+  await fetchModels();
+  const model = new ModelRead(await bytesOf(file));
+  const coordinates = model.coordinates();
+  const facts = model.facts();
+  model.free();
+  return Slicer.of_triangles(coordinates, facts);
 }
 
 const plateApi: PlateWorker = {
   async addToPlate(file, progress) {
     progress("load", 0, 0);
-    return onPlate().add(await modelBytes(file));
+    const model = await read(file);
+    const info = model.info();
+    onPlate().add(model);
+    return info;
   },
   removeFromPlate(model) {
     onPlate().remove(model);
@@ -125,7 +147,7 @@ const api: SlicerWorker = {
   },
   async open(file, progress) {
     progress("load", 0, 0);
-    const opened = new Slicer(await modelBytes(file));
+    const opened = await read(file);
     slicer?.free();
     slicer = opened;
     return opened.info();

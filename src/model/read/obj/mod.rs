@@ -6,11 +6,9 @@
 mod error;
 mod polygon;
 
-use std::borrow::Cow;
-
 use glam::Vec3;
 
-use super::text::quoted;
+use super::text::{lines, quoted, words};
 use super::{Contents, Triangles};
 
 pub use error::ObjError;
@@ -66,21 +64,6 @@ pub(super) fn read(bytes: &[u8]) -> Result<Contents, ObjError> {
     Ok(Contents::without_unit(triangles))
 }
 
-/// Whether the first line that is neither empty nor a comment begins with a word of OBJ, and goes on after it.
-pub(super) fn is_obj(head: &[u8]) -> bool {
-    const WORDS: [&[u8]; 9] = [
-        b"v", b"vn", b"vt", b"f", b"o", b"g", b"s", b"mtllib", b"usemtl",
-    ];
-    let mut lines = lines(head).map(|(_, text)| text);
-    let first = lines.find(|line| {
-        let line = line.trim_ascii();
-        !line.is_empty() && !line.starts_with(b"#")
-    });
-    let first = first.unwrap_or_default();
-    let mut words = words(&first);
-    words.next().is_some_and(|word| WORDS.contains(&word)) && words.next().is_some()
-}
-
 fn vertices(bytes: &[u8]) -> Result<Vec<Vec3>, ObjError> {
     let mut vertices = Vec::new();
     for (line, text) in lines(bytes) {
@@ -118,39 +101,4 @@ fn corner(word: &[u8], so_far: usize, vertices: usize) -> Option<usize> {
     };
     let place = usize::try_from(place).ok()?;
     (place < vertices).then_some(place)
-}
-
-fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
-    let words = line.split(u8::is_ascii_whitespace);
-    words.filter(|word| !word.is_empty())
-}
-
-/// The lines of a text with their numbers, from 1. Lines end with LF, CR or both; those that go on in the next are joined.
-fn lines(bytes: &[u8]) -> impl Iterator<Item = (u64, Cow<'_, [u8]>)> {
-    let mut rest = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let mut number = 0;
-    std::iter::from_fn(move || {
-        if rest.is_empty() {
-            return None;
-        }
-        number += 1;
-        let first = number;
-        let mut line = Cow::Borrowed(next_line(&mut rest));
-        while line.ends_with(b"\\") {
-            let joined = line.to_mut();
-            joined.pop();
-            joined.push(b' ');
-            joined.extend(next_line(&mut rest));
-            number += 1;
-        }
-        Some((first, line))
-    })
-}
-
-fn next_line<'a>(rest: &mut &'a [u8]) -> &'a [u8] {
-    let end = rest.iter().position(|byte| matches!(byte, b'\n' | b'\r'));
-    let (line, after) = rest.split_at(end.unwrap_or(rest.len()));
-    let length = after.len().min(1 + usize::from(after.starts_with(b"\r\n")));
-    *rest = &after[length..];
-    line
 }

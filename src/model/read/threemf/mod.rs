@@ -25,11 +25,6 @@ const MODEL: &[u8] = b"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmo
 /// Where it nearly always is.
 const USUAL_MODEL: &str = "3D/3dmodel.model";
 
-/// Whether a file with these first bytes may be a 3MF: any zip. Only the directory, at its end, knows.
-pub(super) fn is_zip(head: &[u8]) -> bool {
-    head.starts_with(b"PK\x03\x04")
-}
-
 /// Reads what a 3MF builds: the facets of all its items, each as often as it is placed, in file order.
 ///
 /// # Errors
