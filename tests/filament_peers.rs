@@ -14,7 +14,7 @@ use libtest_mimic::{Arguments, Completion, Failed, Trial};
 use tempfile::TempDir;
 
 /// A Python with `lib3mf`: this variable's, or the usual one.
-const PYTHON_VARIABLE: &str = "CUSP_PYTHON";
+const PYTHON_VARIABLE: &str = "CUSP_PEERS_PYTHON";
 
 /// Prints vertices, triangles and whether the mesh is closed, for each object of a 3MF.
 const LIB3MF: &str = r"
@@ -208,7 +208,7 @@ fn main() {
         (
             "lib3mf_opens_every_file",
             has_lib3mf,
-            "no Python with lib3mf; name one in CUSP_PYTHON",
+            "no Python with lib3mf; name one in CUSP_PEERS_PYTHON",
             lib3mf_opens_every_file,
         ),
     ];

@@ -1,5 +1,6 @@
 //! Sections of layers, against those of trimesh, which does its own reading, cutting and joining. Needs a Python with trimesh, shapely,
-//! networkx, scipy and rtree: `python3`, or that of the variable `CUSP_PYTHON`. Without, the test is reported as ignored.
+//! networkx, scipy and rtree: `python3`, or that of the variable `CUSP_PEERS_PYTHON`, which
+//! `cargo xtask test` sets. Without, the test is reported as ignored.
 
 #[path = "common/mod.rs"]
 mod common;
@@ -30,7 +31,7 @@ for z in map(float, sys.argv[2:]):
 ";
 
 fn python() -> String {
-    env::var("CUSP_PYTHON").unwrap_or_else(|_| "python3".to_owned())
+    env::var("CUSP_PEERS_PYTHON").unwrap_or_else(|_| "python3".to_owned())
 }
 
 /// Solids whose bodies neither touch nor overlap: trimesh makes no union.
@@ -113,7 +114,7 @@ fn main() {
         let found = Command::new(python()).args(["-c", needed]).output();
         if !found.is_ok_and(|found| found.status.success()) {
             return Ok(Completion::ignored_with(
-                "no Python with trimesh: CUSP_PYTHON names one",
+                "no Python with trimesh: CUSP_PEERS_PYTHON names one",
             ));
         }
         sections_are_those_of_trimesh().map(|()| Completion::Completed)

@@ -171,7 +171,7 @@ async fn check_plan_and_masks() {
         let (bytes, _) = slicer.write_archive(Vec::new(), &mut quiet).unwrap();
         fingerprint(&bytes)
     };
-    assert_eq!(archive(&mut slicer), 0xdc48_4d83_ef24_cf08);
+    assert_eq!(archive(&mut slicer), 0xdc53_304a_afd0_e2cb);
     let grey = Options {
         antialias: 4,
         printer: Some("sl1s".into()),
