@@ -82,7 +82,10 @@ pub mod job;
 pub mod js;
 #[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
 pub mod simulation;
-#[cfg(all(target_arch = "wasm32", not(any(feature = "gpu", feature = "models", feature = "read"))))]
+#[cfg(all(
+    target_arch = "wasm32",
+    not(any(feature = "gpu", feature = "models", feature = "read"))
+))]
 mod wasm;
 
 pub use job::{Error, Options, Report, Slicer, Stage};

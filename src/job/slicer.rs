@@ -122,7 +122,8 @@ impl Slicer {
         let is_open = self.facts.unit.or(options.unit).is_none() && options.height_mm.is_none();
         let odd = is_open.then(|| odd_size(&self.model)).flatten();
         let stated = self
-            .facts.unit
+            .facts
+            .unit
             .zip(options.unit)
             .filter(|(stated, given)| stated != given);
         let ignored = stated.map(|(stated, given)| Warning::UnitStated { stated, given });

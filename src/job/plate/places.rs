@@ -106,7 +106,9 @@ impl Plate {
         Pose {
             rotation: own.rotation.or(shared.rotation),
             height_mm: own.height_mm.or(shared.height_mm),
-            unit: shared.unit.filter(|_| self.models[model].facts.unit.is_none()),
+            unit: shared
+                .unit
+                .filter(|_| self.models[model].facts.unit.is_none()),
         }
     }
 
