@@ -81,10 +81,12 @@ impl Sheet {
         last: [i64; 2],
     ) -> Option<[i64; 2]> {
         let mut column = from[0];
+        let mut blocked = 0;
         for row in from[1]..=last[1] {
             while column <= last[0] {
-                if self.is_free(shape, [column, row]) {
-                    return Some([column, row]);
+                match self.first_blocked(shape, [column, row], blocked) {
+                    None => return Some([column, row]),
+                    Some(within) => blocked = within,
                 }
                 column += 1;
             }
@@ -93,20 +95,26 @@ impl Sheet {
         None
     }
 
-    fn is_free(&self, shape: &Shape, at: [i64; 2]) -> bool {
+    /// A row of the shape that meets cells that are taken. `likely` is looked at first: what blocks one place usually blocks the
+    /// next.
+    fn first_blocked(&self, shape: &Shape, at: [i64; 2], likely: usize) -> Option<usize> {
         let outline = &shape.outline;
         let [column, row] = [0, 1].map(|axis| at[axis] + outline.first[axis]);
-        (0..outline.cells.rows).all(|within| {
+        let is_blocked = |within: usize| {
             let row = row + within as i64;
             // Cells beyond the screen hold no pixels.
             if row < 0 || row >= self.taken.rows as i64 {
-                return true;
+                return false;
             }
             let taken = self.taken.row(row as usize);
             let words = outline.cells.row(within).iter().zip(0i64..);
             let mut words = words.filter(|(word, _)| **word != 0);
-            words.all(|(&word, place)| word & bits_at(taken, column + place * 64) == 0)
-        })
+            words.any(|(&word, place)| word & bits_at(taken, column + place * 64) != 0)
+        };
+        if is_blocked(likely) {
+            return Some(likely);
+        }
+        (0..outline.cells.rows).find(|&within| is_blocked(within))
     }
 
     fn take(&mut self, shape: &Shape, at: [i64; 2]) {
