@@ -1,8 +1,8 @@
 /** The worker: the only file that imports the WebAssembly package. One model is open at a time, and there is one plate. */
 import * as Comlink from "comlink";
 import init, { calibrate_layers, head_bytes, identify, open_gpus_by, OrientationSearch, Plate, printers, Slicer } from "../../pkg/cusp_slicer.js";
-import initGpu, { OpenGpu } from "../../pkg/gpu/cusp_gpu.js";
-import initModels, { ModelRead } from "../../pkg/models/cusp_models.js";
+import type { OpenGpu } from "../../pkg/gpu/cusp_gpu.js";
+import type { ModelRead } from "../../pkg/models/cusp_models.js";
 import { acceptCompatible } from "./adapters.js";
 import { bytesOf } from "./bytes.js";
 import { said } from "./error.js";
@@ -33,8 +33,9 @@ async function compile(): Promise<WebAssembly.Module> {
 
 /** Opens a GPU, once the core wants one: what drives it is a module of its own. */
 async function openGpu(hardware: boolean): Promise<OpenGpu> {
-  await initGpu({ module_or_path: new URL("../../pkg/gpu/cusp_gpu_bg.wasm", import.meta.url) });
-  return OpenGpu.open(hardware);
+  const gpu = await import("../../pkg/gpu/cusp_gpu.js");
+  await gpu.default({ module_or_path: new URL("../../pkg/gpu/cusp_gpu_bg.wasm", import.meta.url) });
+  return gpu.OpenGpu.open(hardware);
 }
 
 /** Wraps a callback for the core in a plain function: the one from comlink is a proxy, which has every property. */
@@ -78,9 +79,11 @@ class BlobSink {
 const onPlate = (): Plate => (plate ??= new Plate());
 
 /** Fetches what reads other formats than STL: a module of its own. */
-async function fetchModels(): Promise<void> {
+async function fetchModels(): Promise<typeof ModelRead> {
   try {
-    await initModels({ module_or_path: new URL("../../pkg/models/cusp_models_bg.wasm", import.meta.url) });
+    const models = await import("../../pkg/models/cusp_models.js");
+    await models.default({ module_or_path: new URL("../../pkg/models/cusp_models_bg.wasm", import.meta.url) });
+    return models.ModelRead;
   } catch (error) {
     const system = said(error);
     // An instance of a class would lose its code on the way to the page.
@@ -92,8 +95,8 @@ async function fetchModels(): Promise<void> {
 async function read(file: Blob): Promise<Slicer> {
   const format = identify(await bytesOf(file.slice(0, head_bytes())), file.size);
   if (format === "stl") return new Slicer(await bytesOf(file));
-  await fetchModels();
-  const model = new ModelRead(await bytesOf(file));
+  const Reader = await fetchModels();
+  const model = new Reader(await bytesOf(file));
   const coordinates = model.coordinates();
   const facts = model.facts();
   model.free();
