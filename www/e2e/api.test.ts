@@ -170,7 +170,7 @@ test("errors have codes and details", async () => {
     ["fetch-failed", ["status"]],
     "nothing was thrown",
     "no-plan",
-    ["infeasible", ["from_mm", "largest_layer_min_mm", "layer_min_mm", "least_tolerance", "to_mm", "tolerance"]],
+    ["infeasible", ["from_mm", "largest_layer_min_mm", "layer_min_mm", "least_tolerance", "model_number", "to_mm", "tolerance"]],
     ["unknown-printer", ["known", "printer", "similar"]],
     ["bad-printer", ["field", "printer"]],
     ["bad-options", ["system"]],
