@@ -1,49 +1,24 @@
 /** Several models in the element on a third-party page: dropped, added by script, counted, and left out by a page that knows one. */
-import type { Browser, BrowserContextOptions, Page } from "playwright-core";
-import { afterAll, afterEach, beforeAll, expect, test } from "vitest";
+import type { BrowserContextOptions, Page } from "playwright-core";
+import { expect, test } from "vitest";
 import type { CuspSlicer } from "../src/element/index.js";
 import { broken } from "./axe.js";
-import { launch } from "./browser.js";
-import { servePacked } from "./packed.js";
-import type { Served } from "./serve.js";
+import { packedPages } from "./packed-pages.js";
 import { prism, sphere } from "./solids.js";
-import { Tabs } from "./tabs.js";
 
-let served: Served;
-let browser: Browser;
-const tabs = new Tabs();
-const complaints: string[] = [];
-
-beforeAll(async () => {
-  served = await servePacked({
-    "index.html": `<!doctype html><html lang="en"><title>Shop</title><script type="module" src="main.js"></script><body><main><h1>Shop</h1></main></body></html>`,
+const pages = packedPages(
+  {
+    "index.html": `<!doctype html><html lang="en"><title>Shop</title><script type="module" src="main.js"></script>`,
     "main.js": `import "./cusp-slicer/element.js"; document.body.dataset.ready = "";`,
     "ball.stl": sphere(10, 48).bytes,
     "block.stl": prism(12, 8).bytes,
-  });
-  browser = await launch();
-}, 120_000);
-
-afterAll(async () => {
-  await browser.close();
-  await served.close();
-});
-
-afterEach(async ({ task }) => {
-  await tabs.giveBack(task.result?.state === "fail");
-  expect(complaints.splice(0)).toEqual([]);
-});
+  },
+  "en-GB",
+);
 
 /** Opens a page with an element that has these attributes, or none. */
-async function start(attributes: string, options: BrowserContextOptions = {}): Promise<Page> {
-  const page = await tabs.take(browser, { locale: "en-GB", ...options });
-  page.on("pageerror", (error) => complaints.push(error.message));
-  await page.goto(served.address);
-  await page.waitForSelector("body[data-ready]", { state: "attached" });
-  const markup = `<cusp-slicer ${attributes}></cusp-slicer>`;
-  await page.evaluate((markup) => document.querySelector("main")?.append(document.createRange().createContextualFragment(markup)), markup);
-  return page;
-}
+const start = (attributes: string, options?: BrowserContextOptions): Promise<Page> =>
+  pages.start(`<main><h1>Shop</h1><cusp-slicer ${attributes}></cusp-slicer></main>`, options);
 
 const state = (page: Page, wanted: string): Promise<unknown> => page.waitForSelector(`cusp-slicer[state=${wanted}]`);
 

@@ -1,12 +1,9 @@
 /** The element on a third-party page, from the package as it is published. */
-import type { Browser, BrowserContextOptions, Locator, Page } from "playwright-core";
-import { afterAll, afterEach, beforeAll, expect, test } from "vitest";
+import type { Locator, Page } from "playwright-core";
+import { expect, test } from "vitest";
 import type { CuspSlicer } from "../src/element/index.js";
-import { launch } from "./browser.js";
-import { servePacked } from "./packed.js";
-import type { Served } from "./serve.js";
+import { packedPages } from "./packed-pages.js";
 import { floating, prism, sphere } from "./solids.js";
-import { Tabs } from "./tabs.js";
 
 const html = `<!doctype html><html lang="de"><meta charset="utf-8" /><title>Shop</title>
 <script type="module" src="main.js"></script><body></body></html>`;
@@ -27,39 +24,10 @@ interface Told {
   told: [id: string, name: string, detail: Record<string, unknown>][];
 }
 
-let served: Served;
-let browser: Browser;
-const tabs = new Tabs();
-const complaints: string[] = [];
-
-beforeAll(async () => {
-  served = await servePacked({ "index.html": html, "main.js": main, "ball.stl": sphere(10, 96).bytes, "prism.stl": prism(10, 20).bytes, "floating.stl": floating(6, 3), "bad.stl": "no" });
-  browser = await launch();
-}, 120_000);
-
-afterAll(async () => {
-  await browser.close();
-  await served.close();
-});
-
-afterEach(async ({ task }) => {
-  await tabs.giveBack(task.result?.state === "fail");
-  expect(complaints.splice(0)).toEqual([]);
-});
-
-/** Opens a page with this in its body. */
-async function start(body: string, options: BrowserContextOptions = {}): Promise<Page> {
-  const page = await tabs.take(browser, { locale: "fr-FR", ...options });
-  page.on("pageerror", (error) => complaints.push(error.message));
-  page.on("console", (message) => {
-    if (message.type() === "error") complaints.push(message.text());
-  });
-  await page.goto(served.address);
-  await page.waitForSelector("body[data-ready]", { state: "attached" });
-  // Through a range, since the policy applies to markup that is written.
-  await page.evaluate((body) => document.body.append(document.createRange().createContextualFragment(body)), body);
-  return page;
-}
+const { start, complaints } = packedPages(
+  { "index.html": html, "main.js": main, "ball.stl": sphere(10, 96).bytes, "prism.stl": prism(10, 20).bytes, "floating.stl": floating(6, 3), "bad.stl": "no" },
+  "fr-FR",
+);
 
 const done = (page: Page, id: string): Promise<unknown> => page.waitForSelector(`#${id}[state=done]`);
 

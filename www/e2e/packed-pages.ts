@@ -1,0 +1,51 @@
+/** Third-party pages with the package for a test file: one browser and one server for all, and no unnoticed errors at the end. */
+import type { Browser, BrowserContextOptions, Page } from "playwright-core";
+import { afterAll, afterEach, beforeAll, expect } from "vitest";
+import { launch } from "./browser.js";
+import { servePacked } from "./packed.js";
+import type { Served } from "./serve.js";
+import { Tabs } from "./tabs.js";
+
+export interface PackedPages {
+  /** Opens the page with this in its body, once it says by `data-ready` that it is. */
+  start(body: string, options?: BrowserContextOptions): Promise<Page>;
+  /** Errors of the pages since they were last taken. A test fails that leaves any. */
+  complaints: string[];
+}
+
+/** Call once at the top of a test file. `files` are those of {@link servePacked}. */
+export function packedPages(files: Readonly<Record<string, string | Uint8Array>>, locale: string): PackedPages {
+  let served: Served;
+  let browser: Browser;
+  const tabs = new Tabs();
+  const complaints: string[] = [];
+
+  beforeAll(async () => {
+    served = await servePacked(files);
+    browser = await launch();
+  }, 120_000);
+
+  afterAll(async () => {
+    await browser.close();
+    await served.close();
+  });
+
+  afterEach(async ({ task }) => {
+    await tabs.giveBack(task.result?.state === "fail");
+    expect(complaints.splice(0)).toEqual([]);
+  });
+
+  const start = async (body: string, options: BrowserContextOptions = {}): Promise<Page> => {
+    const page = await tabs.take(browser, { locale, ...options });
+    page.on("pageerror", (error) => complaints.push(error.message));
+    page.on("console", (message) => {
+      if (message.type() === "error") complaints.push(message.text());
+    });
+    await page.goto(served.address);
+    await page.waitForSelector("body[data-ready]", { state: "attached" });
+    // Through a range, since the policy applies to markup that is written.
+    await page.evaluate((body) => document.body.append(document.createRange().createContextualFragment(body)), body);
+    return page;
+  };
+  return { start, complaints };
+}
