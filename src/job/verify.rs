@@ -159,7 +159,8 @@ impl Claim {
         } = Head::deserialize(&report).map_err(not_a_plan)?;
         let check = |claimed: &ModelFile, model: usize| match models.get(model) {
             None => Err(VerifyError::NoModel {
-                model_number: model + 1,
+                // A submitted number may be any.
+                model_number: model.saturating_add(1),
                 models: models.len(),
             }),
             Some(found) if claimed == *found => Ok(()),
