@@ -13,6 +13,7 @@ mod sheet;
 use glam::DVec2;
 
 use crate::order::sort_by_number;
+use crate::parallel;
 pub use arranging::{Arranging, TURN_DEG};
 pub use check::{Standing, problems};
 pub use error::ArrangeError;
@@ -129,7 +130,7 @@ pub struct Item<'a, E> {
     /// Height of the model in millimetres.
     pub height_mm: f64,
     /// Its shadow after a number of turns of 15°.
-    pub outline: &'a mut dyn FnMut(u32) -> Result<Outline, E>,
+    pub outline: &'a (dyn Fn(u32) -> Result<Outline, E> + Sync),
 }
 
 /// Where a copy stands.
@@ -151,29 +152,36 @@ pub struct Place {
 ///
 /// # Errors
 /// [`ArrangeError`], and what outlines return.
-pub fn arrange<E: From<ArrangeError>>(
+pub fn arrange<E: From<ArrangeError> + Send>(
     screen: &Screen,
     arranging: &Arranging,
-    items: &mut [Item<'_, E>],
+    items: &[Item<'_, E>],
 ) -> Result<Vec<Place>, E> {
     arranging.check()?;
     let reach = screen.reach(arranging.spacing_mm);
     let mut best: Option<Arrangement> = None;
     let mut shapes: Vec<Vec<Shape>> = items.iter().map(|_| Vec::new()).collect();
     for turns in arranging.turns() {
-        for (item, shapes) in items.iter_mut().zip(&mut shapes) {
-            for &turn in &turns {
-                if !shapes.iter().any(|shape| shape.turns == turn) {
-                    let outline = (item.outline)(turn)?;
-                    shapes.push(Shape::new(turn, outline, &reach));
-                }
-            }
+        let missing = (0..items.len()).flat_map(|item| {
+            let known = &shapes[item];
+            let is_missing = |turn: &u32| !known.iter().any(|shape| shape.turns == *turn);
+            let turns = turns.iter().copied().filter(is_missing);
+            turns.map(move |turn| (item, turn))
+        });
+        let turned = parallel::map(missing.collect(), |(item, turn): (usize, u32)| {
+            let outline = (items[item].outline)(turn)?;
+            Ok::<_, E>((item, Shape::new(turn, outline, &reach)))
+        });
+        for turned in turned {
+            let (item, shape) = turned?;
+            shapes[item].push(shape);
         }
-        for order in [Order::Height, Order::Area] {
-            let found = Arrangement::of(screen, items, &shapes, order);
-            if let Some(found) = found
-                && best.as_ref().is_none_or(|best| found.cost() < best.cost())
-            {
+        let orders = vec![Order::Height, Order::Area];
+        let found = parallel::map(orders, |order| {
+            Arrangement::of(screen, items, &shapes, order)
+        });
+        for found in found.into_iter().flatten() {
+            if best.as_ref().is_none_or(|best| found.cost() < best.cost()) {
                 best = Some(found);
             }
         }

@@ -1,6 +1,6 @@
 //! The shadow of a model on the plate, in cells of whole pixels.
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, Vec3};
 
 use super::Screen;
 use crate::model::Mesh;
@@ -126,10 +126,16 @@ impl Outline {
             (first_cell[1] * cell[1]) as f64,
         );
         let side = DVec2::new(cell[0] as f64, cell[1] as f64);
-        let place = |corner: DVec3| (screen.pixels_to(corner.truncate()) - origin) / side;
+        let place =
+            |vertex: &Vec3| (screen.pixels_to(vertex.as_dvec3().truncate()) - origin) / side;
+        let corners: Vec<DVec2> = mesh.vertices.iter().map(place).collect();
         let inset = INSET / side;
-        for facet in 0..mesh.facets.len() {
-            cover(&mut cells, mesh.corners(facet).map(place), inset);
+        for facet in &mesh.facets {
+            cover(
+                &mut cells,
+                facet.map(|vertex| corners[vertex as usize]),
+                inset,
+            );
         }
         Self {
             area_mm2: cells.count() as f64 * screen.cell_mm2(),
@@ -142,13 +148,19 @@ impl Outline {
 
 /// Adds the cells that a triangle meets farther than `inset` from their edges, given its corners in cells.
 fn cover(cells: &mut Cells, corners: [DVec2; 3], inset: DVec2) {
-    let [low, high] = [f64::min, f64::max].map(|choose| {
-        let ys = corners.map(|corner| corner.y);
-        choose(choose(ys[0], ys[1]), ys[2])
-    });
-    let last_row = cells.rows - 1;
+    let low = corners[0].min(corners[1]).min(corners[2]);
+    let high = corners[0].max(corners[1]).max(corners[2]);
+    let [last_column, last_row] = [cells.columns - 1, cells.rows - 1];
     let row_of = |y: f64| (y.max(0.0) as usize).min(last_row);
-    for row in row_of(low)..=row_of(high) {
+    let column_of = |x: f64| (x.max(0.0) as usize).min(last_column);
+    let rows = row_of(low.y)..=row_of(high.y);
+    // Most facets of a scan lie within a cell that another has covered.
+    let column = column_of(low.x);
+    if rows.start() == rows.end() && column == column_of(high.x) && cells.has(column, *rows.start())
+    {
+        return;
+    }
+    for row in rows {
         // The part of the triangle within the row.
         let (top, bottom) = (row as f64 + inset.y, row as f64 + 1.0 - inset.y);
         let (mut left, mut right) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -170,9 +182,8 @@ fn cover(cells: &mut Cells, corners: [DVec2; 3], inset: DVec2) {
         if left > right {
             continue;
         }
-        let column_of = |x: f64| x.max(0.0) as usize;
-        let first = column_of(left + inset.x);
-        let last = column_of(right - inset.x).min(cells.columns - 1);
+        let first = (left + inset.x).max(0.0) as usize;
+        let last = column_of(right - inset.x);
         // Otherwise it lies between the rays.
         if first <= last {
             cells.fill(row, first..last + 1);

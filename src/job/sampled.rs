@@ -106,7 +106,7 @@ impl Sampler {
             let rays = ldi.rays();
             warnings.push(Warning::UnclosedRays { unclosed, rays });
         }
-        timings.ldi = ms_since(clock);
+        timings.ldi += ms_since(clock);
         Ok(Sampled {
             height_mm: sampling.height_mm(bounds.size().z),
             sampling: sampling.clone(),

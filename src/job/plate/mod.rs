@@ -134,8 +134,9 @@ impl Plate {
         let mut timings = Timings::default();
         let clock = Instant::now();
         let screen = screen_of(&job.sampling)?;
+        let extents = self.extents(options, &job, &screen)?;
         let places = if options.placements.is_empty() {
-            self.arranged(options, &job, &screen)?
+            self.arranged(options, &job, &screen, &extents)?
         } else {
             let places = self.places(&screen, &options.placements)?;
             let problems = self.problems_of(options, &job, &screen, &places)?;
@@ -149,14 +150,6 @@ impl Plate {
             .await?;
 
         tell(progress, Stage::Plan, 0.0)?;
-        // Measured once, however many plates a model is on.
-        let extents = if is_alone {
-            Vec::new()
-        } else {
-            let all =
-                (0..self.models.len()).map(|model| self.extent(options, &job, model, &screen));
-            all.collect::<Result<Vec<_>, _>>()?
-        };
         let plates: Vec<&[Place]> = places.chunk_by(|a, b| a.plate == b.plate).collect();
         for (number, on_plate) in plates.iter().enumerate() {
             let clock = Instant::now();

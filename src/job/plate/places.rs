@@ -8,14 +8,15 @@ use crate::arrange::{
 };
 use crate::model::{Pose, TURNS};
 use crate::order::sort_by_number;
+use crate::parallel;
 
 /// How large a model is, before turns about z.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(super) struct Extent {
     /// In x, y and z.
     pub size_mm: [f64; 3],
-    /// Area of its shadow on the plate.
-    pub shadow_mm2: f64,
+    /// Its shadow on the plate.
+    pub shadow: Outline,
 }
 
 impl Plate {
@@ -26,7 +27,8 @@ impl Plate {
     pub fn arrange(&self, options: &PlateOptions) -> Result<Vec<Placement>, Error> {
         let job = options.options.resolve()?;
         let screen = screen_of(&job.sampling)?;
-        let places = self.arranged(options, &job, &screen)?;
+        let extents = self.extents(options, &job, &screen)?;
+        let places = self.arranged(options, &job, &screen, &extents)?;
         Ok(places
             .iter()
             .map(|place| placement(&screen, place))
@@ -38,54 +40,53 @@ impl Plate {
         options: &PlateOptions,
         job: &Job,
         screen: &Screen,
+        extents: &[Extent],
     ) -> Result<Vec<Place>, Error> {
         if self.models.is_empty() {
             return Err(ArrangeError::Empty.into());
         }
-        let outline_of = |model| {
+        let outline_of = |(model, extent): (usize, &Extent)| {
             let pose = self.pose_of(options, job, model);
-            move |turns| self.outline(model, &pose, turns, screen)
+            let shadow = extent.shadow.clone();
+            move |turns| match turns {
+                0 => Ok(shadow.clone()),
+                _ => self.outline(model, &pose, turns, screen),
+            }
         };
-        let mut outlines: Vec<_> = (0..self.models.len()).map(outline_of).collect();
-        let mut items = Vec::new();
-        for (model, outline) in outlines.iter_mut().enumerate() {
-            items.push(Item {
+        let outlines: Vec<_> = extents.iter().enumerate().map(outline_of).collect();
+        let items = outlines.iter().zip(extents).enumerate();
+        let items: Vec<_> = items
+            .map(|(model, (outline, extent))| Item {
                 copies: options.of_model(model).copies,
-                height_mm: self.size_mm(options, job, model)?[2],
+                height_mm: extent.size_mm[2],
                 outline,
-            });
-        }
+            })
+            .collect();
         if items.iter().all(|item| item.copies == 0) {
             return Err(ArrangeError::Empty.into());
         }
-        arrange(screen, &options.arranging, &mut items)
+        arrange(screen, &options.arranging, &items)
     }
 
-    /// Extent of a model in x, y and z before turns.
-    pub(super) fn size_mm(
+    /// The extent of each model and of its shadow.
+    pub(super) fn extents(
         &self,
         options: &PlateOptions,
         job: &Job,
-        model: usize,
-    ) -> Result<[f64; 3], Error> {
-        let pose = self.pose_of(options, job, model);
-        let size = self.models[model].model.on_plate(&pose)?.bounds().size();
-        Ok([size.x, size.y, pose.height_mm.unwrap_or(size.z)])
-    }
-
-    /// The extent of a model and of its shadow before turns.
-    pub(super) fn extent(
-        &self,
-        options: &PlateOptions,
-        job: &Job,
-        model: usize,
         screen: &Screen,
-    ) -> Result<Extent, Error> {
-        let outline = self.outline(model, &self.pose_of(options, job, model), 0, screen)?;
-        Ok(Extent {
-            size_mm: self.size_mm(options, job, model)?,
-            shadow_mm2: outline.area_mm2,
-        })
+    ) -> Result<Vec<Extent>, Error> {
+        let extent = |model: usize| {
+            let pose = self.pose_of(options, job, model);
+            let mesh = self.models[model].model.on_plate(&pose)?;
+            let size = mesh.bounds().size();
+            Ok(Extent {
+                size_mm: [size.x, size.y, pose.height_mm.unwrap_or(size.z)],
+                shadow: Outline::of(&mesh, screen),
+            })
+        };
+        parallel::map((0..self.models.len()).collect(), extent)
+            .into_iter()
+            .collect()
     }
 
     pub(super) fn outline(
@@ -165,10 +166,10 @@ impl Plate {
     ) -> Result<Vec<ArrangeError>, Error> {
         let pixels = screen.by_pixels();
         let kinds = kinds(places);
-        let outlines = kinds.iter().map(|&(model, turns)| {
+        let outlines = parallel::map(kinds.clone(), |(model, turns)| {
             self.outline(model, &self.pose_of(options, job, model), turns, &pixels)
         });
-        let outlines = outlines.collect::<Result<Vec<_>, _>>()?;
+        let outlines = outlines.into_iter().collect::<Result<Vec<_>, _>>()?;
         let mut found = Vec::new();
         for on_plate in places.chunk_by(|a, b| a.plate == b.plate) {
             let standing = on_plate.iter().filter_map(|place| {

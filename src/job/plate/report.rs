@@ -83,7 +83,7 @@ impl Plate {
             let sampled = &shapes[0].measured.of;
             sharers.push(Sharer {
                 height_mm: sampled.height_mm,
-                shadow_mm2: extents[model].shadow_mm2,
+                shadow_mm2: extents[model].shadow.area_mm2,
                 copies: same.len(),
             });
             let parts = shapes

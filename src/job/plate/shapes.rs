@@ -6,12 +6,14 @@ use web_time::Instant;
 
 use super::super::Timings;
 use super::super::measured::Measured;
-use super::super::parts::{Job, Sampling};
+use super::super::parts::{Job, Layering, Sampling};
+use super::super::sampled::Sampled;
 use super::super::stage::{Stage, StageProgress, ms_since, report};
 use super::places::kinds;
 use super::{Plate, PlateOptions};
 use crate::Error;
 use crate::arrange::Place;
+use crate::parallel;
 
 /// A model after some turns of 15°, sampled and measured. All copies that stand like this share it.
 #[derive(Debug, Clone)]
@@ -19,6 +21,15 @@ pub(super) struct Shape {
     pub model: usize,
     pub turns: u32,
     pub measured: Arc<Measured>,
+}
+
+/// A sampled model after some turns, what its facets weigh, and what is already measured of it.
+struct Unmeasured {
+    model: usize,
+    turns: u32,
+    sampled: Arc<Sampled>,
+    weights: Option<Vec<f32>>,
+    known: Option<Arc<Measured>>,
 }
 
 impl Plate {
@@ -49,31 +60,71 @@ impl Plate {
             })
         });
         let kept = std::mem::take(&mut self.shapes);
+        let mut unmeasured = Vec::with_capacity(wanted.len());
+        let sampled = self
+            .sample(
+                wanted,
+                &job.layering,
+                &kept,
+                &mut unmeasured,
+                timings,
+                progress,
+            )
+            .await;
+        // After an error, what was sampled until then is kept.
+        let clock = Instant::now();
+        let measured = parallel::map(unmeasured, |it: Unmeasured| {
+            let measured = Measured::new(&it.sampled, &job.layering, it.weights, it.known)?;
+            Ok::<_, Error>(Shape {
+                model: it.model,
+                turns: it.turns,
+                measured,
+            })
+        });
+        self.shapes = measured.into_iter().collect::<Result<_, _>>()?;
+        timings.profile += ms_since(clock);
+        sampled?;
+        report(progress, Stage::Profile, 1.0)?;
+        Ok(())
+    }
+
+    /// Samples each model in each of its turns, in order: each uses all cores by itself.
+    async fn sample(
+        &mut self,
+        wanted: Vec<(usize, u32, Sampling)>,
+        layering: &Layering,
+        kept: &[Shape],
+        unmeasured: &mut Vec<Unmeasured>,
+        timings: &mut Timings,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<(), Error> {
         let count = wanted.len() as f64;
         for (number, (model, turns, sampling)) in wanted.into_iter().enumerate() {
             let mut within = |stage, fraction| progress(stage, (number as f64 + fraction) / count);
-            let weights = self.models[model].layering_weights(&job.layering, &mut within)?;
+            let weights = self.models[model].layering_weights(layering, &mut within)?;
             let known = kept
                 .iter()
-                .find(|shape| shape.model == model && shape.measured.of.sampling == sampling);
-            let sampled = if let Some(known) = known {
-                Arc::clone(&known.measured.of)
+                .find(|shape| shape.model == model && shape.measured.of.sampling == sampling)
+                .map(|known| Arc::clone(&known.measured));
+            let sampled = if let Some(known) = &known {
+                Arc::clone(&known.of)
             } else {
                 let mesh = &self.models[model].model;
-                let sampled = self.sampler.sample(mesh, &sampling, timings, &mut within);
-                Arc::new(sampled.await?)
+                let sampled = self
+                    .sampler
+                    .sample(mesh, &sampling, timings, &mut within)
+                    .await;
+                Arc::new(sampled?)
             };
-            let clock = Instant::now();
-            let known = known.map(|known| Arc::clone(&known.measured));
-            let measured = Measured::new(&sampled, &job.layering, weights, known)?;
-            timings.profile += ms_since(clock);
-            self.shapes.push(Shape {
+            unmeasured.push(Unmeasured {
                 model,
                 turns,
-                measured,
+                sampled,
+                weights,
+                known,
             });
         }
-        report(progress, Stage::Profile, 1.0)?;
+        report(progress, Stage::Profile, 0.0)?;
         Ok(())
     }
 
