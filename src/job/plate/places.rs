@@ -6,7 +6,7 @@ use crate::Error;
 use crate::arrange::{
     ArrangeError, Item, Outline, Place, Screen, Standing, TURN_DEG, arrange, problems,
 };
-use crate::model::{Pose, TURNS};
+use crate::model::{Mesh, Pose, TURNS};
 use crate::order::sort_by_number;
 use crate::parallel;
 
@@ -17,6 +17,28 @@ pub(super) struct Extent {
     pub size_mm: [f64; 3],
     /// Its shadow on the plate.
     pub shadow: Outline,
+}
+
+/// A model in its pose before turns.
+struct Posed<'a> {
+    mesh: &'a Mesh,
+    pose: Pose,
+}
+
+impl Posed<'_> {
+    fn outline(&self, turns: u32, screen: &Screen) -> Result<Outline, Error> {
+        let mesh = self.mesh.on_plate(&self.pose.turned(turns))?;
+        Ok(Outline::of(&mesh, screen))
+    }
+
+    fn extent(&self, screen: &Screen) -> Result<Extent, Error> {
+        let mesh = self.mesh.on_plate(&self.pose)?;
+        let size = mesh.bounds().size();
+        Ok(Extent {
+            size_mm: [size.x, size.y, self.pose.height_mm.unwrap_or(size.z)],
+            shadow: Outline::of(&mesh, screen),
+        })
+    }
 }
 
 impl Plate {
@@ -46,11 +68,11 @@ impl Plate {
             return Err(ArrangeError::Empty.into());
         }
         let outline_of = |(model, extent): (usize, &Extent)| {
-            let pose = self.pose_of(options, job, model);
+            let posed = self.posed(options, job, model);
             let shadow = extent.shadow.clone();
             move |turns| match turns {
                 0 => Ok(shadow.clone()),
-                _ => self.outline(model, &pose, turns, screen),
+                _ => posed.outline(turns, screen),
             }
         };
         let outlines: Vec<_> = extents.iter().enumerate().map(outline_of).collect();
@@ -75,29 +97,17 @@ impl Plate {
         job: &Job,
         screen: &Screen,
     ) -> Result<Vec<Extent>, Error> {
-        let extent = |model: usize| {
-            let pose = self.pose_of(options, job, model);
-            let mesh = self.models[model].model.on_plate(&pose)?;
-            let size = mesh.bounds().size();
-            Ok(Extent {
-                size_mm: [size.x, size.y, pose.height_mm.unwrap_or(size.z)],
-                shadow: Outline::of(&mesh, screen),
-            })
-        };
-        parallel::map((0..self.models.len()).collect(), extent)
+        let posed = (0..self.models.len()).map(|model| self.posed(options, job, model));
+        parallel::map(posed.collect(), |posed: Posed<'_>| posed.extent(screen))
             .into_iter()
             .collect()
     }
 
-    pub(super) fn outline(
-        &self,
-        model: usize,
-        pose: &Pose,
-        turns: u32,
-        screen: &Screen,
-    ) -> Result<Outline, Error> {
-        let mesh = self.models[model].model.on_plate(&pose.turned(turns))?;
-        Ok(Outline::of(&mesh, screen))
+    fn posed(&self, options: &PlateOptions, job: &Job, model: usize) -> Posed<'_> {
+        Posed {
+            mesh: &self.models[model].model,
+            pose: self.pose_of(options, job, model),
+        }
     }
 
     /// The pose of a model before turns.
@@ -166,8 +176,11 @@ impl Plate {
     ) -> Result<Vec<ArrangeError>, Error> {
         let pixels = screen.by_pixels();
         let kinds = kinds(places);
-        let outlines = parallel::map(kinds.clone(), |(model, turns)| {
-            self.outline(model, &self.pose_of(options, job, model), turns, &pixels)
+        let turned = kinds
+            .iter()
+            .map(|&(model, turns)| (self.posed(options, job, model), turns));
+        let outlines = parallel::map(turned.collect(), |(posed, turns): (Posed<'_>, u32)| {
+            posed.outline(turns, &pixels)
         });
         let outlines = outlines.into_iter().collect::<Result<Vec<_>, _>>()?;
         let mut found = Vec::new();
