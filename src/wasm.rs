@@ -11,6 +11,7 @@ use js_sys::{Function, Uint8Array};
 use tsify::Ts;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
+use crate::inspect::Limits;
 use crate::job::{self, Calibration, Error, Options, OptionsError, Stage};
 use crate::js::{thrown, to_js};
 use crate::ldi::gpu;
@@ -118,6 +119,12 @@ pub fn printers() -> JsValue {
 #[wasm_bindgen(unchecked_return_type = "Required<Options>")]
 pub fn defaults() -> JsValue {
     to_js(&Options::default().settled())
+}
+
+/// The default limits of the checks.
+#[wasm_bindgen(unchecked_return_type = "Required<Limits>")]
+pub fn default_limits() -> JsValue {
+    to_js(&Limits::default())
 }
 
 /// A search for the best orientation. It hands out directions to measure, and measures nothing itself. Several slicers with
@@ -439,6 +446,28 @@ impl Slicer {
     /// Throws a `CuspError` if there is no plan or no such layer.
     pub fn mask(&mut self, layer: usize) -> Result<Vec<u8>, JsValue> {
         self.slicer.mask(layer).map_err(throw)
+    }
+
+    /// What will fail when the last plan is printed, by these limits.
+    ///
+    /// # Errors
+    /// Throws a `CuspError` if there is no plan, or if a limit is out of bounds.
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "values from JavaScript come by value"
+    )]
+    #[wasm_bindgen(unchecked_return_type = "Printability")]
+    pub fn inspect(
+        &mut self,
+        limits: Ts<Limits>,
+        #[wasm_bindgen(
+            unchecked_param_type = "(stage: Stage, fraction: number, done: number) => void"
+        )]
+        progress: &Function,
+    ) -> Result<JsValue, JsValue> {
+        let limits = limits.to_rust().map_err(throw_conversion)?;
+        let found = self.slicer.inspect(&limits, &mut progress_to(progress));
+        Ok(to_js(&found.map_err(throw)?))
     }
 
     /// Writes the print file of the last plan in the format of its options, by calling `take` with one chunk after another.

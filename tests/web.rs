@@ -9,6 +9,7 @@ use common::{binary_stl, fingerprint, on_plate, quiet, solids};
 use cusp_slicer::format::Format;
 use cusp_slicer::grid::Grid;
 use cusp_slicer::growth::Growth;
+use cusp_slicer::inspect::Limits;
 #[cfg(target_arch = "wasm32")]
 use cusp_slicer::job::Stage;
 use cusp_slicer::job::{Backend, Calibration, Minimize, Options, Planner, Slicer};
@@ -167,6 +168,10 @@ async fn check_plan_and_masks() {
         (report.layers, fingerprint(&masks)),
         (66, 0xd9c8_1ed1_9083_cc9c)
     );
+    let found = slicer.inspect(&Limits::default(), &mut quiet).unwrap();
+    assert_ne!(found.findings, []);
+    let found = serde_json::to_vec(&found).unwrap();
+    assert_eq!(fingerprint(&found), 0xc223_95a2_4440_8069);
     let archive = |slicer: &mut Slicer| {
         let (bytes, _) = slicer.write_archive(Vec::new(), &mut quiet).unwrap();
         fingerprint(&bytes)

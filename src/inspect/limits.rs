@@ -169,14 +169,17 @@ impl Severities {
 const MOST_MM: f64 = 20.0;
 
 /// Why limits cannot be used.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(tag = "code", content = "detail")]
 #[non_exhaustive]
 pub enum LimitsError {
     /// A number is out of bounds.
-    #[error("{name} is {value}, but must be from {least} to {most}")]
+    #[error("{limit} is {value}, but must be from {least} to {most}")]
+    #[serde(rename = "bad-limit")]
     OutOfBounds {
         /// The field.
-        name: &'static str,
+        limit: &'static str,
         /// Its value.
         value: f64,
         /// The smallest possible value.
@@ -222,8 +225,8 @@ impl Limits {
         let others = others.map(|(name, value)| (name, value.unwrap_or(0.0), 0.0, f64::MAX));
         let mut all = lengths.into_iter().chain(others).chain([slope]);
         match all.find(|(_, value, least, most)| !(*least..=*most).contains(value)) {
-            Some((name, value, least, most)) => Err(LimitsError::OutOfBounds {
-                name,
+            Some((limit, value, least, most)) => Err(LimitsError::OutOfBounds {
+                limit,
                 value,
                 least,
                 most,

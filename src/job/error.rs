@@ -6,6 +6,7 @@ use super::OptionsError;
 use crate::archive::ArchiveError;
 use crate::arrange::ArrangeError;
 use crate::grid::GridError;
+use crate::inspect::LimitsError;
 use crate::ldi::LdiError;
 use crate::model::MeshError;
 use crate::model::read::ReadError;
@@ -75,6 +76,10 @@ pub enum Error {
     #[error(transparent)]
     #[serde(untagged)]
     Archive(#[from] ArchiveError),
+    /// What a shop accepts is invalid.
+    #[error(transparent)]
+    #[serde(untagged)]
+    Limits(#[from] LimitsError),
     /// The options of a search are invalid, or it rejected a result.
     #[error(transparent)]
     #[serde(untagged)]

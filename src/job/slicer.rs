@@ -427,12 +427,13 @@ impl Slicer {
     /// What will fail when the last plan is printed, by these limits.
     ///
     /// # Errors
-    /// [`Error::NoPlan`]; [`Error::Ldi`] if `progress` cancels.
+    /// [`Error::NoPlan`], [`Error::Limits`]; [`Error::Ldi`] if `progress` cancels.
     pub fn inspect(
         &mut self,
         limits: &inspect::Limits,
         progress: &mut StageProgress<'_>,
     ) -> Result<Printability, Error> {
+        limits.check()?;
         let current = self.current.as_mut().ok_or(Error::NoPlan)?;
         let planned = Arc::clone(&current.planned);
         let (masks, _) = current.seen();

@@ -32,7 +32,7 @@ const MODULES: [Module; 4] = [
         package: "cusp-slicer",
         folder: ".",
         files: "pkg/cusp_slicer",
-        budget: 475_000,
+        budget: 505_000,
     },
     Module {
         package: "cusp-gpu",

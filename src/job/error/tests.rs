@@ -8,6 +8,7 @@ use crate::archive::ArchiveError;
 use crate::arrange::ArrangeError;
 use crate::format::Format;
 use crate::grid::GridError;
+use crate::inspect::LimitsError;
 use crate::job::OptionsError;
 use crate::ldi::{GpuFault, LdiError};
 use crate::model::read::ReadError;
@@ -259,6 +260,12 @@ fn options_errors() -> Vec<OptionsError> {
     )
 }
 
+fn limits_errors() -> Vec<LimitsError> {
+    one_of_each!(LimitsError except []:
+        OutOfBounds { limit: "wall_mm", value: -0.5, least: 0.0, most: 20.0 },
+    )
+}
+
 fn search_errors() -> Vec<SearchError> {
     one_of_each!(SearchError except []:
         Directions { directions: 0, most: 100_000 },
@@ -281,7 +288,7 @@ fn merge_errors() -> Vec<MergeError> {
 }
 
 fn errors() -> Vec<Error> {
-    let mut errors = one_of_each!(Error except [Options, Read, Mesh, Grid, Weights, Ldi, Plan, Arrange, Archive, Search, Merge]:
+    let mut errors = one_of_each!(Error except [Options, Read, Mesh, Grid, Weights, Ldi, Plan, Arrange, Archive, Limits, Search, Merge]:
         NoLayer { layer: 12, layers: 10 },
         NoPlan {},
     );
@@ -298,6 +305,7 @@ fn errors() -> Vec<Error> {
     errors.extend(arrange_errors().into_iter().map(Error::from));
     errors.extend(plan_errors().into_iter().map(Error::from));
     errors.extend(archive_errors().into_iter().map(Error::from));
+    errors.extend(limits_errors().into_iter().map(Error::from));
     errors.extend(search_errors().into_iter().map(Error::from));
     errors.extend(merge_errors().into_iter().map(Error::from));
     errors

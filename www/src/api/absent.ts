@@ -26,6 +26,7 @@ export function absentSlicer(): Slicer {
     load: reject,
     plan: reject,
     mask: reject,
+    check: reject,
     tradeoff: reject,
     compare: reject,
     orient: reject,

@@ -3,7 +3,7 @@ import type { Watch, WorkerHandle } from "./calls.js";
 import { Client, type About } from "./client.js";
 import { SlicerError } from "./error.js";
 import { fakePlate } from "./fake-plate.js";
-import type { CuspError, Preview, MeshInfo, OnProgress, Options, Profiled, Report, SlicerWorker } from "./wire.js";
+import type { CuspError, Preview, MeshInfo, OnProgress, Options, Printability, Profiled, Report, SlicerWorker } from "./wire.js";
 
 /** The calls to the fake workers, in order: `worker number: call`. */
 let log: string[];
@@ -39,6 +39,10 @@ class FakeWorker implements WorkerHandle {
     mask: (layer) => {
       this.#say(`mask ${layer} of ${this.planned.tolerance}`);
       return new Uint8Array(1);
+    },
+    inspect: ({ wall_mm }) => {
+      this.#say(`inspect ${wall_mm} of ${this.planned.tolerance}`);
+      return {} as Printability;
     },
     tradeoff: async (options) => {
       await this.#work(`tradeoff of ${options.rays} rays`);
@@ -158,6 +162,17 @@ test("cancelling a plan terminates the worker; the next one gets the module, the
   log = [];
   await caller.client.mask(0);
   expect(log).toEqual(["2: boot", "2: open a", "2: plan 1 of a", "2: mask 0 of 1"]);
+});
+
+test("checks are of the last good plan", async () => {
+  await expect(caller.client.inspect({}, watch())).rejects.toMatchObject({ code: "no-plan" });
+  await caller.open(new Blob(["a"]), watch());
+  await caller.plan({ tolerance: 1 }, watch());
+  worker(1).hang = true;
+  await hung((watch) => caller.plan({ tolerance: 2 }, watch));
+  log = [];
+  await caller.client.inspect({ wall_mm: 0.5 }, watch());
+  expect(log).toEqual(["2: boot", "2: open a", "2: plan 1 of a", "2: inspect 0.5 of 1"]);
 });
 
 test("cancelling while a file is read keeps the previous model", async () => {

@@ -7,7 +7,7 @@
 import * as Comlink from "comlink";
 import { Calls, spawnWorker, type Compiled, type Life, type Remote, type Watch, type WorkerHandle } from "./calls.js";
 import { SlicerError } from "./error.js";
-import type { Comparison, KnownPrinter, MeshInfo, OnProgress, Options, Profiled, Report, Tradeoff, Written } from "./wire.js";
+import type { Comparison, KnownPrinter, Limits, MeshInfo, OnProgress, Options, Printability, Profiled, Report, Tradeoff, Written } from "./wire.js";
 
 /** What a worker holds: a file, the weights of its facets, and a plan. */
 interface Held {
@@ -91,6 +91,14 @@ export class Client {
     return this.#calls.run(watch, null, async (life) => {
       const of = await this.#restorePlan(life, silent);
       return { bits: await life.handle.remote.mask(layer), of };
+    });
+  }
+
+  /** What will fail when the last good plan is printed. */
+  inspect(limits: Limits, watch: Watch): Promise<Printability> {
+    return this.#calls.run(watch, null, async (life, _, progress) => {
+      await this.#restorePlan(life, silent);
+      return life.handle.remote.inspect(limits, progress);
     });
   }
 

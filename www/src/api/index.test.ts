@@ -3,7 +3,7 @@ import { createSlicer, SCHEMA, type Slicer } from "./index.js";
 import { fakePlate } from "./fake-plate.js";
 import { resolve } from "./source.js";
 import type { WorkerHandle } from "./calls.js";
-import type { Preview, MeshInfo, Options, Report, SlicerWorker } from "./wire.js";
+import type { Preview, Printability, MeshInfo, Options, Report, SlicerWorker } from "./wire.js";
 
 /** A fake report: the width of its masks is the tolerance. */
 const reportOf = ({ tolerance = 9 }: Options): Report =>
@@ -36,6 +36,10 @@ function faked(): { slicer: Slicer; log: string[] } {
         return { points: [] };
       },
       compare: () => Promise.reject(new Error("not faked")),
+      inspect: ({ wall_mm }) => {
+        say(`inspect ${wall_mm}`);
+        return { verdict: "review", findings: [], counts: [], bodies: 1, peel: {} as Printability["peel"] };
+      },
       mask: () => new Uint8Array(4),
       archive: (_progress, port) => {
         say("archive");
@@ -78,6 +82,7 @@ test("results carry the schema version", async () => {
   expect(model).toMatchObject({ schema: SCHEMA, name: "a.stl", info: { facets: 1 } });
   expect(model.file).toBe(file);
   expect((await slicer.plan()).schema).toBe(SCHEMA);
+  expect(await slicer.check()).toMatchObject({ schema: SCHEMA, verdict: "review" });
   expect((await slicer.tradeoff()).schema).toBe(SCHEMA);
   expect((await slicer.preview()).schema).toBe(SCHEMA);
   expect(await slicer.mask(1)).toMatchObject({ layer: 1, width: 9, height: 2 });

@@ -22,7 +22,7 @@ import type { AddCall, ModelChange, Plate, PlateModel } from "./plate.js";
 import { Pool } from "./pool.js";
 import { printFile, SCHEMA, type Mask, type PrintFile, type Versioned } from "./results.js";
 import { resolve, stemOf, type Source } from "./source.js";
-import type { Candidate, Comparison, KnownPrinter, MeshInfo, Options, Preview, Profiled, Report, SearchOptions, SearchResult, Tradeoff } from "./wire.js";
+import type { Candidate, Comparison, KnownPrinter, Limits, MeshInfo, Options, Preview, Printability, Profiled, Report, SearchOptions, SearchResult, Tradeoff } from "./wire.js";
 
 export { isAbort, SlicerError, type ErrorCode, type ErrorDetails } from "./error.js";
 export type { WarningCode, WarningDetails } from "./warning.js";
@@ -46,6 +46,9 @@ export interface Plan extends Versioned, Profiled<Report> {}
 
 /** A plan from the facets alone, for live updates while a model is being turned. */
 export interface PreviewedPlan extends Versioned, Profiled<Preview> {}
+
+/** What will fail when a plan is printed, and the verdict. */
+export interface Check extends Versioned, Printability {}
 
 /** The result of an orientation search. */
 export interface OrientationReport extends Versioned, SearchResult {}
@@ -75,6 +78,11 @@ export interface Slicer {
   plan(options?: Options, call?: Watch): Promise<Plan>;
   /** The mask of a layer of the last plan, counted from 0. */
   mask(layer: number, call?: Watch): Promise<Mask>;
+  /**
+   * What will fail when the last plan is printed, and where, on the masks and layers of the plan. `limits` are what a shop accepts;
+   * those left out have the defaults.
+   */
+  check(limits?: Limits, call?: Watch): Promise<Check>;
   /** The best plans for `points` tolerances (40 by default), from the tightest feasible to the loosest that saves a layer. */
   tradeoff(options?: Options, points?: number, call?: Watch): Promise<Tradeoff & Versioned>;
   /** The plans of all planners side by side. */
@@ -180,6 +188,9 @@ export function createSlicer(setup: Setup = {}): Slicer {
       const { bits, of } = await main.mask(layer, call);
       const { width, height } = of.report.mask;
       return { layer, width, height, bits };
+    },
+    async check(limits = {}, call = {}) {
+      return { schema: SCHEMA, ...(await main.inspect(limits, call)) };
     },
     async tradeoff(options = {}, points = CURVE_POINTS, call = {}) {
       return { schema: SCHEMA, ...(await main.tradeoff(about, options, points, call)) };

@@ -4,16 +4,19 @@
  * The types of the core are re-exported from the generated package, never copied: a change there is a type error here.
  */
 import type { Comparison, Preview, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff } from "../../pkg/cusp_slicer.js";
-import type { ArrangeError, Candidate, Format, Placement, PlateOptions, PlatesReport, SearchOptions, Task } from "../../pkg/cusp_slicer.js";
+import type { ArrangeError, Candidate, Format, Limits, Placement, PlateOptions, PlatesReport, Printability, SearchOptions, Task } from "../../pkg/cusp_slicer.js";
 
 export type { Comparison, Preview, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff };
-export type { ArrangeError, Candidate, Format, Placement, PlateOptions, PlatesReport, SearchOptions, Task };
+export type { ArrangeError, Candidate, Format, Limits, Placement, PlateOptions, PlatesReport, Printability, SearchOptions, Task };
 export type {
   Arranging,
   Backend,
+  Code,
+  Count,
   CuspError,
   Exclusion,
   FileKind,
+  Finding,
   GpuFault,
   GpuMethod,
   HeightRange,
@@ -21,17 +24,21 @@ export type {
   Minimize,
   ModelOptions,
   ModelUnit,
+  Peel,
   Planner,
   PlateModelReport,
   PlateReport,
   PlannerReport,
   Quantity,
   Resin,
+  Severities,
+  Severity,
   Snap,
   StlExpected,
   TradeoffPoint,
   UniformLayers,
   Unit,
+  Verdict,
   Warning,
 } from "../../pkg/cusp_slicer.js";
 export type { ThreeMfFeature, XmlFault } from "../../pkg/models/cusp_models.js";
@@ -101,6 +108,8 @@ export interface SlicerWorker extends PlateWorker {
   plan(options: Options, progress: OnProgress): Promise<Profiled<Report>>;
   tradeoff(options: Options, points: number, progress: OnProgress): Promise<Tradeoff>;
   compare(options: Options, progress: OnProgress): Promise<Comparison>;
+  /** What will fail when the last plan is printed. */
+  inspect(limits: Limits, progress: OnProgress): Printability;
   /** One bit per pixel, rows from the top, most significant bit first, ⌈width / 8⌉ bytes per row. */
   mask(layer: number): Uint8Array;
   /** The print file of the last plan as a Blob. With a port, posts its chunks there, then null, and returns null. */

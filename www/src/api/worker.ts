@@ -166,6 +166,7 @@ const api: SlicerWorker = {
   compare(options, progress) {
     return current().compare(options, plain(progress));
   },
+  inspect: (limits, progress) => current().inspect(limits, plain(progress)),
   mask(layer) {
     const bits = current().mask(layer);
     return Comlink.transfer(bits, [bits.buffer]);

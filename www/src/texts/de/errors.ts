@@ -89,6 +89,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "bad-antialias": ({ antialias, known }) => `Die Kantenglättung hat die Stufen ${known.join(", ")}, nicht ${exact(antialias)}.`,
   "bad-weight-min": ({ weight_min }) => `Das kleinste Gewicht muss zwischen 0 und 1 liegen, nicht bei ${exact(weight_min)}.`,
   "bad-directions": ({ directions, most }) => `Eine Suche prüft 1 bis ${count(most)} Richtungen, nicht ${count(directions)}.`,
+  "bad-limit": ({ limit, value, least, most }) => `${limit} muss zwischen ${exact(least)} und ${exact(most)} liegen, nicht bei ${exact(value)}.`,
   "bad-alpha": ({ alpha }) => `Alpha muss zwischen 0 und 1 liegen, nicht bei ${exact(alpha)}.`,
   "search-task": ({ task }) => `Das Ergebnis der Aufgabe ${exact(task)} gehört zu keiner offenen Aufgabe; geben Sie jedes Ergebnis einmal ab.`,
   "search-candidate": ({ place }) => `Kandidat ${exact(place)} wurde nicht für seine Richtung gemessen.`,

@@ -90,6 +90,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "bad-antialias": ({ antialias, known }) => `Anti-aliasing has the levels ${known.join(", ")}, not ${exact(antialias)}.`,
   "bad-weight-min": ({ weight_min }) => `The minimum weight must be from 0 to 1, not ${exact(weight_min)}.`,
   "bad-directions": ({ directions, most }) => `A search looks along 1 to ${count(most)} directions, not ${count(directions)}.`,
+  "bad-limit": ({ limit, value, least, most }) => `${limit} must be from ${exact(least)} to ${exact(most)}, not ${exact(value)}.`,
   "bad-alpha": ({ alpha }) => `Alpha must be from 0 to 1, not ${exact(alpha)}.`,
   "search-task": ({ task }) => `Task ${exact(task)} is not out: hand in each task's result once.`,
   "search-candidate": ({ place }) => `Candidate ${exact(place)} is not one that was measured for its direction.`,

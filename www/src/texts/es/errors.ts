@@ -88,6 +88,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "bad-antialias": ({ antialias, known }) => `El suavizado tiene los niveles ${known.join(", ")}, no ${exact(antialias)}.`,
   "bad-weight-min": ({ weight_min }) => `El peso mínimo debe estar entre 0 y 1, no ser ${exact(weight_min)}.`,
   "bad-directions": ({ directions, most }) => `Una búsqueda mira de 1 a ${count(most)} direcciones, no ${count(directions)}.`,
+  "bad-limit": ({ limit, value, least, most }) => `${limit} debe estar entre ${exact(least)} y ${exact(most)}, no ser ${exact(value)}.`,
   "bad-alpha": ({ alpha }) => `Alfa debe estar entre 0 y 1, no ser ${exact(alpha)}.`,
   "search-task": ({ task }) => `El resultado de la tarea ${exact(task)} no es de ninguna tarea abierta; entregue cada resultado una vez.`,
   "search-candidate": ({ place }) => `El candidato ${exact(place)} no se midió para su dirección.`,

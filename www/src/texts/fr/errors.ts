@@ -88,6 +88,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "bad-antialias": ({ antialias, known }) => `L’anticrénelage a les niveaux ${known.join(", ")}, pas ${exact(antialias)}.`,
   "bad-weight-min": ({ weight_min }) => `Le poids minimal doit être entre 0 et 1, pas ${exact(weight_min)}.`,
   "bad-directions": ({ directions, most }) => `Une recherche examine de 1 à ${count(most)} directions, pas ${count(directions)}.`,
+  "bad-limit": ({ limit, value, least, most }) => `${limit} doit être entre ${exact(least)} et ${exact(most)}, pas ${exact(value)}.`,
   "bad-alpha": ({ alpha }) => `Alpha doit être entre 0 et 1, pas ${exact(alpha)}.`,
   "search-task": ({ task }) => `Le résultat de la tâche ${exact(task)} ne correspond à aucune tâche en cours ; remettez chaque résultat une seule fois.`,
   "search-candidate": ({ place }) => `Le candidat ${exact(place)} n’a pas été mesuré pour sa direction.`,

@@ -87,6 +87,7 @@ export const errors = ({ count, exact, mm, measure, error, either }: Format): Er
   "bad-antialias": ({ antialias, known }) => `抗锯齿级别有 ${known.join(", ")}，没有 ${exact(antialias)}。`,
   "bad-weight-min": ({ weight_min }) => `最小权重必须在 0 到 1 之间，而不是 ${exact(weight_min)}。`,
   "bad-directions": ({ directions, most }) => `一次搜索可查看 1 到 ${count(most)} 个方向，而不是 ${count(directions)} 个。`,
+  "bad-limit": ({ limit, value, least, most }) => `${limit} 必须在 ${exact(least)} 到 ${exact(most)} 之间，而不是 ${exact(value)}。`,
   "bad-alpha": ({ alpha }) => `alpha 必须在 0 到 1 之间，而不是 ${exact(alpha)}。`,
   "search-task": ({ task }) => `任务 ${exact(task)} 的结果不属于任何未完成的任务；每个结果只应提交一次。`,
   "search-candidate": ({ place }) => `候选 ${exact(place)} 不是按其方向测量的。`,
