@@ -1,9 +1,9 @@
 /**
  * Measures the time and the memory of the core in a browser, without the page around it:
- * `npm run measure-core -- FILE.stl [HEIGHT_MM [RAYS | WIDTHxHEIGHT@PITCH_MM]]`.
+ * `npm run measure-core -- FILE [HEIGHT_MM [RAYS | WIDTHxHEIGHT@PITCH_MM]]`.
  *
- * Plans the same model several times in one tab, as when a user turns it, then makes a print file. The core itself reports
- * the figures, for the CPU backend.
+ * Reads and plans the same model several times in one tab, as when a user turns it, and checks its plan; then makes a print file. The
+ * figures of stages are the core's own, for the CPU backend. Models other than STL are read by the module for them.
  */
 import { readFile } from "node:fs/promises";
 import { basename } from "node:path";
@@ -15,36 +15,51 @@ import { serve } from "./serve.js";
 const ROUNDS = 5;
 
 type Core = typeof import("../pkg/cusp_slicer.js");
+type Models = typeof import("../pkg/models/cusp_models.js");
 
 export async function main([file, height = "60", grid = "2048"]: string[]): Promise<void> {
   if (file === undefined) {
-    throw new Error("usage: npm run measure-core -- FILE.stl [HEIGHT_MM [RAYS | WIDTHxHEIGHT@PITCH_MM]]");
+    throw new Error("usage: npm run measure-core -- FILE [HEIGHT_MM [RAYS | WIDTHxHEIGHT@PITCH_MM]]");
   }
-  const stl = await readFile(file);
+  const model = await readFile(file);
   const options: Options = { height_mm: Number(height), backend: "cpu", ...pixels(grid) };
   const served = await serve();
   const browser = await launch();
   try {
     const { page } = await open(browser, served.address);
-    await page.route(`${served.address}core/*`, async (route) => {
+    await page.route(`${served.address}core/**`, async (route) => {
       const name = new URL(route.request().url()).pathname.slice("/core/".length);
-      const body = name === "model" ? stl : await readFile(new URL(`../pkg/${name}`, import.meta.url));
+      const body = name === "model" ? model : await readFile(new URL(`../pkg/${name}`, import.meta.url));
       const types: Record<string, string> = { js: "text/javascript", wasm: "application/wasm" };
       await route.fulfill({ body, contentType: types[name.split(".").at(-1) ?? ""] ?? "application/octet-stream" });
     });
     // As text, because import() in a function would be rewritten for Node.
     const module: JSHandle<Core> = await page.evaluateHandle(`import("${served.address}core/cusp_slicer.js")`);
+    const models: JSHandle<Models> = await page.evaluateHandle(`import("${served.address}core/models/cusp_models.js")`);
     const measured = await page.evaluate(
-      async ([core, address, options, rounds]) => {
+      async ([core, models, address, options, rounds]) => {
         const { memory }: InitOutput = await core.default();
-        const stl = new Uint8Array(await (await fetch(`${address}core/model`)).arrayBuffer());
+        await models.default();
+        const bytes = new Uint8Array(await (await fetch(`${address}core/model`)).arrayBuffer());
         const timings: string[] = [];
         const quiet = (): void => undefined;
+        const read = (): InstanceType<Core["Slicer"]> => {
+          if (core.identify(bytes.slice(0, core.head_bytes()), bytes.length) === "stl") return new core.Slicer(bytes);
+          const model = new models.ModelRead(bytes);
+          const [coordinates, facts] = [model.coordinates(), model.facts()];
+          model.free();
+          return core.Slicer.of_triangles(coordinates, facts);
+        };
         let zip = "";
         for (let round = 0; round < rounds; round++) {
-          const slicer = new core.Slicer(stl);
+          const clock = performance.now();
+          const slicer = read();
+          const read_ms = performance.now() - clock;
           const { layers, hits, timings_ms } = await slicer.plan(options, quiet);
-          timings.push(`${layers} layers, ${hits} hits: ${Object.entries(timings_ms).map(([stage, ms]) => `${stage} ${Math.round(ms)}`).join(", ")} ms`);
+          const checking = performance.now();
+          const { counts } = slicer.inspect({}, quiet);
+          const check_ms = performance.now() - checking;
+          timings.push(`${layers} layers, ${hits} hits: read ${Math.round(read_ms)}, ${Object.entries(timings_ms).map(([stage, ms]) => `${stage} ${Math.round(ms)}`).join(", ")}, checks ${Math.round(check_ms)} ms (${counts.length} kinds)`);
           if (round === rounds - 1) {
             const start = performance.now();
             let bytes = 0;
@@ -55,7 +70,7 @@ export async function main([file, height = "60", grid = "2048"]: string[]): Prom
         }
         return { timings, zip, megabytes: Math.round(memory.buffer.byteLength / 1e6) };
       },
-      [module, served.address, options, ROUNDS] as const,
+      [module, models, served.address, options, ROUNDS] as const,
     );
     console.log(`${basename(file)}, ${height} mm high, ${grid}, wasm on the CPU`);
     for (const line of [...measured.timings, measured.zip]) console.log(line);
