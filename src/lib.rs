@@ -36,7 +36,8 @@
 //! # Modules, in pipeline order
 //! [`model`] reads, welds and poses a mesh; [`ldi`] samples it; [`profile`] and [`plan`] find the layers; [`mask`] images them;
 //! [`inspect`] finds what will fail; [`archive`] writes the print file; [`orientation`] searches for the way up. [`job`] resolves [`Options`] and runs the stages.
-//! [`format`](mod@format), [`filament`], [`printer`], [`resin`], [`quantity`] and [`grid`] are data that the others look things up in.
+//! [`format`](mod@format), [`filament`], [`printer`], [`resin`], [`quantity`] and [`grid`] are data that the others look things up in;
+//! [`price`] is what an order costs.
 //!
 //! # Conventions
 //! - Millimetres and seconds wherever a number leaves the library, with the unit in its name; times of stages are in
@@ -55,6 +56,7 @@ pub mod filament;
 pub mod format;
 pub mod grid;
 pub mod growth;
+pub mod price;
 pub mod printer;
 pub mod quantity;
 pub mod resin;

@@ -15,6 +15,7 @@ use crate::orientation::SearchError;
 #[cfg(not(target_arch = "wasm32"))]
 use crate::orientation::shard::MergeError;
 use crate::plan::PlanError;
+use crate::price::PriceError;
 
 /// Any error of the library. `Display` writes one sentence that says what to do; serialised, an error is its code and an
 /// object of typed details.
@@ -84,6 +85,10 @@ pub enum Error {
     #[error(transparent)]
     #[serde(untagged)]
     Search(#[from] SearchError),
+    /// There is no price.
+    #[error(transparent)]
+    #[serde(untagged)]
+    Price(#[from] PriceError),
     /// The parts of a search cannot be merged.
     #[cfg(not(target_arch = "wasm32"))]
     #[error(transparent)]

@@ -16,6 +16,7 @@ mod parts;
 mod planned;
 mod planning;
 mod plate;
+mod price;
 mod print;
 mod report;
 mod resolve;
@@ -35,7 +36,8 @@ pub use options_error::OptionsError;
 pub use orient::OrientationPart;
 pub use orient::OrientationReport;
 pub use plate::{
-    ModelOptions, Placement, Plate, PlateModelReport, PlateOptions, PlateReport, PlatesReport,
+    ModelOptions, ModelPrintability, Placement, Plate, PlateModelReport, PlateOptions, PlateReport,
+    PlatesReport,
 };
 pub use report::*;
 pub use resolve::BIN_MM;

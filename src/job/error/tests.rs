@@ -22,6 +22,7 @@ use crate::orientation::SearchError;
 use crate::orientation::shard::{MergeError, Shard};
 use crate::plan::PlanError;
 use crate::plan::uniform::UniformLayers;
+use crate::price::PriceError;
 use crate::profile::Metric;
 use crate::progress::Cancelled;
 use crate::quantity::{Quantity, QuantityError, Unit};
@@ -275,6 +276,14 @@ fn search_errors() -> Vec<SearchError> {
     )
 }
 
+fn price_errors() -> Vec<PriceError> {
+    one_of_each!(PriceError except []:
+        OutOfBounds { field: "discount", value: 1.5, least: 0.0, most: 1.0 },
+        BadPrices { field: "quantity_breaks" },
+        NoFinish { finish: "gilded".to_owned(), known: vec!["sanded".to_owned(), "primed".to_owned()] },
+    )
+}
+
 fn merge_errors() -> Vec<MergeError> {
     let [shard, second] = [1, 2].map(|number| Shard { number, count: 3 });
     one_of_each!(MergeError except []:
@@ -288,7 +297,7 @@ fn merge_errors() -> Vec<MergeError> {
 }
 
 fn errors() -> Vec<Error> {
-    let mut errors = one_of_each!(Error except [Options, Read, Mesh, Grid, Weights, Ldi, Plan, Arrange, Archive, Limits, Search, Merge]:
+    let mut errors = one_of_each!(Error except [Options, Read, Mesh, Grid, Weights, Ldi, Plan, Arrange, Archive, Limits, Search, Price, Merge]:
         NoLayer { layer: 12, layers: 10 },
         NoPlan {},
     );
@@ -307,6 +316,7 @@ fn errors() -> Vec<Error> {
     errors.extend(archive_errors().into_iter().map(Error::from));
     errors.extend(limits_errors().into_iter().map(Error::from));
     errors.extend(search_errors().into_iter().map(Error::from));
+    errors.extend(price_errors().into_iter().map(Error::from));
     errors.extend(merge_errors().into_iter().map(Error::from));
     errors
 }
@@ -344,9 +354,9 @@ fn warnings() -> Vec<Warning> {
 }
 
 /// Keys of text that is shown untranslated in every language: messages of the system, and names.
-const VERBATIM: [&str; 10] = [
-    "system", "adapter", "model", "printer", "similar", "known", "taker", "theirs", "ours",
-    "slicers",
+const VERBATIM: [&str; 12] = [
+    "field", "finish", "system", "adapter", "model", "printer", "similar", "known", "taker",
+    "theirs", "ours", "slicers",
 ];
 
 /// Collects what a sentence must contain: numbers, and untranslated text. Fails on other prose.

@@ -182,6 +182,11 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
     `Diese Gewichte gehören zu einem anderen Netz aus ${count(weights_facets)} Dreiecken; dieses hat ${count(mesh_facets)}; ` +
     "bemalen Sie es noch einmal, oder öffnen Sie das Modell, für das sie gemacht wurden.",
   "weights-out-of-range": ({ facet, weight }) => `Das Gewicht von Dreieck ${count(facet)} ist ${exact(weight)}; Gewichte liegen zwischen 0 und 1.`,
+  "price-out-of-bounds": ({ field, value, least, most }) =>
+    `${field} ist ${exact(value)}, muss aber zwischen ${exact(least)} und ${exact(most)} liegen; berichtigen Sie Preise oder Bestellung.`,
+  "bad-prices": ({ field }) =>
+    `Preise können dieses ${field} nicht haben: Eine Währung hat drei Großbuchstaben nach ISO 4217, Mengenstaffeln steigen, und jede Nachbearbeitung hat ihren eigenen Namen.`,
+  "no-finish": ({ finish, known }) => `Es gibt keine Nachbearbeitung ${finish}; bekannt sind ${known.join(", ")}.`,
   "no-masks": ({ format }) =>
     `${format}-Dateien enthalten ein Modell und seine Schichten, aber keine Masken; schneiden Sie das Modell selbst in dieses Format, oder wählen Sie ein anderes.`,
   "other-first-layer": ({ layer_mm, first_layer_mm }) =>

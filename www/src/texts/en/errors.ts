@@ -182,6 +182,11 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
     `These weights are for another mesh, of ${counted(weights_facets, FACETS)}; this one has ${count(mesh_facets)}; ` +
     "paint it again, or open the model that they were made for.",
   "weights-out-of-range": ({ facet, weight }) => `The weight of facet ${count(facet)} is ${exact(weight)}, and weights are 0 to 1.`,
+  "price-out-of-bounds": ({ field, value, least, most }) =>
+    `${field} is ${exact(value)}, but must be from ${exact(least)} to ${exact(most)}; correct the prices or the order.`,
+  "bad-prices": ({ field }) =>
+    `Prices cannot have this ${field}; a currency is three capitals of ISO 4217, quantity breaks ascend, and every finish has a name of its own.`,
+  "no-finish": ({ finish, known }) => `There is no finish ${finish}; known are ${known.join(", ")}.`,
   "no-masks": ({ format }) =>
     `${format} files hold a model and its layers, and no masks; slice the model itself into this format, or choose another.`,
   "other-first-layer": ({ layer_mm, first_layer_mm }) =>

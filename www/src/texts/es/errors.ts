@@ -182,6 +182,11 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
     `Estos pesos son de otra malla, de ${counted(weights_facets, FACETS)}; esta tiene ${count(mesh_facets)}; ` +
     "píntela de nuevo o abra el modelo para el que se hicieron.",
   "weights-out-of-range": ({ facet, weight }) => `El peso de la faceta ${count(facet)} es ${exact(weight)}, y los pesos van de 0 a 1.`,
+  "price-out-of-bounds": ({ field, value, least, most }) =>
+    `${field} es ${exact(value)}, pero debe estar entre ${exact(least)} y ${exact(most)}; corrija los precios o el pedido.`,
+  "bad-prices": ({ field }) =>
+    `Los precios no pueden tener ese ${field}: una moneda son tres mayúsculas de ISO 4217, los tramos crecen y cada acabado tiene su propio nombre.`,
+  "no-finish": ({ finish, known }) => `No hay acabado ${finish}; se conocen ${known.join(", ")}.`,
   "no-masks": ({ format }) =>
     `Los archivos ${format} contienen un modelo y sus capas, pero no máscaras; corte el modelo mismo en este formato o elija otro.`,
   "other-first-layer": ({ layer_mm, first_layer_mm }) =>

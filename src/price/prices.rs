@@ -1,0 +1,161 @@
+//! The prices of a shop: its own numbers, of which none is built in.
+
+use serde::{Deserialize, Serialize};
+
+use super::MOST;
+
+/// The prices of a shop. Amounts are in minor units of the currency, such as cents, and may be fractions where they are multiplied.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(deny_unknown_fields)]
+pub struct Prices {
+    /// The currency: three capitals of ISO 4217.
+    pub currency: String,
+    /// What an order costs, however much is printed: a whole number.
+    #[serde(default)]
+    pub setup: u64,
+    /// What an hour of print time costs.
+    #[serde(default)]
+    pub machine_per_h: f64,
+    /// What a millilitre of resin costs.
+    #[serde(default)]
+    pub resin_per_ml: f64,
+    /// Resin of supports, as a fraction of that in the model.
+    #[serde(default)]
+    pub supports: f64,
+    /// The finishes to choose from.
+    #[serde(default)]
+    pub finishes: Vec<Finish>,
+    /// What is taken off for many copies, in ascending order of copies.
+    #[serde(default)]
+    pub quantity_breaks: Vec<QuantityBreak>,
+    /// The least that an order costs: a whole number.
+    #[serde(default)]
+    pub minimum: u64,
+}
+
+/// A finish.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(deny_unknown_fields)]
+pub struct Finish {
+    /// Its name, by which it is ordered.
+    pub name: String,
+    /// What it costs for each copy.
+    #[serde(default)]
+    pub per_copy: f64,
+    /// What it costs for each millilitre of resin in the model.
+    #[serde(default)]
+    pub per_ml: f64,
+}
+
+/// A discount from a number of copies on.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(deny_unknown_fields)]
+pub struct QuantityBreak {
+    /// The least number of copies.
+    pub copies: usize,
+    /// What is taken off machine, resin, supports and finish, as a fraction.
+    pub discount: f64,
+}
+
+/// Why there is no price.
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(tag = "code", content = "detail")]
+#[non_exhaustive]
+pub enum PriceError {
+    /// A number is out of bounds.
+    #[error(
+        "{field} is {value}, but must be from {least} to {most}; correct the prices or the order"
+    )]
+    #[serde(rename = "price-out-of-bounds")]
+    OutOfBounds {
+        /// The field, or the line of the price.
+        field: &'static str,
+        /// Its value.
+        value: f64,
+        /// The smallest possible value.
+        least: f64,
+        /// The largest possible value.
+        most: f64,
+    },
+    /// Prices contradict themselves.
+    #[error(
+        "prices cannot have this {field}; a currency is three capitals of ISO 4217, quantity breaks ascend, and every finish \
+         has a name of its own"
+    )]
+    #[serde(rename = "bad-prices")]
+    BadPrices {
+        /// The field: `currency`, `quantity_breaks` or `finishes`.
+        field: &'static str,
+    },
+    /// No finish has this name.
+    #[error("there is no finish {finish}; known are {}", known.join(", "))]
+    #[serde(rename = "no-finish")]
+    NoFinish {
+        /// The name.
+        finish: String,
+        /// The finishes that there are.
+        known: Vec<String>,
+    },
+}
+
+/// Checks that a number is within bounds.
+pub(super) fn within(
+    field: &'static str,
+    value: f64,
+    least: f64,
+    most: f64,
+) -> Result<(), PriceError> {
+    if (least..=most).contains(&value) {
+        return Ok(());
+    }
+    Err(PriceError::OutOfBounds {
+        field,
+        value,
+        least,
+        most,
+    })
+}
+
+impl Prices {
+    /// Checks all numbers and names.
+    ///
+    /// # Errors
+    /// [`PriceError`].
+    pub fn check(&self) -> Result<(), PriceError> {
+        let letters = self.currency.as_bytes();
+        if letters.len() != 3 || !letters.iter().all(u8::is_ascii_uppercase) {
+            return Err(PriceError::BadPrices { field: "currency" });
+        }
+        within("setup", self.setup as f64, 0.0, MOST)?;
+        within("machine_per_h", self.machine_per_h, 0.0, MOST)?;
+        within("resin_per_ml", self.resin_per_ml, 0.0, MOST)?;
+        within("supports", self.supports, 0.0, 10.0)?;
+        within("minimum", self.minimum as f64, 0.0, MOST)?;
+        for (place, finish) in self.finishes.iter().enumerate() {
+            within("per_copy", finish.per_copy, 0.0, MOST)?;
+            within("per_ml", finish.per_ml, 0.0, MOST)?;
+            let mut before = self.finishes[..place].iter();
+            if before.any(|other| other.name == finish.name) {
+                return Err(PriceError::BadPrices { field: "finishes" });
+            }
+        }
+        let mut last = 0;
+        for it in &self.quantity_breaks {
+            within("discount", it.discount, 0.0, 1.0)?;
+            if it.copies <= last {
+                return Err(PriceError::BadPrices {
+                    field: "quantity_breaks",
+                });
+            }
+            last = it.copies;
+        }
+        Ok(())
+    }
+}
