@@ -91,6 +91,20 @@ class Schemas(unittest.TestCase):
         plan.write_text(self.planned("plan", self.wedge, "--max-thicknesses=2"))
         self.check("check", self.planned("check", self.wedge))
         self.check("verify", self.cusp("verify", plan, self.wedge, "--print", self.print, "--json"))
+        shop = self.shop()
+        self.check("price", self.planned("price", self.wedge, shop[1]))
+        verified = self.check("verify", self.cusp("verify", plan, self.wedge, *shop, "--copies=3", "--json"))
+        self.assertEqual(verified["price"]["copies"], 3)
+
+    def shop(self) -> list[str]:
+        """What a shop accepts, and what it asks."""
+        limits, prices = self.folder / "limits.json", self.folder / "prices.json"
+        limits.write_text('{ "severity": { "loose-body": "review", "trap": "review" } }')
+        self.check("limits", limits.read_text())
+        document = (SCHEMAS.parent / "price.md").read_text()
+        prices.write_text(document.split("```json\n")[1].split("```")[0])
+        self.check("prices", prices.read_text())
+        return [f"--limits={limits}", f"--prices={prices}"]
 
     def test_plates(self) -> None:
         job, plan = self.folder / "job.json", self.folder / "plates.json"
@@ -100,6 +114,7 @@ class Schemas(unittest.TestCase):
         report = self.check("plates", plan.read_text())
         self.assertGreater(len(report["plates"]), 1)
         self.check("verify-plates", self.cusp("verify", plan, job, "--json"))
+        self.check("verify-plates", self.cusp("verify", plan, job, *self.shop(), "--json"))
 
     def test_studies(self) -> None:
         self.check("tradeoff", self.planned("tradeoff", self.wedge, "--points=5"))

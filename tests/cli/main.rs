@@ -19,6 +19,7 @@ mod orient;
 mod packaging;
 mod plan;
 mod plate;
+mod price;
 mod simulate;
 mod standard;
 mod thicknesses;

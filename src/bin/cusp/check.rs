@@ -81,19 +81,23 @@ pub fn check(checking: &Checking) -> Result<(), Failure> {
     Ok(())
 }
 
-fn read_limits(path: &Path) -> Result<Limits, Failure> {
+pub fn read_limits(path: &Path) -> Result<Limits, Failure> {
     let text = fs::read_to_string(path).map_err(|error| in_file(path, &error))?;
     let limits: Limits = serde_json::from_str(&text).map_err(|error| in_file(path, &error))?;
     limits.check().map_err(|error| in_file(path, &error))?;
     Ok(limits)
 }
 
-fn describe(printability: &Printability, report: &Report, show: usize) -> String {
-    let verdict = match printability.verdict {
+pub fn verdict_name(verdict: Verdict) -> &'static str {
+    match verdict {
         Verdict::Ok => "ok",
         Verdict::Review => "review",
         Verdict::Reject => "reject",
-    };
+    }
+}
+
+fn describe(printability: &Printability, report: &Report, show: usize) -> String {
+    let verdict = verdict_name(printability.verdict);
     let peel = &printability.peel;
     let mut text = format!(
         "verdict   {verdict}\n\

@@ -190,7 +190,7 @@ impl JobFile {
 }
 
 /// A model and its number of copies: `part.stl:3`, unless there is a file of that name.
-fn with_copies(model: &Path) -> (PathBuf, Option<usize>) {
+pub fn with_copies(model: &Path) -> (PathBuf, Option<usize>) {
     let text = model.to_string_lossy();
     let parts = text.rsplit_once(':').filter(|_| !model.exists());
     let copies = parts.and_then(|(file, copies)| Some((file, copies.parse().ok()?)));

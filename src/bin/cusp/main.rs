@@ -14,6 +14,7 @@ mod models;
 mod orient;
 mod packaging;
 mod plate;
+mod price;
 #[cfg(test)]
 mod schemas;
 mod simulate;
@@ -36,8 +37,10 @@ use convert::Converting;
 use inspect::Inspecting;
 use orient::Orienting;
 use plate::Plating;
+use price::Pricing;
 use simulate::Simulating;
 use terminal::say;
+use verify::Verifying;
 
 /// Adaptive slicer for resin printers: the fewest layers that keep the error within a tolerance.
 ///
@@ -96,22 +99,14 @@ enum Command {
     /// Find the best orientations of a model: few layers, and little error, roughness or overhang
     #[command(allow_negative_numbers = true)]
     Orient(Orienting),
-    /// Recompute a plan, and check that it matches and keeps its tolerance
-    Verify {
-        /// Plan from `cusp plan --json` or from the page, or the manifest of a zip of masks
-        plan: PathBuf,
-        /// Model that the plan was made from: 3MF, OBJ or STL. For plates, the job file
-        model: PathBuf,
-        /// Recompute this print file as well, and compare every byte
-        #[arg(long, value_name = "FILE")]
-        print: Option<PathBuf>,
-        /// File of weights that the plan was made with
-        #[arg(long, value_name = "FILE")]
-        weights: Option<PathBuf>,
-        /// Print one JSON object
-        #[arg(long)]
-        json: bool,
-    },
+    /// Say what copies of models cost, by the prices of a shop
+    ///
+    /// Copies are arranged on plates, and share the time that a plate takes.
+    #[command(allow_negative_numbers = true)]
+    Price(Pricing),
+    /// Recompute a plan, and check that it matches and keeps its tolerance; with --limits and --prices, that it can be printed, and
+    /// for what price
+    Verify(Verifying),
     /// Measure how far what a print file prints is from the model, and the model from it
     Simulate(Simulating),
     /// Write a print that measures a printer
@@ -168,13 +163,8 @@ fn main() -> ExitCode {
         Command::Check(checking) => check::check(&checking),
         Command::Orient(orienting) => orient::orient(&orienting),
         Command::Compare { studying } => slice::compare(&studying),
-        Command::Verify {
-            plan,
-            model,
-            print,
-            weights,
-            json,
-        } => verify::verify(&plan, &model, print.as_deref(), weights.as_deref(), json),
+        Command::Price(pricing) => price::price(&pricing),
+        Command::Verify(verifying) => verify::verify(&verifying),
         Command::Simulate(simulating) => simulate::simulate(&simulating),
         Command::Calibrate(calibrating) => calibrate::calibrate(&calibrating),
         Command::Inspect(inspecting) => inspect::inspect(&inspecting),

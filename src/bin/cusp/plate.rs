@@ -82,7 +82,7 @@ pub fn job(command: &str, slicing: &Slicing) -> Result<Option<Job>, Failure> {
 
 impl Job {
     /// A failure of the library, which names models by their numbers.
-    fn failure(&self, error: &cusp_slicer::Error) -> Failure {
+    pub fn failure(&self, error: &cusp_slicer::Error) -> Failure {
         let first = self
             .paths
             .first()
@@ -93,7 +93,7 @@ impl Job {
         }
     }
 
-    fn make_plan(&mut self, bar: &Bar) -> Result<PlatesReport, Failure> {
+    pub fn make_plan(&mut self, bar: &Bar) -> Result<PlatesReport, Failure> {
         if self.options.options.backend == Backend::Gpu {
             open_gpu_of_plate(&mut self.plate);
         }

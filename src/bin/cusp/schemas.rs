@@ -7,6 +7,7 @@ use cusp_slicer::archive::read::Inspection;
 use cusp_slicer::contour::ContoursReport;
 use cusp_slicer::inspect::Limits;
 use cusp_slicer::job::{MeshInfo, Options, OrientationReport, PlatesReport, Report, Tradeoff};
+use cusp_slicer::price::Prices;
 use cusp_slicer::printer::Printer;
 use cusp_slicer::resin::Resin;
 use cusp_slicer::simulation::Simulation;
@@ -17,6 +18,7 @@ use serde_json::{Value, json};
 use crate::batch::BatchLine;
 use crate::check::Checked;
 use crate::job_file::JobFile;
+use crate::price::Priced;
 use crate::slice::Compared;
 use crate::verify::{Verified, VerifiedPlates};
 
@@ -118,6 +120,8 @@ fn the_schemas_of_reports_are_recorded() {
         ("plan", output::<Report>()),
         ("plate", input::<JobFile>()),
         ("plates", output::<PlatesReport>()),
+        ("price", output::<Priced>()),
+        ("prices", input::<Prices>()),
         ("printer", input::<Printer>()),
         ("printers", output::<Vec<Arc<Printer>>>()),
         ("resin", input::<Resin>()),

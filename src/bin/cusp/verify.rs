@@ -1,23 +1,82 @@
 //! Checks a submitted plan and print file.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use cusp_slicer::job::{Backend, Claim, Report, Slicer};
+use clap::Args;
+use cusp_slicer::inspect::{Limits, Printability, Verdict};
+use cusp_slicer::job::{Backend, Claim, ModelPrintability, Report, Slicer};
+use cusp_slicer::price::{Price, PriceItem};
 use cusp_slicer::warning::Warning;
 use serde::Serialize;
 
+use crate::check::{read_limits, verdict_name};
 use crate::files::{Failure, WeightsFile, in_file, load_painted};
 use crate::job_file::{JobFile, job_file};
+use crate::price::Order;
 use crate::terminal::{
     Bar, open_gpu, open_gpu_of_plate, print, print_json, stop_on_interrupt, warn,
 };
 use crate::usage::wrong_usage;
 
-/// The result of a successful verification.
+/// A plan, what it was made from, and what a shop accepts.
+#[derive(Args)]
+pub struct Verifying {
+    /// Plan from `cusp plan --json` or from the page, or the manifest of a zip of masks
+    plan: PathBuf,
+    /// Model that the plan was made from: 3MF, OBJ or STL. For plates, the job file
+    model: PathBuf,
+    /// Recompute this print file as well, and compare every byte
+    #[arg(long, value_name = "FILE")]
+    print: Option<PathBuf>,
+    /// File of weights that the plan was made with
+    #[arg(long, value_name = "FILE")]
+    weights: Option<PathBuf>,
+    /// Check what will fail when it is printed, by the thresholds and severities of this file: what is rejected is no correct plan
+    #[arg(long, value_name = "FILE.json")]
+    limits: Option<PathBuf>,
+    /// Say what it costs, by the prices of this file
+    #[arg(long, value_name = "FILE.json")]
+    prices: Option<PathBuf>,
+    /// Copies to price, each with its whole print time [default: 1; for plates, those of the plan]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), requires = "prices")]
+    copies: Option<u32>,
+    /// The finish to price, by its name in the prices
+    #[arg(long, value_name = "NAME", requires = "prices")]
+    finish: Option<String>,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+/// What a shop accepts, and what it asks.
+struct Shop<'a> {
+    limits: Option<Limits>,
+    order: Option<Order<'a>>,
+}
+
+impl Verifying {
+    fn shop(&self) -> Result<Shop<'_>, Failure> {
+        let order = self.prices.as_deref();
+        let order = order.map(|path| Order::read(path, self.finish.as_deref()));
+        Ok(Shop {
+            limits: self.limits.as_deref().map(read_limits).transpose()?,
+            order: order.transpose()?,
+        })
+    }
+}
+
+impl Shop<'_> {
+    fn price(&self, items: &[PriceItem]) -> Result<Option<Price>, Failure> {
+        let order = self.order.as_ref();
+        order.map(|order| order.price(items)).transpose()
+    }
+}
+
+/// A plan that matches.
 #[derive(Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-pub struct Verified {
+struct Matching {
     layers: usize,
     max_error: f64,
     tolerance: f64,
@@ -27,7 +86,7 @@ pub struct Verified {
     warnings: Vec<Warning>,
 }
 
-impl Verified {
+impl Matching {
     fn of(made: &Report, print_is_same: bool) -> Self {
         Self {
             layers: made.layers,
@@ -41,6 +100,31 @@ impl Verified {
     }
 }
 
+/// The result of a successful verification.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct Verified {
+    #[serde(flatten)]
+    plan: Matching,
+    /// What will fail when it is printed, if limits are given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    printability: Option<Printability>,
+    /// What it costs, if prices are given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    price: Option<Price>,
+}
+
+/// The result for a plate.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct VerifiedPlate {
+    #[serde(flatten)]
+    plan: Matching,
+    /// What will fail on each of its models, if limits are given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    printability: Option<Vec<ModelPrintability>>,
+}
+
 /// The result for the plates of a job.
 #[derive(Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -50,7 +134,10 @@ pub struct VerifiedPlates {
     /// Volume of resin in all of their copies.
     resin_ml: f64,
     /// The plates that the plan is of.
-    plates: Vec<Verified>,
+    plates: Vec<VerifiedPlate>,
+    /// What all of their copies cost, if prices are given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    price: Option<Price>,
 }
 
 fn check_print(path: &Path, sent: &[u8], made: &[u8]) -> Result<(), Failure> {
@@ -61,19 +148,40 @@ fn check_print(path: &Path, sent: &[u8], made: &[u8]) -> Result<(), Failure> {
     Err(in_file(path, &reason).into())
 }
 
-/// Verifies the plans of all plates of a job, or of one.
-fn verify_plates(
-    plan: &Path,
-    text: &str,
-    job: &JobFile,
-    path: &Path,
-    print_file: Option<&Path>,
-    json: bool,
+/// Prints what a plan is worth, and says by the exit code whether it is accepted.
+fn show(
+    verifying: &Verifying,
+    verified: &impl Serialize,
+    correct: String,
+    verdict: Option<Verdict>,
+    price: Option<&Price>,
 ) -> Result<(), Failure> {
+    if verifying.json {
+        print_json(verified)?;
+    } else {
+        let verdict = verdict.map(|it| format!("verdict: {}", verdict_name(it)));
+        let price = price.map(|it| format!("price: {} {}", it.written(it.total), it.currency));
+        let lines = [Some(correct), verdict, price];
+        print(&lines.into_iter().flatten().collect::<Vec<_>>().join("\n"))?;
+    }
+    match verdict {
+        Some(Verdict::Reject) => Err(Failure::TOLD),
+        _ => Ok(()),
+    }
+}
+
+/// Verifies the plans of all plates of a job, or of one.
+fn verify_plates(verifying: &Verifying, text: &str, job: &JobFile) -> Result<(), Failure> {
+    let (plan, path) = (&*verifying.plan, &*verifying.model);
+    if verifying.copies.is_some() {
+        let message = "--copies is for the plan of one model: that of plates has its copies";
+        wrong_usage("verify", message);
+    }
+    let shop = verifying.shop()?;
     let mut plate = job.read_models(path.parent())?.plate;
     let files: Vec<_> = plate.models().iter().map(Slicer::model_file).collect();
     let claims = Claim::read_plates(text, &files).map_err(|error| in_file(plan, &error))?;
-    let sent = match print_file {
+    let sent = match verifying.print.as_deref() {
         Some(_) if claims.len() != 1 => {
             let message = format!(
                 "--print is for one plate, and the plan has {}; give the manifest of its zip",
@@ -93,12 +201,20 @@ fn verify_plates(
     }
     let bar = Bar::new();
     let mut progress = |stage, fraction| bar.report(stage, fraction);
-    let mut plates = Vec::new();
+    let (mut plates, mut items) = (Vec::new(), Vec::new());
     for claim in &claims {
         let made = pollster::block_on(claim.plan_again(&mut plate, &mut progress));
         let made = made.map_err(|error| Failure::in_file(path, &error))?;
         claim.check(made).map_err(|error| in_file(plan, &error))?;
-        plates.push(Verified::of(made, sent.is_some()));
+        items.extend(made.price_items(1));
+        let matching = Matching::of(made, sent.is_some());
+        let limits = shop.limits.as_ref();
+        let found = limits.map(|limits| plate.inspect(0, limits, &mut progress));
+        let found = found.transpose();
+        plates.push(VerifiedPlate {
+            plan: matching,
+            printability: found.map_err(|error| Failure::in_file(path, &error))?,
+        });
         if let Some((print_file, sent)) = &sent {
             let written = plate.write_archive(0, Vec::with_capacity(sent.len()), &mut progress);
             let (bytes, _) = written.map_err(|error| Failure::in_file(path, &error))?;
@@ -106,23 +222,33 @@ fn verify_plates(
         }
     }
     drop(bar);
-    for plate in &plates {
-        warn(&plate.warnings);
+    let plans = plates.iter().map(|plate| &plate.plan);
+    for plan in plans.clone() {
+        warn(&plan.warnings);
     }
+    let layers: Vec<String> = plans.clone().map(|plan| plan.layers.to_string()).collect();
+    let found = plates
+        .iter()
+        .filter_map(|plate| plate.printability.as_ref());
+    let verdict = found.flatten().map(|model| model.found.verdict).max();
     let verified = VerifiedPlates {
-        print_time_s: plates.iter().map(|plate| plate.print_time_s).sum(),
-        resin_ml: plates.iter().map(|plate| plate.resin_ml).sum(),
+        print_time_s: plans.clone().map(|plan| plan.print_time_s).sum(),
+        resin_ml: plans.map(|plan| plan.resin_ml).sum(),
         plates,
+        price: shop.price(&items)?,
     };
-    if json {
-        return Ok(print_json(&verified)?);
-    }
-    let layers = verified.plates.iter().map(|plate| plate.layers.to_string());
-    Ok(print(&format!(
+    let correct = format!(
         "the plan is correct: {} layers, each plate within its tolerance{}",
-        layers.collect::<Vec<_>>().join(" + "),
+        layers.join(" + "),
         same_print(sent.is_some()),
-    ))?)
+    );
+    show(
+        verifying,
+        &verified,
+        correct,
+        verdict,
+        verified.price.as_ref(),
+    )
 }
 
 fn same_print(is_same: bool) -> &'static str {
@@ -133,21 +259,18 @@ fn same_print(is_same: bool) -> &'static str {
     }
 }
 
-pub fn verify(
-    plan: &Path,
-    model: &Path,
-    print_file: Option<&Path>,
-    weights: Option<&Path>,
-    json: bool,
-) -> Result<(), Failure> {
+pub fn verify(verifying: &Verifying) -> Result<(), Failure> {
+    let (plan, model) = (&*verifying.plan, &*verifying.model);
     let text = fs::read_to_string(plan).map_err(|error| in_file(plan, &error))?;
     if let Some(job) = job_file(&[model.to_owned()])? {
-        if weights.is_some() {
+        if verifying.weights.is_some() {
             let message = "weights belong to a model: name them beside it in the job file";
             wrong_usage("verify", message);
         }
-        return verify_plates(plan, &text, &job, model, print_file, json);
+        return verify_plates(verifying, &text, &job);
     }
+    let shop = verifying.shop()?;
+    let weights = verifying.weights.as_deref();
     let weights = weights.map(WeightsFile::read).transpose()?;
     let mut slicer = load_painted(model, weights.as_ref())?;
     let claim = Claim::read(&text, slicer.model_file()).map_err(|error| in_file(plan, &error))?;
@@ -158,9 +281,15 @@ pub fn verify(
     let made = pollster::block_on(slicer.plan(claim.options(), &mut progress))
         .map_err(|error| Failure::in_file(model, &error))?;
     claim.check(made).map_err(|error| in_file(plan, &error))?;
-    let verified = Verified::of(made, print_file.is_some());
+    let matching = Matching::of(made, verifying.print.is_some());
     let words = made.metric.format(made.max_error);
-    if let Some(path) = print_file {
+    let price = shop.price(&made.price_items(verifying.copies.unwrap_or(1) as usize))?;
+    let limits = shop.limits.as_ref();
+    let found = limits.map(|limits| slicer.inspect(limits, &mut progress));
+    let printability = found
+        .transpose()
+        .map_err(|error| Failure::in_file(model, &error))?;
+    if let Some(path) = &verifying.print {
         let sent = fs::read(path).map_err(|error| in_file(path, &error))?;
         let (bytes, _) = slicer
             .write_archive(Vec::with_capacity(sent.len()), &mut progress)
@@ -168,13 +297,23 @@ pub fn verify(
         check_print(path, &sent, &bytes)?;
     }
     drop(bar);
-    warn(&verified.warnings);
-    if json {
-        return Ok(print_json(&verified)?);
-    }
-    Ok(print(&format!(
+    warn(&matching.warnings);
+    let correct = format!(
         "the plan is correct: {} layers, largest error {words} within its tolerance{}",
-        verified.layers,
-        same_print(verified.print_is_same),
-    ))?)
+        matching.layers,
+        same_print(matching.print_is_same),
+    );
+    let verified = Verified {
+        plan: matching,
+        printability,
+        price,
+    };
+    let verdict = verified.printability.as_ref().map(|it| it.verdict);
+    show(
+        verifying,
+        &verified,
+        correct,
+        verdict,
+        verified.price.as_ref(),
+    )
 }

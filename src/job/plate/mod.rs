@@ -1,6 +1,7 @@
 //! Several models in one job: each is sampled and measured alone, all that stand on a plate share its plan.
 
 mod claimed;
+mod inspect;
 mod options;
 mod outputs;
 mod places;
@@ -12,6 +13,7 @@ use std::sync::Arc;
 use web_time::Instant;
 
 pub(super) use claimed::ClaimedPlate;
+pub use inspect::ModelPrintability;
 pub use options::{ModelOptions, Placement, PlateOptions};
 pub use report::{PlateModelReport, PlateReport, PlatesReport};
 

@@ -154,7 +154,7 @@ impl Current {
         }
     }
 
-    fn seen(&mut self) -> &mut (PlateMasks, Vec<MaskCursor>) {
+    pub(super) fn seen(&mut self) -> &mut (PlateMasks, Vec<MaskCursor>) {
         if self.seen.is_none() {
             let masks = self.masks(Side::Above);
             let cursors = masks

@@ -1,0 +1,161 @@
+//! Says what copies of models cost.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use cusp_slicer::job::Report;
+use cusp_slicer::price::{Price, PriceItem, Prices};
+use serde::Serialize;
+
+use crate::arguments::Choices;
+use crate::batch::check_inputs;
+use crate::files::{Failure, in_file, load_painted};
+use crate::job_file::{JobFile, job_file, read_job, with_copies};
+use crate::plate::Places;
+use crate::slice::make_plan;
+use crate::terminal::{Bar, print, print_json, stop_on_interrupt, warn};
+
+/// Models, and the prices of a shop.
+#[derive(Args)]
+pub struct Pricing {
+    /// Models: 3MF, OBJ or STL; MODEL:3 is three copies. Or one job file of `cusp plate`
+    #[arg(required = true, value_name = "MODEL[:N]")]
+    models: Vec<PathBuf>,
+    /// Prices of a shop, as a JSON file
+    #[arg(long, value_name = "FILE.json")]
+    prices: PathBuf,
+    /// The finish, by its name in the prices
+    #[arg(long, value_name = "NAME")]
+    finish: Option<String>,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    places: Places,
+    #[command(flatten)]
+    choices: Choices,
+}
+
+/// What `price` prints as JSON.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct Priced {
+    /// What all copies cost.
+    #[serde(flatten)]
+    price: Price,
+    /// What was priced: the copies of each model on each plate.
+    items: Vec<PriceItem>,
+    /// Number of plates.
+    plates: usize,
+    /// Print time of all plates, one after the other.
+    print_time_s: f64,
+    /// Volume of resin in all copies.
+    resin_ml: f64,
+}
+
+/// The prices of a file, and the finish that is ordered.
+pub struct Order<'a> {
+    path: &'a Path,
+    prices: Prices,
+    finish: Option<&'a str>,
+}
+
+impl<'a> Order<'a> {
+    /// Reads prices, by which this finish can then be ordered.
+    pub fn read(path: &'a Path, finish: Option<&'a str>) -> Result<Self, Failure> {
+        let text = fs::read_to_string(path).map_err(|error| in_file(path, &error))?;
+        let prices: Prices = serde_json::from_str(&text).map_err(|error| in_file(path, &error))?;
+        prices.check().map_err(|error| in_file(path, &error))?;
+        let found = finish.map(|name| prices.finish(name)).transpose();
+        found.map_err(|error| in_file(path, &error))?;
+        Ok(Self {
+            path,
+            prices,
+            finish,
+        })
+    }
+
+    pub fn price(&self, items: &[PriceItem]) -> Result<Price, Failure> {
+        let price = self.prices.price(items, self.finish);
+        price.map_err(|error| Failure::in_file(self.path, &error.into()))
+    }
+}
+
+pub fn price(pricing: &Pricing) -> Result<(), Failure> {
+    pricing.choices.check("price");
+    check_inputs("price", &pricing.models);
+    let order = Order::read(&pricing.prices, pricing.finish.as_deref())?;
+    let file = job_file(&pricing.models)?;
+    let plates = match (&pricing.models[..], &file) {
+        ([model], None) if pricing.copies_of(model) == 1 => vec![pricing.plan_alone(model)?],
+        _ => pricing.plan_plates(file)?,
+    };
+    for plate in &plates {
+        warn(&plate.warnings);
+    }
+    let items = plates.iter().flat_map(|plate| plate.price_items(1));
+    let items: Vec<PriceItem> = items.collect();
+    let priced = Priced {
+        price: order.price(&items)?,
+        items,
+        plates: plates.len(),
+        print_time_s: plates.iter().map(|plate| plate.print_time_s).sum(),
+        resin_ml: plates.iter().map(|plate| plate.resin_ml).sum(),
+    };
+    if pricing.json {
+        return Ok(print_json(&priced)?);
+    }
+    Ok(print(&describe(&priced))?)
+}
+
+impl Pricing {
+    fn copies_of(&self, model: &Path) -> usize {
+        let all = self.places.copies.map_or(1, |copies| copies as usize);
+        with_copies(model).1.unwrap_or(all)
+    }
+
+    /// Plans one copy, which needs to know no plate.
+    fn plan_alone(&self, model: &Path) -> Result<Report, Failure> {
+        let (model, _) = with_copies(model);
+        let settings = self.choices.settings()?;
+        let mut slicer = load_painted(&model, settings.weights.as_ref())?;
+        stop_on_interrupt();
+        let bar = Bar::new();
+        let mut progress = |stage, fraction| bar.report(stage, fraction);
+        make_plan(&mut slicer, &model, &settings.options, &mut progress).cloned()
+    }
+
+    fn plan_plates(&self, file: Option<JobFile>) -> Result<Vec<Report>, Failure> {
+        let mut job = read_job("price", file, &self.models, &self.places, &self.choices)?;
+        stop_on_interrupt();
+        Ok(job.make_plan(&Bar::new())?.plates)
+    }
+}
+
+fn describe(priced: &Priced) -> String {
+    let Priced { price, plates, .. } = priced;
+    let amounts = price.lines.iter().map(|line| line.amount);
+    let amounts: Vec<String> = amounts
+        .chain([price.total])
+        .map(|it| price.written(it))
+        .collect();
+    let width = amounts.iter().map(String::len).max().unwrap_or(0);
+    let mut text = String::new();
+    for (line, amount) in price.lines.iter().zip(&amounts) {
+        let _ = writeln!(text, "{:<9} {amount:>width$}", line.kind.name());
+    }
+    let plural = |count: usize, one: &str, many: &str| {
+        format!("{count} {}", if count == 1 { one } else { many })
+    };
+    let _ = write!(
+        text,
+        "total     {:>width$} {} for {} on {}",
+        price.written(price.total),
+        price.currency,
+        plural(price.copies, "copy", "copies"),
+        plural(*plates, "plate", "plates"),
+    );
+    text
+}
