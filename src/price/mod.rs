@@ -125,7 +125,7 @@ impl Prices {
         prices::within("copies", copies, 1.0, MOST_COPIES)?;
         let count = copies as usize;
         let finished = finish.map(|name| self.finish(name)).transpose()?;
-        let setup = whole(PriceKind::Setup, self.setup as f64)?;
+        let setup = whole(PriceKind::Setup, self.setup)?;
         let machine = whole(PriceKind::Machine, self.machine_per_h * time_s / 3600.0)?;
         let resin = whole(PriceKind::Resin, self.resin_per_ml * resin_ml)?;
         let supports = whole(
@@ -140,7 +140,7 @@ impl Prices {
             self.discount(count) * discounted as f64,
         )?;
         let sum = setup + discounted + discount;
-        let minimum = (whole(PriceKind::Minimum, self.minimum as f64)? - sum).max(0);
+        let minimum = (whole(PriceKind::Minimum, self.minimum)? - sum).max(0);
         let amounts = [setup, machine, resin, supports, finished, discount, minimum];
         let lines = PriceKind::ALL.into_iter().zip(amounts);
         let lines = lines.filter(|(_, amount)| *amount != 0);

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::MOST;
 
-/// The prices of a shop. Amounts are in minor units of the currency, such as cents, and may be fractions where they are multiplied.
+/// The prices of a shop. Amounts are in minor units of the currency, such as cents, and may be fractions: lines are rounded.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
@@ -12,9 +12,9 @@ use super::MOST;
 pub struct Prices {
     /// The currency: three capitals of ISO 4217.
     pub currency: String,
-    /// What an order costs, however much is printed: a whole number.
+    /// What an order costs, however much is printed.
     #[serde(default)]
-    pub setup: u64,
+    pub setup: f64,
     /// What an hour of print time costs.
     #[serde(default)]
     pub machine_per_h: f64,
@@ -30,9 +30,9 @@ pub struct Prices {
     /// What is taken off for many copies, in ascending order of copies.
     #[serde(default)]
     pub quantity_breaks: Vec<QuantityBreak>,
-    /// The least that an order costs: a whole number.
+    /// The least that an order costs.
     #[serde(default)]
-    pub minimum: u64,
+    pub minimum: f64,
 }
 
 /// A finish.
@@ -133,11 +133,11 @@ impl Prices {
         if letters.len() != 3 || !letters.iter().all(u8::is_ascii_uppercase) {
             return Err(PriceError::BadPrices { field: "currency" });
         }
-        within("setup", self.setup as f64, 0.0, MOST)?;
+        within("setup", self.setup, 0.0, MOST)?;
         within("machine_per_h", self.machine_per_h, 0.0, MOST)?;
         within("resin_per_ml", self.resin_per_ml, 0.0, MOST)?;
         within("supports", self.supports, 0.0, 10.0)?;
-        within("minimum", self.minimum as f64, 0.0, MOST)?;
+        within("minimum", self.minimum, 0.0, MOST)?;
         for (place, finish) in self.finishes.iter().enumerate() {
             within("per_copy", finish.per_copy, 0.0, MOST)?;
             within("per_ml", finish.per_ml, 0.0, MOST)?;

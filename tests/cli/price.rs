@@ -89,9 +89,9 @@ fn prices_that_cannot_be_used_are_named() {
         "three capitals of ISO 4217",
     );
     refuses(
-        r#"{ "currency": "EUR", "setup": 2.5 }"#,
+        r#"{ "currency": "EUR", "setup": "2" }"#,
         &[],
-        "floating point",
+        "invalid type",
     );
     refuses(
         r#"{ "currency": "EUR", "per_ml": 2 }"#,

@@ -19,6 +19,7 @@ export function absentSlicer(): Slicer {
     plan: reject,
     mask: reject,
     export: reject,
+    price: reject,
   };
   return {
     plate,
@@ -41,6 +42,7 @@ export function absentSlicer(): Slicer {
     readWeights: reject,
     calibrateLayers: reject,
     printers: reject,
+    price: reject,
     warm: nothing,
     rest: nothing,
     dispose: nothing,

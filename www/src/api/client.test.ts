@@ -3,7 +3,7 @@ import type { Watch, WorkerHandle } from "./calls.js";
 import { Client, type About } from "./client.js";
 import { SlicerError } from "./error.js";
 import { fakePlate } from "./fake-plate.js";
-import type { CuspError, Preview, MeshInfo, OnProgress, Options, Printability, Profiled, Report, SlicerWorker } from "./wire.js";
+import type { CuspError, Preview, Price, MeshInfo, OnProgress, Options, Printability, Profiled, Report, SlicerWorker } from "./wire.js";
 
 /** The calls to the fake workers, in order: `worker number: call`. */
 let log: string[];
@@ -34,7 +34,7 @@ class FakeWorker implements WorkerHandle {
       progress("ldi", 0.5, 0.4);
       await this.#work(`plan ${options.tolerance} of ${this.opened}`);
       this.planned = options;
-      return { report: {} } as Profiled<Report>;
+      return { report: { resin_ml: 2, print_time_s: 60 } } as Profiled<Report>;
     },
     mask: (layer) => {
       this.#say(`mask ${layer} of ${this.planned.tolerance}`);
@@ -66,6 +66,10 @@ class FakeWorker implements WorkerHandle {
     evaluate: () => [],
     calibrateLayers: () => Promise.reject(new Error("not faked")),
     printers: () => [],
+    price: (prices, items, finish) => {
+      this.#say(`price of ${JSON.stringify(items)}, ${finish}`);
+      return { currency: prices.currency, total: 1 } as Price;
+    },
   };
 
   terminate(): void {
@@ -323,4 +327,17 @@ test("a timeout is an abort, and so is a signal with a custom reason", async () 
   await new Promise((resolve) => setTimeout(resolve));
   abort.abort(reason);
   await outcome;
+});
+
+test("a price is that of the last good plan, also in a fresh worker", async () => {
+  const { client } = caller;
+  await expect(client.price({ currency: "EUR" }, {}, {})).rejects.toMatchObject({ code: "no-plan" });
+  await caller.open(new Blob(["a"]), {});
+  await caller.plan({ tolerance: 1 }, {});
+  client.rest();
+  log = [];
+  expect(await client.price({ currency: "EUR" }, { copies: 3, finish: "sanded" }, {})).toMatchObject({ currency: "EUR" });
+  // It needs neither the model nor the plan.
+  expect(log.slice(-1)).toEqual([`${workers.length}: price of [{"copies":3,"resin_ml":2,"print_time_s":60}], sanded`]);
+  expect(log.filter((call) => /plan|open/.test(call))).toEqual([]);
 });

@@ -7,7 +7,8 @@
 import * as Comlink from "comlink";
 import { Calls, spawnWorker, type Compiled, type Life, type Remote, type Watch, type WorkerHandle } from "./calls.js";
 import { SlicerError } from "./error.js";
-import type { Comparison, KnownPrinter, Limits, MeshInfo, OnProgress, Options, Printability, Profiled, Report, Tradeoff, Written } from "./wire.js";
+import { priceItems, type Ordered } from "./price.js";
+import type { Comparison, KnownPrinter, Limits, MeshInfo, OnProgress, Options, Price, Prices, Printability, Profiled, Report, Tradeoff, Written } from "./wire.js";
 
 /** What a worker holds: a file, the weights of its facets, and a plan. */
 interface Held {
@@ -139,6 +140,14 @@ export class Client {
   /** The print file of the test towers, which needs no subject. */
   calibrateLayers(options: Options, watch: Watch): Promise<Written> {
     return this.#calls.run(watch, null, async (life, _, progress) => life.handle.remote.calibrateLayers(options, progress));
+  }
+
+  /** What the last good plan costs. */
+  price(prices: Prices, { copies, finish }: Ordered, watch: Watch): Promise<Price> {
+    return this.#calls.run(watch, null, async (life) => {
+      if (this.#planned === null) throw new SlicerError("no-plan", "plan the layers first");
+      return life.handle.remote.price(prices, priceItems(this.#planned.report, copies), finish ?? null);
+    });
   }
 
   printers(): Promise<KnownPrinter[]> {

@@ -33,7 +33,7 @@ export function fakePlate(work: (what: string) => Promise<void> = async () => un
           mask: { width: 8, height: 2 },
           print_file: { format: "uvj", extension: "uvj", media_type: "application/octet-stream" },
           warnings: [],
-          plate: { plate, plates: 2, models: own.map((_, model) => ({ model })) },
+          plate: { plate, plates: 2, models: own.map(({ copies }, model) => ({ model, copies, resin_ml: 1.5, print_time_s: 15 })) },
         }) as unknown as Report;
       return {
         report: { schema: 2, print_time_s: 60, resin_ml: 3, plates: [report(0), report(1)] },

@@ -36,6 +36,7 @@ export function fetchedPlate(fetch: () => Promise<RunningPlate>): RunningPlate {
     plan: async (...given) => (await there()).plan(...given),
     mask: async (...given) => (await there()).mask(...given),
     export: async (...given) => (await there()).export(...given),
+    price: async (...given) => (await there()).price(...given),
     rest: () => void arriving?.then((plate) => plate.rest(), ignore),
     dispose() {
       isDisposed = true;

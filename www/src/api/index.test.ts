@@ -3,7 +3,7 @@ import { createSlicer, SCHEMA, type Slicer } from "./index.js";
 import { fakePlate } from "./fake-plate.js";
 import { resolve } from "./source.js";
 import type { WorkerHandle } from "./calls.js";
-import type { Preview, Printability, MeshInfo, Options, Report, SlicerWorker } from "./wire.js";
+import type { Preview, Printability, MeshInfo, Options, Price, Report, SlicerWorker } from "./wire.js";
 
 /** A fake report: the width of its masks is the tolerance. */
 const reportOf = ({ tolerance = 9 }: Options): Report =>
@@ -69,6 +69,7 @@ function faked(): { slicer: Slicer; log: string[] } {
         return { blob: new Blob(["towers"]), report: reportOf(options) };
       },
       printers: () => [],
+      price: () => ({ total: 1 }) as Price,
     };
     return { remote, terminate: () => say("ended"), onBroken: () => undefined };
   };

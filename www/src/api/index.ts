@@ -20,9 +20,10 @@ import { measure, orient, type OrientCall } from "./orient.js";
 import { fetchedPlate } from "./fetched-plate.js";
 import type { AddCall, ModelChange, Plate, PlateModel } from "./plate.js";
 import { Pool } from "./pool.js";
+import type { Ordered } from "./price.js";
 import { printFile, SCHEMA, type Mask, type PrintFile, type Versioned } from "./results.js";
 import { resolve, stemOf, type Source } from "./source.js";
-import type { Candidate, Comparison, KnownPrinter, Limits, MeshInfo, Options, Preview, Printability, Profiled, Report, SearchOptions, SearchResult, Tradeoff } from "./wire.js";
+import type { Candidate, Comparison, KnownPrinter, Limits, MeshInfo, Options, Preview, Price, Prices, Printability, Profiled, Report, SearchOptions, SearchResult, Tradeoff } from "./wire.js";
 
 export { isAbort, SlicerError, type ErrorCode, type ErrorDetails } from "./error.js";
 export type { WarningCode, WarningDetails } from "./warning.js";
@@ -30,6 +31,7 @@ export type { Source } from "./source.js";
 export type { Watch } from "./calls.js";
 export type { Found, OrientCall } from "./orient.js";
 export type { AddCall, ModelChange, Plate, PlateCall, PlateModel, PlatesPlan } from "./plate.js";
+export type { Ordered, OrderedPlates } from "./price.js";
 export { SCHEMA, type Mask, type PrintFile } from "./results.js";
 export type * from "./wire.js";
 
@@ -130,6 +132,11 @@ export interface Slicer {
    * format has one thickness for all layers.
    */
   calibrateLayers(options?: Options, call?: Watch): Promise<TestTowers>;
+  /**
+   * What the last plan costs by the prices of a shop: docs/price.md defines the formula. The same code on a server computes the same
+   * (`cusp verify --prices`).
+   */
+  price(prices: Prices, ordered?: Ordered, call?: Watch): Promise<Price>;
   /** The known printers, whose names `options.printer` accepts. */
   printers(): Promise<KnownPrinter[]>;
   /** Starts the worker before it is needed. */
@@ -254,6 +261,7 @@ export function createSlicer(setup: Setup = {}): Slicer {
       const { blob, report } = await side.calibrateLayers(options, call);
       return { ...printFile(`towers-${printerName(options)}`, blob, report), report };
     },
+    price: (prices, ordered = {}, call = {}) => main.price(prices, ordered, call),
     printers: () => main.printers(),
     warm: () => main.warm(),
     rest() {

@@ -8,7 +8,8 @@ import * as Comlink from "comlink";
 import { Calls, spawnWorker, type Compiled, type Life, type Watch, type WorkerHandle } from "./calls.js";
 import type { Weights } from "./client.js";
 import { SlicerError } from "./error.js";
-import type { ArrangeError, MeshInfo, OnProgress, Placement, PlateOptions, PlatesReport, ProfiledPlates } from "./wire.js";
+import { priceItems, type OrderedPlates } from "./price.js";
+import type { ArrangeError, MeshInfo, OnProgress, Placement, PlateOptions, PlatesReport, Price, Prices, ProfiledPlates } from "./wire.js";
 
 /** A model as a worker is given it. Its number tells it from every other, also from another copy of the same file. */
 export interface Loaded {
@@ -98,6 +99,15 @@ export class PlateClient {
     return this.#calls.run(watch, null, async (life, _, progress) => {
       const of = await this.#restorePlan(life, progress);
       return { blob: await life.handle.remote.archivePlate(plate, progress), of };
+    });
+  }
+
+  /** What all copies of the last good plan cost. */
+  price(prices: Prices, { finish }: OrderedPlates, watch: Watch): Promise<Price> {
+    return this.#calls.run(watch, null, async (life) => {
+      if (this.#planned === null) throw new SlicerError("no-plan", "plan the layers first");
+      const items = this.#planned.report.plates.flatMap((report) => priceItems(report));
+      return life.handle.remote.price(prices, items, finish ?? null);
     });
   }
 

@@ -2,7 +2,7 @@ import { beforeEach, expect, test } from "vitest";
 import type { WorkerHandle } from "./calls.js";
 import { fakePlate } from "./fake-plate.js";
 import { createPlate, type RunningPlate } from "./plate.js";
-import type { SlicerWorker } from "./wire.js";
+import type { Price, SlicerWorker } from "./wire.js";
 
 /** The calls to the fake workers, in order: `worker number: call`. */
 let log: string[];
@@ -19,7 +19,11 @@ beforeEach(() => {
       log.push(`${number}: ${what}`);
       if (hang) await new Promise(() => undefined);
     };
-    const remote = { boot: async () => ({}), ...fakePlate(work) } as unknown as SlicerWorker;
+    const price: SlicerWorker["price"] = (_, items, finish) => {
+      void work(`price of ${JSON.stringify(items)}, ${finish}`);
+      return { total: 1 } as Price;
+    };
+    const remote = { boot: async () => ({}), ...fakePlate(work), price } as unknown as SlicerWorker;
     return { remote, terminate: () => log.push(`${number}: ended`), onBroken: () => undefined };
   };
   plate = createPlate(spawn, { module: null });
@@ -117,4 +121,14 @@ test("placements, arranged or not, reach the core with the models", async () => 
   const placements = await plate.arrange({}, { spacing_mm: 1 });
   expect(placements.map(({ model }) => model)).toEqual([0, 1]);
   expect(await plate.problems({}, placements)).toEqual([]);
+});
+
+test("a price is that of all copies on all plates of the last plan", async () => {
+  await plate.add(file("cup"), { copies: 2 });
+  await expect(plate.price({ currency: "EUR" })).rejects.toMatchObject({ code: "no-plan" });
+  await plate.plan({ tolerance: 1 });
+  log = [];
+  await plate.price({ currency: "EUR" }, { finish: "sanded" });
+  const item = { copies: 2, resin_ml: 1.5, print_time_s: 15 };
+  expect(log).toEqual([`1: price of ${JSON.stringify([item, item])}, sanded`]);
 });

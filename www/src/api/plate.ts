@@ -15,9 +15,10 @@ import type { Compiled, Watch, WorkerHandle } from "./calls.js";
 import type { Weights } from "./client.js";
 import { SlicerError } from "./error.js";
 import { PlateClient, type Loaded } from "./plate-client.js";
+import type { OrderedPlates } from "./price.js";
 import { printFile, SCHEMA, type Mask, type PrintFile, type Versioned } from "./results.js";
 import { resolve, stemOf, type Source } from "./source.js";
-import type { ArrangeError, Arranging, MeshInfo, ModelOptions, Options, Placement, PlateOptions, Profiled, Report } from "./wire.js";
+import type { ArrangeError, Arranging, MeshInfo, ModelOptions, Options, Placement, PlateOptions, Price, Prices, Profiled, Report } from "./wire.js";
 
 /** A model of a plate. */
 export interface PlateModel extends Versioned {
@@ -78,6 +79,8 @@ export interface Plate {
   mask(plate: number, layer: number, call?: Watch): Promise<Mask>;
   /** The print file of a plate of the last plan, counted from 0. */
   export(plate: number, call?: Watch): Promise<PrintFile>;
+  /** What all copies of the last plan cost by the prices of a shop, each with its share of its plate's time. */
+  price(prices: Prices, ordered?: OrderedPlates, call?: Watch): Promise<Price>;
 }
 
 /** A plate with its worker. */
@@ -178,6 +181,7 @@ export function createPlate(spawn: () => WorkerHandle, compiled: Compiled): Runn
       const report = reportOf(of.report.plates, plate);
       return printFile(`${stemOfPlate(plate, report, of.models)}-cusp`, blob, report);
     },
+    price: (prices, ordered = {}, call = {}) => client.price(prices, ordered, call),
     rest: () => client.rest(),
     dispose: () => client.dispose(),
   };

@@ -4,10 +4,10 @@
  * The types of the core are re-exported from the generated package, never copied: a change there is a type error here.
  */
 import type { Comparison, Preview, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff } from "../../pkg/cusp_slicer.js";
-import type { ArrangeError, Candidate, Format, Limits, Placement, PlateOptions, PlatesReport, Printability, SearchOptions, Task } from "../../pkg/cusp_slicer.js";
+import type { ArrangeError, Candidate, Format, Limits, Placement, PlateOptions, PlatesReport, Price, PriceItem, Prices, Printability, SearchOptions, Task } from "../../pkg/cusp_slicer.js";
 
 export type { Comparison, Preview, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff };
-export type { ArrangeError, Candidate, Format, Limits, Placement, PlateOptions, PlatesReport, Printability, SearchOptions, Task };
+export type { ArrangeError, Candidate, Format, Limits, Placement, PlateOptions, PlatesReport, Price, PriceItem, Prices, Printability, SearchOptions, Task };
 export type {
   Arranging,
   Backend,
@@ -17,6 +17,7 @@ export type {
   Exclusion,
   FileKind,
   Finding,
+  Finish,
   GpuFault,
   GpuMethod,
   HeightRange,
@@ -29,7 +30,10 @@ export type {
   PlateModelReport,
   PlateReport,
   PlannerReport,
+  PriceKind,
+  PriceLine,
   Quantity,
+  QuantityBreak,
   Resin,
   Severities,
   Severity,
@@ -134,6 +138,8 @@ export interface SlicerWorker extends PlateWorker {
   /** The print file of the test towers; neither the open model nor its plan changes. */
   calibrateLayers(options: Options, progress: OnProgress): Promise<Written>;
   printers(): KnownPrinter[];
+  /** What an order costs; it needs no model. */
+  price(prices: Prices, items: PriceItem[], finish: string | null): Price;
 }
 
 /** What a worker does for a plate. Models are counted from 0 in their order, and so are plates. */

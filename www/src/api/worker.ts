@@ -1,6 +1,6 @@
 /** The worker: the only file that imports the WebAssembly package. One model is open at a time, and there is one plate. */
 import * as Comlink from "comlink";
-import init, { calibrate_layers, head_bytes, identify, open_gpus_by, OrientationSearch, Plate, printers, Slicer } from "../../pkg/cusp_slicer.js";
+import init, { calibrate_layers, head_bytes, identify, open_gpus_by, OrientationSearch, Plate, price, printers, Slicer } from "../../pkg/cusp_slicer.js";
 import type { OpenGpu } from "../../pkg/gpu/cusp_gpu.js";
 import type { ModelRead } from "../../pkg/models/cusp_models.js";
 import { acceptCompatible } from "./adapters.js";
@@ -237,6 +237,10 @@ const api: SlicerWorker = {
   },
   // The core fills in what its list leaves out.
   printers: () => printers() as KnownPrinter[],
+  price: (prices, items, finish) => {
+    const numbers = items.flatMap(({ copies, resin_ml, print_time_s }) => [copies, resin_ml, print_time_s]);
+    return price(prices, Float64Array.from(numbers), finish);
+  },
 };
 
 if (globalThis.navigator?.gpu !== undefined) acceptCompatible(navigator.gpu);
