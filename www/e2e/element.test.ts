@@ -299,6 +299,41 @@ test.each([1280, 390])("from right to left it mirrors, and nothing sticks out: %
   expect(overflow).toBe(0);
 });
 
+test("the price of a shop stands under the result, and follows quality and copies", async () => {
+  const page = await start(`<cusp-slicer id="a" src="ball.stl" printer="saturn-3-ultra" locale="de"></cusp-slicer>`);
+  await done(page, "a");
+  const priced = (): Promise<{ total: number; copies: number } | null> =>
+    page.evaluate(() => {
+      const { price } = document.querySelector<CuspSlicer>("#a") ?? {};
+      return price ? { total: price.total, copies: price.copies } : null;
+    });
+  expect(await priced()).toBeNull();
+  await page.evaluate(() => {
+    const slicer = document.querySelector<CuspSlicer>("#a");
+    if (slicer !== null) slicer.prices = { currency: "EUR", setup: 300, machine_per_h: 3600, resin_per_ml: 100 };
+  });
+  await expect.poll(priced).toMatchObject({ copies: 1 });
+  const first = (await priced())?.total ?? 0;
+  const { print_time_s, resin_ml } = await page.evaluate(() => document.querySelector<CuspSlicer>("#a")?.result?.report ?? { print_time_s: 0, resin_ml: 0 });
+  expect(first).toBe(300 + Math.round(print_time_s) + Math.round(resin_ml * 100));
+  const written = `Preis ${(first / 100).toLocaleString("de", { minimumFractionDigits: 2 })}\u00a0€`;
+  await expect.poll(() => page.locator("#a .price").innerText()).toBe(written);
+  await page.evaluate(() => document.querySelector<CuspSlicer>("#a")?.setAttribute("layer-max", "0.06"));
+  await expect.poll(async () => (await priced())?.total ?? 0).toBeGreaterThan(first);
+  const field = page.locator("#a .copies-row input").first();
+  await field.fill("3");
+  await field.press("Enter");
+  await expect.poll(priced).toMatchObject({ copies: 3 });
+  // Prices that cannot be used are the page's fault, and leave the plan alone.
+  await page.evaluate(() => {
+    const slicer = document.querySelector<CuspSlicer>("#a");
+    if (slicer !== null) slicer.prices = { currency: "euro" };
+  });
+  await expect.poll(() => events(page, "a")).toContain("cusp-error");
+  expect(await page.locator("#a").getAttribute("state")).toBe("done");
+  expect(await priced()).toBeNull();
+});
+
 test("taken out of the page it rests, and put back it works on", async () => {
   const page = await start(`<cusp-slicer id="a" src="ball.stl"></cusp-slicer>`);
   await done(page, "a");

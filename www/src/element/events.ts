@@ -1,7 +1,7 @@
 /** The events that the element fires for its page. They bubble, and cross the shadow roots around the element. */
 import type { SlicerError } from "../api/error.js";
 import type { Model, Plan, PrintFile } from "../api/index.js";
-import type { Candidate, Stage } from "../api/wire.js";
+import type { Candidate, Price, Stage } from "../api/wire.js";
 
 export interface ProgressDetail {
   task: "open" | "plan" | "export" | "towers" | "orient";
@@ -31,6 +31,8 @@ export interface CuspSlicerEvents {
   "cusp-load": CustomEvent<Model>;
   /** A new plan is ready. */
   "cusp-plan": CustomEvent<Plan>;
+  /** What the plan costs by the property `prices` is known. */
+  "cusp-price": CustomEvent<Price>;
   "cusp-progress": CustomEvent<ProgressDetail>;
   /** The download button was pressed. Cancelable: `preventDefault()` keeps the browser from saving the print file. */
   "cusp-export": CustomEvent<PrintFile>;

@@ -1,7 +1,7 @@
 /** Passes on what a session reports: to the page as events, and to calls that wait for a plan. */
 import type { SlicerError } from "../api/error.js";
 import type { Model, Plan } from "../api/index.js";
-import type { Candidate } from "../api/wire.js";
+import type { Candidate, Price } from "../api/wire.js";
 import type { CuspSlicerEvents } from "./events.js";
 import { secondsLeft, type Busy } from "./parts/progress.js";
 import type { Result } from "./state/result.js";
@@ -20,6 +20,8 @@ interface Asked {
   isCurrent(): boolean;
   /** The list of printers has arrived. */
   offered(): void;
+  /** The page gave what cannot be used. */
+  misused(error: SlicerError): void;
 }
 
 export class Reports implements Host {
@@ -80,6 +82,14 @@ export class Reports implements Host {
 
   oriented(candidate: Candidate): void {
     this.tell("cusp-orientation", candidate);
+  }
+
+  priced(price: Price): void {
+    this.tell("cusp-price", price);
+  }
+
+  mispriced(error: SlicerError): void {
+    this.#asked.misused(error);
   }
 
   settingsChanged(): void {

@@ -2,7 +2,7 @@
 import { LitElement } from "lit";
 import type { SlicerError } from "../api/error.js";
 import { createSlicer, type Slicer } from "../api/index.js";
-import type { Backend, Format, GpuMethod, Metric, Printer, Resin } from "../api/wire.js";
+import type { Backend, Format, GpuMethod, Metric, Price, Prices, Printer, Resin } from "../api/wire.js";
 import type { SettingName } from "./properties.js";
 import { Reports } from "./reports.js";
 import { Attributes, settingsOf } from "./state/attributes.js";
@@ -18,12 +18,14 @@ export abstract class SettableElement extends LitElement {
   protected readonly reports: Reports = new Reports(this, {
     isCurrent: () => this.session.isCurrent,
     offered: () => this.judged.offered(),
+    misused: (error) => this.#misused(error),
   });
   /** @internal */
   protected readonly session = new Session(this.reports, this.slicer);
   /** @internal */
   protected readonly judged = new Attributes(this.session, (error) => this.#misused(error));
   #locale: string | null = null;
+  #finish: string | null = null;
   #panels: readonly Panel[] | null = null;
   #fixed: readonly SettingName[] | null = null;
 
@@ -180,6 +182,29 @@ export abstract class SettableElement extends LitElement {
     this.requestUpdate();
   }
 
+  /** The prices of a shop, by which the result has a price; null for none. */
+  get prices(): Prices | null {
+    return this.session.pricing.asked?.prices ?? null;
+  }
+  set prices(prices: Prices | null) {
+    this.#ask(prices, this.#finish);
+  }
+
+  /** The finish to price, by its name in {@link prices}; null for none. */
+  get finish(): string | null {
+    return this.#finish;
+  }
+  set finish(finish: string | null) {
+    this.#finish = finish;
+    this.#ask(this.prices, finish);
+  }
+
+  /** What all copies of the last plan cost by {@link prices}; null while that is unknown. */
+  get price(): Price | null {
+    const { isPriced, price } = this.session.pricing;
+    return isPriced ? price : null;
+  }
+
   /** All settings as a URL query, such as `metric=area&tolerance=5`; defaults are left out. */
   get query(): string {
     return toAddress(this.session.settings);
@@ -187,6 +212,11 @@ export abstract class SettableElement extends LitElement {
   set query(query: string) {
     this.judged.settle();
     this.session.restore(fromAddress(query));
+  }
+
+  #ask(prices: Prices | null, finish: string | null): void {
+    this.session.pricing.asked = prices === null ? null : { prices, ...(finish !== null && { finish }) };
+    this.requestUpdate();
   }
 
   /** An invalid attribute concerns the page's developer: the element does not show it to customers. */

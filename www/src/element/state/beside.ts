@@ -1,6 +1,7 @@
-/** Fetches what is shown beside a plan: the mask of the selected layer, then the trade-off curve. */
-import { isAbort } from "../../api/error.js";
-import type { Mask, Slicer } from "../../api/index.js";
+/** Fetches what is shown beside a plan: the mask of the selected layer, the price, then the trade-off curve. */
+import { asSlicerError, isAbort, type SlicerError } from "../../api/error.js";
+import type { Mask, OrderedPlates, Slicer } from "../../api/index.js";
+import type { Price, Prices } from "../../api/wire.js";
 import type { Curve } from "./curve.js";
 import type { Result } from "./result.js";
 
@@ -10,6 +11,11 @@ export interface Looked {
   readonly layer: number;
 }
 
+/** What a shop asks, and the finish that is ordered. */
+export interface Asked extends OrderedPlates {
+  readonly prices: Prices;
+}
+
 export interface BesideHost {
   /** Whether no task is running. */
   isFree(): boolean;
@@ -17,18 +23,25 @@ export interface BesideHost {
   /** The curve has arrived. */
   curved(): void;
   failed(error: unknown): void;
+  priced(price: Price): void;
+  /** The page's prices cannot be used. */
+  mispriced(error: SlicerError): void;
 }
 
 export class Beside {
   mask: Mask | null = null;
+  /** What the last result costs, by {@link asked}. */
+  price: Price | null = null;
   readonly #looked: Looked;
   readonly #host: BesideHost;
-  readonly #slicer: Pick<Slicer, "mask" | "tradeoff">;
+  readonly #slicer: Pick<Slicer, "mask" | "tradeoff" | "price">;
   readonly #curve: Curve;
   #isFetching = false;
   #maskOf: Result | null = null;
+  #asked: Asked | null = null;
+  #priceOf: Result | null = null;
 
-  constructor(looked: Looked, host: BesideHost, slicer: Pick<Slicer, "mask" | "tradeoff">, curve: Curve) {
+  constructor(looked: Looked, host: BesideHost, slicer: Pick<Slicer, "mask" | "tradeoff" | "price">, curve: Curve) {
     this.#looked = looked;
     this.#host = host;
     this.#slicer = slicer;
@@ -47,7 +60,7 @@ export class Beside {
       while (host.isFree()) {
         const { result } = this.#looked;
         if (result === null) break;
-        const fetched = (await this.#fetchMask(result)) || (await this.#fetchCurve(result));
+        const fetched = (await this.#fetchMask(result)) || (await this.#fetchPrice(result)) || (await this.#fetchCurve(result));
         if (!fetched) break;
       }
     } catch (error) {
@@ -57,6 +70,40 @@ export class Beside {
     } finally {
       this.#isFetching = false;
     }
+  }
+
+  /** Whether the price is that of the result. */
+  get isPriced(): boolean {
+    return this.#priceOf === this.#looked.result;
+  }
+
+  get asked(): Asked | null {
+    return this.#asked;
+  }
+
+  set asked(asked: Asked | null) {
+    this.#asked = asked;
+    this.#priceOf = null;
+    if (asked === null) this.price = null;
+    void this.fetch();
+  }
+
+  /** Fetches what the result costs; false if nobody asks, or it is known. */
+  async #fetchPrice(result: Result): Promise<boolean> {
+    const asked = this.#asked;
+    if (asked === null || this.#priceOf === result) return false;
+    const { prices, ...ordered } = asked;
+    const priced = await this.#slicer.price(prices, ordered).catch((error: unknown) => {
+      if (isAbort(error)) throw error;
+      return asSlicerError(error);
+    });
+    if (this.#looked.result !== result || this.#asked !== asked) return true;
+    this.#priceOf = result;
+    this.price = priced instanceof Error ? null : priced;
+    if (priced instanceof Error) this.#host.mispriced(priced);
+    else this.#host.priced(priced);
+    this.#host.changed();
+    return true;
   }
 
   /** Fetches the mask of the newest selected layer; false if there was none to fetch. */

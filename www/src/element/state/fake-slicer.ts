@@ -1,8 +1,8 @@
 /** A fake slicer for tests of the session. */
 import { absentSlicer } from "../../api/absent.js";
 import { SlicerError } from "../../api/error.js";
-import { SCHEMA, type PreviewedPlan, type LoadCall, type Mask, type Model, type OrientCall, type OrientationReport, type Plan, type PrintFile, type TestTowers, type Watch } from "../../api/index.js";
-import type { Candidate, Preview, MeshInfo, Options, Report, SearchOptions, Tradeoff } from "../../api/wire.js";
+import { SCHEMA, type PreviewedPlan, type LoadCall, type Mask, type Model, type OrientCall, type Ordered, type OrientationReport, type Plan, type PrintFile, type TestTowers, type Watch } from "../../api/index.js";
+import type { Candidate, Preview, MeshInfo, Options, Price, Prices, Report, SearchOptions, Tradeoff } from "../../api/wire.js";
 
 const info = { facets: 1, size_mm: [1, 1, 10], warnings: [] } as unknown as MeshInfo;
 export const model: Model = { schema: SCHEMA, name: "a.stl", file: new Blob(), info };
@@ -52,6 +52,13 @@ export class FakeSlicer {
     this.curves.push(options);
     const points = this.tolerances.map((tolerance) => ({ tolerance, layers: 1, max_error: tolerance, print_time_s: 1 }));
     return { schema: SCHEMA, points };
+  };
+
+  readonly orders: { prices: Prices; ordered: Ordered }[] = [];
+  readonly price = async (prices: Prices, ordered: Ordered = {}): Promise<Price> => {
+    this.orders.push({ prices, ordered });
+    if (prices.currency === "") throw new SlicerError("bad-prices", "no", { field: "currency" });
+    return { currency: prices.currency, digits: 2, copies: 1, finish: null, lines: [], total: 1240 + this.orders.length };
   };
 
   get last(): (typeof this.calls)[number] {

@@ -1,7 +1,7 @@
 /** What a session is given: its host, the slicer that it calls, and its initial settings. */
 import type { SlicerError } from "../../api/error.js";
 import type { Model, Slicer } from "../../api/index.js";
-import type { Backend, Candidate } from "../../api/wire.js";
+import type { Backend, Candidate, Price } from "../../api/wire.js";
 import type { Busy } from "../parts/progress.js";
 import type { Result } from "./result.js";
 import type { Settings } from "./settings.js";
@@ -19,6 +19,9 @@ export interface Host {
   offered?(): void;
   painted?(weights: Float32Array | null, isFinal: boolean): void;
   oriented?(candidate: Candidate): void;
+  priced?(price: Price): void;
+  /** The page's prices cannot be used. */
+  mispriced?(error: SlicerError): void;
 }
 
 export interface Setup {
@@ -38,6 +41,7 @@ export type SlicerCalls = Pick<
   | "calibrateLayers"
   | "tradeoff"
   | "preview"
+  | "price"
   | "printers"
   | "warm"
   | "setWeights"

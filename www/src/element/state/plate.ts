@@ -2,10 +2,10 @@
  * The models of a session, of which one is selected. It stands between the session and the slicer: a single copy of one model goes
  * the slicer's own way, several go to its plate, and the session shows the plan of one plate as it shows that of a model.
  */
-import { SCHEMA, type Mask, type Model, type Plan, type PlatesPlan, type PrintFile, type Watch } from "../../api/index.js";
+import { SCHEMA, type Mask, type Model, type OrderedPlates, type Plan, type PlatesPlan, type PrintFile, type Watch } from "../../api/index.js";
 import type { Source } from "../../api/source.js";
 import { DEFAULTS } from "../../api/wire.js";
-import type { ArrangeError, Arranging, ModelOptions, Options, Placement, Tradeoff } from "../../api/wire.js";
+import type { ArrangeError, Arranging, ModelOptions, Options, Placement, Price, Prices, Tradeoff } from "../../api/wire.js";
 import { Brought } from "./brought.js";
 import { placesOf } from "./crowded.js";
 import type { SlicerCalls } from "./host.js";
@@ -311,6 +311,10 @@ export class Plate {
 
   export(watch: Watch, number = this.number): Promise<PrintFile> {
     return this.planned === null ? this.#slicer.export(undefined, watch) : this.#slicer.plate.export(number, watch);
+  }
+
+  price(prices: Prices, ordered: OrderedPlates): Promise<Price> {
+    return this.planned === null ? this.#slicer.price(prices, ordered) : this.#slicer.plate.price(prices, ordered);
   }
 
   /** The curve of a model; a plate has none. */

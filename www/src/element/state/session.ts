@@ -4,7 +4,8 @@
  * There is no DOM here: an element or a test hosts the session, is notified of changes, and renders its state.
  */
 import type { Mask, Plan, PrintFile, Watch } from "../../api/index.js";
-import { sameRays, type Candidate, type Options, type TradeoffPoint } from "../../api/wire.js";
+import type { SlicerError } from "../../api/error.js";
+import { sameRays, type Candidate, type Options, type Price, type TradeoffPoint } from "../../api/wire.js";
 import { Beside } from "./beside.js";
 import { Curve, withPoint } from "./curve.js";
 import type { Host, Setup, SlicerCalls } from "./host.js";
@@ -56,7 +57,8 @@ export class Session extends Models {
     };
     this.orientation = new OrientationSearch({ ...reports, subject }, slicer);
     const isFree = (): boolean => this.runner.task === null;
-    this.#beside = new Beside(this, { ...reports, isFree, curved: () => this.#takeQuality() }, this.plate, this.#curve);
+    const prices = { priced: (price: Price) => host.priced?.(price), mispriced: (error: SlicerError) => host.mispriced?.(error) };
+    this.#beside = new Beside(this, { ...reports, ...prices, isFree, curved: () => this.#takeQuality() }, this.plate, this.#curve);
     this.#follower = new Follower(slicer, (shown) => {
       this.shown = shown;
       this.changed();
@@ -66,6 +68,11 @@ export class Session extends Models {
   /** The mask of the selected layer, or the previous mask while it is fetched. */
   get mask(): Mask | null {
     return this.#beside.mask;
+  }
+
+  /** The prices of a shop and the price by them: of the result, or that of the last one for a moment. */
+  get pricing(): Pick<Beside, "asked" | "price" | "isPriced"> {
+    return this.#beside;
   }
 
   /** The best plans of the model, from the tightest tolerance to the loosest; null until known. */
@@ -238,7 +245,7 @@ export class Session extends Models {
     this.result = null;
     this.#refused = null;
     this.shown = null;
-    this.#beside.mask = null;
+    this.#beside.mask = this.#beside.price = null;
     this.#curve.forget();
   }
 

@@ -10,6 +10,7 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
     layers: (count) => plural(count, LAYERS),
     time: (time) => `etwa ${time} Druckzeit`,
     resin: (ml) => `${ml} Resin`,
+    price: "Preis",
     download: "Druckdatei herunterladen",
     earlier: "Das ist der letzte gelungene Plan, mit den Einstellungen vor der Änderung.",
     again: "Neu planen",

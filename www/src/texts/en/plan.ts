@@ -11,6 +11,7 @@ export const plan = ({ counted, plural, size }: Format) => ({
     layers: (count: number) => plural(count, LAYERS),
     time: (time: string) => `about ${time} to print`,
     resin: (ml: string) => `${ml} of resin`,
+    price: "Price",
     download: "Download print file",
     earlier: "This is the last plan that worked, with the settings before the change.",
     again: "Plan again",

@@ -10,6 +10,7 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
     layers: (count) => plural(count, LAYERS),
     time: (time) => `unos ${time} de impresión`,
     resin: (ml) => `${ml} de resina`,
+    price: "Precio",
     download: "Descargar archivo de impresión",
     earlier: "Este es el último plan que funcionó, con los ajustes de antes del cambio.",
     again: "Planificar de nuevo",

@@ -10,6 +10,7 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
     layers: (count) => plural(count, LAYERS),
     time: (time) => `environ ${time} d’impression`,
     resin: (ml) => `${ml} de résine`,
+    price: "Prix",
     download: "Télécharger le fichier d’impression",
     earlier: "C’est le dernier plan réussi, avec les réglages d’avant le changement.",
     again: "Planifier à nouveau",

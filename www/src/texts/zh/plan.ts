@@ -9,6 +9,7 @@ export const plan = ({ count: number, size }: Format): PlanTexts => ({
     layers: () => "层",
     time: (time) => `打印约 ${time}`,
     resin: (ml) => `树脂 ${ml}`,
+    price: "价格",
     download: "下载打印文件",
     earlier: "这是上一个成功的方案，使用更改之前的设置。",
     again: "重新计算",

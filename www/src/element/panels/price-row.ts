@@ -1,0 +1,12 @@
+/** What a result costs, by the prices of the page. */
+import { html, nothing, type TemplateResult } from "lit";
+import type { Price } from "../../api/wire.js";
+import type { Language } from "../../texts/index.js";
+
+/** The total as a language writes amounts, with the digits that the core knows: browsers leave some out. */
+const money = ({ currency, digits, total }: Price, locale: string): string =>
+  new Intl.NumberFormat(locale, { style: "currency", currency, minimumFractionDigits: digits, maximumFractionDigits: digits }).format(total / 10 ** digits);
+
+export function priceRow(price: Price | null, { texts, format }: Language): TemplateResult | typeof nothing {
+  return price === null ? nothing : html`<p class="price">${texts.plan.price} <strong>${money(price, format.locale)}</strong></p>`;
+}
