@@ -86,35 +86,40 @@ impl Sheet {
             while column <= last[0] {
                 match self.first_blocked(shape, [column, row], blocked) {
                     None => return Some([column, row]),
-                    Some(within) => blocked = within,
+                    Some((within, columns)) => {
+                        blocked = within;
+                        column += columns;
+                    }
                 }
-                column += 1;
             }
             column = first[0];
         }
         None
     }
 
-    /// A row of the shape that meets cells that are taken. `likely` is looked at first: what blocks one place usually blocks the
-    /// next.
-    fn first_blocked(&self, shape: &Shape, at: [i64; 2], likely: usize) -> Option<usize> {
+    /// A row of the shape that meets cells that are taken, and how many columns to the right it may be free again at the
+    /// earliest. `likely` is looked at first: what blocks one place usually blocks the next.
+    fn first_blocked(&self, shape: &Shape, at: [i64; 2], likely: usize) -> Option<(usize, i64)> {
         let outline = &shape.outline;
         let [column, row] = [0, 1].map(|axis| at[axis] + outline.first[axis]);
-        let is_blocked = |within: usize| {
+        let blocked = |within: usize| {
             let row = row + within as i64;
             // Cells beyond the screen hold no pixels.
             if row < 0 || row >= self.taken.rows as i64 {
-                return false;
+                return None;
             }
             let taken = self.taken.row(row as usize);
-            let words = outline.cells.row(within).iter().zip(0i64..);
-            let mut words = words.filter(|(word, _)| **word != 0);
-            words.any(|(&word, place)| word & bits_at(taken, column + place * 64) != 0)
+            let cells = outline.cells.row(within);
+            let words = cells.iter().enumerate().filter(|(_, word)| **word != 0);
+            let mut met = words.filter_map(|(place, word)| {
+                let met = word & bits_at(taken, column + place as i64 * 64);
+                met.checked_ilog2().map(|bit| place * 64 + bit as usize)
+            });
+            // Until the shape has passed the cell that it meets, some cell between is in its place.
+            met.next()
+                .map(|cell| (within, run_up_to(cells, cell) as i64))
         };
-        if is_blocked(likely) {
-            return Some(likely);
-        }
-        (0..outline.cells.rows).find(|&within| is_blocked(within))
+        blocked(likely).or_else(|| (0..outline.cells.rows).find_map(blocked))
     }
 
     fn take(&mut self, shape: &Shape, at: [i64; 2]) {
@@ -162,6 +167,23 @@ impl Sheet {
     }
 }
 
+/// Number of cells side by side in a row up to a cell, which is one of them.
+fn run_up_to(row: &[u64], cell: usize) -> usize {
+    let (mut place, bit) = (cell / 64, cell % 64);
+    let mut run = (row[place] << (63 - bit)).leading_ones() as usize;
+    if run == bit + 1 {
+        while place > 0 {
+            place -= 1;
+            let more = row[place].leading_ones() as usize;
+            run += more;
+            if more < 64 {
+                break;
+            }
+        }
+    }
+    run
+}
+
 /// 64 cells of a row from a column on; those beyond the row are free.
 pub(super) fn bits_at(row: &[u64], column: i64) -> u64 {
     let word = |index: i64| {
@@ -175,5 +197,54 @@ pub(super) fn bits_at(row: &[u64], column: i64) -> u64 {
     match shift {
         0 => low,
         _ => low | word(index + 1).unwrap_or(0) << (64 - shift),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arrange::Outline;
+
+    /// A shape with the given cells, whose first is at the middle of the plate.
+    fn shape(cells: Cells) -> Shape {
+        let outline = Outline {
+            first: [0, 0],
+            pixels: [[0, 0], [cells.columns as i64, cells.rows as i64]],
+            area_mm2: 0.0,
+            cells,
+        };
+        Shape::new(0, outline, &[0])
+    }
+
+    #[test]
+    fn the_first_free_place_is_that_of_a_search_cell_by_cell() {
+        let mut random = fastrand::Rng::with_seed(7);
+        for _ in 0..200 {
+            let mut cells = |columns: usize, rows: usize, share: f64| {
+                let mut cells = Cells::new(columns, rows);
+                for cell in 0..columns * rows {
+                    if random.f64() < share {
+                        let column = cell % columns;
+                        cells.fill(cell / columns, column..column + 1);
+                    }
+                }
+                cells
+            };
+            let mut sheet = Sheet::new([200, 12]);
+            sheet.taken = cells(200, 12, 0.03);
+            let shape = shape(cells(70, 2, 0.7));
+            let is_free = |&[column, row]: &[i64; 2]| {
+                (0..140).all(|cell| {
+                    let (right, down) = (cell % 70, cell / 70);
+                    let onto = [column + right as i64, row + down as i64];
+                    let is_on = onto[0] < 200 && onto[1] < 12;
+                    let is_taken = is_on && sheet.taken.has(onto[0] as usize, onto[1] as usize);
+                    !(shape.outline.cells.has(right, down) && is_taken)
+                })
+            };
+            let mut all = (0..=11).flat_map(|row| (0..=190).map(move |column| [column, row]));
+            let found = sheet.first_free(&shape, [0, 0], [0, 0], [190, 11]);
+            assert_eq!(found, all.find(is_free));
+        }
     }
 }
