@@ -38,6 +38,30 @@ export function floating(side: number, gap: number): Uint8Array {
   return binaryStl(Float32Array.from([...below, ...above]));
 }
 
+/** A square cup that stands on its floor: walls and floor are as thick. */
+export function cup(side: number, height: number, wall: number): Uint8Array {
+  const outside = facetsOf(side, height);
+  const inner = side - 2 * wall;
+  // The hollow faces inwards, from the floor up to the rim.
+  const hollow = facetsOf(inner, height - wall).map((part) => part + wall);
+  const flipped: number[] = [];
+  const isLevel = (facets: readonly number[], at: number, z: number): boolean => [2, 5, 8].every((k) => Math.abs((facets[at + k] ?? 0) - z) < 1e-9);
+  for (let at = 0; at < hollow.length; at += 9) {
+    if (isLevel(hollow, at, height)) continue;
+    for (const k of [0, 6, 3]) flipped.push(...hollow.slice(at + k, at + k + 3));
+  }
+  const kept: number[] = [];
+  for (let at = 0; at < outside.length; at += 9) if (!isLevel(outside, at, height)) kept.push(...outside.slice(at, at + 9));
+  // The rim, between the outer and the inner square.
+  const square = (from: number, to: number): [number, number][] => [[from, from], [to, from], [to, to], [from, to]];
+  const [outer, inside] = [square(0, side), square(wall, side - wall)];
+  for (let k = 0; k < 4; k++) {
+    const [a, b, c, d] = [outer[k], outer[(k + 1) % 4], inside[(k + 1) % 4], inside[k]] as [[number, number], [number, number], [number, number], [number, number]];
+    kept.push(...a, height, ...b, height, ...c, height, ...a, height, ...c, height, ...d, height);
+  }
+  return binaryStl(Float32Array.from([...kept, ...flipped]));
+}
+
 /** A prism that stands upright on a square. */
 export function prism(side: number, height: number): Solid {
   const packed = Float32Array.from(facetsOf(side, height));

@@ -63,12 +63,12 @@ const ATTRIBUTE_PROPERTIES = {
 export const ATTRIBUTES = byAttribute(ATTRIBUTE_PROPERTIES);
 
 /** Every property that can be set, with its attribute if it has one. */
-export const PROPERTIES = { ...ATTRIBUTE_PROPERTIES, weights: null, resins: null, prices: null, finish: null, query: null } as const;
+export const PROPERTIES = { ...ATTRIBUTE_PROPERTIES, weights: null, resins: null, prices: null, finish: null, limits: null, query: null } as const;
 
 export type PropertyName = keyof typeof PROPERTIES;
 
 /** Properties that can only be read; `state` is reflected in an attribute of that name. */
-export const READ_ONLY = ["state", "model", "models", "result", "plates", "price"] as const;
+export const READ_ONLY = ["state", "model", "models", "result", "plates", "price", "check"] as const;
 
 /** Declarations for Lit. All except `src` have setters of their own, which receive an attribute's text unconverted. */
 export const DECLARATIONS: Readonly<Record<string, PropertyDeclaration>> = {

@@ -2,7 +2,7 @@
 import { LitElement } from "lit";
 import type { SlicerError } from "../api/error.js";
 import { createSlicer, type Slicer } from "../api/index.js";
-import type { Backend, Format, GpuMethod, Metric, Price, Prices, Printer, Resin } from "../api/wire.js";
+import type { Backend, Format, GpuMethod, Limits, Metric, Price, Prices, Printer, Resin } from "../api/wire.js";
 import type { SettingName } from "./properties.js";
 import { Reports } from "./reports.js";
 import { Attributes, settingsOf } from "./state/attributes.js";
@@ -203,6 +203,17 @@ export abstract class SettableElement extends LitElement {
   get price(): Price | null {
     const { isPriced, price } = this.session.pricing;
     return isPriced ? price : null;
+  }
+
+  /**
+   * What a shop accepts, for the checks of each plan; those left out have the defaults, so `{}` is all of them. Null: plans are
+   * checked only while a panel shows the findings.
+   */
+  get limits(): Limits | null {
+    return this.session.checks.limits;
+  }
+  set limits(limits: Limits | null) {
+    this.session.checks.limits = limits;
   }
 
   /** All settings as a URL query, such as `metric=area&tolerance=5`; defaults are left out. */

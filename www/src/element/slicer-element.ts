@@ -4,7 +4,7 @@
  */
 import { nothing, type PropertyValues, type TemplateResult } from "lit";
 import { SlicerError } from "../api/error.js";
-import { SCHEMA, type Model, type Plan, type PlatesPlan, type PrintFile } from "../api/index.js";
+import { SCHEMA, type Check, type Model, type Plan, type PlatesPlan, type PrintFile } from "../api/index.js";
 import type { Source } from "../api/source.js";
 import type { ModelOptions } from "../api/wire.js";
 import { fetchLanguage, languageOf } from "../texts/index.js";
@@ -101,6 +101,11 @@ export abstract class SlicerElement extends SettableElement {
     const { report, profile } = result;
     const { print_time_s, resin_ml } = report;
     return this.session.plate.planned ?? { schema: SCHEMA, plates: [{ report, profile }], print_time_s, resin_ml };
+  }
+
+  /** What will fail when the last plan is printed, and the verdict; null until it is checked: see `limits`. */
+  get check(): Check | null {
+    return this.session.checks.check;
   }
 
   /**

@@ -14,6 +14,7 @@ import {
   settingsPanel,
   undoButtons,
 } from "./bound-panels.js";
+import { findingsPanel } from "./bound-findings.js";
 import { platePanel } from "./bound-plate.js";
 import type { Facts } from "./facts.js";
 import { modelCard, warnings } from "./panels/model-card.js";
@@ -154,5 +155,16 @@ function results(drawn: Drawn, result: Result): TemplateResult {
     ${panels.has("layers")
       ? html`<section class="card" part="layers" aria-label=${texts.mask.region}>${maskPanel(drawn, result)}</section>`
       : nothing}
+    ${panels.has("findings") ? findingsCard(drawn) : nothing}
   `;
+}
+
+/** Folded away, and nothing is checked, until somebody wants to know. */
+function findingsCard(drawn: Drawn): TemplateResult {
+  const { session, language } = drawn;
+  const toggled = ({ target }: Event): void => void (session.checks.isOpen = (target as HTMLDetailsElement).open);
+  return html`<details class="card findings" part="findings" @toggle=${toggled}>
+    <summary><h2>${language.texts.findings.title}</h2></summary>
+    ${session.checks.isOpen ? findingsPanel(drawn) : nothing}
+  </details>`;
 }

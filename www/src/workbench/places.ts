@@ -3,9 +3,9 @@
 /** Panels at the side where one chooses. */
 export const CHOICES = ["settings", "orientation"] as const;
 /** Panels at the side of the result. */
-export const ANSWERS = ["quality", "layers"] as const;
+export const ANSWERS = ["quality", "layers", "findings"] as const;
 /** Panels that are a sheet on a narrow screen, in the order of its bar. */
-export const SHEETS = ["settings", "orientation", "profile", "quality", "layers"] as const;
+export const SHEETS = ["settings", "orientation", "profile", "quality", "layers", "findings"] as const;
 
 export type ChoicePanel = (typeof CHOICES)[number];
 export type AnswerPanel = (typeof ANSWERS)[number];

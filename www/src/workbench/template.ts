@@ -16,6 +16,7 @@ import {
   undoButtons,
 } from "../element/bound-panels.js";
 import { isFilament } from "../api/wire.js";
+import { findingsPanel } from "../element/bound-findings.js";
 import { platePanel } from "../element/bound-plate.js";
 import type { Facts } from "../element/facts.js";
 import { modelCard, warnings } from "../element/panels/model-card.js";
@@ -157,7 +158,9 @@ function answersSide(facts: Facts, { answer, answers }: Bench): TemplateResult {
           ? html`<p class="quiet">${texts.chart.none}</p>`
           : answer === "quality"
             ? quality(facts, session.result)
-            : maskPanel(facts, session.result)}
+            : answer === "layers"
+              ? maskPanel(facts, session.result)
+              : findingsPanel(facts)}
       </div>
     </section>
   </div>`;
@@ -264,6 +267,7 @@ function namesOf({ language }: Facts): Readonly<Record<Sheet, string>> {
     profile: texts.chart.region,
     quality: texts.quality.title,
     layers: mask,
+    findings: texts.findings.title,
     plan: result,
   };
 }
@@ -275,5 +279,6 @@ function sheetPanel(facts: Facts, sheet: Sheet): TemplateResult | typeof nothing
   if (session.result === null) return html`<p class="quiet">${facts.language.texts.chart.none}</p>`;
   if (sheet === "orientation") return orientationPanel(facts);
   if (sheet === "profile") return chartPanel(facts, () => undefined);
+  if (sheet === "findings") return findingsPanel(facts);
   return sheet === "quality" ? quality(facts, session.result) : maskPanel(facts, session.result);
 }

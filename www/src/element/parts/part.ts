@@ -3,8 +3,8 @@ import { css, html, nothing, type LitElement, type TemplateResult } from "lit";
 import { said, SlicerError } from "../../api/error.js";
 import type { Language } from "../../texts/index.js";
 
-/** The 3-D view; the chart of the profile; the panel of orientation, and the pictures of the best ones; the list of models. */
-export type Part = "view" | "chart" | "orientation" | "pictures" | "plate";
+/** The 3-D view; the chart of the profile; the panel of orientation, and the pictures of the best ones; the list of models; what will fail; the masks. */
+export type Part = "view" | "chart" | "orientation" | "pictures" | "plate" | "findings" | "mask";
 
 export function partError(part: Part, cause: unknown): SlicerError {
   const system = said(cause);

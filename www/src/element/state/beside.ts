@@ -1,7 +1,11 @@
-/** Fetches what is shown beside a plan: the mask of the selected layer, the price, then the trade-off curve. */
+/**
+ * Fetches what is shown beside a plan: the mask of the selected layer, the price, what will fail if somebody wants to know, then the
+ * trade-off curve.
+ */
 import { asSlicerError, isAbort, type SlicerError } from "../../api/error.js";
 import type { Mask, OrderedPlates, Slicer } from "../../api/index.js";
 import type { Price, Prices } from "../../api/wire.js";
+import type { Checks } from "./checks.js";
 import type { Curve } from "./curve.js";
 import type { Result } from "./result.js";
 
@@ -36,16 +40,18 @@ export class Beside {
   readonly #host: BesideHost;
   readonly #slicer: Pick<Slicer, "mask" | "tradeoff" | "price">;
   readonly #curve: Curve;
+  readonly #checks: Checks;
   #isFetching = false;
   #maskOf: Result | null = null;
   #asked: Asked | null = null;
   #priceOf: Result | null = null;
 
-  constructor(looked: Looked, host: BesideHost, slicer: Pick<Slicer, "mask" | "tradeoff" | "price">, curve: Curve) {
+  constructor(looked: Looked, host: BesideHost, slicer: Pick<Slicer, "mask" | "tradeoff" | "price">, { curve, checks }: { curve: Curve; checks: Checks }) {
     this.#looked = looked;
     this.#host = host;
     this.#slicer = slicer;
     this.#curve = curve;
+    this.#checks = checks;
   }
 
   /**
@@ -60,7 +66,11 @@ export class Beside {
       while (host.isFree()) {
         const { result } = this.#looked;
         if (result === null) break;
-        const fetched = (await this.#fetchMask(result)) || (await this.#fetchPrice(result)) || (await this.#fetchCurve(result));
+        const fetched =
+          (await this.#fetchMask(result)) ||
+          (await this.#fetchPrice(result)) ||
+          (await this.#checks.fetch(result)) ||
+          (await this.#fetchCurve(result));
         if (!fetched) break;
       }
     } catch (error) {

@@ -1,7 +1,7 @@
 /** A fake slicer for tests of the session. */
 import { absentSlicer } from "../../api/absent.js";
 import { SlicerError } from "../../api/error.js";
-import { SCHEMA, type PreviewedPlan, type LoadCall, type Mask, type Model, type OrientCall, type Ordered, type OrientationReport, type Plan, type PrintFile, type TestTowers, type Watch } from "../../api/index.js";
+import { SCHEMA, type Check, type PreviewedPlan, type LoadCall, type Mask, type Model, type OrientCall, type Ordered, type OrientationReport, type Plan, type PrintFile, type TestTowers, type Watch } from "../../api/index.js";
 import type { Candidate, Preview, MeshInfo, Options, Price, Prices, Report, SearchOptions, Tradeoff } from "../../api/wire.js";
 
 const info = { facets: 1, size_mm: [1, 1, 10], warnings: [] } as unknown as MeshInfo;
@@ -33,6 +33,7 @@ export class FakeSlicer {
     this.masks.push(layer);
     return { layer, width: 8, height: 1, bits: Uint8Array.of(255) };
   };
+  readonly check = (): Promise<Check> => this.#call("check", {});
   readonly previews: Options[] = [];
   readonly preview = async (options: Options = {}): Promise<PreviewedPlan> => {
     this.previews.push(options);

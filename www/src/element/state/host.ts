@@ -1,6 +1,6 @@
 /** What a session is given: its host, the slicer that it calls, and its initial settings. */
 import type { SlicerError } from "../../api/error.js";
-import type { Model, Slicer } from "../../api/index.js";
+import type { Check, Model, Slicer } from "../../api/index.js";
 import type { Backend, Candidate, Price } from "../../api/wire.js";
 import type { Busy } from "../parts/progress.js";
 import type { Result } from "./result.js";
@@ -12,6 +12,10 @@ export interface Host {
   loaded?(model: Model): void;
   planned?(result: Result): void;
   failed?(error: SlicerError): void;
+  /** A plan was checked for what will fail. */
+  checked?(check: Check): void;
+  /** A plan could not be checked; it stays. */
+  unchecked?(error: SlicerError): void;
   cancelled?(): void;
   progressed?(busy: Busy): void;
   settingsChanged?(settings: Settings): void;
@@ -37,6 +41,7 @@ export type SlicerCalls = Pick<
   | "orient"
   | "measure"
   | "mask"
+  | "check"
   | "export"
   | "calibrateLayers"
   | "tradeoff"

@@ -7,6 +7,7 @@ import type { Mask, Plan, PrintFile, Watch } from "../../api/index.js";
 import type { SlicerError } from "../../api/error.js";
 import { sameRays, type Candidate, type Options, type Price, type TradeoffPoint } from "../../api/wire.js";
 import { Beside } from "./beside.js";
+import { Checks } from "./checks.js";
 import { Curve, withPoint } from "./curve.js";
 import type { Host, Setup, SlicerCalls } from "./host.js";
 import { OrientationSearch, withPose, type Subject } from "./orientation.js";
@@ -29,6 +30,7 @@ export class Session extends Models {
   shown: Shown | null = null;
 
   readonly orientation: OrientationSearch;
+  readonly checks: Checks;
 
   readonly #curve = new Curve();
   readonly #beside: Beside;
@@ -56,9 +58,26 @@ export class Session extends Models {
       return model === null || options === null ? null : { name: model.name, options, weights };
     };
     this.orientation = new OrientationSearch({ ...reports, subject }, slicer);
+    const own = (): Result | null => this.result;
+    this.checks = new Checks(
+      {
+        get result() {
+          return own();
+        },
+        changed: reports.changed,
+        wanted: () => void this.#beside.fetch(),
+        checked: (check) => host.checked?.(check),
+        unchecked: (error) => host.unchecked?.(error),
+        look: (layer) => this.selectLayer(layer),
+      },
+      slicer,
+    );
     const isFree = (): boolean => this.runner.task === null;
     const prices = { priced: (price: Price) => host.priced?.(price), mispriced: (error: SlicerError) => host.mispriced?.(error) };
-    this.#beside = new Beside(this, { ...reports, ...prices, isFree, curved: () => this.#takeQuality() }, this.plate, this.#curve);
+    this.#beside = new Beside(this, { ...reports, ...prices, isFree, curved: () => this.#takeQuality() }, this.plate, {
+      curve: this.#curve,
+      checks: this.checks,
+    });
     this.#follower = new Follower(slicer, (shown) => {
       this.shown = shown;
       this.changed();
@@ -247,6 +266,7 @@ export class Session extends Models {
     this.shown = null;
     this.#beside.mask = this.#beside.price = null;
     this.#curve.forget();
+    this.checks.forget();
   }
 
   async #plan(options: Options): Promise<void> {

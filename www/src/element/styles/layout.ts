@@ -105,14 +105,19 @@ export const layoutStyles = css`
   .copies-row .copies ~ .button {
     margin-inline-start: 0;
   }
-  .settings summary {
+  .card > summary {
     cursor: pointer;
   }
-  .settings summary h2 {
+  .card > summary h2 {
     display: inline;
   }
-  .settings[open] summary {
+  .card[open] > summary {
     margin-bottom: 1rem;
+  }
+  /* Its summary is the title. */
+  .findings {
+    --cusp-title-position: absolute;
+    --cusp-title-clip: inset(50%);
   }
   .settings {
     position: relative;

@@ -132,6 +132,9 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
       `Profil über der Höhe (${axis}), bis ${height}, über den ${counted(layers, LAYERS)} des Plans, ` +
       `${least} bis ${most} dick.`,
   },
+  findings: {
+    title: "Prüfung",
+  },
   mask: {
     region: "Schichten",
     title: "Schichtmaske",

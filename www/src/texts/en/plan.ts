@@ -139,6 +139,9 @@ export const plan = ({ counted, plural, size }: Format) => ({
       `Chart of the profile by height (${axis}), up to ${height}, over the ` +
       `${counted(layers, LAYERS)} of the plan, ${least} to ${most} thick.`,
   },
+  findings: {
+    title: "Check",
+  },
   mask: {
     region: "Layers",
     title: "Layer mask",

@@ -132,6 +132,9 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
       `Gráfico del perfil por altura (${axis}), hasta ${height}, sobre las ${counted(layers, LAYERS)} del plan, ` +
       `de ${least} a ${most} de espesor.`,
   },
+  findings: {
+    title: "Revisión",
+  },
   mask: {
     region: "Capas",
     title: "Máscara de capa",

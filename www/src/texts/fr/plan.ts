@@ -132,6 +132,9 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
       `Graphique du profil selon la hauteur (${axis}), jusqu’à ${height}, sur les ${counted(layers, LAYERS)} du plan, ` +
       `épaisses de ${least} à ${most}.`,
   },
+  findings: {
+    title: "Contrôle",
+  },
   mask: {
     region: "Couches",
     title: "Masque de couche",

@@ -127,6 +127,9 @@ export const plan = ({ count: number, size }: Format): PlanTexts => ({
     said: (axis, height, layers, least, most) =>
       `随高度变化的轮廓图（${axis}），至 ${height}，方案共 ${number(layers)} 层，厚 ${least} 到 ${most}。`,
   },
+  findings: {
+    title: "检查",
+  },
   mask: {
     region: "各层",
     title: "单层掩膜",

@@ -1,0 +1,84 @@
+/** What will fail, as the page tells it: findings, where they are, and that they follow the model. */
+import { execFile } from "node:child_process";
+import { mkdtemp, rm, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { promisify } from "node:util";
+import type { Page } from "playwright-core";
+import { expect, test } from "vitest";
+import type { Check } from "../src/api/index.js";
+import type { CuspWorkbench } from "../src/workbench/cusp-workbench.js";
+import { broken } from "./axe.js";
+import { drop, maskOf, openPanel, settled, state } from "./browser.js";
+import { pages } from "./pages.js";
+import { cup } from "./solids.js";
+import { SOFTWARE_GL } from "./view-pages.js";
+
+const start = pages(SOFTWARE_GL);
+const mug = { name: "mug.stl", bytes: cup(10, 8, 1.5) };
+const DESKTOP = { viewport: { width: 1280, height: 800 } };
+const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
+
+async function opened(options: Parameters<typeof start>[1]): Promise<Page> {
+  const page = await start("?backend=cpu", options);
+  await drop(page, mug);
+  await state(page, "done");
+  await openPanel(page, "Check");
+  await page.waitForSelector("cusp-findings [data-verdict]");
+  return page;
+}
+
+const verdict = (page: Page): Promise<string | null> => page.locator("cusp-findings [data-verdict]").getAttribute("data-verdict");
+
+test("a cup is found, choosing it shows its first layer, and upside down it is none", async () => {
+  const page = await opened(DESKTOP);
+  expect(await verdict(page)).toBe("review");
+  const [finding] = await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.check?.findings ?? []);
+  expect(finding?.code).toBe("cup");
+  const found = page.getByRole("button", { name: /^A hollow of/ });
+  expect(await found.count()).toBe(1);
+  await found.click();
+  expect(await found.getAttribute("aria-pressed")).toBe("true");
+  expect(await broken(page)).toEqual([]);
+  await openPanel(page, "Mask");
+  await maskOf(page, finding?.layers[0] ?? -1);
+  await openPanel(page, "Check");
+  await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => void (element.query = "rotation=1,0,0,0"));
+  await settled(page);
+  await expect.poll(() => page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.check?.findings.map(({ code }) => code))).not.toContain("cup");
+  await expect.poll(() => found.count()).toBe(0);
+});
+
+test("by keyboard findings are gone through, chosen and let go, and the sheet stays", async () => {
+  const page = await opened(PHONE);
+  const found = page.getByRole("button", { name: /^A hollow of/ });
+  await found.focus();
+  await page.keyboard.press("Enter");
+  expect(await found.getAttribute("aria-pressed")).toBe("true");
+  await page.keyboard.press("Escape");
+  expect(await found.getAttribute("aria-pressed")).toBe("false");
+  expect(await page.locator(".sheet").count()).toBe(1);
+  expect(await broken(page)).toEqual([]);
+  await page.keyboard.press("Escape");
+  await expect.poll(() => page.locator(".sheet").count()).toBe(0);
+});
+
+const program = process.env["CUSP"];
+
+test.skipIf(program === undefined)("the page finds what the command line does", async () => {
+  const page = await opened(DESKTOP);
+  const check = await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.check);
+  const folder = await mkdtemp(join(tmpdir(), "cusp-findings-"));
+  try {
+    const model = join(folder, mug.name);
+    await writeFile(model, mug.bytes);
+    const { stdout } = await promisify(execFile)(program ?? "", ["check", model, "--json"]);
+    const told = JSON.parse(stdout) as Check;
+    // As JSON: what is undefined here is null there.
+    const plain = ({ verdict, findings, counts, bodies, peel }: Partial<Check>): unknown =>
+      JSON.parse(JSON.stringify({ verdict, findings: findings?.map((it) => ({ ...it, joins_layer: it.joins_layer ?? null })), counts, bodies, peel }));
+    expect(plain(check ?? {})).toEqual(plain(told));
+  } finally {
+    await rm(folder, { recursive: true });
+  }
+});

@@ -1,0 +1,24 @@
+/** The panel of findings, bound to a session. It is fetched when somebody first wants to know. */
+import { html, nothing, type TemplateResult } from "lit";
+import type { Facts } from "./facts.js";
+import { FetchedPanel } from "./parts/part.js";
+
+const findingsCode = new FetchedPanel("findings", async () => {
+  const { defineFindings } = await import("./panels/findings-panel.js");
+  defineFindings();
+});
+
+export function findingsPanel({ element, session, language }: Facts): TemplateResult | typeof nothing {
+  if (!findingsCode.isThere) return findingsCode.instead(element, language);
+  const { checks, result, settings } = session;
+  return html`<cusp-findings
+    .checks=${checks}
+    .check=${checks.last}
+    .isCurrent=${checks.isCurrent}
+    .error=${checks.error}
+    .chosen=${checks.chosen}
+    .isAlone=${result?.report.plate === undefined}
+    .metric=${settings.metric}
+    .language=${language}
+  ></cusp-findings>`;
+}

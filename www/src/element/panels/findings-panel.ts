@@ -1,0 +1,158 @@
+/** `<cusp-findings>`: what will fail when the plan is printed, by kind. Choosing a finding shows where it is. */
+import { html, nothing, type PropertyValues, type TemplateResult } from "lit";
+import type { Check, SlicerError } from "../../api/index.js";
+import type { Code, Count, Finding, Metric, Severity } from "../../api/wire.js";
+import { findingsTexts, saidOf, type FindingsTexts } from "../../texts/findings/index.js";
+import { languageOf, type Language } from "../../texts/index.js";
+import { elementWith, given, own } from "../../view/properties.js";
+import { define } from "../define.js";
+import type { Checks } from "../state/checks.js";
+import { findingsStyles } from "../styles/findings-styles.js";
+import { shared } from "../styles/shared.js";
+
+/** How many findings of a kind are shown at first. */
+const FEW = 3;
+
+/** A tick; an exclamation mark; a cross. */
+const SIGNS = {
+  ok: "m4.5 10.5 4 4 7-8.5",
+  ignore: "M10 9v6m0-9.5v.01",
+  review: "M10 5v6.5m0 3.2v.01",
+  reject: "m5.5 5.5 9 9m0-9-9 9",
+} as const;
+
+const PROPERTIES = {
+  checks: given<Checks | null>(null),
+  /** The last check; of an earlier plan, unless it is current. */
+  check: given<Check | null>(null),
+  isCurrent: given(false),
+  /** Why the plan could not be checked. */
+  error: given<SlicerError | null>(null),
+  chosen: given<Finding | null>(null),
+  /** Whether the plan is that of a single model, which alone is checked. */
+  isAlone: given(true),
+  metric: given<Metric>("cusp"),
+  language: given<Language>(languageOf()),
+  /** The kinds of which all findings are shown. */
+  whole: own<ReadonlySet<Code>>(new Set()),
+};
+
+export class CuspFindings extends elementWith(PROPERTIES) {
+  static override styles = [shared, findingsStyles];
+
+  override connectedCallback(): void {
+    super.connectedCallback();
+    if (this.checks !== null) this.checks.isOpen = true;
+  }
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    if (this.checks !== null) this.checks.isOpen = false;
+  }
+
+  override updated(changed: PropertyValues<this>): void {
+    if (changed.has("checks") && this.checks !== null && this.isConnected) this.checks.isOpen = true;
+  }
+
+  override render(): TemplateResult {
+    const { check, isCurrent, error, language } = this;
+    const words = findingsTexts(language);
+    return html`
+      <div class="head"><h3>${language.texts.findings.title}</h3></div>
+      <div role="status">${this.#verdict(words)}</div>
+      ${check === null || error !== null || !this.isAlone
+        ? nothing
+        : html`<div class="kinds ${isCurrent ? "" : "old"}" @keydown=${this.#pressed}>
+            ${check.findings.length > 0 ? html`<p class="quiet">${words.hint}</p>` : nothing}
+            ${check.counts.map((count) => this.#kind(count, check, words))}
+          </div>`}
+    `;
+  }
+
+  #verdict(words: FindingsTexts): TemplateResult {
+    const { check, error, isAlone, isCurrent, language, metric } = this;
+    if (!isAlone) return html`<p class="quiet">${words.alone}</p>`;
+    if (error !== null) return html`<p class="quiet failed">${sentenceOf(error, language, metric)}</p>`;
+    if (check === null || !isCurrent) return html`<p class="quiet">${words.checking}</p>`;
+    const { verdict } = check;
+    return html`<p class="verdict ${verdict}" data-verdict=${verdict}>${sign(verdict)} ${words.verdicts[verdict]}</p>
+      ${check.findings.length === 0 ? html`<p class="quiet">${words.none}</p>` : nothing}`;
+  }
+
+  #kind({ code, found }: Count, { findings }: Check, words: FindingsTexts): TemplateResult {
+    const { format } = this.language;
+    const listed = findings.filter((finding) => finding.code === code);
+    const { severity } = listed[0] ?? { severity: "review" as const };
+    const isChosenLate = this.chosen !== null && listed.indexOf(this.chosen) >= FEW;
+    const shown = this.whole.has(code) || isChosenLate ? listed : listed.slice(0, FEW);
+    return html`<section aria-labelledby=${code}>
+      <h4 id=${code}>
+        ${sign(severity)} <span class="name">${words.kinds[code]}</span> <span class="count figures">${format.count(found)}</span>
+        <span class="severity quiet">${words.severities[severity]}</span>
+      </h4>
+      <p class="quiet" id="${code}-advice">${words.advice[code]}</p>
+      <ul>
+        ${shown.map((finding) => this.#item(finding, words))}
+      </ul>
+      ${shown.length < listed.length
+        ? html`<button class="link" @click=${() => (this.whole = new Set([...this.whole, code]))}>${words.all(format.count(listed.length))}</button>`
+        : found > listed.length
+          ? html`<p class="quiet">${words.smaller(format.count(found - listed.length))}</p>`
+          : nothing}
+    </section>`;
+  }
+
+  #item(finding: Finding, words: FindingsTexts): TemplateResult {
+    const { format } = this.language;
+    const { at_mm, layers: [first, last], code } = finding;
+    const place = `${at_mm.map((mm) => format.tick(Math.round(mm * 100) / 100)).join(" / ")}\u00a0mm`;
+    const layers = first === last ? words.layer(format.count(first + 1)) : words.layers(format.count(first + 1), format.count(last + 1));
+    return html`<li>
+      <button
+        class="finding"
+        aria-pressed=${finding === this.chosen ? "true" : "false"}
+        aria-describedby="${code}-advice"
+        ?disabled=${!this.isCurrent}
+        @click=${() => this.checks?.choose(finding)}
+      >
+        <span>${words.sentences[code](saidOf(finding, format))}</span>
+        <span class="quiet figures">${layers} · ${place}</span>
+      </button>
+    </li>`;
+  }
+
+  /** The arrow keys go from finding to finding, and Escape ends the choice. */
+  readonly #pressed = (event: KeyboardEvent): void => {
+    const step = event.key === "ArrowDown" ? 1 : event.key === "ArrowUp" ? -1 : 0;
+    if (step !== 0) {
+      const all = [...this.renderRoot.querySelectorAll<HTMLElement>("button.finding")];
+      const to = all[all.indexOf(event.target as HTMLElement) + step];
+      if (to === undefined) return;
+      event.preventDefault();
+      to.focus();
+    } else if (event.key === "Escape" && this.chosen !== null) {
+      // The sheet around it stays.
+      event.stopPropagation();
+      this.checks?.choose(null);
+    }
+  };
+}
+
+function sign(of: keyof typeof SIGNS | Severity): TemplateResult {
+  return html`<svg class=${of} viewBox="0 0 20 20" aria-hidden="true"><path d=${SIGNS[of]} /></svg>`;
+}
+
+/** Why a check failed. Codes and details match: both are of one error. */
+function sentenceOf({ code, detail }: SlicerError, { texts }: Language, metric: Metric): string {
+  return (texts.errors[code] as (detail: unknown, metric: Metric) => string)(detail, metric);
+}
+
+export function defineFindings(): void {
+  define("cusp-findings", CuspFindings);
+}
+
+declare global {
+  interface HTMLElementTagNameMap {
+    "cusp-findings": CuspFindings;
+  }
+}

@@ -1,0 +1,150 @@
+import { expect, test } from "vitest";
+import { SlicerError } from "../../api/error.js";
+import { SCHEMA, type Check } from "../../api/index.js";
+import type { Finding, Report } from "../../api/wire.js";
+import { planOf } from "./fake-slicer.js";
+import { planned, session, settle, slicer } from "./session-fixture.js";
+
+const finding = (code: Finding["code"], layers: [number, number] = [3, 5]): Finding => ({
+  ...{ code, severity: "review", at_mm: [0, 0, 1], layers, area_mm2: 2, volume_mm3: 3, joins_layer: undefined, limit: 1 },
+  bounds_mm: [
+    [-1, -1, 0],
+    [1, 1, 2],
+  ],
+});
+
+const peel = { area_mm2: [], largest_layer: 0, jump_layer: 0, jump_mm2: 0, contact: 1 };
+
+function checkOf(...codes: Finding["code"][]): Check {
+  const findings = codes.map((code) => finding(code));
+  const counts = codes.map((code) => ({ code, found: 1 }));
+  return { schema: SCHEMA, verdict: codes.length > 0 ? "review" : "ok", findings, counts, bodies: 1, peel };
+}
+
+const asked = (): number => slicer.calls.filter(({ what }) => what === "check").length;
+
+async function open(): Promise<void> {
+  session.checks.isOpen = true;
+  await settle();
+}
+
+async function answer(check: Check): Promise<void> {
+  slicer.last.resolve(check);
+  await settle();
+}
+
+/** Plans again, for another tolerance. */
+async function replanned(tolerance: string): Promise<void> {
+  session.change({ tolerances: { ...session.settings.tolerances, volume: tolerance } });
+  await settle();
+  slicer.last.resolve(planOf(8));
+  await settle();
+}
+
+test("nothing is checked before somebody wants to know", async () => {
+  await planned();
+  expect(asked()).toBe(0);
+  await open();
+  expect(asked()).toBe(1);
+  await answer(checkOf("cup"));
+  expect(session.checks.check?.findings).toHaveLength(1);
+});
+
+test("each new plan is checked again while the panel is open, and the earlier check counts no more", async () => {
+  await planned();
+  await open();
+  await answer(checkOf("cup"));
+  session.turn([0, 1, 0, 0], true);
+  await settle();
+  expect(session.checks.check).not.toBeNull();
+  slicer.last.resolve(planOf(8));
+  await settle();
+  expect(slicer.last.what).toBe("check");
+  expect(session.checks.check).toBeNull();
+  expect(session.checks.last?.findings).toHaveLength(1);
+  await answer(checkOf());
+  expect(session.checks.check?.verdict).toBe("ok");
+  session.checks.isOpen = false;
+  session.turn([1, 0, 0, 0], true);
+  await settle();
+  slicer.last.resolve(planOf(9));
+  await settle();
+  expect(asked()).toBe(2);
+});
+
+test("a check that is overtaken by a plan is dropped, and made again for that plan", async () => {
+  await planned();
+  await open();
+  const overtaken = slicer.last;
+  await replanned("20");
+  overtaken.resolve(checkOf("cup"));
+  await settle();
+  expect(session.checks.last).toBeNull();
+  expect(slicer.last.what).toBe("check");
+  await answer(checkOf("trap", "speck"));
+  expect(session.checks.check?.findings).toHaveLength(2);
+  expect(asked()).toBe(2);
+});
+
+test("limits are a wish of their own, and other limits check again", async () => {
+  await planned();
+  session.checks.limits = {};
+  await settle();
+  expect(asked()).toBe(1);
+  await answer(checkOf("cup"));
+  session.checks.limits = { cup_mm2: 100 };
+  await settle();
+  expect(session.checks.check).toBeNull();
+  await answer(checkOf());
+  expect(session.checks.check?.verdict).toBe("ok");
+  session.checks.limits = null;
+  await settle();
+  expect(asked()).toBe(2);
+});
+
+test("several models are not checked", async () => {
+  await planned();
+  session.change({ tolerances: { ...session.settings.tolerances, volume: "20" } });
+  await settle();
+  const plan = planOf(8);
+  slicer.last.resolve({ ...plan, report: { ...plan.report, plate: {} } as unknown as Report });
+  await settle();
+  await open();
+  expect(asked()).toBe(0);
+});
+
+test("a failure is the panel's alone, and stays until there is another plan", async () => {
+  await planned();
+  await open();
+  slicer.last.reject(new SlicerError("bad-options", "unknown field", { system: "unknown field" }));
+  await settle();
+  expect(session.checks.error?.code).toBe("bad-options");
+  expect(session.failure).toBeNull();
+  expect(asked()).toBe(1);
+  await replanned("20");
+  expect(session.checks.error).toBeNull();
+  await answer(checkOf());
+  expect(session.checks.check?.verdict).toBe("ok");
+});
+
+test("a finding that is chosen shows its first layer; again, null and another plan end the choice", async () => {
+  await planned();
+  await open();
+  await answer(checkOf("cup", "trap"));
+  const [cup, trap] = session.checks.check?.findings ?? [];
+  if (cup === undefined || trap === undefined) throw new Error("there are no findings");
+  session.checks.choose(cup);
+  expect(session.layer).toBe(3);
+  expect(session.checks.chosen).toBe(cup);
+  session.checks.choose(trap);
+  expect(session.checks.chosen).toBe(trap);
+  session.checks.choose(trap);
+  expect(session.checks.chosen).toBeNull();
+  session.checks.choose(trap);
+  session.checks.choose(null);
+  expect(session.checks.chosen).toBeNull();
+  session.checks.choose(cup);
+  await replanned("20");
+  session.checks.choose(cup);
+  expect(session.checks.chosen).toBeNull();
+});

@@ -1,0 +1,124 @@
+/** What will fail when the plan is printed: checked in the background once somebody wants to know, for each new plan of a single model. */
+import { isAbort, SlicerError } from "../../api/error.js";
+import type { Check, Slicer } from "../../api/index.js";
+import type { Finding, Limits } from "../../api/wire.js";
+import type { Result } from "./result.js";
+
+export interface ChecksHost {
+  /** The plan shown; null without one. */
+  readonly result: Result | null;
+  changed(): void;
+  /** A check is wanted now. */
+  wanted(): void;
+  checked(check: Check): void;
+  unchecked(error: SlicerError): void;
+  /** A finding was chosen: its first layer is to be shown. */
+  look(layer: number): void;
+}
+
+/** What a check is of. */
+interface Subject {
+  readonly result: Result;
+  readonly limits: Limits | null;
+}
+
+export class Checks {
+  /** The last check, which may be of an earlier plan. */
+  last: Check | null = null;
+  /** The finding that is chosen, of the current check. */
+  chosen: Finding | null = null;
+  readonly #host: ChecksHost;
+  readonly #slicer: Pick<Slicer, "check">;
+  #limits: Limits | null = null;
+  #isOpen = false;
+  #error: SlicerError | null = null;
+  /** The plan and the limits of the last check, or of its failure. */
+  #of: Subject | null = null;
+
+  constructor(host: ChecksHost, slicer: Pick<Slicer, "check">) {
+    this.#host = host;
+    this.#slicer = slicer;
+  }
+
+  /** What a shop accepts. With limits every plan is checked; without them, while a panel shows the findings. */
+  get limits(): Limits | null {
+    return this.#limits;
+  }
+  set limits(limits: Limits | null) {
+    this.#limits = limits;
+    this.chosen = null;
+    this.#host.changed();
+    this.#host.wanted();
+  }
+
+  /** Whether a panel shows the findings. */
+  get isOpen(): boolean {
+    return this.#isOpen;
+  }
+  set isOpen(isOpen: boolean) {
+    if (isOpen === this.#isOpen) return;
+    this.#isOpen = isOpen;
+    this.chosen = null;
+    this.#host.changed();
+    if (isOpen) this.#host.wanted();
+  }
+
+  /** Whether the last check or its failure is that of the plan shown. */
+  get isCurrent(): boolean {
+    return this.#of !== null && this.#isNow(this.#of);
+  }
+
+  /** The check of the plan shown; null until it is made. */
+  get check(): Check | null {
+    return this.isCurrent && this.#error === null ? this.last : null;
+  }
+
+  /** Why the plan shown could not be checked; null if it could, or has not been yet. */
+  get error(): SlicerError | null {
+    return this.isCurrent ? this.#error : null;
+  }
+
+  /** Chooses a finding of the current check and shows its first layer; the chosen one again, or null, clears the choice. */
+  choose(finding: Finding | null): void {
+    this.chosen = finding === this.chosen || this.check === null ? null : finding;
+    if (this.chosen === null) this.#host.changed();
+    else this.#host.look(this.chosen.layers[0]);
+  }
+
+  /** Checks a plan of a single model; false if there was nothing to check, or nobody wants to know. */
+  async fetch(result: Result): Promise<boolean> {
+    const limits = this.#limits;
+    const of = { result, limits };
+    // A model alone: findings are in its frame, and limits are those of a part.
+    if (!(this.#isOpen || limits !== null) || this.isCurrent || result.report.plate !== undefined) return false;
+    try {
+      const check = await this.#slicer.check(limits ?? {});
+      if (!this.#isNow(of)) return true;
+      this.#keep(of, check, null);
+      this.#host.checked(check);
+    } catch (error) {
+      if (isAbort(error) || !(error instanceof SlicerError)) throw error;
+      if (!this.#isNow(of)) return true;
+      this.#keep(of, null, error);
+      this.#host.unchecked(error);
+    }
+    this.#host.changed();
+    return true;
+  }
+
+  /** Forgets everything: another model was opened. */
+  forget(): void {
+    this.last = this.chosen = this.#error = this.#of = null;
+  }
+
+  #isNow({ result, limits }: Subject): boolean {
+    return result === this.#host.result && limits === this.#limits;
+  }
+
+  #keep(of: Subject, check: Check | null, error: SlicerError | null): void {
+    this.#of = of;
+    this.last = check;
+    this.#error = error;
+    this.chosen = null;
+  }
+}
