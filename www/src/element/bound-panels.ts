@@ -11,6 +11,7 @@ import type { Facts } from "./facts.js";
 import type { Scaled } from "./panels/model-view.js";
 import type { Searched } from "./panels/orientation-panel.js";
 import type { PlotPlace } from "./panels/profile-chart.js";
+import { define } from "./define.js";
 import { FetchedPanel } from "./parts/part.js";
 import { fileWords } from "./parts/file-words.js";
 import { sentence } from "./state/comparison.js";
@@ -131,7 +132,14 @@ export function qualityPanel({ session, language }: Facts, result: Result): Temp
   ></cusp-quality>`;
 }
 
-export function maskPanel({ session, language }: Facts, result: Result): TemplateResult {
+/** On the page its tab is not the first, and its picture brings a good part of the code. */
+const maskCode = new FetchedPanel("mask", async () => {
+  const { CuspMask } = await import("./panels/mask-view.js");
+  define("cusp-mask", CuspMask);
+});
+
+export function maskPanel({ element, session, language }: Facts, result: Result): TemplateResult | typeof nothing {
+  if (!maskCode.isThere) return maskCode.instead(element, language);
   return html`<cusp-mask
     .mask=${session.mask}
     .report=${result.report}

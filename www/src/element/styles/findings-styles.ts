@@ -104,8 +104,10 @@ export const findingsStyles = css`
     box-shadow: inset 3px 0 var(--cusp-accent);
   }
   @media (forced-colors: active) {
-    svg {
+    svg,
+    svg[class] {
       stroke: CanvasText;
+      background: Canvas;
       border: 1px solid CanvasText;
     }
     .finding[aria-pressed="true"] {
