@@ -7,6 +7,7 @@ import { promisify } from "node:util";
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import type { Check } from "../src/api/index.js";
+import type { CuspView } from "../src/view/cusp-view.js";
 import type { CuspWorkbench } from "../src/workbench/cusp-workbench.js";
 import { broken } from "./axe.js";
 import { drop, maskOf, openPanel, settled, state } from "./browser.js";
@@ -30,7 +31,7 @@ async function opened(options: Parameters<typeof start>[1]): Promise<Page> {
 
 const verdict = (page: Page): Promise<string | null> => page.locator("cusp-findings [data-verdict]").getAttribute("data-verdict");
 
-test("a cup is found, choosing it shows its first layer, and upside down it is none", async () => {
+test("a cup is found, choosing it shows its first layer and marks it, and upside down it is none", async () => {
   const page = await opened(DESKTOP);
   expect(await verdict(page)).toBe("review");
   const [finding] = await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.check?.findings ?? []);
@@ -42,11 +43,18 @@ test("a cup is found, choosing it shows its first layer, and upside down it is n
   expect(await broken(page)).toEqual([]);
   await openPanel(page, "Mask");
   await maskOf(page, finding?.layers[0] ?? -1);
+  // Marked in the mask, in the chart, and in the view.
+  expect(await page.locator("cusp-mask canvas[data-marked]").count()).toBe(1);
+  const [band, plot] = await Promise.all([page.locator("cusp-chart .range").boundingBox(), page.locator("cusp-chart .u-over").boundingBox()]);
+  // Of 8 mm, the hollow begins 1.5 mm above the plate.
+  expect((band?.height ?? 0) / (plot?.height ?? 1)).toBeCloseTo(6.5 / 8, 1);
+  expect(await page.locator("cusp-view").evaluate((view: CuspView) => view.mark?.bounds_mm[1][2])).toBeCloseTo(8, 1);
   await openPanel(page, "Check");
   await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => void (element.query = "rotation=1,0,0,0"));
   await settled(page);
   await expect.poll(() => page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.check?.findings.map(({ code }) => code))).not.toContain("cup");
   await expect.poll(() => found.count()).toBe(0);
+  expect(await page.locator("cusp-chart .range").isVisible()).toBe(false);
 });
 
 test("by keyboard findings are gone through, chosen and let go, and the sheet stays", async () => {

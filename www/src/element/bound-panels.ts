@@ -1,6 +1,6 @@
 /** The panels, bound to a session: what each shows of it, and what it changes there. Layouts put them in their places. */
 import { html, nothing, type TemplateResult } from "lit";
-import { isFilament, type Candidate } from "../api/wire.js";
+import { isFilament, type Candidate, type Finding } from "../api/wire.js";
 import type { RotateDetail } from "../view/events.js";
 import type { MoveDetail } from "../view/scene/moving.js";
 import type { PaletteName } from "../view/legend/palette.js";
@@ -67,6 +67,7 @@ export function modelPanel({ session, language, slicer, saveWeights }: Facts): T
     .model=${session.model}
     .shown=${shown}
     .layer=${layer}
+    .mark=${session.checks.chosen}
     .rotation=${turning ?? rotationOf(settings.rotation)}
     .scaled=${scaledOf(session)}
     .printer=${printerOf(settings.printer, session.printers)}
@@ -93,6 +94,7 @@ export function modelPanel({ session, language, slicer, saveWeights }: Facts): T
 export function chartPanel({ session, language }: Facts, placed = besideView): TemplateResult {
   return html`<cusp-chart
     .data=${session.shown}
+    .mark=${heightsOf(session.checks.chosen)}
     .layer=${session.layer}
     .language=${language}
     @cusp-layer=${(event: CustomEvent<number>) => session.selectLayer(event.detail)}
@@ -142,6 +144,7 @@ export function maskPanel({ element, session, language }: Facts, result: Result)
   if (!maskCode.isThere) return maskCode.instead(element, language);
   return html`<cusp-mask
     .mask=${session.mask}
+    .mark=${session.checks.chosen}
     .report=${result.report}
     .limits=${result.limits}
     .layer=${session.layer}
@@ -224,6 +227,10 @@ function beside<Name extends "cusp-model" | "cusp-orientation">(target: EventTar
 
 function searchedOf({ orientation: { aims, found, best, now, busy, isCurrent, isPossible, options } }: Session): Searched {
   return { aims, found, best, now, busy, isCurrent, isPossible, options };
+}
+
+function heightsOf(finding: Finding | null): readonly [number, number] | null {
+  return finding === null ? null : [finding.bounds_mm[0][2], finding.bounds_mm[1][2]];
 }
 
 const rotations = new Map<string, Rotation>();

@@ -26,6 +26,7 @@ import { Scene } from "./scene/scene.js";
 import { contextOf, place } from "./scene/surface.js";
 import { template } from "./template.js";
 import { themeOf } from "./scene/theme.js";
+import { FLIGHT_MS } from "./scene/viewpoint.js";
 import { viewStyles } from "./view-styles.js";
 import { elementWith } from "./properties.js";
 import { PROPERTIES } from "./view-properties.js";
@@ -213,6 +214,7 @@ export class CuspView extends elementWith(PROPERTIES) {
     }
     if ((["positions", "look", "heat", "saliency", "least"] as const).some(has)) this.#heat(null);
     if ((["positions", "rotation", "scale", "z_mm", "look"] as const).some(has)) this.#print();
+    if (has("mark") && (this.mark !== null || this.hasUpdated)) scene.setMark(this.mark, scene.isSmooth && !this.#reducedMotion.matches ? FLIGHT_MS : 0);
     this.#near();
     scene.invalidate();
   }

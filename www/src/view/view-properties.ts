@@ -4,6 +4,7 @@ import { BRUSH } from "./paint/brush.js";
 import type { Tool } from "./scene/keys.js";
 import type { Copy } from "./scene/copies.js";
 import type { Heat } from "./paint/heat.js";
+import type { Mark } from "./scene/marker.js";
 import type { Look } from "./scene/model.js";
 import type { PaletteName } from "./legend/palette.js";
 import type { BuildVolume } from "./scene/plate.js";
@@ -26,6 +27,8 @@ export const PROPERTIES = {
   limits: given<readonly [number, number]>([0, 0]),
   /** The selected layer, counted from 0. */
   layer: given<number | null>(null),
+  /** A place that is marked and turned to the viewer; null: none. */
+  mark: given<Mark | null>(null),
   /** The printer's build volume; without one the plate is a grid that fades out. */
   plate: given<BuildVolume | null>(null),
   /** The copies on the plate, of which the model is the one at `selected`; empty: it is alone in the middle. */

@@ -37,7 +37,9 @@ export class CuspWorkbench extends SlicerElement {
     super();
     define("cusp-layer-slider", CuspLayerSlider);
     this.addEventListener("keydown", (event) => {
-      if (event.key === "Escape" && this.#sheet !== null) this.#set(() => (this.#sheet = null));
+      if (event.key !== "Escape") return;
+      if (this.#sheet !== null) this.#set(() => (this.#sheet = null));
+      else this.session.checks.choose(null);
     });
   }
 

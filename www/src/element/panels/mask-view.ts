@@ -2,9 +2,9 @@
 import { html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
 import type { Mask } from "../../api/index.js";
-import type { Report } from "../../api/wire.js";
+import type { Finding, Report } from "../../api/wire.js";
 import { languageOf } from "../../texts/index.js";
-import { coverage, factorFor, wholeBytes } from "../parts/bitmap.js";
+import { coverage, factorFor, wholeBytes, type Rectangle } from "../parts/bitmap.js";
 import { css as cssColour, ofThickness } from "../../view/legend/palette.js";
 import { styled } from "../parts/styled.js";
 import { maskStyles } from "../styles/mask-styles.js";
@@ -18,6 +18,10 @@ const CALM_FRAME_MS = 400;
 
 /** How far an arrow key moves the picture, as a fraction of the visible part. */
 const STEP = 0.125;
+
+/** The box around a finding: its colour, which a mask has not, and its room, CSS pixels. */
+const MARK_COLOUR = "#ff9f1a";
+const MARK_ROOM_PX = 4;
 
 const ARROWS: Readonly<Record<string, readonly [number, number]>> = {
   ArrowLeft: [-STEP, 0],
@@ -36,6 +40,8 @@ const PROPERTIES = {
   report: given<Layered | null>(null),
   limits: given<readonly [number, number]>([0, 0]),
   layer: given(0),
+  /** The finding to be shown, in its layers. */
+  mark: given<Pick<Finding, "bounds_mm" | "layers"> | null>(null),
   language: given(languageOf()),
   place: own(WHOLE),
   playing: own(false),
@@ -145,7 +151,7 @@ export class CuspMask extends elementWith(PROPERTIES) {
   }
 
   override updated(changed: PropertyValues<this>): void {
-    if (changed.has("mask") || changed.has("place")) this.#paint();
+    if (changed.has("mask") || changed.has("place") || changed.has("mark")) this.#paint();
     if (this.playing && changed.has("mask")) this.#next();
   }
 
@@ -184,8 +190,31 @@ export class CuspMask extends elementWith(PROPERTIES) {
       const [x, y] = [(whole.x - part.x) * scale[0], (whole.y - part.y) * scale[1]];
       pen.drawImage(picture, x, y, picture.width * factor * scale[0], picture.height * factor * scale[1]);
     }
+    this.#mark(pen, part, scale);
     // The layer of the picture, which may lag behind the slider.
     canvas.dataset["layer"] = String(mask.layer);
+  }
+
+  /** Draws a box around the finding, if it is in the layer of the picture. */
+  #mark(pen: CanvasRenderingContext2D, part: Rectangle, scale: readonly [number, number]): void {
+    const { mask, mark, report } = this;
+    const isHere = mask !== null && mark !== null && report !== null && mask.layer >= mark.layers[0] && mask.layer <= mark.layers[1];
+    this.#canvas.toggleAttribute("data-marked", isHere);
+    if (!isHere) return;
+    const { pitch_mm, pitch_y_mm } = report.mask;
+    const [[left, front], [right, back]] = mark.bounds_mm;
+    // The model is in the middle of the mask, whose rows begin at the back.
+    const at = (x_mm: number, y_mm: number): Point => [
+      (mask.width / 2 + x_mm / pitch_mm - part.x) * scale[0],
+      (mask.height / 2 - y_mm / pitch_y_mm - part.y) * scale[1],
+    ];
+    const [[x0, y0], [x1, y1]] = [at(left, back), at(right, front)];
+    const room = MARK_ROOM_PX * devicePixelRatio;
+    for (const [colour, width] of [["#000", 4], [MARK_COLOUR, 2]] as const) {
+      pen.strokeStyle = colour;
+      pen.lineWidth = width * devicePixelRatio;
+      pen.strokeRect(x0 - room, y0 - room, x1 - x0 + 2 * room, y1 - y0 + 2 * room);
+    }
   }
 
   #go(layer: number): void {

@@ -3,6 +3,7 @@ import { css, html, nothing, type PropertyValues, type TemplateResult } from "li
 import type { Model, Slicer } from "../../api/index.js";
 import type { Printer } from "../../api/wire.js";
 import { languageOf, type Language } from "../../texts/index.js";
+import type { Mark } from "../../view/scene/marker.js";
 import type { Look } from "../../view/scene/model.js";
 import type { PaletteName } from "../../view/legend/palette.js";
 import type { Rotation } from "../../view/scene/pose.js";
@@ -43,6 +44,8 @@ const PROPERTIES = {
   model: given<Model | null>(null),
   shown: given<Shown | null>(null),
   layer: given(0),
+  /** The finding to be shown. */
+  mark: given<Mark | null>(null),
   rotation: given<Rotation>([0, 0, 0, 1]),
   /** The height that the model is scaled to, and the pose in which it has that height; null for the file's own size. */
   scaled: given<Scaled | null>(null, (a: unknown, b: unknown) => JSON.stringify(a) !== JSON.stringify(b)),
@@ -212,6 +215,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
               .thickness_mm=${shown?.thickness_mm ?? []}
               .limits=${shown?.limits ?? [0, 0]}
               .layer=${shown === null || showsHeat ? null : this.layer}
+              .mark=${this.mark}
               .plate=${volumeOf(this.printer)}
               .look=${showsHeat ? "weights" : isPainting ? "thickness" : this.look}
               .weights=${this.weights}

@@ -35,6 +35,8 @@ const PAGE = 10;
 const PROPERTIES = {
   data: given<ChartData | null>(null),
   layer: given(0),
+  /** The heights of the finding that is shown, mm. */
+  mark: given<Heights | null>(null, (a, b) => String(a) !== String(b)),
   language: given(languageOf()),
   zoomed: own(false),
   /** The bin under the pointer, or where somebody tapped. */
@@ -48,6 +50,7 @@ export class CuspChart extends elementWith(PROPERTIES) {
   #library: typeof uPlot | null = null;
   #plot: uPlot | null = null;
   #marker: HTMLElement | null = null;
+  #range: HTMLElement | null = null;
   #resized: ResizeObserver | null = null;
   /** The colours of the canvas are those of the page when it is drawn. */
   readonly #schemes = ["(prefers-color-scheme: dark)", "(forced-colors: active)"].map((query) => matchMedia(query));
@@ -143,7 +146,7 @@ export class CuspChart extends elementWith(PROPERTIES) {
 
   override updated(changed: PropertyValues<this>): void {
     if (changed.has("data") || changed.has("language")) this.#build();
-    else if (changed.has("layer")) {
+    else if (changed.has("layer") || changed.has("mark")) {
       this.#reveal();
       this.#mark();
     }
@@ -230,7 +233,9 @@ export class CuspChart extends elementWith(PROPERTIES) {
     this.#place([0, whole]);
     this.#marker = document.createElement("div");
     this.#marker.className = "marker";
-    this.#plot.over.append(this.#marker);
+    this.#range = document.createElement("div");
+    this.#range.className = "range";
+    this.#plot.over.append(this.#range, this.#marker);
     this.#plot.over.addEventListener("click", this.#clicked);
     this.#mark();
   };
@@ -341,9 +346,21 @@ export class CuspChart extends elementWith(PROPERTIES) {
   #mark(): void {
     const [plot, marker] = [this.#plot, this.#marker];
     if (plot === null || marker === null || this.data === null) return;
+    this.#span(plot);
     const top = plot.valToPos(this.#middle, "x");
     marker.hidden = !(top >= 0 && top <= plot.over.clientHeight);
     marker.style.transform = `translateY(${Math.round(top) - 1}px)`;
+  }
+
+  /** Marks the heights of the finding, as far as they are on show. */
+  #span(plot: uPlot): void {
+    const [range, mark] = [this.#range, this.mark];
+    if (range === null) return;
+    const end = plot.over.clientHeight;
+    const [bottom, top] = (mark ?? [0, 0]).map((z_mm) => Math.min(end, Math.max(0, plot.valToPos(z_mm, "x")))) as [number, number];
+    range.hidden = mark === null || (bottom === top && (top === 0 || top === end));
+    range.style.top = `${top}px`;
+    range.style.height = `${Math.max(2, bottom - top)}px`;
   }
 
   #theme(): ChartTheme {

@@ -25,12 +25,11 @@ interface Subject {
 export class Checks {
   /** The last check, which may be of an earlier plan. */
   last: Check | null = null;
-  /** The finding that is chosen, of the current check. */
-  chosen: Finding | null = null;
   readonly #host: ChecksHost;
   readonly #slicer: Pick<Slicer, "check">;
   #limits: Limits | null = null;
   #isOpen = false;
+  #chosen: Finding | null = null;
   #error: SlicerError | null = null;
   /** The plan and the limits of the last check, or of its failure. */
   #of: Subject | null = null;
@@ -46,7 +45,6 @@ export class Checks {
   }
   set limits(limits: Limits | null) {
     this.#limits = limits;
-    this.chosen = null;
     this.#host.changed();
     this.#host.wanted();
   }
@@ -58,7 +56,6 @@ export class Checks {
   set isOpen(isOpen: boolean) {
     if (isOpen === this.#isOpen) return;
     this.#isOpen = isOpen;
-    this.chosen = null;
     this.#host.changed();
     if (isOpen) this.#host.wanted();
   }
@@ -78,9 +75,14 @@ export class Checks {
     return this.isCurrent ? this.#error : null;
   }
 
+  /** The finding that is chosen, also once no panel shows it any more; null if the plan is another. */
+  get chosen(): Finding | null {
+    return this.check === null ? null : this.#chosen;
+  }
+
   /** Chooses a finding of the current check and shows its first layer; the chosen one again, or null, clears the choice. */
   choose(finding: Finding | null): void {
-    this.chosen = finding === this.chosen || this.check === null ? null : finding;
+    this.#chosen = finding === this.chosen ? null : finding;
     if (this.chosen === null) this.#host.changed();
     else this.#host.look(this.chosen.layers[0]);
   }
@@ -108,7 +110,7 @@ export class Checks {
 
   /** Forgets everything: another model was opened. */
   forget(): void {
-    this.last = this.chosen = this.#error = this.#of = null;
+    this.last = this.#chosen = this.#error = this.#of = null;
   }
 
   #isNow({ result, limits }: Subject): boolean {
@@ -119,6 +121,6 @@ export class Checks {
     this.#of = of;
     this.last = check;
     this.#error = error;
-    this.chosen = null;
+    this.#chosen = null;
   }
 }

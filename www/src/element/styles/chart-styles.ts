@@ -105,6 +105,17 @@ export const chartStyles = css`
     opacity: 0.25;
     forced-color-adjust: none;
   }
+  /* The heights of a finding. */
+  .range {
+    position: absolute;
+    inset-inline: 0;
+    border-block: 2px dashed #c05f00;
+    background: rgb(255 159 26 / 0.3);
+    pointer-events: none;
+  }
+  .range[hidden] {
+    display: none;
+  }
   .marker {
     position: absolute;
     left: -5px;

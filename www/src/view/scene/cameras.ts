@@ -38,6 +38,13 @@ const ROOM = 1.14;
 const NEAREST = 0.05;
 const FARTHEST = 6;
 
+/** How steeply a place is looked at, as rise over run. */
+const SIDEWAYS = 0.6;
+
+/** A place that is faced covers at least this many pixels, unless it is smaller than this part of the model. */
+const FACED_PX = 180;
+const FACED_PART = 0.3;
+
 const FIRST = new Vector3(...FIRST_LOOK);
 
 /** A perspective camera with z upwards. */
@@ -230,6 +237,27 @@ export class Cameras {
     this.#nearest = NEAREST * away;
     this.#limit();
     this.#fly(from, to, duration_ms);
+  }
+
+  /** Turns a place to the viewer: about z where the view is aligned, otherwise from outside, and near enough to see `length_mm` there. */
+  face([x, y, z]: Triple, length_mm: number, duration_ms: number): void {
+    const outward = Math.hypot(x, y);
+    // In the middle no side is nearer than another.
+    const isCentral = outward < 0.02 * Math.hypot(...this.#size_mm);
+    if (this.#aligned) {
+      if (!isCentral) this.#lookAlong(QUARTER_TURN, Math.atan2(x, -y));
+      return;
+    }
+    const [fx, fy] = isCentral ? FIRST_LOOK : [x / outward, y / outward];
+    // From below where the place is in the lower half.
+    const direction = new Vector3(fx, fy, 0).normalize().setZ(2 * z < this.#size_mm[2] ? -SIDEWAYS : SIDEWAYS).normalize();
+    const whole_mm = Math.hypot(...this.#size_mm);
+    const away = this.distanceFor(Math.max(length_mm, FACED_PART * whole_mm), FACED_PX);
+    const position = new Vector3(x, y, z).addScaledVector(direction, away).toArray();
+    const before = this.#approached?.from;
+    this.approachTo({ position, target: [x, y, z] }, duration_ms);
+    // From one place to the next: the way back leads to where the first one began.
+    if (before !== undefined && this.#approached !== null) this.#approached = { ...this.#approached, from: before };
   }
 
   /** Brings the free camera back to where it was before it approached a place, unless it was moved since. */

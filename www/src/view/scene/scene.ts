@@ -20,6 +20,7 @@ import { Cameras, type Alignment, type Frame } from "./cameras.js";
 import { Copies, matrixOf, sizeOfAll, type Copy } from "./copies.js";
 import { Gizmo, type GizmoReports } from "./gizmo.js";
 import type { Tool } from "./keys.js";
+import { Marker, middleOf, type Mark } from "./marker.js";
 import { Model } from "./model.js";
 import type { Rgb } from "../legend/palette.js";
 import { Picker, type Hit } from "./picker.js";
@@ -61,6 +62,7 @@ export class Scene {
   readonly cameras: Cameras;
   readonly plate: Plate;
   readonly copies: Copies;
+  readonly #marker = new Marker();
   readonly #renderer: WebGLRenderer;
   readonly #scene = new ThreeScene();
   readonly #gizmo: Gizmo;
@@ -109,6 +111,7 @@ export class Scene {
     this.copies = new Copies(this.model.material.uniforms);
     this.#face.frustumCulled = false;
     this.model.facets.add(this.#face);
+    this.model.stand.add(this.#marker.group);
     this.#scene.add(this.model.stand, this.copies.group, this.plate.group);
     this.#gizmo = new Gizmo(this.cameras.current, canvas, this.#scene, {
       ...reports,
@@ -227,6 +230,15 @@ export class Scene {
     this.invalidate();
   }
 
+  /** Marks a place and turns it to the viewer; null ends that, and brings the camera back unless it was moved since. */
+  setMark(mark: Mark | null, duration_ms: number): void {
+    this.#marker.set(mark, this.model.size_mm);
+    const isAligned = this.align() !== null;
+    if (mark === null) this.cameras.withdraw(duration_ms);
+    else this.cameras.face(middleOf(mark), this.#marker.group.scale.length(), isAligned ? 0 : duration_ms);
+    this.invalidate();
+  }
+
   /** Highlights these facets; `null`: none. */
   setFace(facets: readonly number[] | null): void {
     const { geometry } = this.#face;
@@ -288,6 +300,7 @@ export class Scene {
     this.#offscreen.dispose();
     this.plate.dispose();
     this.copies.dispose();
+    this.#marker.dispose();
     this.model.dispose();
     this.#face.geometry.dispose();
     this.#face.material.dispose();
