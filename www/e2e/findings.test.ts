@@ -71,6 +71,21 @@ test("by keyboard findings are gone through, chosen and let go, and the sheet st
   await expect.poll(() => page.locator(".sheet").count()).toBe(0);
 });
 
+test("with limits of a shop every plan is checked, without a panel, and the page is told", async () => {
+  const page = await start("?backend=cpu", DESKTOP);
+  await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => {
+    element.addEventListener("cusp-check", ({ detail }) => void (document.body.dataset["told"] = detail.verdict));
+    element.limits = { severity: { cup: "reject" } };
+  });
+  await drop(page, mug);
+  await state(page, "done");
+  const told = (): Promise<string | undefined> => page.evaluate(() => document.body.dataset["told"]);
+  await expect.poll(told).toBe("reject");
+  await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => (element.limits = { cup_mm2: 1000 }));
+  await expect.poll(told).toBe("ok");
+  expect(await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.check?.verdict)).toBe("ok");
+});
+
 const program = process.env["CUSP"];
 
 test.skipIf(program === undefined)("the page finds what the command line does", async () => {
