@@ -71,7 +71,7 @@ test("copies are typed and stepped, and fill a second plate, which has a print f
 });
 
 test("a model is added to the open one; each has its own pose; removed, the other is as it was alone", async () => {
-  const page = await start("?printer=mars-4-ultra");
+  const page = await start("?printer=mars-4-ultra&height=8");
   await drop(page, ballFile);
   await state(page, "done");
   const alone = await downloaded(page);
@@ -80,6 +80,8 @@ test("a model is added to the open one; each has its own pose; removed, the othe
   await page.locator("cusp-plate").waitFor();
   await state(page, "done");
   expect(await listed(page)).toEqual(["ball.stl", "block.stl"]);
+  await page.locator("cusp-plate .name", { hasText: "ball.stl" }).click();
+  await expect.poll(() => page.locator(".model > .figures").first().innerText()).toMatch(/× 8\.0\smm/);
   // The height is that of the selected model.
   await page.locator("cusp-plate .name", { hasText: "block.stl" }).click();
   await expect.poll(() => page.locator(".model-name").innerText()).toBe("block.stl");

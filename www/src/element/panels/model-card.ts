@@ -64,7 +64,8 @@ export function modelCard(
   const { name, info } = model;
   const own = info.size_mm;
   // A plate is as high as the highest of its models.
-  const scale = result === null || own[2] === 0 || session.plate.isSeveral ? 1 : result.report.height_mm / own[2];
+  const height_mm = session.plate.isSeveral ? session.plate.heightOf(place) : result?.report.height_mm;
+  const scale = height_mm && own[2] !== 0 ? height_mm / own[2] : 1;
   const isScaled = session.settings.rotation === "" && Math.abs(scale - 1) > 1e-3;
   const size = (isScaled ? own.map((mm) => mm * scale) : own) as [number, number, number];
   return html`<section class="card model" part="model" aria-label=${texts.model.region}>
