@@ -3,9 +3,8 @@ import { randomUUID } from "node:crypto";
 import { readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { expect, test } from "vitest";
-import { FIXED } from "../examples/shop/catalogue.js";
+import { FIXED, LIMITS, pricesOf } from "../examples/shop/catalogue.js";
 import { time } from "../examples/shop/page/format.js";
-import { priceOf } from "../examples/shop/price.js";
 import type { Order } from "../examples/shop/server/store.js";
 import { languageOf } from "../src/texts/index.js";
 import { expectNoLeftovers, incoming, orders, printer, resin, shops, type OpenShop } from "./shop-open.js";
@@ -18,7 +17,25 @@ const VERDICT = {
   ...{ layers: 3, max_error: 0.05, tolerance: 0.06, print_time_s: 3600, resin_ml: 10, print_is_same: true },
   warnings: WARNINGS,
 };
-const HONEST = `console.log(${JSON.stringify(JSON.stringify(VERDICT))});`;
+/** What the stand-in says: it prices what it was asked to, by the prices that lie in the folder, in a formula of its own. */
+const answering = (verdict: string): string => `{
+  const read = (flag) => JSON.parse(require("node:fs").readFileSync(process.argv[process.argv.indexOf(flag) + 1], "utf8"));
+  const prices = read("--prices");
+  const copies = Number(process.argv[process.argv.indexOf("--copies") + 1]);
+  const lines = [
+    { kind: "setup", amount: prices.setup },
+    { kind: "machine", amount: prices.machine_per_h * copies },
+    { kind: "resin", amount: prices.resin_per_ml * 10 * copies },
+  ];
+  const price = { currency: "EUR", digits: 2, copies, finish: null, lines, total: lines.reduce((sum, { amount }) => sum + amount, 0) };
+  const findings = "${verdict}" === "ok" ? [] : [{ code: "trap", severity: "reject" }];
+  const printability = { verdict: "${verdict}", findings, counts: findings.map(({ code }) => ({ code, found: 1 })) };
+  console.log(JSON.stringify({ ...${JSON.stringify(VERDICT)}, price, printability, limits: read("--limits") }));
+  if ("${verdict}" === "reject") process.exitCode = 1;
+}`;
+const HONEST = answering("ok");
+/** For one copy: 450 for set-up, 320 for an hour, 380 for 10 ml. */
+const ONE_CENTS = 1150;
 const { note: _note, swatch: _swatch, ml_cents: _cents, ...cured } = resin;
 const OPTIONS = { ...FIXED, printer: printer.name, resin: cured, tolerance: 0.06 };
 
@@ -49,7 +66,7 @@ async function post({ address }: OpenShop, sent: Sent = {}): Promise<Answer> {
   const form = new FormData();
   const plan = new Blob([JSON.stringify({ ...VERDICT, options: { ...OPTIONS, ...sent.options } })], { type: "application/json" });
   const file = new Blob(["solid"], { type: "model/stl" });
-  const price_cents = String(priceOf(VERDICT, printer, resin, 1).total_cents);
+  const price_cents = String(ONE_CENTS);
   const parts = { copies: "1", price_cents, plan, model: file, print: sent.print ?? file, ...sent.fields };
   for (const [name, part] of Object.entries(parts)) form.set(name, part);
   const { key = randomUUID(), signal = null } = sent;
@@ -232,17 +249,26 @@ test("a key whose order was refused is not spent, nor is that of a customer who 
 
 test("the lines of an order add up to its price, and are kept with it", async () => {
   const open = await start((await counting()).cusp);
-  const { lines = [], total_cents } = priceOf(VERDICT, printer, resin, 3);
-  expect(lines.map(({ name, each_cents, count, total_cents }) => [name, each_cents, count, total_cents])).toEqual([
-    ["setup", 450, 1, 450],
-    ["time", 320, 3, 960],
-    ["resin", 380, 3, 1140],
-  ]);
-  expect(total_cents).toBe(2550);
-  const answer = await post(open, { fields: { copies: "3", price_cents: String(total_cents) } });
-  expect(answer).toMatchObject({ status: 201, lines, price_cents: total_cents });
-  const kept = JSON.parse(await readFile(join(open.folder, "orders", answer.id ?? "", "order.json"), "utf8")) as Order;
-  expect(kept).toMatchObject({ lines, price_cents: total_cents, verdict: { warnings: WARNINGS } });
+  const lines = [
+    { kind: "setup", amount: 450 },
+    { kind: "machine", amount: 960 },
+    { kind: "resin", amount: 1140 },
+  ];
+  const answer = await post(open, { fields: { copies: "3", price_cents: "2550" } });
+  expect(answer).toMatchObject({ status: 201, lines, price_cents: 2550 });
+  const kept = async (file: string): Promise<unknown> => JSON.parse(await readFile(join(open.folder, "orders", answer.id ?? "", file), "utf8"));
+  // The program was given the shop's own limits and prices, and they are kept with the order.
+  const verified = { warnings: WARNINGS, printability: { verdict: "ok" }, limits: LIMITS };
+  expect(await kept("order.json")).toMatchObject({ lines, price_cents: 2550, verified });
+  expect(await kept("limits.json")).toEqual(LIMITS);
+  expect(await kept("prices.json")).toEqual(pricesOf(printer, resin));
+});
+
+test("what is not printable is refused, whatever it costs", async () => {
+  const open = await start(await program(answering("reject")));
+  expect(await post(open)).toMatchObject({ status: 422, code: "not-printable", message: expect.stringContaining("trap") });
+  expect(await orders(open)).toEqual([]);
+  await expectNoLeftovers(open);
 });
 
 test("the page writes times as the element does", () => {

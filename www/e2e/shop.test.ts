@@ -6,14 +6,14 @@ import { fileURLToPath } from "node:url";
 import type { Browser, BrowserContextOptions, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect, test, type TestContext } from "vitest";
 import { findCusp } from "../examples/shop/cusp.js";
-import { priceOf, type Print } from "../examples/shop/price.js";
+import { pricesOf } from "../examples/shop/catalogue.js";
 import type { Order } from "../examples/shop/server/store.js";
 import type { Options } from "../src/api/index.js";
 import { binaryStl, exampleTriangles } from "../src/page/example.js";
 import { broken } from "./axe.js";
 import { launch, state } from "./browser.js";
 import { freePort } from "./serve.js";
-import { prism } from "./solids.js";
+import { prism, sealed } from "./solids.js";
 import { expectNoLeftovers, orders, printer, resin, shops } from "./shop-open.js";
 
 const cusp = findCusp();
@@ -112,28 +112,34 @@ withCusp("a customer sees look, time, resin and price, chooses, and orders", asy
     const slicer = document.querySelector("cusp-slicer");
     if (slicer !== null) slicer.query = `${slicer.query}&rotation=0.1,-0.2,0.05,1`;
   });
-  const shown = (): Promise<Print & { made: unknown[] }> =>
+  const shown = (): Promise<{ print_time_s: number; resin_ml: number; made: unknown[] }> =>
     page.evaluate(() => {
       const { print_time_s, resin_ml, resin, options } = document.querySelector("cusp-slicer")?.result?.report ?? {};
       return { print_time_s: print_time_s ?? 0, resin_ml: resin_ml ?? 0, made: [resin?.name, options?.rotation?.length] };
     });
   await expect.poll(async () => (await shown()).made).toEqual([resin.name, 4]);
-  const { lines, total_cents } = priceOf(await shown(), printer, resin, 2);
+  // The formula of docs/price.md by hand: two copies, no discount, more than the minimum.
+  const { print_time_s, resin_ml } = await shown();
+  const { setup = 0, machine_per_h = 0, resin_per_ml = 0 } = pricesOf(printer, resin);
+  const amounts = [setup, (machine_per_h * 2 * print_time_s) / 3600, resin_per_ml * 2 * resin_ml].map(Math.round);
+  const total_cents = amounts.reduce((sum, amount) => sum + amount, 0);
   await expect.poll(() => price.innerText()).toBe(`€${(total_cents / 100).toFixed(2)}`);
-  expect(await totals(page, "#parts")).toEqual(lines.map(({ total_cents }) => total_cents));
-  expect(await page.locator("#parts [data-line=time] .times").innerText()).toMatch(/^2 × €\d+\.\d\d$/);
+  expect(await totals(page, "#parts")).toEqual(amounts);
+  await expect.poll(() => page.locator("#verdict p").innerText()).toMatch(/^Printable/);
   // The element shows the same time in its own words.
   await expect.poll(() => page.locator("cusp-quality .head").innerText()).toContain(`, ${await page.locator("#time").innerText()}, `);
 
+  await expect.poll(() => page.locator("#order").isEnabled()).toBe(true);
   await press(page);
   const id = await page.locator(".placed li").getAttribute("data-order");
-  expect(await totals(page, ".placed li .lines")).toEqual(lines.map(({ total_cents }) => total_cents));
+  expect(await totals(page, ".placed li .lines")).toEqual(amounts);
   expect(await orders(open)).toEqual([id]);
   await expectNoLeftovers(open);
   const folder = join(open.folder, "orders", id ?? "");
   const order = JSON.parse(await readFile(join(folder, "order.json"), "utf8")) as Order;
   expect(order).toMatchObject({ id, printer: printer.name, resin: resin.name, copies: 2, price_cents: total_cents });
-  expect(order.verdict.print_is_same).toBe(true);
+  expect(order.verified.print_is_same).toBe(true);
+  expect(order.verified.printability.verdict).not.toBe("reject");
 
   // The stored files are what the native program makes of the same model.
   expect(await readFile(join(folder, "model.stl"))).toEqual(Buffer.from(binaryStl(exampleTriangles())));
@@ -165,6 +171,34 @@ withCusp("figures that were lowered on the way are refused, with the reason besi
   expect(await orders(open)).toEqual([]);
   await expectNoLeftovers(open);
 });
+
+withCusp("a sealed hollow is refused by the page with the reason, and by the server if it is sent nevertheless", async (cusp) => {
+  const open = await start(cusp);
+  const page = await visit(open.address);
+  await page.evaluate(async (bytes) => {
+    await document.querySelector("cusp-slicer")?.load(new File([Uint8Array.from(bytes)], "sealed.stl"));
+  }, [...sealed(10, 2)]);
+  await state(page, "done");
+  await expect.poll(() => page.locator("#verdict p").innerText()).toBe("Not printable like this.");
+  expect(await page.locator("#verdict [data-code=trap]").innerText()).toBe("Liquid resin would be locked in a hollow; it needs a hole.");
+  expect(await page.locator("#order").isDisabled()).toBe(true);
+  const answer = await page.evaluate(async () => {
+    const slicer = document.querySelector("cusp-slicer");
+    if (slicer?.model == null || slicer.result === null) throw new Error("there is no plan");
+    const form = new FormData();
+    const bytes = (blob: Blob): Blob => new Blob([blob], { type: "application/octet-stream" });
+    form.set("copies", "1");
+    form.set("price_cents", "900");
+    form.set("plan", bytes(new Blob([JSON.stringify(slicer.result.report)])));
+    form.set("model", bytes(slicer.model.file));
+    form.set("print", bytes((await slicer.export()).blob));
+    const response = await fetch("orders", { method: "POST", body: form, headers: { "idempotency-key": crypto.randomUUID() } });
+    return [response.status, ((await response.json()) as { code: string }).code];
+  });
+  expect(answer).toEqual([422, "not-printable"]);
+  expect(await orders(open)).toEqual([]);
+  await expectNoLeftovers(open);
+}, 120_000);
 
 withCusp("a print file that is not the plan's is refused", async (cusp) => {
   const open = await start(cusp);

@@ -68,6 +68,14 @@ export function prism(side: number, height: number): Solid {
   return { bytes: binaryStl(packed), volume_mm3: volume(packed) };
 }
 
+/** A cube with a cubic hollow in its middle, which nothing leads to. */
+export function sealed(side: number, wall: number): Uint8Array {
+  const inner = facetsOf(side - 2 * wall, side - 2 * wall).map((part) => part + wall);
+  // The other way round: each facet's last two corners change places.
+  const inward = inner.map((_, i) => inner[i - (i % 9) + ((9 - (i % 9 - (i % 3))) % 9) + (i % 3)] ?? 0);
+  return binaryStl(Float32Array.from([...facetsOf(side, side), ...inward]));
+}
+
 function facetsOf(side: number, height: number): number[] {
   const corners = [[0, 0], [side, 0], [side, side], [0, side]] as const;
   const triangles: number[] = [];

@@ -1,5 +1,5 @@
 /** What the shop sells, and what it lets a plan decide. The page offers it; the server checks every order against it. */
-import type { Resin } from "cusp-slicer";
+import type { Limits, Prices, Resin } from "cusp-slicer";
 
 /** A resin with every value that determines print time and exposure, so that a plan cannot bring its own. */
 export interface ShopResin extends Required<Resin> {
@@ -41,8 +41,27 @@ export const PRINTERS: readonly ShopPrinter[] = [
   { name: "saturn-3-ultra", title: "Large", note: "24 µm pixels, 218 × 122 × 260 mm", hour_cents: 410 },
 ];
 
-/** Charged once per order, for any number of copies. */
-export const SETUP_CENTS = 450;
+/** What an order costs in a resin on a printer: docs/price.md defines the formula. Taxes are included. */
+export function pricesOf(printer: ShopPrinter, resin: ShopResin): Prices {
+  return {
+    currency: "EUR",
+    setup: 450,
+    machine_per_h: printer.hour_cents,
+    resin_per_ml: resin.ml_cents,
+    quantity_breaks: [
+      { copies: 5, discount: 0.05 },
+      { copies: 10, discount: 0.1 },
+    ],
+    minimum: 900,
+  };
+}
+
+/** What the shop prints as it is, looks at first, or refuses: docs/printability.md defines it. What is not here has the defaults. */
+export const LIMITS: Limits = {
+  wall_mm: 0.5,
+  cup_mm2: 25,
+  severity: { trap: "reject", "loose-body": "reject" },
+};
 
 export const MOST_COPIES = 20;
 

@@ -7,6 +7,7 @@ const MILLILITRES = new Intl.NumberFormat("en-IE", { maximumFractionDigits: 1, m
 const MINUTE_S = 60;
 const HOUR_MINUTES = 60;
 
+/** Whole cents, as all prices of the shop. */
 export const money = (cents: number): string => MONEY.format(cents / 100);
 
 export const number = (value: number): string => NUMBER.format(value);

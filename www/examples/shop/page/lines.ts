@@ -1,20 +1,26 @@
-/** The lines of an order, each with its total. */
-import type { Line } from "../price.js";
-import { money, number } from "./format.js";
+/** The lines of a price, each with its total. */
+import type { Price, PriceKind } from "cusp-slicer";
+import { money } from "./format.js";
 
-const NAMES: Readonly<Record<Line["name"], string>> = { setup: "Set-up", time: "Machine time", resin: "Resin" };
+const NAMES: Readonly<Record<PriceKind, string>> = {
+  setup: "Set-up",
+  machine: "Machine time",
+  resin: "Resin",
+  supports: "Supports",
+  finish: "Finish",
+  discount: "Discount",
+  minimum: "Up to our minimum",
+};
 
 /** Fills a description list. */
-export function fillLines(list: HTMLElement, lines: readonly Line[]): void {
+export function fillLines(list: HTMLElement, lines: Price["lines"]): void {
   list.replaceChildren(...lines.map(row));
 }
 
-function row({ name, each_cents, count, total_cents }: Line): HTMLElement {
-  const [term, times, total] = [element("dt", NAMES[name]), element("dd", `${number(count)} × ${money(each_cents)}`), element("dd", money(total_cents))];
-  times.className = "times";
+function row({ kind, amount }: Price["lines"][number]): HTMLElement {
   const made = document.createElement("div");
-  made.dataset["line"] = name;
-  made.append(term, times, total);
+  made.dataset["line"] = kind;
+  made.append(element("dt", NAMES[kind]), element("dd", money(amount)));
   return made;
 }
 

@@ -1,13 +1,14 @@
 /** The shop's page: the element, the shop's own choices, a price that follows both, and a button that orders. */
 import "cusp-slicer/element";
-import { isAbort } from "cusp-slicer";
+import { isAbort, type Check, type Price } from "cusp-slicer";
 import type { CuspSlicer } from "cusp-slicer/element-class";
 import { MOST_BYTES, MOST_COPIES, PRINTERS, RESINS, type PartName } from "../catalogue.js";
-import { priceOf, type Price } from "../price.js";
+import { Assessment, type Result } from "./assess.js";
 import { choices } from "./choices.js";
 import { millilitres, money, number, time } from "./format.js";
 import { fillLines } from "./lines.js";
 import { placeOrder, type Placed } from "./order.js";
+import { fillVerdict } from "./verdict.js";
 
 const find = <E extends Element = HTMLElement>(selector: string): E => {
   const element = document.querySelector<E>(selector);
@@ -22,13 +23,12 @@ const cancel = find<HTMLButtonElement>("#cancel");
 const standing = find("#standing");
 const problem = find("#problem");
 
-type Result = NonNullable<CuspSlicer["result"]>;
-
-/** What a customer would buy by pressing the button now; null without a plan or a number of copies. */
+/** What a customer would buy by pressing the button now. */
 interface Offer {
   result: Result;
   copies: number;
   price: Price;
+  check: Check;
 }
 
 /** The order being placed; null if there is none. */
@@ -37,29 +37,43 @@ let ordering: AbortController | null = null;
 let unanswered: { what: string; key: string } | null = null;
 const placed: Placed[] = [];
 
+const assessment = new Assessment(slicer, draw);
+
+/** Null without a plan, a number of copies, or what the shop says of them. */
 function offer(): Offer | null {
   const { result } = slicer;
-  const printer = PRINTERS.find(({ name }) => name === result?.report.printer);
-  const resin = RESINS.find(({ name }) => name === result?.report.resin.name);
-  if (result === null || printer === undefined || resin === undefined || !copies.checkValidity()) return null;
+  if (result === null || !copies.checkValidity()) return null;
   const count = copies.valueAsNumber;
-  return { result, copies: count, price: priceOf(result.report, printer, resin, count) };
+  const [price, check] = [assessment.price(result, count), assessment.check(result)];
+  return price === null || check === null ? null : { result, copies: count, price, check };
+}
+
+/** Shows what is known, and asks for the rest. */
+function follow(): void {
+  draw();
+  // A call made now would wait for the next plan, and be about that.
+  if (copies.checkValidity() && slicer.state !== "busy") void assessment.follow(copies.valueAsNumber);
 }
 
 function draw(): void {
-  const now = offer();
-  if (now !== null) fill(now);
-  find("#figures").hidden = find("#parts").hidden = now === null;
-  find("#price").textContent = now === null ? "" : money(now.price.total_cents);
+  const { result } = slicer;
+  const price = result !== null && copies.checkValidity() ? assessment.price(result, copies.valueAsNumber) : null;
+  find("#figures").hidden = find("#parts").hidden = price === null;
+  if (result !== null && price !== null) fill(result, price);
+  find("#price").textContent = price === null ? "" : money(price.total);
   const missing = copies.validity.valid ? "The price comes with your model." : `From 1 to ${MOST_COPIES} copies, please.`;
-  find("#price-note").textContent = now === null ? missing : "incl. VAT";
+  find("#price-note").textContent = price === null ? missing : "incl. VAT";
+  const verdict = find("#verdict");
+  verdict.hidden = result === null;
+  if (result !== null) fillVerdict(verdict, assessment.check(result));
   const isPlanning = slicer.state === "busy" && ordering === null;
-  find(".choices").classList.toggle("replanning", isPlanning && now !== null);
-  button.disabled = now === null || isPlanning || ordering !== null;
+  find(".choices").classList.toggle("replanning", isPlanning && price !== null);
+  const now = offer();
+  button.disabled = now === null || now.check.verdict === "reject" || isPlanning || ordering !== null;
   cancel.hidden = ordering === null;
 }
 
-function fill({ result: { report }, price }: Offer): void {
+function fill({ report }: Result, price: Price): void {
   find("#time").textContent = time(report.print_time_s);
   find("#resin").textContent = millilitres(report.resin_ml);
   fillLines(find("#parts"), price.lines);
@@ -80,8 +94,9 @@ async function order(): Promise<void> {
   try {
     // The plan on show may not include the latest choice yet.
     await slicer.plan();
+    await assessment.follow(copies.valueAsNumber);
     const now = offer();
-    if (now === null || now.price.total_cents !== seen.price.total_cents) {
+    if (now === null || now.check.verdict === "reject" || now.price.total !== seen.price.total) {
       say("", "The price has just changed with your last choice. Please look at it and order again.");
       return;
     }
@@ -91,7 +106,7 @@ async function order(): Promise<void> {
     if (fault !== null) return say("", fault);
     signal.throwIfAborted();
     say("Sending and checking your order…");
-    const answer = await placeOrder({ key: keyOf(now), copies: now.copies, price_cents: now.price.total_cents, parts }, signal);
+    const answer = await placeOrder({ key: keyOf(now), copies: now.copies, price_cents: now.price.total, parts }, signal);
     unanswered = null;
     say(`Checked and taken: order ${shortly(answer)}.`);
     show(answer, model.name);
@@ -107,7 +122,7 @@ async function order(): Promise<void> {
 /** The key of an order: stays the same for the same order until an answer says that it was taken. */
 function keyOf({ result, copies, price }: Offer): string {
   const { model, options, weights_crc32 } = result.report;
-  const what = JSON.stringify([model, options, weights_crc32, copies, price.total_cents]);
+  const what = JSON.stringify([model, options, weights_crc32, copies, price.total]);
   if (unanswered?.what !== what) unanswered = { what, key: crypto.randomUUID() };
   return unanswered.key;
 }
@@ -154,7 +169,7 @@ choices(
   ({ name }) => void (slicer.printer = name),
 );
 copies.max = String(MOST_COPIES);
-copies.addEventListener("input", draw);
+copies.addEventListener("input", follow);
 button.addEventListener("click", () => void order());
 cancel.addEventListener("click", () => {
   ordering?.abort();
@@ -168,6 +183,6 @@ for (const name of ["cusp-change", "cusp-load"] as const) {
   // Messages about the last order do not apply to this one.
   slicer.addEventListener(name, () => ordering ?? say(""));
 }
-new MutationObserver(draw).observe(slicer, { attributeFilter: ["state"] });
-slicer.addEventListener("cusp-plan", draw);
+new MutationObserver(follow).observe(slicer, { attributeFilter: ["state"] });
+slicer.addEventListener("cusp-plan", follow);
 draw();

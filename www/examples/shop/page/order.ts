@@ -1,11 +1,11 @@
 /** Sends an order and returns the server's answer. */
+import type { Price } from "cusp-slicer";
 import type { PartName } from "../catalogue.js";
-import type { Line } from "../price.js";
 
 export interface Placed {
   id: string;
   copies: number;
-  lines: readonly Line[];
+  lines: Price["lines"];
   price_cents: number;
 }
 

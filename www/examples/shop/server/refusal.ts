@@ -13,6 +13,7 @@ export const STATUS = {
   "plan-refused": 422,
   "model-refused": 422,
   "print-refused": 422,
+  "not-printable": 422,
   "price-differs": 409,
   busy: 503,
   "took-too-long": 503,

@@ -2,8 +2,7 @@
 import { readFile } from "node:fs/promises";
 import { createServer, type IncomingMessage, type Server, type ServerResponse } from "node:http";
 import { join } from "node:path";
-import { MOST_BYTES, type PartName } from "../catalogue.js";
-import { priceOf } from "../price.js";
+import { LIMITS as PRINTABLE, MOST_BYTES, pricesOf, type PartName } from "../catalogue.js";
 import { readPages, type PageFile } from "./pages.js";
 import { wantedBy } from "./plan.js";
 import { Queue } from "./queue.js";
@@ -74,10 +73,11 @@ export async function createShop({ folder, pages: built, cusp, ...given }: Setup
       // Of two orders that arrive with one key at the same time, the second gets the result of the first.
       const before = await store.find(key);
       if (before !== null) return before;
-      const verdict = await verify(folder, verifier, signal);
-      const { lines, total_cents } = priceOf(verdict, printer, resin, copies);
-      if (total_cents !== price_cents) throw new Refusal("price-differs", "The price is another by now. Please load this page anew.");
-      return store.keep(folder, key, { printer: printer.name, resin: resin.name, copies, lines, price_cents: total_cents, verdict });
+      const terms = { limits: PRINTABLE, prices: pricesOf(printer, resin), copies };
+      const verified = await verify(folder, terms, verifier, signal);
+      const { lines, total } = verified.price;
+      if (total !== price_cents) throw new Refusal("price-differs", "The price is another by now. Please load this page anew.");
+      return store.keep(folder, key, { printer: printer.name, resin: resin.name, copies, lines, price_cents: total, verified });
     });
   };
 

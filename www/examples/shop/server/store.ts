@@ -2,10 +2,10 @@
 import { createHash } from "node:crypto";
 import { mkdir, mkdtemp, readFile, rename, rm, writeFile } from "node:fs/promises";
 import { join, resolve } from "node:path";
-import type { Line } from "../price.js";
-import type { Verdict } from "./verify.js";
+import type { Price } from "cusp-slicer";
+import type { Verified } from "./verify.js";
 
-/** The content of an order's `order.json`, which lies beside its three files. */
+/** The content of an order's `order.json`, which lies beside its files. */
 export interface Order {
   id: string;
   /** ISO 8601. */
@@ -14,9 +14,10 @@ export interface Order {
   resin: string;
   copies: number;
   /** The lines that make up the price. */
-  lines: readonly Line[];
+  lines: Price["lines"];
   price_cents: number;
-  verdict: Verdict;
+  /** What `cusp verify` found, with the verdict and its reasons. */
+  verified: Verified;
 }
 
 export class Store {

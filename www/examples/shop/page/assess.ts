@@ -1,0 +1,63 @@
+/** Price and verdict of the plan on show, which follow it and the number of copies. */
+import { isAbort, type Check, type Price } from "cusp-slicer";
+import type { CuspSlicer } from "cusp-slicer/element-class";
+import { LIMITS, pricesOf, PRINTERS, RESINS } from "../catalogue.js";
+
+export type Result = NonNullable<CuspSlicer["result"]>;
+
+export class Assessment {
+  readonly #slicer: CuspSlicer;
+  readonly #changed: () => void;
+  #priced: { of: Result; copies: number; price: Price } | null = null;
+  #checked: { of: Result; check: Check } | null = null;
+  /** The check that was asked for last, so that a plan is checked once. */
+  #asked: { of: Result; done: Promise<void> } | null = null;
+
+  constructor(slicer: CuspSlicer, changed: () => void) {
+    this.#slicer = slicer;
+    this.#changed = changed;
+  }
+
+  /** What `copies` of a plan cost; null while that is unknown. */
+  price(of: Result, copies: number): Price | null {
+    return this.#priced?.of === of && this.#priced.copies === copies ? this.#priced.price : null;
+  }
+
+  /** What the shop says of a plan; null while that is unknown. */
+  check(of: Result): Check | null {
+    return this.#checked?.of === of ? this.#checked.check : null;
+  }
+
+  /** Fetches what is unknown of the plan on show. Results that nobody waits for any more are dropped. */
+  async follow(copies: number): Promise<void> {
+    const { result: of } = this.#slicer;
+    if (of === null) return;
+    try {
+      await this.#fetchPrice(of, copies);
+      if (this.#slicer.result !== of) return;
+      if (this.#asked?.of !== of) this.#asked = { of, done: this.#fetchCheck(of) };
+      await this.#asked.done;
+    } catch (error) {
+      // The worker was stopped, such as by a new choice: the next event asks again.
+      if (this.#asked?.of === of) this.#asked = null;
+      if (!isAbort(error)) console.error(error);
+    }
+  }
+
+  async #fetchCheck(of: Result): Promise<void> {
+    const check = await this.#slicer.slicer.check(LIMITS);
+    if (this.#slicer.result !== of) return;
+    this.#checked = { of, check };
+    this.#changed();
+  }
+
+  async #fetchPrice(of: Result, copies: number): Promise<void> {
+    const printer = PRINTERS.find(({ name }) => name === of.report.printer);
+    const resin = RESINS.find(({ name }) => name === of.report.resin.name);
+    if (printer === undefined || resin === undefined || this.price(of, copies) !== null) return;
+    const price = await this.#slicer.slicer.price(pricesOf(printer, resin), { copies });
+    if (this.#slicer.result !== of) return;
+    this.#priced = { of, copies, price };
+    this.#changed();
+  }
+}

@@ -1,0 +1,60 @@
+/** What the shop says of a model before it is ordered. */
+import type { Check, Code } from "cusp-slicer";
+import { number } from "./format.js";
+
+type Severity = "review" | "reject";
+
+/** What a kind of finding means to a customer. */
+const SENTENCES: Readonly<Record<Code, string>> = {
+  island: "Parts begin in the air and need supports.",
+  "loose-body": "A part touches nothing, and would fall off.",
+  "separate-body": "Parts of the model do not touch each other.",
+  speck: "Some details are so small that they touch nothing.",
+  overhang: "Flat undersides need supports.",
+  cup: "A hollow sucks while it is printed; it needs a hole near the plate.",
+  trap: "Liquid resin would be locked in a hollow; it needs a hole.",
+  "thin-wall": "Some walls are thin and may break.",
+  "thin-floor": "Some floors or roofs are thin and may break.",
+  "narrow-gap": "Some gaps or holes are narrow and may close.",
+  "low-gap": "Some gaps are low and may close.",
+  "peel-area": "A layer is very large.",
+  "peel-jump": "A layer is much larger than the one below.",
+  "small-contact": "Little of the model touches the plate.",
+};
+
+const WORDS: Readonly<Record<Check["verdict"], string>> = {
+  ok: "Printable as it is.",
+  review: "Printable. A person will look at it first.",
+  reject: "Not printable like this.",
+};
+
+/** One sentence for each kind of finding, those that are refused first. */
+export function reasons({ counts, findings }: Pick<Check, "counts" | "findings">): { code: Code; severity: Severity; text: string }[] {
+  const severityOf = (code: Code): Severity => (findings.some((it) => it.code === code && it.severity === "reject") ? "reject" : "review");
+  const said = counts.map(({ code, found }) => ({
+    code,
+    severity: severityOf(code),
+    text: found === 1 ? SENTENCES[code] : `${SENTENCES[code]} (${number(found)} places)`,
+  }));
+  return said.toSorted((a, b) => Number(b.severity === "reject") - Number(a.severity === "reject"));
+}
+
+/** Fills the section; null while the check is under way. */
+export function fillVerdict(section: HTMLElement, check: Check | null): void {
+  const [words, list] = [section.querySelector("p"), section.querySelector("ul")];
+  if (words === null || list === null) throw new Error("the verdict has no place");
+  const text = check === null ? "Checking whether it can be printed…" : WORDS[check.verdict];
+  // Written only when it changes, so that it is announced once.
+  if (words.textContent !== text) words.textContent = text;
+  section.dataset["verdict"] = check?.verdict ?? "";
+  const items = check === null ? [] : reasons(check).map(({ code, severity, text }) => item(code, severity, text));
+  list.replaceChildren(...items);
+}
+
+function item(code: Code, severity: Severity, text: string): HTMLElement {
+  const made = document.createElement("li");
+  made.dataset["code"] = code;
+  made.className = severity;
+  made.textContent = text;
+  return made;
+}
