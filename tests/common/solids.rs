@@ -220,6 +220,30 @@ pub fn shuffled(triangles: &[[Vec3; 3]]) -> Triangles {
     shuffled
 }
 
+/// Up to fifteen boxes and holes on whole pixels of these sides, 20 × 18 of them, and up to 0.8 mm high.
+pub fn random_boxes(rng: &mut fastrand::Rng, pitch_mm: [f64; 2]) -> Triangles {
+    let mut all = Vec::new();
+    let side = |rng: &mut fastrand::Rng, most: u32| {
+        let from = rng.u32(0..most);
+        [from, rng.u32(from + 1..=most.min(from + 9))]
+    };
+    for _ in 0..rng.u32(3..16) {
+        let [x, y, z] = [side(rng, 20), side(rng, 18), side(rng, 40)];
+        let at = |end: usize| {
+            DVec3::new(
+                f64::from(x[end]) * pitch_mm[0],
+                f64::from(y[end]) * pitch_mm[1],
+                f64::from(z[end]) * 0.02,
+            )
+            .as_vec3()
+        };
+        let solid = moved(&cuboid(at(1) - at(0)), at(0));
+        let is_hole = rng.u32(0..4) == 0;
+        all.extend(if is_hole { inverted(&solid) } else { solid });
+    }
+    all
+}
+
 /// Ordinary solids by name.
 pub fn all() -> Vec<(&'static str, Triangles)> {
     vec![

@@ -94,11 +94,6 @@ fn block(low: [f32; 3], high: [f32; 3]) -> solids::Triangles {
     solids::moved(&solids::cuboid(high - low), low)
 }
 
-/// A box of nothing.
-fn hole(low: [f32; 3], high: [f32; 3]) -> solids::Triangles {
-    solids::inverted(&block(low, high))
-}
-
 /// The findings of a kind.
 fn of_code(found: &Printability, code: Code) -> Vec<&Finding> {
     let findings = found.findings.iter();

@@ -7,7 +7,7 @@ use cusp_slicer::progress::silent;
 
 use crate::common::{on_plate, solids};
 use crate::voxels::{Found, Voxels};
-use crate::{block, hole, masks_of, plan_of, strict};
+use crate::{masks_of, plan_of, strict};
 
 /// The findings in whole numbers.
 fn in_whole_numbers(found: &Printability, masks: &Masks, plan: &Plan) -> Vec<Found> {
@@ -73,28 +73,6 @@ fn compare(name: &str, masks: &Masks, plan: &Plan, limits: &Limits) -> usize {
     expected.len()
 }
 
-/// Boxes and holes on whole pixels.
-pub fn random_boxes(rng: &mut fastrand::Rng, pitch_mm: [f64; 2]) -> solids::Triangles {
-    let mut all = Vec::new();
-    let side = |rng: &mut fastrand::Rng, most: u32| {
-        let from = rng.u32(0..most);
-        [from, rng.u32(from + 1..=most.min(from + 9))]
-    };
-    for _ in 0..rng.u32(3..16) {
-        let [x, y, z] = [side(rng, 20), side(rng, 18), side(rng, 40)];
-        let at = |end: usize| {
-            [
-                (f64::from(x[end]) * pitch_mm[0]) as f32,
-                (f64::from(y[end]) * pitch_mm[1]) as f32,
-                (f64::from(z[end]) * 0.02) as f32,
-            ]
-        };
-        let make = if rng.u32(0..4) == 0 { hole } else { block };
-        all.extend(make(at(0), at(1)));
-    }
-    all
-}
-
 /// Layers of one to four bins.
 fn random_plan(rng: &mut fastrand::Rng, height_mm: f64) -> Plan {
     let mut boundaries = vec![0];
@@ -110,7 +88,7 @@ pub fn random_boxes_have_the_findings_of_brute_force() {
     for seed in 0..300 {
         let rng = &mut fastrand::Rng::with_seed(seed);
         let pitch_mm = [[0.1; 2], [0.1, 0.07], [0.05, 0.08]][rng.usize(0..3)];
-        let triangles = random_boxes(rng, pitch_mm);
+        let triangles = solids::random_boxes(rng, pitch_mm);
         let plan = random_plan(rng, on_plate(&triangles).bounds().size().z);
         let masks = masks_of(&triangles, pitch_mm, &plan, Samples::ONE);
         let length = |rng: &mut fastrand::Rng| f64::from(rng.u32(0..12)) * 0.05;

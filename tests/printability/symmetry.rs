@@ -6,8 +6,7 @@ use cusp_slicer::plan::Plan;
 use cusp_slicer::progress::silent;
 
 use crate::common::on_plate;
-use crate::common::solids::{self, Triangles};
-use crate::naive::random_boxes;
+use crate::common::solids::{self, Triangles, random_boxes};
 use crate::{masks_with, plan_of, strict};
 
 const PITCH_MM: f64 = 0.1;
