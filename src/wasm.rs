@@ -7,7 +7,7 @@ mod plate;
 use std::io::{self, BufWriter, Write};
 use std::ops::ControlFlow;
 
-use js_sys::{Array, Function, Reflect, Uint8Array};
+use js_sys::{Function, Uint8Array};
 use tsify::Ts;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
@@ -18,7 +18,7 @@ use crate::ldi::gpu;
 use crate::model::read::{self, HEAD_BYTES};
 use crate::model::{FileFacts, weights};
 use crate::orientation::{Candidate, Search, SearchOptions, Task, TaskResult};
-use crate::price::{Finish, PriceItem, Prices, QuantityBreak};
+use crate::price::{PriceItem, Prices};
 use crate::printer::PRINTERS;
 use crate::profile::{Metric, Source};
 
@@ -573,7 +573,7 @@ impl Write for Chunks<'_> {
 )]
 #[wasm_bindgen(unchecked_return_type = "Price")]
 pub fn price(
-    #[wasm_bindgen(unchecked_param_type = "Prices")] prices: &JsValue,
+    prices: Ts<Prices>,
     items: &[f64],
     finish: Option<String>,
 ) -> Result<JsValue, JsValue> {
@@ -587,68 +587,7 @@ pub fn price(
             print_time_s,
         });
     let items: Vec<PriceItem> = items.collect();
-    let price = prices_of(prices)?.price(&items, finish.as_deref());
+    let prices = prices.to_rust().map_err(throw_conversion)?;
+    let price = prices.price(&items, finish.as_deref());
     Ok(to_js(&price.map_err(throw)?))
-}
-
-/// Reads prices by hand: derived code takes 4 KB more. What is no number becomes NaN, which the core refuses by its name.
-fn prices_of(prices: &JsValue) -> Result<Prices, JsValue> {
-    let get = |of: &JsValue, key: &str| Reflect::get(of, &key.into()).unwrap_or_default();
-    let text = |of, key| get(of, key).as_string().unwrap_or_default();
-    let number = |of, key| match get(of, key) {
-        absent if absent.is_undefined() => 0.0,
-        found => found.as_f64().unwrap_or(f64::NAN),
-    };
-    let list = |key, known: &[&str]| match get(prices, key) {
-        absent if absent.is_undefined() => Ok(Vec::new()),
-        found => {
-            let items = Array::from(&found).to_vec();
-            items.iter().try_for_each(|it| only(it, known))?;
-            Ok::<_, JsValue>(items)
-        }
-    };
-    only(
-        prices,
-        &[
-            "currency",
-            "setup",
-            "machine_per_h",
-            "resin_per_ml",
-            "supports",
-            "finishes",
-            "quantity_breaks",
-            "minimum",
-        ],
-    )?;
-    let finishes = list("finishes", &["name", "per_copy", "per_ml"])?;
-    let finishes = finishes.iter().map(|it| Finish {
-        name: text(it, "name"),
-        per_copy: number(it, "per_copy"),
-        per_ml: number(it, "per_ml"),
-    });
-    let quantity_breaks = list("quantity_breaks", &["copies", "discount"])?;
-    let quantity_breaks = quantity_breaks.iter().map(|it| QuantityBreak {
-        copies: number(it, "copies") as usize,
-        discount: number(it, "discount"),
-    });
-    Ok(Prices {
-        currency: text(prices, "currency"),
-        setup: number(prices, "setup"),
-        machine_per_h: number(prices, "machine_per_h"),
-        resin_per_ml: number(prices, "resin_per_ml"),
-        supports: number(prices, "supports"),
-        finishes: finishes.collect(),
-        quantity_breaks: quantity_breaks.collect(),
-        minimum: number(prices, "minimum"),
-    })
-}
-
-/// Refuses keys of an object that are not known.
-fn only(of: &JsValue, known: &[&str]) -> Result<(), JsValue> {
-    let keys = Reflect::own_keys(of)?;
-    let keys = keys.iter().filter_map(|key| key.as_string());
-    match keys.into_iter().find(|key| !known.contains(&&**key)) {
-        Some(key) => Err(throw_conversion(format_args!("unknown field `{key}`"))),
-        None => Ok(()),
-    }
 }
