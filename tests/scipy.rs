@@ -1,5 +1,5 @@
-//! Printability, against components and distance transforms of SciPy. Needs a Python with scipy: `python3`, or that of the variable
-//! `CUSP_PEERS_PYTHON`, which `cargo xtask test` sets. Without, the test is reported as ignored.
+//! Printability, against the components and distance transforms of `scipy.ndimage`. Needs a Python with scipy: `python3`, or that of
+//! the variable `CUSP_PEERS_PYTHON`, which `cargo xtask test` sets. Without, the test is reported as ignored.
 
 #[path = "common/mod.rs"]
 mod common;
@@ -92,7 +92,7 @@ fn by_scipy(masks: &Masks, plan: &Plan, limits: &Limits) -> Result<Found, Failed
     Ok(serde_json::from_slice(&output.stdout)?)
 }
 
-/// What SciPy's side calls findings of a code: specks are loose bodies too.
+/// What the script calls findings of a code: specks are loose bodies too.
 fn kind(code: Code) -> &'static str {
     match code {
         Code::LooseBody | Code::Speck => "loose",
@@ -111,7 +111,9 @@ fn in_whole_numbers(found: &Printability, masks: &Masks, plan: &Plan) -> Found {
             listed.push([first, last, (finding.volume_mm3 / voxel_mm3).round() as u64]);
         }
     }
-    all.values_mut().for_each(|listed| listed.sort_unstable());
+    for listed in all.values_mut() {
+        listed.sort_unstable();
+    }
     all
 }
 
