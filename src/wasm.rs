@@ -122,12 +122,6 @@ pub fn defaults() -> JsValue {
     to_js(&Options::default().settled())
 }
 
-/// The default limits of the checks.
-#[wasm_bindgen(unchecked_return_type = "Required<Limits>")]
-pub fn default_limits() -> JsValue {
-    to_js(&Limits::default())
-}
-
 /// A search for the best orientation. It hands out directions to measure, and measures nothing itself. Several slicers with
 /// the same model and options may run its tasks.
 #[wasm_bindgen]
