@@ -1,6 +1,5 @@
 //! The arguments of commands.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
@@ -14,7 +13,7 @@ use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::resin::Resin;
 
 use crate::config::{self, SettingsFile};
-use crate::files::{Failure, WeightsFile, in_file};
+use crate::files::{Failure, WeightsFile, read_json};
 use crate::plate::Places;
 use crate::usage::{Given, wrong_usage};
 use crate::values::{
@@ -121,8 +120,7 @@ pub fn read_resin(path: Option<&Path>) -> Result<Resin, Failure> {
     let Some(path) = path else {
         return Ok(Resin::default());
     };
-    let text = fs::read_to_string(path).map_err(|error| in_file(path, &error))?;
-    Ok(serde_json::from_str(&text).map_err(|error| in_file(path, &error))?)
+    read_json(path)
 }
 
 /// The options of every command that plans.
@@ -358,9 +356,7 @@ pub fn printer_choice(printer: &str) -> Result<PrinterChoice, Failure> {
     if path.extension().is_none_or(|extension| extension != "json") {
         return Ok(PrinterChoice::Named(printer.to_owned()));
     }
-    let text = fs::read_to_string(path).map_err(|error| in_file(path, &error))?;
-    let printer = serde_json::from_str(&text).map_err(|error| in_file(path, &error))?;
-    Ok(PrinterChoice::Own(printer))
+    Ok(PrinterChoice::Own(read_json(path)?))
 }
 
 /// The help of `--tolerance`, with the library's defaults.

@@ -1,7 +1,6 @@
 //! Says what will fail when a model is printed, and where.
 
 use std::fmt::Write as _;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -10,7 +9,7 @@ use cusp_slicer::job::Report;
 use serde::Serialize;
 
 use crate::arguments::Studying;
-use crate::files::{Failure, in_file, load_painted};
+use crate::files::{Failure, in_file, load_painted, read_json};
 use crate::slice::make_plan;
 use crate::terminal::{Bar, print, print_json, stop_on_interrupt, warn};
 
@@ -82,8 +81,7 @@ pub fn check(checking: &Checking) -> Result<(), Failure> {
 }
 
 pub fn read_limits(path: &Path) -> Result<Limits, Failure> {
-    let text = fs::read_to_string(path).map_err(|error| in_file(path, &error))?;
-    let limits: Limits = serde_json::from_str(&text).map_err(|error| in_file(path, &error))?;
+    let limits: Limits = read_json(path)?;
     limits.check().map_err(|error| in_file(path, &error))?;
     Ok(limits)
 }

@@ -9,6 +9,7 @@ use cusp_slicer::job::Slicer;
 use cusp_slicer::model::weights::{self, WeightsError};
 use cusp_slicer::progress::Cancelled;
 use serde::Serialize;
+use serde::de::DeserializeOwned;
 use serde_json::Value;
 use tempfile::NamedTempFile;
 
@@ -83,6 +84,12 @@ impl Failure {
         message: None,
         problem: None,
     };
+}
+
+/// Reads a JSON file of the user's own.
+pub fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, Failure> {
+    let text = fs::read_to_string(path).map_err(|error| in_file(path, &error))?;
+    Ok(serde_json::from_str(&text).map_err(|error| in_file(path, &error))?)
 }
 
 pub fn in_file(path: &Path, error: &dyn std::fmt::Display) -> String {

@@ -1,7 +1,6 @@
 //! Says what copies of models cost.
 
 use std::fmt::Write as _;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -11,7 +10,7 @@ use serde::Serialize;
 
 use crate::arguments::Choices;
 use crate::batch::check_inputs;
-use crate::files::{Failure, in_file, load_painted};
+use crate::files::{Failure, in_file, load_painted, read_json};
 use crate::job_file::{JobFile, job_file, read_job, with_copies};
 use crate::plate::Places;
 use crate::slice::make_plan;
@@ -65,8 +64,7 @@ pub struct Order<'a> {
 impl<'a> Order<'a> {
     /// Reads prices, by which this finish can then be ordered.
     pub fn read(path: &'a Path, finish: Option<&'a str>) -> Result<Self, Failure> {
-        let text = fs::read_to_string(path).map_err(|error| in_file(path, &error))?;
-        let prices: Prices = serde_json::from_str(&text).map_err(|error| in_file(path, &error))?;
+        let prices: Prices = read_json(path)?;
         prices.check().map_err(|error| in_file(path, &error))?;
         let found = finish.map(|name| prices.finish(name)).transpose();
         found.map_err(|error| in_file(path, &error))?;
