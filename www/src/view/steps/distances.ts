@@ -5,6 +5,7 @@ import { nearestOf } from "./nearest.js";
 import { Refinement, type MeasuredPart, type Ruler } from "./refinement.js";
 import { shallowOf } from "./shallow.js";
 import type { Steps, StepsPart } from "./steps.js";
+import { shared } from "./work.js";
 
 export interface MeasuredSteps extends Steps {
   readonly parts: readonly MeasuredPart[];
@@ -109,15 +110,6 @@ function* rulerOf(solid: Solid, size_mm: number, steps: Steps): Generator<number
   const shallow = yield* shared(shallowOf(solid, finest_mm, reach_mm), SORTING, PREPARING);
   const contour_mm = 2 * steps.tolerance_mm + rounding_mm;
   return { nearest, shallow, reach_mm, finest_mm, contour_mm, rounding_mm };
-}
-
-/** Work that is a share of the progress. */
-function* shared<Result>(work: Generator<number, Result>, from: number, to: number): Generator<number, Result> {
-  for (;;) {
-    const step = work.next();
-    if (step.done === true) return step.value;
-    yield from + (to - from) * step.value;
-  }
 }
 
 /**

@@ -1,64 +1,24 @@
 /** Distances from points to the nearest facet of a model, by bounding volume hierarchies. */
-import { Box3, BufferAttribute, BufferGeometry, Triangle, Vector3 } from "three";
-import { MeshBVH } from "three-mesh-bvh";
+import { Box3, Triangle, Vector3 } from "three";
 import type { Solid } from "./contours.js";
-
-/** Facets between two yields while they are sorted. */
-const BLOCK = 8192;
-
-/** Facets in a hierarchy: few enough that building it takes only a few milliseconds. */
-const SLAB_FACETS = 4096;
-
-/** Heights that facets are sorted into. */
-const BINS = 4096;
+import { slabsOf, type Slab } from "./slabs.js";
 
 /** Nearer than this counts as on the facet, mm: less than coordinates resolve. */
 const ON_FACET_MM = 1e-6;
+
+/** The axis of heights. */
+const HEIGHT = 2;
+
+/** Facets in a hierarchy. */
+const SLAB_FACETS = 4096;
 
 /** So many gathered facets are worth more room around the box, or less. */
 const FEW = 16;
 const MANY = 48;
 
-/** Facets that are neighbours in height, and the heights that they reach. */
-interface Slab {
-  readonly low: number;
-  readonly high: number;
-  readonly tree: MeshBVH;
-}
-
-/** Points of the facets in order of height, three numbers a facet. */
-function* byHeight({ points, topology: { corner } }: Solid): Generator<number, Uint32Array> {
-  const count = corner.length / 3;
-  const middle = (facet: number): number => {
-    const at = 3 * facet;
-    const sum = (points[3 * (corner[at] ?? 0) + 2] ?? 0) + (points[3 * (corner[at + 1] ?? 0) + 2] ?? 0);
-    return (sum + (points[3 * (corner[at + 2] ?? 0) + 2] ?? 0)) / 3;
-  };
-  let top = 0;
-  for (let at = 2; at < points.length; at += 3) top = Math.max(top, points[at] ?? 0);
-  const bin = (facet: number): number => Math.min(BINS - 1, Math.max(0, Math.floor((BINS * middle(facet)) / (top || 1))));
-  const next = new Uint32Array(BINS + 1);
-  for (let facet = 0; facet < count; facet++) {
-    if (facet % BLOCK === 0) yield facet / (2 * count);
-    const after = bin(facet) + 1;
-    next[after] = (next[after] ?? 0) + 1;
-  }
-  for (let i = 0; i < BINS; i++) next[i + 1] = (next[i + 1] ?? 0) + (next[i] ?? 0);
-  const out = new Uint32Array(corner.length);
-  for (let facet = 0; facet < count; facet++) {
-    if (facet % BLOCK === 0) yield 0.5 + facet / (2 * count);
-    const here = bin(facet);
-    const to = next[here] ?? 0;
-    next[here] = to + 1;
-    for (let i = 0; i < 3; i++) out[3 * to + i] = corner[3 * facet + i] ?? 0;
-  }
-  return out;
-}
-
 /**
  * The facets of a model, to ask for distances. Points near one another share a walk through the hierarchies: first `gather`
- * the facets around them, then measure each point. One hierarchy of all facets would block the page while it is built, so
- * there is one for each slab of heights.
+ * the facets around them, then measure each point.
  */
 export class Nearest {
   readonly #points: Float32Array;
@@ -93,8 +53,8 @@ export class Nearest {
     else if (this.#gathered.length > MANY) this.#room_mm /= 2;
     this.#gathered.length = this.#bounds.length = 0;
     const around = this.#around.copy(this.#wanted).expandByScalar(this.#room_mm);
-    for (const { low, high, tree } of this.#slabs) {
-      if (low > around.max.z || high < around.min.z) continue;
+    for (const { bounds: slab, tree } of this.#slabs) {
+      if (!slab.intersectsBox(around)) continue;
       tree.shapecast({
         intersectsBounds: (bounds) => bounds.intersectsBox(around),
         intersectsRange: (first, count) => {
@@ -150,25 +110,6 @@ const outside = (value: number, least: number, greatest: number): number => Math
 
 /** Prepares a model for questions of distance. Yields its progress, 0 to 1. */
 export function* nearestOf(solid: Solid): Generator<number, Nearest> {
-  const { points } = solid;
-  const sorting = byHeight(solid);
-  let sorted = sorting.next();
-  for (; sorted.done !== true; sorted = sorting.next()) yield sorted.value / 4;
-  const index = sorted.value;
-  const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new BufferAttribute(points, 3));
-  geometry.setIndex(new BufferAttribute(index, 1));
-  const slabs: Slab[] = [];
-  for (let start = 0; start < index.length; start += 3 * SLAB_FACETS) {
-    const count = Math.min(3 * SLAB_FACETS, index.length - start);
-    let [low, high] = [Infinity, -Infinity];
-    for (let i = start; i < start + count; i++) {
-      const z = points[3 * (index[i] ?? 0) + 2] ?? 0;
-      low = Math.min(low, z);
-      high = Math.max(high, z);
-    }
-    slabs.push({ low, high, tree: new MeshBVH(geometry, { range: { start, count }, setBoundingBox: false }) });
-    yield 0.25 + (0.75 * (start + count)) / index.length;
-  }
-  return new Nearest(points, index, slabs);
+  const { index, slabs } = yield* slabsOf(solid, HEIGHT, SLAB_FACETS);
+  return new Nearest(solid.points, index, slabs);
 }

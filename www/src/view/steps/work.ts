@@ -41,3 +41,12 @@ export async function inParts<Result>(
     signal.throwIfAborted();
   }
 }
+
+/** Work that is a share of the progress of other work: from one fraction to another. */
+export function* shared<Result>(work: Generator<number, Result>, from: number, to: number): Generator<number, Result> {
+  for (;;) {
+    const step = work.next();
+    if (step.done === true) return step.value;
+    yield from + (to - from) * step.value;
+  }
+}
