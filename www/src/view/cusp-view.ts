@@ -15,6 +15,7 @@ import { isMeasured } from "./steps/distances.js";
 import type { HeightDetail, PaintDetail, RotateDetail, ViewErrorDetail, ViewEvents } from "./events.js";
 import { pressed } from "./scene/keys.js";
 import { legendStyles } from "./legend/legend.js";
+import { wallLegendStyles } from "./legend/wall-legend.js";
 import { Moving, type MoveDetail } from "./scene/moving.js";
 import { Painting } from "./paint/painting.js";
 import { sharePage } from "./scene/page-gestures.js";
@@ -30,6 +31,8 @@ import { FLIGHT_MS } from "./scene/viewpoint.js";
 import { viewStyles } from "./view-styles.js";
 import { elementWith } from "./properties.js";
 import { PROPERTIES } from "./view-properties.js";
+import { Measuring } from "./walls/measuring.js";
+import { wallScale } from "./walls/scale.js";
 
 // oxlint-disable-next-line typescript/no-unsafe-declaration-merging -- it only types listeners, which are the base's
 export class CuspView extends elementWith(PROPERTIES) {
@@ -57,9 +60,13 @@ export class CuspView extends elementWith(PROPERTIES) {
       this.#scene?.invalidate();
     },
   });
+  readonly #measuring = new Measuring({
+    progress: (progress) => (this.probing = progress),
+    walls: (walls) => (this.walls = walls),
+  });
   readonly #reducedMotion = matchMedia("(prefers-reduced-motion: reduce)");
 
-  static override styles = [viewStyles, legendStyles];
+  static override styles = [viewStyles, legendStyles, wallLegendStyles];
 
   override render(): TemplateResult {
     return template(this, {
@@ -171,6 +178,7 @@ export class CuspView extends elementWith(PROPERTIES) {
   #stop(): void {
     this.#life.abort();
     this.#printed.want(null, false);
+    this.#measuring.forget();
     this.#derived?.dispose();
     this.#derived = null;
     this.#approach?.dispose();
@@ -190,6 +198,7 @@ export class CuspView extends elementWith(PROPERTIES) {
     const { model } = scene;
     if (has("plate")) scene.setVolume(this.plate);
     if (has("positions")) {
+      this.#measuring.forget();
       this.#derived?.dispose();
       this.#derived = this.positions === null ? null : new Derived(this.positions);
       scene.setPositions(this.positions ?? new Float32Array(0), this.rotation, this.scale);
@@ -203,6 +212,9 @@ export class CuspView extends elementWith(PROPERTIES) {
     if (has("limits")) model.setLimits(this.limits);
     if (has("palette")) model.setPalette(this.palette);
     if (has("look")) model.setLook(this.look);
+    if (has("look") || has("positions")) this.#measuring.want(this.look === "walls" ? this.#derived : null);
+    if (has("walls")) model.setWalls(this.walls);
+    model.wallColours.setScale(wallScale(this.wall_mm), this.scale);
     if (has("layer") || has("z_mm")) model.setBand(this.#band());
     if (has("plot") && this.#beside !== null) this.#beside.plot = this.plot;
     if (has("tool")) scene.setTool(this.tool);

@@ -1,11 +1,13 @@
 /** The markup around the view's canvas: its container, texts, colour scales and progress bar. */
 import { html, nothing, type TemplateResult } from "lit";
 import type { CuspView } from "./cusp-view.js";
+import { wallScale } from "./walls/scale.js";
 import { distanceLegend, heatLegend, legend } from "./legend/legend.js";
+import { wallLegend } from "./legend/wall-legend.js";
 
 type Properties = Pick<
   CuspView,
-  "texts" | "broken" | "tool" | "positions" | "thickness_mm" | "layer" | "limits" | "look" | "palette" | "showsLegend" | "aligned" | "isBeside" | "building" | "measuring" | "greatest_mm"
+  "texts" | "broken" | "tool" | "positions" | "thickness_mm" | "layer" | "limits" | "look" | "palette" | "showsLegend" | "aligned" | "isBeside" | "building" | "measuring" | "greatest_mm" | "probing" | "walls" | "wall_mm"
 >;
 
 /** Facts about the scene; defaults until it exists. */
@@ -51,10 +53,10 @@ export function template(view: Properties, { size_mm, step_mm, layerWords, keyed
 const isAligned = ({ aligned, isBeside }: Properties): boolean => aligned && isBeside !== false;
 
 /** The progress of the work under way, if there is any. */
-function working({ texts, building, measuring }: Properties): TemplateResult | typeof nothing {
-  const part = building ?? measuring;
+function working({ texts, building, measuring, probing }: Properties): TemplateResult | typeof nothing {
+  const part = building ?? measuring ?? probing;
   if (part === null) return nothing;
-  const words = building === null ? texts.measuring(part) : texts.building(part);
+  const words = building !== null ? texts.building(part) : measuring !== null ? texts.measuring(part) : texts.probing(part);
   return html`<div class="building">
     ${words}
     <progress aria-label=${words} max="1" value=${part}></progress>
@@ -68,6 +70,7 @@ function scale(view: Properties): TemplateResult | typeof nothing {
   const showsLegend = view.showsLegend && !(isAligned(view) && isBeside === true);
   if (look === "weights") return positions === null ? nothing : heatLegend(texts);
   if (look === "distance") return greatest_mm === null ? nothing : distanceLegend(greatest_mm, texts);
+  if (look === "walls") return view.walls === null ? nothing : wallLegend(wallScale(view.wall_mm), texts);
   if (look !== "thickness" || !showsLegend || thickness_mm.length === 0) return nothing;
   const marked_mm = (layer === null ? undefined : thickness_mm[layer]) ?? null;
   return legend({ palette, limits, marked_mm, texts });

@@ -19,6 +19,14 @@ export interface ViewTexts {
   readonly heat: string;
   /** Heading of the colour scale of distances from the model, with its unit. */
   readonly distance: string;
+  /** Heading of the colour scale of walls, with its unit. */
+  readonly walls: string;
+  /** Beside the mark of what is thinner than the limit. */
+  readonly thin: (least_mm: number) => string;
+  /** A thickness of walls on the colour scale, in millimetres without the unit. */
+  readonly wall: (thickness_mm: number) => string;
+  /** Progress of measuring the walls. */
+  readonly probing: (progress: number) => string;
   /** A weight on the colour scale. */
   readonly weight: (weight: number) => string;
   /** A thickness or distance on the colour scale, without its unit. */
@@ -55,7 +63,7 @@ const micrometres = (mm: number): string => {
 const exact = new Intl.NumberFormat("en", { maximumSignificantDigits: 1 });
 
 /** The English sentences without numbers. */
-export const ENGLISH_SENTENCES: Pick<ViewTexts, "kind" | "keys" | "empty" | "legend" | "heat" | "distance" | "unavailable"> = {
+export const ENGLISH_SENTENCES: Pick<ViewTexts, "kind" | "keys" | "empty" | "legend" | "heat" | "distance" | "walls" | "unavailable"> = {
   kind: "3-D view",
   keys: {
     turn: "Arrow keys turn the view, plus and minus zoom, 0 shows the whole model.",
@@ -68,6 +76,7 @@ export const ENGLISH_SENTENCES: Pick<ViewTexts, "kind" | "keys" | "empty" | "leg
   legend: "Layer thickness (µm)",
   heat: "How much it matters",
   distance: "Distance from the model (µm)",
+  walls: "Wall thickness (mm)",
   unavailable: "This browser shows no 3-D view: WebGL 2 is switched off or missing.",
 };
 
@@ -78,6 +87,9 @@ export const ENGLISH: ViewTexts = {
     `${tenths(x)} × ${tenths(y)} × ${tenths(z)} mm` + (layers > 0 ? `, ${whole(layers)} layers` : ""),
   weight: (weight) => `${whole(100 * weight)}%`,
   tick: micrometres,
+  thin: (least_mm) => `Thinner than ${hundredths(least_mm)} mm`,
+  wall: hundredths,
+  probing: (progress) => `Measuring the walls: ${whole(100 * progress)} %`,
   layer: (layer, z_mm, thickness_mm) =>
     `Layer ${whole(layer + 1)} · ${hundredths(z_mm)} mm · ${micrometres(thickness_mm)} µm`,
   grid: (step_mm) => `Grid ${exact.format(step_mm)} mm`,

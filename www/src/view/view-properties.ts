@@ -11,6 +11,8 @@ import type { BuildVolume } from "./scene/plate.js";
 import { UPRIGHT, type Rotation } from "./scene/pose.js";
 import { ENGLISH } from "./texts.js";
 import { given, own } from "./properties.js";
+import { WALL_MM } from "./walls/scale.js";
+import type { Walls } from "./walls/thickness.js";
 
 export const PROPERTIES = {
   /** Nine numbers a facet, mm, in the file's pose; a new array is a new model. */
@@ -59,6 +61,8 @@ export const PROPERTIES = {
   heat: given<Heat>("paint"),
   /** Least value of the product of weight and saliency, when that is shown. */
   least: given(0),
+  /** What is thinner than this is marked in the look `walls`, mm. */
+  wall_mm: given(WALL_MM),
   brush: given(BRUSH),
   showsLegend: given(true),
   texts: given(ENGLISH),
@@ -68,6 +72,10 @@ export const PROPERTIES = {
   measuring: own<number | null>(null),
   /** The largest of these distances, mm; null until they are measured. */
   greatest_mm: own<number | null>(null),
+  /** Progress of measuring how thick the model is. */
+  probing: own<number | null>(null),
+  /** How thick the model is, in the file's lengths; null until it is measured. */
+  walls: own<Walls | null>(null),
   /** Whether the plot is beside the view; null without a plot. */
   isBeside: own<boolean | null>(null),
   /** Whether WebGL is missing. */

@@ -15,6 +15,10 @@ export function viewTexts({ texts: { view: words }, format }: Language): ViewTex
     legend: words.legend,
     heat: words.heat,
     distance: words.distance,
+    walls: words.walls,
+    thin: (least_mm) => words.thin(format.mm(least_mm)),
+    wall: (mm) => format.exact(Math.round(mm * 100) / 100),
+    probing: (part) => words.probing(format.percent(part)),
     weight: (weight) => format.percent(weight),
     tick: micrometres,
     layer: (layer, z_mm, thickness_mm) =>

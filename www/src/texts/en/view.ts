@@ -13,6 +13,8 @@ export const view = ({ counted }: Format) => ({
     grid: (step: string) => `Grid ${step}`,
     building: (part: string) => `Working out the steps: ${part}`,
     measuring: (part: string) => `Measuring the distances: ${part}`,
+    thin: (least: string) => `Thinner than ${least}`,
+    probing: (part: string) => `Measuring the walls: ${part}`,
     tools: { turn: "Look around", move: "Move on the plate", rotate: "Turn the model", flat: "Lay a face flat", paint: "What matters" },
     modes: "Mode",
     switches: "Display",

@@ -24,12 +24,14 @@ import { extentOf, sizeOf, standing, type Extent, type Rotation, type Triple } f
 import { MODEL_FRAGMENT, MODEL_VERTEX } from "./shaders.js";
 import { isMeasured } from "../steps/distances.js";
 import type { Steps } from "../steps/steps.js";
+import { WallColours } from "../walls/colours.js";
+import type { Walls } from "../walls/thickness.js";
 
 /**
  * `printed` is the stair steps in plain resin, `distance` the same coloured by their distance from the model; `weights` is the
- * heat map of the facets' weights.
+ * heat map of the facets' weights, `walls` that of how thick the solid is.
  */
-export type Look = "thickness" | "printed" | "distance" | "weights";
+export type Look = "thickness" | "printed" | "distance" | "weights" | "walls";
 
 /** The band while no layer is selected: it contains no height. */
 const NO_BAND: readonly [number, number] = [0, -1];
@@ -85,6 +87,8 @@ export class Model {
   #hasSteps = false;
   #hasDistances = false;
   #hasPlan = false;
+  #hasWalls = false;
+  readonly wallColours = new WallColours();
   readonly #material: RawShaderMaterial;
 
   constructor() {
@@ -106,6 +110,7 @@ export class Model {
         byDistance: { value: false },
         resin: { value: new Vector3(0.75, 0.77, 0.8) },
         band: { value: new Vector2(...NO_BAND) },
+        ...this.wallColours.uniforms,
       },
     });
     this.facets = new Mesh(new BufferGeometry(), this.#material);
@@ -228,6 +233,12 @@ export class Model {
     this.#show();
   }
 
+  setWalls(walls: Walls | null): void {
+    this.wallColours.set(walls);
+    this.#hasWalls = walls !== null;
+    this.#show();
+  }
+
   setSteps(steps: Steps | null): void {
     this.#clearSteps();
     const measured = isMeasured(steps) ? steps : null;
@@ -254,6 +265,7 @@ export class Model {
     this.#palette.dispose();
     this.#heatPalette.dispose();
     this.#heat.dispose();
+    this.wallColours.dispose();
   }
 
   #clearSteps(): void {
@@ -274,5 +286,6 @@ export class Model {
     this.#set("byThickness", this.#look === "thickness" && this.#hasPlan);
     this.#set("byHeat", this.#look === "weights");
     this.#set("byDistance", this.#look === "distance" && this.#hasDistances);
+    this.wallColours.show(this.#look === "walls" && this.#hasWalls);
   }
 }

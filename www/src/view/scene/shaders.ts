@@ -2,6 +2,7 @@
 import { HEAT_GLSL } from "../paint/heat.js";
 import { LAYER_AT_GLSL } from "./lookup.js";
 import { PALETTE_SIZE } from "../legend/palette.js";
+import { WALLS_GLSL } from "../walls/colours.js";
 
 const HEAD = /* glsl */ `
 precision highp float;
@@ -21,9 +22,12 @@ in float away;
 out vec3 world;
 out vec3 eye;
 out float apart;
+out vec3 corners;
 flat out int facet;
 void main() {
   facet = gl_VertexID / 3;
+  int corner = gl_VertexID % 3;
+  corners = vec3(corner == 0, corner == 1, corner == 2);
   apart = away;
   vec4 at = modelMatrix * vec4(position, 1.0);
   world = at.xyz;
@@ -54,6 +58,7 @@ uniform vec2 band;
 in vec3 world;
 in vec3 eye;
 in float apart;
+in vec3 corners;
 flat in int facet;
 out vec4 colour;
 ${LAYER_AT_GLSL}${HEAT_GLSL}
@@ -107,7 +112,9 @@ vec3 ofHeat(float heat) {
   return linear(texelFetch(heatPalette, ivec2(int((1.0 - heat) * ${(PALETTE_SIZE - 1).toFixed(1)} + 0.5), 0), 0).rgb);
 }
 
+${WALLS_GLSL}
 vec3 base(float width, float upwards) {
+  if (byWalls) return ofWall(wallAt(facet, corners));
   if (byHeat) return ofHeat(heatAt(facet));
   if (byDistance) return ofHeat(clamp(apart / greatest, 0.0, 1.0));
   return byThickness ? ofPlan(width, upwards) : linear(resin);

@@ -2,9 +2,10 @@
 import type { Solid } from "./contours.js";
 import { measured, type MeasuredSteps } from "./distances.js";
 import { flatFace, type FlatFace } from "../scene/flat.js";
-import { posed, type Rotation } from "../scene/pose.js";
+import { posed, UPRIGHT, type Rotation } from "../scene/pose.js";
 import { stairSteps, type Steps } from "./steps.js";
 import { topologyOf, type Topology } from "../scene/topology.js";
+import { wallsOf, type Walls } from "../walls/thickness.js";
 import { inParts } from "./work.js";
 
 /** Fraction of the progress bar for finding the topology, if it has not been found yet. */
@@ -16,6 +17,7 @@ export class Derived {
   #topology: Promise<Topology> | null = null;
   #hasTopology = false;
   #steps = new AbortController();
+  #walls = new AbortController();
 
   /** @param positions nine numbers a facet, mm, in the file's pose */
   constructor(positions: Float32Array) {
@@ -40,12 +42,20 @@ export class Derived {
 
   /** The stair steps in this pose; `null` if they were cancelled or another pose or plan was requested meanwhile. */
   steps(rotation: Rotation, scale: number, z_mm: readonly number[], tell: (progress: number) => void): Promise<Steps | null> {
-    return this.#ofSolid(rotation, scale, (solid) => stairSteps(solid, z_mm), tell);
+    this.cancel();
+    return this.#ofSolid(rotation, scale, this.#steps.signal, (solid) => stairSteps(solid, z_mm), tell);
   }
 
   /** The same stair steps with their distances from the model; `null` as for `steps`. */
   measured(rotation: Rotation, scale: number, steps: Steps, tell: (progress: number) => void): Promise<MeasuredSteps | null> {
-    return this.#ofSolid(rotation, scale, (solid) => measured(solid, steps), tell);
+    this.cancel();
+    return this.#ofSolid(rotation, scale, this.#steps.signal, (solid) => measured(solid, steps), tell);
+  }
+
+  /** How thick the model is, in the file's lengths; `null` if that was cancelled. */
+  walls(tell: (progress: number) => void): Promise<Walls | null> {
+    this.cancelWalls();
+    return this.#ofSolid(UPRIGHT, 1, this.#walls.signal, wallsOf, tell);
   }
 
   /** Cancels the steps or the measuring under way. */
@@ -54,20 +64,26 @@ export class Derived {
     this.#steps = new AbortController();
   }
 
+  /** Cancels the measuring of walls under way. */
+  cancelWalls(): void {
+    this.#walls.abort();
+    this.#walls = new AbortController();
+  }
+
   dispose(): void {
     this.#steps.abort();
+    this.#walls.abort();
     this.#stop.abort();
   }
 
-  /** Cancels what is under way and does other work on the posed model. */
+  /** Does work on the posed model, until it is aborted. */
   async #ofSolid<Result>(
     rotation: Rotation,
     scale: number,
+    signal: AbortSignal,
     work: (solid: Solid) => Generator<number, Result>,
     tell: (progress: number) => void,
   ): Promise<Result | null> {
-    this.cancel();
-    const { signal } = this.#steps;
     const before = this.#hasTopology ? 0 : TOPOLOGY_PART;
     // The search for the topology continues even if the work is cancelled.
     const found = this.#found((progress) => {

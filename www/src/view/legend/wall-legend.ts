@@ -1,0 +1,54 @@
+/** The colour scale of walls, from 0 to where all thicker ones look the same. */
+import { css, html, type TemplateResult } from "lit";
+import { HEAT_PALETTE } from "../paint/heat.js";
+import type { ViewTexts } from "../texts.js";
+import type { WallScale } from "../walls/scale.js";
+import { ticks } from "./legend.js";
+import { gradient } from "./palette.js";
+
+const across = (place: number): string => `${(100 * place).toFixed(2)}%`;
+
+export function wallLegend({ least_mm, full_mm }: WallScale, texts: Pick<ViewTexts, "walls" | "thin" | "wall">): TemplateResult {
+  return html`
+    <div class="legend walls" part="legend">
+      <span class="heading">${texts.walls}</span>
+      <div class="scale" .style=${`background: ${gradient(HEAT_PALETTE)}`}>
+        <i class="thin" .style=${`width: ${across(least_mm / full_mm)}`}></i>
+      </div>
+      <div class="ticks">
+        ${[0, ...ticks([0, full_mm])].map((mm) => html`<span .style=${`left: ${across(mm / full_mm)}`}>${texts.wall(mm)}</span>`)}
+        <span .style=${"left: 100%"}>≥\u00a0${texts.wall(full_mm)}</span>
+      </div>
+      <div class="limit"><i class="thin"></i> ${texts.thin(least_mm)}</div>
+    </div>
+  `;
+}
+
+/** The stripes are those of the shader. */
+export const wallLegendStyles = css`
+  .thin {
+    background: repeating-linear-gradient(-45deg, rgb(199 13 41) 0 5px, #fff 5px 7.5px);
+  }
+  .scale .thin {
+    position: absolute;
+    inset: 0 auto 0 0;
+    border-radius: 3px 0 0 3px;
+  }
+  .limit {
+    display: flex;
+    align-items: center;
+    gap: 0.375rem;
+    margin-top: 0.125rem;
+  }
+  .limit .thin {
+    flex: none;
+    width: 1.25rem;
+    height: 0.75rem;
+    border-radius: 3px;
+  }
+  @media (forced-colors: active) {
+    .thin {
+      forced-color-adjust: none;
+    }
+  }
+`;
