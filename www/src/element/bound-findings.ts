@@ -8,7 +8,7 @@ const findingsCode = new FetchedPanel("findings", async () => {
   defineFindings();
 });
 
-export function findingsPanel({ element, session, language }: Facts): TemplateResult | typeof nothing {
+export function findingsPanel({ element, session, language, panels }: Facts): TemplateResult | typeof nothing {
   if (!findingsCode.isThere) return findingsCode.instead(element, language);
   const { checks, result, settings } = session;
   return html`<cusp-findings
@@ -18,6 +18,9 @@ export function findingsPanel({ element, session, language }: Facts): TemplateRe
     .error=${checks.error}
     .chosen=${checks.chosen}
     .isAlone=${result?.report.plate === undefined}
+    .hasView=${panels.has("view")}
+    .showsWalls=${checks.showsWalls}
+    .wall_mm=${checks.wall_mm}
     .metric=${settings.metric}
     .language=${language}
   ></cusp-findings>`;

@@ -68,6 +68,8 @@ export function modelPanel({ session, language, slicer, saveWeights }: Facts): T
     .shown=${shown}
     .layer=${layer}
     .mark=${session.checks.chosen}
+    .walls_mm=${session.checks.showsWalls ? session.checks.wall_mm : null}
+    @cusp-walls=${() => (session.checks.showsWalls = false)}
     .rotation=${turning ?? rotationOf(settings.rotation)}
     .scaled=${scaledOf(session)}
     .printer=${printerOf(settings.printer, session.printers)}

@@ -380,6 +380,10 @@ export const workbenchStyles = css`
     border-top: 1px solid var(--cusp-line);
     background: var(--cusp-card);
   }
+  /* Instead of the one in the view above. */
+  .sheet cusp-findings {
+    --cusp-findings-legend: block;
+  }
   .sheet .close {
     margin-inline-start: auto;
   }
@@ -395,6 +399,9 @@ export const workbenchStyles = css`
     }
     .bench.narrow:has(.sheet) cusp-model {
       --cusp-view-legend: block;
+    }
+    .sheet cusp-findings {
+      --cusp-findings-legend: none;
     }
     .narrow .sheet {
       border-top: 0;

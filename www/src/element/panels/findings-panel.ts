@@ -4,9 +4,13 @@ import type { Check, SlicerError } from "../../api/index.js";
 import type { Code, Count, Finding, Metric, Severity } from "../../api/wire.js";
 import { findingsTexts, saidOf, type FindingsTexts } from "../../texts/findings/index.js";
 import { languageOf, type Language } from "../../texts/index.js";
+import { legendStyles } from "../../view/legend/legend.js";
+import { wallLegend, wallLegendStyles } from "../../view/legend/wall-legend.js";
 import { elementWith, given, own } from "../../view/properties.js";
+import { wallScale } from "../../view/walls/scale.js";
 import { define } from "../define.js";
 import type { Checks } from "../state/checks.js";
+import { viewTexts } from "../parts/view-texts.js";
 import { findingsStyles } from "../styles/findings-styles.js";
 import { shared } from "../styles/shared.js";
 
@@ -31,6 +35,11 @@ const PROPERTIES = {
   chosen: given<Finding | null>(null),
   /** Whether the plan is that of a single model, which alone is checked. */
   isAlone: given(true),
+  /** Whether there is a view to show how thick walls are. */
+  hasView: given(true),
+  showsWalls: given(false),
+  /** What counts as a thin wall, mm. */
+  wall_mm: given(0),
   metric: given<Metric>("cusp"),
   language: given<Language>(languageOf()),
   /** The kinds of which all findings are shown. */
@@ -38,7 +47,7 @@ const PROPERTIES = {
 };
 
 export class CuspFindings extends elementWith(PROPERTIES) {
-  static override styles = [shared, findingsStyles];
+  static override styles = [shared, legendStyles, wallLegendStyles, findingsStyles];
 
   override connectedCallback(): void {
     super.connectedCallback();
@@ -60,6 +69,7 @@ export class CuspFindings extends elementWith(PROPERTIES) {
     return html`
       <div class="head"><h3>${language.texts.findings.title}</h3></div>
       <div role="status">${this.#verdict(words)}</div>
+      ${this.hasView && this.isAlone ? this.#walls(words) : nothing}
       ${check === null || error !== null || !this.isAlone
         ? nothing
         : html`<div class="kinds ${isCurrent ? "" : "old"}" @keydown=${this.#pressed}>
@@ -77,6 +87,25 @@ export class CuspFindings extends elementWith(PROPERTIES) {
     const { verdict } = check;
     return html`<p class="verdict ${verdict}" data-verdict=${verdict}>${sign(verdict)} ${words.verdicts[verdict]}</p>
       ${check.findings.length === 0 ? html`<p class="quiet">${words.none}</p>` : nothing}`;
+  }
+
+  /** The switch for the colours of the model. */
+  #walls(words: FindingsTexts): TemplateResult {
+    const { showsWalls, wall_mm, language: { format } } = this;
+    return html`<label class="show-walls">
+        <input
+          type="checkbox"
+          role="switch"
+          aria-describedby="walls-hint"
+          .checked=${showsWalls}
+          @change=${({ target }: Event) => {
+            if (this.checks !== null) this.checks.showsWalls = (target as HTMLInputElement).checked;
+          }}
+        />
+        ${words.walls}
+      </label>
+      <p class="quiet" id="walls-hint">${words.wallsHint(format.mm(wall_mm))}</p>
+      ${showsWalls ? wallLegend(wallScale(wall_mm), viewTexts(this.language)) : nothing}`;
   }
 
   #kind({ code, found }: Count, { findings }: Check, words: FindingsTexts): TemplateResult {

@@ -1,5 +1,5 @@
 /** The 3-D view of the model and its tools. The view itself, and three.js with it, is fetched when first shown. */
-import { css, html, nothing, type PropertyValues, type TemplateResult } from "lit";
+import { html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import type { Model, Slicer } from "../../api/index.js";
 import type { Printer } from "../../api/wire.js";
 import { languageOf, type Language } from "../../texts/index.js";
@@ -27,8 +27,10 @@ import type { PlotPlace } from "./profile-chart.js";
 import type { Copy, Entry } from "../state/plate.js";
 import type { Shown } from "../state/result.js";
 import { DEFAULT_SETTINGS } from "../state/settings.js";
+import { modelViewStyles } from "../styles/model-view-styles.js";
 import { shared } from "../styles/shared.js";
 import { elementWith, given, own } from "../../view/properties.js";
+import { WALL_MM } from "../../view/walls/scale.js";
 
 /** Initial size of the brush, as a fraction of the model's longest side. */
 const BRUSH_PART = 0.2;
@@ -46,6 +48,8 @@ const PROPERTIES = {
   layer: given(0),
   /** The finding to be shown. */
   mark: given<Mark | null>(null),
+  /** Whether to show how thick the model is: what is thinner than this is marked, mm; null: not to. */
+  walls_mm: given<number | null>(null),
   rotation: given<Rotation>([0, 0, 0, 1]),
   /** The height that the model is scaled to, and the pose in which it has that height; null for the file's own size. */
   scaled: given<Scaled | null>(null, (a: unknown, b: unknown) => JSON.stringify(a) !== JSON.stringify(b)),
@@ -104,56 +108,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
     paintStyles,
     partStyles,
     barStyles,
-    css`
-      :host {
-        display: flex;
-        flex-direction: column;
-        min-width: 0;
-        height: 100%;
-        container-type: inline-size;
-      }
-      /* Their bases make the height where the parent has none, and shrink where it has one: the tools first. */
-      .stage {
-        flex: 1 1 auto;
-        display: flex;
-        flex-direction: column;
-        gap: 0.75rem;
-        min-height: 0;
-      }
-      .view {
-        flex: 1 1 28rem;
-        display: grid;
-        min-width: 0;
-        min-height: min(22rem, 65%);
-      }
-      .beside {
-        flex: 0 999 auto;
-        display: grid;
-        grid-template: minmax(0, 1fr) / minmax(0, 1fr);
-        min-height: 9rem;
-      }
-      /* Wide enough for both: the tools scroll at the view's side, and make nothing taller. */
-      @container (min-width: 36rem) {
-        .stage {
-          flex: 1 1 28rem;
-          flex-direction: row;
-        }
-        .view {
-          flex: 1;
-          min-height: 0;
-        }
-        .beside {
-          flex: none;
-          position: relative;
-          width: 16rem;
-          min-height: 0;
-        }
-        .beside .paint {
-          position: absolute;
-          inset: 0;
-        }
-      }
-    `,
+    modelViewStyles,
   ];
 
   override firstUpdated(): void {
@@ -174,11 +129,13 @@ export class CuspModel extends elementWith(PROPERTIES) {
   override render(): TemplateResult {
     const { shown, language, tool } = this;
     const isPainting = tool === "paint";
-    const isMeasured = this.look === "distance" && !isPainting;
-    const isPrinted = isMeasured || (this.look === "printed" && !isPainting);
-    // An aligned view shows all of the model, and from the side only: no single steps, no top to paint, and no plate with copies.
     const isPlate = this.copies.length > 0;
-    const isAligned = this.aligned && !isPainting && !isPrinted && !isPlate;
+    const walls_mm = isPainting || isPlate ? null : this.walls_mm;
+    const isMeasured = this.look === "distance" && !isPainting && walls_mm === null;
+    const isPrinted = isMeasured || (this.look === "printed" && !isPainting && walls_mm === null);
+    // An aligned view shows all of the model, and from the side only: no single steps, no top to paint or to see walls from, and no
+    // plate with copies.
+    const isAligned = this.aligned && !isPainting && !isPrinted && !isPlate && walls_mm === null;
     const showsHeat = isPainting && this.colours !== "layers";
     const heat = this.colours === "layers" ? "paint" : this.colours;
     const { texts } = language;
@@ -214,10 +171,11 @@ export class CuspModel extends elementWith(PROPERTIES) {
               .z_mm=${shown?.z_mm ?? []}
               .thickness_mm=${shown?.thickness_mm ?? []}
               .limits=${shown?.limits ?? [0, 0]}
-              .layer=${shown === null || showsHeat ? null : this.layer}
+              .layer=${shown === null || showsHeat || walls_mm !== null ? null : this.layer}
               .mark=${this.mark}
               .plate=${volumeOf(this.printer)}
-              .look=${showsHeat ? "weights" : isPainting ? "thickness" : this.look}
+              .look=${showsHeat ? "weights" : isPainting ? "thickness" : walls_mm === null ? this.look : "walls"}
+              .wall_mm=${walls_mm ?? WALL_MM}
               .weights=${this.weights}
               .saliency=${heat === "saliency" || this.#counts ? this.saliency : null}
               .heat=${heat}
@@ -282,13 +240,20 @@ export class CuspModel extends elementWith(PROPERTIES) {
   /** Leaves the brush, which has its own colours. */
   #look(look: Look): void {
     this.look = look;
+    this.#endWalls();
     if (this.tool === "paint") this.tool = "turn";
+  }
+
+  /** Leaves the colours of walls, where other ones are asked for. */
+  #endWalls(): void {
+    if (this.walls_mm !== null) this.#say("cusp-walls", null);
   }
 
   /** Leaves what needs another camera. */
   readonly #align = (on: boolean): void => {
     this.aligned = on;
     if (!on) return;
+    this.#endWalls();
     if (this.tool === "paint") this.tool = "turn";
     this.look = "thickness";
   };

@@ -148,3 +148,13 @@ test("a finding that is chosen shows its first layer; again, null and another pl
   session.checks.choose(cup);
   expect(session.checks.chosen).toBeNull();
 });
+
+test("thin walls are those of the shop, or the usual ones, and showing them checks nothing", async () => {
+  await planned();
+  expect(session.checks.wall_mm).toBe(0.4);
+  session.checks.showsWalls = true;
+  expect(session.checks.showsWalls).toBe(true);
+  expect(asked()).toBe(0);
+  session.checks.limits = { wall_mm: 1.5 };
+  expect(session.checks.wall_mm).toBe(1.5);
+});

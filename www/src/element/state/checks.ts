@@ -2,6 +2,7 @@
 import { isAbort, SlicerError } from "../../api/error.js";
 import type { Check, Slicer } from "../../api/index.js";
 import type { Finding, Limits } from "../../api/wire.js";
+import { WALL_MM } from "../../view/walls/scale.js";
 import type { Result } from "./result.js";
 
 export interface ChecksHost {
@@ -30,6 +31,7 @@ export class Checks {
   #limits: Limits | null = null;
   #isOpen = false;
   #chosen: Finding | null = null;
+  #showsWalls = false;
   #error: SlicerError | null = null;
   /** The plan and the limits of the last check, or of its failure. */
   #of: Subject | null = null;
@@ -58,6 +60,20 @@ export class Checks {
     this.#isOpen = isOpen;
     this.#host.changed();
     if (isOpen) this.#host.wanted();
+  }
+
+  /** Whether the view shows how thick the model is: a picture, which no check depends on. */
+  get showsWalls(): boolean {
+    return this.#showsWalls;
+  }
+  set showsWalls(isOn: boolean) {
+    this.#showsWalls = isOn;
+    this.#host.changed();
+  }
+
+  /** What counts as a thin wall, mm. */
+  get wall_mm(): number {
+    return this.#limits?.wall_mm ?? WALL_MM;
   }
 
   /** Whether the last check or its failure is that of the plan shown. */

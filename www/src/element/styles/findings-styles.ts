@@ -44,8 +44,29 @@ export const findingsStyles = css`
   svg.reject {
     background: var(--cusp-bad);
   }
+  .show-walls {
+    display: flex;
+    align-items: center;
+    gap: 0.5rem;
+    min-height: 1.75rem;
+    margin-top: 0.5rem;
+    font-weight: 550;
+    cursor: pointer;
+  }
+  /* Where the view has no room for it. */
+  .legend {
+    display: var(--cusp-findings-legend, none);
+    position: static;
+    width: auto;
+    max-width: 20rem;
+    margin-block: 0.5rem;
+    background: none;
+  }
   .failed {
     color: var(--cusp-bad);
+  }
+  .kinds {
+    margin-top: 0.5rem;
   }
   .old {
     opacity: 0.6;

@@ -61,4 +61,6 @@ export const findings = (format: Format): FindingsTexts => ({
   all: (count) => `Alle ${count} zeigen`,
   smaller: (count) => `Und ${count} kleinere.`,
   hint: "Wählen Sie eine Stelle, um sie zu sehen. Escape beendet das.",
+  walls: "Wandstärke zeigen",
+  wallsHint: (limit) => `Färbt das Modell danach, wie dick es unter jeder Stelle ist. Streifen zeigen, was dünner ist als ${limit}.`,
 });

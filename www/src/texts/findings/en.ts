@@ -61,4 +61,6 @@ export const findings = (format: Format): FindingsTexts => ({
   all: (count) => `Show all ${count}`,
   smaller: (count) => `And ${count} smaller ones.`,
   hint: "Choose one to see where it is. Escape ends that.",
+  walls: "Show wall thickness",
+  wallsHint: (limit) => `Colours the model by how thick it is straight under each place. Stripes mark what is thinner than ${limit}.`,
 });

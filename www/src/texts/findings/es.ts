@@ -61,4 +61,6 @@ export const findings = (format: Format): FindingsTexts => ({
   all: (count) => `Mostrar los ${count}`,
   smaller: (count) => `Y ${count} más pequeños.`,
   hint: "Elija uno para ver dónde está. Escape termina.",
+  walls: "Mostrar el grosor de las paredes",
+  wallsHint: (limit) => `Colorea el modelo según su grosor bajo cada punto. Las rayas marcan lo que es más fino que ${limit}.`,
 });

@@ -61,4 +61,6 @@ export const findings = (format: Format): FindingsTexts => ({
   all: (count) => `Afficher les ${count}`,
   smaller: (count) => `Et ${count} plus petits.`,
   hint: "Choisissez un endroit pour le voir. Échap met fin à cela.",
+  walls: "Montrer l’épaisseur des parois",
+  wallsHint: (limit) => `Colore le modèle selon son épaisseur sous chaque point. Les rayures marquent ce qui est plus mince que ${limit}.`,
 });

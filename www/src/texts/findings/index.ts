@@ -44,6 +44,10 @@ export interface FindingsTexts {
   smaller: (count: string) => string;
   /** What choosing a finding does. */
   hint: string;
+  /** The switch that colours the model by how thick it is. */
+  walls: string;
+  /** What the colours are, and what is marked. */
+  wallsHint: (limit: string) => string;
 }
 
 const CATALOGUES: Readonly<Record<LanguageCode, (format: Format) => FindingsTexts>> = { de, en, es, fr, zh };

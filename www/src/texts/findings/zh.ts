@@ -61,4 +61,6 @@ export const findings = (format: Format): FindingsTexts => ({
   all: (count) => `显示全部 ${count} 处`,
   smaller: (count) => `另有 ${count} 处较小。`,
   hint: "选择一处即可查看其位置。按 Escape 结束。",
+  walls: "显示壁厚",
+  wallsHint: (limit) => `按每处正下方的厚度为模型着色。条纹标出薄于 ${limit} 的部分。`,
 });

@@ -1,0 +1,53 @@
+/** The styles of the panel around the 3-D view. */
+import { css } from "lit";
+
+export const modelViewStyles = css`
+  :host {
+    display: flex;
+    flex-direction: column;
+    min-width: 0;
+    height: 100%;
+    container-type: inline-size;
+  }
+  /* Their bases make the height where the parent has none, and shrink where it has one: the tools first. */
+  .stage {
+    flex: 1 1 auto;
+    display: flex;
+    flex-direction: column;
+    gap: 0.75rem;
+    min-height: 0;
+  }
+  .view {
+    flex: 1 1 28rem;
+    display: grid;
+    min-width: 0;
+    min-height: min(22rem, 65%);
+  }
+  .beside {
+    flex: 0 999 auto;
+    display: grid;
+    grid-template: minmax(0, 1fr) / minmax(0, 1fr);
+    min-height: 9rem;
+  }
+  /* Wide enough for both: the tools scroll at the view's side, and make nothing taller. */
+  @container (min-width: 36rem) {
+    .stage {
+      flex: 1 1 28rem;
+      flex-direction: row;
+    }
+    .view {
+      flex: 1;
+      min-height: 0;
+    }
+    .beside {
+      flex: none;
+      position: relative;
+      width: 16rem;
+      min-height: 0;
+    }
+    .beside .paint {
+      position: absolute;
+      inset: 0;
+    }
+  }
+`;
