@@ -71,6 +71,37 @@ test("by keyboard findings are gone through, chosen and let go, and the sheet st
   await expect.poll(() => page.locator(".sheet").count()).toBe(0);
 });
 
+test("the thickness of walls is shown by keyboard, and ends where other colours are asked for", async () => {
+  const page = await opened(DESKTOP);
+  const toggle = page.getByRole("switch", { name: "Show wall thickness" });
+  await toggle.focus();
+  await page.keyboard.press("Space");
+  const scale = page.locator("cusp-view .legend.walls");
+  await scale.waitFor();
+  expect((await scale.innerText()).replaceAll(/\s+/g, " ")).toBe("Wall thickness (mm) 0 1 2 3 ≥ 4 Thinner than 0.4 mm");
+  expect(await page.locator("cusp-findings .legend.walls").isVisible()).toBe(false);
+  expect(await page.locator("cusp-view").evaluate((view: CuspView) => Math.min(...(view.walls?.thickness_mm ?? [])))).toBeCloseTo(1.5, 3);
+  expect(await broken(page)).toEqual([]);
+  // It stays when another panel is looked at.
+  await openPanel(page, "Mask");
+  expect(await scale.isVisible()).toBe(true);
+  await page.getByRole("switch", { name: "As printed" }).click();
+  await scale.waitFor({ state: "detached" });
+  await openPanel(page, "Check");
+  expect(await toggle.isChecked()).toBe(false);
+});
+
+test("on a phone the scale of walls is in the sheet, and in the view once that is closed", async () => {
+  const page = await opened(PHONE);
+  await page.getByRole("switch", { name: "Show wall thickness" }).click();
+  await page.locator("cusp-findings .legend.walls").waitFor();
+  await page.locator("cusp-view .legend.walls").waitFor({ state: "attached" });
+  expect(await page.locator("cusp-view .legend.walls").isVisible()).toBe(false);
+  expect(await broken(page)).toEqual([]);
+  await page.getByRole("button", { name: "Close" }).click();
+  await expect.poll(() => page.locator("cusp-view .legend.walls").isVisible()).toBe(true);
+});
+
 test("with limits of a shop every plan is checked, without a panel, and the page is told", async () => {
   const page = await start("?backend=cpu", DESKTOP);
   await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => {
