@@ -106,7 +106,7 @@ impl Slicer {
             candidates,
         } = evaluator.run(&mut search, progress)?;
         let options = *search.options();
-        now.energy = options.energy(&now, &scale);
+        options.rate(&mut now, &scale);
         Ok(OrientationReport {
             schema: SCHEMA,
             model: self.facts.file.clone(),

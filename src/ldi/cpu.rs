@@ -3,11 +3,10 @@
 //! Rows are processed in bands, in parallel natively. Cost: linear in facets, in the rows that they span,
 //! and in hits. Memory: 8 bytes per hit and 4 per ray.
 
-use super::bins::Bins;
 use super::projection::Projection;
 use super::{Hit, Ldi, LdiError, assemble};
 use crate::grid::Grid;
-use crate::model::Mesh;
+use crate::model::{FacetLists, Mesh};
 use crate::parallel::map_in_groups;
 use crate::progress::{Progress, report};
 
@@ -58,9 +57,9 @@ pub fn sample(mesh: &Mesh, grid: &Grid, progress: &mut Progress<'_>) -> Result<L
 }
 
 /// The facets that reach into each band.
-fn facets_by_band(projection: &Projection<'_>, grid: &Grid) -> Bins {
+fn facets_by_band(projection: &Projection<'_>, grid: &Grid) -> FacetLists {
     let bands = grid.height.div_ceil(BAND_ROWS) as usize;
-    Bins::new(bands, 0..projection.facets() as u32, |facet| {
+    FacetLists::new(bands, 0..projection.facets() as u32, |facet| {
         let rows = projection.rows(facet as usize);
         if rows.is_empty() {
             0..0

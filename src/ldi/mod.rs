@@ -5,7 +5,6 @@
 //! 1/512 pixel, and both return the same [`Ldi`], so nothing downstream can tell which one ran.
 
 mod assemble;
-mod bins;
 pub mod cpu;
 pub mod gpu;
 pub mod layout;

@@ -49,7 +49,7 @@ pub fn visibility(mesh: &Mesh, ldi: &Ldi) -> Visibility {
     for ray in 0..ldi.rays() {
         look_along(ldi.ray(ray), model_end, &mut seen);
     }
-    let bodies = bodies(mesh);
+    let bodies = bodies(mesh.vertices.len(), &mesh.facets);
     let met_inside: Vec<bool> = seen.iter().map(|seen| seen & INSIDE != 0).collect();
     for seen in &mut seen {
         *seen &= !INSIDE;

@@ -10,8 +10,8 @@ use crate::order::ascending;
 
 /// The body of each facet, identified by the index of one of the body's vertices. Facets belong to one body if they
 /// share corners, directly or through other facets.
-pub(crate) fn bodies(mesh: &Mesh) -> Vec<u32> {
-    let mut parents: Vec<u32> = (0..mesh.vertices.len() as u32).collect();
+pub(crate) fn bodies(vertices: usize, facets: &[[u32; 3]]) -> Vec<u32> {
+    let mut parents: Vec<u32> = (0..vertices as u32).collect();
     let root = |parents: &mut Vec<u32>, mut vertex: u32| {
         while parents[vertex as usize] != vertex {
             // Path halving.
@@ -21,15 +21,15 @@ pub(crate) fn bodies(mesh: &Mesh) -> Vec<u32> {
         }
         vertex
     };
-    for &[a, b, c] in &mesh.facets {
+    for &[a, b, c] in facets {
         let of_a = root(&mut parents, a);
         for other in [b, c] {
             let of_other = root(&mut parents, other);
             parents[of_other as usize] = of_a;
         }
     }
-    let facets = mesh.facets.iter();
     facets
+        .iter()
         .map(|corners| root(&mut parents, corners[0]))
         .collect()
 }
@@ -39,7 +39,7 @@ pub(crate) fn bodies(mesh: &Mesh) -> Vec<u32> {
 ///
 /// Cost: linear in facets; with bodies inside out, for each facet the bodies beside it as well.
 pub(super) fn misoriented(mesh: &Mesh) -> Option<Vec<bool>> {
-    let body_of = bodies(mesh);
+    let body_of = bodies(mesh.vertices.len(), &mesh.facets);
     let mut found: Vec<Body> = Vec::new();
     let mut number_of = vec![u32::MAX; mesh.vertices.len()];
     let numbers: Vec<u32> = body_of
@@ -144,7 +144,7 @@ fn windings(mesh: &Mesh, numbers: &[u32], bodies: &[Body]) -> Vec<[i32; 6]> {
 
 /// How the winding number changes from above a facet to below it, if the facet is above the point; otherwise 0. A point above or below
 /// an edge counts for one of the facets beside it.
-fn passes_above([a, b, c]: [DVec3; 3], point: DVec3) -> i32 {
+pub(crate) fn passes_above([a, b, c]: [DVec3; 3], point: DVec3) -> i32 {
     let [u, v, w] = [a, b, c].map(|corner| (corner - point).truncate());
     // Crossings of the edges with the half-line from the point along +y, each from one side in x to the other.
     let crossing = |from: glam::DVec2, to: glam::DVec2| {

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::directions::spacing;
-use super::{Candidate, Cost, Metrics, Quality, Scale, SearchOptions};
+use super::{Candidate, Cost, Exclusion, Metrics, Quality, Scale, SearchOptions};
 use crate::order::ascending;
 
 /// Maximum number of refinements.
@@ -28,17 +28,40 @@ impl SearchOptions {
             Quality::Error => metrics.max_error,
             Quality::Roughness => metrics.roughness_mm,
             Quality::Overhang => metrics.overhang_mm2,
+            Quality::Islands => metrics.islands as f64,
+            Quality::Cups => metrics.cups_mm2,
         };
         [cost, quality]
     }
 
-    /// The energy of a candidate, relative to the largest terms of all candidates (eq. 25). `None` without metrics.
-    pub(crate) fn energy(&self, candidate: &Candidate, scale: &Scale) -> Option<f64> {
-        let [cost, quality] = self.terms(candidate.metrics.as_ref()?);
-        let part = |value: f64, most: f64| if most > 0.0 { value / most } else { 0.0 };
-        Some(
-            self.alpha * part(cost, scale.cost) + (1.0 - self.alpha) * part(quality, scale.quality),
-        )
+    /// Which limit an orientation exceeds.
+    fn exclusion(&self, metrics: &Metrics) -> Option<Exclusion> {
+        let exceeds = |value: f64, most: Option<f64>| most.is_some_and(|most| value > most);
+        if exceeds(metrics.overhang_mm2, self.most_overhang_mm2) {
+            Some(Exclusion::Overhang)
+        } else if self.most_islands.is_some_and(|most| metrics.islands > most) {
+            Some(Exclusion::Islands)
+        } else if exceeds(metrics.cups_mm2, self.most_cups_mm2) {
+            Some(Exclusion::Cups)
+        } else {
+            None
+        }
+    }
+
+    /// Excludes a candidate that exceeds a limit, and sets the energy of any other, relative to the largest terms of all
+    /// candidates (eq. 25). Those that cannot be printed stay as they are.
+    pub(crate) fn rate(&self, candidate: &mut Candidate, scale: &Scale) {
+        candidate.energy = None;
+        let Some(metrics) = &candidate.metrics else {
+            return;
+        };
+        candidate.excluded = self.exclusion(metrics);
+        if candidate.excluded.is_none() {
+            let [cost, quality] = self.terms(metrics);
+            let part = |value: f64, most: f64| if most > 0.0 { value / most } else { 0.0 };
+            let quality = (1.0 - self.alpha) * part(quality, scale.quality);
+            candidate.energy = Some(self.alpha * part(cost, scale.cost) + quality);
+        }
     }
 }
 
@@ -58,7 +81,7 @@ pub(super) fn rate<'a>(
         scale.quality = scale.quality.max(quality);
     }
     for candidate in &mut candidates {
-        candidate.energy = search.energy(candidate, &scale);
+        search.rate(candidate, &scale);
     }
     scale
 }

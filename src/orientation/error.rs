@@ -24,6 +24,15 @@ pub enum SearchError {
         /// Requested weight.
         alpha: f64,
     },
+    /// A limit is negative or no number.
+    #[error("{limit} is {value}, but must be 0 or more")]
+    #[serde(rename = "bad-search-limit")]
+    Limit {
+        /// The field.
+        limit: &'static str,
+        /// Its value.
+        value: f64,
+    },
     /// A result for a task that is not outstanding: never handed out, put back, or already accepted.
     #[error("task {task} is not out: hand in each task's result once")]
     #[serde(rename = "search-task")]

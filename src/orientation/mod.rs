@@ -6,9 +6,11 @@
 //! are the result. [`Search`] drives this as a state machine: it hands out directions to measure, and does no work or I/O
 //! itself. Threads, workers or machines run its tasks in any order, and the result is the same.
 
+mod basins;
 pub(crate) mod directions;
 mod energy;
 mod error;
+mod overlaps;
 mod refine;
 mod search;
 pub mod shard;
@@ -38,6 +40,12 @@ pub struct SearchOptions {
     pub cost: Cost,
     /// The second term of the energy.
     pub quality: Quality,
+    /// Excludes orientations with a larger area that would need support, in mm²; no limit if absent.
+    pub most_overhang_mm2: Option<f64>,
+    /// Excludes orientations with more islands; no limit if absent.
+    pub most_islands: Option<usize>,
+    /// Excludes orientations with a larger area of cups, in mm²; no limit if absent.
+    pub most_cups_mm2: Option<f64>,
 }
 
 impl Default for SearchOptions {
@@ -47,6 +55,9 @@ impl Default for SearchOptions {
             alpha: 0.5,
             cost: Cost::Layers,
             quality: Quality::Error,
+            most_overhang_mm2: None,
+            most_islands: None,
+            most_cups_mm2: None,
         }
     }
 }
@@ -55,7 +66,7 @@ impl Default for SearchOptions {
 pub const MAX_DIRECTIONS: usize = 100_000;
 
 impl SearchOptions {
-    /// Checks the number of directions and α.
+    /// Checks the number of directions, α and the limits.
     pub(crate) fn check(&self) -> Result<(), SearchError> {
         if !(1..=MAX_DIRECTIONS).contains(&self.directions) {
             return Err(SearchError::Directions {
@@ -65,6 +76,15 @@ impl SearchOptions {
         }
         if !(0.0..=1.0).contains(&self.alpha) {
             return Err(SearchError::Alpha { alpha: self.alpha });
+        }
+        let limits = [
+            ("most_overhang_mm2", self.most_overhang_mm2),
+            ("most_cups_mm2", self.most_cups_mm2),
+        ];
+        for (limit, value) in limits {
+            if let Some(value) = value.filter(|it| !(0.0..=f64::MAX).contains(it)) {
+                return Err(SearchError::Limit { limit, value });
+            }
         }
         Ok(())
     }
@@ -99,6 +119,10 @@ pub enum Quality {
     Roughness,
     /// The area that would need support.
     Overhang,
+    /// The number of islands.
+    Islands,
+    /// The area of cups.
+    Cups,
 }
 
 /// An orientation with its metrics.
@@ -112,15 +136,15 @@ pub struct Candidate {
     pub rotation: [f64; 4],
     /// Extent of the model in this orientation, in x, y and z.
     pub size_mm: [f64; 3],
-    /// Why the orientation cannot be printed; absent if it can.
+    /// Why the orientation cannot be printed, or should not; absent if it can.
     pub excluded: Option<Exclusion>,
-    /// Metrics of the orientation; absent if it is excluded.
+    /// Metrics of the orientation; absent if it cannot be printed.
     pub metrics: Option<Metrics>,
     /// F of eq. 25, from 0 to 1; absent if not rated yet, or if excluded.
     pub energy: Option<f64>,
 }
 
-/// Why an orientation cannot be printed.
+/// Why an orientation cannot be printed, or should not by the limits of the search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
@@ -132,6 +156,22 @@ pub enum Exclusion {
     TooHigh,
     /// No plan keeps the tolerance.
     NoPlan,
+    /// A larger area than the limit would need support.
+    Overhang,
+    /// There are more islands than the limit.
+    Islands,
+    /// The area of cups is larger than the limit.
+    Cups,
+}
+
+impl Exclusion {
+    /// Whether the orientation cannot be printed at all, whatever the limits of the search.
+    pub fn is_impossible(self) -> bool {
+        match self {
+            Self::TooLarge | Self::TooHigh | Self::NoPlan => true,
+            Self::Overhang | Self::Islands | Self::Cups => false,
+        }
+    }
 }
 
 /// Metrics of an orientation.
@@ -150,6 +190,11 @@ pub struct Metrics {
     pub roughness_mm: f64,
     /// Area that faces down at less than 45° from level and is not on the plate: it would need support.
     pub overhang_mm2: f64,
+    /// Number of islands: parts that begin above the plate with nothing below them. An estimate from the surface alone, as that of
+    /// cups: see `docs/printability.md`.
+    pub islands: usize,
+    /// The areas of cups together, each where it is largest: hollows that are open only away from the plate, and suck at the film.
+    pub cups_mm2: f64,
 }
 
 /// What the terms of energies are relative to: the largest terms of all directions.

@@ -39,7 +39,7 @@ impl Refinement {
     pub fn accept(&mut self, ring: Vec<Candidate>, options: &SearchOptions, scale: &Scale) {
         let mut better: Option<Candidate> = None;
         for mut found in ring {
-            found.energy = options.energy(&found, scale);
+            options.rate(&mut found, scale);
             self.measured += 1;
             let least = better.as_ref().unwrap_or(&self.best).energy;
             if found

@@ -336,7 +336,9 @@ impl Search {
     }
 }
 
-/// Whether a measurement can return this candidate: it has either metrics or a reason why it is excluded.
+/// Whether a measurement can return this candidate, or a search that rated it: without metrics, it has a reason why it cannot be
+/// printed; with metrics, it can.
 fn is_measured(candidate: &Candidate) -> bool {
-    candidate.excluded.is_none() == candidate.metrics.is_some()
+    let can_be_printed = candidate.excluded.is_none_or(|it| !it.is_impossible());
+    can_be_printed == candidate.metrics.is_some()
 }

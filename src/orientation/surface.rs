@@ -2,6 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
+use super::basins::{Basins, Found};
 use super::directions::{about_z, lattice, unit, upright};
 use super::{Exclusion, Metrics};
 use crate::grid::Bins;
@@ -31,10 +32,10 @@ const TOLD_APART: usize = 64;
 const OVERHANG: f32 = std::f32::consts::FRAC_1_SQRT_2;
 
 /// Bytes per facet that a search takes on one thread: in the mesh, the surface, and the current placement.
-const FACET_BYTES: usize = 140;
+const FACET_BYTES: usize = 160;
 
 /// Bytes per vertex that a search takes on one thread.
-const VERTEX_BYTES: usize = 54;
+const VERTEX_BYTES: usize = 118;
 
 /// Peak memory of an orientation search on one thread, in bytes. tests/memory.rs measures it.
 pub(crate) fn search_bytes(mesh: &Mesh) -> usize {
@@ -53,6 +54,7 @@ pub(crate) struct Surface {
     normals: [Vec<f32>; 3],
     areas_mm2: Vec<f32>,
     total_mm2: f64,
+    basins: Basins,
 }
 
 /// A model in one orientation.
@@ -60,6 +62,8 @@ pub(crate) struct Surface {
 pub(crate) struct Placement {
     /// A quaternion x, y, z, w.
     pub rotation: [f64; 4],
+    /// What points up from the plate, in the frame of the file.
+    up: DVec3,
     /// `n_z` of the unit normal of each facet.
     n_z: Vec<f32>,
     pub size_mm: [f64; 3],
@@ -73,9 +77,12 @@ impl Surface {
         let order = neighbours_together(mesh);
         let mut number_of = vec![u32::MAX; mesh.vertices.len()];
         let mut vertices_mm: [Vec<f64>; 3] = Default::default();
-        let facets = order
+        let caps = mesh.surface_facets..mesh.classes.model_end() as usize;
+        let with_caps: Vec<[u32; 3]> = order
             .iter()
-            .map(|&facet| {
+            .copied()
+            .chain(caps)
+            .map(|facet| {
                 mesh.facets[facet].map(|vertex| {
                     let number = &mut number_of[vertex as usize];
                     if *number == u32::MAX {
@@ -89,6 +96,11 @@ impl Surface {
                 })
             })
             .collect();
+        let facets = with_caps[..order.len()].to_vec();
+        let [x, y, z] = &vertices_mm;
+        let vertices = x.iter().zip(y).zip(z);
+        let vertices = vertices.map(|((&x, &y), &z)| DVec3::new(x, y, z)).collect();
+        let basins = Basins::new(vertices, with_caps);
         let mut normals: [Vec<f32>; 3] = Default::default();
         let mut areas_mm2 = Vec::with_capacity(order.len());
         for &facet in &order {
@@ -113,6 +125,7 @@ impl Surface {
             normals,
             total_mm2: areas_mm2.iter().copied().map(f64::from).sum(),
             areas_mm2,
+            basins,
         }
     }
 
@@ -204,6 +217,7 @@ impl Surface {
         let round = |length_mm: f64| (length_mm * 1e6).round() / 1e6;
         let placement = Placement {
             rotation,
+            up: matrix.row(2),
             n_z: self.n_z(matrix.row(2).as_vec3()),
             size_mm: [
                 round(size.x),
@@ -282,12 +296,24 @@ impl Surface {
             let thickness = bins / f64::from((end - first) as i32);
             roughness += area_mm2 * thickness * f64::from(rough);
         }
+        // Where masks are taken.
+        let middles_mm: Vec<f32> = plan
+            .boundaries
+            .windows(2)
+            .map(|pair| f64::midpoint(f64::from(pair[0]), f64::from(pair[1])))
+            .map(|bins| (bins * facet_bins.bins.size_mm) as f32)
+            .collect();
+        let Found { islands, cups_mm2 } =
+            self.basins
+                .find(placement.up, &placement.heights_mm, &middles_mm);
         Metrics {
             layers: plan.layers(),
             print_time_s,
             max_error,
             roughness_mm: roughness / self.total_mm2 * facet_bins.bins.size_mm,
             overhang_mm2,
+            islands,
+            cups_mm2,
         }
     }
 }

@@ -177,6 +177,8 @@ fn alpha_and_the_terms_do_what_they_say() {
         (Quality::Error, (|it| it.max_error) as fn(&Metrics) -> f64),
         (Quality::Roughness, |it| it.roughness_mm),
         (Quality::Overhang, |it| it.overhang_mm2),
+        (Quality::Islands, |it| it.islands as f64),
+        (Quality::Cups, |it| it.cups_mm2),
     ] {
         let found = search(0.0, Cost::Layers, quality);
         assert!(of(&first(&found)) <= least(&found, of), "{quality:?}");
@@ -315,7 +317,15 @@ fn searches_end_when_nobody_wants_them() {
         alpha: 1.1,
         ..SearchOptions::default()
     };
-    for (search, code) in [(none, "bad-directions"), (beyond, "bad-alpha")] {
+    let negative = SearchOptions {
+        most_cups_mm2: Some(-1.0),
+        ..SearchOptions::default()
+    };
+    for (search, code) in [
+        (none, "bad-directions"),
+        (beyond, "bad-alpha"),
+        (negative, "bad-search-limit"),
+    ] {
         let error = slicer.orient(&options(), &search, &mut quiet).unwrap_err();
         assert_eq!(error.code(), code);
     }

@@ -2,6 +2,7 @@
 
 #![cfg(not(target_arch = "wasm32"))]
 
+mod basins;
 mod best;
 #[path = "../common/mod.rs"]
 mod common;

@@ -25,6 +25,7 @@ fn options() -> SearchOptions {
         alpha: 0.5,
         cost: Cost::Time,
         quality: Quality::Roughness,
+        ..SearchOptions::default()
     }
 }
 
@@ -53,6 +54,8 @@ fn measure(direction: [f64; 3]) -> Candidate {
         max_error: 0.05,
         roughness_mm: 0.01 * height + 0.001 * at.x,
         overhang_mm2: 0.0,
+        islands: 0,
+        cups_mm2: 0.0,
     };
     Candidate {
         direction,

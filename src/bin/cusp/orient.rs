@@ -41,6 +41,15 @@ pub struct Orienting {
     /// What counts as quality; less is better
     #[arg(long, value_enum, default_value_t = SearchOptions::default().quality, help_heading = "Search")]
     quality: Quality,
+    /// Exclude orientations with a larger area that needs support, in mm²
+    #[arg(long, value_name = "MM2", help_heading = "Search")]
+    most_overhang: Option<f64>,
+    /// Exclude orientations with more islands
+    #[arg(long, value_name = "N", help_heading = "Search")]
+    most_islands: Option<usize>,
+    /// Exclude orientations with a larger area of cups, in mm²
+    #[arg(long, value_name = "MM2", help_heading = "Search")]
+    most_cups: Option<f64>,
     /// Write the model in the Kth best orientation to -o; for a single model
     #[arg(long, value_name = "K", requires = "output", conflicts_with = "shard", value_parser = clap::value_parser!(u32).range(1..=3), help_heading = "Search")]
     apply: Option<u32>,
@@ -70,6 +79,9 @@ impl Orienting {
             alpha: self.alpha,
             cost: self.cost,
             quality: self.quality,
+            most_overhang_mm2: self.most_overhang,
+            most_islands: self.most_islands,
+            most_cups_mm2: self.most_cups,
         }
     }
 }
@@ -213,6 +225,9 @@ fn describe(model: &Path, options: &Options, found: &OrientationReport) -> Strin
         (Exclusion::TooLarge, "too large for the plate"),
         (Exclusion::TooHigh, "too high for the printer"),
         (Exclusion::NoPlan, "without a plan within tolerance"),
+        (Exclusion::Overhang, "with too much overhang"),
+        (Exclusion::Islands, "with too many islands"),
+        (Exclusion::Cups, "with too much area of cups"),
     ] {
         let count = excluded(why);
         if count > 0 {
@@ -220,11 +235,16 @@ fn describe(model: &Path, options: &Options, found: &OrientationReport) -> Strin
         }
     }
     if found.best.is_empty() {
-        text.push_str("\nno orientation can be printed; choose another printer or wider limits");
+        let advice = if found.candidates.iter().any(|it| it.metrics.is_some()) {
+            "no orientation is within the limits of the search; allow more"
+        } else {
+            "no orientation can be printed; choose another printer or wider limits"
+        };
+        let _ = write!(text, "\n{advice}");
         return text;
     }
     text.push_str(
-        "\n     energy  layers  time         largest error  roughness   overhang     size",
+        "\n     energy  layers  time         largest error  roughness   overhang     islands  cups         size",
     );
     let rows = found.best.iter().enumerate();
     let rows = rows.map(|(place, candidate)| ((place + 1).to_string(), candidate));
@@ -239,13 +259,15 @@ fn describe(model: &Path, options: &Options, found: &OrientationReport) -> Strin
         };
         let _ = write!(
             text,
-            "\n{name:<4} {:.4}  {:>6}  {:<11}  {:<13}  {:<10}  {:<11}  {x:.1} × {y:.1} × {z:.1} mm",
+            "\n{name:<4} {:.4}  {:>6}  {:<11}  {:<13}  {:<10}  {:<11}  {:>7}  {:<11}  {x:.1} × {y:.1} × {z:.1} mm",
             candidate.energy.unwrap_or_default(),
             metrics.layers,
             duration(metrics.print_time_s),
             options.metric.format(metrics.max_error),
             format!("{:.4} mm", metrics.roughness_mm),
             format!("{:.1} mm²", metrics.overhang_mm2),
+            metrics.islands,
+            format!("{:.1} mm²", metrics.cups_mm2),
         );
     }
     let [x, y, z, w] = found.best[0].rotation;

@@ -271,6 +271,7 @@ fn search_errors() -> Vec<SearchError> {
     one_of_each!(SearchError except []:
         Directions { directions: 0, most: 100_000 },
         Alpha { alpha: 1.5 },
+        Limit { limit: "most_cups_mm2", value: -1.0 },
         Task { task: 7 },
         Candidate { place: 12 },
     )

@@ -2,9 +2,9 @@
 //! is drawn only as often as its own deepest ray needs.
 
 use super::super::tiles::Region;
-use crate::ldi::bins::Bins;
 use crate::ldi::layout::{CELL_FACETS, Cell};
 use crate::ldi::projection::Projection;
+use crate::model::FacetLists;
 
 /// The side of cells in rays, unless their lists get too long.
 const SIDE: u32 = 64;
@@ -17,7 +17,7 @@ pub(super) struct Cells {
     /// Side in rays, a multiple of [`LEAST_SIDE`].
     pub side: u32,
     columns: u32,
-    lists: Bins,
+    lists: FacetLists,
 }
 
 impl Cells {
@@ -53,7 +53,7 @@ impl Cells {
                 0..0
             }
         };
-        let lists = Bins::new((columns * rows) as usize, facets.iter().copied(), |facet| {
+        let lists = FacetLists::new((columns * rows) as usize, facets.iter().copied(), |facet| {
             let facet = facet as usize;
             let across = part(projection.columns(facet), region.column, region.width);
             let down = part(projection.rows(facet), region.row, region.height);

@@ -19,7 +19,9 @@ import { shared } from "../styles/shared.js";
 import { elementWith, given, own } from "../../view/properties.js";
 
 const COSTS: readonly Aims["cost"][] = ["layers", "time"];
-const QUALITIES: readonly Aims["quality"][] = ["error", "roughness", "overhang"];
+const QUALITIES: readonly Aims["quality"][] = ["error", "roughness", "overhang", "islands", "cups"];
+/** What excludes directions, by the names of their words. */
+const LIMITS = { overhang: "most_overhang_mm2", islands: "most_islands", cups: "most_cups_mm2" } as const;
 /** Number of steps of the slider. */
 const STEPS = 20;
 /** Side length of a thumbnail in pixels; it is shown at half that size. */
@@ -95,9 +97,10 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
     `;
   }
 
-  #aims({ aims: { alpha, cost, quality }, options }: Searched): TemplateResult {
+  #aims({ aims, options }: Searched): TemplateResult {
     const { texts, format } = this.language;
     const { orientation: words } = texts;
+    const { alpha, cost, quality } = aims;
     const errors = texts.metrics[options?.metric ?? this.metric];
     const qualities = { error: errors.head, ...words.qualities };
     const better = { error: errors.less, ...words.better };
@@ -132,7 +135,32 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
         />
         <div class="ends quiet"><span>${words.fewer[cost]}</span><span>${better[quality]}</span></div>
       </div>
+      <div class="limits" role="group" aria-labelledby="limits">
+        <p class="quiet" id="limits">${words.most}</p>
+        ${(Object.keys(LIMITS) as (keyof typeof LIMITS)[]).map((name) => this.#limit(name, aims))}
+      </div>
     </div>`;
+  }
+
+  /** The most of something that a direction may have; empty if it does not matter. */
+  #limit(name: keyof typeof LIMITS, aims: Aims): TemplateResult {
+    const { limits } = this.language.texts.orientation;
+    const field = LIMITS[name];
+    return html`<label class="field">
+      <span>${limits[name]}</span>
+      <input
+        type="number"
+        min="0"
+        step=${name === "islands" ? "1" : "any"}
+        .value=${live(String(aims[field] ?? ""))}
+        @change=${({ target }: Event) => {
+          const input = target as HTMLInputElement;
+          // What the field refuses is left as it was.
+          if (input.validity.valid) this.#aim({ [field]: input.value === "" ? undefined : input.valueAsNumber });
+          else input.reportValidity();
+        }}
+      />
+    </label>`;
   }
 
   /** The progress bar; it appears late while candidates are only rated again, which is usually done before. */
@@ -146,6 +174,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
     const { best, busy, isCurrent } = searched;
     const { texts } = this.language;
     const fits = found.candidates.some((candidate) => candidate?.excluded === null);
+    const isPrintable = found.candidates.some((candidate) => candidate?.metrics != null);
     return html`<div class="results ${busy === null && !isCurrent ? "old" : ""}">
       <div class="globe">
         <cusp-sphere
@@ -164,7 +193,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
         ${best.length > 0 ? html`${this.#now(searched)}<h4>${texts.orientation.best}</h4>` : nothing}
         ${this.isUnpictured && best.length > 0 ? partFailure(this.language, () => void this.#drawThumbnails()) : nothing}
         ${best.map((candidate, i) => this.#choice(candidate, i, searched))}
-        ${!fits && busy === null ? html`<p class="quiet">${texts.orientation.none}</p>` : nothing}
+        ${!fits && busy === null ? html`<p class="quiet">${isPrintable ? texts.orientation.beyond : texts.orientation.none}</p>` : nothing}
       </div>
     </div>`;
   }
@@ -258,6 +287,8 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
         <span>${texts.metrics[metric].head} ${of("error")}</span>
         <span title=${words.roughnessHelp}>${words.roughness} ${of("roughness")}</span>
         <span title=${words.overhangHelp}>${words.overhang} ${of("overhang")}</span>
+        <span title=${words.islandsHelp}>${words.islands} ${of("islands")}</span>
+        <span title=${words.cupsHelp}>${words.cups} ${of("cups")}</span>
       </span>`;
   }
 
@@ -346,6 +377,8 @@ export function metricRows({ metrics, size_mm, energy }: Candidate, metric: Metr
       [texts.metrics[metric].head, of("error")],
       [words.roughness, of("roughness"), words.roughnessHelp],
       [words.overhang, of("overhang"), words.overhangHelp],
+      [words.islands, of("islands"), words.islandsHelp],
+      [words.cups, of("cups"), words.cupsHelp],
     );
   }
   if (energy !== null) rows.push([words.score, format.tick(energy), words.legend]);

@@ -1,16 +1,24 @@
 import { expect, test } from "vitest";
 import { languageOf, LANGUAGES } from "../../texts/index.js";
 import { differences, figure, type Metrics } from "./differences.js";
+import { DEFAULT_AIMS } from "./orientation.js";
 
-const now: Metrics = { layers: 1200, print_time_s: 7200, max_error: 0.06, roughness_mm: 0.0123, overhang_mm2: 50 };
+const now: Metrics = { layers: 1200, print_time_s: 7200, max_error: 0.06, roughness_mm: 0.0123, overhang_mm2: 50, islands: 0, cups_mm2: 0 };
 const en = languageOf("en");
 
 const words = (patch: Partial<Metrics>, aims: Partial<Parameters<typeof differences>[2]> = {}): string[] =>
-  differences({ ...now, ...patch }, now, { alpha: 0.5, cost: "layers", quality: "error", ...aims }, "cusp", en);
+  differences({ ...now, ...patch }, now, { ...DEFAULT_AIMS, ...aims }, "cusp", en);
 
 test("a pose has fewer or more layers, and more or less overhang, than the one now", () => {
   expect(words({ layers: 840, overhang_mm2: 610.2 })).toEqual(["360 layers fewer", "560\u00a0mm² more overhang"]);
   expect(words({ layers: 1201, overhang_mm2: 0 })).toEqual(["1 layer more", "50\u00a0mm² less overhang"]);
+});
+
+test("islands and cups are compared where they are the aim", () => {
+  const other = { layers: 1200, islands: 3, cups_mm2: 12.3 };
+  expect(words(other)).toEqual(["Same number of layers"]);
+  expect(words(other, { quality: "islands" })).toEqual(["Same number of layers", "3 islands more"]);
+  expect(words(other, { quality: "cups" })).toEqual(["Same number of layers", "12\u00a0mm² more cup area"]);
 });
 
 test("the chosen cost and quality decide what is compared", () => {

@@ -17,12 +17,15 @@ const VALUES: Readonly<Record<Term, (metrics: Metrics) => number>> = {
   error: ({ max_error }) => max_error,
   roughness: ({ roughness_mm }) => roughness_mm,
   overhang: ({ overhang_mm2 }) => overhang_mm2,
+  islands: ({ islands }) => islands,
+  cups: ({ cups_mm2 }) => cups_mm2,
 };
 
 /** Writes values of a term, with their unit. */
 function writer(term: Term, metric: Metric, { format }: Language): (value: number) => string {
   switch (term) {
     case "layers":
+    case "islands":
       return format.count;
     case "time":
       return format.time;
@@ -31,6 +34,7 @@ function writer(term: Term, metric: Metric, { format }: Language): (value: numbe
     case "roughness":
       return (mm) => `${format.tick(Math.round(mm * MICROMETRES * 10) / 10)}\u00a0µm`;
     case "overhang":
+    case "cups":
       return (mm2) => `${format.count(mm2)}\u00a0mm²`;
   }
 }
@@ -58,7 +62,7 @@ export function differences(its: Metrics, now: Metrics, { cost, quality }: Aims,
     const found = difference(term);
     if (found === null) return null;
     const { amount, written, isLess } = found;
-    if (term === "layers") return differs.layers(amount, isLess);
+    if (term === "layers" || term === "islands") return differs[term](amount, isLess);
     if (term === "error") return differs.error(names[metric].head, written, isLess);
     return differs[term](written, isLess);
   };

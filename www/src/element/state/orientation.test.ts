@@ -2,7 +2,7 @@ import { beforeEach, expect, test } from "vitest";
 import { SCHEMA, type OrientCall, type OrientationReport } from "../../api/index.js";
 import { SlicerError } from "../../api/error.js";
 import type { Candidate, Options, SearchOptions } from "../../api/wire.js";
-import { isPose, OrientationSearch, type Subject } from "./orientation.js";
+import { DEFAULT_AIMS, isPose, OrientationSearch, type Subject } from "./orientation.js";
 import { coloursOf, energyRange } from "../panels/orientation-sphere.js";
 import { metricRows } from "../panels/orientation-panel.js";
 import { moved, stepped } from "../parts/sphere-steps.js";
@@ -15,7 +15,7 @@ const candidate = (energy: number | null, patch: Partial<Candidate> = {}): Candi
   rotation: [0, 0, 0, 1],
   size_mm: [1, 2, 3],
   excluded: null,
-  metrics: { layers: 1200, print_time_s: 3600, max_error: 0.06, roughness_mm: 0.0123, overhang_mm2: 50 },
+  metrics: { layers: 1200, print_time_s: 3600, max_error: 0.06, roughness_mm: 0.0123, overhang_mm2: 50, islands: 0, cups_mm2: 0 },
   energy,
   ...patch,
 });
@@ -110,7 +110,7 @@ test("new aims rate the measured candidates again; aims changed during a search 
   await last().answer(measured);
   expect(directions.busy).toBeNull();
   directions.aim({ quality: "overhang" });
-  expect(last().search).toEqual({ alpha: 0.2, cost: "layers", quality: "overhang" });
+  expect(last().search).toEqual({ ...DEFAULT_AIMS, alpha: 0.2, quality: "overhang" });
   expect(last().call.measured).toBe(measured);
 });
 
@@ -249,6 +249,8 @@ test("metrics are written in the language; an excluded candidate has only its si
     "Largest step": "0.06\u00a0mm",
     Roughness: "12.3\u00a0µm",
     Overhang: "50\u00a0mm²",
+    Islands: "0",
+    Cups: "0\u00a0mm²",
     Size: "1.0 × 2.0 × 3.0\u00a0mm",
     Score: "0.5",
   });

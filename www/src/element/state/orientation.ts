@@ -7,8 +7,10 @@ import type { Rotation } from "../../view/scene/pose.js";
 import { back, turn, unit, UPRIGHT } from "../../view/scene/turn.js";
 import { rotationText, type Settings } from "./settings.js";
 
-/** What candidates are rated by. */
-export type Aims = Readonly<Required<Pick<SearchOptions, "alpha" | "cost" | "quality">>>;
+/** What candidates are rated by, and what excludes them. */
+export type Aims = Readonly<
+  Required<Pick<SearchOptions, "alpha" | "cost" | "quality" | "most_overhang_mm2" | "most_islands" | "most_cups_mm2">>
+>;
 
 /** What a search depends on. */
 export interface Subject {
@@ -33,7 +35,14 @@ export interface OrientationHost {
 }
 
 /** The core's defaults, which the panel shows before the worker has started. A test compares them with the core. */
-export const DEFAULT_AIMS: Aims = { alpha: 0.5, cost: "layers", quality: "error" };
+export const DEFAULT_AIMS: Aims = {
+  alpha: 0.5,
+  cost: "layers",
+  quality: "error",
+  most_overhang_mm2: undefined,
+  most_islands: undefined,
+  most_cups_mm2: undefined,
+};
 
 export class OrientationSearch {
   aims = DEFAULT_AIMS;

@@ -83,6 +83,7 @@ const KINDS: Readonly<Record<ErrorCode, Kind>> = {
   "bad-growth": "badValue",
   "bad-directions": "badValue",
   "bad-alpha": "badValue",
+  "bad-search-limit": "badValue",
   "bad-limit": "badValue",
   "bad-options": "badOptions",
   "unknown-printer": "noSuchPrinter",

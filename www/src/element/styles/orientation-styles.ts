@@ -61,6 +61,16 @@ export const orientationStyles = css`
   .balance {
     grid-column: 1 / -1;
   }
+  .limits {
+    display: grid;
+    grid-column: 1 / -1;
+    grid-template-columns: subgrid;
+    gap: inherit;
+  }
+  .limits > p {
+    grid-column: 1 / -1;
+    margin: 0.375rem 0 0;
+  }
   select {
     appearance: none;
     font: inherit;
@@ -91,6 +101,16 @@ export const orientationStyles = css`
     border-width: 0 2px 2px 0;
     rotate: 45deg;
     pointer-events: none;
+  }
+  input[type="number"] {
+    font: inherit;
+    width: 100%;
+    min-height: 2.25rem;
+    padding: 0.25rem 0.625rem;
+    border: 1px solid var(--cusp-field);
+    border-radius: 8px;
+    background: var(--cusp-card);
+    color: var(--cusp-text);
   }
   input[type="range"] {
     direction: ltr;

@@ -91,6 +91,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "bad-directions": ({ directions, most }) => `Eine Suche prüft 1 bis ${count(most)} Richtungen, nicht ${count(directions)}.`,
   "bad-limit": ({ limit, value, least, most }) => `${limit} muss zwischen ${exact(least)} und ${exact(most)} liegen, nicht bei ${exact(value)}.`,
   "bad-alpha": ({ alpha }) => `Alpha muss zwischen 0 und 1 liegen, nicht bei ${exact(alpha)}.`,
+  "bad-search-limit": ({ limit, value }) => `${limit} muss 0 oder mehr sein, nicht ${exact(value)}.`,
   "search-task": ({ task }) => `Das Ergebnis der Aufgabe ${exact(task)} gehört zu keiner offenen Aufgabe; geben Sie jedes Ergebnis einmal ab.`,
   "search-candidate": ({ place }) => `Kandidat ${exact(place)} wurde nicht für seine Richtung gemessen.`,
   "several-targets": () => "Geben Sie eine Toleranz, die höchste Zahl von Schichten oder die längste Zeit an, und nur eines davon.",

@@ -4,3 +4,4 @@ export const FACETS = { one: "Dreieck", other: "Dreiecke" };
 export const EDGES = { one: "Kante", other: "Kanten" };
 export const HOLES = { one: "Loch", other: "Löcher" };
 export const OBJECTS = { one: "Objekt", other: "Objekte" };
+export const ISLANDS = { one: "Insel", other: "Inseln" };

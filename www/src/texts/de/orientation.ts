@@ -1,6 +1,6 @@
 import type { OrientationTexts } from "../en/orientation.js";
 import type { Format } from "../format.js";
-import { LAYERS } from "./nouns.js";
+import { ISLANDS, LAYERS } from "./nouns.js";
 
 export const orientation = ({ counted }: Format): OrientationTexts => ({
   orientation: {
@@ -12,10 +12,12 @@ export const orientation = ({ counted }: Format): OrientationTexts => ({
     cost: "Aufwand",
     costs: { layers: "Schichten", time: "Druckzeit" },
     quality: "Qualität",
-    qualities: { roughness: "Rauheit", overhang: "Überhang" },
+    qualities: { roughness: "Rauheit", overhang: "Überhang", islands: "Inseln", cups: "Saugnäpfe" },
     balance: "Was mehr zählt",
     fewer: { layers: "Weniger Schichten", time: "Schneller" },
-    better: { roughness: "Glatter", overhang: "Weniger Überhang" },
+    better: { roughness: "Glatter", overhang: "Weniger Überhang", islands: "Weniger Inseln", cups: "Kleinere Saugnäpfe" },
+    most: "Richtungen auslassen mit mehr als",
+    limits: { overhang: "Überhang, mm²", islands: "Inseln", cups: "Saugnäpfe, mm²" },
     parts: (cost, costPart, quality, qualityPart) => `${cost} ${costPart}, ${quality} ${qualityPart}`,
     sphere: "Kugel der Richtungen",
     kind: "Kugel",
@@ -26,12 +28,15 @@ export const orientation = ({ counted }: Format): OrientationTexts => ({
     back: "Hinten",
     score: "Wertung",
     legend: "Wertung: Aufwand und Qualität, gewichtet wie oben; weniger ist besser",
-    excluded: "Passt nicht",
+    excluded: "Passt nicht oder ausgelassen",
     upright: "Oben, aktuelle Ausrichtung",
     why: {
       "too-large": "Zu breit oder zu tief für den Drucker.",
       "too-high": "Zu hoch für den Drucker.",
       "no-plan": "Kein Plan hält die Toleranz ein.",
+      overhang: "Eine größere Fläche als erlaubt braucht Stützen.",
+      islands: "Mehr Inseln als erlaubt.",
+      cups: "Größere Saugnäpfe als erlaubt.",
     },
     layers: "Schichten",
     time: "Druckzeit",
@@ -39,6 +44,10 @@ export const orientation = ({ counted }: Format): OrientationTexts => ({
     roughnessHelp: "Die mittlere Rauheit der Oberfläche (Ra).",
     overhang: "Überhang",
     overhangHelp: "Die Fläche, die nach unten zeigt und vielleicht Stützen braucht.",
+    islands: "Inseln",
+    islandsHelp: "Teile, die über der Platte beginnen und nichts unter sich haben. Von der Oberfläche geschätzt; die Prüfung zählt sie in den Schichten.",
+    cups: "Saugnäpfe",
+    cupsHelp: "Die Fläche von Hohlräumen, die nur von der Platte weg offen sind. Sie saugen an der Folie.",
     size: "Größe",
     apply: "Diese Ausrichtung übernehmen",
     best: "Beste Ausrichtungen",
@@ -50,11 +59,14 @@ export const orientation = ({ counted }: Format): OrientationTexts => ({
       error: (head, error, isLess) => `${head}: ${error} ${isLess ? "weniger" : "mehr"}`,
       roughness: (roughness, isLess) => `${roughness} ${isLess ? "glatter" : "rauer"}`,
       overhang: (area, isLess) => `${area} ${isLess ? "weniger" : "mehr"} Überhang`,
+      islands: (count, isLess) => `${counted(count, ISLANDS)} ${isLess ? "weniger" : "mehr"}`,
+      cups: (area, isLess) => `${area} ${isLess ? "weniger" : "mehr"} Saugnäpfe`,
       same: { layers: "Gleich viele Schichten", time: "Gleiche Druckzeit" },
     },
     rank: (rank) => `Ausrichtung ${rank}`,
     said: (layers, time, head, error) => `${counted(layers, LAYERS)}, ${time}, ${head}: ${error}`,
     found: (count) => `${count} Richtungen gemessen.`,
     none: "Keine Ausrichtung passt in den Drucker und hält die Toleranz ein.",
+    beyond: "Keine Ausrichtung hält diese Grenzen ein. Lassen Sie mehr zu.",
   },
 });

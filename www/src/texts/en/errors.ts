@@ -92,6 +92,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "bad-directions": ({ directions, most }) => `A search looks along 1 to ${count(most)} directions, not ${count(directions)}.`,
   "bad-limit": ({ limit, value, least, most }) => `${limit} is ${exact(value)}, but must be from ${exact(least)} to ${exact(most)}.`,
   "bad-alpha": ({ alpha }) => `Alpha must be from 0 to 1, not ${exact(alpha)}.`,
+  "bad-search-limit": ({ limit, value }) => `${limit} is ${exact(value)}, but must be 0 or more.`,
   "search-task": ({ task }) => `Task ${exact(task)} is not out: hand in each task's result once.`,
   "search-candidate": ({ place }) => `Candidate ${exact(place)} is not one that was measured for its direction.`,
   "several-targets": () => "Give a tolerance, the most layers or the longest time, and only one of them.",

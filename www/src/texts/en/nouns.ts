@@ -4,3 +4,4 @@ export const FACETS = { one: "facet", other: "facets" };
 export const EDGES = { one: "edge", other: "edges" };
 export const HOLES = { one: "hole", other: "holes" };
 export const OBJECTS = { one: "object", other: "objects" };
+export const ISLANDS = { one: "island", other: "islands" };

@@ -1,6 +1,6 @@
 /** The search for the best orientation. */
 import type { Format } from "../format.js";
-import { LAYERS } from "./nouns.js";
+import { ISLANDS, LAYERS } from "./nouns.js";
 
 export const orientation = ({ counted }: Format) => ({
   orientation: {
@@ -13,10 +13,13 @@ export const orientation = ({ counted }: Format) => ({
     costs: { layers: "Layers", time: "Print time" },
     quality: "Quality",
     /** The largest error, and what is less of it, are words of the metric. */
-    qualities: { roughness: "Roughness", overhang: "Overhang" },
+    qualities: { roughness: "Roughness", overhang: "Overhang", islands: "Islands", cups: "Cups" },
     balance: "What counts more",
     fewer: { layers: "Fewer layers", time: "Quicker" },
-    better: { roughness: "Smoother", overhang: "Less overhang" },
+    better: { roughness: "Smoother", overhang: "Less overhang", islands: "Fewer islands", cups: "Smaller cups" },
+    /** Before the three limits, whose names these are. */
+    most: "Leave out directions with more than",
+    limits: { overhang: "Overhang, mm²", islands: "Islands", cups: "Cups, mm²" },
     parts: (cost: string, costPart: string, quality: string, qualityPart: string) =>
       `${cost} ${costPart}, ${quality} ${qualityPart}`,
     sphere: "Sphere of directions",
@@ -28,12 +31,15 @@ export const orientation = ({ counted }: Format) => ({
     back: "Back",
     score: "Score",
     legend: "Score: cost and quality as weighed above; lower is better",
-    excluded: "Does not fit",
+    excluded: "Does not fit, or left out",
     upright: "Up, current orientation",
     why: {
       "too-large": "Too wide or too deep for the printer.",
       "too-high": "Too high for the printer.",
       "no-plan": "No plan keeps the tolerance.",
+      overhang: "Needs support over a larger area than allowed.",
+      islands: "Has more islands than allowed.",
+      cups: "Has larger cups than allowed.",
     },
     layers: "Layers",
     time: "Print time",
@@ -41,6 +47,10 @@ export const orientation = ({ counted }: Format) => ({
     roughnessHelp: "The mean roughness of the surface (Ra).",
     overhang: "Overhang",
     overhangHelp: "The area that faces down and may need support.",
+    islands: "Islands",
+    islandsHelp: "Parts that begin above the plate with nothing below them. An estimate from the surface; Check counts them in layers.",
+    cups: "Cups",
+    cupsHelp: "The area of hollows that are open only away from the plate. They suck at the film.",
     size: "Size",
     apply: "Use this orientation",
     best: "Best orientations",
@@ -53,6 +63,8 @@ export const orientation = ({ counted }: Format) => ({
       error: (head: string, error: string, isLess: boolean) => `${head}: ${error} ${isLess ? "smaller" : "larger"}`,
       roughness: (roughness: string, isLess: boolean) => `${roughness} ${isLess ? "smoother" : "rougher"}`,
       overhang: (area: string, isLess: boolean) => `${area} ${isLess ? "less" : "more"} overhang`,
+      islands: (count: number, isLess: boolean) => `${counted(count, ISLANDS)} ${isLess ? "fewer" : "more"}`,
+      cups: (area: string, isLess: boolean) => `${area} ${isLess ? "less" : "more"} cup area`,
       same: { layers: "Same number of layers", time: "Same print time" },
     },
     rank: (rank: string) => `Orientation ${rank}`,
@@ -60,6 +72,7 @@ export const orientation = ({ counted }: Format) => ({
       `${counted(layers, LAYERS)}, ${time}, ${head}: ${error}`,
     found: (count: string) => `${count} directions measured.`,
     none: "No orientation fits the printer and keeps the tolerance.",
+    beyond: "No orientation is within these limits. Allow more.",
   },
 });
 

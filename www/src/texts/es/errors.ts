@@ -90,6 +90,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "bad-directions": ({ directions, most }) => `Una búsqueda mira de 1 a ${count(most)} direcciones, no ${count(directions)}.`,
   "bad-limit": ({ limit, value, least, most }) => `${limit} debe estar entre ${exact(least)} y ${exact(most)}, no ser ${exact(value)}.`,
   "bad-alpha": ({ alpha }) => `Alfa debe estar entre 0 y 1, no ser ${exact(alpha)}.`,
+  "bad-search-limit": ({ limit, value }) => `${limit} debe ser 0 o más, no ${exact(value)}.`,
   "search-task": ({ task }) => `El resultado de la tarea ${exact(task)} no es de ninguna tarea abierta; entregue cada resultado una vez.`,
   "search-candidate": ({ place }) => `El candidato ${exact(place)} no se midió para su dirección.`,
   "several-targets": () => "Indique una tolerancia, el máximo de capas o el tiempo más largo, y solo una de las tres cosas.",

@@ -5,3 +5,4 @@ export const OMITTED = { one: "omitida", other: "omitidas" };
 export const EDGES = { one: "arista", other: "aristas" };
 export const HOLES = { one: "agujero tapado", other: "agujeros tapados" };
 export const OBJECTS = { one: "objeto", other: "objetos" };
+export const ISLANDS = { one: "isla", other: "islas" };

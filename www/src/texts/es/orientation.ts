@@ -1,6 +1,6 @@
 import type { OrientationTexts } from "../en/orientation.js";
 import type { Format } from "../format.js";
-import { LAYERS } from "./nouns.js";
+import { ISLANDS, LAYERS } from "./nouns.js";
 
 export const orientation = ({ counted }: Format): OrientationTexts => ({
   orientation: {
@@ -12,10 +12,12 @@ export const orientation = ({ counted }: Format): OrientationTexts => ({
     cost: "Coste",
     costs: { layers: "Capas", time: "Tiempo" },
     quality: "Calidad",
-    qualities: { roughness: "Rugosidad", overhang: "Voladizo" },
+    qualities: { roughness: "Rugosidad", overhang: "Voladizo", islands: "Islas", cups: "Ventosas" },
     balance: "Lo que más cuenta",
     fewer: { layers: "Menos capas", time: "Más rápido" },
-    better: { roughness: "Más liso", overhang: "Menos voladizo" },
+    better: { roughness: "Más liso", overhang: "Menos voladizo", islands: "Menos islas", cups: "Ventosas menores" },
+    most: "Descartar direcciones con más de",
+    limits: { overhang: "Voladizo, mm²", islands: "Islas", cups: "Ventosas, mm²" },
     parts: (cost, costPart, quality, qualityPart) => `${cost} ${costPart}, ${quality} ${qualityPart}`,
     sphere: "Esfera de direcciones",
     kind: "esfera",
@@ -26,12 +28,15 @@ export const orientation = ({ counted }: Format): OrientationTexts => ({
     back: "Detrás",
     score: "Puntuación",
     legend: "Puntuación: coste y calidad según el peso de arriba; menos es mejor",
-    excluded: "No cabe",
+    excluded: "No cabe o descartada",
     upright: "Arriba, orientación actual",
     why: {
       "too-large": "Demasiado ancho o profundo para la impresora.",
       "too-high": "Demasiado alto para la impresora.",
       "no-plan": "Ningún plan cumple la tolerancia.",
+      overhang: "Un área mayor que la permitida necesita soporte.",
+      islands: "Más islas que las permitidas.",
+      cups: "Ventosas mayores que las permitidas.",
     },
     layers: "Capas",
     time: "Tiempo de impresión",
@@ -39,6 +44,10 @@ export const orientation = ({ counted }: Format): OrientationTexts => ({
     roughnessHelp: "La rugosidad media de la superficie (Ra).",
     overhang: "Voladizo",
     overhangHelp: "El área que mira hacia abajo y puede necesitar soporte.",
+    islands: "Islas",
+    islandsHelp: "Partes que empiezan sobre la placa sin nada debajo. Estimadas en la superficie; la comprobación las cuenta en las capas.",
+    cups: "Ventosas",
+    cupsHelp: "El área de los huecos abiertos solo hacia el lado opuesto a la placa. Succionan la película.",
     size: "Tamaño",
     apply: "Usar esta orientación",
     best: "Mejores orientaciones",
@@ -50,11 +59,14 @@ export const orientation = ({ counted }: Format): OrientationTexts => ({
       error: (head, error, isLess) => `${head}: ${error} ${isLess ? "menos" : "más"}`,
       roughness: (roughness, isLess) => `${roughness} más ${isLess ? "liso" : "rugoso"}`,
       overhang: (area, isLess) => `${area} ${isLess ? "menos" : "más"} de voladizo`,
+      islands: (count, isLess) => `${counted(count, ISLANDS)} ${isLess ? "menos" : "más"}`,
+      cups: (area, isLess) => `${area} ${isLess ? "menos" : "más"} de ventosas`,
       same: { layers: "El mismo número de capas", time: "El mismo tiempo" },
     },
     rank: (rank) => `Orientación ${rank}`,
     said: (layers, time, head, error) => `${counted(layers, LAYERS)}, ${time}, ${head}: ${error}`,
     found: (count) => `${count} direcciones medidas.`,
     none: "Ninguna orientación cabe en la impresora y cumple la tolerancia.",
+    beyond: "Ninguna orientación cumple estos límites. Permita más.",
   },
 });

@@ -90,6 +90,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "bad-directions": ({ directions, most }) => `Une recherche examine de 1 à ${count(most)} directions, pas ${count(directions)}.`,
   "bad-limit": ({ limit, value, least, most }) => `${limit} doit être entre ${exact(least)} et ${exact(most)}, pas ${exact(value)}.`,
   "bad-alpha": ({ alpha }) => `Alpha doit être entre 0 et 1, pas ${exact(alpha)}.`,
+  "bad-search-limit": ({ limit, value }) => `${limit} doit être 0 ou plus, pas ${exact(value)}.`,
   "search-task": ({ task }) => `Le résultat de la tâche ${exact(task)} ne correspond à aucune tâche en cours ; remettez chaque résultat une seule fois.`,
   "search-candidate": ({ place }) => `Le candidat ${exact(place)} n’a pas été mesuré pour sa direction.`,
   "several-targets": () => "Donnez une tolérance, le plus grand nombre de couches ou la plus longue durée, et une seule des trois.",

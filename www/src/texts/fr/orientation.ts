@@ -1,6 +1,6 @@
 import type { OrientationTexts } from "../en/orientation.js";
 import type { Format } from "../format.js";
-import { LAYERS } from "./nouns.js";
+import { ISLANDS, LAYERS } from "./nouns.js";
 
 export const orientation = ({ counted }: Format): OrientationTexts => ({
   orientation: {
@@ -12,10 +12,12 @@ export const orientation = ({ counted }: Format): OrientationTexts => ({
     cost: "Coût",
     costs: { layers: "Couches", time: "Durée" },
     quality: "Qualité",
-    qualities: { roughness: "Rugosité", overhang: "Surplomb" },
+    qualities: { roughness: "Rugosité", overhang: "Surplomb", islands: "Îlots", cups: "Ventouses" },
     balance: "Ce qui compte le plus",
     fewer: { layers: "Moins de couches", time: "Plus rapide" },
-    better: { roughness: "Plus lisse", overhang: "Moins de surplomb" },
+    better: { roughness: "Plus lisse", overhang: "Moins de surplomb", islands: "Moins d’îlots", cups: "Ventouses plus petites" },
+    most: "Écarter les directions avec plus de",
+    limits: { overhang: "Surplomb, mm²", islands: "Îlots", cups: "Ventouses, mm²" },
     parts: (cost, costPart, quality, qualityPart) => `${cost} ${costPart}, ${quality} ${qualityPart}`,
     sphere: "Sphère des directions",
     kind: "sphère",
@@ -26,12 +28,15 @@ export const orientation = ({ counted }: Format): OrientationTexts => ({
     back: "Arrière",
     score: "Note",
     legend: "Note : coût et qualité pondérés comme ci-dessus ; moins vaut mieux",
-    excluded: "Ne convient pas",
+    excluded: "Ne convient pas, ou écartée",
     upright: "Le haut, orientation actuelle",
     why: {
       "too-large": "Trop large ou trop profond pour l’imprimante.",
       "too-high": "Trop haut pour l’imprimante.",
       "no-plan": "Aucun plan ne tient la tolérance.",
+      overhang: "Une surface plus grande que permis demande un support.",
+      islands: "Plus d’îlots que permis.",
+      cups: "Des ventouses plus grandes que permis.",
     },
     layers: "Couches",
     time: "Durée d’impression",
@@ -39,6 +44,10 @@ export const orientation = ({ counted }: Format): OrientationTexts => ({
     roughnessHelp: "La rugosité moyenne de la surface (Ra).",
     overhang: "Surplomb",
     overhangHelp: "La surface tournée vers le bas, qui peut demander un support.",
+    islands: "Îlots",
+    islandsHelp: "Parties qui commencent au-dessus du plateau sans rien dessous. Estimés sur la surface ; la vérification les compte dans les couches.",
+    cups: "Ventouses",
+    cupsHelp: "La surface des creux ouverts seulement à l’opposé du plateau. Ils aspirent le film.",
     size: "Taille",
     apply: "Utiliser cette orientation",
     best: "Meilleures orientations",
@@ -50,11 +59,14 @@ export const orientation = ({ counted }: Format): OrientationTexts => ({
       error: (head, error, isLess) => `${head} : ${error} de ${isLess ? "moins" : "plus"}`,
       roughness: (roughness, isLess) => `${roughness} plus ${isLess ? "lisse" : "rugueux"}`,
       overhang: (area, isLess) => `${area} de surplomb en ${isLess ? "moins" : "plus"}`,
+      islands: (count, isLess) => `${counted(count, ISLANDS)} en ${isLess ? "moins" : "plus"}`,
+      cups: (area, isLess) => `${area} de ventouses en ${isLess ? "moins" : "plus"}`,
       same: { layers: "Autant de couches", time: "Même durée" },
     },
     rank: (rank) => `Orientation ${rank}`,
     said: (layers, time, head, error) => `${counted(layers, LAYERS)}, ${time}, ${head} : ${error}`,
     found: (count) => `${count} directions mesurées.`,
     none: "Aucune orientation ne convient à l’imprimante et à la tolérance.",
+    beyond: "Aucune orientation ne respecte ces limites. Permettez davantage.",
   },
 });

@@ -89,6 +89,7 @@ export const errors = ({ count, exact, mm, measure, error, either }: Format): Er
   "bad-directions": ({ directions, most }) => `一次搜索可查看 1 到 ${count(most)} 个方向，而不是 ${count(directions)} 个。`,
   "bad-limit": ({ limit, value, least, most }) => `${limit} 必须在 ${exact(least)} 到 ${exact(most)} 之间，而不是 ${exact(value)}。`,
   "bad-alpha": ({ alpha }) => `alpha 必须在 0 到 1 之间，而不是 ${exact(alpha)}。`,
+  "bad-search-limit": ({ limit, value }) => `${limit} 必须是 0 或更大，而不是 ${exact(value)}。`,
   "search-task": ({ task }) => `任务 ${exact(task)} 的结果不属于任何未完成的任务；每个结果只应提交一次。`,
   "search-candidate": ({ place }) => `候选 ${exact(place)} 不是按其方向测量的。`,
   "several-targets": () => "请给出公差、最多层数或最长时间，且只给其中一项。",
