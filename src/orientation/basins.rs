@@ -89,6 +89,11 @@ impl Basins {
         }
     }
 
+    /// The facets: first those of the surface, then caps.
+    pub fn facets(&self) -> &[[u32; 3]] {
+        &self.facets
+    }
+
     /// Finds the basins of the surface with `up` up, with the vertices at these heights, and masks taken at these.
     pub fn find(&self, up: DVec3, heights_mm: &[f32], middles_mm: &[f32]) -> Found {
         let along = Along {
@@ -107,12 +112,14 @@ impl Basins {
             let Some(&level_mm) = middles_mm.get(layer) else {
                 break;
             };
-            let mut flood = Flood::default();
             if marks[minimum as usize] != DRY {
                 continue;
             }
             marks[minimum as usize] = mark;
-            flood.wet.push(minimum);
+            let mut flood = Flood {
+                wet: vec![minimum],
+                ..Flood::default()
+            };
             let is_alone = self.fill(&mut flood, level_mm, &along, &mut marks);
             // What begins below the first mask stands on the plate.
             if !is_alone || layer == 0 {
@@ -137,12 +144,12 @@ impl Basins {
         let mut is_minimum = vec![true; self.vertices_mm.len()];
         // Along each edge, the higher end is none.
         for &[a, b, c] in &self.facets {
-            let [of_a, of_b, of_c] = [a, b, c].map(|it| along.heights_mm[it as usize]);
-            for (one, of_one, other, of_other) in
-                [(a, of_a, b, of_b), (b, of_b, c, of_c), (c, of_c, a, of_a)]
-            {
-                let is_lower = of_one < of_other || (of_one == of_other && one <= other);
-                let higher = if is_lower { other } else { one };
+            for (one, other) in [(a, b), (b, c), (c, a)] {
+                let higher = if along.is_lower(other, one) {
+                    one
+                } else {
+                    other
+                };
                 is_minimum[higher as usize] &= one == other;
             }
         }

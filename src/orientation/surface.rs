@@ -32,7 +32,7 @@ const TOLD_APART: usize = 64;
 const OVERHANG: f32 = std::f32::consts::FRAC_1_SQRT_2;
 
 /// Bytes per facet that a search takes on one thread: in the mesh, the surface, and the current placement.
-const FACET_BYTES: usize = 160;
+const FACET_BYTES: usize = 148;
 
 /// Bytes per vertex that a search takes on one thread.
 const VERTEX_BYTES: usize = 118;
@@ -49,11 +49,11 @@ pub(crate) struct Surface {
     order: Vec<usize>,
     /// Coordinates of the vertices of the surface, one list per axis.
     vertices_mm: [Vec<f64>; 3],
-    facets: Vec<[u32; 3]>,
     /// Unit normals of facets, one list per axis.
     normals: [Vec<f32>; 3],
     areas_mm2: Vec<f32>,
     total_mm2: f64,
+    /// Has the facets, by the numbers of `vertices_mm`.
     basins: Basins,
 }
 
@@ -78,7 +78,7 @@ impl Surface {
         let mut number_of = vec![u32::MAX; mesh.vertices.len()];
         let mut vertices_mm: [Vec<f64>; 3] = Default::default();
         let caps = mesh.surface_facets..mesh.classes.model_end() as usize;
-        let with_caps: Vec<[u32; 3]> = order
+        let facets: Vec<[u32; 3]> = order
             .iter()
             .copied()
             .chain(caps)
@@ -96,11 +96,10 @@ impl Surface {
                 })
             })
             .collect();
-        let facets = with_caps[..order.len()].to_vec();
         let [x, y, z] = &vertices_mm;
         let vertices = x.iter().zip(y).zip(z);
         let vertices = vertices.map(|((&x, &y), &z)| DVec3::new(x, y, z)).collect();
-        let basins = Basins::new(vertices, with_caps);
+        let basins = Basins::new(vertices, facets);
         let mut normals: [Vec<f32>; 3] = Default::default();
         let mut areas_mm2 = Vec::with_capacity(order.len());
         for &facet in &order {
@@ -121,7 +120,6 @@ impl Surface {
         Self {
             order,
             vertices_mm,
-            facets,
             normals,
             total_mm2: areas_mm2.iter().copied().map(f64::from).sum(),
             areas_mm2,
@@ -257,7 +255,8 @@ impl Surface {
             if square > 1.0 { 1.0 } else { square }
         };
         let area = |facet: usize| f64::from(self.areas_mm2[facet]);
-        FacetBins::new(bins, &self.facets, &placement.heights_mm, square, area)
+        let facets = &self.basins.facets()[..self.order.len()];
+        FacetBins::new(bins, facets, &placement.heights_mm, square, area)
     }
 
     /// The metrics of a plan in a placement.
