@@ -53,15 +53,6 @@ export const findingsStyles = css`
     font-weight: 550;
     cursor: pointer;
   }
-  /* Where the view has no room for it. */
-  .legend {
-    display: var(--cusp-findings-legend, none);
-    position: static;
-    width: auto;
-    max-width: 20rem;
-    margin-block: 0.5rem;
-    background: none;
-  }
   .failed {
     color: var(--cusp-bad);
   }

@@ -1,14 +1,9 @@
 /** The styles of the mask panel. */
 import { css } from "lit";
+import { filling } from "./shared.js";
 
 export const maskStyles = css`
-  :host {
-    display: flex;
-    flex-direction: column;
-    min-width: 0;
-    height: 100%;
-    container-type: inline-size;
-  }
+  ${filling}
   /* It takes what a box of definite height leaves. */
   .well {
     position: relative;

@@ -1,14 +1,9 @@
 /** The styles of the panel around the 3-D view. */
 import { css } from "lit";
+import { filling } from "./shared.js";
 
 export const modelViewStyles = css`
-  :host {
-    display: flex;
-    flex-direction: column;
-    min-width: 0;
-    height: 100%;
-    container-type: inline-size;
-  }
+  ${filling}
   /* Their bases make the height where the parent has none, and shrink where it has one: the tools first. */
   .stage {
     flex: 1 1 auto;

@@ -71,17 +71,20 @@ export const orientationStyles = css`
     grid-column: 1 / -1;
     margin: 0.375rem 0 0;
   }
-  select {
-    appearance: none;
+  select,
+  input[type="number"] {
     font: inherit;
     width: 100%;
     min-height: 2.25rem;
-    padding-block: 0.25rem;
-    padding-inline: 0.625rem 2rem;
+    padding: 0.25rem 0.625rem;
     border: 1px solid var(--cusp-field);
     border-radius: 8px;
     background: var(--cusp-card);
     color: var(--cusp-text);
+  }
+  select {
+    appearance: none;
+    padding-inline-end: 2rem;
     text-overflow: ellipsis;
   }
   .list {
@@ -101,16 +104,6 @@ export const orientationStyles = css`
     border-width: 0 2px 2px 0;
     rotate: 45deg;
     pointer-events: none;
-  }
-  input[type="number"] {
-    font: inherit;
-    width: 100%;
-    min-height: 2.25rem;
-    padding: 0.25rem 0.625rem;
-    border: 1px solid var(--cusp-field);
-    border-radius: 8px;
-    background: var(--cusp-card);
-    color: var(--cusp-text);
   }
   input[type="range"] {
     direction: ltr;

@@ -13,6 +13,17 @@ export const lineIcon = css`
   stroke-linejoin: round;
 `;
 
+/** A panel that fills a box of definite height, and lays itself out by its own width. */
+export const filling = css`
+  :host {
+    display: flex;
+    flex-direction: column;
+    min-width: 0;
+    height: 100%;
+    container-type: inline-size;
+  }
+`;
+
 export const shared = css`
   *,
   *::before,
