@@ -204,7 +204,7 @@ test("what the page loads before its 3-D view, beside the wasm, is at most 135 K
     if (!/\.(js|css|html)$|\/$/.test(pathname)) return;
     void response.body().then(
       // The view's own chunks, and that of three.
-      (body) => (/cusp-view|wall-legend/.test(pathname) || body.includes("WebGLRenderer") ? null : sizes.set(pathname, gzipSync(body).length)),
+      (body) => (/cusp-view/.test(pathname) || body.includes("WebGLRenderer") ? null : sizes.set(pathname, gzipSync(body).length)),
       () => undefined,
     );
   });

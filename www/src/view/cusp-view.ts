@@ -34,6 +34,8 @@ import { PROPERTIES } from "./view-properties.js";
 import { Measuring } from "./walls/measuring.js";
 import { wallScale } from "./walls/scale.js";
 
+export { CuspWallLegend } from "./legend/wall-legend.js";
+
 // oxlint-disable-next-line typescript/no-unsafe-declaration-merging -- it only types listeners, which are the base's
 export class CuspView extends elementWith(PROPERTIES) {
   #scene: Scene | null = null;

@@ -1,7 +1,6 @@
 /** The markup around the view's canvas: its container, texts, colour scales and progress bar. */
 import { html, nothing, type TemplateResult } from "lit";
 import type { CuspView } from "./cusp-view.js";
-import { wallScale } from "./walls/scale.js";
 import { distanceLegend, heatLegend, legend } from "./legend/legend.js";
 import { wallLegend } from "./legend/wall-legend.js";
 
@@ -70,7 +69,7 @@ function scale(view: Properties): TemplateResult | typeof nothing {
   const showsLegend = view.showsLegend && !(isAligned(view) && isBeside === true);
   if (look === "weights") return positions === null ? nothing : heatLegend(texts);
   if (look === "distance") return greatest_mm === null ? nothing : distanceLegend(greatest_mm, texts);
-  if (look === "walls") return view.walls === null ? nothing : wallLegend(wallScale(view.wall_mm), texts);
+  if (look === "walls") return view.walls === null ? nothing : wallLegend(view.wall_mm, texts);
   if (look !== "thickness" || !showsLegend || thickness_mm.length === 0) return nothing;
   const marked_mm = (layer === null ? undefined : thickness_mm[layer]) ?? null;
   return legend({ palette, limits, marked_mm, texts });

@@ -4,10 +4,7 @@ import type { Check, SlicerError } from "../../api/index.js";
 import type { Code, Count, Finding, Metric, Severity } from "../../api/wire.js";
 import { findingsTexts, saidOf, type FindingsTexts } from "../../texts/findings/index.js";
 import { languageOf, type Language } from "../../texts/index.js";
-import { legendStyles } from "../../view/legend/legend.js";
-import { wallLegend, wallLegendStyles } from "../../view/legend/wall-legend.js";
 import { elementWith, given, own } from "../../view/properties.js";
-import { wallScale } from "../../view/walls/scale.js";
 import { define } from "../define.js";
 import type { Checks } from "../state/checks.js";
 import { viewTexts } from "../parts/view-texts.js";
@@ -47,7 +44,7 @@ const PROPERTIES = {
 };
 
 export class CuspFindings extends elementWith(PROPERTIES) {
-  static override styles = [shared, legendStyles, wallLegendStyles, findingsStyles];
+  static override styles = [shared, findingsStyles];
 
   override connectedCallback(): void {
     super.connectedCallback();
@@ -105,7 +102,7 @@ export class CuspFindings extends elementWith(PROPERTIES) {
         ${words.walls}
       </label>
       <p class="quiet" id="walls-hint">${words.wallsHint(format.mm(wall_mm))}</p>
-      ${showsWalls ? wallLegend(wallScale(wall_mm), viewTexts(this.language)) : nothing}`;
+      ${showsWalls ? html`<cusp-wall-legend .wall_mm=${wall_mm} .texts=${viewTexts(this.language)}></cusp-wall-legend>` : nothing}`;
   }
 
   #kind({ code, found }: Count, { findings }: Check, words: FindingsTexts): TemplateResult {

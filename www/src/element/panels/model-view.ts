@@ -223,8 +223,9 @@ export class CuspModel extends elementWith(PROPERTIES) {
   async #load(): Promise<void> {
     this.isMissing = false;
     try {
-      const { CuspView } = await import("../../view/cusp-view.js");
+      const { CuspView, CuspWallLegend } = await import("../../view/cusp-view.js");
       define("cusp-view", CuspView);
+      define("cusp-wall-legend", CuspWallLegend);
       this.isThere = true;
     } catch (error) {
       this.isMissing = true;

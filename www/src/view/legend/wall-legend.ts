@@ -1,14 +1,19 @@
 /** The colour scale of walls, from 0 to where all thicker ones look the same. */
 import { css, html, type TemplateResult } from "lit";
 import { HEAT_PALETTE } from "../paint/heat.js";
-import type { ViewTexts } from "../texts.js";
-import type { WallScale } from "../walls/scale.js";
-import { ticks } from "./legend.js";
+import { elementWith, given } from "../properties.js";
+import { ENGLISH, type ViewTexts } from "../texts.js";
+import { WALL_MM, wallScale } from "../walls/scale.js";
+import { legendStyles, ticks } from "./legend.js";
 import { gradient } from "./palette.js";
 
 const across = (place: number): string => `${(100 * place).toFixed(2)}%`;
 
-export function wallLegend({ least_mm, full_mm }: WallScale, texts: Pick<ViewTexts, "walls" | "thin" | "wall">): TemplateResult {
+type Texts = Pick<ViewTexts, "walls" | "thin" | "wall">;
+
+/** @param wall_mm what is thinner than this is marked */
+export function wallLegend(wall_mm: number, texts: Texts): TemplateResult {
+  const { least_mm, full_mm } = wallScale(wall_mm);
   return html`
     <div class="legend walls" part="legend">
       <span class="heading">${texts.walls}</span>
@@ -52,3 +57,25 @@ export const wallLegendStyles = css`
     }
   }
 `;
+
+/** `<cusp-wall-legend>`: the scale outside the view, where the view has no room for it. The view's code brings it along. */
+export class CuspWallLegend extends elementWith({ wall_mm: given(WALL_MM), texts: given<Texts>(ENGLISH) }) {
+  static override styles = [
+    legendStyles,
+    wallLegendStyles,
+    css`
+      .legend {
+        display: var(--cusp-findings-legend, none);
+        position: static;
+        width: auto;
+        max-width: 20rem;
+        margin-block: 0.5rem;
+        background: none;
+      }
+    `,
+  ];
+
+  override render(): TemplateResult {
+    return wallLegend(this.wall_mm, this.texts);
+  }
+}

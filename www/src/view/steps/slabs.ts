@@ -2,12 +2,16 @@
 import { Box3, BufferAttribute, BufferGeometry, Vector3 } from "three";
 import { MeshBVH } from "three-mesh-bvh";
 import type { Solid } from "./contours.js";
+import { shared } from "./work.js";
 
 /** Facets between two yields while they are sorted. */
 const BLOCK = 8192;
 
 /** Places along the axis that facets are sorted into. */
 const BINS = 4096;
+
+/** Fraction of the progress for sorting. */
+const SORTING = 0.25;
 
 export type Axis = 0 | 1 | 2;
 
@@ -62,10 +66,7 @@ function* sorted({ points, topology: { corner } }: Solid, axis: Axis): Generator
  */
 export function* slabsOf(solid: Solid, axis: Axis, facets: number): Generator<number, Slabs> {
   const { points } = solid;
-  const sorting = sorted(solid, axis);
-  let step = sorting.next();
-  for (; step.done !== true; step = sorting.next()) yield step.value / 4;
-  const index = step.value;
+  const index = yield* shared(sorted(solid, axis), 0, SORTING);
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(points, 3));
   geometry.setIndex(new BufferAttribute(index, 1));
@@ -76,7 +77,7 @@ export function* slabsOf(solid: Solid, axis: Axis, facets: number): Generator<nu
     const bounds = new Box3();
     for (let i = start; i < start + count; i++) bounds.expandByPoint(point.fromArray(points, 3 * (index[i] ?? 0)));
     slabs.push({ bounds, tree: new MeshBVH(geometry, { range: { start, count }, setBoundingBox: false }) });
-    yield 0.25 + (0.75 * (start + count)) / index.length;
+    yield SORTING + ((1 - SORTING) * (start + count)) / index.length;
   }
   return { index, slabs };
 }

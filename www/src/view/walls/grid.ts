@@ -4,6 +4,8 @@
  * inside a cell is right for all of it, where one value a facet, or a corner, would be wrong on the large facets of CAD models.
  */
 
+import { shared } from "../steps/work.js";
+
 /** Facets between two yields. */
 const BLOCK = 8192;
 
@@ -75,10 +77,7 @@ function* shapesOf(count: number, corner: Corner): Generator<number, { long: Flo
  * Yields its progress, 0 to 1.
  */
 export function* gridsOf(count: number, corner: Corner, size_mm: number, more: number): Generator<number, Grids> {
-  const shapes = shapesOf(count, corner);
-  let step = shapes.next();
-  for (; step.done !== true; step = shapes.next()) yield step.value / 2;
-  const { long, high, apex } = step.value;
+  const { long, high, apex } = yield* shared(shapesOf(count, corner), 0, 0.5);
   const along = (length_mm: number, spacing_mm: number): number => Math.min(MOST_CELLS, Math.max(1, Math.ceil(length_mm / spacing_mm - 0.5)));
   let spacing_mm = SPACING_PART * size_mm || 1;
   for (;;) {
