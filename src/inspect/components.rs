@@ -141,26 +141,28 @@ impl Components {
         pairs
     }
 
-    /// The dark components of a layer's gaps that meet the outside of `lit` in a row: dark pixels before the first or after
-    /// the last lit pixel. `step` is the row's distance from the gap's own.
-    pub fn open_to(&self, lit: &Rows, step: i32, is_open: &mut [bool]) {
+    /// The components with pixels outside the extents of rows. `step` is the distance of these rows from the components' own.
+    pub fn open_to(&self, extent: Extent<'_>, step: i32, is_open: &mut [bool]) {
         for row in 0..self.rows.len() {
-            if self.rows.row(row).is_empty() {
+            let (Some(first), Some(last)) = (self.rows.row(row).first(), self.rows.row(row).last())
+            else {
+                continue;
+            };
+            let inside = extent(row + step);
+            if inside.is_some_and(|it| it.start <= first.start && last.end <= it.end) {
                 continue;
             }
-            let others = lit.row(row + step);
             for (span, component) in self.of_row(row) {
-                let (Some(first), Some(last)) = (others.first(), others.last()) else {
-                    is_open[component as usize] = true;
-                    continue;
-                };
-                if span.start < first.start || span.end > last.end {
+                if inside.is_none_or(|it| span.start < it.start || span.end > it.end) {
                     is_open[component as usize] = true;
                 }
             }
         }
     }
 }
+
+/// Tells from which to which pixel each row of a layer goes.
+pub(super) type Extent<'a> = &'a dyn Fn(i32) -> Option<Span>;
 
 /// Calls `found` with the places of every two spans of two rows that share a column.
 fn each_overlap(a: &Rows, a_row: i32, b: &Rows, b_row: i32, mut found: impl FnMut(usize, usize)) {

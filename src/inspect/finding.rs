@@ -29,12 +29,16 @@ pub enum Code {
     Cup,
     /// A hollow that is open nowhere once it is printed.
     Trap,
+    /// A hollow that resin leaves only through openings that are too narrow.
+    SmallEscape,
     /// A wall, or another part, that is too thin within layers.
     ThinWall,
     /// A floor, a roof, or another part, that is too thin along z.
     ThinFloor,
     /// A gap, or a hole, that is too narrow within layers.
     NarrowGap,
+    /// A hole that is too small, however it is measured within layers.
+    SmallHole,
     /// A gap that is too low along z.
     LowGap,
     /// A layer that is too large to peel off.
@@ -47,7 +51,7 @@ pub enum Code {
 
 impl Code {
     /// All kinds, in the order in which findings are listed.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 16] = [
         Self::Island,
         Self::LooseBody,
         Self::SeparateBody,
@@ -55,9 +59,11 @@ impl Code {
         Self::Overhang,
         Self::Cup,
         Self::Trap,
+        Self::SmallEscape,
         Self::ThinWall,
         Self::ThinFloor,
         Self::NarrowGap,
+        Self::SmallHole,
         Self::LowGap,
         Self::PeelArea,
         Self::PeelJump,
@@ -74,9 +80,11 @@ impl Code {
             Self::Overhang => "overhang",
             Self::Cup => "cup",
             Self::Trap => "trap",
+            Self::SmallEscape => "small-escape",
             Self::ThinWall => "thin-wall",
             Self::ThinFloor => "thin-floor",
             Self::NarrowGap => "narrow-gap",
+            Self::SmallHole => "small-hole",
             Self::LowGap => "low-gap",
             Self::PeelArea => "peel-area",
             Self::PeelJump => "peel-jump",
@@ -105,7 +113,8 @@ pub struct Finding {
     pub layers: [usize; 2],
     /// Its largest area in a layer, in mm².
     pub area_mm2: f64,
-    /// Its volume in mm³: what is lit of a body or an island until it joins another, and the dark in a cup or a trap.
+    /// Its volume in mm³: what is lit of a body or an island until it joins another, the dark in a cup or a trap,
+    /// and of a small escape the dark with room for the limit.
     pub volume_mm3: f64,
     /// For islands, the layer that joins them with something else, from 0.
     pub joins_layer: Option<usize>,
@@ -165,6 +174,11 @@ impl Display for Finding {
                 "{:.3} ml of resin are enclosed; make two holes to drain them",
                 volume / 1e3
             ),
+            Code::SmallEscape => write!(
+                f,
+                "{:.3} ml of resin or more leave a hollow only through openings narrower than {limit} mm; widen them, or add one",
+                volume / 1e3
+            ),
             Code::ThinWall => write!(
                 f,
                 "a wall is thinner than {limit} mm over {volume:.3} mm³; make it thicker, or the model larger"
@@ -176,6 +190,10 @@ impl Display for Finding {
             Code::NarrowGap => write!(
                 f,
                 "a gap is narrower than {limit} mm over {volume:.3} mm³ and may close; make it wider, or the model larger"
+            ),
+            Code::SmallHole => write!(
+                f,
+                "a hole is smaller than {limit} mm over {volume:.3} mm³ and may close; make it wider, or the model larger"
             ),
             Code::LowGap => write!(
                 f,

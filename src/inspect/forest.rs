@@ -30,6 +30,8 @@ pub(super) enum Joining {
 /// A tree, measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Tree {
+    /// Its place among all trees, in the order in which they begin.
+    pub number: u32,
     /// The first layer.
     pub first: usize,
     /// The last layer so far.
@@ -51,8 +53,9 @@ pub(super) struct Tree {
 }
 
 impl Tree {
-    fn new(layer: usize, patch: &Patch, is_fixed: bool) -> Self {
+    fn new(number: u32, layer: usize, patch: &Patch, is_fixed: bool) -> Self {
         Self {
+            number,
             first: layer,
             last: layer,
             volume: 0,
@@ -105,10 +108,10 @@ pub(super) struct Forest {
     of_component: Vec<u32>,
 }
 
-/// The tree of the outside, in a forest that has one.
-const OUTSIDE: u32 = 0;
-
 impl Forest {
+    /// The tree of the outside, in a forest that has one.
+    pub const OUTSIDE: u32 = 0;
+
     /// A forest in which trees that join end, or are one.
     pub fn new(joining: Joining) -> Self {
         Self {
@@ -125,8 +128,8 @@ impl Forest {
     pub fn with_outside(joining: Joining, anywhere: &Patch) -> Self {
         Self {
             has_outside: true,
-            parent: vec![OUTSIDE],
-            trees: vec![Tree::new(0, anywhere, true)],
+            parent: vec![Self::OUTSIDE],
+            trees: vec![Tree::new(Self::OUTSIDE, 0, anywhere, true)],
             ..Self::new(joining)
         }
     }
@@ -150,7 +153,7 @@ impl Forest {
             if has_outside {
                 unite(
                     &mut self.parent,
-                    OUTSIDE,
+                    Self::OUTSIDE,
                     self.of_component[component as usize],
                 );
             }
@@ -159,9 +162,9 @@ impl Forest {
             let known = &mut node[component as usize];
             if has_outside {
                 *known = if *known == NONE {
-                    OUTSIDE
+                    Self::OUTSIDE
                 } else {
-                    unite(&mut self.parent, OUTSIDE, *known)
+                    unite(&mut self.parent, Self::OUTSIDE, *known)
                 };
             }
         }
@@ -174,7 +177,8 @@ impl Forest {
             let tree = self.trees.len() as u32;
             let is_fixed = !has_outside && step.fixed.binary_search(&component).is_ok();
             let patch = &step.patches[component as usize];
-            self.trees.push(Tree::new(step.layer, patch, is_fixed));
+            self.trees
+                .push(Tree::new(tree, step.layer, patch, is_fixed));
             self.parent.push(tree);
             node[component as usize] = tree;
         }
@@ -227,6 +231,24 @@ impl Forest {
                 (tree.largest, tree.largest_layer) = (tree.here, step.layer);
             }
         }
+    }
+
+    /// Number of trees so far.
+    pub fn trees(&self) -> usize {
+        self.trees.len()
+    }
+
+    /// The tree of each component of the last layer.
+    pub fn of_components(&self) -> &[u32] {
+        &self.of_component
+    }
+
+    /// The tree that another is part of by now.
+    pub fn root(&self, mut tree: u32) -> &Tree {
+        while self.parent[tree as usize] != tree {
+            tree = self.parent[tree as usize];
+        }
+        &self.trees[tree as usize]
     }
 
     /// Ends all trees that reach the top.

@@ -5,7 +5,7 @@
 //! opening, what is in it stays: a trap. Dark pixels of the first layer lie on the plate, which closes them.
 
 use super::collect::{Collector, Frame};
-use super::components::{Components, Patch};
+use super::components::{Components, Extent, Patch};
 use super::finding::{Code, Finding};
 use super::forest::{End, Forest, Joining, Step, Tree};
 use super::limits::Limits;
@@ -16,17 +16,22 @@ use super::rows::Rows;
 pub(super) struct Gaps {
     pub components: Components,
     /// Those that meet the outside in their own layer.
-    is_open: Vec<bool>,
+    pub is_open: Vec<bool>,
 }
 
 impl Gaps {
-    /// Dark pixels before the first and after the last lit one of a row are outside, and no part of any component.
-    pub fn new(lit: &Rows) -> Self {
-        let components = Components::new(lit.gaps());
+    /// The dark places of a layer.
+    pub fn between(lit: &Rows) -> Self {
+        Self::new(lit.gaps(), &|row| lit.extent(row))
+    }
+
+    /// Dark pixels outside the extents of the layer's rows are outside, and not among those given.
+    pub fn new(dark: Rows, extent: Extent<'_>) -> Self {
+        let components = Components::new(dark);
         let mut is_open = vec![false; components.patches.len()];
         if !is_open.is_empty() {
-            components.open_to(lit, -1, &mut is_open);
-            components.open_to(lit, 1, &mut is_open);
+            components.open_to(extent, -1, &mut is_open);
+            components.open_to(extent, 1, &mut is_open);
         }
         Self {
             components,
@@ -38,24 +43,24 @@ impl Gaps {
 /// How the gaps of a layer meet those of the layer below, and the outside.
 #[derive(Default)]
 pub(super) struct Meetings {
-    contacts: Vec<[u32; 2]>,
+    pub contacts: Vec<[u32; 2]>,
     /// Components of the layer that are open to the outside, in it or in the layer below.
-    open: Vec<u32>,
+    pub open: Vec<u32>,
     /// Components of the layer below that are open to the outside in the layer.
-    open_below: Vec<u32>,
+    pub open_below: Vec<u32>,
 }
 
 impl Meetings {
     /// `below` is absent for the first layer.
-    pub fn new(here: &Gaps, lit: &Rows, below: Option<(&Gaps, &Rows)>) -> Self {
+    pub fn new(here: &Gaps, extent: Extent<'_>, below: Option<(&Gaps, Extent<'_>)>) -> Self {
         let mut is_open = here.is_open.clone();
         let mut is_open_below = Vec::new();
         let mut contacts = Vec::new();
-        if let Some((gaps, lit_below)) = below {
+        if let Some((gaps, extent_below)) = below {
             contacts = here.components.contacts(&gaps.components);
-            here.components.open_to(lit_below, 0, &mut is_open);
+            here.components.open_to(extent_below, 0, &mut is_open);
             is_open_below = vec![false; gaps.is_open.len()];
-            gaps.components.open_to(lit, 0, &mut is_open_below);
+            gaps.components.open_to(extent, 0, &mut is_open_below);
         }
         let those = |is_open: &[bool]| {
             let all = is_open.iter().zip(0..);
@@ -104,6 +109,17 @@ impl<'a> Hollows<'a> {
         self.forest.advance(&step, |tree, end| {
             add(tree, end, frame, limits, collector);
         });
+    }
+
+    /// The hollow, or the outside, that a gap of the last layer belongs to.
+    pub fn tree(&self, gap: u32) -> u32 {
+        self.forest.of_components()[gap as usize]
+    }
+
+    /// Whether a hollow is closed by now.
+    pub fn is_trap(&self, tree: u32) -> bool {
+        let tree = self.forest.root(tree);
+        !tree.is_fixed && tree.last + 1 < self.frame.layers()
     }
 
     pub fn finish(self, collector: &mut Collector<'_>) {

@@ -5,11 +5,13 @@ use std::sync::Arc;
 use super::collect::Frame;
 use super::columns;
 use super::components::Components;
+use super::escapes;
 use super::finding::Code;
+use super::holes;
 use super::hollows::{Gaps, Meetings};
 use super::limits::Limits;
 use super::overhang;
-use super::rows::{Disc, Rows};
+use super::rows::{Disc, Rows, Span};
 use super::thickness::Thickness;
 use crate::mask::{LayerRuns, Masks, RunReader, RunSource};
 use crate::parallel;
@@ -21,6 +23,7 @@ const GROUP: usize = 64;
 pub(super) struct Alone {
     pub lit: Components,
     pub gaps: Gaps,
+    pub rooms: Gaps,
 }
 
 /// What a layer and the one below tell.
@@ -30,6 +33,7 @@ pub(super) struct Layer {
     /// Pairs of lit components of the layer below and of this one.
     pub contacts: Vec<[u32; 2]>,
     pub meetings: Meetings,
+    pub room_meetings: Meetings,
     /// What a self-supporting slope spans in the layer.
     pub width: Disc,
     /// Pixels that would be unsupported if all of the layer below were supported.
@@ -42,6 +46,7 @@ pub(super) struct Layer {
 pub(super) struct Thin {
     pub walls: Rows,
     pub gaps: Rows,
+    pub holes: Rows,
     pub floors: Rows,
     pub low_gaps: Rows,
 }
@@ -62,6 +67,8 @@ struct Checks<'a> {
     limits: &'a Limits,
     walls: Option<Thickness>,
     gaps: Option<Thickness>,
+    /// The disc that must fit into an escape.
+    escape: Option<Disc>,
 }
 
 impl<'a> Reader<'a> {
@@ -83,6 +90,7 @@ impl<'a> Reader<'a> {
             limits,
             walls: thickness(Code::ThinWall, limits.wall_mm),
             gaps: thickness(Code::NarrowGap, limits.gap_mm),
+            escape: escapes::disc(frame, limits),
         };
         Self {
             checks,
@@ -113,12 +121,12 @@ impl<'a> Reader<'a> {
         let (checks, last) = (&self.checks, self.last.as_ref());
         let alone = parallel::map((0..count).collect(), |place| {
             let lit = Rows::of_layer(&runs, place, &checks.frame.area);
-            Arc::new(Alone::new(lit))
+            Arc::new(Alone::new(lit, checks.escape.as_ref()))
         });
         let layers = parallel::map((0..count).collect(), |place| {
             let below = place.checked_sub(1).map(|below| &alone[below]);
             let below = below.or(last).map(Arc::as_ref);
-            let thin = checks.thin(&alone[place].lit.rows, &short, place);
+            let thin = checks.thin(&alone[place], &short, place);
             checks.layer(first + place, &alone[place], below, thin)
         });
         self.last = alone.into_iter().next_back().or(self.last.take());
@@ -131,15 +139,20 @@ impl Checks<'_> {
         let lit = &alone.lit;
         let contacts = below.map_or(Vec::new(), |below| lit.contacts(&below.lit));
         let width = overhang::width(number, self.frame, self.limits);
-        let of_below = below.map(|below| (&below.gaps, &below.lit.rows));
-        let meetings = Meetings::new(&alone.gaps, &lit.rows, of_below);
+        let lit_extent = |it: &Alone, row| it.lit.rows.extent(row);
+        let of_gaps = meetings(alone, below, |it| &it.gaps, &lit_extent);
+        let of_rooms = self.escape.as_ref().map_or(Meetings::default(), |disc| {
+            let extent = |it: &Alone, row| escapes::extent(&it.lit.rows, row, disc);
+            meetings(alone, below, |it| &it.rooms, &extent)
+        });
         let below = below.filter(|_| self.limits.looks_for(Code::Overhang));
         let flat = below.map_or(Rows::default(), |below| {
             overhang::unsupported(lit, &below.lit.rows, &contacts, &width)
         });
         Layer {
             number,
-            meetings,
+            meetings: of_gaps,
+            room_meetings: of_rooms,
             alone: Arc::clone(alone),
             contacts,
             width,
@@ -148,7 +161,8 @@ impl Checks<'_> {
         }
     }
 
-    fn thin(&self, lit: &Rows, short: &[Option<LayerRuns>; 2], place: usize) -> Thin {
+    fn thin(&self, alone: &Alone, short: &[Option<LayerRuns>; 2], place: usize) -> Thin {
+        let lit = &alone.lit.rows;
         let area = &self.frame.area;
         let [floors, low_gaps] = short.each_ref().map(|runs| {
             let rows = runs.as_ref().map(|runs| Rows::of_layer(runs, place, area));
@@ -160,6 +174,7 @@ impl Checks<'_> {
         Thin {
             walls: self.walls.as_ref().map(wall).unwrap_or_default(),
             gaps: self.gaps.as_ref().map(gap).unwrap_or_default(),
+            holes: holes::small(&alone.gaps, self.frame, self.limits),
             floors: floors.map_or(Rows::default(), |short| {
                 columns::thin(&short, lit, &disc(self.limits.floor_mm))
             }),
@@ -171,10 +186,30 @@ impl Checks<'_> {
     }
 }
 
+/// How dark places of a kind meet those of the layer below.
+fn meetings(
+    here: &Alone,
+    below: Option<&Alone>,
+    places: impl Fn(&Alone) -> &Gaps,
+    extent: &dyn Fn(&Alone, i32) -> Option<Span>,
+) -> Meetings {
+    let extent_here = |row| extent(here, row);
+    let Some(below) = below else {
+        return Meetings::new(places(here), &extent_here, None);
+    };
+    let extent_below = |row| extent(below, row);
+    Meetings::new(
+        places(here),
+        &extent_here,
+        Some((places(below), &extent_below)),
+    )
+}
+
 impl Alone {
-    fn new(lit: Rows) -> Self {
+    fn new(lit: Rows, escape: Option<&Disc>) -> Self {
         Self {
-            gaps: Gaps::new(&lit),
+            rooms: escape.map_or(Gaps::default(), |disc| escapes::rooms(&lit, disc)),
+            gaps: Gaps::between(&lit),
             lit: Components::new(lit),
         }
     }

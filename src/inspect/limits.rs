@@ -43,12 +43,16 @@ pub struct Limits {
     pub cup_mm2: f64,
     /// Traps count from this volume on, in millilitres.
     pub trap_ml: f64,
+    /// The narrowest way out of a hollow, in millimetres.
+    pub escape_mm: f64,
     /// The thinnest wall, across layers, in millimetres.
     pub wall_mm: f64,
     /// The thinnest floor or roof, along z, in millimetres.
     pub floor_mm: f64,
     /// The narrowest gap, across layers, in millimetres.
     pub gap_mm: f64,
+    /// The smallest hole, across layers, in millimetres.
+    pub hole_mm: f64,
     /// The lowest gap, along z, in millimetres.
     pub low_gap_mm: f64,
     /// The largest area of a layer, in mm²; no limit if absent.
@@ -71,9 +75,11 @@ impl Default for Limits {
             overhang_mm: 1.0,
             cup_mm2: 1.0,
             trap_ml: 0.001,
+            escape_mm: 2.0,
             wall_mm: 0.4,
             floor_mm: 0.4,
             gap_mm: 0.3,
+            hole_mm: 0.5,
             low_gap_mm: 0.3,
             peel_mm2: None,
             peel_jump_mm2: None,
@@ -106,12 +112,16 @@ pub struct Severities {
     pub cup: Severity,
     /// A hollow that is open nowhere.
     pub trap: Severity,
+    /// A hollow whose openings are too narrow.
+    pub small_escape: Severity,
     /// A wall that is too thin.
     pub thin_wall: Severity,
     /// A floor or a roof that is too thin.
     pub thin_floor: Severity,
     /// A gap that is too narrow.
     pub narrow_gap: Severity,
+    /// A hole that is too small.
+    pub small_hole: Severity,
     /// A gap that is too low.
     pub low_gap: Severity,
     /// A layer that is too large.
@@ -132,9 +142,11 @@ impl Default for Severities {
             overhang: Severity::Review,
             cup: Severity::Review,
             trap: Severity::Reject,
+            small_escape: Severity::Review,
             thin_wall: Severity::Review,
             thin_floor: Severity::Review,
             narrow_gap: Severity::Review,
+            small_hole: Severity::Review,
             low_gap: Severity::Review,
             peel_area: Severity::Review,
             peel_jump: Severity::Review,
@@ -154,9 +166,11 @@ impl Severities {
             Code::Overhang => self.overhang,
             Code::Cup => self.cup,
             Code::Trap => self.trap,
+            Code::SmallEscape => self.small_escape,
             Code::ThinWall => self.thin_wall,
             Code::ThinFloor => self.thin_floor,
             Code::NarrowGap => self.narrow_gap,
+            Code::SmallHole => self.small_hole,
             Code::LowGap => self.low_gap,
             Code::PeelArea => self.peel_area,
             Code::PeelJump => self.peel_jump,
@@ -202,9 +216,11 @@ impl Limits {
     pub fn check(&self) -> Result<(), LimitsError> {
         let lengths = [
             ("overhang_mm", self.overhang_mm),
+            ("escape_mm", self.escape_mm),
             ("wall_mm", self.wall_mm),
             ("floor_mm", self.floor_mm),
             ("gap_mm", self.gap_mm),
+            ("hole_mm", self.hole_mm),
             ("low_gap_mm", self.low_gap_mm),
         ];
         let others = [

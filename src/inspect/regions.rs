@@ -4,7 +4,7 @@ use super::collect::{Collector, Frame};
 use super::components::Components;
 use super::finding::{Code, Finding};
 use super::forest::{End, Forest, Joining, Step, Tree};
-use super::rows::Rows;
+use super::rows::{ROUNDING, Rows};
 
 /// The regions of one kind in the layers so far.
 pub(super) struct Regions {
@@ -66,7 +66,7 @@ impl Regions {
             return;
         }
         let height_mm = frame.z_mm[tree.last + 1] - frame.z_mm[tree.first];
-        if height_mm < self.least_height_mm {
+        if height_mm * (1.0 + ROUNDING) < self.least_height_mm {
             return;
         }
         collector.add(Finding {

@@ -134,6 +134,15 @@ impl Rows {
         &self.spans[self.places(row)]
     }
 
+    /// From the first to the last pixel of a row.
+    pub fn extent(&self, row: i32) -> Option<Span> {
+        let spans = self.row(row);
+        Some(Span {
+            start: spans.first()?.start,
+            end: spans.last()?.end,
+        })
+    }
+
     /// The dark pixels between lit ones of the same row.
     pub fn gaps(&self) -> Self {
         let mut gaps = Self {
@@ -253,7 +262,7 @@ pub(super) struct Disc {
 }
 
 /// A radius this close to a whole number of pixels, as a fraction of it, counts as whole.
-const ROUNDING: f64 = 1e-9;
+pub(super) const ROUNDING: f64 = 1e-9;
 
 impl Disc {
     pub fn new(radius_mm: f64, grid: &Grid) -> Self {
@@ -267,6 +276,11 @@ impl Disc {
         Self {
             half_widths: (0..=rows).map(half_width).collect(),
         }
+    }
+
+    /// Whether it is but its middle.
+    pub fn is_pixel(&self) -> bool {
+        self.half_widths == [0]
     }
 
     /// Rows on each side of the middle.

@@ -2,6 +2,7 @@
 
 use super::bodies::Bodies;
 use super::collect::{Collector, Frame};
+use super::escapes::Escapes;
 use super::finding::Code;
 use super::forest::Step;
 use super::hollows::Hollows;
@@ -16,9 +17,11 @@ pub(super) struct Sweep<'a> {
     frame: &'a Frame<'a>,
     bodies: Bodies<'a>,
     hollows: Hollows<'a>,
+    escapes: Escapes<'a>,
     overhangs: Overhangs,
     walls: Regions,
     gaps: Regions,
+    holes: Regions,
     floors: Regions,
     low_gaps: Regions,
     peeling: Peeling<'a>,
@@ -33,10 +36,13 @@ impl<'a> Sweep<'a> {
             frame,
             bodies: Bodies::new(frame, limits),
             hollows: Hollows::new(frame, limits),
+            escapes: Escapes::new(frame, limits),
             overhangs: Overhangs::new(frame, limits),
             // What is as low as it is thin is the tip of something, or thin along z.
             walls: regions(Code::ThinWall, limits.wall_mm, limits.wall_mm),
             gaps: regions(Code::NarrowGap, limits.gap_mm, limits.gap_mm),
+            // A hollow that begins or ends with a tip is no hole.
+            holes: regions(Code::SmallHole, limits.hole_mm, limits.hole_mm),
             floors: regions(Code::ThinFloor, limits.floor_mm, 0.0),
             low_gaps: regions(Code::LowGap, limits.low_gap_mm, 0.0),
             peeling: Peeling::new(frame, limits),
@@ -57,13 +63,18 @@ impl<'a> Sweep<'a> {
             fixed_below: &[],
         };
         self.bodies.advance(&step, collector);
+        let gaps = &layer.alone.gaps;
         self.hollows
-            .advance(number, &layer.alone.gaps, &layer.meetings, collector);
+            .advance(number, gaps, &layer.meetings, collector);
+        let (rooms, meetings) = (&layer.alone.rooms, &layer.room_meetings);
+        self.escapes
+            .advance(number, rooms, meetings, gaps, &self.hollows);
         self.overhangs.advance(&layer, frame, collector);
         let thin = layer.thin;
         let regions = [
             (&mut self.walls, thin.walls),
             (&mut self.gaps, thin.gaps),
+            (&mut self.holes, thin.holes),
             (&mut self.floors, thin.floors),
             (&mut self.low_gaps, thin.low_gaps),
         ];
@@ -77,9 +88,16 @@ impl<'a> Sweep<'a> {
     pub fn finish(self, collector: &mut Collector<'_>) -> (usize, Peel) {
         let frame = self.frame;
         self.overhangs.finish(frame, collector);
-        for regions in [self.walls, self.gaps, self.floors, self.low_gaps] {
+        for regions in [
+            self.walls,
+            self.gaps,
+            self.holes,
+            self.floors,
+            self.low_gaps,
+        ] {
             regions.finish(frame, collector);
         }
+        self.escapes.finish(&self.hollows, collector);
         self.hollows.finish(collector);
         let bodies = self.bodies.finish(collector);
         (bodies, self.peeling.finish(collector))

@@ -29,7 +29,7 @@ impl Thickness {
         let pitch_mm = grid.pitch_mm.max(grid.pitch_y_mm);
         // A wall may be a pixel thinner in masks than it is.
         let disc = Disc::new((limit_mm - pitch_mm) / 2.0, grid);
-        if disc.rows() == 0 && disc.half_width(0) == Some(0) {
+        if disc.is_pixel() {
             return None;
         }
         let disc_rows = 2 * disc.rows() + 1;

@@ -345,6 +345,80 @@ impl Voxels {
         self.thin(Code::NarrowGap, limits.gap_mm, limits.speck_px)
     }
 
+    fn dark(&self) -> Vec<Plane> {
+        let dark_of = |plane: &Plane| plane.iter().map(|lit| !lit).collect();
+        self.layers.iter().map(dark_of).collect()
+    }
+
+    pub fn small_holes(&self, limits: &Limits) -> Vec<Found> {
+        let planes: Vec<Plane> = self
+            .dark()
+            .into_iter()
+            .map(|dark| {
+                let labels = &self.flood(&[dark])[0];
+                let mut small = vec![false; labels.len()];
+                for label in 1..=labels.iter().max().copied().unwrap_or(0) {
+                    let hole = || (0..labels.len()).filter(|&at| labels[at] == label);
+                    let is_open = hole().any(|at| self.beside(at).count() < 4);
+                    let columns: Vec<usize> = hole().map(|at| at % self.width).collect();
+                    let rows: Vec<usize> = hole().map(|at| at / self.width).collect();
+                    let size_mm = |places: &[usize], pitch_mm: f64| {
+                        let size = places.iter().max().unwrap() - places.iter().min().unwrap() + 1;
+                        (size + 1) as f64 * pitch_mm
+                    };
+                    let most_mm = limits.hole_mm * (1.0 - 1e-9);
+                    let is_small = size_mm(&columns, self.grid.pitch_mm) < most_mm
+                        && size_mm(&rows, self.grid.pitch_y_mm) < most_mm;
+                    if !is_open && is_small {
+                        hole().for_each(|at| small[at] = true);
+                    }
+                }
+                small
+            })
+            .collect();
+        self.regions(Code::SmallHole, &planes, limits.speck_px, limits.hole_mm)
+    }
+
+    /// For each label, whether a way from it leads around the grid or through one of these layers.
+    fn leads_out(&self, labels: &Labels, through: &[usize]) -> Vec<bool> {
+        let mut is_out = vec![false; labels.iter().flatten().max().unwrap_or(&0) + 1];
+        for (layer, plane) in labels.iter().enumerate() {
+            for (at, &label) in plane.iter().enumerate() {
+                is_out[label] |= through.contains(&layer) || self.beside(at).count() < 4;
+            }
+        }
+        is_out
+    }
+
+    pub fn small_escapes(&self, limits: &Limits) -> Vec<Found> {
+        let radius_mm = (limits.escape_mm - self.pitch_mm()) / 2.0;
+        if radius_mm < self.grid.pitch_mm.min(self.grid.pitch_y_mm) {
+            return Vec::new();
+        }
+        let dark = self.dark();
+        let last = self.layers() - 1;
+        let hollows = self.flood(&dark);
+        let drains = self.leads_out(&hollows, &[last]);
+        let roomy: Vec<Plane> = dark
+            .iter()
+            .zip(&self.layers)
+            .map(|(dark, lit)| self.beyond(dark, lit, radius_mm))
+            .collect();
+        let rooms = self.flood(&roomy);
+        let is_out = self.leads_out(&rooms, &[0, last]);
+        let mut found = Vec::new();
+        for (room, volume) in self.volumes(&rooms) {
+            let places = |layer: usize| rooms[layer].iter().position(|&it| it == room);
+            let layers: Vec<usize> = (0..=last).filter(|&it| places(it).is_some()).collect();
+            let (low, high) = (layers[0], layers[layers.len() - 1]);
+            let hollow = hollows[low][places(low).unwrap()];
+            if !is_out[room] && drains[hollow] {
+                found.push((Code::SmallEscape, [low, high], volume, 0, None));
+            }
+        }
+        found
+    }
+
     /// Thin floors, or low gaps.
     fn short(&self, code: Code, limit_mm: f64, least_px: u32) -> Vec<Found> {
         let is_gap = code == Code::LowGap;

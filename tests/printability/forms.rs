@@ -8,7 +8,7 @@ use crate::solids::Triangles;
 use crate::{block, check, of_code, strict};
 
 /// Four walls of a square of 10 mm, 1 mm thick.
-fn walls(bottom: f32, top: f32) -> Triangles {
+pub fn walls(bottom: f32, top: f32) -> Triangles {
     let mut all = block([0.0, 0.0, bottom], [10.0, 1.0, top]);
     all.extend(block([0.0, 9.0, bottom], [10.0, 10.0, top]));
     all.extend(block([0.0, 1.0, bottom], [1.0, 9.0, top]));
@@ -17,12 +17,12 @@ fn walls(bottom: f32, top: f32) -> Triangles {
 }
 
 /// A square of 10 mm.
-fn slab(bottom: f32, top: f32) -> Triangles {
+pub fn slab(bottom: f32, top: f32) -> Triangles {
     block([0.0, 0.0, bottom], [10.0, 10.0, top])
 }
 
 /// Walls, of which one has a door of 2 mm.
-fn walls_with_door(bottom: f32, top: f32) -> Triangles {
+pub fn walls_with_door(bottom: f32, top: f32) -> Triangles {
     let mut all = block([0.0, 0.0, bottom], [10.0, 1.0, top]);
     all.extend(block([0.0, 9.0, bottom], [10.0, 10.0, top]));
     all.extend(block([0.0, 1.0, bottom], [1.0, 9.0, top]));
@@ -31,12 +31,12 @@ fn walls_with_door(bottom: f32, top: f32) -> Triangles {
     all
 }
 
-fn joined(parts: impl IntoIterator<Item = Triangles>) -> Triangles {
+pub fn joined(parts: impl IntoIterator<Item = Triangles>) -> Triangles {
     parts.into_iter().flatten().collect()
 }
 
 #[track_caller]
-fn assert_codes(found: &Printability, expected: &[Code]) {
+pub fn assert_codes(found: &Printability, expected: &[Code]) {
     let codes: Vec<Code> = found.counts.iter().map(|count| count.code).collect();
     assert_eq!(codes, expected, "{:#?}", found.findings);
 }
@@ -266,6 +266,33 @@ fn gaps_are_narrow_below_the_limit() {
     assert_eq!(gaps.len(), 2);
     assert!((0.2 * 4.4 * 2.0..0.2 * 5.0 * 2.0).contains(&gaps[0].volume_mm3));
     assert!((0.1 * 4.4 * 2.0..0.1 * 5.0 * 2.0).contains(&gaps[1].volume_mm3));
+}
+
+#[test]
+fn holes_are_small_below_the_limit() {
+    // A strip of holes from 0.2 to 0.7 mm, and a slot that is long.
+    let mut strip = block([0.0, 0.0, 0.0], [14.0, 3.0, 2.0]);
+    for i in 2..8 {
+        let (from, size) = (1.5 * i as f32 - 2.0, 0.1 * i as f32);
+        let hole = block([from, 1.0, 0.0], [from + size, 1.0 + size, 2.0]);
+        strip.extend(solids::inverted(&hole));
+    }
+    let slot = block([10.5, 1.0, 0.0], [13.0, 1.4, 2.0]);
+    strip.extend(solids::inverted(&slot));
+    let limits = Limits {
+        gap_mm: 0.0,
+        // On the plate, each is a cup too.
+        cup_mm2: 99.0,
+        ..strict()
+    };
+    let found = check(&strip, &limits);
+    assert_codes(&found, &[Code::SmallHole]);
+    let volumes: Vec<f64> = found
+        .findings
+        .iter()
+        .map(|it| (it.volume_mm3 * 1e6).round() / 1e6)
+        .collect();
+    assert_eq!(volumes, [0.32, 0.18, 0.08]);
 }
 
 #[test]

@@ -4,6 +4,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod escapes;
 mod forms;
 mod naive;
 mod symmetry;

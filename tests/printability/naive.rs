@@ -50,6 +50,8 @@ fn by_brute_force(masks: &Masks, plan: &Plan, limits: &Limits) -> Vec<Found> {
     all.extend(voxels.overhangs(limits));
     all.extend(voxels.thin_walls(limits));
     all.extend(voxels.narrow_gaps(limits));
+    all.extend(voxels.small_escapes(limits));
+    all.extend(voxels.small_holes(limits));
     all.extend(voxels.thin_floors(limits));
     all.extend(voxels.low_gaps(limits));
     all.sort();
@@ -96,6 +98,8 @@ pub fn random_boxes_have_the_findings_of_brute_force() {
             wall_mm: length(rng),
             floor_mm: length(rng) / 2.0,
             gap_mm: length(rng),
+            escape_mm: length(rng),
+            hole_mm: length(rng),
             low_gap_mm: length(rng) / 2.0,
             overhang_mm: length(rng) / 2.0,
             self_supporting_slope: [0.2, 0.344, 1.0][rng.usize(0..3)],
@@ -105,6 +109,71 @@ pub fn random_boxes_have_the_findings_of_brute_force() {
         all += compare(&format!("seed {seed}"), &masks, &plan, &limits);
     }
     assert!(all > 2000, "{all} findings in all");
+}
+
+/// A box with cavities and narrow channels into them.
+fn random_hollows(rng: &mut fastrand::Rng, pitch_mm: [f64; 2]) -> solids::Triangles {
+    const SIZE: [usize; 3] = [24, 22, 20];
+    let mut is_dark = vec![false; SIZE.iter().product()];
+    let mut carve = |from: [usize; 3], to: [usize; 3]| {
+        for (y, z) in (from[1]..to[1]).flat_map(|y| (from[2]..to[2]).map(move |z| (y, z))) {
+            let row = (z * SIZE[1] + y) * SIZE[0];
+            is_dark[row + from[0]..row + to[0]].fill(true);
+        }
+    };
+    for _ in 0..rng.u32(1..=2) {
+        let from = SIZE.map(|most| rng.usize(1..most / 2));
+        let to = [0, 1, 2].map(|axis| rng.usize(from[axis] + 4..SIZE[axis]));
+        carve(from, to);
+        for _ in 0..rng.u32(1..=2) {
+            let axis = rng.usize(0..3);
+            let mut start = [0, 1, 2].map(|axis| rng.usize(from[axis]..to[axis]));
+            let mut end = [0, 1, 2].map(|axis| SIZE[axis].min(start[axis] + rng.usize(1..=6)));
+            if rng.bool() {
+                start[axis] = 0;
+            } else {
+                end[axis] = SIZE[axis];
+            }
+            carve(start, end);
+        }
+    }
+    let [x_mm, y_mm] = pitch_mm.map(|it| it as f32);
+    let mut all = Vec::new();
+    for (row, is_dark) in is_dark.chunks(SIZE[0]).enumerate() {
+        let (y, z) = ((row % SIZE[1]) as f32, (row / SIZE[1]) as f32);
+        let mut x = 0;
+        for cells in is_dark.chunk_by(|one, next| one == next) {
+            let end = x + cells.len();
+            if !cells[0] {
+                let low = [x as f32 * x_mm, y * y_mm, z * 0.06];
+                let high = [end as f32 * x_mm, (y + 1.0) * y_mm, (z + 1.0) * 0.06];
+                all.extend(crate::block(low, high));
+            }
+            x = end;
+        }
+    }
+    all
+}
+
+#[test]
+pub fn random_hollows_have_the_findings_of_brute_force() {
+    let mut escapes = 0;
+    for seed in 0..200 {
+        let rng = &mut fastrand::Rng::with_seed(seed);
+        let pitch_mm = [[0.1; 2], [0.1, 0.07], [0.05, 0.08]][rng.usize(0..3)];
+        let triangles = random_hollows(rng, pitch_mm);
+        let plan = random_plan(rng, on_plate(&triangles).bounds().size().z);
+        let masks = masks_of(&triangles, pitch_mm, &plan, Samples::ONE);
+        let limits = Limits {
+            escape_mm: f64::from(rng.u32(2..8)) * pitch_mm[0],
+            hole_mm: f64::from(rng.u32(2..8)) * pitch_mm[0],
+            ..strict()
+        };
+        compare(&format!("seed {seed}"), &masks, &plan, &limits);
+        let found = inspect(&masks, &plan, &limits, &mut silent).unwrap();
+        escapes += crate::of_code(&found, Code::SmallEscape).len();
+    }
+    assert!(escapes > 50, "{escapes} small escapes in all");
 }
 
 #[test]
@@ -126,6 +195,8 @@ fn solids_have_the_findings_of_brute_force() {
             wall_mm: 6.0 * pitch_mm,
             floor_mm: 9.0 * bin_mm,
             gap_mm: 5.0 * pitch_mm,
+            escape_mm: 4.0 * pitch_mm,
+            hole_mm: 6.0 * pitch_mm,
             low_gap_mm: 9.0 * bin_mm,
             overhang_mm: 3.0 * pitch_mm,
             ..strict()

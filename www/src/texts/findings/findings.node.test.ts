@@ -46,7 +46,7 @@ test("in English the page says what the command line says", async () => {
   const core = [...source.replaceAll(/\\\n\s*/gu, "").matchAll(/"([^"\n]*; [^"\n]*)"/gu)].map(([, text = ""]) => bare(text.replaceAll(/\{[^}]*\}/gu, "#")));
   const figures = { area: "# mm²", volume: "# mm³", resin: "# ml", limit: "#", first: "#", joins: "#", layers: 2 };
   for (const kind of CODES) {
-    const limit = kind === "thin-wall" || kind === "thin-floor" || kind === "narrow-gap" || kind === "low-gap" || kind === "overhang" ? "# mm" : "#";
+    const limit = /^(?:thin|narrow|low|small)-(?!contact)|overhang/u.test(kind) ? "# mm" : "#";
     const sentence = bare(words.sentences[kind]({ ...figures, limit })).replace("in 2 layers", "in # layers");
     expect(core).toContain(`${sentence}; ${bare(words.advice[kind])}`);
   }
