@@ -55,8 +55,16 @@ struct Along<'a> {
 impl Along<'_> {
     /// Whether a vertex is lower than another. Of equal heights one is taken to be lower, so that a flat has one minimum.
     fn is_lower(&self, one: u32, other: u32) -> bool {
-        let [a, b] = [one, other].map(|it| self.heights_mm[it as usize]);
-        a < b || (a == b && one < other)
+        self.rank(one) < self.rank(other)
+    }
+
+    /// A number for each vertex, in the order of their heights.
+    fn rank(&self, vertex: u32) -> u64 {
+        // Negative zero is zero.
+        let bits = (self.heights_mm[vertex as usize] + 0.0).to_bits();
+        let is_negative = bits >> 31 == 1;
+        let height = if is_negative { !bits } else { bits | 1 << 31 };
+        u64::from(height) << 32 | u64::from(vertex)
     }
 
     fn lowest(&self, [a, b, c]: [u32; 3]) -> u32 {
@@ -141,16 +149,16 @@ impl Basins {
 
     /// The vertices that are lower than all beside them, from the lowest up.
     fn minima(&self, along: &Along<'_>) -> Vec<u32> {
-        let mut is_minimum = vec![true; self.vertices_mm.len()];
-        // Along each edge, the higher end is none.
-        for &[a, b, c] in &self.facets {
-            for (one, other) in [(a, b), (b, c), (c, a)] {
-                let higher = if along.is_lower(other, one) {
-                    one
-                } else {
-                    other
-                };
-                is_minimum[higher as usize] &= one == other;
+        let ranks: Vec<u64> = (0..self.vertices_mm.len() as u32)
+            .map(|vertex| along.rank(vertex))
+            .collect();
+        let mut is_minimum = vec![true; ranks.len()];
+        // Of each facet's corners only the lowest can be one. Without branches: which is lowest, nobody can predict.
+        for corners in &self.facets {
+            let [a, b, c] = corners.map(|it| ranks[it as usize]);
+            let lowest = a.min(b).min(c);
+            for (&corner, rank) in corners.iter().zip([a, b, c]) {
+                is_minimum[corner as usize] &= rank == lowest;
             }
         }
         let vertices = 0..is_minimum.len() as u32;
