@@ -28,19 +28,13 @@ impl<'a> Bodies<'a> {
     }
 
     pub fn advance(&mut self, step: &Step<'_>, collector: &mut Collector<'_>) {
-        let mut ended = Vec::new();
-        self.forest
-            .advance(step, |tree, end| ended.push((*tree, end)));
-        for (tree, end) in ended {
+        for (tree, end) in self.forest.advance(step) {
             self.end(&tree, end, step.layer, collector);
         }
     }
 
     pub fn finish(mut self, collector: &mut Collector<'_>) -> usize {
-        let mut ended = Vec::new();
-        let forest = std::mem::replace(&mut self.forest, Forest::new(Joining::Ends));
-        forest.finish(|tree, end| ended.push((*tree, end)));
-        for (tree, end) in ended {
+        for (tree, end) in self.forest.finish() {
             self.end(&tree, end, self.frame.layers(), collector);
         }
         self.count

@@ -127,16 +127,15 @@ impl<'a> Escapes<'a> {
             fixed: if layer == 0 { &all } else { &meetings.open },
             fixed_below: &meetings.open_below,
         };
-        let (frame, limits) = (self.frame, self.limits);
-        let Self { hollow, found, .. } = self;
-        self.forest.advance(&step, |tree, end| {
-            let finding = frame.finding(Code::SmallEscape, tree);
-            let is_wanted = finding.volume_mm3 / 1e3 >= limits.trap_ml;
+        for (tree, end) in self.forest.advance(&step) {
+            let finding = self.frame.finding(Code::SmallEscape, &tree);
+            let is_wanted = finding.volume_mm3 / 1e3 >= self.limits.trap_ml;
             if !tree.is_fixed && end == End::Closed && is_wanted {
-                let limit = limits.escape_mm;
-                found.push((Finding { limit, ..finding }, hollow[tree.number as usize]));
+                let limit = self.limits.escape_mm;
+                let hollow = self.hollow[tree.number as usize];
+                self.found.push((Finding { limit, ..finding }, hollow));
             }
-        });
+        }
         if components.patches.is_empty() {
             return;
         }

@@ -134,10 +134,10 @@ impl Forest {
         }
     }
 
-    /// Goes on to the next layer, and calls `ended` with each tree that ends below it.
+    /// Goes on to the next layer. Returns the trees that end below it.
     ///
     /// Cost: nearly linear in components and contacts.
-    pub fn advance(&mut self, step: &Step<'_>, mut ended: impl FnMut(&Tree, End)) {
+    pub fn advance(&mut self, step: &Step<'_>) -> Vec<(Tree, End)> {
         let has_outside = self.has_outside;
         let mut node = vec![NONE; step.patches.len()];
         for &[under, over] in step.contacts {
@@ -172,7 +172,7 @@ impl Forest {
         let mut new: Vec<u32> = components.filter(|&it| node[it as usize] == NONE).collect();
         // The larger of two that begin together is the older one.
         sort_by_number(&mut new, |&it| -(step.patches[it as usize].pixels as f64));
-        self.settle(&mut ended);
+        let mut ended = self.settle();
         for component in new {
             let tree = self.trees.len() as u32;
             let is_fixed = !has_outside && step.fixed.binary_search(&component).is_ok();
@@ -187,14 +187,16 @@ impl Forest {
         for tree in before {
             let is_root = self.parent[tree as usize] == tree;
             if is_root && self.trees[tree as usize].last < step.layer {
-                ended(&self.trees[tree as usize], End::Closed);
+                ended.push((self.trees[tree as usize], End::Closed));
             }
         }
         self.of_component = node;
+        ended
     }
 
     /// Ends trees that have just joined older ones, or makes them one.
-    fn settle(&mut self, ended: &mut impl FnMut(&Tree, End)) {
+    fn settle(&mut self) -> Vec<(Tree, End)> {
+        let mut ended = Vec::new();
         for place in 0..self.open.len() {
             let tree = self.open[place];
             let root = find(&mut self.parent, tree);
@@ -204,10 +206,11 @@ impl Forest {
             let other = self.trees[tree as usize];
             let winner = &mut self.trees[root as usize];
             if !other.is_fixed && (winner.is_fixed || self.joining == Joining::Ends) {
-                ended(&other, End::Joined);
+                ended.push((other, End::Joined));
             }
             winner.absorb(&other, self.joining);
         }
+        ended
     }
 
     /// Adds a layer's components to their trees.
@@ -251,13 +254,9 @@ impl Forest {
         &self.trees[tree as usize]
     }
 
-    /// Ends all trees that reach the top.
-    pub fn finish(mut self, mut ended: impl FnMut(&Tree, End)) {
-        for place in 0..self.open.len() {
-            let tree = self.open[place];
-            if find(&mut self.parent, tree) == tree {
-                ended(&self.trees[tree as usize], End::Top);
-            }
-        }
+    /// The trees that reach the last layer.
+    pub fn finish(&self) -> Vec<(Tree, End)> {
+        let open = self.open.iter().map(|&tree| &self.trees[tree as usize]);
+        open.map(|tree| (*tree, End::Top)).collect()
     }
 }

@@ -105,10 +105,9 @@ impl<'a> Hollows<'a> {
             fixed: &meetings.open,
             fixed_below: &meetings.open_below,
         };
-        let (frame, limits) = (self.frame, self.limits);
-        self.forest.advance(&step, |tree, end| {
-            add(tree, end, frame, limits, collector);
-        });
+        for (tree, end) in self.forest.advance(&step) {
+            self.add(&tree, end, collector);
+        }
     }
 
     /// The hollow, or the outside, that a gap of the last layer belongs to.
@@ -123,25 +122,26 @@ impl<'a> Hollows<'a> {
     }
 
     pub fn finish(self, collector: &mut Collector<'_>) {
-        let (frame, limits) = (self.frame, self.limits);
-        self.forest
-            .finish(|tree, end| add(tree, end, frame, limits, collector));
+        for (tree, end) in self.forest.finish() {
+            self.add(&tree, end, collector);
+        }
     }
-}
 
-fn add(tree: &Tree, end: End, frame: &Frame<'_>, limits: &Limits, collector: &mut Collector<'_>) {
-    if tree.is_fixed {
-        return;
-    }
-    let is_trap = end == End::Closed;
-    let code = if is_trap { Code::Trap } else { Code::Cup };
-    let finding = frame.finding(code, tree);
-    let (size, limit) = if is_trap {
-        (finding.volume_mm3 / 1e3, limits.trap_ml)
-    } else {
-        (finding.area_mm2, limits.cup_mm2)
-    };
-    if size >= limit {
-        collector.add(Finding { limit, ..finding });
+    fn add(&self, tree: &Tree, end: End, collector: &mut Collector<'_>) {
+        let (frame, limits) = (self.frame, self.limits);
+        if tree.is_fixed {
+            return;
+        }
+        let is_trap = end == End::Closed;
+        let code = if is_trap { Code::Trap } else { Code::Cup };
+        let finding = frame.finding(code, tree);
+        let (size, limit) = if is_trap {
+            (finding.volume_mm3 / 1e3, limits.trap_ml)
+        } else {
+            (finding.area_mm2, limits.cup_mm2)
+        };
+        if size >= limit {
+            collector.add(Finding { limit, ..finding });
+        }
     }
 }

@@ -190,7 +190,7 @@ impl Checks<'_> {
 fn meetings(
     here: &Alone,
     below: Option<&Alone>,
-    places: impl Fn(&Alone) -> &Gaps,
+    places: fn(&Alone) -> &Gaps,
     extent: &dyn Fn(&Alone, i32) -> Option<Span>,
 ) -> Meetings {
     let extent_here = |row| extent(here, row);

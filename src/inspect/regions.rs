@@ -50,15 +50,16 @@ impl Regions {
             fixed: &[],
             fixed_below: &[],
         };
-        let mut forest = std::mem::replace(&mut self.forest, Forest::new(Joining::Unites));
-        forest.advance(&step, |tree, end| self.add(tree, end, frame, collector));
-        self.forest = forest;
+        for (tree, end) in self.forest.advance(&step) {
+            self.add(&tree, end, frame, collector);
+        }
         self.last = here;
     }
 
-    pub fn finish(mut self, frame: &Frame<'_>, collector: &mut Collector<'_>) {
-        let forest = std::mem::replace(&mut self.forest, Forest::new(Joining::Unites));
-        forest.finish(|tree, end| self.add(tree, end, frame, collector));
+    pub fn finish(self, frame: &Frame<'_>, collector: &mut Collector<'_>) {
+        for (tree, end) in self.forest.finish() {
+            self.add(&tree, end, frame, collector);
+        }
     }
 
     fn add(&self, tree: &Tree, end: End, frame: &Frame<'_>, collector: &mut Collector<'_>) {
