@@ -271,6 +271,26 @@ test("a model that is too large for the printer may be scaled, and then has a pr
   await expect.poll(() => page.locator("#price").innerText()).toMatch(/^€\d+\.\d\d$/);
 });
 
+test("a check that fails is no endless wait, and is made again with the next choice", async () => {
+  const open = await start("never called");
+  const page = await visit(open.address);
+  await page.evaluate(() => {
+    const slicer = document.querySelector("cusp-slicer")?.slicer;
+    if (slicer === undefined) throw new Error("no slicer");
+    const { check } = slicer;
+    let tries = 0;
+    const value: typeof check = (limits) => tries++ === 0 ? Promise.reject(new Error("out of memory")) : check.call(slicer, limits);
+    Object.defineProperty(slicer, "check", { value });
+  });
+  await page.getByRole("button", { name: "Try our goblet" }).click();
+  const verdict = page.locator("#verdict p");
+  await expect.poll(() => verdict.innerText()).toMatch(/^This could not be checked here\./);
+  expect(await page.locator("#order").isDisabled()).toBe(true);
+  await page.getByText("Large", { exact: true }).click();
+  await expect.poll(() => verdict.innerText()).toMatch(/^Printable/);
+  await expect.poll(() => page.locator("#order").isEnabled()).toBe(true);
+});
+
 test("what the page's own buttons have chosen no undo takes back", async () => {
   const open = await start("never called");
   const page = await visit(open.address);

@@ -12,6 +12,8 @@ export class Assessment {
   #checked: { of: Result; check: Check } | null = null;
   /** The check that was asked for last, so that a plan is checked once. */
   #asked: { of: Result; done: Promise<void> } | null = null;
+  /** The plan of which the shop could not find out what it needs. */
+  #failed: Result | null = null;
 
   constructor(slicer: CuspSlicer, changed: () => void) {
     this.#slicer = slicer;
@@ -28,6 +30,11 @@ export class Assessment {
     return this.#checked?.of === of ? this.#checked.check : null;
   }
 
+  /** Whether what the shop needs to know of a plan could not be found out. */
+  hasFailed(of: Result): boolean {
+    return this.#failed === of;
+  }
+
   /** Fetches what is unknown of the plan on show. Results that nobody waits for any more are dropped. */
   async follow(copies: number): Promise<void> {
     const { result: of } = this.#slicer;
@@ -37,10 +44,14 @@ export class Assessment {
       if (this.#slicer.result !== of) return;
       if (this.#asked?.of !== of) this.#asked = { of, done: this.#fetchCheck(of) };
       await this.#asked.done;
+      this.#failed = null;
     } catch (error) {
       // The worker was stopped, such as by a new choice: the next event asks again.
       if (this.#asked?.of === of) this.#asked = null;
-      if (!isAbort(error)) console.error(error);
+      if (isAbort(error)) return;
+      console.error(error);
+      this.#failed = of;
+      this.#changed();
     }
   }
 

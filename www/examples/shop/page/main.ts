@@ -65,7 +65,7 @@ function draw(): void {
   find("#price-note").textContent = price === null ? missing : "incl. VAT";
   const verdict = find("#verdict");
   verdict.hidden = result === null;
-  if (result !== null) fillVerdict(verdict, assessment.check(result));
+  if (result !== null) fillVerdict(verdict, assessment.check(result), assessment.hasFailed(result));
   const isPlanning = slicer.state === "busy" && ordering === null;
   find(".choices").classList.toggle("replanning", isPlanning && price !== null);
   const now = offer();

@@ -30,6 +30,8 @@ const WORDS: Readonly<Record<Check["verdict"], string>> = {
   reject: "Not printable like this.",
 };
 
+const FAILED = "This could not be checked here. Please change a choice, or load this page anew.";
+
 /** One sentence for each kind of finding, those that are refused first. */
 export function reasons({ counts, findings }: Pick<Check, "counts" | "findings">): { code: Code; severity: Severity; text: string }[] {
   const severityOf = (code: Code): Severity => (findings.some((it) => it.code === code && it.severity === "reject") ? "reject" : "review");
@@ -41,11 +43,12 @@ export function reasons({ counts, findings }: Pick<Check, "counts" | "findings">
   return said.toSorted((a, b) => Number(b.severity === "reject") - Number(a.severity === "reject"));
 }
 
-/** Fills the section; null while the check is under way. */
-export function fillVerdict(section: HTMLElement, check: Check | null): void {
+/** Fills the section; null while the check is under way, or if it has failed. */
+export function fillVerdict(section: HTMLElement, check: Check | null, hasFailed: boolean): void {
   const [words, list] = [section.querySelector("p"), section.querySelector("ul")];
   if (words === null || list === null) throw new Error("the verdict has no place");
-  const text = check === null ? "Checking whether it can be printed…" : WORDS[check.verdict];
+  const unknown = hasFailed ? FAILED : "Checking whether it can be printed…";
+  const text = check === null ? unknown : WORDS[check.verdict];
   // Written only when it changes, so that it is announced once.
   if (words.textContent !== text) words.textContent = text;
   section.dataset["verdict"] = check?.verdict ?? "";
