@@ -63,6 +63,29 @@ def overhangs(lit, bins, limits, bin_mm, pitch_mm):
     return found
 
 
+def escapes(lit, dark, bins, limits, pitch_mm):
+    """Hollows, none of them traps, in which no disc of an escape's width finds its way out."""
+    radius_mm = (limits["escape_mm"] - max(pitch_mm)) / 2
+    rooms = np.stack([beyond(~layer, layer, radius_mm, pitch_mm) for layer in lit])
+    labels, _ = ndimage.label(rooms, SIX)
+    out = np.union1d(labels[[0, -1]], labels[:, 0, 0])
+    hollows, _ = ndimage.label(dark, SIX)
+    for label, box in enumerate(ndimage.find_objects(labels), start=1):
+        pixels = labels[box] == label
+        first, last = box[0].start, box[0].stop - 1
+        is_trap = hollows[: len(lit)][box][pixels][0] != hollows[0, 0, 0]
+        if label not in out and not is_trap:
+            yield [first, last, int(pixels.sum(axis=(1, 2)) @ bins[first : last + 1])]
+
+
+def without_support(lit):
+    """Components of layers of which nothing stands on lit pixels: islands to UVtools, whatever share of them it asks for."""
+    for layer in range(1, len(lit)):
+        labels, count = ndimage.label(lit[layer], FOUR)
+        supporting = ndimage.sum_labels(lit[layer - 1], labels, range(1, count + 1))
+        yield from ([layer, layer, 0] for pixels in supporting if pixels == 0)
+
+
 def main(job, lit):
     bins, bin_mm, limits = np.array(job["bins"]), job["bin_mm"], job["limits"]
     pitch_mm = job["pitch_y_mm"], job["pitch_mm"]
@@ -83,6 +106,8 @@ def main(job, lit):
         "bodies": [[first, last, volume] for first, last, volume, _ in bodies],
         "loose": [[first, last, volume] for first, last, volume, _ in bodies if first > 0],
         "trap": [[first, last, volume] for first, last, volume, _ in closed],
+        "small-escape": list(escapes(lit, dark, bins, limits, pitch_mm)),
+        "begins": list(without_support(lit)),
         "thin-wall": regions(walls, bins, bin_mm, least_px, limits["wall_mm"]),
         "narrow-gap": regions(gaps, bins, bin_mm, least_px, limits["gap_mm"]),
         "overhang": regions(overhangs(lit, bins, limits, bin_mm, pitch_mm), bins, bin_mm, least_px),
