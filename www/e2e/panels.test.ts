@@ -1,11 +1,12 @@
 /** The panels of the element in a narrow column, in every language, in forced colours and under fingers. */
 import type { Browser, BrowserContextOptions, Locator, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect, test } from "vitest";
+import type { CuspSlicer } from "../src/element/index.js";
 import { broken } from "./axe.js";
 import { launch, state } from "./browser.js";
 import { servePacked } from "./packed.js";
 import type { Served } from "./serve.js";
-import { sphere } from "./solids.js";
+import { cup, sphere } from "./solids.js";
 
 /** The inner width of a narrow column. */
 const NARROW_PX = 260;
@@ -13,14 +14,14 @@ const NARROW_PX = 260;
 const html = `<!doctype html><html lang="en"><meta charset="utf-8" /><title>Panels</title>
 <meta name="viewport" content="width=device-width" />
 <script type="module" src="cusp-slicer/element.js"></script>
-<body><main><h1>Shop</h1><h2>Panels</h2><cusp-slicer src="ball.stl" panels="orientation quality layers"></cusp-slicer></main></body></html>`;
+<body><main><h1>Shop</h1><h2>Panels</h2><cusp-slicer src="ball.stl" panels="orientation quality layers findings"></cusp-slicer></main></body></html>`;
 
 let browser: Browser;
 let served: Served;
 const pages: Page[] = [];
 
 beforeAll(async () => {
-  served = await servePacked({ "index.html": html, "ball.stl": sphere(10, 96).bytes });
+  served = await servePacked({ "index.html": html, "ball.stl": sphere(10, 96).bytes, "mug.stl": cup(10, 8, 1.5) });
   browser = await launch();
 }, 240_000);
 
@@ -46,6 +47,12 @@ async function start(options: BrowserContextOptions = {}): Promise<Page> {
 async function searched(page: Page): Promise<void> {
   await page.locator("cusp-orientation .find").click();
   await page.locator("cusp-orientation .now").waitFor({ timeout: 60_000 });
+}
+
+/** Opens the card of findings, which has them checked. */
+async function checked(page: Page): Promise<void> {
+  await page.locator("cusp-slicer details.findings > summary").click();
+  await page.waitForSelector("cusp-findings [data-verdict]");
 }
 
 /** Gives a panel a box of its own. */
@@ -78,7 +85,7 @@ function cramped(panel: Locator): Promise<string[]> {
         const said = node.textContent?.trim() ?? "";
         const parent = node.parentElement;
         if (said === "" || parent === null || parent.closest(".visually-hidden, select, style, svg") !== null) continue;
-        if (!parent.checkVisibility({ visibilityProperty: true })) continue;
+        if (!parent.checkVisibility({ visibilityProperty: true }) || getComputedStyle(parent).clipPath !== "none") continue;
         const range = document.createRange();
         range.selectNodeContents(node);
         for (const box of range.getClientRects()) texts.push({ said, box });
@@ -107,7 +114,8 @@ function cramped(panel: Locator): Promise<string[]> {
 test.each(["en-GB", "de-DE", "es-ES", "fr-FR", "zh-CN"])("a narrow column holds every panel's texts in %s", async (locale) => {
   const page = await start({ locale });
   await searched(page);
-  for (const name of ["cusp-orientation", "cusp-quality", "cusp-mask"]) {
+  await checked(page);
+  for (const name of ["cusp-orientation", "cusp-quality", "cusp-mask", "cusp-findings"]) {
     const panel = page.locator(name);
     await fit(panel, NARROW_PX);
     expect(await cramped(panel), name).toEqual([]);
@@ -201,5 +209,21 @@ test.each(["light", "dark"] as const)("in forced colours, %s, what is chosen, sc
 test("the panels break no rule of accessibility in a narrow column", async () => {
   const page = await start({ viewport: { width: 300, height: 900 } });
   await searched(page);
+  await checked(page);
   expect(await broken(page)).toEqual([]);
+});
+
+test("the element checks nothing before its card of findings is open, and then shows where they are", async () => {
+  const page = await start();
+  await page.locator("cusp-slicer").evaluate((element: CuspSlicer) => void (element.src = "mug.stl"));
+  await state(page, "busy");
+  await state(page, "done");
+  const check = (): Promise<unknown> => page.locator("cusp-slicer").evaluate((element: CuspSlicer) => element.check);
+  expect(await check()).toBeNull();
+  await checked(page);
+  expect(await check()).not.toBeNull();
+  const finding = page.locator("cusp-findings button[aria-pressed]").first();
+  await finding.click();
+  expect(await finding.getAttribute("aria-pressed")).toBe("true");
+  await page.waitForSelector("cusp-mask canvas[data-marked]");
 });
