@@ -10,6 +10,7 @@ use cusp_slicer::model::Mesh;
 use cusp_slicer::progress::{Cancelled, silent};
 
 #[path = "common/mod.rs"]
+#[expect(dead_code, reason = "other benches use the rest")]
 mod common;
 #[path = "../tests/common/solids.rs"]
 #[expect(dead_code, reason = "the tests use the other solids")]

@@ -3,6 +3,7 @@
 //! Prints a table in Markdown: times are the minimum of several runs, in milliseconds. What the GPU does, reading its result
 //! included, and what the CPU does afterwards are apart. A row whose results differ says so, and the bench then fails.
 
+#[expect(dead_code, reason = "other benches use the rest")]
 mod common;
 #[path = "../tests/common/solids.rs"]
 #[expect(dead_code, reason = "the tests use the other solids")]

@@ -1,7 +1,7 @@
 //! How long the checks of printability take, and how much memory: `cargo xtask bench inspect [MODEL.stl …]`.
 //!
-//! Prints a table in Markdown: a ball on more and more pixels and on a 12K screen, 10,000 struts, then each model named, 60 mm high, at 2048
-//! pixels along its longer side; all in 800 layers. Times are the minimum of several runs, from finished masks. Memory is the most that the
+//! Prints a table in Markdown: a ball, 10,000 struts and each model named, 60 mm high, on more and more pixels, and the ball on a 12K screen;
+//! all in 800 layers. Below it stands how time grows with hits. Times are the minimum of several runs, from finished masks. Memory is the most that the
 //! checks hold, beside that of the LDI.
 
 #[path = "common/mod.rs"]
@@ -11,7 +11,7 @@ mod common;
 #[expect(dead_code, reason = "the tests use the other solids")]
 mod solids;
 
-use common::{named, on_plate, time};
+use common::{exponent, named, on_plate, time};
 use cusp_slicer::grid::{Bins, Grid};
 use cusp_slicer::inspect::{Limits, inspect};
 use cusp_slicer::ldi::{Hit, cpu};
@@ -27,7 +27,11 @@ static ALLOCATOR: PeakAlloc = PeakAlloc;
 
 const LAYERS: f64 = 800.0;
 
-fn row(name: &str, mesh: &Mesh, grid: &Grid) {
+/// Rays along the longer side.
+const RAYS: [u32; 4] = [512, 1024, 2048, 4096];
+
+/// Prints a row, and returns its millions of hits and its seconds.
+fn row(name: &str, mesh: &Mesh, grid: &Grid) -> (f64, f64) {
     let ldi = cpu::sample(mesh, &grid.around_model(&mesh.bounds()), &mut silent).expect("an LDI");
     let height_mm = mesh.bounds().size().z;
     let layer_mm = height_mm / LAYERS;
@@ -52,6 +56,17 @@ fn row(name: &str, mesh: &Mesh, grid: &Grid) {
         bytes as f64 / 1e6,
         ldi_bytes as f64 / 1e6,
     );
+    (hits as f64 / 1e6, seconds)
+}
+
+/// Rows of a model on more and more rays, and how time grows with hits.
+fn rows(name: &str, mesh: &Mesh, rays: &[u32]) -> String {
+    let on = |&rays| {
+        let grid = Grid::around(&mesh.bounds(), rays).expect("a grid");
+        row(&format!("{name} at {rays}"), mesh, &grid)
+    };
+    let points: Vec<(f64, f64)> = rays.iter().map(on).collect();
+    format!("{name}: time ~ hits^{:.2}", exponent(&points))
 }
 
 /// Struts in three directions, `side` × `side` of them in each.
@@ -81,17 +96,12 @@ fn main() {
     );
     println!("|---|---:|---:|---:|---:|---:|---:|");
     let ball = on_plate(&solids::sphere(20.0, 7), &Pose::default());
-    for rays in [512, 1024, 2048, 4096] {
-        let grid = Grid::around(&ball.bounds(), rays).expect("a grid");
-        row(&format!("ball at {rays}"), &ball, &grid);
-    }
+    let mut growth = vec![rows("ball", &ball, &RAYS)];
     let grid = Grid::plate(&ball.bounds(), [11520, 5120], [0.008; 2]).expect("a grid");
     row("ball on a 12K screen", &ball, &grid);
-    let lattice = struts(58);
-    let grid = Grid::around(&lattice.bounds(), 2048).expect("a grid");
-    row("10,092 struts", &lattice, &grid);
+    growth.push(rows("10,092 struts", &struts(58), &RAYS[..3]));
     for (name, mesh) in named() {
-        let grid = Grid::around(&mesh.bounds(), 2048).expect("a grid");
-        row(&name, &mesh, &grid);
+        growth.push(rows(&name, &mesh, &RAYS));
     }
+    println!("\n{}", growth.join("\n"));
 }

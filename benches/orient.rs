@@ -3,6 +3,9 @@
 //! Prints tables in Markdown. Models are 60 mm high, bins 2 µm. Times are the minimum of several whole searches, refinement
 //! included; the growth exponents are those of time against facets, and against directions, fitted over all rows.
 
+#[path = "common/mod.rs"]
+#[expect(dead_code, reason = "other benches use the rest")]
+mod common;
 #[path = "paper/models.rs"]
 #[expect(dead_code, reason = "the paper's tables use the other models")]
 mod models;
@@ -14,6 +17,7 @@ use std::fs;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
+use common::exponent;
 use cusp_slicer::job::{Options, OrientationReport, Slicer};
 use cusp_slicer::orientation::SearchOptions;
 
@@ -55,19 +59,6 @@ fn options() -> Options {
 fn head(facets: usize) -> Vec<u8> {
     let rings = (facets as f64 / 4.0).sqrt().round() as u32;
     solids::binary_stl(&models::head(rings))
-}
-
-/// The slope of the line fitted to the logarithms of the points.
-fn exponent(points: &[(f64, f64)]) -> f64 {
-    let logs: Vec<(f64, f64)> = points.iter().map(|(x, y)| (x.ln(), y.ln())).collect();
-    let count = logs.len() as f64;
-    let (x, y) = logs
-        .iter()
-        .fold((0.0, 0.0), |sum, log| (sum.0 + log.0, sum.1 + log.1));
-    let (x, y) = (x / count, y / count);
-    let over: f64 = logs.iter().map(|log| (log.0 - x) * (log.1 - y)).sum();
-    let under: f64 = logs.iter().map(|log| (log.0 - x).powi(2)).sum();
-    over / under
 }
 
 fn row(name: &str, (ms, found): &Timed) {

@@ -54,3 +54,16 @@ pub fn on_plate(triangles: &solids::Triangles, pose: &Pose) -> Mesh {
     let mesh = Mesh::from_triangles(triangles).expect("a mesh");
     mesh.on_plate(pose).expect("a mesh on the plate")
 }
+
+/// The slope of the line fitted to the logarithms of the points.
+pub fn exponent(points: &[(f64, f64)]) -> f64 {
+    let logs: Vec<(f64, f64)> = points.iter().map(|(x, y)| (x.ln(), y.ln())).collect();
+    let count = logs.len() as f64;
+    let (x, y) = logs
+        .iter()
+        .fold((0.0, 0.0), |sum, log| (sum.0 + log.0, sum.1 + log.1));
+    let (x, y) = (x / count, y / count);
+    let over: f64 = logs.iter().map(|log| (log.0 - x) * (log.1 - y)).sum();
+    let under: f64 = logs.iter().map(|log| (log.0 - x).powi(2)).sum();
+    over / under
+}

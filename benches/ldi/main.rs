@@ -6,6 +6,7 @@
 //! `cargo xtask bench ldi --layers MODEL.stl` draws docs/layers.png instead: what each pass of depth peeling finds.
 
 #[path = "../common/mod.rs"]
+#[expect(dead_code, reason = "other benches use the rest")]
 mod common;
 mod layers;
 #[path = "../common/png_file.rs"]
