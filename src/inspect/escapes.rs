@@ -12,17 +12,6 @@ use super::hollows::{Gaps, Hollows, Meetings};
 use super::limits::Limits;
 use super::rows::{Beyond, Disc, Rows, Span};
 
-/// The disc that must fit, unless nobody looks for it or every pixel is as large.
-pub(super) fn disc(frame: &Frame<'_>, limits: &Limits) -> Option<Disc> {
-    if !limits.looks_for(Code::SmallEscape) {
-        return None;
-    }
-    // An escape may be a pixel narrower in masks than it is.
-    let pitch_mm = frame.grid.pitch_mm.max(frame.grid.pitch_y_mm);
-    let disc = Disc::new((limits.escape_mm - pitch_mm) / 2.0, frame.grid);
-    (!disc.is_pixel()).then_some(disc)
-}
-
 /// The roomy pixels of a layer, between the first and the last pixel of each row that is within a disc of a lit one.
 pub(super) fn rooms(lit: &Rows, disc: &Disc) -> Gaps {
     let has_rooms = rows_with_rooms(lit, disc.rows());
@@ -118,13 +107,22 @@ impl<'a> Escapes<'a> {
     ) {
         let components = &rooms.components;
         // The plate does not stay: what is open to it drains.
-        let all: Vec<u32> = (0..components.patches.len() as u32).collect();
+        let on_plate = if layer == 0 {
+            components.patches.len()
+        } else {
+            0
+        };
+        let on_plate: Vec<u32> = (0..on_plate as u32).collect();
         let step = Step {
             layer,
             bins: self.frame.bins(layer),
             patches: &components.patches,
             contacts: &meetings.contacts,
-            fixed: if layer == 0 { &all } else { &meetings.open },
+            fixed: if layer == 0 {
+                &on_plate
+            } else {
+                &meetings.open
+            },
             fixed_below: &meetings.open_below,
         };
         for (tree, end) in self.forest.advance(&step) {

@@ -85,12 +85,14 @@ impl<'a> Reader<'a> {
                 .then(|| Thickness::new(limit_mm, frame.grid))
                 .flatten()
         };
+        let is_wanted = limits.looks_for(Code::SmallEscape);
+        let escape = is_wanted.then(|| Disc::to_fit(limits.escape_mm, frame.grid));
         let checks = Checks {
             frame,
             limits,
             walls: thickness(Code::ThinWall, limits.wall_mm),
             gaps: thickness(Code::NarrowGap, limits.gap_mm),
-            escape: escapes::disc(frame, limits),
+            escape: escape.flatten(),
         };
         Self {
             checks,

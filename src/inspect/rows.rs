@@ -278,9 +278,12 @@ impl Disc {
         }
     }
 
-    /// Whether it is but its middle.
-    pub fn is_pixel(&self) -> bool {
-        self.half_widths == [0]
+    /// The disc of a diameter that must fit, less a pixel, since masks may show what holds it that much narrower than it is. `None` if
+    /// every pixel holds it.
+    pub fn to_fit(diameter_mm: f64, grid: &Grid) -> Option<Self> {
+        let pitch_mm = grid.pitch_mm.max(grid.pitch_y_mm);
+        let disc = Self::new((diameter_mm - pitch_mm) / 2.0, grid);
+        (disc.half_widths != [0]).then_some(disc)
     }
 
     /// Rows on each side of the middle.

@@ -26,12 +26,7 @@ pub(super) struct Thickness {
 impl Thickness {
     /// `None` if the limit is less than what pixels resolve, so that nothing is thin.
     pub fn new(limit_mm: f64, grid: &Grid) -> Option<Self> {
-        let pitch_mm = grid.pitch_mm.max(grid.pitch_y_mm);
-        // A wall may be a pixel thinner in masks than it is.
-        let disc = Disc::new((limit_mm - pitch_mm) / 2.0, grid);
-        if disc.is_pixel() {
-            return None;
-        }
+        let disc = Disc::to_fit(limit_mm, grid)?;
         let disc_rows = 2 * disc.rows() + 1;
         let block_rows = (disc_rows / 4).max(1);
         Some(Self {

@@ -201,12 +201,7 @@ impl Voxels {
             }
             let labels = self.flood(&dark);
             // The outside goes around the grid.
-            let mut is_open = vec![false; labels.iter().flatten().max().unwrap_or(&0) + 1];
-            for plane in &labels {
-                for (at, &label) in plane.iter().enumerate() {
-                    is_open[label] |= self.beside(at).count() < 4;
-                }
-            }
+            let is_open = self.leads_out(&labels, &[]);
             let mut now: BTreeMap<usize, ((usize, usize), Found)> = BTreeMap::new();
             let volumes = self.volumes(&labels);
             for (place, old) in before.drain(..) {

@@ -84,15 +84,24 @@ fn random_plan(rng: &mut fastrand::Rng, height_mm: f64) -> Plan {
     plan_of(0.02, boundaries)
 }
 
+/// The masks of a random solid in a random plan, on pixels that need not be square.
+fn random_masks(
+    rng: &mut fastrand::Rng,
+    solid: fn(&mut fastrand::Rng, [f64; 2]) -> solids::Triangles,
+) -> (Masks, Plan) {
+    let pitch_mm = [[0.1; 2], [0.1, 0.07], [0.05, 0.08]][rng.usize(0..3)];
+    let triangles = solid(rng, pitch_mm);
+    let plan = random_plan(rng, on_plate(&triangles).bounds().size().z);
+    let masks = masks_of(&triangles, pitch_mm, &plan, Samples::ONE);
+    (masks, plan)
+}
+
 #[test]
 pub fn random_boxes_have_the_findings_of_brute_force() {
     let mut all = 0;
     for seed in 0..300 {
         let rng = &mut fastrand::Rng::with_seed(seed);
-        let pitch_mm = [[0.1; 2], [0.1, 0.07], [0.05, 0.08]][rng.usize(0..3)];
-        let triangles = solids::random_boxes(rng, pitch_mm);
-        let plan = random_plan(rng, on_plate(&triangles).bounds().size().z);
-        let masks = masks_of(&triangles, pitch_mm, &plan, Samples::ONE);
+        let (masks, plan) = random_masks(rng, solids::random_boxes);
         let length = |rng: &mut fastrand::Rng| f64::from(rng.u32(0..12)) * 0.05;
         let limits = Limits {
             wall_mm: length(rng),
@@ -160,13 +169,11 @@ pub fn random_hollows_have_the_findings_of_brute_force() {
     let mut escapes = 0;
     for seed in 0..200 {
         let rng = &mut fastrand::Rng::with_seed(seed);
-        let pitch_mm = [[0.1; 2], [0.1, 0.07], [0.05, 0.08]][rng.usize(0..3)];
-        let triangles = random_hollows(rng, pitch_mm);
-        let plan = random_plan(rng, on_plate(&triangles).bounds().size().z);
-        let masks = masks_of(&triangles, pitch_mm, &plan, Samples::ONE);
+        let (masks, plan) = random_masks(rng, random_hollows);
+        let pitch_mm = masks.grid.pitch_mm;
         let limits = Limits {
-            escape_mm: f64::from(rng.u32(2..8)) * pitch_mm[0],
-            hole_mm: f64::from(rng.u32(2..8)) * pitch_mm[0],
+            escape_mm: f64::from(rng.u32(2..8)) * pitch_mm,
+            hole_mm: f64::from(rng.u32(2..8)) * pitch_mm,
             ..strict()
         };
         compare(&format!("seed {seed}"), &masks, &plan, &limits);
