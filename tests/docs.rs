@@ -123,6 +123,7 @@ fn the_document_on_printability_names_the_defaults_of_the_library() {
         ("island_mm2", Some(limits.island_mm2), Code::Island),
         ("speck_px", Some(f64::from(limits.speck_px)), Code::Speck),
         ("overhang_mm", Some(limits.overhang_mm), Code::Overhang),
+        ("bridge_mm", Some(limits.bridge_mm), Code::Overhang),
         ("cup_mm2", Some(limits.cup_mm2), Code::Cup),
         ("trap_ml", Some(limits.trap_ml), Code::Trap),
         ("escape_mm", Some(limits.escape_mm), Code::SmallEscape),

@@ -144,6 +144,7 @@ fn compare(name: &str, triangles: &Triangles) -> Result<usize, Failed> {
         gap_mm: 7.0 * pitch_mm,
         escape_mm: 6.0 * pitch_mm,
         overhang_mm: 4.0 * pitch_mm,
+        bridge_mm: 20.0 * pitch_mm,
         floor_mm: 9.0 * bin_mm,
         cup_mm2: 0.0,
         trap_ml: 0.0,

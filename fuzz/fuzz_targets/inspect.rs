@@ -24,7 +24,9 @@ const SIDES: [[usize; 4]; 6] = [
 ];
 
 fuzz_target!(|bytes: &[u8]| {
-    let Some((&[wall, gap, floor, overhang], boxes)) = bytes.split_first_chunk() else {
+    let Some((&[wall, gap, floor, overhang, bridge, escape, hole], boxes)) =
+        bytes.split_first_chunk()
+    else {
         return;
     };
     let mut triangles = Vec::new();
@@ -70,6 +72,9 @@ fuzz_target!(|bytes: &[u8]| {
         gap_mm: f64::from(gap) * 0.01,
         floor_mm: f64::from(floor) * 0.01,
         overhang_mm: f64::from(overhang) * 0.01,
+        bridge_mm: f64::from(bridge) * 0.02,
+        escape_mm: f64::from(escape) * 0.01,
+        hole_mm: f64::from(hole) * 0.01,
         ..Limits::default()
     };
     let masks = Masks::new(&ldi, &plan, &grid, Samples::ONE, Side::Above);

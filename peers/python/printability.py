@@ -59,8 +59,37 @@ def overhangs(lit, bins, limits, bin_mm, pitch_mm):
         width_mm = max(run_mm + max(pitch_mm) / 2, max(pitch_mm))
         unsupported = beyond(asking, supported, width_mm, pitch_mm)
         supported = lit[layer] & ~unsupported
-        found[layer] = beyond(unsupported, supported, limits["overhang_mm"], pitch_mm)
+        far = beyond(unsupported, supported, limits["overhang_mm"], pitch_mm)
+        held = far & bridged(unsupported, supported, limits["bridge_mm"], pitch_mm)
+        supported = supported | held
+        found[layer] = beyond(far & ~held, held, limits["overhang_mm"], pitch_mm)
     return found
+
+
+def bridged(unsupported, supported, longest_mm, pitch_mm):
+    """Unsupported pixels on a line that leads over such pixels to a supported one on both sides."""
+    found = np.zeros_like(unsupported)
+    lines = [(0, 1), (1, 0), (1, 1), (1, -1), (1, 2), (1, -2), (2, 1), (2, -1)]
+    for down, right in lines:
+        one = steps(unsupported, supported, down, right)
+        other = steps(unsupported, supported, -down, -right)
+        step_mm = np.hypot(down * pitch_mm[0], right * pitch_mm[1])
+        found |= (one + other - 1) * step_mm <= longest_mm * ROUNDING
+    return found
+
+
+def steps(unsupported, supported, down, right):
+    """How many steps each unsupported pixel is from a supported one, with no other but unsupported ones between."""
+    steps = np.full(unsupported.shape, np.inf)
+    reached = supported
+    for step in range(1, max(unsupported.shape)):
+        padded = np.pad(reached, 2)
+        rows, columns = reached.shape
+        reached = padded[2 - down : 2 - down + rows, 2 - right : 2 - right + columns] & unsupported
+        if not reached.any():
+            break
+        steps[reached] = step
+    return steps
 
 
 def escapes(lit, dark, bins, limits, pitch_mm):

@@ -39,6 +39,8 @@ pub struct Limits {
     pub self_supporting_slope: f64,
     /// How far a flatter surface may reach out, in millimetres.
     pub overhang_mm: f64,
+    /// How far it may span from one support to another, in millimetres.
+    pub bridge_mm: f64,
     /// Cups count from this area on: the largest of a layer, in mm².
     pub cup_mm2: f64,
     /// Traps count from this volume on, in millilitres.
@@ -73,6 +75,7 @@ impl Default for Limits {
             // 19° from level.
             self_supporting_slope: 0.344,
             overhang_mm: 1.0,
+            bridge_mm: 21.0,
             cup_mm2: 1.0,
             trap_ml: 0.001,
             escape_mm: 2.0,
@@ -225,6 +228,7 @@ impl Limits {
         ];
         let others = [
             ("island_mm2", Some(self.island_mm2)),
+            ("bridge_mm", Some(self.bridge_mm)),
             ("cup_mm2", Some(self.cup_mm2)),
             ("trap_ml", Some(self.trap_ml)),
             ("peel_mm2", self.peel_mm2),

@@ -6,6 +6,7 @@
 //! `docs/printability.md` defines each check with a picture.
 
 mod bodies;
+mod bridges;
 mod collect;
 mod columns;
 mod components;

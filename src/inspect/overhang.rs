@@ -2,8 +2,10 @@
 //!
 //! A pixel is supported if the layer below has a supported pixel within the width that the least self-supporting slope spans in
 //! this layer. All of the first layer is. Of an island, too: whoever supports it does so there. An overhang is where
-//! unsupported pixels are farther than a limit from all supported pixels of their layer.
+//! unsupported pixels are farther than a limit from all supported pixels of their layer. Those of them that bridge the way from one
+//! supported pixel to another are supported by both.
 
+use super::bridges::Bridges;
 use super::collect::{Collector, Frame};
 use super::components::Components;
 use super::finding::Code;
@@ -58,6 +60,7 @@ fn spans_of(here: &Components, row: i32, touches: &[bool], spans: &mut Vec<Span>
 /// The overhangs of the layers so far.
 pub(super) struct Overhangs {
     reach: Disc,
+    bridges: Bridges,
     /// The unsupported pixels of the last layer, if there are any.
     unsupported: Option<Rows>,
     /// The supported pixels of the last layer, if some are not.
@@ -70,6 +73,7 @@ impl Overhangs {
     pub fn new(frame: &Frame<'_>, limits: &Limits) -> Self {
         Self {
             reach: Disc::new(limits.overhang_mm, frame.grid),
+            bridges: Bridges::new(limits.bridge_mm, frame.grid),
             unsupported: None,
             supported: Rows::default(),
             regions: Regions::new(Code::Overhang, limits.overhang_mm, limits.speck_px, 0.0),
@@ -82,15 +86,22 @@ impl Overhangs {
             .unsupported
             .take()
             .map(|below| self.carried(layer, &below));
-        let unsupported = carried.as_ref().unwrap_or(&layer.flat);
+        let mut unsupported = carried.unwrap_or_else(|| layer.flat.clone());
         let mut found = Rows::default();
         if !unsupported.is_blank() {
-            self.supported = layer.alone.lit.rows.without(unsupported);
-            for row in 0..unsupported.len() {
-                let spans = unsupported.row(row);
-                found.push_row(self.beyond.find(spans, &self.supported, row, &self.reach));
+            let lit = &layer.alone.lit.rows;
+            self.supported = lit.without(&unsupported);
+            found = self
+                .beyond
+                .find_all(&unsupported, &self.supported, &self.reach);
+            let rest = self.bridges.not_held(&found, &unsupported, &self.supported);
+            if rest != found {
+                let held = found.without(&rest);
+                unsupported = unsupported.without(&held);
+                self.supported = lit.without(&unsupported);
+                found = self.beyond.find_all(&rest, &held, &self.reach);
             }
-            self.unsupported = Some(unsupported.clone());
+            self.unsupported = Some(unsupported);
         }
         self.regions.advance(layer.number, found, frame, collector);
     }

@@ -143,6 +143,13 @@ impl Rows {
         })
     }
 
+    /// The first and the last row with a pixel.
+    pub fn bounds(&self) -> Option<[i32; 2]> {
+        let mut filled = (0..self.len()).filter(|&row| !self.row(row).is_empty());
+        let first = filled.next()?;
+        Some([first, filled.next_back().unwrap_or(first)])
+    }
+
     /// The dark pixels between lit ones of the same row.
     pub fn gaps(&self) -> Self {
         let mut gaps = Self {
@@ -333,5 +340,13 @@ impl Beyond {
             std::mem::swap(&mut self.rest, &mut self.less);
         }
         &self.rest
+    }
+    /// The same for all rows.
+    pub fn find_all(&mut self, rows: &Rows, others: &Rows, disc: &Disc) -> Rows {
+        let mut found = Rows::default();
+        for row in 0..rows.len() {
+            found.push_row(self.find(rows.row(row), others, row, disc));
+        }
+        found
     }
 }

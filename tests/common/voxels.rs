@@ -305,9 +305,51 @@ impl Voxels {
             supported = (0..lit.len())
                 .map(|at| lit[at] && !unsupported[at])
                 .collect();
-            planes.push(self.beyond(&unsupported, &supported, limits.overhang_mm));
+            let found = self.beyond(&unsupported, &supported, limits.overhang_mm);
+            let bridge = |at| self.is_bridged(at, &unsupported, &supported, limits.bridge_mm);
+            let held: Plane = (0..lit.len()).map(|at| found[at] && bridge(at)).collect();
+            for at in 0..lit.len() {
+                supported[at] |= held[at];
+            }
+            let rest: Plane = (0..lit.len()).map(|at| found[at] && !held[at]).collect();
+            planes.push(self.beyond(&rest, &held, limits.overhang_mm));
         }
         self.regions(Code::Overhang, &planes, limits.speck_px, 0.0)
+    }
+
+    /// Whether a line through a pixel leads over unsupported ones to a supported one on both sides.
+    fn is_bridged(&self, at: usize, over: &Plane, to: &Plane, longest_mm: f64) -> bool {
+        let (x, y) = ((at % self.width) as i32, (at / self.width) as i32);
+        // From a pixel to the nearest that is not unsupported, in steps; none if that is not supported.
+        let steps = |right: i32, down: i32| {
+            (1..).find_map(|step| {
+                let place = [x + right * step, y + down * step];
+                let [x, y] = place.map(|it| usize::try_from(it).ok());
+                let inside = |it: Option<usize>, size| it.filter(|&it| it < size);
+                match (inside(x, self.width), inside(y, self.height)) {
+                    (Some(x), Some(y)) if over[y * self.width + x] => None,
+                    (Some(x), Some(y)) if to[y * self.width + x] => Some(Some(step)),
+                    _ => Some(None),
+                }
+            })
+        };
+        let mut lines = (-2_i32..=2).flat_map(|right| (0..=2).map(move |down| (right, down)));
+        lines.any(|(right, down)| {
+            let is_line = matches!(
+                [right.abs().min(down), right.abs().max(down)],
+                [0 | 1, 1] | [1, 2]
+            );
+            if !is_line {
+                return false;
+            }
+            let (one, other) = (steps(right, down), steps(-right, -down));
+            let (Some(Some(one)), Some(Some(other))) = (one, other) else {
+                return false;
+            };
+            let step_mm = (f64::from(right) * self.grid.pitch_mm)
+                .hypot(f64::from(down) * self.grid.pitch_y_mm);
+            f64::from(one + other - 1) * step_mm <= longest_mm * (1.0 + 1e-9)
+        })
     }
 
     /// Thin walls of lit pixels, or thin gaps between them, in a margin of dark pixels that is wide enough.

@@ -111,6 +111,7 @@ pub fn random_boxes_have_the_findings_of_brute_force() {
             hole_mm: length(rng),
             low_gap_mm: length(rng) / 2.0,
             overhang_mm: length(rng) / 2.0,
+            bridge_mm: length(rng) * 2.0,
             self_supporting_slope: [0.2, 0.344, 1.0][rng.usize(0..3)],
             speck_px: rng.u32(0..6),
             ..strict()
@@ -206,6 +207,7 @@ fn solids_have_the_findings_of_brute_force() {
             hole_mm: 6.0 * pitch_mm,
             low_gap_mm: 9.0 * bin_mm,
             overhang_mm: 3.0 * pitch_mm,
+            bridge_mm: 20.0 * pitch_mm,
             ..strict()
         };
         for samples in [Samples::ONE, Samples::of_level(4).unwrap()] {
@@ -220,7 +222,10 @@ fn what_is_ignored_is_not_found() {
     let triangles = crate::common::solids::frame();
     let plan = crate::layers_of(10.0);
     let masks = masks_of(&triangles, [0.1; 2], &plan, Samples::ONE);
-    let mut limits = strict();
+    let mut limits = Limits {
+        bridge_mm: 0.0,
+        ..strict()
+    };
     let has_overhang = |limits: &Limits| {
         let found = inspect(&masks, &plan, limits, &mut silent).unwrap();
         found.findings.iter().any(|it| it.code == Code::Overhang)

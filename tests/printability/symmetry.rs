@@ -22,6 +22,7 @@ fn check(triangles: &Triangles, margin: [u32; 2]) -> Printability {
     let masks = masks_with(triangles, [PITCH_MM; 2], &plan, Samples::ONE, margin);
     let limits = Limits {
         overhang_mm: 0.2,
+        bridge_mm: 1.0,
         ..strict()
     };
     inspect(&masks, &plan, &limits, &mut silent).unwrap()
