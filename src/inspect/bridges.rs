@@ -150,7 +150,7 @@ impl Layer<'_> {
                     start: a.span.start.max(b.span.start),
                     end: a.span.end.min(b.span.end),
                 };
-                if span.start < span.end && a.steps + b.steps <= self.most + 1 {
+                if span.start < span.end && (a.steps + b.steps).saturating_sub(1) <= self.most {
                     held.push(span);
                 }
                 if a.span.end < b.span.end {

@@ -130,7 +130,11 @@ fn bridge(span_mm: f32) -> Triangles {
 fn a_bridge_hangs_over_if_it_is_long() {
     assert_codes(&check(&bridge(2.0), &bridges(0.0)), &[]);
     // Three pixels at each end are supported.
-    assert_codes(&check(&bridge(8.0), &bridges(7.7)), &[]);
+    for longest_mm in [7.7, 1e12, f64::MAX] {
+        assert_codes(&check(&bridge(8.0), &bridges(longest_mm)), &[]);
+        let beam = turned(&bridge(8.0), 90.0);
+        assert_codes(&check(&beam, &bridges(longest_mm)), &[]);
+    }
     let found = check(&bridge(8.0), &bridges(7.65));
     assert_codes(&found, &[Code::Overhang]);
     let overhang = of_code(&found, Code::Overhang)[0];
