@@ -6,7 +6,7 @@
 use super::collect::Frame;
 use super::finding::Code;
 use super::limits::Limits;
-use super::rows::{Beyond, Disc, Rows};
+use super::rows::{Beyond, Disc, ROUNDING, Rows};
 use crate::mask::{Masks, Until};
 
 /// The masks of short columns: lit ones, and dark ones. There are none of a kind that nobody looks for.
@@ -20,9 +20,6 @@ pub(super) fn short(masks: &Masks, frame: &Frame<'_>, limits: &Limits) -> [Masks
         dark: wanted(Code::LowGap, limits.low_gap_mm),
     })
 }
-
-/// A height this close to the limit, as a fraction of it, reaches it.
-const ROUNDING: f64 = 1e-9;
 
 /// For each layer, the first boundary that is so far above its bottom.
 fn until(frame: &Frame<'_>, limit_mm: f64) -> Vec<u32> {
@@ -40,11 +37,6 @@ fn until(frame: &Frame<'_>, limit_mm: f64) -> Vec<u32> {
 /// The pixels of short columns in a layer that are not beside longer ones, given all pixels of either kind.
 pub(super) fn thin(short: &Rows, all: &Rows, limit: &Disc) -> Rows {
     let margin = (all.len() - short.len()) / 2;
-    let mut found = Rows::default();
     let longer = all.without_at(short, margin);
-    let mut beyond = Beyond::default();
-    for row in 0..short.len() {
-        found.push_row(beyond.find(short.row(row), &longer, row + margin, limit));
-    }
-    found
+    Beyond::default().find_all(short, &longer, margin, limit)
 }

@@ -93,13 +93,13 @@ impl Overhangs {
             self.supported = lit.without(&unsupported);
             found = self
                 .beyond
-                .find_all(&unsupported, &self.supported, &self.reach);
+                .find_all(&unsupported, &self.supported, 0, &self.reach);
             let rest = self.bridges.not_held(&found, &unsupported, &self.supported);
             if rest != found {
                 let held = found.without(&rest);
                 unsupported = unsupported.without(&held);
                 self.supported = lit.without(&unsupported);
-                found = self.beyond.find_all(&rest, &held, &self.reach);
+                found = self.beyond.find_all(&rest, &held, 0, &self.reach);
             }
             self.unsupported = Some(unsupported);
         }

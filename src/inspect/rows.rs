@@ -268,7 +268,7 @@ pub(super) struct Disc {
     half_widths: Vec<i32>,
 }
 
-/// A radius this close to a whole number of pixels, as a fraction of it, counts as whole.
+/// A length this close to a limit or to a whole number of pixels, as a fraction of it, counts as equal.
 pub(super) const ROUNDING: f64 = 1e-9;
 
 impl Disc {
@@ -341,11 +341,11 @@ impl Beyond {
         }
         &self.rest
     }
-    /// The same for all rows.
-    pub fn find_all(&mut self, rows: &Rows, others: &Rows, disc: &Disc) -> Rows {
+    /// The same for all rows, where the others begin `margin` rows further down.
+    pub fn find_all(&mut self, rows: &Rows, others: &Rows, margin: i32, disc: &Disc) -> Rows {
         let mut found = Rows::default();
         for row in 0..rows.len() {
-            found.push_row(self.find(rows.row(row), others, row, disc));
+            found.push_row(self.find(rows.row(row), others, row + margin, disc));
         }
         found
     }
