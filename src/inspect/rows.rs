@@ -341,6 +341,7 @@ impl Beyond {
         }
         &self.rest
     }
+
     /// The same for all rows, where the others begin `margin` rows further down.
     pub fn find_all(&mut self, rows: &Rows, others: &Rows, margin: i32, disc: &Disc) -> Rows {
         let mut found = Rows::default();
