@@ -6,7 +6,7 @@
 use super::collect::Frame;
 use super::finding::Code;
 use super::limits::Limits;
-use super::rows::{Beyond, Disc, ROUNDING, Rows};
+use super::rows::{Disc, ROUNDING, Rest, Rows};
 use crate::mask::{Masks, Until};
 
 /// The masks of short columns: lit ones, and dark ones. There are none of a kind that nobody looks for.
@@ -37,6 +37,11 @@ fn until(frame: &Frame<'_>, limit_mm: f64) -> Vec<u32> {
 /// The pixels of short columns in a layer that are not beside longer ones, given all pixels of either kind.
 pub(super) fn thin(short: &Rows, all: &Rows, limit: &Disc) -> Rows {
     let margin = (all.len() - short.len()) / 2;
-    let longer = all.without_at(short, margin);
-    Beyond::default().find_all(short, &longer, margin, limit)
+    let reach = limit.rows();
+    let near = short
+        .bounds()
+        .map(|[first, last]| first - reach..last + reach + 1);
+    let near = near.map_or(0..0, |near| near.start + margin..near.end + margin);
+    let longer = all.without_at(short, margin, near);
+    Rest::default().beyond_all(short, &longer, margin, limit)
 }

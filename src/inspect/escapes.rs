@@ -10,40 +10,112 @@ use super::finding::{Code, Finding};
 use super::forest::{End, Forest, Joining, Step};
 use super::hollows::{Gaps, Hollows, Meetings};
 use super::limits::Limits;
-use super::rows::{Beyond, Disc, Rows, Span};
+use super::rows::{Disc, FAR, Rest, Rows, Span, unite};
+
+/// The first and the last pixel of each row of a layer.
+#[derive(Default)]
+pub(super) struct Extents {
+    /// The first pixels, with as many rows without any above and below as the disc has on each side.
+    starts: Vec<i32>,
+    /// The ends, likewise.
+    ends: Vec<i32>,
+}
+
+impl Extents {
+    pub fn new(lit: &Rows, disc: &Disc) -> Self {
+        let margin = disc.rows();
+        let rows = (lit.len() + 2 * margin) as usize;
+        let (mut starts, mut ends) = (vec![FAR; rows], vec![-FAR; rows]);
+        for row in 0..lit.len() {
+            if let Some(extent) = lit.extent(row) {
+                starts[(row + margin) as usize] = extent.start;
+                ends[(row + margin) as usize] = extent.end;
+            }
+        }
+        Self { starts, ends }
+    }
+
+    /// From the first to the last pixel of a row that is within the disc of a lit one. Beyond the layer's rows all is outside: what
+    /// has room at its edge has room from there on.
+    pub fn of_row(&self, row: i32, disc: &Disc) -> Option<Span> {
+        let half_widths = disc.column();
+        let first = usize::try_from(row).ok()?;
+        let near = first..first + half_widths.len();
+        let (starts, ends) = (self.starts.get(near.clone())?, self.ends.get(near)?);
+        let (mut start, mut end) = (FAR, -FAR);
+        for ((&half_width, &first), &last) in half_widths.iter().zip(starts).zip(ends) {
+            start = start.min(first - half_width);
+            end = end.max(last + half_width);
+        }
+        (start < end).then_some(Span { start, end })
+    }
+}
 
 /// The roomy pixels of a layer, between the first and the last pixel of each row that is within a disc of a lit one.
-pub(super) fn rooms(lit: &Rows, disc: &Disc) -> Gaps {
+pub(super) fn rooms(lit: &Rows, disc: &Disc, extents: &Extents) -> Gaps {
     let has_rooms = rows_with_rooms(lit, disc.rows());
     let mut rooms = Rows::default();
-    let mut beyond = Beyond::default();
+    let mut rest = Rest::default();
+    let blocks = Blocks::new(lit);
     for (has_rooms, row) in has_rooms.into_iter().zip(0..) {
-        let whole = has_rooms.then(|| extent(lit, row, disc)).flatten();
-        match whole {
-            Some(whole) => rooms.push_row(beyond.find(&[whole], lit, row, disc)),
+        match has_rooms.then(|| extents.of_row(row, disc)).flatten() {
+            Some(whole) => rooms.push_row(blocks.beyond(whole, row, disc, &mut rest)),
             None => rooms.end_row(),
         }
     }
-    Gaps::new(rooms, &|row| extent(lit, row, disc))
+    Gaps::new(rooms, &|row| extents.of_row(row, disc))
 }
 
-/// From the first to the last pixel of a row that is within a disc of a lit one. Beyond the layer's rows all is outside: what has
-/// room at its edge has room from there on.
-pub(super) fn extent(lit: &Rows, row: i32, disc: &Disc) -> Option<Span> {
-    if !(0..lit.len()).contains(&row) {
-        return None;
+/// Rows of a layer that are looked at together.
+const BLOCK_ROWS: i32 = 8;
+
+/// A layer, and the columns that are lit in blocks of its rows. A disc that must fit spans many rows, and few of these take anything
+/// away that others have left: blocks tell which.
+struct Blocks<'a> {
+    lit: &'a Rows,
+    columns: Rows,
+}
+
+impl<'a> Blocks<'a> {
+    fn new(lit: &'a Rows) -> Self {
+        let mut columns = Rows::default();
+        let (mut some, mut more) = (Vec::new(), Vec::new());
+        for first in (0..lit.len()).step_by(BLOCK_ROWS as usize) {
+            some.clear();
+            for row in first..first + BLOCK_ROWS {
+                more.clear();
+                unite(&some, lit.row(row), &mut more);
+                std::mem::swap(&mut some, &mut more);
+            }
+            columns.push_row(&some);
+        }
+        Self { lit, columns }
     }
-    let near = disc.steps().filter_map(|(step, half_width)| {
-        let span = lit.extent(row + step)?;
-        Some(Span {
-            start: span.start - half_width,
-            end: span.end + half_width,
-        })
-    });
-    near.reduce(|a, b| Span {
-        start: a.start.min(b.start),
-        end: a.end.max(b.end),
-    })
+
+    /// The pixels of a span in `row` that are farther from all lit ones than the disc.
+    fn beyond<'b>(&self, span: Span, row: i32, disc: &Disc, rest: &'b mut Rest) -> &'b [Span] {
+        rest.begin(span);
+        let own = row / BLOCK_ROWS;
+        let outward = (1..=disc.rows() / BLOCK_ROWS + 1).flat_map(|step| [own - step, own + step]);
+        for block in std::iter::once(own).chain(outward) {
+            let (first, last) = (block * BLOCK_ROWS, (block + 1) * BLOCK_ROWS - 1);
+            let nearest = disc.half_width(row.clamp(first, last) - row);
+            let is_near =
+                nearest.is_some_and(|half_width| rest.touches(self.columns.row(block), half_width));
+            if !is_near {
+                continue;
+            }
+            for other in first..=last {
+                if let Some(half_width) = disc.half_width(other - row) {
+                    rest.take(self.lit.row(other), half_width);
+                }
+            }
+            if rest.is_empty() {
+                break;
+            }
+        }
+        rest.spans()
+    }
 }
 
 /// The rows that may have rooms: none if all rows so near have one span, and each overlaps the next.

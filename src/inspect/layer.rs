@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::collect::Frame;
 use super::columns;
 use super::components::Components;
-use super::escapes;
+use super::escapes::{self, Extents};
 use super::finding::Code;
 use super::holes;
 use super::hollows::{Gaps, Meetings};
@@ -24,6 +24,8 @@ pub(super) struct Alone {
     pub lit: Components,
     pub gaps: Gaps,
     pub rooms: Gaps,
+    /// Between which pixels of each row there may be rooms.
+    extents: Extents,
 }
 
 /// What a layer and the one below tell.
@@ -144,7 +146,7 @@ impl Checks<'_> {
         let lit_extent = |it: &Alone, row| it.lit.rows.extent(row);
         let of_gaps = meetings(alone, below, |it| &it.gaps, &lit_extent);
         let of_rooms = self.escape.as_ref().map_or(Meetings::default(), |disc| {
-            let extent = |it: &Alone, row| escapes::extent(&it.lit.rows, row, disc);
+            let extent = |it: &Alone, row| it.extents.of_row(row, disc);
             meetings(alone, below, |it| &it.rooms, &extent)
         });
         let below = below.filter(|_| self.limits.looks_for(Code::Overhang));
@@ -209,8 +211,11 @@ fn meetings(
 
 impl Alone {
     fn new(lit: Rows, escape: Option<&Disc>) -> Self {
+        let extents = escape.map_or(Extents::default(), |disc| Extents::new(&lit, disc));
+        let rooms = escape.map(|disc| escapes::rooms(&lit, disc, &extents));
         Self {
-            rooms: escape.map_or(Gaps::default(), |disc| escapes::rooms(&lit, disc)),
+            rooms: rooms.unwrap_or_default(),
+            extents,
             gaps: Gaps::between(&lit),
             lit: Components::new(lit),
         }

@@ -12,7 +12,7 @@ use super::finding::Code;
 use super::layer::Layer;
 use super::limits::Limits;
 use super::regions::Regions;
-use super::rows::{Beyond, Disc, Rows, Span};
+use super::rows::{Disc, Rest, Rows, Span};
 
 /// What a slope spans in a layer, in pixels.
 pub(super) fn width(layer: usize, frame: &Frame<'_>, limits: &Limits) -> Disc {
@@ -32,11 +32,11 @@ pub(super) fn unsupported(
 ) -> Rows {
     let touches = touching(here, contacts);
     let mut found = Rows::default();
-    let mut beyond = Beyond::default();
+    let mut rest = Rest::default();
     let mut spans = Vec::new();
     for row in 0..here.rows.len() {
         spans_of(here, row, &touches, &mut spans);
-        found.push_row(beyond.find(&spans, below, row, width));
+        found.push_row(rest.beyond(&spans, below, row, width));
     }
     found
 }
@@ -66,7 +66,7 @@ pub(super) struct Overhangs {
     /// The supported pixels of the last layer, if some are not.
     supported: Rows,
     regions: Regions,
-    beyond: Beyond,
+    rest: Rest,
 }
 
 impl Overhangs {
@@ -77,7 +77,7 @@ impl Overhangs {
             unsupported: None,
             supported: Rows::default(),
             regions: Regions::new(Code::Overhang, limits.overhang_mm, limits.speck_px, 0.0),
-            beyond: Beyond::default(),
+            rest: Rest::default(),
         }
     }
 
@@ -92,14 +92,14 @@ impl Overhangs {
             let lit = &layer.alone.lit.rows;
             self.supported = lit.without(&unsupported);
             found = self
-                .beyond
-                .find_all(&unsupported, &self.supported, 0, &self.reach);
+                .rest
+                .beyond_all(&unsupported, &self.supported, 0, &self.reach);
             let rest = self.bridges.not_held(&found, &unsupported, &self.supported);
             if rest != found {
                 let held = found.without(&rest);
                 unsupported = unsupported.without(&held);
                 self.supported = lit.without(&unsupported);
-                found = self.beyond.find_all(&rest, &held, 0, &self.reach);
+                found = self.rest.beyond_all(&rest, &held, 0, &self.reach);
             }
             self.unsupported = Some(unsupported);
         }
@@ -128,7 +128,7 @@ impl Overhangs {
                 continue;
             }
             spans_of(here, row, &touches, &mut spans);
-            found.push_row(self.beyond.find(&spans, &self.supported, row, width));
+            found.push_row(self.rest.beyond(&spans, &self.supported, row, width));
         }
         found
     }

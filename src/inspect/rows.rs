@@ -97,7 +97,10 @@ impl Rows {
     }
 
     pub fn push_row(&mut self, spans: &[Span]) {
-        self.spans.extend_from_slice(spans);
+        // Most rows of findings have none, and copying nothing takes time in WebAssembly.
+        if !spans.is_empty() {
+            self.spans.extend_from_slice(spans);
+        }
         self.end_row();
     }
 
@@ -191,17 +194,17 @@ impl Rows {
 
     /// The pixels of these rows that are not in the others.
     pub fn without(&self, others: &Self) -> Self {
-        self.without_at(others, 0)
+        self.without_at(others, 0, 0..self.len())
     }
 
-    /// The same where the others begin `margin` rows further down.
-    pub fn without_at(&self, others: &Self, margin: i32) -> Self {
+    /// The same where the others begin `margin` rows further down, and no rows but `wanted` are needed: the rest are blank.
+    pub fn without_at(&self, others: &Self, margin: i32, wanted: std::ops::Range<i32>) -> Self {
         let mut rest = Self::default();
-        let mut row_rest = Vec::new();
         for row in 0..self.len() {
-            row_rest.clear();
-            subtract(self.row(row), others.row(row - margin), 0, &mut row_rest);
-            rest.push_row(&row_rest);
+            if wanted.contains(&row) {
+                subtract(self.row(row), others.row(row - margin), 0, &mut rest.spans);
+            }
+            rest.end_row();
         }
         rest
     }
@@ -261,11 +264,37 @@ pub(super) fn intersect(spans: &[Span], others: &[Span], half_width: i32, both: 
     }
 }
 
+/// Appends the pixels that are in either list.
+pub(super) fn unite(spans: &[Span], others: &[Span], either: &mut Vec<Span>) {
+    let (mut i, mut j) = (0, 0);
+    loop {
+        let span = match (spans.get(i), others.get(j)) {
+            (Some(&a), b) if b.is_none_or(|b| a.start <= b.start) => {
+                i += 1;
+                a
+            }
+            (_, Some(&b)) => {
+                j += 1;
+                b
+            }
+            _ => return,
+        };
+        match either.last_mut() {
+            Some(last) if span.start <= last.end => last.end = last.end.max(span.end),
+            _ => either.push(span),
+        }
+    }
+}
+
 /// The pixels around a pixel whose centres are within a radius of its own.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Disc {
     /// For each row from the middle, the number of columns on each side.
     half_widths: Vec<i32>,
+    /// The rows of the disc from its middle outward, and the half width of each.
+    steps: Vec<(i32, i32)>,
+    /// The half widths from the first row to the last.
+    column: Vec<i32>,
 }
 
 /// A length this close to a limit or to a whole number of pixels, as a fraction of it, counts as equal.
@@ -280,8 +309,17 @@ impl Disc {
             let x_mm = (radius_mm * radius_mm - y_mm * y_mm).max(0.0).sqrt();
             (x_mm / grid.pitch_mm) as i32
         };
+        let half_widths: Vec<i32> = (0..=rows).map(half_width).collect();
+        let steps = half_widths.iter().zip(0..);
+        let steps = steps.flat_map(|(&half_width, step)| {
+            let other = (step > 0).then_some((-step, half_width));
+            std::iter::once((step, half_width)).chain(other)
+        });
+        let above = half_widths.iter().skip(1).rev();
         Self {
-            half_widths: (0..=rows).map(half_width).collect(),
+            steps: steps.collect(),
+            column: above.chain(&half_widths).copied().collect(),
+            half_widths,
         }
     }
 
@@ -304,49 +342,107 @@ impl Disc {
     }
 
     /// The rows of the disc from its middle outward, and the half width of each.
-    pub fn steps(&self) -> impl Iterator<Item = (i32, i32)> {
-        let steps = self.half_widths.iter().zip(0..);
-        steps.flat_map(|(&half_width, step)| {
-            let other = (step > 0).then_some((-step, half_width));
-            std::iter::once((step, half_width)).chain(other)
-        })
+    pub fn steps(&self) -> &[(i32, i32)] {
+        &self.steps
+    }
+
+    /// The half widths of its rows, from the first to the last.
+    pub fn column(&self) -> &[i32] {
+        &self.column
     }
 }
 
-/// The pixels of one row that are within a disc of no pixel of others.
-///
-/// Most rows need no row but the one at their own place: it is asked first.
+/// The pixels of a row that are left when others are taken away, one row of them after another.
 #[derive(Default)]
-pub(super) struct Beyond {
+pub(super) struct Rest {
     rest: Vec<Span>,
     less: Vec<Span>,
 }
 
-impl Beyond {
-    /// The pixels of `spans` farther from all `others` than the disc, where `spans` are in row `row` of the others.
-    pub fn find(&mut self, spans: &[Span], others: &Rows, row: i32, disc: &Disc) -> &[Span] {
+impl Rest {
+    /// Begins with the pixels of a span.
+    pub fn begin(&mut self, span: Span) {
         self.rest.clear();
-        self.rest.extend_from_slice(spans);
-        for (step, half_width) in disc.steps() {
+        self.rest.push(span);
+    }
+
+    /// Takes the pixels of others away, each of which is longer by `half_width` on both sides.
+    pub fn take(&mut self, others: &[Span], half_width: i32) {
+        if self.rest.is_empty() || others.is_empty() {
+            return;
+        }
+        self.less.clear();
+        subtract(&self.rest, others, half_width, &mut self.less);
+        std::mem::swap(&mut self.rest, &mut self.less);
+    }
+
+    /// Whether [`Self::take`] would take anything away.
+    pub fn touches(&self, others: &[Span], half_width: i32) -> bool {
+        let mut next = 0;
+        self.rest.iter().any(|span| {
+            while others
+                .get(next)
+                .is_some_and(|it| it.end + half_width <= span.start)
+            {
+                next += 1;
+            }
+            others
+                .get(next)
+                .is_some_and(|it| it.start - half_width < span.end)
+        })
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.rest.is_empty()
+    }
+
+    /// What is left.
+    pub fn spans(&self) -> &[Span] {
+        &self.rest
+    }
+
+    /// The pixels of `spans` that are in none of `others`, each of which is longer by its half width on both sides. No more of these
+    /// are looked at than it takes to leave nothing.
+    pub fn of<'a>(
+        &mut self,
+        spans: &[Span],
+        others: impl IntoIterator<Item = (&'a [Span], i32)>,
+    ) -> &[Span] {
+        let mut others = others.into_iter().filter(|(spans, _)| !spans.is_empty());
+        self.rest.clear();
+        // The first one needs no copy.
+        match others.next() {
+            Some((first, half_width)) => subtract(spans, first, half_width, &mut self.rest),
+            None => self.rest.extend_from_slice(spans),
+        }
+        for (spans, half_width) in others {
             if self.rest.is_empty() {
                 break;
             }
-            let near = others.row(row + step);
-            if near.is_empty() {
-                continue;
-            }
-            self.less.clear();
-            subtract(&self.rest, near, half_width, &mut self.less);
-            std::mem::swap(&mut self.rest, &mut self.less);
+            self.take(spans, half_width);
         }
         &self.rest
     }
 
+    /// The pixels of `spans` farther from all `others` than the disc, where `spans` are in row `row` of the others.
+    ///
+    /// Most rows need no row but the one at their own place: it is asked first.
+    pub fn beyond(&mut self, spans: &[Span], others: &Rows, row: i32, disc: &Disc) -> &[Span] {
+        if spans.is_empty() {
+            return &[];
+        }
+        let steps = disc.steps().iter();
+        self.of(
+            spans,
+            steps.map(|&(step, half_width)| (others.row(row + step), half_width)),
+        )
+    }
+
     /// The same for all rows, where the others begin `margin` rows further down.
-    pub fn find_all(&mut self, rows: &Rows, others: &Rows, margin: i32, disc: &Disc) -> Rows {
+    pub fn beyond_all(&mut self, rows: &Rows, others: &Rows, margin: i32, disc: &Disc) -> Rows {
         let mut found = Rows::default();
         for row in 0..rows.len() {
-            found.push_row(self.find(rows.row(row), others, row + margin, disc));
+            found.push_row(self.beyond(rows.row(row), others, row + margin, disc));
         }
         found
     }

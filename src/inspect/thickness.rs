@@ -8,7 +8,7 @@
 
 use std::ops::Range;
 
-use super::rows::{Disc, FAR, Rows, Span, intersect, subtract};
+use super::rows::{Disc, FAR, Rest, Rows, Span, intersect, subtract};
 use crate::grid::Grid;
 
 /// Finds what is thinner than a limit.
@@ -64,7 +64,7 @@ impl Thickness {
         for row in margin..solid.len() - margin {
             rest.clear();
             rest.extend_from_slice(doubtful.row(row));
-            for (step, half_width) in self.reach.steps() {
+            for &(step, half_width) in self.reach.steps() {
                 if rest.is_empty() {
                     break;
                 }
@@ -122,35 +122,33 @@ impl Thickness {
     /// The pixels that squares do not show to be thick.
     fn doubtful(&self, solid: &Rows, squares: &Rows, margin: i32, columns: [i32; 2]) -> Rows {
         let mut doubtful = Rows::default();
-        let (mut rest, mut less) = (Vec::new(), Vec::new());
+        let mut rest = Rest::default();
+        let mut within = Vec::new();
         for row in 0..solid.len() {
             if row < margin || row >= solid.len() - margin {
                 doubtful.end_row();
                 continue;
             }
             let block = row / self.block_rows;
-            rest.clear();
+            within.clear();
             for span in solid.row(row) {
                 let (start, end) = (span.start.max(columns[0]), span.end.min(columns[1]));
                 if start < end {
-                    rest.push(Span { start, end });
+                    within.push(Span { start, end });
                 }
+            }
+            if within.is_empty() {
+                doubtful.end_row();
+                continue;
             }
             // Squares around the row, below it and above it.
             let firsts = [block - self.blocks / 2, block, block + 1 - self.blocks];
-            for first in firsts {
-                if rest.is_empty() {
-                    break;
-                }
+            let near = firsts.into_iter().filter_map(|first| {
                 let middle = first * self.block_rows + self.disc.rows();
-                let Some(half_width) = self.reach.half_width(middle - row) else {
-                    continue;
-                };
-                less.clear();
-                subtract(&rest, squares.row(first), half_width, &mut less);
-                std::mem::swap(&mut rest, &mut less);
-            }
-            doubtful.push_row(&rest);
+                let half_width = self.reach.half_width(middle - row)?;
+                Some((squares.row(first), half_width))
+            });
+            doubtful.push_row(rest.of(&within, near));
         }
         doubtful
     }
@@ -197,7 +195,7 @@ impl<'a> Centres<'a> {
             start: -FAR,
             end: FAR,
         });
-        for (step, half_width) in self.disc.steps() {
+        for &(step, half_width) in self.disc.steps() {
             next.clear();
             intersect(common, self.solid.row(row + step), half_width, next);
             std::mem::swap(common, next);

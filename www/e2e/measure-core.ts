@@ -2,7 +2,7 @@
  * Measures the time and the memory of the core in a browser, without the page around it:
  * `npm run measure-core -- FILE [HEIGHT_MM [RAYS | WIDTHxHEIGHT@PITCH_MM]]`.
  *
- * Reads and plans the same model several times in one tab, as when a user turns it, and checks its plan; then makes a print file. The
+ * Reads and plans the same model several times in one tab, as when a user turns it, makes its masks and checks them; then makes a print file. The
  * figures of stages are the core's own, for the CPU backend. Models other than STL are read by the module for them.
  */
 import { readFile } from "node:fs/promises";
@@ -56,10 +56,12 @@ export async function main([file, height = "60", grid = "2048"]: string[]): Prom
           const slicer = read();
           const read_ms = performance.now() - clock;
           const { layers, hits, timings_ms } = await slicer.plan(options, quiet);
+          const masking = performance.now();
+          slicer.mask(0);
           const checking = performance.now();
           const { counts } = slicer.inspect({}, quiet);
-          const check_ms = performance.now() - checking;
-          timings.push(`${layers} layers, ${hits} hits: read ${Math.round(read_ms)}, ${Object.entries(timings_ms).map(([stage, ms]) => `${stage} ${Math.round(ms)}`).join(", ")}, checks ${Math.round(check_ms)} ms (${counts.length} kinds)`);
+          const [masks_ms, check_ms] = [checking - masking, performance.now() - checking];
+          timings.push(`${layers} layers, ${hits} hits: read ${Math.round(read_ms)}, ${Object.entries(timings_ms).map(([stage, ms]) => `${stage} ${Math.round(ms)}`).join(", ")}, masks shown ${Math.round(masks_ms)}, checks ${Math.round(check_ms)} ms (${counts.length} kinds)`);
           if (round === rounds - 1) {
             const start = performance.now();
             let bytes = 0;
