@@ -299,6 +299,15 @@ fn what_cannot_be_priced_is_named() {
         error.to_string(),
         "there is no finish gilded; known are raw, sanded"
     );
+    let none = Prices {
+        finishes: Vec::new(),
+        ..example()
+    };
+    let error = fails(none, &order, Some("gilded")).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "there is no finish gilded; the prices name none"
+    );
     let mut prices = example();
     prices.finishes[0].name = "sanded".to_owned();
     assert_eq!(code(fails(prices, &order, None)), "bad-prices");

@@ -95,7 +95,7 @@ pub enum PriceError {
         field: &'static str,
     },
     /// No finish has this name.
-    #[error("there is no finish {finish}; known are {}", known.join(", "))]
+    #[error("there is no finish {finish}; {}", known_finishes(known))]
     #[serde(rename = "no-finish")]
     NoFinish {
         /// The name.
@@ -121,6 +121,13 @@ pub(super) fn within(
         least,
         most,
     })
+}
+
+fn known_finishes(known: &[String]) -> String {
+    if known.is_empty() {
+        return "the prices name none".to_owned();
+    }
+    format!("known are {}", known.join(", "))
 }
 
 impl Prices {

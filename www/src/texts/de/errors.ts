@@ -187,7 +187,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
     `${field} ist ${exact(value)}, muss aber zwischen ${exact(least)} und ${exact(most)} liegen; berichtigen Sie Preise oder Bestellung.`,
   "bad-prices": ({ field }) =>
     `Preise können dieses ${field} nicht haben: Eine Währung hat drei Großbuchstaben nach ISO 4217, Mengenstaffeln steigen, und jede Nachbearbeitung hat ihren eigenen Namen.`,
-  "no-finish": ({ finish, known }) => `Es gibt keine Nachbearbeitung ${finish}; bekannt sind ${known.join(", ")}.`,
+  "no-finish": ({ finish, known }) => `Es gibt keine Nachbearbeitung ${finish}; ${known.length > 0 ? `bekannt sind ${known.join(", ")}` : "die Preise nennen keine"}.`,
   "no-masks": ({ format }) =>
     `${format}-Dateien enthalten ein Modell und seine Schichten, aber keine Masken; schneiden Sie das Modell selbst in dieses Format, oder wählen Sie ein anderes.`,
   "other-first-layer": ({ layer_mm, first_layer_mm }) =>

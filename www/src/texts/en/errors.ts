@@ -187,7 +187,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
     `${field} is ${exact(value)}, but must be from ${exact(least)} to ${exact(most)}; correct the prices or the order.`,
   "bad-prices": ({ field }) =>
     `Prices cannot have this ${field}; a currency is three capitals of ISO 4217, quantity breaks ascend, and every finish has a name of its own.`,
-  "no-finish": ({ finish, known }) => `There is no finish ${finish}; known are ${known.join(", ")}.`,
+  "no-finish": ({ finish, known }) => `There is no finish ${finish}; ${known.length > 0 ? `known are ${known.join(", ")}` : "the prices name none"}.`,
   "no-masks": ({ format }) =>
     `${format} files hold a model and its layers, and no masks; slice the model itself into this format, or choose another.`,
   "other-first-layer": ({ layer_mm, first_layer_mm }) =>

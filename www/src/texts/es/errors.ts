@@ -187,7 +187,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
     `${field} es ${exact(value)}, pero debe estar entre ${exact(least)} y ${exact(most)}; corrija los precios o el pedido.`,
   "bad-prices": ({ field }) =>
     `Los precios no pueden tener ese ${field}: una moneda son tres mayúsculas de ISO 4217, los tramos crecen y cada acabado tiene su propio nombre.`,
-  "no-finish": ({ finish, known }) => `No hay acabado ${finish}; se conocen ${known.join(", ")}.`,
+  "no-finish": ({ finish, known }) => `No hay acabado ${finish}; ${known.length > 0 ? `se conocen ${known.join(", ")}` : "los precios no nombran ninguno"}.`,
   "no-masks": ({ format }) =>
     `Los archivos ${format} contienen un modelo y sus capas, pero no máscaras; corte el modelo mismo en este formato o elija otro.`,
   "other-first-layer": ({ layer_mm, first_layer_mm }) =>

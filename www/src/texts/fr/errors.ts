@@ -188,7 +188,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
     `${field} vaut ${exact(value)}, mais doit être entre ${exact(least)} et ${exact(most)} ; corrigez les prix ou la commande.`,
   "bad-prices": ({ field }) =>
     `Des prix ne peuvent avoir ce ${field} : une devise a trois capitales selon ISO 4217, les paliers croissent, et chaque finition a son propre nom.`,
-  "no-finish": ({ finish, known }) => `Il n’y a pas de finition ${finish} ; sont connues ${known.join(", ")}.`,
+  "no-finish": ({ finish, known }) => `Il n’y a pas de finition ${finish} ; ${known.length > 0 ? `sont connues ${known.join(", ")}` : "les prix n’en nomment aucune"}.`,
   "no-masks": ({ format }) =>
     `Les fichiers ${format} contiennent un modèle et ses couches, mais pas de masques ; découpez le modèle lui-même dans ce format, ou choisissez-en un autre.`,
   "other-first-layer": ({ layer_mm, first_layer_mm }) =>

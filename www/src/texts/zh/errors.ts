@@ -175,7 +175,7 @@ export const errors = ({ count, exact, mm, measure, error, either }: Format): Er
   "price-out-of-bounds": ({ field, value, least, most }) =>
     `${field} 为 ${exact(value)}，但必须在 ${exact(least)} 到 ${exact(most)} 之间；请更正价格或订单。`,
   "bad-prices": ({ field }) => `价格不能有这样的 ${field}；货币是 ISO 4217 的三个大写字母，数量折扣须递增，每种后处理须有各自的名称。`,
-  "no-finish": ({ finish, known }) => `没有后处理 ${finish}；已知的有 ${known.join(", ")}。`,
+  "no-finish": ({ finish, known }) => `没有后处理 ${finish}；${known.length > 0 ? `已知的有 ${known.join(", ")}` : "价格表中没有任何后处理"}。`,
   "no-masks": ({ format }) => `${format} 文件包含模型及其分层，不含掩膜；请直接把模型切片为此格式，或选择其他格式。`,
   "other-first-layer": ({ layer_mm, first_layer_mm }) =>
     `本方案的第一层厚 ${mm(layer_mm)}，而不是所设的 ${mm(first_layer_mm)}；模型比它低，请选择更薄的第一层。`,
