@@ -65,6 +65,7 @@ pub mod warning;
 pub mod model;
 
 pub mod ldi;
+pub mod prepare;
 pub mod profile;
 
 pub mod plan;

@@ -158,14 +158,19 @@ impl Mesh {
     #[must_use]
     pub fn with(&self, other: &Self, class: FacetClass) -> Self {
         let mut joined = self.clone();
-        let first_vertex = self.vertices.len() as u32;
-        joined.vertices.extend(&other.vertices);
-        let facets = other.facets.iter();
-        let facets = facets.map(|corners| corners.map(|vertex| vertex + first_vertex));
-        let end = self.classes.end(class);
-        joined.facets.splice(end..end, facets);
-        joined.classes = self.classes.grown(class, other.facets.len());
+        joined.add(&other.vertices, &other.facets, class);
         joined
+    }
+
+    /// Adds a closed surface to a class. Its facets count in masks, but not in profiles, bounds and volume.
+    pub fn add(&mut self, vertices: &[Vec3], facets: &[[u32; 3]], class: FacetClass) {
+        let first_vertex = self.vertices.len() as u32;
+        self.vertices.extend(vertices);
+        let added = facets.iter();
+        let added = added.map(|corners| corners.map(|vertex| vertex + first_vertex));
+        let end = self.classes.end(class);
+        self.facets.splice(end..end, added);
+        self.classes = self.classes.grown(class, facets.len());
     }
 
     /// The bounding box of the surface.

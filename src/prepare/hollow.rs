@@ -1,0 +1,186 @@
+//! Hollowing: what of a model is so deep inside that it need not be printed.
+//!
+//! The model is known by the height ranges of columns (`columns.rs`), as overlapping bodies are: one solid. What is at least a wall and half a
+//! cavity away from the outside is the core of the void; the void is all that is within half a cavity of that core. So every point of it is in a
+//! ball of the cavity's diameter that is void as well, walls are thick enough wherever the void ends, and narrow places, which would hold
+//! resin, stay solid. Struts of a lattice are left standing in it.
+
+use glam::Vec3;
+
+use super::columns::{Columns, MARGIN, To};
+use super::lattice::Lattice as Struts;
+use super::nets::{Lattice, Nets, Shell};
+use crate::grid::Grid;
+use crate::ldi::{LdiError, cpu};
+use crate::model::Mesh;
+use crate::progress::{Progress, report};
+
+/// How a model is hollowed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hollowing {
+    /// Thickness of the walls.
+    pub wall_mm: f64,
+    /// Diameter of the smallest cavity: of a ball that fits into the void everywhere.
+    pub cavity_mm: f64,
+    /// Struts that are left in the void.
+    pub infill: Option<Infill>,
+}
+
+/// Struts along the four space diagonals, which support themselves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Infill {
+    /// From one node of the lattice to the next, along the axes.
+    pub spacing_mm: f64,
+    /// Diameter of the struts.
+    pub strut_mm: f64,
+}
+
+/// The void in a model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Void {
+    /// Its surface.
+    pub shell: Shell,
+    /// Walls may be thinner than asked by this, and are a third of it thicker on average.
+    pub resolution_mm: f64,
+}
+
+/// Columns in the thickness of a wall: what they do not resolve is at most an eighth of it.
+const COLUMNS_OF_WALL: f64 = 8.0;
+
+/// The finest columns.
+const LEAST_PITCH_MM: f64 = 0.125;
+
+/// The most points at which distances are found.
+const MOST_POINTS: f64 = 2e8;
+
+/// Columns from one node of the void's surface to the next.
+const STRIDE: usize = 2;
+
+/// Slices that are made at a time.
+const GROUP: usize = 16;
+
+/// The void in a model that stands on the plate: none if it is nowhere thick enough.
+///
+/// Cost: linear in the points of the lattice, times the columns in a wall and half a cavity.
+///
+/// # Errors
+/// [`LdiError::Cancelled`], [`LdiError::OutOfMemory`], [`LdiError::TooManyFacets`].
+pub fn hollow(
+    mesh: &Mesh,
+    hollowing: &Hollowing,
+    progress: &mut Progress<'_>,
+) -> Result<Option<Void>, LdiError> {
+    let bounds = mesh.bounds();
+    let size = bounds.size();
+    let pitch_mm = pitch_mm(hollowing, size.x * size.y * size.z);
+    let Ok(grid) = Grid::of_pitch(&bounds, pitch_mm) else {
+        // Larger than any plate.
+        return Ok(None);
+    };
+    let ldi = cpu::sample(mesh, &grid, &mut |fraction| progress(0.1 * fraction))?;
+    let model = Columns::of_model(&ldi);
+    drop(ldi);
+    let half_mm = (hollowing.cavity_mm / 2.0) as f32;
+    // What is outside is found half a column too far away on average.
+    let error_mm = pitch_mm as f32 / 2.0;
+    let core = core(
+        &model,
+        hollowing.wall_mm as f32 + half_mm + error_mm,
+        &mut |fraction| progress(0.1 + 0.5 * fraction),
+    )?;
+    let struts = hollowing.infill.map(|infill| Struts::new(&infill));
+    // So is the core.
+    let reach_mm = half_mm + error_mm;
+    let Some([low_mm, high_mm]) = core.extent_mm() else {
+        report(progress, 1.0)?;
+        return Ok(None);
+    };
+    let lattice = lattice_of(&model, &grid, low_mm - reach_mm);
+    // The lowest slice is outside, and so is the last.
+    let slices = ((high_mm - low_mm + 2.0 * reach_mm) / lattice.spacing_mm) as usize + 3;
+    let most_mm = reach_mm + 2.0 * lattice.spacing_mm;
+    let mut nets = Nets::new(lattice);
+    for from in (0..slices).step_by(GROUP) {
+        report(progress, 0.6 + 0.4 * from as f64 / slices as f64)?;
+        let group = from..(from + GROUP).min(slices);
+        let heights_mm: Vec<f32> = group
+            .clone()
+            .map(|it| lattice.node_mm(0, 0, it).z)
+            .collect();
+        let distances = core.distances_mm(To::Solid, &heights_mm, most_mm, STRIDE);
+        for (mut field, slice) in distances.into_iter().zip(group) {
+            for (place, field) in field.iter_mut().enumerate() {
+                *field = reach_mm - *field;
+                if let Some(struts) = struts.as_ref().filter(|_| *field > 0.0) {
+                    let (column, row) = (place % lattice.width, place / lattice.width);
+                    *field = field.min(struts.distance_mm(lattice.node_mm(column, row, slice)));
+                }
+            }
+            nets.add(field);
+        }
+    }
+    let shell = nets.finish();
+    report(progress, 1.0)?;
+    Ok((!shell.facets.is_empty()).then_some(Void {
+        shell,
+        resolution_mm: pitch_mm,
+    }))
+}
+
+/// The pitch of columns: fine beside the wall, and not so fine that there are too many points.
+fn pitch_mm(hollowing: &Hollowing, box_mm3: f64) -> f64 {
+    let mut pitch_mm = (hollowing.wall_mm / COLUMNS_OF_WALL).max(LEAST_PITCH_MM);
+    // Doublings are exact, and so the same on every machine.
+    while box_mm3 / (STRIDE as f64 * pitch_mm * pitch_mm * pitch_mm) > MOST_POINTS {
+        pitch_mm *= 2.0;
+    }
+    pitch_mm
+}
+
+/// The nodes of the void's surface: every second column of every second row, and slices as far apart, the first of which is below
+/// `bottom_mm`.
+fn lattice_of(model: &Columns, grid: &Grid, bottom_mm: f32) -> Lattice {
+    let corner = grid.centre_mm(0, 0).as_vec2();
+    let margin_mm = MARGIN as f32 * model.pitch_mm;
+    let spacing_mm = STRIDE as f32 * model.pitch_mm;
+    Lattice {
+        width: model.width.div_ceil(STRIDE),
+        height: model.height.div_ceil(STRIDE),
+        spacing_mm,
+        origin_mm: Vec3::new(
+            corner.x - margin_mm,
+            corner.y + margin_mm,
+            bottom_mm - spacing_mm,
+        ),
+    }
+}
+
+/// What is at least so far from the outside.
+fn core(model: &Columns, depth_mm: f32, progress: &mut Progress<'_>) -> Result<Columns, LdiError> {
+    let mut changes = Vec::new();
+    let Some([low_mm, high_mm]) = model.extent_mm() else {
+        return Ok(model.of_changes(&changes));
+    };
+    let step_mm = STRIDE as f32 * model.pitch_mm;
+    let slices = ((high_mm - low_mm) / step_mm) as usize + 2;
+    let height_mm = |slice: usize| low_mm + (slice as f32 - 0.5) * step_mm;
+    // At the lowest and the highest slice nothing is inside.
+    let mut below = vec![0.0; model.width * model.height];
+    for from in (1..=slices).step_by(GROUP) {
+        report(progress, from as f64 / slices as f64)?;
+        let group = from..(from + GROUP).min(slices + 1);
+        let heights_mm: Vec<f32> = group.clone().map(height_mm).collect();
+        let distances = model.distances_mm(To::Outside, &heights_mm, depth_mm + 2.0 * step_mm, 1);
+        for (here, slice) in distances.into_iter().zip(group) {
+            for (column, (&below_mm, &here_mm)) in below.iter().zip(&here).enumerate() {
+                if (below_mm < depth_mm) != (here_mm < depth_mm) {
+                    let part = (depth_mm - below_mm) / (here_mm - below_mm);
+                    let z_mm = height_mm(slice - 1) + part * step_mm;
+                    changes.push((column as u32, z_mm));
+                }
+            }
+            below = here;
+        }
+    }
+    Ok(model.of_changes(&changes))
+}

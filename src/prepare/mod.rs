@@ -1,0 +1,11 @@
+//! What a posed model is prepared with before it is sampled: voids and supports, as bodies of their own class.
+//!
+//! They are never cut from the model or joined with it: [`crate::model::Winding`] decides along each ray what is printed.
+
+mod columns;
+mod hollow;
+mod lattice;
+mod nets;
+
+pub use hollow::{Hollowing, Infill, Void, hollow};
+pub use nets::Shell;

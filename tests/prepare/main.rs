@@ -1,0 +1,5 @@
+//! Hollowing against closed forms and naive distances.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod hollow;
