@@ -59,6 +59,13 @@ pub enum Warning {
         /// The unit of the options.
         given: ModelUnit,
     },
+    /// The model is nowhere thick enough for a void with its walls, so it stays solid.
+    NothingHollowed {
+        /// Thickness of the walls.
+        wall_mm: f64,
+        /// Diameter of the smallest cavity.
+        cavity_mm: f64,
+    },
     /// Rays pass through holes of the mesh, and are closed by the caps alone.
     UnclosedRays {
         /// Number of such rays.
@@ -166,6 +173,10 @@ impl std::fmt::Display for Warning {
                 "the file is in {}, as it states, and not in {}",
                 stated.plural(),
                 given.plural()
+            ),
+            Self::NothingHollowed { wall_mm, cavity_mm } => write!(
+                f,
+                "the model stays solid: it is nowhere thick enough for walls of {wall_mm} mm around a cavity of {cavity_mm} mm"
             ),
             Self::UnclosedRays { unclosed, rays } => write!(
                 f,

@@ -6,6 +6,7 @@ use crate::filament::{FilamentSlicer, USUAL_NOZZLE_MM};
 use crate::format::Format;
 use crate::model::ModelUnit;
 use crate::plan::HeightRange;
+use crate::prepare::Hollowing;
 use crate::printer::PrinterChoice;
 use crate::profile::{Metric, Source};
 use crate::resin::Resin;
@@ -125,6 +126,9 @@ pub struct Options {
     /// unit ignores it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<ModelUnit>,
+    /// How the model is hollowed; solid if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hollow: Option<Hollowing>,
     /// Name of a known printer, see [`crate::printer::PRINTERS`], or the description of another. It provides pixels, pitch,
     /// mirroring, format and step where these are absent.
     pub printer: Option<PrinterChoice>,
@@ -206,6 +210,7 @@ impl Default for Options {
             rotation: None,
             height_mm: None,
             unit: None,
+            hollow: None,
             printer: None,
             pixels: None,
             pitch_mm: None,

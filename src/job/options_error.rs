@@ -55,6 +55,17 @@ pub enum OptionsError {
         /// The known levels.
         known: [u32; 4],
     },
+    /// A length of hollowing is too small.
+    #[error("{option} must be {least_mm} mm or more, not {value_mm}")]
+    #[serde(rename = "bad-hollow")]
+    BadHollow {
+        /// Its name in the options.
+        option: &'static str,
+        /// Its value.
+        value_mm: f64,
+        /// The least value.
+        least_mm: f64,
+    },
     /// The minimum weight is not from 0 to 1.
     #[error("the minimum weight must be from 0 to 1, not {weight_min}")]
     #[serde(rename = "bad-weight-min")]

@@ -11,6 +11,7 @@ use crate::mask::Samples;
 use crate::model::{Bounds, Pose};
 use crate::plan::Limits;
 use crate::plan::optimal::Objective;
+use crate::prepare::Hollowing;
 use crate::printer::Printer;
 use crate::profile::{Metric, Source};
 use crate::resin::Resin;
@@ -27,6 +28,7 @@ pub(crate) struct Job {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Sampling {
     pub pose: Pose,
+    pub hollow: Option<Hollowing>,
     pub raster: Raster,
     /// Height of the printer's build volume.
     pub greatest_height_mm: Option<f64>,

@@ -7,7 +7,7 @@ use tsify::Tsify;
 
 use super::parts::{Filament, Output};
 use super::planned::{Planned, PlannedModel};
-use super::sampled::Sampled;
+use super::sampled::{Hollowed, Sampled};
 use super::{Options, PlateReport};
 use crate::archive::Manifest;
 use crate::filament::FilamentReport;
@@ -384,6 +384,9 @@ pub struct Report {
     pub resin: Resin,
     /// Volume of resin in the model.
     pub resin_ml: f64,
+    /// The void that was left out of it, if the model was hollowed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hollowed: Option<Hollowed>,
     /// The printer, if one was named.
     pub printer: Option<String>,
     /// Heights of the planes at flats and sharp changes.
@@ -469,6 +472,21 @@ pub(super) struct Origin<'a> {
     pub warnings: Vec<Warning>,
 }
 
+/// The voids of all models and copies.
+fn hollowed(models: &[PlannedModel]) -> Option<Hollowed> {
+    let voids = models.iter().filter_map(|model| {
+        let void = model.sampled().hollowed?;
+        Some(Hollowed {
+            void_ml: void.void_ml * model.copies as f64,
+            ..void
+        })
+    });
+    voids.reduce(|a, b| Hollowed {
+        void_ml: a.void_ml + b.void_ml,
+        resolution_mm: a.resolution_mm.max(b.resolution_mm),
+    })
+}
+
 /// The report of a plan that is exported as `output`.
 pub(super) fn report_of(
     planned: &Planned,
@@ -535,6 +553,7 @@ pub(super) fn report_of(
         resin: layering.resin.clone(),
         thickness_mm,
         resin_ml: solid.volume_mm3 / 1e3,
+        hollowed: hollowed(models),
         printer: output.printer.as_ref().map(|printer| printer.name.clone()),
         snapped_mm: findings.snapped_mm.clone(),
         metric: layering.metric,

@@ -11,6 +11,7 @@ use crate::grid::Bins;
 use crate::mask::{LEVELS, Samples};
 use crate::model::Pose;
 use crate::plan::{Limits, PlanError, uniform};
+use crate::prepare::TooSmall;
 use crate::printer::{self, PRINTERS, Printer, PrinterChoice};
 use crate::profile::Metric;
 
@@ -89,7 +90,20 @@ impl Options {
             (None, None) => Raster::Around { pixels: self.rays },
             (Some(_), None) | (None, Some(_)) => return Err(OptionsError::PixelsWithoutPitch),
         };
+        if let Some(Err(TooSmall {
+            option,
+            value_mm,
+            least_mm,
+        })) = self.hollow.map(|hollow| hollow.check())
+        {
+            return Err(OptionsError::BadHollow {
+                option,
+                value_mm,
+                least_mm,
+            });
+        }
         Ok(Sampling {
+            hollow: self.hollow,
             pose: Pose {
                 rotation: self.rotation,
                 height_mm: self.height_mm,
@@ -235,6 +249,7 @@ impl Options {
             });
         }
         let of_resin = [
+            self.hollow.map(|_| "hollow"),
             self.max_time_s.map(|_| "max_time_s"),
             (self.minimize == Minimize::Time).then_some("minimize"),
         ];

@@ -1,5 +1,6 @@
 //! A model on the plate and its rays: the first stage.
 
+use serde::Serialize;
 use web_time::Instant;
 
 use super::parts::Sampling;
@@ -9,7 +10,8 @@ use crate::grid::Grid;
 use crate::job::report::mesh_warnings;
 use crate::ldi::gpu::{self, Gpu};
 use crate::ldi::{GpuFault, Ldi, LdiError, Solid, cpu};
-use crate::model::Mesh;
+use crate::model::{FacetClass, Mesh};
+use crate::prepare::{self, Void};
 use crate::progress::Progress;
 use crate::warning::Warning;
 
@@ -24,10 +26,26 @@ pub struct Sampled {
     pub grid: Grid,
     pub ldi: Ldi,
     pub solid: Solid,
+    /// What was left out of it, if anything.
+    pub hollowed: Option<Hollowed>,
     /// The GPU that was used.
     pub gpu: Option<UsedGpu>,
     pub warnings: Vec<Warning>,
 }
+
+/// The void of a hollowed model.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+pub struct Hollowed {
+    /// Volume of the void, without what its struts take.
+    pub void_ml: f64,
+    /// Walls may be thinner than asked by this.
+    pub resolution_mm: f64,
+}
+
+/// The fraction of the stage of rays that hollowing takes.
+const HOLLOWING_SHARE: f64 = 0.5;
 
 /// A GPU that sampled a model.
 #[derive(Debug, Clone)]
@@ -71,14 +89,34 @@ impl Sampler {
         progress: &mut StageProgress<'_>,
     ) -> Result<Sampled, Error> {
         let clock = Instant::now();
-        let mesh = model.on_plate(&sampling.pose)?;
+        let mut mesh = model.on_plate(&sampling.pose)?;
         let bounds = mesh.bounds();
         let grid = sampling.grid(&bounds)?;
         timings.load += ms_since(clock);
 
         let clock = Instant::now();
-        let mut ldi_progress = |fraction| progress(Stage::Ldi, fraction);
         let mut warnings = mesh_warnings(&mesh);
+        let mut hollowed = None;
+        let mut begun = 0.0;
+        if let Some(hollowing) = &sampling.hollow {
+            begun = HOLLOWING_SHARE;
+            let mut within = |fraction| progress(Stage::Ldi, HOLLOWING_SHARE * fraction);
+            match prepare::hollow(&mesh, hollowing, &mut within)? {
+                Some(void) => {
+                    let Void { shell, .. } = &void;
+                    mesh.add(&shell.vertices, &shell.facets, FacetClass::Void);
+                    hollowed = Some(Hollowed {
+                        void_ml: shell.volume_mm3() / 1e3,
+                        resolution_mm: void.resolution_mm,
+                    });
+                }
+                None => warnings.push(Warning::NothingHollowed {
+                    wall_mm: hollowing.wall_mm,
+                    cavity_mm: hollowing.cavity_mm,
+                }),
+            }
+        }
+        let mut ldi_progress = |fraction| progress(Stage::Ldi, begun + (1.0 - begun) * fraction);
         let rays = grid.refined(sampling.samples.rays()).around_model(&bounds);
         rays.check_rays()?;
         let mut on_gpu = None;
@@ -114,6 +152,7 @@ impl Sampler {
             grid,
             solid: Solid::of(&ldi),
             ldi,
+            hollowed,
             gpu,
             warnings,
         })

@@ -6,6 +6,7 @@
 //! resin, stay solid. Struts of a lattice are left standing in it.
 
 use glam::Vec3;
+use serde::{Deserialize, Serialize};
 
 use super::columns::{Columns, MARGIN, To};
 use super::lattice::Lattice as Struts;
@@ -16,23 +17,97 @@ use crate::model::Mesh;
 use crate::progress::{Progress, report};
 
 /// How a model is hollowed.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(default, deny_unknown_fields)]
 pub struct Hollowing {
-    /// Thickness of the walls.
+    /// Thickness of the walls: at least this everywhere, less the resolution that the report states.
     pub wall_mm: f64,
-    /// Diameter of the smallest cavity: of a ball that fits into the void everywhere.
+    /// Diameter of the smallest cavity: a ball of this size fits into the void everywhere.
     pub cavity_mm: f64,
-    /// Struts that are left in the void.
+    /// Struts that are left standing in the void.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub infill: Option<Infill>,
 }
 
+impl Default for Hollowing {
+    /// Walls of 2 mm, and no cavity narrower than that.
+    fn default() -> Self {
+        Self {
+            wall_mm: 2.0,
+            cavity_mm: 2.0,
+            infill: None,
+        }
+    }
+}
+
 /// Struts along the four space diagonals, which support themselves.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(default, deny_unknown_fields)]
 pub struct Infill {
     /// From one node of the lattice to the next, along the axes.
     pub spacing_mm: f64,
     /// Diameter of the struts.
     pub strut_mm: f64,
+}
+
+impl Default for Infill {
+    /// Struts of 1 mm, 8 mm apart.
+    fn default() -> Self {
+        Self {
+            spacing_mm: 8.0,
+            strut_mm: 1.0,
+        }
+    }
+}
+
+/// The least walls. Thinner ones are below what resin holds, and what hollowing resolves.
+const LEAST_WALL_MM: f64 = 0.4;
+
+/// The thinnest struts.
+const LEAST_STRUT_MM: f64 = 0.4;
+
+/// A length of [`Hollowing`] is too small.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct TooSmall {
+    /// Its name in the options.
+    pub option: &'static str,
+    pub value_mm: f64,
+    pub least_mm: f64,
+}
+
+impl Hollowing {
+    /// Checks the lengths. They have no upper bound: a model in which no void fits stays solid.
+    pub(crate) fn check(&self) -> Result<(), TooSmall> {
+        let of_infill = self.infill.map(|infill| {
+            [
+                ("hollow.infill.strut_mm", infill.strut_mm, LEAST_STRUT_MM),
+                (
+                    "hollow.infill.spacing_mm",
+                    infill.spacing_mm,
+                    2.0 * infill.strut_mm,
+                ),
+            ]
+        });
+        let lengths = [
+            ("hollow.wall_mm", self.wall_mm, LEAST_WALL_MM),
+            ("hollow.cavity_mm", self.cavity_mm, 0.0),
+        ];
+        let lengths = lengths.into_iter().chain(of_infill.into_iter().flatten());
+        for (option, value_mm, least_mm) in lengths {
+            if !(value_mm >= least_mm && value_mm.is_finite()) {
+                return Err(TooSmall {
+                    option,
+                    value_mm,
+                    least_mm,
+                });
+            }
+        }
+        Ok(())
+    }
 }
 
 /// The void in a model.
@@ -47,7 +122,10 @@ pub struct Void {
 /// Columns in the thickness of a wall: what they do not resolve is at most an eighth of it.
 const COLUMNS_OF_WALL: f64 = 8.0;
 
-/// The finest columns.
+/// The same for the thinnest walls and on the largest models.
+const LEAST_COLUMNS_OF_WALL: f64 = 3.0;
+
+/// The finest columns of all others.
 const LEAST_PITCH_MM: f64 = 0.125;
 
 /// The most points at which distances are found.
@@ -72,6 +150,10 @@ pub fn hollow(
 ) -> Result<Option<Void>, LdiError> {
     let bounds = mesh.bounds();
     let size = bounds.size();
+    // The largest ball of void with its wall must fit.
+    if 2.0 * hollowing.wall_mm + hollowing.cavity_mm > size.min_element() {
+        return Ok(None);
+    }
     let pitch_mm = pitch_mm(hollowing, size.x * size.y * size.z);
     let Ok(grid) = Grid::of_pitch(&bounds, pitch_mm) else {
         // Larger than any plate.
@@ -129,10 +211,16 @@ pub fn hollow(
 
 /// The pitch of columns: fine beside the wall, and not so fine that there are too many points.
 fn pitch_mm(hollowing: &Hollowing, box_mm3: f64) -> f64 {
-    let mut pitch_mm = (hollowing.wall_mm / COLUMNS_OF_WALL).max(LEAST_PITCH_MM);
-    // Doublings are exact, and so the same on every machine.
+    let most_mm = hollowing.wall_mm / LEAST_COLUMNS_OF_WALL;
+    let mut pitch_mm = (hollowing.wall_mm / COLUMNS_OF_WALL)
+        .max(LEAST_PITCH_MM)
+        .min(most_mm);
+    // By a factor that is exact, and so the same on every machine.
     while box_mm3 / (STRIDE as f64 * pitch_mm * pitch_mm * pitch_mm) > MOST_POINTS {
-        pitch_mm *= 2.0;
+        pitch_mm *= 1.25;
+        if pitch_mm >= most_mm {
+            return most_mm;
+        }
     }
     pitch_mm
 }

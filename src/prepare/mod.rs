@@ -7,5 +7,6 @@ mod hollow;
 mod lattice;
 mod nets;
 
+pub(crate) use hollow::TooSmall;
 pub use hollow::{Hollowing, Infill, Void, hollow};
 pub use nets::Shell;

@@ -147,6 +147,21 @@ pub struct Choices {
         help_heading = "Model"
     )]
     unit: Option<ModelUnit>,
+    /// Hollow the model, and leave walls of at least this thickness
+    #[arg(long, value_name = "MM", value_parser = length, help_heading = "Model")]
+    hollow: Option<f64>,
+    /// Smallest cavity: a ball of this diameter fits into the void everywhere [default: 2]
+    #[arg(long, value_name = "MM", value_parser = not_negative, help_heading = "Model")]
+    cavity: Option<f64>,
+    /// What is left standing in the void
+    #[arg(long, value_enum, help_heading = "Model")]
+    infill: Option<InfillArg>,
+    /// From one node of the infill to the next [default: 8]
+    #[arg(long, value_name = "MM", value_parser = length, help_heading = "Model")]
+    infill_spacing: Option<f64>,
+    /// Diameter of the infill's struts [default: 1]
+    #[arg(long, value_name = "MM", value_parser = length, help_heading = "Model")]
+    strut: Option<f64>,
     #[command(flatten)]
     pub target: Target,
     /// Weight facets by saliency: how much they stand out
@@ -248,6 +263,14 @@ enum PlannerArg {
     Uniform,
 }
 
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum InfillArg {
+    /// Nothing
+    None,
+    /// Struts along the space diagonals, which support themselves
+    Lattice,
+}
+
 /// What to plan with, from the command line and a file.
 pub struct Settings {
     pub options: Options,
@@ -262,6 +285,31 @@ impl Choices {
             let message = "--layer is for --planner uniform only; other planners take --layer-min \
                            and --layer-max";
             wrong_usage(command, message);
+        }
+        // A file of settings may hollow the model, and have an infill.
+        if self.config.is_some() {
+            return;
+        }
+        let of_hollow = [
+            self.cavity.map(|_| "--cavity"),
+            self.infill.map(|_| "--infill"),
+        ];
+        if let (None, Some(name)) = (self.hollow, of_hollow.into_iter().flatten().next()) {
+            wrong_usage(
+                command,
+                &format!("{name} is for hollowed models: add --hollow"),
+            );
+        }
+        let of_infill = [
+            self.infill_spacing.map(|_| "--infill-spacing"),
+            self.strut.map(|_| "--strut"),
+        ];
+        let has_infill = self.infill == Some(InfillArg::Lattice);
+        if let (false, Some(name)) = (has_infill, of_infill.into_iter().flatten().next()) {
+            wrong_usage(
+                command,
+                &format!("{name} is for an infill: add --infill lattice"),
+            );
         }
     }
 
@@ -292,6 +340,7 @@ impl Choices {
     fn put_into(&self, options: &mut Options) {
         self.put_goal(options);
         self.put_thicknesses(options);
+        self.put_hollow(options);
         put(&mut options.rotation, self.rotation);
         put(&mut options.height_mm, self.height);
         put(&mut options.unit, self.unit);
@@ -323,6 +372,29 @@ impl Choices {
             (PlannerArg::Uniform, layer) => layer.unwrap_or(Planner::Finest),
         };
         given.put("planner", &mut options.planner, planner);
+    }
+
+    fn put_hollow(&self, options: &mut Options) {
+        if let Some(wall_mm) = self.hollow {
+            options.hollow.get_or_insert_default().wall_mm = wall_mm;
+        }
+        let Some(hollow) = &mut options.hollow else {
+            return;
+        };
+        if let Some(cavity_mm) = self.cavity {
+            hollow.cavity_mm = cavity_mm;
+        }
+        match self.infill {
+            Some(InfillArg::None) => hollow.infill = None,
+            Some(InfillArg::Lattice) => {
+                hollow.infill.get_or_insert_default();
+            }
+            None => {}
+        }
+        if let Some(infill) = &mut hollow.infill {
+            infill.spacing_mm = self.infill_spacing.unwrap_or(infill.spacing_mm);
+            infill.strut_mm = self.strut.unwrap_or(infill.strut_mm);
+        }
     }
 
     /// A plan has one goal, so one on the command line replaces whichever the file has.

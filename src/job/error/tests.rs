@@ -233,6 +233,7 @@ fn options_errors() -> Vec<OptionsError> {
         BadPrinter { printer: "mine".to_owned(), field: "pitch_um" },
         PixelsWithoutPitch {},
         BadAntialias { antialias: 3, known: [1, 2, 4, 8] },
+        BadHollow { option: "hollow.wall_mm", value_mm: 0.1, least_mm: 0.4 },
         BadWeightMin { weight_min: 1.5 },
         SeveralTargets {},
         Contradictory {
@@ -337,6 +338,7 @@ fn warnings() -> Vec<Warning> {
             ],
         },
         UnitStated { stated: ModelUnit::Centimeter, given: ModelUnit::Inch },
+        NothingHollowed { wall_mm: 2.0, cavity_mm: 2.0 },
         UnclosedRays { unclosed: 12, rays: 345 },
         ToleranceExceeded { planner: "greedy".to_owned(), metric, tolerance: 0.05, max_error: 0.0712 },
         ToleranceExceededOnMesh { metric, tolerance: 0.05, max_error: 0.0712 },

@@ -92,6 +92,7 @@ const KINDS: Readonly<Record<ErrorCode, Kind>> = {
   "pixels-without-pitch": "badOptions",
   "bad-antialias": "badValue",
   "bad-weight-min": "badValue",
+  "bad-hollow": "badValue",
   "several-targets": "badOptions",
   "contradictory-options": "badOptions",
   "printer-layers": "badOptions",

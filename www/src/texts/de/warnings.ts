@@ -15,6 +15,8 @@ export const warnings = ({ count, counted, mm, height, error, either }: Format):
     readings.map(({ unit, size_mm }) => `in ${UNITS[unit]} wären es ${mm(size_mm)}; `).join("") +
     "geben Sie die Einheit an, wenn es eine andere ist.",
   "unit-stated": ({ stated, given }) => `Die Datei ist, wie sie sagt, in ${UNITS[stated]} und nicht in ${UNITS[given]}.`,
+  "nothing-hollowed": ({ wall_mm, cavity_mm }) =>
+    `Das Modell bleibt voll: Es ist nirgends dick genug für Wände von ${mm(wall_mm)} um einen Hohlraum von ${mm(cavity_mm)}.`,
   "unclosed-rays": ({ unclosed, rays }) =>
     `${count(unclosed)} von ${count(rays)} Strahlen gehen durch Löcher des Netzes, die eben geschlossen sind. Sehen Sie sich die Masken an.`,
   "tolerance-exceeded": ({ metric, tolerance, max_error }) =>

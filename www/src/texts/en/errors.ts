@@ -88,6 +88,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "printer-not-json": ({ system }) => `This file does not describe a printer in JSON: ${ended(system)}`,
   "pixels-without-pitch": () => "Pixels and their pitch in x and y belong together; give both, or one pitch for x and y.",
   "bad-antialias": ({ antialias, known }) => `Anti-aliasing has the levels ${known.join(", ")}, not ${exact(antialias)}.`,
+  "bad-hollow": ({ option, value_mm, least_mm }) => `${option} must be ${mm(least_mm)} or more, not ${mm(value_mm)}.`,
   "bad-weight-min": ({ weight_min }) => `The minimum weight must be from 0 to 1, not ${exact(weight_min)}.`,
   "bad-directions": ({ directions, most }) => `A search looks along 1 to ${count(most)} directions, not ${count(directions)}.`,
   "bad-limit": ({ limit, value, least, most }) => `${limit} is ${exact(value)}, but must be from ${exact(least)} to ${exact(most)}.`,

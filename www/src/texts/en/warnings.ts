@@ -16,6 +16,8 @@ export const warnings = ({ count, counted, mm, height, error, either }: Format):
     readings.map(({ unit, size_mm }) => `in ${UNITS[unit]} it would be ${mm(size_mm)}; `).join("") +
     "give its unit if it is another.",
   "unit-stated": ({ stated, given }) => `The file is in ${UNITS[stated]}, as it states, and not in ${UNITS[given]}.`,
+  "nothing-hollowed": ({ wall_mm, cavity_mm }) =>
+    `The model stays solid: it is nowhere thick enough for walls of ${mm(wall_mm)} around a cavity of ${mm(cavity_mm)}.`,
   "unclosed-rays": ({ unclosed, rays }) =>
     `${count(unclosed)} of ${count(rays)} rays pass holes of the mesh, which flat caps close; look at the masks.`,
   "tolerance-exceeded": ({ metric, tolerance, max_error }) =>

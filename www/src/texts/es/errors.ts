@@ -86,6 +86,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "printer-not-json": ({ system }) => `Este archivo no describe una impresora en JSON: ${ended(system)}`,
   "pixels-without-pitch": () => "Los píxeles y su paso en x e y van juntos; indique ambos, o un solo paso para x e y.",
   "bad-antialias": ({ antialias, known }) => `El suavizado tiene los niveles ${known.join(", ")}, no ${exact(antialias)}.`,
+  "bad-hollow": ({ option, value_mm, least_mm }) => `${option} debe ser de ${mm(least_mm)} o más, no ${mm(value_mm)}.`,
   "bad-weight-min": ({ weight_min }) => `El peso mínimo debe estar entre 0 y 1, no ser ${exact(weight_min)}.`,
   "bad-directions": ({ directions, most }) => `Una búsqueda mira de 1 a ${count(most)} direcciones, no ${count(directions)}.`,
   "bad-limit": ({ limit, value, least, most }) => `${limit} debe estar entre ${exact(least)} y ${exact(most)}, no ser ${exact(value)}.`,

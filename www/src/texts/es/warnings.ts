@@ -15,6 +15,8 @@ export const warnings = ({ count, counted, plural, mm, height, error, either }: 
     readings.map(({ unit, size_mm }) => `en ${UNITS[unit]} serían ${mm(size_mm)}; `).join("") +
     "indique la unidad si es otra.",
   "unit-stated": ({ stated, given }) => `El archivo está en ${UNITS[stated]}, como dice, y no en ${UNITS[given]}.`,
+  "nothing-hollowed": ({ wall_mm, cavity_mm }) =>
+    `El modelo queda macizo: en ningún sitio es bastante grueso para paredes de ${mm(wall_mm)} alrededor de un hueco de ${mm(cavity_mm)}.`,
   "unclosed-rays": ({ unclosed, rays }) =>
     `${count(unclosed)} de ${count(rays)} rayos atraviesan agujeros de la malla, tapados con planos. Mire las máscaras.`,
   "tolerance-exceeded": ({ metric, tolerance, max_error }) =>

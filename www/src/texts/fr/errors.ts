@@ -86,6 +86,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "printer-not-json": ({ system }) => `Ce fichier ne décrit pas une imprimante en JSON : ${ended(system)}`,
   "pixels-without-pitch": () => "Les pixels et leur pas en x et y vont ensemble ; donnez les deux, ou un seul pas pour x et y.",
   "bad-antialias": ({ antialias, known }) => `L’anticrénelage a les niveaux ${known.join(", ")}, pas ${exact(antialias)}.`,
+  "bad-hollow": ({ option, value_mm, least_mm }) => `${option} doit être d’au moins ${mm(least_mm)}, et non de ${mm(value_mm)}.`,
   "bad-weight-min": ({ weight_min }) => `Le poids minimal doit être entre 0 et 1, pas ${exact(weight_min)}.`,
   "bad-directions": ({ directions, most }) => `Une recherche examine de 1 à ${count(most)} directions, pas ${count(directions)}.`,
   "bad-limit": ({ limit, value, least, most }) => `${limit} doit être entre ${exact(least)} et ${exact(most)}, pas ${exact(value)}.`,

@@ -15,6 +15,8 @@ export const warnings = ({ count, counted, plural, mm, height, error, either }: 
     readings.map(({ unit, size_mm }) => `en ${UNITS[unit]} ce serait ${mm(size_mm)} ; `).join("") +
     "donnez l’unité si c’en est une autre.",
   "unit-stated": ({ stated, given }) => `Le fichier est en ${UNITS[stated]}, comme il le dit, et non en ${UNITS[given]}.`,
+  "nothing-hollowed": ({ wall_mm, cavity_mm }) =>
+    `Le modèle reste plein : il n’est nulle part assez épais pour des parois de ${mm(wall_mm)} autour d’une cavité de ${mm(cavity_mm)}.`,
   "unclosed-rays": ({ unclosed, rays }) =>
     `${count(unclosed)} rayons sur ${count(rays)} traversent des trous du maillage, bouchés à plat. Regardez les masques.`,
   "tolerance-exceeded": ({ metric, tolerance, max_error }) =>

@@ -85,6 +85,7 @@ export const errors = ({ count, exact, mm, measure, error, either }: Format): Er
   "printer-not-json": ({ system }) => `此文件没有以 JSON 描述打印机：${ended(system)}`,
   "pixels-without-pitch": () => "像素与其 x、y 间距须一并给出；请两者都给，或给出 x、y 共用的一个间距。",
   "bad-antialias": ({ antialias, known }) => `抗锯齿级别有 ${known.join(", ")}，没有 ${exact(antialias)}。`,
+  "bad-hollow": ({ option, value_mm, least_mm }) => `${option} 必须不小于 ${mm(least_mm)}，而不是 ${mm(value_mm)}。`,
   "bad-weight-min": ({ weight_min }) => `最小权重必须在 0 到 1 之间，而不是 ${exact(weight_min)}。`,
   "bad-directions": ({ directions, most }) => `一次搜索可查看 1 到 ${count(most)} 个方向，而不是 ${count(directions)} 个。`,
   "bad-limit": ({ limit, value, least, most }) => `${limit} 必须在 ${exact(least)} 到 ${exact(most)} 之间，而不是 ${exact(value)}。`,

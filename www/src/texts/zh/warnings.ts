@@ -14,6 +14,8 @@ export const warnings = ({ count, mm, height, error, either }: Format): WarningS
     readings.map(({ unit, size_mm }) => `按${UNITS[unit]}计则为 ${mm(size_mm)}；`).join("") +
     "若是其他单位，请指定。",
   "unit-stated": ({ stated, given }) => `文件说明其单位为${UNITS[stated]}，而非${UNITS[given]}。`,
+  "nothing-hollowed": ({ wall_mm, cavity_mm }) =>
+    `模型保持实心：没有任何一处厚到能容下 ${mm(wall_mm)} 的壁和 ${mm(cavity_mm)} 的空腔。`,
   "unclosed-rays": ({ unclosed, rays }) => `${count(rays)} 条光线中有 ${count(unclosed)} 条穿过用平面封上的孔洞。请查看掩膜。`,
   "tolerance-exceeded": ({ metric, tolerance, max_error }) =>
     `误差达到 ${error(metric, max_error)}，超过公差 ${error(metric, tolerance)}。`,
