@@ -55,8 +55,7 @@ fn main() {
         for wall_mm in [1.0, 2.0, 4.0] {
             let hollowing = Hollowing {
                 wall_mm,
-                cavity_mm: 2.0,
-                infill: None,
+                ..Hollowing::default()
             };
             row(&name, &mesh, &hollowing);
             if wall_mm == 2.0 {

@@ -66,6 +66,16 @@ pub enum Warning {
         /// Diameter of the smallest cavity.
         cavity_mm: f64,
     },
+    /// A drain hole does not meet the void, so it was left out.
+    DrainAstray {
+        /// Its place among those asked for, from 1.
+        drain_number: usize,
+    },
+    /// No hole drains these parts of the void: nothing leads out of them on a level or downward.
+    Undrained {
+        /// Number of such parts.
+        basins: usize,
+    },
     /// Rays pass through holes of the mesh, and are closed by the caps alone.
     UnclosedRays {
         /// Number of such rays.
@@ -177,6 +187,15 @@ impl std::fmt::Display for Warning {
             Self::NothingHollowed { wall_mm, cavity_mm } => write!(
                 f,
                 "the model stays solid: it is nowhere thick enough for walls of {wall_mm} mm around a cavity of {cavity_mm} mm"
+            ),
+            Self::DrainAstray { drain_number } => write!(
+                f,
+                "drain hole {drain_number} meets no void, and was left out; place it where the model is hollow, or turn it inward"
+            ),
+            Self::Undrained { basins } => write!(
+                f,
+                "{} of the void stay full, since no hole leads out of them on a level or downward; place holes there, or turn the model",
+                counted(*basins, "part")
             ),
             Self::UnclosedRays { unclosed, rays } => write!(
                 f,

@@ -475,14 +475,15 @@ pub(super) struct Origin<'a> {
 /// The voids of all models and copies.
 fn hollowed(models: &[PlannedModel]) -> Option<Hollowed> {
     let voids = models.iter().filter_map(|model| {
-        let void = model.sampled().hollowed?;
+        let void = model.sampled().hollowed.as_ref()?;
         Some(Hollowed {
             void_ml: void.void_ml * model.copies as f64,
-            ..void
+            ..void.clone()
         })
     });
     voids.reduce(|a, b| Hollowed {
         void_ml: a.void_ml + b.void_ml,
+        drains: [a.drains, b.drains].concat(),
         resolution_mm: a.resolution_mm.max(b.resolution_mm),
     })
 }

@@ -11,7 +11,7 @@ use crate::grid::Bins;
 use crate::mask::{LEVELS, Samples};
 use crate::model::Pose;
 use crate::plan::{Limits, PlanError, uniform};
-use crate::prepare::TooSmall;
+use crate::prepare::{Hollowing, TooSmall};
 use crate::printer::{self, PRINTERS, Printer, PrinterChoice};
 use crate::profile::Metric;
 
@@ -94,7 +94,7 @@ impl Options {
             option,
             value_mm,
             least_mm,
-        })) = self.hollow.map(|hollow| hollow.check())
+        })) = self.hollow.as_ref().map(Hollowing::check)
         {
             return Err(OptionsError::BadHollow {
                 option,
@@ -103,7 +103,7 @@ impl Options {
             });
         }
         Ok(Sampling {
-            hollow: self.hollow,
+            hollow: self.hollow.clone(),
             pose: Pose {
                 rotation: self.rotation,
                 height_mm: self.height_mm,
@@ -249,7 +249,7 @@ impl Options {
             });
         }
         let of_resin = [
-            self.hollow.map(|_| "hollow"),
+            self.hollow.as_ref().map(|_| "hollow"),
             self.max_time_s.map(|_| "max_time_s"),
             (self.minimize == Minimize::Time).then_some("minimize"),
         ];

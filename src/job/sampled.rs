@@ -11,7 +11,7 @@ use crate::job::report::mesh_warnings;
 use crate::ldi::gpu::{self, Gpu};
 use crate::ldi::{GpuFault, Ldi, LdiError, Solid, cpu};
 use crate::model::{FacetClass, Mesh};
-use crate::prepare::{self, Void};
+use crate::prepare::{self, Drain, Void};
 use crate::progress::Progress;
 use crate::warning::Warning;
 
@@ -34,12 +34,14 @@ pub struct Sampled {
 }
 
 /// The void of a hollowed model.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct Hollowed {
     /// Volume of the void, without what its struts take.
     pub void_ml: f64,
+    /// The drain holes that meet it, each with its depth: those asked for, then those placed automatically.
+    pub drains: Vec<Drain>,
     /// Walls may be thinner than asked by this.
     pub resolution_mm: f64,
 }
@@ -103,10 +105,14 @@ impl Sampler {
             let mut within = |fraction| progress(Stage::Ldi, HOLLOWING_SHARE * fraction);
             match prepare::hollow(&mesh, hollowing, &mut within)? {
                 Some(void) => {
-                    let Void { shell, .. } = &void;
-                    mesh.add(&shell.vertices, &shell.facets, FacetClass::Void);
+                    let drains = void.drains.iter().map(|drain| &drain.1);
+                    for shell in std::iter::once(&void.shell).chain(drains) {
+                        mesh.add(&shell.vertices, &shell.facets, FacetClass::Void);
+                    }
+                    warnings.extend(drain_warnings(&void));
                     hollowed = Some(Hollowed {
-                        void_ml: shell.volume_mm3() / 1e3,
+                        void_ml: void.shell.volume_mm3() / 1e3,
+                        drains: void.drains.into_iter().map(|drain| drain.0).collect(),
                         resolution_mm: void.resolution_mm,
                     });
                 }
@@ -201,6 +207,22 @@ impl Sampler {
         }
         Ok((ldi?, UsedGpu { name, method }))
     }
+}
+
+/// The warnings about holes that drain nothing, and about what stays full.
+fn drain_warnings(void: &Void) -> Vec<Warning> {
+    let astray = void.astray.iter();
+    let mut warnings: Vec<Warning> = astray
+        .map(|place| Warning::DrainAstray {
+            drain_number: place + 1,
+        })
+        .collect();
+    if void.undrained > 0 {
+        warnings.push(Warning::Undrained {
+            basins: void.undrained,
+        });
+    }
+    warnings
 }
 
 /// The warning about a GPU that was found but failed; `None` if none was found.

@@ -102,6 +102,23 @@ impl Columns {
             .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
     }
 
+    /// Whether a point is in the solid, by the column that it is nearest to, given in columns and rows.
+    pub fn holds(&self, [column, row]: [f32; 2], z_mm: f32) -> bool {
+        let (column, row) = (column + 0.5, row + 0.5);
+        if !(column >= 0.0 && row >= 0.0) {
+            return false;
+        }
+        let (column, row) = (column as usize, row as usize);
+        if column >= self.width || row >= self.height {
+            return false;
+        }
+        let column = row * self.width + column;
+        let ranges = self.starts[column] as usize..self.starts[column + 1] as usize;
+        self.ranges_mm[ranges]
+            .iter()
+            .any(|range| range[0] <= z_mm && z_mm < range[1])
+    }
+
     /// The distances of the columns' points at some heights, each at every `stride`th column of every `stride`th row, beginning with the first.
     /// Those beyond `most_mm` may be anything larger.
     pub fn distances_mm(

@@ -8,7 +8,9 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
+use super::basins::Basins;
 use super::columns::{Columns, MARGIN, To};
+use super::drain::{self, AutoDrain, Drain};
 use super::lattice::Lattice as Struts;
 use super::nets::{Lattice, Nets, Shell};
 use crate::grid::Grid;
@@ -17,7 +19,7 @@ use crate::model::Mesh;
 use crate::progress::{Progress, report};
 
 /// How a model is hollowed.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(default, deny_unknown_fields)]
@@ -29,6 +31,12 @@ pub struct Hollowing {
     /// Struts that are left standing in the void.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub infill: Option<Infill>,
+    /// Drain holes.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub drains: Vec<Drain>,
+    /// More drain holes, placed automatically.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub auto_drain: Option<AutoDrain>,
 }
 
 impl Default for Hollowing {
@@ -38,6 +46,8 @@ impl Default for Hollowing {
             wall_mm: 2.0,
             cavity_mm: 2.0,
             infill: None,
+            drains: Vec::new(),
+            auto_drain: None,
         }
     }
 }
@@ -70,6 +80,9 @@ const LEAST_WALL_MM: f64 = 0.4;
 /// The thinnest struts.
 const LEAST_STRUT_MM: f64 = 0.4;
 
+/// The narrowest drain holes.
+const LEAST_DRAIN_MM: f64 = 0.5;
+
 /// A length of [`Hollowing`] is too small.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct TooSmall {
@@ -96,7 +109,11 @@ impl Hollowing {
             ("hollow.wall_mm", self.wall_mm, LEAST_WALL_MM),
             ("hollow.cavity_mm", self.cavity_mm, 0.0),
         ];
+        let of_drains = self.drains.iter().map(|it| it.diameter_mm);
+        let diameters = of_drains.chain(self.auto_drain.map(|it| it.diameter_mm));
+        let of_drains = diameters.map(|mm| ("hollow.drains.diameter_mm", mm, LEAST_DRAIN_MM));
         let lengths = lengths.into_iter().chain(of_infill.into_iter().flatten());
+        let lengths = lengths.chain(of_drains);
         for (option, value_mm, least_mm) in lengths {
             if !(value_mm >= least_mm && value_mm.is_finite()) {
                 return Err(TooSmall {
@@ -113,14 +130,23 @@ impl Hollowing {
 /// The void in a model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Void {
-    /// Its surface.
+    /// Its surface, without drain holes.
     pub shell: Shell,
+    /// Each drain hole that meets it, and its surface.
+    pub drains: Vec<(Drain, Shell)>,
+    /// Drain holes that meet no void, by their places among those asked for.
+    pub astray: Vec<usize>,
+    /// Basins that stay full, since nothing leads out of them on a level or downward.
+    pub undrained: usize,
     /// Walls may be thinner than asked by this, and are a third of it thicker on average.
     pub resolution_mm: f64,
 }
 
 /// Columns in the thickness of a wall: what they do not resolve is at most an eighth of it.
 const COLUMNS_OF_WALL: f64 = 8.0;
+
+/// Columns in the thickness of a strut.
+const COLUMNS_OF_STRUT: f64 = 5.0;
 
 /// The same for the thinnest walls and on the largest models.
 const LEAST_COLUMNS_OF_WALL: f64 = 3.0;
@@ -182,6 +208,11 @@ pub fn hollow(
     let slices = ((high_mm - low_mm + 2.0 * reach_mm) / lattice.spacing_mm) as usize + 3;
     let most_mm = reach_mm + 2.0 * lattice.spacing_mm;
     let mut nets = Nets::new(lattice);
+    let mut basins = Basins::new(
+        lattice.width,
+        lattice.width * lattice.height,
+        lattice.spacing_mm,
+    );
     for from in (0..slices).step_by(GROUP) {
         report(progress, 0.6 + 0.4 * from as f64 / slices as f64)?;
         let group = from..(from + GROUP).min(slices);
@@ -198,21 +229,64 @@ pub fn hollow(
                     *field = field.min(struts.distance_mm(lattice.node_mm(column, row, slice)));
                 }
             }
+            if hollowing.auto_drain.is_some() {
+                basins.add(&field);
+            }
             nets.add(field);
         }
     }
     let shell = nets.finish();
     report(progress, 1.0)?;
-    Ok((!shell.facets.is_empty()).then_some(Void {
+    if shell.facets.is_empty() {
+        return Ok(None);
+    }
+    let mut void = Void {
         shell,
+        drains: Vec::new(),
+        astray: Vec::new(),
+        undrained: 0,
         resolution_mm: pitch_mm,
-    }))
+    };
+    for (place, drain) in hollowing.drains.iter().enumerate() {
+        if !void.drill(drain) {
+            void.astray.push(place);
+        }
+    }
+    if let Some(hole) = &hollowing.auto_drain {
+        for (slice, node) in basins.finish() {
+            let lowest_mm = lattice.node_mm(node % lattice.width, node / lattice.width, slice);
+            let drain = drain::place(&model, &lattice, lowest_mm, hole);
+            if !drain.is_some_and(|drain| void.drill(&drain)) {
+                void.undrained += 1;
+            }
+        }
+    }
+    Ok(Some(void))
+}
+
+impl Void {
+    /// Adds a drain hole; `false` if it does not meet the void.
+    fn drill(&mut self, drain: &Drain) -> bool {
+        let Some((shell, depth_mm)) = drain::bore(&self.shell, drain) else {
+            return false;
+        };
+        let drilled = Drain {
+            depth_mm: Some(depth_mm),
+            ..*drain
+        };
+        self.drains.push((drilled, shell));
+        true
+    }
 }
 
 /// The pitch of columns: fine beside the wall, and not so fine that there are too many points.
 fn pitch_mm(hollowing: &Hollowing, box_mm3: f64) -> f64 {
     let most_mm = hollowing.wall_mm / LEAST_COLUMNS_OF_WALL;
+    let of_struts_mm = hollowing
+        .infill
+        .map(|infill| infill.strut_mm / COLUMNS_OF_STRUT);
     let mut pitch_mm = (hollowing.wall_mm / COLUMNS_OF_WALL)
+        .min(of_struts_mm.unwrap_or(f64::INFINITY))
         .max(LEAST_PITCH_MM)
         .min(most_mm);
     // By a factor that is exact, and so the same on every machine.

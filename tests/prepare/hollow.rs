@@ -11,6 +11,8 @@ const HOLLOWING: Hollowing = Hollowing {
     wall_mm: 2.0,
     cavity_mm: 2.0,
     infill: None,
+    drains: Vec::new(),
+    auto_drain: None,
 };
 
 fn void_of(mesh: &Mesh, hollowing: &Hollowing) -> Option<Void> {
@@ -148,12 +150,13 @@ fn points_are_void_exactly_where_naive_distances_say_so() {
             .collect();
         let mesh = on_plate(&large);
         // Facets within a body are none of its surface, which the naive distance does not know.
-        if mesh.facets.len() > 2000 || ["stack", "crossing roofs", "frame"].contains(&name) {
+        if mesh.facets.len() > 2000 || ["crossing roofs", "frame", "stacked cubes"].contains(&name)
+        {
             continue;
         }
         let void = void_of(&mesh, &HOLLOWING);
         let (low, size) = (mesh.bounds().min, mesh.bounds().size());
-        for _ in 0..400 {
+        for _ in 0..1500 {
             let at = low + size * DVec3::new(rng.f64(), rng.f64(), rng.f64());
             let depth_mm = surface_mm(&mesh, at);
             let is_void = void.as_ref().is_some_and(|void| winding(void, at) > 0.5);

@@ -1,5 +1,32 @@
-//! Hollowing against closed forms and naive distances.
+//! Hollowing and drain holes against closed forms, naive distances and the checks.
 
 #[path = "../common/mod.rs"]
 mod common;
+mod drain;
 mod hollow;
+mod jobs;
+
+use cusp_slicer::job::{Options, Report, Slicer};
+use cusp_slicer::prepare::Hollowing;
+use glam::Vec3;
+
+use common::{quiet, solids};
+
+/// Options that hollow a model, with pixels of 0.1 mm.
+fn hollowed(hollow: Hollowing) -> Options {
+    Options {
+        hollow: Some(hollow),
+        pitch_mm: Some(0.1),
+        ..Options::default()
+    }
+}
+
+fn slicer(triangles: &[[Vec3; 3]]) -> Slicer {
+    Slicer::load(&solids::binary_stl(triangles)).unwrap()
+}
+
+fn plan(slicer: &mut Slicer, options: &Options) -> Report {
+    pollster::block_on(slicer.plan(options, &mut quiet))
+        .unwrap()
+        .clone()
+}

@@ -8,6 +8,7 @@ use cusp_slicer::format::Format;
 use cusp_slicer::job::{BIN_MM, Backend, GpuMethod, LAYERS_MM, Minimize, Options, Planner, Snap};
 use cusp_slicer::model::ModelUnit;
 use cusp_slicer::plan::HeightRange;
+use cusp_slicer::prepare::AutoDrain;
 use cusp_slicer::printer::PrinterChoice;
 use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::resin::Resin;
@@ -17,8 +18,8 @@ use crate::files::{Failure, WeightsFile, read_json};
 use crate::plate::Places;
 use crate::usage::{Given, wrong_usage};
 use crate::values::{
-    PrinterName, antialias, height_range, length, not_negative, pitch, pixels, positive, rotation,
-    uniform_layer,
+    DrainArg, PrinterName, antialias, drain, height_range, length, not_negative, pitch, pixels,
+    positive, rotation, uniform_layer,
 };
 
 /// Models, and how to slice them.
@@ -162,6 +163,10 @@ pub struct Choices {
     /// Diameter of the infill's struts [default: 1]
     #[arg(long, value_name = "MM", value_parser = length, help_heading = "Model")]
     strut: Option<f64>,
+    /// Make a drain hole in the void: a point of the surface, a direction inward and a diameter; or `auto`, the fewest that leave
+    /// nothing in it; repeatable
+    #[arg(long = "drain", value_name = "auto|X,Y,Z,DX,DY,DZ,DIAMETER", value_parser = drain, allow_hyphen_values = true, help_heading = "Model")]
+    drains: Vec<DrainArg>,
     #[command(flatten)]
     pub target: Target,
     /// Weight facets by saliency: how much they stand out
@@ -293,6 +298,7 @@ impl Choices {
         let of_hollow = [
             self.cavity.map(|_| "--cavity"),
             self.infill.map(|_| "--infill"),
+            self.drains.first().map(|_| "--drain"),
         ];
         if let (None, Some(name)) = (self.hollow, of_hollow.into_iter().flatten().next()) {
             wrong_usage(
@@ -390,6 +396,15 @@ impl Choices {
                 hollow.infill.get_or_insert_default();
             }
             None => {}
+        }
+        if !self.drains.is_empty() {
+            (hollow.drains, hollow.auto_drain) = (Vec::new(), None);
+        }
+        for drain in &self.drains {
+            match *drain {
+                DrainArg::Auto => hollow.auto_drain = Some(AutoDrain::default()),
+                DrainArg::At(drain) => hollow.drains.push(drain),
+            }
         }
         if let Some(infill) = &mut hollow.infill {
             infill.spacing_mm = self.infill_spacing.unwrap_or(infill.spacing_mm);

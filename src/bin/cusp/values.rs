@@ -8,6 +8,7 @@ use cusp_slicer::job::Planner;
 use cusp_slicer::mask::LEVELS;
 use cusp_slicer::orientation::shard::Shard;
 use cusp_slicer::plan::HeightRange;
+use cusp_slicer::prepare::Drain;
 use cusp_slicer::printer::PRINTERS;
 
 /// The names of printers, which shells complete; other text is a file, or is refused with the names that are like it.
@@ -55,6 +56,37 @@ pub fn rotation(text: &str) -> Result<[f64; 4], String> {
     let parts: Result<Vec<f64>, _> = parts.collect();
     let parts = parts.ok().and_then(|parts| parts.try_into().ok());
     parts.ok_or_else(|| "expected a quaternion of four numbers: X,Y,Z,W".to_owned())
+}
+
+/// A drain hole, or as many as are needed.
+#[derive(Clone, Copy)]
+pub enum DrainArg {
+    Auto,
+    At(Drain),
+}
+
+/// Parses `auto`, or `X,Y,Z,DX,DY,DZ,DIAMETER`.
+pub fn drain(text: &str) -> Result<DrainArg, String> {
+    if text == "auto" {
+        return Ok(DrainArg::Auto);
+    }
+    let parts = text.split(',').map(|part| part.trim().parse::<f64>());
+    let parts: Option<Vec<f64>> = parts.collect::<Result<_, _>>().ok();
+    let is_finite = |parts: &Vec<f64>| parts.iter().all(|it| it.is_finite());
+    match parts.filter(is_finite).as_deref() {
+        Some(&[x, y, z, dx, dy, dz, diameter_mm]) if [dx, dy, dz] != [0.0; 3] => {
+            Ok(DrainArg::At(Drain {
+                at_mm: [x, y, z],
+                direction: [dx, dy, dz],
+                diameter_mm,
+                depth_mm: None,
+            }))
+        }
+        _ => Err(
+            "expected auto, or seven numbers: a point, a direction that is not zero, and a diameter"
+                .to_owned(),
+        ),
+    }
 }
 
 /// Parses an anti-aliasing level.

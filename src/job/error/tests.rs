@@ -339,6 +339,8 @@ fn warnings() -> Vec<Warning> {
         },
         UnitStated { stated: ModelUnit::Centimeter, given: ModelUnit::Inch },
         NothingHollowed { wall_mm: 2.0, cavity_mm: 2.0 },
+        DrainAstray { drain_number: 2 },
+        Undrained { basins: 3 },
         UnclosedRays { unclosed: 12, rays: 345 },
         ToleranceExceeded { planner: "greedy".to_owned(), metric, tolerance: 0.05, max_error: 0.0712 },
         ToleranceExceededOnMesh { metric, tolerance: 0.05, max_error: 0.0712 },

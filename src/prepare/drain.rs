@@ -1,0 +1,255 @@
+//! Drain holes: straight channels from the outside into a void, as bodies of the void's class.
+
+use glam::{DVec3, Vec3};
+use serde::{Deserialize, Serialize};
+
+use super::columns::Columns;
+use super::nets::{Lattice, Shell};
+
+/// A drain hole.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(deny_unknown_fields)]
+pub struct Drain {
+    /// Where it enters the model, in the frame of reports: centred on x = y = 0, with the plate at z = 0.
+    pub at_mm: [f64; 3],
+    /// Which way it goes in, of any length but 0.
+    pub direction: [f64; 3],
+    /// Its diameter.
+    pub diameter_mm: f64,
+    /// Its depth; if absent, it goes on until all of it is in the void.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub depth_mm: Option<f64>,
+}
+
+/// Drain holes that are placed automatically: the fewest that leave nothing in the void, with the shortest ways out.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(default, deny_unknown_fields)]
+pub struct AutoDrain {
+    /// Their diameter.
+    pub diameter_mm: f64,
+}
+
+impl Default for AutoDrain {
+    /// Holes of 3 mm, through which resin flows in seconds.
+    fn default() -> Self {
+        Self { diameter_mm: 3.0 }
+    }
+}
+
+/// Doublings from four points of a circle to those of a hole.
+const DOUBLINGS: u32 = 3;
+
+/// Unit vectors around a circle, of which the first is along x: four, and twice as many for each doubling.
+///
+/// Square roots alone are the same on every machine; sines are not.
+pub(super) fn circle(doublings: u32) -> Vec<[f64; 2]> {
+    let mut points: Vec<[f64; 2]> = vec![[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
+    for _ in 0..doublings {
+        let next = points.iter().cycle().skip(1);
+        let pairs = points.iter().zip(next).flat_map(|(&a, &b)| {
+            let middle = [a[0] + b[0], a[1] + b[1]];
+            let length = (middle[0] * middle[0] + middle[1] * middle[1]).sqrt();
+            [a, [middle[0] / length, middle[1] / length]]
+        });
+        points = pairs.collect();
+    }
+    points
+}
+
+/// A hole that has a place.
+struct Bore {
+    at: DVec3,
+    /// A unit vector.
+    along: DVec3,
+    /// The points of its rim, from its middle.
+    rim: Vec<DVec3>,
+}
+
+impl Bore {
+    /// `None` if its direction has no length.
+    fn new(drain: &Drain) -> Option<Self> {
+        let direction = DVec3::from_array(drain.direction);
+        let along = direction / direction.length();
+        if !along.is_finite() {
+            return None;
+        }
+        // Beside the axis that it is farthest from.
+        let size = along.abs();
+        let axis = if size.x <= size.y && size.x <= size.z {
+            DVec3::X
+        } else if size.y <= size.z {
+            DVec3::Y
+        } else {
+            DVec3::Z
+        };
+        let across = axis.cross(along);
+        let across = across / across.length();
+        let other = along.cross(across);
+        let radius_mm = drain.diameter_mm / 2.0;
+        let rim = circle(DOUBLINGS).into_iter();
+        let rim = rim.map(|[x, y]| (across * x + other * y) * radius_mm);
+        Some(Self {
+            at: DVec3::from_array(drain.at_mm),
+            along,
+            rim: rim.collect(),
+        })
+    }
+
+    /// How deep all of the hole is in the void of a shell; `None` if its middle never is.
+    fn depth_mm(&self, shell: &Shell) -> Option<f64> {
+        let rims = self
+            .rim
+            .iter()
+            .map(|&rim| first_mm(shell, self.at + rim, self.along));
+        let [enters, leaves] = first_mm(shell, self.at, self.along)?;
+        // Where the wall is slanted a rim enters later, or beside the void.
+        let rims = rims.flatten().map(|[enters, _]| enters);
+        Some(rims.fold(enters, f64::max).min(leaves))
+    }
+
+    /// The hole from before its place to a depth, with a lid at both ends.
+    fn shell(&self, from_mm: f64, to_mm: f64) -> Shell {
+        let sides = self.rim.len() as u32;
+        let [start, end] = [from_mm, to_mm].map(|along_mm| self.at + self.along * along_mm);
+        let mut shell = Shell::default();
+        for middle in [start, end] {
+            let rim = self.rim.iter().map(|&rim| (middle + rim).as_vec3());
+            shell.vertices.extend(rim);
+        }
+        shell.vertices.extend([start.as_vec3(), end.as_vec3()]);
+        let lids = [2 * sides, 2 * sides + 1];
+        for side in 0..sides {
+            let next = (side + 1) % sides;
+            let (a, b, c, d) = (side, next, sides + next, sides + side);
+            shell.facets.extend([[a, b, c], [a, c, d]]);
+            shell.facets.extend([[lids[0], b, a], [lids[1], d, c]]);
+        }
+        shell
+    }
+}
+
+/// Where a ray from outside a shell first enters it and leaves it again, in millimetres from its beginning.
+fn first_mm(shell: &Shell, from: DVec3, along: DVec3) -> Option<[f64; 2]> {
+    let mut enters: Option<f64> = None;
+    let mut leaves: Option<f64> = None;
+    let mut crossings = Vec::new();
+    for corners in &shell.facets {
+        let [a, b, c] = corners.map(|vertex| shell.vertices[vertex as usize].as_dvec3() - from);
+        // Signed volumes with the ray.
+        let sides = [
+            b.cross(c).dot(along),
+            c.cross(a).dot(along),
+            a.cross(b).dot(along),
+        ];
+        let is_front = sides.iter().all(|&side| side <= 0.0);
+        let is_back = sides.iter().all(|&side| side >= 0.0);
+        let normal = (b - a).cross(c - a);
+        let across = normal.dot(along);
+        if is_front == is_back || across == 0.0 {
+            continue;
+        }
+        let at_mm = normal.dot(a) / across;
+        if at_mm > 0.0 {
+            crossings.push((at_mm, across < 0.0));
+        }
+    }
+    for &(at_mm, is_entry) in &crossings {
+        if is_entry && enters.is_none_or(|known| at_mm < known) {
+            enters = Some(at_mm);
+        }
+    }
+    let enters = enters?;
+    for &(at_mm, is_entry) in &crossings {
+        if !is_entry && at_mm > enters && leaves.is_none_or(|known| at_mm < known) {
+            leaves = Some(at_mm);
+        }
+    }
+    Some([enters, leaves?])
+}
+
+/// The hole as a body, and its depth; `None` if it does not meet the void.
+///
+/// It begins a diameter before its place, so that a slanted surface does not close a part of it.
+pub(super) fn bore(shell: &Shell, drain: &Drain) -> Option<(Shell, f64)> {
+    let bore = Bore::new(drain)?;
+    let depth_mm = match drain.depth_mm {
+        Some(depth_mm) => depth_mm,
+        None => bore.depth_mm(shell)?,
+    };
+    Some((bore.shell(-drain.diameter_mm, depth_mm), depth_mm))
+}
+
+/// How far a bore goes on beyond what it drains, so that its end does not close it, in parts of its diameter.
+const BEYOND: f64 = 0.25;
+
+/// How much room a hole needs outside, in diameters.
+const ROOM: f32 = 2.0;
+
+/// The least distance of a hole from the plate, which would close it.
+const ABOVE_PLATE_MM: f32 = 0.2;
+
+/// Places a hole that drains a basin by the shortest way: level or slanting down, since what a hole leads up to stays full. `None` if
+/// there is no such way.
+pub(super) fn place(
+    model: &Columns,
+    lattice: &Lattice,
+    lowest_mm: Vec3,
+    hole: &AutoDrain,
+) -> Option<Drain> {
+    let diameter_mm = hole.diameter_mm as f32;
+    let radius_mm = diameter_mm / 2.0;
+    // A level hole begins below the basin, and has as much of the wall below it as is left of it above.
+    let level_mm = Vec3::new(lowest_mm.x, lowest_mm.y, lowest_mm.z + radius_mm / 2.0);
+    let around = circle(2).into_iter().map(|[x, y]| [x as f32, y as f32]);
+    let slant = 0.5f32.sqrt();
+    let ways = around
+        .clone()
+        .map(|[x, y]| (level_mm, Vec3::new(x, y, 0.0)));
+    let ways = ways.chain(around.map(|[x, y]| (lowest_mm, Vec3::new(x, y, -1.0) * slant)));
+    let ways = ways.chain([(lowest_mm, Vec3::NEG_Z)]);
+    let mut best: Option<(f32, Vec3, Vec3)> = None;
+    for (from, along) in ways {
+        let most_mm = best.map_or(f32::INFINITY, |best| best.0);
+        let Some(length_mm) = way_out_mm(model, lattice, from, along, ROOM * diameter_mm) else {
+            continue;
+        };
+        let end = from + along * length_mm;
+        if length_mm < most_mm && end.z - radius_mm >= ABOVE_PLATE_MM {
+            best = Some((length_mm, end, along));
+        }
+    }
+    let (length_mm, at, along) = best?;
+    // As people write them, so that a report's holes can be given again; without -0.
+    let rounded = |number: f32| (f64::from(number) * 1e3).round() / 1e3 + 0.0;
+    Some(Drain {
+        at_mm: at.to_array().map(rounded),
+        direction: (-along).to_array().map(rounded),
+        diameter_mm: hole.diameter_mm,
+        depth_mm: Some(rounded(length_mm) + BEYOND * hole.diameter_mm),
+    })
+}
+
+/// How far it is to the outside, if nothing is in the way for `room_mm` from there.
+fn way_out_mm(
+    model: &Columns,
+    lattice: &Lattice,
+    from: Vec3,
+    along: Vec3,
+    room_mm: f32,
+) -> Option<f32> {
+    let step_mm = model.pitch_mm / 2.0;
+    let is_solid = |step: usize| {
+        let at = from + along * (step as f32 * step_mm) - lattice.origin_mm;
+        let z_mm = at.z + lattice.origin_mm.z;
+        model.holds([at.x / model.pitch_mm, -at.y / model.pitch_mm], z_mm)
+    };
+    // What is outside of all columns is outside, so there is an end.
+    let steps = (0..).find(|&step| !is_solid(step))?;
+    let room = (room_mm / step_mm) as usize;
+    let is_free = (steps..steps + room).all(|step| !is_solid(step));
+    is_free.then_some(steps as f32 * step_mm)
+}

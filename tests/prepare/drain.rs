@@ -1,0 +1,143 @@
+//! Drain holes.
+
+use cusp_slicer::inspect::{Code, Limits};
+use cusp_slicer::prepare::{AutoDrain, Drain, Hollowing};
+use cusp_slicer::warning::Warning;
+use glam::Vec3;
+
+use crate::common::{assert_near, quiet, solids};
+use crate::{hollowed, plan, slicer};
+
+/// A hole of 3 mm into the side of a cube of 20 mm.
+const SIDE: Drain = Drain {
+    at_mm: [10.0, 0.0, 10.0],
+    direction: [-1.0, 0.0, 0.0],
+    diameter_mm: 3.0,
+    depth_mm: None,
+};
+
+fn drained(drains: Vec<Drain>) -> Hollowing {
+    Hollowing {
+        drains,
+        ..Hollowing::default()
+    }
+}
+
+fn automatic() -> Hollowing {
+    Hollowing {
+        auto_drain: Some(AutoDrain::default()),
+        ..Hollowing::default()
+    }
+}
+
+#[test]
+fn a_hole_by_hand_goes_through_the_wall_and_no_further() {
+    let mut cube = slicer(&solids::cube(20.0));
+    let solid = plan(&mut cube, &hollowed(Hollowing::default()));
+    let report = plan(&mut cube, &hollowed(drained(vec![SIDE])));
+    let void = report.hollowed.unwrap();
+    let [drain] = void.drains[..] else {
+        panic!("{void:?}");
+    };
+    let depth_mm = drain.depth_mm.unwrap();
+    assert!((depth_mm - 2.0).abs() <= void.resolution_mm, "{depth_mm}");
+    // A prism of 32 sides.
+    let area_mm2 = 16.0 * 1.5f64.powi(2) * (std::f64::consts::TAU / 32.0).sin();
+    assert_near(
+        solid.resin_ml - report.resin_ml,
+        area_mm2 * depth_mm / 1e3,
+        2e-4,
+    );
+    assert_eq!(report.warnings, []);
+}
+
+#[test]
+fn a_slanted_hole_is_deep_enough_for_its_whole_rim() {
+    let slanted = Drain {
+        direction: [-1.0, 0.0, 1.0],
+        ..SIDE
+    };
+    let mut cube = slicer(&solids::cube(20.0));
+    let void = plan(&mut cube, &hollowed(drained(vec![slanted])));
+    let void = void.hollowed.unwrap();
+    // The middle crosses a wall of 2 mm at 45°, and the farthest point of the rim enters it a radius later.
+    let depth_mm = void.drains[0].depth_mm.unwrap();
+    let expected_mm = 2.0 * 2f64.sqrt() + 1.5;
+    assert!(
+        (depth_mm - expected_mm).abs() <= 2.0 * void.resolution_mm,
+        "{depth_mm}"
+    );
+}
+
+#[test]
+fn a_hole_that_meets_no_void_is_left_out_and_named() {
+    let outward = Drain {
+        direction: [1.0, 0.0, 0.0],
+        ..SIDE
+    };
+    let mut cube = slicer(&solids::cube(20.0));
+    let report = plan(&mut cube, &hollowed(drained(vec![SIDE, outward])));
+    assert_eq!(report.hollowed.unwrap().drains.len(), 1);
+    assert_eq!(report.warnings, [Warning::DrainAstray { drain_number: 2 }]);
+}
+
+/// Upright cuboids from a corner to the opposite one.
+fn blocks(all: &[[[f32; 3]; 2]]) -> solids::Triangles {
+    let block = |&[from, to]: &[[f32; 3]; 2]| {
+        let (from, to) = (Vec3::from_array(from), Vec3::from_array(to));
+        solids::moved(&solids::cuboid(to - from), (from + to) / 2.0)
+    };
+    all.iter().flat_map(block).collect()
+}
+
+#[test]
+fn automatic_holes_leave_no_trap_and_no_cup() {
+    let two_feet = blocks(&[
+        [[0.0, 0.0, 0.0], [12.0, 20.0, 30.0]],
+        [[28.0, 0.0, 0.0], [40.0, 20.0, 30.0]],
+        [[0.0, 0.0, 18.0], [40.0, 20.0, 30.0]],
+    ]);
+    let table = blocks(&[
+        [[14.0, 14.0, 0.0], [26.0, 26.0, 30.0]],
+        [[0.0, 0.0, 20.0], [40.0, 40.0, 32.0]],
+    ]);
+    let all = [
+        ("ball", solids::sphere(15.0, 5), 1),
+        ("cube", solids::cube(20.0), 1),
+        ("cylinder", solids::cylinder(12.0, 30.0, 16), 1),
+        ("two feet", two_feet, 2),
+        ("table", table, 2),
+    ];
+    for (name, triangles, holes) in all {
+        let mut model = slicer(&triangles);
+        let codes = |slicer: &mut cusp_slicer::job::Slicer| {
+            let found = slicer.inspect(&Limits::default(), &mut quiet).unwrap();
+            let of_hollows = [Code::Trap, Code::Cup, Code::SmallEscape];
+            let counts = found.counts.into_iter().map(|count| count.code);
+            counts
+                .filter(|code| of_hollows.contains(code))
+                .collect::<Vec<_>>()
+        };
+        plan(&mut model, &hollowed(Hollowing::default()));
+        assert!(codes(&mut model).contains(&Code::Trap), "{name}");
+        let report = plan(&mut model, &hollowed(automatic()));
+        assert_eq!(codes(&mut model), [], "{name}");
+        let void = report.hollowed.unwrap();
+        println!("{name}: {:?}", void.drains);
+        // The table's top has a floor around its leg, at one height all the way.
+        assert!(void.drains.len() <= holes, "{name}: {:?}", void.drains);
+        assert_eq!(report.warnings, [], "{name}");
+    }
+}
+
+#[test]
+fn holes_of_a_report_can_be_given_again() {
+    let mut ball = slicer(&solids::sphere(15.0, 4));
+    let report = plan(&mut ball, &hollowed(automatic()));
+    let mask = ball.mask(30).unwrap();
+    let drains = report.hollowed.clone().unwrap().drains;
+    let again = plan(&mut ball, &hollowed(drained(drains)));
+    assert_eq!(again.hollowed, report.hollowed);
+    assert_eq!(again.resin_ml, report.resin_ml);
+    assert!(ball.mask(30).unwrap() == mask);
+}

@@ -1,0 +1,175 @@
+//! Hollow models in jobs.
+
+use cusp_slicer::format::Format;
+use cusp_slicer::job::{Error, Options, OptionsError};
+use cusp_slicer::prepare::{AutoDrain, Drain, Hollowing, Infill};
+use cusp_slicer::profile::{Metric, Source};
+use cusp_slicer::warning::Warning;
+use glam::Vec3;
+
+use crate::common::{assert_near, quiet, solids};
+use crate::{hollowed, plan, slicer};
+
+#[test]
+fn a_hollow_model_has_the_planes_of_the_solid_one() {
+    let mut ball = slicer(&solids::sphere(12.0, 5));
+    for metric in [
+        Metric::Cusp,
+        Metric::Deviation,
+        Metric::Roughness,
+        Metric::Area,
+        Metric::Volume,
+    ] {
+        for source in [Source::Exact, Source::Sampled] {
+            let hollow = Options {
+                metric,
+                source,
+                ..hollowed(Hollowing::default())
+            };
+            let solid = Options {
+                hollow: None,
+                ..hollow.clone()
+            };
+            let [hollow, solid] = [hollow, solid].map(|options| plan(&mut ball, &options));
+            assert_eq!(hollow.z_mm, solid.z_mm, "{metric:?} {source:?}");
+            assert_eq!(hollow.max_error, solid.max_error, "{metric:?} {source:?}");
+            assert_eq!(hollow.snapped_mm, solid.snapped_mm, "{metric:?} {source:?}");
+            let void_ml = hollow.hollowed.unwrap().void_ml;
+            assert_near(solid.resin_ml - hollow.resin_ml, void_ml, 1e-3 * void_ml);
+        }
+    }
+}
+
+#[test]
+fn a_solid_model_is_as_it_was_before_it_was_hollowed() {
+    let mut cube = slicer(&solids::cube(15.0));
+    let solid = Options {
+        hollow: None,
+        ..hollowed(Hollowing::default())
+    };
+    let file = |slicer: &mut cusp_slicer::job::Slicer| {
+        slicer.write_archive(Vec::new(), &mut quiet).unwrap().0
+    };
+    plan(&mut cube, &solid);
+    let before = file(&mut cube);
+    plan(&mut cube, &hollowed(Hollowing::default()));
+    assert!(file(&mut cube) != before);
+    plan(&mut cube, &solid);
+    assert!(file(&mut cube) == before);
+}
+
+#[test]
+fn a_model_that_is_too_thin_stays_solid_with_a_warning() {
+    let mut plate = slicer(&solids::cuboid(Vec3::new(20.0, 20.0, 3.0)));
+    let report = plan(&mut plate, &hollowed(Hollowing::default()));
+    assert_eq!(report.hollowed, None);
+    let (wall_mm, cavity_mm) = (2.0, 2.0);
+    let warning = Warning::NothingHollowed { wall_mm, cavity_mm };
+    assert_eq!(report.warnings, [warning]);
+}
+
+#[test]
+fn lengths_that_nothing_can_be_made_of_are_refused() {
+    let drain = |diameter_mm| Drain {
+        at_mm: [0.0; 3],
+        direction: [1.0, 0.0, 0.0],
+        diameter_mm,
+        depth_mm: None,
+    };
+    let usual = Hollowing::default;
+    let infill = |spacing_mm, strut_mm| Hollowing {
+        infill: Some(Infill {
+            spacing_mm,
+            strut_mm,
+        }),
+        ..usual()
+    };
+    let cases = [
+        (
+            "hollow.wall_mm",
+            Hollowing {
+                wall_mm: 0.3,
+                ..usual()
+            },
+        ),
+        (
+            "hollow.wall_mm",
+            Hollowing {
+                wall_mm: f64::NAN,
+                ..usual()
+            },
+        ),
+        (
+            "hollow.wall_mm",
+            Hollowing {
+                wall_mm: f64::INFINITY,
+                ..usual()
+            },
+        ),
+        (
+            "hollow.cavity_mm",
+            Hollowing {
+                cavity_mm: -1.0,
+                ..usual()
+            },
+        ),
+        ("hollow.infill.strut_mm", infill(8.0, 0.1)),
+        ("hollow.infill.spacing_mm", infill(1.5, 1.0)),
+        (
+            "hollow.drains.diameter_mm",
+            Hollowing {
+                drains: vec![drain(0.1)],
+                ..usual()
+            },
+        ),
+        (
+            "hollow.drains.diameter_mm",
+            Hollowing {
+                auto_drain: Some(AutoDrain { diameter_mm: 0.0 }),
+                ..usual()
+            },
+        ),
+    ];
+    for (name, hollow) in cases {
+        let error = hollowed(hollow).check().unwrap_err();
+        let Error::Options(OptionsError::BadHollow { option, .. }) = error else {
+            panic!("{error}");
+        };
+        assert_eq!(option, name);
+    }
+    // Whatever is large leaves a model solid.
+    let mut cube = slicer(&solids::cube(10.0));
+    for large in [1e6, 1e300] {
+        for hollow in [
+            Hollowing {
+                wall_mm: large,
+                ..usual()
+            },
+            Hollowing {
+                cavity_mm: large,
+                ..usual()
+            },
+            Hollowing {
+                infill: Some(Infill {
+                    spacing_mm: 2.0 * large,
+                    strut_mm: large,
+                }),
+                ..usual()
+            },
+        ] {
+            plan(&mut cube, &hollowed(hollow));
+        }
+    }
+}
+
+#[test]
+fn slicers_of_filament_printers_hollow_by_themselves() {
+    let options = Options {
+        format: Some(Format::Prusa3mf),
+        ..hollowed(Hollowing::default())
+    };
+    let Err(Error::Options(OptionsError::Contradictory { option, other })) = options.check() else {
+        panic!("no error");
+    };
+    assert_eq!((option, other), ("prusa-3mf", "hollow"));
+}
