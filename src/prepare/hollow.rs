@@ -146,7 +146,7 @@ pub struct Void {
 const COLUMNS_OF_WALL: f64 = 8.0;
 
 /// Columns in the thickness of a strut.
-const COLUMNS_OF_STRUT: f64 = 5.0;
+const COLUMNS_OF_STRUT: f64 = 6.0;
 
 /// The same for the thinnest walls and on the largest models.
 const LEAST_COLUMNS_OF_WALL: f64 = 3.0;
