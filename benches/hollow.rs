@@ -12,7 +12,7 @@ mod solids;
 
 use common::{named, on_plate, time};
 use cusp_slicer::model::{Mesh, Pose};
-use cusp_slicer::prepare::{Hollowing, Infill, hollow};
+use cusp_slicer::prepare::{AutoDrain, Hollowing, Infill, hollow};
 use cusp_slicer::progress::silent;
 use peak_alloc::PeakAlloc;
 
@@ -58,6 +58,12 @@ fn main() {
                 ..Hollowing::default()
             };
             row(&name, &mesh, &hollowing);
+            let auto_drain = Some(AutoDrain::default());
+            let drained = Hollowing {
+                auto_drain,
+                ..hollowing.clone()
+            };
+            row(&format!("{name}, drained"), &mesh, &drained);
             if wall_mm == 2.0 {
                 let infill = Infill {
                     spacing_mm: 8.0,

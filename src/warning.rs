@@ -157,6 +157,26 @@ impl Warning {
     pub(crate) fn is_of_the_machine(&self) -> bool {
         matches!(self, Self::GpuTooSmall { .. } | Self::GpuFailed { .. })
     }
+
+    /// The sentences about voids and their holes.
+    fn of_hollowing(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::NothingHollowed { wall_mm, cavity_mm } => write!(
+                f,
+                "the model stays solid: it is nowhere thick enough for walls of {wall_mm} mm around a cavity of {cavity_mm} mm"
+            ),
+            Self::DrainAstray { drain_number } => write!(
+                f,
+                "drain hole {drain_number} meets no void, and was left out; place it where the model is hollow, or turn it inward"
+            ),
+            Self::Undrained { basins } => write!(
+                f,
+                "{} of the void stay full, since no hole leads out of them on a level or downward; place holes there, or turn the model",
+                counted(*basins, "part")
+            ),
+            _ => Ok(()),
+        }
+    }
 }
 
 impl std::fmt::Display for Warning {
@@ -184,19 +204,9 @@ impl std::fmt::Display for Warning {
                 stated.plural(),
                 given.plural()
             ),
-            Self::NothingHollowed { wall_mm, cavity_mm } => write!(
-                f,
-                "the model stays solid: it is nowhere thick enough for walls of {wall_mm} mm around a cavity of {cavity_mm} mm"
-            ),
-            Self::DrainAstray { drain_number } => write!(
-                f,
-                "drain hole {drain_number} meets no void, and was left out; place it where the model is hollow, or turn it inward"
-            ),
-            Self::Undrained { basins } => write!(
-                f,
-                "{} of the void stay full, since no hole leads out of them on a level or downward; place holes there, or turn the model",
-                counted(*basins, "part")
-            ),
+            Self::NothingHollowed { .. } | Self::DrainAstray { .. } | Self::Undrained { .. } => {
+                self.of_hollowing(f)
+            }
             Self::UnclosedRays { unclosed, rays } => write!(
                 f,
                 "{unclosed} of {rays} rays pass holes of the mesh, which flat caps close; look at the masks"

@@ -56,7 +56,7 @@ pub enum OptionsError {
         known: [u32; 4],
     },
     /// A length of hollowing is too small.
-    #[error("{option} must be {least_mm} mm or more, not {value_mm}")]
+    #[error("{option} must be {least_mm} mm or more, not {value_mm} mm")]
     #[serde(rename = "bad-hollow")]
     BadHollow {
         /// Its name in the options.

@@ -150,11 +150,9 @@ impl Columns {
         let width = self.width;
         let mut padded = vec![beyond; width + 2 * reach];
         let mut in_rows = vec![beyond; width * self.height];
-        for row in 0..self.height {
-            // A row that is outside as a whole stays so, and one that meets nothing is far from all.
-            if !has_any[row] {
-                continue;
-            }
+        // A row that is outside as a whole stays so, and one that meets nothing is far from all.
+        let rows = has_any.iter().enumerate();
+        for (row, _) in rows.filter(|(_, has_any)| **has_any) {
             let of_row = row * width..(row + 1) * width;
             padded[reach..reach + width].copy_from_slice(&along[of_row.clone()]);
             let nearest = &mut in_rows[of_row];

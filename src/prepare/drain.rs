@@ -60,6 +60,9 @@ pub(super) fn circle(doublings: u32) -> Vec<[f64; 2]> {
     points
 }
 
+/// No plate is as wide or as high.
+const MOST_MM: f64 = 1e5;
+
 /// A hole that has a place.
 struct Bore {
     at: DVec3,
@@ -70,8 +73,18 @@ struct Bore {
 }
 
 impl Bore {
-    /// `None` if its direction has no length.
+    /// `None` if its direction has no length, or if it is farther away or larger than any plate.
     fn new(drain: &Drain) -> Option<Self> {
+        let numbers = drain
+            .at_mm
+            .into_iter()
+            .chain([drain.diameter_mm])
+            .chain(drain.depth_mm);
+        if !numbers.into_iter().all(|mm| mm.abs() <= MOST_MM)
+            || drain.depth_mm.is_some_and(|mm| mm <= 0.0)
+        {
+            return None;
+        }
         let direction = DVec3::from_array(drain.direction);
         let along = direction / direction.length();
         if !along.is_finite() {
@@ -101,26 +114,55 @@ impl Bore {
 
     /// How deep all of the hole is in the void of a shell; `None` if its middle never is.
     fn depth_mm(&self, shell: &Shell) -> Option<f64> {
-        let rims = self
-            .rim
-            .iter()
-            .map(|&rim| first_mm(shell, self.at + rim, self.along));
-        let [enters, leaves] = first_mm(shell, self.at, self.along)?;
+        let near = self.near(shell);
+        let [enters, leaves] = first_mm(&near, self.at, self.along)?;
         // Where the wall is slanted a rim enters later, or beside the void.
-        let rims = rims.flatten().map(|[enters, _]| enters);
-        Some(rims.fold(enters, f64::max).min(leaves))
+        let rims = self.rim.iter();
+        let rims = rims.filter_map(|&rim| first_mm(&near, self.at + rim, self.along));
+        Some(rims.map(|rim| rim[0]).fold(enters, f64::max).min(leaves))
     }
 
-    /// The hole from before its place to a depth, with a lid at both ends.
+    /// The facets that the hole may meet.
+    fn near(&self, shell: &Shell) -> Vec<[DVec3; 3]> {
+        let radius_mm = self.rim[0].length();
+        let facets = shell.facets.iter();
+        let facets = facets.map(|it| it.map(|vertex| shell.vertices[vertex as usize].as_dvec3()));
+        let is_near = |[a, b, c]: &[DVec3; 3]| {
+            let from = *a - self.at;
+            let away_mm = (from - self.along * from.dot(self.along)).length();
+            away_mm - a.distance(*b).max(a.distance(*c)) <= radius_mm
+        };
+        facets.filter(is_near).collect()
+    }
+
+    /// The hole from before its place to a depth, with a lid at both ends, as far as it is above the plate.
     fn shell(&self, from_mm: f64, to_mm: f64) -> Shell {
         let sides = self.rim.len() as u32;
-        let [start, end] = [from_mm, to_mm].map(|along_mm| self.at + self.along * along_mm);
+        // Heights of hits are never negative.
+        let point = |rim: DVec3, along_mm: f64| {
+            let begin = self.at + rim;
+            let at = begin + self.along * along_mm;
+            if at.z >= 0.0 {
+                return at.as_vec3();
+            }
+            let on_plate_mm = along_mm - at.z / self.along.z;
+            let on_plate_mm = if on_plate_mm.is_finite() {
+                on_plate_mm
+            } else {
+                along_mm
+            };
+            let at = begin + self.along * on_plate_mm.clamp(from_mm, to_mm);
+            at.as_vec3()
+                .max(Vec3::new(f32::NEG_INFINITY, f32::NEG_INFINITY, 0.0))
+        };
         let mut shell = Shell::default();
-        for middle in [start, end] {
-            let rim = self.rim.iter().map(|&rim| (middle + rim).as_vec3());
+        for along_mm in [from_mm, to_mm] {
+            let rim = self.rim.iter().map(|&rim| point(rim, along_mm));
             shell.vertices.extend(rim);
         }
-        shell.vertices.extend([start.as_vec3(), end.as_vec3()]);
+        shell
+            .vertices
+            .extend([from_mm, to_mm].map(|along_mm| point(DVec3::ZERO, along_mm)));
         let lids = [2 * sides, 2 * sides + 1];
         for side in 0..sides {
             let next = (side + 1) % sides;
@@ -132,43 +174,27 @@ impl Bore {
     }
 }
 
-/// Where a ray from outside a shell first enters it and leaves it again, in millimetres from its beginning.
-fn first_mm(shell: &Shell, from: DVec3, along: DVec3) -> Option<[f64; 2]> {
-    let mut enters: Option<f64> = None;
-    let mut leaves: Option<f64> = None;
-    let mut crossings = Vec::new();
-    for corners in &shell.facets {
-        let [a, b, c] = corners.map(|vertex| shell.vertices[vertex as usize].as_dvec3() - from);
+/// Where a ray from outside a closed surface first enters it and leaves it again, in millimetres from its beginning.
+fn first_mm(facets: &[[DVec3; 3]], from: DVec3, along: DVec3) -> Option<[f64; 2]> {
+    let crossings = facets.iter().filter_map(|corners| {
+        let [a, b, c] = corners.map(|corner| corner - from);
         // Signed volumes with the ray.
-        let sides = [
-            b.cross(c).dot(along),
-            c.cross(a).dot(along),
-            a.cross(b).dot(along),
-        ];
-        let is_front = sides.iter().all(|&side| side <= 0.0);
-        let is_back = sides.iter().all(|&side| side >= 0.0);
+        let sides = [b.cross(c), c.cross(a), a.cross(b)].map(|it| it.dot(along));
         let normal = (b - a).cross(c - a);
         let across = normal.dot(along);
-        if is_front == is_back || across == 0.0 {
-            continue;
-        }
+        let is_met = sides.iter().all(|&side| side <= 0.0) || sides.iter().all(|&side| side >= 0.0);
         let at_mm = normal.dot(a) / across;
-        if at_mm > 0.0 {
-            crossings.push((at_mm, across < 0.0));
-        }
-    }
-    for &(at_mm, is_entry) in &crossings {
-        if is_entry && enters.is_none_or(|known| at_mm < known) {
-            enters = Some(at_mm);
-        }
-    }
-    let enters = enters?;
-    for &(at_mm, is_entry) in &crossings {
-        if !is_entry && at_mm > enters && leaves.is_none_or(|known| at_mm < known) {
-            leaves = Some(at_mm);
-        }
-    }
-    Some([enters, leaves?])
+        (is_met && at_mm > 0.0 && at_mm.is_finite()).then_some((at_mm, across < 0.0))
+    });
+    let crossings: Vec<(f64, bool)> = crossings.collect();
+    let first = |wants_entry: bool, after_mm: f64| {
+        let those = crossings
+            .iter()
+            .filter(|&&(at_mm, is_entry)| is_entry == wants_entry && at_mm > after_mm);
+        those.map(|it| it.0).reduce(f64::min)
+    };
+    let enters = first(true, 0.0)?;
+    Some([enters, first(false, enters)?])
 }
 
 /// The hole as a body, and its depth; `None` if it does not meet the void.
@@ -198,7 +224,7 @@ pub(super) fn place(
     model: &Columns,
     lattice: &Lattice,
     lowest_mm: Vec3,
-    hole: &AutoDrain,
+    hole: AutoDrain,
 ) -> Option<Drain> {
     let diameter_mm = hole.diameter_mm as f32;
     let radius_mm = diameter_mm / 2.0;
@@ -247,8 +273,10 @@ fn way_out_mm(
         let z_mm = at.z + lattice.origin_mm.z;
         model.holds([at.x / model.pitch_mm, -at.y / model.pitch_mm], z_mm)
     };
-    // What is outside of all columns is outside, so there is an end.
-    let steps = (0..).find(|&step| !is_solid(step))?;
+    // No way is longer than all columns and their heights.
+    let [low_mm, high_mm] = model.extent_mm()?;
+    let most_mm = (model.width + model.height) as f32 * model.pitch_mm + high_mm - low_mm;
+    let steps = (0..=(most_mm / step_mm) as usize).find(|&step| !is_solid(step))?;
     let room = (room_mm / step_mm) as usize;
     let is_free = (steps..steps + room).all(|step| !is_solid(step));
     is_free.then_some(steps as f32 * step_mm)

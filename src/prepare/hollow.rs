@@ -252,7 +252,7 @@ pub fn hollow(
             void.astray.push(place);
         }
     }
-    if let Some(hole) = &hollowing.auto_drain {
+    if let Some(hole) = hollowing.auto_drain {
         for (slice, node) in basins.finish() {
             let lowest_mm = lattice.node_mm(node % lattice.width, node / lattice.width, slice);
             let drain = drain::place(&model, &lattice, lowest_mm, hole);

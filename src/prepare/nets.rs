@@ -236,7 +236,7 @@ mod tests {
         let mut edges: Vec<u64> = shell.facets.iter().flat_map(of_facet).collect();
         edges.sort_unstable();
         for edge in &edges {
-            let back = edge << 32 | edge >> 32;
+            let back = edge.rotate_right(32);
             assert!(edges.binary_search(&back).is_ok());
         }
         for vertex in &shell.vertices {

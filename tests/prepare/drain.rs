@@ -141,3 +141,76 @@ fn holes_of_a_report_can_be_given_again() {
     assert_eq!(again.resin_ml, report.resin_ml);
     assert!(ball.mask(30).unwrap() == mask);
 }
+
+#[test]
+fn a_hole_through_the_plate_ends_there() {
+    let below = Drain {
+        at_mm: [0.0, 0.0, 0.0],
+        direction: [0.0, 0.0, 1.0],
+        ..SIDE
+    };
+    let slanted = Drain {
+        direction: [0.3, 0.1, 1.0],
+        ..below
+    };
+    let level = Drain {
+        at_mm: [10.0, 0.0, 0.5],
+        depth_mm: Some(5.0),
+        ..SIDE
+    };
+    let mut cube = slicer(&solids::cube(20.0));
+    let solid = plan(&mut cube, &hollowed(Hollowing::default()));
+    for (drain, volume_mm3) in [
+        (below, 14.05),
+        (slanted, 14.05 * 1.1f64.sqrt()),
+        // Of a circle of 3 mm, what is more than 0.5 mm below its middle is missing.
+        (level, 5.0 * (7.07 - 2.065)),
+    ] {
+        let report = plan(&mut cube, &hollowed(drained(vec![drain])));
+        let taken_mm3 = (solid.resin_ml - report.resin_ml) * 1e3;
+        println!("{taken_mm3} of {volume_mm3}");
+        assert!(
+            (taken_mm3 / volume_mm3 - 1.0).abs() < 0.1,
+            "{taken_mm3} for {volume_mm3}"
+        );
+    }
+}
+
+#[test]
+fn holes_that_no_plate_holds_are_left_out() {
+    let mut cube = slicer(&solids::cube(20.0));
+    for drain in [
+        Drain {
+            at_mm: [1e300, 0.0, 0.0],
+            depth_mm: Some(1.0),
+            ..SIDE
+        },
+        Drain {
+            direction: [0.0; 3],
+            ..SIDE
+        },
+        Drain {
+            direction: [f64::NAN, 0.0, 0.0],
+            ..SIDE
+        },
+        Drain {
+            diameter_mm: 1e9,
+            ..SIDE
+        },
+        Drain {
+            depth_mm: Some(-3.0),
+            ..SIDE
+        },
+        Drain {
+            depth_mm: Some(1e30),
+            ..SIDE
+        },
+    ] {
+        let report = plan(&mut cube, &hollowed(drained(vec![drain])));
+        assert_eq!(
+            report.warnings,
+            [Warning::DrainAstray { drain_number: 1 }],
+            "{drain:?}"
+        );
+    }
+}

@@ -271,7 +271,10 @@ fn a_lattice_stands_in_the_void() {
     let struts = strut_fraction(&infill);
     println!("{left:.4} for {struts:.4}");
     // The surface runs along chords of the struts, which are a twentieth thinner for it.
-    assert!((0.88..1.0).contains(&(left / struts)), "{left} for {struts}");
+    assert!(
+        (0.88..1.0).contains(&(left / struts)),
+        "{left} for {struts}"
+    );
     let at_strut = DVec3::new(2.0, 2.0, 18.0);
     assert!(winding(&with, at_strut) < 0.5);
 }
