@@ -74,6 +74,34 @@ test("the address has the settings, so that it gives the same plan again", async
   await settled(again);
 });
 
+test("a model is hollowed by the thickness of its walls, and drained", async () => {
+  const page = await opened();
+  const report = (): Promise<{ resin_ml: number; layers: number; hollowed?: { void_ml: number; drains: unknown[] } }> =>
+    page.evaluate(() => {
+      const report = document.querySelector<CuspWorkbench>("cusp-workbench")?.result?.report;
+      if (report === undefined) throw new Error("no result");
+      return report;
+    });
+  const solid = await report();
+  await page.getByText("More settings").click();
+  expect(await page.getByLabel("Drain holes").count()).toBe(0);
+  await page.getByLabel("Hollow, with walls of").fill("2");
+  await settled(page);
+  const hollow = await report();
+  expect(hollow.layers).toBe(solid.layers);
+  expect(hollow.hollowed?.drains).toHaveLength(1);
+  expect(solid.resin_ml - hollow.resin_ml).toBeGreaterThan(hollow.hollowed?.void_ml ?? Infinity);
+  await page.getByLabel("In the void").selectOption("Lattice of struts");
+  await page.getByLabel("Drain holes").selectOption("None");
+  await settled(page);
+  const filled = await report();
+  expect(filled.resin_ml).toBeGreaterThan(hollow.resin_ml);
+  expect(filled.hollowed?.drains).toEqual([]);
+  expect(new URL(page.url()).search).toBe("?infill=lattice&drain=none&wall=2");
+  await page.getByLabel("Hollow, with walls of").fill("0,2");
+  await expect.poll(() => page.getByText("0.4 to 50").count()).toBe(1);
+});
+
 test("the page speaks the reader's language, and another when asked", async () => {
   const page = await start("", { locale: "es-MX" });
   expect(await page.title()).toMatch(/^Cusp: capas/);

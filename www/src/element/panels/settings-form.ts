@@ -19,7 +19,7 @@ import { shared } from "../styles/shared.js";
 import { elementWith, given, own } from "../../view/properties.js";
 
 /** Settings that are hidden at first, unless one differs from its default. */
-const MORE = ["minimize", "snap", "step", "bottomExposure", "bottomLayers"] as const;
+const MORE = ["wall", "minimize", "snap", "step", "bottomExposure", "bottomLayers"] as const;
 
 /** Whether the form shows the field of a problem, so that the problem can be shown beside it. */
 export function hasPlace({ field }: Problem, { printer }: Settings, { printers }: Offered): boolean {
@@ -237,6 +237,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     return html`<details ?open=${this.#moreAtFirst}>
       <summary>${words.more}</summary>
       <div class="more">
+        ${isResin ? this.#hollow() : nothing}
         ${isUniform
           ? nothing
           : html`${isResin
@@ -255,6 +256,17 @@ export class CuspSettings extends elementWith(PROPERTIES) {
           : towersOffer(this.towers, this.language, () => this.dispatchEvent(new CustomEvent("cusp-towers")))}
       </div>
     </details>`;
+  }
+
+  /** Walls make a model hollow; what is in it and how it drains is asked then. */
+  #hollow(): TemplateResult {
+    const { wall, infill, drain } = this.settings;
+    const words = this.language.texts.settings;
+    const field = this.#field("wall", words.wall, { hint: words.wallHint });
+    if (wall.trim() === "") return field;
+    return html`${field}
+      ${this.#select("infill", words.infill, options([["none", words.noInfill], ["lattice", words.lattice]], infill))}
+      ${this.#select("drain", words.drain, options([["auto", words.autoDrain], ["none", words.noDrain]], drain))}`;
   }
 
   /** The tolerance, with what it means, or why the core took another than usual. */

@@ -25,7 +25,7 @@ export interface Problem {
 }
 
 /** A setting that is chosen from a list. */
-export type Choice = "metric" | "rays" | "printer" | "format" | "resin" | "unit";
+export type Choice = "metric" | "rays" | "printer" | "format" | "resin" | "unit" | "infill" | "drain";
 
 /** What failed, and the state at that time. */
 export interface Failure {

@@ -277,3 +277,14 @@ test.each(["format=prusa-3mf", "format=orca-3mf", "format=orca-3mf&layerMax=0.15
   expect(settings.layerMin).toBe(query.includes("prusa") ? "0.07" : "0.08");
   expect(toAddress(settings)).toBe(query);
 });
+
+test("walls make a model hollow, which drains unless that is turned off, and are for resin printers alone", () => {
+  const hollow = { ...DEFAULT_SETTINGS, wall: "1.5" };
+  expect(options(DEFAULT_SETTINGS)).not.toHaveProperty("hollow");
+  expect(options(hollow)).toMatchObject({ hollow: { wall_mm: 1.5, auto_drain: {} } });
+  expect(options({ ...hollow, infill: "lattice", drain: "none" })).toHaveProperty("hollow", { wall_mm: 1.5, infill: {} });
+  expect(check({ ...hollow, wall: "0.3" })).toMatchObject({ ok: false, faults: { wall: { kind: "range", least: 0.4, most: 50 } } });
+  expect(options({ ...hollow, ...withFormat(hollow, "prusa-3mf") })).not.toHaveProperty("hollow");
+  expect(toAddress({ ...hollow, infill: "lattice" })).toBe("infill=lattice&wall=1.5");
+  expect(fromAddress("infill=lattice&wall=1.5")).toEqual({ ...hollow, infill: "lattice" });
+});

@@ -14,6 +14,8 @@ interface Lengths {
   layerMax: string;
   uniform: string;
   step: string;
+  /** Thickness of the walls of a hollow model; empty for a solid one. */
+  wall: string;
   /** Width of a filament printer's nozzle; empty for the usual one. */
   nozzle: string;
 }
@@ -34,6 +36,10 @@ interface Choices {
   rays: string;
   /** Whether facets that stand out count for more. */
   saliency: "off" | "on";
+  /** What stands in the void of a hollow model. */
+  infill: "none" | "lattice";
+  /** Whether a hollow model gets drain holes. */
+  drain: "auto" | "none";
   /** The minimum weight of a facet. */
   weightMin: string;
   /** Empty for the printer's own. */
@@ -84,6 +90,7 @@ export const DEFAULT_SETTINGS: Settings = {
   layerMax: String(DEFAULTS.layer_max_mm),
   uniform: String(DEFAULTS.layer_min_mm),
   step: "",
+  wall: "",
   nozzle: "",
   planner: "optimal",
   metric: DEFAULTS.metric,
@@ -91,6 +98,8 @@ export const DEFAULT_SETTINGS: Settings = {
   snap: DEFAULTS.snap,
   rays: String(DEFAULTS.rays),
   saliency: DEFAULTS.saliency ? "on" : "off",
+  infill: "none",
+  drain: "auto",
   weightMin: String(DEFAULTS.weight_min),
   format: "",
   unit: "",
@@ -148,6 +157,7 @@ const UNITS: Readonly<Record<keyof Lengths | keyof Curing, FieldUnit>> = {
   layerMax: "mm",
   uniform: "mm",
   step: "mm",
+  wall: "mm",
   nozzle: "mm",
   exposure: "s",
   bottomExposure: "s",
@@ -170,6 +180,8 @@ const CHOICES: { readonly [Key in keyof Choices]: readonly Choices[Key][] } = {
   snap: ["auto", "off"],
   rays: RAYS.map(String),
   saliency: ["off", "on"],
+  infill: ["none", "lattice"],
+  drain: ["auto", "none"],
   weightMin: WEIGHT_STEPS,
   format: ["", ...FORMATS],
   unit: ["", "micron", "millimeter", "centimeter", "inch", "foot", "meter"],
@@ -241,6 +253,8 @@ export type Checked = { ok: true; options: Options } | { ok: false; faults: Faul
 const THICKEST_MM = 1;
 const THINNEST_MM = 0.001;
 const TALLEST_MM = 1000;
+const THINNEST_WALL_MM = 0.4;
+const THICKEST_WALL_MM = 50;
 const THINNEST_NOZZLE_MM = 0.15;
 const WIDEST_NOZZLE_MM = 2;
 const LONGEST_S = 600;
@@ -279,6 +293,13 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
   const layer = (field: "layerMin" | "layerMax" | "uniform"): number =>
     within(field, settings[field], thinnest, thickest);
   if (settings.height.trim() !== "") options.height_mm = within("height", settings.height, 0.1, TALLEST_MM);
+
+  // Slicers of filament printers hollow by themselves.
+  if (settings.wall.trim() !== "" && !isFilament(settings.format)) {
+    options.hollow = { wall_mm: within("wall", settings.wall, THINNEST_WALL_MM, THICKEST_WALL_MM) };
+    if (settings.infill === "lattice") options.hollow.infill = {};
+    if (settings.drain === "auto") options.hollow.auto_drain = {};
+  }
 
   if (planner === "uniform") {
     options.planner = { kind: planner, layer_mm: layer("uniform") };

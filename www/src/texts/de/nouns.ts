@@ -4,4 +4,5 @@ export const FACETS = { one: "Dreieck", other: "Dreiecke" };
 export const EDGES = { one: "Kante", other: "Kanten" };
 export const HOLES = { one: "Loch", other: "Löcher" };
 export const OBJECTS = { one: "Objekt", other: "Objekte" };
+export const PARTS = { one: "Teil", other: "Teile" };
 export const ISLANDS = { one: "Insel", other: "Inseln" };

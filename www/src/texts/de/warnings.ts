@@ -1,7 +1,7 @@
 import type { Format } from "../format.js";
 import type { WarningSentences } from "../sentences.js";
 import { FAULTS } from "./errors.js";
-import { LAYERS, FACETS, EDGES, HOLES, OBJECTS } from "./nouns.js";
+import { LAYERS, FACETS, EDGES, HOLES, OBJECTS, PARTS } from "./nouns.js";
 import { UNITS } from "./readers.js";
 
 export const warnings = ({ count, counted, mm, height, error, either }: Format): WarningSentences => ({
@@ -17,6 +17,10 @@ export const warnings = ({ count, counted, mm, height, error, either }: Format):
   "unit-stated": ({ stated, given }) => `Die Datei ist, wie sie sagt, in ${UNITS[stated]} und nicht in ${UNITS[given]}.`,
   "nothing-hollowed": ({ wall_mm, cavity_mm }) =>
     `Das Modell bleibt voll: Es ist nirgends dick genug für Wände von ${mm(wall_mm)} um einen Hohlraum von ${mm(cavity_mm)}.`,
+  "drain-astray": ({ drain_number }) =>
+    `Ablaufloch ${count(drain_number)} trifft keinen Hohlraum und fehlt. Setzen Sie es dorthin, wo das Modell hohl ist, oder richten Sie es nach innen.`,
+  undrained: ({ basins }) =>
+    `${counted(basins, PARTS)} des Hohlraums: Dort bleibt Harz, denn kein Loch führt waagrecht oder abwärts hinaus. Setzen Sie dort Löcher, oder drehen Sie das Modell.`,
   "unclosed-rays": ({ unclosed, rays }) =>
     `${count(unclosed)} von ${count(rays)} Strahlen gehen durch Löcher des Netzes, die eben geschlossen sind. Sehen Sie sich die Masken an.`,
   "tolerance-exceeded": ({ metric, tolerance, max_error }) =>

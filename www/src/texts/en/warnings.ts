@@ -2,7 +2,7 @@
 import type { Format } from "../format.js";
 import type { WarningSentences } from "../sentences.js";
 import { FAULTS } from "./errors.js";
-import { LAYERS, FACETS, EDGES, HOLES, OBJECTS } from "./nouns.js";
+import { LAYERS, FACETS, EDGES, HOLES, OBJECTS, PARTS } from "./nouns.js";
 import { UNITS } from "./readers.js";
 
 export const warnings = ({ count, counted, mm, height, error, either }: Format): WarningSentences => ({
@@ -18,6 +18,10 @@ export const warnings = ({ count, counted, mm, height, error, either }: Format):
   "unit-stated": ({ stated, given }) => `The file is in ${UNITS[stated]}, as it states, and not in ${UNITS[given]}.`,
   "nothing-hollowed": ({ wall_mm, cavity_mm }) =>
     `The model stays solid: it is nowhere thick enough for walls of ${mm(wall_mm)} around a cavity of ${mm(cavity_mm)}.`,
+  "drain-astray": ({ drain_number }) =>
+    `Drain hole ${count(drain_number)} meets no void, and was left out; place it where the model is hollow, or turn it inward.`,
+  undrained: ({ basins }) =>
+    `${counted(basins, PARTS)} of the void stay full, since no hole leads out of them on a level or downward; place holes there, or turn the model.`,
   "unclosed-rays": ({ unclosed, rays }) =>
     `${count(unclosed)} of ${count(rays)} rays pass holes of the mesh, which flat caps close; look at the masks.`,
   "tolerance-exceeded": ({ metric, tolerance, max_error }) =>

@@ -5,4 +5,5 @@ export const OMITTED = { one: "omitida", other: "omitidas" };
 export const EDGES = { one: "arista", other: "aristas" };
 export const HOLES = { one: "agujero tapado", other: "agujeros tapados" };
 export const OBJECTS = { one: "objeto", other: "objetos" };
+export const PARTS = { one: "parte", other: "partes" };
 export const ISLANDS = { one: "isla", other: "islas" };

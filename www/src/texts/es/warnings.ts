@@ -1,7 +1,7 @@
 import type { Format } from "../format.js";
 import type { WarningSentences } from "../sentences.js";
 import { FAULTS } from "./errors.js";
-import { LAYERS, FACETS, OMITTED, EDGES, HOLES, OBJECTS } from "./nouns.js";
+import { LAYERS, FACETS, OMITTED, EDGES, HOLES, OBJECTS, PARTS } from "./nouns.js";
 import { UNITS } from "./readers.js";
 
 export const warnings = ({ count, counted, plural, mm, height, error, either }: Format): WarningSentences => ({
@@ -17,6 +17,10 @@ export const warnings = ({ count, counted, plural, mm, height, error, either }: 
   "unit-stated": ({ stated, given }) => `El archivo está en ${UNITS[stated]}, como dice, y no en ${UNITS[given]}.`,
   "nothing-hollowed": ({ wall_mm, cavity_mm }) =>
     `El modelo queda macizo: en ningún sitio es bastante grueso para paredes de ${mm(wall_mm)} alrededor de un hueco de ${mm(cavity_mm)}.`,
+  "drain-astray": ({ drain_number }) =>
+    `El agujero de drenaje ${count(drain_number)} no llega al hueco y se omite. Póngalo donde el modelo sea hueco, o gírelo hacia dentro.`,
+  undrained: ({ basins }) =>
+    `${counted(basins, PARTS)} del hueco: allí queda resina, pues ningún agujero sale a nivel ni hacia abajo. Ponga agujeros allí, o gire el modelo.`,
   "unclosed-rays": ({ unclosed, rays }) =>
     `${count(unclosed)} de ${count(rays)} rayos atraviesan agujeros de la malla, tapados con planos. Mire las máscaras.`,
   "tolerance-exceeded": ({ metric, tolerance, max_error }) =>

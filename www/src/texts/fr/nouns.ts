@@ -5,4 +5,5 @@ export const OMITTED = { one: "omise", other: "omises" };
 export const EDGES = { one: "arête", other: "arêtes" };
 export const HOLES = { one: "trou bouché", other: "trous bouchés" };
 export const OBJECTS = { one: "objet", other: "objets" };
+export const PARTS = { one: "partie", other: "parties" };
 export const ISLANDS = { one: "îlot", other: "îlots" };

@@ -1,7 +1,7 @@
 import type { Format } from "../format.js";
 import type { WarningSentences } from "../sentences.js";
 import { FAULTS } from "./errors.js";
-import { LAYERS, FACETS, OMITTED, EDGES, HOLES, OBJECTS } from "./nouns.js";
+import { LAYERS, FACETS, OMITTED, EDGES, HOLES, OBJECTS, PARTS } from "./nouns.js";
 import { UNITS } from "./readers.js";
 
 export const warnings = ({ count, counted, plural, mm, height, error, either }: Format): WarningSentences => ({
@@ -17,6 +17,10 @@ export const warnings = ({ count, counted, plural, mm, height, error, either }: 
   "unit-stated": ({ stated, given }) => `Le fichier est en ${UNITS[stated]}, comme il le dit, et non en ${UNITS[given]}.`,
   "nothing-hollowed": ({ wall_mm, cavity_mm }) =>
     `Le modèle reste plein : il n’est nulle part assez épais pour des parois de ${mm(wall_mm)} autour d’une cavité de ${mm(cavity_mm)}.`,
+  "drain-astray": ({ drain_number }) =>
+    `Le trou d’évacuation ${count(drain_number)} ne rencontre aucun vide et est omis. Placez-le là où le modèle est creux, ou tournez-le vers l’intérieur.`,
+  undrained: ({ basins }) =>
+    `${counted(basins, PARTS)} du vide : la résine y reste, car aucun trou n’en sort à niveau ou vers le bas. Placez-y des trous, ou tournez le modèle.`,
   "unclosed-rays": ({ unclosed, rays }) =>
     `${count(unclosed)} rayons sur ${count(rays)} traversent des trous du maillage, bouchés à plat. Regardez les masques.`,
   "tolerance-exceeded": ({ metric, tolerance, max_error }) =>

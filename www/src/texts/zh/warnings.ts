@@ -16,6 +16,8 @@ export const warnings = ({ count, mm, height, error, either }: Format): WarningS
   "unit-stated": ({ stated, given }) => `文件说明其单位为${UNITS[stated]}，而非${UNITS[given]}。`,
   "nothing-hollowed": ({ wall_mm, cavity_mm }) =>
     `模型保持实心：没有任何一处厚到能容下 ${mm(wall_mm)} 的壁和 ${mm(cavity_mm)} 的空腔。`,
+  "drain-astray": ({ drain_number }) => `第 ${count(drain_number)} 个排液孔没有通到空腔，已略去。请把它放在模型空心之处，或使其朝内。`,
+  undrained: ({ basins }) => `空腔有 ${count(basins)} 处会滞留树脂：没有孔能水平或向下引出。请在该处开孔，或转动模型。`,
   "unclosed-rays": ({ unclosed, rays }) => `${count(rays)} 条光线中有 ${count(unclosed)} 条穿过用平面封上的孔洞。请查看掩膜。`,
   "tolerance-exceeded": ({ metric, tolerance, max_error }) =>
     `误差达到 ${error(metric, max_error)}，超过公差 ${error(metric, tolerance)}。`,
