@@ -20,6 +20,7 @@ use cusp_slicer::ldi::{
     gpu::{self, Gpu, Method},
 };
 use cusp_slicer::orientation::{Quality, SearchOptions};
+use cusp_slicer::prepare::{AutoDrain, Drain, Hollowing, Infill, hollow};
 use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::progress::silent;
 #[cfg(target_arch = "wasm32")]
@@ -47,6 +48,36 @@ fn model() -> solids::Triangles {
     ));
     triangles.extend(solids::inverted(&solids::cube(1.7)));
     triangles
+}
+
+#[wasm_bindgen_test(unsupported = test)]
+fn the_void_and_its_holes_are_the_recorded_ones() {
+    let hollowing = Hollowing {
+        wall_mm: 0.7,
+        cavity_mm: 0.8,
+        infill: Some(Infill {
+            spacing_mm: 2.5,
+            strut_mm: 0.5,
+        }),
+        drains: vec![Drain {
+            at_mm: [3.0, 0.2, 3.0],
+            direction: [-1.0, 0.1, 0.3],
+            diameter_mm: 0.9,
+            depth_mm: None,
+        }],
+        auto_drain: Some(AutoDrain { diameter_mm: 0.8 }),
+    };
+    let void = hollow(&on_plate(&solids::sphere(3.0, 5)), &hollowing, &mut silent);
+    let void = void.unwrap().unwrap();
+    assert!(void.astray.is_empty() && void.drains.len() > 1);
+    let shells = std::iter::once(&void.shell).chain(void.drains.iter().map(|drain| &drain.1));
+    let numbers: Vec<u8> = shells
+        .flat_map(|shell| {
+            let vertices = bytemuck::cast_slice(&shell.vertices).to_vec();
+            [vertices, bytemuck::cast_slice(&shell.facets).to_vec()].concat()
+        })
+        .collect();
+    assert_eq!(fingerprint(&numbers), 0xa12f_31ff_641c_623d);
 }
 
 #[wasm_bindgen_test(unsupported = test)]
