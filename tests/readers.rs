@@ -13,6 +13,7 @@ use std::process::{Command, Output};
 use common::{binary_stl, quiet, solids};
 use cusp_slicer::format::Format;
 use cusp_slicer::job::{Backend, Options, Planner, Report, Slicer};
+use cusp_slicer::prepare::Hollowing;
 use libtest_mimic::{Arguments, Completion, Failed, Trial};
 use tempfile::TempDir;
 
@@ -65,6 +66,11 @@ fn tests() -> Vec<(&'static str, (&'static str, &'static str), Test)> {
             "masks_are_those_of_prusa_slicer",
             PRUSA_SLICER,
             masks_are_those_of_prusa_slicer,
+        ),
+        (
+            "hollow_models_take_the_resin_of_prusa_slicers",
+            PRUSA_SLICER,
+            hollow_models_take_the_resin_of_prusa_slicers,
         ),
     ]
 }
@@ -200,6 +206,48 @@ fn pngs_of(folder: &Path) -> Result<Vec<PathBuf>, Failed> {
 
 fn unzip_finds_nothing() -> Result<(), Failed> {
     print_files(|path, _, _| succeeds(Command::new(UNZIP.0).arg("-tq").arg(path)).map(|_| ()))
+}
+
+/// `prusa-slicer` hollows by a level set of OpenVDB: inward by the wall and a closing distance, and back by that.
+fn hollow_models_take_the_resin_of_prusa_slicers() -> Result<(), Failed> {
+    const PIXELS: u32 = 640;
+    const SIDE_MM: f64 = 64.0;
+    let cases = [
+        ("ball", solids::sphere(15.0, 6)),
+        ("cube", solids::cube(24.0)),
+        ("cone", solids::cone(16.0, 30.0, 32)),
+    ];
+    for (name, triangles) in cases {
+        let folder = TempDir::new()?;
+        let path = |name| folder.path().join(name);
+        let (model, theirs, settings) = (path("model.stl"), path("theirs.sl1"), path("hollow.ini"));
+        fs::write(&model, binary_stl(&triangles))?;
+        let lines = "hollowing_enable = 1\nhollowing_min_thickness = 2\nhollowing_quality = 1\nhollowing_closing_distance = 2";
+        fs::write(&settings, lines)?;
+        let mut command = peer::prusa_slicer(&model, &theirs, folder.path(), SIDE_MM, PIXELS);
+        succeeds(command.arg("--load").arg(&settings))?;
+        let area_mm2 = (SIDE_MM / f64::from(PIXELS)).powi(2);
+        let lit = |mask: Vec<u8>| mask.iter().filter(|&&pixel| pixel > 127).count() as f64;
+        let pixels: f64 = peer::sl1_masks(&theirs).into_iter().map(lit).sum();
+        let theirs_ml = pixels * area_mm2 * 0.05 / 1e3;
+        let options = Options {
+            pixels: Some([PIXELS; 2]),
+            pitch_mm: Some(SIDE_MM / f64::from(PIXELS)),
+            hollow: Some(Hollowing {
+                cavity_mm: 4.0,
+                ..Hollowing::default()
+            }),
+            backend: Backend::Cpu,
+            ..Options::default()
+        };
+        let mut slicer = Slicer::load(&binary_stl(&triangles))?;
+        let ours_ml = pollster::block_on(slicer.plan(&options, &mut quiet))?.resin_ml;
+        println!("{name}: {ours_ml:.3} ml, and {theirs_ml:.3} ml of prusa-slicer");
+        if !(0.97..1.03).contains(&(ours_ml / theirs_ml)) {
+            return Err(format!("{name}: {ours_ml} ml, and {theirs_ml} ml of prusa-slicer").into());
+        }
+    }
+    Ok(())
 }
 
 /// `prusa-slicer` cuts the mesh at the middle of each layer and fills the contours. At most one lit pixel in a thousand may
