@@ -2,7 +2,7 @@
 
 use super::png::{self, Depth};
 use super::runs::RunWriter;
-use crate::ldi::Ldi;
+use crate::ldi::{Ldi, printed_ranges};
 use crate::model::Mesh;
 
 /// The model seen from above, as the brightness of each pixel: lit from the left and behind, and brighter higher up.
@@ -51,7 +51,11 @@ impl Standing<'_> {
         let hits = self
             .ldi
             .ray((row * i64::from(grid.width) + column) as usize);
-        let Some(top) = hits.last() else { return 0 };
+        // A drain hole begins outside the model, where its own facets are no surface.
+        let mut highest = None;
+        printed_ranges(hits, self.ldi.classes, |_, z_out| highest = Some(z_out));
+        let top = hits.iter().rev().find(|hit| Some(hit.z_mm) == highest);
+        let Some(top) = top else { return 0 };
         let [a, b, c] = self.mesh.corners(top.facet() as usize);
         let normal = (b - a).cross(c - a).normalize_or_zero();
         let light = normal.dot(glam::DVec3::new(-0.4, 0.4, 0.82)).max(0.0);

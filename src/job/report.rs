@@ -483,7 +483,8 @@ fn hollowed(models: &[PlannedModel]) -> Option<Hollowed> {
     });
     voids.reduce(|a, b| Hollowed {
         void_ml: a.void_ml + b.void_ml,
-        drains: [a.drains, b.drains].concat(),
+        // Each model has a frame of its own.
+        drains: Vec::new(),
         resolution_mm: a.resolution_mm.max(b.resolution_mm),
     })
 }

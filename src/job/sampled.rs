@@ -40,7 +40,8 @@ pub struct Sampled {
 pub struct Hollowed {
     /// Volume of the void, without what its struts take.
     pub void_ml: f64,
-    /// The drain holes that meet it, each with its depth: those asked for, then those placed automatically.
+    /// The drain holes that meet it, each with its depth: those asked for, then those placed automatically. None of
+    /// plates with several models, each of which has a frame of its own.
     pub drains: Vec<Drain>,
     /// Walls may be thinner than asked by this.
     pub resolution_mm: f64,

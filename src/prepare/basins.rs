@@ -16,10 +16,10 @@ struct Part {
     lowest: (usize, usize),
     /// How deep that is.
     depth_mm: f32,
-    /// Its nodes in the last slice.
+    /// Its nodes in the last whole slice that it is in.
     nodes: usize,
-    /// The last slice that it is in.
-    slice: usize,
+    /// Its nodes in the slice that is being added, so far.
+    nodes_here: usize,
 }
 
 /// The parts of the slices so far.
@@ -54,6 +54,8 @@ impl Basins {
         // What hangs together in the slice is one, whichever parts it stands on.
         let mut here = vec![NONE; field.len()];
         let mut stack = Vec::new();
+        // Parts that are in the slice; some more than once.
+        let mut touched = Vec::new();
         for first in 0..field.len() {
             if field[first] <= 0.0 || here[first] != NONE {
                 continue;
@@ -63,7 +65,7 @@ impl Basins {
                 lowest: (slice, first),
                 depth_mm: 0.0,
                 nodes: 0,
-                slice,
+                nodes_here: 0,
             };
             // Until it is known which part it is, it is marked as a new one.
             let mut on = NONE;
@@ -92,18 +94,24 @@ impl Basins {
                     }
                 }
             }
-            part.nodes = nodes.len();
+            part.nodes_here = nodes.len();
             if on == NONE {
                 self.parent.push(begun);
                 self.parts.push(part);
+                touched.push(begun);
                 continue;
             }
+            self.parts[on as usize].nodes_here += nodes.len();
+            touched.push(on);
             for node in nodes {
                 here[node] = on;
             }
-            let known = &mut self.parts[on as usize];
-            known.nodes = if known.slice == slice { known.nodes } else { 0 } + part.nodes;
-            known.slice = slice;
+        }
+        for part in touched {
+            let part = &mut self.parts[part as usize];
+            if part.nodes_here > 0 {
+                (part.nodes, part.nodes_here) = (part.nodes_here, 0);
+            }
         }
         self.below = here;
         self.slices += 1;
@@ -129,6 +137,7 @@ impl Basins {
             self.found.push(part.lowest);
         }
         self.parent[young as usize] = old;
+        self.parts[old as usize].nodes_here += part.nodes_here;
         old
     }
 

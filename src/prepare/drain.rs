@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::columns::Columns;
 use super::nets::{Lattice, Shell};
+use crate::model::Bounds;
 
 /// A drain hole.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -86,6 +87,8 @@ impl Bore {
             return None;
         }
         let direction = DVec3::from_array(drain.direction);
+        // By its largest component first, so that no square overflows.
+        let direction = direction / direction.abs().max_element();
         let along = direction / direction.length();
         if !along.is_finite() {
             return None;
@@ -122,6 +125,14 @@ impl Bore {
         Some(rims.map(|rim| rim[0]).fold(enters, f64::max).min(leaves))
     }
 
+    /// Whether the hole meets the void of a shell within a depth.
+    fn meets(&self, shell: &Shell, depth_mm: f64) -> bool {
+        let near = self.near(shell);
+        let lines = self.rim.iter().chain([&DVec3::ZERO]);
+        let mut enters = lines.filter_map(|&rim| first_mm(&near, self.at + rim, self.along));
+        enters.any(|enters| enters[0] <= depth_mm)
+    }
+
     /// The facets that the hole may meet.
     fn near(&self, shell: &Shell) -> Vec<[DVec3; 3]> {
         let radius_mm = self.rim[0].length();
@@ -135,25 +146,25 @@ impl Bore {
         facets.filter(is_near).collect()
     }
 
-    /// The hole from before its place to a depth, with a lid at both ends, as far as it is above the plate.
-    fn shell(&self, from_mm: f64, to_mm: f64) -> Shell {
+    /// The hole from before its place to a depth, with a lid at both ends, as far as it is within the model's box, which is above the
+    /// plate: rays are sampled there alone.
+    fn shell(&self, from_mm: f64, to_mm: f64, bounds: &Bounds) -> Shell {
         let sides = self.rim.len() as u32;
-        // Heights of hits are never negative.
+        let (low, high) = (bounds.min, bounds.max);
         let point = |rim: DVec3, along_mm: f64| {
             let begin = self.at + rim;
-            let at = begin + self.along * along_mm;
-            if at.z >= 0.0 {
-                return at.as_vec3();
+            // Where its line is within the box, as far as that cuts it.
+            let (mut first_mm, mut last_mm) = (from_mm, to_mm);
+            for axis in 0..3 {
+                let ends = [low[axis], high[axis]];
+                let ends = ends.map(|end| (end - begin[axis]) / self.along[axis]);
+                if ends.iter().all(|end| end.is_finite()) {
+                    first_mm = first_mm.max(ends[0].min(ends[1]));
+                    last_mm = last_mm.min(ends[0].max(ends[1]));
+                }
             }
-            let on_plate_mm = along_mm - at.z / self.along.z;
-            let on_plate_mm = if on_plate_mm.is_finite() {
-                on_plate_mm
-            } else {
-                along_mm
-            };
-            let at = begin + self.along * on_plate_mm.clamp(from_mm, to_mm);
-            at.as_vec3()
-                .max(Vec3::new(f32::NEG_INFINITY, f32::NEG_INFINITY, 0.0))
+            let within_mm = along_mm.min(last_mm).max(first_mm).clamp(from_mm, to_mm);
+            (begin + self.along * within_mm).clamp(low, high).as_vec3()
         };
         let mut shell = Shell::default();
         for along_mm in [from_mm, to_mm] {
@@ -200,13 +211,14 @@ fn first_mm(facets: &[[DVec3; 3]], from: DVec3, along: DVec3) -> Option<[f64; 2]
 /// The hole as a body, and its depth; `None` if it does not meet the void.
 ///
 /// It begins a diameter before its place, so that a slanted surface does not close a part of it.
-pub(super) fn bore(shell: &Shell, drain: &Drain) -> Option<(Shell, f64)> {
+pub(super) fn bore(shell: &Shell, drain: &Drain, bounds: &Bounds) -> Option<(Shell, f64)> {
     let bore = Bore::new(drain)?;
     let depth_mm = match drain.depth_mm {
-        Some(depth_mm) => depth_mm,
+        Some(depth_mm) => bore.meets(shell, depth_mm).then_some(depth_mm)?,
         None => bore.depth_mm(shell)?,
     };
-    Some((bore.shell(-drain.diameter_mm, depth_mm), depth_mm))
+    let begin_mm = -drain.diameter_mm;
+    Some((bore.shell(begin_mm, depth_mm, bounds), depth_mm))
 }
 
 /// How far a bore goes on beyond what it drains, so that its end does not close it, in parts of its diameter.
@@ -244,7 +256,13 @@ pub(super) fn place(
             continue;
         };
         let end = from + along * length_mm;
-        if length_mm < most_mm && end.z - radius_mm >= ABOVE_PLATE_MM {
+        // A hole that slants through an upright wall reaches farther down than its radius.
+        let below_mm = if along.z < 0.0 {
+            radius_mm / slant
+        } else {
+            radius_mm
+        };
+        if length_mm < most_mm && end.z - below_mm >= ABOVE_PLATE_MM {
             best = Some((length_mm, end, along));
         }
     }

@@ -15,7 +15,8 @@ use super::lattice::Lattice as Struts;
 use super::nets::{Lattice, Nets, Shell};
 use crate::grid::Grid;
 use crate::ldi::{LdiError, cpu};
-use crate::model::Mesh;
+use crate::model::{Bounds, Mesh};
+use crate::parallel;
 use crate::progress::{Progress, report};
 
 /// How a model is hollowed.
@@ -109,9 +110,12 @@ impl Hollowing {
             ("hollow.wall_mm", self.wall_mm, LEAST_WALL_MM),
             ("hollow.cavity_mm", self.cavity_mm, 0.0),
         ];
-        let of_drains = self.drains.iter().map(|it| it.diameter_mm);
-        let diameters = of_drains.chain(self.auto_drain.map(|it| it.diameter_mm));
-        let of_drains = diameters.map(|mm| ("hollow.drains.diameter_mm", mm, LEAST_DRAIN_MM));
+        let of_drains = self.drains.iter();
+        let of_drains = of_drains.map(|it| ("hollow.drains.diameter_mm", it.diameter_mm));
+        let automatic = self.auto_drain.iter();
+        let automatic = automatic.map(|it| ("hollow.auto_drain.diameter_mm", it.diameter_mm));
+        let of_drains = of_drains.chain(automatic);
+        let of_drains = of_drains.map(|(option, mm)| (option, mm, LEAST_DRAIN_MM));
         let lengths = lengths.into_iter().chain(of_infill.into_iter().flatten());
         let lengths = lengths.chain(of_drains);
         for (option, value_mm, least_mm) in lengths {
@@ -157,11 +161,20 @@ const LEAST_PITCH_MM: f64 = 0.125;
 /// The most points at which distances are found.
 const MOST_POINTS: f64 = 2e8;
 
+/// The most columns of a model: as many as a plate of 600 by 600 mm has at the coarsest for walls of 0.4 mm.
+const MOST_COLUMNS: usize = 25_000_000;
+
+/// Columns of a slice that takes tens of milliseconds.
+const LARGE_SLICE: usize = 1_000_000;
+
+/// Bytes that a column takes while distances are found.
+const COLUMN_BYTES: f64 = 64.0;
+
+/// No model that is printed is as long.
+const MOST_MM: f64 = 1e5;
+
 /// Columns from one node of the void's surface to the next.
 const STRIDE: usize = 2;
-
-/// Slices that are made at a time.
-const GROUP: usize = 16;
 
 /// The void in a model that stands on the plate: none if it is nowhere thick enough.
 ///
@@ -177,13 +190,20 @@ pub fn hollow(
     let bounds = mesh.bounds();
     let size = bounds.size();
     // The largest ball of void with its wall must fit.
-    if 2.0 * hollowing.wall_mm + hollowing.cavity_mm > size.min_element() {
+    let least_mm = 2.0 * hollowing.wall_mm + hollowing.cavity_mm;
+    if least_mm > size.min_element() || size.max_element() > MOST_MM {
         return Ok(None);
     }
     let pitch_mm = pitch_mm(hollowing, size.x * size.y * size.z);
-    let Ok(grid) = Grid::of_pitch(&bounds, pitch_mm) else {
-        // Larger than any plate.
-        return Ok(None);
+    let Some(grid) = Grid::of_pitch(&bounds, pitch_mm)
+        .ok()
+        .filter(|grid| grid.pixels() <= MOST_COLUMNS)
+    else {
+        let columns = size.x * size.y / (pitch_mm * pitch_mm);
+        return Err(LdiError::OutOfMemory {
+            hits: columns as u64,
+            needed_bytes: (columns * COLUMN_BYTES) as u64,
+        });
     };
     let ldi = cpu::sample(mesh, &grid, &mut |fraction| progress(0.1 * fraction))?;
     let model = Columns::of_model(&ldi);
@@ -205,23 +225,24 @@ pub fn hollow(
     };
     let lattice = lattice_of(&model, &grid, low_mm - reach_mm);
     // The lowest slice is outside, and so is the last.
-    let slices = ((high_mm - low_mm + 2.0 * reach_mm) / lattice.spacing_mm) as usize + 3;
+    let slices = ((high_mm - low_mm + 2.0 * reach_mm) / lattice.spacing_mm) as usize + 4;
     let most_mm = reach_mm + 2.0 * lattice.spacing_mm;
+    let group = slices_at_a_time(&model);
     let mut nets = Nets::new(lattice);
     let mut basins = Basins::new(
         lattice.width,
         lattice.width * lattice.height,
         lattice.spacing_mm,
     );
-    for from in (0..slices).step_by(GROUP) {
+    for from in (0..slices).step_by(group) {
         report(progress, 0.6 + 0.4 * from as f64 / slices as f64)?;
-        let group = from..(from + GROUP).min(slices);
-        let heights_mm: Vec<f32> = group
+        let these = from..(from + group).min(slices);
+        let heights_mm: Vec<f32> = these
             .clone()
             .map(|it| lattice.node_mm(0, 0, it).z)
             .collect();
         let distances = core.distances_mm(To::Solid, &heights_mm, most_mm, STRIDE);
-        for (mut field, slice) in distances.into_iter().zip(group) {
+        for (mut field, slice) in distances.into_iter().zip(these) {
             for (place, field) in field.iter_mut().enumerate() {
                 *field = reach_mm - *field;
                 if let Some(struts) = struts.as_ref().filter(|_| *field > 0.0) {
@@ -248,15 +269,20 @@ pub fn hollow(
         resolution_mm: pitch_mm,
     };
     for (place, drain) in hollowing.drains.iter().enumerate() {
-        if !void.drill(drain) {
+        report(progress, 1.0)?;
+        if !void.drill(drain, &bounds) {
             void.astray.push(place);
         }
     }
     if let Some(hole) = hollowing.auto_drain {
+        // A hole as wide as the model leaves nothing of it.
+        let is_small = hole.diameter_mm < size.min_element();
         for (slice, node) in basins.finish() {
+            report(progress, 1.0)?;
             let lowest_mm = lattice.node_mm(node % lattice.width, node / lattice.width, slice);
-            let drain = drain::place(&model, &lattice, lowest_mm, hole);
-            if !drain.is_some_and(|drain| void.drill(&drain)) {
+            let drain = is_small.then(|| drain::place(&model, &lattice, lowest_mm, hole));
+            let drain = drain.flatten();
+            if !drain.is_some_and(|drain| void.drill(&drain, &bounds)) {
                 void.undrained += 1;
             }
         }
@@ -266,8 +292,8 @@ pub fn hollow(
 
 impl Void {
     /// Adds a drain hole; `false` if it does not meet the void.
-    fn drill(&mut self, drain: &Drain) -> bool {
-        let Some((shell, depth_mm)) = drain::bore(&self.shell, drain) else {
+    fn drill(&mut self, drain: &Drain, bounds: &Bounds) -> bool {
+        let Some((shell, depth_mm)) = drain::bore(&self.shell, drain, bounds) else {
             return false;
         };
         let drilled = Drain {
@@ -276,6 +302,16 @@ impl Void {
         };
         self.drains.push((drilled, shell));
         true
+    }
+}
+
+/// Slices that are made before progress is reported: some for each thread, and fewer of large ones.
+fn slices_at_a_time(model: &Columns) -> usize {
+    let threads = parallel::threads();
+    if model.width * model.height > LARGE_SLICE {
+        threads
+    } else {
+        8 * threads
     }
 }
 
@@ -326,14 +362,15 @@ fn core(model: &Columns, depth_mm: f32, progress: &mut Progress<'_>) -> Result<C
     let step_mm = STRIDE as f32 * model.pitch_mm;
     let slices = ((high_mm - low_mm) / step_mm) as usize + 2;
     let height_mm = |slice: usize| low_mm + (slice as f32 - 0.5) * step_mm;
+    let group = slices_at_a_time(model);
     // At the lowest and the highest slice nothing is inside.
     let mut below = vec![0.0; model.width * model.height];
-    for from in (1..=slices).step_by(GROUP) {
+    for from in (1..=slices).step_by(group) {
         report(progress, from as f64 / slices as f64)?;
-        let group = from..(from + GROUP).min(slices + 1);
-        let heights_mm: Vec<f32> = group.clone().map(height_mm).collect();
+        let these = from..(from + group).min(slices + 1);
+        let heights_mm: Vec<f32> = these.clone().map(height_mm).collect();
         let distances = model.distances_mm(To::Outside, &heights_mm, depth_mm + 2.0 * step_mm, 1);
-        for (here, slice) in distances.into_iter().zip(group) {
+        for (here, slice) in distances.into_iter().zip(these) {
             for (column, (&below_mm, &here_mm)) in below.iter().zip(&here).enumerate() {
                 if (below_mm < depth_mm) != (here_mm < depth_mm) {
                     let part = (depth_mm - below_mm) / (here_mm - below_mm);

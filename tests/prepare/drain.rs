@@ -70,6 +70,32 @@ fn a_slanted_hole_is_deep_enough_for_its_whole_rim() {
 }
 
 #[test]
+fn a_slanted_hole_is_where_it_was_asked_for_at_the_side_of_the_box() {
+    let mut cube = slicer(&solids::cube(20.0));
+    let solid = plan(&mut cube, &hollowed(Hollowing::default()));
+    for direction in [[-1.0, 0.0, 1.0], [-1.0, 0.5, -1.0], [-1.0, 1.0, 0.0]] {
+        let slanted = Drain { direction, ..SIDE };
+        let report = plan(&mut cube, &hollowed(drained(vec![slanted])));
+        // What it takes of a wall of 2 mm is a slanted cylinder.
+        let [x, y, z] = direction;
+        let longer = (x * x + y * y + z * z).sqrt();
+        let wall_mm = 2.0 + 0.5 * report.hollowed.clone().unwrap().resolution_mm;
+        let expected_mm3 = 7.02 * wall_mm * longer;
+        let taken_mm3 = (solid.resin_ml - report.resin_ml) * 1e3;
+        println!("{direction:?}: {taken_mm3:.2} of {expected_mm3:.2}");
+        assert!((taken_mm3 / expected_mm3 - 1.0).abs() < 0.1);
+        // In the middle of its height it is on the face where it was placed.
+        let middle = report.z_mm.iter().position(|&z_mm| z_mm > 10.0).unwrap();
+        let mask = cube.mask(middle).unwrap();
+        let width = report.mask.width as usize;
+        let row_bytes = width.div_ceil(8);
+        let row = (f64::from(report.mask.height) / 2.0) as usize;
+        let last = width - 2;
+        assert_eq!(mask[row * row_bytes + last / 8] & 0x80 >> (last % 8), 0);
+    }
+}
+
+#[test]
 fn a_hole_that_meets_no_void_is_left_out_and_named() {
     let outward = Drain {
         direction: [1.0, 0.0, 0.0],
@@ -186,6 +212,11 @@ fn holes_that_no_plate_holds_are_left_out() {
             ..SIDE
         },
         Drain {
+            at_mm: [500.0, 0.0, 5.0],
+            depth_mm: Some(1.0),
+            ..SIDE
+        },
+        Drain {
             direction: [0.0; 3],
             ..SIDE
         },
@@ -212,5 +243,32 @@ fn holes_that_no_plate_holds_are_left_out() {
             [Warning::DrainAstray { drain_number: 1 }],
             "{drain:?}"
         );
+    }
+}
+
+#[test]
+fn a_direction_has_any_length() {
+    let mut cube = slicer(&solids::cube(20.0));
+    let usual = plan(&mut cube, &hollowed(drained(vec![SIDE])));
+    for length in [1e-200, 1e200] {
+        let drain = Drain {
+            direction: [-length, 0.0, 0.0],
+            ..SIDE
+        };
+        let report = plan(&mut cube, &hollowed(drained(vec![drain])));
+        assert_eq!(report.resin_ml, usual.resin_ml);
+    }
+}
+
+#[test]
+fn holes_as_wide_as_the_model_are_not_made() {
+    let mut cube = slicer(&solids::cube(20.0));
+    for diameter_mm in [25.0, 1e300] {
+        let hollow = Hollowing {
+            auto_drain: Some(AutoDrain { diameter_mm }),
+            ..Hollowing::default()
+        };
+        let report = plan(&mut cube, &hollowed(hollow));
+        assert_eq!(report.warnings, [Warning::Undrained { basins: 1 }]);
     }
 }

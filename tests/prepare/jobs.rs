@@ -1,7 +1,8 @@
 //! Hollow models in jobs.
 
 use cusp_slicer::format::Format;
-use cusp_slicer::job::{Error, Options, OptionsError};
+use cusp_slicer::job::{Error, Options, OptionsError, Plate, PlateOptions};
+use cusp_slicer::ldi::LdiError;
 use cusp_slicer::prepare::{AutoDrain, Drain, Hollowing, Infill};
 use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::warning::Warning;
@@ -123,7 +124,7 @@ fn lengths_that_nothing_can_be_made_of_are_refused() {
             },
         ),
         (
-            "hollow.drains.diameter_mm",
+            "hollow.auto_drain.diameter_mm",
             Hollowing {
                 auto_drain: Some(AutoDrain { diameter_mm: 0.0 }),
                 ..usual()
@@ -172,4 +173,73 @@ fn slicers_of_filament_printers_hollow_by_themselves() {
         panic!("no error");
     };
     assert_eq!((option, other), ("prusa-3mf", "hollow"));
+}
+
+#[test]
+fn holes_by_hand_are_for_a_model_alone() {
+    let cubes = vec![slicer(&solids::cube(10.0)), slicer(&solids::cube(12.0))];
+    let drain = Drain {
+        at_mm: [5.0, 0.0, 5.0],
+        direction: [-1.0, 0.0, 0.0],
+        diameter_mm: 2.0,
+        depth_mm: None,
+    };
+    let on_plate = |drains| PlateOptions {
+        options: Options {
+            pixels: Some([400, 400]),
+            ..hollowed(Hollowing {
+                drains,
+                auto_drain: Some(AutoDrain { diameter_mm: 2.0 }),
+                ..Hollowing::default()
+            })
+        },
+        ..PlateOptions::default()
+    };
+    let mut plate = Plate::new(cubes);
+    let error = pollster::block_on(plate.plan(&on_plate(vec![drain]), &mut quiet)).unwrap_err();
+    assert!(matches!(
+        error,
+        Error::Options(OptionsError::Contradictory {
+            option: "drains",
+            ..
+        })
+    ));
+    let report = pollster::block_on(plate.plan(&on_plate(Vec::new()), &mut quiet)).unwrap();
+    let void = report.plates[0].hollowed.clone().unwrap();
+    assert!(void.void_ml > 0.1 && void.drains.is_empty());
+}
+
+#[test]
+fn what_is_larger_than_any_plate_is_refused_without_a_panic() {
+    let mut cube = slicer(&solids::cube(10.0));
+    for height_mm in [1e7, 1e12, 1e19] {
+        let options = Options {
+            height_mm: Some(height_mm),
+            pitch_mm: None,
+            rays: 64,
+            ..hollowed(Hollowing {
+                wall_mm: height_mm / 10.0,
+                cavity_mm: height_mm / 10.0,
+                auto_drain: Some(AutoDrain::default()),
+                ..Hollowing::default()
+            })
+        };
+        assert!(pollster::block_on(cube.plan(&options, &mut quiet)).is_err());
+    }
+    // A sheet with more columns than memory holds.
+    let mut sheet = slicer(&solids::cuboid(Vec3::new(3000.0, 3000.0, 1.5)));
+    let options = Options {
+        pitch_mm: None,
+        rays: 64,
+        ..hollowed(Hollowing {
+            wall_mm: 0.4,
+            cavity_mm: 0.0,
+            ..Hollowing::default()
+        })
+    };
+    let error = pollster::block_on(sheet.plan(&options, &mut quiet)).unwrap_err();
+    assert!(
+        matches!(error, Error::Ldi(LdiError::OutOfMemory { .. })),
+        "{error}"
+    );
 }

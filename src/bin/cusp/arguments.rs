@@ -295,12 +295,7 @@ impl Choices {
         if self.config.is_some() {
             return;
         }
-        let of_hollow = [
-            self.cavity.map(|_| "--cavity"),
-            self.infill.map(|_| "--infill"),
-            self.drains.first().map(|_| "--drain"),
-        ];
-        if let (None, Some(name)) = (self.hollow, of_hollow.into_iter().flatten().next()) {
+        if let (None, Some(name)) = (self.hollow, self.of_hollow()) {
             wrong_usage(
                 command,
                 &format!("{name} is for hollowed models: add --hollow"),
@@ -336,6 +331,10 @@ impl Choices {
         });
         self.target.put_into(&mut options)?;
         self.put_into(&mut options);
+        if let (None, Some(name)) = (&options.hollow, self.of_hollow()) {
+            let message = format!("{name} is for hollowed models: add --hollow");
+            return Err(Failure::from(message));
+        }
         let weights = self.weights.as_ref().or(weights.as_ref());
         Ok(Settings {
             options,
@@ -378,6 +377,16 @@ impl Choices {
             (PlannerArg::Uniform, layer) => layer.unwrap_or(Planner::Finest),
         };
         given.put("planner", &mut options.planner, planner);
+    }
+
+    /// An option that goes with a hollow model, if one is given.
+    fn of_hollow(&self) -> Option<&'static str> {
+        let given = [
+            self.cavity.map(|_| "--cavity"),
+            self.infill.map(|_| "--infill"),
+            self.drains.first().map(|_| "--drain"),
+        ];
+        given.into_iter().flatten().next()
     }
 
     fn put_hollow(&self, options: &mut Options) {

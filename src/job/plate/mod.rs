@@ -133,6 +133,7 @@ impl Plate {
         let shared = alone.as_ref().unwrap_or(&options.options);
         let job = shared.resolve()?;
         check_own(options, &job)?;
+        check_drains(&job, is_alone)?;
         let mut timings = Timings::default();
         let clock = Instant::now();
         let screen = screen_of(&job.sampling)?;
@@ -242,6 +243,18 @@ fn check_own(options: &PlateOptions, job: &Job) -> Result<(), OptionsError> {
         });
     }
     Ok(())
+}
+
+/// Refuses holes placed by hand where there are several models or copies, which are turned.
+fn check_drains(job: &Job, is_alone: bool) -> Result<(), OptionsError> {
+    let hollow = job.sampling.hollow.as_ref();
+    if is_alone || hollow.is_none_or(|hollow| hollow.drains.is_empty()) {
+        return Ok(());
+    }
+    Err(OptionsError::Contradictory {
+        option: "drains",
+        other: "models",
+    })
 }
 
 /// The models of a plate as its plan takes them.
