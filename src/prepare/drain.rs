@@ -24,7 +24,7 @@ pub struct Drain {
     pub depth_mm: Option<f64>,
 }
 
-/// Drain holes that are placed automatically: the fewest that leave nothing in the void, with the shortest ways out.
+/// Drain holes that are placed automatically: one for each basin of the void, by the shortest way out.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]

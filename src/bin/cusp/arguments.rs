@@ -163,8 +163,8 @@ pub struct Choices {
     /// Diameter of the infill's struts [default: 1]
     #[arg(long, value_name = "MM", value_parser = length, help_heading = "Model")]
     strut: Option<f64>,
-    /// Make a drain hole in the void: a point of the surface, a direction inward and a diameter; or `auto`, the fewest that leave
-    /// nothing in it; repeatable
+    /// Make a drain hole in the void: a point of the surface, a direction inward and a diameter; or `auto`, one wherever
+    /// resin would stay; repeatable
     #[arg(long = "drain", value_name = "auto|X,Y,Z,DX,DY,DZ,DIAMETER", value_parser = drain, allow_hyphen_values = true, help_heading = "Model")]
     drains: Vec<DrainArg>,
     #[command(flatten)]
