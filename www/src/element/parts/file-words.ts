@@ -1,4 +1,4 @@
-/** The line at the download button: what the file is, whether the printer reads it, and that the model prints as it is. */
+/** The line at the download button: what the file is, whether the printer reads it, and whether the model prints as it is. */
 import type { Format, KnownPrinter } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
 import { modelOf, printerOf } from "../state/printer.js";
@@ -29,5 +29,5 @@ export function fileWords({ report }: Pick<Result, "report">, printers: readonly
     if (format === "png" || reads.length === 0) return [words.unreadable(model)];
     return [words.convert(model, either(reads.map((extension) => `.${extension}`)))];
   };
-  return words.together([words.kinds[format](extension), ...reading(), words.asIs]);
+  return words.together([words.kinds[format](extension), ...reading(), report.hollowed === undefined ? words.asIs : words.hollow]);
 }

@@ -143,3 +143,12 @@ test("a list of printers is sorted by maker and model, in which numbers count as
     ["Wanhao", [["d8", "D8"]]],
   ]);
 });
+
+test("the line at the download of a hollow model does not say that it is solid", () => {
+  const print_file = { format: "png", extension: "zip", media_type: "", is_read_by_printer: false } as const;
+  const hollowed = { void_ml: 1, drains: [], resolution_mm: 0.25 };
+  const words = (language: Language): string => fileWords({ report: report({ print_file, hollowed }) }, PRINTERS, language);
+  expect(words(languageOf("en"))).toMatch(/The model prints hollow: no supports\.$/);
+  const others = LANGUAGES.map((code) => words(languageOf(code)));
+  expect(new Set(others).size).toBe(LANGUAGES.length);
+});

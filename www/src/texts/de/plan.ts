@@ -44,6 +44,7 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
     onePerPrint: (printer) => `Der ${printer} nimmt eine Dicke für alle Schichten: wählen Sie dafür gleichmäßige.`,
     match: (thickness, setting) => `Stellen Sie dort die erste Schicht auf ${thickness} (${setting}), sonst liegt jede Schicht in anderer Höhe als geplant.`,
     asIs: "Das Modell wird gedruckt, wie es ist: ohne Stützen, nicht ausgehöhlt.",
+    hollow: "Das Modell wird hohl gedruckt, ohne Stützen.",
     together: (sentences) => sentences.join(" "),
   },
   towers: {

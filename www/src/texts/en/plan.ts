@@ -48,6 +48,7 @@ export const plan = ({ counted, plural, size }: Format) => ({
     /** What must match in the slicer of a filament printer, or all layers are off. */
     match: (thickness: string, setting: string) => `Set the first layer to ${thickness} there (${setting}), or every layer is printed at another height than planned.`,
     asIs: "The model prints as it is: no supports, not hollowed.",
+    hollow: "The model prints hollow: no supports.",
     together: (sentences: readonly string[]) => sentences.join(" "),
   },
   /** Test towers, which tell whether a printer takes several thicknesses. */

@@ -44,6 +44,7 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
     onePerPrint: (printer) => `La ${printer} admite un solo espesor para todas las capas: elija capas uniformes.`,
     match: (thickness, setting) => `Ponga allí la primera capa en ${thickness} (${setting}), o cada capa se imprimirá a otra altura que la planeada.`,
     asIs: "El modelo se imprime tal cual: sin soportes ni vaciado.",
+    hollow: "El modelo se imprime hueco, sin soportes.",
     together: (sentences) => sentences.join(" "),
   },
   towers: {

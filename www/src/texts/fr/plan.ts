@@ -44,6 +44,7 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
     onePerPrint: (printer) => `L’imprimante ${printer} n’admet qu’une épaisseur pour toutes les couches : choisissez-les uniformes.`,
     match: (thickness, setting) => `Réglez-y la première couche à ${thickness} (${setting}), sinon chaque couche sera à une autre hauteur que prévu.`,
     asIs: "Le modèle est imprimé tel quel : sans supports ni évidement.",
+    hollow: "Le modèle est imprimé creux, sans supports.",
     together: (sentences) => sentences.join(" "),
   },
   towers: {

@@ -43,6 +43,7 @@ export const plan = ({ count: number, size }: Format): PlanTexts => ({
     onePerPrint: (printer) => `${printer} 的所有层只能用一种厚度：请选择均匀分层。`,
     match: (thickness, setting) => `请在其中把第一层设为 ${thickness}（${setting}），否则每一层的高度都会与方案不同。`,
     asIs: "模型按原样打印：未加支撑，未抽壳。",
+    hollow: "模型按空心打印：未加支撑。",
     together: (sentences) => sentences.join(""),
   },
   towers: {
