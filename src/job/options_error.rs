@@ -55,16 +55,18 @@ pub enum OptionsError {
         /// The known levels.
         known: [u32; 4],
     },
-    /// A length of hollowing is too small.
-    #[error("{option} must be {least_mm} mm or more, not {value_mm} mm")]
-    #[serde(rename = "bad-hollow")]
-    BadHollow {
+    /// A length of hollowing or of supports is out of bounds.
+    #[error("{option} must be from {least_mm} to {most_mm} mm, not {value_mm} mm")]
+    #[serde(rename = "bad-length")]
+    BadLength {
         /// Its name in the options.
         option: &'static str,
         /// Its value.
         value_mm: f64,
         /// The least value.
         least_mm: f64,
+        /// The largest value.
+        most_mm: f64,
     },
     /// The minimum weight is not from 0 to 1.
     #[error("the minimum weight must be from 0 to 1, not {weight_min}")]

@@ -119,6 +119,13 @@ impl Columns {
             .any(|range| range[0] <= z_mm && z_mm < range[1])
     }
 
+    /// The highest point of the solid that is below a height in a column.
+    pub fn floor_mm(&self, column: usize, z_mm: f32) -> Option<f32> {
+        let ranges = self.starts[column] as usize..self.starts[column + 1] as usize;
+        let tops = self.ranges_mm[ranges].iter().map(|range| range[1]);
+        tops.take_while(|&top_mm| top_mm <= z_mm).last()
+    }
+
     /// The distances of the columns' points at some heights, each at every `stride`th column of every `stride`th row, beginning with the first.
     /// Those beyond `most_mm` may be anything larger.
     pub fn distances_mm(

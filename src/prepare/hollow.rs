@@ -12,6 +12,7 @@ use super::basins::Basins;
 use super::columns::{Columns, MARGIN, To};
 use super::drain::{self, AutoDrain, Drain};
 use super::lattice::Lattice as Struts;
+use super::lengths::{self, BadLength};
 use super::nets::{Lattice, Nets, Shell};
 use crate::grid::Grid;
 use crate::ldi::{LdiError, cpu};
@@ -81,21 +82,15 @@ const LEAST_WALL_MM: f64 = 0.4;
 /// The thinnest struts.
 const LEAST_STRUT_MM: f64 = 0.4;
 
+/// The largest walls, cavities and holes: no plate is as wide.
+const MOST_LENGTH_MM: f64 = 1000.0;
+
 /// The narrowest drain holes.
 const LEAST_DRAIN_MM: f64 = 0.5;
 
-/// A length of [`Hollowing`] is too small.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct TooSmall {
-    /// Its name in the options.
-    pub option: &'static str,
-    pub value_mm: f64,
-    pub least_mm: f64,
-}
-
 impl Hollowing {
-    /// Checks the lengths. They have no upper bound: a model in which no void fits stays solid.
-    pub(crate) fn check(&self) -> Result<(), TooSmall> {
+    /// Checks the lengths.
+    pub(crate) fn check(&self) -> Result<(), BadLength> {
         let of_infill = self.infill.map(|infill| {
             [
                 ("hollow.infill.strut_mm", infill.strut_mm, LEAST_STRUT_MM),
@@ -118,16 +113,7 @@ impl Hollowing {
         let of_drains = of_drains.map(|(option, mm)| (option, mm, LEAST_DRAIN_MM));
         let lengths = lengths.into_iter().chain(of_infill.into_iter().flatten());
         let lengths = lengths.chain(of_drains);
-        for (option, value_mm, least_mm) in lengths {
-            if !(value_mm >= least_mm && value_mm.is_finite()) {
-                return Err(TooSmall {
-                    option,
-                    value_mm,
-                    least_mm,
-                });
-            }
-        }
-        Ok(())
+        lengths::check(lengths, MOST_LENGTH_MM)
     }
 }
 

@@ -7,9 +7,12 @@ mod columns;
 mod drain;
 mod hollow;
 mod lattice;
+mod lengths;
 mod nets;
+mod support;
 
 pub use drain::{AutoDrain, Drain};
-pub(crate) use hollow::TooSmall;
 pub use hollow::{Hollowing, Infill, Void, hollow};
+pub(crate) use lengths::BadLength;
 pub use nets::Shell;
+pub use support::{SupportPoint, SupportProfile, SupportStrength, Supporting, Supports, support};
