@@ -1,0 +1,501 @@
+//! Where a model needs supports: at its lowest points, and on surfaces that are too flat to support themselves.
+
+use glam::{DVec2, DVec3};
+use rustc_hash::FxHashMap;
+
+use super::SupportProfile;
+use crate::ldi::Ldi;
+use crate::model::{Across, Mesh};
+
+/// A place on the surface that needs a support.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Contact {
+    pub at: DVec3,
+    /// The outward normal of the surface there, of length 1.
+    pub normal: DVec3,
+    /// Diameter of the tip.
+    pub diameter_mm: f64,
+}
+
+/// How near the plate a surface stands on it.
+const ON_PLATE_MM: f64 = 0.02;
+
+/// Lowest points so near to each other that one tip holds both, in contact diameters.
+const SAME: f64 = 0.5;
+
+/// Rays so near to a lowest point meet the same, in their distances.
+const LONE: f64 = 2.0;
+
+/// The contacts that hold a model beside those that it has: ascending, and so in the order in which they are printed.
+///
+pub(super) fn place(surface: &Surface<'_>, ldi: &Ldi, profile: &SupportProfile) -> Vec<Contact> {
+    let mesh = surface.mesh;
+    let mut held = Held::new(profile.spacing_mm);
+    let mut contacts = Vec::new();
+    let stands = |at: DVec3| profile.lift_mm + at.z <= ON_PLATE_MM;
+    let same_mm = SAME * profile.contact_mm;
+    let contact = |at: DVec3| surface.contact(at, profile.contact_mm, profile.contact_mm);
+    for at in lowest_points(mesh, ldi, same_mm) {
+        if !stands(at) && !held.is_near(at, same_mm) {
+            held.insert(at);
+            contacts.extend(contact(at));
+        }
+    }
+    let rays = Rays::new(ldi);
+    for at in lone_entries(&rays) {
+        if !stands(at) && !held.is_near(at, same_mm + LONE * ldi.grid.pitch_mm) {
+            held.insert(at);
+            contacts.extend(contact(at));
+        }
+    }
+    let mut places = overhangs(mesh, &rays, profile);
+    places.sort_by(|a, b| {
+        // What is at an edge waits until all else is held.
+        let key = |it: &Place| (it.is_edge, micrometres(it.at.z));
+        key(a).cmp(&key(b))
+    });
+    for place in &places {
+        if !held.is_near(place.at, profile.reach_mm(place.slope)) {
+            held.insert(place.at);
+            // The plate holds what stands on it.
+            if !stands(place.at) {
+                contacts.extend(contact(place.at));
+            }
+        }
+    }
+    contacts
+}
+
+/// Points that are held, by squares of the plane.
+struct Held {
+    side_mm: f64,
+    squares: FxHashMap<[i32; 2], Vec<DVec3>>,
+}
+
+impl Held {
+    fn new(side_mm: f64) -> Self {
+        Self {
+            side_mm,
+            squares: FxHashMap::default(),
+        }
+    }
+
+    fn square(&self, x_mm: f64, y_mm: f64) -> [i32; 2] {
+        [x_mm, y_mm].map(|mm| (mm / self.side_mm).floor() as i32)
+    }
+
+    fn insert(&mut self, at: DVec3) {
+        let square = self.square(at.x, at.y);
+        self.squares.entry(square).or_default().push(at);
+    }
+
+    fn is_near(&self, at: DVec3, reach_mm: f64) -> bool {
+        let [first_x, first_y] = self.square(at.x - reach_mm, at.y - reach_mm);
+        let [last_x, last_y] = self.square(at.x + reach_mm, at.y + reach_mm);
+        (first_x..=last_x).any(|x| {
+            (first_y..=last_y).any(|y| {
+                let held = self.squares.get(&[x, y]);
+                held.is_some_and(|held| held.iter().any(|it| it.distance(at) < reach_mm))
+            })
+        })
+    }
+}
+
+/// The lowest points of the solid: each is where an island begins. Ascending.
+///
+/// The lowest vertices of level edges and facets are one point, the one nearest to their middle.
+fn lowest_points(mesh: &Mesh, ldi: &Ldi, inward_mm: f64) -> Vec<DVec3> {
+    let facets = &mesh.facets[..mesh.classes.surface_end()];
+    let roots = level_groups(mesh, facets);
+    let at = |corner: usize| mesh.vertices[facets[corner / 3][corner % 3] as usize].as_dvec3();
+    let mut is_lowest = vec![true; roots.len()];
+    let mut normals = vec![DVec3::ZERO; roots.len()];
+    // The box around each group.
+    let mut boxes = vec![[DVec3::INFINITY, DVec3::NEG_INFINITY]; roots.len()];
+    for facet in 0..facets.len() {
+        let [a, b, c] = mesh.corners(facet);
+        let lowest = a.z.min(b.z).min(c.z);
+        let normal = (b - a).cross(c - a);
+        for (&root, at) in roots[3 * facet..].iter().zip([a, b, c]) {
+            let root = root as usize;
+            is_lowest[root] &= at.z <= lowest;
+            normals[root] += normal;
+            let [low, high] = &mut boxes[root];
+            (*low, *high) = (low.min(at), high.max(at));
+        }
+    }
+    let middle = |root: usize| (boxes[root][0] + boxes[root][1]) * 0.5;
+    let mut nearest: Vec<Option<(f64, usize)>> = vec![None; roots.len()];
+    for (corner, &root) in roots.iter().enumerate() {
+        let root = root as usize;
+        // Walls of cavities face up at their lowest points.
+        if !is_lowest[root] || normals[root].z >= 0.0 {
+            continue;
+        }
+        let here = at(corner);
+        let away_mm = middle(root).distance(here);
+        // The same vertex in whichever order facets are.
+        let is_nearer = |(least_mm, other): (f64, usize)| {
+            let other = at(other);
+            let ties = here.x.total_cmp(&other.x).then(here.y.total_cmp(&other.y));
+            away_mm.total_cmp(&least_mm).then(ties).is_lt()
+        };
+        if nearest[root].is_none_or(is_nearer) {
+            nearest[root] = Some((away_mm, corner));
+        }
+    }
+    let found = nearest.iter().enumerate();
+    let found = found.filter_map(|(root, nearest)| Some((root, (*nearest)?)));
+    let found = found.map(|(root, (away_mm, corner))| {
+        let vertex = at(corner);
+        // From the edge of a level facet inward.
+        let part = if away_mm > inward_mm {
+            inward_mm / away_mm
+        } else {
+            1.0
+        };
+        vertex + (middle(root) - vertex) * part
+    });
+    let mut points: Vec<DVec3> = found.filter(|at| !is_buried(ldi, *at)).collect();
+    points.sort_by(|a, b| {
+        let ties = a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y));
+        a.z.total_cmp(&b.z).then(ties)
+    });
+    points
+}
+
+/// For each corner of the facets, the group that it is in: corners of a vertex that lie side by side around it, with those of all vertices
+/// that level edges join. Where sheets meet in a vertex alone, its corners are in several groups.
+fn level_groups(mesh: &Mesh, facets: &[[u32; 3]]) -> Vec<u32> {
+    let mut parent: Vec<u32> = (0..3 * facets.len() as u32).collect();
+    let mut unite = |a: usize, b: usize| {
+        let [a, b] = [a, b].map(|corner| root(&mut parent, corner as u32));
+        parent[a.max(b) as usize] = a.min(b);
+    };
+    // A corner of each vertex whose edges do not tell what is beside it.
+    let mut whole: FxHashMap<u32, usize> = FxHashMap::default();
+    for (facet, corners) in facets.iter().enumerate() {
+        for edge in 0..3 {
+            let next = (edge + 1) % 3;
+            let ends = [corners[edge], corners[next]];
+            let [a, b] = ends.map(|vertex| mesh.vertices[vertex as usize].z);
+            if a == b {
+                unite(3 * facet + edge, 3 * facet + next);
+            }
+            match mesh.neighbours.across(facet, edge) {
+                Across::Facet(other) => {
+                    let other = other as usize;
+                    for (place, vertex) in [(edge, ends[0]), (next, ends[1])] {
+                        if let Some(there) = facets[other].iter().position(|&it| it == vertex) {
+                            unite(3 * facet + place, 3 * other + there);
+                        }
+                    }
+                }
+                Across::Nothing | Across::Several => {
+                    whole.insert(ends[0], 3 * facet + edge);
+                    whole.insert(ends[1], 3 * facet + next);
+                }
+            }
+        }
+    }
+    if !whole.is_empty() {
+        for (corner, vertex) in facets.iter().flatten().enumerate() {
+            if let Some(&other) = whole.get(vertex) {
+                unite(corner, other);
+            }
+        }
+    }
+    (0..3 * facets.len() as u32)
+        .map(|corner| root(&mut parent, corner))
+        .collect()
+}
+
+/// Whether a body of the model goes on below a point, along the nearest ray.
+fn is_buried(ldi: &Ldi, at: DVec3) -> bool {
+    let pixel = ldi.grid.to_pixels(at.truncate());
+    let (column, row) = (pixel.x.floor(), pixel.y.floor());
+    let (width, height) = (f64::from(ldi.grid.width), f64::from(ldi.grid.height));
+    if !((0.0..width).contains(&column) && (0.0..height).contains(&row)) {
+        return false;
+    }
+    let ray = ldi.ray(row as usize * ldi.grid.width as usize + column as usize);
+    let mut is_buried = false;
+    crate::ldi::model_ranges(ray, ldi.classes, |from_mm, to_mm| {
+        let below_mm = at.z - ldi.grid.pitch_mm;
+        is_buried |= f64::from(from_mm) < below_mm && below_mm < f64::from(to_mm);
+    });
+    is_buried
+}
+
+fn root(parent: &mut [u32], mut vertex: u32) -> u32 {
+    while parent[vertex as usize] != vertex {
+        let above = parent[parent[vertex as usize] as usize];
+        parent[vertex as usize] = above;
+        vertex = above;
+    }
+    vertex
+}
+
+/// A place on a surface that does not support itself.
+struct Place {
+    at: DVec3,
+    /// Rise over run.
+    slope: f64,
+    /// Whether a tip there would reach beyond the surface.
+    is_edge: bool,
+}
+
+/// A stretch of a ray in the model.
+struct Stretch {
+    from_mm: f32,
+    to_mm: f32,
+    /// Through which the ray enters.
+    facet: u32,
+}
+
+/// Where rays are in the model.
+struct Rays<'a> {
+    ldi: &'a Ldi,
+    /// The stretches of ray i are those from `starts[i]` to `starts[i + 1]`.
+    starts: Vec<usize>,
+    stretches: Vec<Stretch>,
+}
+
+impl<'a> Rays<'a> {
+    fn new(ldi: &'a Ldi) -> Self {
+        let end = ldi.classes.model_end();
+        let mut rays = Self {
+            ldi,
+            starts: vec![0],
+            stretches: Vec::new(),
+        };
+        for ray in 0..ldi.rays() {
+            let first = rays.stretches.len();
+            let mut winding = 0;
+            let mut entry = (0.0, 0);
+            for hit in ldi.ray(ray).iter().filter(|hit| hit.facet() < end) {
+                let was_inside = winding != 0;
+                winding += hit.winding();
+                match (was_inside, winding != 0) {
+                    (false, true) => entry = (hit.z_mm, hit.facet()),
+                    (true, false) => match rays.stretches[first..].last_mut() {
+                        // Bodies that touch are one.
+                        Some(last) if entry.0 <= last.to_mm => last.to_mm = hit.z_mm,
+                        _ => rays.stretches.push(Stretch {
+                            from_mm: entry.0,
+                            to_mm: hit.z_mm,
+                            facet: entry.1,
+                        }),
+                    },
+                    _ => {}
+                }
+            }
+            rays.starts.push(rays.stretches.len());
+        }
+        rays
+    }
+
+    fn of_ray(&self, ray: usize) -> &[Stretch] {
+        &self.stretches[self.starts[ray]..self.starts[ray + 1]]
+    }
+
+    /// The stretches of the ray so many columns and rows away; none beyond the grid.
+    fn beside(&self, [column, row]: [usize; 2], [dx, dy]: [isize; 2]) -> &[Stretch] {
+        let (width, height) = (self.ldi.grid.width as usize, self.ldi.grid.height as usize);
+        match (column.checked_add_signed(dx), row.checked_add_signed(dy)) {
+            (Some(x), Some(y)) if x < width && y < height => self.of_ray(y * width + x),
+            _ => &[],
+        }
+    }
+
+    fn each(&self) -> impl Iterator<Item = ([usize; 2], DVec3, &Stretch)> {
+        let width = self.ldi.grid.width as usize;
+        (0..self.ldi.rays()).flat_map(move |ray| {
+            let [column, row] = [ray % width, ray / width];
+            let at = self.ldi.grid.centre_mm(column as u32, row as u32);
+            let stretches = self.of_ray(ray).iter();
+            stretches.map(move |it| ([column, row], at.extend(f64::from(it.from_mm)), it))
+        })
+    }
+}
+
+/// Where a ray enters the model with nothing beside it: what only facets thinner than a ray's distance join with the rest.
+fn lone_entries(rays: &Rays<'_>) -> Vec<DVec3> {
+    let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [dx, dy]));
+    let around: Vec<[isize; 2]> = around.filter(|&it| it != [0, 0]).collect();
+    let lone = rays.each().filter(|(place, _, stretch)| {
+        let z_mm = stretch.from_mm;
+        let meets = |it: &Stretch| it.from_mm <= z_mm && z_mm < it.to_mm;
+        !around
+            .iter()
+            .any(|&step| rays.beside(*place, step).iter().any(meets))
+    });
+    let mut lone: Vec<DVec3> = lone.map(|it| it.1).collect();
+    lone.sort_by_key(|at| micrometres(at.z));
+    lone
+}
+
+/// Heights are compared in micrometres: their last digits depend on the order of a facet's corners.
+fn micrometres(z_mm: f64) -> i64 {
+    (z_mm * 1e3).round() as i64
+}
+
+/// Rays' lower ends on surfaces that do not support themselves.
+fn overhangs(mesh: &Mesh, rays: &Rays<'_>, profile: &SupportProfile) -> Vec<Place> {
+    let pitch_mm = rays.ldi.grid.pitch_mm;
+    let reach = (profile.contact_mm / 2.0 / pitch_mm) as isize + 1;
+    let around = [[reach, 0], [-reach, 0], [0, reach], [0, -reach]];
+    let places = rays.each().filter_map(|(place, at, stretch)| {
+        let [a, b, c] = mesh.corners(stretch.facet as usize);
+        let normal = (b - a).cross(c - a);
+        let run = (normal.x * normal.x + normal.y * normal.y).sqrt();
+        // A facet's slope is its normal's run over its rise.
+        let slope = run / -normal.z;
+        if !(0.0..profile.self_supporting_slope).contains(&slope) {
+            return None;
+        }
+        let rise_mm = (reach as f64 * pitch_mm * (slope + 1.0)) as f32;
+        let goes_on = |&step: &[isize; 2]| {
+            let mut there = rays.beside(place, step).iter();
+            there.any(|it| (it.from_mm - stretch.from_mm).abs() <= rise_mm)
+        };
+        Some(Place {
+            at,
+            slope,
+            is_edge: !around.iter().all(goes_on),
+        })
+    });
+    places.collect()
+}
+
+/// The facets of a model's surface, by squares of the plane.
+pub(super) struct Surface<'a> {
+    mesh: &'a Mesh,
+    corner: DVec2,
+    columns: usize,
+    rows: usize,
+    squares: Vec<Vec<u32>>,
+}
+
+/// Side of a square.
+const SQUARE_MM: f64 = 2.0;
+
+impl<'a> Surface<'a> {
+    pub fn new(mesh: &'a Mesh) -> Self {
+        let bounds = mesh.bounds();
+        let corner = bounds.min.truncate();
+        let [columns, rows] = (bounds.size().truncate() / SQUARE_MM)
+            .to_array()
+            .map(|squares| squares as usize + 1);
+        let mut surface = Self {
+            mesh,
+            corner,
+            columns,
+            rows,
+            squares: vec![Vec::new(); columns * rows],
+        };
+        for facet in 0..mesh.surface_facets {
+            let [a, b, c] = mesh.corners(facet);
+            for square in surface.squares(a.min(b).min(c), a.max(b).max(c)) {
+                surface.squares[square].push(facet as u32);
+            }
+        }
+        surface
+    }
+
+    /// The squares that a box meets.
+    fn squares(&self, low: DVec3, high: DVec3) -> impl Iterator<Item = usize> + use<> {
+        let place = |at: DVec3| (at.truncate() - self.corner) / SQUARE_MM;
+        let (low, high) = (place(low), place(high));
+        let within = |place: f64, count: usize| place.clamp(0.0, (count - 1) as f64) as usize;
+        let columns = within(low.x, self.columns)..=within(high.x, self.columns);
+        let rows = within(low.y, self.rows)..=within(high.y, self.rows);
+        let width = self.columns;
+        rows.flat_map(move |row| columns.clone().map(move |column| row * width + column))
+    }
+
+    /// The facets within a distance of a point, and how far away each is, with its nearest point. A facet may come twice.
+    fn within(&self, point: DVec3, reach_mm: f64) -> Vec<(f64, DVec3, u32)> {
+        let reach = DVec3::splat(reach_mm);
+        let squares = self.squares(point - reach, point + reach);
+        let facets = squares.flat_map(|square| self.squares[square].iter().copied());
+        let found = facets.filter_map(|facet| {
+            let [a, b, c] = self.mesh.corners(facet as usize);
+            let (low, high) = (a.min(b).min(c) - reach, a.max(b).max(c) + reach);
+            if !(low.cmple(point).all() && point.cmple(high).all()) {
+                return None;
+            }
+            let at = nearest_of([a, b, c], point);
+            let away_mm = at.distance(point);
+            (away_mm <= reach_mm).then_some((away_mm, at, facet))
+        });
+        found.collect()
+    }
+
+    /// The contact at a point, if the surface is so near: at the nearest point of it, with the mean normal of what the tip touches.
+    ///
+    /// Coordinates are whole micrometres, as in reports, so that a report's points give the same contacts.
+    pub fn contact(&self, point: DVec3, diameter_mm: f64, reach_mm: f64) -> Option<Contact> {
+        let near = self.within(point, reach_mm).into_iter();
+        // Of those as near to a micrometre the same one, in whichever order facets are.
+        let is_before = |a: &(f64, DVec3, u32), b: &(f64, DVec3, u32)| {
+            let [a_um, b_um] = [a.0, b.0].map(|mm| (mm * 1e3).round());
+            let ties = a.1.x.total_cmp(&b.1.x).then(a.1.y.total_cmp(&b.1.y));
+            a_um.total_cmp(&b_um).then(ties)
+        };
+        let (away_mm, nearest, _) = near.min_by(is_before)?;
+        let at = if away_mm <= ON_SURFACE_MM {
+            point
+        } else {
+            nearest
+        };
+        let at = DVec3::from_array(at.to_array().map(|mm| (mm * 1e3).round() / 1e3 + 0.0));
+        let radius_mm = diameter_mm / 2.0;
+        let mut touched = self.within(at, radius_mm);
+        touched.sort_by_key(|it| it.2);
+        touched.dedup_by_key(|it| it.2);
+        let normals = touched.iter().map(|&(away_mm, _, facet)| {
+            let [a, b, c] = self.mesh.corners(facet as usize);
+            let normal = (b - a).cross(c - a);
+            normal / normal.length() * (radius_mm - away_mm)
+        });
+        let normal = normals.fold(DVec3::ZERO, |sum, it| sum + it);
+        let length = normal.length();
+        Some(Contact {
+            at,
+            normal: if length > 0.0 {
+                normal / length
+            } else {
+                DVec3::NEG_Z
+            },
+            diameter_mm,
+        })
+    }
+}
+
+/// Points so near the surface are on it.
+const ON_SURFACE_MM: f64 = 0.002;
+
+/// The point of a triangle that is nearest to a point.
+fn nearest_of([a, b, c]: [DVec3; 3], point: DVec3) -> DVec3 {
+    let normal = (b - a).cross(c - a);
+    let is_over = |from: DVec3, to: DVec3| normal.cross(to - from).dot(point - from) >= 0.0;
+    if is_over(a, b) && is_over(b, c) && is_over(c, a) {
+        let away = normal.dot(point - a) / normal.dot(normal);
+        return point - normal * away;
+    }
+    let of_edge = |from: DVec3, to: DVec3| {
+        let edge = to - from;
+        let part = edge.dot(point - from) / edge.dot(edge);
+        from + edge * part.clamp(0.0, 1.0)
+    };
+    let ends = [of_edge(a, b), of_edge(b, c), of_edge(c, a)];
+    let nearer = |best: DVec3, it: DVec3| {
+        if it.distance(point) < best.distance(point) {
+            it
+        } else {
+            best
+        }
+    };
+    ends.into_iter().reduce(nearer).unwrap_or(a)
+}

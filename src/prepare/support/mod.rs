@@ -1,0 +1,341 @@
+//! Supports: what holds a model where nothing is below it, as bodies of their own class.
+//!
+//! Contacts are found (`contacts.rs`), each gets a tip and a way down that keeps clear of the model (`clearance.rs`), ways join to trees
+//! (`trees.rs`), and these become bodies (`shapes.rs`).
+
+mod clearance;
+mod contacts;
+mod shapes;
+mod trees;
+
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+use super::columns::Columns;
+use super::lengths::{self, BadLength};
+use super::nets::Shell;
+use crate::grid::Grid;
+use crate::ldi::{LdiError, cpu};
+use crate::model::{Bounds, Mesh};
+use crate::progress::{Progress, report};
+use clearance::Clearance;
+use contacts::Surface;
+use trees::Trees;
+
+/// How a model is supported.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(default, deny_unknown_fields)]
+pub struct Supporting {
+    /// How strong supports are, and how dense.
+    pub strength: SupportStrength,
+    /// All sizes, in place of those of a strength.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub profile: Option<SupportProfile>,
+    /// Supports at these points. If absent, they are placed automatically.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub points: Option<Vec<SupportPoint>>,
+}
+
+/// How strong supports are, and how dense.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema, clap::ValueEnum))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(rename_all = "lowercase")]
+pub enum SupportStrength {
+    /// For small models with much detail: thin tips that leave hardly a mark.
+    Light,
+    /// For most models.
+    #[default]
+    Medium,
+    /// For large and solid models.
+    Heavy,
+}
+
+/// A point that is supported.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(deny_unknown_fields)]
+pub struct SupportPoint {
+    /// Where it is on the surface: x and y from the model's middle, z from its lowest point.
+    pub at_mm: [f64; 3],
+    /// Diameter of its tip; the profile's if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact_mm: Option<f64>,
+}
+
+/// All sizes of supports.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(default, deny_unknown_fields)]
+pub struct SupportProfile {
+    /// How far the model is lifted above the plate.
+    pub lift_mm: f64,
+    /// The flattest surface that supports itself, as its rise over its run.
+    pub self_supporting_slope: f64,
+    /// How far from a contact a level surface is held. One that just does not support itself is held twice as far.
+    pub spacing_mm: f64,
+    /// Diameter of a tip where it touches the model.
+    pub contact_mm: f64,
+    /// How deep a tip is in the model.
+    pub penetration_mm: f64,
+    /// Length of a tip.
+    pub tip_mm: f64,
+    /// Diameter of a pillar below one tip. Its area grows by a sixth for each tip more.
+    pub pillar_mm: f64,
+    /// How far pillars stay from the model.
+    pub clearance_mm: f64,
+    /// How far a branch reaches to another pillar, level.
+    pub branch_mm: f64,
+    /// How high pillars stand alone. Taller ones are braced with those nearby.
+    pub brace_mm: f64,
+    /// Diameter of a foot on the plate.
+    pub foot_mm: f64,
+    /// Thickness of a foot on the plate, and of the raft.
+    pub foot_thickness_mm: f64,
+    /// Whether all feet stand on one raft.
+    pub raft: bool,
+}
+
+impl Default for SupportProfile {
+    /// [`SupportStrength::Medium`].
+    fn default() -> Self {
+        SupportStrength::Medium.profile()
+    }
+}
+
+impl SupportStrength {
+    /// The sizes of supports.
+    pub fn profile(self) -> SupportProfile {
+        let medium = SupportProfile {
+            lift_mm: 5.0,
+            // 30° from level.
+            self_supporting_slope: 0.577,
+            spacing_mm: 3.0,
+            contact_mm: 0.4,
+            penetration_mm: 0.2,
+            tip_mm: 2.0,
+            pillar_mm: 1.0,
+            clearance_mm: 0.5,
+            branch_mm: 10.0,
+            brace_mm: 15.0,
+            foot_mm: 4.0,
+            foot_thickness_mm: 0.5,
+            raft: false,
+        };
+        match self {
+            Self::Medium => medium,
+            Self::Light => SupportProfile {
+                contact_mm: 0.3,
+                penetration_mm: 0.15,
+                pillar_mm: 0.8,
+                spacing_mm: 2.5,
+                foot_mm: 3.0,
+                ..medium
+            },
+            Self::Heavy => SupportProfile {
+                contact_mm: 0.6,
+                penetration_mm: 0.3,
+                tip_mm: 2.5,
+                pillar_mm: 1.5,
+                spacing_mm: 4.0,
+                foot_mm: 6.0,
+                foot_thickness_mm: 0.8,
+                ..medium
+            },
+        }
+    }
+}
+
+impl SupportProfile {
+    /// How far a contact holds a surface of a slope, its rise over its run: a level one as far as `spacing_mm`, one that just does not
+    /// support itself twice as far.
+    pub fn reach_mm(&self, slope: f64) -> f64 {
+        self.spacing_mm * (1.0 + (slope / self.self_supporting_slope).min(1.0))
+    }
+}
+
+impl Supporting {
+    /// The sizes that count.
+    pub fn profile(&self) -> SupportProfile {
+        self.profile.unwrap_or_else(|| self.strength.profile())
+    }
+
+    /// Checks the lengths.
+    pub(crate) fn check(&self) -> Result<(), BadLength> {
+        let profile = self.profile();
+        let least = [
+            ("supports.profile.lift_mm", profile.lift_mm, 0.0),
+            (
+                "supports.profile.self_supporting_slope",
+                profile.self_supporting_slope,
+                0.01,
+            ),
+            ("supports.profile.spacing_mm", profile.spacing_mm, 0.5),
+            ("supports.profile.contact_mm", profile.contact_mm, 0.1),
+            (
+                "supports.profile.penetration_mm",
+                profile.penetration_mm,
+                0.0,
+            ),
+            ("supports.profile.tip_mm", profile.tip_mm, 0.5),
+            ("supports.profile.pillar_mm", profile.pillar_mm, 0.3),
+            ("supports.profile.clearance_mm", profile.clearance_mm, 0.1),
+            ("supports.profile.branch_mm", profile.branch_mm, 0.0),
+            ("supports.profile.brace_mm", profile.brace_mm, 2.0),
+            (
+                "supports.profile.foot_mm",
+                profile.foot_mm,
+                profile.pillar_mm,
+            ),
+            (
+                "supports.profile.foot_thickness_mm",
+                profile.foot_thickness_mm,
+                0.1,
+            ),
+        ];
+        let points = self.points.iter().flatten();
+        let points = points.filter_map(|point| point.contact_mm);
+        let points = points.map(|mm| ("supports.points.contact_mm", mm, 0.1));
+        lengths::check(least.into_iter().chain(points), MOST_MM)
+    }
+}
+
+/// The largest size of any part.
+const MOST_MM: f64 = 50.0;
+
+/// The supports of a model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Supports {
+    /// Their bodies, which overlap each other and the model.
+    pub shell: Shell,
+    /// The points that are supported.
+    pub points: Vec<SupportPoint>,
+    /// The points that no support reaches.
+    pub unreached: Vec<SupportPoint>,
+    /// Points asked for that are not on the surface, by their places among those.
+    pub astray: Vec<usize>,
+    /// Pillars that stand on the model.
+    pub on_model: usize,
+    /// How far the model is lifted above the plate.
+    pub lift_mm: f64,
+}
+
+/// The pitch of rays, unless the model is large.
+const PITCH_MM: f64 = 0.2;
+
+/// The most points at which distances are known.
+const MOST_NODES: f64 = 2e7;
+
+/// The most rays.
+const MOST_RAYS: f64 = 4e6;
+
+/// How far a given point may be from the surface.
+const ON_SURFACE_MM: f64 = 2.0;
+
+/// Room beside the model for pillars that pass it, and that their feet take.
+const BESIDE_MM: f64 = 6.0;
+
+/// The supports of a model that stands on the plate, centred on x = y = 0. They are in its frame, so the plate is below it by the lift.
+///
+/// Cost: linear in the points of a lattice around the model, and in contacts times those of all pillars.
+///
+/// # Errors
+/// [`LdiError::Cancelled`], [`LdiError::OutOfMemory`], [`LdiError::TooManyFacets`].
+pub fn support(
+    mesh: &Mesh,
+    supporting: &Supporting,
+    progress: &mut Progress<'_>,
+) -> Result<Supports, LdiError> {
+    let profile = supporting.profile();
+    let bounds = mesh.bounds();
+    let size = bounds.size();
+    let beside = DVec3::new(BESIDE_MM, BESIDE_MM, 0.0);
+    let around = Bounds {
+        min: bounds.min - beside,
+        max: bounds.max + beside,
+    };
+    let room = around.size();
+    let stride = clearance::STRIDE as f64;
+    let mut pitch_mm = PITCH_MM;
+    // By a factor that is exact, and so the same on every machine.
+    while room.x * room.y * (size.z + profile.lift_mm)
+        / (stride * pitch_mm * stride * pitch_mm * stride * pitch_mm)
+        > MOST_NODES
+        || room.x * room.y / (pitch_mm * pitch_mm) > MOST_RAYS
+    {
+        pitch_mm *= 1.25;
+    }
+    let Ok(grid) = Grid::of_pitch(&around, pitch_mm) else {
+        return Err(LdiError::OutOfMemory {
+            hits: (room.x * room.y / (pitch_mm * pitch_mm)) as u64,
+            needed_bytes: (MOST_NODES * Clearance::NODE_BYTES) as u64,
+        });
+    };
+    let ldi = cpu::sample(mesh, &grid, &mut |fraction| progress(0.2 * fraction))?;
+    let surface = Surface::new(mesh);
+    let mut astray = Vec::new();
+    let contacts = match &supporting.points {
+        Some(points) => {
+            let mut contacts = Vec::new();
+            for (place, point) in points.iter().enumerate() {
+                let diameter_mm = point.contact_mm.unwrap_or(profile.contact_mm);
+                let at = DVec3::from_array(point.at_mm);
+                match surface.contact(at, diameter_mm, ON_SURFACE_MM) {
+                    Some(contact) => contacts.push(contact),
+                    None => astray.push(place),
+                }
+            }
+            contacts
+        }
+        None => contacts::place(&surface, &ldi, &profile),
+    };
+    let columns = Columns::of_model(&ldi);
+    drop(ldi);
+    let corner = grid.centre_mm(0, 0).as_vec2();
+    let highest_mm = contacts.iter().map(|it| it.at.z).fold(0.0, f64::max);
+    // The thickest pillar that there can be needs the largest distance.
+    let most_mm = trees::most_mm(&profile);
+    let mut clearance = Clearance::new(
+        columns,
+        corner.extend(-profile.lift_mm as f32),
+        highest_mm as f32,
+        most_mm as f32,
+        &mut |fraction| progress(0.2 + 0.5 * fraction),
+    )?;
+    clearance.find_ways((profile.pillar_mm / 2.0 + profile.clearance_mm) as f32);
+    report(progress, 0.8)?;
+    let mut trees = Trees::new(&clearance, profile);
+    let mut unreached = Vec::new();
+    let mut points = Vec::new();
+    // From the highest down, so that others join a pillar as it passes.
+    let order = crate::order::ascending(contacts.iter().map(|it| -it.at.z));
+    for (done, contact) in order.iter().map(|&it| &contacts[it]).enumerate() {
+        report(progress, 0.8 + 0.2 * done as f64 / order.len() as f64)?;
+        let is_own = contact.diameter_mm != profile.contact_mm;
+        let point = SupportPoint {
+            at_mm: contact.at.to_array(),
+            contact_mm: is_own.then_some(contact.diameter_mm),
+        };
+        if trees.add(contact) {
+            points.push(point);
+        } else {
+            unreached.push(point);
+        }
+    }
+    trees.brace();
+    let on_model = trees.on_model();
+    let shell = trees.shell();
+    report(progress, 1.0)?;
+    Ok(Supports {
+        shell,
+        points,
+        unreached,
+        astray,
+        on_model,
+        lift_mm: profile.lift_mm,
+    })
+}

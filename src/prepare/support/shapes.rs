@@ -1,0 +1,200 @@
+//! The bodies that supports are made of. They may overlap: along a ray they are one.
+
+use glam::DVec3;
+
+use crate::prepare::drain::circle;
+use crate::prepare::nets::Shell;
+
+/// Doublings from four points of a circle to those around a support.
+const DOUBLINGS: u32 = 2;
+
+/// Bodies, each a closed surface.
+#[derive(Debug, Default)]
+pub(super) struct Shapes {
+    pub shell: Shell,
+}
+
+impl Shapes {
+    /// A round body from one point to another, with these radii at its ends.
+    pub fn cone(&mut self, from: DVec3, from_mm: f64, to: DVec3, to_mm: f64) {
+        let Some([across, other]) = beside(to - from) else {
+            return;
+        };
+        let rim = |middle: DVec3, radius_mm: f64| {
+            let rim = circle(DOUBLINGS).into_iter();
+            rim.map(move |[x, y]| middle + (across * x + other * y) * radius_mm)
+        };
+        self.drum(rim(from, from_mm).collect(), rim(to, to_mm).collect());
+    }
+
+    /// A body between two outlines of equally many points, counter-clockwise as seen from the second.
+    pub fn drum(&mut self, first: Vec<DVec3>, second: Vec<DVec3>) {
+        let sides = first.len() as u32;
+        let begin = self.shell.vertices.len() as u32;
+        let points = first.into_iter().chain(second);
+        self.shell.vertices.extend(points.map(|it| it.as_vec3()));
+        let facets = &mut self.shell.facets;
+        for side in 0..sides {
+            let next = (side + 1) % sides;
+            let [a, b] = [side, next].map(|it| begin + it);
+            let [c, d] = [a, b].map(|it| it + sides);
+            facets.extend([[a, b, d], [a, d, c]]);
+        }
+        for side in 1..sides - 1 {
+            let [a, b] = [side, side + 1].map(|it| begin + it);
+            facets.push([begin, b, a]);
+            facets.push([begin + sides, a + sides, b + sides]);
+        }
+    }
+
+    /// A ball, as a stack of rims.
+    pub fn ball(&mut self, middle: DVec3, radius_mm: f64) {
+        let around = circle(DOUBLINGS);
+        let sides = around.len() as u32;
+        let begin = self.shell.vertices.len() as u32;
+        // Heights and radii from the lowest point to the highest.
+        let profile = circle(1);
+        let quarter = profile.len() / 4;
+        let bands: Vec<[f64; 2]> = (1..2 * quarter)
+            .map(|step| profile[(3 * quarter + step) % profile.len()])
+            .collect();
+        let mut points = vec![middle - DVec3::Z * radius_mm];
+        for [radius, height] in &bands {
+            let rim = around.iter();
+            points.extend(
+                rim.map(|[x, y]| middle + DVec3::new(x * radius, y * radius, *height) * radius_mm),
+            );
+        }
+        points.push(middle + DVec3::Z * radius_mm);
+        self.shell
+            .vertices
+            .extend(points.iter().map(|it| it.as_vec3()));
+        let top = begin + points.len() as u32 - 1;
+        let rim = |band: u32, side: u32| begin + 1 + band * sides + side % sides;
+        let last = bands.len() as u32 - 1;
+        for side in 0..sides {
+            self.shell
+                .facets
+                .push([begin, rim(0, side + 1), rim(0, side)]);
+            self.shell
+                .facets
+                .push([top, rim(last, side), rim(last, side + 1)]);
+            for band in 0..last {
+                let [a, b] = [rim(band, side), rim(band, side + 1)];
+                let [c, d] = [rim(band + 1, side), rim(band + 1, side + 1)];
+                self.shell.facets.extend([[a, b, d], [a, d, c]]);
+            }
+        }
+    }
+
+    /// A plate under feet: the convex hull of circles around them, wider at its top by its thickness, so that a scraper gets under it.
+    pub fn raft(&mut self, feet: &[DVec3], radius_mm: f64, thickness_mm: f64) {
+        let around = circle(DOUBLINGS);
+        // Each point of an outline is a point of a circle around a foot.
+        let mut rim: Vec<(DVec3, [f64; 2])> = Vec::new();
+        for &foot in feet {
+            rim.extend(around.iter().map(|&[x, y]| (foot, [x, y])));
+        }
+        let bottom = |&(foot, [x, y]): &(DVec3, [f64; 2])| foot + DVec3::new(x, y, 0.0) * radius_mm;
+        let hull = hull(rim, bottom);
+        if hull.len() < 3 {
+            return;
+        }
+        let top = |&(foot, [x, y]): &(DVec3, [f64; 2])| {
+            let radius_mm = radius_mm + thickness_mm;
+            foot + DVec3::new(x * radius_mm, y * radius_mm, thickness_mm)
+        };
+        self.drum(
+            hull.iter().map(bottom).collect(),
+            hull.iter().map(top).collect(),
+        );
+    }
+}
+
+/// Two unit vectors at right angles to a direction and to each other, counter-clockwise as seen from where it leads to.
+fn beside(direction: DVec3) -> Option<[DVec3; 2]> {
+    let length = direction.length();
+    if length == 0.0 {
+        return None;
+    }
+    let along = direction / length;
+    // From the axis that it is farthest from.
+    let size = along.abs();
+    let axis = if size.x <= size.y && size.x <= size.z {
+        DVec3::X
+    } else if size.y <= size.z {
+        DVec3::Y
+    } else {
+        DVec3::Z
+    };
+    let across = axis.cross(along);
+    let across = across / across.length();
+    Some([across, along.cross(across)])
+}
+
+/// The convex hull of points in the plane, counter-clockwise.
+fn hull<T: Clone>(mut items: Vec<T>, at: impl Fn(&T) -> DVec3) -> Vec<T> {
+    items.sort_by(|a, b| {
+        let (a, b) = (at(a), at(b));
+        a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y))
+    });
+    let half = |items: &mut dyn Iterator<Item = &T>| {
+        let mut hull: Vec<T> = Vec::new();
+        for item in items {
+            while let [.., before, last] = &hull[..] {
+                let (a, b) = (at(last) - at(before), at(item) - at(before));
+                if a.x * b.y - a.y * b.x > 0.0 {
+                    break;
+                }
+                hull.pop();
+            }
+            hull.push(item.clone());
+        }
+        hull.pop();
+        hull
+    };
+    let mut hull = half(&mut items.iter());
+    hull.extend(half(&mut items.iter().rev()));
+    hull
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn volume_mm3(make: impl FnOnce(&mut Shapes)) -> f64 {
+        let mut shapes = Shapes::default();
+        make(&mut shapes);
+        shapes.shell.volume_mm3()
+    }
+
+    /// A polygon of 16 corners in a circle of radius 1.
+    const POLYGON: f64 = 3.061_467_458_920_718;
+
+    #[test]
+    fn bodies_enclose_what_they_should_whichever_way_they_point() {
+        let from = DVec3::new(3.0, -2.0, 1.0);
+        for along in [
+            DVec3::Z,
+            DVec3::NEG_Z,
+            DVec3::X,
+            DVec3::new(1.0, 2.0, -3.0),
+            DVec3::new(-3.0, 0.5, 0.25),
+        ] {
+            let to = from + along;
+            let cylinder = volume_mm3(|it| it.cone(from, 0.5, to, 0.5));
+            assert!(
+                (cylinder - POLYGON * 0.25 * along.length()).abs() < 1e-4,
+                "{along} {cylinder}"
+            );
+            let cone = volume_mm3(|it| it.cone(from, 0.3, to, 0.6));
+            let mean = (0.09 + 0.18 + 0.36) / 3.0;
+            assert!(
+                (cone - POLYGON * mean * along.length()).abs() < 1e-4,
+                "{along} {cone}"
+            );
+        }
+        let ball = volume_mm3(|it| it.ball(from, 2.0));
+        assert!(ball > 0.8 * 33.51 && ball < 33.51, "{ball}");
+    }
+}

@@ -1,0 +1,566 @@
+//! Tips, the pillars below them, and how pillars join to trees.
+//!
+//! A contact's tip leads away from the surface. From its end a pillar goes down to the plate by the shortest way, or a branch to a pillar
+//! that is there already, whichever is shorter. What holds more tips is thicker.
+
+use glam::DVec3;
+
+use super::SupportProfile;
+use super::clearance::{Clearance, End, is_steep};
+use super::contacts::Contact;
+use super::shapes::Shapes;
+use crate::order;
+use crate::prepare::drain::circle;
+use crate::prepare::nets::Shell;
+
+/// No node.
+const NONE: u32 = u32::MAX;
+
+/// The most tips that a pillar holds, and one that stands on the model.
+const MOST_TIPS: u32 = 24;
+const MOST_TIPS_ON_MODEL: u32 = 4;
+
+/// How much a pillar's area grows with each tip that it holds beyond the first.
+const GROWTH: f64 = 1.0 / 6.0;
+
+/// The longest part of a pillar between two nodes. Branches join at nodes.
+const PART_MM: f64 = 1.5;
+
+/// What a foot on the plate costs, as a length of pillar.
+const FOOT_COST_MM: f64 = 5.0;
+
+/// How many of the nearest pillars are tried.
+const TRIES: usize = 12;
+
+/// Lengths of tips that are tried, as parts of the usual one.
+const LENGTHS: [f64; 3] = [1.0, 0.7, 0.4];
+
+/// Diameter of a brace, as a part of a pillar's.
+const BRACE: f64 = 0.7;
+
+/// Diameter at the foot of a pillar on the model, in those of a contact.
+const FOOT_ON_MODEL: f64 = 1.5;
+
+/// Height over which a pillar widens to its foot on the plate, as a part of the foot's diameter.
+const FLARE: f64 = 0.4;
+
+/// The most that a floor may rise below a strut.
+const MOST_STEP_MM: f64 = 0.3;
+
+/// What feet on the plate leave between them.
+const BETWEEN_FEET_MM: f64 = 0.6;
+
+/// How much wider than its pillar a foot is at least.
+const WIDER: f64 = 1.2;
+
+/// The thickest part of a strut between two surfaces, as a part of its length.
+const STRUT: f64 = 0.3;
+
+/// The largest distance from the model that a pillar's middle needs.
+pub(super) fn most_mm(profile: &SupportProfile) -> f64 {
+    radius_mm(profile, MOST_TIPS) + profile.clearance_mm
+}
+
+fn radius_mm(profile: &SupportProfile, tips: u32) -> f64 {
+    let area = 1.0 + GROWTH * (f64::from(tips) - 1.0);
+    profile.pillar_mm / 2.0 * area.sqrt()
+}
+
+/// A point of a pillar.
+struct Node {
+    at: DVec3,
+    /// The node below, [`NONE`] at a foot.
+    down: u32,
+    /// The tips that it holds.
+    tips: u32,
+    /// The nodes that it is below of.
+    above: u32,
+    /// Whether the pillar goes straight on here.
+    is_straight: bool,
+}
+
+/// From a contact to the end of its tip.
+struct Tip {
+    at: DVec3,
+    /// Away from the model.
+    along: DVec3,
+    end: DVec3,
+    radius_mm: f64,
+    end_mm: f64,
+}
+
+/// All supports of a model.
+pub(super) struct Trees<'a> {
+    clearance: &'a Clearance,
+    profile: SupportProfile,
+    nodes: Vec<Node>,
+    /// The lowest nodes, and what they stand on.
+    feet: Vec<(u32, End)>,
+    tips: Vec<Tip>,
+    /// Short supports between two surfaces of the model: their ends, radii there, and the radius halfway.
+    struts: Vec<([DVec3; 2], [f64; 2], f64)>,
+    braces: Vec<[DVec3; 2]>,
+}
+
+/// How a tip is held.
+enum Hold {
+    /// By a new pillar from this node of the clearance.
+    Pillar(usize),
+    /// By a branch to this node.
+    Branch(u32),
+}
+
+impl<'a> Trees<'a> {
+    pub fn new(clearance: &'a Clearance, profile: SupportProfile) -> Self {
+        Self {
+            clearance,
+            profile,
+            nodes: Vec::new(),
+            feet: Vec::new(),
+            tips: Vec::new(),
+            struts: Vec::new(),
+            braces: Vec::new(),
+        }
+    }
+
+    fn plate_mm(&self) -> f64 {
+        -self.profile.lift_mm
+    }
+
+    fn need_mm(&self) -> f64 {
+        self.profile.pillar_mm / 2.0 + self.profile.clearance_mm
+    }
+
+    /// Supports a contact; `false` if there is no way to it. Contacts come from the highest down.
+    pub fn add(&mut self, contact: &Contact) -> bool {
+        let above_plate_mm = contact.at.z - self.plate_mm();
+        if above_plate_mm > self.profile.tip_mm + self.profile.pillar_mm {
+            let mut on_model = None;
+            for tip in self.tips_at(contact) {
+                match self.hold(tip.end) {
+                    Some((hold, End::Plate)) => {
+                        self.insert(tip, hold);
+                        return true;
+                    }
+                    Some((hold, End::Model)) if on_model.is_none() => on_model = Some((tip, hold)),
+                    _ => {}
+                }
+            }
+            if let Some((tip, hold)) = on_model {
+                self.insert(tip, hold);
+                return true;
+            }
+        }
+        self.add_strut(contact)
+    }
+
+    /// The tips that keep clear of the model, the best ones first: away from the surface, but by at most 45° from straight down.
+    fn tips_at(&self, contact: &Contact) -> Vec<Tip> {
+        let slant = 0.5f64.sqrt();
+        let normal = contact.normal;
+        let level = (normal.x * normal.x + normal.y * normal.y).sqrt();
+        let away = if normal.z <= -slant || level == 0.0 {
+            DVec3::new(normal.x, normal.y, -normal.z.abs())
+        } else {
+            DVec3::new(normal.x / level * slant, normal.y / level * slant, -slant)
+        };
+        let away = if level == 0.0 { DVec3::NEG_Z } else { away };
+        let around = circle(1).into_iter();
+        let around = around.map(|[x, y]| DVec3::new(x * slant, y * slant, -slant));
+        let ways: Vec<DVec3> = [away, DVec3::NEG_Z].into_iter().chain(around).collect();
+        let (radius_mm, end_mm) = (contact.diameter_mm / 2.0, self.profile.pillar_mm / 2.0);
+        let tips = LENGTHS.iter().flat_map(|part| {
+            ways.iter().filter_map(move |&along| {
+                let end = contact.at + along * (self.profile.tip_mm * part);
+                let tip = Tip {
+                    at: contact.at,
+                    along,
+                    end,
+                    radius_mm,
+                    end_mm: end_mm.max(radius_mm),
+                };
+                self.is_clear(&tip).then_some(tip)
+            })
+        });
+        tips.collect()
+    }
+
+    /// Whether a tip touches the model only where it should.
+    fn is_clear(&self, tip: &Tip) -> bool {
+        let need_mm = tip.end_mm + self.profile.clearance_mm;
+        let is_free = |part: f64| {
+            let radius_mm = tip.radius_mm + (tip.end_mm - tip.radius_mm) * part;
+            let at = tip.at + (tip.end - tip.at) * part;
+            f64::from(self.clearance.distance_mm(at)) >= radius_mm
+        };
+        let length_mm = tip.at.distance(tip.end);
+        // On a slanted surface it is held at its side as well.
+        f64::from(self.clearance.distance_mm(tip.end)) >= need_mm.min(0.7 * length_mm)
+            && [0.5, 0.65, 0.8, 0.9].into_iter().all(is_free)
+            && self.clearance.is_within(tip.end)
+    }
+
+    /// The shortest way to hold a point, and what that stands on.
+    fn hold(&self, at: DVec3) -> Option<(Hold, End)> {
+        let own = self.clearance.way(at);
+        let most_mm = own.map_or(f64::INFINITY, |own| own.0 + FOOT_COST_MM);
+        let near = self.nodes.iter().enumerate().filter(|(_, node)| {
+            let (x, y) = (at.x - node.at.x, at.y - node.at.y);
+            x * x + y * y <= self.profile.branch_mm * self.profile.branch_mm
+                && is_steep(at, node.at)
+        });
+        let near: Vec<(f64, u32)> = near
+            .map(|(place, node)| (at.distance(node.at), place as u32))
+            .filter(|it| it.0 < most_mm)
+            .collect();
+        let need_mm = self.need_mm() as f32;
+        let joined = order::ascending(near.iter().map(|it| it.0)).into_iter();
+        let joined = joined.map(|it| near[it].1).take(TRIES);
+        let mut joined = joined.filter(|&node| {
+            self.bears_more(node)
+                && self
+                    .clearance
+                    .is_clear(at, self.nodes[node as usize].at, need_mm)
+        });
+        if let Some(node) = joined.next() {
+            return Some((Hold::Branch(node), self.end_of(node)));
+        }
+        let (_, node) = own?;
+        Some((Hold::Pillar(node), self.clearance.points(node).1))
+    }
+
+    fn end_of(&self, mut node: u32) -> End {
+        while self.nodes[node as usize].down != NONE {
+            node = self.nodes[node as usize].down;
+        }
+        let foot = self.feet.iter().find(|foot| foot.0 == node);
+        foot.map_or(End::Plate, |foot| foot.1)
+    }
+
+    /// Whether a pillar can hold a tip more: there must be room for it to be thicker.
+    fn bears_more(&self, mut node: u32) -> bool {
+        let end = self.end_of(node);
+        let most = match end {
+            End::Plate => MOST_TIPS,
+            End::Model => MOST_TIPS_ON_MODEL,
+        };
+        loop {
+            let Node { at, down, tips, .. } = self.nodes[node as usize];
+            if tips >= most {
+                return false;
+            }
+            if down == NONE {
+                return true;
+            }
+            let need_mm = radius_mm(&self.profile, tips + 1) + self.profile.clearance_mm;
+            // Above its foot on the model it cannot be clear of it.
+            let is_foot = end == End::Model && self.nodes[down as usize].down == NONE;
+            if !is_foot && f64::from(self.clearance.distance_mm(at)) < need_mm {
+                return false;
+            }
+            node = down;
+        }
+    }
+
+    fn insert(&mut self, tip: Tip, hold: Hold) {
+        let mut points = vec![tip.end];
+        let (mut down, end) = match hold {
+            Hold::Branch(node) => {
+                points.push(self.nodes[node as usize].at);
+                (node, None)
+            }
+            Hold::Pillar(node) => {
+                let (way, end) = self.clearance.points(node);
+                points.extend(way);
+                (NONE, Some(end))
+            }
+        };
+        // From the lowest point up.
+        if let Some(end) = end {
+            self.feet.push((self.nodes.len() as u32, end));
+            let at = *points.last().unwrap_or(&tip.end);
+            down = self.push(at, NONE, false);
+        }
+        for pair in points.windows(2).rev() {
+            let [to, from] = [pair[0], pair[1]];
+            let parts = (from.distance(to) / PART_MM).ceil().max(1.0);
+            for part in 1..=parts as usize {
+                let at = from + (to - from) * (part as f64 / parts);
+                down = self.push(at, down, (part as f64) < parts);
+            }
+        }
+        while down != NONE {
+            self.nodes[down as usize].tips += 1;
+            down = self.nodes[down as usize].down;
+        }
+        self.tips.push(tip);
+    }
+
+    fn push(&mut self, at: DVec3, down: u32, is_straight: bool) -> u32 {
+        if let Some(below) = self.nodes.get_mut(down as usize) {
+            below.above += 1;
+        }
+        self.nodes.push(Node {
+            at,
+            down,
+            tips: 0,
+            above: 0,
+            is_straight,
+        });
+        self.nodes.len() as u32 - 1
+    }
+
+    /// Holds a contact straight from the surface below, or from the plate, where nothing else fits.
+    fn add_strut(&mut self, contact: &Contact) -> bool {
+        let top = contact.at;
+        // Beyond what the columns do not resolve.
+        let below = top - DVec3::Z * 0.3;
+        let floors_mm = self.clearance.floors_mm(below);
+        let floors_mm = floors_mm.map(|it| it.map(f64::from));
+        let [lowest_mm, highest_mm] = floors_mm.map(|it| it.unwrap_or(self.plate_mm()));
+        if highest_mm - lowest_mm > MOST_STEP_MM {
+            return false;
+        }
+        let [floor_mm, _] = floors_mm;
+        let bottom_mm = lowest_mm;
+        let bottom = DVec3::new(top.x, top.y, bottom_mm);
+        let length_mm = top.z - bottom_mm;
+        let middle = (top + bottom) * 0.5;
+        let room_mm = f64::from(self.clearance.distance_mm(middle));
+        let end_mm = contact.diameter_mm / 2.0;
+        let most_mm = (self.profile.pillar_mm / 2.0).max(end_mm);
+        let middle_mm = most_mm.min(STRUT * length_mm).min(room_mm);
+        if length_mm < 0.3 || length_mm > 4.0 * self.profile.tip_mm || middle_mm < end_mm * 0.7 {
+            return false;
+        }
+        let foot_mm = if floor_mm.is_some() {
+            end_mm
+        } else {
+            self.foot_mm(bottom, middle_mm)
+        };
+        self.struts
+            .push(([top, bottom], [end_mm.min(middle_mm), foot_mm], middle_mm));
+        true
+    }
+
+    /// Radius of a foot on the plate, as far as there is room for it.
+    fn foot_mm(&self, at: DVec3, pillar_mm: f64) -> f64 {
+        let room_mm = f64::from(self.clearance.distance_mm(at + DVec3::Z * 0.2))
+            - self.profile.clearance_mm / 2.0;
+        let known_mm = most_mm(&self.profile) - self.profile.clearance_mm;
+        let foot_mm = (self.profile.foot_mm / 2.0).max(1.5 * pillar_mm);
+        if room_mm >= known_mm {
+            foot_mm
+        } else {
+            foot_mm.min(room_mm.max(pillar_mm))
+        }
+    }
+
+    /// Number of pillars and struts that stand on the model.
+    pub fn on_model(&self) -> usize {
+        let pillars = self.feet.iter().filter(|foot| foot.1 == End::Model);
+        let struts = self.struts.iter().filter(|it| it.0[1].z > self.plate_mm());
+        pillars.count() + struts.count()
+    }
+
+    /// The points of a pillar from its foot up, along what holds most.
+    fn trunk(&self, foot: u32, above: &[u32]) -> Vec<DVec3> {
+        let mut points = Vec::new();
+        let mut node = foot;
+        while node != NONE {
+            points.push(self.nodes[node as usize].at);
+            node = above[node as usize];
+        }
+        points
+    }
+
+    /// Braces tall pillars with those nearby, zigzag from one to the other.
+    pub fn brace(&mut self) {
+        // For each node the one above that holds most.
+        let mut above = vec![NONE; self.nodes.len()];
+        for (place, node) in self.nodes.iter().enumerate() {
+            if let Some(best) = above.get_mut(node.down as usize) {
+                let is_best = self
+                    .nodes
+                    .get(*best as usize)
+                    .is_none_or(|it| it.tips < node.tips);
+                if is_best {
+                    *best = place as u32;
+                }
+            }
+        }
+        let on_plate = self.feet.iter().filter(|foot| foot.1 == End::Plate);
+        let trunks: Vec<Vec<DVec3>> = on_plate.map(|foot| self.trunk(foot.0, &above)).collect();
+        for [a, b] in nearest_pairs(&trunks, self.profile.branch_mm) {
+            self.brace_pair(&trunks[a], &trunks[b]);
+        }
+    }
+
+    fn brace_pair(&mut self, a: &[DVec3], b: &[DVec3]) {
+        let plate_mm = self.plate_mm();
+        let tops = [a, b].map(|trunk| trunk[trunk.len() - 1].z);
+        if tops[0].max(tops[1]) - plate_mm < self.profile.brace_mm {
+            return;
+        }
+        let mut z = plate_mm + 0.2 * self.profile.brace_mm;
+        let (mut from, mut to) = (a, b);
+        loop {
+            let Some(low) = at_height(from, z) else {
+                return;
+            };
+            let Some(beside) = at_height(to, z) else {
+                return;
+            };
+            let away_mm = (beside - low).truncate().length();
+            // A trunk that leans is met a little higher.
+            let reached = [1.0, 1.2, 1.5].into_iter().find_map(|part| {
+                let high = at_height(to, z + away_mm * part)?;
+                is_steep(high, low).then_some(high)
+            });
+            let Some(high) = reached else {
+                return;
+            };
+            let need_mm = (BRACE * self.profile.pillar_mm / 2.0 + self.profile.clearance_mm) as f32;
+            if away_mm > self.profile.pillar_mm && self.clearance.is_clear(low, high, need_mm) {
+                self.braces.push([low, high]);
+            }
+            z = high.z.max(z + self.profile.pillar_mm);
+            (from, to) = (to, from);
+        }
+    }
+
+    /// All bodies.
+    pub fn shell(self) -> Shell {
+        let mut shapes = Shapes::default();
+        let profile = self.profile;
+        for tip in &self.tips {
+            let penetration_mm = profile.penetration_mm;
+            // As wide as asked where it meets the surface.
+            let length_mm = tip.at.distance(tip.end);
+            let narrower_mm = (tip.end_mm - tip.radius_mm) * penetration_mm / length_mm;
+            let inner_mm = (tip.radius_mm - narrower_mm).max(0.5 * tip.radius_mm);
+            shapes.cone(
+                tip.at - tip.along * penetration_mm,
+                inner_mm,
+                tip.end,
+                tip.end_mm,
+            );
+        }
+        let is_plain = |node: &Node| node.is_straight && node.above == 1;
+        for node in self
+            .nodes
+            .iter()
+            .filter(|node| node.down != NONE && !is_plain(node))
+        {
+            let mut below = &self.nodes[node.down as usize];
+            while below.down != NONE && is_plain(below) {
+                below = &self.nodes[below.down as usize];
+            }
+            let radius_mm = radius_mm(&profile, node.tips);
+            shapes.ball(node.at, radius_mm);
+            let is_on_model = below.down == NONE && self.end_at(below) == End::Model;
+            if is_on_model {
+                let foot_mm = (FOOT_ON_MODEL * profile.contact_mm / 2.0).min(radius_mm);
+                let foot = below.at - DVec3::Z * profile.penetration_mm;
+                shapes.cone(foot, foot_mm, node.at, radius_mm);
+            } else {
+                shapes.cone(below.at, radius_mm, node.at, radius_mm);
+            }
+        }
+        let mut feet = Vec::new();
+        for &(foot, end) in &self.feet {
+            let foot = &self.nodes[foot as usize];
+            if end == End::Plate {
+                let pillar_mm = radius_mm(&profile, foot.tips);
+                feet.push((foot.at, self.foot_mm(foot.at, pillar_mm), pillar_mm));
+            }
+        }
+        for &([top, bottom], [end_mm, foot_mm], middle_mm) in &self.struts {
+            let tip_mm = profile.tip_mm.min((top.z - bottom.z) * 0.5);
+            let (upper, lower) = (top - DVec3::Z * tip_mm, bottom + DVec3::Z * tip_mm);
+            let into = DVec3::Z * profile.penetration_mm;
+            shapes.cone(upper, middle_mm, top, end_mm);
+            shapes.cone(top, end_mm, top + into, end_mm);
+            shapes.ball(upper, middle_mm);
+            if bottom.z <= self.plate_mm() {
+                shapes.cone(bottom, middle_mm, upper, middle_mm);
+                feet.push((bottom, foot_mm, middle_mm));
+            } else {
+                shapes.cone(lower, middle_mm, upper, middle_mm);
+                shapes.ball(lower, middle_mm);
+                shapes.cone(bottom - into, foot_mm, lower, middle_mm);
+            }
+        }
+        // Feet that touch would enclose resin, and gaps between them would close.
+        let ats: Vec<DVec3> = feet.iter().map(|foot| foot.0).collect();
+        for (place, foot) in feet.iter_mut().enumerate() {
+            let others = ats.iter().enumerate().filter(|&(other, _)| other != place);
+            let nearest_mm = others
+                .map(|(_, at)| at.distance(foot.0))
+                .fold(f64::INFINITY, f64::min);
+            foot.1 = foot
+                .1
+                .min((nearest_mm - BETWEEN_FEET_MM) / 2.0)
+                .max(WIDER * foot.2);
+        }
+        for &(at, foot_mm, pillar_mm) in &feet {
+            let top = at + DVec3::Z * profile.foot_thickness_mm;
+            shapes.cone(at, foot_mm, top, foot_mm);
+            let flare_mm = FLARE * 2.0 * foot_mm;
+            shapes.cone(at, foot_mm, top + DVec3::Z * flare_mm, pillar_mm);
+        }
+        if profile.raft {
+            let feet: Vec<DVec3> = feet.iter().map(|foot| foot.0).collect();
+            shapes.raft(&feet, profile.foot_mm, profile.foot_thickness_mm);
+        }
+        for &[low, high] in &self.braces {
+            let radius_mm = BRACE * profile.pillar_mm / 2.0;
+            shapes.cone(low, radius_mm, high, radius_mm);
+        }
+        shapes.shell
+    }
+
+    fn end_at(&self, node: &Node) -> End {
+        let foot = self
+            .feet
+            .iter()
+            .find(|foot| self.nodes[foot.0 as usize].at == node.at);
+        foot.map_or(End::Plate, |foot| foot.1)
+    }
+}
+
+/// Where a pillar is at a height; its points ascend.
+fn at_height(points: &[DVec3], z: f64) -> Option<DVec3> {
+    let pairs = points.windows(2);
+    let mut pairs = pairs.filter(|pair| pair[0].z <= z && z <= pair[1].z);
+    pairs.next().map(|pair| {
+        let part = (z - pair[0].z) / (pair[1].z - pair[0].z);
+        pair[0] + (pair[1] - pair[0]) * part
+    })
+}
+
+/// Pairs that join all pillars by the least distances between their feet, as far as these are within reach: a minimum spanning tree.
+fn nearest_pairs(trunks: &[Vec<DVec3>], reach_mm: f64) -> Vec<[usize; 2]> {
+    let away_mm = |a: usize, b: usize| trunks[a][0].distance(trunks[b][0]);
+    let mut nearest: Vec<(f64, usize)> = vec![(f64::INFINITY, 0); trunks.len()];
+    let mut is_joined = vec![false; trunks.len()];
+    let mut pairs = Vec::new();
+    let mut next = (!trunks.is_empty()).then_some(0);
+    while let Some(joined) = next {
+        is_joined[joined] = true;
+        if nearest[joined].0 <= reach_mm {
+            pairs.push([nearest[joined].1, joined]);
+        }
+        next = None;
+        for other in (0..trunks.len()).filter(|&it| !is_joined[it]) {
+            let away = away_mm(joined, other);
+            if away < nearest[other].0 {
+                nearest[other] = (away, joined);
+            }
+            if next.is_none_or(|best| nearest[other].0 < nearest[best].0) {
+                next = Some(other);
+            }
+        }
+    }
+    pairs
+}
