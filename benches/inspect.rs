@@ -13,7 +13,7 @@ mod solids;
 
 use common::{exponent, named, on_plate, time};
 use cusp_slicer::grid::{Bins, Grid};
-use cusp_slicer::inspect::{Limits, inspect};
+use cusp_slicer::inspect::{Held, Limits, inspect};
 use cusp_slicer::ldi::{Hit, cpu};
 use cusp_slicer::mask::{Masks, Samples, Side};
 use cusp_slicer::model::{Mesh, Pose};
@@ -41,7 +41,16 @@ fn row(name: &str, mesh: &Mesh, grid: &Grid) -> (f64, f64) {
     let ldi_bytes = hits * size_of::<Hit>() + ldi.rays() * size_of::<u32>();
     let masks = Masks::new(&ldi, &plan, grid, Samples::ONE, Side::Above);
     drop(ldi);
-    let check = || inspect(&masks, &plan, &Limits::default(), &mut silent).expect("findings");
+    let check = || {
+        inspect(
+            &masks,
+            &plan,
+            &Limits::default(),
+            &Held::default(),
+            &mut silent,
+        )
+        .expect("findings")
+    };
     let before = ALLOCATOR.current_usage();
     ALLOCATOR.reset_peak_usage();
     let found = check();

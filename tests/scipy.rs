@@ -12,7 +12,7 @@ use std::process::Command;
 use common::on_plate;
 use common::solids::{self, Triangles};
 use cusp_slicer::grid::{Bins, Grid};
-use cusp_slicer::inspect::{Code, Limits, Printability, Severities, Severity, inspect};
+use cusp_slicer::inspect::{Code, Held, Limits, Printability, Severities, Severity, inspect};
 use cusp_slicer::ldi::cpu;
 use cusp_slicer::mask::{Masks, Samples, Side};
 use cusp_slicer::plan::Plan;
@@ -160,7 +160,7 @@ fn compare(name: &str, triangles: &Triangles) -> Result<usize, Failed> {
     let grid = Grid::plate(&mesh.bounds(), pixels, [pitch_mm; 2])?;
     let ldi = cpu::sample(&mesh, &grid.around_model(&mesh.bounds()), &mut silent)?;
     let masks = Masks::new(&ldi, &plan, &grid, Samples::ONE, Side::Above);
-    let found = inspect(&masks, &plan, &limits, &mut silent)?;
+    let found = inspect(&masks, &plan, &limits, &Held::default(), &mut silent)?;
     let mut theirs = by_scipy(&masks, &plan, &limits)?;
     let bodies = theirs.remove("bodies").unwrap_or_default();
     assert_eq!(found.bodies, bodies.len(), "{name}: bodies");

@@ -3,7 +3,7 @@
 #![no_main]
 
 use cusp_slicer::grid::{Bins, Grid};
-use cusp_slicer::inspect::{Limits, inspect};
+use cusp_slicer::inspect::{Held, Limits, inspect};
 use cusp_slicer::ldi::cpu;
 use cusp_slicer::mask::{Masks, Samples, Side};
 use cusp_slicer::model::{Mesh, Pose};
@@ -78,5 +78,5 @@ fuzz_target!(|bytes: &[u8]| {
         ..Limits::default()
     };
     let masks = Masks::new(&ldi, &plan, &grid, Samples::ONE, Side::Above);
-    let _ = inspect(&masks, &plan, &limits, &mut silent);
+    let _ = inspect(&masks, &plan, &limits, &Held::default(), &mut silent);
 });

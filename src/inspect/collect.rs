@@ -1,5 +1,7 @@
 //! Findings as they are collected: in millimetres, with their severity, and no more than a list can show.
 
+use glam::DVec2;
+
 use super::components::Patch;
 use super::finding::{Code, Finding};
 use super::forest::Tree;
@@ -60,6 +62,17 @@ impl<'a> Frame<'a> {
     /// The volume of so many pixels times bins.
     pub fn volume_mm3(&self, volume: u64) -> f64 {
         volume as f64 * self.grid.pixel_mm2() * self.bin_mm
+    }
+
+    /// Column and row of a point, counted in the area.
+    pub fn pixel(&self, x_mm: f64, y_mm: f64) -> [i32; 2] {
+        let pixel = self.grid.to_pixels(DVec2::new(x_mm, y_mm)).floor();
+        let Area {
+            first_column,
+            first_row,
+            ..
+        } = self.area;
+        [pixel.x as i32 - first_column, pixel.y as i32 - first_row]
     }
 
     /// x at twice a column's left edge, counted in the area.

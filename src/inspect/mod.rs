@@ -13,6 +13,7 @@ mod components;
 mod escapes;
 mod finding;
 mod forest;
+mod held;
 mod holes;
 mod hollows;
 mod layer;
@@ -27,6 +28,7 @@ mod thickness;
 use serde::Serialize;
 
 pub use finding::{Code, Finding};
+pub use held::Held;
 pub use limits::{Limits, LimitsError, Severities, Severity};
 pub use peel::Peel;
 
@@ -89,7 +91,8 @@ pub struct Printability {
     pub peel: Peel,
 }
 
-/// Checks the masks of a plan, which must be seen from above.
+/// Checks the masks of a plan, which must be seen from above. Surfaces near the contacts of supports are no overhangs, and
+/// walls and gaps at their tips are no findings.
 ///
 /// The result does not depend on the number of threads.
 ///
@@ -101,6 +104,7 @@ pub fn inspect(
     masks: &Masks,
     plan: &Plan,
     limits: &Limits,
+    held: &Held,
     progress: &mut Progress<'_>,
 ) -> Result<Printability, Cancelled> {
     report(progress, 0.0)?;
@@ -109,7 +113,7 @@ pub fn inspect(
     let mut collector = Collector::new(limits);
     let short = columns::short(masks, &frame, limits);
     report(progress, 0.1)?;
-    let mut sweep = Sweep::new(&frame, limits);
+    let mut sweep = Sweep::new(&frame, limits, held);
     let mut reader = Reader::new(masks, &short, &frame, limits);
     while reader.done() < 1.0 {
         for layer in reader.next() {

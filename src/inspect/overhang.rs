@@ -3,12 +3,13 @@
 //! A pixel is supported if the layer below has a supported pixel within the width that the least self-supporting slope spans in
 //! this layer. All of the first layer is. Of an island, too: whoever supports it does so there. An overhang is where
 //! unsupported pixels are farther than a limit from all supported pixels of their layer. Those of them that bridge the way from one
-//! supported pixel to another are supported by both.
+//! supported pixel to another are supported by both, and those near the contact of a support by it.
 
 use super::bridges::Bridges;
 use super::collect::{Collector, Frame};
 use super::components::Components;
 use super::finding::Code;
+use super::held::{Held, Holds};
 use super::layer::Layer;
 use super::limits::Limits;
 use super::regions::Regions;
@@ -67,11 +68,13 @@ pub(super) struct Overhangs {
     supported: Rows,
     regions: Regions,
     rest: Rest,
+    holds: Holds,
 }
 
 impl Overhangs {
-    pub fn new(frame: &Frame<'_>, limits: &Limits) -> Self {
+    pub fn new(frame: &Frame<'_>, limits: &Limits, held: &Held) -> Self {
         Self {
+            holds: Holds::of_surfaces(held, frame),
             reach: Disc::new(limits.overhang_mm, frame.grid),
             bridges: Bridges::new(limits.bridge_mm, frame.grid),
             unsupported: None,
@@ -88,6 +91,7 @@ impl Overhangs {
             .map(|below| self.carried(layer, &below));
         let mut unsupported = carried.unwrap_or_else(|| layer.flat.clone());
         let mut found = Rows::default();
+        self.holds.take_from(&mut unsupported, layer.number, frame);
         if !unsupported.is_blank() {
             let lit = &layer.alone.lit.rows;
             self.supported = lit.without(&unsupported);

@@ -5,6 +5,7 @@ use super::collect::{Collector, Frame};
 use super::escapes::Escapes;
 use super::finding::Code;
 use super::forest::Step;
+use super::held::{Held, Holds};
 use super::hollows::Hollows;
 use super::layer::Layer;
 use super::limits::Limits;
@@ -19,6 +20,7 @@ pub(super) struct Sweep<'a> {
     hollows: Hollows<'a>,
     escapes: Escapes<'a>,
     overhangs: Overhangs,
+    tips: Holds,
     walls: Regions,
     gaps: Regions,
     holes: Regions,
@@ -28,7 +30,7 @@ pub(super) struct Sweep<'a> {
 }
 
 impl<'a> Sweep<'a> {
-    pub fn new(frame: &'a Frame<'a>, limits: &'a Limits) -> Self {
+    pub fn new(frame: &'a Frame<'a>, limits: &'a Limits, held: &Held) -> Self {
         let regions = |code, limit_mm, least_height_mm| {
             Regions::new(code, limit_mm, limits.speck_px, least_height_mm)
         };
@@ -37,7 +39,8 @@ impl<'a> Sweep<'a> {
             bodies: Bodies::new(frame, limits),
             hollows: Hollows::new(frame, limits),
             escapes: Escapes::new(frame, limits),
-            overhangs: Overhangs::new(frame, limits),
+            overhangs: Overhangs::new(frame, limits, held),
+            tips: Holds::of_tips(held, frame),
             // What is as low as it is thin is the tip of something, or thin along z.
             walls: regions(Code::ThinWall, limits.wall_mm, limits.wall_mm),
             gaps: regions(Code::NarrowGap, limits.gap_mm, limits.gap_mm),
@@ -70,7 +73,10 @@ impl<'a> Sweep<'a> {
         self.escapes
             .advance(number, rooms, meetings, gaps, &self.hollows);
         self.overhangs.advance(&layer, frame, collector);
-        let thin = layer.thin;
+        let mut thin = layer.thin;
+        for rows in [&mut thin.walls, &mut thin.gaps, &mut thin.low_gaps] {
+            self.tips.take_from(rows, number, frame);
+        }
         let regions = [
             (&mut self.walls, thin.walls),
             (&mut self.gaps, thin.gaps),

@@ -13,7 +13,9 @@ mod voxels;
 
 use common::{on_plate, solids};
 use cusp_slicer::grid::{Bins, Grid};
-use cusp_slicer::inspect::{Code, Finding, Limits, Printability, Severities, Severity, inspect};
+use cusp_slicer::inspect::{
+    Code, Finding, Held, Limits, Printability, Severities, Severity, inspect,
+};
 use cusp_slicer::ldi::cpu;
 use cusp_slicer::mask::{Masks, Samples, Side};
 use cusp_slicer::plan::Plan;
@@ -86,7 +88,7 @@ fn masks_with(
 fn check(triangles: &solids::Triangles, limits: &Limits) -> Printability {
     let plan = layers_of(on_plate(triangles).bounds().size().z);
     let masks = masks_of(triangles, [0.05; 2], &plan, Samples::ONE);
-    inspect(&masks, &plan, limits, &mut silent).unwrap()
+    inspect(&masks, &plan, limits, &Held::default(), &mut silent).unwrap()
 }
 
 /// A box from one corner to the other.

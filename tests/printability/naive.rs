@@ -1,6 +1,6 @@
 //! Against brute force on voxels.
 
-use cusp_slicer::inspect::{Code, Limits, Printability, Severity, inspect};
+use cusp_slicer::inspect::{Code, Held, Limits, Printability, Severity, inspect};
 use cusp_slicer::mask::{Masks, Samples};
 use cusp_slicer::plan::Plan;
 use cusp_slicer::progress::silent;
@@ -60,7 +60,7 @@ fn by_brute_force(masks: &Masks, plan: &Plan, limits: &Limits) -> Vec<Found> {
 
 #[track_caller]
 fn compare(name: &str, masks: &Masks, plan: &Plan, limits: &Limits) -> usize {
-    let found = inspect(masks, plan, limits, &mut silent).unwrap();
+    let found = inspect(masks, plan, limits, &Held::default(), &mut silent).unwrap();
     let mut listed = in_whole_numbers(&found, masks, plan);
     let mut expected = by_brute_force(masks, plan, limits);
     for count in &found.counts {
@@ -178,7 +178,7 @@ pub fn random_hollows_have_the_findings_of_brute_force() {
             ..strict()
         };
         compare(&format!("seed {seed}"), &masks, &plan, &limits);
-        let found = inspect(&masks, &plan, &limits, &mut silent).unwrap();
+        let found = inspect(&masks, &plan, &limits, &Held::default(), &mut silent).unwrap();
         escapes += crate::of_code(&found, Code::SmallEscape).len();
     }
     assert!(escapes > 50, "{escapes} small escapes in all");
@@ -227,7 +227,7 @@ fn what_is_ignored_is_not_found() {
         ..strict()
     };
     let has_overhang = |limits: &Limits| {
-        let found = inspect(&masks, &plan, limits, &mut silent).unwrap();
+        let found = inspect(&masks, &plan, limits, &Held::default(), &mut silent).unwrap();
         found.findings.iter().any(|it| it.code == Code::Overhang)
     };
     assert!(has_overhang(&limits));

@@ -1,6 +1,6 @@
 //! The same findings however a solid is written down, wherever it stands, and on any number of threads.
 
-use cusp_slicer::inspect::{Limits, Printability, inspect};
+use cusp_slicer::inspect::{Held, Limits, Printability, inspect};
 use cusp_slicer::mask::Samples;
 use cusp_slicer::plan::Plan;
 use cusp_slicer::progress::silent;
@@ -25,7 +25,7 @@ fn check(triangles: &Triangles, margin: [u32; 2]) -> Printability {
         bridge_mm: 1.0,
         ..strict()
     };
-    inspect(&masks, &plan, &limits, &mut silent).unwrap()
+    inspect(&masks, &plan, &limits, &Held::default(), &mut silent).unwrap()
 }
 
 /// What does not depend on places: code, layers, area and volume, sorted.

@@ -39,7 +39,8 @@ impl Plate {
         let all = planned.models.iter().zip(&masks.stamps).enumerate();
         let found = all.map(|(place, (model, stamp))| {
             let mut within = |fraction| progress(Stage::Inspect, (place as f64 + fraction) / count);
-            let found = inspect::inspect(&stamp.masks, &planned.plan, limits, &mut within);
+            let held = model.sampled().held(limits);
+            let found = inspect::inspect(&stamp.masks, &planned.plan, limits, &held, &mut within);
             Ok(ModelPrintability {
                 model: model.model,
                 found: found.map_err(LdiError::from)?,
