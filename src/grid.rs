@@ -114,6 +114,14 @@ fn bad_size(width: u64, height: u64) -> GridError {
     }
 }
 
+fn check_size(width: u64, height: u64) -> Result<(), GridError> {
+    let side = 1..=u64::from(MAX_SIDE);
+    if !side.contains(&width) || !side.contains(&height) || width * height > MAX_PIXELS {
+        return Err(bad_size(width, height));
+    }
+    Ok(())
+}
+
 /// The pixels of a mask on the plate, or the rays of an LDI, one through each pixel centre.
 ///
 /// Row 0 has the largest y, as in an image; x grows with the column.
@@ -187,10 +195,7 @@ impl Grid {
         height: u64,
         pitch_mm: DVec2,
     ) -> Result<Self, GridError> {
-        let side = 1..=u64::from(MAX_SIDE);
-        if !side.contains(&width) || !side.contains(&height) || width * height > MAX_PIXELS {
-            return Err(bad_size(width, height));
-        }
+        check_size(width, height)?;
         let middle = (bounds.min + bounds.max) * 0.5;
         Ok(Self {
             width: width as u32,
@@ -250,6 +255,26 @@ impl Grid {
             corner_mm: self.corner_mm + DVec2::new(column, -row) * self.pitch(),
             ..*self
         }
+    }
+
+    /// The grid with as many columns and rows more on each side as cover a box.
+    ///
+    /// # Errors
+    /// [`GridError::BadSize`].
+    pub fn containing(&self, bounds: &Bounds) -> Result<Self, GridError> {
+        let first = self.to_pixels(DVec2::new(bounds.min.x, bounds.max.y));
+        let last = self.to_pixels(DVec2::new(bounds.max.x, bounds.min.y));
+        let more = |pixels: f64| pixels.ceil().max(0.0);
+        let (left, above) = (more(-first.x), more(-first.y));
+        let width = left + f64::from(self.width) + more(last.x - f64::from(self.width));
+        let height = above + f64::from(self.height) + more(last.y - f64::from(self.height));
+        check_size(width as u64, height as u64)?;
+        Ok(Self {
+            width: width as u32,
+            height: height as u32,
+            corner_mm: self.corner_mm + DVec2::new(-left, above) * self.pitch(),
+            ..*self
+        })
     }
 
     /// Column and row of the first pixel of `part`, a result of [`Self::around_model`].

@@ -76,6 +76,16 @@ pub enum Warning {
         /// Number of such parts.
         basins: usize,
     },
+    /// A support is asked for at a point that is not on the surface.
+    SupportAstray {
+        /// Its place among those asked for, from 1.
+        point_number: usize,
+    },
+    /// No support reaches these points without touching the model on its way.
+    Unsupported {
+        /// Number of such points.
+        points: usize,
+    },
     /// Rays pass through holes of the mesh, and are closed by the caps alone.
     UnclosedRays {
         /// Number of such rays.
@@ -207,6 +217,15 @@ impl std::fmt::Display for Warning {
             Self::NothingHollowed { .. } | Self::DrainAstray { .. } | Self::Undrained { .. } => {
                 self.of_hollowing(f)
             }
+            Self::SupportAstray { point_number } => write!(
+                f,
+                "support {point_number} is not on the model, and was left out; place it on the surface"
+            ),
+            Self::Unsupported { points } => write!(
+                f,
+                "{} stay unsupported, since no support gets there; turn the model, or make supports thinner",
+                counted(*points, "point")
+            ),
             Self::UnclosedRays { unclosed, rays } => write!(
                 f,
                 "{unclosed} of {rays} rays pass holes of the mesh, which flat caps close; look at the masks"

@@ -41,7 +41,7 @@ pub use plate::{
 };
 pub use report::*;
 pub use resolve::BIN_MM;
-pub use sampled::Hollowed;
+pub use sampled::{Hollowed, Supported};
 pub use slicer::Slicer;
 pub use stage::{Stage, StageProgress};
 pub use verify::*;

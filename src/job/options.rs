@@ -6,7 +6,7 @@ use crate::filament::{FilamentSlicer, USUAL_NOZZLE_MM};
 use crate::format::Format;
 use crate::model::ModelUnit;
 use crate::plan::HeightRange;
-use crate::prepare::Hollowing;
+use crate::prepare::{Hollowing, Supporting};
 use crate::printer::PrinterChoice;
 use crate::profile::{Metric, Source};
 use crate::resin::Resin;
@@ -129,6 +129,9 @@ pub struct Options {
     /// How the model is hollowed; solid if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hollow: Option<Hollowing>,
+    /// How the model is supported, and lifted above the plate; not at all if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub supports: Option<Supporting>,
     /// Name of a known printer, see [`crate::printer::PRINTERS`], or the description of another. It provides pixels, pitch,
     /// mirroring, format and step where these are absent.
     pub printer: Option<PrinterChoice>,
@@ -211,6 +214,7 @@ impl Default for Options {
             height_mm: None,
             unit: None,
             hollow: None,
+            supports: None,
             printer: None,
             pixels: None,
             pitch_mm: None,

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use glam::DVec2;
+
 use super::{Backend, GpuMethod, Minimize, Planner};
 use crate::filament::FilamentSlicer;
 use crate::format::Format;
@@ -11,7 +13,7 @@ use crate::mask::Samples;
 use crate::model::{Bounds, Pose};
 use crate::plan::Limits;
 use crate::plan::optimal::Objective;
-use crate::prepare::Hollowing;
+use crate::prepare::{Hollowing, Supporting};
 use crate::printer::Printer;
 use crate::profile::{Metric, Source};
 use crate::resin::Resin;
@@ -29,6 +31,7 @@ pub(crate) struct Job {
 pub(crate) struct Sampling {
     pub pose: Pose,
     pub hollow: Option<Hollowing>,
+    pub supports: Option<Supporting>,
     pub raster: Raster,
     /// Height of the printer's build volume.
     pub greatest_height_mm: Option<f64>,
@@ -127,21 +130,54 @@ impl Sampling {
             Raster::OfPitch { pitch_mm } => Grid::of_pitch(bounds, pitch_mm)?,
             Raster::Around { pixels } => Grid::around(bounds, pixels)?,
         };
-        let model_mm_z = bounds.size().z;
+        let model_mm_z = bounds.size().z + self.lift_mm();
         match self.greatest_height_mm {
             Some(printer_mm_z) if model_mm_z > printer_mm_z => Err(GridError::ModelTooHigh {
                 model_mm_z,
                 printer_mm_z,
-                fitting_scale: (printer_mm_z / model_mm_z * 1e4).floor() / 1e4,
+                fitting_scale: ((printer_mm_z - self.lift_mm()) / bounds.size().z * 1e4).floor()
+                    / 1e4,
             }),
             _ => Ok(grid),
         }
     }
 
-    /// The requested height, or `size_mm` rounded to the nanometre, which removes the noise of single precision.
+    /// The pixels of the masks for a model with its supports.
+    ///
+    /// # Errors
+    /// [`GridError`], also if the supports extend beyond the printer's plate.
+    pub fn grid_around(&self, grid: Grid, printed: &Bounds) -> Result<Grid, GridError> {
+        let wider = grid.containing(printed)?;
+        if !matches!(self.raster, Raster::Plate { .. }) || wider == grid {
+            return Ok(wider);
+        }
+        let covered = [
+            f64::from(grid.width) * grid.pitch_mm,
+            f64::from(grid.height) * grid.pitch_y_mm,
+        ];
+        let middle = grid.corner_mm + DVec2::new(covered[0], -covered[1]) / 2.0;
+        let size = 2.0 * (printed.max.truncate() - middle).max(middle - printed.min.truncate());
+        Err(GridError::ModelTooLarge {
+            model_mm_x: size.x,
+            model_mm_y: size.y,
+            grid_mm_x: covered[0],
+            grid_mm_y: covered[1],
+            fitting_scale: ((covered[0] / size.x).min(covered[1] / size.y) * 1e4).floor() / 1e4,
+        })
+    }
+
+    /// How far supports lift the model above the plate.
+    pub fn lift_mm(&self) -> f64 {
+        let supports = self.supports.as_ref();
+        supports.map_or(0.0, |supports| supports.profile().lift_mm)
+    }
+
+    /// The requested height, or `size_mm` rounded to the nanometre, which removes the noise of single precision; with what is below
+    /// the model.
     pub fn height_mm(&self, size_mm: f64) -> f64 {
         let asked_mm = self.pose.height_mm;
-        asked_mm.unwrap_or_else(|| (size_mm * 1e6).round() / 1e6)
+        let model_mm = asked_mm.unwrap_or_else(|| (size_mm * 1e6).round() / 1e6);
+        model_mm + self.lift_mm()
     }
 }
 

@@ -7,7 +7,7 @@ use tsify::Tsify;
 
 use super::parts::{Filament, Output};
 use super::planned::{Planned, PlannedModel};
-use super::sampled::{Hollowed, Sampled};
+use super::sampled::{Hollowed, Sampled, Supported};
 use super::{Options, PlateReport};
 use crate::archive::Manifest;
 use crate::filament::FilamentReport;
@@ -387,6 +387,9 @@ pub struct Report {
     /// The void that was left out of it, if the model was hollowed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hollowed: Option<Hollowed>,
+    /// What holds it, if the model is supported.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub supported: Option<Supported>,
     /// The printer, if one was named.
     pub printer: Option<String>,
     /// Heights of the planes at flats and sharp changes.
@@ -489,6 +492,11 @@ fn hollowed(models: &[PlannedModel]) -> Option<Hollowed> {
     })
 }
 
+/// What holds the model. Plates with several have none.
+fn supported(models: &[PlannedModel]) -> Option<Supported> {
+    models.first()?.sampled().supported.clone()
+}
+
 /// The report of a plan that is exported as `output`.
 pub(super) fn report_of(
     planned: &Planned,
@@ -556,6 +564,7 @@ pub(super) fn report_of(
         thickness_mm,
         resin_ml: solid.volume_mm3 / 1e3,
         hollowed: hollowed(models),
+        supported: supported(models),
         printer: output.printer.as_ref().map(|printer| printer.name.clone()),
         snapped_mm: findings.snapped_mm.clone(),
         metric: layering.metric,

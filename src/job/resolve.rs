@@ -11,7 +11,7 @@ use crate::grid::Bins;
 use crate::mask::{LEVELS, Samples};
 use crate::model::Pose;
 use crate::plan::{Limits, PlanError, uniform};
-use crate::prepare::{Hollowing, TooSmall};
+use crate::prepare::{BadLength, Hollowing, Supporting};
 use crate::printer::{self, PRINTERS, Printer, PrinterChoice};
 use crate::profile::Metric;
 
@@ -90,20 +90,27 @@ impl Options {
             (None, None) => Raster::Around { pixels: self.rays },
             (Some(_), None) | (None, Some(_)) => return Err(OptionsError::PixelsWithoutPitch),
         };
-        if let Some(Err(TooSmall {
+        let checks = [
+            self.hollow.as_ref().map(Hollowing::check),
+            self.supports.as_ref().map(Supporting::check),
+        ];
+        if let Some(Err(BadLength {
             option,
             value_mm,
             least_mm,
-        })) = self.hollow.as_ref().map(Hollowing::check)
+            most_mm,
+        })) = checks.into_iter().flatten().find(Result::is_err)
         {
-            return Err(OptionsError::BadHollow {
+            return Err(OptionsError::BadLength {
                 option,
                 value_mm,
                 least_mm,
+                most_mm,
             });
         }
         Ok(Sampling {
             hollow: self.hollow.clone(),
+            supports: self.supports.clone(),
             pose: Pose {
                 rotation: self.rotation,
                 height_mm: self.height_mm,
@@ -250,6 +257,7 @@ impl Options {
         }
         let of_resin = [
             self.hollow.as_ref().map(|_| "hollow"),
+            self.supports.as_ref().map(|_| "supports"),
             self.max_time_s.map(|_| "max_time_s"),
             (self.minimize == Minimize::Time).then_some("minimize"),
         ];

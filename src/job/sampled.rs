@@ -7,11 +7,12 @@ use super::parts::Sampling;
 use super::stage::{Stage, StageProgress, ms_since};
 use super::{Backend, Error, GpuMethod, Timings};
 use crate::grid::Grid;
+use crate::inspect::{Held, Limits};
 use crate::job::report::mesh_warnings;
 use crate::ldi::gpu::{self, Gpu};
 use crate::ldi::{GpuFault, Ldi, LdiError, Solid, cpu};
 use crate::model::{FacetClass, Mesh};
-use crate::prepare::{self, Drain, Void};
+use crate::prepare::{self, Drain, SupportPoint, Supports, Void};
 use crate::progress::Progress;
 use crate::warning::Warning;
 
@@ -28,6 +29,8 @@ pub struct Sampled {
     pub solid: Solid,
     /// What was left out of it, if anything.
     pub hollowed: Option<Hollowed>,
+    /// What holds it, if it is supported.
+    pub supported: Option<Supported>,
     /// The GPU that was used.
     pub gpu: Option<UsedGpu>,
     pub warnings: Vec<Warning>,
@@ -47,8 +50,25 @@ pub struct Hollowed {
     pub resolution_mm: f64,
 }
 
-/// The fraction of the stage of rays that hollowing takes.
-const HOLLOWING_SHARE: f64 = 0.5;
+/// What holds a supported model.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+pub struct Supported {
+    /// Volume of the supports outside the model.
+    pub support_ml: f64,
+    /// How far the model is lifted above the plate.
+    pub lift_mm: f64,
+    /// The points that are supported, from the highest down.
+    pub points: Vec<SupportPoint>,
+    /// The points that no support reaches.
+    pub unreached: Vec<SupportPoint>,
+    /// Supports that stand on the model, where they leave a mark.
+    pub on_model: usize,
+}
+
+/// The fraction of the stage of rays that hollowing and supports take, if there are any.
+const PREPARING_SHARE: f64 = 0.5;
 
 /// A GPU that sampled a model.
 #[derive(Debug, Clone)]
@@ -100,10 +120,15 @@ impl Sampler {
         let clock = Instant::now();
         let mut warnings = mesh_warnings(&mesh);
         let mut hollowed = None;
-        let mut begun = 0.0;
+        let is_prepared = sampling.hollow.is_some() || sampling.supports.is_some();
+        let begun = if is_prepared { PREPARING_SHARE } else { 0.0 };
+        let between = match &sampling.supports {
+            Some(_) if sampling.hollow.is_some() => 0.5 * PREPARING_SHARE,
+            Some(_) => 0.0,
+            None => PREPARING_SHARE,
+        };
         if let Some(hollowing) = &sampling.hollow {
-            begun = HOLLOWING_SHARE;
-            let mut within = |fraction| progress(Stage::Ldi, HOLLOWING_SHARE * fraction);
+            let mut within = |fraction| progress(Stage::Ldi, between * fraction);
             match prepare::hollow(&mesh, hollowing, &mut within)? {
                 Some(void) => {
                     let drains = void.drains.iter().map(|drain| &drain.1);
@@ -123,6 +148,25 @@ impl Sampler {
                 }),
             }
         }
+        let mut supports = None;
+        if let Some(supporting) = &sampling.supports {
+            let mut within =
+                |fraction| progress(Stage::Ldi, between + (PREPARING_SHARE - between) * fraction);
+            let made = prepare::support(&mesh, supporting, &mut within)?;
+            mesh.add(
+                &made.shell.vertices,
+                &made.shell.facets,
+                FacetClass::Support,
+            );
+            mesh.lift(made.lift_mm);
+            warnings.extend(support_warnings(&made));
+            supports = Some(made);
+        }
+        let bounds = mesh.printed_bounds();
+        let grid = match &supports {
+            Some(_) => sampling.grid_around(grid, &bounds)?,
+            None => grid,
+        };
         let mut ldi_progress = |fraction| progress(Stage::Ldi, begun + (1.0 - begun) * fraction);
         let rays = grid.refined(sampling.samples.rays()).around_model(&bounds);
         rays.check_rays()?;
@@ -152,14 +196,22 @@ impl Sampler {
             warnings.push(Warning::UnclosedRays { unclosed, rays });
         }
         timings.ldi += ms_since(clock);
+        let supported = supports.map(|supports| Supported {
+            support_ml: ldi.support_mm3() / 1e3,
+            lift_mm: supports.lift_mm,
+            points: supports.points,
+            unreached: supports.unreached,
+            on_model: supports.on_model,
+        });
         Ok(Sampled {
-            height_mm: sampling.height_mm(bounds.size().z),
+            height_mm: sampling.height_mm(mesh.bounds().size().z),
             sampling: sampling.clone(),
             mesh,
             grid,
             solid: Solid::of(&ldi),
             ldi,
             hollowed,
+            supported,
             gpu,
             warnings,
         })
@@ -210,6 +262,27 @@ impl Sampler {
     }
 }
 
+impl Sampled {
+    /// What supports hold of surfaces that these limits call too flat.
+    pub fn held(&self, limits: &Limits) -> Held {
+        let (Some(supported), Some(supporting)) = (&self.supported, &self.sampling.supports) else {
+            return Held::default();
+        };
+        let contacts = supported.points.iter();
+        let contacts = contacts.map(|point| {
+            let [x, y, z] = point.at_mm;
+            [x, y, z + supported.lift_mm]
+        });
+        let profile = supporting.profile();
+        Held {
+            contacts_mm: contacts.collect(),
+            reach_mm: profile.reach_mm(limits.self_supporting_slope),
+            tip_reach_mm: 2.0 * profile.contact_mm,
+            tip_mm: profile.tip_mm,
+        }
+    }
+}
+
 /// The warnings about holes that drain nothing, and about what stays full.
 fn drain_warnings(void: &Void) -> Vec<Warning> {
     let astray = void.astray.iter();
@@ -221,6 +294,22 @@ fn drain_warnings(void: &Void) -> Vec<Warning> {
     if void.undrained > 0 {
         warnings.push(Warning::Undrained {
             basins: void.undrained,
+        });
+    }
+    warnings
+}
+
+/// The warnings about points that no support reaches, and about those that are not on the surface.
+fn support_warnings(supports: &Supports) -> Vec<Warning> {
+    let astray = supports.astray.iter();
+    let mut warnings: Vec<Warning> = astray
+        .map(|place| Warning::SupportAstray {
+            point_number: place + 1,
+        })
+        .collect();
+    if !supports.unreached.is_empty() {
+        warnings.push(Warning::Unsupported {
+            points: supports.unreached.len(),
         });
     }
     warnings

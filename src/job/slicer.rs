@@ -19,7 +19,7 @@ use super::{Error, MeshInfo, Options, Preview, Report, Timings, Tradeoff};
 use crate::archive::Look;
 use crate::archive::layer_profile::{self, LayeredModel};
 use crate::grid::Bins;
-use crate::inspect::{self, Printability};
+use crate::inspect::{self, Held, Printability};
 use crate::ldi::LdiError;
 use crate::ldi::gpu::Gpu;
 use crate::mask::{MaskCursor, Masks, Side};
@@ -239,7 +239,8 @@ impl Slicer {
         let Job {
             sampling, layering, ..
         } = &self.job(options)?;
-        let mesh = self.model.on_plate(&sampling.pose)?;
+        let mut mesh = self.model.on_plate(&sampling.pose)?;
+        mesh.lift(sampling.lift_mm());
         let size = mesh.bounds().size();
         let height_mm = sampling.height_mm(size.z);
         let bins = Bins::of_height(height_mm, layering.bin_mm)?;
@@ -438,7 +439,9 @@ impl Slicer {
         let planned = Arc::clone(&current.planned);
         let (masks, _) = current.seen();
         let mut progress = |fraction| progress(Stage::Inspect, fraction);
-        let found = inspect::inspect(masks, &planned.plan, limits, &mut progress);
+        let sampled = planned.models.first().map(PlannedModel::sampled);
+        let held = sampled.map_or_else(Held::default, |sampled| sampled.held(limits));
+        let found = inspect::inspect(masks, &planned.plan, limits, &held, &mut progress);
         Ok(found.map_err(LdiError::from)?)
     }
 

@@ -215,6 +215,21 @@ impl Ldi {
         self.offsets.len() - 1
     }
 
+    /// Volume of supports outside the model, in mm³.
+    pub fn support_mm3(&self) -> f64 {
+        let lengths = parallel::map(self.chunks(), |offsets: &[u32]| {
+            let mut length_mm = 0.0;
+            for ray in offsets.windows(2) {
+                let hits = &self.hits[ray[0] as usize..ray[1] as usize];
+                ranges::support_ranges(hits, self.classes, |from_mm, to_mm| {
+                    length_mm += f64::from(to_mm) - f64::from(from_mm);
+                });
+            }
+            length_mm
+        });
+        lengths.into_iter().sum::<f64>() * self.grid.pixel_mm2()
+    }
+
     /// Number of rays that pass through a hole of the sampled mesh. Without the caps these rays would not close.
     pub fn rays_through_holes(&self) -> usize {
         let is_cap = |hit: &Hit| self.classes.of(hit.facet()) == FacetClass::Cap;

@@ -14,10 +14,16 @@ pub fn printed_ranges(hits: &[Hit], classes: FacetClasses, emit: impl FnMut(f32,
         let pass = |winding: &mut i32, hit: Hit| *winding += hit.winding();
         return for_each_range(hits, pass, |winding| winding != 0, emit);
     }
-    let pass = |winding: &mut Winding, hit: Hit| {
-        winding.pass(classes.of(hit.facet()), hit.winding());
-    };
-    for_each_range(hits, pass, Winding::is_inside, emit);
+    for_each_range(hits, passing(classes), Winding::is_inside, emit);
+}
+
+/// [`printed_ranges`] for supports alone: see [`Winding::is_support_alone`].
+pub(super) fn support_ranges(hits: &[Hit], classes: FacetClasses, emit: impl FnMut(f32, f32)) {
+    for_each_range(hits, passing(classes), Winding::is_support_alone, emit);
+}
+
+fn passing(classes: FacetClasses) -> impl Fn(&mut Winding, Hit) {
+    move |winding, hit| winding.pass(classes.of(hit.facet()), hit.winding())
 }
 
 /// [`printed_ranges`] for the model alone, without voids and supports.

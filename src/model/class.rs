@@ -96,6 +96,11 @@ impl Winding {
         }
     }
 
+    /// Whether the point is in a support alone.
+    pub fn is_support_alone(self) -> bool {
+        self.support != 0 && (self.model == 0 || self.void != 0)
+    }
+
     /// Whether the point is printed: inside the model and not inside a void, or inside a support.
     pub fn is_inside(self) -> bool {
         (self.model != 0 && self.void == 0) || self.support != 0

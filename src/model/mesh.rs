@@ -173,15 +173,34 @@ impl Mesh {
         self.classes = self.classes.grown(class, facets.len());
     }
 
-    /// The bounding box of the surface.
-    pub fn bounds(&self) -> Bounds {
-        self.bounds_of(|vertex| self.vertices[vertex].as_dvec3())
+    /// Moves the mesh up, but nothing below the plate.
+    pub fn lift(&mut self, by_mm: f64) {
+        for vertex in &mut self.vertices {
+            vertex.z = ((f64::from(vertex.z) + by_mm) as f32).max(0.0);
+        }
     }
 
-    /// The bounding box of the surface, with vertices at the positions that `place` gives.
-    fn bounds_of(&self, place: impl Fn(usize) -> DVec3) -> Bounds {
+    /// The bounding box of the surface.
+    pub fn bounds(&self) -> Bounds {
+        let surface = &self.facets[..self.surface_facets];
+        Self::bounds_of(surface, |vertex| self.vertices[vertex].as_dvec3())
+    }
+
+    /// The bounding box of all that is printed: the surface and its supports.
+    pub fn printed_bounds(&self) -> Bounds {
+        let place = |vertex: usize| self.vertices[vertex].as_dvec3();
+        let model = self.bounds();
+        let supports = Self::bounds_of(&self.facets[self.classes.end(FacetClass::Void)..], place);
+        Bounds {
+            min: model.min.min(supports.min),
+            max: model.max.max(supports.max),
+        }
+    }
+
+    /// The bounding box of facets, with vertices at the positions that `place` gives.
+    fn bounds_of(facets: &[[u32; 3]], place: impl Fn(usize) -> DVec3) -> Bounds {
         let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for &vertex in self.facets[..self.surface_facets].iter().flatten() {
+        for &vertex in facets.iter().flatten() {
             min = min.min(place(vertex as usize));
             max = max.max(place(vertex as usize));
         }
@@ -236,7 +255,8 @@ impl Mesh {
                 self.vertices.iter().map(turn).collect()
             }
         };
-        let bounds = self.bounds_of(|vertex| turned[vertex]);
+        let surface = &self.facets[..self.surface_facets];
+        let bounds = Self::bounds_of(surface, |vertex| turned[vertex]);
         let size = bounds.size();
         if size.z <= 0.0 {
             return Err(MeshError::ZeroHeight);

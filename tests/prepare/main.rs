@@ -5,6 +5,7 @@ mod common;
 mod drain;
 mod hollow;
 mod jobs;
+mod support;
 
 use cusp_slicer::job::{Options, Report, Slicer};
 use cusp_slicer::prepare::Hollowing;

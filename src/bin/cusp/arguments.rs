@@ -8,7 +8,7 @@ use cusp_slicer::format::Format;
 use cusp_slicer::job::{BIN_MM, Backend, GpuMethod, LAYERS_MM, Minimize, Options, Planner, Snap};
 use cusp_slicer::model::ModelUnit;
 use cusp_slicer::plan::HeightRange;
-use cusp_slicer::prepare::AutoDrain;
+use cusp_slicer::prepare::{AutoDrain, SupportProfile, SupportStrength, Supporting};
 use cusp_slicer::printer::PrinterChoice;
 use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::resin::Resin;
@@ -167,6 +167,12 @@ pub struct Choices {
     /// resin would stay; repeatable
     #[arg(long = "drain", value_name = "auto|X,Y,Z,DX,DY,DZ,DIAMETER", value_parser = drain, allow_hyphen_values = true, help_heading = "Model")]
     drains: Vec<DrainArg>,
+    /// Support the model: light, medium or heavy, auto for medium, none, or a JSON file of strength, sizes and points
+    #[arg(long, value_name = "STRENGTH|FILE.json", help_heading = "Model")]
+    supports: Option<String>,
+    /// How far supports lift the model above the plate [default: 5]
+    #[arg(long, value_name = "MM", value_parser = not_negative, help_heading = "Model")]
+    lift: Option<f64>,
     #[command(flatten)]
     pub target: Target,
     /// Weight facets by saliency: how much they stand out
@@ -331,6 +337,7 @@ impl Choices {
         });
         self.target.put_into(&mut options)?;
         self.put_into(&mut options);
+        self.put_supports(&mut options)?;
         if let (None, Some(name)) = (&options.hollow, self.of_hollow()) {
             let message = format!("{name} is for hollowed models: add --hollow");
             return Err(Failure::from(message));
@@ -418,6 +425,37 @@ impl Choices {
         if let Some(infill) = &mut hollow.infill {
             infill.spacing_mm = self.infill_spacing.unwrap_or(infill.spacing_mm);
             infill.strut_mm = self.strut.unwrap_or(infill.strut_mm);
+        }
+    }
+
+    fn put_supports(&self, options: &mut Options) -> Result<(), Failure> {
+        let of = |strength| {
+            Some(Supporting {
+                strength,
+                ..Supporting::default()
+            })
+        };
+        match self.supports.as_deref() {
+            None => {}
+            Some("none") => options.supports = None,
+            Some("auto") => options.supports = of(SupportStrength::default()),
+            Some(name) => {
+                options.supports = match SupportStrength::from_str(name, false) {
+                    Ok(strength) => of(strength),
+                    Err(_) => Some(read_json(Path::new(name))?),
+                };
+            }
+        }
+        match (&mut options.supports, self.lift) {
+            (Some(supports), Some(lift_mm)) => {
+                let profile = supports.profile();
+                supports.profile = Some(SupportProfile { lift_mm, ..profile });
+                Ok(())
+            }
+            (None, Some(_)) => Err(Failure::from(
+                "--lift is for supported models: add --supports".to_owned(),
+            )),
+            (_, None) => Ok(()),
         }
     }
 

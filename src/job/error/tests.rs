@@ -233,7 +233,7 @@ fn options_errors() -> Vec<OptionsError> {
         BadPrinter { printer: "mine".to_owned(), field: "pitch_um" },
         PixelsWithoutPitch {},
         BadAntialias { antialias: 3, known: [1, 2, 4, 8] },
-        BadHollow { option: "hollow.wall_mm", value_mm: 0.1, least_mm: 0.4 },
+        BadLength { option: "hollow.wall_mm", value_mm: 0.1, least_mm: 0.4, most_mm: 1000.0 },
         BadWeightMin { weight_min: 1.5 },
         SeveralTargets {},
         Contradictory {
@@ -341,6 +341,8 @@ fn warnings() -> Vec<Warning> {
         NothingHollowed { wall_mm: 2.0, cavity_mm: 2.0 },
         DrainAstray { drain_number: 2 },
         Undrained { basins: 3 },
+        SupportAstray { point_number: 2 },
+        Unsupported { points: 3 },
         UnclosedRays { unclosed: 12, rays: 345 },
         ToleranceExceeded { planner: "greedy".to_owned(), metric, tolerance: 0.05, max_error: 0.0712 },
         ToleranceExceededOnMesh { metric, tolerance: 0.05, max_error: 0.0712 },

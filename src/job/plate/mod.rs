@@ -133,7 +133,7 @@ impl Plate {
         let shared = alone.as_ref().unwrap_or(&options.options);
         let job = shared.resolve()?;
         check_own(options, &job)?;
-        check_drains(&job, is_alone)?;
+        check_prepared(&job, is_alone)?;
         let mut timings = Timings::default();
         let clock = Instant::now();
         let screen = screen_of(&job.sampling)?;
@@ -245,14 +245,18 @@ fn check_own(options: &PlateOptions, job: &Job) -> Result<(), OptionsError> {
     Ok(())
 }
 
-/// Refuses holes placed by hand where there are several models or copies, which are turned.
-fn check_drains(job: &Job, is_alone: bool) -> Result<(), OptionsError> {
+/// Refuses what is placed by hand where there are several models or copies, which are turned, and supports, which reach beyond the
+/// shadows by which models are arranged.
+fn check_prepared(job: &Job, is_alone: bool) -> Result<(), OptionsError> {
     let hollow = job.sampling.hollow.as_ref();
-    if is_alone || hollow.is_none_or(|hollow| hollow.drains.is_empty()) {
-        return Ok(());
-    }
+    let option = match &job.sampling.supports {
+        _ if is_alone => return Ok(()),
+        Some(_) => "supports",
+        None if hollow.is_some_and(|hollow| !hollow.drains.is_empty()) => "drains",
+        None => return Ok(()),
+    };
     Err(OptionsError::Contradictory {
-        option: "drains",
+        option,
         other: "models",
     })
 }

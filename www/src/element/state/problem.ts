@@ -92,7 +92,7 @@ const KINDS: Readonly<Record<ErrorCode, Kind>> = {
   "pixels-without-pitch": "badOptions",
   "bad-antialias": "badValue",
   "bad-weight-min": "badValue",
-  "bad-hollow": "badValue",
+  "bad-length": "badValue",
   "several-targets": "badOptions",
   "contradictory-options": "badOptions",
   "printer-layers": "badOptions",

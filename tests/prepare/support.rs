@@ -1,0 +1,456 @@
+//! Supports against closed forms, naive distances and the checks.
+
+use cusp_slicer::inspect::{Code, Limits, Printability};
+use cusp_slicer::job::{Error, Options, OptionsError, Report, Slicer};
+use cusp_slicer::model::{Mesh, Pose};
+use cusp_slicer::prepare::{
+    SupportPoint, SupportProfile, SupportStrength, Supporting, Supports, support,
+};
+use cusp_slicer::profile::{Metric, Source};
+use cusp_slicer::progress::silent;
+use cusp_slicer::warning::Warning;
+use glam::{DVec3, Vec3};
+
+use crate::common::{assert_near, on_plate, quiet, solids};
+use crate::{plan, slicer};
+
+fn supported(supporting: Supporting) -> Options {
+    Options {
+        supports: Some(supporting),
+        pitch_mm: Some(0.1),
+        ..Options::default()
+    }
+}
+
+fn of(profile: SupportProfile) -> Supporting {
+    Supporting {
+        profile: Some(profile),
+        ..Supporting::default()
+    }
+}
+
+fn supports_of(mesh: &Mesh, supporting: &Supporting) -> Supports {
+    support(mesh, supporting, &mut silent).unwrap()
+}
+
+fn point(at_mm: [f64; 3]) -> SupportPoint {
+    SupportPoint {
+        at_mm,
+        contact_mm: None,
+    }
+}
+
+fn checked(slicer: &mut Slicer, options: &Options) -> (Report, Printability) {
+    let report = plan(slicer, options);
+    let found = slicer.inspect(&Limits::default(), &mut quiet).unwrap();
+    (report, found)
+}
+
+/// The largest area and number of layers of an island, in pixels.
+fn largest_island(found: &Printability, pixel_mm2: f64) -> (f64, usize) {
+    let islands = found.findings.iter().filter(|it| it.code == Code::Island);
+    islands.fold((0.0, 0), |(pixels, layers), island| {
+        let joins = island.joins_layer.unwrap_or(usize::MAX);
+        (
+            f64::max(pixels, island.area_mm2 / pixel_mm2),
+            layers.max(joins - island.layers[0]),
+        )
+    })
+}
+
+/// The models that supports are tried on.
+fn models() -> Vec<(&'static str, solids::Triangles)> {
+    let torture = solids::torture().into_iter();
+    // A needle and a knife edge have nothing for pixels of a tenth of a millimetre.
+    let torture = torture.filter(|it| !it.0.starts_with("needle") && !it.0.starts_with("knife"));
+    let torture = torture.map(|(name, triangles, _)| (name, triangles));
+    solids::all().into_iter().chain(torture).collect()
+}
+
+#[test]
+fn a_supported_model_hangs_together_and_its_islands_are_gone() {
+    for (name, triangles) in models() {
+        let mut model = slicer(&triangles);
+        let (report, found) = checked(&mut model, &supported(Supporting::default()));
+        let (pixels, layers) = largest_island(&found, 0.01);
+        // Pixels that a layer begins with a layer early.
+        let supported = report.supported.unwrap();
+        // The gyroid has sheets and ridges thinner than pixels: masks show parts of them a layer or two early.
+        let most = if name == "gyroid" {
+            (25.5, 2)
+        } else {
+            (0.0, 0)
+        };
+        assert!(
+            pixels <= most.0 && layers <= most.1,
+            "{name}: {pixels} {layers}"
+        );
+        let counts = found.counts.iter();
+        let loose = counts.filter(|it| [Code::LooseBody, Code::Overhang].contains(&it.code));
+        let is_reached = supported.unreached.is_empty();
+        assert!(
+            !is_reached || loose.count() == 0,
+            "{name}: {:?}",
+            found.counts
+        );
+        // Ten slabs a tenth of a millimetre apart leave no room, and points between them are named.
+        assert_eq!(is_reached, name != "a hundred surfaces on a ray", "{name}");
+        assert!(!supported.points.is_empty(), "{name}");
+    }
+}
+
+#[test]
+fn contacts_keep_the_load_rule() {
+    // The bottom of a disc is level; that of a ball is held up to its slope.
+    let disc = on_plate(&solids::cylinder(15.0, 3.0, 24));
+    let profile = SupportStrength::Medium.profile();
+    let supports = supports_of(&disc, &Supporting::default());
+    let points = supports.points.iter();
+    let points: Vec<DVec3> = points.map(|it| DVec3::from_array(it.at_mm)).collect();
+    assert!(points.iter().all(|at| at.z == 0.0));
+    let nearest_mm = |from: DVec3| {
+        let others = points.iter().filter(|&&it| it != from);
+        others
+            .map(|it| it.distance(from))
+            .fold(f64::INFINITY, f64::min)
+    };
+    for &at in &points {
+        // To a thousandth, to which points are rounded.
+        assert!(nearest_mm(at) > profile.spacing_mm - 0.002);
+    }
+    let mut rng = fastrand::Rng::with_seed(7);
+    for _ in 0..2000 {
+        let at = DVec3::new(rng.f64() * 30.0 - 15.0, rng.f64() * 30.0 - 15.0, 0.0);
+        if at.length() < 14.8 {
+            assert!(nearest_mm(at) < profile.spacing_mm + 0.3, "{at}");
+        }
+    }
+
+    let ball = on_plate(&solids::sphere(12.0, 6));
+    let supports = supports_of(&ball, &Supporting::default());
+    let steepest = supports.points.iter().map(|it| {
+        let [x, y, z] = it.at_mm;
+        x.hypot(y) / (12.0 - z)
+    });
+    let steepest = steepest.fold(0.0, f64::max);
+    // The slope of a ball is its radius across over that down.
+    assert!(
+        steepest < profile.self_supporting_slope + 0.02,
+        "{steepest}"
+    );
+    assert!(steepest > 0.4, "{steepest}");
+}
+
+#[test]
+fn tips_touch_what_they_should() {
+    let mut slab = slicer(&solids::cuboid(Vec3::new(12.0, 9.0, 3.0)));
+    for strength in [
+        SupportStrength::Light,
+        SupportStrength::Medium,
+        SupportStrength::Heavy,
+    ] {
+        let options = Options {
+            pitch_mm: Some(0.02),
+            bin_mm: Some(0.01),
+            planner: cusp_slicer::job::Planner::Uniform { layer_mm: 0.05 },
+            ..supported(Supporting {
+                strength,
+                ..Supporting::default()
+            })
+        };
+        let (report, found) = checked(&mut slab, &options);
+        let profile = strength.profile();
+        let contacts = report.supported.as_ref().unwrap().points.len();
+        // Lit just below the slab, with what a cone is wider half a layer down.
+        let layer = (profile.lift_mm / 0.05) as usize - 1;
+        let lit_mm2 = found.peel.area_mm2[layer];
+        let slope = (profile.pillar_mm - profile.contact_mm) / 2.0 / profile.tip_mm;
+        let radius_mm = profile.contact_mm / 2.0 + 0.025 * slope;
+        let polygon = 3.0615;
+        let wanted_mm2 = contacts as f64 * polygon * radius_mm * radius_mm;
+        assert_near(lit_mm2, wanted_mm2, 0.03 * wanted_mm2);
+    }
+}
+
+#[test]
+fn pillars_keep_clear_of_the_model() {
+    let profile = SupportStrength::Medium.profile();
+    for (name, triangles) in [
+        ("frame", solids::frame()),
+        ("ball", solids::sphere(10.0, 5)),
+        ("roofs", solids::crossing_roofs()),
+        ("gyroid", solids::gyroid(2, 16)),
+    ] {
+        let mesh = Mesh::from_triangles(&triangles).unwrap();
+        let mesh = mesh.on_plate(&Pose::of_height(30.0)).unwrap();
+        let supports = supports_of(&mesh, &Supporting::default());
+        let contacts = supports.points.iter().chain(&supports.unreached);
+        let contacts: Vec<DVec3> = contacts.map(|it| DVec3::from_array(it.at_mm)).collect();
+        let mut nearest_mm = f64::INFINITY;
+        for &vertex in supports.shell.vertices.iter().step_by(3) {
+            let vertex = vertex.as_dvec3();
+            let is_tip = |at: &DVec3| at.distance(vertex) < profile.tip_mm + profile.pillar_mm;
+            if !contacts.iter().any(is_tip) {
+                nearest_mm = nearest_mm.min(naive_distance_mm(&mesh, vertex));
+            }
+        }
+        let foot_mm = if supports.on_model > 0 { 0.0 } else { 1.0 };
+        let least_mm = foot_mm * (profile.clearance_mm - 0.2);
+        assert!(nearest_mm >= least_mm, "{name}: {nearest_mm}");
+    }
+}
+
+fn naive_distance_mm(mesh: &Mesh, point: DVec3) -> f64 {
+    let facets = (0..mesh.surface_facets).map(|facet| {
+        let [a, b, c] = mesh.corners(facet);
+        let normal = (b - a).cross(c - a);
+        let is_over = |p: DVec3, q: DVec3| normal.cross(q - p).dot(point - p) >= 0.0;
+        if is_over(a, b) && is_over(b, c) && is_over(c, a) {
+            return (normal.dot(point - a) / normal.length()).abs();
+        }
+        let edges = [(a, b), (b, c), (c, a)].map(|(p, q)| {
+            let part = ((q - p).dot(point - p) / (q - p).length_squared()).clamp(0.0, 1.0);
+            (p + (q - p) * part).distance(point)
+        });
+        edges.into_iter().fold(f64::INFINITY, f64::min)
+    });
+    facets.fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn a_supported_model_has_the_planes_of_the_lifted_one() {
+    let mut ball = slicer(&solids::sphere(8.0, 5));
+    let metrics = [
+        Metric::Cusp,
+        Metric::Deviation,
+        Metric::Roughness,
+        Metric::Area,
+        Metric::Volume,
+    ];
+    for metric in metrics {
+        for source in [Source::Exact, Source::Sampled] {
+            let with = Options {
+                metric,
+                source,
+                ..supported(Supporting::default())
+            };
+            let without = Options {
+                supports: Some(Supporting {
+                    points: Some(Vec::new()),
+                    ..Supporting::default()
+                }),
+                ..with.clone()
+            };
+            let [with, without] = [with, without].map(|options| plan(&mut ball, &options));
+            assert_eq!(with.z_mm, without.z_mm, "{metric:?} {source:?}");
+            assert_eq!(with.max_error, without.max_error, "{metric:?} {source:?}");
+            let supported = with.supported.unwrap();
+            let more_ml = with.resin_ml - without.resin_ml;
+            assert_near(more_ml, supported.support_ml, 1e-3 * more_ml);
+        }
+    }
+    // On the plate, the planes are those of the model alone.
+    let on_plate = SupportProfile {
+        lift_mm: 0.0,
+        ..SupportProfile::default()
+    };
+    let bare = Options {
+        supports: None,
+        ..supported(Supporting::default())
+    };
+    let mut ball = slicer(&solids::sphere(16.0, 5));
+    let [bare, held] = [bare, supported(of(on_plate))].map(|options| plan(&mut ball, &options));
+    assert_eq!(bare.z_mm, held.z_mm);
+    assert!(held.resin_ml > bare.resin_ml);
+}
+
+#[test]
+fn without_supports_a_model_is_as_it_was() {
+    let mut ball = slicer(&solids::sphere(6.0, 4));
+    let bare = Options {
+        supports: None,
+        ..supported(Supporting::default())
+    };
+    let file = |slicer: &mut Slicer| slicer.write_archive(Vec::new(), &mut quiet).unwrap().0;
+    plan(&mut ball, &bare);
+    let before = file(&mut ball);
+    plan(&mut ball, &supported(Supporting::default()));
+    assert!(file(&mut ball) != before);
+    plan(&mut ball, &bare);
+    assert!(file(&mut ball) == before);
+}
+
+#[test]
+fn points_of_a_report_can_be_given_again() {
+    for triangles in [
+        solids::frame(),
+        solids::sphere(9.0, 5),
+        solids::gyroid(2, 12),
+    ] {
+        let mesh = Mesh::from_triangles(&triangles).unwrap();
+        let mesh = mesh.on_plate(&Pose::of_height(25.0)).unwrap();
+        let automatic = supports_of(&mesh, &Supporting::default());
+        let given = Supporting {
+            points: Some(automatic.points.clone()),
+            ..Supporting::default()
+        };
+        let again = supports_of(&mesh, &given);
+        assert_eq!(again.points, automatic.points);
+        assert!(again.shell == automatic.shell);
+    }
+}
+
+#[test]
+fn points_by_hand_are_held_or_named() {
+    let ball = on_plate(&solids::sphere(10.0, 5));
+    let thick = SupportPoint {
+        contact_mm: Some(0.9),
+        ..point([0.0, 0.0, 0.0])
+    };
+    let given = Supporting {
+        points: Some(vec![thick, point([30.0, 0.0, 0.0]), point([0.0, 7.1, 2.9])]),
+        ..Supporting::default()
+    };
+    let supports = supports_of(&ball, &given);
+    assert_eq!(supports.astray, [1]);
+    assert_eq!(supports.points.len(), 2);
+    assert_eq!(supports.points[1].contact_mm, Some(0.9));
+    let mut ball = slicer(&solids::sphere(10.0, 5));
+    let report = plan(&mut ball, &supported(given));
+    let astray = Warning::SupportAstray { point_number: 2 };
+    assert_eq!(report.warnings, [astray]);
+
+    // Inside a closed shell nothing leads to the plate, but its floor is there; in a narrow slot there is no room.
+    let mut shell = solids::sphere(15.0, 5);
+    shell.extend(solids::inverted(&solids::sphere(13.0, 5)));
+    let supports = supports_of(
+        &on_plate(&shell),
+        &Supporting {
+            points: Some(vec![point([0.0, 0.0, 28.0])]),
+            ..Supporting::default()
+        },
+    );
+    assert_eq!((supports.points.len(), supports.on_model), (1, 1));
+    let mut slot = solids::cuboid(Vec3::new(10.0, 10.0, 5.0));
+    slot.extend(solids::moved(
+        &solids::cuboid(Vec3::new(10.0, 10.0, 5.0)),
+        Vec3::new(0.0, 0.0, 5.1),
+    ));
+    let given = Supporting {
+        points: Some(vec![point([0.0, 0.0, 5.1])]),
+        ..Supporting::default()
+    };
+    let supports = supports_of(&on_plate(&slot), &given);
+    assert_eq!((supports.points.len(), supports.unreached.len()), (0, 1));
+    let report = plan(&mut slicer(&slot), &supported(given));
+    assert!(
+        report
+            .warnings
+            .contains(&Warning::Unsupported { points: 1 })
+    );
+}
+
+#[test]
+fn feet_stand_on_a_raft_if_asked() {
+    let mut ball = slicer(&solids::sphere(10.0, 5));
+    let raft = SupportProfile {
+        raft: true,
+        ..SupportProfile::default()
+    };
+    let with = checked(&mut ball, &supported(of(raft)));
+    let on_plate = with.1.peel.area_mm2[0];
+    let without = checked(&mut ball, &supported(Supporting::default()));
+    assert!(on_plate > 1.5 * without.1.peel.area_mm2[0], "{on_plate}");
+    assert_eq!(with.1.bodies, 1);
+}
+
+#[test]
+fn sizes_that_nothing_can_be_made_of_are_refused() {
+    let usual = SupportProfile::default();
+    let cases = [
+        (
+            "supports.profile.lift_mm",
+            SupportProfile {
+                lift_mm: -1.0,
+                ..usual
+            },
+        ),
+        (
+            "supports.profile.contact_mm",
+            SupportProfile {
+                contact_mm: 0.0,
+                ..usual
+            },
+        ),
+        (
+            "supports.profile.spacing_mm",
+            SupportProfile {
+                spacing_mm: f64::NAN,
+                ..usual
+            },
+        ),
+        (
+            "supports.profile.pillar_mm",
+            SupportProfile {
+                pillar_mm: f64::INFINITY,
+                ..usual
+            },
+        ),
+        (
+            "supports.profile.foot_mm",
+            SupportProfile {
+                foot_mm: 0.5,
+                ..usual
+            },
+        ),
+        (
+            "supports.profile.tip_mm",
+            SupportProfile {
+                tip_mm: 1e9,
+                ..usual
+            },
+        ),
+    ];
+    for (name, profile) in cases {
+        let error = supported(of(profile)).check().unwrap_err();
+        let Error::Options(OptionsError::BadLength { option, .. }) = error else {
+            panic!("{error}");
+        };
+        assert_eq!(option, name);
+    }
+    // The largest and the smallest of all sizes still end.
+    let mut cube = slicer(&solids::cube(10.0));
+    for mm in [50.0, 20.0] {
+        let large = SupportProfile {
+            contact_mm: mm,
+            pillar_mm: mm,
+            foot_mm: mm,
+            tip_mm: mm,
+            clearance_mm: mm,
+            spacing_mm: mm,
+            ..usual
+        };
+        plan(&mut cube, &supported(of(large)));
+    }
+}
+
+#[test]
+fn the_result_does_not_depend_on_the_order_of_facets() {
+    let triangles = solids::gyroid(2, 12);
+    let mesh = |triangles: &solids::Triangles| {
+        let mesh = Mesh::from_triangles(triangles).unwrap();
+        mesh.on_plate(&Pose::of_height(20.0)).unwrap()
+    };
+    let one = supports_of(&mesh(&triangles), &Supporting::default());
+    let other = supports_of(&mesh(&solids::shuffled(&triangles)), &Supporting::default());
+    let points = |supports: &Supports| {
+        let mut points: Vec<[u64; 3]> = supports
+            .points
+            .iter()
+            .map(|it| it.at_mm.map(f64::to_bits))
+            .collect();
+        points.sort_unstable();
+        points
+    };
+    assert_eq!(points(&one), points(&other));
+}
