@@ -223,7 +223,7 @@ impl std::fmt::Display for Warning {
             ),
             Self::Unsupported { points } => write!(
                 f,
-                "{} stay unsupported, since no support gets there; turn the model, or make supports thinner",
+                "{} without a support, since none gets there; turn the model, or choose lighter supports",
                 counted(*points, "point")
             ),
             Self::UnclosedRays { unclosed, rays } => write!(

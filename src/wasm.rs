@@ -245,6 +245,11 @@ impl Slicer {
         self.slicer.positions()
     }
 
+    /// Vertex positions of the last plan's supports, nine numbers per facet, in millimetres from the plate; none without supports.
+    pub fn supports(&self) -> Vec<f32> {
+        self.slicer.support_positions()
+    }
+
     /// The saliency of each facet, 0 to 1: how much it stands out.
     ///
     /// # Errors

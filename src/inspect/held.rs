@@ -2,8 +2,9 @@
 
 use super::collect::Frame;
 use super::rows::{Disc, Rows, Span};
+use crate::order::sort_by_number;
 
-/// The contacts of supports.
+/// Where supports touch the model and each other.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Held {
     /// Where they are: x, y and z in millimetres, as in findings.
@@ -14,30 +15,40 @@ pub struct Held {
     pub tip_reach_mm: f64,
     /// How far a tip reaches down from its contact.
     pub tip_mm: f64,
+    /// Where branches join, and how far gaps between them reach from there.
+    pub joints_mm: Vec<[f64; 3]>,
+    /// How far from a joint gaps are those of its branches.
+    pub joint_reach_mm: f64,
 }
 
-/// Cylinders around the contacts, in pixels.
+/// Cylinders around points, in pixels.
 pub(super) struct Holds {
     disc: Disc,
     below_mm: f64,
     above_mm: f64,
-    /// Column, row and height of each contact.
-    contacts: Vec<(i32, i32, f64)>,
+    /// Column, row and height of each point.
+    points: Vec<(i32, i32, f64)>,
 }
 
 impl Holds {
     /// What contacts hold.
     pub fn of_surfaces(held: &Held, frame: &Frame<'_>) -> Self {
-        Self::new(held, held.reach_mm, 0.0, frame)
+        Self::new(&held.contacts_mm, held.reach_mm, 0.0, frame)
     }
 
     /// Where tips are.
     pub fn of_tips(held: &Held, frame: &Frame<'_>) -> Self {
-        Self::new(held, held.tip_reach_mm, held.tip_mm, frame)
+        Self::new(&held.contacts_mm, held.tip_reach_mm, held.tip_mm, frame)
     }
 
-    fn new(held: &Held, reach_mm: f64, below_mm: f64, frame: &Frame<'_>) -> Self {
-        let contacts = held.contacts_mm.iter().map(|&[x_mm, y_mm, z_mm]| {
+    /// Where branches join.
+    pub fn of_joints(held: &Held, frame: &Frame<'_>) -> Self {
+        let reach_mm = held.joint_reach_mm;
+        Self::new(&held.joints_mm, reach_mm, reach_mm, frame)
+    }
+
+    fn new(points_mm: &[[f64; 3]], reach_mm: f64, below_mm: f64, frame: &Frame<'_>) -> Self {
+        let points = points_mm.iter().map(|&[x_mm, y_mm, z_mm]| {
             let [column, row] = frame.pixel(x_mm, y_mm);
             (column, row, z_mm)
         });
@@ -45,7 +56,7 @@ impl Holds {
             disc: Disc::new(reach_mm, frame.grid),
             below_mm,
             above_mm: reach_mm,
-            contacts: contacts.collect(),
+            points: points.collect(),
         }
     }
 
@@ -56,7 +67,7 @@ impl Holds {
         }
         let [bottom_mm, top_mm] = [layer, layer + 1].map(|boundary| frame.z_mm[boundary]);
         let near = self
-            .contacts
+            .points
             .iter()
             .filter(|(.., z_mm)| z_mm - self.below_mm < top_mm && bottom_mm < z_mm + self.above_mm);
         let near: Vec<_> = near.collect();
@@ -74,7 +85,7 @@ impl Holds {
                     end: column + half_width + 1,
                 })
             }));
-            spans.sort_unstable_by_key(|span| span.start);
+            sort_by_number(&mut spans, |span| f64::from(span.start));
             for &span in &spans {
                 theirs.push(span);
             }

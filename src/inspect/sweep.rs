@@ -21,6 +21,7 @@ pub(super) struct Sweep<'a> {
     escapes: Escapes<'a>,
     overhangs: Overhangs,
     tips: Holds,
+    joints: Holds,
     walls: Regions,
     gaps: Regions,
     holes: Regions,
@@ -41,6 +42,7 @@ impl<'a> Sweep<'a> {
             escapes: Escapes::new(frame, limits),
             overhangs: Overhangs::new(frame, limits, held),
             tips: Holds::of_tips(held, frame),
+            joints: Holds::of_joints(held, frame),
             // What is as low as it is thin is the tip of something, or thin along z.
             walls: regions(Code::ThinWall, limits.wall_mm, limits.wall_mm),
             gaps: regions(Code::NarrowGap, limits.gap_mm, limits.gap_mm),
@@ -76,6 +78,9 @@ impl<'a> Sweep<'a> {
         let mut thin = layer.thin;
         for rows in [&mut thin.walls, &mut thin.gaps, &mut thin.low_gaps] {
             self.tips.take_from(rows, number, frame);
+        }
+        for rows in [&mut thin.gaps, &mut thin.holes, &mut thin.low_gaps] {
+            self.joints.take_from(rows, number, frame);
         }
         let regions = [
             (&mut self.walls, thin.walls),

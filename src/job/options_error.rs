@@ -56,8 +56,8 @@ pub enum OptionsError {
         known: [u32; 4],
     },
     /// A length of hollowing or of supports is out of bounds.
-    #[error("{option} must be from {least_mm} to {most_mm} mm, not {value_mm} mm")]
-    #[serde(rename = "bad-length")]
+    #[error("{option} must be from {least_mm} mm to {most_mm} mm, not {value_mm} mm")]
+    #[serde(rename = "bad-size")]
     BadLength {
         /// Its name in the options.
         option: &'static str,

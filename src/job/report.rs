@@ -339,6 +339,8 @@ pub struct Preview {
     pub layers: usize,
     /// Extent of the model in x, y and z.
     pub size_mm: [f64; 3],
+    /// How far supports lift it above the plate.
+    pub lift_mm: f64,
     /// Heights of layer boundaries, from 0 upward: one more than there are layers.
     pub z_mm: Vec<f64>,
     /// Thickness of each layer.

@@ -65,6 +65,9 @@ pub struct Supported {
     pub unreached: Vec<SupportPoint>,
     /// Supports that stand on the model, where they leave a mark.
     pub on_model: usize,
+    /// Where pillars, branches and braces join, from the model's lowest point.
+    #[serde(skip)]
+    pub joints_mm: Vec<[f64; 3]>,
 }
 
 /// The fraction of the stage of rays that hollowing and supports take, if there are any.
@@ -202,6 +205,7 @@ impl Sampler {
             points: supports.points,
             unreached: supports.unreached,
             on_model: supports.on_model,
+            joints_mm: supports.joints_mm,
         });
         Ok(Sampled {
             height_mm: sampling.height_mm(mesh.bounds().size().z),
@@ -268,17 +272,16 @@ impl Sampled {
         let (Some(supported), Some(supporting)) = (&self.supported, &self.sampling.supports) else {
             return Held::default();
         };
-        let contacts = supported.points.iter();
-        let contacts = contacts.map(|point| {
-            let [x, y, z] = point.at_mm;
-            [x, y, z + supported.lift_mm]
-        });
+        let lifted = |[x, y, z]: [f64; 3]| [x, y, z + supported.lift_mm];
+        let contacts = supported.points.iter().map(|point| lifted(point.at_mm));
         let profile = supporting.profile();
         Held {
             contacts_mm: contacts.collect(),
             reach_mm: profile.reach_mm(limits.self_supporting_slope),
             tip_reach_mm: 2.0 * profile.contact_mm,
             tip_mm: profile.tip_mm,
+            joints_mm: supported.joints_mm.iter().copied().map(lifted).collect(),
+            joint_reach_mm: 2.0 * profile.pillar_mm,
         }
     }
 }

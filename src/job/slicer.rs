@@ -146,7 +146,17 @@ impl Slicer {
 
     /// Vertex positions of the surface facets, nine numbers per facet, in millimetres, in the file's frame.
     pub fn positions(&self) -> Vec<f32> {
-        positions(&self.model)
+        surface_positions(&self.model)
+    }
+
+    /// Vertex positions of the last plan's supports, nine numbers per facet, in millimetres from the plate; none without supports.
+    pub fn support_positions(&self) -> Vec<f32> {
+        let planned = self.current.as_ref().map(|current| &current.planned);
+        let sampled = planned.and_then(|planned| planned.models.first());
+        sampled.map_or_else(Vec::new, |model| {
+            let mesh = &model.sampled().mesh;
+            positions(mesh, mesh.supports())
+        })
     }
 
     /// Vertex positions of the surface facets, nine numbers per facet, in millimetres, with the model on the plate in this
@@ -156,7 +166,9 @@ impl Slicer {
     /// [`Error::Mesh`].
     pub fn positions_on_plate(&self, pose: &Pose) -> Result<Vec<f32>, Error> {
         let unit = pose.unit.filter(|_| self.facts.unit.is_none());
-        Ok(positions(&self.model.on_plate(&Pose { unit, ..*pose })?))
+        Ok(surface_positions(
+            &self.model.on_plate(&Pose { unit, ..*pose })?,
+        ))
     }
 
     /// Sets a weight from 0 to 1 for each facet of the surface, or removes all weights. Later plans use them.
@@ -253,6 +265,7 @@ impl Slicer {
         let preview = Preview {
             layers: plan.layers(),
             size_mm: size.to_array(),
+            lift_mm: sampling.lift_mm(),
             z_mm: plan.z_mm(),
             thickness_mm: plan.thickness_mm(),
             metric: layering.metric,
@@ -519,9 +532,14 @@ impl Current {
     }
 }
 
-/// Vertex positions of the surface facets, nine numbers per facet.
-fn positions(mesh: &Mesh) -> Vec<f32> {
-    let facets = mesh.facets[..mesh.surface_facets].iter();
+/// Vertex positions of the surface facets.
+fn surface_positions(mesh: &Mesh) -> Vec<f32> {
+    positions(mesh, &mesh.facets[..mesh.surface_facets])
+}
+
+/// Vertex positions of facets, nine numbers per facet.
+fn positions(mesh: &Mesh, facets: &[[u32; 3]]) -> Vec<f32> {
+    let facets = facets.iter();
     let corners = facets
         .flatten()
         .map(|&vertex| mesh.vertices[vertex as usize]);

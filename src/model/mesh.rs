@@ -186,11 +186,16 @@ impl Mesh {
         Self::bounds_of(surface, |vertex| self.vertices[vertex].as_dvec3())
     }
 
+    /// The facets of supports.
+    pub fn supports(&self) -> &[[u32; 3]] {
+        &self.facets[self.classes.end(FacetClass::Void)..]
+    }
+
     /// The bounding box of all that is printed: the surface and its supports.
     pub fn printed_bounds(&self) -> Bounds {
         let place = |vertex: usize| self.vertices[vertex].as_dvec3();
         let model = self.bounds();
-        let supports = Self::bounds_of(&self.facets[self.classes.end(FacetClass::Void)..], place);
+        let supports = Self::bounds_of(self.supports(), place);
         Bounds {
             min: model.min.min(supports.min),
             max: model.max.max(supports.max),

@@ -120,7 +120,7 @@ fn a_check_can_be_cancelled() {
             std::ops::ControlFlow::Continue(())
         }
     };
-    let found = inspect(&masks, &plan, &strict(), &mut stop);
+    let found = inspect(&masks, &plan, &strict(), &Held::default(), &mut stop);
     assert!(found.is_err());
     assert_eq!(calls, 3);
 }

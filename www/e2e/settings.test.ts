@@ -102,6 +102,31 @@ test("a model is hollowed by the thickness of its walls, and drained", async () 
   await expect.poll(() => page.getByText("0.4 to 50").count()).toBe(1);
 });
 
+test("a model is supported, and stands that much higher", async () => {
+  const page = await opened();
+  const report = (): Promise<{ resin_ml: number; height_mm: number; supported?: { lift_mm: number; points: unknown[]; support_ml: number } }> =>
+    page.evaluate(() => {
+      const report = document.querySelector<CuspWorkbench>("cusp-workbench")?.result?.report;
+      if (report === undefined) throw new Error("no result");
+      return report;
+    });
+  const size = page.locator("cusp-workbench .model dd").first();
+  const [bare, own] = [await report(), await size.innerText()];
+  await page.getByLabel("Supports").selectOption("Medium");
+  await settled(page);
+  const supported = await report();
+  expect(supported.height_mm - bare.height_mm).toBeCloseTo(5, 6);
+  expect(supported.supported?.points.length).toBeGreaterThan(3);
+  expect(supported.resin_ml - bare.resin_ml).toBeCloseTo(supported.supported?.support_ml ?? 0, 3);
+  expect(await page.getByText("The model prints with supports, not hollowed.").count()).toBe(1);
+  // The model itself is as large as before.
+  expect(await size.innerText()).toBe(own);
+  expect(new URL(page.url()).search).toBe("?supports=medium");
+  await page.getByLabel("Supports").selectOption("None");
+  await settled(page);
+  expect(await report()).toMatchObject({ resin_ml: bare.resin_ml, height_mm: bare.height_mm });
+});
+
 test("the page speaks the reader's language, and another when asked", async () => {
   const page = await start("", { locale: "es-MX" });
   expect(await page.title()).toMatch(/^Cusp: capas/);

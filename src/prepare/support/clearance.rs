@@ -3,6 +3,8 @@
 //! Distances are known on a lattice of nodes, and between nodes by interpolation. Ways go from node to node, straight down or down at 45° along
 //! an axis; sweeping the lattice once from the plate up finds the shortest one from every node.
 
+use std::cmp::Ordering;
+
 use glam::{DVec3, Vec3};
 
 use crate::ldi::LdiError;
@@ -168,9 +170,19 @@ impl Clearance {
             columns.map(floor)
         });
         // None, the plate, is below all others.
-        let mut sorted: Vec<Option<f32>> = floors.collect();
-        sorted.sort_unstable_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
-        [sorted[0], sorted[3]]
+        let floors: Vec<Option<f32>> = floors.collect();
+        let is_below = |a: Option<f32>, b: Option<f32>| a.partial_cmp(&b) == Some(Ordering::Less);
+        let [lowest, highest] = [false, true].map(|wants_highest| {
+            let floors = floors.iter().copied();
+            floors.reduce(|a, b| {
+                if is_below(a, b) == wants_highest {
+                    b
+                } else {
+                    a
+                }
+            })
+        });
+        [lowest.flatten(), highest.flatten()]
     }
 
     /// A point in nodes: columns, rows and slices.

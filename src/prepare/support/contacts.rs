@@ -1,11 +1,11 @@
 //! Where a model needs supports: at its lowest points, and on surfaces that are too flat to support themselves.
 
 use glam::{DVec2, DVec3};
-use rustc_hash::FxHashMap;
 
 use super::SupportProfile;
 use crate::ldi::Ldi;
 use crate::model::{Across, Mesh};
+use crate::order::sort_by_number;
 
 /// A place on the surface that needs a support.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,7 +30,7 @@ const LONE: f64 = 2.0;
 ///
 pub(super) fn place(surface: &Surface<'_>, ldi: &Ldi, profile: &SupportProfile) -> Vec<Contact> {
     let mesh = surface.mesh;
-    let mut held = Held::new(profile.spacing_mm);
+    let mut held = Held::new(mesh);
     let mut contacts = Vec::new();
     let stands = |at: DVec3| profile.lift_mm + at.z <= ON_PLATE_MM;
     let same_mm = SAME * profile.contact_mm;
@@ -49,54 +49,87 @@ pub(super) fn place(surface: &Surface<'_>, ldi: &Ldi, profile: &SupportProfile) 
         }
     }
     let mut places = overhangs(mesh, &rays, profile);
-    places.sort_by(|a, b| {
-        // What is at an edge waits until all else is held.
-        let key = |it: &Place| (it.is_edge, micrometres(it.at.z));
-        key(a).cmp(&key(b))
-    });
-    for place in &places {
-        if !held.is_near(place.at, profile.reach_mm(place.slope)) {
-            held.insert(place.at);
-            // The plate holds what stands on it.
-            if !stands(place.at) {
-                contacts.extend(contact(place.at));
+    sort_by_number(&mut places, |place| micrometres(place.at.z));
+    // What is at an edge waits until all else is held.
+    for is_edge in [false, true] {
+        for place in places.iter().filter(|place| place.is_edge == is_edge) {
+            if !held.is_near(place.at, profile.reach_mm(place.slope)) {
+                held.insert(place.at);
+                // The plate holds what stands on it.
+                if !stands(place.at) {
+                    contacts.extend(contact(place.at));
+                }
             }
         }
     }
     contacts
 }
 
-/// Points that are held, by squares of the plane.
-struct Held {
-    side_mm: f64,
-    squares: FxHashMap<[i32; 2], Vec<DVec3>>,
+/// The squares of the plane below a mesh.
+struct Squares {
+    corner: DVec2,
+    columns: usize,
+    rows: usize,
 }
 
-impl Held {
-    fn new(side_mm: f64) -> Self {
+/// Side of a square.
+const SQUARE_MM: f64 = 2.0;
+
+impl Squares {
+    fn below(mesh: &Mesh) -> Self {
+        let bounds = mesh.bounds();
+        let squares = (bounds.size().truncate() / SQUARE_MM).to_array();
+        let [columns, rows] = squares.map(|squares| squares as usize + 1);
         Self {
-            side_mm,
-            squares: FxHashMap::default(),
+            corner: bounds.min.truncate(),
+            columns,
+            rows,
         }
     }
 
-    fn square(&self, x_mm: f64, y_mm: f64) -> [i32; 2] {
-        [x_mm, y_mm].map(|mm| (mm / self.side_mm).floor() as i32)
+    fn count(&self) -> usize {
+        self.columns * self.rows
+    }
+
+    /// Those that a box meets, or is nearest to.
+    fn within(&self, low: DVec3, high: DVec3) -> impl Iterator<Item = usize> + use<> {
+        let place = |at: DVec3| (at.truncate() - self.corner) / SQUARE_MM;
+        let (low, high) = (place(low), place(high));
+        let within = |place: f64, count: usize| place.clamp(0.0, (count - 1) as f64) as usize;
+        let columns = within(low.x, self.columns)..=within(high.x, self.columns);
+        let rows = within(low.y, self.rows)..=within(high.y, self.rows);
+        let width = self.columns;
+        rows.flat_map(move |row| columns.clone().map(move |column| row * width + column))
+    }
+}
+
+/// Points that are held, by squares.
+struct Held {
+    squares: Squares,
+    points: Vec<Vec<DVec3>>,
+}
+
+impl Held {
+    fn new(mesh: &Mesh) -> Self {
+        let squares = Squares::below(mesh);
+        Self {
+            points: vec![Vec::new(); squares.count()],
+            squares,
+        }
     }
 
     fn insert(&mut self, at: DVec3) {
-        let square = self.square(at.x, at.y);
-        self.squares.entry(square).or_default().push(at);
+        for square in self.squares.within(at, at) {
+            self.points[square].push(at);
+        }
     }
 
     fn is_near(&self, at: DVec3, reach_mm: f64) -> bool {
-        let [first_x, first_y] = self.square(at.x - reach_mm, at.y - reach_mm);
-        let [last_x, last_y] = self.square(at.x + reach_mm, at.y + reach_mm);
-        (first_x..=last_x).any(|x| {
-            (first_y..=last_y).any(|y| {
-                let held = self.squares.get(&[x, y]);
-                held.is_some_and(|held| held.iter().any(|it| it.distance(at) < reach_mm))
-            })
+        let reach = DVec3::splat(reach_mm);
+        let mut squares = self.squares.within(at - reach, at + reach);
+        squares.any(|square| {
+            let mut points = self.points[square].iter();
+            points.any(|it| it.distance(at) < reach_mm)
         })
     }
 }
@@ -157,12 +190,15 @@ fn lowest_points(mesh: &Mesh, ldi: &Ldi, inward_mm: f64) -> Vec<DVec3> {
         vertex + (middle(root) - vertex) * part
     });
     let mut points: Vec<DVec3> = found.filter(|at| !is_buried(ldi, *at)).collect();
-    points.sort_by(|a, b| {
-        let ties = a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y));
-        a.z.total_cmp(&b.z).then(ties)
-    });
+    // In the same order in whichever order facets are.
+    sort_by_number(&mut points, |at| at.y);
+    sort_by_number(&mut points, |at| at.x);
+    sort_by_number(&mut points, |at| at.z);
     points
 }
+
+/// No corner.
+const NO_CORNER: usize = usize::MAX;
 
 /// For each corner of the facets, the group that it is in: corners of a vertex that lie side by side around it, with those of all vertices
 /// that level edges join. Where sheets meet in a vertex alone, its corners are in several groups.
@@ -173,7 +209,7 @@ fn level_groups(mesh: &Mesh, facets: &[[u32; 3]]) -> Vec<u32> {
         parent[a.max(b) as usize] = a.min(b);
     };
     // A corner of each vertex whose edges do not tell what is beside it.
-    let mut whole: FxHashMap<u32, usize> = FxHashMap::default();
+    let mut whole = vec![NO_CORNER; mesh.vertices.len()];
     for (facet, corners) in facets.iter().enumerate() {
         for edge in 0..3 {
             let next = (edge + 1) % 3;
@@ -192,17 +228,16 @@ fn level_groups(mesh: &Mesh, facets: &[[u32; 3]]) -> Vec<u32> {
                     }
                 }
                 Across::Nothing | Across::Several => {
-                    whole.insert(ends[0], 3 * facet + edge);
-                    whole.insert(ends[1], 3 * facet + next);
+                    whole[ends[0] as usize] = 3 * facet + edge;
+                    whole[ends[1] as usize] = 3 * facet + next;
                 }
             }
         }
     }
-    if !whole.is_empty() {
-        for (corner, vertex) in facets.iter().flatten().enumerate() {
-            if let Some(&other) = whole.get(vertex) {
-                unite(corner, other);
-            }
+    for (corner, &vertex) in facets.iter().flatten().enumerate() {
+        let other = whole[vertex as usize];
+        if other != NO_CORNER {
+            unite(corner, other);
         }
     }
     (0..3 * facets.len() as u32)
@@ -237,6 +272,7 @@ fn root(parent: &mut [u32], mut vertex: u32) -> u32 {
 }
 
 /// A place on a surface that does not support itself.
+#[derive(Clone)]
 struct Place {
     at: DVec3,
     /// Rise over run.
@@ -331,13 +367,13 @@ fn lone_entries(rays: &Rays<'_>) -> Vec<DVec3> {
             .any(|&step| rays.beside(*place, step).iter().any(meets))
     });
     let mut lone: Vec<DVec3> = lone.map(|it| it.1).collect();
-    lone.sort_by_key(|at| micrometres(at.z));
+    sort_by_number(&mut lone, |at| micrometres(at.z));
     lone
 }
 
 /// Heights are compared in micrometres: their last digits depend on the order of a facet's corners.
-fn micrometres(z_mm: f64) -> i64 {
-    (z_mm * 1e3).round() as i64
+fn micrometres(z_mm: f64) -> f64 {
+    (z_mm * 1e3).round()
 }
 
 /// Rays' lower ends on surfaces that do not support themselves.
@@ -368,57 +404,35 @@ fn overhangs(mesh: &Mesh, rays: &Rays<'_>, profile: &SupportProfile) -> Vec<Plac
     places.collect()
 }
 
-/// The facets of a model's surface, by squares of the plane.
+/// The facets of a model's surface, by squares.
 pub(super) struct Surface<'a> {
     mesh: &'a Mesh,
-    corner: DVec2,
-    columns: usize,
-    rows: usize,
-    squares: Vec<Vec<u32>>,
+    squares: Squares,
+    facets: Vec<Vec<u32>>,
 }
-
-/// Side of a square.
-const SQUARE_MM: f64 = 2.0;
 
 impl<'a> Surface<'a> {
     pub fn new(mesh: &'a Mesh) -> Self {
-        let bounds = mesh.bounds();
-        let corner = bounds.min.truncate();
-        let [columns, rows] = (bounds.size().truncate() / SQUARE_MM)
-            .to_array()
-            .map(|squares| squares as usize + 1);
-        let mut surface = Self {
-            mesh,
-            corner,
-            columns,
-            rows,
-            squares: vec![Vec::new(); columns * rows],
-        };
+        let squares = Squares::below(mesh);
+        let mut facets = vec![Vec::new(); squares.count()];
         for facet in 0..mesh.surface_facets {
             let [a, b, c] = mesh.corners(facet);
-            for square in surface.squares(a.min(b).min(c), a.max(b).max(c)) {
-                surface.squares[square].push(facet as u32);
+            for square in squares.within(a.min(b).min(c), a.max(b).max(c)) {
+                facets[square].push(facet as u32);
             }
         }
-        surface
-    }
-
-    /// The squares that a box meets.
-    fn squares(&self, low: DVec3, high: DVec3) -> impl Iterator<Item = usize> + use<> {
-        let place = |at: DVec3| (at.truncate() - self.corner) / SQUARE_MM;
-        let (low, high) = (place(low), place(high));
-        let within = |place: f64, count: usize| place.clamp(0.0, (count - 1) as f64) as usize;
-        let columns = within(low.x, self.columns)..=within(high.x, self.columns);
-        let rows = within(low.y, self.rows)..=within(high.y, self.rows);
-        let width = self.columns;
-        rows.flat_map(move |row| columns.clone().map(move |column| row * width + column))
+        Self {
+            mesh,
+            squares,
+            facets,
+        }
     }
 
     /// The facets within a distance of a point, and how far away each is, with its nearest point. A facet may come twice.
     fn within(&self, point: DVec3, reach_mm: f64) -> Vec<(f64, DVec3, u32)> {
         let reach = DVec3::splat(reach_mm);
-        let squares = self.squares(point - reach, point + reach);
-        let facets = squares.flat_map(|square| self.squares[square].iter().copied());
+        let squares = self.squares.within(point - reach, point + reach);
+        let facets = squares.flat_map(|square| self.facets[square].iter().copied());
         let found = facets.filter_map(|facet| {
             let [a, b, c] = self.mesh.corners(facet as usize);
             let (low, high) = (a.min(b).min(c) - reach, a.max(b).max(c) + reach);
@@ -452,7 +466,7 @@ impl<'a> Surface<'a> {
         let at = DVec3::from_array(at.to_array().map(|mm| (mm * 1e3).round() / 1e3 + 0.0));
         let radius_mm = diameter_mm / 2.0;
         let mut touched = self.within(at, radius_mm);
-        touched.sort_by_key(|it| it.2);
+        sort_by_number(&mut touched, |it| f64::from(it.2));
         touched.dedup_by_key(|it| it.2);
         let normals = touched.iter().map(|&(away_mm, _, facet)| {
             let [a, b, c] = self.mesh.corners(facet as usize);

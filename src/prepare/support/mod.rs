@@ -76,7 +76,7 @@ pub struct SupportProfile {
     pub lift_mm: f64,
     /// The flattest surface that supports itself, as its rise over its run.
     pub self_supporting_slope: f64,
-    /// How far from a contact a level surface is held. One that just does not support itself is held twice as far.
+    /// How far from a contact a level surface is held. One that just does not support itself is held half as far again.
     pub spacing_mm: f64,
     /// Diameter of a tip where it touches the model.
     pub contact_mm: f64,
@@ -152,9 +152,9 @@ impl SupportStrength {
 
 impl SupportProfile {
     /// How far a contact holds a surface of a slope, its rise over its run: a level one as far as `spacing_mm`, one that just does not
-    /// support itself twice as far.
+    /// support itself half as far again.
     pub fn reach_mm(&self, slope: f64) -> f64 {
-        self.spacing_mm * (1.0 + (slope / self.self_supporting_slope).min(1.0))
+        self.spacing_mm * (1.0 + 0.5 * (slope / self.self_supporting_slope).min(1.0))
     }
 }
 
@@ -220,6 +220,8 @@ pub struct Supports {
     pub astray: Vec<usize>,
     /// Pillars that stand on the model.
     pub on_model: usize,
+    /// Where pillars, branches and braces join, in millimetres.
+    pub joints_mm: Vec<[f64; 3]>,
     /// How far the model is lifted above the plate.
     pub lift_mm: f64,
 }
@@ -327,7 +329,7 @@ pub fn support(
         }
     }
     trees.brace();
-    let on_model = trees.on_model();
+    let (on_model, joints) = (trees.on_model(), trees.joints());
     let shell = trees.shell();
     report(progress, 1.0)?;
     Ok(Supports {
@@ -336,6 +338,7 @@ pub fn support(
         unreached,
         astray,
         on_model,
+        joints_mm: joints,
         lift_mm: profile.lift_mm,
     })
 }

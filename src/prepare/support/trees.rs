@@ -363,6 +363,14 @@ impl<'a> Trees<'a> {
         pillars.count() + struts.count()
     }
 
+    /// Where pillars, branches and braces join.
+    pub fn joints(&self) -> Vec<[f64; 3]> {
+        let nodes = self.nodes.iter().filter(|node| node.above > 1);
+        let joints = nodes.map(|node| node.at);
+        let joints = joints.chain(self.braces.iter().flatten().copied());
+        joints.map(|at| at.to_array()).collect()
+    }
+
     /// The points of a pillar from its foot up, along what holds most.
     fn trunk(&self, foot: u32, above: &[u32]) -> Vec<DVec3> {
         let mut points = Vec::new();

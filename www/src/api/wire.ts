@@ -27,9 +27,9 @@ export type {
   ModelUnit,
   Peel,
   Planner,
+  PlannerReport,
   PlateModelReport,
   PlateReport,
-  PlannerReport,
   PriceKind,
   PriceLine,
   Quantity,
@@ -39,6 +39,7 @@ export type {
   Severity,
   Snap,
   StlExpected,
+  SupportStrength,
   TradeoffPoint,
   UniformLayers,
   Unit,
@@ -61,6 +62,8 @@ export interface Profiled<R> {
    * section in mm².
    */
   profile: Float32Array;
+  /** Vertex positions of the supports, nine numbers a facet, mm from the plate; absent without supports. */
+  supports?: Float32Array;
 }
 
 /** A print file of the core's own, and its report. */

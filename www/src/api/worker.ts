@@ -158,7 +158,9 @@ const api: SlicerWorker = {
   async plan(options, progress) {
     const report = await current().plan(options, plain(progress));
     const profile = current().profile(report.metric, report.source);
-    return Comlink.transfer({ report, profile }, [profile.buffer]);
+    if (report.supported === undefined) return Comlink.transfer({ report, profile }, [profile.buffer]);
+    const supports = current().supports();
+    return Comlink.transfer({ report, profile, supports }, [profile.buffer, supports.buffer]);
   },
   tradeoff(options, points, progress) {
     return current().tradeoff(options, points, plain(progress));

@@ -19,7 +19,7 @@ import type { Aims } from "./state/orientation.js";
 import { printerOf } from "./state/printer.js";
 import type { Entry } from "./state/plate.js";
 import type { Problem } from "./state/problem.js";
-import type { Result } from "./state/result.js";
+import { ownHeight, type Result } from "./state/result.js";
 import type { Session } from "./state/session.js";
 import { quaternion, type Settings } from "./state/settings.js";
 
@@ -250,6 +250,7 @@ function scaledOf({ result, turning, shown, plate }: Session): Scaled | null {
   // A plate is as high as the highest of its models.
   const own_mm = plate.heightOf(plate.selected);
   if (own_mm !== null) return { height_mm: own_mm, rotation: result.options.rotation ?? UPRIGHT };
-  const height_mm = turning === null ? result.report.height_mm : (shown?.z_mm.at(-1) ?? result.report.height_mm);
+  const { report } = result;
+  const height_mm = turning === null ? ownHeight(report) : shown === null ? ownHeight(report) : (shown.z_mm.at(-1) ?? 0) - shown.lift_mm;
   return { height_mm, rotation: turning ?? result.options.rotation ?? UPRIGHT };
 }

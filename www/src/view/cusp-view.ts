@@ -199,12 +199,14 @@ export class CuspView extends elementWith(PROPERTIES) {
   #show(scene: Scene, has: (name: keyof CuspView) => boolean): void {
     const { model } = scene;
     if (has("plate")) scene.setVolume(this.plate);
+    if (has("lift_mm")) model.lift_mm = this.lift_mm;
+    if (has("supports") || has("rotation")) model.setSupports(has("supports") ? this.supports : null);
     if (has("positions")) {
       this.#measuring.forget();
       this.#derived?.dispose();
       this.#derived = this.positions === null ? null : new Derived(this.positions);
       scene.setPositions(this.positions ?? new Float32Array(0), this.rotation, this.scale);
-    } else if (has("rotation") || has("scale")) scene.setPose(this.rotation, this.scale, !this.#isHeld);
+    } else if (has("rotation") || has("scale") || has("lift_mm")) scene.setPose(this.rotation, this.scale, !this.#isHeld);
     if (has("copies") || has("selected")) scene.setCopies(this.copies, this.selected);
     if (this.#moving !== null) {
       this.#moving.isOn = this.tool === "move";
@@ -227,7 +229,7 @@ export class CuspView extends elementWith(PROPERTIES) {
       if (has("weights")) this.#painting.weights = this.weights;
     }
     if ((["positions", "look", "heat", "saliency", "least"] as const).some(has)) this.#heat(null);
-    if ((["positions", "rotation", "scale", "z_mm", "look"] as const).some(has)) this.#print();
+    if ((["positions", "rotation", "scale", "lift_mm", "z_mm", "look"] as const).some(has)) this.#print();
     if (has("mark") && (this.mark !== null || this.hasUpdated)) scene.setMark(this.mark, scene.isSmooth && !this.#reducedMotion.matches ? FLIGHT_MS : 0);
     this.#near();
     scene.invalidate();
@@ -300,7 +302,9 @@ export class CuspView extends elementWith(PROPERTIES) {
     const derived = this.#derived;
     const measures = look === "distance";
     const isWanted = (look === "printed" || measures) && z_mm.length >= 2 && !this.#isHeld;
-    this.#printed.want(derived !== null && isWanted ? { derived, rotation, scale, z_mm } : null, measures);
+    // Steps are made where the model stands on the plate, and lifted with it.
+    const own_mm = this.lift_mm === 0 ? z_mm : z_mm.map((z) => z - this.lift_mm);
+    this.#printed.want(derived !== null && isWanted ? { derived, rotation, scale, z_mm: own_mm } : null, measures);
   }
 
   #rotate(rotation: Rotation, final: boolean): void {

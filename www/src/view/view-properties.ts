@@ -21,6 +21,10 @@ export const PROPERTIES = {
   rotation: given<Rotation>(UPRIGHT),
   /** Factor applied to the file's lengths. */
   scale: given(1),
+  /** How far the model is above the plate, mm. */
+  lift_mm: given(0),
+  /** Vertex positions of its supports, nine numbers a facet, mm from the plate; null without supports. */
+  supports: given<Float32Array | null>(null),
   /** Layer boundaries from 0 to the top, mm; empty without a plan. */
   z_mm: given<readonly number[]>([]),
   /** One for each layer. */

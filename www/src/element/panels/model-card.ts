@@ -6,6 +6,7 @@ import { offerButtons } from "../parts/problem-box.js";
 import { towersOffer } from "../parts/towers-offer.js";
 import { MODEL_FILES } from "../state/choice.js";
 import { advise } from "../state/problem.js";
+import { ownHeight } from "../state/result.js";
 import type { Session } from "../state/session.js";
 
 export const modelStyles = css`
@@ -64,7 +65,7 @@ export function modelCard(
   const { name, info } = model;
   const own = info.size_mm;
   // A plate is as high as the highest of its models.
-  const height_mm = session.plate.isSeveral ? session.plate.heightOf(place) : result?.report.height_mm;
+  const height_mm = session.plate.isSeveral ? session.plate.heightOf(place) : result === null ? undefined : ownHeight(result.report);
   const scale = height_mm && own[2] !== 0 ? height_mm / own[2] : 1;
   const isScaled = session.settings.rotation === "" && Math.abs(scale - 1) > 1e-3;
   const size = (isScaled ? own.map((mm) => mm * scale) : own) as [number, number, number];

@@ -168,6 +168,8 @@ export class CuspModel extends elementWith(PROPERTIES) {
               .positions=${this.positions}
               .rotation=${this.rotation}
               .scale=${this.#scale}
+              .lift_mm=${shown?.lift_mm ?? 0}
+              .supports=${shown?.supports ?? null}
               .z_mm=${shown?.z_mm ?? []}
               .thickness_mm=${shown?.thickness_mm ?? []}
               .limits=${shown?.limits ?? [0, 0]}

@@ -21,6 +21,8 @@ import { elementWith, given, own } from "../../view/properties.js";
 /** Settings that are hidden at first, unless one differs from its default. */
 const MORE = ["wall", "minimize", "snap", "step", "bottomExposure", "bottomLayers"] as const;
 
+const STRENGTHS = ["none", "light", "medium", "heavy"] as const;
+
 /** Whether the form shows the field of a problem, so that the problem can be shown beside it. */
 export function hasPlace({ field }: Problem, { printer }: Settings, { printers }: Offered): boolean {
   if (field === null) return false;
@@ -113,6 +115,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
         <div class="pair">${this.#field("layerMin", words.thinnest)} ${this.#field("layerMax", words.thickest)}</div>
         ${isUniform ? html`<p class="hint">${words.rangeHint}</p>` : nothing}
         ${this.#field("height", words.height, { placeholder: own })} ${this.#unit()}
+        ${isFilament(this.settings.format) ? nothing : this.#supports()}
         ${this.#select(
           "metric",
           words.metric,
@@ -256,6 +259,13 @@ export class CuspSettings extends elementWith(PROPERTIES) {
           : towersOffer(this.towers, this.language, () => this.dispatchEvent(new CustomEvent("cusp-towers")))}
       </div>
     </details>`;
+  }
+
+  #supports(): TemplateResult {
+    const { texts: { settings: words } } = this.language;
+    const { supports } = this.settings;
+    const list = STRENGTHS.map((strength) => [strength, words.strengths[strength]] as const);
+    return this.#select("supports", words.supports, options(list, supports), { hint: words.supportsHint });
   }
 
   /** Walls make a model hollow; what is in it and how it drains is asked then. */

@@ -1,5 +1,5 @@
 /** The line at the download button: what the file is, whether the printer reads it, and whether the model prints as it is. */
-import type { Format, KnownPrinter } from "../../api/wire.js";
+import type { Format, KnownPrinter, Report } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
 import { modelOf, printerOf } from "../state/printer.js";
 import type { Result } from "../state/result.js";
@@ -29,5 +29,11 @@ export function fileWords({ report }: Pick<Result, "report">, printers: readonly
     if (format === "png" || reads.length === 0) return [words.unreadable(model)];
     return [words.convert(model, either(reads.map((extension) => `.${extension}`)))];
   };
-  return words.together([words.kinds[format](extension), ...reading(), report.hollowed === undefined ? words.asIs : words.hollow]);
+  return words.together([words.kinds[format](extension), ...reading(), prepared(report, words)]);
+}
+
+/** Whether the model prints as it is. */
+function prepared({ hollowed, supported }: Report, words: Language["texts"]["file"]): string {
+  if (supported === undefined) return hollowed === undefined ? words.asIs : words.hollow;
+  return hollowed === undefined ? words.supported : words.hollowSupported;
 }

@@ -189,9 +189,9 @@ export class OrientationSearch {
 
 /**
  * The options that metrics of all directions depend on. The pose is one only if a height is requested, which is the height in
- * that pose; the backend, the number of rays, what is inside the model and the print format are not.
+ * that pose; the backend, the number of rays, what is inside or below the model, and the print format are not.
  */
-function keyOf({ rotation, height_mm, rays: _rays, hollow: _hollow, backend: _backend, gpu_method: _method, format: _format, ...options }: Options): string {
+function keyOf({ rotation, height_mm, rays: _rays, hollow: _hollow, supports: _supports, backend: _backend, gpu_method: _method, format: _format, ...options }: Options): string {
   return JSON.stringify(height_mm === undefined ? options : { ...options, height_mm, rotation });
 }
 

@@ -25,7 +25,7 @@ export interface Problem {
 }
 
 /** A setting that is chosen from a list. */
-export type Choice = "metric" | "rays" | "printer" | "format" | "resin" | "unit" | "infill" | "drain";
+export type Choice = "metric" | "rays" | "printer" | "format" | "resin" | "unit" | "supports" | "infill" | "drain";
 
 /** What failed, and the state at that time. */
 export interface Failure {
@@ -77,7 +77,7 @@ const KINDS: Readonly<Record<ErrorCode, Kind>> = {
   "mesh-overflow": "unusable",
   "bad-height": "badValue",
   "bad-rotation": "badOptions",
-  "bad-length": "badValue",
+  "bad-size": "badValue",
   "bad-time": "badValue",
   "bad-exposures": "badValue",
   "bad-growth": "badValue",

@@ -22,11 +22,21 @@ export interface Shown {
   limits: readonly [number, number];
   layers: number;
   print_time_s: number;
+  /** How far the model is above the plate, mm. */
+  lift_mm: number;
+  /** Vertex positions of the supports, nine numbers a facet, mm from the plate; null while there are none. */
+  supports: Float32Array | null;
 }
 
-export function shownOf(report: Report | Preview, profile: Float32Array): Shown {
+/** The height of the model without what is below it, mm. */
+export function ownHeight({ height_mm, supported }: Report): number {
+  return height_mm - (supported?.lift_mm ?? 0);
+}
+
+export function shownOf(report: Report | Preview, profile: Float32Array, supports: Float32Array | null = null): Shown {
+  const lift_mm = "lift_mm" in report ? report.lift_mm : (report.supported?.lift_mm ?? 0);
   const { metric, bin_mm, z_mm, thickness_mm, layers, print_time_s, layer_range_mm: limits } = report;
-  return { metric, bin_mm, z_mm, thickness_mm, layers, print_time_s, profile, limits };
+  return { metric, bin_mm, z_mm, thickness_mm, layers, print_time_s, profile, limits, lift_mm, supports };
 }
 
 /** Whether two sets of options, with their keys in the same order, ask for the same plan. */

@@ -288,3 +288,12 @@ test("walls make a model hollow, which drains unless that is turned off, and are
   expect(toAddress({ ...hollow, infill: "lattice" })).toBe("infill=lattice&wall=1.5");
   expect(fromAddress("infill=lattice&wall=1.5")).toEqual({ ...hollow, infill: "lattice" });
 });
+
+test("supports are of a strength, and for resin printers alone", () => {
+  const supported = { ...DEFAULT_SETTINGS, supports: "light" as const };
+  expect(options(DEFAULT_SETTINGS)).not.toHaveProperty("supports");
+  expect(options(supported)).toMatchObject({ supports: { strength: "light" } });
+  expect(options({ ...supported, ...withFormat(supported, "prusa-3mf") })).not.toHaveProperty("supports");
+  expect(toAddress(supported)).toBe("supports=light");
+  expect(fromAddress("supports=light")).toEqual(supported);
+});

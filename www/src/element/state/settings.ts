@@ -1,6 +1,6 @@
 /** The form's settings: what was typed or chosen, whether it is valid, and the options that it gives. */
 import { DEFAULTS, isFilament, nozzleLayers, usualOf } from "../../api/wire.js";
-import type { Format as FileFormat, KnownPrinter, Metric, Minimize, ModelUnit, Options, Resin, Snap } from "../../api/wire.js";
+import type { Format as FileFormat, KnownPrinter, Metric, Minimize, ModelUnit, Options, Resin, Snap, SupportStrength } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
 import { METRIC_NAMES, METRICS } from "./metric.js";
 import { FORMATS, printerFrom, printerOf, printerText, type ChosenPrinter } from "./printer.js";
@@ -36,6 +36,8 @@ interface Choices {
   rays: string;
   /** Whether facets that stand out count for more. */
   saliency: "off" | "on";
+  /** How strong supports are. */
+  supports: "none" | SupportStrength;
   /** What stands in the void of a hollow model. */
   infill: "none" | "lattice";
   /** Whether a hollow model gets drain holes. */
@@ -98,6 +100,7 @@ export const DEFAULT_SETTINGS: Settings = {
   snap: DEFAULTS.snap,
   rays: String(DEFAULTS.rays),
   saliency: DEFAULTS.saliency ? "on" : "off",
+  supports: "none",
   infill: "none",
   drain: "auto",
   weightMin: String(DEFAULTS.weight_min),
@@ -180,6 +183,7 @@ const CHOICES: { readonly [Key in keyof Choices]: readonly Choices[Key][] } = {
   snap: ["auto", "off"],
   rays: RAYS.map(String),
   saliency: ["off", "on"],
+  supports: ["none", "light", "medium", "heavy"],
   infill: ["none", "lattice"],
   drain: ["auto", "none"],
   weightMin: WEIGHT_STEPS,
@@ -294,7 +298,8 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
     within(field, settings[field], thinnest, thickest);
   if (settings.height.trim() !== "") options.height_mm = within("height", settings.height, 0.1, TALLEST_MM);
 
-  // Slicers of filament printers hollow by themselves.
+  // Slicers of filament printers support and hollow by themselves.
+  if (settings.supports !== "none" && !isFilament(settings.format)) options.supports = { strength: settings.supports };
   if (settings.wall.trim() !== "" && !isFilament(settings.format)) {
     options.hollow = { wall_mm: within("wall", settings.wall, THINNEST_WALL_MM, THICKEST_WALL_MM) };
     if (settings.infill === "lattice") options.hollow.infill = {};

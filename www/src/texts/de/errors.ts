@@ -87,7 +87,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "pixels-without-pitch": () =>
     "Pixel und ihr Abstand in x und y gehören zusammen; geben Sie beides an, oder einen Abstand für x und y.",
   "bad-antialias": ({ antialias, known }) => `Die Kantenglättung hat die Stufen ${known.join(", ")}, nicht ${exact(antialias)}.`,
-  "bad-length": ({ option, value_mm, least_mm, most_mm }) => `${option} muss zwischen ${mm(least_mm)} und ${mm(most_mm)} liegen, nicht bei ${mm(value_mm)}.`,
+  "bad-size": ({ option, value_mm, least_mm, most_mm }) => `${option} muss zwischen ${mm(least_mm)} und ${mm(most_mm)} liegen, nicht bei ${mm(value_mm)}.`,
   "bad-weight-min": ({ weight_min }) => `Das kleinste Gewicht muss zwischen 0 und 1 liegen, nicht bei ${exact(weight_min)}.`,
   "bad-directions": ({ directions, most }) => `Eine Suche prüft 1 bis ${count(most)} Richtungen, nicht ${count(directions)}.`,
   "bad-limit": ({ limit, value, least, most }) => `${limit} muss zwischen ${exact(least)} und ${exact(most)} liegen, nicht bei ${exact(value)}.`,

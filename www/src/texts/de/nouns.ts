@@ -6,3 +6,4 @@ export const HOLES = { one: "Loch", other: "Löcher" };
 export const OBJECTS = { one: "Objekt", other: "Objekte" };
 export const PARTS = { one: "Teil", other: "Teile" };
 export const ISLANDS = { one: "Insel", other: "Inseln" };
+export const POINTS = { one: "Punkt bleibt", other: "Punkte bleiben" };

@@ -45,6 +45,8 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
     match: (thickness, setting) => `Stellen Sie dort die erste Schicht auf ${thickness} (${setting}), sonst liegt jede Schicht in anderer Höhe als geplant.`,
     asIs: "Das Modell wird gedruckt, wie es ist: ohne Stützen, nicht ausgehöhlt.",
     hollow: "Das Modell wird hohl gedruckt, ohne Stützen.",
+    supported: "Das Modell wird mit Stützen gedruckt, nicht ausgehöhlt.",
+    hollowSupported: "Das Modell wird hohl und mit Stützen gedruckt.",
     together: (sentences) => sentences.join(" "),
   },
   towers: {

@@ -1,7 +1,7 @@
 import type { Format } from "../format.js";
 import type { WarningSentences } from "../sentences.js";
 import { FAULTS } from "./errors.js";
-import { LAYERS, FACETS, EDGES, HOLES, OBJECTS, PARTS } from "./nouns.js";
+import { LAYERS, FACETS, EDGES, HOLES, OBJECTS, PARTS, POINTS } from "./nouns.js";
 import { UNITS } from "./readers.js";
 
 export const warnings = ({ count, counted, mm, height, error, either }: Format): WarningSentences => ({
@@ -21,6 +21,8 @@ export const warnings = ({ count, counted, mm, height, error, either }: Format):
     `Ablaufloch ${count(drain_number)} trifft keinen Hohlraum und fehlt. Setzen Sie es dorthin, wo das Modell hohl ist, oder richten Sie es nach innen.`,
   undrained: ({ basins }) =>
     `${counted(basins, PARTS)} des Hohlraums: Dort bleibt Harz, denn kein Loch führt waagrecht oder abwärts hinaus. Setzen Sie dort Löcher, oder drehen Sie das Modell.`,
+  "support-astray": ({ point_number }) => `Stütze ${count(point_number)} liegt nicht auf dem Modell und wurde weggelassen. Setzen Sie sie auf die Oberfläche.`,
+  unsupported: ({ points }) => `${counted(points, POINTS)} ohne Stütze, weil keine dorthin führt. Drehen Sie das Modell, oder wählen Sie leichtere Stützen.`,
   "unclosed-rays": ({ unclosed, rays }) =>
     `${count(unclosed)} von ${count(rays)} Strahlen gehen durch Löcher des Netzes, die eben geschlossen sind. Sehen Sie sich die Masken an.`,
   "tolerance-exceeded": ({ metric, tolerance, max_error }) =>

@@ -6,3 +6,4 @@ export const HOLES = { one: "hole", other: "holes" };
 export const OBJECTS = { one: "object", other: "objects" };
 export const PARTS = { one: "part", other: "parts" };
 export const ISLANDS = { one: "island", other: "islands" };
+export const POINTS = { one: "point", other: "points" };

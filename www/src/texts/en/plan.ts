@@ -49,6 +49,8 @@ export const plan = ({ counted, plural, size }: Format) => ({
     match: (thickness: string, setting: string) => `Set the first layer to ${thickness} there (${setting}), or every layer is printed at another height than planned.`,
     asIs: "The model prints as it is: no supports, not hollowed.",
     hollow: "The model prints hollow: no supports.",
+    supported: "The model prints with supports, not hollowed.",
+    hollowSupported: "The model prints hollow, with supports.",
     together: (sentences: readonly string[]) => sentences.join(" "),
   },
   /** Test towers, which tell whether a printer takes several thicknesses. */

@@ -2,7 +2,7 @@
 import type { Format } from "../format.js";
 import type { WarningSentences } from "../sentences.js";
 import { FAULTS } from "./errors.js";
-import { LAYERS, FACETS, EDGES, HOLES, OBJECTS, PARTS } from "./nouns.js";
+import { LAYERS, FACETS, EDGES, HOLES, OBJECTS, PARTS, POINTS } from "./nouns.js";
 import { UNITS } from "./readers.js";
 
 export const warnings = ({ count, counted, mm, height, error, either }: Format): WarningSentences => ({
@@ -22,6 +22,8 @@ export const warnings = ({ count, counted, mm, height, error, either }: Format):
     `Drain hole ${count(drain_number)} meets no void, and was left out; place it where the model is hollow, or turn it inward.`,
   undrained: ({ basins }) =>
     `${counted(basins, PARTS)} of the void stay full, since no hole leads out of them on a level or downward; place holes there, or turn the model.`,
+  "support-astray": ({ point_number }) => `Support ${count(point_number)} is not on the model, and was left out; place it on the surface.`,
+  unsupported: ({ points }) => `${counted(points, POINTS)} without a support, since none gets there; turn the model, or choose lighter supports.`,
   "unclosed-rays": ({ unclosed, rays }) =>
     `${count(unclosed)} of ${count(rays)} rays pass holes of the mesh, which flat caps close; look at the masks.`,
   "tolerance-exceeded": ({ metric, tolerance, max_error }) =>

@@ -7,3 +7,4 @@ export const HOLES = { one: "agujero tapado", other: "agujeros tapados" };
 export const OBJECTS = { one: "objeto", other: "objetos" };
 export const PARTS = { one: "parte", other: "partes" };
 export const ISLANDS = { one: "isla", other: "islas" };
+export const POINTS = { one: "punto queda", other: "puntos quedan" };

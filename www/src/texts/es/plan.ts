@@ -45,6 +45,8 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
     match: (thickness, setting) => `Ponga allí la primera capa en ${thickness} (${setting}), o cada capa se imprimirá a otra altura que la planeada.`,
     asIs: "El modelo se imprime tal cual: sin soportes ni vaciado.",
     hollow: "El modelo se imprime hueco, sin soportes.",
+    supported: "El modelo se imprime con soportes, sin vaciar.",
+    hollowSupported: "El modelo se imprime hueco y con soportes.",
     together: (sentences) => sentences.join(" "),
   },
   towers: {

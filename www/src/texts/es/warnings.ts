@@ -1,7 +1,7 @@
 import type { Format } from "../format.js";
 import type { WarningSentences } from "../sentences.js";
 import { FAULTS } from "./errors.js";
-import { LAYERS, FACETS, OMITTED, EDGES, HOLES, OBJECTS, PARTS } from "./nouns.js";
+import { LAYERS, FACETS, OMITTED, EDGES, HOLES, OBJECTS, PARTS, POINTS } from "./nouns.js";
 import { UNITS } from "./readers.js";
 
 export const warnings = ({ count, counted, plural, mm, height, error, either }: Format): WarningSentences => ({
@@ -21,6 +21,8 @@ export const warnings = ({ count, counted, plural, mm, height, error, either }: 
     `El agujero de drenaje ${count(drain_number)} no llega al hueco y se omite. Póngalo donde el modelo sea hueco, o gírelo hacia dentro.`,
   undrained: ({ basins }) =>
     `${counted(basins, PARTS)} del hueco: allí queda resina, pues ningún agujero sale a nivel ni hacia abajo. Ponga agujeros allí, o gire el modelo.`,
+  "support-astray": ({ point_number }) => `El soporte ${count(point_number)} no está sobre el modelo y se ha omitido; colóquelo en la superficie.`,
+  unsupported: ({ points }) => `${counted(points, POINTS)} sin soporte, porque ninguno llega hasta allí; gire el modelo o elija soportes más ligeros.`,
   "unclosed-rays": ({ unclosed, rays }) =>
     `${count(unclosed)} de ${count(rays)} rayos atraviesan agujeros de la malla, tapados con planos. Mire las máscaras.`,
   "tolerance-exceeded": ({ metric, tolerance, max_error }) =>

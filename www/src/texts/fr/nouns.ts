@@ -7,3 +7,4 @@ export const HOLES = { one: "trou bouché", other: "trous bouchés" };
 export const OBJECTS = { one: "objet", other: "objets" };
 export const PARTS = { one: "partie", other: "parties" };
 export const ISLANDS = { one: "îlot", other: "îlots" };
+export const POINTS = { one: "point reste", other: "points restent" };

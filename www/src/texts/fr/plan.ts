@@ -45,6 +45,8 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
     match: (thickness, setting) => `Réglez-y la première couche à ${thickness} (${setting}), sinon chaque couche sera à une autre hauteur que prévu.`,
     asIs: "Le modèle est imprimé tel quel : sans supports ni évidement.",
     hollow: "Le modèle est imprimé creux, sans supports.",
+    supported: "Le modèle est imprimé avec supports, non évidé.",
+    hollowSupported: "Le modèle est imprimé creux, avec supports.",
     together: (sentences) => sentences.join(" "),
   },
   towers: {

@@ -1,7 +1,7 @@
 import type { Format } from "../format.js";
 import type { WarningSentences } from "../sentences.js";
 import { FAULTS } from "./errors.js";
-import { LAYERS, FACETS, OMITTED, EDGES, HOLES, OBJECTS, PARTS } from "./nouns.js";
+import { LAYERS, FACETS, OMITTED, EDGES, HOLES, OBJECTS, PARTS, POINTS } from "./nouns.js";
 import { UNITS } from "./readers.js";
 
 export const warnings = ({ count, counted, plural, mm, height, error, either }: Format): WarningSentences => ({
@@ -21,6 +21,8 @@ export const warnings = ({ count, counted, plural, mm, height, error, either }: 
     `Le trou d’évacuation ${count(drain_number)} ne rencontre aucun vide et est omis. Placez-le là où le modèle est creux, ou tournez-le vers l’intérieur.`,
   undrained: ({ basins }) =>
     `${counted(basins, PARTS)} du vide : la résine y reste, car aucun trou n’en sort à niveau ou vers le bas. Placez-y des trous, ou tournez le modèle.`,
+  "support-astray": ({ point_number }) => `Le support ${count(point_number)} n’est pas sur le modèle et a été omis ; placez-le sur la surface.`,
+  unsupported: ({ points }) => `${counted(points, POINTS)} sans support, car aucun n’y parvient ; tournez le modèle ou choisissez des supports plus légers.`,
   "unclosed-rays": ({ unclosed, rays }) =>
     `${count(unclosed)} rayons sur ${count(rays)} traversent des trous du maillage, bouchés à plat. Regardez les masques.`,
   "tolerance-exceeded": ({ metric, tolerance, max_error }) =>

@@ -44,6 +44,8 @@ export const plan = ({ count: number, size }: Format): PlanTexts => ({
     match: (thickness, setting) => `请在其中把第一层设为 ${thickness}（${setting}），否则每一层的高度都会与方案不同。`,
     asIs: "模型按原样打印：未加支撑，未抽壳。",
     hollow: "模型按空心打印：未加支撑。",
+    supported: "模型带支撑打印，未抽壳。",
+    hollowSupported: "模型按空心打印，并带支撑。",
     together: (sentences) => sentences.join(""),
   },
   towers: {

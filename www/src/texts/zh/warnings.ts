@@ -18,6 +18,8 @@ export const warnings = ({ count, mm, height, error, either }: Format): WarningS
     `模型保持实心：没有任何一处厚到能容下 ${mm(wall_mm)} 的壁和 ${mm(cavity_mm)} 的空腔。`,
   "drain-astray": ({ drain_number }) => `第 ${count(drain_number)} 个排液孔没有通到空腔，已略去。请把它放在模型空心之处，或使其朝内。`,
   undrained: ({ basins }) => `空腔有 ${count(basins)} 处会滞留树脂：没有孔能水平或向下引出。请在该处开孔，或转动模型。`,
+  "support-astray": ({ point_number }) => `第 ${count(point_number)} 个支撑不在模型上，已略去。请把它放在表面上。`,
+  unsupported: ({ points }) => `有 ${count(points)} 处无法支撑：没有支撑能到达。请转动模型，或选用更轻的支撑。`,
   "unclosed-rays": ({ unclosed, rays }) => `${count(rays)} 条光线中有 ${count(unclosed)} 条穿过用平面封上的孔洞。请查看掩膜。`,
   "tolerance-exceeded": ({ metric, tolerance, max_error }) =>
     `误差达到 ${error(metric, max_error)}，超过公差 ${error(metric, tolerance)}。`,

@@ -62,6 +62,9 @@ function bounded(geometry: BufferGeometry): BufferGeometry {
   return geometry;
 }
 
+/** The colour of supports, which no scale has. */
+const SUPPORT_RESIN = [0.52, 0.58, 0.68] as const;
+
 export class Model {
   /** Stands where the selected copy does: in the middle, if it is alone. */
   readonly stand = new Group();
@@ -70,7 +73,11 @@ export class Model {
   readonly facets: Mesh<BufferGeometry, RawShaderMaterial>;
   /** The stair steps, already in their pose. */
   readonly steps = new Group();
-  /** Size of the posed model, mm. */
+  /** The supports, already in their pose. */
+  readonly supports: Mesh<BufferGeometry, RawShaderMaterial>;
+  /** How far the model is above the plate, mm. Takes effect with the next pose. */
+  lift_mm = 0;
+  /** Size of the posed model with what is below it, mm. */
   size_mm: Triple = [0, 0, 0];
   #positions: Float32Array = new Float32Array(0);
   #points: Float32Array = this.#positions;
@@ -114,8 +121,11 @@ export class Model {
       },
     });
     this.facets = new Mesh(new BufferGeometry(), this.#material);
+    this.supports = new Mesh(new BufferGeometry(), this.#material.clone());
+    this.supports.material.uniforms["resin"] = { value: new Vector3(...SUPPORT_RESIN) };
+    this.supports.visible = false;
     this.pivot.add(this.facets);
-    this.stand.add(this.pivot, this.steps);
+    this.stand.add(this.pivot, this.steps, this.supports);
     this.stand.matrixAutoUpdate = false;
   }
 
@@ -148,7 +158,7 @@ export class Model {
       .divideScalar(2 * (scale || 1))
       .applyQuaternion(this.pivot.quaternion.clone().invert());
     this.facets.position.copy(this.#middle).negate();
-    this.pivot.position.set(0, 0, this.size_mm[2] / 2);
+    this.pivot.position.set(0, 0, (this.size_mm[2] + this.lift_mm) / 2);
   }
 
   /** Sets the same points without duplicates, to save time in `setPose`. */
@@ -165,9 +175,20 @@ export class Model {
       .copy(this.#middle)
       .multiplyScalar(scale)
       .applyQuaternion(this.pivot.quaternion)
-      .add(new Vector3(...standing(extent)));
-    this.size_mm = sizeOf(extent);
+      .add(new Vector3(...standing(extent)))
+      .add(new Vector3(0, 0, this.lift_mm));
+    this.steps.position.z = this.lift_mm;
+    const [x, y, z] = sizeOf(extent);
+    this.size_mm = [x, y, z + this.lift_mm];
     return extent;
+  }
+
+  /** @param positions nine numbers a facet, mm from the plate; null: none */
+  setSupports(positions: Float32Array | null): void {
+    this.supports.geometry.dispose();
+    this.supports.geometry = bounded(new BufferGeometry());
+    this.supports.visible = positions !== null && positions.length > 0;
+    if (positions !== null) this.supports.geometry.setAttribute("position", new BufferAttribute(positions, 3));
   }
 
   /** Colours by the layers between these boundaries; fewer than two boundaries leave the model plain. */
@@ -260,6 +281,8 @@ export class Model {
   dispose(): void {
     this.facets.geometry.dispose();
     this.#clearSteps();
+    this.supports.geometry.dispose();
+    this.supports.material.dispose();
     this.#material.dispose();
     this.#boundaries.dispose();
     this.#palette.dispose();
