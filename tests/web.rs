@@ -19,8 +19,9 @@ use cusp_slicer::ldi::{
     LdiError,
     gpu::{self, Gpu, Method},
 };
+use cusp_slicer::model::{Mesh, Pose};
 use cusp_slicer::orientation::{Quality, SearchOptions};
-use cusp_slicer::prepare::{AutoDrain, Drain, Hollowing, Infill, hollow};
+use cusp_slicer::prepare::{AutoDrain, Drain, Hollowing, Infill, Supporting, hollow, support};
 use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::progress::silent;
 #[cfg(target_arch = "wasm32")]
@@ -78,6 +79,17 @@ fn the_void_and_its_holes_are_the_recorded_ones() {
         })
         .collect();
     assert_eq!(fingerprint(&numbers), 0xdcf3_dabe_09cd_3683);
+}
+
+#[wasm_bindgen_test(unsupported = test)]
+fn the_supports_are_the_recorded_ones() {
+    let mesh = Mesh::from_triangles(&model()).unwrap();
+    let mesh = mesh.on_plate(&Pose::of_height(24.0)).unwrap();
+    let supports = support(&mesh, &Supporting::default(), &mut silent).unwrap();
+    assert!(supports.points.len() > 9);
+    let vertices = bytemuck::cast_slice(&supports.shell.vertices).to_vec();
+    let facets = bytemuck::cast_slice(&supports.shell.facets).to_vec();
+    assert_eq!(fingerprint(&[vertices, facets].concat()), 0xe88a_1f9d_0e82_5558);
 }
 
 #[wasm_bindgen_test(unsupported = test)]

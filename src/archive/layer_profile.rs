@@ -15,7 +15,7 @@ use super::ArchiveError;
 use super::zip::MODIFIED;
 use crate::crc::Crc32;
 use crate::filament::FilamentSlicer;
-use crate::model::Mesh;
+use crate::model::{Bounds, Mesh};
 use crate::progress::{Progress, report};
 
 /// A model with its layers.
@@ -86,11 +86,37 @@ pub fn write<W: Write>(
         Ok(file.write_all(RELATIONSHIPS.as_bytes())?)
     })?;
     add(&mut zip, "3D/3dmodel.model", |file| {
-        write_mesh(model.mesh, application(slicer), file, progress)
+        let mesh = model.mesh;
+        let facets = &mesh.facets[..mesh.classes.model_end() as usize];
+        let bounds = mesh.bounds();
+        write_mesh(mesh, facets, &bounds, application(slicer), file, progress)
     })?;
     add(&mut zip, profile_name(slicer), |file| {
         writeln!(file, "object_id=1|{}", model.profile())?;
         Ok(())
+    })?;
+    zip.finish().map_err(ArchiveError::write)
+}
+
+/// Writes all that is printed of a mesh as a 3MF: the model, its voids as bodies inside out, and its supports.
+///
+/// # Errors
+/// [`ArchiveError::Write`], [`ArchiveError::Cancelled`].
+pub fn write_printed<W: Write>(
+    mesh: &Mesh,
+    writer: W,
+    progress: &mut Progress<'_>,
+) -> Result<W, ArchiveError> {
+    let mut zip = ZipArchiveWriter::new(writer);
+    add(&mut zip, "[Content_Types].xml", |file| {
+        Ok(file.write_all(CONTENT_TYPES.as_bytes())?)
+    })?;
+    add(&mut zip, "_rels/.rels", |file| {
+        Ok(file.write_all(RELATIONSHIPS.as_bytes())?)
+    })?;
+    add(&mut zip, "3D/3dmodel.model", |file| {
+        let (facets, bounds) = (mesh.printed_facets(), mesh.printed_bounds());
+        write_mesh(mesh, &facets, &bounds, "Cusp", file, progress)
     })?;
     zip.finish().map_err(ArchiveError::write)
 }
@@ -154,11 +180,12 @@ const CHUNK: usize = 1 << 14;
 /// where its x and y are not negative, which readers may expect.
 fn write_mesh(
     mesh: &Mesh,
+    facets: &[[u32; 3]],
+    bounds: &Bounds,
     application: &str,
     file: &mut dyn Write,
     progress: &mut Progress<'_>,
 ) -> Result<(), ArchiveError> {
-    let facets = &mesh.facets[..mesh.classes.model_end() as usize];
     let total = (mesh.vertices.len() + facets.len()) as f64;
     file.write_all(MODEL_HEAD.as_bytes())?;
     writeln!(
@@ -184,7 +211,7 @@ fn write_mesh(
             writeln!(file, "<triangle v1=\"{a}\" v2=\"{b}\" v3=\"{c}\"/>")?;
         }
     }
-    let [x, y] = [mesh.bounds().min.x, mesh.bounds().min.y].map(|it| super::tidy(-it) + 0.0);
+    let [x, y] = [bounds.min.x, bounds.min.y].map(|it| super::tidy(-it) + 0.0);
     writeln!(
         file,
         "    </triangles>\n   </mesh>\n  </object>\n </resources>\n <build>\n  \

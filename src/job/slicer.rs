@@ -149,14 +149,16 @@ impl Slicer {
         surface_positions(&self.model)
     }
 
+    /// The mesh that the last plan was made for: on the plate, with its voids and supports.
+    pub fn prepared(&self) -> Option<&Mesh> {
+        let planned = &self.current.as_ref()?.planned;
+        Some(&planned.models.first()?.sampled().mesh)
+    }
+
     /// Vertex positions of the last plan's supports, nine numbers per facet, in millimetres from the plate; none without supports.
     pub fn support_positions(&self) -> Vec<f32> {
-        let planned = self.current.as_ref().map(|current| &current.planned);
-        let sampled = planned.and_then(|planned| planned.models.first());
-        sampled.map_or_else(Vec::new, |model| {
-            let mesh = &model.sampled().mesh;
-            positions(mesh, mesh.supports())
-        })
+        let mesh = self.prepared();
+        mesh.map_or_else(Vec::new, |mesh| positions(mesh, mesh.supports()))
     }
 
     /// Vertex positions of the surface facets, nine numbers per facet, in millimetres, with the model on the plate in this

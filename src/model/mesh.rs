@@ -191,6 +191,21 @@ impl Mesh {
         &self.facets[self.classes.end(FacetClass::Void)..]
     }
 
+    /// All facets, those of voids inside out, so that readers subtract them.
+    pub fn printed_facets(&self) -> Vec<[u32; 3]> {
+        let voids = self.classes.model_end() as usize..self.classes.end(FacetClass::Void);
+        let facets = self.facets.iter().enumerate();
+        let turned = |[a, b, c]: [u32; 3]| [a, c, b];
+        let printed = facets.map(|(facet, &corners)| {
+            if voids.contains(&facet) {
+                turned(corners)
+            } else {
+                corners
+            }
+        });
+        printed.collect()
+    }
+
     /// The bounding box of all that is printed: the surface and its supports.
     pub fn printed_bounds(&self) -> Bounds {
         let place = |vertex: usize| self.vertices[vertex].as_dvec3();

@@ -232,3 +232,50 @@ fn the_trade_off_and_the_comparison_are_shown_and_agree_with_plans() {
         );
     }
 }
+
+#[test]
+fn a_supported_model_is_lifted_and_written_for_other_programs() {
+    let folder = TempDir::new().unwrap();
+    let ball = sphere(&folder);
+    let plan = |options: &[&str]| {
+        let usual: &[&str] = &["plan", &ball, "--pitch", "0.05", "--json"];
+        json(&on_cpu(&[usual, options].concat()))
+    };
+    let bare = plan(&[]);
+    let supported = plan(&["--supports", "light", "--lift", "4"]);
+    let height_mm = |report: &serde_json::Value| report["height_mm"].as_f64().unwrap();
+    assert_near(height_mm(&supported) - height_mm(&bare), 4.0, 1e-9);
+    let points = supported["supported"]["points"].clone();
+    assert!(!points.as_array().unwrap().is_empty());
+
+    // The points of the report in a file give the same print.
+    let supports = serde_json::json!({ "strength": "light", "points": points });
+    let file = folder.path().join("supports.json");
+    std::fs::write(&file, supports.to_string()).unwrap();
+    let file = file.to_str().unwrap();
+    let again = plan(&["--supports", file, "--lift", "4"]);
+    assert_eq!(again["resin_ml"], supported["resin_ml"]);
+    assert_eq!(again["z_mm"], supported["z_mm"]);
+
+    // What is written has the resin of the print.
+    for name in ["held.stl", "held.3mf"] {
+        let held = folder.path().join(name);
+        let held = held.to_str().unwrap();
+        plan(&["--supports", "light", "--lift", "4", "--export", held]);
+        let other = json(&on_cpu(&["plan", held, "--pitch", "0.05", "--json"]));
+        let ml = |report: &serde_json::Value| report["resin_ml"].as_f64().unwrap();
+        assert_near(ml(&other), ml(&supported), 1e-3 * ml(&supported));
+        assert_near(height_mm(&other), height_mm(&supported), 1e-5);
+    }
+    assert_fails(
+        &cusp(&["plan", &ball, "--lift", "4"]),
+        1,
+        "--lift is for supported models: add --supports",
+    );
+    let obj = folder.path().join("held.obj");
+    assert_fails(
+        &cusp(&["plan", &ball, "--export", obj.to_str().unwrap()]),
+        1,
+        "a mesh is written as .stl or .3mf",
+    );
+}

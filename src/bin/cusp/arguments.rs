@@ -36,6 +36,9 @@ pub struct Slicing {
     pub arrange: bool,
     #[command(flatten)]
     pub places: Places,
+    /// Write the model as it prints, with its voids and supports: an .stl or .3mf for other programs
+    #[arg(long, value_name = "FILE", help_heading = "Model")]
+    pub export: Option<PathBuf>,
     #[command(flatten)]
     pub choices: Choices,
 }

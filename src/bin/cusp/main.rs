@@ -7,6 +7,7 @@ mod check;
 mod config;
 mod contours;
 mod convert;
+mod export;
 mod files;
 mod inspect;
 mod job_file;

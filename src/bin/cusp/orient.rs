@@ -11,10 +11,10 @@ use cusp_slicer::orientation::shard::Shard;
 use cusp_slicer::orientation::{
     Candidate, Cost, Exclusion, MAX_DIRECTIONS, Quality, SearchOptions,
 };
-use stl_io::{Normal, Triangle, Vertex};
 
 use crate::arguments::{Choices, Settings};
 use crate::batch::check_inputs;
+use crate::export::write_stl;
 use crate::files::{Failure, Output, WeightsFile, in_file, load_painted};
 use crate::terminal::{Bar, duration, is_interrupted, print, say, stop_on_interrupt, to_json};
 use crate::usage::check_json;
@@ -205,14 +205,8 @@ fn apply(
     let (facets, _) = corners.as_chunks::<9>();
     let facets = facets
         .iter()
-        .map(|&[ax, ay, az, bx, by, bz, cx, cy, cz]| Triangle {
-            // Readers compute the normal from the corners.
-            normal: Normal::new([0.0; 3]),
-            vertices: [[ax, ay, az], [bx, by, bz], [cx, cy, cz]].map(Vertex::new),
-        });
-    let mut bytes = Vec::new();
-    stl_io::write_stl(&mut bytes, facets).map_err(|error| output.failed(&error))?;
-    output.write_bytes(&bytes)
+        .map(|&[ax, ay, az, bx, by, bz, cx, cy, cz]| [[ax, ay, az], [bx, by, bz], [cx, cy, cz]]);
+    write_stl(facets, output)
 }
 
 fn describe(model: &Path, options: &Options, found: &OrientationReport) -> String {

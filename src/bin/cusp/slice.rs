@@ -10,6 +10,7 @@ use serde::Serialize;
 
 use crate::arguments::{Settings, Slicing, Studying};
 use crate::batch::{Batch, check_inputs, outputs_in, workers};
+use crate::export::export;
 use crate::files::{Failure, Output, in_file, is_standard, load_painted};
 use crate::plate;
 use crate::terminal::{Bar, duration, open_gpu, print, print_json, stop_on_interrupt, warn};
@@ -18,6 +19,7 @@ use crate::usage::{check_json, wrong_usage};
 pub fn slice(slicing: &Slicing, output: &Path) -> Result<(), Failure> {
     slicing.choices.check("slice");
     check_inputs("slice", &slicing.models);
+    check_export("slice", slicing);
     if let Some(job) = plate::job("slice", slicing)? {
         return plate::slice(job, slicing, output);
     }
@@ -37,12 +39,16 @@ pub fn slice(slicing: &Slicing, output: &Path) -> Result<(), Failure> {
     let mut progress = |stage, fraction| bar.report(stage, fraction);
     let report = slice_one(&mut slicer, model, &settings, &output, &mut progress)?;
     drop(bar);
+    if let Some(file) = &slicing.export {
+        export(&slicer, file)?;
+    }
     show(slicing, &report)
 }
 
 pub fn plan(slicing: &Slicing) -> Result<(), Failure> {
     slicing.choices.check("plan");
     check_inputs("plan", &slicing.models);
+    check_export("plan", slicing);
     if let Some(job) = plate::job("plan", slicing)? {
         return plate::plan(job, slicing);
     }
@@ -54,9 +60,22 @@ pub fn plan(slicing: &Slicing) -> Result<(), Failure> {
     stop_on_interrupt();
     let bar = Bar::new();
     let mut progress = |stage, fraction| bar.report(stage, fraction);
-    let report = make_plan(&mut slicer, model, &settings.options, &mut progress)?;
+    let report = make_plan(&mut slicer, model, &settings.options, &mut progress)?.clone();
     drop(bar);
-    show(slicing, report)
+    if let Some(file) = &slicing.export {
+        export(&slicer, file)?;
+    }
+    show(slicing, &report)
+}
+
+/// A mesh is written of one model.
+fn check_export(command: &str, slicing: &Slicing) {
+    if slicing.export.is_some() && (slicing.models.len() > 1 || slicing.arrange) {
+        wrong_usage(
+            command,
+            "--export writes one model: name one, without --arrange",
+        );
+    }
 }
 
 /// Whether print files go into it: a folder that is there, or is named as one.
