@@ -169,7 +169,7 @@ impl Warning {
     }
 
     /// The sentences about voids and their holes.
-    fn of_hollowing(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+    fn of_preparing(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::NothingHollowed { wall_mm, cavity_mm } => write!(
                 f,
@@ -183,6 +183,15 @@ impl Warning {
                 f,
                 "{} of the void stay full, since no hole leads out of them on a level or downward; place holes there, or turn the model",
                 counted(*basins, "part")
+            ),
+            Self::SupportAstray { point_number } => write!(
+                f,
+                "support {point_number} is not on the model, and was left out; place it on the surface"
+            ),
+            Self::Unsupported { points } => write!(
+                f,
+                "{} without a support, since none gets there; turn the model, or choose lighter supports",
+                counted(*points, "point")
             ),
             _ => Ok(()),
         }
@@ -214,18 +223,11 @@ impl std::fmt::Display for Warning {
                 stated.plural(),
                 given.plural()
             ),
-            Self::NothingHollowed { .. } | Self::DrainAstray { .. } | Self::Undrained { .. } => {
-                self.of_hollowing(f)
-            }
-            Self::SupportAstray { point_number } => write!(
-                f,
-                "support {point_number} is not on the model, and was left out; place it on the surface"
-            ),
-            Self::Unsupported { points } => write!(
-                f,
-                "{} without a support, since none gets there; turn the model, or choose lighter supports",
-                counted(*points, "point")
-            ),
+            Self::NothingHollowed { .. }
+            | Self::DrainAstray { .. }
+            | Self::Undrained { .. }
+            | Self::SupportAstray { .. }
+            | Self::Unsupported { .. } => self.of_preparing(f),
             Self::UnclosedRays { unclosed, rays } => write!(
                 f,
                 "{unclosed} of {rays} rays pass holes of the mesh, which flat caps close; look at the masks"

@@ -89,7 +89,10 @@ fn the_supports_are_the_recorded_ones() {
     assert!(supports.points.len() > 9);
     let vertices = bytemuck::cast_slice(&supports.shell.vertices).to_vec();
     let facets = bytemuck::cast_slice(&supports.shell.facets).to_vec();
-    assert_eq!(fingerprint(&[vertices, facets].concat()), 0xe88a_1f9d_0e82_5558);
+    assert_eq!(
+        fingerprint(&[vertices, facets].concat()),
+        0xe88a_1f9d_0e82_5558
+    );
 }
 
 #[wasm_bindgen_test(unsupported = test)]

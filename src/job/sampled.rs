@@ -12,7 +12,7 @@ use crate::job::report::mesh_warnings;
 use crate::ldi::gpu::{self, Gpu};
 use crate::ldi::{GpuFault, Ldi, LdiError, Solid, cpu};
 use crate::model::{FacetClass, Mesh};
-use crate::prepare::{self, Drain, SupportPoint, Supports, Void};
+use crate::prepare::{self, Drain, Hollowing, SupportPoint, Supports, Void};
 use crate::progress::Progress;
 use crate::warning::Warning;
 
@@ -132,24 +132,7 @@ impl Sampler {
         };
         if let Some(hollowing) = &sampling.hollow {
             let mut within = |fraction| progress(Stage::Ldi, between * fraction);
-            match prepare::hollow(&mesh, hollowing, &mut within)? {
-                Some(void) => {
-                    let drains = void.drains.iter().map(|drain| &drain.1);
-                    for shell in std::iter::once(&void.shell).chain(drains) {
-                        mesh.add(&shell.vertices, &shell.facets, FacetClass::Void);
-                    }
-                    warnings.extend(drain_warnings(&void));
-                    hollowed = Some(Hollowed {
-                        void_ml: void.shell.volume_mm3() / 1e3,
-                        drains: void.drains.into_iter().map(|drain| drain.0).collect(),
-                        resolution_mm: void.resolution_mm,
-                    });
-                }
-                None => warnings.push(Warning::NothingHollowed {
-                    wall_mm: hollowing.wall_mm,
-                    cavity_mm: hollowing.cavity_mm,
-                }),
-            }
+            hollowed = hollow(&mut mesh, hollowing, &mut warnings, &mut within)?;
         }
         let mut supports = None;
         if let Some(supporting) = &sampling.supports {
@@ -199,14 +182,7 @@ impl Sampler {
             warnings.push(Warning::UnclosedRays { unclosed, rays });
         }
         timings.ldi += ms_since(clock);
-        let supported = supports.map(|supports| Supported {
-            support_ml: ldi.support_mm3() / 1e3,
-            lift_mm: supports.lift_mm,
-            points: supports.points,
-            unreached: supports.unreached,
-            on_model: supports.on_model,
-            joints_mm: supports.joints_mm,
-        });
+        let supported = supports.map(|supports| Supported::of(supports, &ldi));
         Ok(Sampled {
             height_mm: sampling.height_mm(mesh.bounds().size().z),
             sampling: sampling.clone(),
@@ -263,6 +239,45 @@ impl Sampler {
             self.is_given = is_given;
         }
         Ok((ldi?, UsedGpu { name, method }))
+    }
+}
+
+/// Hollows a mesh; what was left out of it, if anything.
+fn hollow(
+    mesh: &mut Mesh,
+    hollowing: &Hollowing,
+    warnings: &mut Vec<Warning>,
+    progress: &mut Progress<'_>,
+) -> Result<Option<Hollowed>, LdiError> {
+    let Some(void) = prepare::hollow(mesh, hollowing, progress)? else {
+        warnings.push(Warning::NothingHollowed {
+            wall_mm: hollowing.wall_mm,
+            cavity_mm: hollowing.cavity_mm,
+        });
+        return Ok(None);
+    };
+    let drains = void.drains.iter().map(|drain| &drain.1);
+    for shell in std::iter::once(&void.shell).chain(drains) {
+        mesh.add(&shell.vertices, &shell.facets, FacetClass::Void);
+    }
+    warnings.extend(drain_warnings(&void));
+    Ok(Some(Hollowed {
+        void_ml: void.shell.volume_mm3() / 1e3,
+        drains: void.drains.into_iter().map(|drain| drain.0).collect(),
+        resolution_mm: void.resolution_mm,
+    }))
+}
+
+impl Supported {
+    fn of(supports: Supports, ldi: &Ldi) -> Self {
+        Self {
+            support_ml: ldi.support_mm3() / 1e3,
+            lift_mm: supports.lift_mm,
+            points: supports.points,
+            unreached: supports.unreached,
+            on_model: supports.on_model,
+            joints_mm: supports.joints_mm,
+        }
     }
 }
 

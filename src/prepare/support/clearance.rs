@@ -283,11 +283,11 @@ impl Clearance {
             node = next;
             points.push(at(node));
         };
-        (self.straightened(points, end), end)
+        (self.straightened(&points, end), end)
     }
 
     /// Leaves out points between which the way can be straight.
-    fn straightened(&self, points: Vec<DVec3>, end: End) -> Vec<DVec3> {
+    fn straightened(&self, points: &[DVec3], end: End) -> Vec<DVec3> {
         // A foot on the model stands upright.
         let last = points.len()
             - if end == End::Model && points.len() > 1 {

@@ -36,7 +36,7 @@ impl Shapes {
         let sides = first.len() as u32;
         let begin = self.shell.vertices.len() as u32;
         let points = first.into_iter().chain(second);
-        self.shell.vertices.extend(points.map(|it| it.as_vec3()));
+        self.shell.vertices.extend(points.map(DVec3::as_vec3));
         let facets = &mut self.shell.facets;
         for side in 0..sides {
             let next = (side + 1) % sides;
@@ -73,7 +73,7 @@ impl Shapes {
         points.push(middle + DVec3::Z * radius_mm);
         self.shell
             .vertices
-            .extend(points.iter().map(|it| it.as_vec3()));
+            .extend(points.iter().copied().map(DVec3::as_vec3));
         let top = begin + points.len() as u32 - 1;
         let rim = |band: u32, side: u32| begin + 1 + band * sides + side % sides;
         let last = bands.len() as u32 - 1;

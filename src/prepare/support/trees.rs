@@ -103,6 +103,7 @@ pub(super) struct Trees<'a> {
 }
 
 /// How a tip is held.
+#[derive(Clone, Copy)]
 enum Hold {
     /// By a new pillar from this node of the clearance.
     Pillar(usize),
