@@ -48,6 +48,7 @@
 //! - Whatever decides uses integers, basic IEEE arithmetic and square roots: a plan is the same on every machine.
 
 mod crc;
+mod disjoint;
 mod order;
 mod parallel;
 pub mod progress;

@@ -78,17 +78,10 @@ pub fn write<W: Write>(
 ) -> Result<W, ArchiveError> {
     report(progress, 0.0)?;
     model.check()?;
-    let mut zip = ZipArchiveWriter::new(writer);
-    add(&mut zip, "[Content_Types].xml", |file| {
-        Ok(file.write_all(CONTENT_TYPES.as_bytes())?)
-    })?;
-    add(&mut zip, "_rels/.rels", |file| {
-        Ok(file.write_all(RELATIONSHIPS.as_bytes())?)
-    })?;
-    add(&mut zip, "3D/3dmodel.model", |file| {
-        let mesh = model.mesh;
-        let facets = &mesh.facets[..mesh.classes.model_end() as usize];
-        let bounds = mesh.bounds();
+    let mesh = model.mesh;
+    let facets = &mesh.facets[..mesh.classes.model_end() as usize];
+    let bounds = mesh.bounds();
+    let mut zip = begin(writer, |file| {
         write_mesh(mesh, facets, &bounds, application(slicer), file, progress)
     })?;
     add(&mut zip, profile_name(slicer), |file| {
@@ -107,6 +100,18 @@ pub fn write_printed<W: Write>(
     writer: W,
     progress: &mut Progress<'_>,
 ) -> Result<W, ArchiveError> {
+    let (facets, bounds) = (mesh.printed_facets(), mesh.printed_bounds());
+    let zip = begin(writer, |file| {
+        write_mesh(mesh, &facets, &bounds, "Cusp", file, progress)
+    })?;
+    zip.finish().map_err(ArchiveError::write)
+}
+
+/// The zip with what every 3MF has, and the model that `write_model` writes.
+fn begin<W: Write>(
+    writer: W,
+    write_model: impl FnOnce(&mut dyn Write) -> Result<(), ArchiveError>,
+) -> Result<ZipArchiveWriter<W>, ArchiveError> {
     let mut zip = ZipArchiveWriter::new(writer);
     add(&mut zip, "[Content_Types].xml", |file| {
         Ok(file.write_all(CONTENT_TYPES.as_bytes())?)
@@ -114,11 +119,8 @@ pub fn write_printed<W: Write>(
     add(&mut zip, "_rels/.rels", |file| {
         Ok(file.write_all(RELATIONSHIPS.as_bytes())?)
     })?;
-    add(&mut zip, "3D/3dmodel.model", |file| {
-        let (facets, bounds) = (mesh.printed_facets(), mesh.printed_bounds());
-        write_mesh(mesh, &facets, &bounds, "Cusp", file, progress)
-    })?;
-    zip.finish().map_err(ArchiveError::write)
+    add(&mut zip, "3D/3dmodel.model", write_model)?;
+    Ok(zip)
 }
 
 impl LayeredModel<'_> {

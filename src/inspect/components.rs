@@ -3,6 +3,7 @@
 //! Pixels hang together across their four sides. An edge or a corner alone is no bond, and no passage either.
 
 use super::rows::{Rows, Span};
+use crate::disjoint::{find, unite};
 
 /// Not yet known.
 pub(super) const NONE: u32 = u32::MAX;
@@ -179,22 +180,4 @@ fn each_overlap(a: &Rows, a_row: i32, b: &Rows, b_row: i32, mut found: impl FnMu
             j.start += 1;
         }
     }
-}
-
-/// The root of a tree, whose path becomes shorter.
-pub(super) fn find(parent: &mut [u32], mut node: u32) -> u32 {
-    while parent[node as usize] != node {
-        let above = parent[parent[node as usize] as usize];
-        parent[node as usize] = above;
-        node = above;
-    }
-    node
-}
-
-/// Joins two trees under the root with the smaller number, and returns it.
-pub(super) fn unite(parent: &mut [u32], a: u32, b: u32) -> u32 {
-    let (a, b) = (find(parent, a), find(parent, b));
-    let (low, high) = (a.min(b), a.max(b));
-    parent[high as usize] = low;
-    low
 }

@@ -4,7 +4,8 @@
 //! meet below, or begin new ones. The same sweep finds bodies and islands among lit components, cups and traps among dark
 //! ones, and joins findings of consecutive layers.
 
-use super::components::{NONE, Patch, find, unite};
+use super::components::{NONE, Patch};
+use crate::disjoint::{find, unite};
 use crate::order::sort_by_number;
 
 /// Why a tree ended.

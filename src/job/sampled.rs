@@ -116,8 +116,10 @@ impl Sampler {
     ) -> Result<Sampled, Error> {
         let clock = Instant::now();
         let mut mesh = model.on_plate(&sampling.pose)?;
-        let bounds = mesh.bounds();
-        let grid = sampling.grid(&bounds)?;
+        // Of the model, and of all that is printed.
+        let mut bounds = mesh.bounds();
+        let mut printed = bounds;
+        let mut grid = sampling.grid(&bounds)?;
         timings.load += ms_since(clock);
 
         let clock = Instant::now();
@@ -147,14 +149,11 @@ impl Sampler {
             mesh.lift(made.lift_mm);
             warnings.extend(support_warnings(&made));
             supports = Some(made);
+            (bounds, printed) = (mesh.bounds(), mesh.printed_bounds());
+            grid = sampling.grid_around(grid, &printed)?;
         }
-        let bounds = mesh.printed_bounds();
-        let grid = match &supports {
-            Some(_) => sampling.grid_around(grid, &bounds)?,
-            None => grid,
-        };
         let mut ldi_progress = |fraction| progress(Stage::Ldi, begun + (1.0 - begun) * fraction);
-        let rays = grid.refined(sampling.samples.rays()).around_model(&bounds);
+        let rays = grid.refined(sampling.samples.rays()).around_model(&printed);
         rays.check_rays()?;
         let mut on_gpu = None;
         if self.wants_gpu(sampling.backend, mesh.facets.len(), rays.pixels()) {
@@ -184,7 +183,7 @@ impl Sampler {
         timings.ldi += ms_since(clock);
         let supported = supports.map(|supports| Supported::of(supports, &ldi));
         Ok(Sampled {
-            height_mm: sampling.height_mm(mesh.bounds().size().z),
+            height_mm: sampling.height_mm(bounds.size().z),
             sampling: sampling.clone(),
             mesh,
             grid,

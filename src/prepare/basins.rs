@@ -3,6 +3,8 @@
 //! A part of the void that begins by itself holds resin while it is printed, and after: the film pulls at it until it joins an older part.
 //! So each basin needs a hole at its lowest point, unless it is so small when it joins another that nobody calls it a cup.
 
+use crate::disjoint::find;
+
 /// A basin that is smaller than this where it joins another needs no hole of its own.
 const LEAST_MM2: f32 = 1.0;
 
@@ -79,7 +81,7 @@ impl Basins {
                 }
                 let under = self.below[node];
                 if under != NONE {
-                    let under = self.find(under);
+                    let under = find(&mut self.parent, under);
                     on = if on == NONE {
                         under
                     } else {
@@ -139,12 +141,5 @@ impl Basins {
         self.parent[young as usize] = old;
         self.parts[old as usize].nodes_here += part.nodes_here;
         old
-    }
-
-    fn find(&self, mut part: u32) -> u32 {
-        while self.parent[part as usize] != part {
-            part = self.parent[part as usize];
-        }
-        part
     }
 }

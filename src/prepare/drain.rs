@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::columns::Columns;
 use super::nets::{Lattice, Shell};
+use super::round::{circle, rim};
 use crate::model::Bounds;
 
 /// A drain hole.
@@ -44,23 +45,6 @@ impl Default for AutoDrain {
 /// Doublings from four points of a circle to those of a hole.
 const DOUBLINGS: u32 = 3;
 
-/// Unit vectors around a circle, of which the first is along x: four, and twice as many for each doubling.
-///
-/// Square roots alone are the same on every machine; sines are not.
-pub(super) fn circle(doublings: u32) -> Vec<[f64; 2]> {
-    let mut points: Vec<[f64; 2]> = vec![[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
-    for _ in 0..doublings {
-        let next = points.iter().cycle().skip(1);
-        let pairs = points.iter().zip(next).flat_map(|(&a, &b)| {
-            let middle = [a[0] + b[0], a[1] + b[1]];
-            let length = (middle[0] * middle[0] + middle[1] * middle[1]).sqrt();
-            [a, [middle[0] / length, middle[1] / length]]
-        });
-        points = pairs.collect();
-    }
-    points
-}
-
 /// No plate is as wide or as high.
 const MOST_MM: f64 = 1e5;
 
@@ -93,25 +77,11 @@ impl Bore {
         if !along.is_finite() {
             return None;
         }
-        // Beside the axis that it is farthest from.
-        let size = along.abs();
-        let axis = if size.x <= size.y && size.x <= size.z {
-            DVec3::X
-        } else if size.y <= size.z {
-            DVec3::Y
-        } else {
-            DVec3::Z
-        };
-        let across = axis.cross(along);
-        let across = across / across.length();
-        let other = along.cross(across);
-        let radius_mm = drain.diameter_mm / 2.0;
-        let rim = circle(DOUBLINGS).into_iter();
-        let rim = rim.map(|[x, y]| (across * x + other * y) * radius_mm);
+        let rim = rim(along, drain.diameter_mm / 2.0, DOUBLINGS);
         Some(Self {
             at: DVec3::from_array(drain.at_mm),
             along,
-            rim: rim.collect(),
+            rim,
         })
     }
 

@@ -9,6 +9,7 @@ mod hollow;
 mod lattice;
 mod lengths;
 mod nets;
+mod round;
 mod support;
 
 pub use drain::{AutoDrain, Drain};

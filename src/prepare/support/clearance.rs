@@ -23,7 +23,7 @@ const SLANTED: u16 = 14;
 /// No way.
 const NONE: u16 = u16::MAX;
 
-/// What standing on the model costs, since it leaves a mark: a detour of so many millimetres is shorter.
+/// What standing on the model counts as, since it leaves a mark: so much pillar. A branch to another pillar that is shorter is preferred.
 const ON_MODEL_MM: f32 = 30.0;
 
 /// The least part of a pillar's height above a floor that it must be away from it. Steeper floors have none of it.

@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::SupportProfile;
+use crate::disjoint;
 use crate::ldi::Ldi;
 use crate::model::{Across, Mesh};
 use crate::order::sort_by_number;
@@ -204,10 +205,7 @@ const NO_CORNER: usize = usize::MAX;
 /// that level edges join. Where sheets meet in a vertex alone, its corners are in several groups.
 fn level_groups(mesh: &Mesh, facets: &[[u32; 3]]) -> Vec<u32> {
     let mut parent: Vec<u32> = (0..3 * facets.len() as u32).collect();
-    let mut unite = |a: usize, b: usize| {
-        let [a, b] = [a, b].map(|corner| root(&mut parent, corner as u32));
-        parent[a.max(b) as usize] = a.min(b);
-    };
+    let mut unite = |a: usize, b: usize| disjoint::unite(&mut parent, a as u32, b as u32);
     // A corner of each vertex whose edges do not tell what is beside it.
     let mut whole = vec![NO_CORNER; mesh.vertices.len()];
     for (facet, corners) in facets.iter().enumerate() {
@@ -241,7 +239,7 @@ fn level_groups(mesh: &Mesh, facets: &[[u32; 3]]) -> Vec<u32> {
         }
     }
     (0..3 * facets.len() as u32)
-        .map(|corner| root(&mut parent, corner))
+        .map(|corner| disjoint::find(&mut parent, corner))
         .collect()
 }
 
@@ -260,15 +258,6 @@ fn is_buried(ldi: &Ldi, at: DVec3) -> bool {
         is_buried |= f64::from(from_mm) < below_mm && below_mm < f64::from(to_mm);
     });
     is_buried
-}
-
-fn root(parent: &mut [u32], mut vertex: u32) -> u32 {
-    while parent[vertex as usize] != vertex {
-        let above = parent[parent[vertex as usize] as usize];
-        parent[vertex as usize] = above;
-        vertex = above;
-    }
-    vertex
 }
 
 /// A place on a surface that does not support itself.

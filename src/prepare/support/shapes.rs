@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use crate::order::sort_by_number;
-use crate::prepare::drain::circle;
 use crate::prepare::nets::Shell;
+use crate::prepare::round::{circle, rim};
 
 /// Doublings from four points of a circle to those around a support.
 const DOUBLINGS: u32 = 2;
@@ -21,14 +21,16 @@ pub(super) struct Shapes {
 impl Shapes {
     /// A round body from one point to another, with these radii at its ends.
     pub fn cone(&mut self, from: DVec3, from_mm: f64, to: DVec3, to_mm: f64) {
-        let Some([across, other]) = beside(to - from) else {
+        let length_mm = from.distance(to);
+        if length_mm == 0.0 {
             return;
-        };
+        }
+        let along = (to - from) / length_mm;
         let rim = |middle: DVec3, radius_mm: f64| {
-            let rim = circle(DOUBLINGS).into_iter();
-            rim.map(move |[x, y]| middle + (across * x + other * y) * radius_mm)
+            let rim = rim(along, radius_mm, DOUBLINGS).into_iter();
+            rim.map(|it| middle + it).collect()
         };
-        self.drum(rim(from, from_mm).collect(), rim(to, to_mm).collect());
+        self.drum(rim(from, from_mm), rim(to, to_mm));
     }
 
     /// A body between two outlines of equally many points, counter-clockwise as seen from the second.
@@ -114,27 +116,6 @@ impl Shapes {
             hull.iter().map(top).collect(),
         );
     }
-}
-
-/// Two unit vectors at right angles to a direction and to each other, counter-clockwise as seen from where it leads to.
-fn beside(direction: DVec3) -> Option<[DVec3; 2]> {
-    let length = direction.length();
-    if length == 0.0 {
-        return None;
-    }
-    let along = direction / length;
-    // From the axis that it is farthest from.
-    let size = along.abs();
-    let axis = if size.x <= size.y && size.x <= size.z {
-        DVec3::X
-    } else if size.y <= size.z {
-        DVec3::Y
-    } else {
-        DVec3::Z
-    };
-    let across = axis.cross(along);
-    let across = across / across.length();
-    Some([across, along.cross(across)])
 }
 
 /// The convex hull of points in the plane, counter-clockwise.

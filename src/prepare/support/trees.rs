@@ -10,8 +10,8 @@ use super::clearance::{Clearance, End, is_steep};
 use super::contacts::Contact;
 use super::shapes::Shapes;
 use crate::order;
-use crate::prepare::drain::circle;
 use crate::prepare::nets::Shell;
+use crate::prepare::round::circle;
 
 /// No node.
 const NONE: u32 = u32::MAX;
@@ -103,10 +103,9 @@ pub(super) struct Trees<'a> {
 }
 
 /// How a tip is held.
-#[derive(Clone, Copy)]
 enum Hold {
-    /// By a new pillar from this node of the clearance.
-    Pillar(usize),
+    /// By a new pillar: its points from the highest down, and what it stands on.
+    Pillar(Vec<DVec3>, End),
     /// By a branch to this node.
     Branch(u32),
 }
@@ -138,14 +137,14 @@ impl<'a> Trees<'a> {
         if above_plate_mm > self.profile.tip_mm + self.profile.pillar_mm {
             let mut on_model = None;
             for tip in self.tips_at(contact) {
-                match self.hold(tip.end) {
-                    Some((hold, End::Plate)) => {
-                        self.insert(tip, hold);
-                        return true;
-                    }
-                    Some((hold, End::Model)) if on_model.is_none() => on_model = Some((tip, hold)),
-                    _ => {}
+                let Some(hold) = self.hold(tip.end) else {
+                    continue;
+                };
+                if self.end_of_hold(&hold) == End::Plate {
+                    self.insert(tip, hold);
+                    return true;
                 }
+                on_model.get_or_insert((tip, hold));
             }
             if let Some((tip, hold)) = on_model {
                 self.insert(tip, hold);
@@ -201,8 +200,8 @@ impl<'a> Trees<'a> {
             && self.clearance.is_within(tip.end)
     }
 
-    /// The shortest way to hold a point, and what that stands on.
-    fn hold(&self, at: DVec3) -> Option<(Hold, End)> {
+    /// The shortest way to hold a point.
+    fn hold(&self, at: DVec3) -> Option<Hold> {
         let own = self.clearance.way(at);
         let most_mm = own.map_or(f64::INFINITY, |own| own.0 + FOOT_COST_MM);
         let near = self.nodes.iter().enumerate().filter(|(_, node)| {
@@ -224,10 +223,18 @@ impl<'a> Trees<'a> {
                     .is_clear(at, self.nodes[node as usize].at, need_mm)
         });
         if let Some(node) = joined.next() {
-            return Some((Hold::Branch(node), self.end_of(node)));
+            return Some(Hold::Branch(node));
         }
         let (_, node) = own?;
-        Some((Hold::Pillar(node), self.clearance.points(node).1))
+        let (points, end) = self.clearance.points(node);
+        Some(Hold::Pillar(points, end))
+    }
+
+    fn end_of_hold(&self, hold: &Hold) -> End {
+        match hold {
+            Hold::Pillar(_, end) => *end,
+            Hold::Branch(node) => self.end_of(*node),
+        }
     }
 
     fn end_of(&self, mut node: u32) -> End {
@@ -270,8 +277,7 @@ impl<'a> Trees<'a> {
                 points.push(self.nodes[node as usize].at);
                 (node, None)
             }
-            Hold::Pillar(node) => {
-                let (way, end) = self.clearance.points(node);
+            Hold::Pillar(way, end) => {
                 points.extend(way);
                 (NONE, Some(end))
             }
@@ -461,13 +467,14 @@ impl<'a> Trees<'a> {
             .iter()
             .filter(|node| node.down != NONE && !is_plain(node))
         {
-            let mut below = &self.nodes[node.down as usize];
-            while below.down != NONE && is_plain(below) {
-                below = &self.nodes[below.down as usize];
+            let mut next = node.down;
+            while self.nodes[next as usize].down != NONE && is_plain(&self.nodes[next as usize]) {
+                next = self.nodes[next as usize].down;
             }
+            let below = &self.nodes[next as usize];
             let radius_mm = radius_mm(&profile, node.tips);
             shapes.ball(node.at, radius_mm);
-            let is_on_model = below.down == NONE && self.end_at(below) == End::Model;
+            let is_on_model = below.down == NONE && self.end_of(next) == End::Model;
             if is_on_model {
                 let foot_mm = (FOOT_ON_MODEL * profile.contact_mm / 2.0).min(radius_mm);
                 let foot = below.at - DVec3::Z * profile.penetration_mm;
@@ -527,14 +534,6 @@ impl<'a> Trees<'a> {
             shapes.cone(low, radius_mm, high, radius_mm);
         }
         shapes.shell
-    }
-
-    fn end_at(&self, node: &Node) -> End {
-        let foot = self
-            .feet
-            .iter()
-            .find(|foot| self.nodes[foot.0 as usize].at == node.at);
-        foot.map_or(End::Plate, |foot| foot.1)
     }
 }
 

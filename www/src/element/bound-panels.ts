@@ -251,6 +251,6 @@ function scaledOf({ result, turning, shown, plate }: Session): Scaled | null {
   const own_mm = plate.heightOf(plate.selected);
   if (own_mm !== null) return { height_mm: own_mm, rotation: result.options.rotation ?? UPRIGHT };
   const { report } = result;
-  const height_mm = turning === null ? ownHeight(report) : shown === null ? ownHeight(report) : (shown.z_mm.at(-1) ?? 0) - shown.lift_mm;
+  const height_mm = turning === null || shown === null ? ownHeight(report) : (shown.z_mm.at(-1) ?? 0) - shown.lift_mm;
   return { height_mm, rotation: turning ?? result.options.rotation ?? UPRIGHT };
 }
