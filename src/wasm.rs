@@ -16,7 +16,7 @@ use crate::job::{self, Calibration, Error, Options, OptionsError, Stage};
 use crate::js::{thrown, to_js};
 use crate::ldi::gpu;
 use crate::model::read::{self, HEAD_BYTES};
-use crate::model::{FileFacts, weights};
+use crate::model::{FacetClass, FileFacts, weights};
 use crate::orientation::{Candidate, Search, SearchOptions, Task, TaskResult};
 use crate::price::{PriceItem, Prices};
 use crate::printer::PRINTERS;
@@ -247,7 +247,12 @@ impl Slicer {
 
     /// Vertex positions of the last plan's supports, nine numbers per facet, in millimetres from the plate; none without supports.
     pub fn supports(&self) -> Vec<f32> {
-        self.slicer.support_positions()
+        self.slicer.positions_of(FacetClass::Support)
+    }
+
+    /// Vertex positions of the walls of the last plan's void, likewise; none of a solid model.
+    pub fn voids(&self) -> Vec<f32> {
+        self.slicer.positions_of(FacetClass::Void)
     }
 
     /// The saliency of each facet, 0 to 1: how much it stands out.

@@ -85,7 +85,7 @@ fn the_void_and_its_holes_are_the_recorded_ones() {
 fn the_supports_are_the_recorded_ones() {
     let mesh = Mesh::from_triangles(&model()).unwrap();
     let mesh = mesh.on_plate(&Pose::of_height(24.0)).unwrap();
-    let supports = support(&mesh, &Supporting::default(), &mut silent).unwrap();
+    let supports = support(&mesh, &Supporting::default(), None, &mut silent).unwrap();
     assert!(supports.points.len() > 9);
     let vertices = bytemuck::cast_slice(&supports.shell.vertices).to_vec();
     let facets = bytemuck::cast_slice(&supports.shell.facets).to_vec();

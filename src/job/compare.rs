@@ -26,7 +26,7 @@ impl Slicer {
         report(progress, Stage::Plan, 1.0)?;
         let metric = job.layering.metric;
         Ok(Comparison {
-            facets: measured.of.mesh.surface_facets,
+            facets: measured.of.mesh().surface_facets,
             height_mm: measured.of.height_mm,
             metric,
             unit: metric.unit().to_owned(),

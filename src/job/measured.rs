@@ -29,7 +29,7 @@ impl Measured {
         weights: Option<Vec<f32>>,
         kept: Option<Arc<Self>>,
     ) -> Result<Arc<Self>, Error> {
-        let Sampled { mesh, ldi, .. } = &**of;
+        let (mesh, ldi) = (of.mesh(), &of.ldi);
         let bins = Bins::of_height(of.height_mm, layering.bin_mm)?;
         let metric = layering.metric;
         let is_of_these =

@@ -16,6 +16,7 @@ mod parts;
 mod planned;
 mod planning;
 mod plate;
+mod prepared;
 mod price;
 mod print;
 mod report;
@@ -39,9 +40,9 @@ pub use plate::{
     ModelOptions, ModelPrintability, Placement, Plate, PlateModelReport, PlateOptions, PlateReport,
     PlatesReport,
 };
+pub use prepared::{Hollowed, Supported};
 pub use report::*;
 pub use resolve::BIN_MM;
-pub use sampled::{Hollowed, Supported};
 pub use slicer::Slicer;
 pub use stage::{Stage, StageProgress};
 pub use verify::*;

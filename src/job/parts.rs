@@ -166,6 +166,12 @@ impl Sampling {
         })
     }
 
+    /// The weights of facets that say where no contact may be, if they do.
+    pub fn spared<'a>(&self, weights: Option<&'a [f32]>) -> Option<&'a [f32]> {
+        let supports = self.supports.as_ref();
+        weights.filter(|_| supports.is_some_and(|it| it.spare))
+    }
+
     /// How far supports lift the model above the plate.
     pub fn lift_mm(&self) -> f64 {
         let supports = self.supports.as_ref();

@@ -7,7 +7,8 @@ use tsify::Tsify;
 
 use super::parts::{Filament, Output};
 use super::planned::{Planned, PlannedModel};
-use super::sampled::{Hollowed, Sampled, Supported};
+use super::prepared::{Hollowed, Supported};
+use super::sampled::Sampled;
 use super::{Options, PlateReport};
 use crate::archive::Manifest;
 use crate::filament::FilamentReport;
@@ -480,7 +481,7 @@ pub(super) struct Origin<'a> {
 /// The voids of all models and copies.
 fn hollowed(models: &[PlannedModel]) -> Option<Hollowed> {
     let voids = models.iter().filter_map(|model| {
-        let void = model.sampled().hollowed.as_ref()?;
+        let void = model.sampled().prepared.hollowed.as_ref()?;
         Some(Hollowed {
             void_ml: void.void_ml * model.copies as f64,
             ..void.clone()
@@ -586,7 +587,7 @@ pub(super) fn report_of(
         bins: plan.bins.count,
         bin_mm: plan.bins.size_mm,
         layer_range_mm: layering.layer_range_mm(plan.bins),
-        facets: sum(models, |sampled| sampled.mesh.surface_facets),
+        facets: sum(models, |sampled| sampled.mesh().surface_facets),
         hits: sum(models, |sampled| sampled.ldi.hits.len()),
         uniform: findings.uniform.clone(),
         mask: MaskReport {

@@ -23,7 +23,7 @@ use crate::inspect::{self, Held, Printability};
 use crate::ldi::LdiError;
 use crate::ldi::gpu::Gpu;
 use crate::mask::{MaskCursor, Masks, Side};
-use crate::model::{FileFacts, Mesh, ModelFile, Pose, read, saliency, weights};
+use crate::model::{FacetClass, FileFacts, Mesh, ModelFile, Pose, read, saliency, weights};
 use crate::orientation::Surface;
 use crate::plan::Plan;
 use crate::profile::facet_bins::FacetBins;
@@ -152,13 +152,13 @@ impl Slicer {
     /// The mesh that the last plan was made for: on the plate, with its voids and supports.
     pub fn prepared(&self) -> Option<&Mesh> {
         let planned = &self.current.as_ref()?.planned;
-        Some(&planned.models.first()?.sampled().mesh)
+        Some(planned.models.first()?.sampled().mesh())
     }
 
-    /// Vertex positions of the last plan's supports, nine numbers per facet, in millimetres from the plate; none without supports.
-    pub fn support_positions(&self) -> Vec<f32> {
+    /// Vertex positions of the last plan's facets of a class, nine numbers per facet, in millimetres from the plate.
+    pub fn positions_of(&self, class: FacetClass) -> Vec<f32> {
         let mesh = self.prepared();
-        mesh.map_or_else(Vec::new, |mesh| positions(mesh, mesh.supports()))
+        mesh.map_or_else(Vec::new, |mesh| positions(mesh, mesh.of_class(class)))
     }
 
     /// Vertex positions of the surface facets, nine numbers per facet, in millimetres, with the model on the plate in this
@@ -369,7 +369,8 @@ impl Slicer {
             sampling, layering, ..
         } = job;
         let weights = self.layering_weights(layering, progress)?;
-        let sampled = self.sample(sampling, timings, progress).await?;
+        let sampled = self.sample(sampling, weights.as_deref(), timings, progress);
+        let sampled = sampled.await?;
 
         report(progress, Stage::Profile, 0.0)?;
         let clock = Instant::now();
@@ -385,21 +386,22 @@ impl Slicer {
     async fn sample(
         &mut self,
         sampling: &Sampling,
+        weights: Option<&[f32]>,
         timings: &mut Timings,
         progress: &mut StageProgress<'_>,
     ) -> Result<Arc<Sampled>, Error> {
-        if let Some(kept) = self
-            .sampled
-            .as_ref()
-            .filter(|kept| kept.sampling == *sampling)
-        {
-            return Ok(Arc::clone(kept));
-        }
+        let spared = sampling.spared(weights);
         // Old rays are freed before new ones are sampled.
-        (self.sampled, self.measured) = (None, None);
+        let kept = match self.sampled.take() {
+            Some(kept) if kept.is_of(sampling, spared) => {
+                return Ok(Arc::clone(self.sampled.insert(kept)));
+            }
+            kept => kept.map(|kept| Arc::clone(&kept.prepared)),
+        };
+        self.measured = None;
         let sampled = self
             .sampler
-            .sample(&self.model, sampling, timings, progress);
+            .sample(&self.model, sampling, spared, kept, timings, progress);
         Ok(Arc::clone(self.sampled.insert(Arc::new(sampled.await?))))
     }
 
@@ -422,7 +424,7 @@ impl Slicer {
     /// [`Error::NoPlan`].
     pub fn planned(&self) -> Result<(&Mesh, &Plan), Error> {
         let current = self.current.as_ref().ok_or(Error::NoPlan)?;
-        Ok((&current.planned.first().of.mesh, &current.planned.plan))
+        Ok((current.planned.first().of.mesh(), &current.planned.plan))
     }
 
     /// The mask of a layer of the last plan: see [`MaskCursor::whole`].
@@ -484,7 +486,7 @@ impl Slicer {
         if let Some(filament) = current.output.filament {
             let report = &mut current.report;
             let model = LayeredModel {
-                mesh: &current.planned.first().of.mesh,
+                mesh: current.planned.first().of.mesh(),
                 z_mm: &report.z_mm,
                 first_layer_mm: filament.first_layer_mm,
             };
@@ -507,7 +509,7 @@ impl Slicer {
         let masks = mirrored.as_ref().or(seen.as_ref().map(|seen| &seen.0));
         let masks = masks.ok_or(Error::NoPlan)?;
         let sampled = &planned.first().of;
-        let look = || Look::new(&sampled.mesh, &sampled.ldi);
+        let look = || Look::new(sampled.mesh(), &sampled.ldi);
         let writer = write_print(
             planned,
             output,

@@ -186,9 +186,15 @@ impl Mesh {
         Self::bounds_of(surface, |vertex| self.vertices[vertex].as_dvec3())
     }
 
-    /// The facets of supports.
-    pub fn supports(&self) -> &[[u32; 3]] {
-        &self.facets[self.classes.end(FacetClass::Void)..]
+    /// The facets of a class.
+    pub fn of_class(&self, class: FacetClass) -> &[[u32; 3]] {
+        let from = match class {
+            FacetClass::Surface => 0,
+            FacetClass::Cap => self.classes.surface_end(),
+            FacetClass::Void => self.classes.end(FacetClass::Cap),
+            FacetClass::Support => self.classes.end(FacetClass::Void),
+        };
+        &self.facets[from..self.classes.end(class)]
     }
 
     /// All facets, those of voids inside out, so that readers subtract them.
@@ -210,7 +216,7 @@ impl Mesh {
     pub fn printed_bounds(&self) -> Bounds {
         let place = |vertex: usize| self.vertices[vertex].as_dvec3();
         let model = self.bounds();
-        let supports = Self::bounds_of(self.supports(), place);
+        let supports = Self::bounds_of(self.of_class(FacetClass::Support), place);
         Bounds {
             min: model.min.min(supports.min),
             max: model.max.max(supports.max),

@@ -114,6 +114,58 @@ fn a_ball_keeps_a_wall_all_around() {
     }
 }
 
+/// A torus that lies flat: `ring` from its middle to that of its tube.
+fn torus(ring: f64, tube: f64) -> solids::Triangles {
+    let about = solids::circle(48);
+    let across = solids::circle(24);
+    let point = |i: usize, j: usize| {
+        let (about, across) = (about[i % about.len()], across[j % across.len()]);
+        let away = ring + tube * across.x;
+        DVec3::new(about.x * away, about.y * away, tube * across.y).as_vec3()
+    };
+    let squares = (0..about.len()).flat_map(|i| (0..across.len()).map(move |j| (i, j)));
+    squares
+        .flat_map(|(i, j)| {
+            let [a, b, c, d] = [
+                point(i, j),
+                point(i + 1, j),
+                point(i + 1, j + 1),
+                point(i, j + 1),
+            ];
+            [[a, b, c], [a, c, d]]
+        })
+        .collect()
+}
+
+#[test]
+fn the_void_of_a_torus_is_a_thinner_torus() {
+    let (ring, tube) = (20.0, 8.0);
+    let mesh = on_plate(&torus(ring, tube));
+    for wall_mm in [1.0, 2.0, 4.0] {
+        let hollowing = Hollowing {
+            wall_mm,
+            ..HOLLOWING
+        };
+        let void = void_of(&mesh, &hollowing).unwrap();
+        let walls_mm = void.shell.vertices.iter().map(|vertex| {
+            let vertex = vertex.as_dvec3();
+            let away = vertex.truncate().length() - ring;
+            tube - away.hypot(vertex.z - tube)
+        });
+        let least_mm = walls_mm.clone().fold(f64::INFINITY, f64::min);
+        let most_mm = walls_mm.fold(0.0, f64::max);
+        assert!(least_mm >= wall_mm - void.resolution_mm, "{least_mm}");
+        assert!(most_mm <= wall_mm + 2.0 * void.resolution_mm, "{most_mm}");
+        let expected = 2.0 * std::f64::consts::PI.powi(2) * ring * (tube - wall_mm).powi(2);
+        let area_mm2 = 2.0 * expected / (tube - wall_mm);
+        let found = void.shell.volume_mm3();
+        assert!(
+            (found - expected).abs() < area_mm2 * void.resolution_mm,
+            "{wall_mm}: {found} for {expected}"
+        );
+    }
+}
+
 #[test]
 fn a_cube_keeps_its_walls_and_rounds_what_no_cavity_reaches() {
     let (side, wall, radius) = (24.0, HOLLOWING.wall_mm, HOLLOWING.cavity_mm / 2.0);

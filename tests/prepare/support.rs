@@ -4,7 +4,7 @@ use cusp_slicer::inspect::{Code, Limits, Printability};
 use cusp_slicer::job::{Error, Options, OptionsError, Report, Slicer};
 use cusp_slicer::model::{Mesh, Pose};
 use cusp_slicer::prepare::{
-    SupportPoint, SupportProfile, SupportStrength, Supporting, Supports, support,
+    Hollowing, SupportPoint, SupportProfile, SupportStrength, Supporting, Supports, support,
 };
 use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::progress::silent;
@@ -30,7 +30,7 @@ fn of(profile: SupportProfile) -> Supporting {
 }
 
 fn supports_of(mesh: &Mesh, supporting: &Supporting) -> Supports {
-    support(mesh, supporting, &mut silent).unwrap()
+    support(mesh, supporting, None, &mut silent).unwrap()
 }
 
 fn point(at_mm: [f64; 3]) -> SupportPoint {
@@ -348,6 +348,123 @@ fn points_by_hand_are_held_or_named() {
             .warnings
             .contains(&Warning::Unsupported { points: 1 })
     );
+}
+
+#[test]
+fn points_by_hand_are_kept_and_filled_up() {
+    let disc = on_plate(&solids::cylinder(15.0, 3.0, 24));
+    let by_hand = SupportPoint {
+        contact_mm: Some(0.8),
+        ..point([4.0, 1.0, 0.0])
+    };
+    let kept = Supporting {
+        points: Some(vec![by_hand]),
+        fill: true,
+        ..Supporting::default()
+    };
+    let supports = supports_of(&disc, &kept);
+    assert!(supports.points.contains(&by_hand));
+    // The load rule holds, with the contact by hand as one of all.
+    let profile = SupportStrength::Medium.profile();
+    let away_mm = |it: &SupportPoint| DVec3::from_array(it.at_mm).distance(by_hand.at_mm.into());
+    let others = supports.points.iter().filter(|&it| *it != by_hand);
+    let nearest_mm = others.map(away_mm).fold(f64::INFINITY, f64::min);
+    assert!((profile.spacing_mm - 0.002..2.0 * profile.spacing_mm).contains(&nearest_mm));
+    // Where everything is held already, nothing is added.
+    let all = Supporting {
+        points: Some(supports.points.clone()),
+        ..kept.clone()
+    };
+    assert_eq!(supports_of(&disc, &all).points, supports.points);
+    // Without points to keep, it is what is placed automatically.
+    let none = Supporting {
+        points: Some(Vec::new()),
+        ..kept
+    };
+    assert_eq!(
+        supports_of(&disc, &none),
+        supports_of(&disc, &Supporting::default())
+    );
+}
+
+#[test]
+fn contacts_keep_off_what_weighs_more_than_a_half() {
+    // A board whose halves are of their own facets.
+    let half = solids::cuboid(Vec3::new(10.0, 20.0, 2.0));
+    let mut board = half.clone();
+    board.extend(solids::moved(&half, Vec3::new(10.0, 0.0, 0.0)));
+    let mut board = slicer(&board);
+    let facets = board.positions().len() / 9;
+    let weights = (0..facets).map(|facet| if facet < facets / 2 { 0.5 } else { 0.51 });
+    board.set_weights(Some(weights.collect())).unwrap();
+    let options = |spare| {
+        supported(Supporting {
+            spare,
+            ..Supporting::default()
+        })
+    };
+    let is_light = |it: &SupportPoint| it.at_mm[0] <= 0.0;
+    let reach_mm = SupportStrength::Medium.profile().spacing_mm;
+    let report = plan(&mut board, &options(true));
+    let spared = report.supported.unwrap();
+    assert!(spared.points.len() > 5 && spared.points.iter().all(is_light));
+    // What contacts on the other half do not hold is named, and nothing else.
+    assert!(spared.unreached.len() > 5);
+    for missed in &spared.unreached {
+        assert!(!is_light(missed));
+        let at = DVec3::from_array(missed.at_mm);
+        let held = spared.points.iter().map(|it| at.distance(it.at_mm.into()));
+        assert!(held.fold(f64::INFINITY, f64::min) >= reach_mm - 0.002);
+    }
+    let points = spared.unreached.len();
+    assert!(report.warnings.contains(&Warning::Unsupported { points }));
+    // Weights alone say nothing about contacts; once they do, a change of them is heard.
+    let anywhere = plan(&mut board, &options(false)).supported.unwrap();
+    assert!(!anywhere.points.iter().all(is_light) && anywhere.unreached.is_empty());
+    board.set_weights(Some(vec![0.5; facets])).unwrap();
+    let light = plan(&mut board, &options(true)).supported.unwrap();
+    assert_eq!(light.points, anywhere.points);
+}
+
+#[test]
+fn pixels_and_quality_do_not_prepare_again() {
+    let mut frame = slicer(&solids::frame());
+    let options = Options {
+        hollow: Some(Hollowing::default()),
+        ..supported(Supporting::default())
+    };
+    plan(&mut frame, &options);
+    let before = std::ptr::from_ref(frame.prepared().unwrap());
+    for changed in [
+        Options {
+            pitch_mm: Some(0.15),
+            ..options.clone()
+        },
+        Options {
+            tolerance: Some(0.01),
+            metric: Metric::Area,
+            ..options.clone()
+        },
+    ] {
+        plan(&mut frame, &changed);
+        assert!(std::ptr::eq(before, frame.prepared().unwrap()));
+    }
+    let heavy = Supporting {
+        strength: SupportStrength::Heavy,
+        ..Supporting::default()
+    };
+    let report = plan(
+        &mut frame,
+        &Options {
+            supports: Some(heavy),
+            ..options
+        },
+    );
+    assert_eq!(
+        report.options.supports.unwrap().strength,
+        SupportStrength::Heavy
+    );
+    assert!(report.supported.unwrap().points != Vec::new());
 }
 
 #[test]

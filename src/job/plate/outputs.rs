@@ -172,17 +172,17 @@ impl Current {
 fn look_of(planned: &Planned, offsets: &[Vec<[i32; 2]>]) -> Look {
     let mut copies = Vec::new();
     for (model, offsets) in planned.models.iter().zip(offsets) {
+        let sampled = model.sampled();
         let Sampled {
-            mesh,
             ldi,
             grid,
             sampling,
             ..
-        } = model.sampled();
+        } = sampled;
         let rays = sampling.samples.rays();
         let first = grid.refined(rays).offset_of(&ldi.grid);
         copies.extend(offsets.iter().map(|offset| Standing {
-            mesh,
+            mesh: sampled.mesh(),
             ldi,
             first_ray: [0, 1].map(|axis| {
                 i64::from(first[axis]) + i64::from(offset[axis]) * i64::from(rays[axis])

@@ -110,9 +110,13 @@ impl Plate {
                 Arc::clone(&known.of)
             } else {
                 let mesh = &self.models[model].model;
+                let mut prepared = kept.iter().filter(|shape| shape.model == model);
+                let prepared = prepared
+                    .find(|shape| shape.measured.of.prepared.is_of(&sampling, None))
+                    .map(|shape| Arc::clone(&shape.measured.of.prepared));
                 let sampled = self
                     .sampler
-                    .sample(mesh, &sampling, timings, &mut within)
+                    .sample(mesh, &sampling, None, prepared, timings, &mut within)
                     .await;
                 Arc::new(sampled?)
             };

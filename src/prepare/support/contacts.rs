@@ -16,7 +16,21 @@ pub(super) struct Contact {
     pub normal: DVec3,
     /// Diameter of the tip.
     pub diameter_mm: f64,
+    /// The facet that is nearest.
+    pub facet: u32,
 }
+
+/// What decides where contacts go, besides the model.
+pub(super) struct Wishes<'a> {
+    pub profile: &'a SupportProfile,
+    /// Contacts that are there already.
+    pub given: &'a [Contact],
+    /// Weights of the facets; those above a half get no contact.
+    pub spared: Option<&'a [f32]>,
+}
+
+/// Facets that weigh more than this are spared, if weights say where no contact may be.
+const SPARED: f32 = 0.5;
 
 /// How near the plate a surface stands on it.
 const ON_PLATE_MM: f64 = 0.02;
@@ -27,43 +41,62 @@ const SAME: f64 = 0.5;
 /// Rays so near to a lowest point meet the same, in their distances.
 const LONE: f64 = 2.0;
 
-/// The contacts that hold a model beside those that it has: ascending, and so in the order in which they are printed.
-///
-pub(super) fn place(surface: &Surface<'_>, ldi: &Ldi, profile: &SupportProfile) -> Vec<Contact> {
-    let mesh = surface.mesh;
+/// The contacts that hold a model beside those that it has, and those that it would need on facets that are spared: ascending, and so in
+/// the order in which they are printed.
+pub(super) fn place(
+    surface: &Surface<'_>,
+    ldi: &Ldi,
+    wishes: &Wishes<'_>,
+) -> (Vec<Contact>, Vec<Contact>) {
+    let (mesh, profile) = (surface.mesh, wishes.profile);
     let mut held = Held::new(mesh);
-    let mut contacts = Vec::new();
+    for contact in wishes.given {
+        held.insert(contact.at);
+    }
+    let (mut contacts, mut missed) = (Vec::new(), Vec::new());
     let stands = |at: DVec3| profile.lift_mm + at.z <= ON_PLATE_MM;
+    let is_spared = |facet: u32| {
+        let weight = wishes.spared.and_then(|it| it.get(facet as usize));
+        weight.is_some_and(|&weight| weight > SPARED)
+    };
     let same_mm = SAME * profile.contact_mm;
     let contact = |at: DVec3| surface.contact(at, profile.contact_mm, profile.contact_mm);
-    for at in lowest_points(mesh, ldi, same_mm) {
-        if !stands(at) && !held.is_near(at, same_mm) {
-            held.insert(at);
-            contacts.extend(contact(at));
-        }
-    }
     let rays = Rays::new(ldi);
-    for at in lone_entries(&rays) {
-        if !stands(at) && !held.is_near(at, same_mm + LONE * ldi.grid.pitch_mm) {
-            held.insert(at);
-            contacts.extend(contact(at));
+    let lowest = lowest_points(mesh, ldi, same_mm).into_iter();
+    let lowest = lowest.map(|at| (at, same_mm));
+    let lone_mm = same_mm + LONE * ldi.grid.pitch_mm;
+    let lone = lone_entries(&rays).into_iter().map(|at| (at, lone_mm));
+    for (at, same_mm) in lowest.chain(lone) {
+        if stands(at) || held.is_near(at, same_mm) {
+            continue;
+        }
+        match contact(at) {
+            // What is near may still get contacts.
+            Some(it) if is_spared(it.facet) => missed.push(it),
+            found => {
+                held.insert(at);
+                contacts.extend(found);
+            }
         }
     }
     let mut places = overhangs(mesh, &rays, profile);
     sort_by_number(&mut places, |place| micrometres(place.at.z));
-    // What is at an edge waits until all else is held.
-    for is_edge in [false, true] {
-        for place in places.iter().filter(|place| place.is_edge == is_edge) {
-            if !held.is_near(place.at, profile.reach_mm(place.slope)) {
-                held.insert(place.at);
-                // The plate holds what stands on it.
-                if !stands(place.at) {
-                    contacts.extend(contact(place.at));
-                }
+    // What is at an edge waits until all else is held, and what is spared shows then what is not.
+    for (spared, is_edge) in [(false, false), (false, true), (true, false), (true, true)] {
+        let these = |place: &&Place| place.is_edge == is_edge && is_spared(place.facet) == spared;
+        for place in places.iter().filter(these) {
+            if held.is_near(place.at, profile.reach_mm(place.slope)) {
+                continue;
+            }
+            held.insert(place.at);
+            // The plate holds what stands on it.
+            if !stands(place.at) {
+                let to = if spared { &mut missed } else { &mut contacts };
+                to.extend(contact(place.at));
             }
         }
     }
-    contacts
+    (contacts, missed)
 }
 
 /// The squares of the plane below a mesh.
@@ -264,6 +297,7 @@ fn is_buried(ldi: &Ldi, at: DVec3) -> bool {
 #[derive(Clone)]
 struct Place {
     at: DVec3,
+    facet: u32,
     /// Rise over run.
     slope: f64,
     /// Whether a tip there would reach beyond the surface.
@@ -386,6 +420,7 @@ fn overhangs(mesh: &Mesh, rays: &Rays<'_>, profile: &SupportProfile) -> Vec<Plac
         };
         Some(Place {
             at,
+            facet: stretch.facet,
             slope,
             is_edge: !around.iter().all(goes_on),
         })
@@ -446,7 +481,7 @@ impl<'a> Surface<'a> {
             let ties = a.1.x.total_cmp(&b.1.x).then(a.1.y.total_cmp(&b.1.y));
             a_um.total_cmp(&b_um).then(ties)
         };
-        let (away_mm, nearest, _) = near.min_by(is_before)?;
+        let (away_mm, nearest, facet) = near.min_by(is_before)?;
         let at = if away_mm <= ON_SURFACE_MM {
             point
         } else {
@@ -472,6 +507,7 @@ impl<'a> Surface<'a> {
                 DVec3::NEG_Z
             },
             diameter_mm,
+            facet,
         })
     }
 }

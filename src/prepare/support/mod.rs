@@ -19,7 +19,7 @@ use crate::ldi::{LdiError, cpu};
 use crate::model::{Bounds, Mesh};
 use crate::progress::{Progress, report};
 use clearance::Clearance;
-use contacts::Surface;
+use contacts::{Contact, Surface, Wishes};
 use trees::Trees;
 
 /// How a model is supported.
@@ -36,6 +36,10 @@ pub struct Supporting {
     /// Supports at these points. If absent, they are placed automatically.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub points: Option<Vec<SupportPoint>>,
+    /// Whether more are placed automatically where these points do not hold the model.
+    pub fill: bool,
+    /// Whether automatic points keep off facets that weigh more than a half. Those that the model would need there are unreached.
+    pub spare: bool,
 }
 
 /// How strong supports are, and how dense.
@@ -214,7 +218,7 @@ pub struct Supports {
     pub shell: Shell,
     /// The points that are supported.
     pub points: Vec<SupportPoint>,
-    /// The points that no support reaches.
+    /// The points that no support reaches, or may touch.
     pub unreached: Vec<SupportPoint>,
     /// Points asked for that are not on the surface, by their places among those.
     pub astray: Vec<usize>,
@@ -243,6 +247,8 @@ const BESIDE_MM: f64 = 6.0;
 
 /// The supports of a model that stands on the plate, centred on x = y = 0. They are in its frame, so the plate is below it by the lift.
 ///
+/// `weights` are those of the facets of the surface, if they say where no contact may be.
+///
 /// Cost: linear in the points of a lattice around the model, and in contacts times those of all pillars.
 ///
 /// # Errors
@@ -250,6 +256,7 @@ const BESIDE_MM: f64 = 6.0;
 pub fn support(
     mesh: &Mesh,
     supporting: &Supporting,
+    weights: Option<&[f32]>,
     progress: &mut Progress<'_>,
 ) -> Result<Supports, LdiError> {
     let profile = supporting.profile();
@@ -280,21 +287,26 @@ pub fn support(
     let ldi = cpu::sample(mesh, &grid, &mut |fraction| progress(0.2 * fraction))?;
     let surface = Surface::new(mesh);
     let mut astray = Vec::new();
-    let contacts = match &supporting.points {
-        Some(points) => {
-            let mut contacts = Vec::new();
-            for (place, point) in points.iter().enumerate() {
-                let diameter_mm = point.contact_mm.unwrap_or(profile.contact_mm);
-                let at = DVec3::from_array(point.at_mm);
-                match surface.contact(at, diameter_mm, ON_SURFACE_MM) {
-                    Some(contact) => contacts.push(contact),
-                    None => astray.push(place),
-                }
-            }
-            contacts
+    let mut contacts = Vec::new();
+    for (place, point) in supporting.points.iter().flatten().enumerate() {
+        let diameter_mm = point.contact_mm.unwrap_or(profile.contact_mm);
+        let at = DVec3::from_array(point.at_mm);
+        match surface.contact(at, diameter_mm, ON_SURFACE_MM) {
+            Some(contact) => contacts.push(contact),
+            None => astray.push(place),
         }
-        None => contacts::place(&surface, &ldi, &profile),
-    };
+    }
+    let mut missed = Vec::new();
+    if supporting.fill || supporting.points.is_none() {
+        let wishes = Wishes {
+            profile: &profile,
+            given: &contacts,
+            spared: weights.filter(|_| supporting.spare),
+        };
+        let (placed, left) = contacts::place(&surface, &ldi, &wishes);
+        contacts.extend(placed);
+        missed = left;
+    }
     let columns = Columns::of_model(&ldi);
     drop(ldi);
     let corner = grid.centre_mm(0, 0).as_vec2();
@@ -311,22 +323,25 @@ pub fn support(
     clearance.find_ways((profile.pillar_mm / 2.0 + profile.clearance_mm) as f32);
     report(progress, 0.8)?;
     let mut trees = Trees::new(&clearance, profile);
-    let mut unreached = Vec::new();
+    let point = |contact: &Contact| {
+        let is_own = contact.diameter_mm != profile.contact_mm;
+        SupportPoint {
+            at_mm: contact.at.to_array(),
+            contact_mm: is_own.then_some(contact.diameter_mm),
+        }
+    };
+    let mut unreached: Vec<SupportPoint> = missed.iter().map(point).collect();
     let mut points = Vec::new();
     // From the highest down, so that others join a pillar as it passes.
     let order = crate::order::ascending(contacts.iter().map(|it| -it.at.z));
     for (done, contact) in order.iter().map(|&it| &contacts[it]).enumerate() {
         report(progress, 0.8 + 0.2 * done as f64 / order.len() as f64)?;
-        let is_own = contact.diameter_mm != profile.contact_mm;
-        let point = SupportPoint {
-            at_mm: contact.at.to_array(),
-            contact_mm: is_own.then_some(contact.diameter_mm),
-        };
-        if trees.add(contact) {
-            points.push(point);
+        let to = if trees.add(contact) {
+            &mut points
         } else {
-            unreached.push(point);
-        }
+            &mut unreached
+        };
+        to.push(point(contact));
     }
     trees.brace();
     let (on_model, joints) = (trees.on_model(), trees.joints());

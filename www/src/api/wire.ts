@@ -14,6 +14,7 @@ export type {
   Code,
   Count,
   CuspError,
+  Drain,
   Exclusion,
   FileKind,
   Finding,
@@ -39,6 +40,7 @@ export type {
   Severity,
   Snap,
   StlExpected,
+  SupportPoint,
   SupportStrength,
   TradeoffPoint,
   UniformLayers,
@@ -64,6 +66,8 @@ export interface Profiled<R> {
   profile: Float32Array;
   /** Vertex positions of the supports, nine numbers a facet, mm from the plate; absent without supports. */
   supports?: Float32Array;
+  /** Vertex positions of the walls of the void, likewise; absent if the model is solid. */
+  voids?: Float32Array;
 }
 
 /** A print file of the core's own, and its report. */

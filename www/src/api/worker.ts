@@ -158,9 +158,10 @@ const api: SlicerWorker = {
   async plan(options, progress) {
     const report = await current().plan(options, plain(progress));
     const profile = current().profile(report.metric, report.source);
-    if (report.supported === undefined) return Comlink.transfer({ report, profile }, [profile.buffer]);
-    const supports = current().supports();
-    return Comlink.transfer({ report, profile, supports }, [profile.buffer, supports.buffer]);
+    const plan: Profiled<Report> = { report, profile };
+    if (report.supported !== undefined) plan.supports = current().supports();
+    if (report.hollowed !== undefined) plan.voids = current().voids();
+    return Comlink.transfer(plan, [plan.profile, plan.supports, plan.voids].flatMap((it) => it?.buffer ?? []));
   },
   tradeoff(options, points, progress) {
     return current().tradeoff(options, points, plain(progress));

@@ -12,7 +12,7 @@ import { METRICS } from "../state/metric.js";
 import type { Shown } from "../state/result.js";
 
 /** The data of the chart. */
-export type ChartData = Omit<Shown, "layers" | "print_time_s" | "lift_mm" | "supports">;
+export type ChartData = Omit<Shown, "layers" | "print_time_s" | "lift_mm" | "supports" | "voids">;
 
 export interface ChartTheme {
   ink: string;

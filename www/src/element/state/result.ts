@@ -26,6 +26,8 @@ export interface Shown {
   lift_mm: number;
   /** Vertex positions of the supports, nine numbers a facet, mm from the plate; null while there are none. */
   supports: Float32Array | null;
+  /** Vertex positions of the walls of the void, likewise; null while the model is solid. */
+  voids: Float32Array | null;
 }
 
 /** The height of the model without what is below it, mm. */
@@ -33,10 +35,13 @@ export function ownHeight({ height_mm, supported }: Report): number {
   return height_mm - (supported?.lift_mm ?? 0);
 }
 
-export function shownOf(report: Report | Preview, profile: Float32Array, supports: Float32Array | null = null): Shown {
+/** What a plan has besides its report. */
+type Drawn = Pick<Plan, "profile" | "supports" | "voids">;
+
+export function shownOf(report: Report | Preview, { profile, supports = null, voids = null }: Drawn): Shown {
   const lift_mm = "lift_mm" in report ? report.lift_mm : (report.supported?.lift_mm ?? 0);
   const { metric, bin_mm, z_mm, thickness_mm, layers, print_time_s, layer_range_mm: limits } = report;
-  return { metric, bin_mm, z_mm, thickness_mm, layers, print_time_s, profile, limits, lift_mm, supports };
+  return { metric, bin_mm, z_mm, thickness_mm, layers, print_time_s, profile, limits, lift_mm, supports, voids };
 }
 
 /** Whether two sets of options, with their keys in the same order, ask for the same plan. */

@@ -339,7 +339,7 @@ export class Session extends Models {
     const result = { ...plan, options, limits: report.layer_range_mm };
     this.result = result;
     this.#weightsOf = weights;
-    this.shown = shownOf(report, plan.profile, plan.supports);
+    this.shown = shownOf(report, plan);
     // Keep looking at the same height, or at the middle of a new model.
     this.layer = layerAt(report.z_mm, z === undefined ? report.height_mm / 2 : (z * report.height_mm) / (before?.height_mm ?? 1));
     if (before === undefined && this.notice === "cancelled") this.notice = null;

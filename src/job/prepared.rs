@@ -1,0 +1,238 @@
+//! A model on the plate with its voids and supports: what is sampled. No pixel decides about it.
+
+use glam::DVec3;
+use serde::Serialize;
+use web_time::Instant;
+
+use super::parts::Sampling;
+use super::report::mesh_warnings;
+use super::stage::ms_since;
+use super::{Error, Timings};
+use crate::grid::{Grid, GridError};
+use crate::ldi::{Ldi, LdiError};
+use crate::model::{Bounds, FacetClass, Mesh, Pose};
+use crate::prepare::{self, Drain, Hollowing, SupportPoint, Supporting, Supports, Void};
+use crate::progress::Progress;
+use crate::warning::Warning;
+
+/// A model that is ready to be sampled. Immutable and shared.
+#[derive(Debug)]
+pub struct Prepared {
+    of: Preparing,
+    pub mesh: Mesh,
+    /// The box of all that is printed.
+    pub printed: Bounds,
+    /// What was left out of it, if anything.
+    pub hollowed: Option<Hollowed>,
+    /// What holds it, if it is supported; its facets are in the mesh.
+    pub supports: Option<Supports>,
+    pub warnings: Vec<Warning>,
+}
+
+/// What decides about it.
+#[derive(Debug, PartialEq)]
+struct Preparing {
+    pose: Pose,
+    hollow: Option<Hollowing>,
+    supports: Option<Supporting>,
+    /// The weights of facets that say where no contact may be, if they do.
+    spared: Option<Vec<f32>>,
+}
+
+/// The void of a hollowed model.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+pub struct Hollowed {
+    /// Volume of the void, without what its struts take.
+    pub void_ml: f64,
+    /// The drain holes that meet it, each with its depth: those asked for, then those placed automatically. None of
+    /// plates with several models, each of which has a frame of its own.
+    pub drains: Vec<Drain>,
+    /// Walls may be thinner than asked by this.
+    pub resolution_mm: f64,
+}
+
+/// What holds a supported model.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+pub struct Supported {
+    /// Volume of the supports outside the model.
+    pub support_ml: f64,
+    /// How far the model is lifted above the plate.
+    pub lift_mm: f64,
+    /// The points that are supported, from the highest down.
+    pub points: Vec<SupportPoint>,
+    /// The points that no support reaches, or may touch.
+    pub unreached: Vec<SupportPoint>,
+    /// Supports that stand on the model, where they leave a mark.
+    pub on_model: usize,
+    /// Where pillars, branches and braces join, from the model's lowest point.
+    #[serde(skip)]
+    pub joints_mm: Vec<[f64; 3]>,
+}
+
+/// The fraction of the stage of rays that hollowing and supports take, if there are any.
+pub const PREPARING_SHARE: f64 = 0.5;
+
+impl Prepared {
+    /// Poses the model, and adds voids and supports. Nothing is done for a model that does not fit.
+    ///
+    /// # Errors
+    /// [`Error::Mesh`], [`Error::Grid`], [`Error::Ldi`].
+    pub fn new(
+        model: &Mesh,
+        sampling: &Sampling,
+        spared: Option<&[f32]>,
+        timings: &mut Timings,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, Error> {
+        let clock = Instant::now();
+        let mut mesh = model.on_plate(&sampling.pose)?;
+        sampling.grid(&mesh.bounds())?;
+        timings.load += ms_since(clock);
+        let clock = Instant::now();
+        let mut warnings = mesh_warnings(&mesh);
+        let mut hollowed = None;
+        // Where hollowing ends, of both.
+        let between = match (&sampling.hollow, &sampling.supports) {
+            (None, _) => 0.0,
+            (Some(_), Some(_)) => 0.5,
+            (Some(_), None) => 1.0,
+        };
+        if let Some(hollowing) = &sampling.hollow {
+            let mut within = |fraction| progress(between * fraction);
+            hollowed = hollow(&mut mesh, hollowing, &mut warnings, &mut within)?;
+        }
+        let mut supports = None;
+        if let Some(supporting) = &sampling.supports {
+            let mut within = |fraction| progress(between + (1.0 - between) * fraction);
+            let mut made = prepare::support(&mesh, supporting, spared, &mut within)?;
+            let shell = std::mem::take(&mut made.shell);
+            mesh.add(&shell.vertices, &shell.facets, FacetClass::Support);
+            mesh.lift(made.lift_mm);
+            warnings.extend(support_warnings(&made));
+            supports = Some(made);
+        }
+        timings.ldi += ms_since(clock);
+        Ok(Self {
+            of: Preparing {
+                pose: sampling.pose,
+                hollow: sampling.hollow.clone(),
+                supports: sampling.supports.clone(),
+                spared: spared.map(<[f32]>::to_vec),
+            },
+            printed: mesh.printed_bounds(),
+            mesh,
+            hollowed,
+            supports,
+            warnings,
+        })
+    }
+
+    /// Whether it is what [`Prepared::new`] would make.
+    pub fn is_of(&self, sampling: &Sampling, spared: Option<&[f32]>) -> bool {
+        let Preparing {
+            pose,
+            hollow,
+            supports,
+            spared: of,
+        } = &self.of;
+        *pose == sampling.pose
+            && *hollow == sampling.hollow
+            && *supports == sampling.supports
+            && of.as_deref() == spared
+    }
+
+    /// Whether voids or supports are made.
+    pub fn takes_time(sampling: &Sampling) -> bool {
+        sampling.hollow.is_some() || sampling.supports.is_some()
+    }
+
+    /// The pixels of the masks.
+    ///
+    /// # Errors
+    /// [`GridError`], also if the model or its supports do not fit the printer.
+    pub fn grid(&self, sampling: &Sampling) -> Result<Grid, GridError> {
+        let mut model = self.mesh.bounds();
+        let lift = DVec3::new(0.0, 0.0, sampling.lift_mm());
+        (model.min, model.max) = (model.min - lift, model.max - lift);
+        let grid = sampling.grid(&model)?;
+        match self.supports {
+            Some(_) => sampling.grid_around(grid, &self.printed),
+            None => Ok(grid),
+        }
+    }
+}
+
+/// Hollows a mesh; what was left out of it, if anything.
+fn hollow(
+    mesh: &mut Mesh,
+    hollowing: &Hollowing,
+    warnings: &mut Vec<Warning>,
+    progress: &mut Progress<'_>,
+) -> Result<Option<Hollowed>, LdiError> {
+    let Some(void) = prepare::hollow(mesh, hollowing, progress)? else {
+        warnings.push(Warning::NothingHollowed {
+            wall_mm: hollowing.wall_mm,
+            cavity_mm: hollowing.cavity_mm,
+        });
+        return Ok(None);
+    };
+    let drains = void.drains.iter().map(|drain| &drain.1);
+    for shell in std::iter::once(&void.shell).chain(drains) {
+        mesh.add(&shell.vertices, &shell.facets, FacetClass::Void);
+    }
+    warnings.extend(drain_warnings(&void));
+    Ok(Some(Hollowed {
+        void_ml: void.shell.volume_mm3() / 1e3,
+        drains: void.drains.into_iter().map(|drain| drain.0).collect(),
+        resolution_mm: void.resolution_mm,
+    }))
+}
+
+impl Supported {
+    pub(super) fn of(supports: &Supports, ldi: &Ldi) -> Self {
+        Self {
+            support_ml: ldi.support_mm3() / 1e3,
+            lift_mm: supports.lift_mm,
+            points: supports.points.clone(),
+            unreached: supports.unreached.clone(),
+            on_model: supports.on_model,
+            joints_mm: supports.joints_mm.clone(),
+        }
+    }
+}
+
+/// The warnings about holes that drain nothing, and about what stays full.
+fn drain_warnings(void: &Void) -> Vec<Warning> {
+    let astray = void.astray.iter();
+    let mut warnings: Vec<Warning> = astray
+        .map(|place| Warning::DrainAstray {
+            drain_number: place + 1,
+        })
+        .collect();
+    if void.undrained > 0 {
+        warnings.push(Warning::Undrained {
+            basins: void.undrained,
+        });
+    }
+    warnings
+}
+
+/// The warnings about points that no support reaches, and about those that are not on the surface.
+fn support_warnings(supports: &Supports) -> Vec<Warning> {
+    let astray = supports.astray.iter();
+    let mut warnings: Vec<Warning> = astray
+        .map(|place| Warning::SupportAstray {
+            point_number: place + 1,
+        })
+        .collect();
+    if !supports.unreached.is_empty() {
+        warnings.push(Warning::Unsupported {
+            points: supports.unreached.len(),
+        });
+    }
+    warnings
+}
