@@ -137,6 +137,8 @@ fn the_directions_are_the_recorded_ones() {
                     metrics.overhang_mm2,
                     metrics.islands as f64,
                     metrics.cups_mm2,
+                    metrics.support_ml,
+                    metrics.contact_mm2,
                 ]
             });
             let place = candidate.direction.into_iter().chain(candidate.rotation);

@@ -20,6 +20,7 @@ use crate::orientation::{
     Task, TaskResult,
 };
 use crate::parallel;
+use crate::prepare::{SupportProfile, Supporting};
 use crate::progress::report;
 
 /// Tasks per thread and round: more than one, so that few threads are idle at the end of a round.
@@ -345,12 +346,15 @@ impl Evaluator<'_> {
         let shapes = shapes_of(&facet_bins, extra, layering, self.weights.clone()).ok()?;
         let planning = Planning::alone(height_mm, &shapes, layering);
         let plan = planning.plan_freely().ok()?;
-        let max_error = planning.max_error(&plan);
-        let print_time_s = plan.print_time_s(&layering.resin);
-        Some(
-            self.surface
-                .metrics(placement, &facet_bins, &plan, max_error, print_time_s),
-        )
+        let figures = [
+            planning.max_error(&plan),
+            plan.print_time_s(&layering.resin),
+        ];
+        let supporting = self.job.sampling.supports.as_ref();
+        let profile = supporting.map_or_else(SupportProfile::default, Supporting::profile);
+        let weights = self.weights.as_deref();
+        let surface = self.surface;
+        Some(surface.metrics(placement, &facet_bins, weights, &profile, &plan, figures))
     }
 }
 

@@ -30,6 +30,8 @@ impl SearchOptions {
             Quality::Overhang => metrics.overhang_mm2,
             Quality::Islands => metrics.islands as f64,
             Quality::Cups => metrics.cups_mm2,
+            Quality::Supports => metrics.support_ml,
+            Quality::Contacts => metrics.contact_mm2,
         };
         [cost, quality]
     }

@@ -14,6 +14,7 @@ mod overlaps;
 mod refine;
 mod search;
 pub mod shard;
+mod supports;
 mod surface;
 
 use serde::{Deserialize, Serialize};
@@ -123,6 +124,10 @@ pub enum Quality {
     Islands,
     /// The area of cups.
     Cups,
+    /// The volume of supports.
+    Supports,
+    /// The area in which supports touch the model, weighted.
+    Contacts,
 }
 
 /// An orientation with its metrics.
@@ -195,6 +200,10 @@ pub struct Metrics {
     pub islands: usize,
     /// The areas of cups together, each where it is largest: hollows that are open only away from the plate, and suck at the film.
     pub cups_mm2: f64,
+    /// Volume of supports, as `docs/supports.md` estimates it.
+    pub support_ml: f64,
+    /// Area in which supports touch the model, estimated likewise; each contact counts with the weight of the surface there.
+    pub contact_mm2: f64,
 }
 
 /// What the terms of energies are relative to: the largest terms of all directions.

@@ -4,11 +4,13 @@ use glam::{DVec3, Vec3};
 
 use super::basins::{Basins, Found};
 use super::directions::{about_z, lattice, unit, upright};
+use super::supports::Estimate;
 use super::{Exclusion, Metrics};
 use crate::grid::Bins;
 use crate::model::{Bounds, Mesh, rotation_matrix};
 use crate::order::ascending;
 use crate::plan::Plan;
+use crate::prepare::SupportProfile;
 use crate::profile::facet_bins::FacetBins;
 use crate::profile::normal_cones::Cone;
 use crate::profile::roughness;
@@ -259,14 +261,15 @@ impl Surface {
         FacetBins::new(bins, facets, &placement.heights_mm, square, area)
     }
 
-    /// The metrics of a plan in a placement.
+    /// The metrics of a plan in a placement, with supports of this profile. Weights are in the order of facets here.
     pub fn metrics(
         &self,
         placement: &Placement,
         facet_bins: &FacetBins,
+        weights: Option<&[f32]>,
+        profile: &SupportProfile,
         plan: &Plan,
-        max_error: f64,
-        print_time_s: f64,
+        [max_error, print_time_s]: [f64; 2],
     ) -> Metrics {
         // For each bin, the thickness in bins of the layer that it belongs to, as running sums. The top of a plan may be
         // slightly below or above that of the model.
@@ -284,12 +287,19 @@ impl Surface {
             .map(|&square| roughness::density_of(square))
             .collect();
         let (mut overhang_mm2, mut roughness) = (0.0, 0.0);
+        let mut supports = Estimate::new(profile);
+        let bin_mm = facet_bins.bins.size_mm;
         let facets = facet_bins.spans.iter().zip(&rough);
         let facets = facets.zip(&placement.n_z).zip(&self.areas_mm2);
-        for (((&[first, last], &rough), &n_z), &area_mm2) in facets {
+        for (facet, (((&[first, last], &rough), &n_z), &area_mm2)) in facets.enumerate() {
             let area_mm2 = f64::from(area_mm2);
             let is_overhang = n_z < -OVERHANG && last >= plate;
             overhang_mm2 += if is_overhang { area_mm2 } else { 0.0 };
+            if supports.counts(n_z, last >= plate) {
+                let middle_mm = f64::from((first + last) as i32 + 1) / 2.0 * bin_mm;
+                let weight = weights.map_or(1.0, |weights| f64::from(weights[facet]));
+                supports.add(f64::from(n_z), area_mm2, middle_mm, weight);
+            }
             let end = last + 1;
             let bins = sums[end as usize] - sums[first as usize];
             let thickness = bins / f64::from((end - first) as i32);
@@ -305,6 +315,7 @@ impl Surface {
         let Found { islands, cups_mm2 } =
             self.basins
                 .find(placement.up, &placement.heights_mm, &middles_mm);
+        let [support_ml, contact_mm2] = supports.of_islands(islands);
         Metrics {
             layers: plan.layers(),
             print_time_s,
@@ -313,6 +324,8 @@ impl Surface {
             overhang_mm2,
             islands,
             cups_mm2,
+            support_ml,
+            contact_mm2,
         }
     }
 }

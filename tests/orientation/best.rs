@@ -179,6 +179,8 @@ fn alpha_and_the_terms_do_what_they_say() {
         (Quality::Overhang, |it| it.overhang_mm2),
         (Quality::Islands, |it| it.islands as f64),
         (Quality::Cups, |it| it.cups_mm2),
+        (Quality::Supports, |it| it.support_ml),
+        (Quality::Contacts, |it| it.contact_mm2),
     ] {
         let found = search(0.0, Cost::Layers, quality);
         assert!(of(&first(&found)) <= least(&found, of), "{quality:?}");

@@ -1,8 +1,9 @@
 //! The metrics of one orientation, against closed forms and naive oracles.
 
-use crate::common::{assert_near, solids};
+use crate::common::{assert_near, quiet, solids};
 use cusp_slicer::job::{Options, Snap};
 use cusp_slicer::model::Pose;
+use cusp_slicer::prepare::{SupportStrength, Supporting};
 use cusp_slicer::profile::Metric;
 use glam::{DQuat, DVec3, Vec3};
 
@@ -114,6 +115,91 @@ fn overhangs_have_closed_forms() {
     );
     let mut flat = slicer(&solids::cone(8.0, 4.0, 16));
     assert!(metrics(&mut flat, &options(), -DVec3::Z).overhang_mm2 > 200.0);
+}
+
+#[test]
+fn supports_are_estimated_by_their_closed_form() {
+    let [side, height] = [12.0, 6.0];
+    let mut board = slicer(&solids::cuboid(Vec3::new(side, side, height)));
+    let [side, height] = [f64::from(side), f64::from(height)];
+    let circle = |diameter: f64| std::f64::consts::PI / 4.0 * diameter * diameter;
+    for strength in [
+        SupportStrength::Light,
+        SupportStrength::Medium,
+        SupportStrength::Heavy,
+    ] {
+        let options = Options {
+            supports: Some(Supporting {
+                strength,
+                ..Supporting::default()
+            }),
+            ..options()
+        };
+        let profile = strength.profile();
+        // On its base and on a side, which is as level.
+        for (up, area) in [(DVec3::Z, side * side), (DVec3::X, side * height)] {
+            let found = metrics(&mut board, &options, up);
+            let contacts = 0.95 * area / profile.spacing_mm.powi(2) + 1.0;
+            assert_near(
+                found.contact_mm2,
+                contacts * circle(profile.contact_mm),
+                1e-3,
+            );
+            let pillar = 0.4 * circle(profile.pillar_mm) * profile.lift_mm;
+            let foot = circle(profile.foot_mm) * profile.foot_thickness_mm;
+            assert_near(found.support_ml, contacts * (foot + pillar) / 1e3, 1e-4);
+        }
+        // Standing on an edge it is steeper than what needs support: its lowest line is all that is held.
+        let steep = metrics(&mut board, &options, DVec3::new(1.0, 0.0, 1.0).normalize());
+        assert_near(steep.contact_mm2, circle(profile.contact_mm), 1e-9);
+    }
+    // Contacts count with the weight of what they touch.
+    let plain = metrics(&mut board, &options(), DVec3::Z);
+    board.set_weights(Some(vec![0.25; 12])).unwrap();
+    let light = metrics(&mut board, &options(), DVec3::Z);
+    assert_near(light.contact_mm2, 0.25 * plain.contact_mm2, 1e-6);
+    assert_near(light.support_ml, plain.support_ml, 1e-12);
+}
+
+#[test]
+fn estimates_of_supports_order_directions_as_what_is_built_does() {
+    // As large as scans are printed. Sharp edges take more contacts than is estimated.
+    let bean = bean();
+    let large: Vec<_> = bean
+        .iter()
+        .map(|it| it.map(|corner| 4.0 * corner))
+        .collect();
+    let mut model = slicer(&large);
+    let options = Options {
+        supports: Some(Supporting::default()),
+        pitch_mm: Some(0.2),
+        ..options()
+    };
+    let directions = model.directions(&options, 6).unwrap();
+    let found = measure(&mut model, &options, &directions);
+    let pairs: Vec<[f64; 2]> = found
+        .iter()
+        .map(|candidate| {
+            let posed = Options {
+                rotation: Some(candidate.rotation),
+                ..options.clone()
+            };
+            let report = pollster::block_on(model.plan(&posed, &mut quiet)).unwrap();
+            let built_ml = report.supported.as_ref().unwrap().support_ml;
+            [candidate.metrics.unwrap().support_ml, built_ml]
+        })
+        .collect();
+    let mut compared = 0;
+    for [estimated, built] in &pairs {
+        for [other, more] in &pairs {
+            // Of two directions of which one takes half as much again, the estimate says which.
+            if *more > 1.5 * built {
+                assert!(other > estimated, "{pairs:?}");
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 10, "{pairs:?}");
 }
 
 /// The mean roughness of a surface, facet by facet and in small steps along its height.

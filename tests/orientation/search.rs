@@ -56,6 +56,8 @@ fn measure(direction: [f64; 3]) -> Candidate {
         overhang_mm2: 0.0,
         islands: 0,
         cups_mm2: 0.0,
+        support_ml: 0.0,
+        contact_mm2: 0.0,
     };
     Candidate {
         direction,

@@ -238,7 +238,7 @@ fn describe(model: &Path, options: &Options, found: &OrientationReport) -> Strin
         return text;
     }
     text.push_str(
-        "\n     energy  layers  time         largest error  roughness   overhang     islands  cups         size",
+        "\n     energy  layers  time         largest error  roughness   overhang     islands  cups         supports    contacts    size",
     );
     let rows = found.best.iter().enumerate();
     let rows = rows.map(|(place, candidate)| ((place + 1).to_string(), candidate));
@@ -253,7 +253,7 @@ fn describe(model: &Path, options: &Options, found: &OrientationReport) -> Strin
         };
         let _ = write!(
             text,
-            "\n{name:<4} {:.4}  {:>6}  {:<11}  {:<13}  {:<10}  {:<11}  {:>7}  {:<11}  {x:.1} × {y:.1} × {z:.1} mm",
+            "\n{name:<4} {:.4}  {:>6}  {:<11}  {:<13}  {:<10}  {:<11}  {:>7}  {:<11}  {:<10}  {:<10}  {x:.1} × {y:.1} × {z:.1} mm",
             candidate.energy.unwrap_or_default(),
             metrics.layers,
             duration(metrics.print_time_s),
@@ -262,6 +262,8 @@ fn describe(model: &Path, options: &Options, found: &OrientationReport) -> Strin
             format!("{:.1} mm²", metrics.overhang_mm2),
             metrics.islands,
             format!("{:.1} mm²", metrics.cups_mm2),
+            format!("{:.2} ml", metrics.support_ml),
+            format!("{:.1} mm²", metrics.contact_mm2),
         );
     }
     let [x, y, z, w] = found.best[0].rotation;

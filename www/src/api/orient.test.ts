@@ -13,7 +13,7 @@ const candidateAt = ([x = 0, y = 0, z = 0]: Iterable<number>): Candidate => ({
   rotation: [0, 0, 0, 1],
   size_mm: [1, 1, 1],
   excluded: null,
-  metrics: { layers: x, print_time_s: 0, max_error: 0, roughness_mm: 0, overhang_mm2: 0, islands: 0, cups_mm2: 0 },
+  metrics: { layers: x, print_time_s: 0, max_error: 0, roughness_mm: 0, overhang_mm2: 0, islands: 0, cups_mm2: 0, support_ml: 0, contact_mm2: 0 },
   energy: null,
 });
 

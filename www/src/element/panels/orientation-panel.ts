@@ -19,7 +19,7 @@ import { shared } from "../styles/shared.js";
 import { elementWith, given, own } from "../../view/properties.js";
 
 const COSTS: readonly Aims["cost"][] = ["layers", "time"];
-const QUALITIES: readonly Aims["quality"][] = ["error", "roughness", "overhang", "islands", "cups"];
+const QUALITIES: readonly Aims["quality"][] = ["error", "roughness", "overhang", "islands", "cups", "supports", "contacts"];
 /** What excludes directions, by the names of their words. */
 const LIMITS = { overhang: "most_overhang_mm2", islands: "most_islands", cups: "most_cups_mm2" } as const;
 /** Number of steps of the slider. */
@@ -289,6 +289,8 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
         <span title=${words.overhangHelp}>${words.overhang} ${of("overhang")}</span>
         <span title=${words.islandsHelp}>${words.islands} ${of("islands")}</span>
         <span title=${words.cupsHelp}>${words.cups} ${of("cups")}</span>
+        <span title=${words.supportsHelp}>${words.qualities.supports} ${of("supports")}</span>
+        <span title=${words.contactsHelp}>${words.qualities.contacts} ${of("contacts")}</span>
       </span>`;
   }
 
@@ -379,6 +381,8 @@ export function metricRows({ metrics, size_mm, energy }: Candidate, metric: Metr
       [words.overhang, of("overhang"), words.overhangHelp],
       [words.islands, of("islands"), words.islandsHelp],
       [words.cups, of("cups"), words.cupsHelp],
+      [words.qualities.supports, of("supports"), words.supportsHelp],
+      [words.qualities.contacts, of("contacts"), words.contactsHelp],
     );
   }
   if (energy !== null) rows.push([words.score, format.tick(energy), words.legend]);

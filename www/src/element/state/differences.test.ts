@@ -3,7 +3,7 @@ import { languageOf, LANGUAGES } from "../../texts/index.js";
 import { differences, figure, type Metrics } from "./differences.js";
 import { DEFAULT_AIMS } from "./orientation.js";
 
-const now: Metrics = { layers: 1200, print_time_s: 7200, max_error: 0.06, roughness_mm: 0.0123, overhang_mm2: 50, islands: 0, cups_mm2: 0 };
+const now: Metrics = { layers: 1200, print_time_s: 7200, max_error: 0.06, roughness_mm: 0.0123, overhang_mm2: 50, islands: 0, cups_mm2: 0, support_ml: 0, contact_mm2: 0 };
 const en = languageOf("en");
 
 const words = (patch: Partial<Metrics>, aims: Partial<Parameters<typeof differences>[2]> = {}): string[] =>

@@ -19,6 +19,8 @@ const VALUES: Readonly<Record<Term, (metrics: Metrics) => number>> = {
   overhang: ({ overhang_mm2 }) => overhang_mm2,
   islands: ({ islands }) => islands,
   cups: ({ cups_mm2 }) => cups_mm2,
+  supports: ({ support_ml }) => support_ml,
+  contacts: ({ contact_mm2 }) => contact_mm2,
 };
 
 /** Writes values of a term, with their unit. */
@@ -33,8 +35,11 @@ function writer(term: Term, metric: Metric, { format }: Language): (value: numbe
       return (value) => METRICS[metric].error(value, format);
     case "roughness":
       return (mm) => `${format.tick(Math.round(mm * MICROMETRES * 10) / 10)}\u00a0µm`;
+    case "supports":
+      return format.millilitres;
     case "overhang":
     case "cups":
+    case "contacts":
       return (mm2) => `${format.count(mm2)}\u00a0mm²`;
   }
 }

@@ -7,7 +7,7 @@ test("the initial aims of the panel are the core's defaults", async () => {
   initSync({ module: await readFile(new URL("../../../pkg/cusp_slicer_bg.wasm", import.meta.url)) });
   // Any other aims give two candidates with metrics like these different energies.
   const candidates = [1, 2].map((part): Candidate => {
-    const metrics = { layers: 10, print_time_s: 10 * part, max_error: 1 / part, roughness_mm: 1 / part ** 2, overhang_mm2: 1 / part ** 3, islands: 0, cups_mm2: 0 };
+    const metrics = { layers: 10, print_time_s: 10 * part, max_error: 1 / part, roughness_mm: 1 / part ** 2, overhang_mm2: 1 / part ** 3, islands: 0, cups_mm2: 0, support_ml: 0, contact_mm2: 0 };
     return { direction: [0, 0, 1], rotation: [0, 0, 0, 1], size_mm: [1, 1, 1], excluded: null, metrics, energy: null };
   });
   const energies = (search: SearchOptions): unknown => OrientationSearch.of_measured(search, candidates).rated().map((it) => it?.energy);

@@ -15,7 +15,7 @@ const candidate = (energy: number | null, patch: Partial<Candidate> = {}): Candi
   rotation: [0, 0, 0, 1],
   size_mm: [1, 2, 3],
   excluded: null,
-  metrics: { layers: 1200, print_time_s: 3600, max_error: 0.06, roughness_mm: 0.0123, overhang_mm2: 50, islands: 0, cups_mm2: 0 },
+  metrics: { layers: 1200, print_time_s: 3600, max_error: 0.06, roughness_mm: 0.0123, overhang_mm2: 50, islands: 0, cups_mm2: 0, support_ml: 0, contact_mm2: 0 },
   energy,
   ...patch,
 });
