@@ -112,7 +112,7 @@ fn main() {
                 ..ModelOptions::default()
             }])
         };
-        let plate = Plate::new(vec![load(&triangles)]);
+        let mut plate = Plate::new(vec![load(&triangles)]);
         let (seconds, places) = time(|| plate.arrange(&options));
         let plates = |places: &[Placement]| places.last().map_or(0, |place| place.plate + 1);
         let boxed = Plate::new(vec![load(&box_of(&triangles))]).arrange(&options);

@@ -101,11 +101,11 @@ pub struct Outline {
 }
 
 impl Outline {
-    /// The shadow of a mesh that is centred on x = y = 0. It covers every pixel that the model can light.
+    /// The shadow of a mesh that is centred on x = y = 0. It covers every pixel that the model and its supports can light.
     ///
     /// Cost: linear in facets and in the cells that they cover.
     pub fn of(mesh: &Mesh, screen: &Screen) -> Self {
-        let bounds = mesh.bounds();
+        let bounds = mesh.printed_bounds();
         let first = screen.pixels_to(DVec2::new(bounds.min.x, bounds.max.y)) + INSET;
         let last = screen.pixels_to(DVec2::new(bounds.max.x, bounds.min.y)) - INSET;
         let pixels = [

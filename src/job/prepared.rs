@@ -10,7 +10,7 @@ use super::stage::ms_since;
 use super::{Error, Timings};
 use crate::grid::{Grid, GridError};
 use crate::ldi::{Ldi, LdiError};
-use crate::model::{Bounds, FacetClass, Mesh, Pose};
+use crate::model::{Bounds, FacetClass, Mesh, Pose, rotation_matrix};
 use crate::prepare::{self, Drain, Hollowing, SupportPoint, Supporting, Supports, Void};
 use crate::progress::Progress;
 use crate::warning::Warning;
@@ -30,7 +30,7 @@ pub struct Prepared {
 }
 
 /// What decides about it.
-#[derive(Debug, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 struct Preparing {
     pose: Pose,
     hollow: Option<Hollowing>,
@@ -62,7 +62,7 @@ pub struct Supported {
     pub support_ml: f64,
     /// How far the model is lifted above the plate.
     pub lift_mm: f64,
-    /// The points that are supported, from the highest down.
+    /// The points that are supported, from the highest down. None of plates with several models, as of drain holes.
     pub points: Vec<SupportPoint>,
     /// The points that no support reaches, or may touch.
     pub unreached: Vec<SupportPoint>,
@@ -128,6 +128,33 @@ impl Prepared {
             hollowed,
             supports,
             warnings,
+        })
+    }
+
+    /// The same after some turns of 15° about z, with the same voids and supports.
+    ///
+    /// # Errors
+    /// [`Error::Mesh`].
+    pub fn turned(&self, turns: u32) -> Result<Self, Error> {
+        let turn = Pose::default().turned(turns);
+        let lift_mm = self.supports.as_ref().map_or(0.0, |it| it.lift_mm);
+        let mut mesh = self.mesh.on_plate(&turn)?;
+        mesh.lift(lift_mm);
+        let rotation = rotation_matrix(turn.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]))?;
+        // Its middle is elsewhere now: any vertex tells where.
+        let [before, after] = [&self.mesh, &mesh].map(|it| it.vertices[0].as_dvec3());
+        let by = (after - rotation * before).with_z(0.0);
+        let place = |at: [f64; 3]| (rotation * DVec3::from_array(at) + by).to_array();
+        Ok(Self {
+            of: Preparing {
+                pose: self.of.pose.turned(turns),
+                ..self.of.clone()
+            },
+            printed: mesh.printed_bounds(),
+            mesh,
+            hollowed: self.hollowed.clone(),
+            supports: self.supports.as_ref().map(|it| it.moved(place)),
+            warnings: self.warnings.clone(),
         })
     }
 

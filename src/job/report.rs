@@ -495,9 +495,25 @@ fn hollowed(models: &[PlannedModel]) -> Option<Hollowed> {
     })
 }
 
-/// What holds the model. Plates with several have none.
+/// What holds all models and copies.
 fn supported(models: &[PlannedModel]) -> Option<Supported> {
-    models.first()?.sampled().supported.clone()
+    let supports = models.iter().filter_map(|model| {
+        let supports = model.sampled().supported.as_ref()?;
+        Some(Supported {
+            support_ml: supports.support_ml * model.copies as f64,
+            on_model: supports.on_model * model.copies,
+            ..supports.clone()
+        })
+    });
+    supports.reduce(|a, b| Supported {
+        support_ml: a.support_ml + b.support_ml,
+        on_model: a.on_model + b.on_model,
+        // Each model has a frame of its own.
+        points: Vec::new(),
+        unreached: Vec::new(),
+        joints_mm: Vec::new(),
+        ..a
+    })
 }
 
 /// The report of a plan that is exported as `output`.

@@ -70,7 +70,7 @@ impl Plate {
         reason = "values from JavaScript come by value"
     )]
     #[wasm_bindgen(unchecked_return_type = "Placement[]")]
-    pub fn arrange(&self, options: Ts<PlateOptions>) -> Result<JsValue, JsValue> {
+    pub fn arrange(&mut self, options: Ts<PlateOptions>) -> Result<JsValue, JsValue> {
         let options = options.to_rust().map_err(throw_conversion)?;
         Ok(to_js(&self.plate.arrange(&options).map_err(throw)?))
     }
@@ -84,7 +84,7 @@ impl Plate {
         reason = "values from JavaScript come by value"
     )]
     #[wasm_bindgen(unchecked_return_type = "ArrangeError[]")]
-    pub fn problems(&self, options: Ts<PlateOptions>) -> Result<JsValue, JsValue> {
+    pub fn problems(&mut self, options: Ts<PlateOptions>) -> Result<JsValue, JsValue> {
         let options = options.to_rust().map_err(throw_conversion)?;
         let placements: &[Placement] = &options.placements;
         let problems = self.plate.problems(&options, placements);

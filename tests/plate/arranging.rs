@@ -5,7 +5,7 @@ use cusp_slicer::job::{ModelOptions, Options, Placement, Plate, PlateOptions};
 use glam::Vec3;
 
 use crate::common::solids;
-use crate::{job, options, pixels, plan, plate};
+use crate::{job, options, pixels, plan, plate, supported};
 
 /// For each plate and model, the pixels that it lights in any layer, found from the masks of the plate with nothing else on it.
 fn shadows(
@@ -122,6 +122,51 @@ fn arranged_copies_are_as_far_apart_as_asked_and_on_their_plate() {
         assert_eq!(plate(&models).problems(&options, &found).unwrap(), []);
     }
     assert!(turned > 0);
+}
+
+#[test]
+fn supports_count_when_copies_are_arranged() {
+    // Its feet stand beside it.
+    let tee = {
+        let mut tee = solids::cuboid(Vec3::new(8.0, 6.0, 1.0));
+        tee.extend(solids::moved(
+            &solids::cuboid(Vec3::new(1.0, 1.0, 4.0)),
+            Vec3::new(0.0, 2.0, -4.0),
+        ));
+        tee
+    };
+    let ball = solids::sphere(3.0, 3);
+    let models = [&tee, &ball];
+    let options = PlateOptions {
+        arranging: Arranging {
+            spacing_mm: 1.0,
+            turn_deg: 15,
+        },
+        ..job(supported(), &[5, 2])
+    };
+    let found = plate(&models).arrange(&options).unwrap();
+    let sets = shadows(&models, &options, &found);
+    for (a, of_a) in found.iter().zip(&sets) {
+        for (b, of_b) in found.iter().zip(&sets) {
+            if !std::ptr::eq(a, b) && a.plate == b.plate {
+                let apart_mm = distance_mm(&edge(of_a), &edge(of_b));
+                assert!(apart_mm >= 1.0 - 1e-9, "{apart_mm}: {a:?} {b:?}");
+            }
+        }
+    }
+    assert_eq!(plate(&models).problems(&options, &found).unwrap(), []);
+    // What overlaps by its supports alone is a problem.
+    let near = [0.0, 7.2].map(|x_mm| Placement {
+        model: 0,
+        plate: 0,
+        x_mm,
+        y_mm: 0.0,
+        turn_deg: 90,
+    });
+    let bare = job(crate::options(), &[2, 0]);
+    assert_eq!(plate(&models).problems(&bare, &near).unwrap(), []);
+    let problems = plate(&models).problems(&options, &near).unwrap();
+    assert!(!problems.is_empty());
 }
 
 fn plates_of(

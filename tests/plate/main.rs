@@ -11,6 +11,7 @@ mod sharing;
 use common::{binary_stl, quiet, solids};
 use cusp_slicer::Error;
 use cusp_slicer::job::{Backend, ModelOptions, Options, Plate, PlateOptions, PlatesReport, Slicer};
+use cusp_slicer::prepare::{SupportProfile, SupportStrength, Supporting};
 
 /// Options with a screen of 40 × 30 mm in pixels of 0.1 mm.
 fn options() -> Options {
@@ -19,6 +20,21 @@ fn options() -> Options {
         pitch_mm: Some(0.1),
         backend: Backend::Cpu,
         ..Options::default()
+    }
+}
+
+/// The same with supports.
+fn supported() -> Options {
+    let lift_mm = 3.0;
+    Options {
+        supports: Some(Supporting {
+            profile: Some(SupportProfile {
+                lift_mm,
+                ..SupportStrength::Light.profile()
+            }),
+            ..Supporting::default()
+        }),
+        ..options()
     }
 }
 

@@ -8,7 +8,10 @@ use cusp_slicer::plan::HeightRange;
 use cusp_slicer::printer::PrinterChoice;
 
 use crate::common::{quiet, solids};
-use crate::{job, load, options, pixels, plan, plate};
+use crate::{job, load, options, pixels, plan, plate, supported};
+use cusp_slicer::job::{Error, OptionsError};
+use cusp_slicer::prepare::Supporting;
+use glam::Vec3;
 
 /// The print file of a plate.
 fn archive(plate: &mut cusp_slicer::job::Plate, number: usize) -> Vec<u8> {
@@ -36,6 +39,11 @@ fn a_plate_of_one_is_byte_for_byte_what_the_model_alone_gives() {
         },
         saturn(Format::Goo),
         saturn(Format::Chitubox),
+        // They reach farther on one side.
+        Options {
+            rotation: Some([0.1, 0.2, 0.3, 0.9]),
+            ..supported()
+        },
     ];
     for options in cases {
         let mut alone = load(&ball);
@@ -48,6 +56,49 @@ fn a_plate_of_one_is_byte_for_byte_what_the_model_alone_gives() {
         assert!(report.plates[0].plate.is_none());
         assert!(archive(&mut one, 0) == expected.into_inner(), "{options:?}");
     }
+}
+
+#[test]
+fn turned_copies_have_the_same_supports() {
+    let bar = solids::cuboid(Vec3::new(12.0, 3.0, 2.0));
+    let mut several = plate(&[&bar]);
+    let at = |x_mm, turn_deg| Placement {
+        model: 0,
+        plate: 0,
+        x_mm,
+        y_mm: 0.0,
+        turn_deg,
+    };
+    let options = PlateOptions {
+        placements: vec![at(-9.0, 0), at(4.0, 45), at(14.0, 90)],
+        ..job(supported(), &[3])
+    };
+    let report = plan(&mut several, &options).unwrap().plates.remove(0);
+    let on_plate = report.supported.unwrap();
+    let mut alone = load(&bar);
+    let alone = pollster::block_on(alone.plan(&supported(), &mut quiet)).unwrap();
+    let of_one = alone.supported.as_ref().unwrap();
+    let thrice_ml = 3.0 * of_one.support_ml;
+    assert!((on_plate.support_ml - thrice_ml).abs() < 0.02 * thrice_ml);
+    assert_eq!(on_plate.lift_mm, 3.0);
+    assert_eq!(report.z_mm, alone.z_mm);
+    // By hand they are for one model, whose frame is known.
+    let by_hand = Options {
+        supports: Some(Supporting {
+            points: Some(of_one.points.clone()),
+            ..Supporting::default()
+        }),
+        ..supported()
+    };
+    let refused = plan(&mut several, &job(by_hand, &[3])).unwrap_err();
+    assert_eq!(
+        refused.to_string(),
+        Error::from(OptionsError::Contradictory {
+            option: "points",
+            other: "models"
+        })
+        .to_string()
+    );
 }
 
 #[test]

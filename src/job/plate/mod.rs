@@ -19,6 +19,7 @@ pub use report::{PlateModelReport, PlateReport, PlatesReport};
 
 use super::parts::{Job, Layering, Target};
 use super::planned::{Planned, PlannedModel};
+use super::prepared::Prepared;
 use super::report::{Origin, SCHEMA, report_of};
 use super::sampled::Sampler;
 use super::stage::{Stage, StageProgress, ms_since, report as tell};
@@ -35,6 +36,8 @@ use shapes::Shape;
 pub struct Plate {
     models: Vec<Slicer>,
     sampler: Sampler,
+    /// The models with their supports, if they have some: before turns, in the order of models.
+    prepared: Vec<Arc<Prepared>>,
     shapes: Vec<Shape>,
     plates: Vec<Current>,
 }
@@ -96,6 +99,9 @@ impl Plate {
     pub fn remove(&mut self, model: usize) -> Result<Slicer, Error> {
         self.check_model(model)?;
         self.plates.clear();
+        if model < self.prepared.len() {
+            self.prepared.remove(model);
+        }
         self.shapes.retain(|shape| shape.model != model);
         for shape in &mut self.shapes {
             shape.model -= usize::from(shape.model > model);
@@ -137,6 +143,9 @@ impl Plate {
         let mut timings = Timings::default();
         let clock = Instant::now();
         let screen = screen_of(&job.sampling)?;
+        timings.load = ms_since(clock);
+        self.prepare(options, &job, &mut timings, progress)?;
+        let clock = Instant::now();
         let extents = self.extents(options, &job, &screen)?;
         let places = if options.placements.is_empty() {
             self.arranged(options, &job, &screen, &extents)?
@@ -148,7 +157,7 @@ impl Plate {
             }
             places
         };
-        timings.load = ms_since(clock);
+        timings.load += ms_since(clock);
         self.measure(options, &job, &places, &mut timings, progress)
             .await?;
 
@@ -245,15 +254,14 @@ fn check_own(options: &PlateOptions, job: &Job) -> Result<(), OptionsError> {
     Ok(())
 }
 
-/// Refuses what is placed by hand where there are several models or copies, which are turned, and supports, which reach beyond the
-/// shadows by which models are arranged.
+/// Refuses what is placed by hand where there are several models or copies, each of which has a frame of its own.
 fn check_prepared(job: &Job, is_alone: bool) -> Result<(), OptionsError> {
     let hollow = job.sampling.hollow.as_ref();
     let option = match &job.sampling.supports {
         _ if is_alone => return Ok(()),
-        Some(_) => "supports",
-        None if hollow.is_some_and(|hollow| !hollow.drains.is_empty()) => "drains",
-        None => return Ok(()),
+        Some(supports) if supports.points.is_some() => "points",
+        _ if hollow.is_some_and(|hollow| !hollow.drains.is_empty()) => "drains",
+        _ => return Ok(()),
     };
     Err(OptionsError::Contradictory {
         option,

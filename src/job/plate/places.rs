@@ -1,6 +1,8 @@
 //! Where the copies of a plate stand.
 
+use super::super::Timings;
 use super::super::parts::{Job, Raster, Sampling};
+use super::super::prepared::Prepared;
 use super::{Placement, Plate, PlateOptions};
 use crate::Error;
 use crate::arrange::{
@@ -23,20 +25,29 @@ pub(super) struct Extent {
 struct Posed<'a> {
     mesh: &'a Mesh,
     pose: Pose,
+    /// With its supports, if it has some.
+    prepared: Option<&'a Prepared>,
 }
 
 impl Posed<'_> {
     fn outline(&self, turns: u32, screen: &Screen) -> Result<Outline, Error> {
-        let mesh = self.mesh.on_plate(&self.pose.turned(turns))?;
-        Ok(Outline::of(&mesh, screen))
+        Ok(match self.prepared {
+            Some(prepared) if turns == 0 => Outline::of(&prepared.mesh, screen),
+            Some(prepared) => Outline::of(&prepared.turned(turns)?.mesh, screen),
+            None => Outline::of(&self.mesh.on_plate(&self.pose.turned(turns))?, screen),
+        })
     }
 
     fn extent(&self, screen: &Screen) -> Result<Extent, Error> {
-        let mesh = self.mesh.on_plate(&self.pose)?;
+        let mut posed = None;
+        let mesh = match self.prepared {
+            Some(prepared) => &prepared.mesh,
+            None => posed.insert(self.mesh.on_plate(&self.pose)?),
+        };
         let size = mesh.bounds().size();
         Ok(Extent {
             size_mm: [size.x, size.y, self.pose.height_mm.unwrap_or(size.z)],
-            shadow: Outline::of(&mesh, screen),
+            shadow: Outline::of(mesh, screen),
         })
     }
 }
@@ -46,9 +57,10 @@ impl Plate {
     ///
     /// # Errors
     /// [`Error::Arrange`], [`Error::Options`], [`Error::Mesh`].
-    pub fn arrange(&self, options: &PlateOptions) -> Result<Vec<Placement>, Error> {
+    pub fn arrange(&mut self, options: &PlateOptions) -> Result<Vec<Placement>, Error> {
         let job = options.options.resolve()?;
         let screen = screen_of(&job.sampling)?;
+        self.prepare_silently(options, &job)?;
         let extents = self.extents(options, &job, &screen)?;
         let places = self.arranged(options, &job, &screen, &extents)?;
         Ok(places
@@ -103,10 +115,16 @@ impl Plate {
             .collect()
     }
 
+    fn prepare_silently(&mut self, options: &PlateOptions, job: &Job) -> Result<(), Error> {
+        let mut silent = |_, _| std::ops::ControlFlow::Continue(());
+        self.prepare(options, job, &mut Timings::default(), &mut silent)
+    }
+
     fn posed(&self, options: &PlateOptions, job: &Job, model: usize) -> Posed<'_> {
         Posed {
             mesh: &self.models[model].model,
             pose: self.pose_of(options, job, model),
+            prepared: self.prepared.get(model).map(|it| &**it),
         }
     }
 
@@ -128,12 +146,13 @@ impl Plate {
     /// # Errors
     /// [`Error::Arrange`], [`Error::Options`], [`Error::Mesh`].
     pub fn problems(
-        &self,
+        &mut self,
         options: &PlateOptions,
         placements: &[Placement],
     ) -> Result<Vec<ArrangeError>, Error> {
         let job = options.options.resolve()?;
         let screen = screen_of(&job.sampling)?;
+        self.prepare_silently(options, &job)?;
         let places = self.places(&screen, placements)?;
         self.problems_of(options, &job, &screen, &places)
     }

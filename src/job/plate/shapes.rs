@@ -7,6 +7,7 @@ use web_time::Instant;
 use super::super::Timings;
 use super::super::measured::Measured;
 use super::super::parts::{Job, Layering, Sampling};
+use super::super::prepared::Prepared;
 use super::super::sampled::Sampled;
 use super::super::stage::{Stage, StageProgress, ms_since, report};
 use super::places::kinds;
@@ -33,6 +34,46 @@ struct Unmeasured {
 }
 
 impl Plate {
+    /// Prepares the models if they get supports, whose shadows count when they are arranged.
+    pub(super) fn prepare(
+        &mut self,
+        options: &PlateOptions,
+        job: &Job,
+        timings: &mut Timings,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<(), Error> {
+        let kept = std::mem::take(&mut self.prepared);
+        if job.sampling.supports.is_none() {
+            return Ok(());
+        }
+        let count = self.models.len() as f64;
+        for model in 0..self.models.len() {
+            let mut within = |stage, fraction| progress(stage, (model as f64 + fraction) / count);
+            let sampling = Sampling {
+                pose: self.pose_of(options, job, model),
+                ..job.sampling.clone()
+            };
+            let weights = self.models[model].layering_weights(&job.layering, &mut within)?;
+            let spared = sampling.spared(weights.as_deref());
+            let known = kept.get(model).filter(|it| it.is_of(&sampling, spared));
+            let prepared = if let Some(known) = known {
+                Arc::clone(known)
+            } else {
+                let mesh = &self.models[model].model;
+                let mut within = |fraction| within(Stage::Ldi, fraction);
+                Arc::new(Prepared::new(
+                    mesh,
+                    &sampling,
+                    spared,
+                    timings,
+                    &mut within,
+                )?)
+            };
+            self.prepared.push(prepared);
+        }
+        Ok(())
+    }
+
     /// Samples and measures each model in each of its turns, or reuses results that are still valid.
     pub(super) async fn measure(
         &mut self,
@@ -104,19 +145,29 @@ impl Plate {
             let weights = self.models[model].layering_weights(layering, &mut within)?;
             let known = kept
                 .iter()
-                .find(|shape| shape.model == model && shape.measured.of.sampling == sampling)
+                .find(|shape| {
+                    let of = &shape.measured.of;
+                    let spared = sampling.spared(weights.as_deref());
+                    shape.model == model && of.is_of(&sampling, spared)
+                })
                 .map(|known| Arc::clone(&known.measured));
             let sampled = if let Some(known) = &known {
                 Arc::clone(&known.of)
             } else {
                 let mesh = &self.models[model].model;
-                let mut prepared = kept.iter().filter(|shape| shape.model == model);
-                let prepared = prepared
-                    .find(|shape| shape.measured.of.prepared.is_of(&sampling, None))
-                    .map(|shape| Arc::clone(&shape.measured.of.prepared));
+                let spared = sampling.spared(weights.as_deref());
+                let prepared = match self.prepared.get(model) {
+                    Some(prepared) if turns == 0 => Some(Arc::clone(prepared)),
+                    Some(prepared) => Some(Arc::new(prepared.turned(turns)?)),
+                    None => {
+                        let mut known = kept.iter().filter(|shape| shape.model == model);
+                        let known = known.find(|it| it.measured.of.prepared.is_of(&sampling, None));
+                        known.map(|shape| Arc::clone(&shape.measured.of.prepared))
+                    }
+                };
                 let sampled = self
                     .sampler
-                    .sample(mesh, &sampling, None, prepared, timings, &mut within)
+                    .sample(mesh, &sampling, spared, prepared, timings, &mut within)
                     .await;
                 Arc::new(sampled?)
             };

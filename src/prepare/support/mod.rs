@@ -230,6 +230,27 @@ pub struct Supports {
     pub lift_mm: f64,
 }
 
+impl Supports {
+    /// The same, with every point at its place elsewhere. The shell is left out.
+    pub(crate) fn moved(&self, place: impl Fn([f64; 3]) -> [f64; 3]) -> Self {
+        let points = |points: &[SupportPoint]| {
+            let moved = points.iter().map(|point| SupportPoint {
+                at_mm: place(point.at_mm),
+                ..*point
+            });
+            moved.collect()
+        };
+        Self {
+            shell: Shell::default(),
+            points: points(&self.points),
+            unreached: points(&self.unreached),
+            astray: self.astray.clone(),
+            joints_mm: self.joints_mm.iter().map(|&at| place(at)).collect(),
+            ..*self
+        }
+    }
+}
+
 /// The pitch of rays, unless the model is large.
 const PITCH_MM: f64 = 0.2;
 
