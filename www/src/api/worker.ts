@@ -158,10 +158,10 @@ const api: SlicerWorker = {
   async plan(options, progress) {
     const report = await current().plan(options, plain(progress));
     const profile = current().profile(report.metric, report.source);
-    const plan: Profiled<Report> = { report, profile };
-    if (report.supported !== undefined) plan.supports = current().supports();
-    if (report.hollowed !== undefined) plan.voids = current().voids();
-    return Comlink.transfer(plan, [plan.profile, plan.supports, plan.voids].flatMap((it) => it?.buffer ?? []));
+    const supports = report.supported === undefined ? {} : { supports: current().supports() };
+    const voids = report.hollowed === undefined ? {} : { voids: current().voids() };
+    const plan = { report, profile, ...supports, ...voids };
+    return Comlink.transfer(plan, [profile, supports.supports, voids.voids].flatMap((it) => it?.buffer ?? []));
   },
   tradeoff(options, points, progress) {
     return current().tradeoff(options, points, plain(progress));

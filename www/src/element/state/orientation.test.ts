@@ -251,6 +251,8 @@ test("metrics are written in the language; an excluded candidate has only its si
     Overhang: "50\u00a0mm²",
     Islands: "0",
     Cups: "0\u00a0mm²",
+    Supports: "0\u00a0ml",
+    Contacts: "0\u00a0mm²",
     Size: "1.0 × 2.0 × 3.0\u00a0mm",
     Score: "0.5",
   });

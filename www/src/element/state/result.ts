@@ -38,10 +38,10 @@ export function ownHeight({ height_mm, supported }: Report): number {
 /** What a plan has besides its report. */
 type Drawn = Pick<Plan, "profile" | "supports" | "voids">;
 
-export function shownOf(report: Report | Preview, { profile, supports = null, voids = null }: Drawn): Shown {
+export function shownOf(report: Report | Preview, { profile, supports, voids }: Drawn): Shown {
   const lift_mm = "lift_mm" in report ? report.lift_mm : (report.supported?.lift_mm ?? 0);
   const { metric, bin_mm, z_mm, thickness_mm, layers, print_time_s, layer_range_mm: limits } = report;
-  return { metric, bin_mm, z_mm, thickness_mm, layers, print_time_s, profile, limits, lift_mm, supports, voids };
+  return { metric, bin_mm, z_mm, thickness_mm, layers, print_time_s, profile, limits, lift_mm, supports: supports ?? null, voids: voids ?? null };
 }
 
 /** Whether two sets of options, with their keys in the same order, ask for the same plan. */
