@@ -4,6 +4,7 @@ import { isFilament, type Candidate, type Finding } from "../api/wire.js";
 import type { RotateDetail } from "../view/events.js";
 import type { MoveDetail } from "../view/scene/moving.js";
 import type { PaletteName } from "../view/legend/palette.js";
+import type { Tool } from "../view/scene/keys.js";
 import type { Rotation } from "../view/scene/pose.js";
 import { UPRIGHT } from "../view/scene/turn.js";
 import type { Painted } from "./events.js";
@@ -11,6 +12,7 @@ import type { Facts } from "./facts.js";
 import type { Scaled } from "./panels/model-view.js";
 import type { Searched } from "./panels/orientation-panel.js";
 import type { PlotPlace } from "./panels/profile-chart.js";
+import type { Fields } from "./panels/settings-form.js";
 import { define } from "./define.js";
 import { FetchedPanel } from "./parts/part.js";
 import { fileWords } from "./parts/file-words.js";
@@ -24,8 +26,9 @@ import type { Session } from "./state/session.js";
 import { quaternion, type Settings } from "./state/settings.js";
 
 /** @param problem a failure that one of the settings caused, to be shown beside that setting */
-export function settingsPanel({ session, language, saveTowers }: Facts, problem: Problem | null): TemplateResult {
+export function settingsPanel({ session, language, saveTowers }: Facts, problem: Problem | null, fields: Fields = "all"): TemplateResult {
   return html`<cusp-settings
+    .fields=${fields}
     .settings=${session.settings}
     .faults=${session.faults}
     .info=${session.model?.info ?? null}
@@ -79,6 +82,7 @@ export function modelPanel({ session, language, slicer, saveWeights }: Facts): T
     @cusp-move=${({ detail: { place, final, ...to } }: CustomEvent<MoveDetail>) => session.plate.move(place, to, final)}
     @cusp-entry=${(event: CustomEvent<Entry>) => session.plate.select(session.plate.entries.indexOf(event.detail))}
     .settings=${settings}
+    .edited=${session}
     .weights=${session.weights}
     .language=${language}
     @cusp-paint=${(event: CustomEvent<Painted>) => painted(session, event)}
@@ -221,6 +225,12 @@ function seen({ target, detail }: CustomEvent<Rotation>): void {
 function recoloured({ target, detail }: CustomEvent<PaletteName>): void {
   const panel = beside(target, "cusp-orientation");
   if (panel !== null) panel.palette = detail;
+}
+
+/** Takes up a tool of the view beside. */
+export function takeUp(target: EventTarget | null, tool: Tool): void {
+  const view = beside(target, "cusp-model");
+  if (view !== null) view.tool = tool;
 }
 
 function beside<Name extends "cusp-model" | "cusp-orientation">(target: EventTarget | null, name: Name): HTMLElementTagNameMap[Name] | null {

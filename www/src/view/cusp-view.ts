@@ -12,12 +12,14 @@ import { Beside } from "./scene/beside.js";
 import type { Alignment, Frame } from "./scene/cameras.js";
 import { Derived } from "./steps/derived.js";
 import { isMeasured } from "./steps/distances.js";
-import type { HeightDetail, PaintDetail, RotateDetail, ViewErrorDetail, ViewEvents } from "./events.js";
+import type { HeightDetail, PaintDetail, PointDetail, RotateDetail, ViewErrorDetail, ViewEvents } from "./events.js";
 import { pressed } from "./scene/keys.js";
+import { places } from "./scene/places.js";
 import { legendStyles } from "./legend/legend.js";
 import { wallLegendStyles } from "./legend/wall-legend.js";
 import { Moving, type MoveDetail } from "./scene/moving.js";
 import { Painting } from "./paint/painting.js";
+import { Placing } from "./points/placing.js";
 import { sharePage } from "./scene/page-gestures.js";
 import { placeIn, watchPointer, type Point } from "./scene/pointer.js";
 import { Pointing, type Shown } from "./scene/pointing.js";
@@ -50,6 +52,7 @@ export class CuspView extends elementWith(PROPERTIES) {
   #pointing: Pointing | null = null;
   #painting: Painting | null = null;
   #moving: Moving | null = null;
+  #placing: Placing | null = null;
   /** The rotation that the rings have reached while they are dragged. */
   #turned: Rotation | null = null;
   #unsaid: RotateDetail | null = null;
@@ -154,7 +157,10 @@ export class CuspView extends elementWith(PROPERTIES) {
       painting.hover(at);
       void pointing.hovered(at);
     };
-    watchPointer(canvas, { clicked: (at) => void pointing.clicked(at), hovered }, life.signal);
+    const placing = new Placing(scene, (detail) => this.#tell<PointDetail>("cusp-point", detail));
+    this.#placing = placing;
+    placing.watch(holder, (event) => placeIn(canvas, event), life.signal);
+    watchPointer(canvas, { clicked: this.#clicked, hovered }, life.signal);
     const moving = new Moving(scene, {
       selected: (place) => this.#tell<number>("cusp-select", place),
       moved: (detail) => this.#tell<MoveDetail>("cusp-move", detail),
@@ -188,7 +194,7 @@ export class CuspView extends elementWith(PROPERTIES) {
     this.#scene?.dispose();
     this.#scene = null;
     this.#pointing = null;
-    this.#painting = this.#moving = null;
+    this.#painting = this.#moving = this.#placing = null;
     this.renderRoot.querySelector("canvas")?.remove();
     this.#frame = null;
     this.#isHeld = false;
@@ -201,6 +207,7 @@ export class CuspView extends elementWith(PROPERTIES) {
     if (has("plate")) scene.setVolume(this.plate);
     if (has("lift_mm")) model.lift_mm = this.lift_mm;
     if (has("supports") || has("rotation")) model.setSupports(has("supports") ? this.supports : null);
+    if (has("voids") || has("rotation")) model.setVoids(has("voids") ? this.voids : null);
     if (has("positions")) {
       this.#measuring.forget();
       this.#derived?.dispose();
@@ -211,6 +218,12 @@ export class CuspView extends elementWith(PROPERTIES) {
     if (this.#moving !== null) {
       this.#moving.isOn = this.tool === "move";
       this.#moving.copies = this.copies;
+    }
+    if (has("points") || has("point")) scene.markers.set(this.points, this.point);
+    if (this.#placing !== null) {
+      this.#placing.isOn = places(this.tool);
+      this.#placing.selected = this.point;
+      this.#placing.prepare(this.#derived, this.supports);
     }
     if (has("z_mm")) model.setPlan(this.z_mm);
     if (has("limits")) model.setLimits(this.limits);
@@ -324,7 +337,17 @@ export class CuspView extends elementWith(PROPERTIES) {
     this.#unsaid = { rotation, final };
   }
 
+  readonly #clicked = (at: Point): void => {
+    if (places(this.tool)) this.#placing?.clicked(at);
+    else void this.#pointing?.clicked(at);
+  };
+
   readonly #key = (event: KeyboardEvent): void => {
+    if (event.key === "Escape" && this.#placing?.cancel() === true) {
+      // Neither a task nor a finding ends with the drag.
+      event.stopPropagation();
+      return;
+    }
     const action = pressed(event, this.tool);
     if (action === null || this.#scene === null) return;
     event.preventDefault();
@@ -333,6 +356,9 @@ export class CuspView extends elementWith(PROPERTIES) {
     else if (action.do === "zoom") cameras.zoom(action.factor);
     else if (action.do === "reset") cameras.reset();
     else if (action.do === "move-copy") this.#moving?.step(this.selected, action.x_mm, action.y_mm, action.turn_deg);
+    else if (action.do === "next-point") this.#placing?.step(action.by);
+    else if (action.do === "remove-point") this.#placing?.edit("remove");
+    else if (action.do === "lock-point") this.#placing?.edit("lock");
     else if (action.do === "turn-model") this.#rotate(turned(this.rotation, action.axis, action.degrees), true);
     else if (action.do === "undo-stroke" || action.do === "redo-stroke") {
       // The page's own undo must not react too.
@@ -340,7 +366,7 @@ export class CuspView extends elementWith(PROPERTIES) {
       if (action.do === "undo-stroke") this.undo();
       else this.redo();
     } else if (this.tool === "paint") void this.#painting?.stamp([this.clientWidth / 2, this.clientHeight / 2]);
-    else void this.#pointing?.clicked([this.clientWidth / 2, this.clientHeight / 2]);
+    else this.#clicked([this.clientWidth / 2, this.clientHeight / 2]);
   };
 
   /** No damping where frames take long: it would go on for seconds. */

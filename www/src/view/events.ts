@@ -1,7 +1,7 @@
 /** The events of the view. */
 import type { MoveDetail } from "./scene/moving.js";
 import type { Frame } from "./scene/cameras.js";
-import type { Rotation } from "./scene/pose.js";
+import type { Rotation, Triple } from "./scene/pose.js";
 
 /** The model was turned, by the rings, by laying a face flat or by keyboard. The view shows it already. */
 export interface RotateDetail {
@@ -27,6 +27,21 @@ export interface PaintDetail {
   readonly canRedo: boolean;
 }
 
+/** A place on the model's surface, in the frame of `points`. */
+export interface SurfacePlace {
+  readonly at_mm: Triple;
+  /** The way into the model there, a unit vector. */
+  readonly inward: Triple;
+}
+
+/** What somebody wants with the points. The view shows it when `points` and `point` say so. */
+export type PointDetail =
+  | { readonly do: "add"; readonly to: SurfacePlace }
+  /** Once it is released. */
+  | { readonly do: "move"; readonly place: number; readonly to: SurfacePlace }
+  | { readonly do: "select"; readonly place: number | null }
+  | { readonly do: "remove" | "lock"; readonly place: number };
+
 export interface ViewErrorDetail {
   readonly code: "no-webgl";
   readonly message: string;
@@ -48,5 +63,7 @@ export interface ViewEvents {
   "cusp-move": CustomEvent<MoveDetail>;
   /** A copy was pressed: its place. */
   "cusp-select": CustomEvent<number>;
+  /** A point was added, moved, selected, removed or locked. */
+  "cusp-point": CustomEvent<PointDetail>;
   "cusp-view-error": CustomEvent<ViewErrorDetail>;
 }

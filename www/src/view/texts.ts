@@ -71,6 +71,8 @@ export const ENGLISH_SENTENCES: Pick<ViewTexts, "kind" | "keys" | "empty" | "leg
     rotate: "Arrow keys and Page Up and Page Down turn the model by 5°, with Shift by 1°.",
     flat: "Enter lays the face in the middle of the view on the plate. Arrow keys turn the view.",
     paint: "Enter paints in the middle of the view, Ctrl+Z takes it back. Arrow keys turn the view.",
+    supports: "Enter adds a point in the middle of the view. Arrow keys go from point to point, Delete removes one, L locks it. Arrow keys with Shift turn the view.",
+    drains: "Enter adds a hole in the middle of the view. Arrow keys go from hole to hole, Delete removes one, L locks it. Arrow keys with Shift turn the view.",
   },
   empty: "No model yet",
   legend: "Layer thickness (µm)",

@@ -1,6 +1,7 @@
 /** The properties of the view, and the state that it renders. */
 import type { Heights, Inset } from "./scene/cameras.js";
 import { BRUSH } from "./paint/brush.js";
+import type { ViewPoint } from "./points/markers.js";
 import type { Tool } from "./scene/keys.js";
 import type { Copy } from "./scene/copies.js";
 import type { Heat } from "./paint/heat.js";
@@ -25,6 +26,12 @@ export const PROPERTIES = {
   lift_mm: given(0),
   /** Vertex positions of its supports, nine numbers a facet, mm from the plate; null without supports. */
   supports: given<Float32Array | null>(null),
+  /** Vertex positions of the walls of its void, likewise, which the tool `drains` shows; null if it is solid. */
+  voids: given<Float32Array | null>(null),
+  /** The points that the tools `supports` and `drains` show and place. */
+  points: given<readonly ViewPoint[]>([]),
+  /** The place of the selected point. */
+  point: given<number | null>(null),
   /** Layer boundaries from 0 to the top, mm; empty without a plan. */
   z_mm: given<readonly number[]>([]),
   /** One for each layer. */

@@ -37,17 +37,20 @@ export const viewStyles = css`
     /* One finger that moves up or down scrolls the page, unless its host says that the page does not scroll. */
     touch-action: var(--cusp-view-touch, pan-y);
   }
-  /* The finger turns or paints the model. */
+  /* The finger turns or paints the model, or moves its points. */
   .scene[data-tool="rotate"],
-  .scene[data-tool="paint"] {
+  .scene[data-tool="paint"],
+  .scene:is([data-tool="supports"], [data-tool="drains"]) {
     touch-action: none;
   }
   .scene:active {
     cursor: grabbing;
   }
-  .scene[data-tool="flat"],
-  .scene[data-tool="paint"] {
+  .scene:is([data-tool="flat"], [data-tool="paint"], [data-tool="supports"], [data-tool="drains"]) {
     cursor: crosshair;
+  }
+  .scene.over:is([data-tool="supports"], [data-tool="drains"]) {
+    cursor: move;
   }
   .scene:focus-visible {
     outline: 3px solid var(--cusp-focus, Highlight);
@@ -59,7 +62,7 @@ export const viewStyles = css`
     touch-action: inherit;
   }
   ${visuallyHidden}
-  /* Marks where the keyboard lays a face flat or paints. */
+  /* Marks where the keyboard lays a face flat, paints, or adds a point. */
   .cross {
     display: none;
     position: absolute;
@@ -71,8 +74,7 @@ export const viewStyles = css`
       linear-gradient(currentColor, currentColor) center / 100% 2px no-repeat;
     pointer-events: none;
   }
-  .scene[data-tool="flat"]:focus-visible .cross,
-  .scene[data-tool="paint"]:focus-visible .cross {
+  .scene:is([data-tool="flat"], [data-tool="paint"], [data-tool="supports"], [data-tool="drains"]):focus-visible .cross {
     display: block;
   }
   .label {

@@ -1,7 +1,7 @@
 /** The 3-D view of the model and its tools. The view itself, and three.js with it, is fetched when first shown. */
 import { html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import type { Model, Slicer } from "../../api/index.js";
-import type { Printer } from "../../api/wire.js";
+import { isFilament, type Printer } from "../../api/wire.js";
 import { languageOf, type Language } from "../../texts/index.js";
 import type { Mark } from "../../view/scene/marker.js";
 import type { Look } from "../../view/scene/model.js";
@@ -12,16 +12,18 @@ import type { Copy as Standing } from "../../view/scene/copies.js";
 import type { MoveDetail } from "../../view/scene/moving.js";
 import { BRUSH, rebased } from "../../view/paint/brush.js";
 import type { CuspView } from "../../view/cusp-view.js";
-import type { PaintDetail, RotateDetail } from "../../view/events.js";
+import type { PaintDetail, PointDetail, RotateDetail } from "../../view/events.js";
 import type { Tool } from "../../view/scene/keys.js";
+import { places } from "../../view/scene/places.js";
 import type { ViewTexts } from "../../view/texts.js";
 import { volumeOf } from "../parts/build-volume.js";
 import { PlateView, type Shapes } from "../parts/plate-view.js";
 import { viewTexts } from "../parts/view-texts.js";
 import type { Painted } from "../events.js";
 import { define } from "../define.js";
-import { partFailure, partStyles, tellPartFailed } from "../parts/part.js";
-import { paintStyles, paintTools, type Colours } from "./paint-tools.js";
+import { adopt, FetchedPanel, partFailure, partStyles, tellPartFailed } from "../parts/part.js";
+import type { Colours } from "./paint-tools.js";
+import type { Edited, PointEditor } from "./point-tools.js";
 import { barStyles, viewBar } from "./view-bar.js";
 import type { PlotPlace } from "./profile-chart.js";
 import type { Copy, Entry } from "../state/plate.js";
@@ -32,8 +34,15 @@ import { shared } from "../styles/shared.js";
 import { elementWith, given, own } from "../../view/properties.js";
 import { WALL_MM } from "../../view/walls/scale.js";
 
+/** Few people paint, or place points. */
+const paintCode = new FetchedPanel("paint", () => import("./paint-tools.js"));
+const pointCode = new FetchedPanel("points", () => import("./point-tools.js"));
+
 /** Initial size of the brush, as a fraction of the model's longest side. */
 const BRUSH_PART = 0.2;
+
+/** Always the same list: another one would count as a change. */
+const NO_POINTS: CuspView["points"] = [];
 
 export interface Scaled {
   readonly height_mm: number;
@@ -78,6 +87,8 @@ const PROPERTIES = {
   /** Whether to align heights with the chart, if that is beside the view, and neither painting nor the printed look need another camera. */
   aligned: own(true),
   settings: given(DEFAULT_SETTINGS),
+  /** The session whose points are placed by hand, with the settings above; null: they cannot be. */
+  edited: given<Edited | null>(null),
   /** How much each facet matters; null: all equally. */
   weights: given<Float32Array | null>(null),
   /** How much each facet stands out; null until it is needed. */
@@ -99,13 +110,13 @@ export class CuspModel extends elementWith(PROPERTIES) {
   #texts: { of: Language; words: ViewTexts } | null = null;
   #asked: Model | null = null;
   #canAlign = false;
+  #points: PointEditor | null = null;
   readonly #plate = new PlateView((copies) => (this.standing = copies));
   /** The model whose positions are shown. */
   #shownModel: Model | null = null;
 
   static override styles = [
     shared,
-    paintStyles,
     partStyles,
     barStyles,
     modelViewStyles,
@@ -120,8 +131,8 @@ export class CuspModel extends elementWith(PROPERTIES) {
     if (changed.has("positions") || changed.has("scaled")) this.#fit();
     if (changed.has("copies") || changed.has("crowded") || changed.has("positions")) {
       this.#plate.show(this.copies, this.crowded, this.shapes);
-      if (this.copies.length === 0 && this.tool === "move") this.tool = "turn";
     }
+    if ((this.tool === "move" || places(this.tool)) && !this.#offered.has(this.tool)) this.tool = "turn";
     const shows = this.tool === "paint" && (this.colours === "saliency" || this.#counts);
     if (shows && this.positions !== null && this.saliency === null && !this.isFinding) void this.#find();
   }
@@ -129,14 +140,17 @@ export class CuspModel extends elementWith(PROPERTIES) {
   override render(): TemplateResult {
     const { shown, language, tool } = this;
     const isPainting = tool === "paint";
+    const isPlacing = places(tool);
+    const isEditing = isPainting || isPlacing;
     const isPlate = this.copies.length > 0;
-    const walls_mm = isPainting || isPlate ? null : this.walls_mm;
-    const isMeasured = this.look === "distance" && !isPainting && walls_mm === null;
-    const isPrinted = isMeasured || (this.look === "printed" && !isPainting && walls_mm === null);
-    // An aligned view shows all of the model, and from the side only: no single steps, no top to paint or to see walls from, and no
-    // plate with copies.
-    const isAligned = this.aligned && !isPainting && !isPrinted && !isPlate && walls_mm === null;
+    const walls_mm = isEditing || isPlate ? null : this.walls_mm;
+    const isMeasured = this.look === "distance" && !isEditing && walls_mm === null;
+    const isPrinted = isMeasured || (this.look === "printed" && !isEditing && walls_mm === null);
+    // An aligned view shows all of the model, and from the side only: no single steps, no top to paint or to see walls from, no
+    // bottom to support, and no plate with copies.
+    const isAligned = this.aligned && !isEditing && !isPrinted && !isPlate && walls_mm === null;
     const showsHeat = isPainting && this.colours !== "layers";
+    const points = this.#placed?.of(tool);
     const heat = this.colours === "layers" ? "paint" : this.colours;
     const { texts } = language;
     const words = texts.view;
@@ -151,7 +165,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
         isAligned: isAligned && this.canAlign,
         isBeside: this.plot === null ? null : this.canAlign && !isPlate,
         isTurned,
-        hasCopies: isPlate,
+        offered: this.#offered,
         isPossible: !this.isMissing && !this.isBroken,
         language,
         chosen: (tool) => (this.tool = tool),
@@ -170,13 +184,17 @@ export class CuspModel extends elementWith(PROPERTIES) {
               .scale=${this.#scale}
               .lift_mm=${shown?.lift_mm ?? 0}
               .supports=${shown?.supports ?? null}
+              .voids=${shown?.voids ?? null}
+              .points=${points?.list ?? NO_POINTS}
+              .point=${points?.place ?? null}
+              @cusp-point=${({ detail }: CustomEvent<PointDetail>) => this.#placed?.act(tool, detail)}
               .z_mm=${shown?.z_mm ?? []}
               .thickness_mm=${shown?.thickness_mm ?? []}
               .limits=${shown?.limits ?? [0, 0]}
-              .layer=${shown === null || showsHeat || walls_mm !== null ? null : this.layer}
+              .layer=${shown === null || showsHeat || isPlacing || walls_mm !== null ? null : this.layer}
               .mark=${this.mark}
               .plate=${volumeOf(this.printer)}
-              .look=${showsHeat ? "weights" : isPainting ? "thickness" : walls_mm === null ? this.look : "walls"}
+              .look=${showsHeat ? "weights" : isEditing ? "thickness" : walls_mm === null ? this.look : "walls"}
               .wall_mm=${walls_mm ?? WALL_MM}
               .weights=${this.weights}
               .saliency=${heat === "saliency" || this.#counts ? this.saliency : null}
@@ -188,6 +206,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
               @cusp-move=${(event: CustomEvent<MoveDetail>) => this.#tell(event)}
               @cusp-select=${this.#pressed}
               @cusp-paint=${this.#painted}
+              .showsLegend=${tool !== "drains"}
               .palette=${this.palette}
               .tool=${tool}
               .aligned=${isAligned && this.plot !== null}
@@ -205,7 +224,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
             ? partFailure(language, () => void this.#load())
             : nothing}
       </div>
-      ${isPainting ? html`<div class="beside">${this.#paintTools()}</div>` : nothing}
+      ${isEditing ? html`<div class="beside">${isPainting ? this.#paintTools() : this.#pointTools()}</div>` : nothing}
       </div>
     `;
   }
@@ -240,11 +259,15 @@ export class CuspModel extends elementWith(PROPERTIES) {
     this.#say<PaletteName>("cusp-palette", this.palette);
   };
 
-  /** Leaves the brush, which has its own colours. */
+  /** Leaves the tools that have their own colours. */
   #look(look: Look): void {
     this.look = look;
     this.#endWalls();
-    if (this.tool === "paint") this.tool = "turn";
+    this.#endEditing();
+  }
+
+  #endEditing(): void {
+    if (this.tool === "paint" || places(this.tool)) this.tool = "turn";
   }
 
   /** Leaves the colours of walls, where other ones are asked for. */
@@ -257,7 +280,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
     this.aligned = on;
     if (!on) return;
     this.#endWalls();
-    if (this.tool === "paint") this.tool = "turn";
+    this.#endEditing();
     this.look = "thickness";
   };
 
@@ -272,7 +295,31 @@ export class CuspModel extends elementWith(PROPERTIES) {
     return this.settings.saliency === "on";
   }
 
-  #paintTools(): TemplateResult {
+  /** The tools that there is something for: copies to move, or a model of its own that is to be printed in resin. */
+  get #offered(): ReadonlySet<Tool> {
+    const { settings: { format, wall }, edited } = this;
+    if (this.copies.length > 0) return new Set(["move"]);
+    if (edited === null || isFilament(format)) return new Set();
+    return new Set(wall.trim() === "" ? ["supports"] : ["supports", "drains"]);
+  }
+
+  /** What places points; null while it is not needed, or not there. */
+  get #placed(): PointEditor | null {
+    if (!places(this.tool) || pointCode.code === null || this.edited === null) return null;
+    this.#points ??= new pointCode.code.PointEditor(this.edited, () => this.requestUpdate());
+    return this.#points;
+  }
+
+  #pointTools(): TemplateResult | typeof nothing {
+    const { language, tool } = this;
+    if (pointCode.code === null) return pointCode.instead(this, language);
+    adopt(this, pointCode.code.pointStyles);
+    return this.#placed?.tools(tool, language) ?? nothing;
+  }
+
+  #paintTools(): TemplateResult | typeof nothing {
+    if (paintCode.code === null) return paintCode.instead(this, this.language);
+    adopt(this, paintCode.code.paintStyles);
     const { brush, colours, settings, isFinding, canUndo, canRedo, language } = this;
     const view = (): CuspView | null => this.renderRoot.querySelector("cusp-view");
     const isPainted = this.weights !== null;
@@ -280,7 +327,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
       this.canUndo = true;
       this.#say<Painted>("cusp-paint", { weights, final: true });
     };
-    return paintTools({
+    return paintCode.code.paintTools({
       ...{ brush, colours, settings, isFinding, canUndo, canRedo, isPainted, language, most_mm: this.#reach },
       brushed: (change) => {
         const before = this.brush.base;

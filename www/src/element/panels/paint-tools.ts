@@ -2,6 +2,7 @@
 import { chosen } from "../parts/chosen.js";
 import { css, html, type TemplateResult } from "lit";
 import type { Language } from "../../texts/index.js";
+import { paintingTexts } from "../../texts/painting/index.js";
 import type { Brush, BrushMode } from "../../view/paint/brush.js";
 import type { Heat } from "../../view/paint/heat.js";
 import { WEIGHT_STEPS, type Settings } from "../state/settings.js";
@@ -50,8 +51,8 @@ const isOn = ({ target }: Event): boolean => (target as HTMLInputElement).checke
 
 export function paintTools(tools: PaintTools): TemplateResult {
   const { brush, colours, settings, most_mm, language, brushed, changed } = tools;
-  const { texts, format } = language;
-  const { paint: words } = texts;
+  const { format } = language;
+  const words = paintingTexts(language);
   const slider = (
     name: string,
     [least, most, step]: readonly [number, number, number],

@@ -21,6 +21,9 @@ import { elementWith, given, own } from "../../view/properties.js";
 /** Settings that are hidden at first, unless one differs from its default. */
 const MORE = ["wall", "minimize", "snap", "step", "bottomExposure", "bottomLayers"] as const;
 
+/** The fields that a form shows: all, or those of a step of the workbench. */
+export type Fields = "all" | "hollow" | "supports" | "slice";
+
 const STRENGTHS = ["none", "light", "medium", "heavy"] as const;
 
 /** Whether the form shows the field of a problem, so that the problem can be shown beside it. */
@@ -61,6 +64,7 @@ const options = (choices: readonly (readonly [value: string, name: string])[], c
   choices.map(([value, name]) => html`<option value=${value} ?selected=${value === chosen}>${name}</option>`);
 
 const PROPERTIES = {
+  fields: given<Fields>("all"),
   settings: given(DEFAULT_SETTINGS),
   faults: given<Faults>({}),
   info: given<MeshInfo | null>(null),
@@ -95,46 +99,51 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     }
     // Settings changed by the URL must be visible. After that, the user expands and collapses them.
     if (!changed.has("settings") || this.#moreAtFirst !== null) return;
-    this.#moreAtFirst = MORE.some((key) => this.settings[key] !== DEFAULT_SETTINGS[key]);
+    this.#moreAtFirst = MORE.some((key) => (key !== "wall" || this.fields === "all") && this.settings[key] !== DEFAULT_SETTINGS[key]);
   }
 
   override render(): TemplateResult {
+    const { fields } = this;
+    return html`<form novalidate @submit=${(event: Event) => event.preventDefault()}>
+      ${fields === "hollow" ? this.#hollow() : fields === "supports" ? this.#supports() : this.#slice()}
+    </form>`;
+  }
+
+  #slice(): TemplateResult {
     const { settings, info, offered } = this;
     const { texts, format } = this.language;
     const words = texts.settings;
     const isUniform = settings.planner === "uniform";
     const own = info === null ? "" : info.size_mm[2].toFixed(1);
     return html`
-      <form novalidate @submit=${(event: Event) => event.preventDefault()}>
-        ${offered.printers.length === 0 ? nothing : this.#printer()}
-        ${offered.resins.length === 0 ? nothing : this.#resin()}
-        ${isFilament(settings.format) ? nothing : this.#exposure()}
-        ${this.#radios("planner", words.layers, [["optimal", words.adaptive], ["uniform", words.uniform]], this.#plannerHint())}
-        ${isUniform ? this.#field("uniform", words.thickness) : nothing}
-        ${this.#tolerance()}
-        <div class="pair">${this.#field("layerMin", words.thinnest)} ${this.#field("layerMax", words.thickest)}</div>
-        ${isUniform ? html`<p class="hint">${words.rangeHint}</p>` : nothing}
-        ${this.#field("height", words.height, { placeholder: own })} ${this.#unit()}
-        ${isFilament(this.settings.format) ? nothing : this.#supports()}
-        ${this.#select(
-          "metric",
-          words.metric,
-          options(METRIC_NAMES.map((metric) => [metric, texts.metrics[metric].name]), settings.metric),
-        )}
-        ${this.#format()}
-        ${isFilament(settings.format)
-          ? this.#field("nozzle", words.nozzle, { hint: words.nozzleHint, placeholder: String(DEFAULTS.nozzle_mm) })
-          : nothing}
-        ${settings.printer === ""
-          ? this.#select(
-              "rays",
-              words.resolution,
-              options(RAYS.map((rays) => [String(rays), words.pixels(format.count(rays))]), settings.rays),
-              { hint: words.resolutionHint },
-            )
-          : nothing}
-        ${this.#more(isUniform)}
-      </form>
+      ${offered.printers.length === 0 ? nothing : this.#printer()}
+      ${offered.resins.length === 0 ? nothing : this.#resin()}
+      ${isFilament(settings.format) ? nothing : this.#exposure()}
+      ${this.#radios("planner", words.layers, [["optimal", words.adaptive], ["uniform", words.uniform]], this.#plannerHint())}
+      ${isUniform ? this.#field("uniform", words.thickness) : nothing}
+      ${this.#tolerance()}
+      <div class="pair">${this.#field("layerMin", words.thinnest)} ${this.#field("layerMax", words.thickest)}</div>
+      ${isUniform ? html`<p class="hint">${words.rangeHint}</p>` : nothing}
+      ${this.#field("height", words.height, { placeholder: own })} ${this.#unit()}
+      ${isFilament(settings.format) || this.fields !== "all" ? nothing : this.#supports()}
+      ${this.#select(
+        "metric",
+        words.metric,
+        options(METRIC_NAMES.map((metric) => [metric, texts.metrics[metric].name]), settings.metric),
+      )}
+      ${this.#format()}
+      ${isFilament(settings.format)
+        ? this.#field("nozzle", words.nozzle, { hint: words.nozzleHint, placeholder: String(DEFAULTS.nozzle_mm) })
+        : nothing}
+      ${settings.printer === ""
+        ? this.#select(
+            "rays",
+            words.resolution,
+            options(RAYS.map((rays) => [String(rays), words.pixels(format.count(rays))]), settings.rays),
+            { hint: words.resolutionHint },
+          )
+        : nothing}
+      ${this.#more(isUniform)}
     `;
   }
 
@@ -240,7 +249,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     return html`<details ?open=${this.#moreAtFirst}>
       <summary>${words.more}</summary>
       <div class="more">
-        ${isResin ? this.#hollow() : nothing}
+        ${isResin && this.fields === "all" ? this.#hollow() : nothing}
         ${isUniform
           ? nothing
           : html`${isResin

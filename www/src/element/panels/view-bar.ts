@@ -20,8 +20,8 @@ export interface ViewBar {
   readonly isTurned: boolean;
   /** Whether there is a 3-D view. */
   readonly isPossible: boolean;
-  /** Whether there are copies to move. */
-  readonly hasCopies: boolean;
+  /** The tools that there is something for, besides those that there always is. */
+  readonly offered: ReadonlySet<Tool>;
   readonly language: Language;
   chosen(tool: Tool): void;
   printed(on: boolean): void;
@@ -31,7 +31,8 @@ export interface ViewBar {
   upright(): void;
 }
 
-const TOOLS: readonly Tool[] = ["turn", "move", "rotate", "flat", "paint"];
+const TOOLS: readonly Tool[] = ["turn", "move", "rotate", "flat", "paint", "supports", "drains"];
+const ALWAYS: ReadonlySet<Tool> = new Set(["turn", "rotate", "flat", "paint"]);
 
 /** Drawn in a square of 20 units. */
 const ICONS = {
@@ -40,6 +41,8 @@ const ICONS = {
   rotate: "M4 3.5V8h4.5M4.4 8A6.5 6.5 0 1 1 3.5 11",
   flat: "M2.5 17h15M3.5 14h13M5.5 10.5 9 4l6.5 3.5-2 3.5M12 9v2.5M10.5 10l1.5 1.5 1.5-1.5",
   paint: "m17 3-8 8.5M9 11.5c-2.6-.6-4 1-4 2.8 0 1.2-.9 1.9-2 1.9 1.6 1.6 7.3 1.7 7.5-2.3 0-1.2-.5-2-1.5-2.4z",
+  supports: "M10 2.5a3.5 3.5 0 1 1 0 7 3.5 3.5 0 0 1 0-7zM10 9.5v7.5M6 17h8M4 12l3 2.5M16 12l-3 2.5",
+  drains: "M3 9V4.5h14V9M3 9h4.5M12.5 9H17M10 10.5s-2.5 3-2.5 4.6a2.5 2.5 0 0 0 5 0c0-1.6-2.5-4.6-2.5-4.6z",
   printed: "M2.5 16.5h4v-4h4v-4h4v-4h3",
   measured: "M3 4v12M17 4v12M5.5 10h9M8 7.5 5.5 10 8 12.5M12 7.5l2.5 2.5-2.5 2.5",
   safe: "M17 10a7 7 0 1 1-14 0 7 7 0 0 1 14 0zM10 3v14M10 6.5h6M10 10h7M10 13.5h6",
@@ -83,7 +86,7 @@ export function viewBar(bar: ViewBar): TemplateResult {
   return html`<div class="bar">
       <fieldset class="group modes">
         <legend class="visually-hidden">${words.modes}</legend>
-        ${TOOLS.filter((tool) => tool !== "move" || bar.hasCopies).map(mode)}
+        ${TOOLS.filter((tool) => ALWAYS.has(tool) || bar.offered.has(tool)).map(mode)}
       </fieldset>
       ${bar.isTurned
         ? html`<button class="small upright" title=${words.upright} @click=${bar.upright}>

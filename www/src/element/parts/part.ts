@@ -1,10 +1,13 @@
 /** Parts that are fetched when first shown, and what a panel shows if one cannot be loaded. */
-import { css, html, nothing, type LitElement, type TemplateResult } from "lit";
+import { css, html, nothing, type CSSResult, type LitElement, type TemplateResult } from "lit";
 import { said, SlicerError } from "../../api/error.js";
 import type { Language } from "../../texts/index.js";
 
-/** The 3-D view; the chart of the profile; the panel of orientation, and the pictures of the best ones; the list of models; what will fail; the masks. */
-export type Part = "view" | "chart" | "orientation" | "pictures" | "plate" | "findings" | "mask";
+/**
+ * The 3-D view, what paints weights in it, and what places points; the chart of the profile; the panel of orientation, and the
+ * pictures of the best ones; the list of models; what will fail; the masks.
+ */
+export type Part = "view" | "paint" | "points" | "chart" | "orientation" | "pictures" | "plate" | "findings" | "mask";
 
 export function partError(part: Part, cause: unknown): SlicerError {
   const system = said(cause);
@@ -25,14 +28,16 @@ export function partFailure({ texts }: Language, again: () => void): TemplateRes
 }
 
 /** A panel's code that is fetched when it is first shown, once for all elements of the page. */
-export class FetchedPanel {
+export class FetchedPanel<Code = void> {
   isThere = false;
+  /** What was fetched. */
+  code: Code | null = null;
   readonly #part: Part;
-  readonly #fetch: () => Promise<void>;
+  readonly #fetch: () => Promise<Code>;
   #arriving: Promise<void> | null = null;
   #isMissing = false;
 
-  constructor(part: Part, fetch: () => Promise<void>) {
+  constructor(part: Part, fetch: () => Promise<Code>) {
     this.#part = part;
     this.#fetch = fetch;
   }
@@ -46,7 +51,10 @@ export class FetchedPanel {
       });
     }
     this.#arriving ??= this.#fetch()
-      .then(() => void (this.isThere = true))
+      .then((code) => {
+        this.code = code;
+        this.isThere = true;
+      })
       .catch((error: unknown) => {
         this.#arriving = null;
         this.#isMissing = true;
@@ -55,6 +63,12 @@ export class FetchedPanel {
     void this.#arriving.then(() => element.requestUpdate());
     return nothing;
   }
+}
+
+/** Gives an element the styles of code that was fetched, once. */
+export function adopt({ renderRoot }: LitElement, { styleSheet }: CSSResult): void {
+  const root = renderRoot as ShadowRoot;
+  if (styleSheet !== undefined && !root.adoptedStyleSheets.includes(styleSheet)) root.adoptedStyleSheets = [...root.adoptedStyleSheets, styleSheet];
 }
 
 export const partStyles = css`

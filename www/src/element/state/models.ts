@@ -10,7 +10,7 @@ import { Plate, poseOf, type Added, type Entry, type Own, type PlateState, type 
 import { Preferences } from "./preferences.js";
 import type { Failure } from "./problem.js";
 import { Runner } from "./runner.js";
-import type { Settings } from "./settings.js";
+import { withoutPlaced, type Settings } from "./settings.js";
 
 export abstract class Models extends Preferences {
   /** The open model: if there are several, the selected one. */
@@ -194,9 +194,9 @@ export abstract class Models extends Preferences {
       await this.resume();
       return null;
     }
-    // The rotation of the previous model does not apply to this one, nor does its unit.
-    const { rotation, unit } = this.settings;
-    if (this.model !== null && (rotation !== "" || unit !== "")) this.preset({ rotation: "", unit: "" });
+    // The rotation of the previous model does not apply to this one, nor do its unit and its points.
+    const foreign = { ...withoutPlaced(this.settings), rotation: "", unit: "" } as const;
+    if (this.model !== null && Object.entries(foreign).some(([key, value]) => this.settings[key as keyof Settings] !== value)) this.preset(foreign);
     this.model = model;
     this.weights = null;
     this.left(true);

@@ -68,6 +68,15 @@ test("several are planned on the plate, each in its own pose", async () => {
   expect(slicer.calls).toEqual([]);
 });
 
+test("where several stand, points placed by hand are left to be placed automatically", async () => {
+  plate.setCopies(0, 2);
+  const points = [{ at_mm: [1, 2, 3] as [number, number, number] }];
+  const drains = [{ at_mm: [1, 2, 3] as [number, number, number], direction: [0, 0, 1] as [number, number, number], diameter_mm: 3 }];
+  const options = { supports: { strength: "light", points, fill: true, spare: true }, hollow: { wall_mm: 2, drains } } as const;
+  await plate.plan({ ...options, supports: { ...options.supports, points: [...points] }, hollow: { ...options.hollow, drains: [...drains] } }, {});
+  expect(jobs[0]?.options).toEqual({ supports: { strength: "light", spare: true }, hollow: { wall_mm: 2, auto_drain: {} } });
+});
+
 test("a file that cannot be read leaves the models as they were, also those read before it", async () => {
   const adding = plate.add([ring, added("bad")], {});
   await expect(adding).rejects.toMatchObject({ code: "empty-file" });

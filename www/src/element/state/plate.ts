@@ -381,10 +381,19 @@ export function poseOf({ rotation, height_mm }: Own): Pose {
 /** A number of copies within bounds; NaN if it is none. */
 const countOf = (copies: number): number => Math.min(Math.max(1, Math.round(copies)), MOST_COPIES);
 
-/** The options of a job: each model has its own pose. */
+/** The options of a job: each model has its own pose, so points placed by hand would be right for one only. */
 function jobOf(options: Options): Options {
   const job = { ...options };
   delete job.rotation;
   delete job.height_mm;
+  if (job.supports?.points !== undefined) {
+    job.supports = { ...job.supports };
+    delete job.supports.points;
+    delete job.supports.fill;
+  }
+  if (job.hollow?.drains !== undefined) {
+    job.hollow = { ...job.hollow, auto_drain: {} };
+    delete job.hollow.drains;
+  }
   return job;
 }

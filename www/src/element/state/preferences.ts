@@ -3,7 +3,7 @@ import type { Backend, GpuMethod, KnownPrinter, Options, Resin } from "../../api
 import { History } from "./history.js";
 import type { PlateState } from "./plate.js";
 import { readPrinter } from "./printer.js";
-import { check, type Faults, type Offered, type Settings } from "./settings.js";
+import { changed, check, type Faults, type Offered, type Settings } from "./settings.js";
 
 /** Pause after the last keystroke before the settings are planned. */
 const DEBOUNCE_MS = 250;
@@ -69,7 +69,7 @@ export abstract class Preferences implements Offered {
 
   /** Applies settings from the page, including fixed ones, without an undo step. */
   preset(patch: Partial<Settings>): void {
-    this.#set({ ...this.settings, ...patch }, DEBOUNCE_MS);
+    this.#set(changed(this.settings, patch), DEBOUNCE_MS);
   }
 
   /** Replaces all settings except fixed ones, as from a URL, without an undo step. */
@@ -83,7 +83,7 @@ export abstract class Preferences implements Offered {
    */
   change(patch: Partial<Settings>, kind = Object.keys(patch).join()): void {
     this.note(kind);
-    this.#set(this.#allowed({ ...this.settings, ...patch }), DEBOUNCE_MS);
+    this.#set(this.#allowed(changed(this.settings, patch)), DEBOUNCE_MS);
   }
 
   /** Makes an undo step of the change that follows. */

@@ -21,7 +21,7 @@ export const FORMATS = [
 ] as const satisfies readonly Format[];
 
 /** The longest description that an address carries, as JSON: mail programs and servers cut or refuse very long addresses. */
-const ADDRESS_CHARS = 1500;
+export const ADDRESS_CHARS = 1500;
 
 /**
  * The printer that was chosen; null if there is none of this name, or if its description has fields of another type than those

@@ -164,3 +164,16 @@ test("a search runs beside plans, and is forgotten with its model", async () => 
   expect(session.orientation.found).toBeNull();
   expect(session.orientation.options).toBeNull();
 });
+
+test("a turn takes points placed by hand with it, undoing brings them back, and another model has none", async () => {
+  await planned();
+  session.change({ supports: "light", points: "1,2,3,,1", drains: "1,2,3,0,0,1,3,1", drain: "none" });
+  session.turn([0, 0, 1, 0], true);
+  expect(session.settings).toMatchObject({ points: "", drains: "", drain: "auto" });
+  session.undo();
+  expect(session.settings).toMatchObject({ points: "1,2,3,,1", drains: "1,2,3,0,0,1,3,1", drain: "none" });
+  void session.open(new Blob(), "b.stl");
+  slicer.last.resolve({ ...model, name: "b.stl" });
+  await settle();
+  expect(session.settings).toMatchObject({ supports: "light", points: "", drains: "", drain: "auto" });
+});

@@ -3,7 +3,8 @@ import { DEFAULTS, isFilament, nozzleLayers, usualOf } from "../../api/wire.js";
 import type { Format as FileFormat, KnownPrinter, Metric, Minimize, ModelUnit, Options, Resin, Snap, SupportStrength } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
 import { METRIC_NAMES, METRICS } from "./metric.js";
-import { FORMATS, printerFrom, printerOf, printerText, type ChosenPrinter } from "./printer.js";
+import { placedFrom, placedText } from "./placed.js";
+import { ADDRESS_CHARS, FORMATS, printerFrom, printerOf, printerText, type ChosenPrinter } from "./printer.js";
 import * as round from "./round.js";
 import { canonical, read, UNITS_SHOWN, type FieldUnit, type Misread } from "./typed.js";
 
@@ -38,9 +39,13 @@ interface Choices {
   saliency: "off" | "on";
   /** How strong supports are. */
   supports: "none" | SupportStrength;
+  /** Whether more are placed automatically beside those by hand. */
+  fill: "off" | "on";
+  /** Whether automatic ones keep off what is painted as important. */
+  spare: "off" | "on";
   /** What stands in the void of a hollow model. */
   infill: "none" | "lattice";
-  /** Whether a hollow model gets drain holes. */
+  /** Whether a hollow model gets drain holes automatically. */
   drain: "auto" | "none";
   /** The minimum weight of a facet. */
   weightMin: string;
@@ -57,6 +62,9 @@ interface Names {
   resin: string;
   /** The rotation that puts the model in its pose: x, y, z and w of a unit quaternion, separated by commas. */
   rotation: string;
+  /** The points that are supported, and the drain holes, where they are placed by hand: see `placed.ts`. */
+  points: string;
+  drains: string;
 }
 
 export interface Settings extends Lengths, Curing, Choices, Names {
@@ -101,6 +109,8 @@ export const DEFAULT_SETTINGS: Settings = {
   rays: String(DEFAULTS.rays),
   saliency: DEFAULTS.saliency ? "on" : "off",
   supports: "none",
+  fill: "off",
+  spare: "off",
   infill: "none",
   drain: "auto",
   weightMin: String(DEFAULTS.weight_min),
@@ -109,6 +119,8 @@ export const DEFAULT_SETTINGS: Settings = {
   printer: "",
   resin: "",
   rotation: "",
+  points: "",
+  drains: "",
   exposure: "",
   bottomExposure: "",
   bottomLayers: "",
@@ -135,6 +147,17 @@ export function limitsFor(settings: Settings, format: FileFormat | "", nozzle = 
   const change: Partial<Settings> = {};
   for (const key of ["layerMin", "layerMax", "uniform"] as const) if (settings[key] === before[key]) change[key] = after[key];
   return change;
+}
+
+/** The settings after a change. Points placed by hand are in the frame of the pose, so another pose has none. */
+export function changed(settings: Settings, change: Partial<Settings>): Settings {
+  const isSame = (["rotation", "height", "unit"] as const).every((key) => change[key] === undefined || change[key] === settings[key]);
+  return { ...settings, ...(isSame ? {} : withoutPlaced(settings)), ...change };
+}
+
+/** The change of settings that leaves all points to be placed automatically, if some are placed by hand. */
+export function withoutPlaced({ points, drains }: Settings): Partial<Settings> {
+  return { ...(points !== "" && { points: "", fill: "off" }), ...(drains !== "" && { drains: "", drain: "auto" }) };
 }
 
 /** The change of settings that chooses a nozzle. */
@@ -174,7 +197,7 @@ export function unitOf(field: Field, metric: Metric): FieldUnit {
   return field === "tolerance" ? METRICS[metric].unit : UNITS[field];
 }
 
-const NAMES: readonly (keyof Names)[] = ["printer", "resin", "rotation"];
+const NAMES: readonly (keyof Names)[] = ["printer", "resin", "rotation", "points", "drains"];
 
 const CHOICES: { readonly [Key in keyof Choices]: readonly Choices[Key][] } = {
   planner: ["optimal", "uniform"],
@@ -184,6 +207,8 @@ const CHOICES: { readonly [Key in keyof Choices]: readonly Choices[Key][] } = {
   rays: RAYS.map(String),
   saliency: ["off", "on"],
   supports: ["none", "light", "medium", "heavy"],
+  fill: ["off", "on"],
+  spare: ["off", "on"],
   infill: ["none", "lattice"],
   drain: ["auto", "none"],
   weightMin: WEIGHT_STEPS,
@@ -214,6 +239,7 @@ export function fromAddress(query: string): Settings {
     const text = address.get(key);
     if (text === null) continue;
     if (key === "printer") settings.printer = printerFrom(text);
+    else if (key === "points" || key === "drains") settings[key] = placedText(placedFrom(text, key) ?? []);
     else settings[key] = text;
   }
   const tolerance = address.get("tolerance");
@@ -223,7 +249,7 @@ export function fromAddress(query: string): Settings {
 
 /**
  * The URL query from which {@link fromAddress} restores the settings: what differs from the defaults, in a fixed order. A very
- * long description of a printer is left out.
+ * long description of a printer is left out, and so are very many points.
  */
 export function toAddress(settings: Settings): string {
   const address = new URLSearchParams();
@@ -231,7 +257,8 @@ export function toAddress(settings: Settings): string {
   const usual: Settings = { ...defaultsOf(settings.format, settings.nozzle), format, nozzle };
   for (const key of [...(Object.keys(CHOICES) as (keyof Choices)[]), ...NUMBERS, ...NAMES]) {
     const text = key === "printer" ? printerText(settings.printer) : settings[key];
-    if (text !== usual[key]) address.set(key, text);
+    const isTooLong = (key === "points" || key === "drains") && text.length > ADDRESS_CHARS;
+    if (text !== usual[key] && !isTooLong) address.set(key, text);
   }
   const tolerance = settings.tolerances[settings.metric];
   if (tolerance !== undefined) address.set("tolerance", tolerance);
@@ -299,10 +326,24 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
   if (settings.height.trim() !== "") options.height_mm = within("height", settings.height, 0.1, TALLEST_MM);
 
   // Slicers of filament printers support and hollow by themselves.
-  if (settings.supports !== "none" && !isFilament(settings.format)) options.supports = { strength: settings.supports };
+  if (settings.supports !== "none" && !isFilament(settings.format)) {
+    options.supports = { strength: settings.supports };
+    const points = placedFrom(settings.points, "points") ?? [];
+    if (points.length > 0) {
+      options.supports.points = points.map(({ at_mm, diameter_mm }) => ({ at_mm: [...at_mm], ...(diameter_mm !== null && { contact_mm: diameter_mm }) }));
+      if (settings.fill === "on") options.supports.fill = true;
+    }
+    if (settings.spare === "on") options.supports.spare = true;
+  }
   if (settings.wall.trim() !== "" && !isFilament(settings.format)) {
     options.hollow = { wall_mm: within("wall", settings.wall, THINNEST_WALL_MM, THICKEST_WALL_MM) };
     if (settings.infill === "lattice") options.hollow.infill = {};
+    const drains = placedFrom(settings.drains, "drains") ?? [];
+    if (drains.length > 0) {
+      options.hollow.drains = drains.flatMap(({ at_mm, inward, diameter_mm }) =>
+        inward === null || diameter_mm === null ? [] : [{ at_mm: [...at_mm], direction: [...inward], diameter_mm }],
+      );
+    }
     if (settings.drain === "auto") options.hollow.auto_drain = {};
   }
 

@@ -40,7 +40,7 @@ export const modelViewStyles = css`
       width: 16rem;
       min-height: 0;
     }
-    .beside .paint {
+    .beside > section {
       position: absolute;
       inset: 0;
     }

@@ -17,6 +17,10 @@ export const orientationStyles = css`
   .hint {
     text-wrap: pretty;
   }
+  /* A layout that says itself what turning is for hides it. */
+  .head + .hint {
+    display: var(--cusp-orientation-hint, block);
+  }
   .stale {
     margin-bottom: 0.75rem;
     padding: 0.375rem 0.75rem;

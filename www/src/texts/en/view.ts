@@ -1,4 +1,4 @@
-/** The 3-D view, and the brush in it. */
+/** The 3-D view. */
 import { ENGLISH_SENTENCES } from "../../view/texts.js";
 import type { Format } from "../format.js";
 import { LAYERS } from "./nouns.js";
@@ -15,7 +15,7 @@ export const view = ({ counted }: Format) => ({
     measuring: (part: string) => `Measuring the distances: ${part}`,
     thin: (least: string) => `Thinner than ${least}`,
     probing: (part: string) => `Measuring the walls: ${part}`,
-    tools: { turn: "Look around", move: "Move on the plate", rotate: "Turn the model", flat: "Lay a face flat", paint: "What matters" },
+    tools: { turn: "Look around", move: "Move on the plate", rotate: "Turn the model", flat: "Lay a face flat", paint: "What matters", supports: "Support points", drains: "Drain holes" },
     modes: "Mode",
     switches: "Display",
     impossible: "These tools need the 3-D view, which is not available.",
@@ -24,28 +24,6 @@ export const view = ({ counted }: Format) => ({
     safe: "Colour-blind safe",
     aligned: "Beside the profile",
     upright: "As in the file",
-  },
-  paint: {
-    title: "What matters",
-    hint: "The tolerance holds where the weight is 100%. Where something matters less, layers may be thicker. Paint on the model; drag beside it to turn the view.",
-    brush: "Brush",
-    modes: { less: "Matters less", more: "Matters more", erase: "Erase", soften: "Soften" },
-    size: "Size (mm)",
-    strength: "Strength",
-    fills: "Fill a smooth region",
-    crease: "Up to edges of",
-    mirrors: "Mirror left and right",
-    base: "Unpainted weight",
-    least: "Least weight",
-    saliency: "What stands out matters more",
-    show: "Show",
-    colours: { paint: "Painted weight", saliency: "What stands out", product: "Weight that counts", layers: "Layer thickness" },
-    finding: "Finding what stands out",
-    undo: "Undo stroke",
-    redo: "Redo stroke",
-    clear: "Clear",
-    save: "Save weights",
-    open: "Load weights",
   },
 });
 

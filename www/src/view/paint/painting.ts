@@ -1,5 +1,5 @@
 /** Paints weights by pointer and by keyboard. */
-import { Raycast, type RayHit } from "../scene/raycast.js";
+import type { Raycast, RayHit } from "../scene/raycast.js";
 import { BRUSH, type Brush } from "./brush.js";
 import type { Derived } from "../steps/derived.js";
 import type { PaintDetail } from "../events.js";
@@ -73,13 +73,13 @@ export class Painting {
 
   async #make(derived: Derived): Promise<void> {
     const topology = await derived.topology();
-    const { positions } = derived;
-    if (topology === null || this.#asked !== derived || positions.length === 0) return;
+    const { positions, raycast } = derived;
+    if (topology === null || this.#asked !== derived || raycast === null) return;
     const surface: Surface = { positions, topology, normals: normalsOf(positions) };
     const { least, greatest } = extentOf(topology.points, UPRIGHT, 1);
     const known = this.#weights?.length === positions.length / 9 ? this.#weights : null;
     const painter = new Painter(surface, known, 1);
-    this.#ready = { of: derived, painter, raycast: new Raycast(positions), middle_x: (least[0] + greatest[0]) / 2 };
+    this.#ready = { of: derived, painter, raycast, middle_x: (least[0] + greatest[0]) / 2 };
     this.#reports.changed(null);
   }
 

@@ -39,3 +39,17 @@ it("moves a copy by the arrow keys and turns it by R, farther with Shift", () =>
   expect(key("R", true)).toEqual({ do: "move-copy", x_mm: 0, y_mm: 0, turn_deg: 45 });
   expect(key("PageUp")).toBeNull();
 });
+
+it("goes from point to point with a tool that places them, and turns the view with Shift", () => {
+  for (const tool of ["supports", "drains"] as const) {
+    expect(press("ArrowRight", tool)).toEqual({ do: "next-point", by: 1 });
+    expect(press("ArrowDown", tool)).toEqual({ do: "next-point", by: 1 });
+    expect(press("ArrowUp", tool)).toEqual({ do: "next-point", by: -1 });
+    expect(press("ArrowLeft", tool, { shiftKey: true })).toEqual({ do: "turn-view", right_deg: -10, up_deg: 0 });
+    expect(press("Delete", tool)).toEqual({ do: "remove-point" });
+    expect(press("Backspace", tool)).toEqual({ do: "remove-point" });
+    expect(press("L", tool)).toEqual({ do: "lock-point" });
+    expect(press("z", tool, { ctrlKey: true })).toBeNull();
+  }
+  expect(press("l", "turn")).toBeNull();
+});

@@ -1,7 +1,8 @@
 /** Maps keys to actions of the view. */
+import { places } from "./places.js";
 
 /** What the pointer does. */
-export type Tool = "turn" | "move" | "rotate" | "flat" | "paint";
+export type Tool = "turn" | "move" | "rotate" | "flat" | "paint" | "supports" | "drains";
 
 export type Action =
   | { readonly do: "turn-view"; readonly right_deg: number; readonly up_deg: number }
@@ -10,6 +11,8 @@ export type Action =
   | { readonly do: "zoom"; readonly factor: number }
   | { readonly do: "reset" }
   | { readonly do: "pick-middle" }
+  | { readonly do: "next-point"; readonly by: 1 | -1 }
+  | { readonly do: "remove-point" | "lock-point" }
   | { readonly do: "undo-stroke" | "redo-stroke" };
 
 /** Degrees by which a key press turns the view. */
@@ -54,6 +57,10 @@ export function pressed(
   if (tool === "move" && key.toLowerCase() === "r") {
     return { do: "move-copy", x_mm: 0, y_mm: 0, turn_deg: shiftKey ? COPY_FAR_DEG : COPY_DEG };
   }
+  if (places(tool)) {
+    if (key === "Delete" || key === "Backspace") return { do: "remove-point" };
+    if (key.toLowerCase() === "l") return { do: "lock-point" };
+  }
   const way = WAYS[key];
   if (way === undefined) return null;
   const [across, up, third] = way;
@@ -61,6 +68,7 @@ export function pressed(
     const mm = shiftKey ? MOVE_FAR_MM : MOVE_MM;
     return { do: "move-copy", x_mm: across * mm, y_mm: up * mm, turn_deg: 0 };
   }
+  if (places(tool) && third === 0 && !shiftKey) return { do: "next-point", by: across - up > 0 ? 1 : -1 };
   if (tool !== "rotate") return third === 0 ? { do: "turn-view", right_deg: VIEW_DEG * across, up_deg: VIEW_DEG * up } : null;
   const degrees = shiftKey ? MODEL_FINE_DEG : MODEL_DEG;
   if (across !== 0) return { do: "turn-model", axis: "z", degrees: across * degrees };

@@ -21,7 +21,7 @@ import { HEAT_PALETTE, HEAT_ROW, HEAT_ROW_FACETS, packHeat, type HeatSource } fr
 import { packBoundaries, ROW, rowsFor } from "./lookup.js";
 import { PALETTE_SIZE, table, type PaletteName, type Rgb } from "../legend/palette.js";
 import { extentOf, sizeOf, standing, type Extent, type Rotation, type Triple } from "./pose.js";
-import { MODEL_FRAGMENT, MODEL_VERTEX } from "./shaders.js";
+import { MODEL_FRAGMENT, MODEL_VERTEX, PICK_FRAGMENT, PICK_VERTEX } from "./shaders.js";
 import { isMeasured } from "../steps/distances.js";
 import type { Steps } from "../steps/steps.js";
 import { WallColours } from "../walls/colours.js";
@@ -65,6 +65,12 @@ function bounded(geometry: BufferGeometry): BufferGeometry {
 /** The colour of supports, which no scale has. */
 const SUPPORT_RESIN = [0.52, 0.58, 0.68] as const;
 
+/** That of the void, seen through the model. */
+const VOID_COLOUR = [0.36, 0.62, 0.75] as const;
+
+/** How much of the model is left where the void is seen through it. */
+const SEE_THROUGH = 0.32;
+
 export class Model {
   /** Stands where the selected copy does: in the middle, if it is alone. */
   readonly stand = new Group();
@@ -75,6 +81,8 @@ export class Model {
   readonly steps = new Group();
   /** The supports, already in their pose. */
   readonly supports: Mesh<BufferGeometry, RawShaderMaterial>;
+  /** The walls of the void, likewise. */
+  readonly voids: Mesh<BufferGeometry, RawShaderMaterial>;
   /** How far the model is above the plate, mm. Takes effect with the next pose. */
   lift_mm = 0;
   /** Size of the posed model with what is below it, mm. */
@@ -95,8 +103,12 @@ export class Model {
   #hasDistances = false;
   #hasPlan = false;
   #hasWalls = false;
+  #hasVoids = false;
   readonly wallColours = new WallColours();
+  #isSeenThrough = false;
   readonly #material: RawShaderMaterial;
+  /** Draws only the depth of the facets, so that of a model that is seen through only the nearest ones are. */
+  readonly #depth: Mesh<BufferGeometry, RawShaderMaterial>;
 
   constructor() {
     this.#material = new RawShaderMaterial({
@@ -117,15 +129,29 @@ export class Model {
         byDistance: { value: false },
         resin: { value: new Vector3(0.75, 0.77, 0.8) },
         band: { value: new Vector2(...NO_BAND) },
+        opacity: { value: 1 },
         ...this.wallColours.uniforms,
       },
     });
     this.facets = new Mesh(new BufferGeometry(), this.#material);
-    this.supports = new Mesh(new BufferGeometry(), this.#material.clone());
-    this.supports.material.uniforms["resin"] = { value: new Vector3(...SUPPORT_RESIN) };
-    this.supports.visible = false;
+    const body = (colour: readonly [number, number, number]): Mesh<BufferGeometry, RawShaderMaterial> => {
+      const mesh = new Mesh(new BufferGeometry(), this.#material.clone());
+      mesh.material.uniforms["resin"] = { value: new Vector3(...colour) };
+      mesh.visible = false;
+      return mesh;
+    };
+    this.supports = body(SUPPORT_RESIN);
+    this.voids = body(VOID_COLOUR);
+    const depth = { glslVersion: GLSL3, vertexShader: PICK_VERTEX, fragmentShader: PICK_FRAGMENT, side: DoubleSide, colorWrite: false } as const;
+    // With what is transparent: after the void, and before the facets. A little behind them: it must never hide them.
+    const behind = { transparent: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4 } as const;
+    this.#depth = new Mesh(this.facets.geometry, new RawShaderMaterial({ ...depth, ...behind }));
+    this.#depth.renderOrder = 5;
+    this.#depth.visible = false;
+    this.facets.renderOrder = 6;
+    this.facets.add(this.#depth);
     this.pivot.add(this.facets);
-    this.stand.add(this.pivot, this.steps, this.supports);
+    this.stand.add(this.pivot, this.steps, this.supports, this.voids);
     this.stand.matrixAutoUpdate = false;
   }
 
@@ -149,6 +175,7 @@ export class Model {
     this.facets.geometry.dispose();
     this.facets.geometry = bounded(new BufferGeometry());
     this.facets.geometry.setAttribute("position", new BufferAttribute(positions, 3));
+    this.#depth.geometry = this.facets.geometry;
     this.setSteps(null);
     const { least, greatest } = this.setPose(rotation, scale);
     // From now on the model turns about the middle of these bounds.
@@ -185,10 +212,19 @@ export class Model {
 
   /** @param positions nine numbers a facet, mm from the plate; null: none */
   setSupports(positions: Float32Array | null): void {
-    this.supports.geometry.dispose();
-    this.supports.geometry = bounded(new BufferGeometry());
-    this.supports.visible = positions !== null && positions.length > 0;
-    if (positions !== null) this.supports.geometry.setAttribute("position", new BufferAttribute(positions, 3));
+    this.supports.visible = replaced(this.supports, positions);
+  }
+
+  /** The same for the walls of its void, which are seen while the model is seen through. */
+  setVoids(positions: Float32Array | null): void {
+    this.#hasVoids = replaced(this.voids, positions);
+    this.#show();
+  }
+
+  /** Shows the void through the model. */
+  setSeeThrough(on: boolean): void {
+    this.#isSeenThrough = on;
+    this.#show();
   }
 
   /** Colours by the layers between these boundaries; fewer than two boundaries leave the model plain. */
@@ -283,6 +319,9 @@ export class Model {
     this.#clearSteps();
     this.supports.geometry.dispose();
     this.supports.material.dispose();
+    this.voids.geometry.dispose();
+    this.voids.material.dispose();
+    this.#depth.material.dispose();
     this.#material.dispose();
     this.#boundaries.dispose();
     this.#palette.dispose();
@@ -306,9 +345,21 @@ export class Model {
     const asSteps = (this.#look === "printed" || this.#look === "distance") && this.#hasSteps;
     this.steps.visible = asSteps;
     this.facets.visible = !asSteps && this.#positions.length > 0;
-    this.#set("byThickness", this.#look === "thickness" && this.#hasPlan);
+    const isSeenThrough = this.#isSeenThrough && this.facets.visible;
+    this.voids.visible = this.#depth.visible = isSeenThrough && this.#hasVoids;
+    this.#material.transparent = this.voids.visible;
+    this.#set("opacity", this.voids.visible ? SEE_THROUGH : 1);
+    this.#set("byThickness", this.#look === "thickness" && this.#hasPlan && !this.voids.visible);
     this.#set("byHeat", this.#look === "weights");
     this.#set("byDistance", this.#look === "distance" && this.#hasDistances);
     this.wallColours.show(this.#look === "walls" && this.#hasWalls);
   }
+}
+
+/** Gives a body other facets; returns whether it has any. */
+function replaced(body: Mesh, positions: Float32Array | null): boolean {
+  body.geometry.dispose();
+  body.geometry = bounded(new BufferGeometry());
+  if (positions !== null) body.geometry.setAttribute("position", new BufferAttribute(positions, 3));
+  return positions !== null && positions.length > 0;
 }

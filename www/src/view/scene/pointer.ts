@@ -1,7 +1,7 @@
 /** Clicks and hovers over the view, told apart from drags. */
 
 /** A pointer that moves farther than this while it is down is dragging, CSS pixels. */
-const DRAG_FROM_PX = 4;
+export const DRAG_FROM_PX = 4;
 
 export type Point = readonly [x_px: number, y_px: number];
 

@@ -21,9 +21,11 @@ import { Copies, matrixOf, sizeOfAll, type Copy } from "./copies.js";
 import { Gizmo, type GizmoReports } from "./gizmo.js";
 import type { Tool } from "./keys.js";
 import { Marker, middleOf, type Mark } from "./marker.js";
+import { Markers } from "../points/markers.js";
 import { Model } from "./model.js";
 import type { Rgb } from "../legend/palette.js";
 import { Picker, type Hit } from "./picker.js";
+import { places } from "./places.js";
 import { Plate, type BuildVolume } from "./plate.js";
 import type { Rotation, Triple } from "./pose.js";
 import type { Viewpoint } from "./viewpoint.js";
@@ -62,6 +64,8 @@ export class Scene {
   readonly cameras: Cameras;
   readonly plate: Plate;
   readonly copies: Copies;
+  /** The points on the model. */
+  readonly markers = new Markers();
   readonly #marker = new Marker();
   readonly #renderer: WebGLRenderer;
   readonly #scene = new ThreeScene();
@@ -111,7 +115,7 @@ export class Scene {
     this.copies = new Copies(this.model.material.uniforms);
     this.#face.frustumCulled = false;
     this.model.facets.add(this.#face);
-    this.model.stand.add(this.#marker.group);
+    this.model.stand.add(this.#marker.group, this.markers.group);
     this.#scene.add(this.model.stand, this.copies.group, this.plate.group);
     this.#gizmo = new Gizmo(this.cameras.current, canvas, this.#scene, {
       ...reports,
@@ -206,6 +210,7 @@ export class Scene {
   setTheme({ ink, accent, bad, resin, shadow }: Theme): void {
     this.plate.setTheme(ink, bad, shadow);
     this.copies.setBad(bad);
+    this.markers.setTheme(accent, bad);
     this.model.setResin(resin);
     this.#face.material.color.setRGB(accent[0] / 255, accent[1] / 255, accent[2] / 255, "srgb");
     this.invalidate();
@@ -226,6 +231,8 @@ export class Scene {
   setTool(tool: Tool): void {
     this.#tool = tool;
     if (tool !== "flat") this.setFace(null);
+    this.markers.group.visible = places(tool);
+    this.model.setSeeThrough(tool === "drains");
     this.#showRings();
     this.invalidate();
   }
@@ -301,6 +308,7 @@ export class Scene {
     this.plate.dispose();
     this.copies.dispose();
     this.#marker.dispose();
+    this.markers.dispose();
     this.model.dispose();
     this.#face.geometry.dispose();
     this.#face.material.dispose();
@@ -339,6 +347,8 @@ export class Scene {
     this.#isStale = this.#offscreen.isBusy;
     if (this.#isStale) return;
     const frame = this.cameras.prepare(this.align());
+    this.markers.group.position.z = this.model.lift_mm;
+    this.markers.prepare(this.#size[1], density());
     this.#scene.updateMatrixWorld();
     this.plate.prepare(this.#renderer, this.model.facets);
     const size = this.#size;

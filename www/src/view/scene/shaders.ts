@@ -55,6 +55,7 @@ uniform float greatest;
 uniform bool byDistance;
 uniform vec3 resin;
 uniform vec2 band;
+uniform float opacity;
 in vec3 world;
 in vec3 eye;
 in float apart;
@@ -137,7 +138,7 @@ void main() {
     if (edge > 0.0) shown = mix(shown, vec3(0.06, 0.07, 0.1), mix(0.94, edge < 2.0 ? 0.94 : 0.3, tall));
     else if (edge > -1.5) shown = mix(shown, vec3(1.0), 0.85);
   }
-  colour = vec4(shown, 1.0);
+  colour = vec4(shown, opacity);
 }
 `;
 

@@ -3,6 +3,7 @@ import type { Solid } from "./contours.js";
 import { measured, type MeasuredSteps } from "./distances.js";
 import { flatFace, type FlatFace } from "../scene/flat.js";
 import { posed, UPRIGHT, type Rotation } from "../scene/pose.js";
+import { Raycast } from "../scene/raycast.js";
 import { stairSteps, type Steps } from "./steps.js";
 import { topologyOf, type Topology } from "../scene/topology.js";
 import { wallsOf, type Walls } from "../walls/thickness.js";
@@ -16,6 +17,7 @@ export class Derived {
   readonly #stop = new AbortController();
   #topology: Promise<Topology> | null = null;
   #hasTopology = false;
+  #raycast: Raycast | null = null;
   #steps = new AbortController();
   #walls = new AbortController();
 
@@ -27,6 +29,12 @@ export class Derived {
   /** How the facets are connected; `null` once this is disposed of. */
   topology(): Promise<Topology | null> {
     return this.#whileAlive(this.#found());
+  }
+
+  /** Where rays hit the model; null if it has no facets. Built at once, on first request. */
+  get raycast(): Raycast | null {
+    if (this.positions.length >= 9) this.#raycast ??= new Raycast(this.positions);
+    return this.#raycast;
   }
 
   /** The distinct points of the model; `null` once this is disposed of. */

@@ -1,0 +1,210 @@
+/** Support points and drain holes, placed by hand with real pointer events and keys: the plan follows. */
+import type { Locator, Page } from "playwright-core";
+import { expect, test } from "vitest";
+import type { CuspView } from "../src/view/cusp-view.js";
+import type { CuspWorkbench } from "../src/workbench/cusp-workbench.js";
+import { broken } from "./axe.js";
+import { drop, settled, state } from "./browser.js";
+import { pages } from "./pages.js";
+import { sphere } from "./solids.js";
+import { SOFTWARE_GL } from "./view-pages.js";
+
+const start = pages(SOFTWARE_GL);
+
+const RADIUS = 10;
+const ball = { name: "ball.stl", bytes: sphere(RADIUS, 48).bytes };
+
+type Triple = readonly [number, number, number];
+
+async function opened(query: string, tool: string): Promise<Page> {
+  const page = await start(`?backend=cpu&rays=512${query}`);
+  await drop(page, ball);
+  await state(page, "done");
+  await page.getByRole("radio", { name: tool }).click();
+  await page.locator("cusp-model section.points").waitFor();
+  return page;
+}
+
+/** Where the points of the plan are. */
+const supported = (page: Page): Promise<Triple[]> =>
+  page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.result?.report.supported?.points.map(({ at_mm }) => at_mm) ?? []);
+
+const drains = (page: Page): Promise<{ at_mm: Triple; direction: Triple; diameter_mm: number }[]> =>
+  page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.result?.report.hollowed?.drains ?? []);
+
+const query = (page: Page): URLSearchParams => new URL(page.url()).searchParams;
+
+const count = (page: Page, name: string): Promise<string> => page.locator("section.points dl div", { hasText: name }).locator("dd").innerText();
+
+/** A place of the view, as parts of its width and height. */
+async function placeIn(view: Locator, x: number, y: number): Promise<[number, number]> {
+  const box = await view.boundingBox();
+  if (box === null) throw new Error("there is no view");
+  return [box.x + x * box.width, box.y + y * box.height];
+}
+
+/** Whether the pointer is on a marker there. */
+async function isMarker(page: Page, at: readonly [number, number]): Promise<boolean> {
+  await page.mouse.move(...at);
+  return page.locator("cusp-view .scene.over").count().then((count) => count > 0);
+}
+
+/** Where a marker is, on the upright line through a place. */
+async function markerAt(page: Page, x: number): Promise<[number, number]> {
+  const box = await page.locator("cusp-view").boundingBox();
+  if (box === null) throw new Error("there is no view");
+  const found: number[] = [];
+  for (let y = box.y; y < box.y + box.height; y += 10) if (await isMarker(page, [x, y])) found.push(y);
+  if (found.length === 0) throw new Error("there is no marker");
+  return [x, ((found[0] ?? 0) + (found.at(-1) ?? 0)) / 2];
+}
+
+const radius = ([x, y, z]: Triple): number => Math.hypot(x, y, z - RADIUS);
+
+test("a click adds the first point, a drag moves it along the surface, a key deletes it, and all is undone", async () => {
+  const page = await opened("", "Support points");
+  const view = page.locator("cusp-view");
+  const middle = await placeIn(view, 0.5, 0.55);
+  await page.mouse.click(...middle);
+  await settled(page);
+  // That point alone: nobody has asked for others.
+  expect(await supported(page)).toHaveLength(1);
+  const [first] = await supported(page);
+  if (first === undefined) throw new Error("the point is not in the plan");
+  expect(radius(first)).toBeCloseTo(RADIUS, 1);
+  // On the side that is seen.
+  expect(first[1]).toBeLessThan(0);
+  expect([query(page).get("supports"), query(page).get("points")?.split(";")]).toEqual(["medium", [expect.stringMatching(/,,1$/)]]);
+  expect([await count(page, "By hand"), await count(page, "Automatic")]).toEqual(["1", "0"]);
+  await page.getByText("Point 1 of 1, at").waitFor();
+  expect(await broken(page)).toEqual([]);
+
+  // The model was lifted, and the marker with it.
+  const at = await markerAt(page, middle[0]);
+  await page.mouse.move(...at);
+  await page.mouse.down();
+  await page.mouse.move(at[0] + 10, at[1] + 10, { steps: 3 });
+  await page.mouse.move(at[0] + 40, at[1] + 20, { steps: 3 });
+  await page.keyboard.press("Escape");
+  await page.mouse.up();
+  expect(await isMarker(page, at)).toBe(true);
+  await page.mouse.move(...at);
+  await page.mouse.down();
+  await page.mouse.move(at[0] + 40, at[1] + 20, { steps: 3 });
+  await page.mouse.up();
+  await settled(page);
+  const [second] = await supported(page);
+  if (second === undefined) throw new Error("the moved point is not in the plan");
+  expect(second).not.toEqual(first);
+  expect(radius(second)).toBeCloseTo(RADIUS, 1);
+  expect(await isMarker(page, at)).toBe(false);
+  expect(await isMarker(page, [at[0] + 40, at[1] + 20])).toBe(true);
+
+  await page.keyboard.press("Delete");
+  await settled(page);
+  expect(await supported(page)).toEqual([]);
+  expect(query(page).has("points")).toBe(false);
+  await page.keyboard.press("Control+z");
+  await settled(page);
+  expect(await supported(page)).toEqual([second]);
+  await page.keyboard.press("Control+z");
+  await settled(page);
+  expect(await supported(page)).toEqual([first]);
+});
+
+test("the first edit keeps the automatic points where they are; placed anew, locked ones stay", async () => {
+  const page = await opened("&supports=light", "Support points");
+  const before = await supported(page);
+  expect(before.length).toBeGreaterThan(5);
+  expect(await count(page, "Automatic")).toBe(String(before.length));
+  const view = page.locator("cusp-view");
+  await page.mouse.click(...(await placeIn(view, 0.5, 0.53)));
+  await settled(page);
+  const after = await supported(page);
+  expect(after).toHaveLength(before.length + 1);
+  for (const point of before) expect(after.some((other) => Math.hypot(...point.map((mm, axis) => mm - (other[axis] ?? 0))) < 0.01)).toBe(true);
+  const own = after.filter((point) => !before.some((other) => Math.hypot(...point.map((mm, axis) => mm - (other[axis] ?? 0))) < 0.01));
+  expect(own).toHaveLength(1);
+  expect([await count(page, "By hand"), await count(page, "Automatic")]).toEqual(["1", String(before.length)]);
+
+  await page.getByRole("button", { name: "Place automatically" }).click();
+  await settled(page);
+  expect([query(page).get("fill"), query(page).get("points")?.split(";").length]).toEqual(["on", 1]);
+  expect(await supported(page)).toContainEqual(own[0]);
+  expect((await supported(page)).length).toBeGreaterThan(5);
+  // Unlocked, it goes as well.
+  await page.getByRole("checkbox", { name: "Locked" }).uncheck();
+  await settled(page);
+  await page.getByRole("button", { name: "Place automatically" }).click();
+  await settled(page);
+  expect(await supported(page)).toEqual(before);
+  // Another pose has other points.
+  await page.mouse.click(...(await placeIn(view, 0.5, 0.53)));
+  await settled(page);
+  await page.getByLabel("Scale to height").fill("15");
+  await settled(page);
+  expect(query(page).has("points")).toBe(false);
+  await page.getByRole("button", { name: "Clear" }).click();
+  await settled(page);
+  expect(await supported(page)).toEqual([]);
+});
+
+test("points are placed, chosen, locked and deleted by keyboard; those of a turned and scaled model are on its surface", async () => {
+  const page = await opened("&height=30&rotation=0.5,0.5,0.5,0.5", "Support points");
+  await page.locator("cusp-view .scene").focus();
+  // To see it from below: nothing gets to its top.
+  for (let i = 0; i < 4; i++) await page.keyboard.press("Shift+ArrowUp");
+  await page.keyboard.press("Enter");
+  await settled(page);
+  const first = await supported(page);
+  expect(first.map(([x, y, z]) => Math.hypot(x, y, z - 15))).toEqual([expect.closeTo(15, 1)]);
+  await page.keyboard.press("Shift+ArrowLeft");
+  await page.keyboard.press("Shift+ArrowLeft");
+  await page.keyboard.press("Enter");
+  await settled(page);
+  expect(await supported(page)).toHaveLength(2);
+  await page.getByText("Point 2 of 2, at").waitFor();
+  await page.keyboard.press("ArrowRight");
+  await page.getByText("Point 1 of 2, at").waitFor();
+  await page.keyboard.press("l");
+  expect(await page.getByRole("checkbox", { name: "Locked" }).isChecked()).toBe(false);
+  await page.getByLabel("Diameter (mm)").fill("0.8");
+  await page.keyboard.press("Enter");
+  await settled(page);
+  const sizes = page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.result?.report.supported?.points.map(({ contact_mm }) => contact_mm ?? null));
+  expect((await sizes)?.sort()).toEqual([0.8, null]);
+  await page.locator("cusp-view .scene").focus();
+  await page.keyboard.press("Backspace");
+  await settled(page);
+  expect(await supported(page)).toHaveLength(1);
+});
+
+test("a hole is drilled into a hollow model by a click, inward, and the void is seen through it", async () => {
+  const page = await opened("&wall=1.5", "Drain holes");
+  const automatic = await drains(page);
+  expect(automatic.length).toBeGreaterThan(0);
+  const view = page.locator("cusp-view");
+  expect(await view.evaluate((it: CuspView) => (it.voids?.length ?? 0) > 9)).toBe(true);
+  await page.getByLabel("Diameter of new holes (mm)").fill("2.5");
+  await page.mouse.click(...(await placeIn(view, 0.5, 0.45)));
+  await settled(page);
+  const after = await drains(page);
+  expect(after).toHaveLength(automatic.length + 1);
+  const own = after.find(({ diameter_mm }) => diameter_mm === 2.5);
+  if (own === undefined) throw new Error("the hole is not in the plan");
+  expect(radius(own.at_mm)).toBeCloseTo(RADIUS, 1);
+  // To the middle of the ball, but for the facet's slope.
+  const [x, y, z] = own.at_mm;
+  expect((own.direction[0] * -x + own.direction[1] * -y + own.direction[2] * (RADIUS - z)) / RADIUS).toBeGreaterThan(0.98);
+  expect(query(page).get("drain")).toBe("none");
+  expect(await broken(page)).toEqual([]);
+  await page.getByRole("button", { name: "Place automatically" }).click();
+  await settled(page);
+  expect(query(page).has("drain")).toBe(false);
+  expect(await drains(page)).toContainEqual(own);
+  // Without walls there is nothing to drain.
+  await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => void (element.query = ""));
+  await settled(page);
+  expect(await page.getByRole("radio", { name: "Drain holes" }).count()).toBe(0);
+  expect(await page.getByRole("radio", { name: "Look around" }).isChecked()).toBe(true);
+});

@@ -1,0 +1,346 @@
+/** The tools for placing support points and drain holes by hand: how many there are, the selected one, and all of them. */
+import { css, html, nothing, svg, type TemplateResult } from "lit";
+import { live } from "lit/directives/live.js";
+import type { Language } from "../../texts/index.js";
+import { placingTexts, type PlacingTexts } from "../../texts/placing/index.js";
+import type { PointDetail } from "../../view/events.js";
+import type { Tool } from "../../view/scene/keys.js";
+import {
+  added,
+  automatic,
+  cleared,
+  CONTACT_MM,
+  DRAIN_MM,
+  keyOf,
+  locked,
+  moved,
+  pointAt,
+  pointsOf,
+  removed,
+  resized,
+  type HandPoint,
+  type HandPoints,
+} from "../state/hand-points.js";
+import { LEAST_MM, MOST_MM, type Placed as Point, type PlacedKind } from "../state/placed.js";
+import type { Session } from "../state/session.js";
+import type { Settings } from "../state/settings.js";
+import { localised, read } from "../state/typed.js";
+import { lineIcon } from "../styles/shared.js";
+
+/** What is read and changed of a session. */
+export type Edited = Pick<Session, "settings" | "options" | "result" | "isCurrent" | "weights" | "canUndo" | "canRedo" | "undo" | "redo" | "change">;
+
+/** The points that a tool places, and the place of the selected one. */
+interface Shown {
+  readonly list: readonly HandPoint[];
+  readonly place: number | null;
+}
+
+const kindOf = (tool: Tool): PlacedKind => (tool === "drains" ? "drains" : "points");
+
+/** What somebody does with the points of a session. */
+export class PointEditor {
+  readonly #session: Edited;
+  readonly #update: () => void;
+  /** The selected point: it keeps its place on the model, but not in the list. */
+  #selected: string | null = null;
+  #drain_mm = DRAIN_MM;
+  #edits = 0;
+  /** The last answer: another list would count as a change. */
+  #known: { readonly of: readonly unknown[]; readonly points: HandPoints } | null = null;
+
+  constructor(session: Edited, update: () => void) {
+    this.#session = session;
+    this.#update = update;
+  }
+
+  of(tool: Tool): Shown {
+    const { list } = this.#points(kindOf(tool));
+    const place = list.findIndex((point) => keyOf(point) === this.#selected);
+    return { list, place: place < 0 ? null : place };
+  }
+
+  act(tool: Tool, detail: PointDetail): void {
+    const kind = kindOf(tool);
+    const points = this.#points(kind);
+    const { settings } = this.#session;
+    switch (detail.do) {
+      case "add": {
+        const point = pointAt(kind, detail.to, kind === "drains" ? this.#drain_mm : null);
+        this.#select(point);
+        return this.#change(added(points, point, settings));
+      }
+      case "move": {
+        const point = points.list[detail.place];
+        if (point !== undefined) this.#select(pointAt(kind, detail.to, point.diameter_mm));
+        return this.#change(moved(points, detail.place, detail.to, settings));
+      }
+      case "select":
+        return this.#select(detail.place === null ? null : (points.list[detail.place] ?? null));
+      case "remove":
+        return this.#change(removed(points, detail.place, settings));
+      case "lock":
+        return this.#change(locked(points, detail.place, settings));
+    }
+  }
+
+  tools(tool: Tool, language: Language): TemplateResult {
+    const kind = kindOf(tool);
+    const { list, place } = this.of(tool);
+    const words = placingTexts(language);
+    const { texts, format } = language;
+    const session = this.#session;
+    const points = this.#points(kind);
+    const count = (test: (point: HandPoint) => boolean): string => format.count(list.filter(test).length);
+    const button = (name: string, isPossible: boolean, act: () => void): TemplateResult =>
+      html`<button class="small" ?disabled=${!isPossible} @click=${act}>${name}</button>`;
+    const step = (way: "undo" | "redo", isPossible: boolean): TemplateResult => iconButton(way, texts.settings[way], isPossible, () => session[way]());
+    const isAnyUnreached = list.some(({ isUnreached }) => isUnreached);
+    return html`<section class="points" aria-label=${words[kind].title}>
+      <p class="quiet">${words[kind].hint}</p>
+      <dl class="counts">
+        ${counted(words.automatic, CIRCLE, count(({ isLocked }) => !isLocked))} ${counted(words.byHand, SQUARE, count(({ isLocked }) => isLocked))}
+        ${isAnyUnreached ? counted(words[kind].unreached, CROSS, count(({ isUnreached }) => isUnreached)) : nothing}
+      </dl>
+      ${this.#selection(tool, list, place, words, language)}
+      <div class="actions">
+        ${button(words.automatically, true, () => this.#change(automatic(points, session.settings)))}
+        ${button(words.clear, list.length > 0, () => this.#change(cleared(kind)))} ${step("undo", session.canUndo)} ${step("redo", session.canRedo)}
+      </div>
+      ${kind === "drains"
+        ? this.#length(words.newDiameter, this.#drain_mm, language, true, (mm) => {
+            this.#drain_mm = mm;
+            this.#update();
+          })
+        : this.#spare(words)}
+    </section>`;
+  }
+
+  #selection(tool: Tool, list: readonly HandPoint[], place: number | null, words: PlacingTexts, language: Language): TemplateResult {
+    const kind = kindOf(tool);
+    const { format } = language;
+    const { settings } = this.#session;
+    const point = place === null ? undefined : list[place];
+    const usual_mm = settings.supports === "none" ? CONTACT_MM.medium : CONTACT_MM[settings.supports];
+    const isNone = place === null || point === undefined;
+    const said = isNone ? words[kind].none : words[kind].selected(format.count(place + 1), format.count(list.length), format.height(point.at_mm[2]));
+    return html`<fieldset class="selected" ?disabled=${isNone}>
+      <legend><span role="status">${said}</span></legend>
+      <div class="row">
+        ${this.#length(words.diameter, point?.diameter_mm ?? (kind === "drains" ? this.#drain_mm : usual_mm), language, !isNone, (mm) => {
+          if (place !== null) this.#change(resized(this.#points(kind), place, mm, settings));
+        })}
+        <label class="box" title=${words[kind].lockHint}>
+          <input
+            type="checkbox"
+            .checked=${live(point?.isLocked ?? false)}
+            @change=${() => place !== null && this.act(tool, { do: "lock", place })}
+          />${words.lock}
+        </label>
+        ${iconButton("remove", words.remove, !isNone, () => place !== null && this.act(tool, { do: "remove", place }))}
+      </div>
+    </fieldset>`;
+  }
+
+  #length(name: string, mm: number, { format }: Language, isPossible: boolean, set: (mm: number) => void): TemplateResult {
+    const typed = ({ target }: Event): void => {
+      const field = target as HTMLInputElement;
+      const { value } = read(field.value, "mm", format.decimal);
+      if (value !== null && value >= LEAST_MM && value <= MOST_MM) set(value);
+      else field.value = localised(String(mm), format.decimal);
+    };
+    return html`<label class="length">
+      ${name}
+      <input
+        type="text"
+        inputmode="decimal"
+        autocomplete="off"
+        ?disabled=${!isPossible}
+        .value=${live(localised(String(mm), format.decimal))}
+        @change=${typed}
+      />
+    </label>`;
+  }
+
+  /** Without weights there is nothing to keep off. */
+  #spare(words: PlacingTexts): TemplateResult {
+    const { weights, settings } = this.#session;
+    const isPossible = weights !== null;
+    return html`<div>
+      <label class="box">
+        <input
+          type="checkbox"
+          role="switch"
+          aria-describedby=${isPossible ? nothing : "spare-hint"}
+          ?disabled=${!isPossible}
+          .checked=${live(settings.spare === "on")}
+          @change=${() => this.#session.change({ spare: settings.spare === "on" ? "off" : "on" })}
+        />${words.spare}
+      </label>
+      ${isPossible ? nothing : html`<p class="quiet hint" id="spare-hint">${words.spareHint}</p>`}
+    </div>`;
+  }
+
+  #points(kind: PlacedKind): HandPoints {
+    const { settings, options, result, isCurrent } = this.#session;
+    const of = [kind, settings, result, isCurrent];
+    if (this.#known === null || of.some((it, i) => it !== this.#known?.of[i])) {
+      this.#known = { of, points: pointsOf(kind, { settings, options, result, isCurrent }) };
+    }
+    return this.#known.points;
+  }
+
+  #select(point: Point | null): void {
+    this.#selected = point === null ? null : keyOf(point);
+    this.#update();
+  }
+
+  /** Every edit is an undo step of its own. */
+  #change(change: Partial<Settings>): void {
+    this.#session.change(change, `points ${++this.#edits}`);
+  }
+}
+
+/** Drawn in a square of 20 units. */
+const ICONS = {
+  undo: "M8 5 4 9l4 4M4 9h8a4 4 0 0 1 0 8H9",
+  redo: "m12 5 4 4-4 4m4-4H8a4 4 0 0 0 0 8h3",
+  remove: "M4 5.5h12M8 5.5V3.5h4v2M5.5 5.5l.75 11h7.5l.75-11M8.5 8.5v5M11.5 8.5v5",
+} as const;
+
+const iconButton = (icon: keyof typeof ICONS, name: string, isPossible: boolean, act: () => void): TemplateResult => html`<button
+  class="small icon"
+  aria-label=${name}
+  title=${name}
+  ?disabled=${!isPossible}
+  @click=${act}
+>
+  <svg viewBox="0 0 20 20" aria-hidden="true"><path d=${ICONS[icon]} /></svg>
+</button>`;
+
+/** The markers, as the view draws them. */
+const CIRCLE = svg`<circle cx="8" cy="8" r="4.5" />`;
+const SQUARE = svg`<rect class="locked" x="4" y="4" width="8" height="8" />`;
+const CROSS = svg`<circle class="unreached" cx="8" cy="8" r="4.5" /><path d="M5.5 5.5l5 5m0-5-5 5" />`;
+
+function counted(name: string, shape: TemplateResult<2>, count: string): TemplateResult {
+  return html`<div>
+    <dt><svg viewBox="0 0 16 16" aria-hidden="true">${shape}</svg>${name}</dt>
+    <dd>${count}</dd>
+  </div>`;
+}
+
+export const pointStyles = css`
+  .points {
+    display: grid;
+    align-content: start;
+    gap: 0.625rem;
+    min-width: 0;
+    overflow: auto;
+    scrollbar-width: thin;
+    /* Room for focus rings and for the scroll bar. */
+    padding: 0.25rem 0.75rem 0.25rem 0.25rem;
+    font-size: 0.875rem;
+  }
+  /* Below the view, room for what there is to press. */
+  .beside:has(.points) {
+    min-height: max(9rem, min(13.5rem, 34%));
+  }
+  .points .counts,
+  .points .counts div,
+  .points dt,
+  .points .row,
+  .points .length,
+  .points .box,
+  .points .actions {
+    display: flex;
+    align-items: center;
+    gap: 0.375rem;
+  }
+  .points .counts {
+    flex-wrap: wrap;
+    gap: 0.25rem 1rem;
+  }
+  .points dd {
+    font-weight: 550;
+    font-variant-numeric: tabular-nums;
+  }
+  .points dt svg {
+    width: 1.125rem;
+    height: 1.125rem;
+    fill: #fff;
+    stroke: #10121a;
+    stroke-width: 1.25;
+  }
+  .points .locked {
+    fill: var(--cusp-accent);
+  }
+  .points .unreached {
+    fill: var(--cusp-bad);
+  }
+  .points dt path {
+    stroke: #fff;
+    stroke-width: 1.75;
+  }
+  .points .selected {
+    padding-block-start: 0.5rem;
+    border-block-start: 1px solid var(--cusp-line);
+  }
+  .points legend {
+    float: inline-start;
+    width: 100%;
+    padding: 0;
+    font-weight: 550;
+    font-variant-numeric: tabular-nums;
+  }
+  .points .selected:disabled,
+  .points :disabled + * {
+    color: var(--cusp-quiet);
+  }
+  .points .row {
+    flex-wrap: wrap;
+    gap: 0.25rem 1rem;
+    width: 100%;
+  }
+  .points .length,
+  .points .box {
+    gap: 0.5rem;
+    min-height: 2.5rem;
+  }
+  .points .length input {
+    font: inherit;
+    font-variant-numeric: tabular-nums;
+    width: 4rem;
+    min-height: 2.25rem;
+    padding: 0.25rem 0.5rem;
+    border: 1px solid var(--cusp-field);
+    border-radius: 8px;
+    background: var(--cusp-card);
+    color: inherit;
+  }
+  .points .box input {
+    flex: none;
+    width: 1.125rem;
+    height: 1.125rem;
+    margin: 0;
+    accent-color: var(--cusp-accent);
+  }
+  .points .hint {
+    padding-inline-start: 1.625rem;
+    font-size: 0.8125rem;
+  }
+  .points .actions {
+    flex-wrap: wrap;
+  }
+  .points .icon {
+    padding-inline: 0.5rem;
+  }
+  .points .icon svg {
+    ${lineIcon}
+  }
+  @media (forced-colors: active) {
+    .points dt svg {
+      forced-color-adjust: none;
+    }
+  }
+`;

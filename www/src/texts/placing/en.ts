@@ -1,0 +1,31 @@
+/** English. */
+import type { PlacingTexts } from "./index.js";
+
+export const placing: PlacingTexts = {
+  points: {
+    title: "Support points",
+    hint: "Click on the model to add a point; drag one to move it.",
+    unreached: "Unreached",
+    selected: (number, all, height) => `Point ${number} of ${all}, at ${height}`,
+    none: "No point selected",
+    lockHint: "A locked point stays when points are placed automatically.",
+  },
+  drains: {
+    title: "Drain holes",
+    hint: "Click on the model to add a hole; drag one to move it.",
+    unreached: "Outside the void",
+    selected: (number, all, height) => `Hole ${number} of ${all}, at ${height}`,
+    none: "No hole selected",
+    lockHint: "A locked hole stays when holes are placed automatically.",
+  },
+  automatic: "Automatic",
+  byHand: "By hand",
+  diameter: "Diameter (mm)",
+  newDiameter: "Diameter of new holes (mm)",
+  lock: "Locked",
+  remove: "Delete",
+  spare: "Keep off what is painted as important",
+  spareHint: "Paint with “What matters” first.",
+  automatically: "Place automatically",
+  clear: "Clear",
+};

@@ -1,0 +1,173 @@
+/** Places points on the model's surface, by pointer and by keyboard. */
+import { Matrix4, Vector3, type Ray } from "three";
+import type { PointDetail, SurfacePlace } from "../events.js";
+import { doubleArea } from "../scene/flat.js";
+import type { Point } from "../scene/pointer.js";
+import { DRAG_FROM_PX } from "../scene/pointer.js";
+import { Raycast } from "../scene/raycast.js";
+import type { Scene } from "../scene/scene.js";
+import type { Derived } from "../steps/derived.js";
+import { REACH_PX, stepped, TOUCH_REACH_PX, within } from "./nearest.js";
+
+interface Drag {
+  readonly id: number;
+  readonly place: number;
+  /** Where the pointer was pressed, and from there to the marker's middle. */
+  readonly from: Point;
+  readonly grasp: Point;
+  to: SurfacePlace | null;
+}
+
+export class Placing {
+  isOn = false;
+  selected: number | null = null;
+  readonly #scene: Scene;
+  readonly #tell: (detail: PointDetail) => void;
+  #derived: Derived | null = null;
+  #supports: { readonly of: Float32Array | null; readonly raycast: Raycast | null } = { of: null, raycast: null };
+  #drag: Drag | null = null;
+
+  constructor(scene: Scene, tell: (detail: PointDetail) => void) {
+    this.#scene = scene;
+    this.#tell = tell;
+  }
+
+  /** @param supports what stands before the model, mm from the plate; null: nothing */
+  prepare(derived: Derived | null, supports: Float32Array | null): void {
+    if (this.#derived !== derived || !this.isOn) this.cancel();
+    this.#derived = derived;
+    if (!this.isOn || this.#supports.of === supports) return;
+    this.#supports = { of: supports, raycast: supports === null || supports.length < 9 ? null : new Raycast(supports) };
+  }
+
+  /** Watches presses on markers, before the camera's controls see them. */
+  watch(holder: HTMLElement, placeOf: (event: PointerEvent) => Point, signal: AbortSignal): void {
+    const options = { signal, capture: true };
+    const reach = ({ pointerType }: PointerEvent): number => (pointerType === "touch" ? TOUCH_REACH_PX : REACH_PX);
+    const down = (event: PointerEvent): void => {
+      if (!this.isOn || !event.isPrimary || event.button !== 0 || !this.#begin(event.pointerId, placeOf(event), reach(event))) return;
+      event.stopPropagation();
+      holder.setPointerCapture(event.pointerId);
+    };
+    const move = (event: PointerEvent): void => {
+      if (this.isOn && event.buttons === 0) holder.classList.toggle("over", this.#markerAt(placeOf(event), REACH_PX) !== null);
+      if (event.pointerId !== this.#drag?.id) return;
+      event.stopPropagation();
+      this.#follow(placeOf(event));
+    };
+    const up = (event: PointerEvent): void => {
+      const drag = this.#drag;
+      if (event.pointerId !== drag?.id) return;
+      event.stopPropagation();
+      this.cancel();
+      if (drag.to !== null && event.type === "pointerup") this.#tell({ do: "move", place: drag.place, to: drag.to });
+    };
+    holder.addEventListener("pointerdown", down, options);
+    holder.addEventListener("pointermove", move, options);
+    holder.addEventListener("pointerup", up, options);
+    holder.addEventListener("pointercancel", up, options);
+  }
+
+  /** Adds a point where the model is, and lets go of the selected one where it is not. */
+  clicked(at: Point): void {
+    if (this.#scene.isHot) return;
+    const to = this.#surfaceAt(at);
+    if (to !== null) this.#tell({ do: "add", to });
+    else if (this.selected !== null && !this.#isSupportAt(at)) this.#tell({ do: "select", place: null });
+  }
+
+  /** Selects the next point, or the one before. */
+  step(by: 1 | -1): void {
+    const place = stepped(this.selected, by, this.#scene.markers.points.length);
+    if (place !== null) this.#tell({ do: "select", place });
+  }
+
+  edit(what: "remove" | "lock"): void {
+    if (this.selected !== null) this.#tell({ do: what, place: this.selected });
+  }
+
+  /** Puts a dragged point back; returns whether there was one. */
+  cancel(): boolean {
+    const had = this.#drag !== null;
+    this.#drag = null;
+    if (had) {
+      this.#scene.markers.drag(null);
+      this.#scene.invalidate();
+    }
+    return had;
+  }
+
+  #begin(id: number, from: Point, reach_px: number): boolean {
+    const place = this.#markerAt(from, reach_px);
+    if (place === null) return false;
+    const [x, y] = this.#shownAt(place);
+    this.#drag = { id, place, from, grasp: [x - from[0], y - from[1]], to: null };
+    if (place !== this.selected) this.#tell({ do: "select", place });
+    return true;
+  }
+
+  #follow(at: Point): void {
+    const drag = this.#drag;
+    if (drag === null) return;
+    const isStill = drag.to === null && Math.hypot(at[0] - drag.from[0], at[1] - drag.from[1]) <= DRAG_FROM_PX;
+    const to = isStill ? null : this.#surfaceAt([at[0] + drag.grasp[0], at[1] + drag.grasp[1]]);
+    if (to === null) return;
+    drag.to = to;
+    this.#scene.markers.drag({ place: drag.place, ...to });
+    this.#scene.invalidate();
+  }
+
+  #shownAt(place: number): Point {
+    const [x, y, z] = this.#scene.markers.points[place]?.at_mm ?? [0, 0, 0];
+    return this.#scene.cameras.project(new Vector3(x, y, z + this.#scene.model.lift_mm));
+  }
+
+  /** The marker that a pointer is on. Those behind the model are seen, but what is before them is meant. */
+  #markerAt(at: Point, reach_px: number): number | null {
+    const places = this.#scene.markers.points.map((_, place) => this.#shownAt(place));
+    return within(at, places, reach_px).find((place) => !this.#isHidden(place, places[place] ?? at)) ?? null;
+  }
+
+  #isHidden(place: number, at: Point): boolean {
+    const hit = this.#derived?.raycast?.cast(this.#scene.rayAt(...at)) ?? null;
+    const { at_mm } = this.#scene.markers.points[place] ?? {};
+    if (hit === null || at_mm === undefined) return false;
+    const eye = this.#scene.worldRayAt(...at).origin;
+    const away = (point: Vector3): number => point.setZ(point.z + this.#scene.model.lift_mm).distanceTo(eye);
+    // It is on the surface, so only what is clearly before it hides it.
+    return away(new Vector3(...this.#ownFrame(hit.point))) < away(new Vector3(...at_mm)) - 0.01 * Math.hypot(...this.#scene.model.size_mm);
+  }
+
+  #isSupportAt(at: Point): boolean {
+    return this.#supports.raycast?.cast(this.#scene.worldRayAt(...at)) != null;
+  }
+
+  /** Where a ray meets the model, unless a support is before that. */
+  #surfaceAt(at: Point): SurfacePlace | null {
+    const derived = this.#derived;
+    const ray = this.#scene.rayAt(...at);
+    const hit = derived?.raycast?.cast(ray) ?? null;
+    if (derived === null || hit === null) return null;
+    const world = this.#scene.worldRayAt(...at);
+    const at_mm = this.#ownFrame(hit.point);
+    const held = this.#supports.raycast?.cast(world) ?? null;
+    const away = (point: Vector3): number => point.distanceTo(world.origin);
+    const [x, y, z] = at_mm;
+    if (held !== null && away(new Vector3(...held.point)) < away(new Vector3(x, y, z + this.#scene.model.lift_mm))) return null;
+    return { at_mm, inward: this.#inward(derived.positions, hit.facet, ray) };
+  }
+
+  /** A point of the file in the frame of the points. */
+  #ownFrame(point: readonly [number, number, number]): [number, number, number] {
+    const { x, y, z } = new Vector3(...point).applyMatrix4(this.#scene.model.facets.matrixWorld);
+    return [x, y, z - this.#scene.model.lift_mm];
+  }
+
+  /** The way into the model at a facet: that of the ray rather than that of a facet the wrong way round. */
+  #inward(positions: Float32Array, facet: number, ray: Ray): [number, number, number] {
+    const normal = new Vector3(...doubleArea(positions, facet));
+    if (normal.length() === 0) normal.copy(ray.direction);
+    if (normal.dot(ray.direction) < 0) normal.negate();
+    return normal.transformDirection(new Matrix4().copy(this.#scene.model.facets.matrixWorld)).toArray();
+  }
+}
