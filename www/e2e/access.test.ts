@@ -19,7 +19,7 @@ test.each(["light", "dark"] as const)("nothing is amiss in any state: %s", async
   await state(page, "done");
   expect(await broken(page)).toEqual([]);
 
-  await openPanel(page, "Orientation");
+  await openPanel(page, "Turn");
   await page.getByRole("button", { name: "Find the best orientation" }).click();
   await page.locator("cusp-orientation .pose").first().waitFor();
   await page.getByRole("application", { name: "Sphere of directions" }).press("ArrowRight");
@@ -30,7 +30,7 @@ test.each(["light", "dark"] as const)("nothing is amiss in any state: %s", async
   await page.getByRole("checkbox", { name: "Fill a smooth region" }).check();
   expect(await broken(page)).toEqual([]);
 
-  await openPanel(page, "Settings");
+  await openPanel(page, "Slice");
   await page.getByLabel("Tolerance", { exact: true }).fill("0.02");
   await state(page, "error");
   expect(await broken(page)).toEqual([]);

@@ -136,7 +136,7 @@ export async function words(page: Page): Promise<string> {
   return (await page.locator(":is(cusp-workbench .bench, cusp-slicer .slicer)").innerText()).replace(/\s+/g, " ");
 }
 
-/** Opens a panel of the page beside the view: a tab, or the button of a sheet on a narrow page. */
+/** Opens a panel of the page beside the view: a step, a tab, or the button of a sheet on a narrow page. */
 export async function openPanel(page: Page, name: string): Promise<void> {
   await page.getByRole("tab", { name }).or(page.locator("nav").getByRole("button", { name })).click();
 }

@@ -62,7 +62,7 @@ const VISITS: readonly Visit[] = [
         await page.waitForSelector("canvas[data-layer]");
       },
       settings: async (page) => {
-        await openPanel(page, "Settings");
+        await openPanel(page, "Slice");
         await page.getByText("More settings").click();
         await page.getByText("Uniform", { exact: true }).click();
         await settled(page);
@@ -84,7 +84,7 @@ const VISITS: readonly Visit[] = [
     states: {
       orientation: async (page) => {
         await example(page);
-        await openPanel(page, "Orientation");
+        await openPanel(page, "Turn");
         await page.getByRole("button", { name: "Find the best orientation" }).click();
         await expect.poll(() => page.locator("cusp-orientation .pose canvas[data-drawn]").count()).toBe(3);
       },

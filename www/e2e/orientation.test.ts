@@ -17,7 +17,7 @@ async function example(query = "", options: Parameters<typeof start>[1] = {}): P
   await page.getByRole("button", { name: "Try the example" }).click();
   await state(page, "done");
   await page.waitForSelector("cusp-view");
-  await openPanel(page, "Orientation");
+  await openPanel(page, "Turn");
   return page;
 }
 
@@ -253,10 +253,10 @@ test("what counts may change without measuring again, and settings that matter m
   await expect.poll(picture).not.toBe(rated);
   await searched(page);
   expect(await panel(page).getByText("Found with other settings").count()).toBe(0);
-  await openPanel(page, "Settings");
+  await openPanel(page, "Slice");
   await page.getByLabel("Tolerance", { exact: true }).fill("0.08");
   await settled(page);
-  await openPanel(page, "Orientation");
+  await openPanel(page, "Turn");
   await panel(page).getByText("Found with other settings").waitFor();
   await page.getByRole("button", { name: "Undo" }).click();
   await settled(page);
@@ -283,7 +283,7 @@ test("a search is cancelled by its button and by Escape, and leaves what it meas
   const page = await start("?backend=cpu&rays=512");
   await drop(page, { name: "ball.stl", bytes: sphere(10, 600).bytes });
   await state(page, "done");
-  await openPanel(page, "Orientation");
+  await openPanel(page, "Turn");
   const find = panel(page).getByRole("button", { name: "Find the best orientation" });
   await find.click();
   await panel(page).getByRole("progressbar").waitFor();

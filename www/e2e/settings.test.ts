@@ -83,8 +83,8 @@ test("a model is hollowed by the thickness of its walls, and drained", async () 
       return report;
     });
   const solid = await report();
-  await page.getByText("More settings").click();
-  expect(await page.getByLabel("Drain holes").count()).toBe(0);
+  await openPanel(page, "Hollow");
+  expect(await page.locator("cusp-settings").getByLabel("Drain holes").count()).toBe(0);
   await page.getByLabel("Hollow, with walls of").fill("2");
   await settled(page);
   const hollow = await report();
@@ -92,7 +92,7 @@ test("a model is hollowed by the thickness of its walls, and drained", async () 
   expect(hollow.hollowed?.drains).toHaveLength(1);
   expect(solid.resin_ml - hollow.resin_ml).toBeGreaterThan(hollow.hollowed?.void_ml ?? Infinity);
   await page.getByLabel("In the void").selectOption("Lattice of struts");
-  await page.getByLabel("Drain holes").selectOption("None");
+  await page.locator("cusp-settings").getByLabel("Drain holes").selectOption("None");
   await settled(page);
   const filled = await report();
   expect(filled.resin_ml).toBeGreaterThan(hollow.resin_ml);
@@ -112,6 +112,7 @@ test("a model is supported, and stands that much higher", async () => {
     });
   const size = page.locator("cusp-workbench .model dd").first();
   const [bare, own] = [await report(), await size.innerText()];
+  await openPanel(page, "Support");
   await page.getByLabel("Supports").selectOption("Medium");
   await settled(page);
   const supported = await report();

@@ -231,7 +231,7 @@ test("the tour is shown on the first visit, takes no focus, and comes again when
   await tour.waitFor();
   expect(await page.evaluate(() => document.querySelector("cusp-workbench")?.shadowRoot?.activeElement?.textContent)).toBe("goblet.stl");
   expect(await broken(page)).toEqual([]);
-  for (const title of ["Look at the model", "Say what you print with"]) {
+  for (const title of ["Look at the model", "Step by step"]) {
     expect(await tour.innerText()).toContain(title);
     await tour.getByRole("button", { name: "Next" }).press("Enter");
   }

@@ -46,7 +46,7 @@ test("at 1280 × 800 nothing scrolls, from the drop to the download", async () =
   await openPanel(page, "Mask");
   await page.waitForSelector("canvas[data-layer]");
   await inSight(page, ["cusp-view", ".download", "cusp-mask canvas"]);
-  await openPanel(page, "Orientation");
+  await openPanel(page, "Turn");
   await inSight(page, ["cusp-view", ".download"]);
   expect((await download(page)).suggestedFilename()).toBe("ball-cusp.zip");
   expect(await overflow(page)).toEqual([0, 0]);
@@ -159,14 +159,14 @@ test("tabs are chosen with the arrow keys", async () => {
   const page = await start("", DESKTOP);
   await drop(page, ball);
   await state(page, "done");
-  await page.getByRole("tab", { name: "Settings" }).focus();
+  await page.getByRole("tab", { name: "Quality" }).focus();
   await page.keyboard.press("ArrowRight");
-  await page.locator("cusp-orientation").waitFor();
-  expect(await page.getByRole("tab", { name: "Orientation" }).getAttribute("aria-selected")).toBe("true");
+  await page.locator("cusp-mask").waitFor();
+  expect(await page.getByRole("tab", { name: "Mask" }).getAttribute("aria-selected")).toBe("true");
   await page.keyboard.press("ArrowRight");
-  await page.locator("cusp-settings").waitFor();
+  await page.locator("cusp-quality").waitFor();
   await page.keyboard.press("End");
-  await page.locator("cusp-orientation").waitFor();
+  await page.locator("cusp-mask").waitFor();
 });
 
 test("on a phone the view comes first, the bar stays, and panels are sheets", async () => {
@@ -177,7 +177,7 @@ test("on a phone the view comes first, the bar stays, and panels are sheets", as
   await inSight(page, ["cusp-view", "cusp-layer-slider", ".bar [data-layers]", ".bar .download"]);
   const whole = (await page.locator("cusp-view").boundingBox())?.height ?? 0;
   expect(whole).toBeGreaterThan(844 / 2);
-  for (const name of ["Settings", "Orientation", "Profile", "Quality", "Mask"]) {
+  for (const name of ["Turn", "Check", "Hollow", "Support", "Slice", "Profile", "Quality", "Mask"]) {
     await page.locator("nav").getByRole("button", { name }).tap();
     await page.locator(".sheet").getByRole("heading", { name, level: 2 }).waitFor();
     await inSight(page, ["cusp-view", ".bar [data-layers]", ".bar .download"]);
@@ -188,7 +188,7 @@ test("on a phone the view comes first, the bar stays, and panels are sheets", as
   await page.locator(".sheet").getByText("Watertight").waitFor();
   await page.getByRole("button", { name: "Close" }).tap();
   await expect.poll(() => page.locator(".sheet").count()).toBe(0);
-  await page.locator("nav").getByRole("button", { name: "Settings" }).tap();
+  await page.locator("nav").getByRole("button", { name: "Slice" }).tap();
   await page.getByLabel("Tolerance", { exact: true }).fill("0.08");
   await settled(page);
   await page.keyboard.press("Escape");

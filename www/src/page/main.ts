@@ -9,6 +9,7 @@ import { openAnywhere } from "./open-anywhere.js";
 import { workOffline } from "./offline.js";
 import type { CuspWorkbench } from "../workbench/cusp-workbench.js";
 import { fetchPageWords, pageWords } from "./texts/index.js";
+import { fetchWorkbenchWords } from "../workbench/texts/index.js";
 import { Visit } from "./visit.js";
 
 function found<E extends Element>(selector: string): E {
@@ -27,7 +28,8 @@ let shown: readonly File[] | null = null;
 const locales = (): string[] => [own.get("locale"), ...navigator.languages].filter((locale) => locale !== null);
 
 async function fetchTexts(): Promise<void> {
-  await Promise.all([fetchLanguage(...locales()), fetchPageWords(codeFor(...locales()))]);
+  const code = codeFor(...locales());
+  await Promise.all([fetchLanguage(...locales()), fetchPageWords(code), fetchWorkbenchWords(code)]);
 }
 
 function draw(): void {
@@ -99,7 +101,7 @@ const visit = new Visit({
   link: () => new URL(addressOf(slicer.query, own) || location.pathname, location.href).href,
   open: (files) => void open(files),
   draw,
-  targets: [within(".stage"), within(".choices, .sheet, .bar-panels button"), within(".plan .download, .bar-result")],
+  targets: [within(".view"), within(".path"), within(".plan .download, .bar-result")],
   clearance: () => within(".bar")()?.offsetHeight ?? 0,
 });
 

@@ -16,7 +16,7 @@ import { copiesStyles } from "../element/styles/copies-styles.js";
 import { shared } from "../element/styles/shared.js";
 import { theme } from "../element/styles/theme.js";
 import { CuspLayerSlider } from "./layer-slider.js";
-import { WIDE_PX, type AnswerPanel, type ChoicePanel, type Sheet } from "./places.js";
+import { WIDE_PX, type AnswerPanel, type Sheet, type Step } from "./places.js";
 import { workbenchStyles } from "./styles.js";
 import { template } from "./template.js";
 
@@ -24,7 +24,8 @@ export class CuspWorkbench extends SlicerElement {
   static override styles = [theme, shared, modelStyles, summaryStyles, progressStyles, problemStyles, partStyles, copiesStyles, workbenchStyles];
 
   #isWide = true;
-  #choice: ChoicePanel = "settings";
+  /** The last one: a plan is made at once, and many want nothing but its file. */
+  #step: Step = "slice";
   #answer: AnswerPanel = "quality";
   #sheet: Sheet | null = null;
   #plot: PlotPlace | null = null;
@@ -57,15 +58,29 @@ export class CuspWorkbench extends SlicerElement {
   protected override layout(facts: Facts): TemplateResult {
     return template(facts, {
       isWide: this.#isWide,
-      choice: this.#choice,
+      step: this.#step,
       answer: this.#answer,
       sheet: this.#sheet,
       plot: this.#plot,
-      choose: (name) => this.#set(() => (this.#choice = name)),
+      go: (step, from) => void this.#go(step, from),
       answers: (name) => this.#set(() => (this.#answer = name)),
       open: (sheet) => this.#set(() => (this.#sheet = sheet)),
       placed: (plot) => this.#set(() => (this.#plot = plot)),
     });
+  }
+
+  async #go(step: Step, from: "foot" | "row"): Promise<void> {
+    // In the row of a narrow screen, the button of the open sheet closes it.
+    const isClosing = from === "row" && step === this.#sheet;
+    this.#set(() => {
+      this.#step = step;
+      if (!this.#isWide) this.#sheet = isClosing ? null : step;
+    });
+    await this.updateComplete;
+    const title = this.renderRoot.querySelector<HTMLElement>("#step-title");
+    title?.closest(".tab-row")?.nextElementSibling?.scrollTo(0, 0);
+    // Whoever reads the steps one after the other begins each at its top.
+    if (from === "foot") title?.focus();
   }
 
   #set(change: () => void): void {

@@ -8,9 +8,10 @@ export const workbenchStyles = css`
     --cusp-radius: 10px;
     /* Nothing scrolls below the view: one finger turns it. */
     --cusp-view-touch: none;
-    /* The tabs say it. */
+    /* The steps and the tabs say it. */
     --cusp-title-position: absolute;
     --cusp-title-clip: inset(50%);
+    --cusp-orientation-hint: none;
   }
   :host([hidden]) {
     display: none;
@@ -38,7 +39,7 @@ export const workbenchStyles = css`
     gap: 0;
   }
   .bench.narrow:has(.sheet) {
-    grid-template-rows: minmax(0, 9fr) minmax(0, 11fr) auto;
+    grid-template-rows: minmax(0, 1fr) minmax(0, 1fr) auto;
   }
   /* In what is left of the view, the scale would hide the model. */
   .bench.narrow:has(.sheet) cusp-model {
@@ -72,7 +73,7 @@ export const workbenchStyles = css`
     align-items: center;
     justify-content: space-between;
     gap: 0.5rem;
-    min-height: 3rem;
+    min-height: 2.75rem;
     padding-inline: 1rem 0.5rem;
     border-bottom: 1px solid var(--cusp-line);
   }
@@ -96,13 +97,140 @@ export const workbenchStyles = css`
   .panel {
     flex: 1;
     min-height: 0;
-    padding: 0.875rem 1rem 1rem;
+    padding: 0.75rem 1rem 1rem;
     overflow: hidden auto;
     overscroll-behavior: contain;
     scrollbar-width: thin;
   }
   .panel:focus-visible {
     outline-offset: -3px;
+  }
+  .path {
+    grid-column: 1 / -1;
+    min-width: 0;
+    border-bottom: 1px solid var(--cusp-line);
+  }
+  .path ol {
+    display: flex;
+    flex-wrap: wrap;
+    margin: 0;
+    padding: 0;
+    list-style: none;
+  }
+  /* Wide enough for their names, whatever has come of them: nothing moves when that changes. */
+  .path li {
+    flex: 1 0 auto;
+    max-width: 100%;
+  }
+  .path button {
+    display: grid;
+    grid-template-columns: auto 1fr;
+    align-content: center;
+    align-items: center;
+    justify-items: start;
+    gap: 0 0.375rem;
+    width: 100%;
+    min-height: 3.5rem;
+    padding: 0.375rem 0.5rem;
+    border: 0;
+    border-block: 2px solid transparent;
+    border-radius: 0;
+    color: var(--cusp-quiet);
+    font-size: 0.875rem;
+    text-align: start;
+  }
+  .path button[aria-current] {
+    border-bottom-color: var(--cusp-accent);
+    color: var(--cusp-text);
+  }
+  /* It would reach over the edge of the stage. */
+  .path button:focus-visible {
+    outline-offset: -3px;
+  }
+  .path .name {
+    white-space: nowrap;
+  }
+  .path .state {
+    grid-column: 1 / -1;
+    contain: inline-size;
+    overflow: hidden;
+    width: 100%;
+    text-overflow: ellipsis;
+    white-space: nowrap;
+    color: var(--cusp-quiet);
+    font-size: 0.75rem;
+    font-weight: 400;
+    font-variant-numeric: tabular-nums;
+  }
+  .badge {
+    display: grid;
+    place-items: center;
+    width: 1.25rem;
+    height: 1.25rem;
+    border: 1px solid currentColor;
+    border-radius: 50%;
+    font-size: 0.75rem;
+    line-height: 1;
+  }
+  .badge svg {
+    ${lineIcon}
+    width: 0.875rem;
+    height: 0.875rem;
+    stroke-width: 2.5;
+  }
+  .badge.done {
+    color: var(--cusp-good);
+  }
+  .badge.look {
+    color: var(--cusp-accent);
+  }
+  .badge.wrong {
+    color: var(--cusp-bad);
+  }
+  .path [aria-current] .badge {
+    border-color: var(--cusp-accent);
+    background: var(--cusp-accent);
+    color: var(--cusp-on-accent);
+  }
+  .narrow .path button {
+    grid-template-columns: 1fr;
+    justify-items: center;
+    gap: 0.125rem;
+    min-height: 2.75rem;
+    padding: 0.25rem 0.125rem;
+    font-size: 0.75rem;
+  }
+  .panel > .hint {
+    margin-bottom: 0.625rem;
+    font-size: 0.8125rem;
+    line-height: 1.4;
+    text-wrap: pretty;
+  }
+  .by-hand,
+  .missing {
+    margin-top: 0.875rem;
+  }
+  .hint + .by-hand {
+    margin-block: 0 0.75rem;
+  }
+  .missing {
+    color: var(--cusp-bad);
+    font-size: 0.875rem;
+  }
+  .step-foot {
+    display: flex;
+    justify-content: space-between;
+    gap: 0.5rem;
+    padding: 0.5rem 1rem;
+    border-top: 1px solid var(--cusp-line);
+  }
+  .step-foot .next {
+    margin-inline-start: auto;
+  }
+  /* The last step leads on to no other: its fields have the room. */
+  .panel .step-foot {
+    padding: 0.875rem 0 0;
+    border: 0;
   }
   .steps {
     display: flex;
@@ -154,7 +282,7 @@ export const workbenchStyles = css`
   .stage {
     position: relative;
     display: grid;
-    grid-template: minmax(0, 1fr) / minmax(0, 1fr) auto;
+    grid-template: auto minmax(0, 1fr) / minmax(0, 1fr) auto;
     min-width: 0;
     min-height: 0;
     border: 1px solid var(--cusp-line);
@@ -166,9 +294,10 @@ export const workbenchStyles = css`
     grid-template-columns: minmax(0, 1fr) auto clamp(9.5rem, 22%, 16rem);
   }
   .empty .stage {
-    grid-template: minmax(0, 1fr) / minmax(0, 1fr);
+    grid-template-columns: minmax(0, 1fr);
   }
   .view {
+    grid-area: 2 / 1;
     min-width: 0;
     min-height: 0;
     padding: 0.625rem 0 0.625rem 0.625rem;
@@ -179,10 +308,11 @@ export const workbenchStyles = css`
     padding: 0.625rem 0.625rem 0.625rem 0;
   }
   .stage > .model-name {
-    position: absolute;
     z-index: 1;
-    inset-block-start: 3.5rem;
-    inset-inline: 0.75rem 45%;
+    grid-area: 2 / 1;
+    place-self: start;
+    max-width: 55%;
+    margin: 3.5rem 0 0 0.75rem;
     overflow: hidden;
     font-size: 0.875rem;
     text-overflow: ellipsis;
@@ -359,6 +489,7 @@ export const workbenchStyles = css`
   }
   .bar-panels {
     display: flex;
+    flex-wrap: wrap;
   }
   .bar-panels button {
     flex: auto;
@@ -416,11 +547,19 @@ export const workbenchStyles = css`
   @media (forced-colors: active) {
     /* Here no border is transparent. */
     .tabs button,
+    .path button,
     .bar-panels button,
     .bar-figures {
       border-color: Canvas;
     }
+    .path [aria-current] .badge {
+      forced-color-adjust: none;
+      border-color: Highlight;
+      background: Highlight;
+      color: HighlightText;
+    }
     .tabs button[aria-selected="true"],
+    .path button[aria-current],
     .bar-panels button[aria-expanded="true"] {
       border-color: Canvas;
       border-bottom-color: Highlight;

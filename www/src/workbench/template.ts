@@ -1,4 +1,4 @@
-/** The layout of the workbench: the view in the middle, choices at its start, the result at its end; on a narrow screen, sheets. */
+/** The layout of the workbench: the view in the middle, the step at its start, the result at its end; on a narrow screen, sheets. */
 import { html, nothing, type TemplateResult } from "lit";
 import {
   announcement,
@@ -10,13 +10,10 @@ import {
   maskPanel,
   modelPanel,
   noticeBox,
-  orientationPanel,
   qualityPanel,
-  settingsPanel,
   undoButtons,
 } from "../element/bound-panels.js";
 import { isFilament } from "../api/wire.js";
-import { findingsPanel } from "../element/bound-findings.js";
 import { platePanel } from "../element/bound-plate.js";
 import type { Facts } from "../element/facts.js";
 import { modelCard, warnings } from "../element/panels/model-card.js";
@@ -27,19 +24,22 @@ import { problemBox } from "../element/parts/problem-box.js";
 import { progressBar } from "../element/parts/progress.js";
 import { MODEL_FILES } from "../element/state/choice.js";
 import type { Result } from "../element/state/result.js";
-import { ANSWERS, CHOICES, SHEETS, type AnswerPanel, type ChoicePanel, type Sheet } from "./places.js";
+import { path, stepPanel } from "./path.js";
+import { ANSWERS, isStep, needsModel, SHEETS, type AnswerPanel, type Sheet, type Step } from "./places.js";
 import { tabs } from "./tabs.js";
 import { workbenchWords } from "./texts/index.js";
 
 /** What the workbench itself remembers: which panels are open, and where the chart's plot is. */
 export interface Bench {
   isWide: boolean;
-  choice: ChoicePanel;
+  /** The step beside the view of a wide screen. */
+  step: Step;
   answer: AnswerPanel;
   /** The sheet over the view of a narrow screen; null if none is open. */
   sheet: Sheet | null;
   plot: PlotPlace | null;
-  choose(name: ChoicePanel): void;
+  /** Goes to a step, from one before or after, or from the row of all. */
+  go(step: Step, from: "foot" | "row"): void;
   answers(name: AnswerPanel): void;
   open(sheet: Sheet | null): void;
   placed(plot: PlotPlace): void;
@@ -54,13 +54,20 @@ export function template(facts: Facts, bench: Bench): TemplateResult {
     <div class="bench ${classes}" aria-busy=${session.busy !== null}>
       ${isWide ? choicesSide(facts, bench) : nothing}
       <section class="stage" aria-label=${isEmpty ? facts.language.texts.open.region : facts.language.texts.view.region}>
+        ${path(facts, stepOf(facts, bench), isWide, (step) => bench.go(step, "row"))}
         ${isEmpty ? start(facts, bench) : view(facts, bench)}
         <div class="overlay">${overlay(facts)}</div>
       </section>
-      ${isWide ? answersSide(facts, bench) : html`${sheet(facts, bench)} ${bar(facts, bench)}`}
+      ${isWide ? answersSide(facts, bench) : html`${sheet(facts, bench)} ${isEmpty ? nothing : bar(facts, bench)}`}
     </div>
     ${announcement(facts)}
   `;
+}
+
+/** The step whose panel is on show; null if there is none. */
+function stepOf({ session }: Facts, { isWide, step, sheet }: Bench): Step | null {
+  if (!isWide) return isStep(sheet) ? sheet : null;
+  return session.model === null && needsModel(step) ? "slice" : step;
 }
 
 /** The stage before a model is open. */
@@ -117,25 +124,21 @@ function overlay(facts: Facts): TemplateResult {
   `;
 }
 
-function choicesSide(facts: Facts, { choice, choose }: Bench): TemplateResult {
-  const { session } = facts;
-  const { texts } = facts.language;
-  const words = workbenchWords(facts.language);
-  const isEmpty = session.model === null;
+function choicesSide(facts: Facts, bench: Bench): TemplateResult {
+  const step = stepOf(facts, bench);
   return html`<div class="side choices">
     ${modelSection(facts)}
-    <section class="card tabbed" part="settings">
-      <div class="tab-row">
-        ${isEmpty
-          ? html`<h2>${texts.settings.title}</h2>`
-          : tabs(words.choices, CHOICES, choice, namesOf(facts), "choice", choose)}
-        ${undoButtons(facts)}
-      </div>
-      <div class="panel" id="choice" tabindex=${isEmpty ? nothing : 0} role=${isEmpty ? nothing : "tabpanel"} aria-labelledby=${isEmpty ? nothing : `tab-${choice}`}>
-        ${isEmpty || choice === "settings" ? settingsPanel(facts, null) : orientationPanel(facts)}
-      </div>
-    </section>
+    ${step === null
+      ? nothing
+      : html`<section class="card tabbed" part="settings">
+          <div class="tab-row">${stepTitle(facts, step)} ${undoButtons(facts)}</div>
+          ${stepPanel(facts, step, (step) => bench.go(step, "foot"), () => undefined)}
+        </section>`}
   </div>`;
+}
+
+function stepTitle({ language }: Facts, step: Step): TemplateResult {
+  return html`<h2 id="step-title" tabindex="-1">${workbenchWords(language).steps[step]}</h2>`;
 }
 
 function modelSection(facts: Facts): TemplateResult {
@@ -158,9 +161,7 @@ function answersSide(facts: Facts, { answer, answers }: Bench): TemplateResult {
           ? html`<p class="quiet">${texts.chart.none}</p>`
           : answer === "quality"
             ? quality(facts, session.result)
-            : answer === "layers"
-              ? maskPanel(facts, session.result)
-              : findingsPanel(facts)}
+            : maskPanel(facts, session.result)}
       </div>
     </section>
   </div>`;
@@ -218,25 +219,19 @@ function bar(facts: Facts, { sheet, open }: Bench): TemplateResult {
   const names = namesOf(facts);
   const { layers, print_time_s } = shown ?? { layers: 0, print_time_s: 0 };
   return html`<div class="bar">
-    ${session.model === null
-      ? nothing
-      : html`<div class="bar-result">
-          <button class="bar-figures" aria-expanded=${sheet === "plan" ? "true" : "false"} @click=${() => open(sheet === "plan" ? null : "plan")}>
-            <span class="visually-hidden">${words.more}</span>
-            ${result === null
-              ? html`<strong>–</strong>`
-              : html`<strong data-layers=${layers}>${format.count(layers)} ${texts.plan.layers(layers)}</strong>
-                  ${isFilament(result.report.print_file.format) ? nothing : html`<span>${format.time(print_time_s)}</span>`}`}
-          </button>
-          ${result === null ? nothing : downloadButton(facts)}
-        </div>`}
+    <div class="bar-result">
+      <button class="bar-figures" aria-expanded=${sheet === "plan" ? "true" : "false"} @click=${() => open(sheet === "plan" ? null : "plan")}>
+        <span class="visually-hidden">${words.more}</span>
+        ${result === null
+          ? html`<strong>–</strong>`
+          : html`<strong data-layers=${layers}>${format.count(layers)} ${texts.plan.layers(layers)}</strong>
+              ${isFilament(result.report.print_file.format) ? nothing : html`<span>${format.time(print_time_s)}</span>`}`}
+      </button>
+      ${result === null ? nothing : downloadButton(facts)}
+    </div>
     <nav class="bar-panels" aria-label=${words.choices}>
       ${SHEETS.map(
-        (name) => html`<button
-          aria-expanded=${name === sheet ? "true" : "false"}
-          ?disabled=${session.model === null && name !== "settings"}
-          @click=${() => open(name === sheet ? null : name)}
-        >
+        (name) => html`<button aria-expanded=${name === sheet ? "true" : "false"} @click=${() => open(name === sheet ? null : name)}>
           ${names[name]}
         </button>`,
       )}
@@ -246,39 +241,29 @@ function bar(facts: Facts, { sheet, open }: Bench): TemplateResult {
 
 function sheet(facts: Facts, bench: Bench): TemplateResult | typeof nothing {
   const { sheet, open } = bench;
-  const { language } = facts;
   if (sheet === null) return nothing;
+  const isOfPath = isStep(sheet);
   return html`<section class="sheet" part=${sheet} data-sheet=${sheet}>
     <div class="tab-row">
-      <h2>${namesOf(facts)[sheet]}</h2>
-      ${sheet === "settings" ? undoButtons(facts) : nothing}
-      <button class="small close" @click=${() => open(null)}>${language.texts.notices.close}</button>
+      ${isOfPath ? html`${stepTitle(facts, sheet)} ${undoButtons(facts)}` : html`<h2>${namesOf(facts)[sheet]}</h2>`}
+      <button class="small close" @click=${() => open(null)}>${facts.language.texts.notices.close}</button>
     </div>
-    <div class="panel">${sheetPanel(facts, sheet)}</div>
+    ${isOfPath
+      ? stepPanel(facts, sheet, (step) => bench.go(step, "foot"), () => open(null))
+      : html`<div class="panel">${sheetPanel(facts, sheet)}</div>`}
   </section>`;
 }
 
-function namesOf({ language }: Facts): Readonly<Record<Sheet, string>> {
+function namesOf({ language }: Facts): Readonly<Record<Exclude<Sheet, Step>, string>> {
   const { texts } = language;
   const { mask, result } = workbenchWords(language);
-  return {
-    settings: texts.settings.title,
-    orientation: texts.orientation.title,
-    profile: texts.chart.region,
-    quality: texts.quality.title,
-    layers: mask,
-    findings: texts.findings.title,
-    plan: result,
-  };
+  return { profile: texts.chart.region, quality: texts.quality.title, layers: mask, plan: result };
 }
 
-function sheetPanel(facts: Facts, sheet: Sheet): TemplateResult | typeof nothing {
+function sheetPanel(facts: Facts, sheet: Exclude<Sheet, Step>): TemplateResult | typeof nothing {
   const { session } = facts;
-  if (sheet === "settings") return settingsPanel(facts, null);
   if (sheet === "plan") return html`${modelSection(facts)}${plan(facts)}`;
   if (session.result === null) return html`<p class="quiet">${facts.language.texts.chart.none}</p>`;
-  if (sheet === "orientation") return orientationPanel(facts);
   if (sheet === "profile") return chartPanel(facts, () => undefined);
-  if (sheet === "findings") return findingsPanel(facts);
   return sheet === "quality" ? quality(facts, session.result) : maskPanel(facts, session.result);
 }

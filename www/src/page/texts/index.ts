@@ -1,6 +1,6 @@
 /** The texts of the page around the element, one catalogue per language. */
 import type { Language, LanguageCode } from "../../texts/index.js";
-import { Catalogues } from "./catalogues.js";
+import { Catalogues } from "../../texts/catalogues.js";
 import { words as en } from "./en.js";
 
 export interface PageWords {

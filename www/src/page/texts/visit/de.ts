@@ -35,7 +35,7 @@ export const words: VisitWords = {
     region: "Kurze Tour",
     steps: [
       ["Das Modell ansehen", "Drehen Sie es durch Ziehen und gehen Sie mit dem Regler durch die Schichten: Die Farben zeigen, wie dick sie sind."],
-      ["Womit Sie drucken", "Wählen Sie Drucker und Resin, und wie fein die Oberfläche werden soll. Der Plan folgt sofort."],
+      ["Schritt für Schritt", "Drehen, prüfen, aushöhlen, stützen: Gehen Sie die Schritte, die Sie brauchen, in beliebiger Reihenfolge. Im letzten wählen Sie Drucker, Resin und Schichten."],
       ["Die Datei mitnehmen", "Hier steht, was der Druck braucht, und hier ist die Datei für Ihren Drucker."],
     ],
     place: (step, steps) => `${step} von ${steps}`,

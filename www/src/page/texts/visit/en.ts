@@ -35,7 +35,7 @@ export const words: VisitWords = {
     region: "Short tour",
     steps: [
       ["Look at the model", "Drag to turn it. Slide through its layers: the colours show how thick they are."],
-      ["Say what you print with", "Choose your printer and resin, and how fine the surface should be. The plan follows at once."],
+      ["Step by step", "Turn, check, hollow and support: take the steps that you need, in any order. In the last one you choose printer, resin and layers."],
       ["Take the file", "Here is what the print takes, and the file for your printer."],
     ],
     place: (step, steps) => `${step} of ${steps}`,

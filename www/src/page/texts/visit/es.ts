@@ -35,7 +35,7 @@ export const words: VisitWords = {
     region: "Visita breve",
     steps: [
       ["Mire el modelo", "Arrástrelo para girarlo. Recorra sus capas con el control: los colores indican su espesor."],
-      ["Diga con qué imprime", "Elija su impresora y su resina, y lo fina que debe ser la superficie. El plan se actualiza al momento."],
+      ["Paso a paso", "Girar, revisar, ahuecar, soportes: dé los pasos que necesite, en cualquier orden. En el último elige impresora, resina y capas."],
       ["Llévese el archivo", "Aquí está lo que requiere la impresión y el archivo para su impresora."],
     ],
     place: (step, steps) => `${step} de ${steps}`,

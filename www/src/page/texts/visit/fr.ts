@@ -35,7 +35,7 @@ export const words: VisitWords = {
     region: "Visite rapide",
     steps: [
       ["Regardez le modèle", "Faites-le glisser pour le tourner. Parcourez ses couches avec le curseur : les couleurs indiquent leur épaisseur."],
-      ["Dites avec quoi vous imprimez", "Choisissez votre imprimante, votre résine et la finesse de la surface. Le plan suit aussitôt."],
+      ["Étape par étape", "Tourner, contrôler, évider, soutenir : suivez les étapes utiles, dans l’ordre voulu. La dernière est pour l’imprimante, la résine et les couches."],
       ["Emportez le fichier", "Voici ce que demande l’impression, et le fichier pour votre imprimante."],
     ],
     place: (step, steps) => `${step} sur ${steps}`,

@@ -1,7 +1,7 @@
 /** The texts of what is fetched when a person asks for it, as they are themselves: named settings, recent models, the tour, the keys. */
 import type { Language } from "../../../texts/index.js";
 import type { Does, KeyName } from "../../key-table.js";
-import { Catalogues } from "../catalogues.js";
+import { Catalogues } from "../../../texts/catalogues.js";
 import { words as en } from "./en.js";
 
 export interface VisitWords {

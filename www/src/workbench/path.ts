@@ -1,0 +1,108 @@
+/** The path from a model to its print file: a row of steps, and the panel of each. */
+import { html, nothing, type TemplateResult } from "lit";
+import { isFilament } from "../api/wire.js";
+import { orientationPanel, settingsPanel, takeUp } from "../element/bound-panels.js";
+import { findingsPanel } from "../element/bound-findings.js";
+import type { Facts } from "../element/facts.js";
+import type { Fields } from "../element/panels/settings-form.js";
+import { needsModel, STEPS, type HandTool, type Step } from "./places.js";
+import { stepStates, type Mark } from "./step-states.js";
+import { workbenchWords } from "./texts/index.js";
+
+/** What a step asks for in the form of settings. */
+const FIELDS = { hollow: "hollow", support: "supports", slice: "slice" } as const satisfies Partial<Record<Step, Fields>>;
+
+/** What a step has a tool in the view for. */
+const TOOLS: Partial<Record<Step, HandTool>> = { turn: "rotate", hollow: "drains", support: "supports" };
+
+/**
+ * @param current the step whose panel is on show
+ * @param isWide whether there is room for what the steps have come to
+ */
+export function path(facts: Facts, current: Step | null, isWide: boolean, go: (step: Step) => void): TemplateResult {
+  const { session, language } = facts;
+  const words = workbenchWords(language);
+  const states = stepStates(session, language);
+  const isEmpty = session.model === null;
+  return html`<nav class="path" aria-label=${words.path}>
+    <ol>
+      ${STEPS.map((step, i) => {
+        const { words: said, mark } = states[step];
+        return html`<li>
+          <button
+            aria-current=${step === current ? "step" : nothing}
+            ?disabled=${isEmpty && needsModel(step)}
+            @click=${() => go(step)}
+          >
+            <span class="badge ${mark ?? ""}" aria-hidden="true">${badge(mark, language.format.count(i + 1))}</span>
+            <span class="name">${words.steps[step]}</span>
+            ${isWide && !isEmpty ? html`<span class="state">${said}</span>` : nothing}
+          </button>
+        </li>`;
+      })}
+    </ol>
+  </nav>`;
+}
+
+function badge(mark: Mark, number: string): string | TemplateResult {
+  if (mark === null) return number;
+  return mark !== "done" ? "!" : html`<svg viewBox="0 0 20 20"><path d="m4.5 10.5 4 4 7-8.5" /></svg>`;
+}
+
+/**
+ * The panel of a step, and the ways to the steps before and after.
+ *
+ * @param taken called when a tool of the view was taken up
+ */
+export function stepPanel(facts: Facts, step: Step, go: (step: Step) => void, taken: () => void): TemplateResult {
+  const { language } = facts;
+  const words = workbenchWords(language);
+  const isUnused = isFilament(facts.session.settings.format) && (step === "hollow" || step === "support");
+  const byHand = isUnused ? nothing : handButton(facts, step, taken);
+  const foot = stepFoot(facts, step, go);
+  const isLast = step === STEPS.at(-1);
+  // Turning asks for nothing before it is done by hand.
+  return html`<div class="panel" tabindex="0" role="group" aria-labelledby="step-title">
+      <p class="hint quiet">${isUnused ? words.filament : words.hints[step]}</p>
+      ${step === "turn" ? byHand : nothing} ${isUnused ? nothing : contentOf(facts, step)} ${step === "turn" ? nothing : byHand}
+      ${isLast ? foot : nothing}
+    </div>
+    ${isLast ? nothing : foot}`;
+}
+
+/** Takes up the tool of a step, where there is something to do with it. */
+function handButton({ session: { model, settings, plate }, language }: Facts, step: Step, taken: () => void): TemplateResult | typeof nothing {
+  const tool = TOOLS[step];
+  if (tool === undefined || model === null || (step === "hollow" && settings.wall.trim() === "")) return nothing;
+  // On a plate of several no point is that of one model.
+  if (tool !== "rotate" && plate.copies.length > 0) return nothing;
+  const take = ({ target }: Event): void => {
+    takeUp(target, tool);
+    taken();
+  };
+  return html`<button class="small by-hand" @click=${take}>${workbenchWords(language).byHand[tool]}</button>`;
+}
+
+function contentOf(facts: Facts, step: Step): TemplateResult | typeof nothing {
+  const { session, language } = facts;
+  if (step === "turn") return orientationPanel(facts);
+  if (step !== "check") return html`${settingsPanel(facts, null, FIELDS[step])} ${step === "support" ? missing(facts) : nothing}`;
+  return session.result === null ? html`<p class="quiet">${language.texts.chart.none}</p>` : findingsPanel(facts);
+}
+
+/** How many points no support reaches. */
+function missing({ session: { result, settings }, language }: Facts): TemplateResult | typeof nothing {
+  const points = settings.supports === "none" ? 0 : (result?.report.supported?.unreached.length ?? 0);
+  return points === 0 ? nothing : html`<p class="missing">${workbenchWords(language).states.missing(points, language.format)}</p>`;
+}
+
+function stepFoot({ session, language }: Facts, step: Step, go: (step: Step) => void): TemplateResult | typeof nothing {
+  if (session.model === null) return nothing;
+  const words = workbenchWords(language);
+  const at = STEPS.indexOf(step);
+  const [before, after] = [STEPS[at - 1], STEPS[at + 1]];
+  return html`<div class="step-foot">
+    ${before === undefined ? nothing : html`<button class="small" @click=${() => go(before)}>${words.back}</button>`}
+    ${after === undefined ? nothing : html`<button class="small next" @click=${() => go(after)}>${words.next(words.steps[after])}</button>`}
+  </div>`;
+}

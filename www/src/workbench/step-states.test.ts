@@ -1,0 +1,102 @@
+/** How far each step is, in words. */
+import { expect, test } from "vitest";
+import type { Report, Verdict } from "../api/wire.js";
+import type { Check } from "../api/index.js";
+import { report } from "../element/state/report-fixture.js";
+import { DEFAULT_SETTINGS, type Faults, type Settings } from "../element/state/settings.js";
+import { languageOf, LANGUAGES } from "../texts/index.js";
+import { stepStates, type Walked } from "./step-states.js";
+import { fetchWorkbenchWords } from "./texts/index.js";
+
+const english = languageOf("en");
+
+interface Given {
+  settings?: Partial<Settings>;
+  faults?: Faults;
+  report?: Partial<Report> | null;
+  supports?: { strength: "light" | "medium" | "heavy" };
+  earlier?: boolean;
+  verdict?: Verdict;
+}
+
+/** What a session has of these. */
+function walked(given: Given = {}): Walked {
+  const { settings = {}, faults = {}, supports, earlier = false, verdict } = given;
+  const result = given.report === null ? null : { report: report(given.report ?? {}), options: { ...(supports && { supports }) } };
+  return {
+    settings: { ...DEFAULT_SETTINGS, ...settings },
+    faults,
+    result: result as Walked["result"],
+    shown: result === null ? null : ({ layers: result.report.layers } as Walked["shown"]),
+    earlier,
+    checks: { check: verdict === undefined ? null : ({ verdict } as Check) },
+  };
+}
+
+const states = (given?: Given): ReturnType<typeof stepStates> => stepStates(walked(given), english);
+const point = { at_mm: [0, 0, 0] as [number, number, number] };
+const supported = { support_ml: 1, lift_mm: 5, points: [point, point], unreached: [], on_model: 0 };
+const fault = { kind: "range", value: 0.1, least: 0.4, most: 50, unit: "mm" } as const;
+
+test("a model as it was dropped has been planned, and nothing else", () => {
+  expect(states()).toEqual({
+    turn: { words: "As in the file", mark: null },
+    check: { words: "Not checked", mark: null },
+    hollow: { words: "Solid", mark: null },
+    support: { words: "None", mark: null },
+    slice: { words: "793 layers", mark: "done" },
+  });
+  expect(states({ report: null }).slice).toEqual({ words: "–", mark: null });
+  expect(states({ settings: { rotation: "0,0,0.7,0.7" } }).turn).toEqual({ words: "Turned", mark: "done" });
+});
+
+test("a check is told by its verdict", () => {
+  const checked = (verdict: Verdict): unknown => states({ verdict }).check;
+  expect(checked("ok")).toEqual({ words: "Nothing found", mark: "done" });
+  expect(checked("review")).toEqual({ words: "Worth a look", mark: "look" });
+  expect(checked("reject")).toEqual({ words: "Will fail", mark: "wrong" });
+});
+
+test("a hollow model has walls, which may need a look", () => {
+  const settings = { wall: "2.5" };
+  expect(states({ settings }).hollow).toEqual({ words: "Walls of 2.5\u00a0mm", mark: "done" });
+  const warnings: Report["warnings"] = [{ code: "undrained", detail: { basins: 1 } }];
+  expect(states({ settings, report: { warnings } }).hollow.mark).toBe("look");
+  expect(states({ settings: { wall: "0.1" }, faults: { wall: fault } }).hollow).toEqual({ words: "To be corrected", mark: "wrong" });
+});
+
+test("supports are counted once they are planned with their strength", () => {
+  const settings = { supports: "medium" } as const;
+  const strength = (of: "light" | "medium", unreached = supported.points): unknown =>
+    states({ settings, supports: { strength: of }, report: { supported: { ...supported, unreached } } }).support;
+  expect(states({ settings }).support).toEqual({ words: "Medium", mark: "done" });
+  expect(strength("light", [])).toEqual({ words: "Medium", mark: "done" });
+  expect(strength("medium", [])).toEqual({ words: "Medium, 2 points", mark: "done" });
+  expect(strength("medium")).toEqual({ words: "Medium, 2 points", mark: "look" });
+});
+
+test("a plan that is not of the settings on show needs a look, and what is wrong is told where it is", () => {
+  expect(states({ earlier: true }).slice.mark).toBe("look");
+  const wall = states({ settings: { wall: "0.1" }, faults: { wall: fault }, earlier: true });
+  expect([wall.hollow.mark, wall.slice.mark]).toEqual(["wrong", "look"]);
+  const height = states({ faults: { height: fault } });
+  expect([height.hollow.mark, height.slice]).toEqual([null, { words: "To be corrected", mark: "wrong" }]);
+});
+
+test("there is nothing to say of what a filament printer's slicer does", () => {
+  const { hollow, support } = states({ settings: { format: "prusa-3mf", wall: "2", supports: "heavy" } });
+  expect([hollow, support]).toEqual([{ words: "–", mark: null }, { words: "–", mark: null }]);
+});
+
+test.each(LANGUAGES)("every state fits its place beside four others: %s", async (code) => {
+  await fetchWorkbenchWords(code);
+  const language = languageOf(code);
+  const all = [
+    {},
+    { settings: { rotation: "0,0,1,0", wall: "2.5", supports: "medium" }, supports: { strength: "medium" }, report: { supported: { ...supported, points: Array.from({ length: 240 }, () => point) } } },
+    { faults: { wall: fault, height: fault } },
+  ] satisfies Given[];
+  for (const given of all) {
+    for (const { words } of Object.values(stepStates(walked(given), language))) expect(words.length).toBeLessThanOrEqual(20);
+  }
+});

@@ -1,0 +1,64 @@
+/** How far each step is: a few words, and a mark. */
+import { isFilament, type Verdict, type Warning } from "../api/wire.js";
+import type { Checks } from "../element/state/checks.js";
+import type { Session } from "../element/state/session.js";
+import { parse } from "../element/state/settings.js";
+import type { Language } from "../texts/index.js";
+import type { Step } from "./places.js";
+import { workbenchWords } from "./texts/index.js";
+
+/** Something was done in a step, there is something to look at, or something cannot be as it is. */
+export type Mark = "done" | "look" | "wrong" | null;
+
+export interface StepState {
+  readonly words: string;
+  readonly mark: Mark;
+}
+
+/** The part of a session that steps are a function of. */
+export type Walked = Pick<Session, "settings" | "faults" | "result" | "shown" | "earlier"> & { readonly checks: Pick<Checks, "check"> };
+
+const VERDICT_MARKS = { ok: "done", review: "look", reject: "wrong" } as const satisfies Record<Verdict, Mark>;
+
+/** Warnings that a void is not as it was asked for. */
+const OF_VOIDS: readonly Warning["code"][] = ["nothing-hollowed", "drain-astray", "undrained"];
+
+export function stepStates(session: Walked, language: Language): Readonly<Record<Step, StepState>> {
+  const { settings, faults, result, shown, earlier, checks: { check } } = session;
+  const { texts, format } = language;
+  const { states: words } = workbenchWords(language);
+  const isWrong = Object.keys(faults).some((field) => field !== "wall");
+  return {
+    turn: settings.rotation === "" ? { words: words.asFile, mark: null } : { words: words.turned, mark: "done" },
+    check: check === null ? { words: words.unchecked, mark: null } : { words: words.verdicts[check.verdict], mark: VERDICT_MARKS[check.verdict] },
+    hollow: hollow(session, language),
+    support: support(session, language),
+    slice: isWrong
+      ? { words: words.wrong, mark: "wrong" }
+      : result === null || shown === null
+        ? { words: "–", mark: null }
+        : { words: `${format.count(shown.layers)} ${texts.plan.layers(shown.layers)}`, mark: earlier ? "look" : "done" },
+  };
+}
+
+function hollow({ settings, faults, result }: Walked, language: Language): StepState {
+  const { states: words } = workbenchWords(language);
+  if (isFilament(settings.format)) return { words: "–", mark: null };
+  if (faults.wall !== undefined) return { words: words.wrong, mark: "wrong" };
+  const wall_mm = parse(settings.wall);
+  if (wall_mm === null) return { words: words.solid, mark: null };
+  const isAmiss = result?.report.warnings.some(({ code }) => OF_VOIDS.includes(code)) ?? false;
+  return { words: words.walls(language.format.mm(wall_mm)), mark: isAmiss ? "look" : "done" };
+}
+
+function support({ settings: { supports, format }, result }: Walked, language: Language): StepState {
+  const { states: words } = workbenchWords(language);
+  if (isFilament(format)) return { words: "–", mark: null };
+  const strength = language.texts.settings.strengths[supports];
+  if (supports === "none") return { words: strength, mark: null };
+  const { supported, options } = result === null ? {} : { supported: result.report.supported, options: result.options };
+  // Points of another strength are of an earlier plan.
+  if (supported === undefined || options?.supports?.strength !== supports) return { words: strength, mark: "done" };
+  const mark = supported.unreached.length > 0 ? "look" : "done";
+  return { words: words.supports(strength, supported.points.length, language.format), mark };
+}
