@@ -1,4 +1,5 @@
 import { expect, test } from "vitest";
+import { fromAddress } from "../element/state/settings.js";
 import { appliedTo, savedIn, savedQuery, withoutSaved, withSaved } from "./saved-settings.js";
 
 test("the height and the rotation stay with the model", () => {
@@ -6,6 +7,12 @@ test("the height and the rotation stay with the model", () => {
   expect(appliedTo("height=60&rotation=1,0,0,0&tolerance=0.03", "metric=area&tolerance=5")).toBe(
     "metric=area&height=60&rotation=1%2C0%2C0%2C0&tolerance=5",
   );
+});
+
+test("so does what was placed by hand", () => {
+  const placed = "supports=light&fill=on&points=1,2,3,,1";
+  expect(savedQuery(placed)).toBe("supports=light");
+  expect(fromAddress(appliedTo(placed, "supports=heavy"))).toEqual({ ...fromAddress(placed), supports: "heavy" });
 });
 
 test("saving under a name in use replaces it; names differ neither by case nor by spaces around them", () => {

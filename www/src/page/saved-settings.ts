@@ -1,8 +1,8 @@
 /**
- * Settings with names, as queries. A name stands for what a person decides for many models; the height and the rotation are
- * one model's, so they are not part of it.
+ * Settings with names, as queries. A name stands for what a person decides for many models; the height, the rotation and
+ * what was placed by hand are one model's, so they are not part of it.
  */
-import { fromAddress, toAddress } from "../element/state/settings.js";
+import { DEFAULT_SETTINGS, fromAddress, toAddress, type Settings } from "../element/state/settings.js";
 
 export interface SavedSettings {
   readonly name: string;
@@ -11,15 +11,17 @@ export interface SavedSettings {
 
 export const LONGEST_NAME = 60;
 
+/** What belongs to the model. */
+const ofModel = ({ height, rotation, points, drains, fill }: Settings): Partial<Settings> => ({ height, rotation, points, drains, fill });
+
 /** A query without what belongs to the model. */
 export function savedQuery(query: string): string {
-  return toAddress({ ...fromAddress(query), height: "", rotation: "" });
+  return toAddress({ ...fromAddress(query), ...ofModel(DEFAULT_SETTINGS) });
 }
 
-/** A saved query with the height and the rotation of the model that is open. */
+/** A saved query with what belongs to the model that is open. */
 export function appliedTo(current: string, saved: string): string {
-  const { height, rotation } = fromAddress(current);
-  return toAddress({ ...fromAddress(saved), height, rotation });
+  return toAddress({ ...fromAddress(saved), ...ofModel(fromAddress(current)) });
 }
 
 /** The list of a kept text; whatever is not one of ours is left out. */
