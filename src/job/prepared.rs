@@ -1,5 +1,7 @@
 //! A model on the plate with its voids and supports: what is sampled. No pixel decides about it.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 use serde::Serialize;
 use web_time::Instant;
@@ -135,7 +137,10 @@ impl Prepared {
     ///
     /// # Errors
     /// [`Error::Mesh`].
-    pub fn turned(&self, turns: u32) -> Result<Self, Error> {
+    pub fn turned(self: &Arc<Self>, turns: u32) -> Result<Arc<Self>, Error> {
+        if turns == 0 {
+            return Ok(Arc::clone(self));
+        }
         let turn = Pose::default().turned(turns);
         let lift_mm = self.supports.as_ref().map_or(0.0, |it| it.lift_mm);
         let mut mesh = self.mesh.on_plate(&turn)?;
@@ -145,7 +150,7 @@ impl Prepared {
         let [before, after] = [&self.mesh, &mesh].map(|it| it.vertices[0].as_dvec3());
         let by = (after - rotation * before).with_z(0.0);
         let place = |at: [f64; 3]| (rotation * DVec3::from_array(at) + by).to_array();
-        Ok(Self {
+        Ok(Arc::new(Self {
             of: Preparing {
                 pose: self.of.pose.turned(turns),
                 ..self.of.clone()
@@ -155,7 +160,7 @@ impl Prepared {
             hollowed: self.hollowed.clone(),
             supports: self.supports.as_ref().map(|it| it.moved(place)),
             warnings: self.warnings.clone(),
-        })
+        }))
     }
 
     /// Whether it is what [`Prepared::new`] would make.

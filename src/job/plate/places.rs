@@ -1,5 +1,7 @@
 //! Where the copies of a plate stand.
 
+use std::sync::Arc;
+
 use super::super::Timings;
 use super::super::parts::{Job, Raster, Sampling};
 use super::super::prepared::Prepared;
@@ -26,28 +28,29 @@ struct Posed<'a> {
     mesh: &'a Mesh,
     pose: Pose,
     /// With its supports, if it has some.
-    prepared: Option<&'a Prepared>,
+    prepared: Option<&'a Arc<Prepared>>,
 }
 
 impl Posed<'_> {
-    fn outline(&self, turns: u32, screen: &Screen) -> Result<Outline, Error> {
+    /// Hands what stands on the plate after turns to `see`.
+    fn seen<T>(&self, turns: u32, see: impl Fn(&Mesh) -> T) -> Result<T, Error> {
         Ok(match self.prepared {
-            Some(prepared) if turns == 0 => Outline::of(&prepared.mesh, screen),
-            Some(prepared) => Outline::of(&prepared.turned(turns)?.mesh, screen),
-            None => Outline::of(&self.mesh.on_plate(&self.pose.turned(turns))?, screen),
+            Some(prepared) => see(&prepared.turned(turns)?.mesh),
+            None => see(&self.mesh.on_plate(&self.pose.turned(turns))?),
         })
     }
 
+    fn outline(&self, turns: u32, screen: &Screen) -> Result<Outline, Error> {
+        self.seen(turns, |mesh| Outline::of(mesh, screen))
+    }
+
     fn extent(&self, screen: &Screen) -> Result<Extent, Error> {
-        let mut posed = None;
-        let mesh = match self.prepared {
-            Some(prepared) => &prepared.mesh,
-            None => posed.insert(self.mesh.on_plate(&self.pose)?),
-        };
-        let size = mesh.bounds().size();
-        Ok(Extent {
-            size_mm: [size.x, size.y, self.pose.height_mm.unwrap_or(size.z)],
-            shadow: Outline::of(mesh, screen),
+        self.seen(0, |mesh| {
+            let size = mesh.bounds().size();
+            Extent {
+                size_mm: [size.x, size.y, self.pose.height_mm.unwrap_or(size.z)],
+                shadow: Outline::of(mesh, screen),
+            }
         })
     }
 }
@@ -124,7 +127,21 @@ impl Plate {
         Posed {
             mesh: &self.models[model].model,
             pose: self.pose_of(options, job, model),
-            prepared: self.prepared.get(model).map(|it| &**it),
+            prepared: self.prepared.get(model),
+        }
+    }
+
+    /// How a model is sampled, after turns.
+    pub(super) fn sampling_of(
+        &self,
+        options: &PlateOptions,
+        job: &Job,
+        model: usize,
+        turns: u32,
+    ) -> Sampling {
+        Sampling {
+            pose: self.pose_of(options, job, model).turned(turns),
+            ..job.sampling.clone()
         }
     }
 

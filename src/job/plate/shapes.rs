@@ -49,10 +49,7 @@ impl Plate {
         let count = self.models.len() as f64;
         for model in 0..self.models.len() {
             let mut within = |stage, fraction| progress(stage, (model as f64 + fraction) / count);
-            let sampling = Sampling {
-                pose: self.pose_of(options, job, model),
-                ..job.sampling.clone()
-            };
+            let sampling = self.sampling_of(options, job, model, 0);
             let weights = self.models[model].layering_weights(&job.layering, &mut within)?;
             let spared = sampling.spared(weights.as_deref());
             let known = kept.get(model).filter(|it| it.is_of(&sampling, spared));
@@ -87,10 +84,7 @@ impl Plate {
         let wanted: Vec<(usize, u32, Sampling)> = kinds
             .into_iter()
             .map(|(model, turns)| {
-                let sampling = Sampling {
-                    pose: self.pose_of(options, job, model).turned(turns),
-                    ..job.sampling.clone()
-                };
+                let sampling = self.sampling_of(options, job, model, turns);
                 (model, turns, sampling)
             })
             .collect();
@@ -143,27 +137,22 @@ impl Plate {
         for (number, (model, turns, sampling)) in wanted.into_iter().enumerate() {
             let mut within = |stage, fraction| progress(stage, (number as f64 + fraction) / count);
             let weights = self.models[model].layering_weights(layering, &mut within)?;
-            let known = kept
-                .iter()
-                .find(|shape| {
-                    let of = &shape.measured.of;
-                    let spared = sampling.spared(weights.as_deref());
-                    shape.model == model && of.is_of(&sampling, spared)
-                })
+            let spared = sampling.spared(weights.as_deref());
+            let same = kept.iter().filter(|shape| shape.model == model);
+            let known = same
+                .clone()
+                .find(|shape| shape.measured.of.is_of(&sampling, spared))
                 .map(|known| Arc::clone(&known.measured));
             let sampled = if let Some(known) = &known {
                 Arc::clone(&known.of)
             } else {
                 let mesh = &self.models[model].model;
-                let spared = sampling.spared(weights.as_deref());
                 let prepared = match self.prepared.get(model) {
-                    Some(prepared) if turns == 0 => Some(Arc::clone(prepared)),
-                    Some(prepared) => Some(Arc::new(prepared.turned(turns)?)),
-                    None => {
-                        let mut known = kept.iter().filter(|shape| shape.model == model);
-                        let known = known.find(|it| it.measured.of.prepared.is_of(&sampling, None));
-                        known.map(|shape| Arc::clone(&shape.measured.of.prepared))
-                    }
+                    Some(prepared) => Some(prepared.turned(turns)?),
+                    None => same
+                        .map(|shape| &shape.measured.of.prepared)
+                        .find(|prepared| prepared.is_of(&sampling, None))
+                        .map(Arc::clone),
                 };
                 let sampled = self
                     .sampler
