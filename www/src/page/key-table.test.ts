@@ -1,6 +1,7 @@
 import { afterEach, expect, test, vi } from "vitest";
 import { watchGestures } from "../element/gestures.js";
 import { pressed, type Tool } from "../view/scene/keys.js";
+import { places } from "../view/scene/places.js";
 import { caps, KEY_TABLE, type Place } from "./key-table.js";
 import { words } from "./texts/visit/en.js";
 
@@ -27,16 +28,27 @@ const listed = (place: Place): string[] =>
 /** What a press is listed as: `=` is on the key of `+`, and Shift counts only where it makes a difference. */
 const same = (name: string, tool: Tool | null): string => {
   const key = name.replace(/=$/, "+").replace("Mod+Shift+y", "Mod+y").replace(/^.*Escape$/, "Escape");
-  const counts = (tool === "rotate" && /Arrow|Page/.test(key)) || (tool === "move" && /Arrow|^(Shift\+)?r$/.test(key));
+  const counts =
+    (tool === "rotate" && /Arrow|Page/.test(key)) ||
+    (tool === "move" && /Arrow|^(Shift\+)?r$/.test(key)) ||
+    (tool !== null && places(tool) && key.includes("Arrow"));
   return counts ? key : key.replace(/^Shift\+/, "");
 };
 
-test.each(["turn", "move", "rotate", "flat", "paint"] as const)("the list names every key of the view: %s", (tool) => {
-  const names = new Set([...listed("turn"), ...listed(tool)]);
+test.each([
+  ["turn", "turn"],
+  ["move", "move"],
+  ["rotate", "rotate"],
+  ["flat", "flat"],
+  ["paint", "paint"],
+  ["supports", "points"],
+  ["drains", "points"],
+] as const)("the list names every key of the view: %s", (tool, place) => {
+  const names = new Set([...listed("turn"), ...listed(place)]);
   const found = new Set(presses.filter(({ event }) => pressed(event, tool) !== null).map(({ name }) => same(name, tool)));
   expect([...found].filter((name) => !names.has(name))).toEqual([]);
   // And no key that does nothing.
-  expect(listed(tool).filter((name) => !found.has(name))).toEqual([]);
+  expect(listed(place).filter((name) => !found.has(name))).toEqual([]);
 });
 
 test("the list names every key of the element", () => {

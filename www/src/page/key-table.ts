@@ -7,14 +7,18 @@ export type Does =
   | "turnView" | "zoom" | "whole" | "pickLayer"
   | "moveCopy" | "moveFar" | "turnCopy" | "turnCopyFar"
   | "turnModel" | "turnFinely" | "lay" | "paint" | "undoStroke" | "redoStroke"
+  | "nextPoint" | "addPoint" | "removePoint" | "lockPoint"
   | "layer" | "layers" | "ends" | "zoomChart"
   | "move" | "direction" | "use";
 
 /** Keys whose names are words. */
-export type KeyName = "mod" | "shift" | "enter" | "escape" | "pageUp" | "pageDown" | "home" | "end";
+export type KeyName = "mod" | "shift" | "enter" | "escape" | "delete" | "backspace" | "pageUp" | "pageDown" | "home" | "end";
+
+/** The tools of the view that place points: they have the same keys. */
+type Placer = "supports" | "drains";
 
 /** Where the keys work: with one of the view's tools, or elsewhere. */
-export type Place = "everywhere" | Tool | "layers" | "mask" | "directions";
+export type Place = "everywhere" | Exclude<Tool, Placer> | "points" | "layers" | "mask" | "directions";
 
 /** Keys that do one thing, as `KeyboardEvent.key` has them, after `Mod+` for Ctrl or ⌘, and `Shift+`; and a key held with all. */
 export type Row = readonly [does: Does, keys: readonly string[], held?: "Shift"];
@@ -65,6 +69,16 @@ export const KEY_TABLE: readonly (readonly [Place, readonly Row[]])[] = [
     ],
   ],
   [
+    "points",
+    [
+      ["nextPoint", ARROWS],
+      ["turnView", ARROWS, "Shift"],
+      ["addPoint", ["Enter"]],
+      ["removePoint", ["Delete", "Backspace"]],
+      ["lockPoint", ["l"]],
+    ],
+  ],
+  [
     "layers",
     [
       ["layer", ["ArrowDown", "ArrowUp"]],
@@ -84,6 +98,8 @@ const NAMES: Readonly<Record<string, KeyName>> = {
   Shift: "shift",
   Enter: "enter",
   Escape: "escape",
+  Delete: "delete",
+  Backspace: "backspace",
   PageUp: "pageUp",
   PageDown: "pageDown",
   Home: "home",

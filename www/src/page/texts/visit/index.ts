@@ -55,6 +55,8 @@ export interface VisitWords {
     title: string;
     close: string;
     everywhere: string;
+    /** The tools that place support points and drain holes. */
+    points: string;
     /** The slider of layers and the chart. */
     layers: string;
     mask: string;
