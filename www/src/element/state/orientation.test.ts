@@ -151,6 +151,11 @@ test("a search is outdated when something changes that it depends on, and only t
   expect(isCurrent({ layer_max_mm: 0.2 })).toBe(false);
   expect(isCurrent({ printer: "mars-4-ultra" })).toBe(false);
   expect(isCurrent({}, new Float32Array(1))).toBe(false);
+  // Without supports, those of medium strength are estimated; where points are is of no account.
+  expect(isCurrent({ supports: {} })).toBe(true);
+  expect(isCurrent({ supports: { strength: "medium", points: [{ at_mm: [0, 0, 1] }], fill: true, spare: true } })).toBe(true);
+  expect(isCurrent({ supports: { strength: "heavy" } })).toBe(false);
+  expect(isCurrent({ supports: { profile: { contact_mm: 0.5 } } })).toBe(false);
   directions.aim({ alpha: 1 });
   expect(asked).toHaveLength(1);
   expect(isCurrent({})).toBe(true);

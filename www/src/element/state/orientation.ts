@@ -189,10 +189,13 @@ export class OrientationSearch {
 
 /**
  * The options that metrics of all directions depend on. The pose is one only if a height is requested, which is the height in
- * that pose; the backend, the number of rays, what is inside or below the model, and the print format are not.
+ * that pose; the backend, the number of rays, what is inside the model, and the print format are not. Of supports, which are estimated
+ * anew for each direction, the sizes count: as the core has it, those of medium ones where there are none, and a profile's before a
+ * strength's.
  */
-function keyOf({ rotation, height_mm, rays: _rays, hollow: _hollow, supports: _supports, backend: _backend, gpu_method: _method, format: _format, ...options }: Options): string {
-  return JSON.stringify(height_mm === undefined ? options : { ...options, height_mm, rotation });
+function keyOf({ rotation, height_mm, rays: _rays, hollow: _hollow, supports, backend: _backend, gpu_method: _method, format: _format, ...options }: Options): string {
+  const sizes = supports?.profile ?? supports?.strength ?? "medium";
+  return JSON.stringify(height_mm === undefined ? { ...options, sizes } : { ...options, sizes, height_mm, rotation });
 }
 
 /** Whether two rotations are the same pose, to the digits that settings keep. */
