@@ -196,7 +196,7 @@ test("on a phone the view comes first, the bar stays, and panels are sheets", as
   await expect.poll(async () => (await page.locator("cusp-view").boundingBox())?.height).toBe(whole);
 });
 
-test("what the page loads before its 3-D view, beside the wasm, is at most 135 KB", async () => {
+test("what the page loads before its 3-D view, beside the wasm, is at most 122 KB", async () => {
   const page = await start("", { locale: "de-DE", ...DESKTOP }, true);
   const sizes = new Map<string, number>();
   page.on("response", (response) => {
@@ -217,5 +217,5 @@ test("what the page loads before its 3-D view, beside the wasm, is at most 135 K
   await page.waitForSelector(".u-over");
   const whole = [...sizes.values()].reduce((sum, size) => sum + size, 0);
   expect(sizes.size).toBeGreaterThan(4);
-  expect(whole, [...sizes].map(([name, size]) => `${name} ${size}`).join("\n")).toBeLessThanOrEqual(135_000);
+  expect(whole, [...sizes].map(([name, size]) => `${name} ${size}`).join("\n")).toBeLessThanOrEqual(122_000);
 });

@@ -16,7 +16,7 @@ import { langOf } from "./parts/lang.js";
 import { DECLARATIONS } from "./properties.js";
 import type { Facts } from "./facts.js";
 import { definePanels } from "./panels/index.js";
-import { explain } from "./state/problem.js";
+import { Explaining } from "./state/explaining.js";
 import type { Result } from "./state/result.js";
 import { saveFile, saveMade } from "./parts/save-file.js";
 import { thumbnailOf } from "./parts/thumbnail.js";
@@ -38,6 +38,7 @@ export abstract class SlicerElement extends SettableElement {
   declare dragging: boolean;
 
   #started = false;
+  readonly #explaining = new Explaining(() => this.requestUpdate());
   /** The models that are being added, one after the other. */
   #adding: Promise<unknown> = Promise.resolve();
 
@@ -209,7 +210,7 @@ export abstract class SlicerElement extends SettableElement {
       element: this,
       session,
       language,
-      problem: session.failure === null ? null : explain(session.failure, language, session.fixed),
+      problem: this.#explaining.of(session.failure, language, session.fixed),
       panels: this.shownPanels,
       slicer: this.slicer,
       isDragging: this.dragging,

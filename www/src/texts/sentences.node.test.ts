@@ -3,6 +3,7 @@ import { readFile } from "node:fs/promises";
 import { expect, test } from "vitest";
 import type { ErrorDetails } from "../api/error.js";
 import { languageOf, LANGUAGES, type Format, type LanguageCode } from "./index.js";
+import { fetchProblemTexts } from "./problems.js";
 
 interface Sample {
   code: string;
@@ -41,9 +42,11 @@ function bothCases(sample: Sample): Sample[] {
 
 const own = Object.entries(OWN).map(([code, detail]) => ({ code, ...(detail !== null && { detail: detail as Record<string, unknown> }) }));
 
+const PROBLEMS = new Map(await Promise.all(LANGUAGES.map(async (code) => [code, await fetchProblemTexts(languageOf(code))] as const)));
+
 const sentencesOf = (code: LanguageCode): { format: Format; errors: Sentences; warnings: Sentences } => {
   const { format, texts } = languageOf(code);
-  return { format, errors: texts.errors as unknown as Sentences, warnings: texts.warnings as unknown as Sentences };
+  return { format, errors: PROBLEMS.get(code)?.errors as unknown as Sentences, warnings: texts.warnings as unknown as Sentences };
 };
 
 /** Details that offers show, or that readers do not need. */

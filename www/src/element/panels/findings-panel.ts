@@ -1,9 +1,11 @@
 /** `<cusp-findings>`: what will fail when the plan is printed, by kind. Choosing a finding shows where it is. */
 import { html, nothing, type PropertyValues, type TemplateResult } from "lit";
+import { until } from "lit/directives/until.js";
 import type { Check, SlicerError } from "../../api/index.js";
 import type { Code, Count, Finding, Metric, Severity } from "../../api/wire.js";
 import { findingsTexts, saidOf, type FindingsTexts } from "../../texts/findings/index.js";
 import { languageOf, type Language } from "../../texts/index.js";
+import { fetchProblemTexts } from "../../texts/problems.js";
 import { elementWith, given, own } from "../../view/properties.js";
 import { define } from "../define.js";
 import type { Checks } from "../state/checks.js";
@@ -79,7 +81,7 @@ export class CuspFindings extends elementWith(PROPERTIES) {
   #verdict(words: FindingsTexts): TemplateResult {
     const { check, error, isAlone, isCurrent, language, metric } = this;
     if (!isAlone) return html`<p class="quiet">${words.alone}</p>`;
-    if (error !== null) return html`<p class="quiet failed">${sentenceOf(error, language, metric)}</p>`;
+    if (error !== null) return html`<p class="quiet failed">${until(sentenceOf(error, language, metric))}</p>`;
     if (check === null || !isCurrent) return html`<p class="quiet">${words.checking}</p>`;
     const { verdict } = check;
     return html`<p class="verdict ${verdict}" data-verdict=${verdict}>${sign(verdict)} ${words.verdicts[verdict]}</p>
@@ -169,8 +171,9 @@ function sign(of: keyof typeof SIGNS | Severity): TemplateResult {
 }
 
 /** Why a check failed. Codes and details match: both are of one error. */
-function sentenceOf({ code, detail }: SlicerError, { texts }: Language, metric: Metric): string {
-  return (texts.errors[code] as (detail: unknown, metric: Metric) => string)(detail, metric);
+async function sentenceOf({ code, detail }: SlicerError, language: Language, metric: Metric): Promise<string> {
+  const { errors } = await fetchProblemTexts(language);
+  return (errors[code] as (detail: unknown, metric: Metric) => string)(detail, metric);
 }
 
 export function defineFindings(): void {

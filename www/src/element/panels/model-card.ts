@@ -5,7 +5,7 @@ import type { Language } from "../../texts/index.js";
 import { offerButtons } from "../parts/problem-box.js";
 import { towersOffer } from "../parts/towers-offer.js";
 import { MODEL_FILES } from "../state/choice.js";
-import { advise } from "../state/problem.js";
+import { advise } from "../state/advice.js";
 import { ownHeight } from "../state/result.js";
 import type { Session } from "../state/session.js";
 

@@ -1,8 +1,10 @@
 /** `<cusp-plate>`: the models on the plate, their copies, how they are arranged, and the plates. */
 import { css, html, nothing, type TemplateResult } from "lit";
+import { until } from "lit/directives/until.js";
 import type { PlatesPlan } from "../../api/index.js";
 import type { ArrangeError, Arranging, Placement } from "../../api/wire.js";
 import { languageOf, type Language } from "../../texts/index.js";
+import { fetchProblemTexts } from "../../texts/problems.js";
 import { elementWith, given } from "../../view/properties.js";
 import { define } from "../define.js";
 import type { Entry, Plate } from "../state/plate.js";
@@ -138,7 +140,7 @@ export class CuspPlate extends elementWith(PROPERTIES) {
     return html`
       <h3>${words.title}</h3>
       <div aria-live="polite">
-        ${sentences.map((sentence) => html`<p class="problem">${sentence}</p>`)}
+        ${sentences.map((sentence) => html`<p class="problem">${until(sentence)}</p>`)}
         ${more > 0 ? html`<p class="problem">${words.others(language.format.count(more))}</p>` : nothing}
         ${placed.length > 0 && problems.length === 0 ? html`<p class="quiet">${words.moved}</p>` : nothing}
       </div>
@@ -260,9 +262,10 @@ export class CuspPlate extends elementWith(PROPERTIES) {
   }
 }
 
-function sentenceOf(problem: ArrangeError, { texts }: Language): string {
-  if (problem.code === "plate-outside") return texts.errors["plate-outside"](problem.detail, "cusp");
-  if (problem.code === "plate-collision") return texts.errors["plate-collision"](problem.detail, "cusp");
+async function sentenceOf(problem: ArrangeError, language: Language): Promise<string> {
+  const { errors } = await fetchProblemTexts(language);
+  if (problem.code === "plate-outside") return errors["plate-outside"](problem.detail, "cusp");
+  if (problem.code === "plate-collision") return errors["plate-collision"](problem.detail, "cusp");
   return "";
 }
 

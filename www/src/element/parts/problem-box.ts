@@ -1,7 +1,8 @@
 /** The box that shows a failure: what happened, and the buttons of its offers. */
 import { css, html, nothing, type TemplateResult } from "lit";
 import type { Language } from "../../texts/index.js";
-import type { Offer, Problem } from "../state/problem.js";
+import type { Offer } from "../state/advice.js";
+import type { Problem } from "../state/problem.js";
 import type { Settings } from "../state/settings.js";
 
 export const problemStyles = css`

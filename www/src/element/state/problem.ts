@@ -1,19 +1,13 @@
-/** Failures in words: what happened, which field caused it, and what may fix it. */
+/** Failures in words: what happened, which field caused it, and what may fix it. Fetched with the first failure. */
 import type { ErrorCode, ErrorDetails, SlicerError } from "../../api/error.js";
-import type { WarningCode, WarningDetails } from "../../api/warning.js";
-import type { ModelUnit, UniformLayers, Warning } from "../../api/wire.js";
-import type { Language, Texts } from "../../texts/index.js";
+import type { ProblemTexts } from "../../texts/en/problems.js";
+import type { Language } from "../../texts/index.js";
+import { fetchProblemTexts } from "../../texts/problems.js";
 import type { Busy } from "../parts/progress.js";
+import { allowed, bestUniform, type Offer } from "./advice.js";
 import { METRICS } from "./metric.js";
-import { FORMATS } from "./printer.js";
 import * as round from "./round.js";
 import { parse, withTolerance, type Field, type Settings } from "./settings.js";
-
-/** A change of settings that may fix a problem, offered as a button. */
-export interface Offer {
-  label: string;
-  change: Partial<Settings>;
-}
 
 export interface Problem {
   code: ErrorCode;
@@ -40,7 +34,7 @@ export interface Failure {
   height_mm: number | null;
 }
 
-type Kind = keyof Texts["problems"];
+type Kind = keyof ProblemTexts["headings"];
 
 const KINDS: Readonly<Record<ErrorCode, Kind>> = {
   "file-empty": "empty",
@@ -182,25 +176,23 @@ const FIELDS: Partial<Record<Kind, Problem["field"]>> = {
  *
  * @param fixed settings that only the page may change, so that no offer changes them
  */
-export function explain(failure: Failure, language: Language, fixed: ReadonlySet<keyof Settings>): Problem {
-  const problem = describe(failure, language, fixed);
+export async function explained(failure: Failure, language: Language, fixed: ReadonlySet<keyof Settings>): Promise<Problem> {
+  return explain(failure, language, await fetchProblemTexts(language), fixed);
+}
+
+export function explain(failure: Failure, language: Language, texts: ProblemTexts, fixed: ReadonlySet<keyof Settings>): Problem {
+  const problem = describe(failure, language, texts, fixed);
   return { ...problem, offers: allowed(problem.offers, fixed) };
 }
 
-/** The offers that change nothing fixed. */
-function allowed(offers: readonly Offer[], fixed: ReadonlySet<keyof Settings>): Offer[] {
-  return offers.filter(({ change }) => (Object.keys(change) as (keyof Settings)[]).every((key) => !fixed.has(key)));
-}
-
-function describe(failure: Failure, language: Language, fixed: ReadonlySet<keyof Settings>): Problem {
+function describe(failure: Failure, language: Language, texts: ProblemTexts, fixed: ReadonlySet<keyof Settings>): Problem {
   const { error, name, settings } = failure;
-  const { texts } = language;
   // The form cannot give options that are unreadable, but for the description of a printer.
   const isOfPrinter = error.code === "bad-options" && typeof settings.printer === "object";
   const kind = isOfPrinter ? "badPrinter" : KINDS[error.code];
   const text = sentenceOf(error, settings, texts);
-  const problem = { code: error.code, title: texts.problems[kind](name), field: FIELDS[kind] ?? null };
-  if (error.code === "infeasible") return { ...problem, ...waysOut(error, text, settings, language, fixed) };
+  const problem = { code: error.code, title: texts.headings[kind](name), field: FIELDS[kind] ?? null };
+  if (error.code === "infeasible") return { ...problem, ...waysOut(error, text, settings, language, texts, fixed) };
   return { ...problem, text, offers: offersFor(kind, error, failure, language) };
 }
 
@@ -208,7 +200,7 @@ function describe(failure: Failure, language: Language, fixed: ReadonlySet<keyof
 function sentenceOf<Code extends ErrorCode>(
   { code, detail }: { code: Code; detail: ErrorDetails[Code] },
   { metric }: Settings,
-  { errors }: Texts,
+  { errors }: ProblemTexts,
 ): string {
   return errors[code](detail, metric);
 }
@@ -246,6 +238,7 @@ function waysOut(
   place: string,
   settings: Settings,
   language: Language,
+  { infeasible }: ProblemTexts,
   fixed: ReadonlySet<keyof Settings>,
 ): Pick<Problem, "text" | "offers"> {
   const { texts, format } = language;
@@ -264,7 +257,7 @@ function waysOut(
 
   const way = least === null ? (largest === null ? "neither" : "thinner") : largest === null ? "larger" : "either";
   const isClosed = way === "neither" && fixed.has("layerMin");
-  return { text: isClosed ? place : `${place} ${texts.infeasible[way]}`, offers };
+  return { text: isClosed ? place : `${place} ${infeasible[way]}`, offers };
 }
 
 const layersFrom = (mm: number, { texts, format }: Language): Offer => ({
@@ -313,44 +306,3 @@ function uniformLayers(error: SlicerError, settings: Settings, language: Languag
   const { texts, format } = language;
   return { label: texts.offers.uniform(format.fine(parse(settings.uniform) ?? 0)), change: { planner: "uniform" } };
 }
-
-function bestUniform({ layer_mm, layers }: UniformLayers, { texts, format }: Language): Offer {
-  // Without the rounding error of a sum of bins.
-  const uniform = String(Number(layer_mm.toFixed(6)));
-  return { label: texts.offers.bestUniform(format.fine(layer_mm), layers), change: { planner: "uniform", uniform } };
-}
-
-/** A warning in words, and what may help. */
-export interface Advice {
-  text: string;
-  offers: Offer[];
-  /** Whether test towers would tell if the printer takes several thicknesses. */
-  towers: boolean;
-}
-
-/**
- * Warnings in words, each once.
- *
- * @param fixed settings that only the page may change: no offer changes them, and whether a fixed printer has been tried is the
- *   page's business
- */
-export function advise(warnings: readonly Warning[], language: Language, fixed: ReadonlySet<keyof Settings>): Advice[] {
-  const advice = new Map<string, Advice>();
-  for (const warning of warnings) {
-    if (warning.code === "untried-thicknesses" && fixed.has("printer")) continue;
-    const text = warningOf(warning.code, "detail" in warning ? warning.detail : null, language.texts);
-    const best = warning.code === "one-thickness" ? warning.detail.best : null;
-    const units = warning.code === "odd-size" ? warning.detail.readings : [];
-    const offers = allowed([...(best ? [bestUniform(best, language)] : []), ...units.map(({ unit }) => inUnit(unit, language))], fixed);
-    advice.set(text, { text, offers, towers: isOfPrinter(warning) && !fixed.has("printer") });
-  }
-  return [...advice.values()];
-}
-
-const inUnit = (unit: ModelUnit, { texts }: Language): Offer => ({ label: texts.offers.unit(unit), change: { unit } });
-
-/** Whether the printer decides on several thicknesses, not the format. */
-const isOfPrinter = (warning: Warning): boolean =>
-  warning.code === "untried-thicknesses" || (warning.code === "one-thickness" && !FORMATS.some((format) => format === warning.detail.taker));
-
-const warningOf = <Code extends WarningCode>(code: Code, detail: WarningDetails[Code], { warnings }: Texts): string => warnings[code](detail);

@@ -1,7 +1,7 @@
 import type { UniformLayers } from "../../api/wire.js";
 import type { Format } from "../format.js";
-import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type GpuFaults, type QuantityNouns, type StlNouns } from "../sentences.js";
-import { FACETS } from "./nouns.js";
+import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type QuantityNouns, type StlNouns } from "../sentences.js";
+import { FACETS, FAULTS } from "./nouns.js";
 import { readers } from "./readers.js";
 
 const QUANTITIES: QuantityNouns = {
@@ -30,14 +30,6 @@ const EXPECTED: StlNouns = {
   "facet-or-endsolid": "`facet` oder `endsolid`",
   "normal-number": "eine Zahl der Normalen",
   coordinate: "eine Koordinate",
-};
-
-export const FAULTS: GpuFaults = {
-  error: "das System meldet einen Fehler",
-  "device-lost": "das Gerät ging verloren",
-  "too-many-hits": "das Modell hat mehr Oberflächenpunkte, als ihre Puffer fassen",
-  "bad-offsets": "sie lieferte Positionen, die nicht zusammenpassen",
-  "out-of-memory": "der Speicher reichte nicht",
 };
 
 const inPlace = (best: UniformLayers | null | undefined, { count, mm }: Pick<Format, "count" | "mm">): string =>

@@ -1,3 +1,6 @@
+import type { ModelUnit } from "../../api/wire.js";
+import type { GpuFaults } from "../sentences.js";
+
 /** Nouns that are counted, in the singular and the plural. */
 export const LAYERS = { one: "Schicht", other: "Schichten" };
 export const FACETS = { one: "Dreieck", other: "Dreiecke" };
@@ -7,3 +10,16 @@ export const OBJECTS = { one: "Objekt", other: "Objekte" };
 export const PARTS = { one: "Teil", other: "Teile" };
 export const ISLANDS = { one: "Insel", other: "Inseln" };
 export const POINTS = { one: "Punkt bleibt", other: "Punkte bleiben" };
+
+export const UNITS: Readonly<Record<ModelUnit, string>> = {
+  ...{ micron: "Mikrometern", millimeter: "Millimetern", centimeter: "Zentimetern" },
+  ...{ inch: "Zoll", foot: "Fuß", meter: "Metern" },
+};
+
+export const FAULTS: GpuFaults = {
+  error: "das System meldet einen Fehler",
+  "device-lost": "das Gerät ging verloren",
+  "too-many-hits": "das Modell hat mehr Oberflächenpunkte, als ihre Puffer fassen",
+  "bad-offsets": "sie lieferte Positionen, die nicht zusammenpassen",
+  "out-of-memory": "der Speicher reichte nicht",
+};

@@ -1,24 +1,9 @@
 import type { ProblemTexts } from "../en/problems.js";
 import type { Format } from "../format.js";
 import { errors } from "./errors.js";
-import { LAYERS } from "./nouns.js";
-import { UNITS } from "./readers.js";
-import { warnings } from "./warnings.js";
 
 export const problems = (format: Format): ProblemTexts => ({
-  offers: {
-    tolerance: (error) => `Toleranz ${error}`,
-    layersFrom: (thickness) => `Schichten ab ${thickness}`,
-    rays: (count) => `${count} Strahlen`,
-    scale: (height) => `Auf ${height} skalieren`,
-    uniform: (thickness) => `Gleichmäßige Schichten von ${thickness}`,
-    bestUniform: (thickness, layers) => `Gleichmäßige Schichten von ${thickness} (${format.counted(layers, LAYERS)})`,
-    images: "Als Bilder speichern",
-    noPrinter: "Ohne Drucker",
-    unit: (unit) => `Es ist in ${UNITS[unit]}`,
-    again: "Noch einmal",
-  },
-  problems: {
+  headings: {
     notModel: (name) => `${name} ist kein Modell, das Cusp liest`,
     empty: (name) => `${name} ist leer`,
     cutShort: (name) => `${name} ist abgeschnitten`,
@@ -61,5 +46,4 @@ export const problems = (format: Format): ProblemTexts => ({
     neither: "Ändern Sie den Bereich der Schichten.",
   },
   errors: errors(format),
-  warnings: warnings(format),
 });

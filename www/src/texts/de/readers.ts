@@ -1,11 +1,6 @@
-import type { ModelUnit, ThreeMfFeature, XmlFault } from "../../api/wire.js";
+import type { ThreeMfFeature, XmlFault } from "../../api/wire.js";
 import type { Format } from "../format.js";
 import type { ErrorSentences } from "../sentences.js";
-
-export const UNITS: Readonly<Record<ModelUnit, string>> = {
-  ...{ micron: "Mikrometern", millimeter: "Millimetern", centimeter: "Zentimetern" },
-  ...{ inch: "Zoll", foot: "Fuß", meter: "Metern" },
-};
 
 const XML: Readonly<Record<XmlFault, string>> = {
   "cut-short": "er endet vor seinen Elementen",

@@ -1,5 +1,5 @@
 import type { SettingsTexts } from "../en/settings.js";
-import { UNITS } from "./readers.js";
+import { UNITS } from "./nouns.js";
 
 export const settings = (): SettingsTexts => ({
   settings: {

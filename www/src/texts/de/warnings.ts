@@ -1,8 +1,6 @@
 import type { Format } from "../format.js";
 import type { WarningSentences } from "../sentences.js";
-import { FAULTS } from "./errors.js";
-import { LAYERS, FACETS, EDGES, HOLES, OBJECTS, PARTS, POINTS } from "./nouns.js";
-import { UNITS } from "./readers.js";
+import { EDGES, FACETS, FAULTS, HOLES, LAYERS, OBJECTS, PARTS, POINTS, UNITS } from "./nouns.js";
 
 export const warnings = ({ count, counted, mm, height, error, either }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `${counted(facets, FACETS)} ohne Fläche weggelassen.`,

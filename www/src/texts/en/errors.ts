@@ -1,8 +1,8 @@
 /** Sentences on failures, as the command line says them. */
 import type { UniformLayers } from "../../api/wire.js";
 import type { Format } from "../format.js";
-import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type GpuFaults, type QuantityNouns, type StlNouns } from "../sentences.js";
-import { FACETS } from "./nouns.js";
+import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type QuantityNouns, type StlNouns } from "../sentences.js";
+import { FACETS, FAULTS } from "./nouns.js";
 import { readers } from "./readers.js";
 
 const QUANTITIES: QuantityNouns = {
@@ -31,14 +31,6 @@ const EXPECTED: StlNouns = {
   "facet-or-endsolid": "`facet` or `endsolid`",
   "normal-number": "a number of the normal",
   coordinate: "a coordinate",
-};
-
-export const FAULTS: GpuFaults = {
-  error: "the system reports an error",
-  "device-lost": "the device was lost",
-  "too-many-hits": "the model has more surface points than its buffers hold",
-  "bad-offsets": "it returned offsets that do not add up",
-  "out-of-memory": "there was not enough memory",
 };
 
 /** What to choose in place of layers of several thicknesses. */

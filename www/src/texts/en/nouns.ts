@@ -1,3 +1,6 @@
+import type { ModelUnit } from "../../api/wire.js";
+import type { GpuFaults } from "../sentences.js";
+
 /** Nouns that are counted, in the singular and the plural. */
 export const LAYERS = { one: "layer", other: "layers" };
 export const FACETS = { one: "facet", other: "facets" };
@@ -7,3 +10,17 @@ export const OBJECTS = { one: "object", other: "objects" };
 export const PARTS = { one: "part", other: "parts" };
 export const ISLANDS = { one: "island", other: "islands" };
 export const POINTS = { one: "point", other: "points" };
+
+/** Units in the plural, as in "in inches". */
+export const UNITS: Readonly<Record<ModelUnit, string>> = {
+  ...{ micron: "microns", millimeter: "millimeters", centimeter: "centimeters" },
+  ...{ inch: "inches", foot: "feet", meter: "meters" },
+};
+
+export const FAULTS: GpuFaults = {
+  error: "the system reports an error",
+  "device-lost": "the device was lost",
+  "too-many-hits": "the model has more surface points than its buffers hold",
+  "bad-offsets": "it returned offsets that do not add up",
+  "out-of-memory": "there was not enough memory",
+};

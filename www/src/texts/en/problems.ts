@@ -1,26 +1,10 @@
-/** Failures, what would help, and warnings. */
-import type { ModelUnit } from "../../api/wire.js";
+/** Failures: a heading, what happened, and what to do where no plan keeps the tolerance. */
 import type { Format } from "../format.js";
 import { errors } from "./errors.js";
-import { LAYERS } from "./nouns.js";
-import { UNITS } from "./readers.js";
-import { warnings } from "./warnings.js";
 
 export const problems = (format: Format) => ({
-  offers: {
-    tolerance: (error: string) => `Tolerance ${error}`,
-    layersFrom: (thickness: string) => `Layers from ${thickness}`,
-    rays: (count: string) => `${count} rays`,
-    scale: (height: string) => `Scale to ${height}`,
-    uniform: (thickness: string) => `Uniform layers of ${thickness}`,
-    bestUniform: (thickness: string, layers: number) => `Uniform layers of ${thickness} (${format.counted(layers, LAYERS)})`,
-    images: "Save as images",
-    noPrinter: "Without a printer",
-    unit: (unit: ModelUnit) => `It is in ${UNITS[unit]}`,
-    again: "Try again",
-  },
   /** A heading for each kind of failure; the sentence below it is that of the failure's code. */
-  problems: {
+  headings: {
     notModel: (name: string) => `${name} is not a model that Cusp reads`,
     empty: (name: string) => `${name} is empty`,
     cutShort: (name: string) => `${name} is cut short`,
@@ -64,7 +48,6 @@ export const problems = (format: Format) => ({
     neither: "Change the range of layers.",
   },
   errors: errors(format),
-  warnings: warnings(format),
 });
 
 export type ProblemTexts = ReturnType<typeof problems>;

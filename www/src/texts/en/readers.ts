@@ -1,13 +1,7 @@
 /** Sentences on models that could not be read, as the command line says them. */
-import type { ModelUnit, ThreeMfFeature, XmlFault } from "../../api/wire.js";
+import type { ThreeMfFeature, XmlFault } from "../../api/wire.js";
 import type { Format } from "../format.js";
 import type { ErrorSentences } from "../sentences.js";
-
-/** Units in the plural, as in "in inches". */
-export const UNITS: Readonly<Record<ModelUnit, string>> = {
-  ...{ micron: "microns", millimeter: "millimeters", centimeter: "centimeters" },
-  ...{ inch: "inches", foot: "feet", meter: "meters" },
-};
 
 const XML: Readonly<Record<XmlFault, string>> = {
   "cut-short": "it ends before its elements do",

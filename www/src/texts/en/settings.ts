@@ -1,6 +1,6 @@
 /** The settings form, the faults of what is typed there, and the metrics of error. */
 
-import { UNITS } from "./readers.js";
+import { UNITS } from "./nouns.js";
 
 export const settings = () => ({
   settings: {

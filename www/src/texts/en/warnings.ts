@@ -1,9 +1,7 @@
 /** Sentences on what users should know although the work went on, as the command line says them. */
 import type { Format } from "../format.js";
 import type { WarningSentences } from "../sentences.js";
-import { FAULTS } from "./errors.js";
-import { LAYERS, FACETS, EDGES, HOLES, OBJECTS, PARTS, POINTS } from "./nouns.js";
-import { UNITS } from "./readers.js";
+import { EDGES, FACETS, FAULTS, HOLES, LAYERS, OBJECTS, PARTS, POINTS, UNITS } from "./nouns.js";
 
 export const warnings = ({ count, counted, mm, height, error, either }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `${counted(facets, FACETS)} without area left out.`,

@@ -1,7 +1,7 @@
 import type { UniformLayers } from "../../api/wire.js";
 import type { Format } from "../format.js";
-import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type GpuFaults, type QuantityNouns, type StlNouns } from "../sentences.js";
-import { FACETS } from "./nouns.js";
+import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type QuantityNouns, type StlNouns } from "../sentences.js";
+import { FACETS, FAULTS } from "./nouns.js";
 import { readers } from "./readers.js";
 
 const QUANTITIES: QuantityNouns = {
@@ -30,14 +30,6 @@ const EXPECTED: StlNouns = {
   "facet-or-endsolid": "`facet` o `endsolid`",
   "normal-number": "un número de la normal",
   coordinate: "una coordenada",
-};
-
-export const FAULTS: GpuFaults = {
-  error: "el sistema informa de un error",
-  "device-lost": "se perdió el dispositivo",
-  "too-many-hits": "el modelo tiene más puntos de superficie de los que caben en sus búferes",
-  "bad-offsets": "devolvió posiciones que no cuadran",
-  "out-of-memory": "no hubo memoria suficiente",
 };
 
 const inPlace = (best: UniformLayers | null | undefined, { count, mm }: Pick<Format, "count" | "mm">): string =>

@@ -2,11 +2,12 @@ import type { Format } from "../format.js";
 import type { Texts } from "../index.js";
 import { orientation } from "./orientation.js";
 import { model } from "./model.js";
+import { offers } from "./offers.js";
 import { plan } from "./plan.js";
 import { plate } from "./plate.js";
-import { problems } from "./problems.js";
 import { settings } from "./settings.js";
 import { view } from "./view.js";
+import { warnings } from "./warnings.js";
 
 export const units = { hours: "h", minutes: "min" };
 
@@ -17,5 +18,6 @@ export const es = (format: Format): Texts => ({
   ...plate(),
   ...view(format),
   ...orientation(format),
-  ...problems(format),
+  offers: offers(format),
+  warnings: warnings(format),
 });

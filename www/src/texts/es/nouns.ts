@@ -1,3 +1,6 @@
+import type { ModelUnit } from "../../api/wire.js";
+import type { GpuFaults } from "../sentences.js";
+
 /** Nouns that are counted, in the singular and the plural. */
 export const LAYERS = { one: "capa", other: "capas" };
 export const FACETS = { one: "faceta", other: "facetas" };
@@ -8,3 +11,16 @@ export const OBJECTS = { one: "objeto", other: "objetos" };
 export const PARTS = { one: "parte", other: "partes" };
 export const ISLANDS = { one: "isla", other: "islas" };
 export const POINTS = { one: "punto queda", other: "puntos quedan" };
+
+export const UNITS: Readonly<Record<ModelUnit, string>> = {
+  ...{ micron: "micrómetros", millimeter: "milímetros", centimeter: "centímetros" },
+  ...{ inch: "pulgadas", foot: "pies", meter: "metros" },
+};
+
+export const FAULTS: GpuFaults = {
+  error: "el sistema informa de un error",
+  "device-lost": "se perdió el dispositivo",
+  "too-many-hits": "el modelo tiene más puntos de superficie de los que caben en sus búferes",
+  "bad-offsets": "devolvió posiciones que no cuadran",
+  "out-of-memory": "no hubo memoria suficiente",
+};

@@ -1,24 +1,9 @@
 import type { ProblemTexts } from "../en/problems.js";
 import type { Format } from "../format.js";
 import { errors } from "./errors.js";
-import { LAYERS } from "./nouns.js";
-import { UNITS } from "./readers.js";
-import { warnings } from "./warnings.js";
 
 export const problems = (format: Format): ProblemTexts => ({
-  offers: {
-    tolerance: (error) => `Tolerancia ${error}`,
-    layersFrom: (thickness) => `Capas desde ${thickness}`,
-    rays: (count) => `${count} rayos`,
-    scale: (height) => `Escalar a ${height}`,
-    uniform: (thickness) => `Capas uniformes de ${thickness}`,
-    bestUniform: (thickness, layers) => `Capas uniformes de ${thickness} (${format.counted(layers, LAYERS)})`,
-    images: "Guardar como imágenes",
-    noPrinter: "Sin impresora",
-    unit: (unit) => `Está en ${UNITS[unit]}`,
-    again: "Intentar de nuevo",
-  },
-  problems: {
+  headings: {
     notModel: (name) => `${name} no es un modelo que Cusp lea`,
     empty: (name) => `${name} está vacío`,
     cutShort: (name) => `${name} está cortado`,
@@ -61,5 +46,4 @@ export const problems = (format: Format): ProblemTexts => ({
     neither: "Cambie el intervalo de capas.",
   },
   errors: errors(format),
-  warnings: warnings(format),
 });

@@ -1,7 +1,7 @@
 import type { UniformLayers } from "../../api/wire.js";
 import type { Format } from "../format.js";
-import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type GpuFaults, type QuantityNouns, type StlNouns } from "../sentences.js";
-import { FACETS } from "./nouns.js";
+import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type QuantityNouns, type StlNouns } from "../sentences.js";
+import { FACETS, FAULTS } from "./nouns.js";
 import { readers } from "./readers.js";
 
 const QUANTITIES: QuantityNouns = {
@@ -30,14 +30,6 @@ const EXPECTED: StlNouns = {
   "facet-or-endsolid": "`facet` ou `endsolid`",
   "normal-number": "un nombre de la normale",
   coordinate: "une coordonnée",
-};
-
-export const FAULTS: GpuFaults = {
-  error: "le système signale une erreur",
-  "device-lost": "l’appareil a été perdu",
-  "too-many-hits": "le modèle a plus de points de surface que ses tampons n’en contiennent",
-  "bad-offsets": "il a rendu des positions incohérentes",
-  "out-of-memory": "la mémoire n’a pas suffi",
 };
 
 const inPlace = (best: UniformLayers | null | undefined, { count, mm }: Pick<Format, "count" | "mm">): string =>

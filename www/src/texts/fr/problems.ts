@@ -1,24 +1,9 @@
 import type { ProblemTexts } from "../en/problems.js";
 import type { Format } from "../format.js";
 import { errors } from "./errors.js";
-import { LAYERS } from "./nouns.js";
-import { UNITS } from "./readers.js";
-import { warnings } from "./warnings.js";
 
 export const problems = (format: Format): ProblemTexts => ({
-  offers: {
-    tolerance: (error) => `Tolérance ${error}`,
-    layersFrom: (thickness) => `Couches dès ${thickness}`,
-    rays: (count) => `${count} rayons`,
-    scale: (height) => `Mettre à ${height}`,
-    uniform: (thickness) => `Couches uniformes de ${thickness}`,
-    bestUniform: (thickness, layers) => `Couches uniformes de ${thickness} (${format.counted(layers, LAYERS)})`,
-    images: "Enregistrer en images",
-    noPrinter: "Sans imprimante",
-    unit: (unit) => `Il est en ${UNITS[unit]}`,
-    again: "Réessayer",
-  },
-  problems: {
+  headings: {
     notModel: (name) => `${name} n’est pas un modèle que Cusp lit`,
     empty: (name) => `${name} est vide`,
     cutShort: (name) => `${name} est tronqué`,
@@ -61,5 +46,4 @@ export const problems = (format: Format): ProblemTexts => ({
     neither: "Changez l’intervalle des couches.",
   },
   errors: errors(format),
-  warnings: warnings(format),
 });

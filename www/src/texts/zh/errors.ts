@@ -1,6 +1,7 @@
 import type { UniformLayers } from "../../api/wire.js";
 import type { Format } from "../format.js";
-import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type GpuFaults, type QuantityNouns, type StlNouns } from "../sentences.js";
+import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type QuantityNouns, type StlNouns } from "../sentences.js";
+import { FAULTS } from "./nouns.js";
 import { readers } from "./readers.js";
 
 const QUANTITIES: QuantityNouns = {
@@ -29,14 +30,6 @@ const EXPECTED: StlNouns = {
   "facet-or-endsolid": "`facet` 或 `endsolid`",
   "normal-number": "法线的一个数",
   coordinate: "一个坐标",
-};
-
-export const FAULTS: GpuFaults = {
-  error: "系统报告错误",
-  "device-lost": "设备丢失",
-  "too-many-hits": "模型的表面点超出其缓冲区",
-  "bad-offsets": "返回的偏移量不一致",
-  "out-of-memory": "内存不足",
 };
 
 const inPlace = (best: UniformLayers | null | undefined, { count, mm }: Pick<Format, "count" | "mm">): string =>

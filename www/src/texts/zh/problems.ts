@@ -1,23 +1,9 @@
 import type { ProblemTexts } from "../en/problems.js";
 import type { Format } from "../format.js";
 import { errors } from "./errors.js";
-import { UNITS } from "./readers.js";
-import { warnings } from "./warnings.js";
 
 export const problems = (format: Format): ProblemTexts => ({
-  offers: {
-    tolerance: (error) => `公差 ${error}`,
-    layersFrom: (thickness) => `层厚从 ${thickness} 起`,
-    rays: (count) => `${count} 条光线`,
-    scale: (height) => `缩放到 ${height}`,
-    uniform: (thickness) => `均匀层厚 ${thickness}`,
-    bestUniform: (thickness, layers) => `均匀层厚 ${thickness}（${format.count(layers)} 层）`,
-    images: "保存为图像",
-    noPrinter: "不指定打印机",
-    unit: (unit) => `单位是${UNITS[unit]}`,
-    again: "再试一次",
-  },
-  problems: {
+  headings: {
     notModel: (name) => `${name} 不是 Cusp 能读取的模型`,
     empty: (name) => `${name} 是空的`,
     cutShort: (name) => `${name} 不完整`,
@@ -60,5 +46,4 @@ export const problems = (format: Format): ProblemTexts => ({
     neither: "请更改层厚范围。",
   },
   errors: errors(format),
-  warnings: warnings(format),
 });

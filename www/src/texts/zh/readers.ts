@@ -1,11 +1,6 @@
-import type { ModelUnit, ThreeMfFeature, XmlFault } from "../../api/wire.js";
+import type { ThreeMfFeature, XmlFault } from "../../api/wire.js";
 import type { Format } from "../format.js";
 import type { ErrorSentences } from "../sentences.js";
-
-export const UNITS: Readonly<Record<ModelUnit, string>> = {
-  ...{ micron: "微米", millimeter: "毫米", centimeter: "厘米" },
-  ...{ inch: "英寸", foot: "英尺", meter: "米" },
-};
 
 const XML: Readonly<Record<XmlFault, string>> = {
   "cut-short": "文件在元素结束之前中断",

@@ -1,7 +1,6 @@
 import type { Format } from "../format.js";
 import type { WarningSentences } from "../sentences.js";
-import { FAULTS } from "./errors.js";
-import { UNITS } from "./readers.js";
+import { FAULTS, UNITS } from "./nouns.js";
 
 export const warnings = ({ count, mm, height, error, either }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `已略去 ${count(facets)} 个没有面积的三角面。`,

@@ -1,0 +1,58 @@
+/** Warnings in words, and what may help. */
+import type { WarningCode, WarningDetails } from "../../api/warning.js";
+import type { ModelUnit, UniformLayers, Warning } from "../../api/wire.js";
+import type { Language, Texts } from "../../texts/index.js";
+import { FORMATS } from "./printer.js";
+import type { Settings } from "./settings.js";
+
+/** A change of settings that may fix a problem, offered as a button. */
+export interface Offer {
+  label: string;
+  change: Partial<Settings>;
+}
+
+/** The offers that change nothing fixed. */
+export function allowed(offers: readonly Offer[], fixed: ReadonlySet<keyof Settings>): Offer[] {
+  return offers.filter(({ change }) => (Object.keys(change) as (keyof Settings)[]).every((key) => !fixed.has(key)));
+}
+
+export function bestUniform({ layer_mm, layers }: UniformLayers, { texts, format }: Language): Offer {
+  // Without the rounding error of a sum of bins.
+  const uniform = String(Number(layer_mm.toFixed(6)));
+  return { label: texts.offers.bestUniform(format.fine(layer_mm), layers), change: { planner: "uniform", uniform } };
+}
+
+/** A warning in words, and what may help. */
+export interface Advice {
+  text: string;
+  offers: Offer[];
+  /** Whether test towers would tell if the printer takes several thicknesses. */
+  towers: boolean;
+}
+
+/**
+ * Warnings in words, each once.
+ *
+ * @param fixed settings that only the page may change: no offer changes them, and whether a fixed printer has been tried is the
+ *   page's business
+ */
+export function advise(warnings: readonly Warning[], language: Language, fixed: ReadonlySet<keyof Settings>): Advice[] {
+  const advice = new Map<string, Advice>();
+  for (const warning of warnings) {
+    if (warning.code === "untried-thicknesses" && fixed.has("printer")) continue;
+    const text = warningOf(warning.code, "detail" in warning ? warning.detail : null, language.texts);
+    const best = warning.code === "one-thickness" ? warning.detail.best : null;
+    const units = warning.code === "odd-size" ? warning.detail.readings : [];
+    const offers = allowed([...(best ? [bestUniform(best, language)] : []), ...units.map(({ unit }) => inUnit(unit, language))], fixed);
+    advice.set(text, { text, offers, towers: isOfPrinter(warning) && !fixed.has("printer") });
+  }
+  return [...advice.values()];
+}
+
+const inUnit = (unit: ModelUnit, { texts }: Language): Offer => ({ label: texts.offers.unit(unit), change: { unit } });
+
+/** Whether the printer decides on several thicknesses, not the format. */
+const isOfPrinter = (warning: Warning): boolean =>
+  warning.code === "untried-thicknesses" || (warning.code === "one-thickness" && !FORMATS.some((format) => format === warning.detail.taker));
+
+const warningOf = <Code extends WarningCode>(code: Code, detail: WarningDetails[Code], { warnings }: Texts): string => warnings[code](detail);
