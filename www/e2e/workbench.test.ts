@@ -196,6 +196,41 @@ test("on a phone the view comes first, the bar stays, and panels are sheets", as
   await expect.poll(async () => (await page.locator("cusp-view").boundingBox())?.height).toBe(whole);
 });
 
+test("a sheet that closes gives the focus back to the button that opens it", async () => {
+  const page = await start("", PHONE);
+  await drop(page, ball);
+  await state(page, "done");
+  const focused = (): Promise<string | undefined> =>
+    page.locator("cusp-workbench").evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.textContent?.trim().replace(/\s+/g, " "));
+  const press = (name: string): Promise<void> => page.locator(".path, .bar").getByRole("button", { name }).press("Enter");
+  const open = async (name: string, title = name): Promise<void> => {
+    await press(name);
+    await page.locator(".sheet").getByRole("heading", { name: title, level: 2 }).waitFor();
+  };
+  const close = page.locator(".sheet").getByRole("button", { name: "Close" });
+  for (const [name, title] of [["Slice", "Slice"], ["Profile", "Profile"], ["Show the result", "Result"]] as const) {
+    for (const way of [() => close.press("Escape"), () => close.press("Enter"), () => press(name)]) {
+      await open(name, title);
+      await way();
+      await expect.poll(() => page.locator(".sheet").count()).toBe(0);
+      expect(await focused()).toContain(name);
+    }
+  }
+  // From step to step: the button of the last one.
+  await open("Turn");
+  await page.getByRole("button", { name: "Next: Check" }).press("Enter");
+  await page.locator(".sheet").getByRole("heading", { name: "Check", level: 2 }).waitFor();
+  await page.keyboard.press("Escape");
+  await expect.poll(focused).toContain("Check");
+  // What is not in the sheet keeps the focus.
+  await open("Slice");
+  const slider = page.getByRole("slider", { name: "Layer in the view" });
+  await slider.focus();
+  await page.keyboard.press("Escape");
+  await expect.poll(() => page.locator(".sheet").count()).toBe(0);
+  expect(await page.locator("cusp-workbench").evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.localName)).toBe("cusp-layer-slider");
+});
+
 test("what the page loads before its 3-D view, beside the wasm, is at most 122 KB", async () => {
   const page = await start("", { locale: "de-DE", ...DESKTOP }, true);
   const sizes = new Map<string, number>();

@@ -39,7 +39,7 @@ export class CuspWorkbench extends SlicerElement {
     define("cusp-layer-slider", CuspLayerSlider);
     this.addEventListener("keydown", (event) => {
       if (event.key !== "Escape") return;
-      if (this.#sheet !== null) this.#set(() => (this.#sheet = null));
+      if (!this.#isWide && this.#sheet !== null) this.#open(null);
       else this.session.checks.choose(null);
     });
   }
@@ -64,7 +64,7 @@ export class CuspWorkbench extends SlicerElement {
       plot: this.#plot,
       go: (step, from) => void this.#go(step, from),
       answers: (name) => this.#set(() => (this.#answer = name)),
-      open: (sheet) => this.#set(() => (this.#sheet = sheet)),
+      open: (sheet) => this.#open(sheet),
       placed: (plot) => this.#set(() => (this.#plot = plot)),
     });
   }
@@ -72,15 +72,24 @@ export class CuspWorkbench extends SlicerElement {
   async #go(step: Step, from: "foot" | "row"): Promise<void> {
     // In the row of a narrow screen, the button of the open sheet closes it.
     const isClosing = from === "row" && step === this.#sheet;
-    this.#set(() => {
-      this.#step = step;
-      if (!this.#isWide) this.#sheet = isClosing ? null : step;
-    });
+    this.#set(() => (this.#step = step));
+    if (!this.#isWide) this.#open(isClosing ? null : step);
     await this.updateComplete;
     const title = this.renderRoot.querySelector<HTMLElement>("#step-title");
     title?.closest(".tab-row")?.nextElementSibling?.scrollTo(0, 0);
     // Whoever reads the steps one after the other begins each at its top.
     if (from === "foot") title?.focus();
+  }
+
+  /** Opens a sheet of a narrow screen, or closes the one that is open: the button that opens it takes over the focus that it has. */
+  #open(sheet: Sheet | null): void {
+    const root = this.renderRoot as ShadowRoot;
+    const { activeElement } = root;
+    // Where a press does not focus, as in Safari, nothing has the focus.
+    if (sheet === null && (activeElement === null || activeElement.closest(".sheet") !== null)) {
+      root.querySelector<HTMLElement>(".path [aria-current], .bar [aria-expanded=true]")?.focus();
+    }
+    this.#set(() => (this.#sheet = sheet));
   }
 
   #set(change: () => void): void {
