@@ -1,11 +1,15 @@
 import { readFile } from "node:fs/promises";
-import { expect, test } from "vitest";
+import { beforeAll, expect, test } from "vitest";
 import { default_arranging, defaults, initSync, Slicer } from "../../pkg/cusp_slicer.js";
+import { CONTACT_MM, DRAIN_MM } from "../element/state/hand-points.js";
 import { binaryStl, exampleTriangles } from "../page/example.js";
-import { DEFAULTS, nozzleLayers, usualOf } from "./wire.js";
+import { DEFAULTS, nozzleLayers, usualOf, type Options, type Report } from "./wire.js";
+
+beforeAll(async () => {
+  initSync({ module: await readFile(new URL("../../pkg/cusp_slicer_bg.wasm", import.meta.url)) });
+});
 
 test("the defaults that forms show match the core's", async () => {
-  initSync({ module: await readFile(new URL("../../pkg/cusp_slicer_bg.wasm", import.meta.url)) });
   const { tolerance, arranging, nozzle_mm: usual_mm, ...shown } = DEFAULTS;
   expect(defaults()).toMatchObject(shown);
   expect(default_arranging()).toEqual(arranging);
@@ -25,5 +29,23 @@ test("the defaults that forms show match the core's", async () => {
       expect(report.print_file.filament?.first_layer_mm).toBe(layers.first_layer_mm);
     }
   }
+  slicer.free();
+});
+
+test("the diameters of contacts and drain holes that forms show match the core's", async () => {
+  const slicer = new Slicer(binaryStl(exampleTriangles()));
+  const plan = (options: Options): Promise<Report> => slicer.plan({ rays: 64, backend: "cpu", ...options }, () => undefined);
+  for (const strength of ["light", "medium", "heavy"] as const) {
+    const { supported } = await plan({ supports: { strength } });
+    const { at_mm } = supported?.points[0] ?? {};
+    if (at_mm === undefined) throw new Error("the model has no supports");
+    // A report has only diameters that are not those of the strength.
+    for (const [contact_mm, said] of [[CONTACT_MM[strength], undefined], [0.55, 0.55]] as const) {
+      const again = await plan({ supports: { strength, points: [{ at_mm, contact_mm }] } });
+      expect(again.supported?.points[0]?.contact_mm, strength).toBe(said);
+    }
+  }
+  const { options } = await plan({ hollow: { auto_drain: {} } });
+  expect(options.hollow?.auto_drain?.diameter_mm).toBe(DRAIN_MM);
   slicer.free();
 });
