@@ -4,6 +4,7 @@ import { BRUSH, type Brush } from "./brush.js";
 import type { Derived } from "../steps/derived.js";
 import type { PaintDetail } from "../events.js";
 import { Painter, mirrored, type Dab } from "./painter.js";
+import { watchDrags, type Drags } from "../scene/drags.js";
 import type { Point } from "../scene/pointer.js";
 import { extentOf, UPRIGHT, type Triple } from "../scene/pose.js";
 import { normalsOf, type Surface } from "./region.js";
@@ -35,8 +36,8 @@ export class Painting {
   #asked: Derived | null = null;
   #preparing: Promise<void> = Promise.resolve();
   #weights: Float32Array | null = null;
-  /** The pointer that paints, where it was last, and where it and its mirror image last hit the model. */
-  #stroke: { readonly id: number; at: Point; last: RayHit | null; lastMirrored: RayHit | null } | null = null;
+  /** Where the pointer that paints was last, and where it and its mirror image last hit the model. */
+  #stroke: { at: Point; last: RayHit | null; lastMirrored: RayHit | null } | null = null;
   #frame = 0;
   #isOn = false;
 
@@ -83,38 +84,31 @@ export class Painting {
     this.#reports.changed(null);
   }
 
-  /** Listens until the signal is aborted. Drags that begin beside the model are left to the camera. */
-  watch(holder: HTMLElement, place: (event: PointerEvent) => Point, signal: AbortSignal): void {
-    const options = { capture: true, signal };
-    const down = (event: PointerEvent): void => {
-      if (!event.isPrimary || event.button !== 0 || !this.#begin(event.pointerId, place(event))) return;
-      event.stopPropagation();
-      holder.setPointerCapture(event.pointerId);
+  /** Takes drags that begin on the model. */
+  watch(holder: HTMLElement, placeOf: (event: PointerEvent) => Point, signal: AbortSignal): void {
+    const moved = (at: Point): void => {
+      if (this.#stroke !== null) this.#stroke.at = at;
     };
-    const move = (event: PointerEvent): void => {
-      if (event.pointerId !== this.#stroke?.id) return;
-      event.stopPropagation();
-      this.#stroke.at = place(event);
-      if (this.#frame === 0) this.#frame = requestAnimationFrame(this.#follow);
+    const drags: Drags = {
+      begin: (at) => this.#begin(at),
+      follow: (at) => {
+        moved(at);
+        if (this.#frame === 0) this.#frame = requestAnimationFrame(this.#follow);
+      },
+      end: (at) => {
+        moved(at);
+        this.#follow();
+        this.#end();
+      },
     };
-    const up = (event: PointerEvent): void => {
-      if (event.pointerId !== this.#stroke?.id) return;
-      event.stopPropagation();
-      this.#stroke.at = place(event);
-      this.#follow();
-      this.#end();
-    };
-    holder.addEventListener("pointerdown", down, options);
-    holder.addEventListener("pointermove", move, options);
-    holder.addEventListener("pointerup", up, options);
-    holder.addEventListener("pointercancel", up, options);
+    watchDrags(holder, placeOf, drags, signal);
     signal.addEventListener("abort", () => cancelAnimationFrame(this.#frame));
   }
 
   /** Paints one dab as a stroke of its own, for the keyboard, as soon as the brush is ready. */
   async stamp(at: Point): Promise<void> {
     await this.#preparing;
-    if (this.#begin(-1, at)) this.#end();
+    if (this.#begin(at)) this.#end();
   }
 
   /** Highlights what the brush would paint under a hovering pointer. */
@@ -143,9 +137,9 @@ export class Painting {
   }
 
   /** Begins a stroke; returns false if there is nothing to paint under the point. */
-  #begin(id: number, at: Point): boolean {
+  #begin(at: Point): boolean {
     if (!this.#isOn || this.#ready === null || this.#stroke !== null || this.#hitAt(at) === null) return false;
-    this.#stroke = { id, at, last: null, lastMirrored: null };
+    this.#stroke = { at, last: null, lastMirrored: null };
     this.#scene.setFace(null);
     this.#follow();
     return true;

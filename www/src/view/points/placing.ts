@@ -1,6 +1,7 @@
 /** Places points on the model's surface, by pointer and by keyboard. */
 import { Matrix4, Vector3, type Ray } from "three";
 import type { PointDetail, SurfacePlace } from "../events.js";
+import { watchDrags, type Drags } from "../scene/drags.js";
 import { doubleArea } from "../scene/flat.js";
 import type { Point } from "../scene/pointer.js";
 import { DRAG_FROM_PX } from "../scene/pointer.js";
@@ -10,7 +11,6 @@ import type { Derived } from "../steps/derived.js";
 import { REACH_PX, stepped, TOUCH_REACH_PX, within } from "./nearest.js";
 
 interface Drag {
-  readonly id: number;
   readonly place: number;
   /** Where the pointer was pressed, and from there to the marker's middle. */
   readonly from: Point;
@@ -40,32 +40,22 @@ export class Placing {
     this.#supports = { of: supports, raycast: supports === null || supports.length < 9 ? null : new Raycast(supports) };
   }
 
-  /** Watches presses on markers, before the camera's controls see them. */
+  /** Takes drags that begin on a marker, and tells `holder` by a class when a pointer is over one. */
   watch(holder: HTMLElement, placeOf: (event: PointerEvent) => Point, signal: AbortSignal): void {
-    const options = { signal, capture: true };
-    const reach = ({ pointerType }: PointerEvent): number => (pointerType === "touch" ? TOUCH_REACH_PX : REACH_PX);
-    const down = (event: PointerEvent): void => {
-      if (!this.isOn || !event.isPrimary || event.button !== 0 || !this.#begin(event.pointerId, placeOf(event), reach(event))) return;
-      event.stopPropagation();
-      holder.setPointerCapture(event.pointerId);
+    const drags: Drags = {
+      begin: (at, { pointerType }) => this.isOn && this.#begin(at, pointerType === "touch" ? TOUCH_REACH_PX : REACH_PX),
+      follow: (at) => this.#follow(at),
+      end: (_at, isDone) => {
+        const drag = this.#drag;
+        this.cancel();
+        if (isDone && drag !== null && drag.to !== null) this.#tell({ do: "move", place: drag.place, to: drag.to });
+      },
     };
-    const move = (event: PointerEvent): void => {
+    watchDrags(holder, placeOf, drags, signal);
+    const over = (event: PointerEvent): void => {
       if (this.isOn && event.buttons === 0) holder.classList.toggle("over", this.#markerAt(placeOf(event), REACH_PX) !== null);
-      if (event.pointerId !== this.#drag?.id) return;
-      event.stopPropagation();
-      this.#follow(placeOf(event));
     };
-    const up = (event: PointerEvent): void => {
-      const drag = this.#drag;
-      if (event.pointerId !== drag?.id) return;
-      event.stopPropagation();
-      this.cancel();
-      if (drag.to !== null && event.type === "pointerup") this.#tell({ do: "move", place: drag.place, to: drag.to });
-    };
-    holder.addEventListener("pointerdown", down, options);
-    holder.addEventListener("pointermove", move, options);
-    holder.addEventListener("pointerup", up, options);
-    holder.addEventListener("pointercancel", up, options);
+    holder.addEventListener("pointermove", over, { capture: true, signal });
   }
 
   /** Adds a point where the model is, and lets go of the selected one where it is not. */
@@ -97,11 +87,11 @@ export class Placing {
     return had;
   }
 
-  #begin(id: number, from: Point, reach_px: number): boolean {
+  #begin(from: Point, reach_px: number): boolean {
     const place = this.#markerAt(from, reach_px);
     if (place === null) return false;
     const [x, y] = this.#shownAt(place);
-    this.#drag = { id, place, from, grasp: [x - from[0], y - from[1]], to: null };
+    this.#drag = { place, from, grasp: [x - from[0], y - from[1]], to: null };
     if (place !== this.selected) this.#tell({ do: "select", place });
     return true;
   }

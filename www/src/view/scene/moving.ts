@@ -1,6 +1,7 @@
 /** Moves copies over the plate, by pointer and by keyboard. */
 import { Box3, Matrix4, Plane, Vector3, type Ray } from "three";
 import { matrixOf, type Copy } from "./copies.js";
+import { watchDrags, type Drags } from "./drags.js";
 import type { Point } from "./pointer.js";
 import type { Scene } from "./scene.js";
 
@@ -29,7 +30,6 @@ const GROUND = new Plane(new Vector3(0, 0, 1), 0);
 const rounded = (mm: number): number => Math.round(mm / STEP_MM) * STEP_MM;
 
 interface Drag {
-  readonly id: number;
   readonly place: number;
   /** From the point that was grasped to the copy's middle, at the height of that point. */
   readonly grasp: Vector3;
@@ -49,29 +49,17 @@ export class Moving {
     this.#reports = reports;
   }
 
-  /** Watches presses on copies, before the camera's controls see them. */
+  /** Takes drags that begin on a copy. */
   watch(holder: HTMLElement, placeOf: (event: PointerEvent) => Point, signal: AbortSignal): void {
-    const options = { signal, capture: true };
-    const down = (event: PointerEvent): void => {
-      if (!this.isOn || !event.isPrimary || event.button !== 0 || !this.#begin(event.pointerId, placeOf(event))) return;
-      event.stopPropagation();
-      holder.setPointerCapture(event.pointerId);
+    const drags: Drags = {
+      begin: (at) => this.isOn && this.#begin(at),
+      follow: (at) => this.#follow(at, false),
+      end: (at) => {
+        if (this.#drag?.hasMoved === true) this.#follow(at, true);
+        this.#drag = null;
+      },
     };
-    const move = (event: PointerEvent): void => {
-      if (event.pointerId !== this.#drag?.id) return;
-      event.stopPropagation();
-      this.#follow(placeOf(event), false);
-    };
-    const up = (event: PointerEvent): void => {
-      if (event.pointerId !== this.#drag?.id) return;
-      event.stopPropagation();
-      if (this.#drag.hasMoved) this.#follow(placeOf(event), true);
-      this.#drag = null;
-    };
-    holder.addEventListener("pointerdown", down, options);
-    holder.addEventListener("pointermove", move, options);
-    holder.addEventListener("pointerup", up, options);
-    holder.addEventListener("pointercancel", up, options);
+    watchDrags(holder, placeOf, drags, signal);
   }
 
   /** Moves a copy by keyboard. */
@@ -91,13 +79,12 @@ export class Moving {
     return this.copies.find((copy) => copy.place === place);
   }
 
-  #begin(id: number, at: Point): boolean {
+  #begin(at: Point): boolean {
     const ray = this.#scene.worldRayAt(...at);
     const hit = hitBy(ray, this.copies, (copy) => this.#scene.copies.sizeOf(copy.shape));
     if (hit === null) return false;
     const { copy, point } = hit;
     this.#drag = {
-      id,
       place: copy.place,
       grasp: new Vector3(copy.x_mm, copy.y_mm, 0).sub(point).setZ(0),
       plane: GROUND.clone().translate(new Vector3(0, 0, point.z)),
