@@ -16,6 +16,7 @@ import type { Fields } from "./panels/settings-form.js";
 import { define } from "./define.js";
 import { FetchedPanel } from "./parts/part.js";
 import { fileWords } from "./parts/file-words.js";
+import { stepButtons } from "./parts/icon-button.js";
 import { sentence } from "./state/comparison.js";
 import type { Aims } from "./state/orientation.js";
 import { printerOf } from "./state/printer.js";
@@ -46,20 +47,8 @@ export function settingsPanel({ session, language, saveTowers }: Facts, problem:
 }
 
 /** The buttons that undo and redo changes of the settings. */
-export function undoButtons({ session, language: { texts } }: Facts): TemplateResult {
-  const button = (name: string, isPossible: boolean, act: () => void, path: string): TemplateResult => html`<button
-    class="small"
-    aria-label=${name}
-    title=${name}
-    ?disabled=${!isPossible}
-    @click=${act}
-  >
-    <svg viewBox="0 0 20 20" aria-hidden="true"><path d=${path} /></svg>
-  </button>`;
-  return html`<div class="steps">
-    ${button(texts.settings.undo, session.canUndo, () => session.undo(), "M8 5 4 9l4 4M4 9h8a4 4 0 0 1 0 8H9")}
-    ${button(texts.settings.redo, session.canRedo, () => session.redo(), "m12 5 4 4-4 4m4-4H8a4 4 0 0 0 0 8h3")}
-  </div>`;
+export function undoButtons({ session, language }: Facts): TemplateResult {
+  return html`<div class="steps">${stepButtons(session, language)}</div>`;
 }
 
 /** The 3-D view, with or without a plan. */

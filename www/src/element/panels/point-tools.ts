@@ -5,6 +5,7 @@ import type { Language } from "../../texts/index.js";
 import { placingTexts, type PlacingTexts } from "../../texts/placing/index.js";
 import type { PointDetail } from "../../view/events.js";
 import type { Tool } from "../../view/scene/keys.js";
+import { iconButton, stepButtons } from "../parts/icon-button.js";
 import {
   added,
   automatic,
@@ -88,13 +89,12 @@ export class PointEditor {
     const kind = kindOf(tool);
     const { list, place } = this.of(tool);
     const words = placingTexts(language);
-    const { texts, format } = language;
+    const { format } = language;
     const session = this.#session;
     const points = this.#points(kind);
     const count = (test: (point: HandPoint) => boolean): string => format.count(list.filter(test).length);
     const button = (name: string, isPossible: boolean, act: () => void): TemplateResult =>
       html`<button class="small" ?disabled=${!isPossible} @click=${act}>${name}</button>`;
-    const step = (way: "undo" | "redo", isPossible: boolean): TemplateResult => iconButton(way, texts.settings[way], isPossible, () => session[way]());
     const isAnyUnreached = list.some(({ isUnreached }) => isUnreached);
     return html`<section class="points" aria-label=${words[kind].title}>
       <p class="quiet">${words[kind].hint}</p>
@@ -105,7 +105,8 @@ export class PointEditor {
       ${this.#selection(tool, list, place, words, language)}
       <div class="actions">
         ${button(words.automatically, true, () => this.#change(automatic(points, session.settings)))}
-        ${button(words.clear, list.length > 0, () => this.#change(cleared(kind)))} ${step("undo", session.canUndo)} ${step("redo", session.canRedo)}
+        ${button(words.clear, list.length > 0, () => this.#change(cleared(kind)))}
+        ${stepButtons(session, language)}
       </div>
       ${kind === "drains"
         ? this.#length(words.newDiameter, this.#drain_mm, language, true, (mm) => {
@@ -200,23 +201,6 @@ export class PointEditor {
     this.#session.change(change, `points ${++this.#edits}`);
   }
 }
-
-/** Drawn in a square of 20 units. */
-const ICONS = {
-  undo: "M8 5 4 9l4 4M4 9h8a4 4 0 0 1 0 8H9",
-  redo: "m12 5 4 4-4 4m4-4H8a4 4 0 0 0 0 8h3",
-  remove: "M4 5.5h12M8 5.5V3.5h4v2M5.5 5.5l.75 11h7.5l.75-11M8.5 8.5v5M11.5 8.5v5",
-} as const;
-
-const iconButton = (icon: keyof typeof ICONS, name: string, isPossible: boolean, act: () => void): TemplateResult => html`<button
-  class="small icon"
-  aria-label=${name}
-  title=${name}
-  ?disabled=${!isPossible}
-  @click=${act}
->
-  <svg viewBox="0 0 20 20" aria-hidden="true"><path d=${ICONS[icon]} /></svg>
-</button>`;
 
 /** The markers, as the view draws them. */
 const CIRCLE = svg`<circle cx="8" cy="8" r="4.5" />`;
