@@ -208,3 +208,22 @@ test("a hole is drilled into a hollow model by a click, inward, and the void is 
   expect(await page.getByRole("radio", { name: "Drain holes" }).count()).toBe(0);
   expect(await page.getByRole("radio", { name: "Look around" }).isChecked()).toBe(true);
 });
+
+test("while supports keep off what weighs much, the view shows the weights", async () => {
+  const page = await opened("&supports=light", "Support points");
+  const shown = (): Promise<readonly [string, string]> => page.locator("cusp-view").evaluate(({ look, heat }: CuspView) => [look, heat] as const);
+  const spare = page.getByRole("switch", { name: "Keep off what is painted as important" });
+  expect(await spare.isDisabled()).toBe(true);
+  await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => {
+    const facets = element.model?.info.facets ?? 0;
+    element.weights = Float32Array.from({ length: facets }, (_, facet) => (facet % 2 === 0 ? 1 : 0.2));
+  });
+  await settled(page);
+  expect(await shown()).toEqual(["thickness", "product"]);
+  await spare.check();
+  await settled(page);
+  expect(await shown()).toEqual(["weights", "product"]);
+  expect(await broken(page)).toEqual([]);
+  await page.getByRole("radio", { name: "Look around" }).check();
+  expect((await shown())[0]).toBe("thickness");
+});

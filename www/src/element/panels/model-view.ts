@@ -133,8 +133,9 @@ export class CuspModel extends elementWith(PROPERTIES) {
       this.#plate.show(this.copies, this.crowded, this.shapes);
     }
     if ((this.tool === "move" || places(this.tool)) && !this.#offered.has(this.tool)) this.tool = "turn";
-    const shows = this.tool === "paint" && (this.colours === "saliency" || this.#counts);
-    if (shows && this.positions !== null && this.saliency === null && !this.isFinding) void this.#find();
+    const isPainting = this.tool === "paint";
+    const needsSaliency = this.#counts ? isPainting || this.#showsHeat : isPainting && this.colours === "saliency";
+    if (needsSaliency && this.positions !== null && this.saliency === null && !this.isFinding) void this.#find();
   }
 
   override render(): TemplateResult {
@@ -149,9 +150,10 @@ export class CuspModel extends elementWith(PROPERTIES) {
     // An aligned view shows all of the model, and from the side only: no single steps, no top to paint or to see walls from, no
     // bottom to support, and no plate with copies.
     const isAligned = this.aligned && !isEditing && !isPrinted && !isPlate && walls_mm === null;
-    const showsHeat = isPainting && this.colours !== "layers";
+    const showsHeat = this.#showsHeat;
     const points = this.#placed?.of(tool);
-    const heat = this.colours === "layers" ? "paint" : this.colours;
+    // Supports keep off what weighs much in the plan.
+    const heat = isPlacing ? "product" : this.colours === "layers" ? "paint" : this.colours;
     const { texts } = language;
     const words = texts.view;
     const isTurned = this.rotation.some((part, i) => part !== (i === 3 ? 1 : 0));
@@ -289,6 +291,12 @@ export class CuspModel extends elementWith(PROPERTIES) {
     this.#canAlign = detail;
     requestAnimationFrame(() => (this.canAlign = this.#canAlign));
   };
+
+  /** Whether the view shows weights: while they are painted, and while supports are placed that keep off the largest ones. */
+  get #showsHeat(): boolean {
+    const { tool, colours, settings, weights } = this;
+    return tool === "paint" ? colours !== "layers" : tool === "supports" && settings.spare === "on" && weights !== null;
+  }
 
   /** Whether saliency counts in the plan. */
   get #counts(): boolean {
