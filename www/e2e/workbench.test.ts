@@ -52,6 +52,18 @@ test("at 1280 × 800 nothing scrolls, from the drop to the download", async () =
   expect(await overflow(page)).toEqual([0, 0]);
 });
 
+test("at 1280 × 800 all tools of a turned and hollow model are in one line, so that the view is beside the profile", async () => {
+  const page = await start("?wall=1.5&rotation=0.5,0.5,0.5,0.5", DESKTOP);
+  await drop(page, ball);
+  await state(page, "done");
+  await page.waitForSelector(".u-over");
+  expect(await page.getByRole("radio", { name: "Drain holes" }).count()).toBe(1);
+  await page.getByRole("switch", { name: "Beside the profile" }).waitFor();
+  const tops = await page.locator("cusp-model .group, cusp-model .upright").evaluateAll((them) => them.map((it) => Math.round(it.getBoundingClientRect().top)));
+  expect(tops).toHaveLength(3);
+  expect(Math.max(...tops) - Math.min(...tops)).toBeLessThan(4);
+});
+
 test("the view grows with the window", async () => {
   const page = await start("", DESKTOP, true);
   await drop(page, ball);
@@ -194,6 +206,22 @@ test("on a phone the view comes first, the bar stays, and panels are sheets", as
   await page.keyboard.press("Escape");
   await expect.poll(() => page.locator(".sheet").count()).toBe(0);
   await expect.poll(async () => (await page.locator("cusp-view").boundingBox())?.height).toBe(whole);
+});
+
+test("on the smallest phone an open sheet leaves the view its room, and has some itself", async () => {
+  const page = await start("", { ...PHONE, viewport: { width: 320, height: 640 } });
+  await drop(page, ball);
+  await state(page, "done");
+  await page.waitForSelector("cusp-view");
+  for (const name of ["Support", "Profile"]) {
+    await page.locator("nav").getByRole("button", { name }).tap();
+    await page.locator(".sheet").getByRole("heading", { name, level: 2 }).waitFor();
+    await inSight(page, ["cusp-view", ".sheet", ".bar .download"]);
+    const height = async (selector: string): Promise<number> => (await page.locator(selector).boundingBox())?.height ?? 0;
+    expect(await height("cusp-view")).toBeGreaterThan(165);
+    expect(await height(".sheet .panel")).toBeGreaterThan(110);
+    expect(await overflow(page)).toEqual([0, 0]);
+  }
 });
 
 test("a sheet that closes gives the focus back to the button that opens it", async () => {

@@ -7,7 +7,7 @@ export const viewStyles = css`
     position: relative;
     display: block;
     min-width: 0;
-    min-height: 12rem;
+    min-height: 10rem;
     overflow: hidden;
     border-radius: 8px;
     color: var(--cusp-text, CanvasText);

@@ -38,12 +38,14 @@ export const workbenchStyles = css`
     grid-template: minmax(0, 1fr) auto / minmax(0, 1fr);
     gap: 0;
   }
+  /* On a small screen, too, the model is seen above the sheet. */
   .bench.narrow:has(.sheet) {
-    grid-template-rows: minmax(0, 1fr) minmax(0, 1fr) auto;
+    grid-template-rows: minmax(min(17rem, 46%), 1fr) minmax(0, 1fr) auto;
   }
-  /* In what is left of the view, the scale would hide the model. */
+  /* In what is left of the view, the scale would hide the model, and the switches would take its room. */
   .bench.narrow:has(.sheet) cusp-model {
     --cusp-view-legend: none;
+    --cusp-view-switches: none;
   }
   .dragging {
     outline: 3px dashed var(--cusp-accent);
@@ -478,6 +480,9 @@ export const workbenchStyles = css`
     text-align: start;
     font-variant-numeric: tabular-nums;
   }
+  .bar-figures strong {
+    white-space: nowrap;
+  }
   .bar-figures span {
     font-size: 0.875rem;
     font-weight: 400;
@@ -523,6 +528,17 @@ export const workbenchStyles = css`
     border: 0;
     margin-bottom: 1rem;
   }
+  @container (max-width: 22.49rem) {
+    .bar-result {
+      padding-block: 0.25rem;
+    }
+    .bar-figures {
+      padding-inline: 0;
+    }
+    .bar .download {
+      font-size: 0.875rem;
+    }
+  }
   /* Between phone and desktop, a sheet stands at the side and leaves the view its height. */
   @container (min-width: 40rem) {
     .bench.narrow:has(.sheet) {
@@ -530,6 +546,7 @@ export const workbenchStyles = css`
     }
     .bench.narrow:has(.sheet) cusp-model {
       --cusp-view-legend: block;
+      --cusp-view-switches: flex;
     }
     .sheet cusp-findings {
       --cusp-findings-legend: none;

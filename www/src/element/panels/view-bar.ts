@@ -119,6 +119,7 @@ export const barStyles = css`
     min-width: 0;
   }
   .switches {
+    display: var(--cusp-view-switches, flex);
     margin-inline-start: auto;
   }
   .mode,
@@ -255,6 +256,16 @@ export const barStyles = css`
       overflow: hidden;
       clip-path: inset(50%);
       white-space: nowrap;
+    }
+  }
+  /* All in one line beside a chart, where a second one would push the view down from beside it. */
+  @container (max-width: 31.99rem) {
+    .bar {
+      column-gap: 0.25rem;
+    }
+    .switch {
+      flex-direction: column;
+      gap: 0;
     }
   }
   @media (forced-colors: active) {
