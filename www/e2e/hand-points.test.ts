@@ -227,3 +227,46 @@ test("while supports keep off what weighs much, the view shows the weights", asy
   await page.getByRole("radio", { name: "Look around" }).check();
   expect((await shown())[0]).toBe("thickness");
 });
+
+test("stepping to a point behind the model turns the view to it, and leaves it where the point is seen", async () => {
+  const page = await opened("", "Support points");
+  const view = page.locator("cusp-view");
+  await view.evaluate((it: CuspView) => it.addEventListener("cusp-camera", ({ detail }) => Object.assign(window, { camera: detail })));
+  /** The way from the model to the camera. */
+  const look = async (): Promise<Triple> => {
+    const [x, y, z, w] = await page.evaluate(() => (window as unknown as { camera: [number, number, number, number] }).camera);
+    return [2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)];
+  };
+  /** The same once the camera has come to rest. */
+  const still = async (): Promise<Triple> => {
+    let [before, now] = ["", await look()];
+    while (String(now) !== before) {
+      before = String(now);
+      await page.waitForTimeout(250);
+      now = await look();
+    }
+    return now;
+  };
+  const faces = async ([x, y, z]: Triple): Promise<number> => {
+    const [lx, ly, lz] = await still();
+    return (x * lx + y * ly + (z - RADIUS) * lz) / RADIUS;
+  };
+  await page.locator("cusp-view .scene").focus();
+  for (let i = 0; i < 4; i++) await page.keyboard.press("Shift+ArrowUp");
+  await page.keyboard.press("Enter");
+  await settled(page);
+  const seen = await still();
+  await page.keyboard.press("ArrowRight");
+  await page.getByText("Point 1 of 1, at").waitFor();
+  expect(await still()).toEqual(seen);
+  for (let i = 0; i < 18; i++) await page.keyboard.press("Shift+ArrowLeft");
+  await page.keyboard.press("Enter");
+  await settled(page);
+  await page.getByText("Point 2 of 2, at").waitFor();
+  const [first] = await supported(page);
+  if (first === undefined) throw new Error("the points are not in the plan");
+  expect(await faces(first)).toBeLessThan(0);
+  await page.keyboard.press("ArrowRight");
+  await page.getByText("Point 1 of 2, at").waitFor();
+  expect(await faces(first)).toBeGreaterThan(0.2);
+});

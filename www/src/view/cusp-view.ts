@@ -243,9 +243,14 @@ export class CuspView extends elementWith(PROPERTIES) {
     }
     if ((["positions", "look", "heat", "saliency", "least"] as const).some(has)) this.#heat(null);
     if ((["positions", "rotation", "scale", "lift_mm", "z_mm", "look"] as const).some(has)) this.#print();
-    if (has("mark") && (this.mark !== null || this.hasUpdated)) scene.setMark(this.mark, scene.isSmooth && !this.#reducedMotion.matches ? FLIGHT_MS : 0);
+    if (has("mark") && (this.mark !== null || this.hasUpdated)) scene.setMark(this.mark, this.#flight_ms);
     this.#near();
     scene.invalidate();
+  }
+
+  /** How long the camera takes to another place: no time where frames take long, since it would be a few jumps. */
+  get #flight_ms(): number {
+    return this.#scene?.isSmooth === true && !this.#reducedMotion.matches ? FLIGHT_MS : 0;
   }
 
   #near(): void {
@@ -356,7 +361,7 @@ export class CuspView extends elementWith(PROPERTIES) {
     else if (action.do === "zoom") cameras.zoom(action.factor);
     else if (action.do === "reset") cameras.reset();
     else if (action.do === "move-copy") this.#moving?.step(this.selected, action.x_mm, action.y_mm, action.turn_deg);
-    else if (action.do === "next-point") this.#placing?.step(action.by);
+    else if (action.do === "next-point") this.#placing?.step(action.by, this.#flight_ms);
     else if (action.do === "remove-point") this.#placing?.edit("remove");
     else if (action.do === "lock-point") this.#placing?.edit("lock");
     else if (action.do === "turn-model") this.#rotate(turned(this.rotation, action.axis, action.degrees), true);

@@ -1,14 +1,17 @@
 /** Places points on the model's surface, by pointer and by keyboard. */
-import { Matrix4, Vector3, type Ray } from "three";
+import { Ray, Vector3 } from "three";
 import type { PointDetail, SurfacePlace } from "../events.js";
 import { watchDrags, type Drags } from "../scene/drags.js";
 import { doubleArea } from "../scene/flat.js";
 import type { Point } from "../scene/pointer.js";
 import { DRAG_FROM_PX } from "../scene/pointer.js";
 import { Raycast } from "../scene/raycast.js";
+import type { Triple } from "../scene/pose.js";
 import type { Scene } from "../scene/scene.js";
+import type { Viewpoint } from "../scene/viewpoint.js";
 import type { Derived } from "../steps/derived.js";
 import { REACH_PX, stepped, TOUCH_REACH_PX, within } from "./nearest.js";
+import { sighted } from "./sight.js";
 
 interface Drag {
   readonly place: number;
@@ -66,10 +69,22 @@ export class Placing {
     else if (this.selected !== null && !this.#isSupportAt(at)) this.#tell({ do: "select", place: null });
   }
 
-  /** Selects the next point, or the one before. */
-  step(by: 1 | -1): void {
+  /**
+   * Selects the next point, or the one before, and turns the camera where it does not see it.
+   *
+   * @param duration_ms how long the camera may take
+   */
+  step(by: 1 | -1, duration_ms: number): void {
     const place = stepped(this.selected, by, this.#scene.markers.points.length);
-    if (place !== null) this.#tell({ do: "select", place });
+    if (place === null) return;
+    this.#tell({ do: "select", place });
+    const { cameras } = this.#scene;
+    const point = this.#pointAt(place);
+    const isSeen = (from: Viewpoint): boolean => cameras.shows(from, point) && !this.#isHidden(point, new Vector3(...from.position));
+    const to = sighted(cameras.goal, point, this.#outward(place, point), isSeen);
+    if (to === null) return;
+    cameras.moveTo(to, duration_ms);
+    this.#scene.invalidate();
   }
 
   edit(what: "remove" | "lock"): void {
@@ -107,25 +122,30 @@ export class Placing {
     this.#scene.invalidate();
   }
 
-  #shownAt(place: number): Point {
+  /** Where a point is on the plate. */
+  #pointAt(place: number): Vector3 {
     const [x, y, z] = this.#scene.markers.points[place]?.at_mm ?? [0, 0, 0];
-    return this.#scene.cameras.project(new Vector3(x, y, z + this.#scene.model.lift_mm));
+    return new Vector3(x, y, z + this.#scene.model.lift_mm);
+  }
+
+  #shownAt(place: number): Point {
+    return this.#scene.cameras.project(this.#pointAt(place));
   }
 
   /** The marker that a pointer is on. Those behind the model are seen, but what is before them is meant. */
   #markerAt(at: Point, reach_px: number): number | null {
     const places = this.#scene.markers.points.map((_, place) => this.#shownAt(place));
-    return within(at, places, reach_px).find((place) => !this.#isHidden(place, places[place] ?? at)) ?? null;
+    const eye = this.#scene.cameras.current.position;
+    return within(at, places, reach_px).find((place) => !this.#isHidden(this.#pointAt(place), eye)) ?? null;
   }
 
-  #isHidden(place: number, at: Point): boolean {
-    const hit = this.#derived?.raycast?.cast(this.#scene.rayAt(...at)) ?? null;
-    const { at_mm } = this.#scene.markers.points[place] ?? {};
-    if (hit === null || at_mm === undefined) return false;
-    const eye = this.#scene.worldRayAt(...at).origin;
-    const away = (point: Vector3): number => point.setZ(point.z + this.#scene.model.lift_mm).distanceTo(eye);
+  /** Whether the model hides a point from an eye, both on the plate. */
+  #isHidden(point: Vector3, eye: Vector3): boolean {
+    const ray = this.#scene.inFile(new Ray(eye, point.clone().sub(eye).normalize()));
+    const hit = this.#derived?.raycast?.cast(ray) ?? null;
+    if (hit === null) return false;
     // It is on the surface, so only what is clearly before it hides it.
-    return away(new Vector3(...this.#ownFrame(hit.point))) < away(new Vector3(...at_mm)) - 0.01 * Math.hypot(...this.#scene.model.size_mm);
+    return this.#onPlate(hit.point).distanceTo(eye) < point.distanceTo(eye) - 0.01 * Math.hypot(...this.#scene.model.size_mm);
   }
 
   #isSupportAt(at: Point): boolean {
@@ -139,25 +159,33 @@ export class Placing {
     const hit = derived?.raycast?.cast(ray) ?? null;
     if (derived === null || hit === null) return null;
     const world = this.#scene.worldRayAt(...at);
-    const at_mm = this.#ownFrame(hit.point);
+    const point = this.#onPlate(hit.point);
     const held = this.#supports.raycast?.cast(world) ?? null;
-    const away = (point: Vector3): number => point.distanceTo(world.origin);
-    const [x, y, z] = at_mm;
-    if (held !== null && away(new Vector3(...held.point)) < away(new Vector3(x, y, z + this.#scene.model.lift_mm))) return null;
-    return { at_mm, inward: this.#inward(derived.positions, hit.facet, ray) };
+    if (held !== null && new Vector3(...held.point).distanceTo(world.origin) < point.distanceTo(world.origin)) return null;
+    const [x, y, z] = point.toArray();
+    return { at_mm: [x, y, z - this.#scene.model.lift_mm], inward: this.#inward(derived.positions, hit.facet, ray.direction).toArray() };
   }
 
-  /** A point of the file in the frame of the points. */
-  #ownFrame(point: readonly [number, number, number]): [number, number, number] {
-    const { x, y, z } = new Vector3(...point).applyMatrix4(this.#scene.model.facets.matrixWorld);
-    return [x, y, z - this.#scene.model.lift_mm];
+  /** Where a point of the file is on the plate. */
+  #onPlate(point: Triple): Vector3 {
+    return new Vector3(...point).applyMatrix4(this.#scene.model.facets.matrixWorld);
   }
 
-  /** The way into the model at a facet: that of the ray rather than that of a facet the wrong way round. */
-  #inward(positions: Float32Array, facet: number, ray: Ray): [number, number, number] {
+  /** The way out of the model at a point: against that of a hole, or at the nearest facet, as its file has it. */
+  #outward(place: number, point: Vector3): Vector3 {
+    const inward = this.#scene.markers.points[place]?.inward ?? null;
+    if (inward !== null) return new Vector3(...inward).negate();
+    const { facets } = this.#scene.model;
+    const near = this.#derived?.raycast?.nearest(facets.worldToLocal(point.clone()).toArray(), Infinity) ?? null;
+    const normal = near === null || this.#derived === null ? new Vector3() : new Vector3(...doubleArea(this.#derived.positions, near.facet));
+    return normal.transformDirection(facets.matrixWorld);
+  }
+
+  /** The way into the model at a facet: that of a ray rather than that of a facet the wrong way round. */
+  #inward(positions: Float32Array, facet: number, direction: Vector3): Vector3 {
     const normal = new Vector3(...doubleArea(positions, facet));
-    if (normal.length() === 0) normal.copy(ray.direction);
-    if (normal.dot(ray.direction) < 0) normal.negate();
-    return normal.transformDirection(new Matrix4().copy(this.#scene.model.facets.matrixWorld)).toArray();
+    if (normal.length() === 0) normal.copy(direction);
+    if (normal.dot(direction) < 0) normal.negate();
+    return normal.transformDirection(this.#scene.model.facets.matrixWorld);
   }
 }

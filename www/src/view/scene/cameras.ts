@@ -45,6 +45,9 @@ const SIDEWAYS = 0.6;
 const FACED_PX = 180;
 const FACED_PART = 0.3;
 
+/** How much of its width and height a view is sure to show. */
+const SIGHT = 0.9;
+
 const FIRST = new Vector3(...FIRST_LOOK);
 
 /** A perspective camera with z upwards. */
@@ -226,6 +229,21 @@ export class Cameras {
     camera.updateMatrixWorld();
     camera.updateProjectionMatrix();
     return camera;
+  }
+
+  /** Where the free camera is, or is on its way to. */
+  get goal(): Viewpoint {
+    return this.#flight?.to ?? this.#viewpoint;
+  }
+
+  /** Whether a camera there has a point of the scene in its view, where nothing hides it, and not at the very edge. */
+  shows(from: Viewpoint, point: Vector3): boolean {
+    const { x, y, z } = point.clone().project(this.tried(from));
+    return Math.max(Math.abs(x), Math.abs(y)) < SIGHT && z < 1;
+  }
+
+  moveTo(to: Viewpoint, duration_ms: number): void {
+    if (!this.#aligned) this.#fly(this.#viewpoint, to, duration_ms);
   }
 
   /** Moves the free camera to a place, from which `withdraw` brings it back. */

@@ -274,10 +274,16 @@ export class Scene {
 
   /** The ray through a point of the view, CSS pixels, in the file's pose. */
   rayAt(x_px: number, y_px: number): Ray {
-    return this.worldRayAt(x_px, y_px).applyMatrix4(this.model.facets.matrixWorld.clone().invert());
+    return this.inFile(this.worldRayAt(x_px, y_px));
   }
 
-  /** The same on the plate. */
+  /** A ray on the plate, in the file's pose. */
+  inFile(ray: Ray): Ray {
+    this.#scene.updateMatrixWorld();
+    return ray.clone().applyMatrix4(this.model.facets.matrixWorld.clone().invert());
+  }
+
+  /** The ray through a point of the view, CSS pixels, on the plate. */
   worldRayAt(x_px: number, y_px: number): Ray {
     const [width, height] = this.#size;
     this.#scene.updateMatrixWorld();
