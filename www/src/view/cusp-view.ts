@@ -205,7 +205,7 @@ export class CuspView extends elementWith(PROPERTIES) {
   #show(scene: Scene, has: (name: keyof CuspView) => boolean): void {
     const { model } = scene;
     if (has("plate")) scene.setVolume(this.plate);
-    if (has("lift_mm")) model.lift_mm = this.lift_mm;
+    if (has("lift_mm")) model.lift_mm = scene.copies.lift_mm = this.lift_mm;
     if (has("supports") || has("rotation")) model.setSupports(has("supports") ? this.supports : null);
     if (has("voids") || has("rotation")) model.setVoids(has("voids") ? this.voids : null);
     if (has("positions")) {

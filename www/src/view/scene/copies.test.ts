@@ -1,6 +1,6 @@
-import { Ray, Vector3 } from "three";
+import { Matrix4, Ray, Vector3 } from "three";
 import { expect, test } from "vitest";
-import { matrixOf, sizeOfAll, type Copy, type Shape } from "./copies.js";
+import { Copies, matrixOf, sizeOfAll, type Copy, type Shape } from "./copies.js";
 import { hitBy } from "./moving.js";
 import type { Triple } from "./pose.js";
 
@@ -19,6 +19,18 @@ test("the box of all copies is about the middle of the plate", () => {
   expect(sizeOfAll([copy(0, -20, 3)], sizeOf)).toEqual([50, 10, 6]);
   const [x, y] = sizeOfAll([copy(0, -20, 3, 90)], sizeOf);
   expect([x, y].map(Math.round)).toEqual([44, 16]);
+});
+
+test("copies are lifted with the model, and are as high with what is below them", () => {
+  const copies = new Copies({});
+  copies.lift_mm = 5;
+  const facet: Shape = { ...shape, positions: Float32Array.of(0, 0, 2, 10, 0, 2, 0, 4, 8) };
+  copies.set([copy(0, 0, 0), { ...copy(1, 20, 0), shape: facet }], 0);
+  copies.group.updateMatrixWorld();
+  const [other] = copies.group.children;
+  expect(new Vector3(10, 0, 2).applyMatrix4(other?.matrixWorld ?? new Matrix4()).toArray()).toEqual([25, -2, 5]);
+  expect(copies.sizeOf(facet)).toEqual([10, 4, 11]);
+  copies.dispose();
 });
 
 test("a ray meets the nearest copy, also a turned one", () => {

@@ -60,6 +60,15 @@ export class Copies {
     this.#crowded = material({ byThickness: { value: false }, resin: { value: new Vector3(0.8, 0.2, 0.2) } });
   }
 
+  /** How far supports lift all models above the plate, mm. */
+  get lift_mm(): number {
+    return this.group.position.z;
+  }
+
+  set lift_mm(mm: number) {
+    this.group.position.z = mm;
+  }
+
   setBad([r, g, b]: Rgb): void {
     const resin = this.#crowded.uniforms["resin"];
     if (resin !== undefined) resin.value = new Vector3(r, g, b).divideScalar(255);
@@ -89,8 +98,10 @@ export class Copies {
     }
   }
 
+  /** Size of a copy with what is below it. */
   sizeOf(shape: Shape): Triple {
-    return this.#of(shape).size_mm;
+    const [x, y, z] = this.#of(shape).size_mm;
+    return [x, y, z + this.lift_mm];
   }
 
   dispose(): void {
