@@ -464,10 +464,11 @@ export const workbenchStyles = css`
     background: var(--cusp-card);
     padding-bottom: env(safe-area-inset-bottom);
   }
+  /* The words of the button break before those of the figures. */
   .bar-result {
-    display: flex;
+    display: grid;
+    grid-template-columns: minmax(min-content, max-content) minmax(min-content, 1fr);
     align-items: center;
-    justify-content: space-between;
     gap: 0.75rem;
     padding: 0.5rem 0.75rem;
   }
@@ -480,14 +481,12 @@ export const workbenchStyles = css`
     text-align: start;
     font-variant-numeric: tabular-nums;
   }
-  .bar-figures strong {
-    white-space: nowrap;
-  }
   .bar-figures span {
     font-size: 0.875rem;
     font-weight: 400;
   }
   .bar .download {
+    justify-self: end;
     width: auto;
     margin: 0;
     padding-inline: 0.875rem;
@@ -536,6 +535,7 @@ export const workbenchStyles = css`
       padding-inline: 0;
     }
     .bar .download {
+      padding-inline: 0.5rem;
       font-size: 0.875rem;
     }
   }
