@@ -209,7 +209,7 @@ test("what the page has fixed is shown, and neither form, offer nor undo changes
   await page.evaluate(() => document.querySelector<CuspSlicer>("#a")?.setAttribute("printer", "mars-4-ultra"));
   await field("Scale to height").fill("120");
   await page.waitForSelector("#a[state=error]");
-  expect(await page.locator("#a cusp-settings .offers button").allInnerTexts()).toEqual([expect.stringMatching(/^Scale to \d/)]);
+  await expect.poll(() => page.locator("#a cusp-settings .offers button").allInnerTexts()).toEqual([expect.stringMatching(/^Scale to \d/)]);
   const settings = await page.evaluate(() => {
     const element = document.querySelector<CuspSlicer>("#a");
     element?.undo();

@@ -251,6 +251,7 @@ test.each([
   await drop(page, ballFile);
   await state(page, "error");
   const offers = page.getByRole("alert").getByRole("button", { name: /^(Tolerance|Layers from)/ });
+  await offers.first().waitFor();
   const names = await offers.allInnerTexts();
   expect(names.map((name) => name.replace(/ [\d.]+\s?(mm³|mm|%)$/, ""))).toEqual(["Tolerance", "Layers from"]);
   const typed = await page.getByLabel("Tolerance", { exact: true }).inputValue();

@@ -264,6 +264,7 @@ test("a model that is too large for the printer may be scaled, and then has a pr
   }, [...prism(100, 20).bytes]);
   await state(page, "error");
   const offers = page.locator("cusp-slicer .offers button");
+  await offers.first().waitFor();
   expect(await offers.allInnerTexts()).toEqual([expect.stringMatching(/^Scale to /)]);
   expect(await page.locator("#price-note").innerText()).toBe("The price comes with your model.");
   await offers.click();

@@ -173,6 +173,7 @@ describe("the layout", () => {
     expect(plain.panel).toBe(650);
     expect(plain.view).toBeGreaterThan(540);
     await page.getByRole("radio", { name: "What matters" }).click();
+    await page.getByText("Load weights").waitFor();
     await drawn(page);
     const { view, width: across, tools, lowest } = await heights(page);
     expect(view).toBeGreaterThanOrEqual(350);
@@ -190,6 +191,7 @@ describe("the layout", () => {
     const plain = await heights(page);
     expect(plain.view).toBe(448);
     await page.getByRole("radio", { name: "What matters" }).click();
+    await page.getByText("Load weights").waitFor();
     await drawn(page);
     const open = await heights(page);
     expect(open.view).toBe(448);
