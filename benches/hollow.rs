@@ -20,7 +20,7 @@ use peak_alloc::PeakAlloc;
 static ALLOCATOR: PeakAlloc = PeakAlloc;
 
 fn row(name: &str, mesh: &Mesh, hollowing: &Hollowing) {
-    let work = || hollow(mesh, hollowing, &mut silent).expect("no failure");
+    let work = || hollow(mesh, hollowing, None, &mut silent).expect("no failure");
     let before = ALLOCATOR.current_usage();
     ALLOCATOR.reset_peak_usage();
     drop(work());

@@ -66,9 +66,17 @@ fn the_void_and_its_holes_are_the_recorded_ones() {
             diameter_mm: 0.9,
             depth_mm: None,
         }],
-        auto_drain: Some(AutoDrain { diameter_mm: 0.8 }),
+        auto_drain: Some(AutoDrain {
+            diameter_mm: 0.8,
+            ..AutoDrain::default()
+        }),
     };
-    let void = hollow(&on_plate(&solids::sphere(3.0, 5)), &hollowing, &mut silent);
+    let void = hollow(
+        &on_plate(&solids::sphere(3.0, 5)),
+        &hollowing,
+        None,
+        &mut silent,
+    );
     let void = void.unwrap().unwrap();
     assert!(void.astray.is_empty() && void.drains.len() > 1);
     let shells = std::iter::once(&void.shell).chain(void.drains.iter().map(|drain| &drain.1));

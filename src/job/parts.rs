@@ -166,10 +166,12 @@ impl Sampling {
         })
     }
 
-    /// The weights of facets that say where no contact may be, if they do.
+    /// The weights of facets that say where no contact and no drain hole may be, if they do.
     pub fn spared<'a>(&self, weights: Option<&'a [f32]>) -> Option<&'a [f32]> {
-        let supports = self.supports.as_ref();
-        weights.filter(|_| supports.is_some_and(|it| it.spare))
+        let of_supports = self.supports.iter().map(|it| it.spare);
+        let of_drains = self.hollow.iter().filter_map(|it| it.auto_drain);
+        let mut spare = of_supports.chain(of_drains.map(|it| it.spare));
+        weights.filter(|_| spare.any(|it| it))
     }
 
     /// How far supports lift the model above the plate.

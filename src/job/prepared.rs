@@ -37,7 +37,7 @@ struct Preparing {
     pose: Pose,
     hollow: Option<Hollowing>,
     supports: Option<Supporting>,
-    /// The weights of facets that say where no contact may be, if they do.
+    /// The weights of facets that say where no contact and no hole may be, if they do.
     spared: Option<Vec<f32>>,
 }
 
@@ -105,7 +105,7 @@ impl Prepared {
         };
         if let Some(hollowing) = &sampling.hollow {
             let mut within = |fraction| progress(between * fraction);
-            hollowed = hollow(&mut mesh, hollowing, &mut warnings, &mut within)?;
+            hollowed = hollow(&mut mesh, hollowing, spared, &mut warnings, &mut within)?;
         }
         let mut supports = None;
         if let Some(supporting) = &sampling.supports {
@@ -202,10 +202,11 @@ impl Prepared {
 fn hollow(
     mesh: &mut Mesh,
     hollowing: &Hollowing,
+    spared: Option<&[f32]>,
     warnings: &mut Vec<Warning>,
     progress: &mut Progress<'_>,
 ) -> Result<Option<Hollowed>, LdiError> {
-    let Some(void) = prepare::hollow(mesh, hollowing, progress)? else {
+    let Some(void) = prepare::hollow(mesh, hollowing, spared, progress)? else {
         warnings.push(Warning::NothingHollowed {
             wall_mm: hollowing.wall_mm,
             cavity_mm: hollowing.cavity_mm,

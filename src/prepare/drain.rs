@@ -4,8 +4,9 @@ use glam::{DVec3, Vec3};
 use serde::{Deserialize, Serialize};
 
 use super::columns::Columns;
-use super::nets::{Lattice, Shell};
+use super::nets::Lattice;
 use super::round::{circle, rim};
+use super::shell::Shell;
 use crate::model::Bounds;
 
 /// A drain hole.
@@ -33,17 +34,23 @@ pub struct Drain {
 pub struct AutoDrain {
     /// Their diameter.
     pub diameter_mm: f64,
+    /// Whether they keep off facets that weigh more than a half, where another way leads out. Resin that stays inside is worse than a
+    /// hole that shows.
+    pub spare: bool,
 }
 
 impl Default for AutoDrain {
     /// Holes of 3 mm, through which resin flows in seconds.
     fn default() -> Self {
-        Self { diameter_mm: 3.0 }
+        Self {
+            diameter_mm: 3.0,
+            spare: false,
+        }
     }
 }
 
 /// Doublings from four points of a circle to those of a hole.
-const DOUBLINGS: u32 = 3;
+pub(super) const DOUBLINGS: u32 = 3;
 
 /// No plate is as wide or as high.
 const MOST_MM: f64 = 1e5;
@@ -191,8 +198,21 @@ pub(super) fn bore(shell: &Shell, drain: &Drain, bounds: &Bounds) -> Option<(She
     Some((bore.shell(begin_mm, depth_mm, bounds), depth_mm))
 }
 
+/// Whether a point is in a hole, or no farther from it than a margin.
+pub(super) fn is_in(drain: &Drain, point: DVec3, margin_mm: f64) -> bool {
+    let Some(bore) = Bore::new(drain) else {
+        return false;
+    };
+    let from = point - bore.at;
+    let along_mm = from.dot(bore.along);
+    let away_mm = (from - bore.along * along_mm).length();
+    let depth_mm = drain.depth_mm.unwrap_or_default();
+    (-drain.diameter_mm..=depth_mm + margin_mm).contains(&along_mm)
+        && away_mm <= drain.diameter_mm / 2.0 + margin_mm
+}
+
 /// How far a bore goes on beyond what it drains, so that its end does not close it, in parts of its diameter.
-const BEYOND: f64 = 0.25;
+pub(super) const BEYOND: f64 = 0.25;
 
 /// How much room a hole needs outside, in diameters.
 const ROOM: f32 = 2.0;
@@ -200,13 +220,14 @@ const ROOM: f32 = 2.0;
 /// The least distance of a hole from the plate, which would close it.
 const ABOVE_PLATE_MM: f32 = 0.2;
 
-/// Places a hole that drains a basin by the shortest way: level or slanting down, since what a hole leads up to stays full. `None` if
-/// there is no such way.
+/// Places a hole that drains a basin by the shortest way, first of those that end where nothing is spared: level or slanting down, since what a hole leads up
+/// to stays full. `None` if there is no such way.
 pub(super) fn place(
     model: &Columns,
     lattice: &Lattice,
     lowest_mm: Vec3,
     hole: AutoDrain,
+    is_spared: &dyn Fn(Vec3) -> bool,
 ) -> Option<Drain> {
     let diameter_mm = hole.diameter_mm as f32;
     let radius_mm = diameter_mm / 2.0;
@@ -219,9 +240,8 @@ pub(super) fn place(
         .map(|[x, y]| (level_mm, Vec3::new(x, y, 0.0)));
     let ways = ways.chain(around.map(|[x, y]| (lowest_mm, Vec3::new(x, y, -1.0) * slant)));
     let ways = ways.chain([(lowest_mm, Vec3::NEG_Z)]);
-    let mut best: Option<(f32, Vec3, Vec3)> = None;
+    let mut best: Option<((bool, f32), Vec3, Vec3)> = None;
     for (from, along) in ways {
-        let most_mm = best.map_or(f32::INFINITY, |best| best.0);
         let Some(length_mm) = way_out_mm(model, lattice, from, along, ROOM * diameter_mm) else {
             continue;
         };
@@ -232,11 +252,15 @@ pub(super) fn place(
         } else {
             radius_mm
         };
-        if length_mm < most_mm && end.z - below_mm >= ABOVE_PLATE_MM {
-            best = Some((length_mm, end, along));
+        if end.z - below_mm < ABOVE_PLATE_MM {
+            continue;
+        }
+        let cost = (is_spared(end), length_mm);
+        if best.is_none_or(|best| cost < best.0) {
+            best = Some((cost, end, along));
         }
     }
-    let (length_mm, at, along) = best?;
+    let ((_, length_mm), at, along) = best?;
     // As people write them, so that a report's holes can be given again; without -0.
     let rounded = |number: f32| (f64::from(number) * 1e3).round() / 1e3 + 0.0;
     Some(Drain {

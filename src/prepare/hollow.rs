@@ -13,7 +13,10 @@ use super::columns::{Columns, MARGIN, To};
 use super::drain::{self, AutoDrain, Drain};
 use super::lattice::Lattice as Struts;
 use super::lengths::{self, BadLength};
-use super::nets::{Lattice, Nets, Shell};
+use super::nets::{Lattice, Nets};
+use super::pits;
+use super::shell::Shell;
+use super::surface::{self, Surface};
 use crate::grid::Grid;
 use crate::ldi::{LdiError, cpu};
 use crate::model::{Bounds, Mesh};
@@ -162,7 +165,12 @@ const MOST_MM: f64 = 1e5;
 /// Columns from one node of the void's surface to the next.
 const STRIDE: usize = 2;
 
+/// The depth of what basins may miss, from one node of the void's surface to the next.
+const PIT: f32 = 2.0;
+
 /// The void in a model that stands on the plate: none if it is nowhere thick enough.
+///
+/// `weights` are those of the facets of the surface, if they say where no drain hole should be.
 ///
 /// Cost: linear in the points of the lattice, times the columns in a wall and half a cavity.
 ///
@@ -171,6 +179,7 @@ const STRIDE: usize = 2;
 pub fn hollow(
     mesh: &Mesh,
     hollowing: &Hollowing,
+    weights: Option<&[f32]>,
     progress: &mut Progress<'_>,
 ) -> Result<Option<Void>, LdiError> {
     let bounds = mesh.bounds();
@@ -263,16 +272,32 @@ pub fn hollow(
     if let Some(hole) = hollowing.auto_drain {
         // A hole as wide as the model leaves nothing of it.
         let is_small = hole.diameter_mm < size.min_element();
+        let weights = weights.filter(|_| hole.spare);
+        let surface = weights.map(|_| Surface::new(mesh));
+        let is_spared = |at: Vec3| {
+            // What the hole cuts away, and no less than the columns resolve.
+            let reach_mm = (hole.diameter_mm / 2.0).max(2.0 * pitch_mm);
+            surface.as_ref().is_some_and(|surface| {
+                let mut near = surface.within(at.as_dvec3(), reach_mm).into_iter();
+                near.any(|it| surface::is_spared(weights, it.2))
+            })
+        };
         for (slice, node) in basins.finish() {
             report(progress, 1.0)?;
             let lowest_mm = lattice.node_mm(node % lattice.width, node / lattice.width, slice);
-            let drain = is_small.then(|| drain::place(&model, &lattice, lowest_mm, hole));
+            let drain =
+                is_small.then(|| drain::place(&model, &lattice, lowest_mm, hole, &is_spared));
             let drain = drain.flatten();
             if !drain.is_some_and(|drain| void.drill(&drain, &bounds)) {
                 void.undrained += 1;
             }
         }
     }
+    let drains: Vec<Drain> = void.drains.iter().map(|it| it.0).collect();
+    pits::fill(&mut void.shell, PIT * lattice.spacing_mm, |at| {
+        let mut drains = drains.iter();
+        drains.any(|drain| drain::is_in(drain, at.as_dvec3(), lattice.spacing_mm.into()))
+    });
     Ok(Some(void))
 }
 

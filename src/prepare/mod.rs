@@ -9,11 +9,16 @@ mod hollow;
 mod lattice;
 mod lengths;
 mod nets;
+mod pits;
+mod plug;
 mod round;
+mod shell;
 mod support;
+mod surface;
 
 pub use drain::{AutoDrain, Drain};
 pub use hollow::{Hollowing, Infill, Void, hollow};
 pub(crate) use lengths::BadLength;
-pub use nets::Shell;
+pub use plug::plugs;
+pub use shell::Shell;
 pub use support::{SupportPoint, SupportProfile, SupportStrength, Supporting, Supports, support};

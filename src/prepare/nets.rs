@@ -6,29 +6,7 @@
 
 use glam::Vec3;
 
-/// A closed surface. Corners are counter-clockwise as seen from where the field is not positive.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Shell {
-    /// Vertices in millimetres.
-    pub vertices: Vec<Vec3>,
-    /// Three vertex indices per facet.
-    pub facets: Vec<[u32; 3]>,
-}
-
-impl Shell {
-    /// The volume enclosed, in mm³, by the divergence theorem.
-    pub fn volume_mm3(&self) -> f64 {
-        let sixfold: f64 = self
-            .facets
-            .iter()
-            .map(|corners| {
-                let [a, b, c] = corners.map(|vertex| self.vertices[vertex as usize].as_dvec3());
-                a.dot(b.cross(c))
-            })
-            .sum();
-        sixfold / 6.0
-    }
-}
+use super::shell::Shell;
 
 /// No vertex.
 const NONE: u32 = u32::MAX;

@@ -275,7 +275,7 @@ fn a_supported_model_is_lifted_and_written_for_other_programs() {
     let obj = folder.path().join("held.obj");
     assert_fails(
         &cusp(&["plan", &ball, "--export", obj.to_str().unwrap()]),
-        1,
-        "a mesh is written as .stl or .3mf",
+        2,
+        "expected a name that ends in .stl or .3mf",
     );
 }

@@ -1,7 +1,9 @@
 //! Drain holes.
 
 use cusp_slicer::inspect::{Code, Limits};
-use cusp_slicer::prepare::{AutoDrain, Drain, Hollowing};
+use cusp_slicer::job::{Report, Slicer};
+use cusp_slicer::model::Mesh;
+use cusp_slicer::prepare::{AutoDrain, Drain, Hollowing, plugs};
 use cusp_slicer::warning::Warning;
 use glam::Vec3;
 
@@ -111,7 +113,7 @@ fn a_hole_that_meets_no_void_is_left_out_and_named() {
 fn blocks(all: &[[[f32; 3]; 2]]) -> solids::Triangles {
     let block = |&[from, to]: &[[f32; 3]; 2]| {
         let (from, to) = (Vec3::from_array(from), Vec3::from_array(to));
-        solids::moved(&solids::cuboid(to - from), (from + to) / 2.0)
+        solids::moved(&solids::cuboid(to - from), from)
     };
     all.iter().flat_map(block).collect()
 }
@@ -261,10 +263,113 @@ fn holes_as_wide_as_the_model_are_not_made() {
     let mut cube = slicer(&solids::cube(20.0));
     for diameter_mm in [25.0, 1e3] {
         let hollow = Hollowing {
-            auto_drain: Some(AutoDrain { diameter_mm }),
+            auto_drain: Some(AutoDrain {
+                diameter_mm,
+                ..AutoDrain::default()
+            }),
             ..Hollowing::default()
         };
         let report = plan(&mut cube, &hollowed(hollow));
         assert_eq!(report.warnings, [Warning::Undrained { basins: 1 }]);
     }
+}
+
+#[test]
+fn pits_beside_a_hole_are_filled() {
+    // A groove below makes a ridge in the floor of the void, lower than its lattice tells.
+    for groove_mm in [0.1, 0.2, 0.3, 0.4] {
+        let model = blocks(&[
+            [[0.0, 0.0, groove_mm], [40.0, 20.0, 20.0]],
+            [[0.0, 0.0, 0.0], [17.0, 20.0, 1.0]],
+            [[23.0, 0.0, 0.0], [40.0, 20.0, 1.0]],
+        ]);
+        let mut model = slicer(&model);
+        let report = plan(&mut model, &hollowed(automatic()));
+        assert_eq!(report.warnings, []);
+        let limits = Limits {
+            cup_mm2: 0.05,
+            trap_ml: 0.0,
+            ..Limits::default()
+        };
+        let found = model.inspect(&limits, &mut quiet).unwrap();
+        let kept = [Code::Cup, Code::Trap];
+        let kept = found.counts.iter().find(|it| kept.contains(&it.code));
+        assert_eq!(kept, None, "{groove_mm} mm");
+        // Walls grow by no more than the pit was deep.
+        let unfilled = plan(&mut model, &hollowed(Hollowing::default()));
+        let void_ml = |report: &Report| report.hollowed.as_ref().unwrap().void_ml;
+        let most_ml = f64::from(groove_mm) * 36.0 * 16.0 / 1e3;
+        let filled_ml = void_ml(&unfilled) - void_ml(&report);
+        assert!((0.0..most_ml).contains(&filled_ml), "{filled_ml}");
+    }
+}
+
+#[test]
+fn automatic_holes_keep_off_what_weighs_more_where_they_can() {
+    let triangles = solids::cube(20.0);
+    let mut cube = slicer(&triangles);
+    let hole = |cube: &mut Slicer, spare| {
+        let auto_drain = AutoDrain {
+            spare,
+            ..AutoDrain::default()
+        };
+        let options = hollowed(Hollowing {
+            auto_drain: Some(auto_drain),
+            ..Hollowing::default()
+        });
+        let report = plan(cube, &options);
+        assert_eq!(report.warnings, []);
+        let [drain] = report.hollowed.unwrap().drains[..] else {
+            panic!("one basin has one hole");
+        };
+        drain
+    };
+    let shortest = hole(&mut cube, true);
+    // Weights are those of the facets of the file.
+    let weigh = |cube: &mut Slicer, is_heavy: &dyn Fn(Vec3) -> bool| {
+        let weight = |corners: &[Vec3; 3]| {
+            let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+            if is_heavy(middle - Vec3::splat(10.0)) {
+                1.0
+            } else {
+                0.0
+            }
+        };
+        cube.set_weights(Some(triangles.iter().map(weight).collect()))
+            .unwrap();
+    };
+    // The face that the shortest hole is in.
+    let side = Vec3::from_array(shortest.direction.map(|it| -it as f32));
+    weigh(&mut cube, &|middle| middle.dot(side) > 9.0);
+    assert_eq!(hole(&mut cube, false), shortest);
+    let beside = hole(&mut cube, true);
+    let at = Vec3::from_array(beside.at_mm.map(|mm| mm as f32)) - Vec3::Z * 10.0;
+    assert!(at.dot(side) < 9.0, "{beside:?}");
+    // Where all weighs more a hole that shows is better than resin that stays.
+    weigh(&mut cube, &|_| true);
+    assert_eq!(hole(&mut cube, true), shortest);
+}
+
+#[test]
+fn plugs_fill_their_holes_but_for_the_play() {
+    let drains = [3.0, 5.0].map(|diameter_mm| Drain {
+        diameter_mm,
+        depth_mm: Some(3.0 + 0.25 * diameter_mm),
+        ..SIDE
+    });
+    let plugs = plugs(&drains);
+    let corners = |facet: &[u32; 3]| facet.map(|it| plugs.vertices[it as usize]);
+    let mesh = Mesh::from_triangles(&plugs.facets.iter().map(corners).collect::<Vec<_>>()).unwrap();
+    assert_eq!(mesh.open_edges, 0);
+    // Frustums of 32 sides, 3 mm high, 0.2 mm narrower at their tops.
+    let sector = 16.0 * (std::f64::consts::TAU / 32.0).sin();
+    let volume_mm3 = |diameter_mm: f64| {
+        let (a, b) = (diameter_mm / 2.0, diameter_mm / 2.0 - 0.1);
+        sector * (a * a + a * b + b * b)
+    };
+    assert_near(plugs.volume_mm3(), volume_mm3(3.0) + volume_mm3(5.0), 1e-4);
+    // They stand in a row, 2 mm apart.
+    let bounds = mesh.bounds();
+    assert_near(bounds.size().x, 3.0 + 2.0 + 5.0, 1e-5);
+    assert_near(bounds.size().z, 3.0, 1e-5);
 }

@@ -16,7 +16,7 @@ const HOLLOWING: Hollowing = Hollowing {
 };
 
 fn void_of(mesh: &Mesh, hollowing: &Hollowing) -> Option<Void> {
-    hollow(mesh, hollowing, &mut silent).unwrap()
+    hollow(mesh, hollowing, None, &mut silent).unwrap()
 }
 
 /// The distance of a point from a facet.

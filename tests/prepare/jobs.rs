@@ -126,7 +126,10 @@ fn lengths_that_nothing_can_be_made_of_are_refused() {
         (
             "hollow.auto_drain.diameter_mm",
             Hollowing {
-                auto_drain: Some(AutoDrain { diameter_mm: 0.0 }),
+                auto_drain: Some(AutoDrain {
+                    diameter_mm: 0.0,
+                    ..AutoDrain::default()
+                }),
                 ..usual()
             },
         ),
@@ -189,7 +192,10 @@ fn holes_by_hand_are_for_a_model_alone() {
             pixels: Some([400, 400]),
             ..hollowed(Hollowing {
                 drains,
-                auto_drain: Some(AutoDrain { diameter_mm: 2.0 }),
+                auto_drain: Some(AutoDrain {
+                    diameter_mm: 2.0,
+                    ..AutoDrain::default()
+                }),
                 ..Hollowing::default()
             })
         },

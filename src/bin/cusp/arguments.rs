@@ -18,8 +18,8 @@ use crate::files::{Failure, WeightsFile, read_json};
 use crate::plate::Places;
 use crate::usage::{Given, wrong_usage};
 use crate::values::{
-    DrainArg, PrinterName, antialias, drain, height_range, length, not_negative, pitch, pixels,
-    positive, rotation, uniform_layer,
+    DrainArg, PrinterName, antialias, drain, height_range, length, mesh_file, not_negative, pitch,
+    pixels, positive, rotation, stl_file, uniform_layer,
 };
 
 /// Models, and how to slice them.
@@ -37,8 +37,11 @@ pub struct Slicing {
     #[command(flatten)]
     pub places: Places,
     /// Write the model as it prints, with its voids and supports: an .stl or .3mf for other programs
-    #[arg(long, value_name = "FILE", help_heading = "Model")]
+    #[arg(long, value_name = "FILE", value_parser = mesh_file, help_heading = "Model")]
     pub export: Option<PathBuf>,
+    /// Write a plug for each drain hole, to print and glue in once the resin is out: an .stl
+    #[arg(long, value_name = "FILE", value_parser = stl_file, help_heading = "Model")]
+    pub plugs: Option<PathBuf>,
     #[command(flatten)]
     pub choices: Choices,
 }

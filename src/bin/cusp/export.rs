@@ -3,31 +3,52 @@
 use std::path::Path;
 
 use cusp_slicer::archive::layer_profile;
-use cusp_slicer::job::Slicer;
+use cusp_slicer::job::{Report, Slicer};
+use cusp_slicer::prepare::{Drain, plugs};
 use cusp_slicer::progress::silent;
+use glam::Vec3;
 use stl_io::{Normal, Triangle, Vertex};
 
 use crate::files::{Failure, Output, in_file};
 
-/// Writes the mesh of the last plan with its voids and supports, as the name of the file says: STL or 3MF.
+/// Writes the mesh of the last plan with its voids and supports, as 3MF if the file is named so, or else as STL.
 pub fn export(slicer: &Slicer, file: &Path) -> Result<(), Failure> {
     let Some(mesh) = slicer.prepared() else {
         return Err(in_file(file, &"there is no plan").into());
     };
     let output = Output::new(file, None, "model")?;
-    let extension = file.extension().unwrap_or_default().to_ascii_lowercase();
-    match extension.to_str() {
-        Some("stl") => {
-            let facets = mesh.printed_facets().into_iter();
-            let corners = |facet: [u32; 3]| facet.map(|it| mesh.vertices[it as usize].to_array());
-            write_stl(facets.map(corners), &output)
-        }
-        Some("3mf") => {
-            let written = layer_profile::write_printed(mesh, Vec::new(), &mut silent);
-            output.write_bytes(&written.map_err(|error| output.failed(&error))?)
-        }
-        _ => Err(in_file(file, &"a mesh is written as .stl or .3mf; name it so").into()),
+    if file
+        .extension()
+        .is_some_and(|it| it.eq_ignore_ascii_case("3mf"))
+    {
+        let written = layer_profile::write_printed(mesh, Vec::new(), &mut silent);
+        return output.write_bytes(&written.map_err(|error| output.failed(&error))?);
     }
+    let facets = mesh.printed_facets().into_iter();
+    write_stl(facets.map(corners(&mesh.vertices)), &output)
+}
+
+/// Writes a plug for each drain hole of a plan.
+pub fn export_plugs(report: &Report, file: &Path) -> Result<(), Failure> {
+    let drains = report.hollowed.iter().flat_map(|it| &it.drains);
+    let drains: Vec<Drain> = drains.copied().collect();
+    if drains.is_empty() {
+        return Err(in_file(
+            file,
+            &"there are no drain holes to plug; make some by --drain",
+        )
+        .into());
+    }
+    let plugs = plugs(&drains);
+    let facets = plugs.facets.iter().copied();
+    write_stl(
+        facets.map(corners(&plugs.vertices)),
+        &Output::new(file, None, "model")?,
+    )
+}
+
+fn corners(vertices: &[Vec3]) -> impl Fn([u32; 3]) -> [[f32; 3]; 3] {
+    |facet| facet.map(|it| vertices[it as usize].to_array())
 }
 
 /// Writes facets as a binary STL.

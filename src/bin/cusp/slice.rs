@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use crate::arguments::{Settings, Slicing, Studying};
 use crate::batch::{Batch, check_inputs, outputs_in, workers};
-use crate::export::export;
+use crate::export::{export, export_plugs};
 use crate::files::{Failure, Output, in_file, is_standard, load_painted};
 use crate::plate;
 use crate::terminal::{Bar, duration, open_gpu, print, print_json, stop_on_interrupt, warn};
@@ -19,7 +19,7 @@ use crate::usage::{check_json, wrong_usage};
 pub fn slice(slicing: &Slicing, output: &Path) -> Result<(), Failure> {
     slicing.choices.check("slice");
     check_inputs("slice", &slicing.models);
-    check_export("slice", slicing);
+    check_meshes("slice", slicing);
     if let Some(job) = plate::job("slice", slicing)? {
         return plate::slice(job, slicing, output);
     }
@@ -39,16 +39,14 @@ pub fn slice(slicing: &Slicing, output: &Path) -> Result<(), Failure> {
     let mut progress = |stage, fraction| bar.report(stage, fraction);
     let report = slice_one(&mut slicer, model, &settings, &output, &mut progress)?;
     drop(bar);
-    if let Some(file) = &slicing.export {
-        export(&slicer, file)?;
-    }
+    write_meshes(slicing, &slicer, &report)?;
     show(slicing, &report)
 }
 
 pub fn plan(slicing: &Slicing) -> Result<(), Failure> {
     slicing.choices.check("plan");
     check_inputs("plan", &slicing.models);
-    check_export("plan", slicing);
+    check_meshes("plan", slicing);
     if let Some(job) = plate::job("plan", slicing)? {
         return plate::plan(job, slicing);
     }
@@ -62,20 +60,31 @@ pub fn plan(slicing: &Slicing) -> Result<(), Failure> {
     let mut progress = |stage, fraction| bar.report(stage, fraction);
     let report = make_plan(&mut slicer, model, &settings.options, &mut progress)?.clone();
     drop(bar);
-    if let Some(file) = &slicing.export {
-        export(&slicer, file)?;
-    }
+    write_meshes(slicing, &slicer, &report)?;
     show(slicing, &report)
 }
 
-/// A mesh is written of one model.
-fn check_export(command: &str, slicing: &Slicing) {
-    if slicing.export.is_some() && (slicing.models.len() > 1 || slicing.arrange) {
-        wrong_usage(
-            command,
-            "--export writes one model: name one, without --arrange",
-        );
+/// Meshes are written of one model.
+fn check_meshes(command: &str, slicing: &Slicing) {
+    if slicing.models.len() < 2 && !slicing.arrange {
+        return;
     }
+    for (file, option) in [(&slicing.export, "--export"), (&slicing.plugs, "--plugs")] {
+        if file.is_some() {
+            let message = format!("{option} is of one model: name one, without --arrange");
+            wrong_usage(command, &message);
+        }
+    }
+}
+
+fn write_meshes(slicing: &Slicing, slicer: &Slicer, report: &Report) -> Result<(), Failure> {
+    if let Some(file) = &slicing.export {
+        export(slicer, file)?;
+    }
+    if let Some(file) = &slicing.plugs {
+        export_plugs(report, file)?;
+    }
+    Ok(())
 }
 
 /// Whether print files go into it: a folder that is there, or is named as one.

@@ -1,6 +1,7 @@
 //! Values of arguments, as text.
 
 use std::ffi::OsStr;
+use std::path::PathBuf;
 
 use clap::builder::{PossibleValue, StringValueParser, TypedValueParser};
 use clap::{Arg, Command};
@@ -89,6 +90,32 @@ pub fn drain(text: &str) -> Result<DrainArg, String> {
     }
 }
 
+/// Parses the name of a mesh that other programs read.
+pub fn mesh_file(text: &str) -> Result<PathBuf, String> {
+    named_file(text, &["stl", "3mf"])
+}
+
+/// Parses the name of an STL file.
+pub fn stl_file(text: &str) -> Result<PathBuf, String> {
+    named_file(text, &["stl"])
+}
+
+/// A file whose name ends in one of some ways.
+fn named_file(text: &str, extensions: &[&str]) -> Result<PathBuf, String> {
+    let file = PathBuf::from(text);
+    let extension = file.extension().unwrap_or_default();
+    if extensions
+        .iter()
+        .any(|it| extension.eq_ignore_ascii_case(it))
+    {
+        return Ok(file);
+    }
+    Err(format!(
+        "expected a name that ends in .{}",
+        extensions.join(" or .")
+    ))
+}
+
 /// Parses an anti-aliasing level.
 pub fn antialias(text: &str) -> Result<u32, String> {
     let level = text.parse().ok().filter(|level| LEVELS.contains(level));
@@ -147,7 +174,6 @@ pub fn pixels(text: &str) -> Result<[u32; 2], String> {
         .ok_or_else(|| "expected columns and rows, such as 3840x2400".to_owned())
 }
 
-/// Parses a number from 0 to 1.
 /// A thickness in mm and the exposure in s measured for it: 0.05=2.4.
 pub fn measured(text: &str) -> Result<[f64; 2], String> {
     let pair = text.split_once('=');
@@ -155,6 +181,7 @@ pub fn measured(text: &str) -> Result<[f64; 2], String> {
     pair.ok_or_else(|| "expected a thickness and its exposure, such as 0.05=2.4".to_owned())
 }
 
+/// Parses a number from 0 to 1.
 pub fn fraction(text: &str) -> Result<f64, String> {
     let number = text.parse().ok();
     number

@@ -1,7 +1,8 @@
 //! Where a model needs supports: at its lowest points, and on surfaces that are too flat to support themselves.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
+use super::super::surface::{self, Squares, Surface};
 use super::SupportProfile;
 use crate::disjoint;
 use crate::ldi::Ldi;
@@ -25,12 +26,9 @@ pub(super) struct Wishes<'a> {
     pub profile: &'a SupportProfile,
     /// Contacts that are there already.
     pub given: &'a [Contact],
-    /// Weights of the facets; those above a half get no contact.
-    pub spared: Option<&'a [f32]>,
+    /// Weights of the facets; those that are spared get no contact.
+    pub weights: Option<&'a [f32]>,
 }
-
-/// Facets that weigh more than this are spared, if weights say where no contact may be.
-const SPARED: f32 = 0.5;
 
 /// How near the plate a surface stands on it.
 const ON_PLATE_MM: f64 = 0.02;
@@ -38,33 +36,30 @@ const ON_PLATE_MM: f64 = 0.02;
 /// Lowest points so near to each other that one tip holds both, in contact diameters.
 const SAME: f64 = 0.5;
 
-/// Rays so near to a lowest point meet the same, in their distances.
-const LONE: f64 = 2.0;
+/// How far a contact holds what only something thinner than a ray's distance joins with the rest, in spacings: half of a level surface.
+const LONE: f64 = 0.5;
 
 /// The contacts that hold a model beside those that it has, and those that it would need on facets that are spared: ascending, and so in
 /// the order in which they are printed.
 pub(super) fn place(
-    surface: &Surface<'_>,
+    model: &Surface<'_>,
     ldi: &Ldi,
     wishes: &Wishes<'_>,
 ) -> (Vec<Contact>, Vec<Contact>) {
-    let (mesh, profile) = (surface.mesh, wishes.profile);
+    let (mesh, profile) = (model.mesh, wishes.profile);
     let mut held = Held::new(mesh);
     for contact in wishes.given {
         held.insert(contact.at);
     }
     let (mut contacts, mut missed) = (Vec::new(), Vec::new());
     let stands = |at: DVec3| profile.lift_mm + at.z <= ON_PLATE_MM;
-    let is_spared = |facet: u32| {
-        let weight = wishes.spared.and_then(|it| it.get(facet as usize));
-        weight.is_some_and(|&weight| weight > SPARED)
-    };
+    let is_spared = |facet: u32| surface::is_spared(wishes.weights, facet);
     let same_mm = SAME * profile.contact_mm;
-    let contact = |at: DVec3| surface.contact(at, profile.contact_mm, profile.contact_mm);
+    let contact = |at: DVec3| model.contact(at, profile.contact_mm, profile.contact_mm);
     let rays = Rays::new(ldi);
     let lowest = lowest_points(mesh, ldi, same_mm).into_iter();
     let lowest = lowest.map(|at| (at, same_mm));
-    let lone_mm = same_mm + LONE * ldi.grid.pitch_mm;
+    let lone_mm = LONE * profile.spacing_mm;
     let lone = lone_entries(&rays).into_iter().map(|at| (at, lone_mm));
     for (at, same_mm) in lowest.chain(lone) {
         if stands(at) || held.is_near(at, same_mm) {
@@ -97,44 +92,6 @@ pub(super) fn place(
         }
     }
     (contacts, missed)
-}
-
-/// The squares of the plane below a mesh.
-struct Squares {
-    corner: DVec2,
-    columns: usize,
-    rows: usize,
-}
-
-/// Side of a square.
-const SQUARE_MM: f64 = 2.0;
-
-impl Squares {
-    fn below(mesh: &Mesh) -> Self {
-        let bounds = mesh.bounds();
-        let squares = (bounds.size().truncate() / SQUARE_MM).to_array();
-        let [columns, rows] = squares.map(|squares| squares as usize + 1);
-        Self {
-            corner: bounds.min.truncate(),
-            columns,
-            rows,
-        }
-    }
-
-    fn count(&self) -> usize {
-        self.columns * self.rows
-    }
-
-    /// Those that a box meets, or is nearest to.
-    fn within(&self, low: DVec3, high: DVec3) -> impl Iterator<Item = usize> + use<> {
-        let place = |at: DVec3| (at.truncate() - self.corner) / SQUARE_MM;
-        let (low, high) = (place(low), place(high));
-        let within = |place: f64, count: usize| place.clamp(0.0, (count - 1) as f64) as usize;
-        let columns = within(low.x, self.columns)..=within(high.x, self.columns);
-        let rows = within(low.y, self.rows)..=within(high.y, self.rows);
-        let width = self.columns;
-        rows.flat_map(move |row| columns.clone().map(move |column| row * width + column))
-    }
 }
 
 /// Points that are held, by squares.
@@ -428,52 +385,11 @@ fn overhangs(mesh: &Mesh, rays: &Rays<'_>, profile: &SupportProfile) -> Vec<Plac
     places.collect()
 }
 
-/// The facets of a model's surface, by squares.
-pub(super) struct Surface<'a> {
-    mesh: &'a Mesh,
-    squares: Squares,
-    facets: Vec<Vec<u32>>,
-}
-
-impl<'a> Surface<'a> {
-    pub fn new(mesh: &'a Mesh) -> Self {
-        let squares = Squares::below(mesh);
-        let mut facets = vec![Vec::new(); squares.count()];
-        for facet in 0..mesh.surface_facets {
-            let [a, b, c] = mesh.corners(facet);
-            for square in squares.within(a.min(b).min(c), a.max(b).max(c)) {
-                facets[square].push(facet as u32);
-            }
-        }
-        Self {
-            mesh,
-            squares,
-            facets,
-        }
-    }
-
-    /// The facets within a distance of a point, and how far away each is, with its nearest point. A facet may come twice.
-    fn within(&self, point: DVec3, reach_mm: f64) -> Vec<(f64, DVec3, u32)> {
-        let reach = DVec3::splat(reach_mm);
-        let squares = self.squares.within(point - reach, point + reach);
-        let facets = squares.flat_map(|square| self.facets[square].iter().copied());
-        let found = facets.filter_map(|facet| {
-            let [a, b, c] = self.mesh.corners(facet as usize);
-            let (low, high) = (a.min(b).min(c) - reach, a.max(b).max(c) + reach);
-            if !(low.cmple(point).all() && point.cmple(high).all()) {
-                return None;
-            }
-            let at = nearest_of([a, b, c], point);
-            let away_mm = at.distance(point);
-            (away_mm <= reach_mm).then_some((away_mm, at, facet))
-        });
-        found.collect()
-    }
-
+impl Surface<'_> {
     /// The contact at a point, if the surface is so near: at the nearest point of it, with the mean normal of what the tip touches.
     ///
     /// Coordinates are whole micrometres, as in reports, so that a report's points give the same contacts.
-    pub fn contact(&self, point: DVec3, diameter_mm: f64, reach_mm: f64) -> Option<Contact> {
+    pub(super) fn contact(&self, point: DVec3, diameter_mm: f64, reach_mm: f64) -> Option<Contact> {
         let near = self.within(point, reach_mm).into_iter();
         // Of those as near to a micrometre the same one, in whichever order facets are.
         let is_before = |a: &(f64, DVec3, u32), b: &(f64, DVec3, u32)| {
@@ -514,27 +430,3 @@ impl<'a> Surface<'a> {
 
 /// Points so near the surface are on it.
 const ON_SURFACE_MM: f64 = 0.002;
-
-/// The point of a triangle that is nearest to a point.
-fn nearest_of([a, b, c]: [DVec3; 3], point: DVec3) -> DVec3 {
-    let normal = (b - a).cross(c - a);
-    let is_over = |from: DVec3, to: DVec3| normal.cross(to - from).dot(point - from) >= 0.0;
-    if is_over(a, b) && is_over(b, c) && is_over(c, a) {
-        let away = normal.dot(point - a) / normal.dot(normal);
-        return point - normal * away;
-    }
-    let of_edge = |from: DVec3, to: DVec3| {
-        let edge = to - from;
-        let part = edge.dot(point - from) / edge.dot(edge);
-        from + edge * part.clamp(0.0, 1.0)
-    };
-    let ends = [of_edge(a, b), of_edge(b, c), of_edge(c, a)];
-    let nearer = |best: DVec3, it: DVec3| {
-        if it.distance(point) < best.distance(point) {
-            it
-        } else {
-            best
-        }
-    };
-    ends.into_iter().reduce(nearer).unwrap_or(a)
-}

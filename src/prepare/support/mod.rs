@@ -13,13 +13,14 @@ use serde::{Deserialize, Serialize};
 
 use super::columns::Columns;
 use super::lengths::{self, BadLength};
-use super::nets::Shell;
+use super::shell::Shell;
+use super::surface::Surface;
 use crate::grid::Grid;
 use crate::ldi::{LdiError, cpu};
 use crate::model::{Bounds, Mesh};
 use crate::progress::{Progress, report};
 use clearance::Clearance;
-use contacts::{Contact, Surface, Wishes};
+use contacts::{Contact, Wishes};
 use trees::Trees;
 
 /// How a model is supported.
@@ -322,7 +323,7 @@ pub fn support(
         let wishes = Wishes {
             profile: &profile,
             given: &contacts,
-            spared: weights.filter(|_| supporting.spare),
+            weights: weights.filter(|_| supporting.spare),
         };
         let (placed, left) = contacts::place(&surface, &ldi, &wishes);
         contacts.extend(placed);

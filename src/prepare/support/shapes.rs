@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use crate::order::sort_by_number;
-use crate::prepare::nets::Shell;
 use crate::prepare::round::{circle, rim};
+use crate::prepare::shell::Shell;
 
 /// Doublings from four points of a circle to those around a support.
 const DOUBLINGS: u32 = 2;
@@ -30,27 +30,7 @@ impl Shapes {
             let rim = rim(along, radius_mm, DOUBLINGS).into_iter();
             rim.map(|it| middle + it).collect()
         };
-        self.drum(rim(from, from_mm), rim(to, to_mm));
-    }
-
-    /// A body between two outlines of equally many points, counter-clockwise as seen from the second.
-    pub fn drum(&mut self, first: Vec<DVec3>, second: Vec<DVec3>) {
-        let sides = first.len() as u32;
-        let begin = self.shell.vertices.len() as u32;
-        let points = first.into_iter().chain(second);
-        self.shell.vertices.extend(points.map(DVec3::as_vec3));
-        let facets = &mut self.shell.facets;
-        for side in 0..sides {
-            let next = (side + 1) % sides;
-            let [a, b] = [side, next].map(|it| begin + it);
-            let [c, d] = [a, b].map(|it| it + sides);
-            facets.extend([[a, b, d], [a, d, c]]);
-        }
-        for side in 1..sides - 1 {
-            let [a, b] = [side, side + 1].map(|it| begin + it);
-            facets.push([begin, b, a]);
-            facets.push([begin + sides, a + sides, b + sides]);
-        }
+        self.shell.drum(rim(from, from_mm), rim(to, to_mm));
     }
 
     /// A ball, as a stack of rims. It encloses the round one, and so the rims of what ends in its middle.
@@ -111,7 +91,7 @@ impl Shapes {
             let radius_mm = radius_mm + thickness_mm;
             foot + DVec3::new(x * radius_mm, y * radius_mm, thickness_mm)
         };
-        self.drum(
+        self.shell.drum(
             hull.iter().map(bottom).collect(),
             hull.iter().map(top).collect(),
         );

@@ -10,8 +10,8 @@ use super::clearance::{Clearance, End, is_steep};
 use super::contacts::Contact;
 use super::shapes::Shapes;
 use crate::order;
-use crate::prepare::nets::Shell;
 use crate::prepare::round::circle;
+use crate::prepare::shell::Shell;
 
 /// No node.
 const NONE: u32 = u32::MAX;
