@@ -70,7 +70,7 @@ pub struct Limits {
 impl Default for Limits {
     fn default() -> Self {
         Self {
-            island_mm2: 0.0,
+            island_mm2: 0.01,
             speck_px: 4,
             // 19° from level.
             self_supporting_slope: 0.344,

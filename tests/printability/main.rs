@@ -25,6 +25,7 @@ use glam::Vec3;
 /// Limits that look for everything, however small.
 fn strict() -> Limits {
     Limits {
+        island_mm2: 0.0,
         cup_mm2: 0.0,
         trap_ml: 0.0,
         speck_px: 1,
