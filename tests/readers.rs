@@ -13,7 +13,7 @@ use std::process::{Command, Output};
 use common::{binary_stl, quiet, solids};
 use cusp_slicer::format::Format;
 use cusp_slicer::job::{Backend, Options, Planner, Report, Slicer};
-use cusp_slicer::prepare::Hollowing;
+use cusp_slicer::prepare::{AutoDrain, Hollowing, Supporting};
 use libtest_mimic::{Arguments, Completion, Failed, Trial};
 use tempfile::TempDir;
 
@@ -91,24 +91,40 @@ fn slice(
     Ok((path, report))
 }
 
-/// Slices a solid with many contours into every format, with and without grey, and passes each file to `look`.
+/// Slices a solid with many contours, and a hollow one on supports, into every format, with and without grey, and passes each file to `look`.
 fn print_files(
     mut look: impl FnMut(&Path, &Path, &Report) -> Result<(), Failed>,
 ) -> Result<(), Failed> {
-    let gyroid = solids::gyroid(2, 24);
+    let solid = Options {
+        rays: 301,
+        planner: Planner::Uniform { layer_mm: 0.1 },
+        backend: Backend::Cpu,
+        ..Options::default()
+    };
+    let held = Options {
+        hollow: Some(Hollowing {
+            auto_drain: Some(AutoDrain::default()),
+            ..Hollowing::default()
+        }),
+        supports: Some(Supporting::default()),
+        ..solid.clone()
+    };
+    let cases = [
+        (solids::gyroid(2, 24), solid),
+        (solids::sphere(8.0, 5), held),
+    ];
     for format in [Format::Png, Format::Chitubox, Format::Uvj, Format::Sl1] {
         for antialias in [1, 4] {
-            let options = Options {
-                format: Some(format),
-                antialias,
-                rays: 301,
-                planner: Planner::Uniform { layer_mm: 0.1 },
-                backend: Backend::Cpu,
-                ..Options::default()
-            };
-            let folder = TempDir::new()?;
-            let (path, report) = slice(folder.path(), &gyroid, &options)?;
-            look(&path, folder.path(), &report)?;
+            for (triangles, options) in &cases {
+                let options = Options {
+                    format: Some(format),
+                    antialias,
+                    ..options.clone()
+                };
+                let folder = TempDir::new()?;
+                let (path, report) = slice(folder.path(), triangles, &options)?;
+                look(&path, folder.path(), &report)?;
+            }
         }
     }
     Ok(())

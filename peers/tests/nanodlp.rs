@@ -5,7 +5,7 @@ mod common;
 use std::io::Cursor;
 
 use common::{
-    Runs, Screen, assert_same, load, of_png, on_screen, png_masks, print_file, resin, scene,
+    Runs, Screen, assert_same, held, load, of_png, on_screen, png_masks, print_file, resin, scene,
     several, solids, uniform,
 };
 use cusp_slicer::Error;
@@ -168,6 +168,16 @@ fn check_settings(file: &File, options: &Options, report: &Report) {
     let preview = file.preview.to_luma8();
     let lit = preview.pixels().filter(|pixel| pixel.0[0] > 0).count();
     assert!(lit > preview.len() / 8, "{lit} of {}", preview.len());
+}
+
+#[test]
+fn hollow_and_supported_models_are_read() {
+    let (ball, options) = held();
+    let planner = Planner::Uniform { layer_mm: 0.1 };
+    let (_, report) = check(&ball, &Options { planner, ..options });
+    assert_eq!(report.warnings, []);
+    assert_eq!(report.hollowed.unwrap().drains.len(), 1);
+    assert!(report.supported.unwrap().support_ml > 0.0);
 }
 
 #[test]

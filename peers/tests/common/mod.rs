@@ -16,6 +16,7 @@ use cusp_slicer::Error;
 use cusp_slicer::format::Format;
 use cusp_slicer::job::{Backend, Options, Planner, Report, Slicer, Snap};
 use cusp_slicer::plan::HeightRange;
+use cusp_slicer::prepare::{AutoDrain, Hollowing, Supporting};
 use cusp_slicer::resin::Resin;
 use glam::Vec3;
 
@@ -100,6 +101,26 @@ fn options() -> Options {
         resin: resin(),
         ..Options::default()
     }
+}
+
+/// A hollow ball with a drain hole, on supports.
+pub fn held() -> (solids::Triangles, Options) {
+    let hollow = Hollowing {
+        wall_mm: 1.0,
+        cavity_mm: 1.0,
+        auto_drain: Some(AutoDrain {
+            diameter_mm: 1.0,
+            ..AutoDrain::default()
+        }),
+        ..Hollowing::default()
+    };
+    let options = Options {
+        hollow: Some(hollow),
+        supports: Some(Supporting::default()),
+        pitch_mm: Some(0.1),
+        ..options()
+    };
+    (solids::sphere(4.0, 5), options)
 }
 
 /// Four layers of 50 µm, two of 70 µm and three of 120 µm.

@@ -8,7 +8,7 @@ mod readers;
 use std::sync::Arc;
 
 use common::{
-    BLACK, EXPOSURES_S, Screen, TOPS_MM, assert_same, load, on_screen, png_masks, print_file,
+    BLACK, EXPOSURES_S, Screen, TOPS_MM, assert_same, held, load, on_screen, png_masks, print_file,
     scene, several, solids, uniform,
 };
 use cusp_slicer::format::Format;
@@ -162,6 +162,15 @@ fn goo_printers() -> impl Iterator<Item = &'static Printer> {
 
 fn big_endian_printers() -> impl Iterator<Item = &'static Printer> {
     goo_printers().filter(|printer| !printer.is_little_endian)
+}
+
+#[test]
+fn hollow_and_supported_models_are_read() {
+    let (ball, options) = held();
+    let (_, report) = check(&ball, &options);
+    assert_eq!(report.warnings, []);
+    assert_eq!(report.hollowed.unwrap().drains.len(), 1);
+    assert!(report.supported.unwrap().support_ml > 0.0);
 }
 
 #[test]
