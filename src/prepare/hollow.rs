@@ -16,7 +16,7 @@ use super::lengths::{self, BadLength};
 use super::nets::{Lattice, Nets};
 use super::pits;
 use super::shell::Shell;
-use super::surface::{self, Surface};
+use super::surface;
 use crate::grid::Grid;
 use crate::ldi::{LdiError, cpu};
 use crate::model::{Bounds, Mesh};
@@ -272,16 +272,9 @@ pub fn hollow(
     if let Some(hole) = hollowing.auto_drain {
         // A hole as wide as the model leaves nothing of it.
         let is_small = hole.diameter_mm < size.min_element();
-        let weights = weights.filter(|_| hole.spare);
-        let surface = weights.map(|_| Surface::new(mesh));
-        let is_spared = |at: Vec3| {
-            // What the hole cuts away, and no less than the columns resolve.
-            let reach_mm = (hole.diameter_mm / 2.0).max(2.0 * pitch_mm);
-            surface.as_ref().is_some_and(|surface| {
-                let mut near = surface.within(at.as_dvec3(), reach_mm).into_iter();
-                near.any(|it| surface::is_spared(weights, it.2))
-            })
-        };
+        // What the hole cuts away, and no less than the columns resolve.
+        let reach_mm = (hole.diameter_mm / 2.0).max(2.0 * pitch_mm);
+        let is_spared = surface::spared_within(mesh, weights.filter(|_| hole.spare), reach_mm);
         for (slice, node) in basins.finish() {
             report(progress, 1.0)?;
             let lowest_mm = lattice.node_mm(node % lattice.width, node / lattice.width, slice);
@@ -293,11 +286,7 @@ pub fn hollow(
             }
         }
     }
-    let drains: Vec<Drain> = void.drains.iter().map(|it| it.0).collect();
-    pits::fill(&mut void.shell, PIT * lattice.spacing_mm, |at| {
-        let mut drains = drains.iter();
-        drains.any(|drain| drain::is_in(drain, at.as_dvec3(), lattice.spacing_mm.into()))
-    });
+    void.fill_pits(lattice.spacing_mm);
     Ok(Some(void))
 }
 
@@ -313,6 +302,16 @@ impl Void {
         };
         self.drains.push((drilled, shell));
         true
+    }
+
+    /// Fills the pits that basins may have missed.
+    fn fill_pits(&mut self, spacing_mm: f32) {
+        let drains = &self.drains;
+        pits::fill(&mut self.shell, PIT * spacing_mm, |at| {
+            let at = at.as_dvec3();
+            let mut drains = drains.iter();
+            drains.any(|(drain, _)| drain::is_in(drain, at, spacing_mm.into()))
+        });
     }
 }
 

@@ -22,8 +22,9 @@ pub fn plugs(drains: &[Drain]) -> Shell {
     let mut left_mm = -widths_mm.sum::<f64>() / 2.0;
     let mut shell = Shell::default();
     for drain in drains {
-        let middle_mm = left_mm + (drain.diameter_mm + APART_MM) / 2.0;
-        left_mm += drain.diameter_mm + APART_MM;
+        let width_mm = drain.diameter_mm + APART_MM;
+        let middle_mm = left_mm + width_mm / 2.0;
+        left_mm += width_mm;
         let into_void_mm = BEYOND * drain.diameter_mm;
         let wall_mm = drain.depth_mm.unwrap_or_default() - into_void_mm;
         let ends_mm = [0.0, wall_mm.max(SHORTEST * drain.diameter_mm)];

@@ -1,6 +1,6 @@
 //! The surface of a model, for whoever asks what is near a point of it.
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3};
 
 use crate::model::Mesh;
 
@@ -116,4 +116,19 @@ const SPARED: f32 = 0.5;
 pub(super) fn is_spared(weights: Option<&[f32]>, facet: u32) -> bool {
     let weight = weights.and_then(|it| it.get(facet as usize));
     weight.is_some_and(|&weight| weight > SPARED)
+}
+
+/// Tells whether a facet within a distance of a point is spared.
+pub(super) fn spared_within<'a>(
+    mesh: &'a Mesh,
+    weights: Option<&'a [f32]>,
+    reach_mm: f64,
+) -> impl Fn(Vec3) -> bool + 'a {
+    let surface = weights.map(|_| Surface::new(mesh));
+    move |at| {
+        surface.as_ref().is_some_and(|surface| {
+            let mut near = surface.within(at.as_dvec3(), reach_mm).into_iter();
+            near.any(|it| is_spared(weights, it.2))
+        })
+    }
 }

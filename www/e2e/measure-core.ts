@@ -1,6 +1,6 @@
 /**
  * Measures the time and the memory of the core in a browser, without the page around it:
- * `npm run measure-core -- FILE [HEIGHT_MM [RAYS | WIDTHxHEIGHT@PITCH_MM]]`.
+ * `npm run measure-core -- FILE [HEIGHT_MM [RAYS | WIDTHxHEIGHT@PITCH_MM [OPTIONS_AS_JSON]]]`.
  *
  * Reads and plans the same model several times in one tab, as when a user turns it, makes its masks and checks them; then makes a print file. The
  * figures of stages are the core's own, for the CPU backend. Models other than STL are read by the module for them.
@@ -17,12 +17,12 @@ const ROUNDS = 5;
 type Core = typeof import("../pkg/cusp_slicer.js");
 type Models = typeof import("../pkg/models/cusp_models.js");
 
-export async function main([file, height = "60", grid = "2048"]: string[]): Promise<void> {
+export async function main([file, height = "60", grid = "2048", more = "{}"]: string[]): Promise<void> {
   if (file === undefined) {
-    throw new Error("usage: npm run measure-core -- FILE [HEIGHT_MM [RAYS | WIDTHxHEIGHT@PITCH_MM]]");
+    throw new Error("usage: npm run measure-core -- FILE [HEIGHT_MM [RAYS | WIDTHxHEIGHT@PITCH_MM [OPTIONS_AS_JSON]]]");
   }
   const model = await readFile(file);
-  const options: Options = { height_mm: Number(height), backend: "cpu", ...pixels(grid) };
+  const options: Options = { height_mm: Number(height), backend: "cpu", ...pixels(grid), ...(JSON.parse(more) as Options) };
   const served = await serve();
   const browser = await launch();
   try {
@@ -74,7 +74,7 @@ export async function main([file, height = "60", grid = "2048"]: string[]): Prom
       },
       [module, models, served.address, options, ROUNDS] as const,
     );
-    console.log(`${basename(file)}, ${height} mm high, ${grid}, wasm on the CPU`);
+    console.log(`${basename(file)}, ${height} mm high, ${grid}, ${more}, wasm on the CPU`);
     for (const line of [...measured.timings, measured.zip]) console.log(line);
     console.log(`${measured.megabytes} MB of wasm memory at most`);
   } finally {
