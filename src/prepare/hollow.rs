@@ -306,11 +306,12 @@ impl Void {
 
     /// Fills the pits that basins may have missed.
     fn fill_pits(&mut self, spacing_mm: f32) {
-        let drains = &self.drains;
+        if self.drains.is_empty() {
+            return;
+        }
+        let is_outlet = drain::in_any(self.drains.iter().map(|it| &it.0), spacing_mm.into());
         pits::fill(&mut self.shell, PIT * spacing_mm, |at| {
-            let at = at.as_dvec3();
-            let mut drains = drains.iter();
-            drains.any(|(drain, _)| drain::is_in(drain, at, spacing_mm.into()))
+            is_outlet(at.as_dvec3())
         });
     }
 }
