@@ -198,22 +198,18 @@ pub(super) fn bore(shell: &Shell, drain: &Drain, bounds: &Bounds) -> Option<(She
     Some((bore.shell(begin_mm, depth_mm, bounds), depth_mm))
 }
 
-/// Tells whether a point is in one of some holes, or no farther from it than a margin.
-pub(super) fn in_any<'a>(
-    drains: impl Iterator<Item = &'a Drain>,
-    margin_mm: f64,
-) -> impl Fn(DVec3) -> bool {
-    let bores = drains.filter_map(|drain| Some((Bore::new(drain)?, *drain)));
-    let bores: Vec<(Bore, Drain)> = bores.collect();
-    move |point| {
-        bores.iter().any(|(bore, drain)| {
-            let from = point - bore.at;
-            let along_mm = from.dot(bore.along);
-            let away_mm = (from - bore.along * along_mm).length();
-            let depth_mm = drain.depth_mm.unwrap_or_default();
-            (-drain.diameter_mm..=depth_mm + margin_mm).contains(&along_mm)
-                && away_mm <= drain.diameter_mm / 2.0 + margin_mm
-        })
+/// Marks the points that are in a hole, or no farther from it than a margin.
+pub(super) fn mark(drain: &Drain, points: &[Vec3], margin_mm: f64, marks: &mut [bool]) {
+    let Some(bore) = Bore::new(drain) else {
+        return;
+    };
+    let depth_mm = drain.depth_mm.unwrap_or_default();
+    for (point, mark) in points.iter().zip(marks) {
+        let from = point.as_dvec3() - bore.at;
+        let along_mm = from.dot(bore.along);
+        let away_mm = (from - bore.along * along_mm).length();
+        *mark |= (-drain.diameter_mm..=depth_mm + margin_mm).contains(&along_mm)
+            && away_mm <= drain.diameter_mm / 2.0 + margin_mm;
     }
 }
 

@@ -309,10 +309,12 @@ impl Void {
         if self.drains.is_empty() {
             return;
         }
-        let is_outlet = drain::in_any(self.drains.iter().map(|it| &it.0), spacing_mm.into());
-        pits::fill(&mut self.shell, PIT * spacing_mm, |at| {
-            is_outlet(at.as_dvec3())
-        });
+        let vertices = &self.shell.vertices;
+        let mut outlets = vec![false; vertices.len()];
+        for (drain, _) in &self.drains {
+            drain::mark(drain, vertices, spacing_mm.into(), &mut outlets);
+        }
+        pits::fill(&mut self.shell, PIT * spacing_mm, &outlets);
     }
 }
 

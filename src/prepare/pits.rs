@@ -3,18 +3,16 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use glam::Vec3;
-
 use super::shell::Shell;
 
 /// No pit.
 const NONE: u32 = u32::MAX;
 
 /// Raises the floor of each pit to where resin runs out of it, if that is no more than `most_mm` higher: walls become thicker, and nothing
-/// stays. `is_outlet` tells the vertices where resin leaves the void.
+/// stays. `outlets` are the vertices where resin leaves the void.
 ///
 /// Cost: n log n in vertices.
-pub(super) fn fill(shell: &mut Shell, most_mm: f32, is_outlet: impl Fn(Vec3) -> bool) {
+pub(super) fn fill(shell: &mut Shell, most_mm: f32, outlets: &[bool]) {
     let beside = Beside::of(shell);
     let floors = faces_down(shell);
     let vertices = &mut shell.vertices;
@@ -25,8 +23,8 @@ pub(super) fn fill(shell: &mut Shell, most_mm: f32, is_outlet: impl Fn(Vec3) -> 
     // Heights of what stands on the plate are not negative, so their bits are in order.
     let place = |z_mm: f32, vertex: u32| Reverse((z_mm.max(0.0).to_bits(), vertex));
     let mut next = BinaryHeap::new();
-    for (vertex, &at) in vertices.iter().enumerate() {
-        if is_outlet(at) {
+    for (vertex, at) in vertices.iter().enumerate() {
+        if outlets[vertex] {
             level_mm[vertex] = at.z;
             next.push(place(at.z, vertex as u32));
         }
