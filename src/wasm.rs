@@ -12,7 +12,7 @@ use tsify::Ts;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use crate::inspect::Limits;
-use crate::job::{self, Calibration, Error, Options, OptionsError, Stage};
+use crate::job::{self, Calibration, Error, Options, OptionsError, Stage, positions};
 use crate::js::{thrown, to_js};
 use crate::ldi::gpu;
 use crate::model::read::{self, HEAD_BYTES};
@@ -253,6 +253,12 @@ impl Slicer {
     /// Vertex positions of the walls of the last plan's void, likewise; none of a solid model.
     pub fn voids(&self) -> Vec<f32> {
         self.slicer.positions_of(FacetClass::Void)
+    }
+
+    /// Vertex positions of a plug for each drain hole of the last plan, likewise, in a row on the plate; none without holes.
+    pub fn plugs(&self) -> Vec<f32> {
+        let plugs = self.slicer.plugs().unwrap_or_default();
+        positions(&plugs.vertices, &plugs.facets)
     }
 
     /// The saliency of each facet, 0 to 1: how much it stands out.

@@ -44,5 +44,7 @@ pub use prepared::{Hollowed, Supported};
 pub use report::*;
 pub use resolve::BIN_MM;
 pub use slicer::Slicer;
+#[cfg(target_arch = "wasm32")]
+pub(crate) use slicer::positions;
 pub use stage::{Stage, StageProgress};
 pub use verify::*;

@@ -26,6 +26,7 @@ use crate::mask::{MaskCursor, Masks, Side};
 use crate::model::{FacetClass, FileFacts, Mesh, ModelFile, Pose, read, saliency, weights};
 use crate::orientation::Surface;
 use crate::plan::Plan;
+use crate::prepare::{Shell, plugs};
 use crate::profile::facet_bins::FacetBins;
 use crate::profile::{Metric, Profile, Source};
 use crate::warning::Warning;
@@ -158,7 +159,15 @@ impl Slicer {
     /// Vertex positions of the last plan's facets of a class, nine numbers per facet, in millimetres from the plate.
     pub fn positions_of(&self, class: FacetClass) -> Vec<f32> {
         let mesh = self.prepared();
-        mesh.map_or_else(Vec::new, |mesh| positions(mesh, mesh.of_class(class)))
+        mesh.map_or_else(Vec::new, |mesh| positions_of(mesh, class))
+    }
+
+    /// A plug for each drain hole of the last plan, if it has any.
+    pub fn plugs(&self) -> Option<Shell> {
+        let planned = &self.current.as_ref()?.planned;
+        let prepared = &planned.models.first()?.sampled().prepared;
+        let drains = &prepared.hollowed.as_ref()?.drains;
+        (!drains.is_empty()).then(|| plugs(drains))
     }
 
     /// Vertex positions of the surface facets, nine numbers per facet, in millimetres, with the model on the plate in this
@@ -538,14 +547,17 @@ impl Current {
 
 /// Vertex positions of the surface facets.
 fn surface_positions(mesh: &Mesh) -> Vec<f32> {
-    positions(mesh, &mesh.facets[..mesh.surface_facets])
+    positions(&mesh.vertices, &mesh.facets[..mesh.surface_facets])
+}
+
+/// Vertex positions of a mesh's facets of a class.
+pub(super) fn positions_of(mesh: &Mesh, class: FacetClass) -> Vec<f32> {
+    positions(&mesh.vertices, mesh.of_class(class))
 }
 
 /// Vertex positions of facets, nine numbers per facet.
-fn positions(mesh: &Mesh, facets: &[[u32; 3]]) -> Vec<f32> {
+pub(crate) fn positions(vertices: &[Vec3], facets: &[[u32; 3]]) -> Vec<f32> {
     let facets = facets.iter();
-    let corners = facets
-        .flatten()
-        .map(|&vertex| mesh.vertices[vertex as usize]);
+    let corners = facets.flatten().map(|&vertex| vertices[vertex as usize]);
     corners.flat_map(|corner| corner.to_array()).collect()
 }

@@ -52,6 +52,14 @@ impl Plate {
         Ok(self.plate.model(model).map_err(throw)?.positions())
     }
 
+    /// Vertex positions of a model's supports in the last plan, for the copy that is not turned.
+    ///
+    /// # Errors
+    /// Throws a `CuspError` if there is no such model.
+    pub fn supports(&self, model: usize) -> Result<Vec<f32>, JsValue> {
+        self.plate.supports(model).map_err(throw)
+    }
+
     /// Sets a weight from 0 to 1 for each facet of a model, or removes all weights.
     ///
     /// # Errors

@@ -10,6 +10,7 @@ use cusp_slicer::printer::PrinterChoice;
 use crate::common::{quiet, solids};
 use crate::{job, load, options, pixels, plan, plate, supported};
 use cusp_slicer::job::{Error, OptionsError};
+use cusp_slicer::model::FacetClass;
 use cusp_slicer::prepare::Supporting;
 use glam::Vec3;
 
@@ -75,13 +76,20 @@ fn turned_copies_have_the_same_supports() {
     };
     let report = plan(&mut several, &options).unwrap().plates.remove(0);
     let on_plate = report.supported.unwrap();
-    let mut alone = load(&bar);
-    let alone = pollster::block_on(alone.plan(&supported(), &mut quiet)).unwrap();
+    let mut slicer = load(&bar);
+    let alone = pollster::block_on(slicer.plan(&supported(), &mut quiet))
+        .unwrap()
+        .clone();
     let of_one = alone.supported.as_ref().unwrap();
     let thrice_ml = 3.0 * of_one.support_ml;
     assert!((on_plate.support_ml - thrice_ml).abs() < 0.02 * thrice_ml);
     assert_eq!(on_plate.lift_mm, 3.0);
     assert_eq!(report.z_mm, alone.z_mm);
+    // What is drawn of each copy.
+    let shown = slicer.positions_of(FacetClass::Support);
+    assert!(!shown.is_empty());
+    assert_eq!(several.supports(0).unwrap(), shown);
+    assert!(several.supports(1).is_err());
     // By hand they are for one model, whose frame is known.
     let by_hand = Options {
         supports: Some(Supporting {

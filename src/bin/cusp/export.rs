@@ -3,8 +3,7 @@
 use std::path::Path;
 
 use cusp_slicer::archive::layer_profile;
-use cusp_slicer::job::{Report, Slicer};
-use cusp_slicer::prepare::{Drain, plugs};
+use cusp_slicer::job::Slicer;
 use cusp_slicer::progress::silent;
 use glam::Vec3;
 use stl_io::{Normal, Triangle, Vertex};
@@ -28,18 +27,15 @@ pub fn export(slicer: &Slicer, file: &Path) -> Result<(), Failure> {
     write_stl(facets.map(corners(&mesh.vertices)), &output)
 }
 
-/// Writes a plug for each drain hole of a plan.
-pub fn export_plugs(report: &Report, file: &Path) -> Result<(), Failure> {
-    let drains = report.hollowed.iter().flat_map(|it| &it.drains);
-    let drains: Vec<Drain> = drains.copied().collect();
-    if drains.is_empty() {
+/// Writes a plug for each drain hole of the last plan.
+pub fn export_plugs(slicer: &Slicer, file: &Path) -> Result<(), Failure> {
+    let Some(plugs) = slicer.plugs() else {
         return Err(in_file(
             file,
             &"there are no drain holes to plug; make some by --drain",
         )
         .into());
-    }
-    let plugs = plugs(&drains);
+    };
     let facets = plugs.facets.iter().copied();
     write_stl(
         facets.map(corners(&plugs.vertices)),

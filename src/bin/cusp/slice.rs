@@ -39,7 +39,7 @@ pub fn slice(slicing: &Slicing, output: &Path) -> Result<(), Failure> {
     let mut progress = |stage, fraction| bar.report(stage, fraction);
     let report = slice_one(&mut slicer, model, &settings, &output, &mut progress)?;
     drop(bar);
-    write_meshes(slicing, &slicer, &report)?;
+    write_meshes(slicing, &slicer)?;
     show(slicing, &report)
 }
 
@@ -60,7 +60,7 @@ pub fn plan(slicing: &Slicing) -> Result<(), Failure> {
     let mut progress = |stage, fraction| bar.report(stage, fraction);
     let report = make_plan(&mut slicer, model, &settings.options, &mut progress)?.clone();
     drop(bar);
-    write_meshes(slicing, &slicer, &report)?;
+    write_meshes(slicing, &slicer)?;
     show(slicing, &report)
 }
 
@@ -77,12 +77,12 @@ fn check_meshes(command: &str, slicing: &Slicing) {
     }
 }
 
-fn write_meshes(slicing: &Slicing, slicer: &Slicer, report: &Report) -> Result<(), Failure> {
+fn write_meshes(slicing: &Slicing, slicer: &Slicer) -> Result<(), Failure> {
     if let Some(file) = &slicing.export {
         export(slicer, file)?;
     }
     if let Some(file) = &slicing.plugs {
-        export_plugs(report, file)?;
+        export_plugs(slicer, file)?;
     }
     Ok(())
 }

@@ -22,10 +22,12 @@ use super::planned::{Planned, PlannedModel};
 use super::prepared::Prepared;
 use super::report::{Origin, SCHEMA, report_of};
 use super::sampled::Sampler;
+use super::slicer::positions_of;
 use super::stage::{Stage, StageProgress, ms_since, report as tell};
 use super::{Error, Options, OptionsError, Slicer, Timings};
 use crate::arrange::{ArrangeError, Place};
 use crate::ldi::gpu::Gpu;
+use crate::model::FacetClass;
 use crate::plan::HeightRange;
 use outputs::Current;
 use places::screen_of;
@@ -84,6 +86,17 @@ impl Plate {
     pub fn model_mut(&mut self, model: usize) -> Result<&mut Slicer, Error> {
         self.check_model(model)?;
         Ok(&mut self.models[model])
+    }
+
+    /// Vertex positions of a model's supports in the last plan, nine numbers per facet, in millimetres, as
+    /// [`Slicer::positions_of`]: for the copy that is not turned, around x = y = 0. None without supports.
+    ///
+    /// # Errors
+    /// [`Error::Arrange`] if there is no such model.
+    pub fn supports(&self, model: usize) -> Result<Vec<f32>, Error> {
+        self.check_model(model)?;
+        let prepared = self.prepared.get(model);
+        Ok(prepared.map_or_else(Vec::new, |it| positions_of(&it.mesh, FacetClass::Support)))
     }
 
     /// Adds a model and returns its index.
