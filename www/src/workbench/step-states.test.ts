@@ -73,6 +73,9 @@ test("supports are counted once they are planned with their strength", () => {
   expect(strength("light", [])).toEqual({ words: "Medium", mark: "done" });
   expect(strength("medium", [])).toEqual({ words: "Medium, 2 points", mark: "done" });
   expect(strength("medium")).toEqual({ words: "Medium, 2 points", mark: "look" });
+  // The report of a plate does not list them.
+  const plate = { supported: { ...supported, points: [] }, plate: {} as Report["plate"] & object };
+  expect(states({ settings, supports: { strength: "medium" }, report: plate }).support).toEqual({ words: "Medium", mark: "done" });
 });
 
 test("a plan that is not of the settings on show needs a look, and what is wrong is told where it is", () => {

@@ -57,8 +57,8 @@ function support({ settings: { supports, format }, result }: Walked, language: L
   const strength = language.texts.settings.strengths[supports];
   if (supports === "none") return { words: strength, mark: null };
   const { supported, options } = result === null ? {} : { supported: result.report.supported, options: result.options };
-  // Points of another strength are of an earlier plan.
-  if (supported === undefined || options?.supports?.strength !== supports) return { words: strength, mark: "done" };
+  // Points of another strength are of an earlier plan, and those of a plate's models are not listed.
+  if (supported === undefined || result?.report.plate !== undefined || options?.supports?.strength !== supports) return { words: strength, mark: "done" };
   const mark = supported.unreached.length > 0 ? "look" : "done";
   return { words: words.supports(strength, supported.points.length, language.format), mark };
 }
