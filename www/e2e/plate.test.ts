@@ -1,8 +1,9 @@
 /** Several models on the page: added, counted, arranged, moved, on several plates, and downloaded. */
 import type { Locator, Page } from "playwright-core";
 import { expect, test } from "vitest";
+import type { CuspView } from "../src/view/cusp-view.js";
 import { broken } from "./axe.js";
-import { downloaded, drop, settled, state, words } from "./browser.js";
+import { downloaded, drop, openPanel, settled, state, words } from "./browser.js";
 import { pages } from "./pages.js";
 import { prism, sphere } from "./solids.js";
 
@@ -161,6 +162,44 @@ test("a copy is dragged with the pointer, and stays where it is released", async
     isMoved = (await moved(page).count()) + (await page.getByRole("alert").count()) > 0;
   }
   expect(isMoved).toBe(true);
+});
+
+test("every copy has the supports of its model, and keeps them while it is moved and turned", async () => {
+  const page = await start("?printer=mars-4-ultra&supports=light");
+  await drop(page, ballFile, blockFile);
+  await state(page, "done");
+  await page.getByRole("button", { name: "One more: Copies of ball.stl" }).click();
+  await settled(page);
+  const view = page.locator("cusp-view");
+  /** Numbers of facets: of each copy, and of the selected one, which is drawn as the model. */
+  const facets = (): Promise<{ copies: number[]; selected: number }> =>
+    view.evaluate(({ copies, supports }: CuspView) => ({
+      copies: copies.map((copy) => (copy.supports?.length ?? 0) / 9),
+      selected: (supports?.length ?? 0) / 9,
+    }));
+  await expect.poll(async () => (await facets()).copies.length).toBe(3);
+  const { copies: before, selected } = await facets();
+  // Two balls, and a block, which stands on its base and yet is lifted.
+  expect(Math.min(...before)).toBeGreaterThan(100);
+  expect(new Set(before).size).toBe(2);
+  expect(before).toContain(selected);
+  const turned = (): Promise<number[]> => view.evaluate(({ copies }: CuspView) => copies.map(({ turn_deg }) => turn_deg));
+  const places = await turned();
+  await page.getByRole("radio", { name: "Move on the plate" }).click();
+  const scene = page.locator("cusp-view .scene");
+  await scene.focus();
+  await scene.press("r");
+  await settled(page);
+  expect(await turned()).not.toEqual(places);
+  expect((await facets()).copies).toEqual(before);
+  // In another pose the model has other ones.
+  await page.getByLabel("Scale to height").fill("15");
+  await settled(page);
+  await expect.poll(async () => (await facets()).copies.every((count) => count > 0)).toBe(true);
+  await openPanel(page, "Support");
+  await page.getByLabel("Supports").selectOption("None");
+  await settled(page);
+  expect(await facets()).toEqual({ copies: [0, 0, 0], selected: 0 });
 });
 
 test("without a printer the plate has no size, and the page asks for one", async () => {

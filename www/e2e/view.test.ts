@@ -1,7 +1,7 @@
 /** What the view draws, in a real browser. */
 import { describe, expect, it } from "vitest";
 import { colourAt } from "../src/view/legend/palette.js";
-import { drawn, heard, likeness, picture, viewPages } from "./view-pages.js";
+import { drawn, heard, likeness, picture, viewPages, type Pixel } from "./view-pages.js";
 
 const start = viewPages();
 
@@ -71,6 +71,35 @@ describe("the colours", () => {
         expect(likeness(at((box?.width ?? 0) / 2, row), wanted), `layer ${layer}`).toBeGreaterThan(SAME);
       }
     }
+  });
+});
+
+describe("copies", () => {
+  it("have their supports where they stand, turned with them", async () => {
+    const page = await start();
+    const shown = async (isSupported: boolean): Promise<(x_mm: number, z_mm: number) => Pixel> => {
+      await page.evaluate(async (isSupported) => {
+        const { harness } = window;
+        const positions = harness.solids.box([-2, -2, 0], [2, 2, 8]);
+        const supports = isSupported ? harness.solids.box([3, -1, 0], [5, 1, 12]) : null;
+        const shape = { positions, rotation: [0, 0, 0, 1], scale: 1 } as const;
+        const copies = [-9, 9].map((x_mm, place) => ({ place, shape, x_mm, y_mm: 0, turn_deg: 180 * place, isCrowded: false, supports }));
+        harness.show();
+        // The selected copy is the model.
+        await harness.set({ positions, supports, copies, selected: 0, lift_mm: 4, aligned: true, heights_mm: [0, 40], showsLegend: false, inset: { top_px: 0, bottom_px: 0 } });
+      }, isSupported);
+      const at = await picture(page);
+      const box = await page.locator("cusp-view").boundingBox();
+      const scale = (box?.height ?? 0) / 40;
+      return (x_mm, z_mm) => at((box?.width ?? 0) / 2 + scale * x_mm, scale * (40 - z_mm));
+    };
+    const places = [[-5, 1], [5, 1], [-5, 11], [5, 11]] as const;
+    const without = await shown(false);
+    const at = await shown(true);
+    const [first, ...others] = places.map(([x, z]) => at(x, z));
+    expect(first).not.toEqual(without(...places[0]));
+    for (const pixel of others) expect(pixel).toEqual(first);
+    for (const [x, z] of [[-13, 1], [13, 1], [-5, 13], [5, 13]] as const) expect(at(x, z), `${x}, ${z}`).toEqual(without(x, z));
   });
 });
 

@@ -1,4 +1,7 @@
-/** The plate of fake workers, for tests: it keeps the texts of its files, and reports each model's copies as those that it has. */
+/**
+ * The plate of fake workers, for tests: it keeps the texts of its files, and reports each model's copies as those that it has. The
+ * supports of a model are its number.
+ */
 import type { MeshInfo, Placement, PlateWorker, Report } from "./wire.js";
 
 /** @param work hears of each call, and may hang or throw */
@@ -33,11 +36,12 @@ export function fakePlate(work: (what: string) => Promise<void> = async () => un
           mask: { width: 8, height: 2 },
           print_file: { format: "uvj", extension: "uvj", media_type: "application/octet-stream" },
           warnings: [],
-          plate: { plate, plates: 2, models: own.map(({ copies }, model) => ({ model, copies, resin_ml: 1.5, print_time_s: 15 })) },
+          plate: { plate, plates: 2, models: own.map(({ copies }, model) => ({ model, copies, size_mm: [1, 1, 1], resin_ml: 1.5, print_time_s: 15 })) },
         }) as unknown as Report;
       return {
         report: { schema: 2, print_time_s: 60, resin_ml: 3, plates: [report(0), report(1)] },
         profiles: [Float32Array.of(1), Float32Array.of(2)],
+        ...(options?.supports !== undefined && { supports: own.map((_, model) => Float32Array.of(model)) }),
       };
     },
     plateMask: (plate, layer) => {

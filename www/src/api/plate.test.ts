@@ -43,6 +43,14 @@ test("models are added in order, and a plan has their copies", async () => {
   expect(log).toEqual(["1: add cup", "1: add ring", "1: plan 1 of cup ring, 1 20 copies"]);
 });
 
+test("a plan has the supports of each model, and without supports none", async () => {
+  await plate.add(file("cup"), { copies: 2 });
+  await plate.add(file("ring"));
+  expect(await plate.plan({ tolerance: 1 })).not.toHaveProperty("supports");
+  const { supports } = await plate.plan({ tolerance: 1, supports: {} });
+  expect(supports?.map((positions) => [...positions])).toEqual([[0], [1]]);
+});
+
 test("a call that is not awaited takes its place", async () => {
   void plate.add(file("cup"));
   const planned = plate.plan({ tolerance: 1 });

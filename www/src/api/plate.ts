@@ -50,6 +50,11 @@ export interface PlateCall extends Watch {
 export interface PlatesPlan extends Versioned {
   /** One for each plate. `report.plate` has its models, where each copy stands, and each copy's share of time and resin. */
   plates: Profiled<Report>[];
+  /**
+   * Vertex positions of the supports of each model, in the order of `models()`: nine numbers a facet, mm, z from the plate, for a
+   * copy that stands in the middle and is not turned. Absent without supports.
+   */
+  supports?: Float32Array[];
   /** Print time of all plates, one after the other. */
   print_time_s: number;
   /** Volume of resin in all copies. */
@@ -166,10 +171,10 @@ export function createPlate(spawn: () => WorkerHandle, compiled: Compiled): Runn
     arrange: (options = {}, arranging, call = {}) => client.arrange(models, jobOf(options, arranging), call),
     problems: (options, placements, call = {}) => client.problems(models, jobOf(options, undefined, placements), call),
     async plan(options = {}, { arranging, placements, ...call } = {}) {
-      const { report, profiles } = await client.plan(models, jobOf(options, arranging, placements), call);
+      const { report, profiles, supports } = await client.plan(models, jobOf(options, arranging, placements), call);
       const { print_time_s, resin_ml } = report;
       const plates = report.plates.map((report, plate) => ({ report, profile: profiles[plate] ?? new Float32Array(0) }));
-      return { schema: SCHEMA, plates, print_time_s, resin_ml };
+      return { schema: SCHEMA, plates, print_time_s, resin_ml, ...(supports !== undefined && { supports }) };
     },
     async mask(plate, layer, call = {}) {
       const { bits, of } = await client.mask(plate, layer, call);

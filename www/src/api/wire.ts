@@ -80,6 +80,8 @@ export interface Written {
 export interface ProfiledPlates {
   report: PlatesReport;
   profiles: Float32Array[];
+  /** As in {@link Profiled}, of each model, for a copy that stands in the middle and is not turned; absent without supports. */
+  supports?: Float32Array[];
 }
 
 /** The result of a task: a candidate for each of its directions, in their order. */

@@ -124,10 +124,13 @@ const plateApi: PlateWorker = {
   arrangePlate: (options) => onPlate().arrange(options),
   plateProblems: (options) => onPlate().problems(options),
   async planPlate(options, progress) {
-    const report = await onPlate().plan(options, plain(progress));
-    const profiles = report.plates.map(({ metric, source }, number) => onPlate().profile(number, metric, source));
-    const buffers = profiles.map(({ buffer }) => buffer);
-    return Comlink.transfer({ report, profiles }, buffers);
+    const plate = onPlate();
+    const report = await plate.plan(options, plain(progress));
+    const profiles = report.plates.map(({ metric, source }, number) => plate.profile(number, metric, source));
+    const isSupported = report.plates.some(({ supported }) => supported !== undefined);
+    const supports = isSupported ? (options.models ?? []).map((_, model) => plate.supports(model)) : [];
+    const buffers = [...profiles, ...supports].map(({ buffer }) => buffer);
+    return Comlink.transfer({ report, profiles, ...(isSupported && { supports }) }, buffers);
   },
   plateMask(number, layer) {
     const bits = onPlate().mask(number, layer);

@@ -185,7 +185,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
               .rotation=${this.rotation}
               .scale=${this.#scale}
               .lift_mm=${shown?.lift_mm ?? 0}
-              .supports=${shown?.supports ?? null}
+              .supports=${this.#supports}
               .voids=${shown?.voids ?? null}
               .points=${points?.list ?? NO_POINTS}
               .point=${points?.place ?? null}
@@ -235,6 +235,12 @@ export class CuspModel extends elementWith(PROPERTIES) {
   get #selected(): number | null {
     const own = this.copies.filter(({ entry }) => entry.model === this.#shownModel);
     return (own.find(({ place }) => place === this.pressed) ?? own[0])?.place ?? null;
+  }
+
+  /** The supports of the model, on a plate those of its copies. */
+  get #supports(): Float32Array | null {
+    const place = this.#selected;
+    return this.standing.find((copy) => copy.place === place)?.supports ?? this.shown?.supports ?? null;
   }
 
   readonly #pressed = ({ detail: place }: CustomEvent<number>): void => {

@@ -37,7 +37,10 @@ export class PlateView {
         if (show !== this.#shows) return;
         const shapes = new Map(shaped);
         this.#draw(
-          copies.map(({ entry, place, x_mm, y_mm, turn_deg }) => ({ place, x_mm, y_mm, turn_deg, shape: shapes.get(entry) as Shape, isCrowded: crowded.has(place) })),
+          copies.map(({ entry, place, x_mm, y_mm, turn_deg, supports }) => {
+            const shape = shapes.get(entry) as Shape;
+            return { place, shape, x_mm, y_mm, turn_deg, isCrowded: crowded.has(place), supports };
+          }),
         );
       },
       // A broken worker is reported elsewhere.

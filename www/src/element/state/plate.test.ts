@@ -157,6 +157,31 @@ test("what is wrong with the places is asked while a copy is moved", async () =>
   expect([...plate.crowded]).toEqual([0, 2]);
 });
 
+test("copies have the supports of their model, until it has another pose", async () => {
+  await plate.add([ring], {});
+  const supports = (): (number | undefined)[] => plate.copies.map((copy) => copy.supports?.[0]);
+  const stand = (): void => void (plate.placements = [0, 1].map((model) => ({ model, plate: 0, x_mm: 9 * model, y_mm: 0, turn_deg: 0 })));
+  await plate.plan({ tolerance: 1 }, {});
+  stand();
+  expect(supports()).toEqual([undefined, undefined]);
+  await plate.plan({ tolerance: 1, supports: {} }, {});
+  stand();
+  expect(supports()).toEqual([0, 1]);
+  plate.move(1, { x_mm: 20, turn_deg: 15 }, false);
+  expect(supports()).toEqual([0, 1]);
+  plate.keep({ own: { height_mm: 5 } });
+  expect(supports()).toEqual([undefined, 1]);
+  plate.keep({ own: {} });
+  expect(supports()).toEqual([0, 1]);
+  plate.setCopies(1, 2);
+  stand();
+  // Until there is a plan for these.
+  expect(supports()).toEqual([0, 1]);
+  plate.remove(0);
+  plate.placements = [{ model: 0, plate: 0, x_mm: 0, y_mm: 0, turn_deg: 0 }];
+  expect(supports()).toEqual([1]);
+});
+
 test("another plate is shown without planning again, and its masks and file are its own", async () => {
   plate.setCopies(0, 3);
   await plate.plan({ tolerance: 1 }, {});

@@ -9,6 +9,7 @@ import type { ArrangeError, Arranging, ModelOptions, Options, Placement, Price, 
 import { Brought } from "./brought.js";
 import { placesOf } from "./crowded.js";
 import type { SlicerCalls } from "./host.js";
+import { jobOf } from "./job-options.js";
 import { quaternion, rotationText, type Settings } from "./settings.js";
 
 /** What the settings say about the selected model alone. */
@@ -59,6 +60,8 @@ export interface Copy {
   readonly turn_deg: number;
   /** Height of the model in the plan; null while that is unknown. */
   readonly height_mm: number | null;
+  /** Vertex positions of its supports, for a copy in the middle that is not turned; null without any for its pose. */
+  readonly supports: Float32Array | null;
 }
 
 export interface PlateHost {
@@ -88,6 +91,8 @@ export class Plate {
   /** Where copies stand in the plan or by hand. */
   placements: readonly Placement[] = [];
   planned: PlatesPlan | null = null;
+  /** The models of that plan. */
+  #planned: readonly Entry[] = [];
   problems: readonly ArrangeError[] = [];
   readonly #host: PlateHost;
   readonly #slicer: SlicerCalls;
@@ -137,8 +142,15 @@ export class Plate {
   #copiesNow(): readonly Copy[] {
     return this.placements.flatMap(({ model, plate = 0, x_mm, y_mm, turn_deg = 0 }, place) => {
       const entry = this.entries[model];
-      return entry === undefined || plate !== this.number ? [] : [{ place, entry, x_mm, y_mm, turn_deg, height_mm: this.heightOf(model) }];
+      if (entry === undefined || plate !== this.number) return [];
+      return [{ place, entry, x_mm, y_mm, turn_deg, height_mm: this.heightOf(model), supports: this.#supportsOf(entry) }];
     });
+  }
+
+  /** The supports of a model in the last plan; null if it has another pose by now. */
+  #supportsOf({ key, own }: Entry): Float32Array | null {
+    const place = this.#planned.findIndex((it) => it.key === key && JSON.stringify(it.own) === JSON.stringify(own));
+    return this.planned?.supports?.[place] ?? null;
   }
 
   /** The places of the copies that problems name. */
@@ -291,11 +303,12 @@ export class Plate {
       this.placements = this.problems = [];
       return this.#slicer.plan(options, watch);
     }
-    const { placed, arranging } = this;
+    const { entries, placed, arranging } = this;
     this.#options = jobOf(options);
-    await this.#brought.bring(this.entries, watch);
+    await this.#brought.bring(entries, watch);
     const planned = await this.#slicer.plate.plan(this.#options, { ...watch, arranging, placements: placed });
     this.planned = planned;
+    this.#planned = entries;
     this.number = Math.min(this.number, planned.plates.length - 1);
     this.problems = [];
     // A single copy has no placement.
@@ -380,20 +393,3 @@ export function poseOf({ rotation, height_mm }: Own): Pose {
 
 /** A number of copies within bounds; NaN if it is none. */
 const countOf = (copies: number): number => Math.min(Math.max(1, Math.round(copies)), MOST_COPIES);
-
-/** The options of a job: each model has its own pose, so points placed by hand would be right for one only. */
-function jobOf(options: Options): Options {
-  const job = { ...options };
-  delete job.rotation;
-  delete job.height_mm;
-  if (job.supports?.points !== undefined) {
-    job.supports = { ...job.supports };
-    delete job.supports.points;
-    delete job.supports.fill;
-  }
-  if (job.hollow?.drains !== undefined) {
-    job.hollow = { ...job.hollow, auto_drain: {} };
-    delete job.hollow.drains;
-  }
-  return job;
-}

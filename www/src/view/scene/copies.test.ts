@@ -1,4 +1,4 @@
-import { Matrix4, Ray, Vector3 } from "three";
+import { Matrix4, Mesh, RawShaderMaterial, Ray, Vector3 } from "three";
 import { expect, test } from "vitest";
 import { Copies, matrixOf, sizeOfAll, type Copy, type Shape } from "./copies.js";
 import { hitBy } from "./moving.js";
@@ -8,7 +8,7 @@ const shape: Shape = { positions: new Float32Array(0), rotation: [0, 0, 0, 1], s
 const size: Triple = [10, 4, 6];
 const sizeOf = (): Triple => size;
 
-const copy = (place: number, x_mm: number, y_mm: number, turn_deg = 0): Copy => ({ place, shape, x_mm, y_mm, turn_deg, isCrowded: false });
+const copy = (place: number, x_mm: number, y_mm: number, turn_deg = 0): Copy => ({ place, shape, x_mm, y_mm, turn_deg, isCrowded: false, supports: null });
 
 test("a copy is turned counter-clockwise about its own middle, then moved", () => {
   const corner = new Vector3(5, 2, 0).applyMatrix4(matrixOf(copy(0, 100, 50, 90)));
@@ -22,15 +22,45 @@ test("the box of all copies is about the middle of the plate", () => {
 });
 
 test("copies are lifted with the model, and are as high with what is below them", () => {
-  const copies = new Copies({});
+  const copies = new Copies({}, new RawShaderMaterial());
   copies.lift_mm = 5;
   const facet: Shape = { ...shape, positions: Float32Array.of(0, 0, 2, 10, 0, 2, 0, 4, 8) };
   copies.set([copy(0, 0, 0), { ...copy(1, 20, 0), shape: facet }], 0);
   copies.group.updateMatrixWorld();
-  const [other] = copies.group.children;
+  const [other] = meshesOf(copies);
   expect(new Vector3(10, 0, 2).applyMatrix4(other?.matrixWorld ?? new Matrix4()).toArray()).toEqual([25, -2, 5]);
   expect(copies.sizeOf(facet)).toEqual([10, 4, 11]);
   copies.dispose();
+});
+
+/** What is drawn. */
+function meshesOf({ group }: Copies): Mesh[] {
+  const meshes: Mesh[] = [];
+  group.traverse((it) => it instanceof Mesh && meshes.push(it));
+  return meshes;
+}
+
+test("copies are moved and turned with their supports, which have their heights already and share facets; they are let go with the last copy", () => {
+  const material = new RawShaderMaterial();
+  const copies = new Copies({}, material);
+  copies.lift_mm = 5;
+  const supports = Float32Array.of(0, 0, 0, 4, 0, 0, 0, 0, 5);
+  const other = Float32Array.of(0, 0, 0, 1, 0, 0, 0, 0, 5);
+  const all = [{ ...copy(0, 0, 0), supports }, { ...copy(1, 20, 0, 90), supports }, { ...copy(2, -20, 0), supports: other }, { ...copy(3, 0, 9), supports }];
+  copies.set(all, 0);
+  copies.group.updateMatrixWorld();
+  const supported = meshesOf(copies).filter((mesh) => mesh.material === material);
+  const points = supported.map((mesh) => new Vector3(4, 0, 5).applyMatrix4(mesh.matrixWorld).toArray().map(Math.round));
+  // Not the selected one, which is drawn as the model.
+  expect(points).toEqual([[20, 4, 5], [-16, 0, 5], [4, 9, 5]]);
+  expect(supported[0]?.geometry).toBe(supported[2]?.geometry);
+  const gone: string[] = [];
+  supported[0]?.geometry.addEventListener("dispose", () => gone.push("shared"));
+  supported[1]?.geometry.addEventListener("dispose", () => gone.push("other"));
+  copies.set(all.slice(0, 2), 0);
+  expect(gone).toEqual(["other"]);
+  copies.dispose();
+  expect(gone).toEqual(["other", "shared"]);
 });
 
 test("a ray meets the nearest copy, also a turned one", () => {

@@ -24,6 +24,8 @@ export interface Copy {
   readonly turn_deg: number;
   /** Whether it overlaps another, or extends beyond the plate. */
   readonly isCrowded: boolean;
+  /** Nine numbers a facet, mm from the plate, for a copy in the middle that is not turned; copies of one model share it. */
+  readonly supports: Float32Array | null;
 }
 
 interface Posed {
@@ -42,12 +44,20 @@ export function matrixOf({ x_mm, y_mm, turn_deg }: Pick<Copy, "x_mm" | "y_mm" | 
 
 export class Copies {
   readonly group = new Group();
+  /** The copies, which are lifted, and their supports, which are not. */
+  readonly #bodies = new Group();
+  readonly #supports = new Group();
   readonly #plain: RawShaderMaterial;
   readonly #crowded: RawShaderMaterial;
+  readonly #ofSupports: RawShaderMaterial;
   readonly #posed = new Map<Shape, Posed>();
+  readonly #supported = new Map<Float32Array, BufferGeometry>();
 
-  /** @param uniforms of the model, whose colours the copies share as long as they show layers or resin */
-  constructor(uniforms: Record<string, IUniform>) {
+  /**
+   * @param uniforms of the model, whose colours the copies share as long as they show layers or resin
+   * @param ofSupports the material of the model's supports
+   */
+  constructor(uniforms: Record<string, IUniform>, ofSupports: RawShaderMaterial) {
     const material = (own: Record<string, IUniform>): RawShaderMaterial =>
       new RawShaderMaterial({
         glslVersion: GLSL3,
@@ -58,15 +68,17 @@ export class Copies {
       });
     this.#plain = material({});
     this.#crowded = material({ byThickness: { value: false }, resin: { value: new Vector3(0.8, 0.2, 0.2) } });
+    this.#ofSupports = ofSupports;
+    this.group.add(this.#bodies, this.#supports);
   }
 
   /** How far supports lift all models above the plate, mm. */
   get lift_mm(): number {
-    return this.group.position.z;
+    return this.#bodies.position.z;
   }
 
   set lift_mm(mm: number) {
-    this.group.position.z = mm;
+    this.#bodies.position.z = mm;
   }
 
   setBad([r, g, b]: Rgb): void {
@@ -79,22 +91,27 @@ export class Copies {
     return this.#crowded;
   }
 
-  /** Shows these copies, except the one at `selected`. */
+  /** Shows these copies with their supports, except the one at `selected`. */
   set(copies: readonly Copy[], selected: number | null): void {
-    this.group.clear();
+    this.#bodies.clear();
+    this.#supports.clear();
     for (const copy of copies) {
       if (copy.place === selected) continue;
       const { geometry, matrix } = this.#of(copy.shape);
-      const mesh = new Mesh(geometry, copy.isCrowded ? this.#crowded : this.#plain);
-      mesh.matrixAutoUpdate = false;
-      mesh.matrix.copy(matrixOf(copy)).multiply(matrix);
-      this.group.add(mesh);
+      const stand = matrixOf(copy);
+      this.#bodies.add(fixed(new Mesh(geometry, copy.isCrowded ? this.#crowded : this.#plain), stand.clone().multiply(matrix)));
+      if (copy.supports !== null) this.#supports.add(fixed(new Mesh(this.#geometryOf(copy.supports), this.#ofSupports), stand));
     }
-    const used = new Set(copies.map(({ shape }) => shape));
+    const used = new Set<Shape | Float32Array | null>(copies.flatMap(({ shape, supports }) => [shape, supports]));
     for (const [shape, { geometry }] of this.#posed) {
       if (used.has(shape)) continue;
       geometry.dispose();
       this.#posed.delete(shape);
+    }
+    for (const [supports, geometry] of this.#supported) {
+      if (used.has(supports)) continue;
+      geometry.dispose();
+      this.#supported.delete(supports);
     }
   }
 
@@ -115,12 +132,30 @@ export class Copies {
     if (posed !== undefined) return posed;
     const { positions, rotation, scale } = shape;
     const extent = extentOf(positions, rotation, scale);
-    const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(positions, 3));
-    geometry.boundingSphere = new Sphere(new Vector3(), Infinity);
+    const geometry = geometryOf(positions);
     const matrix = new Matrix4().compose(new Vector3(...standing(extent)), new Quaternion(...rotation), new Vector3(scale, scale, scale));
     this.#posed.set(shape, (posed = { geometry, matrix, size_mm: sizeOf(extent) }));
     return posed;
   }
+
+  #geometryOf(supports: Float32Array): BufferGeometry {
+    let geometry = this.#supported.get(supports);
+    if (geometry === undefined) this.#supported.set(supports, (geometry = geometryOf(supports)));
+    return geometry;
+  }
+}
+
+/** Facets with bounds, so that three.js does not go through all the points again to compute them. */
+function geometryOf(positions: Float32Array): BufferGeometry {
+  const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(positions, 3));
+  geometry.boundingSphere = new Sphere(new Vector3(), Infinity);
+  return geometry;
+}
+
+function fixed(mesh: Mesh, matrix: Matrix4): Mesh {
+  mesh.matrixAutoUpdate = false;
+  mesh.matrix.copy(matrix);
+  return mesh;
 }
 
 /** Width and depth of a copy's box. */

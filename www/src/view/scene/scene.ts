@@ -112,7 +112,7 @@ export class Scene {
     this.cameras = new Cameras(canvas);
     this.cameras.controls.addEventListener("change", this.invalidate);
     this.plate = new Plate(this.model.facets);
-    this.copies = new Copies(this.model.material.uniforms);
+    this.copies = new Copies(this.model.material.uniforms, this.model.supports.material);
     this.#face.frustumCulled = false;
     this.model.facets.add(this.#face);
     this.model.stand.add(this.#marker.group, this.markers.group);
