@@ -209,10 +209,10 @@ test("a hole is drilled into a hollow model by a click, inward, and the void is 
   expect(await page.getByRole("radio", { name: "Look around" }).isChecked()).toBe(true);
 });
 
-test("while supports keep off what weighs much, the view shows the weights", async () => {
-  const page = await opened("&supports=light", "Support points");
+test("while supports and holes keep off what weighs much, the view shows the weights", async () => {
+  const page = await opened("&supports=light&wall=1.5", "Support points");
   const shown = (): Promise<readonly [string, string]> => page.locator("cusp-view").evaluate(({ look, heat }: CuspView) => [look, heat] as const);
-  const spare = page.getByRole("switch", { name: "Keep off what is painted as important" });
+  const spare = page.getByRole("switch", { name: "Keep points and holes off what is painted as important" });
   expect(await spare.isDisabled()).toBe(true);
   await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => {
     const facets = element.model?.info.facets ?? 0;
@@ -224,6 +224,24 @@ test("while supports keep off what weighs much, the view shows the weights", asy
   await settled(page);
   expect(await shown()).toEqual(["weights", "product"]);
   expect(await broken(page)).toEqual([]);
+  const asked = (): Promise<unknown> =>
+    page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => {
+      const { supports, hollow } = element.result?.options ?? {};
+      return [supports?.spare, hollow?.auto_drain];
+    });
+  expect(await asked()).toEqual([true, { spare: true }]);
+  await page.getByRole("radio", { name: "Drain holes" }).check();
+  expect(await spare.isChecked()).toBe(true);
+  expect(await shown()).toEqual(["weights", "product"]);
+  await page.locator("cusp-view .legend").waitFor();
+  expect(await broken(page)).toEqual([]);
+  await spare.uncheck();
+  await settled(page);
+  expect(await asked()).toEqual([undefined, {}]);
+  expect((await shown())[0]).toBe("thickness");
+  await page.keyboard.press("Control+z");
+  await settled(page);
+  expect(await asked()).toEqual([true, { spare: true }]);
   await page.getByRole("radio", { name: "Look around" }).check();
   expect((await shown())[0]).toBe("thickness");
 });

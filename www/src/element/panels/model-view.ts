@@ -152,7 +152,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
     const isAligned = this.aligned && !isEditing && !isPrinted && !isPlate && walls_mm === null;
     const showsHeat = this.#showsHeat;
     const points = this.#placed?.of(tool);
-    // Supports keep off what weighs much in the plan.
+    // Supports and holes keep off what weighs much in the plan.
     const heat = isPlacing ? "product" : this.colours === "layers" ? "paint" : this.colours;
     const { texts } = language;
     const words = texts.view;
@@ -208,7 +208,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
               @cusp-move=${(event: CustomEvent<MoveDetail>) => this.#tell(event)}
               @cusp-select=${this.#pressed}
               @cusp-paint=${this.#painted}
-              .showsLegend=${tool !== "drains"}
+              .showsLegend=${tool !== "drains" || showsHeat}
               .palette=${this.palette}
               .tool=${tool}
               .aligned=${isAligned && this.plot !== null}
@@ -298,10 +298,10 @@ export class CuspModel extends elementWith(PROPERTIES) {
     requestAnimationFrame(() => (this.canAlign = this.#canAlign));
   };
 
-  /** Whether the view shows weights: while they are painted, and while supports are placed that keep off the largest ones. */
+  /** Whether the view shows weights: while they are painted, and while supports or holes are placed that keep off the largest ones. */
   get #showsHeat(): boolean {
     const { tool, colours, settings, weights } = this;
-    return tool === "paint" ? colours !== "layers" : tool === "supports" && settings.spare === "on" && weights !== null;
+    return tool === "paint" ? colours !== "layers" : places(tool) && settings.spare === "on" && (weights !== null || this.#counts);
   }
 
   /** Whether saliency counts in the plan. */

@@ -113,7 +113,8 @@ export class PointEditor {
             this.#drain_mm = mm;
             this.#update();
           })
-        : this.#spare(words)}
+        : nothing}
+      ${this.#spare(words)}
     </section>`;
   }
 
@@ -166,7 +167,7 @@ export class PointEditor {
   /** Without weights there is nothing to keep off. */
   #spare(words: PlacingTexts): TemplateResult {
     const { weights, settings } = this.#session;
-    const isPossible = weights !== null;
+    const isPossible = weights !== null || settings.saliency === "on";
     return html`<div>
       <label class="box">
         <input

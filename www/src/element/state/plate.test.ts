@@ -75,6 +75,8 @@ test("where several stand, points placed by hand are left to be placed automatic
   const options = { supports: { strength: "light", points, fill: true, spare: true }, hollow: { wall_mm: 2, drains } } as const;
   await plate.plan({ ...options, supports: { ...options.supports, points: [...points] }, hollow: { ...options.hollow, drains: [...drains] } }, {});
   expect(jobs[0]?.options).toEqual({ supports: { strength: "light", spare: true }, hollow: { wall_mm: 2, auto_drain: {} } });
+  await plate.plan({ hollow: { wall_mm: 2, drains: [...drains] } }, {}, true);
+  expect(jobs[1]?.options).toEqual({ hollow: { wall_mm: 2, auto_drain: { spare: true } } });
 });
 
 test("a file that cannot be read leaves the models as they were, also those read before it", async () => {

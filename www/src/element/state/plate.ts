@@ -297,14 +297,15 @@ export class Plate {
     return this.#brought.positionsOf(entry);
   }
 
-  async plan(options: Options, watch: Watch): Promise<Plan> {
+  /** @param isSparing see `jobOf` */
+  async plan(options: Options, watch: Watch, isSparing = false): Promise<Plan> {
     if (!this.isSeveral) {
       this.planned = null;
       this.placements = this.problems = [];
       return this.#slicer.plan(options, watch);
     }
     const { entries, placed, arranging } = this;
-    this.#options = jobOf(options);
+    this.#options = jobOf(options, isSparing);
     await this.#brought.bring(entries, watch);
     const planned = await this.#slicer.plate.plan(this.#options, { ...watch, arranging, placements: placed });
     this.planned = planned;

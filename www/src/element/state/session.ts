@@ -290,7 +290,7 @@ export class Session extends Models {
     this.#failed = true;
     const { weights } = this;
     this.keepPose();
-    const plan = await this.run("plan", model.name, options, (watch) => this.plate.plan(options, watch));
+    const plan = await this.run("plan", model.name, options, (watch) => this.plate.plan(options, watch, this.settings.spare === "on"));
     if (plan !== null) this.#show(plan, options, weights);
     else this.#refuse(options, weights);
     await this.resume();

@@ -282,6 +282,9 @@ test("walls make a model hollow, which drains unless that is turned off, and are
   const hollow = { ...DEFAULT_SETTINGS, wall: "1.5" };
   expect(options(DEFAULT_SETTINGS)).not.toHaveProperty("hollow");
   expect(options(hollow)).toMatchObject({ hollow: { wall_mm: 1.5, auto_drain: {} } });
+  // One setting for supports and holes.
+  expect(options({ ...hollow, spare: "on" })).toHaveProperty("hollow", { wall_mm: 1.5, auto_drain: { spare: true } });
+  expect(options({ ...hollow, spare: "on", supports: "light" })).toMatchObject({ supports: { spare: true }, hollow: { auto_drain: { spare: true } } });
   expect(options({ ...hollow, infill: "lattice", drain: "none" })).toHaveProperty("hollow", { wall_mm: 1.5, infill: {} });
   expect(check({ ...hollow, wall: "0.3" })).toMatchObject({ ok: false, faults: { wall: { kind: "range", least: 0.4, most: 50 } } });
   expect(options({ ...hollow, ...withFormat(hollow, "prusa-3mf") })).not.toHaveProperty("hollow");

@@ -41,7 +41,7 @@ interface Choices {
   supports: "none" | SupportStrength;
   /** Whether more are placed automatically beside those by hand. */
   fill: "off" | "on";
-  /** Whether automatic ones keep off what is painted as important. */
+  /** Whether automatic ones, and automatic drain holes, keep off what is painted as important. */
   spare: "off" | "on";
   /** What stands in the void of a hollow model. */
   infill: "none" | "lattice";
@@ -325,6 +325,7 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
     within(field, settings[field], thinnest, thickest);
   if (settings.height.trim() !== "") options.height_mm = within("height", settings.height, 0.1, TALLEST_MM);
 
+  const isSparing = settings.spare === "on";
   // Slicers of filament printers support and hollow by themselves.
   if (settings.supports !== "none" && !isFilament(settings.format)) {
     options.supports = { strength: settings.supports };
@@ -333,7 +334,7 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
       options.supports.points = points.map(({ at_mm, diameter_mm }) => ({ at_mm: [...at_mm], ...(diameter_mm !== null && { contact_mm: diameter_mm }) }));
       if (settings.fill === "on") options.supports.fill = true;
     }
-    if (settings.spare === "on") options.supports.spare = true;
+    if (isSparing) options.supports.spare = true;
   }
   if (settings.wall.trim() !== "" && !isFilament(settings.format)) {
     options.hollow = { wall_mm: within("wall", settings.wall, THINNEST_WALL_MM, THICKEST_WALL_MM) };
@@ -344,7 +345,7 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
         inward === null || diameter_mm === null ? [] : [{ at_mm: [...at_mm], direction: [...inward], diameter_mm }],
       );
     }
-    if (settings.drain === "auto") options.hollow.auto_drain = {};
+    if (settings.drain === "auto") options.hollow.auto_drain = isSparing ? { spare: true } : {};
   }
 
   if (planner === "uniform") {

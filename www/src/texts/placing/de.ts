@@ -24,8 +24,8 @@ export const placing: PlacingTexts = {
   newDiameter: "Durchmesser neuer Löcher (mm)",
   lock: "Gesperrt",
   remove: "Löschen",
-  spare: "Frei halten, was als wichtig bemalt ist",
-  spareHint: "Zuerst mit „Was zählt“ malen.",
+  spare: "Punkte und Löcher fernhalten von dem, was als wichtig bemalt ist",
+  spareHint: "Gilt für Punkte und Löcher. Zuerst mit „Was zählt“ malen.",
   automatically: "Automatisch setzen",
   clear: "Alle entfernen",
 };

@@ -24,8 +24,8 @@ export const placing: PlacingTexts = {
   newDiameter: "Diameter of new holes (mm)",
   lock: "Locked",
   remove: "Delete",
-  spare: "Keep off what is painted as important",
-  spareHint: "Paint with “What matters” first.",
+  spare: "Keep points and holes off what is painted as important",
+  spareHint: "For points and holes alike. Paint with “What matters” first.",
   automatically: "Place automatically",
   clear: "Clear",
 };

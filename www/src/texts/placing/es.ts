@@ -24,8 +24,8 @@ export const placing: PlacingTexts = {
   newDiameter: "Diámetro de los agujeros nuevos (mm)",
   lock: "Bloqueado",
   remove: "Eliminar",
-  spare: "Evitar lo pintado como importante",
-  spareHint: "Pinte antes con «Qué importa».",
+  spare: "Alejar puntos y agujeros de lo pintado como importante",
+  spareHint: "Vale para puntos y agujeros. Pinte antes con «Qué importa».",
   automatically: "Colocar automáticamente",
   clear: "Quitar todos",
 };

@@ -24,8 +24,8 @@ export const placing: PlacingTexts = {
   newDiameter: "Diamètre des nouveaux trous (mm)",
   lock: "Verrouillé",
   remove: "Supprimer",
-  spare: "Éviter ce qui est peint comme important",
-  spareHint: "Peignez d’abord avec « Ce qui compte ».",
+  spare: "Tenir points et trous à l’écart de ce qui est peint comme important",
+  spareHint: "Vaut pour les points et les trous. Peignez d’abord avec « Ce qui compte ».",
   automatically: "Placer automatiquement",
   clear: "Tout enlever",
 };

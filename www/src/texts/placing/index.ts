@@ -33,9 +33,9 @@ export interface PlacingTexts {
   newDiameter: string;
   lock: string;
   remove: string;
-  /** Where weights are painted, automatic supports keep off the largest ones. */
+  /** Where weights are painted, automatic supports and drain holes keep off the largest ones. */
   spare: string;
-  /** Why that has no effect yet. */
+  /** That it is for both, and why it has no effect yet. */
   spareHint: string;
   automatically: string;
   clear: string;

@@ -24,8 +24,8 @@ export const placing: PlacingTexts = {
   newDiameter: "新排液孔的直径 (mm)",
   lock: "锁定",
   remove: "删除",
-  spare: "避开涂为重要之处",
-  spareHint: "请先用“重要之处”涂抹。",
+  spare: "支撑点和排液孔避开涂为重要之处",
+  spareHint: "对支撑点和排液孔均有效。请先用“重要之处”涂抹。",
   automatically: "自动放置",
   clear: "全部清除",
 };
