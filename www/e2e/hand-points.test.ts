@@ -1,4 +1,5 @@
 /** Support points and drain holes, placed by hand with real pointer events and keys: the plan follows. */
+import { readFile } from "node:fs/promises";
 import type { Locator, Page } from "playwright-core";
 import { expect, test } from "vitest";
 import type { CuspView } from "../src/view/cusp-view.js";
@@ -207,6 +208,41 @@ test("a hole is drilled into a hollow model by a click, inward, and the void is 
   await settled(page);
   expect(await page.getByRole("radio", { name: "Drain holes" }).count()).toBe(0);
   expect(await page.getByRole("radio", { name: "Look around" }).isChecked()).toBe(true);
+});
+
+test("plugs for the holes of the plan are saved as an STL, and there are none without holes", async () => {
+  const page = await opened("&wall=1.5", "Drain holes");
+  const button = page.getByRole("button", { name: "Download plugs (STL)" });
+  const saved = async (): Promise<{ name: string; bytes: Buffer }> => {
+    const [file] = await Promise.all([page.waitForEvent("download"), button.click()]);
+    return { name: file.suggestedFilename(), bytes: await readFile(await file.path()) };
+  };
+  const facetsOf = (bytes: Buffer): number => {
+    const facets = bytes.readUInt32LE(80);
+    expect(bytes).toHaveLength(84 + 50 * facets);
+    return facets;
+  };
+  const holes = (await drains(page)).length;
+  expect(holes).toBeGreaterThan(0);
+  const { name, bytes } = await saved();
+  expect(name).toBe("ball-plugs.stl");
+  const facets = facetsOf(bytes);
+  expect(facets).toBeGreaterThan(0);
+  expect(facets % holes).toBe(0);
+  expect(await broken(page)).toEqual([]);
+  // One more hole, one more plug.
+  await page.mouse.click(...(await placeIn(page.locator("cusp-view"), 0.5, 0.45)));
+  await settled(page);
+  expect(await drains(page)).toHaveLength(holes + 1);
+  expect(facetsOf((await saved()).bytes)).toBe((facets / holes) * (holes + 1));
+  await page.getByRole("button", { name: "Clear" }).click();
+  await settled(page);
+  expect(await drains(page)).toEqual([]);
+  expect(await button.count()).toBe(0);
+  // They are a model as well, to be printed.
+  await drop(page, { name, bytes });
+  await state(page, "done");
+  expect(await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.model?.info.facets)).toBe(facets);
 });
 
 test("while supports and holes keep off what weighs much, the view shows the weights", async () => {

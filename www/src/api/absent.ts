@@ -33,6 +33,7 @@ export function absentSlicer(): Slicer {
     orient: reject,
     measure: reject,
     export: reject,
+    plugs: reject,
     exportStream: () => new ReadableStream({ start: (controller) => controller.error(error()) }),
     positions: reject,
     preview: reject,

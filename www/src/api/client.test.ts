@@ -55,6 +55,10 @@ class FakeWorker implements WorkerHandle {
       for (const chunk of ["z", "ip", null]) port.postMessage(chunk === null ? null : new TextEncoder().encode(chunk));
       return null;
     },
+    plugs: () => {
+      this.#say(`plugs of ${this.planned.tolerance}`);
+      return new Uint8Array(84);
+    },
     positions: () => new Float32Array(9),
     preview: () => ({}) as Profiled<Preview>,
     saliency: () => new Float32Array(1),
@@ -177,6 +181,18 @@ test("checks are of the last good plan", async () => {
   log = [];
   await caller.client.inspect({ wall_mm: 0.5 }, watch());
   expect(log).toEqual(["2: boot", "2: open a", "2: plan 1 of a", "2: inspect 0.5 of 1"]);
+});
+
+test("plugs are for the holes of the last good plan", async () => {
+  await expect(caller.client.plugs({})).rejects.toMatchObject({ code: "no-plan" });
+  await caller.open(new Blob(["a"]), watch());
+  await caller.plan({ tolerance: 1 }, watch());
+  worker(1).failure = { code: "too-many-facets", message: "no", detail: null };
+  await expect(caller.plan({ tolerance: 2 }, watch())).rejects.toBeInstanceOf(SlicerError);
+  worker(1).failure = null;
+  log = [];
+  expect(await caller.client.plugs({})).toHaveLength(84);
+  expect(log).toEqual(["1: plan 1 of a", "1: plugs of 1"]);
 });
 
 test("cancelling while a file is read keeps the previous model", async () => {

@@ -95,6 +95,14 @@ export class Client {
     });
   }
 
+  /** A binary STL of plugs for the drain holes of the last good plan. */
+  plugs(watch: Watch): Promise<Uint8Array> {
+    return this.#calls.run(watch, null, async (life, _, progress) => {
+      await this.#restorePlan(life, progress);
+      return life.handle.remote.plugs();
+    });
+  }
+
   /** What will fail when the last good plan is printed. */
   inspect(limits: Limits, watch: Watch): Promise<Printability> {
     return this.#calls.run(watch, null, async (life, _, progress) => {

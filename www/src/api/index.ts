@@ -107,6 +107,11 @@ export interface Slicer {
    * unread chunks stay in memory. Cancelling the stream aborts the call.
    */
   exportStream(options?: Options, call?: Watch): ReadableStream<Uint8Array>;
+  /**
+   * A binary STL of a plug for each drain hole of the last plan, upright in a row on the plate, to print and glue in: what
+   * `cusp slice --plugs` writes. Without holes it has no facets.
+   */
+  plugs(call?: Watch): Promise<Uint8Array>;
   /** The corners of all facets in mm, nine numbers per facet, in the file's frame. */
   positions(call?: Watch): Promise<Float32Array>;
   /**
@@ -232,6 +237,7 @@ export function createSlicer(setup: Setup = {}): Slicer {
         cancel: () => gone.abort(),
       });
     },
+    plugs: (call = {}) => main.plugs(call),
     positions: (call = {}) => side.ask(about, call, (remote) => remote.positions()),
     async preview(options = {}, call = {}) {
       return { schema: SCHEMA, ...(await side.ask(about, call, (remote) => remote.preview(options))) };

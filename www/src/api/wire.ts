@@ -127,6 +127,8 @@ export interface SlicerWorker extends PlateWorker {
   mask(layer: number): Uint8Array;
   /** The print file of the last plan as a Blob. With a port, posts its chunks there, then null, and returns null. */
   archive(progress: OnProgress, port: MessagePort | null): Blob | null;
+  /** A binary STL of a plug for each drain hole of the last plan. */
+  plugs(): Uint8Array;
   positions(): Float32Array;
   preview(options: Options): Profiled<Preview>;
   /** How much each facet stands out, 0 to 1. */

@@ -6,6 +6,7 @@ import type { ModelRead } from "../../pkg/models/cusp_models.js";
 import { acceptCompatible } from "./adapters.js";
 import { bytesOf } from "./bytes.js";
 import { said } from "./error.js";
+import { stlOf } from "./stl.js";
 import type { Candidate, KnownPrinter, OnProgress, PlateWorker, SlicerWorker } from "./wire.js";
 
 /** Chunks of a print file are merged into a Blob at this many bytes; the browser may keep that on disk. */
@@ -190,6 +191,10 @@ const api: SlicerWorker = {
     current().archive(take, plain(progress));
     port.postMessage(null);
     return null;
+  },
+  plugs() {
+    const file = stlOf(current().plugs());
+    return Comlink.transfer(file, [file.buffer]);
   },
   positions() {
     const positions = current().positions();

@@ -319,8 +319,9 @@ export class CuspModel extends elementWith(PROPERTIES) {
 
   /** What places points; null while it is not needed, or not there. */
   get #placed(): PointEditor | null {
-    if (!places(this.tool) || pointCode.code === null || this.edited === null) return null;
-    this.#points ??= new pointCode.code.PointEditor(this.edited, () => this.requestUpdate());
+    const { tool, edited, slicer } = this;
+    if (!places(tool) || pointCode.code === null || edited === null || slicer === null) return null;
+    this.#points ??= new pointCode.code.PointEditor(edited, slicer, () => this.requestUpdate());
     return this.#points;
   }
 

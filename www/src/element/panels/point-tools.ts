@@ -1,11 +1,14 @@
 /** The tools for placing support points and drain holes by hand: how many there are, the selected one, and all of them. */
 import { css, html, nothing, svg, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
+import type { Slicer } from "../../api/index.js";
+import { stemOf } from "../../api/source.js";
 import type { Language } from "../../texts/index.js";
 import { placingTexts, type PlacingTexts } from "../../texts/placing/index.js";
 import type { PointDetail } from "../../view/events.js";
 import type { Tool } from "../../view/scene/keys.js";
 import { iconButton, stepButtons } from "../parts/icon-button.js";
+import { saveMade } from "../parts/save-file.js";
 import {
   added,
   automatic,
@@ -23,13 +26,17 @@ import {
   type HandPoints,
 } from "../state/hand-points.js";
 import { LEAST_MM, MOST_MM, type Placed as Point, type PlacedKind } from "../state/placed.js";
+import type { Download } from "../state/host.js";
 import type { Session } from "../state/session.js";
 import type { Settings } from "../state/settings.js";
 import { localised, read } from "../state/typed.js";
 import { lineIcon } from "../styles/shared.js";
 
 /** What is read and changed of a session. */
-export type Edited = Pick<Session, "settings" | "options" | "result" | "isCurrent" | "weights" | "canUndo" | "canRedo" | "undo" | "redo" | "change">;
+export type Edited = Pick<
+  Session,
+  "settings" | "options" | "model" | "result" | "isCurrent" | "busy" | "weights" | "canUndo" | "canRedo" | "undo" | "redo" | "change" | "write"
+>;
 
 /** The points that a tool places, and the place of the selected one. */
 interface Shown {
@@ -42,6 +49,7 @@ const kindOf = (tool: Tool): PlacedKind => (tool === "drains" ? "drains" : "poin
 /** What somebody does with the points of a session. */
 export class PointEditor {
   readonly #session: Edited;
+  readonly #slicer: Pick<Slicer, "plugs">;
   readonly #update: () => void;
   /** The selected point: it keeps its place on the model, but not in the list. */
   #selected: string | null = null;
@@ -50,8 +58,9 @@ export class PointEditor {
   /** The last answer: another list would count as a change. */
   #known: { readonly of: readonly unknown[]; readonly points: HandPoints } | null = null;
 
-  constructor(session: Edited, update: () => void) {
+  constructor(session: Edited, slicer: Pick<Slicer, "plugs">, update: () => void) {
     this.#session = session;
+    this.#slicer = slicer;
     this.#update = update;
   }
 
@@ -114,7 +123,7 @@ export class PointEditor {
             this.#update();
           })
         : nothing}
-      ${this.#spare(words)}
+      ${this.#spare(words)} ${kind === "drains" ? this.#plugs(words) : nothing}
     </section>`;
   }
 
@@ -180,6 +189,23 @@ export class PointEditor {
         />${words.spare}
       </label>
       ${isPossible ? nothing : html`<p class="quiet hint" id="spare-hint">${words.spareHint}</p>`}
+    </div>`;
+  }
+
+  /** Plugs for the holes of the plan, as soon as it has some. */
+  #plugs(words: PlacingTexts): TemplateResult | typeof nothing {
+    const { model, result, isCurrent, busy } = this.#session;
+    if (model === null || (result?.report.hollowed?.drains.length ?? 0) === 0) return nothing;
+    const make = (): Promise<Download | null> =>
+      this.#session.write("export", async (watch) => {
+        const stl = await this.#slicer.plugs(watch);
+        return { name: `${stemOf(model.name)}-plugs.stl`, blob: new Blob([stl as Uint8Array<ArrayBuffer>], { type: "model/stl" }) };
+      });
+    return html`<div>
+      <button class="small" aria-describedby="plugs-hint" ?disabled=${!isCurrent || busy !== null} @click=${() => void saveMade(make())}>
+        ${words.plugs}
+      </button>
+      <p class="quiet hint" id="plugs-hint">${words.plugsHint}</p>
     </div>`;
   }
 
@@ -313,6 +339,10 @@ export const pointStyles = css`
   .points .hint {
     padding-inline-start: 1.625rem;
     font-size: 0.8125rem;
+  }
+  .points button + .hint {
+    margin-block-start: 0.25rem;
+    padding-inline-start: 0;
   }
   .points .actions {
     flex-wrap: wrap;

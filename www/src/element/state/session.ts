@@ -9,7 +9,7 @@ import { sameRays, type Candidate, type Options, type Price, type TradeoffPoint 
 import { Beside } from "./beside.js";
 import { Checks } from "./checks.js";
 import { Curve, withPoint } from "./curve.js";
-import type { Host, Setup, SlicerCalls } from "./host.js";
+import type { Download, Host, Setup, SlicerCalls } from "./host.js";
 import { OrientationSearch, withPose, type Subject } from "./orientation.js";
 import { Follower, type Rotation } from "./follow.js";
 import { layerAt } from "../../view/scene/lookup.js";
@@ -224,7 +224,7 @@ export class Session extends Models {
     const { result } = this;
     if (result === null || this.busy !== null) return null;
     if (this.#archive?.of === result) return this.#archive.file;
-    const file = await this.#write("export", (watch) => this.plate.export(watch));
+    const file = await this.write("export", (watch) => this.plate.export(watch));
     if (file !== null) this.#archive = { of: result, file };
     return file;
   }
@@ -232,14 +232,14 @@ export class Session extends Models {
   /** Makes the print file of a plate; null as for {@link export}. */
   async exportPlate(plate: number): Promise<PrintFile | null> {
     if (this.result === null || this.busy !== null) return null;
-    return this.#write("export", (watch) => this.plate.export(watch, plate));
+    return this.write("export", (watch) => this.plate.export(watch, plate));
   }
 
   /** Makes the print file of test towers for the printer; null if it cannot be made now, failed or was cancelled. */
   async calibrateLayers(): Promise<PrintFile | null> {
     const { options, towers } = this;
     if (options === null || towers !== "ready") return null;
-    return this.#write("towers", (watch) => this.slicer.calibrateLayers(options, watch));
+    return this.write("towers", (watch) => this.slicer.calibrateLayers(options, watch));
   }
 
   selectLayer(layer: number): void {
@@ -350,8 +350,8 @@ export class Session extends Models {
     void this.orientation.measure();
   }
 
-  /** Makes a file, then does what had to wait for it. */
-  async #write(kind: Busy["task"], call: (watch: Watch) => Promise<PrintFile>): Promise<PrintFile | null> {
+  /** Makes a file, then does what had to wait for it; null if it failed or was cancelled. */
+  async write<Made extends Download>(kind: Busy["task"], call: (watch: Watch) => Promise<Made>): Promise<Made | null> {
     this.failure = null;
     const file = await this.run(kind, this.model?.name ?? "", null, call);
     void this.resume();

@@ -26,6 +26,8 @@ export const placing: PlacingTexts = {
   remove: "Löschen",
   spare: "Punkte und Löcher fernhalten von dem, was als wichtig bemalt ist",
   spareHint: "Gilt für Punkte und Löcher. Zuerst mit „Was zählt“ malen.",
+  plugs: "Stopfen herunterladen (STL)",
+  plugsHint: "Stifte, die die Löcher schließen: drucken und mit Harz einkleben.",
   automatically: "Automatisch setzen",
   clear: "Alle entfernen",
 };

@@ -26,6 +26,8 @@ export const placing: PlacingTexts = {
   remove: "Delete",
   spare: "Keep points and holes off what is painted as important",
   spareHint: "For points and holes alike. Paint with “What matters” first.",
+  plugs: "Download plugs (STL)",
+  plugsHint: "Pins that close the holes: print them, and glue them in with resin.",
   automatically: "Place automatically",
   clear: "Clear",
 };

@@ -26,6 +26,8 @@ export const placing: PlacingTexts = {
   remove: "Eliminar",
   spare: "Alejar puntos y agujeros de lo pintado como importante",
   spareHint: "Vale para puntos y agujeros. Pinte antes con «Qué importa».",
+  plugs: "Descargar tapones (STL)",
+  plugsHint: "Clavijas que cierran los agujeros: imprímalas y péguelas con resina.",
   automatically: "Colocar automáticamente",
   clear: "Quitar todos",
 };

@@ -26,6 +26,8 @@ export const placing: PlacingTexts = {
   remove: "Supprimer",
   spare: "Tenir points et trous à l’écart de ce qui est peint comme important",
   spareHint: "Vaut pour les points et les trous. Peignez d’abord avec « Ce qui compte ».",
+  plugs: "Télécharger les bouchons (STL)",
+  plugsHint: "Des chevilles qui ferment les trous : imprimez-les et collez-les à la résine.",
   automatically: "Placer automatiquement",
   clear: "Tout enlever",
 };

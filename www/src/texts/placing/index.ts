@@ -37,6 +37,10 @@ export interface PlacingTexts {
   spare: string;
   /** That it is for both, and why it has no effect yet. */
   spareHint: string;
+  /** The button that saves plugs for the holes. */
+  plugs: string;
+  /** What to do with them. */
+  plugsHint: string;
   automatically: string;
   clear: string;
 }

@@ -26,6 +26,8 @@ export const placing: PlacingTexts = {
   remove: "删除",
   spare: "支撑点和排液孔避开涂为重要之处",
   spareHint: "对支撑点和排液孔均有效。请先用“重要之处”涂抹。",
+  plugs: "下载塞子 (STL)",
+  plugsHint: "用于封闭排液孔的销钉：打印后用树脂粘入。",
   automatically: "自动放置",
   clear: "全部清除",
 };
