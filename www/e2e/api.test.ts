@@ -85,6 +85,23 @@ test("from a file to a print file: by address, bytes, Blob; whole and in chunks 
   expect(found.rows).toBeGreaterThan(2);
 });
 
+test("plugs are an STL that can be read, and of no facets without holes", async () => {
+  const found = await page.evaluate(async () => {
+    const slicer = window.api.createSlicer();
+    await slicer.load("ball.stl");
+    await slicer.plan({ rays: 512 });
+    const none = await slicer.plugs();
+    const { report } = await slicer.plan({ rays: 512, hollow: { wall_mm: 1.5, auto_drain: {} } });
+    const stl = await slicer.plugs();
+    const { info } = await slicer.load(stl, { name: "plugs.stl" });
+    slicer.dispose();
+    return { none: none.length, length: stl.length, facets: info.facets, isClosed: info.closed, holes: report.hollowed?.drains.length };
+  });
+  expect(found.holes).toBeGreaterThan(0);
+  expect(found.facets).toBeGreaterThan(0);
+  expect(found).toMatchObject({ none: 84, length: 84 + 50 * found.facets, isClosed: true });
+});
+
 test("it works where there is no WebGPU, and says so", async () => {
   const backend = await page.evaluate(async () => {
     const slicer = window.api.createSlicer();

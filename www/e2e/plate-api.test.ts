@@ -84,6 +84,32 @@ test("two models in several copies become one print file, and the masks show eac
   expect(found.blocks).toBe(2 * (8 / 0.05) ** 2);
 });
 
+test("a plan has the supports of each model, lifted, and the same as those of the model alone", async () => {
+  const found = await page.evaluate(async () => {
+    const slicer = window.api.createSlicer();
+    const options = { printer: "mars-4-ultra", supports: { strength: "light" as const } };
+    await slicer.load("ball.stl");
+    const alone = await slicer.plan(options);
+    await slicer.add("ball.stl", { copies: 2 });
+    await slicer.add("block.stl");
+    const { supports, plates } = await slicer.plate.plan(options);
+    const bare = await slicer.plate.plan({ printer: "mars-4-ultra" });
+    slicer.dispose();
+    const own = alone.supports ?? new Float32Array(0);
+    const heights = supports?.map((positions) => positions.filter((_, i) => i % 3 === 2));
+    return {
+      lengths: supports?.map(({ length }) => length),
+      isSame: own.length > 0 && own.every((mm, i) => mm === supports?.[0]?.[i]) && own.length === supports?.[0]?.length,
+      lowest: heights?.map((z_mm) => z_mm.reduce((a, b) => Math.min(a, b))),
+      lift_mm: plates[0]?.report.supported?.lift_mm,
+      bare: "supports" in bare,
+    };
+  });
+  expect(found).toMatchObject({ isSame: true, lowest: [0, 0], bare: false });
+  expect(found.lift_mm).toBeGreaterThan(0);
+  expect(found.lengths?.map((length) => length % 9)).toEqual([0, 0]);
+});
+
 test("a single copy gives the print file of the model alone, byte for byte", async () => {
   const isSame = await page.evaluate(async () => {
     const slicer = window.api.createSlicer();
