@@ -1,6 +1,7 @@
 //! Disjoint sets as trees of parents: each node's, or itself at a root.
 
 /// The root of a tree, whose path becomes shorter.
+#[inline]
 pub(crate) fn find(parent: &mut [u32], mut node: u32) -> u32 {
     while parent[node as usize] != node {
         let above = parent[parent[node as usize] as usize];

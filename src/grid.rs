@@ -363,6 +363,7 @@ impl Bins {
     }
 
     /// The bin, from 0, that contains the height `z_mm`. Heights below or above all bins belong to the first or last.
+    #[inline]
     pub fn of(&self, z_mm: f64) -> usize {
         let bins = z_mm / self.size_mm;
         let position = bins - height_slack(bins);

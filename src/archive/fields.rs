@@ -36,6 +36,7 @@ impl<'a> Fields<'a> {
         self.bytes.extend(bytes);
     }
 
+    #[inline]
     fn number<const N: usize>(&mut self, mut big_endian: [u8; N]) {
         if self.order == ByteOrder::Little {
             big_endian.reverse();

@@ -60,6 +60,7 @@ impl Image {
     }
 
     /// Writes dark bytes up to a place in the stream.
+    #[inline]
     fn darken_to(&mut self, place: u64) {
         if self.open > 0 && place > self.written {
             self.stream.run(self.open, 1);

@@ -187,6 +187,7 @@ fn length_symbol(length: u16) -> (usize, u16, u32) {
 }
 
 /// The canonical prefix code of these lengths, with the first bit lowest (RFC 1951, 3.2.2).
+#[inline]
 fn words(lengths: &[u8]) -> Vec<Word> {
     let mut words = vec![Word::default(); lengths.len()];
     let mut code = 0u16;
@@ -258,6 +259,7 @@ struct BitWriter {
 }
 
 impl BitWriter {
+    #[inline]
     fn write(&mut self, word: Word) {
         self.bits |= u64::from(word.bits) << self.count;
         self.count += word.count;

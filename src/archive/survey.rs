@@ -79,6 +79,7 @@ impl Areas {
         }
     }
 
+    #[inline]
     fn first(&mut self, mut run: usize) -> usize {
         while self.parents[run] != run {
             self.parents[run] = self.parents[self.parents[run]];

@@ -36,6 +36,7 @@ struct Stretches {
 
 impl Stretches {
     /// The places of a row's stretches; none before the first row.
+    #[inline]
     fn places(&self, row: Option<usize>) -> Range<usize> {
         let Some(row) = row else { return 0..0 };
         let start = row.checked_sub(1).map_or(0, |before| self.ends[before]);

@@ -38,6 +38,7 @@ impl Patch {
         }
     }
 
+    #[inline]
     pub fn add(&mut self, other: &Self) {
         self.pixels += other.pixels;
         if other.longest.1.pixels() > self.longest.1.pixels() {

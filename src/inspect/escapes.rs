@@ -37,6 +37,7 @@ impl Extents {
 
     /// From the first to the last pixel of a row that is within the disc of a lit one. Beyond the layer's rows all is outside: what
     /// has room at its edge has room from there on.
+    #[inline]
     pub fn of_row(&self, row: i32, disc: &Disc) -> Option<Span> {
         let half_widths = disc.column();
         let first = usize::try_from(row).ok()?;

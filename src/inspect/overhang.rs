@@ -43,6 +43,7 @@ pub(super) fn unsupported(
 }
 
 /// Whether each component touches the layer below.
+#[inline]
 fn touching(here: &Components, contacts: &[[u32; 2]]) -> Vec<bool> {
     let mut touches = vec![false; here.patches.len()];
     for &[_, over] in contacts {

@@ -88,6 +88,7 @@ impl Rows {
     }
 
     /// Appends a span to the last row, which is not ended yet. It joins the span before if they touch.
+    #[inline]
     pub fn push(&mut self, span: Span) {
         let row_start = self.ends.last().map_or(0, |&end| end as usize);
         match self.spans[row_start..].last_mut() {
@@ -96,6 +97,7 @@ impl Rows {
         }
     }
 
+    #[inline]
     pub fn push_row(&mut self, spans: &[Span]) {
         // Most rows of findings have none, and copying nothing takes time in WebAssembly.
         if !spans.is_empty() {
@@ -104,6 +106,7 @@ impl Rows {
         self.end_row();
     }
 
+    #[inline]
     pub fn end_row(&mut self) {
         self.ends.push(self.spans.len() as u32);
     }
@@ -123,6 +126,7 @@ impl Rows {
     }
 
     /// The places of a row's spans among all spans.
+    #[inline]
     pub fn places(&self, row: i32) -> std::ops::Range<usize> {
         let row = row as usize;
         let start = row.checked_sub(1).map_or(0, |above| self.ends[above]);
@@ -130,6 +134,7 @@ impl Rows {
     }
 
     /// The spans of a row; none outside the rows.
+    #[inline]
     pub fn row(&self, row: i32) -> &[Span] {
         if row < 0 || row >= self.len() {
             return &[];
@@ -367,6 +372,7 @@ impl Rest {
     }
 
     /// Takes the pixels of others away, each of which is longer by `half_width` on both sides.
+    #[inline]
     pub fn take(&mut self, others: &[Span], half_width: i32) {
         if self.rest.is_empty() || others.is_empty() {
             return;

@@ -198,6 +198,7 @@ pub struct Ldi {
 
 impl Ldi {
     /// The hits of a ray, from the plate upward.
+    #[inline]
     pub fn ray(&self, ray: usize) -> &[Hit] {
         &self.hits[self.offsets[ray] as usize..self.offsets[ray + 1] as usize]
     }

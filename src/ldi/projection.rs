@@ -34,6 +34,7 @@ pub struct Projection<'a> {
 
 impl<'a> Projection<'a> {
     /// Snaps the vertices of `mesh`, which lies inside `grid` up to rounding.
+    #[inline]
     pub fn new(mesh: &'a Mesh, grid: &Grid) -> Self {
         Self::of(&mesh.vertices, &mesh.facets, grid)
     }
@@ -76,6 +77,7 @@ impl<'a> Projection<'a> {
     }
 
     /// The corners of a facet.
+    #[inline]
     pub fn corners(&self, facet: usize) -> [[i32; 2]; 3] {
         self.vertices_of[facet].map(|vertex| self.positions[vertex as usize])
     }
@@ -95,6 +97,7 @@ impl<'a> Projection<'a> {
         self.centres(facet, 0, self.columns)
     }
 
+    #[inline]
     fn centres(&self, facet: usize, axis: usize, end: u32) -> Range<u32> {
         let at = self.corners(facet).map(|corner| corner[axis]);
         let [low, high] = [at[0].min(at[1]).min(at[2]), at[0].max(at[1]).max(at[2])];
@@ -206,6 +209,7 @@ pub struct ProjectedFacet {
 }
 
 impl ProjectedFacet {
+    #[inline]
     fn new(outline: Outline, corners: [[i64; 2]; 3], z: [f32; 3]) -> Self {
         let [a, b, c] = corners;
         let area = outline.area;
@@ -288,6 +292,7 @@ struct Edge {
 }
 
 impl Edge {
+    #[inline]
     fn new(from: [i64; 2], to: [i64; 2], row: i64) -> Self {
         let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
         let y = row * STEPS + HALF;

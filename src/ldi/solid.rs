@@ -87,6 +87,7 @@ impl Heights {
         }
     }
 
+    #[inline]
     fn keep(&mut self, range: Option<(f32, f32)>) {
         let key =
             |(from, to): (f32, f32)| u64::from(from.to_bits()) << 32 | u64::from(to.to_bits());

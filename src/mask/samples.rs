@@ -84,6 +84,7 @@ impl SublayerOf {
         }
     }
 
+    #[inline]
     pub fn first_above(&self, z_mm: f32) -> u32 {
         let z_mm = f64::from(z_mm);
         let bin = ((z_mm * self.bins_per_mm) as usize).min(self.first.len() - 1);

@@ -85,6 +85,7 @@ impl Cells {
     }
 
     /// The cells that the box of a facet meets; `None` if they are too many.
+    #[inline]
     fn of(&self, corners: &[DVec3; 3]) -> Option<impl Iterator<Item = IVec3> + use<>> {
         let [low, high] = bounds(corners).map(|it| (it / self.size_mm).floor().as_ivec3());
         ((high - low).max_element() < MOST_CELLS).then(|| {
@@ -109,6 +110,7 @@ impl Cells {
     }
 }
 
+#[inline]
 fn bounds(corners: &[DVec3; 3]) -> [DVec3; 2] {
     let [a, b, c] = *corners;
     [a.min(b).min(c), a.max(b).max(c)]

@@ -41,6 +41,7 @@ impl FacetLists {
     }
 
     /// The facets of a list.
+    #[inline]
     pub fn of(&self, list: usize) -> &[u32] {
         &self.facets[self.range(list)]
     }

@@ -149,6 +149,7 @@ impl Mesh {
     }
 
     /// The corners of a facet in double precision.
+    #[inline]
     pub fn corners(&self, facet: usize) -> [DVec3; 3] {
         self.facets[facet].map(|vertex| self.vertices[vertex as usize].as_dvec3())
     }

@@ -29,6 +29,7 @@ impl<'a> Surface<'a> {
     }
 
     /// The facets within a distance of a point, and how far away each is, with its nearest point. A facet may come twice.
+    #[inline]
     pub fn within(&self, point: DVec3, reach_mm: f64) -> Vec<(f64, DVec3, u32)> {
         let reach = DVec3::splat(reach_mm);
         let squares = self.squares.within(point - reach, point + reach);
@@ -74,6 +75,7 @@ impl Squares {
     }
 
     /// Those that a box meets, or is nearest to.
+    #[inline]
     pub fn within(&self, low: DVec3, high: DVec3) -> impl Iterator<Item = usize> + use<> {
         let place = |at: DVec3| (at.truncate() - self.corner) / SQUARE_MM;
         let (low, high) = (place(low), place(high));

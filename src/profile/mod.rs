@@ -214,6 +214,7 @@ pub struct ErrorSum {
 
 impl ErrorSum {
     /// The error of the layer between two boundaries in steps, `ε_k` of eq. 1.
+    #[inline]
     pub fn steps_between(&self, lower: u32, upper: u32) -> u64 {
         self.steps_below(upper) - self.steps_below(lower)
     }
@@ -259,6 +260,7 @@ impl LayerErrors {
     }
 
     /// The error of the layer between two boundaries, in steps. Above the last bin nothing is added.
+    #[inline]
     pub fn steps_between(&self, lower: u32, upper: u32) -> u64 {
         match self {
             Self::Sum(errors) => return errors.steps_between(lower, upper),

@@ -109,6 +109,7 @@ impl Held {
         }
     }
 
+    #[inline]
     fn insert(&mut self, at: DVec3) {
         for square in self.squares.within(at, at) {
             self.points[square].push(at);
@@ -311,6 +312,7 @@ impl<'a> Rays<'a> {
         rays
     }
 
+    #[inline]
     fn of_ray(&self, ray: usize) -> &[Stretch] {
         &self.stretches[self.starts[ray]..self.starts[ray + 1]]
     }

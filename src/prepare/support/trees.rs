@@ -538,6 +538,7 @@ impl<'a> Trees<'a> {
 }
 
 /// Where a pillar is at a height; its points ascend.
+#[inline]
 fn at_height(points: &[DVec3], z: f64) -> Option<DVec3> {
     let pairs = points.windows(2);
     let mut pairs = pairs.filter(|pair| pair[0].z <= z && z <= pair[1].z);
