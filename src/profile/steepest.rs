@@ -98,10 +98,12 @@ pub(super) fn densities(maxima: &[f32], of: impl Fn(f32) -> f32) -> Vec<f32> {
         .collect()
 }
 
-/// Raises `value` to `other` if that is larger. By hand, because `max` is a library call in wasm. It always stores, because
-/// a branch would be hard to predict.
+/// Raises `value` to `other` if that is larger; both are [`NO_SURFACE`] or at least 0. As integers, since browsers choose between those
+/// without a branch, which would be hard to predict: the bits of floats ascend with them, but for the sign, which is first.
+#[inline]
 pub(super) fn raise(value: &mut f32, other: f32) {
-    *value = if *value < other { other } else { *value };
+    let bits = [*value, other].map(|it| it.to_bits().cast_signed());
+    *value = f32::from_bits(bits[0].max(bits[1]).cast_unsigned());
 }
 
 /// For each index, the maximum of the values given to ranges that contain it: two writes per range, then one pass down.
