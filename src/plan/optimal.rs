@@ -135,9 +135,10 @@ fn fewest(
     for (index, segment) in segments.iter().enumerate() {
         let preferred = Preferred::within(segment, snap_planes, 1);
         let table = match errors {
-            // Apart from the next, as asking which kind of errors these are for every layer takes twice as long.
-            LayerErrors::Sum(errors) => fill_fewest(
-                |lower, upper| errors.steps_between(lower, upper),
+            // A plane's sum is looked up once, not for each layer that it may bound.
+            LayerErrors::Sum(errors) => fill_fewest_by(
+                |boundary| errors.steps_below(boundary),
+                |lower, upper| upper - lower,
                 segment,
                 &preferred,
                 tolerance,
@@ -211,6 +212,7 @@ impl Table {
         [self.cost[plane], self.missed[plane], self.worst[plane]]
     }
 
+    #[inline]
     fn set(&mut self, plane: u32, found: [u64; 3], below: u32) {
         let plane = plane as usize;
         [self.cost[plane], self.missed[plane], self.worst[plane]] = found;
@@ -243,14 +245,14 @@ impl Table {
 
 /// A plane that may be the best one below some later plane.
 #[derive(Clone, Copy)]
-struct Candidate {
+struct Candidate<Mark> {
     plane: u32,
     /// Layers and weight of missed snap planes, with the prices and weights of all snap planes above. A layer on top then costs 1,
     /// less what is above it.
     cost: [u64; 2],
     worst: u64,
-    /// The plane as a boundary of bins.
-    boundary: u32,
+    /// What errors of layers on top are made from.
+    mark: Mark,
 }
 
 /// Lines 1 to 7 of Procedure 1 for errors that never shrink as a layer grows: the fewest layers up to every plane, and among
@@ -268,9 +270,21 @@ pub fn fill_fewest(
     preferred: &Preferred,
     tolerance: u64,
 ) -> Table {
+    let itself = |boundary| boundary;
+    fill_fewest_by(itself, error_between, segment, preferred, tolerance)
+}
+
+/// [`fill_fewest`] for errors that are made from a mark of each boundary.
+fn fill_fewest_by<Mark: Copy>(
+    mark_of: impl Fn(u32) -> Mark,
+    error_between: impl Fn(Mark, Mark) -> u64,
+    segment: &Segment,
+    preferred: &Preferred,
+    tolerance: u64,
+) -> Table {
     let mut table = Table::new(segment.units);
     let (least, greatest) = (*segment.thickness.start(), *segment.thickness.end());
-    let mut queue: Vec<Candidate> = Vec::new();
+    let mut queue: Vec<Candidate<Mark>> = Vec::new();
     let (mut front, mut best) = (0, 0);
     for plane in least..=segment.units {
         let highest = plane - least;
@@ -292,11 +306,11 @@ pub fn fill_fewest(
                 plane: highest,
                 cost,
                 worst,
-                boundary: segment.boundary(highest),
+                mark: mark_of(segment.boundary(highest)),
             });
         }
-        let boundary = segment.boundary(plane);
-        let error_from = |below: &Candidate| error_between(below.boundary, boundary);
+        let top = mark_of(segment.boundary(plane));
+        let error_from = |below: &Candidate<Mark>| error_between(below.mark, top);
         while queue
             .get(front)
             .is_some_and(|below| plane - below.plane > greatest || error_from(below) > tolerance)
@@ -313,7 +327,7 @@ pub fn fill_fewest(
         {
             best += 1;
         }
-        let worst_over = |below: &Candidate| below.worst.max(error_from(below));
+        let worst_over = |below: &Candidate<Mark>| below.worst.max(error_from(below));
         let mut chosen = (worst_over(&queue[best]), queue[best].plane);
         if let Some(next) = queue.get(best + 1)
             && next.cost == least_cost
