@@ -9,6 +9,7 @@
 
 use glam::DVec3;
 
+use super::minima::Minima;
 use super::overlaps::Overlaps;
 use crate::model::FacetLists;
 use crate::order::ascending;
@@ -33,6 +34,7 @@ pub(super) struct Basins {
     facets: Vec<[u32; 3]>,
     /// The facets at each vertex.
     around: FacetLists,
+    minima: Minima,
     overlaps: Option<Overlaps>,
 }
 
@@ -45,15 +47,19 @@ pub(super) struct Found {
 }
 
 /// A direction, and what is printed along it.
-struct Along<'a> {
-    up: DVec3,
-    heights_mm: &'a [f32],
+pub(super) struct Along<'a> {
+    pub up: DVec3,
+    /// Height of the model.
+    pub height_mm: f32,
+    /// Heights of the vertices.
+    pub heights_mm: &'a [f32],
     /// The middles of the layers, at which masks are taken.
-    middles_mm: &'a [f32],
+    pub middles_mm: &'a [f32],
 }
 
 impl Along<'_> {
     /// Whether a vertex is lower than another. Of equal heights one is taken to be lower, so that a flat has one minimum.
+    #[inline]
     fn is_lower(&self, one: u32, other: u32) -> bool {
         self.rank(one) < self.rank(other)
     }
@@ -88,11 +94,13 @@ impl Basins {
     pub fn new(vertices_mm: Vec<DVec3>, facets: Vec<[u32; 3]>) -> Self {
         let corners = |facet: u32| facets[facet as usize].into_iter().map(|it| it as usize);
         let around = FacetLists::new(vertices_mm.len(), 0..facets.len() as u32, corners);
+        let minima = Minima::new(&vertices_mm, &facets, &around);
         let overlaps = Overlaps::new(&vertices_mm, &facets);
         Self {
             vertices_mm,
             facets,
             around,
+            minima,
             overlaps,
         }
     }
@@ -102,19 +110,20 @@ impl Basins {
         &self.facets
     }
 
-    /// Finds the basins of the surface with `up` up, with the vertices at these heights, and masks taken at these.
-    pub fn find(&self, up: DVec3, heights_mm: &[f32], middles_mm: &[f32]) -> Found {
-        let along = Along {
-            up,
+    /// Finds the basins of the surface along a direction. `low` are the facets that reach down to the first mask, and maybe others, in
+    /// ascending order.
+    pub fn find(&self, along: &Along<'_>, low: impl Iterator<Item = u32>) -> Found {
+        let &Along {
             heights_mm,
             middles_mm,
-        };
+            ..
+        } = along;
         let mut found = Found {
             islands: 0,
-            cups_mm2: self.cups_on_plate_mm2(&along),
+            cups_mm2: self.cups_on_plate_mm2(along, low),
         };
         let mut marks = vec![DRY; heights_mm.len()];
-        for (minimum, mark) in self.minima(&along).into_iter().zip(1..) {
+        for (minimum, mark) in self.minima(along).into_iter().zip(1..) {
             let bottom_mm = heights_mm[minimum as usize];
             let layer = middles_mm.partition_point(|&middle_mm| middle_mm < bottom_mm);
             let Some(&level_mm) = middles_mm.get(layer) else {
@@ -128,19 +137,19 @@ impl Basins {
                 wet: vec![minimum],
                 ..Flood::default()
             };
-            let is_alone = self.fill(&mut flood, level_mm, &along, &mut marks);
+            let is_alone = self.fill(&mut flood, level_mm, along, &mut marks);
             // What begins below the first mask stands on the plate.
             if !is_alone || layer == 0 {
                 continue;
             }
-            let area_mm2 = self.area_mm2(&flood.wet, level_mm, &along);
+            let area_mm2 = self.area_mm2(&flood.wet, level_mm, along);
             if area_mm2.abs() < LEAST_MM2 || flood.wet.iter().any(|&it| self.is_hidden(it)) {
                 continue;
             }
             if area_mm2 < 0.0 {
                 found.islands += 1;
             } else {
-                let cup_mm2 = self.cup_mm2(&mut flood, level_mm, &along, &mut marks);
+                let cup_mm2 = self.cup_mm2(&mut flood, level_mm, along, &mut marks);
                 found.cups_mm2 += if cup_mm2 >= CUP_MM2 { cup_mm2 } else { 0.0 };
             }
         }
@@ -149,22 +158,12 @@ impl Basins {
 
     /// The vertices that are lower than all beside them, from the lowest up.
     fn minima(&self, along: &Along<'_>) -> Vec<u32> {
-        let ranks: Vec<u64> = (0..self.vertices_mm.len() as u32)
-            .map(|vertex| along.rank(vertex))
-            .collect();
-        let mut is_minimum = vec![true; ranks.len()];
-        // Of each facet's corners only the lowest can be one. Without branches: which is lowest, nobody can predict.
-        for corners in &self.facets {
-            let [a, b, c] = corners.map(|it| ranks[it as usize]);
-            let lowest = a.min(b).min(c);
-            for (&corner, rank) in corners.iter().zip([a, b, c]) {
-                is_minimum[corner as usize] &= rank == lowest;
-            }
-        }
-        let vertices = 0..is_minimum.len() as u32;
-        let minima: Vec<u32> = vertices
-            .filter(|&vertex| is_minimum[vertex as usize])
-            .collect();
+        let is_lowest = |&vertex: &u32| {
+            let mut facets = self.around.of(vertex as usize).iter();
+            facets.all(|&facet| along.lowest(self.facets[facet as usize]) == vertex)
+        };
+        let candidates = self.minima.candidates(along.up, along.height_mm);
+        let minima: Vec<u32> = candidates.into_iter().filter(is_lowest).collect();
         let heights_mm = minima
             .iter()
             .map(|&vertex| f64::from(along.heights_mm[vertex as usize]));
@@ -285,8 +284,8 @@ impl Basins {
         overlaps.is_some_and(|it| it.hide(&self.vertices_mm, &self.facets, facet, point))
     }
 
-    /// The areas of the holes of the first layer together.
-    fn cups_on_plate_mm2(&self, along: &Along<'_>) -> f64 {
+    /// The areas of the holes of the first layer together, which these facets reach down to.
+    fn cups_on_plate_mm2(&self, along: &Along<'_>, low: impl Iterator<Item = u32>) -> f64 {
         let Some(&level_mm) = along.middles_mm.first() else {
             return 0.0;
         };
@@ -304,7 +303,8 @@ impl Basins {
             from + (to - from) * part
         };
         let mut pieces: Vec<Piece> = Vec::new();
-        for (facet, &[a, b, c]) in self.facets.iter().enumerate() {
+        for facet in low {
+            let [a, b, c] = self.facets[facet as usize];
             let above = [a, b, c].map(is_above);
             if above == [true; 3] || above == [false; 3] {
                 continue;
@@ -322,7 +322,7 @@ impl Basins {
                 [last, next]
             };
             pieces.push(Piece {
-                facet: facet as u32,
+                facet,
                 edges: ends.map(|end| [alone, end]),
                 ends: ends.map(|end| crossing(alone, end)),
             });

@@ -10,6 +10,7 @@ mod basins;
 pub(crate) mod directions;
 mod energy;
 mod error;
+mod minima;
 mod overlaps;
 mod refine;
 mod search;

@@ -1,8 +1,10 @@
 //! The surface of a model, prepared for measuring many directions: what does not depend on the direction is computed once.
 
+use std::ops::Range;
+
 use glam::{DVec3, Vec3};
 
-use super::basins::{Basins, Found};
+use super::basins::{Along, Basins, Found};
 use super::directions::{about_z, lattice, unit, upright};
 use super::supports::Estimate;
 use super::{Exclusion, Metrics};
@@ -33,11 +35,17 @@ const TOLD_APART: usize = 64;
 /// −`n_z` above which a facet needs support: it faces down at less than 45° from level.
 const OVERHANG: f32 = std::f32::consts::FRAC_1_SQRT_2;
 
+/// Vertices that are looked at together.
+const BLOCK: usize = 512;
+
+/// The range of no numbers.
+const NOTHING: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
+
 /// Bytes per facet that a search takes on one thread: in the mesh, the surface, and the current placement.
 const FACET_BYTES: usize = 148;
 
 /// Bytes per vertex that a search takes on one thread.
-const VERTEX_BYTES: usize = 118;
+const VERTEX_BYTES: usize = 141;
 
 /// Peak memory of an orientation search on one thread, in bytes. tests/memory.rs measures it.
 pub(crate) fn search_bytes(mesh: &Mesh) -> usize {
@@ -208,11 +216,13 @@ impl Surface {
     fn turned(&self, rotation: [f64; 4]) -> (Placement, Bounds) {
         // No quaternion of this module is 0, so there is always a matrix.
         let matrix = rotation_matrix(rotation).unwrap_or_default();
-        let along = [0, 1, 2].map(|axis| self.places_along(matrix.row(axis)));
-        let [x, y, z] = along.each_ref().map(|places| range(places));
+        let [x, y] = [0, 1].map(|axis| self.extent_along(matrix.row(axis)));
+        let upward = self.places_along(matrix.row(2), 0..self.vertices_mm[0].len());
+        let upward: Vec<f64> = upward.collect();
+        let z = range(&upward);
         let min = DVec3::new(x[0], y[0], z[0]);
         let max = DVec3::new(x[1], y[1], z[1]);
-        let heights_mm = along[2].iter().map(|z| (z - min.z) as f32).collect();
+        let heights_mm = upward.iter().map(|z| (z - min.z) as f32).collect();
         let size = max - min;
         let round = |length_mm: f64| (length_mm * 1e6).round() / 1e6;
         let placement = Placement {
@@ -229,14 +239,29 @@ impl Surface {
         (placement, Bounds { min, max })
     }
 
-    /// Coordinates of vertices along an axis.
-    fn places_along(&self, axis: DVec3) -> Vec<f64> {
-        let [x, y, z] = &self.vertices_mm;
-        x.iter()
-            .zip(y)
-            .zip(z)
-            .map(|((x, y), z)| axis.x * x + axis.y * y + axis.z * z)
-            .collect()
+    /// Coordinates along an axis of the vertices in a range.
+    fn places_along(&self, axis: DVec3, vertices: Range<usize>) -> impl Iterator<Item = f64> {
+        let [x, y, z] = self
+            .vertices_mm
+            .each_ref()
+            .map(|list| &list[vertices.clone()]);
+        let vertices = x.iter().zip(y).zip(z);
+        vertices.map(move |((x, y), z)| axis.x * x + axis.y * y + axis.z * z)
+    }
+
+    /// The least and the greatest coordinate along an axis.
+    fn extent_along(&self, axis: DVec3) -> [f64; 2] {
+        let count = self.vertices_mm[0].len();
+        // By blocks, which stay in the cache.
+        let mut places = Vec::with_capacity(BLOCK);
+        let blocks = (0..count).step_by(BLOCK).map(|first| {
+            places.clear();
+            places.extend(self.places_along(axis, first..count.min(first + BLOCK)));
+            range(&places)
+        });
+        blocks.fold(NOTHING, |all, block| {
+            [all[0].min(block[0]), all[1].max(block[1])]
+        })
     }
 
     /// `n_z` of the unit normals of facets.
@@ -293,8 +318,9 @@ impl Surface {
         let facets = facets.zip(&placement.n_z).zip(&self.areas_mm2);
         for (facet, (((&[first, last], &rough), &n_z), &area_mm2)) in facets.enumerate() {
             let area_mm2 = f64::from(area_mm2);
-            let is_overhang = n_z < -OVERHANG && last >= plate;
-            overhang_mm2 += if is_overhang { area_mm2 } else { 0.0 };
+            let is_overhang = (n_z < -OVERHANG) & (last >= plate);
+            // No branch, as nobody can predict it.
+            overhang_mm2 += area_mm2 * f64::from(u8::from(is_overhang));
             if supports.counts(n_z, last >= plate) {
                 let middle_mm = f64::from((first + last) as i32 + 1) / 2.0 * bin_mm;
                 let weight = weights.map_or(1.0, |weights| f64::from(weights[facet]));
@@ -312,9 +338,18 @@ impl Surface {
             .map(|pair| f64::midpoint(f64::from(pair[0]), f64::from(pair[1])))
             .map(|bins| (bins * facet_bins.bins.size_mm) as f32)
             .collect();
-        let Found { islands, cups_mm2 } =
-            self.basins
-                .find(placement.up, &placement.heights_mm, &middles_mm);
+        let low = facet_bins.bins.of(f64::from(middles_mm[0])) as u32;
+        let spans = facet_bins.spans.iter().zip(0u32..);
+        let surface = spans.filter(|([first, _], _)| *first <= low);
+        let surface = surface.map(|(_, facet)| facet);
+        let caps = facet_bins.spans.len() as u32..self.basins.facets().len() as u32;
+        let along = Along {
+            up: placement.up,
+            height_mm: placement.size_mm[2] as f32,
+            heights_mm: &placement.heights_mm,
+            middles_mm: &middles_mm,
+        };
+        let Found { islands, cups_mm2 } = self.basins.find(&along, surface.chain(caps));
         let [support_ml, contact_mm2] = supports.of_islands(islands);
         Metrics {
             layers: plan.layers(),
