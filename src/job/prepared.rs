@@ -29,6 +29,16 @@ pub struct Prepared {
     /// What holds it, if it is supported; its facets are in the mesh.
     pub supports: Option<Supports>,
     pub warnings: Vec<Warning>,
+    /// The hollow model without its supports, if it has both: a change of supports hollows nothing again.
+    unsupported: Option<Arc<Unsupported>>,
+}
+
+/// A model on the plate with its void, before it is supported.
+#[derive(Debug, Clone)]
+struct Unsupported {
+    mesh: Mesh,
+    hollowed: Option<Hollowed>,
+    warnings: Vec<Warning>,
 }
 
 /// What decides about it.
@@ -79,7 +89,8 @@ pub struct Supported {
 pub const PREPARING_SHARE: f64 = 0.5;
 
 impl Prepared {
-    /// Poses the model, and adds voids and supports. Nothing is done for a model that does not fit.
+    /// Poses the model, and adds voids and supports. Nothing is done for a model that does not fit. The void is that of `last`, if that
+    /// is hollowed alike.
     ///
     /// # Errors
     /// [`Error::Mesh`], [`Error::Grid`], [`Error::Ldi`].
@@ -87,26 +98,32 @@ impl Prepared {
         model: &Mesh,
         sampling: &Sampling,
         spared: Option<&[f32]>,
+        last: Option<&Self>,
         timings: &mut Timings,
         progress: &mut Progress<'_>,
     ) -> Result<Self, Error> {
-        let clock = Instant::now();
-        let mut mesh = model.on_plate(&sampling.pose)?;
-        sampling.grid(&mesh.bounds())?;
-        timings.load += ms_since(clock);
-        let clock = Instant::now();
-        let mut warnings = mesh_warnings(&mesh);
-        let mut hollowed = None;
+        let hollowed_alike = last.and_then(|last| last.unsupported(sampling, spared));
         // Where hollowing ends, of both.
         let between = match (&sampling.hollow, &sampling.supports) {
+            _ if hollowed_alike.is_some() => 0.0,
             (None, _) => 0.0,
             (Some(_), Some(_)) => 0.5,
             (Some(_), None) => 1.0,
         };
-        if let Some(hollowing) = &sampling.hollow {
+        let unsupported = if let Some(alike) = hollowed_alike {
+            alike
+        } else {
             let mut within = |fraction| progress(between * fraction);
-            hollowed = hollow(&mut mesh, hollowing, spared, &mut warnings, &mut within)?;
-        }
+            Unsupported::new(model, sampling, spared, timings, &mut within)?
+        };
+        let clock = Instant::now();
+        let is_both = sampling.hollow.is_some() && sampling.supports.is_some();
+        let kept = is_both.then(|| Arc::new(unsupported.clone()));
+        let Unsupported {
+            mut mesh,
+            hollowed,
+            mut warnings,
+        } = unsupported;
         let mut supports = None;
         if let Some(supporting) = &sampling.supports {
             let mut within = |fraction| progress(between + (1.0 - between) * fraction);
@@ -130,7 +147,26 @@ impl Prepared {
             hollowed,
             supports,
             warnings,
+            unsupported: kept,
         })
+    }
+
+    /// What it was before it was supported, if that is what these options make.
+    fn unsupported(&self, sampling: &Sampling, spared: Option<&[f32]>) -> Option<Unsupported> {
+        let is_alike = self.of.pose == sampling.pose
+            && self.of.hollow == sampling.hollow
+            && self.of.hollow.is_some()
+            && self.of.spared.as_deref() == spared;
+        match (&self.unsupported, &self.supports) {
+            _ if !is_alike => None,
+            (Some(unsupported), _) => Some(Unsupported::clone(unsupported)),
+            (None, Some(_)) => None,
+            (None, None) => Some(Unsupported {
+                mesh: self.mesh.clone(),
+                hollowed: self.hollowed.clone(),
+                warnings: self.warnings.clone(),
+            }),
+        }
     }
 
     /// The same after some turns of 15° about z, with the same voids and supports.
@@ -160,6 +196,7 @@ impl Prepared {
             hollowed: self.hollowed.clone(),
             supports: self.supports.as_ref().map(|it| it.moved(place)),
             warnings: self.warnings.clone(),
+            unsupported: None,
         }))
     }
 
@@ -195,6 +232,34 @@ impl Prepared {
             Some(_) => sampling.grid_around(grid, &self.printed),
             None => Ok(grid),
         }
+    }
+}
+
+impl Unsupported {
+    /// Poses the model, and hollows it.
+    fn new(
+        model: &Mesh,
+        sampling: &Sampling,
+        spared: Option<&[f32]>,
+        timings: &mut Timings,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, Error> {
+        let clock = Instant::now();
+        let mut mesh = model.on_plate(&sampling.pose)?;
+        sampling.grid(&mesh.bounds())?;
+        timings.load += ms_since(clock);
+        let clock = Instant::now();
+        let mut warnings = mesh_warnings(&mesh);
+        let mut hollowed = None;
+        if let Some(hollowing) = &sampling.hollow {
+            hollowed = hollow(&mut mesh, hollowing, spared, &mut warnings, progress)?;
+        }
+        timings.ldi += ms_since(clock);
+        Ok(Self {
+            mesh,
+            hollowed,
+            warnings,
+        })
     }
 }
 

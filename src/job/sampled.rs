@@ -64,7 +64,7 @@ impl Sampler {
         }
     }
 
-    /// Prepares the model, unless `kept` is that, and samples it. If the GPU fails, the CPU is used instead, unless `backend` requires the GPU.
+    /// Prepares the model, as far as `kept` is not that, and samples it. If the GPU fails, the CPU is used instead, unless `backend` requires the GPU.
     ///
     /// # Errors
     /// [`Error::Mesh`], [`Error::Grid`], [`Error::Ldi`].
@@ -77,19 +77,17 @@ impl Sampler {
         timings: &mut Timings,
         progress: &mut StageProgress<'_>,
     ) -> Result<Sampled, Error> {
+        let (prepared, begun) = match kept {
+            Some(kept) if kept.is_of(sampling, spared) => (kept, 0.0),
+            last => {
+                let begun = f64::from(u8::from(Prepared::takes_time(sampling))) * PREPARING_SHARE;
+                let mut within = |fraction| progress(Stage::Ldi, begun * fraction);
+                let last = last.as_deref();
+                let prepared = Prepared::new(model, sampling, spared, last, timings, &mut within)?;
+                (Arc::new(prepared), begun)
+            }
+        };
         let clock = Instant::now();
-        let kept = kept.filter(|kept| kept.is_of(sampling, spared));
-        let begun = match &kept {
-            None if Prepared::takes_time(sampling) => PREPARING_SHARE,
-            _ => 0.0,
-        };
-        let prepared = if let Some(kept) = kept {
-            kept
-        } else {
-            let mut within = |fraction| progress(Stage::Ldi, begun * fraction);
-            let prepared = Prepared::new(model, sampling, spared, timings, &mut within)?;
-            Arc::new(prepared)
-        };
         let grid = prepared.grid(sampling)?;
         let mesh = &prepared.mesh;
         let printed = prepared.printed;

@@ -4,13 +4,15 @@
 //! and bodies inside out that are no cavities have been turned over before (`model/bodies.rs`).
 
 use super::Hit;
-use crate::model::{FacetClasses, Winding};
+use crate::model::{FacetClass, FacetClasses, Winding};
 
 /// Calls `emit(z_in, z_out)` for every height range in which a ray with these hits is inside the printed solid, from the
 /// plate upward: see [`Winding::is_inside`].
 #[inline]
 pub fn printed_ranges(hits: &[Hit], classes: FacetClasses, emit: impl FnMut(f32, f32)) {
-    if classes.is_model_alone() {
+    let model_end = classes.model_end();
+    // Most rays meet the model alone, in whatever it stands.
+    if hits.iter().all(|hit| hit.facet() < model_end) {
         let pass = |winding: &mut i32, hit: Hit| *winding += hit.winding();
         return for_each_range(hits, pass, |winding| winding != 0, emit);
     }
@@ -19,6 +21,10 @@ pub fn printed_ranges(hits: &[Hit], classes: FacetClasses, emit: impl FnMut(f32,
 
 /// [`printed_ranges`] for supports alone: see [`Winding::is_support_alone`].
 pub(super) fn support_ranges(hits: &[Hit], classes: FacetClasses, emit: impl FnMut(f32, f32)) {
+    let is_support = |hit: &Hit| classes.of(hit.facet()) == FacetClass::Support;
+    if !hits.iter().any(is_support) {
+        return;
+    }
     for_each_range(hits, passing(classes), Winding::is_support_alone, emit);
 }
 

@@ -59,13 +59,13 @@ impl Solid {
     }
 }
 
-/// A union of height ranges.
+/// A union of height ranges. Heights are not negative, so their bits ascend with them: browsers compare and choose integers faster.
 #[derive(Default)]
 struct Heights {
-    /// Each range as bits, the lower end in the upper half. Heights are not negative, so keys sort as ranges do.
+    /// Each range as bits, the lower end in the upper half.
     keys: Vec<u64>,
-    /// The range that grew last: most rays pass through the same solid as the ray before.
-    last: Option<(f32, f32)>,
+    /// The bits of both ends of the range that grew last: most rays pass through the same solid as the ray before.
+    last: Option<(u32, u32)>,
     /// Number of keys at which they are merged.
     limit: usize,
 }
@@ -74,11 +74,13 @@ impl Heights {
     /// The lowest limit: few keys to sort, and enough to make sorting worthwhile.
     const LIMIT: usize = 1 << 10;
 
+    #[inline]
     fn add(&mut self, z_in: f32, z_out: f32) {
+        let (z_in, z_out) = (z_in.to_bits(), z_out.to_bits());
         match &mut self.last {
             Some((from, to)) if z_in <= *to && *from <= z_out => {
-                *from = from.min(z_in);
-                *to = to.max(z_out);
+                *from = z_in.min(*from);
+                *to = z_out.max(*to);
             }
             last => {
                 let before = last.replace((z_in, z_out));
@@ -87,10 +89,8 @@ impl Heights {
         }
     }
 
-    #[inline]
-    fn keep(&mut self, range: Option<(f32, f32)>) {
-        let key =
-            |(from, to): (f32, f32)| u64::from(from.to_bits()) << 32 | u64::from(to.to_bits());
+    fn keep(&mut self, range: Option<(u32, u32)>) {
+        let key = |(from, to): (u32, u32)| u64::from(from) << 32 | u64::from(to);
         self.keys.extend(range.map(key));
         if self.keys.len() >= self.limit.max(Self::LIMIT) {
             self.merge();

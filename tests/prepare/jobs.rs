@@ -1,9 +1,11 @@
 //! Hollow models in jobs.
 
+use std::ops::ControlFlow;
+
 use cusp_slicer::format::Format;
-use cusp_slicer::job::{Error, Options, OptionsError, Plate, PlateOptions};
+use cusp_slicer::job::{Error, Options, OptionsError, Plate, PlateOptions, Slicer, Stage};
 use cusp_slicer::ldi::LdiError;
-use cusp_slicer::prepare::{AutoDrain, Drain, Hollowing, Infill};
+use cusp_slicer::prepare::{AutoDrain, Drain, Hollowing, Infill, SupportStrength, Supporting};
 use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::warning::Warning;
 use glam::Vec3;
@@ -57,6 +59,38 @@ fn a_solid_model_is_as_it_was_before_it_was_hollowed() {
     assert!(file(&mut cube) != before);
     plan(&mut cube, &solid);
     assert!(file(&mut cube) == before);
+}
+
+/// What is reported while hollowing counts: a change of supports repeats none of it.
+#[test]
+fn a_change_of_supports_hollows_nothing_again() {
+    let triangles = solids::sphere(12.0, 5);
+    let of = |supports: Option<SupportStrength>| Options {
+        supports: supports.map(|strength| Supporting {
+            strength,
+            ..Supporting::default()
+        }),
+        ..hollowed(Hollowing::default())
+    };
+    let print = |slicer: &mut Slicer, options: &Options| {
+        let mut reports = 0;
+        let mut count = |stage, _| {
+            reports += usize::from(stage == Stage::Ldi);
+            ControlFlow::Continue(())
+        };
+        pollster::block_on(slicer.plan(options, &mut count)).unwrap();
+        let file = slicer.write_archive(Vec::new(), &mut quiet).unwrap().0;
+        (reports, file)
+    };
+    let mut changed = slicer(&triangles);
+    print(&mut changed, &of(None));
+    for strength in [SupportStrength::Light, SupportStrength::Heavy] {
+        let options = of(Some(strength));
+        let (again, file) = print(&mut changed, &options);
+        let (anew, same) = print(&mut slicer(&triangles), &options);
+        assert!(again < anew, "{again} of {anew}");
+        assert!(file == same, "{strength:?}");
+    }
 }
 
 #[test]

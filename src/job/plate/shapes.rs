@@ -52,19 +52,21 @@ impl Plate {
             let sampling = self.sampling_of(options, job, model, 0);
             let weights = self.models[model].layering_weights(&job.layering, &mut within)?;
             let spared = sampling.spared(weights.as_deref());
-            let known = kept.get(model).filter(|it| it.is_of(&sampling, spared));
-            let prepared = if let Some(known) = known {
-                Arc::clone(known)
-            } else {
-                let mesh = &self.models[model].model;
-                let mut within = |fraction| within(Stage::Ldi, fraction);
-                Arc::new(Prepared::new(
-                    mesh,
-                    &sampling,
-                    spared,
-                    timings,
-                    &mut within,
-                )?)
+            let prepared = match kept.get(model) {
+                Some(known) if known.is_of(&sampling, spared) => Arc::clone(known),
+                last => {
+                    let mesh = &self.models[model].model;
+                    let last = last.map(AsRef::as_ref);
+                    let mut within = |fraction| within(Stage::Ldi, fraction);
+                    Arc::new(Prepared::new(
+                        mesh,
+                        &sampling,
+                        spared,
+                        last,
+                        timings,
+                        &mut within,
+                    )?)
+                }
             };
             self.prepared.push(prepared);
         }
