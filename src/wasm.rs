@@ -11,10 +11,13 @@ use js_sys::{Function, Uint8Array};
 use tsify::Ts;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
+use crate::archive::{self, ArchiveError, Canvas};
+use crate::format::Format;
 use crate::inspect::Limits;
 use crate::job::{self, Calibration, Error, Options, OptionsError, Stage, positions};
 use crate::js::{thrown, to_js};
 use crate::ldi::gpu;
+use crate::mask::LayerRuns;
 use crate::model::read::{self, HEAD_BYTES};
 use crate::model::{FacetClass, FileFacts, weights};
 use crate::orientation::{Candidate, Search, SearchOptions, Task, TaskResult};
@@ -481,25 +484,109 @@ impl Slicer {
         Ok(to_js(&found.map_err(throw)?))
     }
 
+    /// The masks of the last plan's print file in groups, for other workers to encode; nothing if the file has none.
+    ///
+    /// # Errors
+    /// Throws a `CuspError` if there is no plan.
+    pub fn layer_groups(&mut self) -> Result<Option<LayerGroups>, JsValue> {
+        let groups = self.slicer.layer_groups().map_err(throw)?;
+        Ok(groups.map(|groups| LayerGroups { groups }))
+    }
+
     /// Writes the print file of the last plan in the format of its options, by calling `take` with one chunk after another.
+    /// `encoded`, if given, fetches each group of [`Self::layer_groups`], counted from 0, as [`encode_group`] encodes it.
     ///
     /// # Errors
     /// Throws a `CuspError`, or what `take` throws.
     pub fn archive(
         &mut self,
+        #[wasm_bindgen(unchecked_param_type = "((group: number) => Uint8Array) | null")]
+        encoded: Option<Function>,
         #[wasm_bindgen(unchecked_param_type = "(chunk: Uint8Array) => void")] take: &Function,
         #[wasm_bindgen(
             unchecked_param_type = "(stage: Stage, fraction: number, done: number) => void"
         )]
         progress: &Function,
     ) -> Result<(), JsValue> {
+        let group_of = encoded.map(|encoded| {
+            move |group: usize| {
+                let bytes = encoded.call1(&JsValue::NULL, &JsValue::from(group as u32));
+                // What throws gives no layers, which is an error of the writer.
+                bytes.map_or_else(|_| Vec::new(), |bytes| Uint8Array::from(bytes).to_vec())
+            }
+        });
+        let group_of = group_of.as_ref().map(|it| it as &dyn Fn(usize) -> Vec<u8>);
         let mut writer = Chunks::to(take);
         let written = self
             .slicer
-            .write_archive(&mut writer, &mut progress_to(progress))
+            .write_archive_of(group_of, &mut writer, &mut progress_to(progress))
             .map(|_| ());
         Chunks::end(writer, written)
     }
+}
+
+/// The masks of a plan, read group by group.
+#[wasm_bindgen]
+pub struct LayerGroups {
+    groups: job::LayerGroups,
+}
+
+#[wasm_bindgen]
+impl LayerGroups {
+    /// Number of groups that are left.
+    pub fn left(&self) -> usize {
+        self.groups.left()
+    }
+
+    /// The format of the print file, which [`encode_group`] asks for.
+    #[wasm_bindgen(unchecked_return_type = "Format")]
+    pub fn format(&self) -> JsValue {
+        to_js(&self.groups.format)
+    }
+
+    /// What [`encode_group`] asks for besides: columns, rows and the level of anti-aliasing.
+    pub fn canvas(&self) -> Vec<u32> {
+        let Canvas { pixels, antialias } = self.groups.canvas;
+        vec![pixels[0], pixels[1], antialias]
+    }
+
+    /// Reports progress, when the groups read so far are encoded.
+    pub fn report(
+        &self,
+        #[wasm_bindgen(
+            unchecked_param_type = "(stage: Stage, fraction: number, done: number) => void"
+        )]
+        progress: &Function,
+    ) {
+        let _ = progress_to(progress)(Stage::Masks, self.groups.progress());
+    }
+
+    /// The runs of the next group; none after the last one.
+    pub fn next_runs(&mut self) -> Option<Vec<u32>> {
+        self.groups.next().map(|runs| runs.to_words())
+    }
+}
+
+/// Encodes a group of layers, which needs no model.
+///
+/// # Errors
+/// Throws a `CuspError` if these are no runs of this build.
+#[expect(
+    clippy::needless_pass_by_value,
+    reason = "values from JavaScript come by value"
+)]
+#[wasm_bindgen]
+pub fn encode_group(format: Ts<Format>, canvas: &[u32], runs: &[u32]) -> Result<Vec<u8>, JsValue> {
+    let format = format.to_rust().map_err(throw_conversion)?;
+    let given = (canvas, LayerRuns::of_words(runs));
+    let (&[columns, rows, antialias], Some(runs)) = given else {
+        return Err(throw(ArchiveError::write("the runs of layers were cut")));
+    };
+    let canvas = Canvas {
+        pixels: [columns, rows],
+        antialias,
+    };
+    archive::encode_group(format, canvas, &runs).map_err(throw)
 }
 
 /// Writes the print of two towers that tell whether a printer prints layers of several thicknesses, by calling `take` with one
@@ -551,7 +638,7 @@ impl<'a> Chunks<'a> {
             return Err(thrown);
         }
         written.map_err(throw)?;
-        flushed.map_err(|error| throw(crate::archive::ArchiveError::from(error)))
+        flushed.map_err(|error| throw(ArchiveError::from(error)))
     }
 }
 

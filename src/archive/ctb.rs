@@ -7,7 +7,7 @@ use std::io::Write;
 use super::fields::{ByteOrder, Fields};
 use super::preview::{Look, rgb565};
 use super::raster::for_each_run;
-use super::{ArchiveError, EncodedLayer, Encoder, PrintJob, encode_layers};
+use super::{ArchiveError, Canvas, EncodedLayer, Encoder, PrintJob, encode_layers};
 use crate::mask::{LayerRuns, Run};
 use crate::printer::Printer;
 use crate::progress::Progress;
@@ -37,6 +37,16 @@ const LAYER_BYTES: u32 = 84;
 const LONGEST: u32 = (1 << 28) - 1;
 
 impl Encoder for Ctb {
+    fn layer(
+        &self,
+        canvas: Canvas,
+        runs: &LayerRuns,
+        layer: usize,
+    ) -> Result<EncodedLayer, ArchiveError> {
+        let data = data(runs.of_layer(layer), canvas.area());
+        Ok(EncodedLayer::new(data, runs.of_layer(layer)))
+    }
+
     /// The table of layers stands before the layers, so all are encoded before the first byte is written. Memory: the size of
     /// the file.
     fn encode(
@@ -45,14 +55,10 @@ impl Encoder for Ctb {
         writer: &mut dyn Write,
         progress: &mut Progress<'_>,
     ) -> Result<(), ArchiveError> {
-        let area = job.screen.area();
         let mut layers = Vec::with_capacity(job.layers.len());
         encode_layers(
             job,
-            &|runs: &LayerRuns, layer| {
-                let data = data(runs.of_layer(layer), area);
-                Ok(EncodedLayer::new(data, runs.of_layer(layer)))
-            },
+            self,
             &mut |layer, EncodedLayer { mut data, .. }| {
                 scramble(&mut data, layer as u32);
                 layers.push(data);

@@ -8,7 +8,7 @@ use std::io::Write;
 use super::fields::{ByteOrder, Fields};
 use super::preview::{Look, rgb565};
 use super::raster::for_each_run;
-use super::{ArchiveError, EncodedLayer, Encoder, Layer, PrintJob, encode_layers};
+use super::{ArchiveError, Canvas, EncodedLayer, Encoder, Layer, PrintJob, encode_layers};
 use crate::mask::{LayerRuns, Run};
 use crate::printer::Printer;
 use crate::progress::Progress;
@@ -31,6 +31,16 @@ const DATA: u8 = 0x55;
 const LONGEST: u32 = (1 << 28) - 1;
 
 impl Encoder for Goo {
+    fn layer(
+        &self,
+        canvas: Canvas,
+        runs: &LayerRuns,
+        layer: usize,
+    ) -> Result<EncodedLayer, ArchiveError> {
+        let data = data(runs.of_layer(layer), canvas.area());
+        Ok(EncodedLayer::new(data, runs.of_layer(layer)))
+    }
+
     fn encode(
         &self,
         job: &PrintJob<'_>,
@@ -40,14 +50,10 @@ impl Encoder for Goo {
         let order = ByteOrder::of_goo(job.printer);
         let moves = Moves::of(job);
         writer.write_all(&header(job, &moves, order))?;
-        let area = job.screen.area();
         let mut settings = Vec::new();
         encode_layers(
             job,
-            &|runs: &LayerRuns, layer| {
-                let data = data(runs.of_layer(layer), area);
-                Ok(EncodedLayer::new(data, runs.of_layer(layer)))
-            },
+            self,
             &mut |layer, EncodedLayer { data, .. }| {
                 settings.clear();
                 let fields = Fields::new(&mut settings, order);

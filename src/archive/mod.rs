@@ -13,6 +13,7 @@ mod raster;
 pub mod read;
 pub mod runs;
 mod survey;
+mod transfer;
 mod zip;
 
 use std::collections::BTreeMap;
@@ -48,7 +49,15 @@ fn encoder(format: Format) -> Option<&'static dyn Encoder> {
 }
 
 /// What differs between formats. A zip of masks implements [`zip::Container`] instead, and [`zip::Zip`] encodes it.
-trait Encoder {
+trait Encoder: Sync {
+    /// Encodes a layer of these.
+    fn layer(
+        &self,
+        canvas: Canvas,
+        runs: &LayerRuns,
+        layer: usize,
+    ) -> Result<EncodedLayer, ArchiveError>;
+
     /// Writes the file sequentially, without seeking. Fails with [`ArchiveError::AllBlack`] if every mask is black.
     fn encode(
         &self,
@@ -190,8 +199,31 @@ impl Screen {
         })
     }
 
+    /// What its masks are drawn on.
+    pub(crate) fn canvas(&self) -> Canvas {
+        Canvas {
+            pixels: self.pixels,
+            antialias: self.antialias,
+        }
+    }
+
     /// Number of pixels.
     pub fn area(&self) -> u64 {
+        self.canvas().area()
+    }
+}
+
+/// What masks are drawn on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Canvas {
+    /// Columns and rows.
+    pub pixels: [u32; 2],
+    /// Level of anti-aliasing; 1 means that pixels are either lit or dark.
+    pub antialias: u32,
+}
+
+impl Canvas {
+    fn area(self) -> u64 {
         u64::from(self.pixels[0]) * u64::from(self.pixels[1])
     }
 }
@@ -207,6 +239,15 @@ pub struct Layer {
     pub exposure_s: f64,
 }
 
+/// Where the masks of a print file come from.
+#[derive(Clone, Copy)]
+pub enum MaskSource<'a> {
+    /// Their runs are read, and encoded here.
+    Runs(&'a dyn RunSource),
+    /// They are encoded elsewhere: this fetches each group of [`GROUP`] layers, counted from 0, as [`encode_group`] encodes it.
+    Encoded(&'a dyn Fn(usize) -> Vec<u8>),
+}
+
 /// Everything that goes into a print file.
 #[derive(Clone, Copy)]
 pub struct PrintJob<'a> {
@@ -215,7 +256,7 @@ pub struct PrintJob<'a> {
     /// The layers, from the plate upward.
     pub layers: &'a [Layer],
     /// The masks of the layers, as the printer shows them.
-    pub masks: &'a dyn RunSource,
+    pub masks: MaskSource<'a>,
     /// Height of the model in millimetres. The top of the layers may differ from it by part of a layer.
     pub height_mm: f64,
     /// The resin.
@@ -317,9 +358,10 @@ pub fn write<W: Write>(
 }
 
 /// Layers that are read and encoded together, in parallel.
-const GROUP: usize = 32;
+pub const GROUP: usize = 32;
 
 /// The mask of a layer, encoded.
+#[derive(Debug, PartialEq)]
 struct EncodedLayer {
     data: Vec<u8>,
     /// Checksum and length of what `data` inflates to, if it is deflated.
@@ -344,39 +386,65 @@ impl EncodedLayer {
     }
 }
 
-/// Encodes a layer of these.
-type EncodeLayer<'a> = &'a (dyn Fn(&LayerRuns, usize) -> Result<EncodedLayer, ArchiveError> + Sync);
-
 /// Encodes all layers in parallel, and takes them in order.
 ///
 /// # Errors
 /// [`ArchiveError`]; [`ArchiveError::AllBlack`] if no layer has a lit pixel.
 fn encode_layers(
     job: &PrintJob<'_>,
-    encode: EncodeLayer<'_>,
+    encoder: &dyn Encoder,
     take: &mut dyn FnMut(usize, EncodedLayer) -> Result<(), ArchiveError>,
     progress: &mut Progress<'_>,
 ) -> Result<(), ArchiveError> {
     let total = job.layers.len();
-    let mut reader = job.masks.reader();
+    let canvas = job.screen.canvas();
+    let mut encode_next: Box<dyn FnMut(usize, usize) -> Result<_, _> + '_> = match job.masks {
+        MaskSource::Runs(masks) => {
+            let mut reader = masks.reader();
+            Box::new(move |_, count| encode_runs(encoder, canvas, &reader.next(count)))
+        }
+        MaskSource::Encoded(group_of) => {
+            Box::new(move |group, count| transfer::from_bytes(&group_of(group), count))
+        }
+    };
     let mut is_black = true;
-    let mut first = 0;
-    while first < total {
+    for first in (0..total).step_by(GROUP) {
         let count = GROUP.min(total - first);
-        let runs = reader.next(count);
-        let encoded = parallel::map((0..count).collect(), |layer| encode(&runs, layer));
+        let encoded = encode_next(first / GROUP, count)?;
         for (layer, encoded) in encoded.into_iter().enumerate() {
-            let encoded = encoded?;
             is_black &= encoded.lit_pixels == 0;
             take(first + layer, encoded)?;
         }
-        first += count;
-        report(progress, first as f64 / total as f64)?;
+        report(progress, (first + count) as f64 / total as f64)?;
     }
     if is_black {
         return Err(ArchiveError::AllBlack);
     }
     Ok(())
+}
+
+/// Encodes consecutive layers in parallel.
+fn encode_runs(
+    encoder: &dyn Encoder,
+    canvas: Canvas,
+    runs: &LayerRuns,
+) -> Result<Vec<EncodedLayer>, ArchiveError> {
+    let layers = (0..runs.layers()).collect();
+    let encoded = parallel::map(layers, |layer| encoder.layer(canvas, runs, layer));
+    encoded.into_iter().collect()
+}
+
+/// Encodes a group of layers for [`MaskSource::Encoded`], wherever their runs were read.
+///
+/// # Errors
+/// [`ArchiveError`].
+pub fn encode_group(
+    format: Format,
+    canvas: Canvas,
+    runs: &LayerRuns,
+) -> Result<Vec<u8>, ArchiveError> {
+    let encoder = encoder(format).ok_or(ArchiveError::NoMasks { format })?;
+    Ok(transfer::to_bytes(&encode_runs(encoder, canvas, runs)?))
 }
 
 /// Rounds to six decimals, which drops the digits that arithmetic adds: 0.15 instead of 0.15000000000000002.

@@ -5,7 +5,7 @@ use std::io::Write;
 use super::fields::{ByteOrder, Fields};
 use super::preview::rgb565;
 use super::survey::{Bounds, bounds_of, joined};
-use super::{ArchiveError, EncodedLayer, Encoder, PrintJob, encode_layers, pw0};
+use super::{ArchiveError, Canvas, EncodedLayer, Encoder, PrintJob, encode_layers, pw0};
 use crate::mask::LayerRuns;
 use crate::printer::Printer;
 use crate::progress::Progress;
@@ -23,6 +23,20 @@ const GREYS: u32 = 16;
 const BACKGROUND: u32 = 6_506_241;
 
 impl Encoder for PhotonWorkshop {
+    fn layer(
+        &self,
+        canvas: Canvas,
+        runs: &LayerRuns,
+        layer: usize,
+    ) -> Result<EncodedLayer, ArchiveError> {
+        let runs = || runs.of_layer(layer);
+        let boxes = runs().map(|run| bounds_of(run, canvas.pixels[0]));
+        Ok(EncodedLayer {
+            bounds: boxes.reduce(joined),
+            ..EncodedLayer::new(pw0::encode(runs(), canvas.area()), runs())
+        })
+    }
+
     /// The tables stand before the layers, so all are encoded before the first byte is written. Memory: the size of the file.
     fn encode(
         &self,
@@ -32,20 +46,11 @@ impl Encoder for PhotonWorkshop {
     ) -> Result<(), ArchiveError> {
         let version = job.printer.and_then(|printer| printer.file_version);
         let version = version.unwrap_or(USUAL_VERSION);
-        let area = job.screen.area();
-        let width = job.screen.pixels[0];
         let mut layers = Vec::with_capacity(job.layers.len());
         let mut bounds: Option<Bounds> = None;
         encode_layers(
             job,
-            &|runs: &LayerRuns, layer| {
-                let runs = || runs.of_layer(layer);
-                let boxes = runs().map(|run| bounds_of(run, width));
-                Ok(EncodedLayer {
-                    bounds: boxes.reduce(joined),
-                    ..EncodedLayer::new(pw0::encode(runs(), area), runs())
-                })
-            },
+            self,
             &mut |_, layer| {
                 bounds = bounds.into_iter().chain(layer.bounds).reduce(joined);
                 layers.push(layer);

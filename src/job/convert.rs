@@ -283,7 +283,7 @@ impl<'a> Conversion<'a> {
         let job = PrintJob {
             screen: self.screen,
             layers: &self.layers,
-            masks: self,
+            masks: archive::MaskSource::Runs(self),
             height_mm,
             resin: &self.resin,
             resin_ml: self.volume_ml,

@@ -8,6 +8,7 @@ mod error;
 mod facet_shapes;
 #[cfg(not(target_arch = "wasm32"))]
 mod front;
+mod groups;
 mod measured;
 mod options;
 mod options_error;
@@ -31,6 +32,7 @@ pub use calibration::{Calibration, Section};
 #[cfg(feature = "read")]
 pub use convert::{Conversion, ConvertError, Loss, Target};
 pub use error::Error;
+pub use groups::LayerGroups;
 pub use options::*;
 pub use options_error::OptionsError;
 #[cfg(not(target_arch = "wasm32"))]

@@ -5,8 +5,7 @@ use std::io::Write;
 use super::parts::Output;
 use super::planned::Planned;
 use super::{Error, Report};
-use crate::archive::{self, Layer, Look, PrintJob, Screen};
-use crate::mask::RunSource;
+use crate::archive::{self, Layer, Look, MaskSource, PrintJob, Screen};
 use crate::progress::Progress;
 
 /// Writes the print file of a plan that is exported as `output`, with these masks.
@@ -17,7 +16,7 @@ pub(super) fn write_print<W: Write>(
     planned: &Planned,
     output: &Output,
     report: &Report,
-    masks: &dyn RunSource,
+    masks: MaskSource<'_>,
     look: &dyn Fn() -> Look,
     writer: W,
     progress: &mut Progress<'_>,
@@ -29,14 +28,8 @@ pub(super) fn write_print<W: Write>(
             exposure_s: report.exposure_s[layer],
         })
         .collect();
-    let grid = &planned.first().of.grid;
     let job = PrintJob {
-        screen: Screen {
-            pixels: [grid.width, grid.height],
-            pitch_mm: [grid.pitch_mm, grid.pitch_y_mm],
-            is_mirrored: output.is_mirrored,
-            antialias: planned.first().of.sampling.samples.sublayers,
-        },
+        screen: screen_of(planned, output),
         layers: &layers,
         masks,
         height_mm: report.height_mm,
@@ -48,4 +41,15 @@ pub(super) fn write_print<W: Write>(
         manifest: &|| report.manifest(),
     };
     Ok(archive::write(output.format, &job, writer, progress)?)
+}
+
+/// The screen that shows the masks of a plan.
+pub(super) fn screen_of(planned: &Planned, output: &Output) -> Screen {
+    let grid = &planned.first().of.grid;
+    Screen {
+        pixels: [grid.width, grid.height],
+        pitch_mm: [grid.pitch_mm, grid.pitch_y_mm],
+        is_mirrored: output.is_mirrored,
+        antialias: planned.first().of.sampling.samples.sublayers,
+    }
 }

@@ -7,17 +7,18 @@ use glam::Vec3;
 use web_time::Instant;
 
 use super::facet_shapes::{Extra, shapes_of};
+use super::groups::{ENCODED_SHARE, LayerGroups};
 use super::measured::Measured;
 use super::parts::{Job, Layering, Output, Sampling};
 use super::planned::{Planned, PlannedModel};
 use super::planning::Planning;
-use super::print::write_print;
+use super::print::{screen_of, write_print};
 use super::report::{Origin, odd_size, report_of};
 use super::sampled::{Sampled, Sampler};
 use super::stage::{Stage, StageProgress, ms_since, report};
 use super::{Error, MeshInfo, Options, Preview, Report, Timings, Tradeoff};
-use crate::archive::Look;
 use crate::archive::layer_profile::{self, LayeredModel};
+use crate::archive::{Look, MaskSource};
 use crate::grid::Bins;
 use crate::inspect::{self, Held, Printability};
 use crate::ldi::LdiError;
@@ -56,7 +57,7 @@ struct Current {
     output: Output,
     report: Report,
     /// The masks seen from above, kept for the next call of [`Slicer::mask`], and a cursor at the last layer that was read.
-    seen: Option<(Masks, MaskCursor)>,
+    seen: Option<(Arc<Masks>, MaskCursor)>,
 }
 
 impl Slicer {
@@ -479,6 +480,26 @@ impl Slicer {
         }
     }
 
+    /// The masks of the last plan's print file in groups, for others to encode; `None` if the file has no masks.
+    ///
+    /// # Errors
+    /// [`Error::NoPlan`].
+    pub fn layer_groups(&mut self) -> Result<Option<LayerGroups>, Error> {
+        let current = self.current.as_mut().ok_or(Error::NoPlan)?;
+        if current.output.filament.is_some() {
+            return Ok(None);
+        }
+        let canvas = screen_of(&current.planned, &current.output).canvas();
+        let layers = current.report.layers;
+        let format = current.output.format;
+        Ok(Some(LayerGroups::new(
+            current.shown(),
+            layers,
+            format,
+            canvas,
+        )))
+    }
+
     /// Writes the print file of the last plan in the format of its options. Returns the writer, and the report with the time
     /// that this took.
     ///
@@ -489,9 +510,27 @@ impl Slicer {
         writer: W,
         progress: &mut StageProgress<'_>,
     ) -> Result<(W, &Report), Error> {
+        self.write_archive_of(None, writer, progress)
+    }
+
+    /// [`Self::write_archive`] of layers that others have encoded, if that is how they are given: `encoded` fetches a group of
+    /// [`Self::layer_groups`], counted from 0, as [`archive::encode_group`](crate::archive::encode_group) encodes it.
+    ///
+    /// # Errors
+    /// Those of [`Self::write_archive`].
+    pub fn write_archive_of<W: Write>(
+        &mut self,
+        encoded: Option<&dyn Fn(usize) -> Vec<u8>>,
+        writer: W,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<(W, &Report), Error> {
         let clock = Instant::now();
         let current = self.current.as_mut().ok_or(Error::NoPlan)?;
-        let mut mask_progress = |fraction| progress(Stage::Masks, fraction);
+        let encoded_share = encoded.map_or(0.0, |_| ENCODED_SHARE);
+        let mut mask_progress = |fraction| {
+            let fraction = encoded_share + (1.0 - encoded_share) * fraction;
+            progress(Stage::Masks, fraction)
+        };
         if let Some(filament) = current.output.filament {
             let report = &mut current.report;
             let model = LayeredModel {
@@ -504,19 +543,18 @@ impl Slicer {
             report.timings_ms.sum_up();
             return Ok((writer, report));
         }
-        let is_mirrored = current.output.is_mirrored;
-        let mirrored = is_mirrored.then(|| current.planned.masks(0, Side::Below));
-        if !is_mirrored {
-            current.seen();
-        }
+        let masks = encoded.is_none().then(|| current.shown());
+        let masks = match (&masks, encoded) {
+            (Some(masks), _) => MaskSource::Runs(&**masks),
+            (None, Some(encoded)) => MaskSource::Encoded(encoded),
+            (None, None) => return Err(Error::NoPlan),
+        };
         let Current {
             planned,
             output,
             report,
-            seen,
+            ..
         } = current;
-        let masks = mirrored.as_ref().or(seen.as_ref().map(|seen| &seen.0));
-        let masks = masks.ok_or(Error::NoPlan)?;
         let sampled = &planned.first().of;
         let look = || Look::new(sampled.mesh(), &sampled.ldi);
         let writer = write_print(
@@ -536,12 +574,21 @@ impl Slicer {
 
 impl Current {
     /// The masks seen from above, and a cursor at the last layer that was read.
-    fn seen(&mut self) -> &mut (Masks, MaskCursor) {
+    fn seen(&mut self) -> &mut (Arc<Masks>, MaskCursor) {
         self.seen.get_or_insert_with(|| {
             let masks = self.planned.masks(0, Side::Above);
             let cursor = masks.cursor();
-            (masks, cursor)
+            (Arc::new(masks), cursor)
         })
+    }
+
+    /// The masks as the printer shows them.
+    fn shown(&mut self) -> Arc<Masks> {
+        if self.output.is_mirrored {
+            Arc::new(self.planned.masks(0, Side::Below))
+        } else {
+            Arc::clone(&self.seen().0)
+        }
     }
 }
 

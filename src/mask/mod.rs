@@ -15,7 +15,7 @@ use std::ops::Range;
 
 pub(crate) use columns::Until;
 pub use plate::{PlateMasks, Stamp};
-pub use runs::{LayerRuns, Run, RunReader, RunSource};
+pub use runs::{LayerRuns, ReadPlace, Run, RunReader, RunSource};
 pub use samples::{LEVELS, Samples};
 pub use shrink::Shrinking;
 pub use window::{Side, Window};

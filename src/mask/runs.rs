@@ -54,6 +54,46 @@ impl LayerRuns {
         self.layers
     }
 
+    /// The runs as numbers, for another worker of the same build.
+    pub fn to_words(&self) -> Vec<u32> {
+        let runs: usize = self.bands.iter().map(|band| band.runs.len()).sum();
+        let mut words = Vec::with_capacity(1 + self.bands.len() * self.layers + 3 * runs);
+        words.push(self.layers as u32);
+        for band in &self.bands {
+            words.extend(band.ends.iter().map(|&end| end as u32));
+            for run in &band.runs {
+                words.extend([run.first, run.pixels, u32::from(run.grey)]);
+            }
+        }
+        words
+    }
+
+    /// The runs of [`Self::to_words`]; `None` of other numbers.
+    pub fn of_words(words: &[u32]) -> Option<Self> {
+        let (&layers, mut rest) = words.split_first()?;
+        let layers = layers as usize;
+        let mut bands = Vec::new();
+        while !rest.is_empty() && layers > 0 {
+            let (ends, runs) = rest.split_at_checked(layers)?;
+            if !ends.is_sorted() {
+                return None;
+            }
+            let (runs, after) = runs.split_at_checked(3 * *ends.last()? as usize)?;
+            rest = after;
+            let (runs, _) = runs.as_chunks::<3>();
+            let run = |&[first, pixels, grey]: &[u32; 3]| Run {
+                first,
+                pixels,
+                grey: grey as u8,
+            };
+            bands.push(BandRuns {
+                ends: ends.iter().map(|&end| end as usize).collect(),
+                runs: runs.iter().map(run).collect(),
+            });
+        }
+        Some(Self { bands, layers })
+    }
+
     /// The lit runs of a layer, row by row; no run goes on in the next row.
     pub fn of_layer(&self, layer: usize) -> impl Iterator<Item = Run> {
         self.bands.iter().flat_map(move |band| {
@@ -77,25 +117,44 @@ pub trait RunReader {
 
 impl RunSource for Masks {
     fn reader(&self) -> Box<dyn RunReader + '_> {
-        let states = self.bands.iter().map(|band| State::new(band, self.samples));
         Box::new(Reader {
             masks: self,
-            states: states.collect(),
-            next: 0,
+            place: ReadPlace::new(self),
         })
     }
 }
 
 struct Reader<'a> {
     masks: &'a Masks,
+    place: ReadPlace,
+}
+
+impl RunReader for Reader<'_> {
+    fn next(&mut self, layers: usize) -> LayerRuns {
+        self.place.next(self.masks, layers)
+    }
+}
+
+/// How far masks have been read.
+pub struct ReadPlace {
     states: Vec<State>,
     next: usize,
 }
 
-impl RunReader for Reader<'_> {
+impl ReadPlace {
+    /// At the first layer.
+    pub fn new(masks: &Masks) -> Self {
+        let bands = masks.bands.iter();
+        Self {
+            states: bands.map(|band| State::new(band, masks.samples)).collect(),
+            next: 0,
+        }
+    }
+
+    /// The runs of the next layers of the same masks: see [`RunReader::next`].
+    ///
     /// Cost: linear in the changes and in the runs. Bands are read in parallel.
-    fn next(&mut self, layers: usize) -> LayerRuns {
-        let masks = self.masks;
+    pub fn next(&mut self, masks: &Masks, layers: usize) -> LayerRuns {
         let range = self.next..self.next + layers;
         self.next = range.end;
         let greys = greys(masks.samples);

@@ -3,11 +3,12 @@
 
 use crate::common::{assert_near, binary_stl, on_plate, quiet, solids};
 use cusp_slicer::Error;
+use cusp_slicer::archive::{self, ArchiveError};
 use cusp_slicer::format::Format;
 use cusp_slicer::grid::{Bins, Grid};
 use cusp_slicer::job::{Backend, Options, Planner, Report, Slicer};
 use cusp_slicer::ldi::cpu;
-use cusp_slicer::mask::{Light, Masks, Samples, Side};
+use cusp_slicer::mask::{LayerRuns, Light, Masks, Run, Samples, Side};
 use cusp_slicer::plan::uniform;
 use serde_json::Value;
 use std::io::Cursor;
@@ -375,4 +376,59 @@ fn sl1_takes_uniform_layers_alone() {
         })
         .count();
     assert_eq!(masks, report.layers);
+}
+
+/// Layers that other workers encode, from runs that they are sent as numbers.
+#[test]
+fn a_file_is_the_same_wherever_its_layers_are_encoded() {
+    let ball = solids::sphere(3.0, 4);
+    for format in Format::MASKS {
+        for antialias in [1, 2] {
+            let options = Options {
+                antialias,
+                planner: Planner::Uniform { layer_mm: 0.05 },
+                ..options(format)
+            };
+            let mut slicer = Slicer::load(&binary_stl(&ball)).unwrap();
+            pollster::block_on(slicer.plan(&options, &mut quiet)).unwrap();
+            let (expected, _) = slicer.write_archive(Vec::new(), &mut quiet).unwrap();
+            let mut groups = slicer.layer_groups().unwrap().unwrap();
+            assert!(groups.left() > 2, "{format:?}");
+            let (canvas, named) = (groups.canvas, groups.format);
+            let sent: Vec<Vec<u32>> = groups.by_ref().map(|runs| runs.to_words()).collect();
+            assert_eq!((groups.left(), groups.progress()), (0, 0.9));
+            // In whatever order they are encoded.
+            let encode = |words: &Vec<u32>| {
+                archive::encode_group(named, canvas, &LayerRuns::of_words(words).unwrap()).unwrap()
+            };
+            let mut encoded: Vec<Vec<u8>> = sent.iter().rev().map(encode).collect();
+            encoded.reverse();
+            let group_of = |group: usize| encoded[group].clone();
+            let written = slicer.write_archive_of(Some(&group_of), Vec::new(), &mut quiet);
+            assert!(written.unwrap().0 == expected, "{format:?} {antialias}");
+            // What another build would send.
+            let cut = |_: usize| vec![0; 7];
+            let refused = slicer.write_archive_of(Some(&cut), Vec::new(), &mut quiet);
+            assert!(matches!(
+                refused.err(),
+                Some(Error::Archive(ArchiveError::Write { .. }))
+            ));
+        }
+    }
+}
+
+#[test]
+fn runs_that_were_cut_are_refused() {
+    let run = |first| Run {
+        first,
+        pixels: 2,
+        grey: 9,
+    };
+    let runs = LayerRuns::new([vec![run(1), run(5)], vec![], vec![run(7)]]);
+    let words = runs.to_words();
+    assert_eq!(LayerRuns::of_words(&words), Some(runs));
+    for end in [0, 2, 3, 5, words.len() - 1] {
+        assert_eq!(LayerRuns::of_words(&words[..end]), None, "{end}");
+    }
+    assert_eq!(LayerRuns::of_words(&[2, 1, 0, 4, 4, 4]), None);
 }

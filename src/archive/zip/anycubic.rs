@@ -10,7 +10,7 @@ use super::settings::Settings;
 use super::{Container, File, LayerEntry, joined_bounds, json_file};
 use crate::archive::fields::{ByteOrder, Fields};
 use crate::archive::survey::Survey;
-use crate::archive::{ArchiveError, PrintJob, Screen, pw0, tidy};
+use crate::archive::{ArchiveError, Canvas, PrintJob, Screen, pw0, tidy};
 use crate::mask::Run;
 
 pub struct Anycubic;
@@ -33,8 +33,8 @@ impl Container for Anycubic {
         format!("layer_images/layer_{layer}.{IMAGE_FORMAT}")
     }
 
-    fn mask(&self, screen: &Screen, runs: &mut dyn Iterator<Item = Run>) -> Vec<u8> {
-        pw0::encode(runs, screen.area())
+    fn mask(&self, canvas: Canvas, runs: &mut dyn Iterator<Item = Run>) -> Vec<u8> {
+        pw0::encode(runs, canvas.area())
     }
 
     fn needs_survey(&self) -> bool {

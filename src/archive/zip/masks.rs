@@ -7,18 +7,18 @@ use serde_json::value::to_raw_value;
 
 use super::{Container, File, LayerEntry};
 use crate::archive::png::{self, Depth};
-use crate::archive::{ArchiveError, PrintJob, Screen};
+use crate::archive::{ArchiveError, Canvas, PrintJob};
 use crate::mask::Run;
 
 pub struct Masks;
 
 impl Container for Masks {
-    fn mask(&self, screen: &Screen, runs: &mut dyn Iterator<Item = Run>) -> Vec<u8> {
-        let depth = match screen.antialias {
+    fn mask(&self, canvas: Canvas, runs: &mut dyn Iterator<Item = Run>) -> Vec<u8> {
+        let depth = match canvas.antialias {
             1 => Depth::Bit,
             _ => Depth::Grey,
         };
-        png::encode(runs, screen.pixels, depth)
+        png::encode(runs, canvas.pixels, depth)
     }
 
     fn mask_name(&self, layer: usize) -> String {

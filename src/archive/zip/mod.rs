@@ -22,7 +22,7 @@ use serde_json::Value;
 
 use super::png::Depth;
 use super::survey::{Bounds, Survey, joined};
-use super::{ArchiveError, EncodedLayer, Encoder, Layer, PrintJob, Screen, encode_layers};
+use super::{ArchiveError, Canvas, EncodedLayer, Encoder, Layer, PrintJob, encode_layers};
 use crate::archive::png;
 use crate::mask::{LayerRuns, Run};
 use crate::progress::Progress;
@@ -74,8 +74,8 @@ pub trait Container: Sync {
     fn mask_name(&self, layer: usize) -> String;
 
     /// Encodes a mask.
-    fn mask(&self, screen: &Screen, runs: &mut dyn Iterator<Item = Run>) -> Vec<u8> {
-        png::encode(runs, screen.pixels, Depth::Grey)
+    fn mask(&self, canvas: Canvas, runs: &mut dyn Iterator<Item = Run>) -> Vec<u8> {
+        png::encode(runs, canvas.pixels, Depth::Grey)
     }
 
     /// Whether [`LayerEntry::survey`] is needed.
@@ -91,6 +91,22 @@ pub trait Container: Sync {
 pub struct Zip(pub &'static dyn Container);
 
 impl Encoder for Zip {
+    fn layer(
+        &self,
+        canvas: Canvas,
+        runs: &LayerRuns,
+        layer: usize,
+    ) -> Result<EncodedLayer, ArchiveError> {
+        let runs = || runs.of_layer(layer);
+        let file = deflate(&self.0.mask(canvas, &mut runs()))?;
+        let survey = || Survey::of(runs(), canvas.pixels);
+        Ok(EncodedLayer {
+            inflated: Some((file.crc, file.length)),
+            survey: self.0.needs_survey().then(survey),
+            ..EncodedLayer::new(file.bytes, runs())
+        })
+    }
+
     /// There is no limit on the number and size of files: from 65,535 files or 4 GiB on, the zip is a zip64.
     fn encode(
         &self,
@@ -99,22 +115,11 @@ impl Encoder for Zip {
         progress: &mut Progress<'_>,
     ) -> Result<(), ArchiveError> {
         let container = self.0;
-        let screen = job.screen;
         let mut zip = ZipArchiveWriter::new(writer);
         let mut layers: Vec<LayerEntry> = Vec::with_capacity(job.layers.len());
         encode_layers(
             job,
-            &|runs: &LayerRuns, layer| {
-                let runs = || runs.of_layer(layer);
-                let file = deflate(&container.mask(&screen, &mut runs()))?;
-                Ok(EncodedLayer {
-                    inflated: Some((file.crc, file.length)),
-                    survey: container
-                        .needs_survey()
-                        .then(|| Survey::of(runs(), screen.pixels)),
-                    ..EncodedLayer::new(file.bytes, runs())
-                })
-            },
+            self,
             &mut |layer, encoded| {
                 let name = container.mask_name(layer);
                 let (crc, length) = encoded.inflated.unwrap_or_default();

@@ -10,7 +10,7 @@ use super::settings::Settings;
 use super::{Container, File, LayerEntry, json_file};
 use crate::archive::png::{self, Depth};
 use crate::archive::survey::Survey;
-use crate::archive::{ArchiveError, PrintJob, Screen, tidy};
+use crate::archive::{ArchiveError, Canvas, PrintJob, Screen, tidy};
 use crate::mask::Run;
 
 pub struct Nanodlp;
@@ -27,8 +27,8 @@ impl Container for Nanodlp {
         format!("{}.png", layer + 1)
     }
 
-    fn mask(&self, screen: &Screen, runs: &mut dyn Iterator<Item = Run>) -> Vec<u8> {
-        png::encode(runs, screen.pixels, Depth::Thirds)
+    fn mask(&self, canvas: Canvas, runs: &mut dyn Iterator<Item = Run>) -> Vec<u8> {
+        png::encode(runs, canvas.pixels, Depth::Thirds)
     }
 
     fn needs_survey(&self) -> bool {

@@ -13,7 +13,7 @@ use super::super::sampled::Sampled;
 use super::super::stage::{Stage, StageProgress, ms_since};
 use super::Plate;
 use crate::Error;
-use crate::archive::{Look, Standing};
+use crate::archive::{Look, MaskSource, Standing};
 use crate::arrange::ArrangeError;
 use crate::mask::{MaskCursor, PlateMasks, Side, Stamp};
 use crate::profile::{Metric, Profile, Source};
@@ -121,7 +121,7 @@ impl Plate {
             planned,
             &job.output,
             report,
-            masks,
+            MaskSource::Runs(masks),
             &look,
             writer,
             &mut within,
