@@ -48,6 +48,30 @@ afterEach(async ({ task }) => {
   expect(complaints.splice(0)).toEqual([]);
 });
 
+test("a print file is the same however many workers encode its layers", async () => {
+  const files = await page.evaluate(async () => {
+    const files: { sum: string; fractions: number[] }[] = [];
+    for (const workers of [1, 3]) {
+      const slicer = window.api.createSlicer({ workers });
+      await slicer.load("ball.stl");
+      for (const format of ["chitubox", "nanodlp"] as const) {
+        await slicer.plan({ rays: 512, format, planner: { kind: "finest" } });
+        const fractions: number[] = [];
+        const { blob } = await slicer.export(undefined, { onProgress: (stage, fraction) => void (stage === "masks" && fractions.push(fraction)) });
+        const hash = await crypto.subtle.digest("SHA-256", await blob.arrayBuffer());
+        files.push({ sum: new Uint8Array(hash).join(), fractions });
+      }
+    }
+    return files;
+  });
+  const [one, other, shared, otherShared] = files.map(({ sum }) => sum);
+  expect([shared, otherShared]).toEqual([one, other]);
+  expect(one).not.toBe(other);
+  for (const { fractions } of files) expect(fractions).toEqual([...fractions].sort((a, b) => a - b));
+  // One for each slicer, and two that helped the second.
+  expect(page.workers()).toHaveLength(4);
+});
+
 test("from a file to a print file: by address, bytes, Blob; whole and in chunks the same bytes", async () => {
   const found = await page.evaluate(async () => {
     const slicer = window.api.createSlicer();

@@ -65,7 +65,7 @@ export async function main([file, height = "60", grid = "2048", more = "{}"]: st
           if (round === rounds - 1) {
             const start = performance.now();
             let bytes = 0;
-            slicer.archive((chunk) => void (bytes += chunk.length), quiet);
+            slicer.archive(null, (chunk) => void (bytes += chunk.length), quiet);
             zip = `print file of ${bytes} bytes in ${Math.round(performance.now() - start)} ms`;
           }
           slicer.free();

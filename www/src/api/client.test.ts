@@ -55,6 +55,7 @@ class FakeWorker implements WorkerHandle {
       for (const chunk of ["z", "ip", null]) port.postMessage(chunk === null ? null : new TextEncoder().encode(chunk));
       return null;
     },
+    encodeGroup: () => new Uint8Array(1),
     plugs: () => {
       this.#say(`plugs of ${this.planned.tolerance}`);
       return new Uint8Array(84);

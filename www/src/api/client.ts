@@ -7,8 +7,9 @@
 import * as Comlink from "comlink";
 import { Calls, spawnWorker, type Compiled, type Life, type Remote, type Watch, type WorkerHandle } from "./calls.js";
 import { SlicerError } from "./error.js";
+import type { Helpers } from "./helpers.js";
 import { priceItems, type Ordered } from "./price.js";
-import type { Comparison, KnownPrinter, Limits, MeshInfo, OnProgress, Options, Price, Prices, Printability, Profiled, Report, Tradeoff, Written } from "./wire.js";
+import type { Comparison, Format, Help, KnownPrinter, Limits, MeshInfo, OnProgress, Options, Price, Prices, Printability, Profiled, Report, Tradeoff, Written } from "./wire.js";
 
 /** What a worker holds: a file, the weights of its facets, and a plan. */
 interface Held {
@@ -47,9 +48,12 @@ const silent: OnProgress = () => undefined;
 
 export class Client {
   readonly #calls: Calls<Held>;
+  readonly #helpers: Helpers | null;
   #planned: Planned | null = null;
 
-  constructor(spawn: () => WorkerHandle = spawnWorker, compiled: Compiled = { module: null }) {
+  /** @param helpers encode layers of its print files */
+  constructor(spawn: () => WorkerHandle = spawnWorker, compiled: Compiled = { module: null }, helpers: Helpers | null = null) {
+    this.#helpers = helpers;
     this.#calls = new Calls(spawn, compiled, () => ({ file: null, weights: null, planned: null }));
   }
 
@@ -115,7 +119,7 @@ export class Client {
   archive(wanted: Wanted, watch: Watch): Promise<{ blob: Blob; of: Planned }> {
     return this.#calls.run(watch, wanted?.about ?? null, async (life, subject, progress) => {
       const of = await this.#planFor(life, subject, wanted?.options, progress);
-      const blob = await life.handle.remote.archive(progress, null);
+      const blob = await life.handle.remote.archive(progress, null, this.#helpers?.count ?? 0, this.#help());
       return { blob: blob ?? new Blob([]), of };
     });
   }
@@ -132,12 +136,17 @@ export class Client {
         };
       });
       try {
-        await life.handle.remote.archive(progress, Comlink.transfer(port2, [port2]));
+        await life.handle.remote.archive(progress, Comlink.transfer(port2, [port2]), this.#helpers?.count ?? 0, this.#help());
         await Promise.race([ended, life.fate]);
       } finally {
         port1.close();
       }
     });
+  }
+
+  /** Encodes a group of layers for another worker, whose plan it does not know. */
+  encodeGroup(format: Format, canvas: Uint32Array, runs: Uint32Array): Promise<Uint8Array> {
+    return this.#calls.run({}, null, async (life) => life.handle.remote.encodeGroup(format, canvas, runs));
   }
 
   /** Runs a query that depends only on the subject; the last plan and its masks stay. */
@@ -170,6 +179,10 @@ export class Client {
   /** Terminates the worker for good: later calls reject with an `AbortError`. */
   dispose(): void {
     this.#calls.dispose();
+  }
+
+  #help(): Help {
+    return Comlink.proxy(async (...group) => (await this.#helpers?.encode(...group)) ?? null);
   }
 
   async #plan(life: Life<Held>, subject: Subject, options: Options, progress: OnProgress): Promise<Profiled<Report>> {

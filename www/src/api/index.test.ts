@@ -46,6 +46,7 @@ function faked(): { slicer: Slicer; log: string[] } {
         for (const chunk of [Uint8Array.of(1), Uint8Array.of(2, 3), null]) port?.postMessage(chunk);
         return port === null ? new Blob(["zip"]) : null;
       },
+      encodeGroup: () => new Uint8Array(1),
       plugs: () => new Uint8Array(84),
       positions: () => {
         say("positions");

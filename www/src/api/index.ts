@@ -17,6 +17,7 @@ import { absentSlicer } from "./absent.js";
 import { spawnWorker, type Compiled, type WorkerHandle, type Watch } from "./calls.js";
 import { Client, type About, type Wanted } from "./client.js";
 import { measure, orient, type OrientCall } from "./orient.js";
+import { Helpers } from "./helpers.js";
 import { fetchedPlate } from "./fetched-plate.js";
 import type { AddCall, ModelChange, Plate, PlateModel } from "./plate.js";
 import { Pool } from "./pool.js";
@@ -155,7 +156,7 @@ export interface Slicer {
 export interface Setup {
   /** @internal Starts a worker; tests pass a fake. */
   spawn?: () => WorkerHandle;
-  /** The most workers that an orientation search may use; by default the number of cores. */
+  /** The most workers that an orientation search or a print file may use; by default the number of cores. */
   workers?: number;
 }
 
@@ -169,7 +170,8 @@ export function createSlicer(setup: Setup = {}): Slicer {
   const { spawn = spawnWorker, workers = globalThis.navigator?.hardwareConcurrency ?? FEW_WORKERS } = setup;
   if (spawn === spawnWorker && globalThis.Worker === undefined) return absentSlicer();
   const compiled: Compiled = { module: null };
-  const main = new Client(spawn, compiled);
+  const helpers = new Helpers(() => new Client(spawn, compiled), workers - 1);
+  const main = new Client(spawn, compiled, helpers);
   // Previews must not wait for a plan that takes seconds: they have a worker of their own, which starts on first use.
   const side = new Client(spawn, compiled);
   const pool = new Pool(() => new Client(spawn, compiled), workers);
@@ -273,12 +275,14 @@ export function createSlicer(setup: Setup = {}): Slicer {
     rest() {
       main.rest();
       side.rest();
+      helpers.rest();
       plate.rest();
       pool.rest();
     },
     dispose() {
       main.dispose();
       side.dispose();
+      helpers.dispose();
       plate.dispose();
       pool.dispose();
     },

@@ -137,7 +137,7 @@ function faked({ workers, slowness = () => 0, hangs, fails, within = 4 }: Setup)
       },
       plan: async () => ({ report: {} as Report, profile: new Float32Array() }),
       preview: () => ({}) as Profiled<Preview>,
-      ...{ tradeoff: unused, compare: unused, inspect: unused, mask: unused, archive: unused, plugs: unused, positions: unused, saliency: unused },
+      ...{ tradeoff: unused, compare: unused, inspect: unused, mask: unused, archive: unused, encodeGroup: unused, plugs: unused, positions: unused, saliency: unused },
       ...{ weightsFile: unused, readWeights: unused, calibrateLayers: unused, printers: unused, price: unused },
     };
     return { remote, terminate: () => live.delete(number), onBroken: () => undefined };

@@ -113,6 +113,9 @@ export interface SearchStep {
 }
 
 /** The worker's interface through comlink. Everything it throws is an `Error` or a plain `CuspError`. */
+/** Has another worker encode a group of layers; null if it failed. */
+export type Help = (format: Format, canvas: Uint32Array, runs: Uint32Array) => Promise<Uint8Array | null>;
+
 export interface SlicerWorker extends PlateWorker {
   /** Starts the core from its compiled module, or compiles it if that is null. Returns the module for the next worker. */
   boot(module: WebAssembly.Module | null): Promise<WebAssembly.Module>;
@@ -125,8 +128,10 @@ export interface SlicerWorker extends PlateWorker {
   inspect(limits: Limits, progress: OnProgress): Printability;
   /** One bit per pixel, rows from the top, most significant bit first, ⌈width / 8⌉ bytes per row. */
   mask(layer: number): Uint8Array;
-  /** The print file of the last plan as a Blob. With a port, posts its chunks there, then null, and returns null. */
-  archive(progress: OnProgress, port: MessagePort | null): Blob | null;
+  /** The print file of the last plan as a Blob. With a port, posts its chunks there, then null, and returns null. As many `helpers` encode some of its layers. */
+  archive(progress: OnProgress, port: MessagePort | null, helpers: number, help: Help): Blob | null | Promise<Blob | null>;
+  /** Encodes a group of layers for another worker. Needs no model. */
+  encodeGroup(format: Format, canvas: Uint32Array, runs: Uint32Array): Uint8Array;
   /** A binary STL of a plug for each drain hole of the last plan. */
   plugs(): Uint8Array;
   positions(): Float32Array;

@@ -1,13 +1,14 @@
 /** The worker: the only file that imports the WebAssembly package. One model is open at a time, and there is one plate. */
 import * as Comlink from "comlink";
-import init, { calibrate_layers, head_bytes, identify, open_gpus_by, OrientationSearch, Plate, price, printers, Slicer } from "../../pkg/cusp_slicer.js";
+import init, { calibrate_layers, encode_group, head_bytes, identify, open_gpus_by, OrientationSearch, Plate, price, printers, Slicer } from "../../pkg/cusp_slicer.js";
 import type { OpenGpu } from "../../pkg/gpu/cusp_gpu.js";
 import type { ModelRead } from "../../pkg/models/cusp_models.js";
 import { acceptCompatible } from "./adapters.js";
 import { bytesOf } from "./bytes.js";
+import { encodeGroups, isLong } from "./encode-groups.js";
 import { said } from "./error.js";
 import { stlOf } from "./stl.js";
-import type { Candidate, KnownPrinter, OnProgress, PlateWorker, SlicerWorker } from "./wire.js";
+import type { Candidate, Help, KnownPrinter, OnProgress, PlateWorker, SlicerWorker } from "./wire.js";
 
 /** Chunks of a print file are merged into a Blob at this many bytes; the browser may keep that on disk. */
 const BLOB_PART_BYTES = 8 << 20;
@@ -104,6 +105,23 @@ async function read(file: Blob): Promise<Slicer> {
   return Slicer.of_triangles(coordinates, facts);
 }
 
+/** Hands out the layers of the print file once helpers have encoded them, and forgets each; null if it is written sooner without. */
+async function encodedBy(helpers: number, help: Help, progress: OnProgress): Promise<((group: number) => Uint8Array) | null> {
+  const groups = current().layer_groups();
+  if (groups === undefined) return null;
+  try {
+    if (!isLong(groups)) return null;
+    const encoded: (Uint8Array | undefined)[] = await encodeGroups(groups, helpers, help, progress);
+    return (group) => {
+      const bytes = encoded[group];
+      encoded[group] = undefined;
+      return bytes ?? new Uint8Array();
+    };
+  } finally {
+    groups.free();
+  }
+}
+
 const plateApi: PlateWorker = {
   async addToPlate(file, progress) {
     progress("load", 0, 0);
@@ -178,19 +196,24 @@ const api: SlicerWorker = {
     const bits = current().mask(layer);
     return Comlink.transfer(bits, [bits.buffer]);
   },
-  archive(progress, port) {
+  async archive(progress, port, helpers, help) {
+    const encoded = helpers === 0 ? null : await encodedBy(helpers, help, plain(progress));
     if (port === null) {
       const sink = new BlobSink();
-      current().archive(sink.take, plain(progress));
+      current().archive(encoded, sink.take, plain(progress));
       return sink.finish();
     }
     const take = (chunk: Uint8Array): void => {
       const bytes = own(chunk);
       port.postMessage(bytes, [bytes.buffer]);
     };
-    current().archive(take, plain(progress));
+    current().archive(encoded, take, plain(progress));
     port.postMessage(null);
     return null;
+  },
+  encodeGroup(format, canvas, runs) {
+    const bytes = encode_group(format, canvas, runs);
+    return Comlink.transfer(bytes, [bytes.buffer]);
   },
   plugs() {
     const file = stlOf(current().plugs());

@@ -1,0 +1,63 @@
+/** Workers that encode layers of print files for the one that has the plan. They hold no model, and end when they have long been idle. */
+import type { Client } from "./client.js";
+import type { Format } from "./wire.js";
+
+/** More helpers would wait for the worker that reads the masks. */
+const MOST = 3;
+
+/** Helpers are terminated after this long without work. */
+const IDLE_MS = 10_000;
+
+export class Helpers {
+  /** How many there are at most. */
+  readonly count: number;
+  readonly #start: () => Client;
+  readonly #clients: { client: Client; busy: number }[] = [];
+  #timer: ReturnType<typeof setTimeout> | undefined;
+
+  /** @param start creates a client, whose worker starts when first needed */
+  constructor(start: () => Client, most: number) {
+    this.count = Math.max(0, Math.min(MOST, most));
+    this.#start = start;
+  }
+
+  /** A group of layers, encoded by the least busy helper; null if it failed. */
+  async encode(format: Format, canvas: Uint32Array, runs: Uint32Array): Promise<Uint8Array | null> {
+    clearTimeout(this.#timer);
+    const helper = this.#leastBusy();
+    helper.busy += 1;
+    try {
+      return await helper.client.encodeGroup(format, canvas, runs);
+    } catch {
+      // Whoever asked encodes it, and says what is wrong with it.
+      return null;
+    } finally {
+      helper.busy -= 1;
+      clearTimeout(this.#timer);
+      this.#timer = setTimeout(() => this.rest(), IDLE_MS);
+    }
+  }
+
+  /** Terminates the helpers until they are needed again. */
+  rest(): void {
+    clearTimeout(this.#timer);
+    for (const { client } of this.#clients) client.rest();
+  }
+
+  /** Terminates the helpers for good. */
+  dispose(): void {
+    clearTimeout(this.#timer);
+    for (const { client } of this.#clients) client.dispose();
+  }
+
+  #leastBusy(): { client: Client; busy: number } {
+    const free = this.#clients.find(({ busy }) => busy === 0);
+    if (free !== undefined) return free;
+    if (this.#clients.length < this.count) {
+      const started = { client: this.#start(), busy: 0 };
+      this.#clients.push(started);
+      return started;
+    }
+    return this.#clients.reduce((least, other) => (other.busy < least.busy ? other : least));
+  }
+}
