@@ -65,6 +65,11 @@ impl Format {
         Self::MASKS.contains(&self)
     }
 
+    /// Whether its files are zips of masks, each deflated: that takes much longer than reading their runs.
+    pub fn is_zip(self) -> bool {
+        self.has_masks() && !matches!(self, Self::Goo | Self::PhotonWorkshop | Self::Ctb)
+    }
+
     /// The formats that have a thickness for every layer, and that some printer or program is known to read it from.
     pub const VARIABLE: [Self; 5] = [Self::Goo, Self::Ctb, Self::Chitubox, Self::Uvj, Self::Png];
 

@@ -484,13 +484,15 @@ impl Slicer {
         Ok(to_js(&found.map_err(throw)?))
     }
 
-    /// The masks of the last plan's print file in groups, for other workers to encode; nothing if the file has none.
+    /// The masks of the last plan's print file in groups, for other workers to encode; nothing if the file has none, or if sending
+    /// them takes as long as encoding them.
     ///
     /// # Errors
     /// Throws a `CuspError` if there is no plan.
     pub fn layer_groups(&mut self) -> Result<Option<LayerGroups>, JsValue> {
         let groups = self.slicer.layer_groups().map_err(throw)?;
-        Ok(groups.map(|groups| LayerGroups { groups }))
+        let worthwhile = groups.filter(|groups| groups.format.is_zip());
+        Ok(worthwhile.map(|groups| LayerGroups { groups }))
     }
 
     /// Writes the print file of the last plan in the format of its options, by calling `take` with one chunk after another.
