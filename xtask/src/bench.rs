@@ -3,6 +3,7 @@
 use std::{
     fs,
     path::{Path, PathBuf},
+    process::{Command, Stdio},
 };
 
 use anyhow::{Context, Result};
@@ -44,18 +45,28 @@ pub fn run(project: &Project, name: Option<&str>, arguments: &[String]) -> Resul
     process::show(&mut cargo)
 }
 
+/// Builds a bench, with this cargo command, and returns the path of its executable.
+///
+/// # Errors
+///
+/// Fails when the build fails.
+pub fn executable(cargo: &mut Command, name: &str) -> Result<PathBuf> {
+    cargo
+        .args(["--bench", name, "--message-format=json"])
+        .stderr(Stdio::inherit());
+    process::output(cargo)?
+        .lines()
+        .filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok())
+        .filter(|message| message["target"]["name"] == name)
+        .find_map(|message| message["executable"].as_str().map(PathBuf::from))
+        .context("cargo named no executable")
+}
+
 /// Puts all that the GPU bench needs into one folder, and returns it. Its models are made by code.
 fn pack(project: &Project) -> Result<PathBuf> {
     suite::ensure_vulkan();
     let mut cargo = process::cargo(project);
-    cargo.args(["bench", "--bench", GPU, "--no-run", "--message-format=json"]);
-    let messages = process::output(&mut cargo)?;
-    let executable = messages
-        .lines()
-        .filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok())
-        .filter(|message| message["target"]["name"] == GPU)
-        .find_map(|message| message["executable"].as_str().map(PathBuf::from))
-        .context("cargo named no executable")?;
+    let executable = executable(cargo.args(["bench", "--no-run"]), GPU)?;
     let folder = project.target.join("bench-gpu");
     if folder.exists() {
         fs::remove_dir_all(&folder)?;

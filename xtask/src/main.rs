@@ -6,6 +6,7 @@
 
 mod bench;
 mod browser;
+mod counts;
 mod debian;
 mod lint;
 mod modules;
@@ -52,7 +53,7 @@ enum Command {
     Build,
     /// Build the npm package (www/dist-package) and report its size
     Package,
-    /// Run every test: native, peers, GPU, wasm in a browser, page, end to end, cluster
+    /// Run every test: native, counts, peers, GPU, wasm in a browser, page, end to end, cluster
     Test {
         /// Run only these steps
         #[arg(value_name = "STEP")]
@@ -62,6 +63,8 @@ enum Command {
     Lint,
     /// Build the wasm module and check its gzipped size against the budget
     Size,
+    /// Count instructions, allocations and bytes of print files, and compare them with benches/counts.json
+    Counts,
     /// Take the documentation's screenshots in a browser
     Screenshots,
     /// Run all benchmarks, or one; `gpu` also makes a folder that runs on other machines
@@ -111,6 +114,7 @@ fn run(command: Command) -> Result<bool> {
             wasm::build(&project)?;
             return wasm::check_size(&project);
         }
+        Command::Counts => return suite::run(&project, &[suite::Step::Counts]),
         Command::Screenshots => {
             build(&project)?;
             let chromium = browser::chromium()?;

@@ -12,7 +12,7 @@ use clap::ValueEnum;
 use tempfile::TempDir;
 
 use crate::{
-    browser, debian, node, process,
+    browser, counts, debian, node, process,
     project::Project,
     python,
     report::{self, Record, Verdict, judge},
@@ -28,6 +28,8 @@ const VULKAN_PACKAGES: [&str; 2] = ["mesa-vulkan-drivers", "libvulkan1"];
 pub enum Step {
     /// Unit, integration and documentation tests, natively
     Native,
+    /// Instructions, allocations and bytes of print files, against benches/counts.json
+    Counts,
     /// Print files, read by the crates of others (peers/)
     Peers,
     /// The GPU tests once more, on the Vulkan driver that Chromium ships
@@ -106,6 +108,7 @@ impl Step {
                 }
                 cargo_test(&mut cargo, scratch)
             }
+            Self::Counts => counts::run(project, scratch),
             Self::Peers => cargo_test(&mut peers(project), scratch),
             Self::Gpu => {
                 ensure_vulkan();
