@@ -17,7 +17,7 @@ const root = fileURLToPath(new URL("..", import.meta.url));
 const out = join(root, "dist-package");
 
 /** Limit of everything except what is loaded only when it is wanted, three.js and the module for GPUs, gzipped. */
-const LIMIT_BYTES = 869_000;
+const LIMIT_BYTES = 848_000;
 
 const ENTRIES = {
   index: "src/api/index.ts",

@@ -32,25 +32,25 @@ const MODULES: [Module; 4] = [
         package: "cusp-slicer",
         folder: ".",
         files: "pkg/cusp_slicer",
-        budget: 593_000,
+        budget: 570_000,
     },
     Module {
         package: "cusp-gpu",
         folder: "gpu",
         files: "pkg/gpu/cusp_gpu",
-        budget: 100_000,
+        budget: 83_000,
     },
     Module {
         package: "cusp-models",
         folder: "models",
         files: "pkg/models/cusp_models",
-        budget: 80_000,
+        budget: 72_000,
     },
     Module {
         package: "cusp-reader",
         folder: "reader",
         files: "pkg/reader/cusp_reader",
-        budget: 245_000,
+        budget: 221_000,
     },
 ];
 
