@@ -102,7 +102,7 @@ fn sample() -> Work {
     Box::new(move || {
         drop(black_box(
             cpu::sample(&mesh, &grid, &mut silent).expect("an LDI"),
-        ))
+        ));
     })
 }
 

@@ -38,16 +38,19 @@ fn push<const N: usize>(numbers: &mut Vec<u64>, some: Option<[u64; N]>) {
 /// [`ArchiveError::Write`] if these are not so many layers: the worker that encoded them was of another build.
 pub fn from_bytes(bytes: &[u8], count: usize) -> Result<Vec<EncodedLayer>, ArchiveError> {
     let mut rest = Rest(bytes);
-    let layers: Option<Vec<_>> = (0..count).map(|_| rest.layer()).collect();
-    let layers = layers.filter(|_| rest.0.is_empty());
+    let layers: Result<Vec<_>, Cut> = (0..count).map(|_| rest.layer()).collect();
+    let layers = layers.ok().filter(|_| rest.0.is_empty());
     layers.ok_or_else(|| ArchiveError::write("encoded layers were cut"))
 }
+
+/// There are fewer bytes than the numbers before say.
+struct Cut;
 
 /// What is left to read.
 struct Rest<'a>(&'a [u8]);
 
 impl Rest<'_> {
-    fn layer(&mut self) -> Option<EncodedLayer> {
+    fn layer(&mut self) -> Result<EncodedLayer, Cut> {
         let [bytes, lit_pixels] = self.numbers()?;
         let inflated = self.some()?.map(|[crc, length]| (crc as u32, length));
         let bounds = self.bounds()?;
@@ -57,12 +60,12 @@ impl Rest<'_> {
                 bounds: self.bounds()?,
                 areas: (0..areas)
                     .map(|_| self.numbers().map(|[area]| area))
-                    .collect::<Option<_>>()?,
+                    .collect::<Result<_, _>>()?,
             }),
         };
-        let (data, rest) = self.0.split_at_checked(bytes as usize)?;
+        let (data, rest) = self.0.split_at_checked(bytes as usize).ok_or(Cut)?;
         self.0 = rest;
-        Some(EncodedLayer {
+        Ok(EncodedLayer {
             data: data.to_vec(),
             inflated,
             lit_pixels,
@@ -71,29 +74,28 @@ impl Rest<'_> {
         })
     }
 
-    fn bounds(&mut self) -> Option<Option<Bounds>> {
-        Some(
-            self.some()?
-                .map(|sides: [u64; 4]| sides.map(|it| it as u32)),
-        )
+    fn bounds(&mut self) -> Result<Option<Bounds>, Cut> {
+        Ok(self
+            .some()?
+            .map(|sides: [u64; 4]| sides.map(|it| it as u32)))
     }
 
-    fn some<const N: usize>(&mut self) -> Option<Option<[u64; N]>> {
+    fn some<const N: usize>(&mut self) -> Result<Option<[u64; N]>, Cut> {
         let [is_some] = self.numbers()?;
         if is_some == 0 {
-            return Some(None);
+            return Ok(None);
         }
         self.numbers().map(Some)
     }
 
-    fn numbers<const N: usize>(&mut self) -> Option<[u64; N]> {
+    fn numbers<const N: usize>(&mut self) -> Result<[u64; N], Cut> {
         let mut numbers = [0; N];
         for number in &mut numbers {
-            let (bytes, rest) = self.0.split_first_chunk()?;
+            let (bytes, rest) = self.0.split_first_chunk().ok_or(Cut)?;
             *number = u64::from_le_bytes(*bytes);
             self.0 = rest;
         }
-        Some(numbers)
+        Ok(numbers)
     }
 }
 

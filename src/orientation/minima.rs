@@ -69,7 +69,7 @@ impl Minima {
             .map(|(((ax, ay), az), ((bx, by), bz))| {
                 let a = ax * up.x + ay * up.y + az * up.z;
                 let b = bx * up.x + by * up.y + bz * up.z;
-                (a >= slack_mm) & (b >= slack_mm)
+                a >= slack_mm && b >= slack_mm
             })
             .collect();
         let vertices = rises.iter().zip(0u32..);

@@ -318,7 +318,7 @@ impl Surface {
         let facets = facets.zip(&placement.n_z).zip(&self.areas_mm2);
         for (facet, (((&[first, last], &rough), &n_z), &area_mm2)) in facets.enumerate() {
             let area_mm2 = f64::from(area_mm2);
-            let is_overhang = (n_z < -OVERHANG) & (last >= plate);
+            let is_overhang = n_z < -OVERHANG && last >= plate;
             // No branch, as nobody can predict it.
             overhang_mm2 += area_mm2 * f64::from(u8::from(is_overhang));
             if supports.counts(n_z, last >= plate) {
