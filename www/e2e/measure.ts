@@ -2,33 +2,52 @@
  * Measures how long the page takes from the drop of a model: `npm run measure -- FILE.stl [HEIGHT_MM [RAYS [BACKEND]]]`.
  *
  * Each round has a fresh page, so that nothing is kept from the round before; the median counts.
+ *
+ * With `--against DIR`, the `dist` folder of another build, rounds of both alternate. A table then has their medians, and how many times
+ * as much the other takes: the median over the pairs of rounds, so that a machine that becomes slower meanwhile slows down both.
  */
-import { readFile } from "node:fs/promises";
-import { basename } from "node:path";
+import { existsSync } from "node:fs";
+import { readFile, readdir } from "node:fs/promises";
+import { basename, join, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+import { parseArgs } from "node:util";
+import { gzipSync } from "node:zlib";
 import type { Browser } from "playwright-core";
-import { drop, launch, layers, open, state } from "./browser.js";
+import { drop, launch, layers, open, state, type DroppedFile } from "./browser.js";
+import { beforeView, whole } from "./loaded.js";
 import { serve } from "./serve.js";
 
 const ROUNDS = 5;
+const USAGE = "usage: npm run measure -- FILE.stl [HEIGHT_MM [RAYS [BACKEND]]] [--against DIR]";
+/** The longest run that is waited for, on a machine with other work. */
+const PATIENCE_MS = 120_000;
 
 interface Round {
   layers: number;
   plan_ms: number;
   zip_ms: number;
+  /** The most memory that the processes of pages have held; `undefined` where the system does not say. */
+  megabytes: number | undefined;
   timings: string;
 }
 
-export async function main([file, height = "60", rays = "2048", backend = "auto"]: string[]): Promise<void> {
-  if (file === undefined) throw new Error("usage: npm run measure -- FILE.stl [HEIGHT_MM [RAYS [BACKEND]]]");
-  const bytes = await readFile(file);
+export async function main(args: string[]): Promise<void> {
+  const { positionals, values } = parseArgs({ args, allowPositionals: true, options: { against: { type: "string" } } });
+  const [file, height = "60", rays = "2048", backend = "auto"] = positionals;
+  if (file === undefined) throw new Error(USAGE);
+  const model = { name: basename(file), bytes: await readFile(file) };
+  const query = `?backend=${backend}&height=${height}&rays=${rays}`;
+  console.log(`${model.name}, ${height} mm high, ${rays} rays, backend ${backend}, ${ROUNDS} rounds`);
+  await (values.against === undefined ? alone(model, query) : against(resolve(values.against), model, query));
+}
+
+async function alone(file: DroppedFile, query: string): Promise<void> {
   const served = await serve();
   const browser = await launch();
   try {
     const rounds: Round[] = [];
-    const address = `${served.address}?backend=${backend}&height=${height}&rays=${rays}`;
-    for (let i = 0; i < ROUNDS; i++) rounds.push(await round(browser, address, { name: basename(file), bytes }));
+    for (let i = 0; i < ROUNDS; i++) rounds.push(await round(browser, served.address + query, file));
     const first = rounds[0];
-    console.log(`${basename(file)}, ${height} mm high, ${rays} rays, backend ${backend}, ${ROUNDS} rounds`);
     console.log(`layers         ${first?.layers}`);
     console.log(`drop to plan   ${spread(rounds.map(({ plan_ms }) => plan_ms))}`);
     console.log(`drop to zip    ${spread(rounds.map(({ zip_ms }) => zip_ms))} (download pressed as soon as the plan is there)`);
@@ -39,7 +58,53 @@ export async function main([file, height = "60", rays = "2048", backend = "auto"
   }
 }
 
-async function round(browser: Browser, address: string, file: { name: string; bytes: Uint8Array }): Promise<Round> {
+async function against(folder: string, file: DroppedFile, query: string): Promise<void> {
+  const folders = [folder, fileURLToPath(new URL("../dist", import.meta.url))] as const;
+  const [theirs, ours] = [await serve(folders[0]), await serve(folders[1])];
+  try {
+    const [before, now]: [Round[], Round[]] = [[], []];
+    for (let i = 0; i <= ROUNDS; i++) {
+      const order = [[theirs, before], [ours, now]] as const;
+      for (const [served, rounds] of i % 2 === 0 ? order : order.toReversed()) {
+        const done = await apart(served.address + query, file);
+        // The first round of each warms the system's cache of files.
+        if (i > 0) rounds.push(done);
+        console.error(`round ${i} of ${ROUNDS}, ${served === ours ? "now" : "before"}: plan ${Math.round(done.plan_ms)} ms, zip ${Math.round(done.zip_ms)} ms`);
+      }
+    }
+    const ofRounds = (name: string, of: (round: Round) => number | undefined): string => {
+      const [old, recent] = [before.map(of), now.map(of)];
+      return row(name, median(old), median(recent), median(old.map((value, i) => ratio(value, recent[i]))));
+    };
+    console.log(`${folders[0]} before, ${folders[1]} now\n`);
+    console.log("| | before | now | before / now |\n|---|---:|---:|---:|");
+    console.log(ofRounds("drop to plan, ms", (it) => it.plan_ms));
+    console.log(ofRounds("drop to print file, ms", (it) => it.zip_ms));
+    console.log(ofRounds("memory of the page, MB", (it) => it.megabytes));
+    console.log(ofRounds("layers", (it) => it.layers));
+    const [oldModules, modules] = [await wasmSizes(folders[0]), await wasmSizes(folders[1])];
+    for (const name of new Set([...modules.keys(), ...oldModules.keys()])) {
+      console.log(pair(`\`${name}\`, gzipped, KB`, oldModules.get(name), modules.get(name)));
+    }
+    const [oldLoaded, loaded] = [await loads(theirs.address + query, file), await loads(ours.address + query, file)];
+    console.log(pair("loaded before the 3-D view, beside the wasm, gzipped, KB", oldLoaded, loaded));
+  } finally {
+    await theirs.close();
+    await ours.close();
+  }
+}
+
+/** A round in a browser of its own, so that its memory is that of one page. */
+async function apart(address: string, file: DroppedFile): Promise<Round> {
+  const browser = await launch();
+  try {
+    return await round(browser, address, file);
+  } finally {
+    await browser.close();
+  }
+}
+
+async function round(browser: Browser, address: string, file: DroppedFile): Promise<Round> {
   const { page } = await open(browser, address);
   try {
     // Records, inside the page and by its own clock, when it reports that it is done.
@@ -57,16 +122,17 @@ async function round(browser: Browser, address: string, file: { name: string; by
         }
       }).observe(app, { attributeFilter: ["state"] });
     });
-    const saved = page.waitForEvent("download");
+    const saved = page.waitForEvent("download", { timeout: PATIENCE_MS });
     const dropped = await drop(page, file);
     await saved;
-    await state(page, "done");
+    await state(page, "done", PATIENCE_MS);
     const moment = async (name: string): Promise<number> =>
       Number(await page.locator("html").getAttribute(`data-${name}`)) - dropped;
     return {
       layers: await layers(page),
       plan_ms: await moment("plan"),
       zip_ms: await moment("zip"),
+      megabytes: await megabytes(browser),
       timings: (await page.locator("details.quiet").first().evaluate((it) => it.textContent)).replace(/\s+/g, " ").trim(),
     };
   } finally {
@@ -74,7 +140,68 @@ async function round(browser: Browser, address: string, file: { name: string; by
   }
 }
 
+/** The most memory that the browser's processes for pages have held, their workers included. Linux alone says. */
+async function megabytes(browser: Browser): Promise<number | undefined> {
+  const session = await browser.newBrowserCDPSession();
+  const { processInfo } = await session.send("SystemInfo.getProcessInfo");
+  await session.detach();
+  let sum = 0;
+  for (const { type, id } of processInfo) {
+    const status = `/proc/${id}/status`;
+    if (type !== "renderer" || !existsSync(status)) continue;
+    sum += Number(/^VmHWM:\s+(\d+) kB$/m.exec(await readFile(status, "utf8"))?.[1] ?? 0) / 1e3;
+  }
+  return sum === 0 ? undefined : sum;
+}
+
+/** The gzipped size of each module of a built page, in kilobytes, by its name. */
+async function wasmSizes(folder: string): Promise<Map<string, number>> {
+  const assets = join(folder, "assets");
+  const sizes = new Map<string, number>();
+  for (const file of (await readdir(assets)).sort()) {
+    const name = /^(\w+?)(_bg)?-.*\.wasm$/.exec(file)?.[1];
+    if (name !== undefined) sizes.set(name, gzipSync(await readFile(join(assets, file)), { level: 9 }).length / 1e3);
+  }
+  return sizes;
+}
+
+/** What the page loads before its 3-D view, in kilobytes: in another language than English, whose texts come with the rest. */
+async function loads(address: string, file: DroppedFile): Promise<number> {
+  const browser = await launch();
+  try {
+    const { page } = await open(browser, address, { locale: "de-DE" });
+    const sizes = await beforeView(page);
+    await page.reload();
+    await state(page, "empty");
+    await drop(page, file);
+    await state(page, "done", PATIENCE_MS);
+    // The last of it is the chart.
+    await page.waitForSelector(".u-over");
+    return whole(sizes) / 1e3;
+  } finally {
+    await browser.close();
+  }
+}
+
+
 function spread(values: number[]): string {
   const sorted = values.map(Math.round).sort((a, b) => a - b);
   return `${sorted[Math.floor(sorted.length / 2)]} ms (${sorted[0]} to ${sorted.at(-1)})`;
+}
+
+/** The middle value, of those that there are. */
+function median(values: readonly (number | undefined)[]): number | undefined {
+  const sorted = values.filter((it) => it !== undefined).sort((a, b) => a - b);
+  return sorted[Math.floor(sorted.length / 2)];
+}
+
+const ratio = (before?: number, now?: number): number | undefined =>
+  before === undefined || now === undefined ? undefined : before / now;
+
+const pair = (name: string, before?: number, now?: number): string => row(name, before, now, ratio(before, now), 1);
+
+/** Times need no fraction, and memory neither. */
+function row(name: string, before?: number, now?: number, times?: number, digits = 0): string {
+  const figure = (value: number | undefined, digits: number): string => value?.toFixed(digits) ?? "–";
+  return `| ${name} | ${figure(before, digits)} | ${figure(now, digits)} | ${figure(times, 2)} |`;
 }

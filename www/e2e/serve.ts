@@ -23,14 +23,16 @@ export interface Served {
   close(): Promise<void>;
 }
 
-export async function serve(): Promise<Served> {
-  if (!existsSync(new URL("../dist/index.html", import.meta.url))) {
-    throw new Error("www/dist is not there: run `npm run build` first");
+/** @param folder of the built page, in place of that of this checkout */
+export async function serve(folder = join(root, "dist")): Promise<Served> {
+  if (!existsSync(join(folder, "index.html"))) {
+    throw new Error(`there is no page in ${folder}: run \`npm run build\` first`);
   }
   const port = await freePort();
   const server = await preview({
     root,
     logLevel: "error",
+    build: { outDir: folder },
     preview: { host: "127.0.0.1", port, strictPort: true, open: false },
   });
   return { address: `http://127.0.0.1:${port}/`, close: () => server.close() };

@@ -1,9 +1,9 @@
 /** The page as a workbench: all of a job on one screen, and on a phone the view first. */
-import { gzipSync } from "node:zlib";
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { broken } from "./axe.js";
 import { download, drop, layers, openPanel, settled, state } from "./browser.js";
+import { beforeView, whole } from "./loaded.js";
 import { pages } from "./pages.js";
 import { sphere } from "./solids.js";
 
@@ -261,24 +261,12 @@ test("a sheet that closes gives the focus back to the button that opens it", asy
 
 test("what the page loads before its 3-D view, beside the wasm, is at most 122 KB", async () => {
   const page = await start("", { locale: "de-DE", ...DESKTOP }, true);
-  const sizes = new Map<string, number>();
-  page.on("response", (response) => {
-    const { pathname } = new URL(response.url());
-    if (!/\.(js|css|html)$|\/$/.test(pathname)) return;
-    void response.body().then(
-      // The view's own chunks, and that of three.
-      (body) => (/cusp-view/.test(pathname) || body.includes("WebGLRenderer") ? null : sizes.set(pathname, gzipSync(body).length)),
-      () => undefined,
-    );
-  });
-  // With a route there is no cache, whose answers have no bodies.
-  await page.route("**/*", (route) => route.continue());
+  const sizes = await beforeView(page);
   await page.reload();
   await state(page, "empty");
   await drop(page, ball);
   await state(page, "done");
   await page.waitForSelector(".u-over");
-  const whole = [...sizes.values()].reduce((sum, size) => sum + size, 0);
   expect(sizes.size).toBeGreaterThan(4);
-  expect(whole, [...sizes].map(([name, size]) => `${name} ${size}`).join("\n")).toBeLessThanOrEqual(122_000);
+  expect(whole(sizes), [...sizes].map(([name, size]) => `${name} ${size}`).join("\n")).toBeLessThanOrEqual(122_000);
 });
