@@ -7,7 +7,6 @@
 import * as Comlink from "comlink";
 import { Calls, spawnWorker, type Compiled, type Life, type Remote, type Watch, type WorkerHandle } from "./calls.js";
 import { SlicerError } from "./error.js";
-import type { Helpers } from "./helpers.js";
 import { priceItems, type Ordered } from "./price.js";
 import type { Comparison, Format, Help, KnownPrinter, Limits, MeshInfo, OnProgress, Options, Price, Prices, Printability, Profiled, Report, Tradeoff, Written } from "./wire.js";
 
@@ -48,12 +47,14 @@ const silent: OnProgress = () => undefined;
 
 export class Client {
   readonly #calls: Calls<Held>;
-  readonly #helpers: Helpers | null;
+  readonly #helpers: number;
+  readonly #help: Help;
   #planned: Planned | null = null;
 
-  /** @param helpers encode layers of its print files */
-  constructor(spawn: () => WorkerHandle = spawnWorker, compiled: Compiled = { module: null }, helpers: Helpers | null = null) {
+  /** @param helpers so many workers encode layers of its print files: `help` has one of them do so */
+  constructor(spawn: () => WorkerHandle = spawnWorker, compiled: Compiled = { module: null }, helpers = 0, help: Help = () => Promise.resolve(null)) {
     this.#helpers = helpers;
+    this.#help = help;
     this.#calls = new Calls(spawn, compiled, () => ({ file: null, weights: null, planned: null }));
   }
 
@@ -119,7 +120,7 @@ export class Client {
   archive(wanted: Wanted, watch: Watch): Promise<{ blob: Blob; of: Planned }> {
     return this.#calls.run(watch, wanted?.about ?? null, async (life, subject, progress) => {
       const of = await this.#planFor(life, subject, wanted?.options, progress);
-      const blob = await life.handle.remote.archive(progress, null, this.#helpers?.count ?? 0, this.#help());
+      const blob = await life.handle.remote.archive(progress, null, this.#helpers, Comlink.proxy(this.#help));
       return { blob: blob ?? new Blob([]), of };
     });
   }
@@ -136,7 +137,7 @@ export class Client {
         };
       });
       try {
-        await life.handle.remote.archive(progress, Comlink.transfer(port2, [port2]), this.#helpers?.count ?? 0, this.#help());
+        await life.handle.remote.archive(progress, Comlink.transfer(port2, [port2]), this.#helpers, Comlink.proxy(this.#help));
         await Promise.race([ended, life.fate]);
       } finally {
         port1.close();
@@ -179,10 +180,6 @@ export class Client {
   /** Terminates the worker for good: later calls reject with an `AbortError`. */
   dispose(): void {
     this.#calls.dispose();
-  }
-
-  #help(): Help {
-    return Comlink.proxy(async (...group) => (await this.#helpers?.encode(...group)) ?? null);
   }
 
   async #plan(life: Life<Held>, subject: Subject, options: Options, progress: OnProgress): Promise<Profiled<Report>> {

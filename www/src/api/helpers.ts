@@ -2,22 +2,18 @@
 import type { Client } from "./client.js";
 import type { Format } from "./wire.js";
 
-/** More helpers would wait for the worker that reads the masks. */
-const MOST = 3;
-
 /** Helpers are terminated after this long without work. */
 const IDLE_MS = 10_000;
 
 export class Helpers {
-  /** How many there are at most. */
-  readonly count: number;
+  readonly #most: number;
   readonly #start: () => Client;
   readonly #clients: { client: Client; busy: number }[] = [];
   #timer: ReturnType<typeof setTimeout> | undefined;
 
-  /** @param start creates a client, whose worker starts when first needed */
+  /** @param start creates a client, whose worker starts when first needed; there are at most so many */
   constructor(start: () => Client, most: number) {
-    this.count = Math.max(0, Math.min(MOST, most));
+    this.#most = most;
     this.#start = start;
   }
 
@@ -53,7 +49,7 @@ export class Helpers {
   #leastBusy(): { client: Client; busy: number } {
     const free = this.#clients.find(({ busy }) => busy === 0);
     if (free !== undefined) return free;
-    if (this.#clients.length < this.count) {
+    if (this.#clients.length < this.#most) {
       const started = { client: this.#start(), busy: 0 };
       this.#clients.push(started);
       return started;

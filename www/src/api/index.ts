@@ -17,7 +17,7 @@ import { absentSlicer } from "./absent.js";
 import { spawnWorker, type Compiled, type WorkerHandle, type Watch } from "./calls.js";
 import { Client, type About, type Wanted } from "./client.js";
 import { measure, orient, type OrientCall } from "./orient.js";
-import { Helpers } from "./helpers.js";
+import type { Helpers } from "./helpers.js";
 import { fetchedPlate } from "./fetched-plate.js";
 import type { AddCall, ModelChange, Plate, PlateModel } from "./plate.js";
 import { Pool } from "./pool.js";
@@ -163,6 +163,9 @@ export interface Setup {
 /** The default number of points on a trade-off curve. */
 const CURVE_POINTS = 40;
 
+/** More helpers would wait for the worker that reads the masks of a print file. */
+const MOST_HELPERS = 3;
+
 /** The number of workers if the browser does not report its cores. */
 const FEW_WORKERS = 2;
 
@@ -170,11 +173,18 @@ export function createSlicer(setup: Setup = {}): Slicer {
   const { spawn = spawnWorker, workers = globalThis.navigator?.hardwareConcurrency ?? FEW_WORKERS } = setup;
   if (spawn === spawnWorker && globalThis.Worker === undefined) return absentSlicer();
   const compiled: Compiled = { module: null };
-  const helpers = new Helpers(() => new Client(spawn, compiled), workers - 1);
-  const main = new Client(spawn, compiled, helpers);
+  const client = (): Client => new Client(spawn, compiled);
+  const most = Math.max(0, Math.min(MOST_HELPERS, workers - 1));
+  /** Fetched with the first print file. */
+  let helpers: Promise<Helpers> | null = null;
+  const main = new Client(spawn, compiled, most, async (...group) => {
+    helpers ??= import("./helpers.js").then(({ Helpers }) => new Helpers(client, most));
+    // What cannot be fetched leaves all layers to the worker that asked.
+    return (await helpers.catch(() => null))?.encode(...group) ?? null;
+  });
   // Previews must not wait for a plan that takes seconds: they have a worker of their own, which starts on first use.
-  const side = new Client(spawn, compiled);
-  const pool = new Pool(() => new Client(spawn, compiled), workers);
+  const side = client();
+  const pool = new Pool(client, workers);
   const plate = fetchedPlate(async () => (await import("./plate.js")).createPlate(spawn, compiled));
   /** The subject of a call made now, resolved once earlier loads have settled. */
   let about: About = Promise.resolve(null);
@@ -275,14 +285,14 @@ export function createSlicer(setup: Setup = {}): Slicer {
     rest() {
       main.rest();
       side.rest();
-      helpers.rest();
+      void helpers?.then((it) => it.rest(), () => undefined);
       plate.rest();
       pool.rest();
     },
     dispose() {
       main.dispose();
       side.dispose();
-      helpers.dispose();
+      void helpers?.then((it) => it.dispose(), () => undefined);
       plate.dispose();
       pool.dispose();
     },
