@@ -7,11 +7,15 @@ use std::{
 };
 
 use anyhow::{Context, Result};
+use clap::Parser;
 
-use crate::{process, project::Project, suite};
+use crate::{against, process, project::Project, suite};
 
 /// Name of the bench that [`pack`] makes a folder of.
 const GPU: &str = "gpu";
+
+/// In place of a bench: all of the command line, against another revision.
+const ALL: &str = "all";
 
 /// Where Vulkan's loader may lie on this computer.
 const LOADERS: [&str; 4] = [
@@ -27,6 +31,11 @@ const LOADERS: [&str; 4] = [
 ///
 /// Fails when a bench cannot be built, or reports failure.
 pub fn run(project: &Project, name: Option<&str>, arguments: &[String]) -> Result<()> {
+    if name == Some(ALL) {
+        let words =
+            std::iter::once("cargo xtask bench all").chain(arguments.iter().map(String::as_str));
+        return against::run(project, &against::Arguments::parse_from(words));
+    }
     if name == Some(GPU) {
         let folder = pack(project)?;
         let script = folder.join("run.sh");

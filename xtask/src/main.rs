@@ -4,6 +4,7 @@
 //! browser, npm packages), so that a fresh clone on a machine with only Rust and
 //! Node is enough, and a second run spends no time on it.
 
+mod against;
 mod bench;
 mod browser;
 mod counts;
@@ -67,9 +68,10 @@ enum Command {
     Counts,
     /// Take the documentation's screenshots in a browser
     Screenshots,
-    /// Run all benchmarks, or one; `gpu` also makes a folder that runs on other machines
+    /// Run all benchmarks, or one; `gpu` also makes a folder that runs on other machines, and
+    /// `all --against REV` compares the command line with that of another revision
     Bench {
-        /// A benchmark: a file or folder of benches/, without extension
+        /// A benchmark: a file or folder of benches/, without extension; or `all`
         name: Option<String>,
         /// Arguments of the benchmark: its source says which it takes
         #[arg(requires = "name", trailing_var_arg = true, allow_hyphen_values = true)]
