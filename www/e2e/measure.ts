@@ -1,7 +1,7 @@
 /**
  * Measures how long the page takes from the drop of a model: `npm run measure -- FILE.stl [HEIGHT_MM [RAYS [BACKEND]]]`.
  *
- * Each round has a fresh page, so that nothing is kept from the round before; the median counts.
+ * Each of five rounds, or as many as `--rounds` says, has a fresh page, so that nothing is kept from the round before; the median counts.
  *
  * With `--against DIR`, the `dist` folder of another build, rounds of both alternate. A table then has their medians, and how many times
  * as much the other takes: the median over the pairs of rounds, so that a machine that becomes slower meanwhile slows down both.
@@ -17,8 +17,7 @@ import { drop, launch, layers, open, state, type DroppedFile } from "./browser.j
 import { beforeView, whole } from "./loaded.js";
 import { serve } from "./serve.js";
 
-const ROUNDS = 5;
-const USAGE = "usage: npm run measure -- FILE.stl [HEIGHT_MM [RAYS [BACKEND]]] [--against DIR]";
+const USAGE = "usage: npm run measure -- FILE.stl [HEIGHT_MM [RAYS [BACKEND]]] [--against DIR] [--rounds N]";
 /** The longest run that is waited for, on a machine with other work. */
 const PATIENCE_MS = 120_000;
 
@@ -32,21 +31,22 @@ interface Round {
 }
 
 export async function main(args: string[]): Promise<void> {
-  const { positionals, values } = parseArgs({ args, allowPositionals: true, options: { against: { type: "string" } } });
+  const { positionals, values } = parseArgs({ args, allowPositionals: true, options: { against: { type: "string" }, rounds: { type: "string", default: "5" } } });
   const [file, height = "60", rays = "2048", backend = "auto"] = positionals;
   if (file === undefined) throw new Error(USAGE);
   const model = { name: basename(file), bytes: await readFile(file) };
   const query = `?backend=${backend}&height=${height}&rays=${rays}`;
-  console.log(`${model.name}, ${height} mm high, ${rays} rays, backend ${backend}, ${ROUNDS} rounds`);
-  await (values.against === undefined ? alone(model, query) : against(resolve(values.against), model, query));
+  const count = Number(values.rounds);
+  console.log(`${model.name}, ${height} mm high, ${rays} rays, backend ${backend}, ${count} rounds`);
+  await (values.against === undefined ? alone(model, query, count) : against(resolve(values.against), model, query, count));
 }
 
-async function alone(file: DroppedFile, query: string): Promise<void> {
+async function alone(file: DroppedFile, query: string, count: number): Promise<void> {
   const served = await serve();
   const browser = await launch();
   try {
     const rounds: Round[] = [];
-    for (let i = 0; i < ROUNDS; i++) rounds.push(await round(browser, served.address + query, file));
+    for (let i = 0; i < count; i++) rounds.push(await round(browser, served.address + query, file));
     const first = rounds[0];
     console.log(`layers         ${first?.layers}`);
     console.log(`drop to plan   ${spread(rounds.map(({ plan_ms }) => plan_ms))}`);
@@ -58,18 +58,18 @@ async function alone(file: DroppedFile, query: string): Promise<void> {
   }
 }
 
-async function against(folder: string, file: DroppedFile, query: string): Promise<void> {
+async function against(folder: string, file: DroppedFile, query: string, count: number): Promise<void> {
   const folders = [folder, fileURLToPath(new URL("../dist", import.meta.url))] as const;
   const [theirs, ours] = [await serve(folders[0]), await serve(folders[1])];
   try {
     const [before, now]: [Round[], Round[]] = [[], []];
-    for (let i = 0; i <= ROUNDS; i++) {
+    for (let i = 0; i <= count; i++) {
       const order = [[theirs, before], [ours, now]] as const;
       for (const [served, rounds] of i % 2 === 0 ? order : order.toReversed()) {
         const done = await apart(served.address + query, file);
         // The first round of each warms the system's cache of files.
         if (i > 0) rounds.push(done);
-        console.error(`round ${i} of ${ROUNDS}, ${served === ours ? "now" : "before"}: plan ${Math.round(done.plan_ms)} ms, zip ${Math.round(done.zip_ms)} ms`);
+        console.error(`round ${i} of ${count}, ${served === ours ? "now" : "before"}: plan ${Math.round(done.plan_ms)} ms, zip ${Math.round(done.zip_ms)} ms`);
       }
     }
     const ofRounds = (name: string, of: (round: Round) => number | undefined): string => {
