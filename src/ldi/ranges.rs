@@ -11,8 +11,8 @@ use crate::model::{FacetClass, FacetClasses, Winding};
 #[inline]
 pub fn printed_ranges(hits: &[Hit], classes: FacetClasses, emit: impl FnMut(f32, f32)) {
     let model_end = classes.model_end();
-    // Most rays meet the model alone, in whatever it stands.
-    if hits.iter().all(|hit| hit.facet() < model_end) {
+    // Of a model with voids or supports, too, most rays meet the model alone.
+    if classes.is_model_alone() || hits.iter().all(|hit| hit.facet() < model_end) {
         let pass = |winding: &mut i32, hit: Hit| *winding += hit.winding();
         return for_each_range(hits, pass, |winding| winding != 0, emit);
     }

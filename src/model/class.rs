@@ -58,6 +58,11 @@ impl FacetClasses {
         self.starts[0] < self.starts[1]
     }
 
+    /// Whether there are neither voids nor supports.
+    pub fn is_model_alone(self) -> bool {
+        self.starts[1] == self.count
+    }
+
     /// The first facet after those of a class.
     pub(super) fn end(self, class: FacetClass) -> usize {
         *self.starts.get(class as usize).unwrap_or(&self.count) as usize

@@ -98,12 +98,20 @@ pub(super) fn densities(maxima: &[f32], of: impl Fn(f32) -> f32) -> Vec<f32> {
         .collect()
 }
 
-/// Raises `value` to `other` if that is larger; both are [`NO_SURFACE`] or at least 0. As integers, since browsers choose between those
-/// without a branch, which would be hard to predict: the bits of floats ascend with them, but for the sign, which is first.
+/// Raises `value` to `other` if that is larger; both are [`NO_SURFACE`] or at least 0. It always stores, because a branch would be hard
+/// to predict.
 #[inline]
 pub(super) fn raise(value: &mut f32, other: f32) {
-    let bits = [*value, other].map(|it| it.to_bits().cast_signed());
-    *value = f32::from_bits(bits[0].max(bits[1]).cast_unsigned());
+    *value = if cfg!(target_arch = "wasm32") {
+        // Browsers choose between integers without a branch, but not between floats. The bits of these ascend with them, but for the
+        // sign, which is first.
+        let bits = [*value, other].map(|it| it.to_bits().cast_signed());
+        f32::from_bits(bits[0].max(bits[1]).cast_unsigned())
+    } else if *value < other {
+        other
+    } else {
+        *value
+    };
 }
 
 /// For each index, the maximum of the values given to ranges that contain it: two writes per range, then one pass down.
