@@ -105,25 +105,25 @@ impl Prepared {
         let hollowed_alike = last.and_then(|last| last.unsupported(sampling, spared));
         // Where hollowing ends, of both.
         let between = match (&sampling.hollow, &sampling.supports) {
-            _ if hollowed_alike.is_some() => 0.0,
-            (None, _) => 0.0,
-            (Some(_), Some(_)) => 0.5,
-            (Some(_), None) => 1.0,
+            (Some(_), Some(_)) if hollowed_alike.is_none() => 0.5,
+            (Some(_), None) if hollowed_alike.is_none() => 1.0,
+            _ => 0.0,
         };
         let unsupported = if let Some(alike) = hollowed_alike {
             alike
         } else {
             let mut within = |fraction| progress(between * fraction);
-            Unsupported::new(model, sampling, spared, timings, &mut within)?
+            let made = Unsupported::new(model, sampling, spared, timings, &mut within)?;
+            Arc::new(made)
         };
         let clock = Instant::now();
         let is_both = sampling.hollow.is_some() && sampling.supports.is_some();
-        let kept = is_both.then(|| Arc::new(unsupported.clone()));
+        let kept = is_both.then(|| Arc::clone(&unsupported));
         let Unsupported {
             mut mesh,
             hollowed,
             mut warnings,
-        } = unsupported;
+        } = Arc::unwrap_or_clone(unsupported);
         let mut supports = None;
         if let Some(supporting) = &sampling.supports {
             let mut within = |fraction| progress(between + (1.0 - between) * fraction);
@@ -152,20 +152,20 @@ impl Prepared {
     }
 
     /// What it was before it was supported, if that is what these options make.
-    fn unsupported(&self, sampling: &Sampling, spared: Option<&[f32]>) -> Option<Unsupported> {
+    fn unsupported(&self, sampling: &Sampling, spared: Option<&[f32]>) -> Option<Arc<Unsupported>> {
         let is_alike = self.of.pose == sampling.pose
             && self.of.hollow == sampling.hollow
             && self.of.hollow.is_some()
             && self.of.spared.as_deref() == spared;
         match (&self.unsupported, &self.supports) {
             _ if !is_alike => None,
-            (Some(unsupported), _) => Some(Unsupported::clone(unsupported)),
+            (Some(unsupported), _) => Some(Arc::clone(unsupported)),
             (None, Some(_)) => None,
-            (None, None) => Some(Unsupported {
+            (None, None) => Some(Arc::new(Unsupported {
                 mesh: self.mesh.clone(),
                 hollowed: self.hollowed.clone(),
                 warnings: self.warnings.clone(),
-            }),
+            })),
         }
     }
 
