@@ -14,7 +14,7 @@ use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 use crate::archive::{self, ArchiveError, Canvas};
 use crate::format::Format;
 use crate::inspect::Limits;
-use crate::job::{self, Calibration, Error, Options, OptionsError, Stage, positions};
+use crate::job::{self, Calibration, Error, Options, OptionsError, Stage};
 use crate::js::{thrown, to_js};
 use crate::ldi::gpu;
 use crate::mask::LayerRuns;
@@ -260,8 +260,7 @@ impl Slicer {
 
     /// Vertex positions of a plug for each drain hole of the last plan, likewise, in a row on the plate; none without holes.
     pub fn plugs(&self) -> Vec<f32> {
-        let plugs = self.slicer.plugs().unwrap_or_default();
-        positions(&plugs.vertices, &plugs.facets)
+        self.slicer.plug_positions()
     }
 
     /// The saliency of each facet, 0 to 1: how much it stands out.

@@ -187,7 +187,6 @@ fn length_symbol(length: u16) -> (usize, u16, u32) {
 }
 
 /// The canonical prefix code of these lengths, with the first bit lowest (RFC 1951, 3.2.2).
-#[inline]
 fn words(lengths: &[u8]) -> Vec<Word> {
     let mut words = vec![Word::default(); lengths.len()];
     let mut code = 0u16;

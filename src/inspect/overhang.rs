@@ -43,7 +43,6 @@ pub(super) fn unsupported(
 }
 
 /// Whether each component touches the layer below.
-#[inline]
 fn touching(here: &Components, contacts: &[[u32; 2]]) -> Vec<bool> {
     let mut touches = vec![false; here.patches.len()];
     for &[_, over] in contacts {

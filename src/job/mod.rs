@@ -46,10 +46,5 @@ pub use prepared::{Hollowed, Supported};
 pub use report::*;
 pub use resolve::BIN_MM;
 pub use slicer::Slicer;
-#[cfg(all(
-    target_arch = "wasm32",
-    not(any(feature = "gpu", feature = "models", feature = "read"))
-))]
-pub(crate) use slicer::positions;
 pub use stage::{Stage, StageProgress};
 pub use verify::*;

@@ -171,6 +171,12 @@ impl Slicer {
         (!drains.is_empty()).then(|| plugs(drains))
     }
 
+    /// Vertex positions of [`Self::plugs`], as those of [`Self::positions_of`]; none without holes.
+    pub fn plug_positions(&self) -> Vec<f32> {
+        let plugs = self.plugs().unwrap_or_default();
+        positions(&plugs.vertices, &plugs.facets)
+    }
+
     /// Vertex positions of the surface facets, nine numbers per facet, in millimetres, with the model on the plate in this
     /// pose: its lowest point at z = 0, and centred on x = y = 0.
     ///
@@ -603,7 +609,7 @@ pub(super) fn positions_of(mesh: &Mesh, class: FacetClass) -> Vec<f32> {
 }
 
 /// Vertex positions of facets, nine numbers per facet.
-pub(crate) fn positions(vertices: &[Vec3], facets: &[[u32; 3]]) -> Vec<f32> {
+fn positions(vertices: &[Vec3], facets: &[[u32; 3]]) -> Vec<f32> {
     let facets = facets.iter();
     let corners = facets.flatten().map(|&vertex| vertices[vertex as usize]);
     corners.flat_map(|corner| corner.to_array()).collect()

@@ -34,7 +34,6 @@ pub struct Projection<'a> {
 
 impl<'a> Projection<'a> {
     /// Snaps the vertices of `mesh`, which lies inside `grid` up to rounding.
-    #[inline]
     pub fn new(mesh: &'a Mesh, grid: &Grid) -> Self {
         Self::of(&mesh.vertices, &mesh.facets, grid)
     }

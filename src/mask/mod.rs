@@ -302,7 +302,6 @@ impl MaskCursor {
     /// Moves to another layer. `masks` must be those that made this cursor.
     ///
     /// Cost: linear in the pixels that change on the way.
-    #[inline]
     pub fn seek(&mut self, masks: &Masks, layer: usize) {
         while self.layer < layer {
             self.layer += 1;

@@ -33,7 +33,6 @@ impl Segment {
     }
 
     /// The plane nearest to a boundary of bins, if that is between the planes below and above.
-    #[inline]
     pub(super) fn plane_within(&self, boundary: u32) -> Option<u32> {
         let above = (boundary + self.unit / 2).checked_sub(self.lower)?;
         let plane = above / self.unit;

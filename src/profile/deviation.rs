@@ -44,7 +44,6 @@ struct Level {
 const WINDOW: u32 = 32;
 
 impl Level {
-    #[inline]
     fn new(weight: f64, steepest: &[f32]) -> Self {
         // Farther than any layer is thick, so that no path leads past a flat.
         let flat = 4.0 * steepest.len() as f64 + 4.0;
@@ -179,7 +178,6 @@ fn ahead(values: &[f64], choose: impl Fn(f64, f64) -> f64) -> Vec<f64> {
 impl DeviationError {
     /// Deviations of the layers of a model from the largest `n_z²` over the normal cones in each bin: see
     /// [`super::normal_cones`]. Bins without surface have a negative value.
-    #[inline]
     pub fn new(steepest: &[f32], bins: Bins) -> Self {
         Self {
             bins,
@@ -189,7 +187,6 @@ impl DeviationError {
 
     /// As [`Self::new`], with deviations multiplied by weights. For each of [`weight_levels`] there are the values of the surface
     /// with at least that weight.
-    #[inline]
     pub fn weighted(levels: &[(f32, Vec<f32>)], bins: Bins) -> Self {
         let levels = levels.iter();
         Self {
