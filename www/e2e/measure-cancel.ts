@@ -4,8 +4,7 @@
  */
 import { readFile } from "node:fs/promises";
 import type * as Api from "../src/api/index.js";
-import { launch } from "./browser.js";
-import { serveApi } from "./packed.js";
+import { onApiPage } from "./packed.js";
 import { sphere } from "./solids.js";
 
 const ROUNDS = 5;
@@ -13,12 +12,7 @@ const STAGES = ["load", "ldi", "profile", "plan", "masks"] as const;
 
 export async function main([file]: string[]): Promise<void> {
   const model = file === undefined ? sphere(10, 700).bytes : await readFile(file);
-  const served = await serveApi({ "model.stl": model });
-  const browser = await launch();
-  try {
-    const page = await browser.newPage();
-    await page.goto(served.address);
-    await page.waitForFunction(() => "api" in window);
+  await onApiPage(model, async (page) => {
     for (const stage of STAGES) {
       const rounds = await page.evaluate(
         async ([stage, rounds]) => {
@@ -56,8 +50,5 @@ export async function main([file]: string[]): Promise<void> {
       const worst = (key: keyof (typeof rounds)[number]): string => Math.max(...rounds.map((round) => round[key])).toFixed(1);
       console.log(`${stage}: ${rounds.length} of ${ROUNDS} aborted, ${worst("cancel_ms")} ms at most; the next plan after ${worst("again_ms")} ms`);
     }
-  } finally {
-    await browser.close();
-    await served.close();
-  }
+  });
 }

@@ -8,8 +8,7 @@
 import { readFile } from "node:fs/promises";
 import { binaryStl, exampleTriangles } from "../src/page/example.js";
 import type * as Api from "../src/api/index.js";
-import { launch } from "./browser.js";
-import { serveApi } from "./packed.js";
+import { onApiPage } from "./packed.js";
 import { finer } from "./solids.js";
 
 const ROUNDS = 5;
@@ -19,12 +18,7 @@ const EXAMPLE = "example";
 
 export async function main([file = EXAMPLE, height, directions = "1000"]: string[]): Promise<void> {
   const model = file === EXAMPLE ? binaryStl(finer(exampleTriangles())) : await readFile(file);
-  const served = await serveApi({ "model.stl": model });
-  const browser = await launch();
-  try {
-    const page = await browser.newPage();
-    await page.goto(served.address);
-    await page.waitForFunction(() => "api" in window);
+  await onApiPage(model, async (page) => {
     const cores = await page.evaluate(() => navigator.hardwareConcurrency);
     const options = height === undefined ? {} : { height_mm: Number(height) };
     console.log(`${(model.length - 84) / 50} facets, ${directions} directions, ${height === undefined ? "its own height" : `${height} mm high`}, ${cores} cores, ${ROUNDS} rounds`);
@@ -64,8 +58,5 @@ export async function main([file = EXAMPLE, height, directions = "1000"]: string
       console.log(`  with another alpha, without measuring anew: ${spread("again_ms")}`);
     }
     console.log(answers.size === 1 ? "the same answer every time" : `${answers.size} different answers`);
-  } finally {
-    await browser.close();
-    await served.close();
-  }
+  });
 }

@@ -7,8 +7,7 @@
  */
 import { readFile } from "node:fs/promises";
 import type * as Api from "../src/api/index.js";
-import { launch } from "./browser.js";
-import { serveApi } from "./packed.js";
+import { onApiPage } from "./packed.js";
 import { sphere } from "./solids.js";
 
 const ROUNDS = 5;
@@ -16,12 +15,7 @@ const FORMATS = ["png", "sl1", "goo"] as const;
 
 export async function main([file, height = "40"]: string[]): Promise<void> {
   const model = file === undefined ? sphere(20, 284).bytes : await readFile(file);
-  const served = await serveApi({ "model.stl": model });
-  const browser = await launch();
-  try {
-    const page = await browser.newPage();
-    await page.goto(served.address);
-    await page.waitForFunction(() => "api" in window);
+  await onApiPage(model, async (page) => {
     const cores = await page.evaluate(() => navigator.hardwareConcurrency);
     console.log(`${(model.length - 84) / 50} facets, ${height} mm high, 11520 × 5120 pixels, ${cores} cores, ${ROUNDS} rounds`);
     for (const format of FORMATS) {
@@ -51,8 +45,5 @@ export async function main([file, height = "40"]: string[]): Promise<void> {
         console.log(`${format}, ${workers} workers: ${layers} layers, ${bytes} bytes (${sum}) in ${ms.join(", ")} ms`);
       }
     }
-  } finally {
-    await browser.close();
-    await served.close();
-  }
+  });
 }
