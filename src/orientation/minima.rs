@@ -69,7 +69,8 @@ impl Minima {
             .map(|(((ax, ay), az), ((bx, by), bz))| {
                 let a = ax * up.x + ay * up.y + az * up.z;
                 let b = bx * up.x + by * up.y + bz * up.z;
-                a >= slack_mm && b >= slack_mm
+                let lower = if b < a { b } else { a };
+                lower >= slack_mm
             })
             .collect();
         let vertices = rises.iter().zip(0u32..);
