@@ -1,6 +1,6 @@
 //! Masks that no model gives: runs of every length at which chunks change, on the largest screens, written without slicing.
 
-use cusp_slicer::archive::{self, Layer, Look, PrintJob, Screen};
+use cusp_slicer::archive::{self, Layer, Look, MaskSource, PrintJob, Screen};
 use cusp_slicer::format::Format;
 use cusp_slicer::mask::{LayerRuns, Run, RunReader, RunSource};
 use cusp_slicer::progress::silent;
@@ -75,7 +75,7 @@ fn check(pixels: [u32; 2], masks: Vec<Runs>) {
             antialias: 8,
         },
         layers: &layers,
-        masks: &source,
+        masks: MaskSource::Runs(&source),
         height_mm: 1.0,
         resin: &Resin::default(),
         resin_ml: 1.0,
