@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 use common::{assert_near, on_plate, oracle, sample, solids};
 use cusp_slicer::grid::{Bins, Grid};
 use cusp_slicer::ldi::visibility::visibility;
-use cusp_slicer::ldi::{Hit, Ldi, LdiError, Solid, cpu, model_ranges, printed_ranges};
+use cusp_slicer::ldi::{Hit, Ldi, LdiError, RayImage, Survey, cpu, model_ranges, printed_ranges};
 use cusp_slicer::model::{FacetClass, FacetClasses, Mesh};
 use cusp_slicer::profile::facet_bins::FacetBins;
 use cusp_slicer::profile::section;
@@ -301,15 +301,19 @@ fn a_cavity_is_what_its_facets_say() {
     assert_near(f64::from(middle[1].0 - middle[0].1), 6.0, 0.02);
 }
 
+fn survey(ldi: &Ldi) -> Survey {
+    Survey::of(RayImage::Kept(ldi), &mut silent).unwrap()
+}
+
 #[test]
 fn an_open_solid_counts_the_rays_through_its_holes() {
     let mut triangles = solids::cube(10.0);
     triangles.drain(0..2); // the bottom
     let (_, ldi) = sample(&triangles, 32);
-    assert_eq!(ldi.rays_through_holes(), 32 * 32);
+    assert_eq!(survey(&ldi).rays_through_holes, 32 * 32);
     assert_eq!(ranges(ldi.ray(100)), [(0.0, 10.0)]);
     let (_, ldi) = sample(&solids::cube(10.0), 32);
-    assert_eq!(ldi.rays_through_holes(), 0);
+    assert_eq!(survey(&ldi).rays_through_holes, 0);
 }
 
 #[test]
@@ -401,11 +405,14 @@ fn voids_are_left_out_of_the_model_and_supports_are_not() {
     }
     let alone = cpu::sample(&model, &grid, &mut silent).unwrap();
     let bins = Bins::of_height(10.0, 0.01).unwrap();
-    let areas = |ldi: &Ldi| section::sampled(ldi, bins);
+    let areas = |ldi: &Ldi| section::sampled(RayImage::Kept(ldi), bins, &mut silent);
     assert_eq!(areas(&ldi), areas(&alone));
     let facet_bins = |mesh: &Mesh| FacetBins::of(mesh, bins);
     assert_eq!(facet_bins(&joined).spans, facet_bins(&model).spans);
-    assert_eq!(visibility(&joined, &ldi), visibility(&model, &alone));
-    let printed_mm3 = Solid::of(&ldi).volume_mm3;
+    let seen = |mesh: &Mesh, ldi: &Ldi| {
+        visibility(mesh, RayImage::Kept(ldi), &survey(ldi), &mut silent).unwrap()
+    };
+    assert_eq!(seen(&joined, &ldi), seen(&model, &alone));
+    let printed_mm3 = survey(&ldi).solid.volume_mm3;
     assert_near(printed_mm3, 1000.0 - 216.0 + 8.0, 1e-6);
 }

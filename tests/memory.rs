@@ -3,8 +3,9 @@
 
 mod common;
 
-use common::{binary_stl, solids};
-use cusp_slicer::job::{Options, Slicer};
+use common::{binary_stl, quiet, solids};
+use cusp_slicer::Error;
+use cusp_slicer::job::{Backend, Options, Slicer};
 use cusp_slicer::orientation::Task;
 use glam::Vec3;
 use peak_alloc::PeakAlloc;
@@ -14,6 +15,43 @@ static ALLOCATOR: PeakAlloc = PeakAlloc;
 
 /// The only test in its binary, so that nothing else allocates at the same time.
 #[test]
+fn searches_and_bounded_jobs_take_the_memory_that_they_say() {
+    a_search_takes_the_memory_that_the_description_of_a_model_says();
+    a_job_takes_no_more_memory_than_it_may();
+}
+
+/// Within the least memory that it says it can do with, and within more, where it holds more layers at a time.
+fn a_job_takes_no_more_memory_than_it_may() {
+    let stl = binary_stl(&solids::sphere(20.0, 7));
+    for (pixels, antialias) in [(4000, 1), (1500, 4)] {
+        let options = Options {
+            pixels: Some([pixels; 2]),
+            pitch_mm: Some(50.0 / f64::from(pixels)),
+            antialias,
+            backend: Backend::Cpu,
+            ..Options::default()
+        };
+        let plan = |bytes| {
+            let before = ALLOCATOR.current_usage();
+            ALLOCATOR.reset_peak_usage();
+            let mut slicer = Slicer::load(&stl).unwrap().with_memory(bytes);
+            pollster::block_on(slicer.plan(&options, &mut quiet))?;
+            slicer.write_archive(std::io::sink(), &mut quiet)?;
+            Ok::<_, Error>((ALLOCATOR.peak_usage() - before) as u64)
+        };
+        let Err(Error::MemoryBound { needed_bytes, .. }) = plan(1) else {
+            panic!("a job within one byte");
+        };
+        for bytes in [needed_bytes, needed_bytes + (64 << 20), 1 << 40] {
+            let measured = plan(bytes).unwrap();
+            assert!(
+                measured <= bytes,
+                "{antialias}: {measured} bytes of {bytes}"
+            );
+        }
+    }
+}
+
 fn a_search_takes_the_memory_that_the_description_of_a_model_says() {
     // Large enough for its working memory to exceed the block that `keep_memory` allocates and frees.
     let welded = solids::sphere(20.0, 8);

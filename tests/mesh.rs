@@ -6,10 +6,11 @@ mod common;
 
 use common::{assert_near, on_plate, solids};
 use cusp_slicer::grid::Bins;
-use cusp_slicer::ldi::Solid;
+use cusp_slicer::ldi::{RayImage, Survey};
 use cusp_slicer::model::{FacetClass, Mesh, MeshError, Pose};
 use cusp_slicer::profile::facet_bins::FacetBins;
 use cusp_slicer::profile::{normal_cones, steepest};
+use cusp_slicer::progress::silent;
 use glam::{DVec3, Vec3};
 
 #[test]
@@ -274,7 +275,8 @@ fn a_needle_that_rounding_made_is_left_out() {
 
 fn union_volume(triangles: &[[Vec3; 3]]) -> f64 {
     let (_, ldi) = common::sample(triangles, 240);
-    Solid::of(&ldi).volume_mm3
+    let survey = Survey::of(RayImage::Kept(&ldi), &mut silent).unwrap();
+    survey.solid.volume_mm3
 }
 
 #[test]

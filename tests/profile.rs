@@ -6,8 +6,8 @@ mod common;
 
 use common::{assert_near, on_plate, oracle, sample, solids};
 use cusp_slicer::grid::{Bins, Grid};
-use cusp_slicer::ldi::cpu;
 use cusp_slicer::ldi::visibility::{Visibility, visibility};
+use cusp_slicer::ldi::{Ldi, RayImage, Survey, cpu};
 use cusp_slicer::model::Mesh;
 use cusp_slicer::profile::facet_bins::{FacetBins, Flat};
 use cusp_slicer::profile::snap_planes::{Surface, snap_planes};
@@ -32,7 +32,8 @@ fn bins_of(mesh: &Mesh, bin_mm: f64) -> Bins {
 fn shapes(triangles: &solids::Triangles, bin_mm: f64) -> [Shape; 2] {
     let (mesh, ldi) = sample(triangles, 500);
     let bins = bins_of(&mesh, bin_mm);
-    let seen = visibility(&mesh, &ldi);
+    let seen = seen_along(&mesh, &ldi);
+    let image = RayImage::Kept(&ldi);
     [
         Shape {
             bins,
@@ -42,9 +43,9 @@ fn shapes(triangles: &solids::Triangles, bin_mm: f64) -> [Shape; 2] {
         },
         Shape {
             bins,
-            steepest: steepest::sampled(&FacetBins::of(&mesh, bins), &ldi, &seen.hidden),
+            steepest: maxima(&FacetBins::of(&mesh, bins), &ldi, &seen.hidden),
             cones: Vec::new(),
-            areas_mm2: section::sampled(&ldi, bins),
+            areas_mm2: section::sampled(image, bins, &mut silent).unwrap(),
         },
     ]
 }
@@ -55,7 +56,18 @@ fn densities(triangles: &solids::Triangles, bin_mm: f64, metric: Metric) -> [Vec
 
 fn seen(mesh: &Mesh, rays: u32) -> Visibility {
     let grid = Grid::around(&mesh.bounds(), rays).unwrap();
-    visibility(mesh, &cpu::sample(mesh, &grid, &mut silent).unwrap())
+    seen_along(mesh, &cpu::sample(mesh, &grid, &mut silent).unwrap())
+}
+
+fn seen_along(mesh: &Mesh, ldi: &Ldi) -> Visibility {
+    let image = RayImage::Kept(ldi);
+    let survey = Survey::of(image, &mut silent).unwrap();
+    visibility(mesh, image, &survey, &mut silent).unwrap()
+}
+
+/// The largest `n_z²` of each bin, along the rays.
+fn maxima(facet_bins: &FacetBins, ldi: &Ldi, hidden: &[bool]) -> Vec<f32> {
+    steepest::sampled(facet_bins, RayImage::Kept(ldi), hidden, &mut silent).unwrap()
 }
 
 #[test]
@@ -333,7 +345,7 @@ fn bins_that_no_ray_meets_are_no_sharp_changes() {
     let (mesh, ldi) = sample(&ball, 100);
     let bins = bins_of(&mesh, 0.002);
     let facet_bins = FacetBins::of(&mesh, bins);
-    let sampled = steepest::sampled(&facet_bins, &ldi, &[]);
+    let sampled = maxima(&facet_bins, &ldi, &[]);
     assert!(sampled.contains(&steepest::NO_SURFACE));
     assert_eq!(snap_planes(&[surface(&[], &sampled)], bins, 1.0), [0u32; 0]);
 }

@@ -2,8 +2,9 @@
 
 use super::png::{self, Depth};
 use super::runs::RunWriter;
-use crate::ldi::{Ldi, printed_ranges};
+use crate::ldi::{Hit, RayImage, Rays, printed_ranges};
 use crate::model::Mesh;
+use crate::progress::silent;
 
 /// The model seen from above, as the brightness of each pixel: lit from the left and behind, and brighter higher up.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,7 +28,7 @@ pub struct Standing<'a> {
     /// What the rays were sampled from.
     pub mesh: &'a Mesh,
     /// Its rays.
-    pub ldi: &'a Ldi,
+    pub image: RayImage<'a>,
     /// Column and row of its first ray among those of the whole plate.
     pub first_ray: [i64; 2],
 }
@@ -35,25 +36,17 @@ pub struct Standing<'a> {
 impl Standing<'_> {
     /// Its first column and row, and those after the last.
     fn rays(&self) -> [[i64; 2]; 2] {
-        let size = [self.ldi.grid.width, self.ldi.grid.height].map(i64::from);
+        let grid = self.image.grid();
+        let size = [grid.width, grid.height].map(i64::from);
         let last = [0, 1].map(|axis| self.first_ray[axis] + size[axis]);
         [self.first_ray, last]
     }
 
-    /// The brightness where a ray of the plate meets it; 0 if it does not.
-    fn brightness(&self, column: i64, row: i64, top_mm: f64) -> u8 {
-        let grid = &self.ldi.grid;
-        let (column, row) = (column - self.first_ray[0], row - self.first_ray[1]);
-        if column < 0 || row < 0 || column >= i64::from(grid.width) || row >= i64::from(grid.height)
-        {
-            return 0;
-        }
-        let hits = self
-            .ldi
-            .ray((row * i64::from(grid.width) + column) as usize);
+    /// The brightness where a ray with these hits meets it; 0 if it does not.
+    fn brightness(&self, hits: &[Hit], top_mm: f64) -> u8 {
         // A drain hole begins outside the model, where its own facets are no surface.
         let mut highest = None;
-        printed_ranges(hits, self.ldi.classes, |_, z_out| highest = Some(z_out));
+        printed_ranges(hits, self.mesh.classes, |_, z_out| highest = Some(z_out));
         let top = hits.iter().rev().find(|hit| Some(hit.z_mm) == highest);
         let Some(top) = top else { return 0 };
         let [a, b, c] = self.mesh.corners(top.facet() as usize);
@@ -62,21 +55,63 @@ impl Standing<'_> {
         let height = f64::from(top.z_mm) / top_mm;
         (60.0 + 195.0 * light * (0.6 + 0.4 * height)).min(255.0) as u8
     }
+
+    /// The pixels of a picture with this many columns that it covers: the place and the brightness of each.
+    fn seen_on(&self, raster: &Raster, columns: usize, top_mm: f64) -> Vec<(usize, u8)> {
+        let grid = self.image.grid();
+        let [left, above] = self.first_ray;
+        let look = |seen: &mut Vec<(usize, u8)>, rays: Rays<'_>| {
+            let end_row = rays.first_row + rays.count() as u32 / grid.width;
+            for (row, y) in raster.along(1, above, rays.first_row..end_row) {
+                let first = (row - rays.first_row) * grid.width;
+                for (column, x) in raster.along(0, left, 0..grid.width) {
+                    let value = self.brightness(rays.ray((first + column) as usize), top_mm);
+                    if value > 0 {
+                        seen.push((y * columns + x, value));
+                    }
+                }
+            }
+        };
+        let seen = self.image.fold(Vec::new, look, &mut silent);
+        seen.unwrap_or_default().into_iter().flatten().collect()
+    }
+}
+
+/// The rays that are in the picture: every so manyth of the plate, in columns and rows.
+struct Raster {
+    /// The first column and row of the plate.
+    first: [i64; 2],
+    step: u32,
+}
+
+impl Raster {
+    /// The rays of a copy along an axis that are in the picture, from the copy's first one: each with its place there.
+    fn along(
+        &self,
+        axis: usize,
+        first_ray: i64,
+        rays: std::ops::Range<u32>,
+    ) -> impl Iterator<Item = (u32, usize)> {
+        let (offset, step) = ((first_ray - self.first[axis]) as u32, self.step);
+        let start = (offset + rays.start).next_multiple_of(step);
+        let places = (start..offset + rays.end).step_by(step as usize);
+        places.map(move |ray| (ray - offset, (ray / step) as usize))
+    }
 }
 
 impl Look {
-    /// Looks down along the rays of `ldi`, which was sampled from `mesh`.
-    pub fn new(mesh: &Mesh, ldi: &Ldi) -> Self {
+    /// Looks down along the rays of a mesh.
+    pub fn new(mesh: &Mesh, image: RayImage<'_>) -> Self {
         Self::of_copies(&[Standing {
             mesh,
-            ldi,
+            image,
             first_ray: [0; 2],
         }])
     }
 
     /// Looks down at several models, of which there must be at least one. Their rays are equally far apart.
     pub fn of_copies(copies: &[Standing<'_>]) -> Self {
-        let grid = &copies[0].ldi.grid;
+        let grid = copies[0].image.grid();
         let all = copies.iter().map(Standing::rays);
         let all = all.reduce(|[first, last], [start, end]| {
             [
@@ -87,25 +122,14 @@ impl Look {
         let [first, last] = all.unwrap_or_default();
         let [width, height] = [0, 1].map(|axis| (last[axis] - first[axis]) as u32);
         let step = width.max(height).div_ceil(LONGEST).max(1);
-        let (columns, rows) = (width.div_ceil(step), height.div_ceil(step));
+        let [columns, rows] = [width, height].map(|side| side.div_ceil(step) as usize);
+        let raster = Raster { first, step };
         let tops_mm = copies.iter().map(|copy| copy.mesh.bounds().max.z);
         let top_mm = tops_mm.fold(f64::MIN_POSITIVE, f64::max);
-        let (columns, rows, step) = (columns as usize, rows as usize, step as usize);
-        let mut brightness = vec![0; columns * rows];
+        let mut brightness = vec![0u8; columns * rows];
         for copy in copies {
-            let [start, end] = copy.rays();
-            let within = |axis: usize| {
-                let place = |ray: i64| (ray - first[axis]) as usize;
-                place(start[axis]) / step..place(end[axis]).div_ceil(step)
-            };
-            for row in within(1) {
-                for column in within(0) {
-                    let pixel = &mut brightness[row * columns + column];
-                    let ray = |place: usize, axis: usize| (place * step) as i64 + first[axis];
-                    *pixel = copy
-                        .brightness(ray(column, 0), ray(row, 1), top_mm)
-                        .max(*pixel);
-                }
+            for (place, value) in copy.seen_on(&raster, columns, top_mm) {
+                brightness[place] = brightness[place].max(value);
             }
         }
         Self {

@@ -41,6 +41,18 @@ pub enum Error {
     #[error("there is no plan yet; make one first")]
     #[serde(rename = "no-plan")]
     NoPlan,
+    /// The job takes more memory than it may. Plans and print files need the least; checks, single masks and masks that make up
+    /// for growth need all hits.
+    #[error(
+        "this takes about {needed_bytes} bytes of memory, and {allowed_bytes} are allowed; allow more, or choose larger pixels"
+    )]
+    #[serde(rename = "memory-bound")]
+    MemoryBound {
+        /// Bytes that it takes.
+        needed_bytes: u64,
+        /// Bytes that it may take.
+        allowed_bytes: u64,
+    },
     /// The options contradict each other or cannot be read.
     #[error(transparent)]
     #[serde(untagged)]

@@ -45,5 +45,5 @@ pub fn shapes_of<E>(
         Extra::default()
     };
     let shapes = Shapes::of_facets(facet_bins, areas_mm2, cones);
-    Ok(shapes.weighed(facet_bins, None, layering.metric, weights))
+    Ok(shapes.weighed_by_facets(facet_bins, layering.metric, weights))
 }

@@ -7,8 +7,10 @@ use super::Error;
 use super::parts::Layering;
 use super::sampled::Sampled;
 use crate::grid::Bins;
+use crate::ldi::LdiError;
 use crate::profile::facet_bins::FacetBins;
 use crate::profile::shapes::Shapes;
+use crate::progress::Progress;
 
 /// The measured shape of a sampled model, with the rays that it was measured on. Immutable and shared.
 #[derive(Debug)]
@@ -22,14 +24,15 @@ impl Measured {
     /// nothing is missing.
     ///
     /// # Errors
-    /// [`Error::Grid`].
+    /// [`Error::Grid`]; [`Error::Ldi`] if `progress` cancels.
     pub fn new(
         of: &Arc<Sampled>,
         layering: &Layering,
         weights: Option<Vec<f32>>,
         kept: Option<Arc<Self>>,
+        progress: &mut Progress<'_>,
     ) -> Result<Arc<Self>, Error> {
-        let (mesh, ldi) = (of.mesh(), &of.ldi);
+        let (mesh, image) = (of.mesh(), of.image());
         let bins = Bins::of_height(of.height_mm, layering.bin_mm)?;
         let metric = layering.metric;
         let is_of_these =
@@ -45,18 +48,20 @@ impl Measured {
         let facet_bins = LazyCell::new(|| FacetBins::of(mesh, bins));
         let mut shapes = match kept {
             Some(kept) => kept.shapes.clone(),
-            None => Shapes::new(&facet_bins, mesh, ldi),
+            None => Shapes::new(&facet_bins, mesh, image, &of.survey, progress)
+                .map_err(LdiError::from)?,
         };
         if !has_areas(&shapes) {
-            shapes = shapes.with_areas(mesh, ldi);
+            let with_areas = shapes.with_areas(mesh, image, progress);
+            shapes = with_areas.map_err(LdiError::from)?;
+        }
+        if !shapes.is_weighed(metric, weights.as_deref()) {
+            let weighed = shapes.weighed(&facet_bins, image, metric, weights, progress);
+            shapes = weighed.map_err(LdiError::from)?;
         }
         Ok(Arc::new(Self {
             of: Arc::clone(of),
-            shapes: if shapes.is_weighed(metric, weights.as_deref()) {
-                shapes
-            } else {
-                shapes.weighed(&facet_bins, Some(ldi), metric, weights)
-            },
+            shapes,
         }))
     }
 }

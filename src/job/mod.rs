@@ -10,6 +10,7 @@ mod facet_shapes;
 mod front;
 mod groups;
 mod measured;
+mod memory;
 mod options;
 mod options_error;
 mod orient;

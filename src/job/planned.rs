@@ -7,7 +7,7 @@ use super::measured::Measured;
 use super::parts::Layering;
 use super::planning::{Findings, Part, Planning};
 use super::sampled::Sampled;
-use crate::mask::{Masks, Shrinking, Side};
+use crate::mask::{Masks, RunSource, Shrinking, Side, SlabMasks};
 use crate::plan::Plan;
 use crate::plan::uniform::UniformLayers;
 use crate::progress::Progress;
@@ -107,23 +107,49 @@ impl Planned {
     }
 
     /// The masks of a model by its index, as if it stood alone, seen from one side.
-    pub fn masks(&self, model: usize, side: Side) -> Masks {
+    ///
+    /// # Errors
+    /// [`Error::MemoryBound`] if there is no LDI.
+    pub fn masks(&self, model: usize, side: Side) -> Result<Masks, Error> {
         let sampled = self.models[model].sampled();
-        masks_of(sampled, &self.plan, &self.layering, side)
+        let Sampled { grid, sampling, .. } = sampled;
+        let (ldi, samples) = (sampled.ldi()?, sampling.samples);
+        Ok(match self.shrinking() {
+            None => Masks::new(ldi, &self.plan, grid, samples, side),
+            Some(shrinking) => Masks::shrunk(ldi, &self.plan, grid, samples, side, &shrinking),
+        })
     }
-}
 
-/// The masks of a sampled model under a plan, seen from one side.
-fn masks_of(sampled: &Sampled, plan: &Plan, layering: &Layering, side: Side) -> Masks {
-    let Sampled { ldi, grid, .. } = sampled;
-    let samples = sampled.sampling.samples;
-    let Layering { growth, resin, .. } = layering;
-    if growth.is_none() {
-        return Masks::new(ldi, plan, grid, samples, side);
+    /// The same to be read once, slab by slab if there is no LDI.
+    ///
+    /// # Errors
+    /// [`Error::MemoryBound`] if there is no LDI, and masks make up for growth, which takes it.
+    pub fn runs(&self, model: usize, side: Side) -> Result<Box<dyn RunSource + '_>, Error> {
+        let sampled = self.models[model].sampled();
+        let Sampled {
+            grid,
+            rays,
+            sampling,
+            ..
+        } = sampled;
+        Ok(match sampled.slab_bytes() {
+            Some(slab_bytes) if self.shrinking().is_none() => {
+                let (mesh, samples) = (sampled.mesh(), sampling.samples);
+                let plan = &self.plan;
+                Box::new(SlabMasks::new(
+                    mesh, *rays, plan, grid, samples, side, slab_bytes,
+                ))
+            }
+            _ => Box::new(self.masks(model, side)?),
+        })
     }
-    let shrinking = Shrinking {
-        xy_mm: growth.of_layers_mm(plan.layers(), resin.bottom_layers),
-        z_mm: growth.z_mm,
-    };
-    Masks::shrunk(ldi, plan, grid, samples, side, &shrinking)
+
+    /// What the masks make up for, if anything.
+    fn shrinking(&self) -> Option<Shrinking> {
+        let Layering { growth, resin, .. } = &self.layering;
+        (!growth.is_none()).then(|| Shrinking {
+            xy_mm: growth.of_layers_mm(self.plan.layers(), resin.bottom_layers),
+            z_mm: growth.z_mm,
+        })
+    }
 }

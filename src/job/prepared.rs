@@ -11,7 +11,7 @@ use super::report::mesh_warnings;
 use super::stage::ms_since;
 use super::{Error, Timings};
 use crate::grid::{Grid, GridError};
-use crate::ldi::{Ldi, LdiError};
+use crate::ldi::LdiError;
 use crate::model::{Bounds, FacetClass, Mesh, Pose, rotation_matrix};
 use crate::prepare::{self, Drain, Hollowing, SupportPoint, Supporting, Supports, Void};
 use crate::progress::Progress;
@@ -291,9 +291,9 @@ fn hollow(
 }
 
 impl Supported {
-    pub(super) fn of(supports: &Supports, ldi: &Ldi) -> Self {
+    pub(super) fn of(supports: &Supports, support_mm3: f64) -> Self {
         Self {
-            support_ml: ldi.support_mm3() / 1e3,
+            support_ml: support_mm3 / 1e3,
             lift_mm: supports.lift_mm,
             points: supports.points.clone(),
             unreached: supports.unreached.clone(),

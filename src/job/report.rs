@@ -545,7 +545,7 @@ pub(super) fn report_of(
     }
     let solids = models
         .iter()
-        .map(|model| (&model.sampled().solid, model.copies));
+        .map(|model| (&model.sampled().survey.solid, model.copies));
     let solid = Solid::of_copies(solids);
     let black = black_layers(&solid, plan, sampled.sampling.samples);
     if let Some(&lowest) = black.first() {
@@ -604,7 +604,7 @@ pub(super) fn report_of(
         bin_mm: plan.bins.size_mm,
         layer_range_mm: layering.layer_range_mm(plan.bins),
         facets: sum(models, |sampled| sampled.mesh().surface_facets),
-        hits: sum(models, |sampled| sampled.ldi.hits.len()),
+        hits: sum(models, |sampled| sampled.survey.hits as usize),
         uniform: findings.uniform.clone(),
         mask: MaskReport {
             width: sampled.grid.width,

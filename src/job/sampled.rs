@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
+use super::memory::{Bound, Memory};
 use super::parts::Sampling;
 use super::prepared::{PREPARING_SHARE, Prepared, Supported};
 use super::stage::{Stage, StageProgress, ms_since};
@@ -11,9 +12,9 @@ use super::{Backend, Error, GpuMethod, Timings};
 use crate::grid::Grid;
 use crate::inspect::{Held, Limits};
 use crate::ldi::gpu::{self, Gpu};
-use crate::ldi::{GpuFault, Ldi, LdiError, Solid, cpu};
+use crate::ldi::{GpuFault, Ldi, LdiError, RayImage, Survey, cpu};
 use crate::model::Mesh;
-use crate::progress::Progress;
+use crate::progress::{Progress, silent};
 use crate::warning::Warning;
 
 /// The model on the plate and its rays. Immutable and shared, so its rays never change.
@@ -23,10 +24,15 @@ pub struct Sampled {
     pub sampling: Sampling,
     pub prepared: Arc<Prepared>,
     pub height_mm: f64,
-    /// The pixels of the masks. The LDI has rays only where the model is.
+    /// The pixels of the masks.
     pub grid: Grid,
-    pub ldi: Ldi,
-    pub solid: Solid,
+    /// The rays, which are only where the model is.
+    pub rays: Grid,
+    /// Their hits, unless they do not fit into the memory that may be taken.
+    ldi: Option<Ldi>,
+    pub survey: Survey,
+    /// What masks may take where there is no LDI.
+    bound: Option<Bound>,
     /// What holds it, if it is supported.
     pub supported: Option<Supported>,
     /// The GPU that was used.
@@ -48,6 +54,8 @@ pub struct Sampler {
     gpu: Option<Result<Gpu, LdiError>>,
     /// Whether that GPU is one that the caller opened, which is used at every size.
     is_given: bool,
+    /// What may be taken, if that is bounded.
+    memory: Option<Memory>,
 }
 
 impl Sampler {
@@ -55,6 +63,11 @@ impl Sampler {
     pub fn set_gpu(&mut self, gpu: Gpu) {
         self.gpu = Some(Ok(gpu));
         self.is_given = true;
+    }
+
+    /// Keeps no hits from now on where they, and the masks made of them, would take more than `memory`.
+    pub fn set_memory(&mut self, memory: Memory) {
+        self.memory = Some(memory);
     }
 
     /// Searches for a GPU, emulated or not, unless a search has already been made.
@@ -95,8 +108,12 @@ impl Sampler {
         let mut ldi_progress = |fraction| progress(Stage::Ldi, begun + (1.0 - begun) * fraction);
         let rays = grid.refined(sampling.samples.rays()).around_model(&printed);
         rays.check_rays()?;
+        let bound = match self.memory {
+            Some(memory) => memory.bound(mesh, &rays, sampling.samples)?,
+            None => None,
+        };
         let mut on_gpu = None;
-        if self.wants_gpu(sampling.backend, mesh.facets.len(), rays.pixels()) {
+        if bound.is_none() && self.wants_gpu(sampling.backend, mesh.facets.len(), rays.pixels()) {
             let found = self.sample_on_gpu(mesh, &rays, sampling, &mut ldi_progress);
             match found.await {
                 Ok(found) => on_gpu = Some(found),
@@ -106,30 +123,39 @@ impl Sampler {
             }
         }
         let (ldi, gpu) = match on_gpu {
-            Some((ldi, gpu)) => (ldi, Some(gpu)),
-            None => (cpu::sample(mesh, &rays, &mut ldi_progress)?, None),
+            Some((ldi, gpu)) => (Some(ldi), Some(gpu)),
+            None if bound.is_some() => (None, None),
+            None => (Some(cpu::sample(mesh, &rays, &mut ldi_progress)?), None),
         };
-        if ldi.hits.is_empty() {
+        let image = image_of(ldi.as_ref(), mesh, rays);
+        let survey = match &ldi {
+            Some(_) => Survey::of(image, &mut silent),
+            None => Survey::of(image, &mut ldi_progress),
+        };
+        let survey = survey.map_err(LdiError::from)?;
+        if survey.hits == 0 {
             return Err(LdiError::NoHits {
                 pitch_mm: grid.pitch_mm,
             }
             .into());
         }
-        let unclosed = ldi.rays_through_holes();
+        let unclosed = survey.rays_through_holes;
         if unclosed > 0 {
-            let rays = ldi.rays();
+            let rays = rays.pixels();
             warnings.push(Warning::UnclosedRays { unclosed, rays });
         }
         timings.ldi += ms_since(clock);
         let supports = prepared.supports.as_ref();
-        let supported = supports.map(|supports| Supported::of(supports, &ldi));
+        let supported = supports.map(|supports| Supported::of(supports, survey.support_mm3));
         Ok(Sampled {
             height_mm: sampling.height_mm(mesh.bounds().size().z),
             sampling: sampling.clone(),
             prepared,
             grid,
-            solid: Solid::of(&ldi),
+            rays,
             ldi,
+            survey,
+            bound,
             supported,
             gpu,
             warnings,
@@ -181,7 +207,39 @@ impl Sampler {
     }
 }
 
+/// The rays of a mesh through a grid.
+fn image_of<'a>(ldi: Option<&'a Ldi>, mesh: &'a Mesh, grid: Grid) -> RayImage<'a> {
+    ldi.map_or(RayImage::Scanned { mesh, grid }, RayImage::Kept)
+}
+
 impl Sampled {
+    /// The rays.
+    pub fn image(&self) -> RayImage<'_> {
+        image_of(self.ldi.as_ref(), self.mesh(), self.rays)
+    }
+
+    /// The LDI.
+    ///
+    /// # Errors
+    /// [`Error::MemoryBound`] if it does not fit into the memory that may be taken.
+    pub fn ldi(&self) -> Result<&Ldi, Error> {
+        match (&self.ldi, self.bound) {
+            (Some(ldi), _) => Ok(ldi),
+            (None, Some(bound)) => Err(bound.error()),
+            (None, None) => Err(Error::NoPlan),
+        }
+    }
+
+    /// Whether there is an LDI.
+    pub fn is_held(&self) -> bool {
+        self.ldi.is_some()
+    }
+
+    /// Bytes that masks may take at a time, if there is no LDI.
+    pub fn slab_bytes(&self) -> Option<u64> {
+        self.bound.map(|bound| bound.slab_bytes)
+    }
+
     /// What was sampled: on the plate, with voids and supports.
     pub fn mesh(&self) -> &Mesh {
         &self.prepared.mesh

@@ -9,6 +9,7 @@ use web_time::Instant;
 use super::facet_shapes::{Extra, shapes_of};
 use super::groups::{ENCODED_SHARE, LayerGroups};
 use super::measured::Measured;
+use super::memory::Memory;
 use super::parts::{Job, Layering, Output, Sampling};
 use super::planned::{Planned, PlannedModel};
 use super::planning::Planning;
@@ -23,7 +24,7 @@ use crate::grid::Bins;
 use crate::inspect::{self, Held, Printability};
 use crate::ldi::LdiError;
 use crate::ldi::gpu::Gpu;
-use crate::mask::{MaskCursor, Masks, Side};
+use crate::mask::{MaskCursor, Masks, RunSource, Side};
 use crate::model::{FacetClass, FileFacts, Mesh, ModelFile, Pose, read, saliency, weights};
 use crate::orientation::Surface;
 use crate::plan::Plan;
@@ -99,6 +100,14 @@ impl Slicer {
     #[must_use]
     pub fn with_gpu(mut self, gpu: Gpu) -> Self {
         self.sampler.set_gpu(gpu);
+        self
+    }
+
+    /// Takes no more than about this many bytes from now on, as far as that is possible: hits and masks that do not fit are found anew
+    /// when they are needed, and print files are the same. See [`Error::MemoryBound`] for what is not possible.
+    #[must_use]
+    pub fn with_memory(mut self, bytes: u64) -> Self {
+        self.sampler.set_memory(Memory { bytes, models: 1 });
         self
     }
 
@@ -391,7 +400,8 @@ impl Slicer {
         report(progress, Stage::Profile, 0.0)?;
         let clock = Instant::now();
         let kept = self.measured.take();
-        let measured = Measured::new(&sampled, layering, weights, kept.clone())?;
+        let mut within = |fraction| progress(Stage::Profile, fraction);
+        let measured = Measured::new(&sampled, layering, weights, kept.clone(), &mut within)?;
         if !kept.is_some_and(|kept| Arc::ptr_eq(&kept, &measured)) {
             timings.profile = ms_since(clock);
         }
@@ -453,7 +463,7 @@ impl Slicer {
         if layer >= layers {
             return Err(Error::NoLayer { layer, layers });
         }
-        let (masks, cursor) = current.seen();
+        let (masks, cursor) = current.seen()?;
         cursor.seek(masks, layer);
         Ok(cursor.whole(masks))
     }
@@ -470,7 +480,7 @@ impl Slicer {
         limits.check()?;
         let current = self.current.as_mut().ok_or(Error::NoPlan)?;
         let planned = Arc::clone(&current.planned);
-        let (masks, _) = current.seen();
+        let (masks, _) = current.seen()?;
         let mut progress = |fraction| progress(Stage::Inspect, fraction);
         let sampled = planned.models.first().map(PlannedModel::sampled);
         let held = sampled.map_or_else(Held::default, |sampled| sampled.held(limits));
@@ -486,20 +496,22 @@ impl Slicer {
         }
     }
 
-    /// The masks of the last plan's print file in groups, for others to encode; `None` if the file has no masks.
+    /// The masks of the last plan's print file in groups, for others to encode; `None` if the file has no masks, or they have to be
+    /// read slab by slab.
     ///
     /// # Errors
     /// [`Error::NoPlan`].
     pub fn layer_groups(&mut self) -> Result<Option<LayerGroups>, Error> {
         let current = self.current.as_mut().ok_or(Error::NoPlan)?;
-        if current.output.filament.is_some() {
+        let is_held = current.planned.first().of.is_held();
+        if current.output.filament.is_some() || !is_held {
             return Ok(None);
         }
         let canvas = screen_of(&current.planned, &current.output).canvas();
         let layers = current.report.layers;
         let format = current.output.format;
         Ok(Some(LayerGroups::new(
-            current.shown(),
+            current.shown()?,
             layers,
             format,
             canvas,
@@ -549,11 +561,17 @@ impl Slicer {
             report.timings_ms.sum_up();
             return Ok((writer, report));
         }
-        let masks = encoded.is_none().then(|| current.shown());
-        let masks = match (&masks, encoded) {
-            (Some(masks), _) => MaskSource::Runs(&**masks),
-            (None, Some(encoded)) => MaskSource::Encoded(encoded),
-            (None, None) => return Err(Error::NoPlan),
+        let of = Arc::clone(&current.planned);
+        let runs: Box<dyn RunSource>;
+        let masks = if let Some(encoded) = encoded {
+            MaskSource::Encoded(encoded)
+        } else {
+            runs = if of.first().of.is_held() {
+                Box::new(current.shown()?)
+            } else {
+                of.runs(0, current.side())?
+            };
+            MaskSource::Runs(&*runs)
         };
         let Current {
             planned,
@@ -562,7 +580,7 @@ impl Slicer {
             ..
         } = current;
         let sampled = &planned.first().of;
-        let look = || Look::new(sampled.mesh(), &sampled.ldi);
+        let look = || Look::new(sampled.mesh(), sampled.image());
         let writer = write_print(
             planned,
             output,
@@ -580,21 +598,32 @@ impl Slicer {
 
 impl Current {
     /// The masks seen from above, and a cursor at the last layer that was read.
-    fn seen(&mut self) -> &mut (Arc<Masks>, MaskCursor) {
-        self.seen.get_or_insert_with(|| {
-            let masks = self.planned.masks(0, Side::Above);
+    fn seen(&mut self) -> Result<&mut (Arc<Masks>, MaskCursor), Error> {
+        let seen = if let Some(seen) = self.seen.take() {
+            seen
+        } else {
+            let masks = self.planned.masks(0, Side::Above)?;
             let cursor = masks.cursor();
             (Arc::new(masks), cursor)
-        })
+        };
+        Ok(self.seen.insert(seen))
+    }
+
+    /// The side from which the printer shows the masks.
+    fn side(&self) -> Side {
+        if self.output.is_mirrored {
+            Side::Below
+        } else {
+            Side::Above
+        }
     }
 
     /// The masks as the printer shows them.
-    fn shown(&mut self) -> Arc<Masks> {
-        if self.output.is_mirrored {
-            Arc::new(self.planned.masks(0, Side::Below))
-        } else {
-            Arc::clone(&self.seen().0)
-        }
+    fn shown(&mut self) -> Result<Arc<Masks>, Error> {
+        Ok(match self.side() {
+            Side::Below => Arc::new(self.planned.masks(0, Side::Below)?),
+            Side::Above => Arc::clone(&self.seen()?.0),
+        })
     }
 }
 

@@ -3,15 +3,15 @@
 //! Rows are processed in bands, in parallel natively. Cost: linear in facets, in the rows that they span,
 //! and in hits. Memory: 8 bytes per hit and 4 per ray.
 
+use std::ops::Range;
+
 use super::projection::Projection;
+use super::rays::{BAND_ROWS, Rays};
 use super::{Hit, Ldi, LdiError, assemble};
 use crate::grid::Grid;
-use crate::model::{FacetLists, Mesh};
+use crate::model::{FacetClasses, FacetLists, Mesh};
 use crate::parallel::map_in_groups;
 use crate::progress::{Progress, report};
-
-/// Rows of a band: few enough for the cursors of its rays to stay in the cache.
-const BAND_ROWS: u32 = 32;
 
 /// Samples `mesh`, which lies inside `grid` and above z = 0.
 ///
@@ -21,14 +21,13 @@ pub fn sample(mesh: &Mesh, grid: &Grid, progress: &mut Progress<'_>) -> Result<L
     super::check_facets(mesh)?;
     report(progress, 0.0)?;
     let projection = Projection::new(mesh, grid);
-    let bands = facets_by_band(&projection, grid);
-    let facets_of = |band: usize| &bands.all()[bands.range(band)];
+    let scan = Scan::new(&projection, grid, mesh.classes);
     let mut offsets: Vec<u32> = assemble::zeroed(grid.pixels() + 1)?;
     let band_rays = BAND_ROWS as usize * grid.width as usize;
 
     map_in_groups(
         offsets[1..].chunks_mut(band_rays).enumerate(),
-        |(band, counts)| count_band(&projection, grid, band, facets_of(band), counts),
+        |(band, counts)| scan.count(band, scan.rows(band), None, counts),
         |()| Ok::<_, LdiError>(()),
         progress,
         [0.05, 0.35],
@@ -40,10 +39,7 @@ pub fn sample(mesh: &Mesh, grid: &Grid, progress: &mut Progress<'_>) -> Result<L
         assemble::by_rays(&offsets, &mut hits, band_rays)
             .into_iter()
             .enumerate(),
-        |(band, (offsets, hits))| {
-            fill_band(&projection, grid, band, facets_of(band), offsets, hits);
-            assemble::sort_rays(offsets, hits);
-        },
+        |(band, (offsets, hits))| scan.fill(band, scan.rows(band), None, offsets, hits),
         |()| Ok::<_, LdiError>(()),
         progress,
         [0.35, 1.0],
@@ -56,83 +52,210 @@ pub fn sample(mesh: &Mesh, grid: &Grid, progress: &mut Progress<'_>) -> Result<L
     })
 }
 
-/// The facets that reach into each band.
-fn facets_by_band(projection: &Projection<'_>, grid: &Grid) -> FacetLists {
-    let bands = grid.height.div_ceil(BAND_ROWS) as usize;
-    FacetLists::new(bands, 0..projection.facets() as u32, |facet| {
-        let rows = projection.rows(facet as usize);
-        if rows.is_empty() {
-            0..0
-        } else {
-            (rows.start / BAND_ROWS) as usize..rows.end.div_ceil(BAND_ROWS) as usize
+/// Heights in millimetres between which hits are looked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Slab {
+    /// Hits at this height are below it.
+    pub above_mm: f64,
+    /// Hits at this height belong to it.
+    pub to_mm: f64,
+}
+
+impl Slab {
+    fn contains(self, z_mm: f32) -> bool {
+        let z_mm = f64::from(z_mm);
+        self.above_mm < z_mm && z_mm <= self.to_mm
+    }
+
+    /// Whether it contains all heights of a facet with these corners.
+    fn covers(self, corners_mm: [f32; 3]) -> bool {
+        corners_mm.into_iter().all(|z_mm| self.contains(z_mm))
+    }
+
+    /// Whether a facet with these corners may reach into it.
+    fn meets(self, corners_mm: [f32; 3]) -> bool {
+        let corners_mm = corners_mm.map(f64::from);
+        corners_mm.iter().any(|&z_mm| self.above_mm < z_mm)
+            && corners_mm.iter().any(|&z_mm| z_mm <= self.to_mm)
+    }
+}
+
+/// The facets of a mesh over a grid in bands of rows, to find the hits of any band.
+#[derive(Debug)]
+pub struct Scan<'a> {
+    projection: &'a Projection<'a>,
+    grid: Grid,
+    bands: FacetLists,
+    classes: FacetClasses,
+}
+
+/// The rays of some rows, as a [`Scan`] finds them.
+#[derive(Debug)]
+pub struct ScannedRays {
+    first_row: u32,
+    offsets: Vec<u32>,
+    hits: Vec<Hit>,
+    classes: FacetClasses,
+}
+
+impl ScannedRays {
+    /// The rays.
+    pub fn rays(&self) -> Rays<'_> {
+        Rays {
+            first_row: self.first_row,
+            offsets: &self.offsets,
+            hits: &self.hits,
+            classes: self.classes,
         }
-    })
+    }
 }
 
-fn rows_of(band: usize, grid: &Grid) -> std::ops::Range<u32> {
-    let first = band as u32 * BAND_ROWS;
-    first..(first + BAND_ROWS).min(grid.height)
-}
+impl<'a> Scan<'a> {
+    /// A scan of all facets.
+    pub fn new(projection: &'a Projection<'a>, grid: &Grid, classes: FacetClasses) -> Self {
+        let facets = 0..projection.facets() as u32;
+        Self::of(projection, grid, classes, facets)
+    }
 
-/// Writes the number of hits of every ray of a band: first the differences at the ends of spans, then
-/// their running sums along the rows.
-fn count_band(
-    projection: &Projection<'_>,
-    grid: &Grid,
-    band: usize,
-    facets: &[u32],
-    counts: &mut [u32],
-) {
-    let rows = rows_of(band, grid);
-    let width = grid.width as usize;
-    for &facet in facets {
-        let Some(outline) = projection.outline(facet as usize) else {
-            continue;
-        };
-        outline.for_each_span(rows.clone(), |row, columns| {
+    /// A scan of the facets that reach into a slab.
+    pub fn of_slab(
+        projection: &'a Projection<'a>,
+        grid: &Grid,
+        classes: FacetClasses,
+        slab: Slab,
+    ) -> Self {
+        let facets = 0..projection.facets() as u32;
+        let meets = |&facet: &u32| slab.meets(projection.heights(facet as usize));
+        Self::of(projection, grid, classes, facets.filter(meets))
+    }
+
+    fn of(
+        projection: &'a Projection<'a>,
+        grid: &Grid,
+        classes: FacetClasses,
+        facets: impl Iterator<Item = u32> + Clone,
+    ) -> Self {
+        let bands = grid.height.div_ceil(BAND_ROWS) as usize;
+        let bands = FacetLists::new(bands, facets, |facet| {
+            let rows = projection.rows(facet as usize);
+            if rows.is_empty() {
+                0..0
+            } else {
+                (rows.start / BAND_ROWS) as usize..rows.end.div_ceil(BAND_ROWS) as usize
+            }
+        });
+        Self {
+            projection,
+            grid: *grid,
+            bands,
+            classes,
+        }
+    }
+
+    fn rows(&self, band: usize) -> Range<u32> {
+        let first = band as u32 * BAND_ROWS;
+        first..(first + BAND_ROWS).min(self.grid.height)
+    }
+
+    /// The rays of a band.
+    pub fn band(&self, band: usize) -> ScannedRays {
+        self.part(band, self.rows(band), None)
+    }
+
+    /// The rays of some rows with their hits in a slab, up to the end of a band: as many of the rows as are returned.
+    pub fn first_of(&self, rows: Range<u32>, slab: Slab) -> ScannedRays {
+        let band = (rows.start / BAND_ROWS) as usize;
+        let end = self.rows(band).end.min(rows.end);
+        self.part(band, rows.start..end, Some(slab))
+    }
+
+    fn part(&self, band: usize, rows: Range<u32>, slab: Option<Slab>) -> ScannedRays {
+        let rays = rows.len() * self.grid.width as usize;
+        let mut offsets = vec![0u32; rays + 1];
+        self.count(band, rows.clone(), slab, &mut offsets[1..]);
+        let mut total = 0;
+        for offset in &mut offsets {
+            total += *offset;
+            *offset = total;
+        }
+        let mut hits: Vec<Hit> = bytemuck::zeroed_vec(total as usize);
+        self.fill(band, rows.clone(), slab, &offsets, &mut hits);
+        ScannedRays {
+            first_row: rows.start,
+            offsets,
+            hits,
+            classes: self.classes,
+        }
+    }
+
+    /// Writes the number of hits of every ray of some rows of a band: first the differences at the ends of spans, then their running
+    /// sums along the rows.
+    fn count(&self, band: usize, rows: Range<u32>, slab: Option<Slab>, counts: &mut [u32]) {
+        let width = self.grid.width as usize;
+        let mut add = |row: u32, columns: Range<u32>| {
             let start = (row - rows.start) as usize * width;
             let counts = &mut counts[start..start + width];
             counts[columns.start as usize] = counts[columns.start as usize].wrapping_add(1);
             if let Some(after) = counts.get_mut(columns.end as usize) {
                 *after = after.wrapping_sub(1);
             }
-        });
-    }
-    for row in counts.chunks_mut(width) {
-        let mut open = 0u32;
-        for count in row {
-            open = open.wrapping_add(*count);
-            *count = open;
+        };
+        for &facet in self.bands.of(band) {
+            let facet = facet as usize;
+            if let Some(slab) = slab.filter(|slab| !slab.covers(self.projection.heights(facet))) {
+                let Some(facet) = self.projection.facet(facet) else {
+                    continue;
+                };
+                facet.outline.for_each_span(rows.clone(), |row, columns| {
+                    let heights = facet.heights(row);
+                    for column in columns.filter(|&column| slab.contains(heights.at(column))) {
+                        add(row, column..column + 1);
+                    }
+                });
+            } else if let Some(outline) = self.projection.outline(facet) {
+                outline.for_each_span(rows.clone(), &mut add);
+            }
+        }
+        for row in counts.chunks_mut(width) {
+            let mut open = 0u32;
+            for count in row {
+                open = open.wrapping_add(*count);
+                *count = open;
+            }
         }
     }
-}
 
-/// Writes the hits of a band. Within a ray they are in the order of facets.
-fn fill_band(
-    projection: &Projection<'_>,
-    grid: &Grid,
-    band: usize,
-    facets: &[u32],
-    offsets: &[u32],
-    hits: &mut [Hit],
-) {
-    let rows = rows_of(band, grid);
-    let width = grid.width as usize;
-    let base = offsets[0];
-    let mut cursors: Vec<u32> = offsets.iter().map(|offset| offset - base).collect();
-    for &index in facets {
-        let Some(facet) = projection.facet(index as usize) else {
-            continue;
-        };
-        facet.outline.for_each_span(rows.clone(), |row, columns| {
-            let heights = facet.heights(row);
-            let start = (row - rows.start) as usize * width;
-            let cursors =
-                &mut cursors[start + columns.start as usize..start + columns.end as usize];
-            for (column, cursor) in columns.zip(cursors) {
-                hits[*cursor as usize] = Hit::new(heights.at(column), index, facet.faces_up);
-                *cursor += 1;
-            }
-        });
+    /// Writes the hits of the rays of some rows of a band, in order.
+    fn fill(
+        &self,
+        band: usize,
+        rows: Range<u32>,
+        slab: Option<Slab>,
+        offsets: &[u32],
+        hits: &mut [Hit],
+    ) {
+        let width = self.grid.width as usize;
+        let base = offsets[0];
+        let mut cursors: Vec<u32> = offsets.iter().map(|offset| offset - base).collect();
+        for &index in self.bands.of(band) {
+            let Some(facet) = self.projection.facet(index as usize) else {
+                continue;
+            };
+            let crossed = slab.filter(|slab| !slab.covers(self.projection.heights(index as usize)));
+            facet.outline.for_each_span(rows.clone(), |row, columns| {
+                let heights = facet.heights(row);
+                let start = (row - rows.start) as usize * width;
+                let cursors =
+                    &mut cursors[start + columns.start as usize..start + columns.end as usize];
+                for (column, cursor) in columns.zip(cursors) {
+                    let z_mm = heights.at(column);
+                    if crossed.is_none_or(|slab| slab.contains(z_mm)) {
+                        hits[*cursor as usize] = Hit::new(z_mm, index, facet.faces_up);
+                        *cursor += 1;
+                    }
+                }
+            });
+        }
+        assemble::sort_rays(offsets, hits);
     }
 }

@@ -10,17 +10,20 @@ pub mod gpu;
 pub mod layout;
 pub mod projection;
 mod ranges;
+mod rays;
 mod solid;
+mod survey;
 pub mod visibility;
 
 use serde::Serialize;
 
 pub use ranges::{model_ranges, printed_ranges};
+pub use rays::{RayImage, Rays};
 pub use solid::Solid;
+pub use survey::Survey;
 
 use crate::grid::Grid;
-use crate::model::{FacetClass, FacetClasses, Mesh};
-use crate::parallel;
+use crate::model::{FacetClasses, Mesh};
 use crate::progress::Cancelled;
 
 /// Rays that a thread processes at a time.
@@ -203,47 +206,9 @@ impl Ldi {
         &self.hits[self.offsets[ray] as usize..self.offsets[ray + 1] as usize]
     }
 
-    /// The offsets in chunks of [`CHUNK_RAYS`] rays, each followed by the offset where its last ray ends.
-    fn chunks(&self) -> Vec<&[u32]> {
-        (0..self.rays())
-            .step_by(CHUNK_RAYS)
-            .map(|first| &self.offsets[first..=(first + CHUNK_RAYS).min(self.rays())])
-            .collect()
-    }
-
     /// Number of rays.
     pub fn rays(&self) -> usize {
         self.offsets.len() - 1
-    }
-
-    /// Volume of supports outside the model, in mm³.
-    pub fn support_mm3(&self) -> f64 {
-        let lengths = parallel::map(self.chunks(), |offsets: &[u32]| {
-            let mut length_mm = 0.0;
-            for ray in offsets.windows(2) {
-                let hits = &self.hits[ray[0] as usize..ray[1] as usize];
-                ranges::support_ranges(hits, self.classes, |from_mm, to_mm| {
-                    length_mm += f64::from(to_mm) - f64::from(from_mm);
-                });
-            }
-            length_mm
-        });
-        lengths.into_iter().sum::<f64>() * self.grid.pixel_mm2()
-    }
-
-    /// Number of rays that pass through a hole of the sampled mesh. Without the caps these rays would not close.
-    pub fn rays_through_holes(&self) -> usize {
-        let is_cap = |hit: &Hit| self.classes.of(hit.facet()) == FacetClass::Cap;
-        if !self.classes.has_caps() {
-            return 0;
-        }
-        parallel::map(self.chunks(), |offsets: &[u32]| {
-            let rays = offsets.windows(2);
-            let hits = |ray: &[u32]| &self.hits[ray[0] as usize..ray[1] as usize];
-            rays.filter(|ray| hits(ray).iter().any(is_cap)).count()
-        })
-        .into_iter()
-        .sum()
     }
 }
 

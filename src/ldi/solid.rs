@@ -1,8 +1,5 @@
 //! The solid that an LDI encloses: its volume, and the heights at which any ray is inside it.
 
-use super::{Ldi, printed_ranges};
-use crate::parallel;
-
 /// The solid as sampled by rays.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solid {
@@ -14,34 +11,6 @@ pub struct Solid {
 }
 
 impl Solid {
-    /// Measures the solid in one pass over all hits.
-    pub fn of(ldi: &Ldi) -> Self {
-        let parts = parallel::map(ldi.chunks(), |offsets: &[u32]| {
-            let mut length_mm = 0.0;
-            let mut heights = Heights::default();
-            for ray in offsets.windows(2) {
-                let hits = &ldi.hits[ray[0] as usize..ray[1] as usize];
-                printed_ranges(hits, ldi.classes, |z_in, z_out| {
-                    length_mm += f64::from(z_out) - f64::from(z_in);
-                    heights.add(z_in, z_out);
-                });
-            }
-            (length_mm, heights)
-        });
-        let mut length_mm = 0.0;
-        let mut heights = Heights::default();
-        for (part_mm, part) in parts {
-            length_mm += part_mm;
-            for (z_in, z_out) in part.into_ranges() {
-                heights.add(z_in, z_out);
-            }
-        }
-        Self {
-            volume_mm3: length_mm * ldi.grid.pixel_mm2(),
-            heights_mm: heights.into_ranges(),
-        }
-    }
-
     /// Several solids side by side, each a number of times.
     pub fn of_copies<'a>(solids: impl Iterator<Item = (&'a Self, usize)>) -> Self {
         let mut volume_mm3 = 0.0;
@@ -61,7 +30,7 @@ impl Solid {
 
 /// A union of height ranges. Heights are not negative, so their bits ascend with them: browsers compare and choose integers faster.
 #[derive(Default)]
-struct Heights {
+pub(super) struct Heights {
     /// Each range as bits, the lower end in the upper half.
     keys: Vec<u64>,
     /// The bits of both ends of the range that grew last: most rays pass through the same solid as the ray before.
@@ -75,7 +44,7 @@ impl Heights {
     const LIMIT: usize = 1 << 10;
 
     #[inline]
-    fn add(&mut self, z_in: f32, z_out: f32) {
+    pub fn add(&mut self, z_in: f32, z_out: f32) {
         let (z_in, z_out) = (z_in.to_bits(), z_out.to_bits());
         match &mut self.last {
             Some((from, to)) if z_in <= *to && *from <= z_out => {
@@ -113,7 +82,7 @@ impl Heights {
     }
 
     /// The ranges in ascending order. No two touch.
-    fn into_ranges(mut self) -> Vec<(f32, f32)> {
+    pub fn into_ranges(mut self) -> Vec<(f32, f32)> {
         let last = self.last.take();
         self.keep(last);
         self.merge();

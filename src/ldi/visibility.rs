@@ -1,9 +1,12 @@
 //! Finds the facets that lie wholly inside the solid where bodies overlap. They are not part of the printed surface.
 
-use super::{Hit, Ldi};
+use std::sync::atomic::AtomicU8;
+use std::sync::atomic::Ordering::Relaxed;
+
+use super::{Hit, RayImage, Rays, Survey};
 use crate::model::crossing::crossed;
 use crate::model::{Mesh, bodies};
-use crate::parallel;
+use crate::progress::{Cancelled, Progress};
 
 /// What an LDI shows about the facets of its mesh.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -22,33 +25,29 @@ const MET: u8 = 1;
 const ON_SURFACE: u8 = 2;
 const INSIDE: u8 = 4;
 
-/// Finds the hidden facets of `mesh`, from which `ldi` was sampled. A facet that no ray meets counts as visible, unless
-/// its body is hidden.
+/// Finds the hidden facets of `mesh`, whose rays `image` has and `survey` surveyed. A facet that no ray meets counts as visible,
+/// unless its body is hidden.
 ///
-/// Cost: linear in hits, and in facets where bodies overlap.
-pub fn visibility(mesh: &Mesh, ldi: &Ldi) -> Visibility {
+/// Cost: none if rays pass through one body after another; otherwise linear in hits and facets.
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn visibility(
+    mesh: &Mesh,
+    image: RayImage<'_>,
+    survey: &Survey,
+    progress: &mut Progress<'_>,
+) -> Result<Visibility, Cancelled> {
     // Voids and supports do not belong to the surface that profiles measure.
     let model_end = mesh.classes.model_end();
-    let is_simple = |offsets: &[u32]| {
-        all_rays(ldi, offsets, |hits| {
-            is_in_turn(hits, |hit| hit.facet() < model_end)
-        })
-    };
-    let chunks = ldi.chunks();
-    if parallel::map(chunks.clone(), is_simple)
-        .into_iter()
-        .all(|simple| simple)
-    {
-        return Visibility {
+    if survey.is_in_turn {
+        return Ok(Visibility {
             hidden: Vec::new(),
             partly_inside: Vec::new(),
             overlaps: false,
-        };
+        });
     }
-    let mut seen = vec![0u8; mesh.facets.len()];
-    for ray in 0..ldi.rays() {
-        look_along(ldi.ray(ray), model_end, &mut seen);
-    }
+    let mut seen = seen_along(mesh, image, &mut |fraction| progress(0.5 * fraction))?;
     let bodies = bodies(mesh.vertices.len(), &mesh.facets);
     let met_inside: Vec<bool> = seen.iter().map(|seen| seen & INSIDE != 0).collect();
     for seen in &mut seen {
@@ -78,34 +77,41 @@ pub fn visibility(mesh: &Mesh, ldi: &Ldi) -> Visibility {
     let is_open = (0..seen.len())
         .any(|facet| hidden[facet] && !is_hidden_body(facet) && mesh.n_z_squared(facet) < 1.0);
     // Without the hidden bodies, does every ray enter and leave one body after another? One may begin where another ends.
-    let is_union = |offsets: &[u32]| {
-        all_rays(ldi, offsets, |hits| {
-            is_one_solid(hits, |hit| {
-                hit.facet() < model_end && !is_hidden_body(hit.facet() as usize)
-            })
+    let is_union = |hits: &[Hit]| {
+        is_one_solid(hits, |hit| {
+            hit.facet() < model_end && !is_hidden_body(hit.facet() as usize)
         })
     };
-    let overlaps = is_open
-        || !parallel::map(chunks, is_union)
-            .into_iter()
-            .all(|union| union);
-    Visibility {
+    let mut second = |fraction| progress(0.5 + 0.5 * fraction);
+    let overlaps = is_open || !image.all(is_union, &mut second)?;
+    Ok(Visibility {
         hidden,
         partly_inside,
         overlaps,
-    }
+    })
 }
 
-/// Whether `holds` is true for every ray that the offsets bound.
-fn all_rays(ldi: &Ldi, offsets: &[u32], holds: impl Fn(&[Hit]) -> bool) -> bool {
-    offsets
-        .windows(2)
-        .all(|ray| holds(&ldi.hits[ray[0] as usize..ray[1] as usize]))
+/// What all rays see of each facet.
+fn seen_along(
+    mesh: &Mesh,
+    image: RayImage<'_>,
+    progress: &mut Progress<'_>,
+) -> Result<Vec<u8>, Cancelled> {
+    let model_end = mesh.classes.model_end();
+    let seen: Vec<AtomicU8> = mesh.facets.iter().map(|_| AtomicU8::new(0)).collect();
+    let look = |(): &mut (), rays: Rays<'_>| {
+        for hits in rays.each() {
+            look_along(hits, model_end, &seen);
+        }
+    };
+    image.fold(|| (), look, progress)?;
+    Ok(seen.into_iter().map(AtomicU8::into_inner).collect())
 }
 
 /// Whether those hits of a ray for which `counts` holds enter and leave one body after another, and no body touches the
 /// next.
-fn is_in_turn(hits: &[Hit], counts: impl Fn(&Hit) -> bool) -> bool {
+#[inline]
+pub(super) fn is_in_turn(hits: &[Hit], counts: impl Fn(&Hit) -> bool) -> bool {
     let mut winding = 0;
     let mut last_z_mm = -1.0;
     hits.iter().filter(|hit| counts(hit)).all(|hit| {
@@ -129,7 +135,7 @@ fn is_one_solid(hits: &[Hit], counts: impl Fn(&Hit) -> bool) -> bool {
 
 /// Marks the facets that a ray meets, and those that separate inside from outside. Hits at the same height count
 /// together: where bodies touch, neither of the two facets is on the surface.
-fn look_along(hits: &[Hit], model_end: u32, seen: &mut [u8]) {
+fn look_along(hits: &[Hit], model_end: u32, seen: &[AtomicU8]) {
     let mut winding = 0;
     for group in hits.chunk_by(|a, b| a.z_mm == b.z_mm) {
         let was_inside = winding != 0;
@@ -141,7 +147,11 @@ fn look_along(hits: &[Hit], model_end: u32, seen: &mut [u8]) {
             MET | ON_SURFACE
         };
         for hit in of_model() {
-            seen[hit.facet() as usize] |= note;
+            let seen = &seen[hit.facet() as usize];
+            // Neighbouring rays meet the same facets: most notes are already made.
+            if seen.load(Relaxed) & note != note {
+                seen.fetch_or(note, Relaxed);
+            }
         }
     }
 }

@@ -9,15 +9,17 @@ mod plate;
 mod runs;
 mod samples;
 mod shrink;
+mod slabs;
 mod window;
 
 use std::ops::Range;
 
 pub(crate) use columns::Until;
-pub use plate::{PlateMasks, Stamp};
+pub use plate::{PlateMasks, PlateRuns, Stamp};
 pub use runs::{LayerRuns, ReadPlace, Run, RunReader, RunSource};
 pub use samples::{LEVELS, Samples};
 pub use shrink::Shrinking;
+pub use slabs::SlabMasks;
 pub use window::{Side, Window};
 
 use crate::grid::Grid;
@@ -27,9 +29,6 @@ use crate::plan::Plan;
 use samples::SublayerOf;
 use shrink::Shrink;
 use window::Place;
-
-/// Rows of pixels whose changes one thread sorts together.
-const BAND_ROWS: u32 = 128;
 
 /// The masks of all layers of a plan.
 #[derive(Debug, Clone, PartialEq)]
@@ -130,20 +129,8 @@ impl Masks {
         find: impl Fn(Range<usize>, &mut Vec<Change>) + Sync + Send,
     ) -> Self {
         let layers = plan.layers();
-        let band_pixels = BAND_ROWS * place.window.row_pixels() as u32;
-        let mut bands = Vec::new();
-        let mut row = 0;
-        // Several rows of rays may share a row of pixels, which is then in one band.
-        for rays in place
-            .rows
-            .chunk_by(|a, b| a / band_pixels == b / band_pixels)
-        {
-            bands.push(row..row + rays.len());
-            row += rays.len();
-        }
-        let bands = parallel::map(bands, |rows| {
-            let row_pixels = place.window.row_pixels() as u32;
-            let area = place.rows[rows.start]..place.rows[rows.end - 1] + row_pixels;
+        let bands = parallel::map(place.bands(), |rows| {
+            let area = place.area(&rows);
             let mut changes = Vec::new();
             find(rows, &mut changes);
             Band::new(area, layers, samples, changes)
@@ -155,6 +142,12 @@ impl Masks {
             layers,
             bands,
         }
+    }
+
+    /// Bytes that masks take per hit: where a pixel changes, and by how many samples. With several samples a hit may change two
+    /// layers.
+    pub(crate) fn bytes_per_hit(samples: Samples) -> u64 {
+        if samples == Samples::ONE { 4 } else { 10 }
     }
 
     /// Number of layers.
@@ -226,6 +219,11 @@ impl Change {
 
     fn by(&self) -> i8 {
         self.layer_and_by as i8
+    }
+
+    /// Counts its layer from another one.
+    fn lower(&mut self, first_layer: usize) {
+        self.layer_and_by -= (first_layer as u32) << 8;
     }
 }
 

@@ -27,6 +27,17 @@ pub struct PlateMasks {
 }
 
 impl PlateMasks {
+    /// Their runs.
+    pub fn runs(&self) -> PlateRuns<'_> {
+        let stamps = self.stamps.iter();
+        PlateRuns {
+            grid: self.grid,
+            stamps: stamps
+                .map(|stamp| (&stamp.masks as &dyn RunSource, stamp.offsets.clone()))
+                .collect(),
+        }
+    }
+
     /// The mask of a layer: see [`MaskCursor::whole`]. `cursors` are those of the stamps, and are moved to the layer.
     pub fn whole(&self, cursors: &mut [MaskCursor], layer: usize) -> Vec<u8> {
         let row_bytes = row_bytes(&self.grid);
@@ -88,9 +99,17 @@ fn light(row: &mut [u8], first: usize, pixels: usize) {
     }
 }
 
-impl RunSource for PlateMasks {
+/// The runs of several models on one screen, where their copies stand: see [`Stamp::offsets`].
+pub struct PlateRuns<'a> {
+    /// The pixels of the screen.
+    pub grid: Grid,
+    /// Each model as if it stood alone at the middle of the screen, and its copies.
+    pub stamps: Vec<(&'a dyn RunSource, Vec<[i32; 2]>)>,
+}
+
+impl RunSource for PlateRuns<'_> {
     fn reader(&self) -> Box<dyn RunReader + '_> {
-        let readers = self.stamps.iter().map(|stamp| stamp.masks.reader());
+        let readers = self.stamps.iter().map(|(runs, _)| runs.reader());
         Box::new(Reader {
             plate: self,
             readers: readers.collect(),
@@ -99,7 +118,7 @@ impl RunSource for PlateMasks {
 }
 
 struct Reader<'a> {
-    plate: &'a PlateMasks,
+    plate: &'a PlateRuns<'a>,
     readers: Vec<Box<dyn RunReader + 'a>>,
 }
 
@@ -135,13 +154,13 @@ impl Copy<'_> {
     }
 }
 
-impl PlateMasks {
+impl PlateRuns<'_> {
     /// The runs of a layer, given those of each model alone.
     fn stamped(&self, alone: &[Vec<Run>]) -> Vec<Run> {
         let width = self.grid.width;
         let mut waiting: Vec<Copy<'_>> = Vec::new();
-        for (stamp, runs) in self.stamps.iter().zip(alone) {
-            waiting.extend(stamp.offsets.iter().map(|&[right, down]| Copy {
+        for ((_, offsets), runs) in self.stamps.iter().zip(alone) {
+            waiting.extend(offsets.iter().map(|&[right, down]| Copy {
                 runs,
                 offset: i64::from(down) * i64::from(width) + i64::from(right),
             }));

@@ -4,6 +4,7 @@
 //! layer costs, and two levels of bits find the edges without looking at the pixels between them.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use super::{Band, Masks, Samples, Window};
 use crate::parallel;
@@ -52,6 +53,17 @@ impl LayerRuns {
     /// Number of layers.
     pub fn layers(&self) -> usize {
         self.layers
+    }
+
+    /// Adds the layers that follow, in the same bands.
+    pub(super) fn append(&mut self, following: Self) {
+        self.layers += following.layers;
+        for (band, following) in self.bands.iter_mut().zip(following.bands) {
+            let runs = band.runs.len();
+            band.ends
+                .extend(following.ends.iter().map(|end| runs + end));
+            band.runs.extend(following.runs);
+        }
     }
 
     /// The runs as numbers, for another worker of the same build.
@@ -124,6 +136,12 @@ impl RunSource for Masks {
     }
 }
 
+impl<T: RunSource + Send> RunSource for Arc<T> {
+    fn reader(&self) -> Box<dyn RunReader + '_> {
+        (**self).reader()
+    }
+}
+
 struct Reader<'a> {
     masks: &'a Masks,
     place: ReadPlace,
@@ -149,6 +167,11 @@ impl ReadPlace {
             states: bands.map(|band| State::new(band, masks.samples)).collect(),
             next: 0,
         }
+    }
+
+    /// Goes on at the first layer of masks that follow: their changes apply to the last layer that was read.
+    pub(super) fn restart(&mut self) {
+        self.next = 0;
     }
 
     /// The runs of the next layers of the same masks: see [`RunReader::next`].

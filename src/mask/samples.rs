@@ -1,5 +1,8 @@
 //! Samples of a pixel for anti-aliasing: several rays side by side, and several heights within a layer.
 
+use std::ops::Range;
+
+use crate::ldi::cpu::Slab;
 use crate::plan::Plan;
 
 /// Levels of anti-aliasing.
@@ -52,6 +55,7 @@ impl Samples {
 }
 
 /// Finds the first sublayer whose middle is at or above a height.
+#[derive(Debug)]
 pub(super) struct SublayerOf {
     middles_mm: Vec<f64>,
     /// For every bin, a lower bound of the answer for heights in it.
@@ -81,6 +85,18 @@ impl SublayerOf {
             middles_mm,
             first,
             bins_per_mm: 1.0 / plan.bins.size_mm,
+        }
+    }
+
+    /// The heights whose first sublayer belongs to these layers, each of which has `parts` sublayers.
+    pub fn slab(&self, layers: &Range<usize>, parts: u32) -> Slab {
+        let [first, end] = [layers.start, layers.end].map(|layer| layer * parts as usize);
+        let below = first
+            .checked_sub(1)
+            .map(|sublayer| self.middles_mm[sublayer]);
+        Slab {
+            above_mm: below.unwrap_or(-1.0),
+            to_mm: self.middles_mm[end - 1],
         }
     }
 

@@ -1,5 +1,7 @@
 //! The part of a mask that the model covers.
 
+use std::ops::Range;
+
 use super::Samples;
 use crate::grid::Grid;
 
@@ -32,7 +34,11 @@ pub enum Side {
     Below,
 }
 
+/// Rows of pixels whose changes one thread sorts together.
+const BAND_ROWS: u32 = 128;
+
 /// Maps rays to pixels of the window.
+#[derive(Debug)]
 pub(super) struct Place {
     pub window: Window,
     /// For each column of rays, its pixel within a row of the window.
@@ -71,5 +77,26 @@ impl Place {
                 .map(|ray| (row(ray) - row(0)) * row_pixels)
                 .collect(),
         }
+    }
+    /// The rows of rays in bands that share no row of pixels, from the top row down.
+    pub fn bands(&self) -> Vec<Range<usize>> {
+        let band_pixels = BAND_ROWS * self.window.row_pixels() as u32;
+        let mut bands = Vec::new();
+        let mut row = 0;
+        // Several rows of rays may share a row of pixels, which is then in one band.
+        for rays in self
+            .rows
+            .chunk_by(|a, b| a / band_pixels == b / band_pixels)
+        {
+            bands.push(row..row + rays.len());
+            row += rays.len();
+        }
+        bands
+    }
+
+    /// The pixels of the window that rows of rays have.
+    pub fn area(&self, rows: &Range<usize>) -> Range<u32> {
+        let row_pixels = self.window.row_pixels() as u32;
+        self.rows[rows.start]..self.rows[rows.end - 1] + row_pixels
     }
 }

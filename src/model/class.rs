@@ -87,6 +87,20 @@ pub struct Winding {
 }
 
 impl Winding {
+    /// Of the winding numbers of model, void and support.
+    pub fn of([model, void, support]: [i32; 3]) -> Self {
+        Self {
+            model,
+            void,
+            support,
+        }
+    }
+
+    /// The winding numbers of model, void and support.
+    pub fn numbers(self) -> [i32; 3] {
+        [self.model, self.void, self.support]
+    }
+
     /// Moves the point past a facet that changes its winding number by `by`.
     pub fn pass(&mut self, class: FacetClass, by: i32) {
         match class {

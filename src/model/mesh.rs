@@ -265,6 +265,12 @@ impl Mesh {
         }
     }
 
+    /// The area of a facet seen from above, in mm².
+    pub fn projected_mm2(&self, facet: usize) -> f64 {
+        let [a, b, c] = self.corners(facet);
+        (b - a).cross(c - a).z.abs() * 0.5
+    }
+
     /// A copy that stands on the plate in this pose, with its lowest point at z = 0, centred on x = y = 0.
     ///
     /// # Errors

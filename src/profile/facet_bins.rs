@@ -40,10 +40,7 @@ impl FacetBins {
             facets,
             &heights_mm,
             |facet| mesh.n_z_squared(facet),
-            |facet| {
-                let [a, b, c] = mesh.corners(facet);
-                (b - a).cross(c - a).z.abs() * 0.5
-            },
+            |facet| mesh.projected_mm2(facet),
         )
     }
 

@@ -4,39 +4,40 @@
 use glam::{DVec2, DVec3};
 
 use crate::grid::Bins;
-use crate::ldi::{Ldi, model_ranges};
+use crate::ldi::{RayImage, Rays, model_ranges};
 use crate::model::Mesh;
-use crate::parallel;
-
-/// Minimum number of rays per thread.
-const CHUNK_RAYS: usize = 1 << 18;
+use crate::progress::{Cancelled, Progress};
 
 /// The area of the section at the middle of each bin in mm²: the number of rays inside, times the area of a pixel
 /// (eq. 13).
 ///
 /// Cost: linear in rays, hits and bins.
-pub fn sampled(ldi: &Ldi, bins: Bins) -> Vec<f64> {
-    let step = CHUNK_RAYS.max(ldi.rays() / 16);
-    let firsts = (0..ldi.rays()).step_by(step).collect();
-    let parts = parallel::map(firsts, |first: usize| {
-        // Rays that enter minus rays that leave, between the middle of the bin below and that of this bin.
-        let mut gains = vec![0i64; bins.count + 1];
-        for ray in first..(first + step).min(ldi.rays()) {
-            model_ranges(ldi.ray(ray), ldi.classes, |z_in, z_out| {
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn sampled(
+    image: RayImage<'_>,
+    bins: Bins,
+    progress: &mut Progress<'_>,
+) -> Result<Vec<f64>, Cancelled> {
+    // Rays that enter minus rays that leave, between the middle of the bin below and that of this bin.
+    let none = || vec![0i64; bins.count + 1];
+    let add = |gains: &mut Vec<i64>, rays: Rays<'_>| {
+        for hits in rays.each() {
+            model_ranges(hits, rays.classes, |z_in, z_out| {
                 gains[bins.middles_below(f64::from(z_in))] += 1;
                 gains[bins.middles_below(f64::from(z_out))] -= 1;
             });
         }
-        gains
-    });
-    let pixel_mm2 = ldi.grid.pixel_mm2();
+    };
+    let parts = image.fold(none, add, progress)?;
+    let pixel_mm2 = image.grid().pixel_mm2();
     let mut lit = 0;
-    (0..bins.count)
-        .map(|bin| {
-            lit += parts.iter().map(|gains| gains[bin]).sum::<i64>();
-            lit as f64 * pixel_mm2
-        })
-        .collect()
+    let areas = (0..bins.count).map(|bin| {
+        lit += parts.iter().map(|gains| gains[bin]).sum::<i64>();
+        lit as f64 * pixel_mm2
+    });
+    Ok(areas.collect())
 }
 
 /// The area of the section at the middle of each bin in mm², from the facets: each adds a quadratic function of height

@@ -6,9 +6,10 @@ use super::normal_cones::{self, Cone, cones};
 use super::weighted::Weighted;
 use super::{LayerErrors, Metric, Profile, Shape, Source, section, steepest};
 use crate::grid::Bins;
-use crate::ldi::Ldi;
 use crate::ldi::visibility::{Visibility, visibility};
+use crate::ldi::{RayImage, Survey};
 use crate::model::{Mesh, crossing};
+use crate::progress::{Cancelled, Progress};
 
 /// The shape of a model from both sources.
 #[derive(Debug, Clone)]
@@ -37,20 +38,31 @@ struct Weighing {
 
 impl Shapes {
     /// The shape of a sampled mesh, without areas of sections and without weights.
-    pub fn new(facet_bins: &FacetBins, mesh: &Mesh, ldi: &Ldi) -> Self {
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn new(
+        facet_bins: &FacetBins,
+        mesh: &Mesh,
+        image: RayImage<'_>,
+        survey: &Survey,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, Cancelled> {
+        let mut first = |fraction| progress(0.5 * fraction);
         let Visibility {
             hidden,
             partly_inside,
             overlaps,
-        } = visibility(mesh, ldi);
+        } = visibility(mesh, image, survey, &mut first)?;
         let bins = facet_bins.bins;
         let exact = steepest::exact(facet_bins, &hidden);
-        let sampled = steepest::sampled(facet_bins, ldi, &hidden);
+        let mut second = |fraction| progress(0.5 + 0.5 * fraction);
+        let sampled = steepest::sampled(facet_bins, image, &hidden, &mut second)?;
         let is_seen = |facet: usize| hidden.get(facet) != Some(&true);
         let mut cones = cones(mesh, bins);
         let pairs = crossing::pairs(mesh, &partly_inside, |facet| is_seen(facet as usize));
         cones.extend(creases(mesh, bins, &pairs));
-        Self {
+        Ok(Self {
             exact: Shape {
                 bins,
                 cones: normal_cones::maxima(&exact, &cones, is_seen),
@@ -69,7 +81,7 @@ impl Shapes {
             hidden,
             overlaps,
             weighing: None,
-        }
+        })
     }
 
     /// The shape from facets alone, without rays. It serves as both sources, and no facet counts as hidden. `areas_mm2`
@@ -114,25 +126,46 @@ impl Shapes {
         }
     }
 
-    /// The shape with these weights, one per facet of the surface, for a metric; `None` removes all weights. Without an LDI,
-    /// the exact values serve as both sources.
+    /// The shape with these weights, one per facet of the surface, for a metric; `None` removes all weights.
+    ///
+    /// # Errors
+    /// [`Cancelled`].
     pub fn weighed(
         self,
         facet_bins: &FacetBins,
-        ldi: Option<&Ldi>,
+        image: RayImage<'_>,
+        metric: Metric,
+        weights: Option<Vec<f32>>,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, Cancelled> {
+        let exact = self.weighed_by_facets(facet_bins, metric, weights);
+        let hidden = &exact.hidden;
+        let weighing = exact.weighing.as_ref().map(|weighing| {
+            let weights = &weighing.weights;
+            Weighted::sampled(facet_bins, image, hidden, metric, weights, progress)
+        });
+        let sampled = weighing.transpose()?;
+        let mut shapes = exact;
+        if let (Some(weighing), Some(sampled)) = (&mut shapes.weighing, sampled) {
+            weighing.sampled = sampled;
+        }
+        Ok(shapes)
+    }
+
+    /// [`Self::weighed`] without rays: the exact values serve as both sources.
+    pub fn weighed_by_facets(
+        self,
+        facet_bins: &FacetBins,
         metric: Metric,
         weights: Option<Vec<f32>>,
     ) -> Self {
         let weighing = weights.map(|weights| {
-            let measure =
-                |ldi| Weighted::new(facet_bins, &self.cones, ldi, &self.hidden, metric, &weights);
-            let exact = measure(None);
-            let sampled = ldi.map_or_else(|| exact.clone(), |ldi| measure(Some(ldi)));
+            let exact = Weighted::exact(facet_bins, &self.cones, &self.hidden, metric, &weights);
             Weighing {
                 metric,
                 weights,
+                sampled: exact.clone(),
                 exact,
-                sampled,
             }
         });
         Self { weighing, ..self }
@@ -166,15 +199,23 @@ impl Shapes {
     }
 
     /// The shape with the areas of its sections.
-    pub fn with_areas(mut self, mesh: &Mesh, ldi: &Ldi) -> Self {
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn with_areas(
+        mut self,
+        mesh: &Mesh,
+        image: RayImage<'_>,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, Cancelled> {
         let bins = self.bins();
-        self.sampled.areas_mm2 = section::sampled(ldi, bins);
+        self.sampled.areas_mm2 = section::sampled(image, bins, progress)?;
         self.exact.areas_mm2 = if self.overlaps {
             self.sampled.areas_mm2.clone()
         } else {
             section::exact(mesh, &self.hidden, bins)
         };
-        self
+        Ok(self)
     }
 
     pub fn of(&self, source: Source) -> &Shape {

@@ -4,34 +4,39 @@
 //! Squares avoid a square root per facet and are no less exact.
 
 use super::facet_bins::FacetBins;
-use crate::ldi::{Hit, Ldi};
-use crate::parallel;
+use crate::ldi::{RayImage, Rays};
+use crate::progress::{Cancelled, Progress};
 
 /// The value of a bin without any surface.
 pub const NO_SURFACE: f32 = -1.0;
 
-/// Minimum number of hits per thread.
-const CHUNK_HITS: usize = 1 << 18;
-
 /// For each bin the largest `n_z²` over the hits in it (eq. 5), [`NO_SURFACE`] if there are none.
 ///
-/// `facet_bins` must be those of the mesh that `ldi` was sampled from. Hidden facets are left out; an empty `hidden`
+/// `facet_bins` must be those of the sampled mesh. Hidden facets are left out; an empty `hidden`
 /// hides none.
 ///
 /// Cost: linear in hits.
-pub fn sampled(facet_bins: &FacetBins, ldi: &Ldi, hidden: &[bool]) -> Vec<f32> {
-    sampled_maxima(facet_bins, ldi, hidden, |facet| {
-        facet_bins.n_z_squared[facet]
-    })
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn sampled(
+    facet_bins: &FacetBins,
+    image: RayImage<'_>,
+    hidden: &[bool],
+    progress: &mut Progress<'_>,
+) -> Result<Vec<f32>, Cancelled> {
+    let value = |facet| facet_bins.n_z_squared[facet];
+    sampled_maxima(facet_bins, image, hidden, value, progress)
 }
 
 /// [`sampled`] for any value of facets that is not negative.
 pub(super) fn sampled_maxima(
     facet_bins: &FacetBins,
-    ldi: &Ldi,
+    image: RayImage<'_>,
     hidden: &[bool],
     value: impl Fn(usize) -> f32,
-) -> Vec<f32> {
+    progress: &mut Progress<'_>,
+) -> Result<Vec<f32>, Cancelled> {
     let bins = facet_bins.bins;
     let values: Vec<f32> = (0..facet_bins.spans.len())
         .map(|facet| {
@@ -42,27 +47,23 @@ pub(super) fn sampled_maxima(
             }
         })
         .collect();
-    let chunks = ldi
-        .hits
-        .chunks(CHUNK_HITS.max(ldi.hits.len() / 16))
-        .collect();
-    let parts = parallel::map(chunks, |hits: &[Hit]| {
-        let mut maxima = vec![NO_SURFACE; bins.count];
-        for hit in hits {
+    let none = || vec![NO_SURFACE; bins.count];
+    let add = |maxima: &mut Vec<f32>, rays: Rays<'_>| {
+        for hit in rays.hits {
             // The facets after these only close the surface.
             if let Some(&value) = values.get(hit.facet() as usize) {
                 raise(&mut maxima[bins.of(f64::from(hit.z_mm))], value);
             }
         }
-        maxima
-    });
+    };
+    let parts = image.fold(none, add, progress)?;
     let mut maxima = vec![NO_SURFACE; bins.count];
     for part in parts {
         for (value, other) in maxima.iter_mut().zip(part) {
             raise(value, other);
         }
     }
-    maxima
+    Ok(maxima)
 }
 
 /// For each bin the largest `n_z²` over all facets whose height range meets it, [`NO_SURFACE`] if there are none.

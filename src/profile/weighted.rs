@@ -1,13 +1,16 @@
 //! Profiles weighted by facet (section 4.2). The density of a facet is multiplied by its weight, 0 to 1: the tolerance
 //! holds where the weight is 1, and a facet of weight w may exceed it by a factor of 1/w.
 
+use std::convert::Infallible;
+
 use super::deviation::{DeviationError, weight_levels};
 use super::facet_bins::FacetBins;
 use super::normal_cones::{self, Cone};
 use super::steepest::{self, NO_SURFACE};
 use super::volume::VolumeError;
 use super::{LayerErrors, Metric, Profile, Shape, area, cusp, roughness, thread};
-use crate::ldi::Ldi;
+use crate::ldi::RayImage;
+use crate::progress::{Cancelled, Progress};
 
 /// For each bin the largest weighted density (eq. 21, 22), negative where there is no surface. The area and volume
 /// deviations belong to no facet; for these it is the largest weight (eq. 23, 24).
@@ -35,34 +38,64 @@ fn value_of(facet_bins: &FacetBins, metric: Metric, weights: &[f32]) -> impl Fn(
 }
 
 impl Weighted {
-    /// Takes maxima over the hits in each bin, or without an LDI over all facets whose height range meets the bin.
-    /// `weights` has one value per facet of the surface, `cones` are those of the same facets.
-    pub fn new(
+    /// Takes maxima over all facets whose height range meets a bin. `weights` has one value per facet of the surface, `cones` are
+    /// those of the same facets.
+    pub fn exact(
         facet_bins: &FacetBins,
         cones: &[Cone],
-        ldi: Option<&Ldi>,
         hidden: &[bool],
         metric: Metric,
         weights: &[f32],
     ) -> Self {
-        let maxima = |value: &dyn Fn(usize) -> f32| match ldi {
-            None => steepest::exact_maxima(facet_bins, hidden, value),
-            Some(ldi) => steepest::sampled_maxima(facet_bins, ldi, hidden, value),
+        let counts = |facet: usize| hidden.get(facet) != Some(&true);
+        let maxima = |value: &dyn Fn(usize) -> f32| {
+            Ok::<_, Infallible>(steepest::exact_maxima(facet_bins, hidden, value))
         };
+        let Ok(exact) = Self::new(facet_bins, cones, metric, weights, counts, maxima);
+        exact
+    }
+
+    /// Takes maxima over the hits in each bin; the rest is as for [`Self::exact`]. Rays meet facets, not the cones between them.
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn sampled(
+        facet_bins: &FacetBins,
+        image: RayImage<'_>,
+        hidden: &[bool],
+        metric: Metric,
+        weights: &[f32],
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, Cancelled> {
+        let maxima = |value: &dyn Fn(usize) -> f32| {
+            steepest::sampled_maxima(facet_bins, image, hidden, value, progress)
+        };
+        Self::new(facet_bins, &[], metric, weights, |_| false, maxima)
+    }
+
+    /// `maxima` finds the maximum of a value of facets in each bin, and `counts` tells for which facets cones count.
+    fn new<E>(
+        facet_bins: &FacetBins,
+        cones: &[Cone],
+        metric: Metric,
+        weights: &[f32],
+        counts: impl Fn(usize) -> bool,
+        mut maxima: impl FnMut(&dyn Fn(usize) -> f32) -> Result<Vec<f32>, E>,
+    ) -> Result<Self, E> {
         let largest = weights.iter().fold(
             0.0,
             |most: f32, &weight| if most < weight { weight } else { most },
         );
         let wall = largest * thread::OF_A_WALL;
         if metric != Metric::Deviation {
-            return Self {
+            return Ok(Self {
                 metric,
                 wall,
-                values: maxima(&value_of(facet_bins, metric, weights)),
+                values: maxima(&value_of(facet_bins, metric, weights))?,
                 levels: Vec::new(),
-            };
+            });
         }
-        let levels: Vec<(f32, Vec<f32>)> = weight_levels()
+        let levels = weight_levels()
             .map(|(above, level)| {
                 let steepest = maxima(&|facet| {
                     if weights[facet] > above {
@@ -70,13 +103,11 @@ impl Weighted {
                     } else {
                         NO_SURFACE
                     }
-                });
-                let counts = |facet: usize| {
-                    ldi.is_none() && hidden.get(facet) != Some(&true) && weights[facet] > above
-                };
-                (level, normal_cones::maxima(&steepest, cones, counts))
+                })?;
+                let counts = |facet: usize| counts(facet) && weights[facet] > above;
+                Ok((level, normal_cones::maxima(&steepest, cones, counts)))
             })
-            .collect();
+            .collect::<Result<Vec<(f32, Vec<f32>)>, E>>()?;
         let mut values = vec![NO_SURFACE; facet_bins.bins.count];
         for (level, squares) in &levels {
             for (value, &square) in values.iter_mut().zip(squares) {
@@ -85,12 +116,12 @@ impl Weighted {
                 }
             }
         }
-        Self {
+        Ok(Self {
             metric,
             wall,
             values,
             levels,
-        }
+        })
     }
 
     /// The weighted profile of the metric.

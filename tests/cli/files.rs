@@ -33,6 +33,30 @@ fn slice_writes_a_whole_zip_and_nothing_else() {
 }
 
 #[test]
+fn a_bound_of_memory_changes_no_byte() {
+    let folder = TempDir::new().unwrap();
+    let model = sphere(&folder);
+    let slice = |name: &str, bound: &[&str]| {
+        let zip = folder.path().join(name).to_str().unwrap().to_owned();
+        let screen = ["--height", "15", "--pixels", "2000x2000", "--pitch", "0.01"];
+        let arguments = [&["slice", &model, "-o", &zip], &screen[..], bound].concat();
+        (on_cpu(&arguments), std::fs::read(zip))
+    };
+    let (output, kept) = slice("kept.zip", &[]);
+    assert!(output.status.success(), "{output:?}");
+    // Its hits and masks alone take 60 MB.
+    let (output, bounded) = slice("bounded.zip", &["--max-memory", "40MB"]);
+    assert!(output.status.success(), "{output:?}");
+    assert!(kept.unwrap() == bounded.unwrap());
+
+    let (output, file) = slice("none.zip", &["--max-memory", "1MiB"]);
+    assert_fails(&output, 1, "and 1048576 are allowed; allow more");
+    assert!(file.is_err());
+    let (output, _) = slice("none.zip", &["--max-memory", "much"]);
+    assert_fails(&output, 2, "--max-memory <SIZE>");
+}
+
+#[test]
 fn a_failed_slice_leaves_the_old_file() {
     let folder = TempDir::new().unwrap();
     let zip = model(&folder, "out.zip", b"precious");

@@ -2,6 +2,7 @@
 
 #![cfg(not(target_arch = "wasm32"))]
 
+mod bounded;
 #[path = "../common/mod.rs"]
 mod common;
 mod promises;

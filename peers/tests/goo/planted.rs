@@ -2,6 +2,7 @@
 
 use cusp_slicer::archive::{self, Layer, Look, MaskSource, PrintJob, Screen};
 use cusp_slicer::format::Format;
+use cusp_slicer::ldi::RayImage;
 use cusp_slicer::mask::{LayerRuns, Run, RunReader, RunSource};
 use cusp_slicer::progress::silent;
 use cusp_slicer::resin::Resin;
@@ -81,7 +82,7 @@ fn check(pixels: [u32; 2], masks: Vec<Runs>) {
         resin_ml: 1.0,
         printer: None,
         best_uniform: &|| None,
-        look: &|| Look::new(&mesh, &ldi),
+        look: &|| Look::new(&mesh, RayImage::Kept(&ldi)),
         manifest: &|| unreachable!("the format has none"),
     };
     let bytes = archive::write(Format::Goo, &job, Vec::new(), &mut silent).unwrap();

@@ -2,10 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
+use bytesize::ByteSize;
 use clap::{Args, ValueEnum};
 use cusp_slicer::filament::USUAL_NOZZLE_MM;
 use cusp_slicer::format::Format;
-use cusp_slicer::job::{BIN_MM, Backend, GpuMethod, LAYERS_MM, Minimize, Options, Planner, Snap};
+use cusp_slicer::job::{
+    BIN_MM, Backend, GpuMethod, LAYERS_MM, Minimize, Options, Planner, Slicer, Snap,
+};
 use cusp_slicer::model::ModelUnit;
 use cusp_slicer::plan::HeightRange;
 use cusp_slicer::prepare::{AutoDrain, SupportProfile, SupportStrength, Supporting};
@@ -42,8 +45,21 @@ pub struct Slicing {
     /// Write a plug for each drain hole, to print and glue in once the resin is out: an .stl
     #[arg(long, value_name = "FILE", value_parser = stl_file, help_heading = "Model")]
     pub plugs: Option<PathBuf>,
+    /// Take about this much memory at most, as 1GB or 512MiB; hits that do not fit are found anew, and files stay the same
+    #[arg(long, value_name = "SIZE")]
+    pub max_memory: Option<ByteSize>,
     #[command(flatten)]
     pub choices: Choices,
+}
+
+impl Slicing {
+    /// A slicer that takes its share of the memory, of which `workers` take some at a time.
+    pub fn bounded(&self, slicer: Slicer, workers: usize) -> Slicer {
+        match self.max_memory {
+            Some(ByteSize(bytes)) => slicer.with_memory(bytes / workers as u64),
+            None => slicer,
+        }
+    }
 }
 
 /// A model, and how it would be sliced.

@@ -65,6 +65,11 @@ pub struct Batch<'a> {
 pub type Progress<'a> = dyn FnMut(Stage, f64) -> ControlFlow<()> + 'a;
 
 impl Batch<'_> {
+    /// How many models are in work at a time.
+    pub fn at_a_time(&self) -> usize {
+        self.workers.clamp(1, self.models.len().max(1))
+    }
+
     /// Works on every model. Prints a line as each ends, and in the end repeats what failed.
     pub fn run<T: Told>(
         &self,
@@ -82,7 +87,7 @@ impl Batch<'_> {
         let (sender, results) = mpsc::channel();
         let mut failed = Vec::new();
         thread::scope(|scope| {
-            for _ in 0..self.workers.clamp(1, self.models.len().max(1)) {
+            for _ in 0..self.at_a_time() {
                 let (sender, shared, work) = (sender.clone(), &shared, &work);
                 scope.spawn(move || self.work_off(shared, work, &sender));
             }

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
+use bytesize::ByteSize;
 use clap::Args;
 use cusp_slicer::arrange::Arranging;
 use cusp_slicer::job::{Backend, PlatesReport};
@@ -76,6 +77,9 @@ pub fn job(command: &str, slicing: &Slicing) -> Result<Option<Job>, Failure> {
     let mut job = read_job(command, file, &slicing.models, places, &slicing.choices)?;
     if slicing.arrange {
         job.options.placements.clear();
+    }
+    if let Some(ByteSize(bytes)) = slicing.max_memory {
+        job.plate = std::mem::take(&mut job.plate).with_memory(bytes);
     }
     Ok(Some(job))
 }

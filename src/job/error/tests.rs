@@ -301,6 +301,7 @@ fn merge_errors() -> Vec<MergeError> {
 fn errors() -> Vec<Error> {
     let mut errors = one_of_each!(Error except [Options, Read, Mesh, Grid, Weights, Ldi, Plan, Arrange, Archive, Limits, Search, Price, Merge]:
         NoLayer { layer: 12, layers: 10 },
+        MemoryBound { needed_bytes: 2_000_000_000, allowed_bytes: 1_000_000_000 },
         NoPlan {},
     );
     errors.extend(options_errors().into_iter().map(Error::from));

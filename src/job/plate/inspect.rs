@@ -34,7 +34,7 @@ impl Plate {
     ) -> Result<Vec<ModelPrintability>, Error> {
         let current = self.current(plate)?;
         let planned = Arc::clone(&current.planned);
-        let (masks, _) = current.seen();
+        let (masks, _) = current.seen()?;
         let count = planned.models.len() as f64;
         let all = planned.models.iter().zip(&masks.stamps).enumerate();
         let found = all.map(|(place, (model, stamp))| {

@@ -38,6 +38,8 @@ use shapes::Shape;
 pub struct Plate {
     models: Vec<Slicer>,
     sampler: Sampler,
+    /// Bytes that may be taken, if they are bounded.
+    memory_bytes: Option<u64>,
     /// The models with their supports, if they have some: before turns, in the order of models.
     prepared: Vec<Arc<Prepared>>,
     shapes: Vec<Shape>,
@@ -57,6 +59,13 @@ impl Plate {
     #[must_use]
     pub fn with_gpu(mut self, gpu: Gpu) -> Self {
         self.sampler.set_gpu(gpu);
+        self
+    }
+
+    /// Takes no more than about this many bytes from now on: see [`Slicer::with_memory`]. Models share them equally.
+    #[must_use]
+    pub fn with_memory(mut self, bytes: u64) -> Self {
+        self.memory_bytes = Some(bytes);
         self
     }
 

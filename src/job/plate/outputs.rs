@@ -9,13 +9,12 @@ use super::super::Report;
 use super::super::parts::Job;
 use super::super::planned::Planned;
 use super::super::print::write_print;
-use super::super::sampled::Sampled;
 use super::super::stage::{Stage, StageProgress, ms_since};
 use super::Plate;
 use crate::Error;
 use crate::archive::{Look, MaskSource, Standing};
 use crate::arrange::ArrangeError;
-use crate::mask::{MaskCursor, PlateMasks, Side, Stamp};
+use crate::mask::{MaskCursor, PlateMasks, PlateRuns, Side, Stamp};
 use crate::profile::{Metric, Profile, Source};
 
 /// A plate with its plan and its report.
@@ -81,7 +80,7 @@ impl Plate {
         if layer >= layers {
             return Err(Error::NoLayer { layer, layers });
         }
-        let (masks, cursors) = current.seen();
+        let (masks, cursors) = current.seen()?;
         Ok(masks.whole(cursors, layer))
     }
 
@@ -98,30 +97,50 @@ impl Plate {
     ) -> Result<(W, &Report), Error> {
         let clock = Instant::now();
         let current = self.current(plate)?;
-        let mirrored = current
-            .job
-            .output
-            .is_mirrored
-            .then(|| current.masks(Side::Below));
-        if mirrored.is_none() {
-            current.seen();
-        }
+        let planned = Arc::clone(&current.planned);
+        let is_mirrored = current.job.output.is_mirrored;
+        let side = if is_mirrored {
+            Side::Below
+        } else {
+            Side::Above
+        };
+        let models = planned.models.iter();
+        let all_held = models.clone().all(|model| model.sampled().is_held());
+        // Masks seen from above are kept for later calls.
+        let seen_above = !is_mirrored && all_held;
+        let apart = if seen_above {
+            current.seen()?;
+            Vec::new()
+        } else {
+            let models = 0..planned.models.len();
+            let apart = models.map(|model| planned.runs(model, side));
+            apart.collect::<Result<Vec<_>, _>>()?
+        };
         let Current {
-            planned,
             offsets,
             job,
             report,
             seen,
+            ..
         } = current;
-        let masks = mirrored.as_ref().or(seen.as_ref().map(|seen| &seen.0));
-        let masks = masks.ok_or(Error::NoPlan)?;
-        let look = || look_of(planned, offsets);
+        let runs = match seen {
+            Some((masks, _)) if seen_above => masks.runs(),
+            _ => PlateRuns {
+                grid: planned.first().of.grid,
+                stamps: apart
+                    .iter()
+                    .zip(offsets.iter())
+                    .map(|(runs, offsets)| (&**runs, seen_from(side, offsets)))
+                    .collect(),
+            },
+        };
+        let look = || look_of(&planned, offsets);
         let mut within = |fraction| progress(Stage::Masks, fraction);
         let writer = write_print(
-            planned,
+            &planned,
             &job.output,
             report,
-            MaskSource::Runs(masks),
+            MaskSource::Runs(&runs),
             &look,
             writer,
             &mut within,
@@ -132,39 +151,36 @@ impl Plate {
     }
 }
 
-impl Current {
-    fn masks(&self, side: Side) -> PlateMasks {
-        let stamps = self
-            .offsets
-            .iter()
-            .enumerate()
-            .map(|(model, offsets)| Stamp {
-                masks: self.planned.masks(model, side),
-                offsets: match side {
-                    Side::Above => offsets.clone(),
-                    Side::Below => offsets
-                        .iter()
-                        .map(|&[right, down]| [-right, down])
-                        .collect(),
-                },
-            });
-        PlateMasks {
-            grid: self.planned.first().of.grid,
-            stamps: stamps.collect(),
-        }
+/// The places of copies as they are seen from a side.
+fn seen_from(side: Side, offsets: &[[i32; 2]]) -> Vec<[i32; 2]> {
+    let offsets = offsets.iter();
+    match side {
+        Side::Above => offsets.copied().collect(),
+        Side::Below => offsets.map(|&[right, down]| [-right, down]).collect(),
     }
+}
 
-    pub(super) fn seen(&mut self) -> &mut (PlateMasks, Vec<MaskCursor>) {
-        if self.seen.is_none() {
-            let masks = self.masks(Side::Above);
-            let cursors = masks
-                .stamps
-                .iter()
-                .map(|stamp| stamp.masks.cursor())
-                .collect();
-            self.seen = Some((masks, cursors));
-        }
-        self.seen.as_mut().expect("it was just made")
+impl Current {
+    /// The masks seen from above, and cursors.
+    pub(super) fn seen(&mut self) -> Result<&mut (PlateMasks, Vec<MaskCursor>), Error> {
+        let seen = if let Some(seen) = self.seen.take() {
+            seen
+        } else {
+            let stamps = self.offsets.iter().enumerate().map(|(model, offsets)| {
+                Ok::<_, Error>(Stamp {
+                    masks: self.planned.masks(model, Side::Above)?,
+                    offsets: offsets.clone(),
+                })
+            });
+            let masks = PlateMasks {
+                grid: self.planned.first().of.grid,
+                stamps: stamps.collect::<Result<_, _>>()?,
+            };
+            let cursors = masks.stamps.iter().map(|stamp| stamp.masks.cursor());
+            let cursors = cursors.collect();
+            (masks, cursors)
+        };
+        Ok(self.seen.insert(seen))
     }
 }
 
@@ -173,17 +189,11 @@ fn look_of(planned: &Planned, offsets: &[Vec<[i32; 2]>]) -> Look {
     let mut copies = Vec::new();
     for (model, offsets) in planned.models.iter().zip(offsets) {
         let sampled = model.sampled();
-        let Sampled {
-            ldi,
-            grid,
-            sampling,
-            ..
-        } = sampled;
-        let rays = sampling.samples.rays();
-        let first = grid.refined(rays).offset_of(&ldi.grid);
+        let rays = sampled.sampling.samples.rays();
+        let first = sampled.grid.refined(rays).offset_of(&sampled.rays);
         copies.extend(offsets.iter().map(|offset| Standing {
             mesh: sampled.mesh(),
-            ldi,
+            image: sampled.image(),
             first_ray: [0, 1].map(|axis| {
                 i64::from(first[axis]) + i64::from(offset[axis]) * i64::from(rays[axis])
             }),

@@ -98,7 +98,7 @@ impl Plate {
                 copies: same.len(),
                 size_mm: extents[model].size_mm,
                 layers: layers_reaching(&planned.plan, sampled.height_mm),
-                resin_ml: sampled.solid.volume_mm3 / 1e3,
+                resin_ml: sampled.survey.solid.volume_mm3 / 1e3,
                 print_time_s: 0.0,
                 max_error: planning.max_error(&planned.plan),
                 max_deviation_mm: planning.max_deviation_mm(&planned.plan),

@@ -6,6 +6,7 @@ use web_time::Instant;
 
 use super::super::Timings;
 use super::super::measured::Measured;
+use super::super::memory::Memory;
 use super::super::parts::{Job, Layering, Sampling};
 use super::super::prepared::Prepared;
 use super::super::sampled::Sampled;
@@ -15,6 +16,7 @@ use super::{Plate, PlateOptions};
 use crate::Error;
 use crate::arrange::Place;
 use crate::parallel;
+use crate::progress::silent;
 
 /// A model after some turns of 15°, sampled and measured. All copies that stand like this share it.
 #[derive(Debug, Clone)]
@@ -111,7 +113,8 @@ impl Plate {
         // After an error, what was sampled until then is kept.
         let clock = Instant::now();
         let measured = parallel::map(unmeasured, |it: Unmeasured| {
-            let measured = Measured::new(&it.sampled, &job.layering, it.weights, it.known)?;
+            let layering = &job.layering;
+            let measured = Measured::new(&it.sampled, layering, it.weights, it.known, &mut silent)?;
             Ok::<_, Error>(Shape {
                 model: it.model,
                 turns: it.turns,
@@ -136,6 +139,10 @@ impl Plate {
         progress: &mut StageProgress<'_>,
     ) -> Result<(), Error> {
         let count = wanted.len() as f64;
+        if let Some(bytes) = self.memory_bytes {
+            let models = wanted.len().max(1);
+            self.sampler.set_memory(Memory { bytes, models });
+        }
         for (number, (model, turns, sampling)) in wanted.into_iter().enumerate() {
             let mut within = |stage, fraction| progress(stage, (number as f64 + fraction) / count);
             let weights = self.models[model].layering_weights(layering, &mut within)?;

@@ -101,6 +101,7 @@ const KINDS: Readonly<Record<ErrorCode, Kind>> = {
   "too-many-bins": "tooFine",
   "too-many-facets": "tooFine",
   "out-of-memory": "tooFine",
+  "memory-bound": "tooFine",
   "model-too-large": "tooLarge",
   "model-too-high": "tooHigh",
   "plate-empty": "plate",

@@ -154,6 +154,8 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
       ? `Kein Plan hat höchstens ${count(detail.layers)} Schichten; mindestens ${count(detail.least_layers)} sind nötig.`
       : `Kein Plan druckt in höchstens ${measure(detail.time_s, "s")}; mindestens ${measure(detail.least_time_s, "s")} sind nötig.`,
   "no-plan": () => "Es gibt noch keinen Plan; erstellen Sie zuerst einen.",
+  "memory-bound": ({ needed_bytes, allowed_bytes }) =>
+    `Das braucht etwa ${count(needed_bytes)} Byte Speicher, und ${count(allowed_bytes)} sind erlaubt; erlauben Sie mehr, oder wählen Sie größere Pixel.`,
   "no-layer": ({ layer, layers }) => `Es gibt keine Schicht ${count(layer)}; der Plan hat ${count(layers)}, gezählt ab 0.`,
   "no-hits": ({ pitch_mm }) =>
     `Kein Pixel von ${mm(pitch_mm)} trifft das Modell, das dafür zu klein oder zu dünn ist; wählen Sie kleinere Pixel.`,

@@ -154,6 +154,8 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
       ? `No plan has at most ${count(detail.layers)} layers; it takes at least ${count(detail.least_layers)}.`
       : `No plan prints in at most ${measure(detail.time_s, "s")}; it takes at least ${measure(detail.least_time_s, "s")}.`,
   "no-plan": () => "There is no plan yet; make one first.",
+  "memory-bound": ({ needed_bytes, allowed_bytes }) =>
+    `This takes about ${count(needed_bytes)} bytes of memory, and ${count(allowed_bytes)} are allowed; allow more, or choose larger pixels.`,
   "no-layer": ({ layer, layers }) => `There is no layer ${count(layer)}; the plan has ${count(layers)}, from 0.`,
   "no-hits": ({ pitch_mm }) =>
     `No pixel of ${mm(pitch_mm)} meets the model, which is too small or too thin for them; choose smaller pixels.`,

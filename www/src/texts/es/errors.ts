@@ -154,6 +154,8 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
       ? `Ningún plan tiene como máximo ${count(detail.layers)} capas; hacen falta al menos ${count(detail.least_layers)}.`
       : `Ningún plan imprime en ${measure(detail.time_s, "s")} como máximo; hacen falta al menos ${measure(detail.least_time_s, "s")}.`,
   "no-plan": () => "Aún no hay plan; haga uno primero.",
+  "memory-bound": ({ needed_bytes, allowed_bytes }) =>
+    `Esto ocupa unos ${count(needed_bytes)} bytes de memoria, y se permiten ${count(allowed_bytes)}; permita más o elija píxeles mayores.`,
   "no-layer": ({ layer, layers }) => `No hay capa ${count(layer)}; el plan tiene ${count(layers)}, desde 0.`,
   "no-hits": ({ pitch_mm }) =>
     `Ningún píxel de ${mm(pitch_mm)} toca el modelo, que es demasiado pequeño o fino para ellos; elija píxeles más pequeños.`,

@@ -154,6 +154,8 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
       ? `Aucun plan n’a au plus ${count(detail.layers)} couches ; il en faut au moins ${count(detail.least_layers)}.`
       : `Aucun plan n’imprime en au plus ${measure(detail.time_s, "s")} ; il faut au moins ${measure(detail.least_time_s, "s")}.`,
   "no-plan": () => "Il n’y a pas encore de plan ; faites-en un d’abord.",
+  "memory-bound": ({ needed_bytes, allowed_bytes }) =>
+    `Cela demande environ ${count(needed_bytes)} octets de mémoire, et ${count(allowed_bytes)} sont permis ; permettez-en plus, ou choisissez des pixels plus grands.`,
   "no-layer": ({ layer, layers }) => `Il n’y a pas de couche ${count(layer)} ; le plan en a ${count(layers)}, à partir de 0.`,
   "no-hits": ({ pitch_mm }) =>
     `Aucun pixel de ${mm(pitch_mm)} ne touche le modèle, trop petit ou trop fin pour eux ; choisissez des pixels plus petits.`,

@@ -1,0 +1,160 @@
+//! The rays of a mesh band by band, whether an LDI holds them or each pass over them finds them anew.
+
+use super::cpu::Scan;
+use super::projection::Projection;
+use super::{Hit, Ldi};
+use crate::grid::Grid;
+use crate::model::{FacetClasses, Mesh};
+use crate::parallel;
+use crate::progress::{Cancelled, Progress, report};
+
+/// Rows of a band: few enough for the cursors of its rays to stay in the cache.
+pub(super) const BAND_ROWS: u32 = 32;
+/// Parts of an image that are passed over side by side. Sums over rays are made part by part, so they do not depend on the number
+/// of threads.
+const PARTS: usize = 16;
+/// How often a pass that finds rays anew reports progress.
+const ROUNDS: usize = 64;
+
+/// The hits of some whole rows of rays.
+#[derive(Debug, Clone, Copy)]
+pub struct Rays<'a> {
+    /// The first of the rows.
+    pub first_row: u32,
+    /// Where the hits of each ray begin, and where those of the last one end. The first number is that of `hits[0]`.
+    pub offsets: &'a [u32],
+    /// The hits of all of these rays, sorted by (height, facet) within each ray.
+    pub hits: &'a [Hit],
+    /// What the facets of the sampled mesh belong to.
+    pub classes: FacetClasses,
+}
+
+impl<'a> Rays<'a> {
+    /// Number of rays.
+    pub fn count(&self) -> usize {
+        self.offsets.len() - 1
+    }
+
+    /// The hits of a ray, counted from the first one of these rows, from the plate upward.
+    #[inline]
+    pub fn ray(&self, ray: usize) -> &'a [Hit] {
+        let base = self.offsets[0];
+        let [from, to] = [0, 1].map(|next| (self.offsets[ray + next] - base) as usize);
+        &self.hits[from..to]
+    }
+
+    /// The hits of each ray, row by row.
+    #[inline]
+    pub fn each(self) -> impl Iterator<Item = &'a [Hit]> {
+        let base = self.offsets[0];
+        self.offsets
+            .windows(2)
+            .map(move |ends| &self.hits[(ends[0] - base) as usize..(ends[1] - base) as usize])
+    }
+}
+
+/// The rays of a mesh, to be passed over once or several times.
+#[derive(Debug, Clone, Copy)]
+pub enum RayImage<'a> {
+    /// Those of an LDI.
+    Kept(&'a Ldi),
+    /// Those of a mesh through a grid, found anew in every pass by the CPU: a band of rows per thread is in memory.
+    Scanned {
+        /// The mesh.
+        mesh: &'a Mesh,
+        /// The grid whose pixel centres the rays pass.
+        grid: Grid,
+    },
+}
+
+impl RayImage<'_> {
+    /// The grid whose pixel centres the rays pass.
+    pub fn grid(&self) -> &Grid {
+        match self {
+            Self::Kept(ldi) => &ldi.grid,
+            Self::Scanned { grid, .. } => grid,
+        }
+    }
+
+    /// What the facets of the sampled mesh belong to.
+    pub fn classes(&self) -> FacetClasses {
+        match self {
+            Self::Kept(ldi) => ldi.classes,
+            Self::Scanned { mesh, .. } => mesh.classes,
+        }
+    }
+
+    /// Passes over all rays, part by part side by side: `step` takes the value of its part and the next rays of it, from `first`
+    /// on. Returns the values of the parts in the order of rows. They are the same for a mesh and its LDI.
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub(crate) fn fold<T: Send>(
+        self,
+        first: impl Fn() -> T,
+        step: impl Fn(&mut T, Rays<'_>) + Sync + Send,
+        progress: &mut Progress<'_>,
+    ) -> Result<Vec<T>, Cancelled> {
+        let bands = self.grid().height.div_ceil(BAND_ROWS) as usize;
+        let part_bands = bands.div_ceil(PARTS).max(1);
+        let (projection, rounds) = match self {
+            Self::Kept(_) => (None, 1),
+            Self::Scanned { mesh, grid } => (Some(Projection::new(mesh, &grid)), ROUNDS),
+        };
+        let scan = projection.as_ref();
+        let scan = scan.map(|projection| Scan::new(projection, self.grid(), self.classes()));
+        let round_bands = part_bands.div_ceil(rounds);
+        let starts = (0..bands).step_by(part_bands);
+        let mut parts: Vec<(usize, T)> = starts.map(|band| (band, first())).collect();
+        for round in (0..part_bands).step_by(round_bands) {
+            report(progress, round as f64 / part_bands as f64)?;
+            parts = parallel::map(parts, |(start, mut value)| {
+                let end = (start + part_bands).min(bands);
+                for band in start + round..(start + round + round_bands).min(end) {
+                    match (self, &scan) {
+                        (Self::Kept(ldi), _) => step(&mut value, ldi.band(band)),
+                        (_, Some(scan)) => step(&mut value, scan.band(band).rays()),
+                        _ => {}
+                    }
+                }
+                (start, value)
+            });
+        }
+        Ok(parts.into_iter().map(|(_, value)| value).collect())
+    }
+
+    /// Whether `holds` is true for all rays.
+    pub(super) fn all(
+        self,
+        holds: impl Fn(&[Hit]) -> bool + Sync + Send,
+        progress: &mut Progress<'_>,
+    ) -> Result<bool, Cancelled> {
+        let step = |all: &mut bool, rays: Rays<'_>| *all = *all && rays.each().all(&holds);
+        Ok(self
+            .fold(|| true, step, progress)?
+            .into_iter()
+            .all(|all| all))
+    }
+}
+
+impl<'a> From<&'a Ldi> for RayImage<'a> {
+    fn from(ldi: &'a Ldi) -> Self {
+        Self::Kept(ldi)
+    }
+}
+
+impl Ldi {
+    /// The rays of a band of [`BAND_ROWS`] rows.
+    fn band(&self, band: usize) -> Rays<'_> {
+        let first_row = band as u32 * BAND_ROWS;
+        let rows = first_row..(first_row + BAND_ROWS).min(self.grid.height);
+        let width = self.grid.width as usize;
+        let offsets = &self.offsets[rows.start as usize * width..=rows.end as usize * width];
+        Rays {
+            first_row,
+            offsets,
+            hits: &self.hits[offsets[0] as usize..offsets[offsets.len() - 1] as usize],
+            classes: self.classes,
+        }
+    }
+}

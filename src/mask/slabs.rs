@@ -1,0 +1,327 @@
+//! Masks whose changes are found slab by slab, while they are read.
+//!
+//! The changes of all masks are as many as the hits of an LDI. Where neither fits into memory, a few layers at a time do: a slab is
+//! as many layers as have the changes that may be held. Its hits are found anew, and a winding number per ray says how each enters
+//! it.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use super::runs::ReadPlace;
+use super::samples::SublayerOf;
+use super::window::Place;
+use super::{Band, Change, LayerRuns, Masks, RunReader, RunSource, Samples, Side, each_change};
+use crate::grid::Grid;
+use crate::ldi::Hit;
+use crate::ldi::cpu::Scan;
+use crate::ldi::projection::Projection;
+use crate::model::{FacetClasses, Mesh, Winding};
+use crate::parallel;
+use crate::plan::Plan;
+
+/// The masks of a plan: those of [`Masks::new`], without an LDI.
+#[derive(Debug)]
+pub struct SlabMasks<'a> {
+    mesh: &'a Mesh,
+    /// The rays.
+    rays: Grid,
+    plan: &'a Plan,
+    grid: Grid,
+    samples: Samples,
+    place: Place,
+    /// The layers of each slab.
+    slabs: Vec<Range<usize>>,
+}
+
+impl<'a> SlabMasks<'a> {
+    /// The masks of `plan` on `grid` of a mesh whose rays pass through `rays`. The changes of a slab take about `slab_bytes`, or are
+    /// those of a single layer.
+    pub fn new(
+        mesh: &'a Mesh,
+        rays: Grid,
+        plan: &'a Plan,
+        grid: &Grid,
+        samples: Samples,
+        side: Side,
+        slab_bytes: u64,
+    ) -> Self {
+        let most = (slab_bytes / Masks::bytes_per_hit(samples)) as f64;
+        let mut slabs: Vec<Range<usize>> = Vec::new();
+        let mut held = 0.0;
+        for (layer, hits) in hits_of_layers(mesh, &rays, plan).into_iter().enumerate() {
+            held += hits;
+            match slabs.last_mut() {
+                Some(slab) if held <= most => slab.end = layer + 1,
+                _ => {
+                    slabs.push(layer..layer + 1);
+                    held = hits;
+                }
+            }
+        }
+        Self {
+            mesh,
+            place: Place::new(&rays, grid, samples, side),
+            rays,
+            plan,
+            grid: *grid,
+            samples,
+            slabs,
+        }
+    }
+
+    /// Number of slabs.
+    pub fn slabs(&self) -> usize {
+        self.slabs.len()
+    }
+}
+
+/// About how many hits each layer has: those of a facet are spread evenly over the layers that it reaches into.
+fn hits_of_layers(mesh: &Mesh, rays: &Grid, plan: &Plan) -> Vec<f64> {
+    let layers = plan.layers();
+    let middles = SublayerOf::new(plan, 1);
+    let layer_of = |z_mm: f32| (middles.first_above(z_mm) as usize).min(layers - 1);
+    // How much more a layer has than the one below.
+    let mut rises = vec![0.0; layers + 1];
+    for facet in 0..mesh.facets.len() {
+        let of = mesh.facets[facet].map(|vertex| layer_of(mesh.vertices[vertex as usize].z));
+        let (first, last) = (of[0].min(of[1]).min(of[2]), of[0].max(of[1]).max(of[2]));
+        let hits = mesh.projected_mm2(facet) / rays.pixel_mm2() / (last - first + 1) as f64;
+        rises[first] += hits;
+        rises[last + 1] -= hits;
+    }
+    let mut hits = 0.0;
+    let rises = rises.into_iter().take(layers);
+    rises
+        .map(|rise| {
+            hits += rise;
+            hits
+        })
+        .collect()
+}
+
+impl RunSource for SlabMasks<'_> {
+    fn reader(&self) -> Box<dyn RunReader + '_> {
+        let bands = self.place.bands();
+        let windings = bands.iter().map(|rows| {
+            let rays = rows.len() * self.rays.width as usize;
+            Windings::new(rays, self.mesh.classes)
+        });
+        let carried = bands.iter().map(|_| Vec::new()).collect();
+        Box::new(Reader {
+            projection: Projection::new(self.mesh, &self.rays),
+            sublayer_of: SublayerOf::new(self.plan, self.samples.sublayers),
+            windings: windings.collect(),
+            carried,
+            bands,
+            masks: self,
+            slab: None,
+            place: None,
+            next: 0,
+        })
+    }
+}
+
+struct Reader<'a> {
+    masks: &'a SlabMasks<'a>,
+    projection: Projection<'a>,
+    sublayer_of: SublayerOf,
+    /// The rows of rays of each band of pixels.
+    bands: Vec<Range<usize>>,
+    /// Of each band, how its rays enter the next slab.
+    windings: Vec<Windings>,
+    /// Of each band, changes that belong to the next slab already.
+    carried: Vec<Vec<Change>>,
+    /// The masks of the slab, and the first of its layers that is not yet read.
+    slab: Option<(Masks, usize)>,
+    place: Option<ReadPlace>,
+    /// The next slab.
+    next: usize,
+}
+
+impl RunReader for Reader<'_> {
+    fn next(&mut self, layers: usize) -> LayerRuns {
+        let mut all: Option<LayerRuns> = None;
+        let mut left = layers;
+        while left > 0 {
+            let unread = self.slab.as_ref();
+            let unread = unread.map_or(0, |(masks, read)| masks.layers() - read);
+            if unread == 0 {
+                self.open_slab();
+                continue;
+            }
+            let count = left.min(unread);
+            left -= count;
+            let (Some((masks, read)), Some(place)) = (&mut self.slab, &mut self.place) else {
+                break;
+            };
+            *read += count;
+            let found = place.next(masks, count);
+            match &mut all {
+                Some(all) => all.append(found),
+                None => all = Some(found),
+            }
+        }
+        all.unwrap_or_else(|| LayerRuns::new([]))
+    }
+}
+
+impl Reader<'_> {
+    /// Finds the changes of the next slab in place of those of the last.
+    fn open_slab(&mut self) {
+        self.slab = None;
+        let SlabMasks {
+            mesh,
+            rays,
+            samples,
+            place,
+            ..
+        } = self.masks;
+        let layers = self.masks.slabs[self.next].clone();
+        self.next += 1;
+        let heights = self.sublayer_of.slab(&layers, samples.sublayers);
+        let width = rays.width as usize;
+        let scan = Scan::of_slab(&self.projection, rays, mesh.classes, heights);
+        let work = self.bands.iter().cloned();
+        let work = work
+            .zip(self.windings.drain(..))
+            .zip(self.carried.drain(..));
+        let sublayer_of = &self.sublayer_of;
+        let found = parallel::map(work.collect(), |((rows, mut windings), mut changes)| {
+            let area = place.area(&rows);
+            let mut rest = rows.start as u32..rows.end as u32;
+            let mut first_ray = 0;
+            while !rest.is_empty() {
+                let scanned = scan.first_of(rest.clone(), heights);
+                for (ray, hits) in scanned.rays().each().enumerate() {
+                    if hits.is_empty() {
+                        continue;
+                    }
+                    let (row, column) = (ray / width, ray % width);
+                    let pixel = place.rows[rest.start as usize + row] + place.columns[column];
+                    let mut winding = windings.get(first_ray + ray);
+                    let classes = mesh.classes;
+                    flips_along(
+                        hits,
+                        classes,
+                        &mut winding,
+                        sublayer_of,
+                        |sublayer, sign| {
+                            each_change(sublayer, samples.sublayers, sign, pixel, &mut |change| {
+                                changes.push(change);
+                            });
+                        },
+                    );
+                    windings.set(first_ray + ray, winding);
+                }
+                let count = scanned.rays().count();
+                first_ray += count;
+                rest.start += (count / width) as u32;
+            }
+            let later = changes.extract_if(.., |change| change.layer() >= layers.end);
+            let later = later.collect();
+            for change in &mut changes {
+                change.lower(layers.start);
+            }
+            let band = Band::new(area, layers.len(), *samples, changes);
+            (windings, later, band)
+        });
+        let mut bands = Vec::with_capacity(found.len());
+        for (windings, later, band) in found {
+            self.windings.push(windings);
+            self.carried.push(later);
+            bands.push(band);
+        }
+        let masks = Masks {
+            grid: self.masks.grid,
+            samples: *samples,
+            window: place.window,
+            layers: layers.len(),
+            bands,
+        };
+        match &mut self.place {
+            Some(place) => place.restart(),
+            None => self.place = Some(ReadPlace::new(&masks)),
+        }
+        self.slab = Some((masks, 0));
+    }
+}
+
+/// Calls `flip(sublayer, sign)` where a ray enters what is printed, and where it leaves it, given its hits in a slab and the winding
+/// with which it enters the slab. The winding becomes the one with which it leaves the slab.
+fn flips_along(
+    hits: &[Hit],
+    classes: FacetClasses,
+    winding: &mut Winding,
+    sublayer_of: &SublayerOf,
+    mut flip: impl FnMut(u32, i8),
+) {
+    let mut entered = None;
+    for hit in hits {
+        let was_inside = winding.is_inside();
+        winding.pass(classes.of(hit.facet()), hit.winding());
+        if was_inside == winding.is_inside() {
+            continue;
+        }
+        let sublayer = sublayer_of.first_above(hit.z_mm);
+        if !was_inside {
+            entered = Some(sublayer);
+            continue;
+        }
+        let on = entered.take();
+        // What begins and ends between two sampling heights changes nothing.
+        if on == Some(sublayer) {
+            continue;
+        }
+        if let Some(on) = on {
+            flip(on, 1);
+        }
+        flip(sublayer, -1);
+    }
+    if let Some(on) = entered {
+        flip(on, 1);
+    }
+}
+
+/// The winding numbers with which rays enter a slab: one byte, or one for each kind of body, and a list of those that are larger.
+struct Windings {
+    kinds: usize,
+    bytes: Vec<i8>,
+    large: BTreeMap<usize, Winding>,
+}
+
+/// Marks a ray whose winding numbers are listed.
+const LARGE: i8 = i8::MIN;
+
+impl Windings {
+    fn new(rays: usize, classes: FacetClasses) -> Self {
+        let kinds = if classes.is_model_alone() { 1 } else { 3 };
+        Self {
+            kinds,
+            bytes: vec![0; kinds * rays],
+            large: BTreeMap::new(),
+        }
+    }
+
+    fn get(&self, ray: usize) -> Winding {
+        let bytes = &self.bytes[self.kinds * ray..][..self.kinds];
+        if bytes[0] == LARGE {
+            return self.large[&ray];
+        }
+        let of = |kind: usize| bytes.get(kind).map_or(0, |&byte| i32::from(byte));
+        Winding::of([of(0), of(1), of(2)])
+    }
+
+    fn set(&mut self, ray: usize, winding: Winding) {
+        let bytes = &mut self.bytes[self.kinds * ray..][..self.kinds];
+        let numbers = winding.numbers();
+        let is_small = numbers.iter().all(|number| number.abs() <= 127);
+        if is_small {
+            for (byte, number) in bytes.iter_mut().zip(numbers) {
+                *byte = number as i8;
+            }
+        } else {
+            bytes[0] = LARGE;
+            self.large.insert(ray, winding);
+        }
+    }
+}

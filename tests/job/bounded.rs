@@ -1,0 +1,229 @@
+//! Jobs within a bound of memory: what is not kept is found anew, and everything comes out the same.
+
+use cusp_slicer::Error;
+use cusp_slicer::format::Format;
+use cusp_slicer::grid::{Bins, Grid};
+use cusp_slicer::growth::Growth;
+use cusp_slicer::job::{
+    Backend, ModelOptions, Options, Planner, Plate, PlateOptions, Report, Slicer,
+};
+use cusp_slicer::ldi::visibility::visibility;
+use cusp_slicer::ldi::{RayImage, Survey, cpu};
+use cusp_slicer::prepare::{Hollowing, SupportStrength, Supporting};
+use cusp_slicer::profile::Metric;
+use cusp_slicer::profile::facet_bins::FacetBins;
+use cusp_slicer::profile::{section, steepest};
+use cusp_slicer::progress::silent;
+use cusp_slicer::resin::Resin;
+use glam::Vec3;
+
+use crate::common::{binary_stl, on_plate, quiet, solids};
+
+/// Fine enough for several slabs within the least memory.
+fn options() -> Options {
+    Options {
+        pixels: Some([1200, 900]),
+        pitch_mm: Some(0.03),
+        backend: Backend::Cpu,
+        ..Options::default()
+    }
+}
+
+fn load(triangles: &solids::Triangles) -> Slicer {
+    Slicer::load(&binary_stl(triangles)).unwrap()
+}
+
+/// The plan's report without its times, and its print file.
+fn sliced(slicer: &mut Slicer, options: &Options) -> (serde_json::Value, Vec<u8>) {
+    pollster::block_on(slicer.plan(options, &mut quiet)).unwrap();
+    let (file, report) = slicer.write_archive(Vec::new(), &mut quiet).unwrap();
+    (without_times(report), file)
+}
+
+fn without_times(report: &Report) -> serde_json::Value {
+    let mut report = serde_json::to_value(report).unwrap();
+    report.as_object_mut().unwrap().remove("timings_ms");
+    report
+}
+
+/// The least bytes within which a job can be done.
+fn least_bytes(triangles: &solids::Triangles, options: &Options) -> u64 {
+    let mut slicer = load(triangles).with_memory(1);
+    match pollster::block_on(slicer.plan(options, &mut quiet)) {
+        Err(Error::MemoryBound {
+            needed_bytes,
+            allowed_bytes: 1,
+        }) => needed_bytes,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[track_caller]
+fn assert_same_within_least_memory(triangles: &solids::Triangles, options: &Options) {
+    let kept = sliced(&mut load(triangles), options);
+    let least = least_bytes(triangles, options);
+    let mut slicer = load(triangles).with_memory(least);
+    let anew = sliced(&mut slicer, options);
+    assert_eq!(kept.0, anew.0);
+    assert!(kept.1 == anew.1, "the files differ");
+    // It did not keep the hits.
+    let mask = slicer.mask(0);
+    assert!(
+        matches!(mask, Err(Error::MemoryBound { needed_bytes, allowed_bytes })
+            if allowed_bytes == least && needed_bytes > least),
+        "{mask:?}"
+    );
+    // With more than that, it keeps them.
+    let mut slicer = load(triangles).with_memory(1 << 40);
+    assert!(sliced(&mut slicer, options) == kept);
+    slicer.mask(0).unwrap();
+}
+
+/// Balls that overlap, one that is hollow, and one inside out: many hits a ray, and windings of all kinds.
+fn crowd() -> solids::Triangles {
+    let ball = solids::sphere(7.0, 5);
+    let mut all = solids::moved(&ball, Vec3::new(9.0, 8.0, 7.0));
+    all.extend(solids::moved(&ball, Vec3::new(15.0, 11.0, 9.0)));
+    let small = solids::sphere(4.0, 4);
+    all.extend(solids::moved(
+        &solids::inverted(&small),
+        Vec3::new(9.0, 8.0, 7.0),
+    ));
+    all.extend(solids::moved(&small, Vec3::new(24.0, 12.0, 14.0)));
+    all
+}
+
+#[test]
+fn a_crowd_is_the_same_with_and_without_its_hits() {
+    assert_same_within_least_memory(&crowd(), &options());
+}
+
+#[test]
+fn so_it_is_anti_aliased_mirrored_and_in_every_format() {
+    let formats = [
+        (Format::Png, 4, true),
+        (Format::Goo, 8, false),
+        (Format::Chitubox, 1, true),
+        (Format::PhotonWorkshop, 2, false),
+        (Format::Sl1, 1, false),
+    ];
+    for (format, antialias, mirror) in formats {
+        let planner = Planner::Uniform { layer_mm: 0.05 };
+        let options = Options {
+            format: Some(format),
+            antialias,
+            mirror: Some(mirror),
+            planner,
+            ..options()
+        };
+        assert_same_within_least_memory(&crowd(), &options);
+    }
+}
+
+#[test]
+fn voids_and_supports_are_found_anew_as_well() {
+    let options = Options {
+        hollow: Some(Hollowing {
+            wall_mm: 1.5,
+            ..Hollowing::default()
+        }),
+        supports: Some(Supporting {
+            strength: SupportStrength::Light,
+            ..Supporting::default()
+        }),
+        ..options()
+    };
+    let ball = solids::moved(&solids::sphere(12.0, 5), Vec3::splat(12.0));
+    assert_same_within_least_memory(&ball, &options);
+}
+
+#[test]
+fn metrics_of_areas_and_weights_are_measured_anew() {
+    for metric in [Metric::Area, Metric::Volume, Metric::Deviation] {
+        let options = Options {
+            metric,
+            saliency: true,
+            ..options()
+        };
+        assert_same_within_least_memory(&crowd(), &options);
+    }
+}
+
+#[test]
+fn a_plate_of_models_and_copies_is_the_same() {
+    let models = [crowd(), solids::cube(6.0)];
+    let plate = || Plate::new(models.iter().map(load).collect());
+    let job = PlateOptions {
+        options: Options {
+            pixels: Some([2400, 1200]),
+            ..options()
+        },
+        models: [2, 3]
+            .map(|copies| ModelOptions {
+                copies,
+                ..ModelOptions::default()
+            })
+            .to_vec(),
+        ..PlateOptions::default()
+    };
+    let sliced = |mut plate: Plate| {
+        pollster::block_on(plate.plan(&job, &mut quiet)).unwrap();
+        let (file, report) = plate.write_archive(0, Vec::new(), &mut quiet).unwrap();
+        (without_times(report), file, plate.mask(0, 0))
+    };
+    let kept = sliced(plate());
+    kept.2.unwrap();
+    let little = plate().with_memory(1);
+    let error = pollster::block_on({ little }.plan(&job, &mut quiet)).unwrap_err();
+    let Error::MemoryBound { needed_bytes, .. } = error else {
+        panic!("{error}");
+    };
+    let anew = sliced(plate().with_memory(needed_bytes));
+    assert_eq!(kept.0, anew.0);
+    assert!(kept.1 == anew.1, "the files differ");
+    assert!(matches!(anew.2, Err(Error::MemoryBound { .. })));
+}
+
+#[test]
+fn what_takes_all_hits_says_how_much_that_is() {
+    let options = Options {
+        resin: Resin {
+            growth: Growth {
+                xy_mm: 0.05,
+                ..Growth::default()
+            },
+            ..Resin::default()
+        },
+        ..options()
+    };
+    let least = least_bytes(&crowd(), &options);
+    let mut slicer = load(&crowd()).with_memory(least);
+    pollster::block_on(slicer.plan(&options, &mut quiet)).unwrap();
+    let error = slicer.write_archive(Vec::new(), &mut quiet).unwrap_err();
+    assert_eq!(error.code(), "memory-bound");
+    let limits = cusp_slicer::inspect::Limits::default();
+    let error = slicer.inspect(&limits, &mut quiet).unwrap_err();
+    assert_eq!(error.code(), "memory-bound");
+}
+
+#[test]
+fn rays_found_anew_are_those_of_the_ldi() {
+    for triangles in [crowd(), solids::torture()[0].1.clone()] {
+        let mesh = on_plate(&triangles);
+        let grid = Grid::around(&mesh.bounds(), 300).unwrap();
+        let ldi = cpu::sample(&mesh, &grid, &mut silent).unwrap();
+        let bins = Bins::of_height(mesh.bounds().size().z, 0.002).unwrap();
+        let facet_bins = FacetBins::of(&mesh, bins);
+        let told = |image: RayImage<'_>| {
+            let survey = Survey::of(image, &mut silent).unwrap();
+            (
+                visibility(&mesh, image, &survey, &mut silent).unwrap(),
+                steepest::sampled(&facet_bins, image, &[], &mut silent).unwrap(),
+                section::sampled(image, bins, &mut silent).unwrap(),
+                survey,
+            )
+        };
+        let scanned = RayImage::Scanned { mesh: &mesh, grid };
+        assert_eq!(told(RayImage::Kept(&ldi)), told(scanned));
+    }
+}
