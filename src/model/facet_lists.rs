@@ -35,7 +35,7 @@ impl FacetLists {
         }
     }
 
-    /// The places of the facets of a list in [`Self::all`].
+    /// The places of the facets of a list among those of all lists.
     pub fn range(&self, list: usize) -> std::ops::Range<usize> {
         self.starts[list]..self.starts[list + 1]
     }
@@ -46,7 +46,8 @@ impl FacetLists {
         &self.facets[self.range(list)]
     }
 
-    /// The facets of all lists, one list after the other.
+    /// The facets of all lists, one list after the other, as a GPU takes them.
+    #[cfg(any(feature = "gpu", not(target_arch = "wasm32")))]
     pub fn all(&self) -> &[u32] {
         &self.facets
     }
