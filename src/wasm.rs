@@ -21,6 +21,7 @@ use crate::mask::LayerRuns;
 use crate::model::read::{self, HEAD_BYTES};
 use crate::model::{FacetClass, FileFacts, weights};
 use crate::orientation::{Candidate, Search, SearchOptions, Task, TaskResult};
+use crate::prepare;
 use crate::price::{PriceItem, Prices};
 use crate::printer::PRINTERS;
 use crate::profile::{Metric, Source};
@@ -111,6 +112,13 @@ pub fn open_gpus_by(
     open: Function,
 ) {
     gpu::open_by(open);
+}
+
+/// Has plans hollow and support models from now on. The module's later part, which this export belongs to, has what that takes: call
+/// it once that part is there, and fetch it before a plan with `hollow` or `supports`.
+#[wasm_bindgen]
+pub fn later_arrived() {
+    prepare::arrive();
 }
 
 /// The printers known by name.

@@ -18,6 +18,7 @@ mod python;
 mod report;
 mod runner_output;
 mod serve;
+mod split;
 mod suite;
 mod toolchain;
 mod tools;

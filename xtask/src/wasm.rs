@@ -1,6 +1,11 @@
 //! The wasm package: building, browser tests, lints and size.
 
-use std::{fs, io::Write, path::PathBuf, process::Command};
+use std::{
+    fs,
+    io::Write,
+    path::{Path, PathBuf},
+    process::Command,
+};
 
 use anyhow::{Context, Result, bail};
 use flate2::{Compression, write::GzEncoder};
@@ -9,6 +14,7 @@ use crate::{
     browser, node,
     process::{self, path_with},
     project::Project,
+    split::{self, LaterExports},
     toolchain::{self, Toolchain, WASM_TARGET},
     tools::Tools,
 };
@@ -17,40 +23,59 @@ use crate::{
 struct Module {
     /// The package that it is built from.
     package: &'static str,
-    /// Folder of the package.
-    folder: &'static str,
     /// Name of its files, relative to the page's folder, without extensions.
     files: &'static str,
     /// The size budget, gzipped, in bytes.
     budget: usize,
+    /// What is in a part of its own, which the page fetches when it first calls one of these exports, and that part's budget.
+    later: Option<(LaterExports, usize)>,
 }
+
+/// What the slicer's later part is for. Loading, planning and showing a model, writing its print file, the quality curve and the
+/// price of an order need none of these.
+const LATER: LaterExports = LaterExports {
+    names: &[
+        "calibrate_layers",
+        // Hollowing and supports.
+        "later_arrived",
+        "orientationsearch",
+        "plate",
+        "slicer_compare",
+        "slicer_evaluate",
+        "slicer_inspect",
+        "slicer_plugs",
+        "slicer_read_weights",
+        "slicer_search",
+        "slicer_weights_file",
+    ],
+};
 
 /// The slicer, and what the page fetches when it is wanted: what drives a GPU for a plan, the readers of models other than STL,
 /// and those of print files.
 const MODULES: [Module; 4] = [
     Module {
         package: "cusp-slicer",
-        folder: ".",
         files: "pkg/cusp_slicer",
-        budget: 570_000,
+        budget: 414_000,
+        later: Some((LATER, 178_000)),
     },
     Module {
         package: "cusp-gpu",
-        folder: "gpu",
         files: "pkg/gpu/cusp_gpu",
         budget: 83_000,
+        later: None,
     },
     Module {
         package: "cusp-models",
-        folder: "models",
         files: "pkg/models/cusp_models",
         budget: 72_000,
+        later: None,
     },
     Module {
         package: "cusp-reader",
-        folder: "reader",
         files: "pkg/reader/cusp_reader",
         budget: 221_000,
+        later: None,
     },
 ];
 
@@ -63,7 +88,21 @@ impl Module {
     fn file(&self, project: &Project, end: &str) -> PathBuf {
         project.www.join(format!("{}{end}", self.files))
     }
+
+    /// The ends of the names of its WebAssembly files, with their budgets.
+    fn parts(&self) -> impl Iterator<Item = (&'static str, usize)> {
+        let later = self.later.map(|(_, budget)| (LATER_END, budget));
+        [(FIRST_END, self.budget)].into_iter().chain(later)
+    }
 }
+
+const FIRST_END: &str = "_bg.wasm";
+const LATER_END: &str = "_later.wasm";
+
+/// Not binaryen's "all features": that writes import sections that no browser reads yet.
+const OPTIMISE: &str = "-O3";
+/// Has the linker tell what uses what, which is gone once it has put in numbers: see [`split`].
+const TELL_USES: &str = "-Clink-arg=--emit-relocs";
 
 /// Leaves out the command line, a default feature: cargo would otherwise compile
 /// it for wasm along with the tests.
@@ -93,61 +132,109 @@ fn build_module(
     toolchain: &Toolchain,
     tools: &Tools,
 ) -> Result<()> {
+    let tell = module.later.map(|_| TELL_USES);
     process::run(
         toolchain
             .cargo(project, [])?
-            .args(["build", "--release", "--target", WASM_TARGET])
-            .args(["--package", module.package, "--lib", NO_COMMAND_LINE]),
+            .args(["rustc", "--release", "--target", WASM_TARGET])
+            .args(["--package", module.package, "--lib", NO_COMMAND_LINE])
+            // Beside a library for Rust, it would not be optimised as a whole.
+            .args(["--crate-type", "cdylib", "--"])
+            .args(tell),
     )?;
-    // Cargo knows when there is nothing to do; wasm-pack would spend seconds
-    // optimising the same module again.
-    if is_packed(module, project) {
+    let compiled = toolchain::wasm_target_folder(project)
+        .join(WASM_TARGET)
+        .join("release")
+        .join(format!("{}.wasm", module.name()));
+    // Cargo knows when there is nothing to do; the tools would spend seconds on the same module again.
+    if is_packed(module, &compiled, project) {
         return Ok(());
     }
-    // Without wasm-opt on PATH, wasm-pack would silently skip that step.
+    let linked = fs::read(&compiled)?;
+    let later_slots = match module.later {
+        Some((later, _)) => split::later_slots(&linked, later)
+            .with_context(|| format!("cannot split {}", module.name()))?,
+        None => Default::default(),
+    };
+
+    let folder = toolchain::wasm_target_folder(project).join("packed");
+    fs::create_dir_all(&folder)?;
+    let stripped = folder.join(format!("{}.wasm", module.name()));
+    fs::write(&stripped, split::without_relocations(&linked)?)?;
+    let whole = bind(module, &stripped, project, tools)?;
+
+    let out = module.file(project, "");
+    fs::create_dir_all(out.parent().unwrap_or(&project.www))?;
+    for end in [".js", ".d.ts", "_bg.wasm.d.ts"] {
+        fs::copy(
+            folder.join(format!("{}{end}", module.name())),
+            module.file(project, end),
+        )?;
+    }
+    let first = match module.later {
+        Some((later, _)) => {
+            let parts = split::split(&whole, later, &later_slots)
+                .with_context(|| format!("cannot split {}", module.name()))?;
+            fs::write(module.file(project, LATER_END), parts.later)?;
+            parts.first
+        }
+        None => whole,
+    };
+    fs::write(module.file(project, FIRST_END), first)?;
+    Ok(())
+}
+
+/// Binds a compiled module to JavaScript, beside it, and optimises it.
+fn bind(module: &Module, compiled: &Path, project: &Project, tools: &Tools) -> Result<Vec<u8>> {
+    let folder = compiled.parent().unwrap_or(&project.target);
+    process::run(
+        process::command(&tools.wasm_bindgen)
+            .arg(compiled)
+            .args(["--target", "web", "--out-name", module.name(), "--out-dir"])
+            .arg(folder),
+    )?;
+    let optimised = folder.join(format!("{}_optimised.wasm", module.name()));
+    process::run(
+        process::command(wasm_opt(project)?)
+            .arg(folder.join(format!("{}{FIRST_END}", module.name())))
+            .args([OPTIMISE, "--output"])
+            .arg(&optimised),
+    )?;
+    Ok(fs::read(&optimised)?)
+}
+
+fn wasm_opt(project: &Project) -> Result<PathBuf> {
     let npm_bin = node::bin(project);
     which::which_in(
         "wasm-opt",
         Some(path_with([npm_bin.as_path()])?),
         &project.root,
     )
-    .context("no wasm-opt: the page's npm package \"binaryen\" has it")?;
-    process::run(
-        toolchain
-            .command(
-                project,
-                &tools.wasm_pack,
-                [tools.bin.as_path(), npm_bin.as_path()],
-            )?
-            .args(["build", module.folder, "--release", "--target", "web"])
-            // Use what was just found; download nothing.
-            .args(["--mode", "no-install", "--no-pack", "--out-dir"])
-            .args([module.file(project, "").parent().unwrap_or(&project.www)])
-            .args(["--out-name", module.name(), "--", NO_COMMAND_LINE]),
-    )
+    .context("no wasm-opt: the page's npm package \"binaryen\" has it")
 }
 
 /// Whether the module is newer than everything it is built from.
-fn is_packed(module: &Module, project: &Project) -> bool {
+fn is_packed(module: &Module, compiled: &Path, project: &Project) -> bool {
     let modified = |path: PathBuf| fs::metadata(path).and_then(|data| data.modified()).ok();
-    let compiled = toolchain::wasm_target_folder(project)
-        .join(WASM_TARGET)
-        .join("release")
-        .join(format!("{}.wasm", module.name()));
-    // The manifest has wasm-opt's flags, the lock file wasm-bindgen's version.
+    let own = project.root.join("xtask").join("src");
     let made_of = [
-        compiled,
-        project.root.join(module.folder).join("Cargo.toml"),
+        compiled.to_owned(),
+        // The lock file has wasm-bindgen's version; the rest decides what becomes of the module.
         project.root.join("Cargo.lock"),
+        own.join("wasm.rs"),
+        own.join("split.rs"),
+        own.join("split").join("module.rs"),
+        own.join("split").join("uses.rs"),
     ];
     let times: Option<Vec<_>> = made_of.map(modified).into_iter().collect();
     let Some(newest) = times.into_iter().flatten().max() else {
         return false;
     };
-    [".js", ".d.ts", "_bg.wasm"]
-        .map(|end| module.file(project, end))
+    let ends = module.parts().map(|(end, _)| end);
+    [".js", ".d.ts"]
         .into_iter()
-        .all(|file| modified(file).is_some_and(|time| time > newest))
+        .chain(ends)
+        .all(|end| modified(module.file(project, end)).is_some_and(|time| time > newest))
 }
 
 /// The tests of tests/web.rs, to be run in a browser.
@@ -219,21 +306,20 @@ pub fn clippy(project: &Project) -> Result<()> {
 pub fn check_size(project: &Project) -> Result<bool> {
     let mut is_within = true;
     for module in &MODULES {
-        let file = module.file(project, "_bg.wasm");
-        let bytes = fs::read(&file).with_context(|| format!("cannot read {}", file.display()))?;
-        let gzipped = gzipped_size(&bytes)?;
-        println!(
-            "www/{}_bg.wasm: {} bytes, {gzipped} gzipped, budget {}",
-            module.files,
-            bytes.len(),
-            module.budget,
-        );
-        if gzipped > module.budget {
-            eprintln!(
-                "error: over the budget by {} bytes",
-                gzipped - module.budget
+        for (end, budget) in module.parts() {
+            let file = module.file(project, end);
+            let bytes =
+                fs::read(&file).with_context(|| format!("cannot read {}", file.display()))?;
+            let gzipped = gzipped_size(&bytes)?;
+            println!(
+                "www/{}{end}: {} bytes, {gzipped} gzipped, budget {budget}",
+                module.files,
+                bytes.len(),
             );
-            is_within = false;
+            if gzipped > budget {
+                eprintln!("error: over the budget by {} bytes", gzipped - budget);
+                is_within = false;
+            }
         }
     }
     Ok(is_within)

@@ -6,14 +6,9 @@
  */
 import * as Comlink from "comlink";
 import { isAbort, ofCore, said, SlicerError } from "./error.js";
-import type { OnProgress, SlicerWorker } from "./wire.js";
+import type { OnProgress, Remote, SlicerWorker } from "./wire.js";
 
-/** The worker's interface as seen from this side, where every method may return a promise. */
-export type Remote = {
-  [Name in keyof SlicerWorker]: (
-    ...given: Parameters<SlicerWorker[Name]>
-  ) => ReturnType<SlicerWorker[Name]> | Promise<Awaited<ReturnType<SlicerWorker[Name]>>>;
-};
+export type { Remote };
 
 /** What a {@link Client} needs of a worker; tests pass a fake. */
 export interface WorkerHandle {

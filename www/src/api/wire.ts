@@ -158,6 +158,13 @@ export interface SlicerWorker extends PlateWorker {
   price(prices: Prices, items: PriceItem[], finish: string | null): Price;
 }
 
+/** The worker's interface, where every method may return a promise. */
+export type Remote = {
+  [Name in keyof SlicerWorker]: (
+    ...given: Parameters<SlicerWorker[Name]>
+  ) => ReturnType<SlicerWorker[Name]> | Promise<Awaited<ReturnType<SlicerWorker[Name]>>>;
+};
+
 /** What a worker does for a plate. Models are counted from 0 in their order, and so are plates. */
 export interface PlateWorker {
   /** Reads a model and adds it after the others. */

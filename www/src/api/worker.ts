@@ -1,6 +1,6 @@
 /** The worker: the only file that imports the WebAssembly package. One model is open at a time, and there is one plate. */
 import * as Comlink from "comlink";
-import init, { calibrate_layers, encode_group, head_bytes, identify, open_gpus_by, OrientationSearch, Plate, price, printers, Slicer } from "../../pkg/cusp_slicer.js";
+import init, { calibrate_layers, encode_group, head_bytes, identify, later_arrived, open_gpus_by, OrientationSearch, Plate, price, printers, Slicer, type InitOutput } from "../../pkg/cusp_slicer.js";
 import type { OpenGpu } from "../../pkg/gpu/cusp_gpu.js";
 import type { ModelRead } from "../../pkg/models/cusp_models.js";
 import { acceptCompatible } from "./adapters.js";
@@ -8,7 +8,7 @@ import { bytesOf } from "./bytes.js";
 import { encodeGroups, isLong } from "./encode-groups.js";
 import { said } from "./error.js";
 import { stlOf } from "./stl.js";
-import type { Candidate, Help, KnownPrinter, OnProgress, PlateWorker, SlicerWorker } from "./wire.js";
+import type { Candidate, Help, KnownPrinter, OnProgress, Options, PlateWorker, Remote } from "./wire.js";
 
 /** Chunks of a print file are merged into a Blob at this many bytes; the browser may keep that on disk. */
 const BLOB_PART_BYTES = 8 << 20;
@@ -16,7 +16,10 @@ const BLOB_PART_BYTES = 8 << 20;
 let slicer: Slicer | null = null;
 let plate: Plate | null = null;
 let search: OrientationSearch | null = null;
-let memory: WebAssembly.Memory | null = null;
+/** The exports of the core's first part. */
+let first: InitOutput | null = null;
+/** The arrival of its later part, once somebody has asked for it. */
+let later: Promise<void> | null = null;
 
 /** The open model. The client opens one before any call that needs it. */
 function current(): Slicer {
@@ -24,13 +27,49 @@ function current(): Slicer {
   return slicer;
 }
 
-async function compile(): Promise<WebAssembly.Module> {
-  // Bundlers recognise this exact form and emit the file.
-  const response = await fetch(new URL("../../pkg/cusp_slicer_bg.wasm", import.meta.url));
+async function compile(address: URL): Promise<WebAssembly.Module> {
+  const response = await fetch(address);
   if (!response.ok) throw new Error(`the slicer could not be loaded (HTTP ${response.status})`);
   // Streaming needs the right content type, which plain file hosts do not always send.
   const typed = response.headers.get("content-type")?.startsWith("application/wasm") ?? false;
   return typed ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
+}
+
+/** That a part of the core could not be fetched. An instance of a class would lose its code on the way to the page. */
+function partFailed(part: string, error: unknown): { code: "part-failed"; message: string; detail: { part: string; system: string } } {
+  const system = said(error);
+  return { code: "part-failed", message: `a part of the slicer could not be loaded: ${part} (${system})`, detail: { part, system } };
+}
+
+/**
+ * Fetches the core's later part, which has what a plan and its print file can do without. xtask/src/wasm.rs lists the exports that
+ * are in it. After a failure the next call fetches it again.
+ */
+function fetchLater(): Promise<void> {
+  later ??= addLater().catch((error: unknown) => {
+    later = null;
+    throw partFailed("slicer-later", error);
+  });
+  return later;
+}
+
+async function addLater(): Promise<void> {
+  const part = await compile(new URL("../../pkg/cusp_slicer_later.wasm", import.meta.url));
+  await WebAssembly.instantiate(part, { first: { ...first } });
+  later_arrived();
+}
+
+/** A call that needs the later part. */
+function withLater<Given extends unknown[], Result>(call: (...given: Given) => Result | Promise<Result>): (...given: Given) => Promise<Result> {
+  return async (...given) => {
+    await fetchLater();
+    return call(...given);
+  };
+}
+
+/** Fetches the later part if a model is hollowed or supported. */
+async function fetchFor({ hollow, supports }: Options): Promise<void> {
+  if (hollow !== undefined || supports !== undefined) await fetchLater();
 }
 
 /** Opens a GPU, once the core wants one: what drives it is a module of its own. */
@@ -49,7 +88,7 @@ function plain(progress: OnProgress): OnProgress {
 
 /** Bytes that can be transferred: a view of the core's memory, or of a larger buffer, is copied. */
 function own(bytes: Uint8Array): Uint8Array<ArrayBuffer> {
-  const isShared = bytes.buffer === memory?.buffer || bytes.byteLength !== bytes.buffer.byteLength;
+  const isShared = bytes.buffer === first?.memory.buffer || bytes.byteLength !== bytes.buffer.byteLength;
   return isShared ? bytes.slice() : (bytes as Uint8Array<ArrayBuffer>);
 }
 
@@ -87,9 +126,7 @@ async function fetchModels(): Promise<typeof ModelRead> {
     await models.default({ module_or_path: new URL("../../pkg/models/cusp_models_bg.wasm", import.meta.url) });
     return models.ModelRead;
   } catch (error) {
-    const system = said(error);
-    // An instance of a class would lose its code on the way to the page.
-    throw { code: "part-failed", message: `a part of the slicer could not be loaded: models (${system})`, detail: { part: "models", system } };
+    throw partFailed("models", error);
   }
 }
 
@@ -122,27 +159,24 @@ async function encodedBy(helpers: number, help: Help, progress: OnProgress): Pro
   }
 }
 
-const plateApi: PlateWorker = {
-  async addToPlate(file, progress) {
+/** All of the plate is in the later part. */
+const plateApi: Pick<Remote, keyof PlateWorker> = {
+  addToPlate: withLater(async (file, progress) => {
     progress("load", 0, 0);
     const model = await read(file);
     const info = model.info();
     onPlate().add(model);
     return info;
-  },
-  removeFromPlate(model) {
-    onPlate().remove(model);
-  },
-  platePositions(model) {
+  }),
+  removeFromPlate: withLater((model) => onPlate().remove(model)),
+  platePositions: withLater((model) => {
     const positions = onPlate().positions(model);
     return Comlink.transfer(positions, [positions.buffer]);
-  },
-  setPlateWeights(model, weights) {
-    onPlate().set_weights(model, weights);
-  },
-  arrangePlate: (options) => onPlate().arrange(options),
-  plateProblems: (options) => onPlate().problems(options),
-  async planPlate(options, progress) {
+  }),
+  setPlateWeights: withLater((model, weights) => onPlate().set_weights(model, weights)),
+  arrangePlate: withLater((options) => onPlate().arrange(options)),
+  plateProblems: withLater((options) => onPlate().problems(options)),
+  planPlate: withLater(async (options, progress) => {
     const plate = onPlate();
     const report = await plate.plan(options, plain(progress));
     const profiles = report.plates.map(({ metric, source }, number) => plate.profile(number, metric, source));
@@ -150,23 +184,24 @@ const plateApi: PlateWorker = {
     const supports = isSupported ? (options.models ?? []).map((_, model) => plate.supports(model)) : [];
     const buffers = [...profiles, ...supports].map(({ buffer }) => buffer);
     return Comlink.transfer({ report, profiles, ...(isSupported && { supports }) }, buffers);
-  },
-  plateMask(number, layer) {
+  }),
+  plateMask: withLater((number, layer) => {
     const bits = onPlate().mask(number, layer);
     return Comlink.transfer(bits, [bits.buffer]);
-  },
-  archivePlate(number, progress) {
+  }),
+  archivePlate: withLater((number, progress) => {
     const sink = new BlobSink();
     onPlate().archive(number, sink.take, plain(progress));
     return sink.finish();
-  },
+  }),
 };
 
-const api: SlicerWorker = {
+const api: Remote = {
   ...plateApi,
   async boot(module) {
-    const compiled = module ?? (await compile());
-    ({ memory } = await init({ module_or_path: compiled }));
+    // Bundlers recognise this exact form and emit the file.
+    const compiled = module ?? (await compile(new URL("../../pkg/cusp_slicer_bg.wasm", import.meta.url)));
+    first = await init({ module_or_path: compiled });
     open_gpus_by(openGpu);
     return compiled;
   },
@@ -178,6 +213,7 @@ const api: SlicerWorker = {
     return opened.info();
   },
   async plan(options, progress) {
+    await fetchFor(options);
     const report = await current().plan(options, plain(progress));
     const profile = current().profile(report.metric, report.source);
     const supports = report.supported === undefined ? {} : { supports: current().supports() };
@@ -185,13 +221,12 @@ const api: SlicerWorker = {
     const plan = { report, profile, ...supports, ...voids };
     return Comlink.transfer(plan, [profile, supports.supports, voids.voids].flatMap((it) => it?.buffer ?? []));
   },
-  tradeoff(options, points, progress) {
+  async tradeoff(options, points, progress) {
+    await fetchFor(options);
     return current().tradeoff(options, points, plain(progress));
   },
-  compare(options, progress) {
-    return current().compare(options, plain(progress));
-  },
-  inspect: (limits, progress) => current().inspect(limits, plain(progress)),
+  compare: withLater((options, progress) => current().compare(options, plain(progress))),
+  inspect: withLater((limits, progress) => current().inspect(limits, plain(progress))),
   mask(layer) {
     const bits = current().mask(layer);
     return Comlink.transfer(bits, [bits.buffer]);
@@ -215,10 +250,10 @@ const api: SlicerWorker = {
     const bytes = encode_group(format, canvas, runs);
     return Comlink.transfer(bytes, [bytes.buffer]);
   },
-  plugs() {
+  plugs: withLater(() => {
     const file = stlOf(current().plugs());
     return Comlink.transfer(file, [file.buffer]);
-  },
+  }),
   positions() {
     const positions = current().positions();
     return Comlink.transfer(positions, [positions.buffer]);
@@ -235,21 +270,21 @@ const api: SlicerWorker = {
   setWeights(weights) {
     current().set_weights(weights);
   },
-  weightsFile(weights) {
+  weightsFile: withLater((weights) => {
     const bytes = own(current().weights_file(weights));
     return Comlink.transfer(bytes, [bytes.buffer]);
-  },
-  async readWeights(file) {
+  }),
+  readWeights: withLater(async (file) => {
     const weights = current().read_weights(await bytesOf(file));
     return Comlink.transfer(weights, [weights.buffer]);
-  },
-  startSearch(options, wanted, measured) {
+  }),
+  startSearch: withLater((options, wanted, measured) => {
     const started = measured === null ? current().search(options, wanted) : OrientationSearch.of_measured(wanted, [...measured]);
     search?.free();
     search = started;
     const directions = search.directions();
     return Comlink.transfer(directions, [directions.buffer]);
-  },
+  }),
   advanceSearch(results, most, rateFrom) {
     if (search === null) throw new Error("no search was started");
     for (const { number, candidates } of results) search.accept(number, candidates);
@@ -260,15 +295,15 @@ const api: SlicerWorker = {
     const result = best === null ? null : { best, candidates: search.rated().filter((candidate) => candidate !== null) };
     return { tasks, measured, progress: search.progress(), rated, result };
   },
-  evaluate(options, tasks) {
+  evaluate: withLater((options, tasks) => {
     const measure = (directions: [number, number, number][]): Candidate[] => current().evaluate(options, Float64Array.from(directions.flat()));
     return tasks.map(({ number, directions }) => ({ number, candidates: measure(directions) }));
-  },
-  async calibrateLayers(options, progress) {
+  }),
+  calibrateLayers: withLater(async (options, progress) => {
     const sink = new BlobSink();
     const report = await calibrate_layers(options, sink.take, plain(progress));
     return { blob: sink.finish(), report };
-  },
+  }),
   // The core fills in what its list leaves out.
   printers: () => printers() as KnownPrinter[],
   price: (prices, items, finish) => {

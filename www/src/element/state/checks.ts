@@ -58,6 +58,8 @@ export class Checks {
   set isOpen(isOpen: boolean) {
     if (isOpen === this.#isOpen) return;
     this.#isOpen = isOpen;
+    // What could not be fetched may be there by now.
+    if (isOpen && this.#error?.code === "part-failed") this.#of = null;
     this.#host.changed();
     if (isOpen) this.#host.wanted();
   }

@@ -1,10 +1,13 @@
 import { readFile } from "node:fs/promises";
 import { expect, test } from "vitest";
-import { initSync, OrientationSearch, type Candidate, type SearchOptions } from "../../../pkg/cusp_slicer.js";
+import { initSync, later_arrived, OrientationSearch, type Candidate, type SearchOptions } from "../../../pkg/cusp_slicer.js";
 import { DEFAULT_AIMS } from "./orientation.js";
 
 test("the initial aims of the panel are the core's defaults", async () => {
-  initSync({ module: await readFile(new URL("../../../pkg/cusp_slicer_bg.wasm", import.meta.url)) });
+  const read = (part: string): Promise<Buffer> => readFile(new URL(`../../../pkg/cusp_slicer_${part}.wasm`, import.meta.url));
+  const first = initSync({ module: await read("bg") });
+  await WebAssembly.instantiate(await read("later"), { first: { ...first } });
+  later_arrived();
   // Any other aims give two candidates with metrics like these different energies.
   const candidates = [1, 2].map((part): Candidate => {
     const metrics = { layers: 10, print_time_s: 10 * part, max_error: 1 / part, roughness_mm: 1 / part ** 2, overhang_mm2: 1 / part ** 3, islands: 0, cups_mm2: 0, support_ml: 0, contact_mm2: 0 };
