@@ -2,7 +2,7 @@
 
 use super::Error;
 use crate::grid::Grid;
-use crate::ldi::Hit;
+use crate::ldi::{Anew, Hit};
 use crate::mask::{Masks, Samples};
 use crate::model::Mesh;
 
@@ -13,6 +13,8 @@ pub(crate) struct Memory {
     pub bytes: u64,
     /// Models that share them equally.
     pub models: usize,
+    /// Leave to find hits anew, as far as they do not fit.
+    pub leave: Anew,
 }
 
 /// A bound that an LDI with its masks would exceed.
@@ -20,7 +22,7 @@ pub(crate) struct Memory {
 pub(crate) struct Bound {
     /// What the job would take with them.
     needed_bytes: u64,
-    allowed: Memory,
+    pub allowed: Memory,
     /// What masks may take at a time without them.
     pub slab_bytes: u64,
 }
@@ -37,6 +39,16 @@ const OFFSET_BYTES: u64 = 4;
 const LEAST_SLAB_BYTES: u64 = 1 << 20;
 
 impl Memory {
+    /// These bytes for one model.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn of(bytes: u64) -> Self {
+        Self {
+            bytes,
+            models: 1,
+            leave: Anew,
+        }
+    }
+
     /// `None` if the LDI of a mesh and its masks fit; otherwise what to do without them.
     ///
     /// # Errors

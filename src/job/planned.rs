@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::Error;
 use super::measured::Measured;
+use super::memory::Bound;
 use super::parts::Layering;
 use super::planning::{Findings, Part, Planning};
 use super::sampled::Sampled;
@@ -132,8 +133,8 @@ impl Planned {
             sampling,
             ..
         } = sampled;
-        Ok(match sampled.slab_bytes() {
-            Some(slab_bytes) if self.shrinking().is_none() => {
+        Ok(match sampled.bound() {
+            Some(Bound { slab_bytes, .. }) if self.shrinking().is_none() => {
                 let (mesh, samples) = (sampled.mesh(), sampling.samples);
                 let plan = &self.plan;
                 Box::new(SlabMasks::new(

@@ -28,16 +28,34 @@ pub struct Sampled {
     pub grid: Grid,
     /// The rays, which are only where the model is.
     pub rays: Grid,
-    /// Their hits, unless they do not fit into the memory that may be taken.
-    ldi: Option<Ldi>,
+    hits: Hits,
     pub survey: Survey,
-    /// What masks may take where there is no LDI.
-    bound: Option<Bound>,
     /// What holds it, if it is supported.
     pub supported: Option<Supported>,
     /// The GPU that was used.
     pub gpu: Option<UsedGpu>,
     pub warnings: Vec<Warning>,
+}
+
+/// The hits of all rays.
+#[derive(Debug)]
+enum Hits {
+    Kept(Ldi),
+    /// They do not fit into the memory that may be taken, and are found when they are needed.
+    Anew(Bound),
+}
+
+impl Hits {
+    fn image<'a>(&'a self, mesh: &'a Mesh, grid: Grid) -> RayImage<'a> {
+        match self {
+            Self::Kept(ldi) => RayImage::Kept(ldi),
+            Self::Anew(bound) => RayImage::Scanned {
+                mesh,
+                grid,
+                leave: bound.allowed.leave,
+            },
+        }
+    }
 }
 
 /// A GPU that sampled a model.
@@ -122,15 +140,18 @@ impl Sampler {
                 Err(error) => warnings.extend(cpu_instead(&error)),
             }
         }
-        let (ldi, gpu) = match on_gpu {
-            Some((ldi, gpu)) => (Some(ldi), Some(gpu)),
-            None if bound.is_some() => (None, None),
-            None => (Some(cpu::sample(mesh, &rays, &mut ldi_progress)?), None),
+        let (hits, gpu) = match (on_gpu, bound) {
+            (Some((ldi, gpu)), _) => (Hits::Kept(ldi), Some(gpu)),
+            (None, Some(bound)) => (Hits::Anew(bound), None),
+            (None, None) => {
+                let ldi = cpu::sample(mesh, &rays, &mut ldi_progress)?;
+                (Hits::Kept(ldi), None)
+            }
         };
-        let image = image_of(ldi.as_ref(), mesh, rays);
-        let survey = match &ldi {
-            Some(_) => Survey::of(image, &mut silent),
-            None => Survey::of(image, &mut ldi_progress),
+        let image = hits.image(mesh, rays);
+        let survey = match &hits {
+            Hits::Kept(_) => Survey::of(image, &mut silent),
+            Hits::Anew(_) => Survey::of(image, &mut ldi_progress),
         };
         let survey = survey.map_err(LdiError::from)?;
         if survey.hits == 0 {
@@ -153,9 +174,8 @@ impl Sampler {
             prepared,
             grid,
             rays,
-            ldi,
+            hits,
             survey,
-            bound,
             supported,
             gpu,
             warnings,
@@ -207,15 +227,10 @@ impl Sampler {
     }
 }
 
-/// The rays of a mesh through a grid.
-fn image_of<'a>(ldi: Option<&'a Ldi>, mesh: &'a Mesh, grid: Grid) -> RayImage<'a> {
-    ldi.map_or(RayImage::Scanned { mesh, grid }, RayImage::Kept)
-}
-
 impl Sampled {
     /// The rays.
     pub fn image(&self) -> RayImage<'_> {
-        image_of(self.ldi.as_ref(), self.mesh(), self.rays)
+        self.hits.image(self.mesh(), self.rays)
     }
 
     /// The LDI.
@@ -223,21 +238,18 @@ impl Sampled {
     /// # Errors
     /// [`Error::MemoryBound`] if it does not fit into the memory that may be taken.
     pub fn ldi(&self) -> Result<&Ldi, Error> {
-        match (&self.ldi, self.bound) {
-            (Some(ldi), _) => Ok(ldi),
-            (None, Some(bound)) => Err(bound.error()),
-            (None, None) => Err(Error::NoPlan),
+        match &self.hits {
+            Hits::Kept(ldi) => Ok(ldi),
+            Hits::Anew(bound) => Err(bound.error()),
         }
     }
 
-    /// Whether there is an LDI.
-    pub fn is_held(&self) -> bool {
-        self.ldi.is_some()
-    }
-
-    /// Bytes that masks may take at a time, if there is no LDI.
-    pub fn slab_bytes(&self) -> Option<u64> {
-        self.bound.map(|bound| bound.slab_bytes)
+    /// Why there is no LDI, if that is so.
+    pub fn bound(&self) -> Option<Bound> {
+        match self.hits {
+            Hits::Kept(_) => None,
+            Hits::Anew(bound) => Some(bound),
+        }
     }
 
     /// What was sampled: on the plate, with voids and supports.

@@ -9,6 +9,7 @@ use web_time::Instant;
 use super::facet_shapes::{Extra, shapes_of};
 use super::groups::{ENCODED_SHARE, LayerGroups};
 use super::measured::Measured;
+#[cfg(not(target_arch = "wasm32"))]
 use super::memory::Memory;
 use super::parts::{Job, Layering, Output, Sampling};
 use super::planned::{Planned, PlannedModel};
@@ -105,9 +106,10 @@ impl Slicer {
 
     /// Takes no more than about this many bytes from now on, as far as that is possible: hits and masks that do not fit are found anew
     /// when they are needed, and print files are the same. See [`Error::MemoryBound`] for what is not possible.
+    #[cfg(not(target_arch = "wasm32"))]
     #[must_use]
     pub fn with_memory(mut self, bytes: u64) -> Self {
-        self.sampler.set_memory(Memory { bytes, models: 1 });
+        self.sampler.set_memory(Memory::of(bytes));
         self
     }
 
@@ -503,7 +505,7 @@ impl Slicer {
     /// [`Error::NoPlan`].
     pub fn layer_groups(&mut self) -> Result<Option<LayerGroups>, Error> {
         let current = self.current.as_mut().ok_or(Error::NoPlan)?;
-        let is_held = current.planned.first().of.is_held();
+        let is_held = current.planned.first().of.bound().is_none();
         if current.output.filament.is_some() || !is_held {
             return Ok(None);
         }
@@ -566,7 +568,7 @@ impl Slicer {
         let masks = if let Some(encoded) = encoded {
             MaskSource::Encoded(encoded)
         } else {
-            runs = if of.first().of.is_held() {
+            runs = if of.first().of.bound().is_none() {
                 Box::new(current.shown()?)
             } else {
                 of.runs(0, current.side())?

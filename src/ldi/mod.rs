@@ -18,7 +18,7 @@ pub mod visibility;
 use serde::Serialize;
 
 pub use ranges::{model_ranges, printed_ranges};
-pub use rays::{RayImage, Rays};
+pub use rays::{Anew, RayImage, Rays};
 pub use solid::Solid;
 pub use survey::Survey;
 

@@ -53,6 +53,16 @@ impl<'a> Rays<'a> {
     }
 }
 
+/// Leave to find hits anew instead of keeping them.
+#[cfg(not(target_arch = "wasm32"))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Anew;
+
+/// Leave to find hits anew, which nobody has in browsers: what cannot be is not compiled, and the module stays 20 KB smaller.
+#[cfg(target_arch = "wasm32")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Anew {}
+
 /// The rays of a mesh, to be passed over once or several times.
 #[derive(Debug, Clone, Copy)]
 pub enum RayImage<'a> {
@@ -64,6 +74,8 @@ pub enum RayImage<'a> {
         mesh: &'a Mesh,
         /// The grid whose pixel centres the rays pass.
         grid: Grid,
+        /// Leave to do so.
+        leave: Anew,
     },
 }
 
@@ -99,7 +111,7 @@ impl RayImage<'_> {
         let part_bands = bands.div_ceil(PARTS).max(1);
         let (projection, rounds) = match self {
             Self::Kept(_) => (None, 1),
-            Self::Scanned { mesh, grid } => (Some(Projection::new(mesh, &grid)), ROUNDS),
+            Self::Scanned { mesh, grid, .. } => (Some(Projection::new(mesh, &grid)), ROUNDS),
         };
         let scan = projection.as_ref();
         let scan = scan.map(|projection| Scan::new(projection, self.grid(), self.classes()));
@@ -111,11 +123,16 @@ impl RayImage<'_> {
             parts = parallel::map(parts, |(start, mut value)| {
                 let end = (start + part_bands).min(bands);
                 for band in start + round..(start + round + round_bands).min(end) {
-                    match (self, &scan) {
-                        (Self::Kept(ldi), _) => step(&mut value, ldi.band(band)),
-                        (_, Some(scan)) => step(&mut value, scan.band(band).rays()),
-                        _ => {}
-                    }
+                    let scanned;
+                    let rays = match (self, &scan) {
+                        (Self::Kept(ldi), _) => ldi.band(band),
+                        (Self::Scanned { .. }, Some(scan)) => {
+                            scanned = scan.band(band);
+                            scanned.rays()
+                        }
+                        (Self::Scanned { .. }, None) => continue,
+                    };
+                    step(&mut value, rays);
                 }
                 (start, value)
             });

@@ -8,7 +8,7 @@ use cusp_slicer::job::{
     Backend, ModelOptions, Options, Planner, Plate, PlateOptions, Report, Slicer,
 };
 use cusp_slicer::ldi::visibility::visibility;
-use cusp_slicer::ldi::{RayImage, Survey, cpu};
+use cusp_slicer::ldi::{Anew, RayImage, Survey, cpu};
 use cusp_slicer::prepare::{Hollowing, SupportStrength, Supporting};
 use cusp_slicer::profile::Metric;
 use cusp_slicer::profile::facet_bins::FacetBins;
@@ -223,7 +223,11 @@ fn rays_found_anew_are_those_of_the_ldi() {
                 survey,
             )
         };
-        let scanned = RayImage::Scanned { mesh: &mesh, grid };
+        let scanned = RayImage::Scanned {
+            mesh: &mesh,
+            grid,
+            leave: Anew,
+        };
         assert_eq!(told(RayImage::Kept(&ldi)), told(scanned));
     }
 }

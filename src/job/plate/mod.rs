@@ -17,6 +17,7 @@ pub use inspect::ModelPrintability;
 pub use options::{ModelOptions, Placement, PlateOptions};
 pub use report::{PlateModelReport, PlateReport, PlatesReport};
 
+use super::memory::Memory;
 use super::parts::{Job, Layering, Target};
 use super::planned::{Planned, PlannedModel};
 use super::prepared::Prepared;
@@ -38,8 +39,8 @@ use shapes::Shape;
 pub struct Plate {
     models: Vec<Slicer>,
     sampler: Sampler,
-    /// Bytes that may be taken, if they are bounded.
-    memory_bytes: Option<u64>,
+    /// What may be taken, if that is bounded.
+    memory: Option<Memory>,
     /// The models with their supports, if they have some: before turns, in the order of models.
     prepared: Vec<Arc<Prepared>>,
     shapes: Vec<Shape>,
@@ -63,9 +64,10 @@ impl Plate {
     }
 
     /// Takes no more than about this many bytes from now on: see [`Slicer::with_memory`]. Models share them equally.
+    #[cfg(not(target_arch = "wasm32"))]
     #[must_use]
     pub fn with_memory(mut self, bytes: u64) -> Self {
-        self.memory_bytes = Some(bytes);
+        self.memory = Some(Memory::of(bytes));
         self
     }
 

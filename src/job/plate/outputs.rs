@@ -105,7 +105,9 @@ impl Plate {
             Side::Above
         };
         let models = planned.models.iter();
-        let all_held = models.clone().all(|model| model.sampled().is_held());
+        let all_held = models
+            .clone()
+            .all(|model| model.sampled().bound().is_none());
         // Masks seen from above are kept for later calls.
         let seen_above = !is_mirrored && all_held;
         let apart = if seen_above {

@@ -139,9 +139,9 @@ impl Plate {
         progress: &mut StageProgress<'_>,
     ) -> Result<(), Error> {
         let count = wanted.len() as f64;
-        if let Some(bytes) = self.memory_bytes {
+        if let Some(memory) = self.memory {
             let models = wanted.len().max(1);
-            self.sampler.set_memory(Memory { bytes, models });
+            self.sampler.set_memory(Memory { models, ..memory });
         }
         for (number, (model, turns, sampling)) in wanted.into_iter().enumerate() {
             let mut within = |stage, fraction| progress(stage, (number as f64 + fraction) / count);
