@@ -56,20 +56,22 @@ impl Standing<'_> {
         (60.0 + 195.0 * light * (0.6 + 0.4 * height)).min(255.0) as u8
     }
 
-    /// The pixels of a picture with this many columns that it covers: the place and the brightness of each.
-    fn seen_on(&self, raster: &Raster, columns: usize, top_mm: f64) -> Vec<(usize, u8)> {
+    /// The rows of a picture with this many columns that it covers: the place of the first pixel, and the brightness of each.
+    fn seen_on(&self, raster: &Raster, columns: usize, top_mm: f64) -> Vec<(usize, Vec<u8>)> {
         let grid = self.image.grid();
         let [left, above] = self.first_ray;
-        let look = |seen: &mut Vec<(usize, u8)>, rays: Rays<'_>| {
+        let look = |seen: &mut Vec<(usize, Vec<u8>)>, rays: Rays<'_>| {
             let end_row = rays.first_row + rays.count() as u32 / grid.width;
             for (row, y) in raster.along(1, above, rays.first_row..end_row) {
                 let first = (row - rays.first_row) * grid.width;
-                for (column, x) in raster.along(0, left, 0..grid.width) {
-                    let value = self.brightness(rays.ray((first + column) as usize), top_mm);
-                    if value > 0 {
-                        seen.push((y * columns + x, value));
-                    }
-                }
+                let mut along = raster.along(0, left, 0..grid.width).peekable();
+                let Some(&(_, x)) = along.peek() else {
+                    continue;
+                };
+                let values = along.map(|(column, _)| {
+                    self.brightness(rays.ray((first + column) as usize), top_mm)
+                });
+                seen.push((y * columns + x, values.collect()));
             }
         };
         let seen = self.image.fold(Vec::new, look, &mut silent);
@@ -128,8 +130,10 @@ impl Look {
         let top_mm = tops_mm.fold(f64::MIN_POSITIVE, f64::max);
         let mut brightness = vec![0u8; columns * rows];
         for copy in copies {
-            for (place, value) in copy.seen_on(&raster, columns, top_mm) {
-                brightness[place] = brightness[place].max(value);
+            for (place, values) in copy.seen_on(&raster, columns, top_mm) {
+                for (pixel, value) in brightness[place..].iter_mut().zip(values) {
+                    *pixel = value.max(*pixel);
+                }
             }
         }
         Self {
