@@ -20,6 +20,12 @@ const FLAGS = [
   "--use-webgpu-adapter=swiftshader",
 ];
 
+/**
+ * Lets WebGL draw in software, without a GPU. The rest of the page needs no such thing: put together by the same software GPU
+ * (`--use-angle=swiftshader`), it would cost more than what WebGL draws.
+ */
+export const SOFTWARE_GL = ["--enable-unsafe-swiftshader"];
+
 /** The browser named by CHROMIUM, or the first of its usual names on PATH. */
 function executable(): string {
   const named = process.env["CHROMIUM"];

@@ -1,7 +1,10 @@
 /**
- * Measures how long the page takes from the drop of a model: `npm run measure -- FILE.stl [HEIGHT_MM [RAYS [BACKEND]]]`.
+ * Measures how long the page takes from the drop of a model: `npm run measure -- FILE.stl|FACETS [HEIGHT_MM [RAYS [BACKEND]]]`. In place
+ * of a file, a ball of about so many facets.
  *
- * Each of five rounds, or as many as `--rounds` says, has a fresh page, so that nothing is kept from the round before; the median counts.
+ * Each of five rounds, or as many as `--rounds` says, has fresh pages, so that nothing is kept from the round before; the median counts.
+ * On one page the model is only looked at, on the other the print file is downloaded as well, as soon as its plan is there. Somebody takes a
+ * while to find a file: the drop is `--after` seconds after the page is there, 2 if it does not say.
  *
  * With `--against DIR`, the `dist` folder of another build, rounds of both alternate. A table then has their medians, and how many times
  * as much the other takes: the median over the pairs of rounds, so that a machine that becomes slower meanwhile slows down both.
@@ -13,17 +16,28 @@ import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
 import { gzipSync } from "node:zlib";
 import type { Browser } from "playwright-core";
-import { drop, launch, layers, open, state, type DroppedFile } from "./browser.js";
+import { drop, launch, layers, open, SOFTWARE_GL, state, USUAL, visit, type DroppedFile } from "./browser.js";
 import { beforeView, whole } from "./loaded.js";
 import { serve } from "./serve.js";
+import { sphere } from "./solids.js";
 
-const USAGE = "usage: npm run measure -- FILE.stl [HEIGHT_MM [RAYS [BACKEND]]] [--against DIR] [--rounds N]";
+const USAGE = "usage: npm run measure -- FILE.stl|FACETS [HEIGHT_MM [RAYS [BACKEND]]] [--against DIR] [--rounds N] [--after SECONDS]";
 /** The longest run that is waited for, on a machine with other work. */
 const PATIENCE_MS = 120_000;
+
+/** What is measured, and how. */
+interface Measured {
+  file: DroppedFile;
+  query: string;
+  rounds: number;
+  after_ms: number;
+}
 
 interface Round {
   layers: number;
   plan_ms: number;
+  /** Until the first picture of the model is on the view's canvas. */
+  view_ms: number;
   zip_ms: number;
   /** The most memory that the processes of pages have held; `undefined` where the system does not say. */
   megabytes: number | undefined;
@@ -31,25 +45,34 @@ interface Round {
 }
 
 export async function main(args: string[]): Promise<void> {
-  const { positionals, values } = parseArgs({ args, allowPositionals: true, options: { against: { type: "string" }, rounds: { type: "string", default: "5" } } });
+  const text = { type: "string" } as const;
+  const options = { against: text, rounds: { ...text, default: "5" }, after: { ...text, default: "2" } };
+  const { positionals, values } = parseArgs({ args, allowPositionals: true, options });
   const [file, height = "60", rays = "2048", backend = "auto"] = positionals;
   if (file === undefined) throw new Error(USAGE);
-  const model = { name: basename(file), bytes: await readFile(file) };
+  const model = Number(file) > 0 ? ball(Number(file)) : { name: basename(file), bytes: await readFile(file) };
   const query = `?backend=${backend}&height=${height}&rays=${rays}`;
-  const count = Number(values.rounds);
-  console.log(`${model.name}, ${height} mm high, ${rays} rays, backend ${backend}, ${count} rounds`);
-  await (values.against === undefined ? alone(model, query, count) : against(resolve(values.against), model, query, count));
+  const measured = { file: model, query, rounds: Number(values.rounds), after_ms: 1000 * Number(values.after) };
+  console.log(`${model.name}, ${height} mm high, ${rays} rays, backend ${backend}, ${measured.rounds} rounds`);
+  await (values.against === undefined ? alone(measured) : against(resolve(values.against), measured));
 }
 
-async function alone(file: DroppedFile, query: string, count: number): Promise<void> {
+/** A ball of about so many facets. */
+function ball(facets: number): DroppedFile {
+  const { bytes } = sphere(20, 2 * Math.round((1 + Math.sqrt(1 + facets)) / 2));
+  return { name: `ball of ${(bytes.length - 84) / 50} facets`, bytes };
+}
+
+async function alone(measured: Measured): Promise<void> {
   const served = await serve();
-  const browser = await launch();
+  const browser = await launch(SOFTWARE_GL);
   try {
     const rounds: Round[] = [];
-    for (let i = 0; i < count; i++) rounds.push(await round(browser, served.address + query, file));
+    for (let i = 0; i < measured.rounds; i++) rounds.push(await round(browser, served.address, measured));
     const first = rounds[0];
     console.log(`layers         ${first?.layers}`);
     console.log(`drop to plan   ${spread(rounds.map(({ plan_ms }) => plan_ms))}`);
+    console.log(`drop to view   ${spread(rounds.map(({ view_ms }) => view_ms))}`);
     console.log(`drop to zip    ${spread(rounds.map(({ zip_ms }) => zip_ms))} (download pressed as soon as the plan is there)`);
     console.log(`of the first:  ${first?.timings}`);
   } finally {
@@ -58,7 +81,8 @@ async function alone(file: DroppedFile, query: string, count: number): Promise<v
   }
 }
 
-async function against(folder: string, file: DroppedFile, query: string, count: number): Promise<void> {
+async function against(folder: string, measured: Measured): Promise<void> {
+  const { rounds: count, query, file } = measured;
   const folders = [folder, fileURLToPath(new URL("../dist", import.meta.url))] as const;
   const [theirs, ours] = [await serve(folders[0]), await serve(folders[1])];
   try {
@@ -66,10 +90,10 @@ async function against(folder: string, file: DroppedFile, query: string, count: 
     for (let i = 0; i <= count; i++) {
       const order = [[theirs, before], [ours, now]] as const;
       for (const [served, rounds] of i % 2 === 0 ? order : order.toReversed()) {
-        const done = await apart(served.address + query, file);
+        const done = await apart(served.address, measured);
         // The first round of each warms the system's cache of files.
         if (i > 0) rounds.push(done);
-        console.error(`round ${i} of ${count}, ${served === ours ? "now" : "before"}: plan ${Math.round(done.plan_ms)} ms, zip ${Math.round(done.zip_ms)} ms`);
+        console.error(`round ${i} of ${count}, ${served === ours ? "now" : "before"}: plan ${Math.round(done.plan_ms)} ms, view ${Math.round(done.view_ms)} ms, zip ${Math.round(done.zip_ms)} ms`);
       }
     }
     const ofRounds = (name: string, of: (round: Round) => number | undefined): string => {
@@ -79,6 +103,7 @@ async function against(folder: string, file: DroppedFile, query: string, count: 
     console.log(`${folders[0]} before, ${folders[1]} now\n`);
     console.log("| | before | now | before / now |\n|---|---:|---:|---:|");
     console.log(ofRounds("drop to plan, ms", (it) => it.plan_ms));
+    console.log(ofRounds("drop to view, ms", (it) => it.view_ms));
     console.log(ofRounds("drop to print file, ms", (it) => it.zip_ms));
     console.log(ofRounds("memory of the page, MB", (it) => it.megabytes));
     console.log(ofRounds("layers", (it) => it.layers));
@@ -95,18 +120,20 @@ async function against(folder: string, file: DroppedFile, query: string, count: 
 }
 
 /** A round in a browser of its own, so that its memory is that of one page. */
-async function apart(address: string, file: DroppedFile): Promise<Round> {
-  const browser = await launch();
+async function apart(address: string, measured: Measured): Promise<Round> {
+  const browser = await launch(SOFTWARE_GL);
   try {
-    return await round(browser, address, file);
+    return await round(browser, address, measured);
   } finally {
     await browser.close();
   }
 }
 
-async function round(browser: Browser, address: string, file: DroppedFile): Promise<Round> {
-  const { page } = await open(browser, address);
+async function round(browser: Browser, address: string, { file, query, after_ms }: Measured): Promise<Round> {
+  const looked = await look(browser, address + query, file, after_ms);
+  const { page } = await open(browser, address + query);
   try {
+    await page.waitForTimeout(after_ms);
     // Records, inside the page and by its own clock, when it reports that it is done.
     await page.evaluate(() => {
       const app = document.querySelector("cusp-workbench");
@@ -129,14 +156,55 @@ async function round(browser: Browser, address: string, file: DroppedFile): Prom
     const moment = async (name: string): Promise<number> =>
       Number(await page.locator("html").getAttribute(`data-${name}`)) - dropped;
     return {
+      ...looked,
       layers: await layers(page),
-      plan_ms: await moment("plan"),
       zip_ms: await moment("zip"),
       megabytes: await megabytes(browser),
       timings: (await page.locator("details.quiet").first().evaluate((it) => it.textContent)).replace(/\s+/g, " ").trim(),
     };
   } finally {
     await page.context().close();
+  }
+}
+
+/** Runs before the page's own scripts: records when the plan is shown, and when the view has the first picture of the model. */
+function watch(facets: number): void {
+  const note = (name: string): string => (document.documentElement.dataset[name] ??= String(performance.now()));
+  let isDrawn = false;
+  const drawn = (gl: WebGL2RenderingContext, corners: number): void => {
+    isDrawn ||= corners >= 3 * facets;
+    // A large model is drawn offscreen first.
+    if (isDrawn && gl.getParameter(gl.DRAW_FRAMEBUFFER_BINDING) === null) note("view");
+  };
+  const { drawArrays, drawElements } = WebGL2RenderingContext.prototype;
+  WebGL2RenderingContext.prototype.drawArrays = function (mode, first, count) {
+    drawArrays.call(this, mode, first, count);
+    drawn(this, count);
+  };
+  WebGL2RenderingContext.prototype.drawElements = function (mode, count, type, offset) {
+    drawElements.call(this, mode, count, type, offset);
+    drawn(this, 0);
+  };
+  new MutationObserver(() => {
+    const app = document.querySelector("cusp-workbench");
+    if (app?.getAttribute("state") === "done") note("plan");
+  }).observe(document, { subtree: true, attributeFilter: ["state"] });
+}
+
+/** Drops a model and waits for its plan and its picture, which nothing disturbs. */
+async function look(browser: Browser, address: string, file: DroppedFile, after_ms: number): Promise<Pick<Round, "plan_ms" | "view_ms">> {
+  const context = await browser.newContext(USUAL);
+  try {
+    const page = await context.newPage();
+    await page.addInitScript(watch, (file.bytes.length - 84) / 50);
+    await visit(page, address);
+    await page.waitForTimeout(after_ms);
+    const dropped = await drop(page, file);
+    await state(page, "done", PATIENCE_MS);
+    const moment = async (name: string): Promise<number> => Number(await page.locator(`html[data-${name}]`).getAttribute(`data-${name}`)) - dropped;
+    return { plan_ms: await moment("plan"), view_ms: await moment("view") };
+  } finally {
+    await context.close();
   }
 }
 

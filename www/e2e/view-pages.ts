@@ -2,22 +2,18 @@
 import { decode } from "fast-png";
 import type { Browser, BrowserContextOptions, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect } from "vitest";
-import { launch } from "./browser.js";
+import { launch, SOFTWARE_GL } from "./browser.js";
 import { Tabs } from "./tabs.js";
 import type { Harness, Heard } from "./view-page/main.js";
 import { serveView } from "./view-serve.js";
+
+export { SOFTWARE_GL };
 
 declare global {
   interface Window {
     harness: Harness;
   }
 }
-
-/**
- * Lets WebGL draw in software, without a GPU. The rest of the page needs no such thing: put together by the same software GPU
- * (`--use-angle=swiftshader`), it would cost more than what WebGL draws.
- */
-export const SOFTWARE_GL = ["--enable-unsafe-swiftshader"];
 
 export interface Prepared extends BrowserContextOptions {
   /** Runs in the page before anything else; the tab is then the test's own. */
