@@ -90,6 +90,8 @@ export class Scene {
   /** Size of the canvas, which follows that of the view when a picture of that size is there. */
   #fitted: readonly [number, number] = [0, 0];
   #asked = 0;
+  /** Whether the browser has yet to fetch what is on the canvas, or the empty canvas. */
+  #isUnfetched = true;
   /** Whether something has changed since the offscreen picture under way was started. */
   #isStale = false;
   #isGone = false;
@@ -337,6 +339,11 @@ export class Scene {
     if (flying || moving) this.invalidate();
   };
 
+  readonly #fetched = (): void => {
+    this.#isUnfetched = false;
+    this.#frame();
+  };
+
   async #picked(camera: PerspectiveCamera | OrthographicCamera, at: readonly [number, number]): Promise<Hit | null> {
     if (this.#isGone || this.#size[0] === 0 || this.#renderer.getContext().isContextLost()) return null;
     this.#scene.updateMatrixWorld();
@@ -356,11 +363,20 @@ export class Scene {
     this.markers.group.position.z = this.model.lift_mm;
     this.markers.prepare(this.#size[1], density());
     this.#scene.updateMatrixWorld();
-    this.plate.prepare(this.#renderer, this.model.facets);
     const size = this.#size;
-    if (this.model.positions.length < 9 * LARGE_FACETS) {
+    const isLarge = this.model.positions.length >= 9 * LARGE_FACETS;
+    if (isLarge && this.#isUnfetched) {
+      // An empty canvas takes its size at once, and with it the pointer.
+      if (this.#fitted[0] === 0) this.#fit(size);
+      // It would wait for the picture, and the page with it.
+      if (this.#asked === 0) this.#asked = requestAnimationFrame(() => (this.#asked = requestAnimationFrame(this.#fetched)));
+      return;
+    }
+    this.plate.prepare(this.#renderer, this.model.facets);
+    if (!isLarge) {
       this.#fit(size);
       this.#renderer.render(this.#scene, this.cameras.current);
+      this.#isUnfetched = true;
       this.#reports.drawn(frame);
       return;
     }
