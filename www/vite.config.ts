@@ -79,6 +79,12 @@ export default defineConfig({
   build: {
     target: "es2022",
     assetsInlineLimit: 0,
+    modulePreload: {
+      // Browsers that do not know what is preloaded fetch it a little later; a script for them would be fetched by all.
+      polyfill: false,
+      // What a part of the page imports is there by then, but for what the view does, and that is fetched ahead.
+      resolveDependencies: (_file, needed, { hostType }) => (hostType === "html" ? needed : []),
+    },
     reportCompressedSize: true,
     rollupOptions: {
       input: { index: "index.html", [SERVICE_WORKER]: "src/page/service-worker.ts" },
