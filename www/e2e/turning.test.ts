@@ -1,9 +1,8 @@
-/** The 3-D view in the element: loaded on demand; profile, plan and numbers follow the model while it is turned. */
+/** The 3-D view in the element: profile, plan and numbers follow the model while it is turned. */
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
-import { drop, layers, settled, state } from "./browser.js";
+import { layers, settled, state } from "./browser.js";
 import { pages } from "./pages.js";
-import { sphere } from "./solids.js";
 import { SOFTWARE_GL } from "./view-pages.js";
 
 const start = pages(SOFTWARE_GL);
@@ -18,18 +17,6 @@ async function example(): Promise<Page> {
   await page.waitForSelector("cusp-view");
   return page;
 }
-
-test("the view is fetched when a model is first shown, not before", async () => {
-  const page = await start();
-  const fetched = (): Promise<string[]> =>
-    page.evaluate(() => performance.getEntriesByType("resource").map(({ name }) => name).filter((name) => name.includes("cusp-view")));
-  expect(await fetched()).toEqual([]);
-  await drop(page, { name: "ball.stl", bytes: sphere(10, 96).bytes });
-  await state(page, "done");
-  await page.waitForSelector("cusp-view");
-  expect(await fetched()).not.toEqual([]);
-  await expect.poll(() => said(page)).toMatch(/^20\.0 × 20\.0 × 20\.0 mm, \d+ layers/);
-});
 
 test("turned by keyboard, the model is planned anew as it stands; undo and a button turn it back", async () => {
   const page = await example();

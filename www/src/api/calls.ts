@@ -69,9 +69,15 @@ export class Calls<Held> {
     this.#empty = empty;
   }
 
-  /** Starts the worker before it is needed. The first real call reports a failure. */
-  warm(): void {
-    if (!this.#disposed) this.#live().booted.catch(() => undefined);
+  /** Starts the worker before it is needed, and runs a task if there is no other once page and worker are idle. The first real call reports a failure. */
+  async warm(task: (life: Life<Held>) => Promise<unknown>): Promise<void> {
+    if (this.#disposed) return;
+    const life = this.#live();
+    await life.booted.catch(() => undefined);
+    const queue = this.#queue;
+    await queue;
+    await idle();
+    if (this.#life === life && this.#queue === queue) await this.run({}, null, task).catch(() => undefined);
   }
 
   /** Terminates the worker. The next call starts another. */
@@ -170,6 +176,9 @@ export function untilAborted<T>(answer: Promise<T>, signal: AbortSignal | undefi
   });
   return Promise.race([answer, aborted]);
 }
+
+/** Resolves when the page has nothing to do; where browsers do not tell, soon. */
+export const idle = (): Promise<unknown> => new Promise((resolve) => (globalThis.requestIdleCallback ?? setTimeout)(resolve));
 
 export const disposed = (): DOMException => new DOMException("the slicer was disposed of", "AbortError");
 

@@ -3,7 +3,7 @@ import type { Watch, WorkerHandle } from "./calls.js";
 import { Client, type About } from "./client.js";
 import { SlicerError } from "./error.js";
 import { fakePlate } from "./fake-plate.js";
-import type { CuspError, Preview, Price, MeshInfo, OnProgress, Options, Printability, Profiled, Report, SlicerWorker } from "./wire.js";
+import type { CuspError, Preview, Price, MeshInfo, OnProgress, Opened, Options, Printability, Profiled, Report, SlicerWorker } from "./wire.js";
 
 /** The calls to the fake workers, in order: `worker number: call`. */
 let log: string[];
@@ -25,10 +25,11 @@ class FakeWorker implements WorkerHandle {
       this.#say(module === null ? "boot, compiling" : "boot");
       return {};
     },
+    rehearse: async () => this.#say("rehearse"),
     open: async (file) => {
       this.opened = await file.text();
       await this.#work(`open ${this.opened}`);
-      return { facets: 1, search_bytes: 200 } as MeshInfo;
+      return { info: { facets: 1, search_bytes: 200 } as MeshInfo };
     },
     plan: async (options, progress) => {
       progress("ldi", 0.5, 0.4);
@@ -105,11 +106,11 @@ class Caller {
     this.client = new Client(spawn);
   }
 
-  open(file: Blob, watch: Watch): Promise<MeshInfo> {
+  open(file: Blob, watch: Watch): Promise<Opened> {
     const opened = this.client.open(Promise.resolve(file), watch);
     const before = this.about;
     this.about = opened.then(
-      ({ search_bytes }) => ({ name: "", file, search_bytes, weights: null }),
+      ({ info: { search_bytes } }) => ({ name: "", file, search_bytes, weights: null }),
       () => before,
     );
     return opened;
@@ -153,6 +154,18 @@ test("warm() starts the worker that later calls use, and only that one", async (
   await caller.plan({ tolerance: 1 }, watch());
   await caller.client.mask(3);
   expect(log).toEqual(["1: boot, compiling", "1: open a", "1: plan 1 of a", "1: mask 3 of 1"]);
+});
+
+test("a warm worker rehearses a plan once it is idle, unless it has been asked for something by then", async () => {
+  caller.client.warm();
+  void caller.client.printers();
+  await expect.poll(() => log).toEqual(["1: boot, compiling", "1: rehearse"]);
+  const busy = new Caller(() => new FakeWorker());
+  busy.client.warm();
+  await busy.open(new Blob(["a"]), watch());
+  await busy.plan({ tolerance: 1 }, watch());
+  await new Promise((resolve) => setTimeout(resolve, 10));
+  expect(log.slice(2)).toEqual(["2: boot, compiling", "2: open a", "2: plan 1 of a"]);
 });
 
 test("progress is reported", async () => {
@@ -314,7 +327,7 @@ test("calls run in the order they are made: a file still being fetched holds up 
   let arrive: (file: Blob) => void = () => undefined;
   const file = new Promise<Blob>((resolve) => (arrive = resolve));
   const opened = caller.client.open(file, watch());
-  const about = opened.then(async ({ search_bytes }) => ({ name: "", file: await file, search_bytes, weights: null }));
+  const about = opened.then(async ({ info: { search_bytes } }) => ({ name: "", file: await file, search_bytes, weights: null }));
   const planned = caller.client.plan(about, { tolerance: 1 }, watch());
   await new Promise((resolve) => setTimeout(resolve));
   arrive(new Blob(["b"]));

@@ -8,7 +8,7 @@ import * as Comlink from "comlink";
 import { Calls, spawnWorker, type Compiled, type Life, type Remote, type Watch, type WorkerHandle } from "./calls.js";
 import { SlicerError } from "./error.js";
 import { priceItems, type Ordered } from "./price.js";
-import type { Comparison, Format, Help, KnownPrinter, Limits, MeshInfo, OnProgress, Options, Price, Prices, Printability, Profiled, Report, Tradeoff, Written } from "./wire.js";
+import type { Comparison, Format, Help, KnownPrinter, Limits, OnProgress, Opened, Options, Price, Prices, Printability, Profiled, Report, Tradeoff, Written } from "./wire.js";
 
 /** What a worker holds: a file, the weights of its facets, and a plan. */
 interface Held {
@@ -58,19 +58,19 @@ export class Client {
     this.#calls = new Calls(spawn, compiled, () => ({ file: null, weights: null, planned: null }));
   }
 
-  /** Starts the worker before it is needed. The first real call reports a failure. */
+  /** Starts the worker before it is needed, and has it compile what a plan needs. The first real call reports a failure. */
   warm(): void {
-    this.#calls.warm();
+    void this.#calls.warm(async ({ handle }) => handle.remote.rehearse());
   }
 
   /** Opens a model once its file has arrived. On failure or abort, the previous model stays. */
-  open(file: Promise<Blob>, watch: Watch): Promise<MeshInfo> {
+  open(file: Promise<Blob>, watch: Watch, wantsPositions = false): Promise<Opened> {
     return this.#calls.run(watch, file, async (life, file, progress) => {
-      const info = await life.handle.remote.open(file, progress);
+      const opened = await life.handle.remote.open(file, progress, wantsPositions);
       life.held.file = file;
       life.held.weights = null;
       life.held.planned = this.#planned = null;
-      return info;
+      return opened;
     });
   }
 

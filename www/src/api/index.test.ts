@@ -23,9 +23,11 @@ function faked(): { slicer: Slicer; log: string[] } {
     const remote: SlicerWorker = {
       ...fakePlate(async (what) => say(what)),
       boot: async () => ({}),
-      open: async (file) => {
+      rehearse: async () => say("rehearse"),
+      open: async (file, _progress, wantsPositions) => {
         say(`open ${await file.text()}`);
-        return { facets: 1, search_bytes: 200 } as MeshInfo;
+        const info = { facets: 1, search_bytes: 200 } as MeshInfo;
+        return wantsPositions === true ? { info, positions: new Float32Array(9) } : { info };
       },
       plan: async (options) => {
         say(`plan ${options.tolerance}`);
@@ -126,6 +128,14 @@ test("positions come from a worker of their own, which reads the model on first 
   await slicer.load(new Blob(["b"]));
   await slicer.positions();
   expect(log).toEqual(["1: open a", "2: open a", "2: positions", "1: open b", "2: open b", "2: positions"]);
+});
+
+test("a model comes with its positions if they are asked for, from the worker that has read it", async () => {
+  const { slicer, log } = faked();
+  const { positions, info } = await slicer.load(new Blob(["a"]), { positions: true });
+  expect([positions?.length, info.facets]).toEqual([9, 1]);
+  expect(await slicer.load(new Blob(["b"]))).not.toHaveProperty("positions");
+  expect(log).toEqual(["1: open a", "1: open b"]);
 });
 
 test("weights are copied, apply to all later calls, and make export() plan again", async () => {

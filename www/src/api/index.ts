@@ -65,9 +65,17 @@ export interface TestTowers extends PrintFile {
   report: Report;
 }
 
+/** A model that was read, with what was asked for. */
+export interface Loaded extends Model {
+  /** The corners of all facets, as `positions()` gives them. */
+  positions?: Float32Array;
+}
+
 export interface LoadCall extends Watch {
   /** The model's name; that of the source if absent. */
   name?: string;
+  /** Whether the answer has {@link Loaded.positions}: sooner than by a call of `positions()`. */
+  positions?: boolean;
 }
 
 export interface Slicer {
@@ -76,7 +84,7 @@ export interface Slicer {
   /** Adds a model to the plate: `plate.add()`. */
   add(source: Source, own?: ModelChange, call?: AddCall): Promise<PlateModel>;
   /** Reads a model: 3MF, OBJ or STL. */
-  load(source: Source, call?: LoadCall): Promise<Model>;
+  load(source: Source, call?: LoadCall): Promise<Loaded>;
   /** Plans the layers of the model. A change of options recomputes only what depends on it. */
   plan(options?: Options, call?: Watch): Promise<Plan>;
   /** The mask of a layer of the last plan, counted from 0. */
@@ -145,7 +153,7 @@ export interface Slicer {
   price(prices: Prices, ordered?: Ordered, call?: Watch): Promise<Price>;
   /** The known printers, whose names `options.printer` accepts. */
   printers(): Promise<KnownPrinter[]>;
-  /** Starts the worker before it is needed. */
+  /** Starts the worker before it is needed, and has the browser compile what a plan needs once the page is idle. */
   warm(): void;
   /** Terminates the workers: running calls reject with an `AbortError`. The next call restores the model and the plan. */
   rest(): void;
@@ -194,11 +202,11 @@ export function createSlicer(setup: Setup = {}): Slicer {
   return {
     plate,
     add: (source, own, call) => plate.add(source, own, call),
-    async load(source, { name, ...call } = {}) {
+    async load(source, { name, positions, ...call } = {}) {
       const before = about;
       const named = resolve(source, call.signal);
-      const opened = main.open(named.then(({ file }) => file), call);
-      const loaded = Promise.all([named, opened]).then(([it, info]) => ({ ...it, name: name ?? it.name, info }));
+      const opened = main.open(named.then(({ file }) => file), call, positions);
+      const loaded = Promise.all([named, opened]).then(([it, opened]) => ({ ...it, name: name ?? it.name, ...opened }));
       about = loaded.then(
         ({ name, file, info }) => ({ name, file, search_bytes: info.search_bytes, weights: null }),
         () => before,

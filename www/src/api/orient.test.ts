@@ -117,9 +117,10 @@ function faked({ workers, slowness = () => 0, hangs, fails, within = 4 }: Setup)
     const remote: WorkerHandle["remote"] = {
       ...fakePlate(unused),
       boot: async () => ({}),
+      rehearse: unused,
       open: async (file) => {
         const text = await file.text();
-        return work(`open ${text}`, () => ({ facets: FACETS, search_bytes: 0 }) as MeshInfo);
+        return work(`open ${text}`, () => ({ info: { facets: FACETS, search_bytes: 0 } as MeshInfo }));
       },
       setWeights: (weights) => void log.push(`${number}: setWeights ${weights?.join() ?? "none"}`),
       startSearch: (_options, { directions = COUNT }, measured) => {

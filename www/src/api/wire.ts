@@ -116,11 +116,19 @@ export interface SearchStep {
 /** Has another worker encode a group of layers; null if it failed. */
 export type Help = (format: Format, canvas: Uint32Array, runs: Uint32Array) => Promise<Uint8Array | null>;
 
+/** A model that was read; with the corners of its facets, if they are wanted. */
+export interface Opened {
+  info: MeshInfo;
+  positions?: Float32Array;
+}
+
 export interface SlicerWorker extends PlateWorker {
   /** Starts the core from its compiled module, or compiles it if that is null. Returns the module for the next worker. */
   boot(module: WebAssembly.Module | null): Promise<WebAssembly.Module>;
-  /** Reads a model. If this fails, the previous one stays open. */
-  open(file: Blob, progress: OnProgress): Promise<MeshInfo>;
+  /** Plans a small ring and forgets it: what a browser has not compiled yet, it compiles now. */
+  rehearse(): Promise<void>;
+  /** Reads a model; `wantsPositions`: with the corners of its facets. If this fails, the previous one stays open. */
+  open(file: Blob, progress: OnProgress, wantsPositions?: boolean): Promise<Opened>;
   plan(options: Options, progress: OnProgress): Promise<Profiled<Report>>;
   tradeoff(options: Options, points: number, progress: OnProgress): Promise<Tradeoff>;
   compare(options: Options, progress: OnProgress): Promise<Comparison>;

@@ -7,11 +7,16 @@ import { acceptCompatible } from "./adapters.js";
 import { bytesOf } from "./bytes.js";
 import { encodeGroups, isLong } from "./encode-groups.js";
 import { said } from "./error.js";
+import { ring } from "./ring.js";
 import { stlOf } from "./stl.js";
 import type { Candidate, Help, KnownPrinter, OnProgress, Options, PlateWorker, Remote } from "./wire.js";
 
 /** Chunks of a print file are merged into a Blob at this many bytes; the browser may keep that on disk. */
 const BLOB_PART_BYTES = 8 << 20;
+
+/** The size of a rehearsal: a few ms of work once it is compiled, but in most loops enough rounds to have them compiled well. */
+const REHEARSED = 20;
+const REHEARSED_RAYS = 128;
 
 let slicer: Slicer | null = null;
 let plate: Plate | null = null;
@@ -205,12 +210,21 @@ const api: Remote = {
     open_gpus_by(openGpu);
     return compiled;
   },
-  async open(file, progress) {
+  async rehearse() {
+    const model = new Slicer(stlOf(ring(REHEARSED)));
+    await model.plan({ rays: REHEARSED_RAYS, backend: "cpu" }, () => undefined);
+    model.mask(0);
+    model.free();
+  },
+  async open(file, progress, wantsPositions) {
     progress("load", 0, 0);
     const opened = await read(file);
     slicer?.free();
     slicer = opened;
-    return opened.info();
+    const info = opened.info();
+    if (wantsPositions !== true) return { info };
+    const positions = opened.positions();
+    return Comlink.transfer({ info, positions }, [positions.buffer]);
   },
   async plan(options, progress) {
     await fetchFor(options);

@@ -57,6 +57,8 @@ export function modelPanel({ session, language, slicer, saveWeights }: Facts): T
   return html`<cusp-model
     .slicer=${slicer}
     .model=${session.model}
+    .corners=${session.positions}
+    .isPlanning=${session.busy?.task === "plan" && session.result === null}
     .shown=${shown}
     .layer=${layer}
     .mark=${session.checks.chosen}

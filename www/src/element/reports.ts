@@ -18,6 +18,7 @@ type Speaker = Pick<HTMLElement, "dispatchEvent"> & { requestUpdate(): void; rea
 interface Asked {
   /** Whether the last plan is for the current settings. */
   isCurrent(): boolean;
+  hasView(): boolean;
   /** The list of printers has arrived. */
   offered(): void;
   /** The page gave what cannot be used. */
@@ -47,6 +48,10 @@ export class Reports implements Host {
 
   requestUpdate(): void {
     this.#speaker.requestUpdate();
+  }
+
+  hasView(): boolean {
+    return this.#asked.hasView();
   }
 
   loaded(model: Model): void {

@@ -17,6 +17,7 @@ export abstract class SettableElement extends LitElement {
   /** @internal */
   protected readonly reports: Reports = new Reports(this, {
     isCurrent: () => this.session.isCurrent,
+    hasView: () => this.shownPanels.has("view"),
     offered: () => this.judged.offered(),
     misused: (error) => this.#misused(error),
   });

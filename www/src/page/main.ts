@@ -4,6 +4,8 @@ import { render } from "lit";
 import { codeFor, fetchLanguage, languageOf } from "../texts/index.js";
 import { ADDRESS_KEYS, addressOf, settingsOf } from "./address.js";
 import { frame } from "./frame.js";
+import { idle } from "../api/calls.js";
+import { fetchView } from "../element/panels/model-view.js";
 import { isModel } from "./is-model.js";
 import { openAnywhere } from "./open-anywhere.js";
 import { workOffline } from "./offline.js";
@@ -124,6 +126,13 @@ async function start(): Promise<void> {
     cancel: () => (shown === null ? slicer.cancel() : close()),
   });
   workOffline();
+  fetchAhead();
+}
+
+/** Fetches the view when the page is idle, so that it is there when a model is; not for whoever saves data. */
+function fetchAhead(): void {
+  if ((navigator as { connection?: { saveData?: boolean } }).connection?.saveData === true) return;
+  idle().then(fetchView).catch(() => undefined);
 }
 
 void start();

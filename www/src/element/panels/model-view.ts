@@ -41,6 +41,12 @@ const pointCode = new FetchedPanel("points", () => import("./point-tools.js"));
 /** Initial size of the brush, as a fraction of the model's longest side. */
 const BRUSH_PART = 0.2;
 
+/** A view is shown after the plan, but at the latest so long after the model was read. */
+const LATEST_MS = 700;
+
+/** Fetches the view. */
+export const fetchView = (): Promise<typeof import("../../view/cusp-view.js")> => import("../../view/cusp-view.js");
+
 /** Always the same list: another one would count as a change. */
 const NO_POINTS: CuspView["points"] = [];
 
@@ -53,6 +59,10 @@ const PROPERTIES = {
   slicer: given<Slicer | null>(null),
   /** A different model has its positions fetched. */
   model: given<Model | null>(null),
+  /** The positions of the model, if they came with it. */
+  corners: given<Float32Array | null>(null),
+  /** Whether the first plan of the model is being made. It is shown first: what the view does takes processors away from it. */
+  isPlanning: given(false),
   shown: given<Shown | null>(null),
   layer: given(0),
   /** The finding to be shown. */
@@ -109,6 +119,10 @@ export class CuspModel extends elementWith(PROPERTIES) {
   #scale = 1;
   #texts: { of: Language; words: ViewTexts } | null = null;
   #asked: Model | null = null;
+  /** Resolves when it is the view's turn: the first plan of the model is painted, or takes long. */
+  #turn: Promise<unknown> = Promise.resolve();
+  /** Ends that wait. */
+  #next: (() => void) | null = null;
   #canAlign = false;
   #points: PointEditor | null = null;
   readonly #plate = new PlateView((copies) => (this.standing = copies));
@@ -126,14 +140,27 @@ export class CuspModel extends elementWith(PROPERTIES) {
     void this.#load();
   }
 
+  override updated(): void {
+    if (this.isPlanning || this.#next === null) return;
+    const next = this.#next;
+    this.#next = null;
+    // The callbacks of a frame run before it is painted.
+    requestAnimationFrame(() => setTimeout(next));
+  }
+
   override willUpdate(changed: PropertyValues<this>): void {
-    if (changed.has("model") && this.model !== this.#asked) void this.#fetch();
+    if (changed.has("model") && this.model !== this.#asked) {
+      if (this.isPlanning) this.#turn = new Promise<void>((resolve) => setTimeout((this.#next = resolve), LATEST_MS));
+      void this.#fetch();
+    }
     if (changed.has("positions") || changed.has("scaled")) this.#fit();
     if (changed.has("copies") || changed.has("crowded") || changed.has("positions")) {
       this.#plate.show(this.copies, this.crowded, this.shapes);
     }
     if ((this.tool === "move" || places(this.tool)) && !this.#offered.has(this.tool)) this.tool = "turn";
     const isPainting = this.tool === "paint";
+    // Previews of turns and of strokes have a worker of their own, which reads the model now.
+    if (changed.has("tool") && (isPainting || this.tool === "rotate")) this.slicer?.preview().catch(() => undefined);
     const needsSaliency = this.#counts ? isPainting || this.#showsHeat : isPainting && this.colours === "saliency";
     if (needsSaliency && this.positions !== null && this.saliency === null && !this.isFinding) void this.#find();
   }
@@ -252,7 +279,8 @@ export class CuspModel extends elementWith(PROPERTIES) {
   async #load(): Promise<void> {
     this.isMissing = false;
     try {
-      const { CuspView, CuspWallLegend } = await import("../../view/cusp-view.js");
+      const { CuspView, CuspWallLegend } = await fetchView();
+      await this.#turn;
       define("cusp-view", CuspView);
       define("cusp-wall-legend", CuspWallLegend);
       this.isThere = true;
@@ -420,7 +448,8 @@ export class CuspModel extends elementWith(PROPERTIES) {
     this.canUndo = this.canRedo = false;
     if (model === null || slicer === null) return;
     // Without positions the view is empty; a broken worker is reported elsewhere.
-    const positions = await slicer.positions().catch(() => null);
+    const positions = this.corners ?? (await slicer.positions().catch(() => null));
+    await this.#turn;
     if (this.#asked !== model) return;
     this.#shownModel = model;
     this.positions = positions;

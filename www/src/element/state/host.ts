@@ -9,6 +9,8 @@ import type { Settings } from "./settings.js";
 /** What a session reports to its host. */
 export interface Host {
   requestUpdate(): void;
+  /** Whether it shows the model. */
+  hasView?(): boolean;
   loaded?(model: Model): void;
   planned?(result: Result): void;
   failed?(error: SlicerError): void;

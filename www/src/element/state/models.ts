@@ -20,6 +20,8 @@ export abstract class Models extends Preferences {
   notice: "cancelled" | "exportCancelled" | null = null;
   /** How much each facet matters, 0 to 1, as painted; null: all equally. */
   weights: Float32Array | null = null;
+  /** The corners of the facets of the open model for a view; null if they did not come with it. */
+  positions: Float32Array | null = null;
   /** Files that were opened together, and the index of the open one. */
   files: readonly File[] = [];
   place = 0;
@@ -187,18 +189,19 @@ export abstract class Models extends Preferences {
   async #open(source: Source, name?: string, waits = false): Promise<Model | null> {
     this.drop();
     this.dismiss();
-    const model = await this.run("open", name ?? nameOf(source), null, (watch) =>
-      this.slicer.load(source, name === undefined ? watch : { ...watch, name }),
-    );
-    if (model === null) {
+    const call = { ...(name !== undefined && { name }), ...(this.host.hasView?.() === true && { positions: true }) };
+    const loaded = await this.run("open", name ?? nameOf(source), null, (watch) => this.slicer.load(source, { ...watch, ...call }));
+    if (loaded === null) {
       await this.resume();
       return null;
     }
+    const { positions = null, ...model } = loaded;
     // The rotation of the previous model does not apply to this one, nor do its unit and its points.
     const foreign = { ...withoutPlaced(this.settings), rotation: "", unit: "" } as const;
     if (this.model !== null && Object.entries(foreign).some(([key, value]) => this.settings[key as keyof Settings] !== value)) this.preset(foreign);
     this.model = model;
     this.weights = null;
+    this.positions = positions;
     this.left(true);
     this.plate.open(model);
     this.forgetModels();
@@ -216,6 +219,7 @@ export abstract class Models extends Preferences {
     this.settings = { ...this.settings, ...pose };
     this.model = model;
     this.weights = weights;
+    this.positions = null;
     this.changed();
     const read = await this.run("open", model.name, null, (watch) => this.slicer.load(model.file, { ...watch, name: model.name }));
     if (this.#selecting !== entry) return;

@@ -1,8 +1,9 @@
 import { expect, test } from "vitest";
 import { SlicerError } from "../../api/error.js";
-import { SCHEMA, type PrintFile } from "../../api/index.js";
+import { SCHEMA, type LoadCall, type Loaded, type PrintFile } from "../../api/index.js";
 import { model, planOf } from "./fake-slicer.js";
 import { planned, session, settle, slicer, start } from "./session-fixture.js";
+import { Session } from "./session.js";
 import { DEFAULT_SETTINGS } from "./settings.js";
 
 const zip: PrintFile = { schema: SCHEMA, name: "a-cusp.zip", type: "application/zip", blob: new Blob(["zip"]), warnings: [] };
@@ -288,4 +289,20 @@ test("undo and redo of settings plan again each time", async () => {
   session.redo();
   expect(slicer.last.options?.height_mm).toBe(20);
   expect([session.canUndo, session.canRedo]).toEqual([true, false]);
+});
+
+test("a model comes with its positions only for a host that shows it", async () => {
+  const asked: unknown[] = [];
+  const spied = Object.assign(slicer, {
+    load: (_source: unknown, call: LoadCall = {}): Promise<Loaded> => {
+      asked.push(call.positions);
+      return Promise.resolve({ ...model, ...(call.positions === true && { positions: new Float32Array(9) }) });
+    },
+  });
+  for (const hasView of [true, false]) {
+    const session = new Session({ requestUpdate: () => undefined, hasView: () => hasView }, spied);
+    const opened = await session.open(new Blob(), "a.stl");
+    expect([session.positions?.length, opened]).toEqual([hasView ? 9 : undefined, model]);
+  }
+  expect(asked).toEqual([true, undefined]);
 });
