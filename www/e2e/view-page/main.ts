@@ -61,7 +61,7 @@ const harness = {
     Object.assign(panel, {
       // What the panel asks of them.
       model: { info: { size_mm: [20, 20, 20] } } as unknown as Model,
-      slicer: { positions: () => Promise.resolve(positions) } as unknown as Slicer,
+      slicer: { positions: () => Promise.resolve(positions), preview: () => Promise.resolve({}) } as unknown as Slicer,
       shown: { metric: "cusp", profile, bin_mm: 0.002, z_mm, thickness_mm, limits, layers: thickness_mm.length, print_time_s: 0 },
       language: languageOf(locale),
     });
