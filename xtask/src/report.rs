@@ -67,7 +67,7 @@ pub fn is_good(records: &[Record]) -> bool {
     records.iter().all(|record| record.failed() == 0)
 }
 
-/// A table of the steps, the tests that did not run, and one line of totals.
+/// A table of the steps, the tests that did not run, those that failed, and one line of totals.
 pub fn summary(records: &[Record]) -> String {
     let mut text = String::new();
     let mut line = |words: std::fmt::Arguments<'_>| {
@@ -111,6 +111,11 @@ pub fn summary(records: &[Record]) -> String {
             ));
         }
     }
+    for record in records {
+        for test in &record.tally.failures {
+            line(format_args!("failed: {}: {test}", record.step));
+        }
+    }
     let sum = |count: fn(&Record) -> usize| records.iter().map(count).sum::<usize>();
     line(format_args!(
         "{} passed, {} failed, {} skipped",
@@ -139,7 +144,7 @@ mod tests {
         Tally {
             passed,
             failed,
-            ignored: Vec::new(),
+            ..Tally::default()
         }
     }
 
@@ -182,6 +187,17 @@ mod tests {
         assert!(text.contains("\nignored: native: tests/gpu.rs: twins — no adapter\n"));
         assert!(text.contains("\nignored: gpu (all of it) — no driver\n"));
         assert!(text.ends_with("\n1 passed, 0 failed, 2 skipped\n"));
+    }
+
+    #[test]
+    fn what_failed_is_named_last() {
+        let mut e2e = tally(3, 1);
+        e2e.failures.push("path.test.ts: drop".into());
+        let records = [record("e2e", Verdict::Failed("exit status: 1".into()), e2e)];
+        let text = summary(&records);
+        assert!(
+            text.ends_with("\nfailed: e2e: path.test.ts: drop\n3 passed, 1 failed, 0 skipped\n")
+        );
     }
 
     #[test]

@@ -12,6 +12,8 @@ pub struct Tally {
     pub passed: usize,
     /// Tests that ran and failed.
     pub failed: usize,
+    /// Suites and names of those that failed, as far as the runner tells them.
+    pub failures: Vec<String>,
     /// Tests that did not run.
     pub ignored: Vec<Ignored>,
 }
@@ -61,11 +63,14 @@ pub fn libtest(text: &str) -> Result<Tally> {
             }
             named = 0;
         } else if let Some(rest) = line.strip_prefix("test ") {
-            if let Some((name, outcome)) = rest.split_once(" ... ")
-                && let Some(reason) = outcome.strip_prefix("ignored")
-            {
-                tally.ignore(format!("{suite}: {}", name.trim_end()), bare(reason));
-                named += 1;
+            if let Some((name, outcome)) = rest.split_once(" ... ") {
+                let name = format!("{suite}: {}", name.trim_end());
+                if let Some(reason) = outcome.strip_prefix("ignored") {
+                    tally.ignore(name, bare(reason));
+                    named += 1;
+                } else if outcome.starts_with("FAIL") {
+                    tally.failures.push(name);
+                }
             }
         } else if let Some(name) = suite_name(line) {
             name.clone_into(&mut suite);
@@ -89,27 +94,30 @@ pub fn vitest(json: &str) -> Result<Tally> {
     let mut tally = Tally {
         passed: count("numPassedTests")? as usize,
         failed: count("numFailedTests")? as usize,
-        ignored: Vec::new(),
+        ..Tally::default()
     };
     let list = |value: &Value| value.as_array().cloned().unwrap_or_default();
     for file in list(&report["testResults"]) {
         let tests = list(&file["assertionResults"]);
+        let path = Path::new(text(&file["name"]));
+        let suite = path.file_name().unwrap_or_default().to_string_lossy();
         // A file that fails outside its tests (it does not load, for example)
         // has no failed test.
         let status = |test: &Value, wanted: &str| test["status"] == wanted;
         if status(&file, "failed") && !tests.iter().any(|test| status(test, "failed")) {
             tally.failed += 1;
+            tally.failures.push(suite.to_string());
         }
         for test in tests {
-            if ["pending", "skipped", "todo", "disabled"]
+            let name = format!("{suite}: {}", text(&test["fullName"]));
+            if status(&test, "failed") {
+                tally.failures.push(name);
+            } else if ["pending", "skipped", "todo", "disabled"]
                 .iter()
                 .any(|&word| status(&test, word))
             {
-                let path = Path::new(text(&file["name"]));
-                let suite = path.file_name().unwrap_or_default().to_string_lossy();
                 // Vitest records no reason itself; a test may leave one here.
-                let reason = text(&test["meta"]["reason"]);
-                tally.ignore(format!("{suite}: {}", text(&test["fullName"])), reason);
+                tally.ignore(name, text(&test["meta"]["reason"]));
             }
         }
     }
@@ -144,12 +152,14 @@ pub fn unittest(text: &str) -> Result<Tally> {
         // Subtests of one test may fail several times.
         passed: ran.saturating_sub(failed + skipped),
         failed,
-        ignored: Vec::new(),
+        ..Tally::default()
     };
     for line in text.lines() {
         if let Some((name, reason)) = line.split_once(" ... skipped ") {
             let name = name.split(' ').next().unwrap_or_default();
             tally.ignore(name, reason.trim_matches(['\'', '"']));
+        } else if let Some(test) = line.strip_prefix("FAIL: ").or(line.strip_prefix("ERROR: ")) {
+            tally.failures.push(test.to_owned());
         }
     }
     let nameless = skipped.saturating_sub(tally.ignored.len());
@@ -260,6 +270,7 @@ test result: ok. 1 passed; 0 failed; 1 ignored; 0 measured; 0 filtered out; fini
             Tally {
                 passed: 3,
                 failed: 1,
+                failures: vec!["tests/gpu.rs: twins".into()],
                 ignored: ignored(&[
                     ("src/lib.rs: plan::huge", ""),
                     ("src/lib.rs: plan::slow", "takes an hour"),
@@ -322,6 +333,7 @@ test result: FAILED. 1 passed; 1 failed; 1 ignored; 0 filtered out; finished in 
 ";
         let tally = libtest(text).unwrap();
         assert_eq!((tally.passed, tally.failed), (1, 1));
+        assert_eq!(tally.failures, ["tests/web.rs: sphere"]);
         assert_eq!(
             tally.ignored,
             ignored(&[("tests/web.rs: torus", "software adapter")])
@@ -372,6 +384,7 @@ FAILED (failures=1, errors=1, skipped=1)
             Tally {
                 passed: 2,
                 failed: 2,
+                failures: vec!["test_merge (test_orient.Orient.test_merge)".into()],
                 ignored: ignored(&[("test_shell", "needs a shell")]),
             }
         );
@@ -406,6 +419,7 @@ FAILED (failures=1, errors=1, skipped=1)
             Tally {
                 passed: 2,
                 failed: 2,
+                failures: vec!["a.test.ts: a three".into(), "b.test.ts".into()],
                 ignored: ignored(&[("a.test.ts: a four", "no GPU")]),
             }
         );
