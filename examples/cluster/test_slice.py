@@ -110,7 +110,10 @@ class Slice(Example):
         files, alone = self.files(self.prints), self.files(self.alone)
         self.assertEqual(len(files), free)
         self.assertEqual(files, {name: alone[name] for name in files})
-        self.assertEqual({Path(json.loads(line)["output"]).name for line in output.splitlines()}, set(files))
+        told = {Path(json.loads(line)["output"]).name for line in output.splitlines()}
+        self.assertLessEqual(told, set(files))
+        # The last may lack its line: the interrupt can come between the two.
+        self.assertGreaterEqual(len(told), free - 1)
 
     def test_bad_models_are_collected(self) -> None:
         poem = self.folder / "poem.stl"
