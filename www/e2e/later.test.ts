@@ -1,7 +1,8 @@
 /** The slicer's later part: a plan and its print file do without it, and whatever needs it fetches it first. */
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
-import { downloaded, drop, launch, openPanel, settled, state, words } from "./browser.js";
+import type { CuspWorkbench } from "../src/workbench/cusp-workbench.js";
+import { downloaded, drop, launch, openPanel, requests, settled, state, words } from "./browser.js";
 import { serveApi } from "./packed.js";
 import { pages } from "./pages.js";
 import type { Served } from "./serve.js";
@@ -11,15 +12,12 @@ const start = pages();
 const ball = { name: "ball.stl", bytes: sphere(10, 48).bytes };
 const mug = { name: "mug.stl", bytes: cup(10, 8, 1.5) };
 
-/** The requests for the part from now on. They fail while `isOffline` says so. */
-async function fetches(page: Page, isOffline = (): boolean => false): Promise<string[]> {
-  const fetched: string[] = [];
-  await page.route(/cusp_slicer_later[^/]*\.wasm$/, async (route) => {
-    fetched.push(route.request().url());
-    await (isOffline() ? route.abort() : route.continue());
-  });
-  return fetched;
-}
+/** The requests for the part from now on. */
+const fetches = (page: Page, isOffline?: () => boolean): Promise<string[]> => requests(page, /cusp_slicer_later[^/]*\.wasm$/, isOffline);
+
+/** Gives the page other settings. */
+const ask = (page: Page, query: string): Promise<void> =>
+  page.locator("cusp-workbench").evaluate((element: CuspWorkbench, query) => void (element.query = query), query);
 
 test("the page plans, draws and writes a print file without it, and fetches it once for checks and supports", async () => {
   const page = await start("?backend=cpu&rays=256");
@@ -34,7 +32,7 @@ test("the page plans, draws and writes a print file without it, and fetches it o
   await openPanel(page, "Check");
   await page.waitForSelector("cusp-findings [data-verdict]");
   expect(fetched.length).toBe(1);
-  await page.locator("cusp-workbench").evaluate((element) => void ((element as unknown as { query: string }).query = "supports=medium"));
+  await ask(page, "supports=medium");
   await settled(page);
   await page.waitForSelector("cusp-findings [data-verdict]");
   expect(fetched.length).toBe(1);
@@ -58,14 +56,13 @@ test("without it a plan with supports says so, one without is made, and so is th
   const page = await start("?backend=cpu&rays=256&supports=light");
   let isOffline = true;
   await fetches(page, () => isOffline);
-  const query = (now: string): Promise<void> => page.locator("cusp-workbench").evaluate((element, now) => void ((element as unknown as { query: string }).query = now), now);
   await drop(page, ball);
   await state(page, "error");
   expect(await words(page)).toContain("could not be loaded: slicer-later");
-  await query("supports=none");
+  await ask(page, "supports=none");
   await settled(page);
   isOffline = false;
-  await query("supports=light");
+  await ask(page, "supports=light");
   await settled(page);
 });
 

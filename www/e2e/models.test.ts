@@ -1,7 +1,7 @@
 /** Models of every format, in a real browser. What reads other formats than STL is fetched with the first of them. */
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
-import { drop, layers, state, words } from "./browser.js";
+import { drop, layers, requests, state, words } from "./browser.js";
 import { pages } from "./pages.js";
 import { objOf, sphere, threeMfOf } from "./solids.js";
 
@@ -10,15 +10,8 @@ const [stl, obj, threeMf] = [bytes, objOf(bytes), threeMfOf(bytes)];
 
 const start = pages();
 
-/** The requests for the module of readers, from now on: one for each worker that opens a model. They fail while `isOffline` says so. */
-async function fetches(page: Page, isOffline = (): boolean => false): Promise<string[]> {
-  const fetched: string[] = [];
-  await page.route(/cusp_models_bg[^/]*\.wasm$/, async (route) => {
-    fetched.push(route.request().url());
-    await (isOffline() ? route.abort() : route.continue());
-  });
-  return fetched;
-}
+/** The requests for the module of readers, from now on: one for each worker that opens a model. */
+const fetches = (page: Page, isOffline?: () => boolean): Promise<string[]> => requests(page, /cusp_models_bg[^/]*\.wasm$/, isOffline);
 
 test("an STL, an OBJ and a 3MF of one model have one plan, and the readers are fetched for the last two", async () => {
   const page = await start("?rays=256");
