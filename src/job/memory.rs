@@ -54,8 +54,8 @@ impl Memory {
     /// # Errors
     /// [`Error::MemoryBound`] if that does not fit either.
     pub fn bound(self, mesh: &Mesh, rays: &Grid, samples: Samples) -> Result<Option<Bound>, Error> {
-        let facets = 0..mesh.facets.len();
-        let hits = facets.map(|facet| mesh.projected_mm2(facet)).sum::<f64>() / rays.pixel_mm2();
+        let seen_mm2 = (0..mesh.facets.len()).map(|facet| mesh.projected_mm2(facet));
+        let hits = seen_mm2.sum::<f64>() / rays.pixel_mm2();
         let pixels = rays.pixels() as u64;
         let facets = mesh.facets.len() as u64;
         let read_bytes = PROGRAM_BYTES + FACET_BYTES * facets;

@@ -9,7 +9,7 @@ use crate::filament::FilamentSlicer;
 use crate::format::Format;
 use crate::grid::{Bins, Grid, GridError};
 use crate::growth::Growth;
-use crate::mask::Samples;
+use crate::mask::{Samples, Side};
 use crate::model::{Bounds, Pose};
 use crate::plan::Limits;
 use crate::plan::optimal::Objective;
@@ -117,6 +117,17 @@ pub(crate) struct Filament {
     pub slicer: FilamentSlicer,
     pub nozzle_mm: f64,
     pub first_layer_mm: f64,
+}
+
+impl Output {
+    /// The side from which the printer shows the masks.
+    pub fn side(&self) -> Side {
+        if self.is_mirrored {
+            Side::Below
+        } else {
+            Side::Above
+        }
+    }
 }
 
 impl Sampling {

@@ -571,7 +571,7 @@ impl Slicer {
             runs = if of.first().of.bound().is_none() {
                 Box::new(current.shown()?)
             } else {
-                of.runs(0, current.side())?
+                of.runs(0, current.output.side())?
             };
             MaskSource::Runs(&*runs)
         };
@@ -611,18 +611,9 @@ impl Current {
         Ok(self.seen.insert(seen))
     }
 
-    /// The side from which the printer shows the masks.
-    fn side(&self) -> Side {
-        if self.output.is_mirrored {
-            Side::Below
-        } else {
-            Side::Above
-        }
-    }
-
     /// The masks as the printer shows them.
     fn shown(&mut self) -> Result<Arc<Masks>, Error> {
-        Ok(match self.side() {
+        Ok(match self.output.side() {
             Side::Below => Arc::new(self.planned.masks(0, Side::Below)?),
             Side::Above => Arc::clone(&self.seen()?.0),
         })

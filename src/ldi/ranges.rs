@@ -41,6 +41,17 @@ pub fn model_ranges(hits: &[Hit], classes: FacetClasses, emit: impl FnMut(f32, f
     for_each_range(hits, pass, |winding| winding != 0, emit);
 }
 
+/// Calls `emit(z_mm, enters)` where a ray enters the printed solid, and where it leaves it, from some hits on. `winding` is the one
+/// with which it comes to them; returns the one with which it goes on.
+pub fn printed_crossings(
+    hits: &[Hit],
+    classes: FacetClasses,
+    winding: Winding,
+    emit: impl FnMut(f32, bool),
+) -> Winding {
+    for_each_crossing(hits, winding, passing(classes), Winding::is_inside, emit)
+}
+
 /// Calls `emit` for every height range in which `is_inside` holds for the winding number, which `pass` updates at each
 /// hit.
 #[inline]
@@ -50,15 +61,33 @@ fn for_each_range<W: Copy + Default>(
     is_inside: impl Fn(W) -> bool,
     mut emit: impl FnMut(f32, f32),
 ) {
-    let mut winding = W::default();
     let mut z_in = 0.0;
+    for_each_crossing(hits, W::default(), pass, is_inside, |z_mm, enters| {
+        if enters {
+            z_in = z_mm;
+        } else if z_in < z_mm {
+            emit(z_in, z_mm);
+        }
+    });
+}
+
+/// Calls `emit(z_mm, enters)` at every hit that changes whether `is_inside` holds. Returns the winding number above the last.
+#[inline]
+fn for_each_crossing<W: Copy>(
+    hits: &[Hit],
+    mut winding: W,
+    pass: impl Fn(&mut W, Hit),
+    is_inside: impl Fn(W) -> bool,
+    mut emit: impl FnMut(f32, bool),
+) -> W {
     for &hit in hits {
         let was_inside = is_inside(winding);
         pass(&mut winding, hit);
         match (was_inside, is_inside(winding)) {
-            (false, true) => z_in = hit.z_mm,
-            (true, false) if z_in < hit.z_mm => emit(z_in, hit.z_mm),
+            (false, true) => emit(hit.z_mm, true),
+            (true, false) => emit(hit.z_mm, false),
             _ => {}
         }
     }
+    winding
 }

@@ -79,6 +79,12 @@ pub enum RayImage<'a> {
     },
 }
 
+/// Where a pass has its bands from.
+enum Bands<'a> {
+    Kept(&'a Ldi),
+    Scanned(Scan<'a>),
+}
+
 impl RayImage<'_> {
     /// The grid whose pixel centres the rays pass.
     pub fn grid(&self) -> &Grid {
@@ -109,12 +115,15 @@ impl RayImage<'_> {
     ) -> Result<Vec<T>, Cancelled> {
         let bands = self.grid().height.div_ceil(BAND_ROWS) as usize;
         let part_bands = bands.div_ceil(PARTS).max(1);
-        let (projection, rounds) = match self {
-            Self::Kept(_) => (None, 1),
-            Self::Scanned { mesh, grid, .. } => (Some(Projection::new(mesh, &grid)), ROUNDS),
+        let projection;
+        let (image, rounds) = match self {
+            Self::Kept(ldi) => (Bands::Kept(ldi), 1),
+            Self::Scanned { mesh, ref grid, .. } => {
+                projection = Projection::new(mesh, grid);
+                let scan = Scan::new(&projection, grid, mesh.classes);
+                (Bands::Scanned(scan), ROUNDS)
+            }
         };
-        let scan = projection.as_ref();
-        let scan = scan.map(|projection| Scan::new(projection, self.grid(), self.classes()));
         let round_bands = part_bands.div_ceil(rounds);
         let starts = (0..bands).step_by(part_bands);
         let mut parts: Vec<(usize, T)> = starts.map(|band| (band, first())).collect();
@@ -124,13 +133,12 @@ impl RayImage<'_> {
                 let end = (start + part_bands).min(bands);
                 for band in start + round..(start + round + round_bands).min(end) {
                     let scanned;
-                    let rays = match (self, &scan) {
-                        (Self::Kept(ldi), _) => ldi.band(band),
-                        (Self::Scanned { .. }, Some(scan)) => {
+                    let rays = match &image {
+                        Bands::Kept(ldi) => ldi.band(band),
+                        Bands::Scanned(scan) => {
                             scanned = scan.band(band);
                             scanned.rays()
                         }
-                        (Self::Scanned { .. }, None) => continue,
                     };
                     step(&mut value, rays);
                 }
@@ -151,12 +159,6 @@ impl RayImage<'_> {
             .fold(|| true, step, progress)?
             .into_iter()
             .all(|all| all))
-    }
-}
-
-impl<'a> From<&'a Ldi> for RayImage<'a> {
-    fn from(ldi: &'a Ldi) -> Self {
-        Self::Kept(ldi)
     }
 }
 

@@ -55,15 +55,19 @@ impl LayerRuns {
         self.layers
     }
 
-    /// Adds the layers that follow, in the same bands.
-    pub(super) fn append(&mut self, following: Self) {
-        self.layers += following.layers;
-        for (band, following) in self.bands.iter_mut().zip(following.bands) {
-            let runs = band.runs.len();
-            band.ends
-                .extend(following.ends.iter().map(|end| runs + end));
-            band.runs.extend(following.runs);
-        }
+    /// Layers that follow each other, in the same bands.
+    pub(super) fn joined(parts: Vec<Self>) -> Self {
+        let joined = parts.into_iter().reduce(|mut all, following| {
+            all.layers += following.layers;
+            for (band, following) in all.bands.iter_mut().zip(following.bands) {
+                let runs = band.runs.len();
+                let ends = following.ends.iter().map(|end| runs + end);
+                band.ends.extend(ends);
+                band.runs.extend(following.runs);
+            }
+            all
+        });
+        joined.unwrap_or_else(|| Self::new([]))
     }
 
     /// The runs as numbers, for another worker of the same build.
@@ -169,9 +173,14 @@ impl ReadPlace {
         }
     }
 
+    /// Number of layers of the masks that are left.
+    pub(super) fn left(&self, masks: &Masks) -> usize {
+        masks.layers - self.next
+    }
+
     /// Goes on at the first layer of masks that follow: their changes apply to the last layer that was read.
-    pub(super) fn restart(&mut self) {
-        self.next = 0;
+    pub(super) fn restarted(self) -> Self {
+        Self { next: 0, ..self }
     }
 
     /// The runs of the next layers of the same masks: see [`RunReader::next`].

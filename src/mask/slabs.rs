@@ -12,9 +12,9 @@ use super::samples::SublayerOf;
 use super::window::Place;
 use super::{Band, Change, LayerRuns, Masks, RunReader, RunSource, Samples, Side, each_change};
 use crate::grid::Grid;
-use crate::ldi::Hit;
 use crate::ldi::cpu::Scan;
 use crate::ldi::projection::Projection;
+use crate::ldi::{Hit, printed_crossings};
 use crate::model::{FacetClasses, Mesh, Winding};
 use crate::parallel;
 use crate::plan::Plan;
@@ -68,11 +68,6 @@ impl<'a> SlabMasks<'a> {
             slabs,
         }
     }
-
-    /// Number of slabs.
-    pub fn slabs(&self) -> usize {
-        self.slabs.len()
-    }
 }
 
 /// About how many hits each layer has: those of a facet are spread evenly over the layers that it reaches into.
@@ -115,7 +110,6 @@ impl RunSource for SlabMasks<'_> {
             bands,
             masks: self,
             slab: None,
-            place: None,
             next: 0,
         })
     }
@@ -131,44 +125,34 @@ struct Reader<'a> {
     windings: Vec<Windings>,
     /// Of each band, changes that belong to the next slab already.
     carried: Vec<Vec<Change>>,
-    /// The masks of the slab, and the first of its layers that is not yet read.
-    slab: Option<(Masks, usize)>,
-    place: Option<ReadPlace>,
+    /// The masks of the slab, and how far they have been read.
+    slab: Option<(Masks, ReadPlace)>,
     /// The next slab.
     next: usize,
 }
 
 impl RunReader for Reader<'_> {
     fn next(&mut self, layers: usize) -> LayerRuns {
-        let mut all: Option<LayerRuns> = None;
+        let mut found = Vec::new();
         let mut left = layers;
         while left > 0 {
-            let unread = self.slab.as_ref();
-            let unread = unread.map_or(0, |(masks, read)| masks.layers() - read);
-            if unread == 0 {
-                self.open_slab();
-                continue;
-            }
-            let count = left.min(unread);
-            left -= count;
-            let (Some((masks, read)), Some(place)) = (&mut self.slab, &mut self.place) else {
-                break;
-            };
-            *read += count;
-            let found = place.next(masks, count);
-            match &mut all {
-                Some(all) => all.append(found),
-                None => all = Some(found),
+            match &mut self.slab {
+                Some((masks, read)) if read.left(masks) > 0 => {
+                    let count = left.min(read.left(masks));
+                    left -= count;
+                    found.push(read.next(masks, count));
+                }
+                _ => self.open_slab(),
             }
         }
-        all.unwrap_or_else(|| LayerRuns::new([]))
+        LayerRuns::joined(found)
     }
 }
 
 impl Reader<'_> {
     /// Finds the changes of the next slab in place of those of the last.
     fn open_slab(&mut self) {
-        self.slab = None;
+        let read = self.slab.take().map(|(_, read)| read);
         let SlabMasks {
             mesh,
             rays,
@@ -198,20 +182,15 @@ impl Reader<'_> {
                     }
                     let (row, column) = (ray / width, ray % width);
                     let pixel = place.rows[rest.start as usize + row] + place.columns[column];
-                    let mut winding = windings.get(first_ray + ray);
-                    let classes = mesh.classes;
-                    flips_along(
-                        hits,
-                        classes,
-                        &mut winding,
-                        sublayer_of,
-                        |sublayer, sign| {
-                            each_change(sublayer, samples.sublayers, sign, pixel, &mut |change| {
-                                changes.push(change);
-                            });
-                        },
-                    );
-                    windings.set(first_ray + ray, winding);
+                    let ray = first_ray + ray;
+                    let below = windings.get(ray);
+                    let mut flip = |sublayer, sign| {
+                        each_change(sublayer, samples.sublayers, sign, pixel, &mut |change| {
+                            changes.push(change);
+                        });
+                    };
+                    let above = flips_along(hits, mesh.classes, below, sublayer_of, &mut flip);
+                    windings.set(ray, above);
                 }
                 let count = scanned.rays().count();
                 first_ray += count;
@@ -238,48 +217,41 @@ impl Reader<'_> {
             layers: layers.len(),
             bands,
         };
-        match &mut self.place {
-            Some(place) => place.restart(),
-            None => self.place = Some(ReadPlace::new(&masks)),
-        }
-        self.slab = Some((masks, 0));
+        let read = match read {
+            Some(read) => read.restarted(),
+            None => ReadPlace::new(&masks),
+        };
+        self.slab = Some((masks, read));
     }
 }
 
-/// Calls `flip(sublayer, sign)` where a ray enters what is printed, and where it leaves it, given its hits in a slab and the winding
-/// with which it enters the slab. The winding becomes the one with which it leaves the slab.
+/// Calls `flip(sublayer, sign)` where a ray enters what is printed, and where it leaves it: see [`printed_crossings`].
 fn flips_along(
     hits: &[Hit],
     classes: FacetClasses,
-    winding: &mut Winding,
+    winding: Winding,
     sublayer_of: &SublayerOf,
-    mut flip: impl FnMut(u32, i8),
-) {
+    flip: &mut impl FnMut(u32, i8),
+) -> Winding {
     let mut entered = None;
-    for hit in hits {
-        let was_inside = winding.is_inside();
-        winding.pass(classes.of(hit.facet()), hit.winding());
-        if was_inside == winding.is_inside() {
-            continue;
-        }
-        let sublayer = sublayer_of.first_above(hit.z_mm);
-        if !was_inside {
+    let above = printed_crossings(hits, classes, winding, |z_mm, enters| {
+        let sublayer = sublayer_of.first_above(z_mm);
+        if enters {
             entered = Some(sublayer);
-            continue;
+            return;
         }
-        let on = entered.take();
-        // What begins and ends between two sampling heights changes nothing.
-        if on == Some(sublayer) {
-            continue;
-        }
-        if let Some(on) = on {
-            flip(on, 1);
+        match entered.take() {
+            // What begins and ends between two sampling heights changes nothing.
+            Some(on) if on == sublayer => return,
+            Some(on) => flip(on, 1),
+            None => {}
         }
         flip(sublayer, -1);
-    }
+    });
     if let Some(on) = entered {
         flip(on, 1);
     }
+    above
 }
 
 /// The winding numbers with which rays enter a slab: one byte, or one for each kind of body, and a list of those that are larger.

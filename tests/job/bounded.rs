@@ -17,7 +17,8 @@ use cusp_slicer::progress::silent;
 use cusp_slicer::resin::Resin;
 use glam::Vec3;
 
-use crate::common::{binary_stl, on_plate, quiet, solids};
+use crate::common::{on_plate, quiet, solids};
+use crate::{load, plan};
 
 /// Fine enough for several slabs within the least memory.
 fn options() -> Options {
@@ -29,13 +30,9 @@ fn options() -> Options {
     }
 }
 
-fn load(triangles: &solids::Triangles) -> Slicer {
-    Slicer::load(&binary_stl(triangles)).unwrap()
-}
-
 /// The plan's report without its times, and its print file.
 fn sliced(slicer: &mut Slicer, options: &Options) -> (serde_json::Value, Vec<u8>) {
-    pollster::block_on(slicer.plan(options, &mut quiet)).unwrap();
+    plan(slicer, options).unwrap();
     let (file, report) = slicer.write_archive(Vec::new(), &mut quiet).unwrap();
     (without_times(report), file)
 }
@@ -49,7 +46,7 @@ fn without_times(report: &Report) -> serde_json::Value {
 /// The least bytes within which a job can be done.
 fn least_bytes(triangles: &solids::Triangles, options: &Options) -> u64 {
     let mut slicer = load(triangles).with_memory(1);
-    match pollster::block_on(slicer.plan(options, &mut quiet)) {
+    match plan(&mut slicer, options) {
         Err(Error::MemoryBound {
             needed_bytes,
             allowed_bytes: 1,
@@ -198,7 +195,7 @@ fn what_takes_all_hits_says_how_much_that_is() {
     };
     let least = least_bytes(&crowd(), &options);
     let mut slicer = load(&crowd()).with_memory(least);
-    pollster::block_on(slicer.plan(&options, &mut quiet)).unwrap();
+    plan(&mut slicer, &options).unwrap();
     let error = slicer.write_archive(Vec::new(), &mut quiet).unwrap_err();
     assert_eq!(error.code(), "memory-bound");
     let limits = cusp_slicer::inspect::Limits::default();

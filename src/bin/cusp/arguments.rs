@@ -17,7 +17,7 @@ use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::resin::Resin;
 
 use crate::config::{self, SettingsFile};
-use crate::files::{Failure, WeightsFile, read_json};
+use crate::files::{Failure, WeightsFile, load_painted, read_json};
 use crate::plate::Places;
 use crate::usage::{Given, wrong_usage};
 use crate::values::{
@@ -53,12 +53,18 @@ pub struct Slicing {
 }
 
 impl Slicing {
-    /// A slicer that takes its share of the memory, of which `workers` take some at a time.
-    pub fn bounded(&self, slicer: Slicer, workers: usize) -> Slicer {
-        match self.max_memory {
+    /// Loads a model that takes its share of the memory, of which `workers` take some at a time.
+    pub fn load(
+        &self,
+        model: &Path,
+        settings: &Settings,
+        workers: usize,
+    ) -> Result<Slicer, Failure> {
+        let slicer = load_painted(model, settings.weights.as_ref())?;
+        Ok(match self.max_memory {
             Some(ByteSize(bytes)) => slicer.with_memory(bytes / workers as u64),
             None => slicer,
-        }
+        })
     }
 }
 

@@ -33,8 +33,7 @@ pub fn slice(slicing: &Slicing, output: &Path) -> Result<(), Failure> {
     check_json("slice", Some(output), slicing.json);
     let output = Output::new(output, Some(model), "model")?;
     let settings = slicing.choices.settings()?;
-    let slicer = load_painted(model, settings.weights.as_ref())?;
-    let mut slicer = slicing.bounded(slicer, 1);
+    let mut slicer = slicing.load(model, &settings, 1)?;
     stop_on_interrupt();
     let bar = Bar::new();
     let mut progress = |stage, fraction| bar.report(stage, fraction);
@@ -55,8 +54,7 @@ pub fn plan(slicing: &Slicing) -> Result<(), Failure> {
         return plan_all(slicing);
     };
     let settings = slicing.choices.settings()?;
-    let slicer = load_painted(model, settings.weights.as_ref())?;
-    let mut slicer = slicing.bounded(slicer, 1);
+    let mut slicer = slicing.load(model, &settings, 1)?;
     stop_on_interrupt();
     let bar = Bar::new();
     let mut progress = |stage, fraction| bar.report(stage, fraction);
@@ -113,8 +111,7 @@ fn slice_all(slicing: &Slicing, folder: &Path) -> Result<(), Failure> {
     let outputs = outputs.collect::<Result<Vec<_>, _>>()?;
     batch.run(|place, progress| {
         let model = &batch.models[place];
-        let slicer = load_painted(model, settings.weights.as_ref())?;
-        let mut slicer = slicing.bounded(slicer, batch.at_a_time());
+        let mut slicer = slicing.load(model, &settings, batch.at_a_time())?;
         slice_one(&mut slicer, model, &settings, &outputs[place], progress)
     })
 }
@@ -127,8 +124,7 @@ fn plan_all(slicing: &Slicing) -> Result<(), Failure> {
     let batch = batch_of(slicing, &settings);
     batch.run(|place, progress| {
         let model = &batch.models[place];
-        let slicer = load_painted(model, settings.weights.as_ref())?;
-        let mut slicer = slicing.bounded(slicer, batch.at_a_time());
+        let mut slicer = slicing.load(model, &settings, batch.at_a_time())?;
         make_plan(&mut slicer, model, options, progress).cloned()
     })
 }

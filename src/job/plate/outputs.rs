@@ -98,18 +98,13 @@ impl Plate {
         let clock = Instant::now();
         let current = self.current(plate)?;
         let planned = Arc::clone(&current.planned);
-        let is_mirrored = current.job.output.is_mirrored;
-        let side = if is_mirrored {
-            Side::Below
-        } else {
-            Side::Above
-        };
+        let side = current.job.output.side();
         let models = planned.models.iter();
         let all_held = models
             .clone()
             .all(|model| model.sampled().bound().is_none());
         // Masks seen from above are kept for later calls.
-        let seen_above = !is_mirrored && all_held;
+        let seen_above = side == Side::Above && all_held;
         let apart = if seen_above {
             current.seen()?;
             Vec::new()
