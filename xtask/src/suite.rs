@@ -222,7 +222,7 @@ fn cluster(project: &Project) -> Result<(Verdict, Tally)> {
 
 /// Builds the command line for tests that call it, and returns its path.
 fn build_cusp(project: &Project) -> Result<PathBuf> {
-    process::run(process::cargo(project).args(["build", "--bin", "cusp"]))?;
+    process::run(process::cargo(project).args(["build", "--workspace", "--bin", "cusp"]))?;
     let name = format!("debug/cusp{}", std::env::consts::EXE_SUFFIX);
     Ok(project.target.join(name))
 }
