@@ -355,7 +355,7 @@ test("taken out of the page it rests, and put back it works on", async () => {
 
 test("a part that cannot be fetched says so in its panel and to the page, and comes when it is tried again", async () => {
   const page = await start("");
-  const blocked = /\/(cusp-view|thumbnails|uPlot)[^/]*\.js$/;
+  const blocked = /\/(cusp-view|thumbnails|uPlot)[^/]*\.js/;
   await page.route(blocked, (route) => route.abort());
   await page.evaluate(() =>
     document.body.append(

@@ -3,10 +3,7 @@ import { html, nothing, type TemplateResult } from "lit";
 import type { Facts } from "./facts.js";
 import { FetchedPanel } from "./parts/part.js";
 
-const findingsCode = new FetchedPanel("findings", async () => {
-  const { defineFindings } = await import("./panels/findings-panel.js");
-  defineFindings();
-});
+const findingsCode = new FetchedPanel("findings", () => import("./panels/findings-panel.js"), ({ defineFindings }) => defineFindings());
 
 export function findingsPanel({ element, session, language, panels }: Facts): TemplateResult | typeof nothing {
   if (!findingsCode.isThere) return findingsCode.instead(element, language);

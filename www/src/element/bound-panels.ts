@@ -100,10 +100,7 @@ export function chartPanel({ session, language }: Facts, placed = besideView): T
 }
 
 /** Few people search for an orientation, and the sphere of directions is a good part of the code. */
-const orientationCode = new FetchedPanel("orientation", async () => {
-  const { defineOrientation } = await import("./panels/orientation-panel.js");
-  defineOrientation();
-});
+const orientationCode = new FetchedPanel("orientation", () => import("./panels/orientation-panel.js"), ({ defineOrientation }) => defineOrientation());
 
 export function orientationPanel({ element, session, language, slicer }: Facts): TemplateResult | typeof nothing {
   if (!orientationCode.isThere) return orientationCode.instead(element, language);
@@ -132,10 +129,7 @@ export function qualityPanel({ session, language }: Facts, result: Result): Temp
 }
 
 /** On the page its tab is not the first, and its picture brings a good part of the code. */
-const maskCode = new FetchedPanel("mask", async () => {
-  const { CuspMask } = await import("./panels/mask-view.js");
-  define("cusp-mask", CuspMask);
-});
+const maskCode = new FetchedPanel("mask", () => import("./panels/mask-view.js"), ({ CuspMask }) => define("cusp-mask", CuspMask));
 
 export function maskPanel({ element, session, language }: Facts, result: Result): TemplateResult | typeof nothing {
   if (!maskCode.isThere) return maskCode.instead(element, language);

@@ -5,10 +5,7 @@ import { MODEL_FILES } from "./state/choice.js";
 import { FetchedPanel } from "./parts/part.js";
 import { copiesField } from "./panels/copies-field.js";
 
-const plateCode = new FetchedPanel("plate", async () => {
-  const { definePlate } = await import("./panels/plate-panel.js");
-  definePlate();
-});
+const plateCode = new FetchedPanel("plate", () => import("./panels/plate-panel.js"), ({ definePlate }) => definePlate());
 
 function addButton({ language, added }: Facts): TemplateResult {
   return html`<label class="button small">

@@ -21,6 +21,7 @@ import { PlateView, type Shapes } from "../parts/plate-view.js";
 import { viewTexts } from "../parts/view-texts.js";
 import type { Painted } from "../events.js";
 import { define } from "../define.js";
+import { fetched } from "../parts/fetched.js";
 import { adopt, FetchedPanel, partFailure, partStyles, tellPartFailed } from "../parts/part.js";
 import type { Colours } from "./paint-tools.js";
 import type { Edited, PointEditor } from "./point-tools.js";
@@ -45,7 +46,7 @@ const BRUSH_PART = 0.2;
 const LATEST_MS = 700;
 
 /** Fetches the view. */
-export const fetchView = (): Promise<typeof import("../../view/cusp-view.js")> => import("../../view/cusp-view.js");
+export const fetchView = fetched(() => import("../../view/cusp-view.js"));
 
 /** Always the same list: another one would count as a change. */
 const NO_POINTS: CuspView["points"] = [];

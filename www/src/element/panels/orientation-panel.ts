@@ -12,6 +12,7 @@ import { CuspSphere, energyRange, type Looked } from "./orientation-sphere.js";
 import { differences, figure, type Term } from "../state/differences.js";
 import { isPose, type Aims, type OrientationSearch } from "../state/orientation.js";
 import { partFailure, partStyles, tellPartFailed } from "../parts/part.js";
+import { fetchPictures } from "../parts/pictures.js";
 import { progressBar, progressStyles, type Busy } from "../parts/progress.js";
 import { rotationText } from "../state/settings.js";
 import { styled } from "../parts/styled.js";
@@ -331,7 +332,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
     // Without thumbnails there are still the metrics; a broken worker is reported elsewhere.
     const positions = await slicer.positions().catch(() => null);
     if (positions === null || signal.aborted) return;
-    const pictures = await import("../../view/scene/thumbnails.js").catch((error: unknown) => {
+    const pictures = await fetchPictures().catch((error: unknown) => {
       tellPartFailed(this, "pictures", error);
       return null;
     });

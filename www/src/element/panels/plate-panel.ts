@@ -12,6 +12,7 @@ import { quaternion } from "../state/settings.js";
 import { copiesStyles } from "../styles/copies-styles.js";
 import { shared } from "../styles/shared.js";
 import { copiesField } from "./copies-field.js";
+import { fetchPictures } from "../parts/pictures.js";
 
 /** Side of a thumbnail, CSS pixels. */
 const THUMBNAIL_PX = 40;
@@ -248,7 +249,7 @@ export class CuspPlate extends elementWith(PROPERTIES) {
     this.#drawing?.abort();
     const { signal } = (this.#drawing = new AbortController());
     try {
-      const { drawThumbnails } = await import("../../view/scene/thumbnails.js");
+      const { drawThumbnails } = await fetchPictures();
       for (const { canvas, entry, key } of stale) {
         const positions = await plate.positionsOf(entry);
         if (signal.aborted) return;

@@ -10,6 +10,7 @@ import { languageOf } from "../../texts/index.js";
 import { layerAt } from "../../view/scene/lookup.js";
 import { METRICS } from "../state/metric.js";
 import { ZoomGestures } from "../parts/zoom-gestures.js";
+import { fetched } from "../parts/fetched.js";
 import { partFailure, partStyles, tellPartFailed } from "../parts/part.js";
 import { chartStyles } from "../styles/chart-styles.js";
 import { shared } from "../styles/shared.js";
@@ -22,6 +23,8 @@ export interface PlotPlace {
   /** Lowest and highest, mm. */
   heights_mm: Heights;
 }
+
+const fetchLibrary = fetched(() => import("uplot"));
 
 /** How much a press of a key enlarges. */
 const KEY_ZOOM = 1.5;
@@ -154,7 +157,7 @@ export class CuspChart extends elementWith(PROPERTIES) {
 
   async #load(): Promise<void> {
     try {
-      ({ default: this.#library } = await import("uplot"));
+      ({ default: this.#library } = await fetchLibrary());
       this.failed = false;
     } catch (error) {
       // uPlot could not be fetched, or does not start in this browser. Everything else works without it.

@@ -2,6 +2,7 @@
 import { css, html, nothing, type CSSResult, type LitElement, type TemplateResult } from "lit";
 import { said, SlicerError } from "../../api/error.js";
 import type { Language } from "../../texts/index.js";
+import { fetched } from "./fetched.js";
 
 /**
  * The 3-D view, what paints weights in it, and what places points; the chart of the profile; the panel of orientation, and the
@@ -28,18 +29,21 @@ export function partFailure({ texts }: Language, again: () => void): TemplateRes
 }
 
 /** A panel's code that is fetched when it is first shown, once for all elements of the page. */
-export class FetchedPanel<Code = void> {
+export class FetchedPanel<Code> {
   isThere = false;
   /** What was fetched. */
   code: Code | null = null;
   readonly #part: Part;
   readonly #fetch: () => Promise<Code>;
+  readonly #arrived: (code: Code) => void;
   #arriving: Promise<void> | null = null;
   #isMissing = false;
 
-  constructor(part: Part, fetch: () => Promise<Code>) {
+  /** @param arrived what to do with it then */
+  constructor(part: Part, load: () => Promise<Code>, arrived: (code: Code) => void = () => undefined) {
     this.#part = part;
-    this.#fetch = fetch;
+    this.#fetch = fetched(load);
+    this.#arrived = arrived;
   }
 
   /** What stands in the panel's place until it is there. Fetches it, and has the element rendered again then. */
@@ -52,6 +56,7 @@ export class FetchedPanel<Code = void> {
     }
     this.#arriving ??= this.#fetch()
       .then((code) => {
+        this.#arrived(code);
         this.code = code;
         this.isThere = true;
       })

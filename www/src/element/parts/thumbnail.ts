@@ -2,6 +2,7 @@
 import type { Slicer } from "../../api/index.js";
 import { heightOf, UPRIGHT } from "../../view/scene/turn.js";
 import { partError } from "./part.js";
+import { fetchPictures } from "./pictures.js";
 import type { Result } from "../state/result.js";
 import { quaternion } from "../state/settings.js";
 
@@ -22,7 +23,7 @@ export async function thumbnailOf(
   height_mm: number,
   size_px: number,
 ): Promise<Blob> {
-  const drawing = import("../../view/scene/thumbnails.js").catch((cause: unknown) => {
+  const drawing = fetchPictures().catch((cause: unknown) => {
     throw partError("pictures", cause);
   });
   const [positions, { thumbnail }] = await Promise.all([slicer.positions(), drawing]);
