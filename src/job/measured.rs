@@ -46,17 +46,21 @@ impl Measured {
             return Ok(Arc::clone(kept));
         }
         let facet_bins = LazyCell::new(|| FacetBins::of(mesh, bins));
+        // There are up to three passes over the rays.
+        let mut pass = |number: f64, fraction: f64| progress((number + fraction) / 3.0);
+        let mut first = |fraction| pass(0.0, fraction);
         let mut shapes = match kept {
             Some(kept) => kept.shapes.clone(),
-            None => Shapes::new(&facet_bins, mesh, image, &of.survey, progress)
+            None => Shapes::new(&facet_bins, mesh, image, &of.survey, &mut first)
                 .map_err(LdiError::from)?,
         };
         if !has_areas(&shapes) {
-            let with_areas = shapes.with_areas(mesh, image, progress);
+            let with_areas = shapes.with_areas(mesh, image, &mut |fraction| pass(1.0, fraction));
             shapes = with_areas.map_err(LdiError::from)?;
         }
         if !shapes.is_weighed(metric, weights.as_deref()) {
-            let weighed = shapes.weighed(&facet_bins, image, metric, weights, progress);
+            let mut last = |fraction| pass(2.0, fraction);
+            let weighed = shapes.weighed(&facet_bins, image, metric, weights, &mut last);
             shapes = weighed.map_err(LdiError::from)?;
         }
         Ok(Arc::new(Self {
