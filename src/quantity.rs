@@ -91,10 +91,22 @@ impl Quantity {
         }
     }
 
-    /// Whether 0 is allowed; if not, the value must be greater.
-    pub fn may_be_zero(self) -> bool {
-        // An upright prism has no error, so the smallest tolerance that allows so many layers may be 0.
-        self.unit() == Unit::Second || matches!(self, Self::Lift | Self::Tolerance)
+    /// The least and the greatest value: far beyond what any printer, resin or model needs, and near enough that no sum of them
+    /// over all layers overflows.
+    pub fn range(self) -> [f64; 2] {
+        match self {
+            Self::Pitch => [1e-6, 1e6],
+            Self::Bin | Self::Step => [1e-6, 1e3],
+            Self::Layer | Self::FirstLayer | Self::LayerMin | Self::LayerMax => [1e-6, 1e3],
+            // An upright prism has no error, so the smallest tolerance that allows so many layers may be 0.
+            Self::Tolerance => [0.0, 1e9],
+            Self::ResinLayer => [1e-4, 10.0],
+            Self::Penetration => [1e-4, 100.0],
+            Self::Exposure | Self::BottomExposure | Self::Wait => [0.0, 1e5],
+            Self::Lift => [0.0, 1e3],
+            Self::LiftSpeed | Self::ReturnSpeed => [0.1, 1e6],
+            Self::Density => [1e-3, 1e3],
+        }
     }
 
     /// Its name in sentences for the terminal.
@@ -120,26 +132,27 @@ impl Quantity {
         }
     }
 
-    /// Returns `value` if it is a finite number within bounds.
+    /// Returns `value` if it is within [`Self::range`].
     ///
     /// # Errors
     /// [`QuantityError::BadTime`] for times, [`QuantityError::BadLength`] for all others.
     pub fn check(self, value: f64) -> Result<f64, QuantityError> {
-        let (unit, may_be_zero) = (self.unit(), self.may_be_zero());
-        if value.is_finite() && (value > 0.0 || may_be_zero && value == 0.0) {
+        let (quantity, unit, [least, most]) = (self, self.unit(), self.range());
+        if (least..=most).contains(&value) {
             return Ok(value);
         }
-        let quantity = self;
         Err(match unit {
             Unit::Second => QuantityError::BadTime {
                 quantity,
                 value_s: value,
+                most_s: most,
             },
             _ => QuantityError::BadLength {
                 quantity,
                 value,
                 unit,
-                may_be_zero,
+                least,
+                most,
             },
         })
     }
@@ -152,26 +165,30 @@ impl Quantity {
 #[non_exhaustive]
 pub enum QuantityError {
     /// A length, speed, density or tolerance that is out of bounds.
-    #[error("{}", out_of_bounds(*quantity, *value))]
+    #[error("{}", out_of_range(*quantity, *value))]
     #[serde(rename = "bad-length")]
     BadLength {
         /// The quantity.
         quantity: Quantity,
         /// Its value.
         value: f64,
-        /// Unit of the value.
+        /// Unit of all three.
         unit: Unit,
-        /// Whether 0 is allowed; if not, the value must be greater.
-        may_be_zero: bool,
+        /// The least.
+        least: f64,
+        /// The most.
+        most: f64,
     },
-    /// A time that is negative or not a finite number.
-    #[error("{}", out_of_bounds(*quantity, *value_s))]
+    /// A time that is negative or too long.
+    #[error("{}", out_of_range(*quantity, *value_s))]
     #[serde(rename = "bad-time")]
     BadTime {
         /// The quantity.
         quantity: Quantity,
         /// Its value in seconds.
         value_s: f64,
+        /// The most; the least is 0.
+        most_s: f64,
     },
     /// A growth that no measurement can have found.
     #[error("the growth of a print must be {least_mm} to {most_mm} mm, not {value_mm} mm")]
@@ -198,13 +215,14 @@ pub enum QuantityError {
     },
 }
 
-fn out_of_bounds(quantity: Quantity, value: f64) -> String {
-    let bound = if quantity.may_be_zero() {
-        "0 or more"
-    } else {
-        "greater than 0"
-    };
+fn out_of_range(quantity: Quantity, value: f64) -> String {
+    let [least, most] = quantity.range();
     let (noun, unit) = (quantity.noun(), quantity.unit().symbol());
     let gap = if unit.is_empty() { "" } else { " " };
-    format!("{noun} must be {bound}, not {value}{gap}{unit}")
+    let value = if value.abs() < 1e15 {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    };
+    format!("{noun} must be from {least} to {most}{gap}{unit}, not {value}{gap}{unit}")
 }

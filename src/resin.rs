@@ -171,8 +171,9 @@ impl Resin {
 /// e to the power of x, by basic arithmetic alone: libraries differ in the last digits, which would make plans differ.
 fn exp(x: f64) -> f64 {
     const HALVINGS: i32 = 10;
-    let small = x / f64::from(1 << HALVINGS);
-    // The series is accurate to the last digits for |small| below about 1/20, that is for |x| < 50.
+    // The series is accurate to the last digits for |small| below about 1/20. Beyond, e to the power of x times any exposure is
+    // nothing, or more than its cap.
+    let small = x.clamp(-50.0, 50.0) / f64::from(1 << HALVINGS);
     let mut term = 1.0;
     let mut sum = 1.0;
     for n in 1..16 {
@@ -187,6 +188,8 @@ fn exp(x: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::Resin;
+
     #[test]
     fn exp_is_that_of_the_library_to_twelve_digits() {
         for step in -400..=400 {
@@ -194,5 +197,17 @@ mod tests {
             let (own, library) = (super::exp(x), x.exp());
             assert!((own / library - 1.0).abs() < 1e-12, "{x}: {own} {library}");
         }
+    }
+
+    #[test]
+    fn far_from_zero_an_exposure_is_nothing_or_as_long_as_can_be() {
+        let resin = Resin {
+            penetration_mm: 1e-4,
+            layer_mm: 0.2,
+            ..Resin::default()
+        };
+        assert_eq!(resin.check(), Ok(()));
+        let exposures = resin.exposures_s(&[0.05, 0.05, 0.05, 0.05, 0.05, 0.19, 0.2, 0.21, 1e3]);
+        assert_eq!(exposures[4..], [0.0, 0.0, 3.0, 1e5, 1e5]);
     }
 }

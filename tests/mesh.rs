@@ -216,10 +216,44 @@ fn impossible_meshes_have_their_errors() {
         cube.on_plate(&Pose::of_height(-1.0)),
         Err(MeshError::BadHeight { height_mm: -1.0 })
     );
-    assert_eq!(
-        cube.on_plate(&Pose::of_height(1e39)),
-        Err(MeshError::Overflow)
-    );
+    for height_mm in [1e39, 1.000_001e6] {
+        assert_eq!(
+            cube.on_plate(&Pose::of_height(height_mm)),
+            Err(MeshError::Overflow)
+        );
+    }
+    assert!(cube.on_plate(&Pose::of_height(1e6)).is_ok());
+}
+
+#[test]
+fn an_open_model_that_is_moved_in_its_file_has_the_same_caps() {
+    let on_grid = |corner: Vec3| (corner * 1024.0).round() / 1024.0;
+    let mut open: Vec<[Vec3; 3]> = solids::sphere(10.0, 5)
+        .into_iter()
+        .map(|corners| corners.map(on_grid))
+        .collect();
+    open.retain(|corners| corners[0].x < 9.0 && corners[0].z > -9.0);
+    let here = Mesh::from_triangles(&open).unwrap();
+    assert_eq!(here.holes, 2);
+    for by in [
+        Vec3::new(100.0, -50.0, 3.0),
+        Vec3::new(-999.0, 512.0, 700.0),
+    ] {
+        let there = Mesh::from_triangles(&solids::moved(&open, by)).unwrap();
+        for rotation in [None, Some([0.5, 0.1, -0.3, 0.8])] {
+            let pose = Pose {
+                rotation,
+                ..Pose::default()
+            };
+            let placed = [&here, &there].map(|mesh| mesh.on_plate(&pose).unwrap().vertices);
+            let farthest = placed[0]
+                .iter()
+                .zip(&placed[1])
+                .map(|(a, b)| a.distance(*b));
+            // Turning rounds at absolute coordinates, in double precision.
+            assert!(farthest.fold(0.0, f32::max) <= if rotation.is_none() { 0.0 } else { 2e-6 });
+        }
+    }
 }
 
 #[test]

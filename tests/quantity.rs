@@ -26,27 +26,27 @@ fn resin_refusal(set: impl FnOnce(&mut Resin)) -> String {
 fn numbers_of_layers_are_refused_by_name_bound_and_unit() {
     assert_eq!(
         refusal(|options| options.bin_mm = Some(0.0)),
-        "the bin height must be greater than 0, not 0 mm"
+        "the bin height must be from 0.000001 to 1000 mm, not 0 mm"
     );
     assert_eq!(
         refusal(|options| options.layer_min_mm = Some(-0.05)),
-        "the minimum layer thickness must be greater than 0, not -0.05 mm"
+        "the minimum layer thickness must be from 0.000001 to 1000 mm, not -0.05 mm"
     );
     assert_eq!(
         refusal(|options| options.layer_max_mm = Some(f64::INFINITY)),
-        "the maximum layer thickness must be greater than 0, not inf mm"
+        "the maximum layer thickness must be from 0.000001 to 1000 mm, not inf mm"
     );
     assert_eq!(
         refusal(|options| options.step_mm = Some(0.0)),
-        "the motor step must be greater than 0, not 0 mm"
+        "the motor step must be from 0.000001 to 1000 mm, not 0 mm"
     );
     assert_eq!(
         refusal(|options| options.planner = Planner::Uniform { layer_mm: 0.0 }),
-        "the layer thickness must be greater than 0, not 0 mm"
+        "the layer thickness must be from 0.000001 to 1000 mm, not 0 mm"
     );
     assert_eq!(
         refusal(|options| options.tolerance = Some(-1.0)),
-        "the tolerance must be 0 or more, not -1"
+        "the tolerance must be from 0 to 1000000000, not -1"
     );
 }
 
@@ -54,43 +54,43 @@ fn numbers_of_layers_are_refused_by_name_bound_and_unit() {
 fn numbers_of_resins_are_refused_by_name_bound_and_unit() {
     assert_eq!(
         resin_refusal(|resin| resin.layer_mm = 0.0),
-        "the resin's layer thickness must be greater than 0, not 0 mm"
+        "the resin's layer thickness must be from 0.0001 to 10 mm, not 0 mm"
     );
     assert_eq!(
         resin_refusal(|resin| resin.penetration_mm = -0.15),
-        "the penetration depth must be greater than 0, not -0.15 mm"
+        "the penetration depth must be from 0.0001 to 100 mm, not -0.15 mm"
     );
     assert_eq!(
         resin_refusal(|resin| resin.lift_mm_min = 0.0),
-        "the lift speed must be greater than 0, not 0 mm/min"
+        "the lift speed must be from 0.1 to 1000000 mm/min, not 0 mm/min"
     );
     assert_eq!(
         resin_refusal(|resin| resin.return_mm_min = f64::NAN),
-        "the return speed must be greater than 0, not NaN mm/min"
+        "the return speed must be from 0.1 to 1000000 mm/min, not NaN mm/min"
     );
     assert_eq!(
         resin_refusal(|resin| resin.density_g_ml = 0.0),
-        "the resin density must be greater than 0, not 0 g/ml"
+        "the resin density must be from 0.001 to 1000 g/ml, not 0 g/ml"
     );
     assert_eq!(
         resin_refusal(|resin| resin.lift_mm = -5.0),
-        "the lift height must be 0 or more, not -5 mm"
+        "the lift height must be from 0 to 1000 mm, not -5 mm"
     );
     assert_eq!(
         resin_refusal(|resin| resin.exposure_s = -3.0),
-        "the exposure must be 0 or more, not -3 s"
+        "the exposure must be from 0 to 100000 s, not -3 s"
     );
     assert_eq!(
         resin_refusal(|resin| resin.exposures = vec![[0.05, 3.0], [0.1, -4.0]]),
-        "the exposure must be 0 or more, not -4 s"
+        "the exposure must be from 0 to 100000 s, not -4 s"
     );
     assert_eq!(
         resin_refusal(|resin| resin.bottom_exposure_s = -30.0),
-        "the bottom exposure must be 0 or more, not -30 s"
+        "the bottom exposure must be from 0 to 100000 s, not -30 s"
     );
     assert_eq!(
         resin_refusal(|resin| resin.wait_s = -1.0),
-        "the wait between layers must be 0 or more, not -1 s"
+        "the wait between layers must be from 0 to 100000 s, not -1 s"
     );
     assert_eq!(
         resin_refusal(|resin| resin.exposures = vec![[0.1, 3.0], [0.05, 2.0]]),

@@ -9,6 +9,7 @@ use crate::plan::preferred::SnapPlanes;
 use crate::plan::tradeoff::{self, Goal};
 use crate::plan::{Limits, Plan, PlanError, least_sum};
 use crate::profile::{LayerErrors, Metric, Source};
+use crate::quantity::Quantity;
 
 impl Slicer {
     /// The plans of the least sum of volume deviations beside those of the smallest maximum error, for some `points` numbers of layers
@@ -41,7 +42,7 @@ impl Planning<'_> {
         progress: &mut StageProgress<'_>,
     ) -> Result<Vec<FrontPoint>, Error> {
         let volumes = self.unweighted(Metric::Volume, Source::Exact);
-        let without_tolerance = self.layering.limits(f64::MAX);
+        let without_tolerance = self.layering.limits(Quantity::Tolerance.range()[1]);
         report(progress, Stage::Plan, 0.0)?;
         let plans = least_sum::plans(&volumes, &without_tolerance, usize::MAX)?;
         let last = plans.len() - 1;

@@ -40,8 +40,10 @@ pub enum MeshError {
     #[error("the rotation must be a quaternion x, y, z, w whose length is not zero")]
     #[serde(rename = "bad-rotation")]
     BadRotation,
-    /// Coordinates overflow single precision after scaling.
-    #[error("the model is too large: at this height its coordinates exceed what can be computed")]
+    /// The model measures more than a kilometre, with which sums of areas and volumes would overflow.
+    #[error(
+        "the model is too large: at this height it measures more than a kilometre; choose another unit or height"
+    )]
     #[serde(rename = "mesh-overflow")]
     Overflow,
 }
@@ -87,7 +89,12 @@ pub struct Mesh {
     pub holes: usize,
     /// Whether the input was inside out as a whole, so that all facets were flipped.
     pub was_inside_out: bool,
+    /// The first of the vertices that are centroids of caps, if there are any; all before it are the model's.
+    centroids_from: u32,
 }
+
+/// The most that a model may measure in x, y or z.
+const MAX_SIDE_MM: f64 = 1e6;
 
 impl Mesh {
     /// Welds equal corners, separates facets without area, closes holes, and turns over what is inside out: the mesh as a whole, or
@@ -115,6 +122,7 @@ impl Mesh {
         let (neighbours, open_edges) = edges(vertices.len(), &facets);
         let open_edge_count = open_edges.len();
         let loops = holes::loops(&open_edges);
+        let centroids_from = vertices.len() as u32;
         for hole in &loops {
             holes::cap(hole, &mut vertices, &mut facets);
         }
@@ -128,6 +136,7 @@ impl Mesh {
             open_edges: open_edge_count,
             holes: loops.len(),
             was_inside_out: false,
+            centroids_from,
         };
         if mesh.volume_mm3() < 0.0 {
             mesh.turn(&vec![true; mesh.facets.len()]);
@@ -301,18 +310,41 @@ impl Mesh {
         };
         let middle = (bounds.min + bounds.max) * 0.5;
         let foot = DVec3::new(middle.x, middle.y, bounds.min.z);
-        if !((size * scale).as_vec3() * 2.0).is_finite() {
+        // Not a number if anything before it overflows.
+        if !(size * scale).cmple(DVec3::splat(MAX_SIDE_MM)).all() {
             return Err(MeshError::Overflow);
         }
+        let placed = turned.into_iter().map(|vertex| (vertex - foot) * scale);
+        let mut placed: Vec<DVec3> = placed.collect();
+        self.place_centroids(&mut placed);
         Ok(Self {
-            vertices: turned
-                .into_iter()
-                .map(|vertex| ((vertex - foot) * scale).as_vec3())
-                .collect(),
+            vertices: placed.iter().map(|vertex| vertex.as_vec3()).collect(),
             facets: self.facets.clone(),
             neighbours: Arc::clone(&self.neighbours),
             ..*self
         })
+    }
+}
+
+impl Mesh {
+    /// Moves the centroids of caps to the middle of their loops. Where the file has the model, single precision rounds them by more
+    /// than at the plate, and a model that is moved in its file would have other caps.
+    fn place_centroids(&self, vertices: &mut [DVec3]) {
+        let from = self.centroids_from;
+        let mut sums: FxHashMap<u32, (DVec3, f64)> = FxHashMap::default();
+        for corners in self.of_class(FacetClass::Cap) {
+            let Some(&centroid) = corners.iter().find(|&&corner| corner >= from) else {
+                continue;
+            };
+            let (sum, count) = sums.entry(centroid).or_default();
+            for &corner in corners.iter().filter(|&&corner| corner != centroid) {
+                *sum += vertices[corner as usize];
+                *count += 1.0;
+            }
+        }
+        for (centroid, (sum, count)) in sums {
+            vertices[centroid as usize] = sum / count;
+        }
     }
 }
 

@@ -343,9 +343,8 @@ impl LayersAbove<'_> {
         let error = match &mut self.errors {
             ErrorsAbove::Sum(errors) => errors.steps_between(self.lower, upper),
             ErrorsAbove::Volume(errors, measured, error) => {
-                *error += (*measured..upper)
-                    .map(|bin| errors.steps_of(self.lower, bin))
-                    .sum::<u64>();
+                let added = (*measured..upper).map(|bin| errors.steps_of(self.lower, bin));
+                *error = added.fold(*error, u64::saturating_add);
                 *measured = upper;
                 *error
             }

@@ -55,7 +55,11 @@ impl VolumeError {
         let steps = self.area(bin).abs_diff(self.area(lower));
         match self.weights.get(bin as usize) {
             None => steps,
-            Some(weight) => (steps * weight + WEIGHT_ONE as u64 / 2) / WEIGHT_ONE as u64,
+            // Wider, as the areas of a model of a kilometre have more than 48 bits.
+            Some(weight) => {
+                let weighted = u128::from(steps) * u128::from(*weight);
+                ((weighted + WEIGHT_ONE as u128 / 2) / WEIGHT_ONE as u128) as u64
+            }
         }
     }
 

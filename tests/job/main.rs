@@ -5,6 +5,7 @@
 mod bounded;
 #[path = "../common/mod.rs"]
 mod common;
+mod numbers;
 mod promises;
 mod resolve;
 
@@ -63,24 +64,33 @@ fn every_stage_can_be_cancelled_and_the_model_planned_again() {
 
 #[test]
 fn progress_grows_within_a_stage() {
-    let mut seen: Vec<(Stage, f64)> = Vec::new();
-    let mut slicer = load(&solids::sphere(3.0, 4));
-    let many = Options {
-        rays: 1500,
-        ..options()
-    };
-    let mut watch = |stage, fraction| {
-        seen.push((stage, fraction));
-        ControlFlow::Continue(())
-    };
-    pollster::block_on(slicer.plan(&many, &mut watch)).unwrap();
-    slicer
-        .write_archive(Cursor::new(Vec::new()), &mut watch)
-        .unwrap();
-    assert!(seen.len() > 10);
-    for pair in seen.windows(2) {
-        assert!(pair[0].0 != pair[1].0 || pair[0].1 <= pair[1].1, "{pair:?}");
-        assert!((0.0..=1.0).contains(&pair[1].1), "{pair:?}");
+    // Each metric makes passes of its own over the rays, and weights another.
+    for (metric, saliency) in [
+        (Metric::Cusp, false),
+        (Metric::Area, false),
+        (Metric::Volume, true),
+    ] {
+        let mut seen: Vec<(Stage, f64)> = Vec::new();
+        let mut slicer = load(&solids::sphere(3.0, 4));
+        let many = Options {
+            rays: 1500,
+            metric,
+            saliency,
+            ..options()
+        };
+        let mut watch = |stage, fraction| {
+            seen.push((stage, fraction));
+            ControlFlow::Continue(())
+        };
+        pollster::block_on(slicer.plan(&many, &mut watch)).unwrap();
+        slicer
+            .write_archive(Cursor::new(Vec::new()), &mut watch)
+            .unwrap();
+        assert!(seen.len() > 10);
+        for pair in seen.windows(2) {
+            assert!(pair[0].0 != pair[1].0 || pair[0].1 <= pair[1].1, "{pair:?}");
+            assert!((0.0..=1.0).contains(&pair[1].1), "{pair:?}");
+        }
     }
 }
 

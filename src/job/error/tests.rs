@@ -111,9 +111,10 @@ fn quantity_errors() -> Vec<QuantityError> {
             quantity: Quantity::LiftSpeed,
             value: -2.5,
             unit: Unit::MillimetrePerMinute,
-            may_be_zero: false,
+            least: 0.1,
+            most: 1e6,
         },
-        BadTime { quantity: Quantity::Wait, value_s: -1.5 },
+        BadTime { quantity: Quantity::Wait, value_s: -1.5, most_s: 1e5 },
         BadExposures { previous_mm: 0.1, next_mm: 0.05 },
         BadGrowth { value_mm: 2.5, least_mm: -1.0, most_mm: 1.0 },
     )

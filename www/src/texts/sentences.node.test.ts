@@ -50,7 +50,7 @@ const sentencesOf = (code: LanguageCode): { format: Format; errors: Sentences; w
 };
 
 /** Details that offers show, or that readers do not need. */
-const UNSAID = ["least_tolerance", "largest_layer_min_mm", "may_be_zero", "planner"];
+const UNSAID = ["least_tolerance", "largest_layer_min_mm", "planner"];
 /** Words that a catalogue translates. */
 const TRANSLATED = ["kind", "expected", "quantity", "fault", "feature", "metric", "unit", "stated", "given"];
 

@@ -61,12 +61,12 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "stl-no-facets": () => "Das STL enthält keine Dreiecke; exportieren Sie das Modell noch einmal.",
   "mesh-no-area": ({ facets }) => `Keines der Dreiecke (${count(facets)}) hat eine Fläche; exportieren Sie das Modell noch einmal.`,
   "mesh-zero-height": () => "Das Modell hat keine Höhe; ist es flach, oder liegt es in der Ebene z = konstant?",
-  "mesh-overflow": () => "Das Modell ist zu groß: Bei dieser Höhe lassen sich seine Koordinaten nicht mehr berechnen.",
+  "mesh-overflow": () => "Das Modell ist zu groß: Bei dieser Höhe misst es mehr als einen Kilometer; wählen Sie eine andere Einheit oder Höhe.",
   "bad-height": ({ height_mm }) => `Die Höhe muss größer als 0 sein, nicht ${mm(height_mm)}.`,
   "bad-rotation": () => "Die Drehung muss ein Quaternion x, y, z, w sein, dessen Länge nicht 0 ist.",
-  "bad-length": ({ quantity, value, unit, may_be_zero }, metric) =>
-    `${QUANTITIES[quantity]} muss ${may_be_zero ? "0 oder größer" : "größer als 0"} sein, nicht ${measure(value, unit, metric)}.`,
-  "bad-time": ({ quantity, value_s }) => `${QUANTITIES[quantity]} muss 0 oder größer sein, nicht ${measure(value_s, "s")}.`,
+  "bad-length": ({ quantity, value, unit, least, most }, metric) =>
+    `${QUANTITIES[quantity]} muss zwischen ${exact(least)} und ${measure(most, unit, metric)} liegen, nicht bei ${measure(value, unit, metric)}.`,
+  "bad-time": ({ quantity, value_s, most_s }) => `${QUANTITIES[quantity]} muss zwischen 0 und ${measure(most_s, "s")} liegen, nicht bei ${measure(value_s, "s")}.`,
   "bad-exposures": ({ previous_mm, next_mm }) =>
     `Gemessene Belichtungen müssen nach der Dicke geordnet sein, jede dicker als die vorige; auf ${mm(previous_mm)} folgt aber ${mm(next_mm)}.`,
   "bad-growth": ({ least_mm, most_mm, value_mm }) =>

@@ -63,12 +63,12 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "stl-no-facets": () => "The STL holds no facets; export the model again.",
   "mesh-no-area": ({ facets }) => `None of the ${counted(facets, FACETS)} has an area; export the model again.`,
   "mesh-zero-height": () => "The model has no height; is it flat, or lying in the plane z = constant?",
-  "mesh-overflow": () => "The model is too large: at this height its coordinates exceed what can be computed.",
+  "mesh-overflow": () => "The model is too large: at this height it measures more than a kilometre; choose another unit or height.",
   "bad-height": ({ height_mm }) => `The height must be greater than 0, not ${mm(height_mm)}.`,
   "bad-rotation": () => "The rotation must be a quaternion x, y, z, w whose length is not zero.",
-  "bad-length": ({ quantity, value, unit, may_be_zero }, metric) =>
-    `${QUANTITIES[quantity]} must be ${may_be_zero ? "0 or more" : "greater than 0"}, not ${measure(value, unit, metric)}.`,
-  "bad-time": ({ quantity, value_s }) => `${QUANTITIES[quantity]} must be 0 or more, not ${measure(value_s, "s")}.`,
+  "bad-length": ({ quantity, value, unit, least, most }, metric) =>
+    `${QUANTITIES[quantity]} must be from ${exact(least)} to ${measure(most, unit, metric)}, not ${measure(value, unit, metric)}.`,
+  "bad-time": ({ quantity, value_s, most_s }) => `${QUANTITIES[quantity]} must be from 0 to ${measure(most_s, "s")}, not ${measure(value_s, "s")}.`,
   "bad-exposures": ({ previous_mm, next_mm }) =>
     `Measured exposures must be in order of thickness, each thicker than the one before, but ${mm(next_mm)} follows ${mm(previous_mm)}.`,
   "bad-growth": ({ least_mm, most_mm, value_mm }) =>

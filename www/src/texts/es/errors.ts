@@ -61,12 +61,12 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "stl-no-facets": () => "El STL no contiene facetas; exporte el modelo de nuevo.",
   "mesh-no-area": ({ facets }) => `Ninguna faceta tiene área (de ${count(facets)}); exporte el modelo de nuevo.`,
   "mesh-zero-height": () => "El modelo no tiene altura; ¿es plano, o está tendido en el plano z = constante?",
-  "mesh-overflow": () => "El modelo es demasiado grande: a esta altura no se puede calcular con sus coordenadas.",
+  "mesh-overflow": () => "El modelo es demasiado grande: con esta altura mide más de un kilómetro; elija otra unidad u otra altura.",
   "bad-height": ({ height_mm }) => `La altura debe ser mayor que 0, no ${mm(height_mm)}.`,
   "bad-rotation": () => "El giro debe ser un cuaternión x, y, z, w cuya longitud no sea cero.",
-  "bad-length": ({ quantity, value, unit, may_be_zero }, metric) =>
-    `${QUANTITIES[quantity]} debe ser ${may_be_zero ? "0 o más" : "mayor que 0"}, no ${measure(value, unit, metric)}.`,
-  "bad-time": ({ quantity, value_s }) => `${QUANTITIES[quantity]} debe ser 0 o más, no ${measure(value_s, "s")}.`,
+  "bad-length": ({ quantity, value, unit, least, most }, metric) =>
+    `${QUANTITIES[quantity]} debe estar entre ${exact(least)} y ${measure(most, unit, metric)}, y no ser ${measure(value, unit, metric)}.`,
+  "bad-time": ({ quantity, value_s, most_s }) => `${QUANTITIES[quantity]} debe estar entre 0 y ${measure(most_s, "s")}, y no ser ${measure(value_s, "s")}.`,
   "bad-exposures": ({ previous_mm, next_mm }) =>
     `Las exposiciones medidas deben ir en orden de espesor, cada una más gruesa que la anterior, pero ${mm(next_mm)} sigue a ${mm(previous_mm)}.`,
   "bad-growth": ({ least_mm, most_mm, value_mm }) =>

@@ -61,12 +61,12 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "stl-no-facets": () => "Le STL ne contient pas de facettes ; exportez à nouveau le modèle.",
   "mesh-no-area": ({ facets }) => `Aucune facette n’a d’aire (sur ${count(facets)}) ; exportez à nouveau le modèle.`,
   "mesh-zero-height": () => "Le modèle n’a pas de hauteur ; est-il plat, ou couché dans le plan z = constante ?",
-  "mesh-overflow": () => "Le modèle est trop grand : à cette hauteur, ses coordonnées dépassent ce qui se calcule.",
+  "mesh-overflow": () => "Le modèle est trop grand : à cette hauteur, il mesure plus d’un kilomètre ; choisissez une autre unité ou une autre hauteur.",
   "bad-height": ({ height_mm }) => `La hauteur doit être supérieure à 0, pas ${mm(height_mm)}.`,
   "bad-rotation": () => "La rotation doit être un quaternion x, y, z, w de longueur non nulle.",
-  "bad-length": ({ quantity, value, unit, may_be_zero }, metric) =>
-    `${QUANTITIES[quantity]} doit valoir ${may_be_zero ? "0 ou plus" : "plus de 0"}, pas ${measure(value, unit, metric)}.`,
-  "bad-time": ({ quantity, value_s }) => `${QUANTITIES[quantity]} doit valoir 0 ou plus, pas ${measure(value_s, "s")}.`,
+  "bad-length": ({ quantity, value, unit, least, most }, metric) =>
+    `${QUANTITIES[quantity]} doit se situer entre ${exact(least)} et ${measure(most, unit, metric)}, et non à ${measure(value, unit, metric)}.`,
+  "bad-time": ({ quantity, value_s, most_s }) => `${QUANTITIES[quantity]} doit se situer entre 0 et ${measure(most_s, "s")}, et non à ${measure(value_s, "s")}.`,
   "bad-exposures": ({ previous_mm, next_mm }) =>
     `Les expositions mesurées doivent être dans l’ordre des épaisseurs, chacune plus épaisse que la précédente, mais ${mm(next_mm)} suit ${mm(previous_mm)}.`,
   "bad-growth": ({ least_mm, most_mm, value_mm }) =>

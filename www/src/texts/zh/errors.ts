@@ -61,12 +61,12 @@ export const errors = ({ count, exact, mm, measure, error, either }: Format): Er
   "stl-no-facets": () => "STL 中没有三角面；请重新导出模型。",
   "mesh-no-area": ({ facets }) => `${count(facets)} 个三角面都没有面积；请重新导出模型。`,
   "mesh-zero-height": () => "模型没有高度；它是平的，还是躺在 z = 常数的平面上？",
-  "mesh-overflow": () => "模型过大：在此高度下其坐标超出可计算范围。",
+  "mesh-overflow": () => "模型过大：在此高度下其尺寸超过一千米；请选择其他单位或高度。",
   "bad-height": ({ height_mm }) => `高度必须大于 0，而不是 ${mm(height_mm)}。`,
   "bad-rotation": () => "旋转必须是长度不为零的四元数 x, y, z, w。",
-  "bad-length": ({ quantity, value, unit, may_be_zero }, metric) =>
-    `${QUANTITIES[quantity]}必须${may_be_zero ? "不小于 0" : "大于 0"}，而不是 ${measure(value, unit, metric)}。`,
-  "bad-time": ({ quantity, value_s }) => `${QUANTITIES[quantity]}必须不小于 0，而不是 ${measure(value_s, "s")}。`,
+  "bad-length": ({ quantity, value, unit, least, most }, metric) =>
+    `${QUANTITIES[quantity]}必须在 ${exact(least)} 到 ${measure(most, unit, metric)} 之间，而不是 ${measure(value, unit, metric)}。`,
+  "bad-time": ({ quantity, value_s, most_s }) => `${QUANTITIES[quantity]}必须在 0 到 ${measure(most_s, "s")} 之间，而不是 ${measure(value_s, "s")}。`,
   "bad-exposures": ({ previous_mm, next_mm }) =>
     `测得的曝光必须按厚度排列，后一项比前一项厚，但 ${mm(previous_mm)} 之后是 ${mm(next_mm)}。`,
   "bad-growth": ({ least_mm, most_mm, value_mm }) =>
