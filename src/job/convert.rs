@@ -124,6 +124,7 @@ pub enum ConvertError {
 
 /// Something of a print file that its conversion does not have. `Display` writes one sentence.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, thiserror::Error)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(tag = "code", content = "detail", rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Loss {

@@ -1,7 +1,7 @@
 //! Checks that a submitted plan is the one that its model and options give. A shop needs this before it accepts a plan from
 //! a customer's browser.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize, Serializer};
 use serde_json::Value;
 
 use super::plate::ClaimedPlate;
@@ -12,7 +12,8 @@ use crate::model::ModelFile;
 use crate::warning::Warning;
 
 /// Why a plan is rejected.
-#[derive(Debug, PartialEq, thiserror::Error)]
+#[derive(Debug, PartialEq, thiserror::Error, Serialize)]
+#[serde(tag = "code", content = "detail", rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum VerifyError {
     /// The file is not the report of a plan.
@@ -61,8 +62,10 @@ pub enum VerifyError {
         /// Path of the first difference, such as `z_mm[3]`.
         key: String,
         /// The value in the plan.
+        #[serde(serialize_with = "in_few_words")]
         claimed: Value,
         /// The value that is correct.
+        #[serde(serialize_with = "in_few_words")]
         found: Value,
     },
     /// The plan matches, but its largest error exceeds the tolerance.
@@ -73,6 +76,9 @@ pub enum VerifyError {
         /// The tolerance.
         tolerance: f64,
     },
+    /// The plan gives another print file.
+    #[error("it is not the print file that this plan gives")]
+    OtherPrint,
 }
 
 /// A submitted plan.
@@ -289,6 +295,14 @@ fn compare(key: &str, claimed: &Value, expected: &Value) -> Result<(), VerifyErr
             claimed: claimed.clone(),
             found: expected.clone(),
         }),
+    }
+}
+
+/// A list may be as long as the plan has layers.
+fn in_few_words<S: Serializer>(value: &Value, serializer: S) -> Result<S::Ok, S::Error> {
+    match value {
+        Value::Array(_) | Value::Object(_) => serializer.serialize_str(&in_short(value)),
+        other => other.serialize(serializer),
     }
 }
 

@@ -12,8 +12,9 @@ use cusp_slicer::warning::Warning;
 use serde::Serialize;
 
 use crate::files::{Failure, Problem, is_standard};
-use crate::terminal::{Bar, is_interrupted, print, say, stop_on_interrupt, to_json};
+use crate::terminal::{Bar, is_interrupted, print, print_json, say, stop_on_interrupt};
 use crate::usage::wrong_usage;
+use crate::visible::visible;
 
 /// Bytes of models that may be in work at a time. A larger model is in work alone.
 const BYTES_IN_WORK: u64 = 64 << 20;
@@ -153,7 +154,8 @@ impl Batch<'_> {
                 }
                 if !self.is_json {
                     let output = output.map_or(String::new(), |it| format!("{}: ", it.display()));
-                    return Ok(print(&format!("{model}: {output}{}", told.line()))?);
+                    let line = format!("{model}: {output}{}", told.line());
+                    return Ok(print(&visible(&line))?);
                 }
                 Outcome::Report(told)
             }
@@ -162,7 +164,11 @@ impl Batch<'_> {
                 say(&message);
                 failed.push((place, message));
                 match failure.problem {
-                    Some(problem) if self.is_json => Outcome::Error(problem),
+                    // The line has the model.
+                    Some(problem) if self.is_json => Outcome::Error(Problem {
+                        file: None,
+                        ..problem
+                    }),
                     _ => return Ok(()),
                 }
             }
@@ -175,7 +181,7 @@ impl Batch<'_> {
             },
             outcome,
         };
-        Ok(print(&to_json(&line)?)?)
+        Ok(print_json(&line)?)
     }
 
     /// Repeats what failed, in the order of the models, since it may be far above by now.

@@ -5,10 +5,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Subcommand;
 use cusp_slicer::job::Calibration;
+use serde::Serialize;
 
 use crate::arguments::{Target, read_resin};
 use crate::files::{Failure, Output};
-use crate::terminal::{Bar, duration, print, stop_on_interrupt};
+use crate::terminal::{Bar, duration, print, print_json, stop_on_interrupt};
+use crate::usage::check_json;
 use crate::values::{length, measured, positive};
 
 #[derive(Subcommand)]
@@ -20,6 +22,9 @@ pub enum Calibrating {
         /// Where to write the print file
         #[arg(short, long, value_name = "FILE")]
         output: PathBuf,
+        /// Print one JSON object
+        #[arg(long)]
+        json: bool,
     },
     /// Which exposure each thickness needs: a grid of towers with ridges and slots
     Exposure {
@@ -34,6 +39,9 @@ pub enum Calibrating {
         /// Where to write the print file
         #[arg(short, long, value_name = "FILE")]
         output: PathBuf,
+        /// Print one JSON object
+        #[arg(long)]
+        json: bool,
     },
     /// Put measured exposures into a resin file
     Resin {
@@ -46,41 +54,67 @@ pub enum Calibrating {
         /// Where to write the resin file
         #[arg(short, long, value_name = "FILE")]
         output: PathBuf,
+        /// Print one JSON object
+        #[arg(long)]
+        json: bool,
     },
 }
 
+impl Calibrating {
+    /// Whether a program reads what is printed.
+    pub fn is_json(&self) -> bool {
+        match self {
+            Self::Layers { json, .. } | Self::Exposure { json, .. } | Self::Resin { json, .. } => {
+                *json
+            }
+        }
+    }
+}
+
+/// A calibration print that was written.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct Calibrated {
+    pub print_time_s: f64,
+}
+
 pub fn calibrate(calibrating: &Calibrating) -> Result<(), Failure> {
+    let (Calibrating::Layers { output, .. }
+    | Calibrating::Exposure { output, .. }
+    | Calibrating::Resin { output, .. }) = calibrating;
+    check_json("calibrate", Some(output), calibrating.is_json());
+    let output = &Output::new(output, None, "")?;
     match calibrating {
-        Calibrating::Layers { target, output } => layers(target, &Output::new(output, None, "")?),
+        Calibrating::Layers { target, json, .. } => layers(target, output, *json),
         Calibrating::Exposure {
             thicknesses,
             exposures,
             target,
-            output,
-        } => exposure(
-            target,
-            thicknesses,
-            exposures,
-            &Output::new(output, None, "")?,
-        ),
+            json,
+            ..
+        } => exposure(target, thicknesses, exposures, output, *json),
         Calibrating::Resin {
             measured,
             resin,
-            output,
-        } => resin_file(measured, resin.as_deref(), &Output::new(output, None, "")?),
+            json,
+            ..
+        } => resin_file(measured, resin.as_deref(), output, *json),
     }
 }
 
-fn layers(target: &Target, output: &Output<'_>) -> Result<(), Failure> {
+fn layers(target: &Target, output: &Output<'_>, json: bool) -> Result<(), Failure> {
     let calibration = Calibration::layers(&target.options()?);
     let calibration = calibration.map_err(|error| output.failure(&error))?;
-    let time_s = write(&calibration, output)?;
+    let print_time_s = write(&calibration, output)?;
+    if json {
+        return Ok(print_json(&Calibrated { print_time_s })?);
+    }
     Ok(print(&format!(
         "{}: two towers of ten layers of 0.05 mm, one with ten of 0.1 mm more; prints in {}\n\
          Measure both: 0.5 and 1.5 mm say that the printer takes a thickness for each layer; 0.5 and 1.0, or 1.0 and 2.0, that \
          it takes one for all.",
         output.name(),
-        duration(time_s)
+        duration(print_time_s)
     ))?)
 }
 
@@ -89,15 +123,19 @@ fn exposure(
     thickness_mm: &[f64],
     exposure_s: &[f64],
     output: &Output<'_>,
+    json: bool,
 ) -> Result<(), Failure> {
     let calibration = Calibration::exposure(&target.options()?, thickness_mm, exposure_s);
     let calibration = calibration.map_err(|error| output.failure(&error))?;
-    let time_s = write(&calibration, output)?;
+    let print_time_s = write(&calibration, output)?;
+    if json {
+        return Ok(print_json(&Calibrated { print_time_s })?);
+    }
     let mut text = format!(
         "{}: a tower for each thickness and exposure; prints in {}\nrow, from the front    column, from the left, the bump at \
          the first tower's left",
         output.name(),
-        duration(time_s)
+        duration(print_time_s)
     );
     for (row, thickness_mm) in thickness_mm.iter().enumerate() {
         let _ = write!(text, "\n{}  {thickness_mm} mm  ", row + 1);
@@ -128,6 +166,7 @@ fn resin_file(
     measured: &[[f64; 2]],
     resin: Option<&Path>,
     output: &Output<'_>,
+    json: bool,
 ) -> Result<(), Failure> {
     let mut resin = read_resin(resin)?;
     // A pair for a thickness that has one replaces it.
@@ -137,8 +176,11 @@ fn resin_file(
     resin.exposures.extend(measured);
     resin.exposures.sort_by(|a, b| a[0].total_cmp(&b[0]));
     resin.check().map_err(|error| output.failed(&error))?;
-    let json = serde_json::to_string_pretty(&resin).map_err(|error| output.failed(&error))?;
-    output.write_bytes((json + "\n").as_bytes())?;
+    let text = serde_json::to_string_pretty(&resin).map_err(|error| output.failed(&error))?;
+    output.write_bytes((text + "\n").as_bytes())?;
+    if json {
+        return Ok(print_json(&resin)?);
+    }
     let pairs = resin.exposures.iter();
     let pairs: Vec<String> = pairs.map(|[mm, s]| format!("{mm} mm {s} s")).collect();
     Ok(print(&format!("{}: {}", output.name(), pairs.join(", ")))?)

@@ -17,7 +17,7 @@ use crate::terminal::{Bar, print, print_json, stop_on_interrupt, warn};
 #[derive(Args)]
 pub struct Checking {
     #[command(flatten)]
-    studying: Studying,
+    pub studying: Studying,
     /// Thresholds and severities of a shop, as a JSON file
     #[arg(long, value_name = "FILE.json")]
     limits: Option<PathBuf>,

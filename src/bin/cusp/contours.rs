@@ -20,7 +20,7 @@ use crate::values::not_negative;
 #[derive(Args)]
 pub struct Contouring {
     #[command(flatten)]
-    studying: Studying,
+    pub studying: Studying,
     /// Where to write the contours: FILE.svg, or FILE.cli in the Common Layer Interface
     #[arg(short, long, value_name = "FILE", value_parser = contour_file)]
     output: PathBuf,

@@ -6,13 +6,16 @@ use clap::Args;
 use cusp_slicer::archive::ArchiveError;
 use cusp_slicer::archive::read::{PrintFile, inspect};
 use cusp_slicer::format::Format;
-use cusp_slicer::job::{Conversion, Target};
+use cusp_slicer::job::{Conversion, Loss, Target};
 use cusp_slicer::printer::format_of;
+use serde::Serialize;
 
 use crate::arguments::{printer_choice, read_resin};
 use crate::files::{Failure, Output, in_file, read};
-use crate::terminal::{Bar, duration, print, stop_on_interrupt, warn};
+use crate::terminal::{Bar, duration, print, print_json, stop_on_interrupt, warn};
+use crate::usage::check_json;
 use crate::values::PrinterName;
+use crate::visible::visible;
 
 /// A print file, and what to make of it.
 #[derive(Args)]
@@ -36,6 +39,21 @@ pub struct Converting {
     /// Resin, as a JSON file: its exposures, rests and moves replace those of IN
     #[arg(long, value_name = "FILE")]
     resin: Option<PathBuf>,
+    /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// A print file that was made from another.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct Converted {
+    pub format: Format,
+    /// The printer that it is for, if it is known.
+    pub printer: Option<String>,
+    pub layers: usize,
+    pub print_time_s: f64,
+    pub losses: Vec<Loss>,
 }
 
 impl Converting {
@@ -58,6 +76,7 @@ impl Converting {
 
 pub fn convert(converting: &Converting) -> Result<(), Failure> {
     let input = &*converting.input;
+    check_json("convert", Some(&converting.output), converting.json);
     let output = Output::new(&converting.output, Some(input), "print file to read")?;
     let target = converting.target(&output)?;
     let bytes = read(input)?;
@@ -80,15 +99,23 @@ pub fn convert(converting: &Converting) -> Result<(), Failure> {
     drop(bar);
     warn(&inspection.warnings);
     warn(conversion.losses());
-    let printer = conversion.printer();
-    let printer = printer.map_or(String::new(), |printer| {
-        format!(" for the {}", printer.model)
-    });
-    Ok(print(&format!(
+    let printer = conversion.printer().map(|printer| &printer.model);
+    if converting.json {
+        return Ok(print_json(&Converted {
+            format: conversion.format(),
+            printer: printer.cloned(),
+            layers: inspection.layers,
+            print_time_s: conversion.print_time_s(),
+            losses: conversion.losses().to_vec(),
+        })?);
+    }
+    let printer = printer.map_or(String::new(), |printer| format!(" for the {printer}"));
+    let line = format!(
         "{}: {}{printer}, {} layers, prints in {}",
         output.name(),
         conversion.format().name(),
         inspection.layers,
         duration(conversion.print_time_s())
-    ))?)
+    );
+    Ok(print(&visible(&line))?)
 }

@@ -1,5 +1,6 @@
 //! Reads models, and writes files either completely or not at all.
 
+use std::fmt::Display;
 use std::fs;
 use std::io::{self, BufWriter, Read as _, Write};
 use std::path::{Path, PathBuf};
@@ -14,6 +15,7 @@ use serde_json::Value;
 use tempfile::NamedTempFile;
 
 use crate::terminal::{is_on_terminal, take_stdout};
+use crate::visible::{visible, visible_detail};
 
 /// Why a command failed.
 pub struct Failure {
@@ -35,6 +37,17 @@ pub struct Problem {
     /// The typed details that the code has, if any.
     #[serde(skip_serializing_if = "Value::is_null")]
     pub detail: Value,
+    /// The file that it is about, as the command line names it; absent if the message names one, and where the line has its model.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
+}
+
+/// What a command prints in JSON when it fails.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct Failed {
+    /// Why.
+    pub error: Problem,
 }
 
 impl From<String> for Failure {
@@ -43,8 +56,9 @@ impl From<String> for Failure {
             exit_code: 1,
             problem: Some(Problem {
                 code: "file".to_owned(),
-                message: message.clone(),
+                message: visible(&message).into_owned(),
                 detail: Value::Null,
+                file: None,
             }),
             message: Some(message),
         }
@@ -54,18 +68,26 @@ impl From<String> for Failure {
 impl Failure {
     /// A failure of the library that concerns a file. An interrupt does not name the file.
     pub fn in_file(path: &Path, error: &cusp_slicer::Error) -> Self {
-        let code = error.code();
-        if code == "cancelled" {
-            return Self::interrupted();
+        if error.code() == "cancelled" {
+            Self::interrupted()
+        } else {
+            Self::of(path, error)
         }
-        let mut serialised = serde_json::to_value(error).unwrap_or_default();
+    }
+
+    /// A typed failure that concerns a file.
+    pub fn of(path: &Path, error: &(impl Display + Serialize)) -> Self {
+        let mut typed = serde_json::to_value(error).unwrap_or_default();
+        let mut detail = typed["detail"].take();
+        visible_detail(&mut detail);
         Self {
             exit_code: 1,
             message: Some(in_file(path, error)),
             problem: Some(Problem {
-                code,
-                message: error.to_string(),
-                detail: serialised["detail"].take(),
+                code: typed["code"].as_str().unwrap_or_default().to_owned(),
+                message: visible(&error.to_string()).into_owned(),
+                detail,
+                file: Some(visible(&path.to_string_lossy()).into_owned()),
             }),
         }
     }
@@ -76,6 +98,19 @@ impl Failure {
             message: Some(Cancelled.to_string()),
             problem: None,
         }
+    }
+
+    /// The same for programs; `None` if it has already been shown.
+    pub fn told(self) -> Option<Failed> {
+        let cancelled = || Problem {
+            code: "cancelled".to_owned(),
+            message: Cancelled.to_string(),
+            detail: Value::Null,
+            file: None,
+        };
+        let is_cancelled = self.exit_code == Self::interrupted().exit_code;
+        let error = self.problem.or_else(|| is_cancelled.then(cancelled))?;
+        Some(Failed { error })
     }
 
     /// Bad input that has already been reported.
@@ -92,7 +127,7 @@ pub fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, Failure> {
     Ok(serde_json::from_str(&text).map_err(|error| in_file(path, &error))?)
 }
 
-pub fn in_file(path: &Path, error: &dyn std::fmt::Display) -> String {
+pub fn in_file(path: &Path, error: &dyn Display) -> String {
     if is_standard(path) {
         return format!("standard input: {error}");
     }
@@ -219,19 +254,18 @@ impl<'a> Output<'a> {
     }
 
     /// A failure that concerns this file.
-    pub fn failed(&self, error: &dyn std::fmt::Display) -> Failure {
+    pub fn failed(&self, error: &dyn Display) -> Failure {
         format!("{}: {error}", self.name()).into()
     }
 
     /// A failure of the library that concerns this file.
     pub fn failure(&self, error: &Error) -> Failure {
         let failure = Failure::in_file(self.path, error);
-        let message = failure.message.as_ref();
         Failure {
-            // The problem is there unless it was an interrupt, whose message names no file.
             message: match &failure.problem {
-                Some(problem) => Some(format!("{}: {}", self.name(), problem.message)),
-                None => message.cloned(),
+                Some(_) => Some(format!("{}: {error}", self.name())),
+                // An interrupt names no file.
+                None => failure.message.clone(),
             },
             ..failure
         }

@@ -8,6 +8,7 @@ use cusp_slicer::archive::read::{About, Inspection, PrintFile, inspect as look_t
 use crate::files::{Failure, Output, in_file, read};
 use crate::terminal::{Bar, duration, print, print_json, stop_on_interrupt, warn};
 use crate::usage::check_json;
+use crate::visible::visible;
 
 /// A print file, and perhaps one of its layers.
 #[derive(Args)]
@@ -17,7 +18,7 @@ pub struct Inspecting {
     print: PathBuf,
     /// Print one JSON object, with the values of every layer
     #[arg(long)]
-    json: bool,
+    pub json: bool,
     /// Write the mask of this layer as well, as it is stored; the first is 1
     #[arg(long, value_name = "N", requires = "output", value_parser = clap::value_parser!(u32).range(1..))]
     layer: Option<u32>,
@@ -88,7 +89,9 @@ fn describe(inspection: &Inspection) -> String {
         let sizes = sizes.map(|size| format!("{} × {}", size.width, size.height));
         lines.push(("previews", sizes.collect::<Vec<_>>().join(", ")));
     }
-    let lines = lines.iter().map(|(name, line)| format!("{name:<9} {line}"));
+    let lines = lines
+        .iter()
+        .map(|(name, line)| format!("{name:<9} {}", visible(line)));
     lines.collect::<Vec<_>>().join("\n")
 }
 

@@ -24,6 +24,7 @@ mod terminal;
 mod usage;
 mod values;
 mod verify;
+mod visible;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -40,7 +41,7 @@ use orient::Orienting;
 use plate::Plating;
 use price::Pricing;
 use simulate::Simulating;
-use terminal::say;
+use terminal::{print_json, say};
 use verify::Verifying;
 
 /// Adaptive slicer for resin printers: the fewest layers that keep the error within a tolerance.
@@ -124,6 +125,9 @@ enum Command {
         /// Where to write the weights; - is standard output
         #[arg(short, long, value_name = "FILE")]
         output: PathBuf,
+        /// Print one JSON object
+        #[arg(long)]
+        json: bool,
     },
     /// List the printers known by name
     Printers {
@@ -154,8 +158,34 @@ enum Command {
     },
 }
 
+impl Command {
+    /// Whether a program reads what is printed.
+    fn is_json(&self) -> bool {
+        match self {
+            Self::Slice { slicing, .. } | Self::Plan { slicing } => slicing.json,
+            Self::Contours(contouring) => contouring.studying.json,
+            Self::Plate(plating) => plating.json,
+            Self::Tradeoff { studying, .. } | Self::Compare { studying } => studying.json,
+            Self::Check(checking) => checking.studying.json,
+            Self::Orient(orienting) => orienting.json,
+            Self::Price(pricing) => pricing.json,
+            Self::Verify(verifying) => verifying.json,
+            Self::Simulate(simulating) => simulating.json,
+            Self::Inspect(inspecting) => inspecting.json,
+            Self::Convert(converting) => converting.json,
+            Self::Calibrate(calibrating) => calibrating.is_json(),
+            Self::Saliency { json, .. } | Self::Printers { json } | Self::Info { json, .. } => {
+                *json
+            }
+            Self::Completions { .. } | Self::Man { .. } => false,
+        }
+    }
+}
+
 fn main() -> ExitCode {
-    let result = match Cli::parse().command {
+    let command = Cli::parse().command;
+    let is_json = command.is_json();
+    let result = match command {
         Command::Slice { slicing, output } => slice::slice(&slicing, &output),
         Command::Plan { slicing } => slice::plan(&slicing),
         Command::Plate(plating) => plate::plate(&plating),
@@ -170,7 +200,11 @@ fn main() -> ExitCode {
         Command::Calibrate(calibrating) => calibrate::calibrate(&calibrating),
         Command::Inspect(inspecting) => inspect::inspect(&inspecting),
         Command::Convert(converting) => convert::convert(&converting),
-        Command::Saliency { model, output } => models::saliency(&model, &output),
+        Command::Saliency {
+            model,
+            output,
+            json,
+        } => models::saliency(&model, &output, json),
         Command::Printers { json } => models::printers(json),
         Command::Info { models, json } => models::info(&models, json),
         Command::Completions { shell } => packaging::completions(shell),
@@ -179,10 +213,15 @@ fn main() -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            if let Some(message) = failure.message {
-                say(&message);
+            if let Some(message) = &failure.message {
+                say(message);
             }
-            ExitCode::from(failure.exit_code)
+            let exit_code = failure.exit_code;
+            if let Some(failed) = failure.told().filter(|_| is_json) {
+                // It has been said on stderr.
+                let _ = print_json(&failed);
+            }
+            ExitCode::from(exit_code)
         }
     }
 }

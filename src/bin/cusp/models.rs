@@ -7,10 +7,12 @@ use std::path::{Path, PathBuf};
 use cusp_slicer::job::MeshInfo;
 use cusp_slicer::model::weights;
 use cusp_slicer::printer::PRINTERS;
+use serde::Serialize;
 
 use crate::batch::{Batch, check_inputs, workers};
 use crate::files::{Failure, Output, load};
 use crate::terminal::{Bar, print, print_json, stop_on_interrupt};
+use crate::usage::check_json;
 
 pub fn info(models: &[PathBuf], json: bool) -> Result<(), Failure> {
     check_inputs("info", models);
@@ -50,11 +52,20 @@ fn describe_mesh(info: &MeshInfo) -> String {
     text
 }
 
-pub fn saliency(model: &Path, output: &Path) -> Result<(), Failure> {
+/// A file of weights that was written.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct Weighed {
+    /// Facets of the surface, each with a weight.
+    pub facets: usize,
+}
+
+pub fn saliency(model: &Path, output: &Path, json: bool) -> Result<(), Failure> {
+    check_json("saliency", Some(output), json);
     let output = Output::new(output, Some(model), "model")?;
     let mut slicer = load(model)?;
     stop_on_interrupt();
-    output.write(|mut writer| {
+    let facets = output.write(|mut writer| {
         let bar = Bar::new();
         let mut progress = |stage, fraction| bar.report(stage, fraction);
         let saliency = slicer
@@ -63,8 +74,12 @@ pub fn saliency(model: &Path, output: &Path) -> Result<(), Failure> {
             .to_vec();
         let written = writer.write_all(&weights::to_bytes(&saliency, &slicer.positions()));
         written.map_err(|error| output.failed(&error))?;
-        Ok((writer, ()))
-    })
+        Ok((writer, saliency.len()))
+    })?;
+    if json {
+        print_json(&Weighed { facets })?;
+    }
+    Ok(())
 }
 
 pub fn printers(json: bool) -> Result<(), Failure> {

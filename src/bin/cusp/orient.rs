@@ -28,7 +28,7 @@ pub struct Orienting {
     models: Vec<PathBuf>,
     /// Print one JSON object per model, each on its own line
     #[arg(long)]
-    json: bool,
+    pub json: bool,
     /// Directions to evaluate, spread evenly; the axes and the normals of large flats are added
     #[arg(long, value_name = "N", default_value_t = SearchOptions::default().directions as u32, value_parser = clap::value_parser!(u32).range(1..=MAX_DIRECTIONS as i64), help_heading = "Search")]
     directions: u32,

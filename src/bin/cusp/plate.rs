@@ -58,7 +58,7 @@ pub struct Plating {
     output: Option<PathBuf>,
     /// Print the job file
     #[arg(long)]
-    json: bool,
+    pub json: bool,
     #[command(flatten)]
     choices: Choices,
 }

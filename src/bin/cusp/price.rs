@@ -30,7 +30,7 @@ pub struct Pricing {
     finish: Option<String>,
     /// Print one JSON object
     #[arg(long)]
-    json: bool,
+    pub json: bool,
     #[command(flatten)]
     places: Places,
     #[command(flatten)]

@@ -16,8 +16,12 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::{Value, json};
 
 use crate::batch::BatchLine;
+use crate::calibrate::Calibrated;
 use crate::check::Checked;
+use crate::convert::Converted;
+use crate::files::Failed;
 use crate::job_file::JobFile;
+use crate::models::Weighed;
 use crate::price::Priced;
 use crate::slice::Compared;
 use crate::verify::{Verified, VerifiedPlates};
@@ -109,9 +113,12 @@ fn the_schemas_of_reports_are_recorded() {
     let schemas = [
         ("batch-info", output::<BatchLine<MeshInfo>>()),
         ("batch-plan", output::<BatchLine<Report>>()),
+        ("calibrate", output::<Calibrated>()),
         ("check", output::<Checked>()),
         ("compare", output::<Compared>()),
         ("contours", output::<ContoursReport>()),
+        ("convert", output::<Converted>()),
+        ("error", output::<Failed>()),
         ("info", output::<MeshInfo>()),
         ("inspect", output::<Inspection>()),
         ("limits", input::<Limits>()),
@@ -125,6 +132,7 @@ fn the_schemas_of_reports_are_recorded() {
         ("printer", input::<Printer>()),
         ("printers", output::<Vec<Arc<Printer>>>()),
         ("resin", input::<Resin>()),
+        ("saliency", output::<Weighed>()),
         ("settings", settings()),
         ("simulate", output::<Simulation>()),
         ("tradeoff", output::<Tradeoff>()),

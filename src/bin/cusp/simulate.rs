@@ -23,7 +23,7 @@ pub struct Simulating {
     print: PathBuf,
     /// Print one JSON object, with the distances of every layer
     #[arg(long)]
-    json: bool,
+    pub json: bool,
     /// Rotation of the model by a quaternion, where the print file does not say it
     #[arg(long, value_name = "X,Y,Z,W", value_parser = rotation, allow_hyphen_values = true)]
     rotation: Option<[f64; 4]>,

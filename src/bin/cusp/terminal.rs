@@ -10,6 +10,8 @@ use cusp_slicer::job::{Backend, Plate, Slicer, Stage};
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use serde::Serialize;
 
+use crate::visible::{visible, visible_lines};
+
 /// Set by Ctrl-C; stages check it whenever they report progress.
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
@@ -26,9 +28,9 @@ pub fn is_on_terminal() -> bool {
     io::stdout().is_terminal()
 }
 
-/// Writes a message to stderr; a closed stderr is no reason to stop.
+/// Writes a message of one line to stderr; a closed stderr is no reason to stop.
 pub fn say(message: &str) {
-    let _ = writeln!(io::stderr(), "cusp: {message}");
+    let _ = writeln!(io::stderr(), "cusp: {}", visible(message));
 }
 
 /// Prints warnings to stderr.
@@ -42,20 +44,44 @@ pub fn to_json(value: &impl Serialize) -> Result<String, String> {
     serde_json::to_string(value).map_err(|error| error.to_string())
 }
 
+/// Prints a line of JSON. Who reads it must have all of it: a closed pipe is an error here.
 pub fn print_json(value: &impl Serialize) -> Result<(), String> {
-    print(&to_json(value)?)
+    write_line(&to_json(value)?).map_err(|error| format!("standard output: {error}"))
 }
 
-/// Prints a line. A reader that has closed the pipe, such as `head`, is not an error.
+/// Prints lines for people. A reader that has closed the pipe, such as `head`, is not an error.
 pub fn print(text: &str) -> Result<(), String> {
+    match write_line(&visible_lines(text)) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error.to_string()),
+        _ => Ok(()),
+    }
+}
+
+fn write_line(text: &str) -> io::Result<()> {
     if STDOUT_IS_TAKEN.load(Ordering::Relaxed) {
         let _ = writeln!(io::stderr(), "{text}");
         return Ok(());
     }
-    match writeln!(io::stdout(), "{text}") {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error.to_string()),
-        _ => Ok(()),
+    if is_stdout_closed() {
+        return Err(io::Error::other("it is closed"));
     }
+    writeln!(io::stdout(), "{text}")
+}
+
+/// Whether standard output was closed when the program began, as by `>&-`. Rust has then opened the null device in its place, for
+/// reading as well, and what is written there is lost without an error.
+#[cfg(unix)]
+fn is_stdout_closed() -> bool {
+    use rustix::fs::{OFlags, fcntl_getfl, fstat, stat};
+    let stdout = io::stdout();
+    let is_for_both = fcntl_getfl(&stdout).is_ok_and(|flags| flags.contains(OFlags::RDWR));
+    let devices = [fstat(&stdout), stat("/dev/null")].map(|found| found.map(|it| it.st_rdev));
+    is_for_both && matches!(devices, [Ok(one), Ok(other)] if one == other)
+}
+
+#[cfg(not(unix))]
+fn is_stdout_closed() -> bool {
+    false
 }
 
 /// A duration for people: seconds below a minute, else hours and minutes.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use cusp_slicer::inspect::{Limits, Printability, Verdict};
-use cusp_slicer::job::{Backend, Claim, ModelPrintability, Report, Slicer};
+use cusp_slicer::job::{Backend, Claim, ModelPrintability, Report, Slicer, VerifyError};
 use cusp_slicer::price::{Price, PriceItem};
 use cusp_slicer::warning::Warning;
 use serde::Serialize;
@@ -46,7 +46,7 @@ pub struct Verifying {
     finish: Option<String>,
     /// Print one JSON object
     #[arg(long)]
-    json: bool,
+    pub json: bool,
 }
 
 /// What a shop accepts, and what it asks.
@@ -144,8 +144,7 @@ fn check_print(path: &Path, sent: &[u8], made: &[u8]) -> Result<(), Failure> {
     if sent == made {
         return Ok(());
     }
-    let reason = "it is not the print file that this plan gives";
-    Err(in_file(path, &reason).into())
+    Err(Failure::of(path, &VerifyError::OtherPrint))
 }
 
 /// Prints what a plan is worth, and says by the exit code whether it is accepted.
@@ -180,7 +179,7 @@ fn verify_plates(verifying: &Verifying, text: &str, job: &JobFile) -> Result<(),
     let shop = verifying.shop()?;
     let mut plate = job.read_models(path.parent())?.plate;
     let files: Vec<_> = plate.models().iter().map(Slicer::model_file).collect();
-    let claims = Claim::read_plates(text, &files).map_err(|error| in_file(plan, &error))?;
+    let claims = Claim::read_plates(text, &files).map_err(|error| Failure::of(plan, &error))?;
     let sent = match verifying.print.as_deref() {
         Some(_) if claims.len() != 1 => {
             let message = format!(
@@ -205,7 +204,9 @@ fn verify_plates(verifying: &Verifying, text: &str, job: &JobFile) -> Result<(),
     for claim in &claims {
         let made = pollster::block_on(claim.plan_again(&mut plate, &mut progress));
         let made = made.map_err(|error| Failure::in_file(path, &error))?;
-        claim.check(made).map_err(|error| in_file(plan, &error))?;
+        claim
+            .check(made)
+            .map_err(|error| Failure::of(plan, &error))?;
         items.extend(made.price_items(1));
         let matching = Matching::of(made, sent.is_some());
         let limits = shop.limits.as_ref();
@@ -273,14 +274,17 @@ pub fn verify(verifying: &Verifying) -> Result<(), Failure> {
     let weights = verifying.weights.as_deref();
     let weights = weights.map(WeightsFile::read).transpose()?;
     let mut slicer = load_painted(model, weights.as_ref())?;
-    let claim = Claim::read(&text, slicer.model_file()).map_err(|error| in_file(plan, &error))?;
+    let claim =
+        Claim::read(&text, slicer.model_file()).map_err(|error| Failure::of(plan, &error))?;
     stop_on_interrupt();
     open_gpu(&mut slicer, claim.options().backend);
     let bar = Bar::new();
     let mut progress = |stage, fraction| bar.report(stage, fraction);
     let made = pollster::block_on(slicer.plan(claim.options(), &mut progress))
         .map_err(|error| Failure::in_file(model, &error))?;
-    claim.check(made).map_err(|error| in_file(plan, &error))?;
+    claim
+        .check(made)
+        .map_err(|error| Failure::of(plan, &error))?;
     let matching = Matching::of(made, verifying.print.is_some());
     let words = made.metric.format(made.max_error);
     let price = shop.price(&made.price_items(verifying.copies.unwrap_or(1) as usize))?;
