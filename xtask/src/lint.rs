@@ -1,18 +1,25 @@
 //! `cargo xtask lint`: static checks.
 
-use anyhow::Result;
+use std::cell::RefCell;
+
+use anyhow::{Result, bail};
 
 use crate::{
     modules, node,
     process::{self, cargo},
     project::Project,
-    wasm,
+    supply, wasm,
 };
 
-/// Runs all checks, each regardless of the others. Returns `false` if one failed;
-/// a check that cannot run has failed.
-pub fn run(project: &Project) -> bool {
-    let checks: [(&str, &dyn Fn() -> Result<()>); 9] = [
+/// Runs the checks of the given names, or all, each regardless of the others. Returns `false` if one failed; a check that cannot
+/// run has failed, but for those that need another machine, which are named.
+///
+/// # Errors
+///
+/// Fails if no check has one of the names.
+pub fn run(project: &Project, names: &[String]) -> Result<bool> {
+    let ignored = RefCell::new(Vec::new());
+    let checks: [(&str, &dyn Fn() -> Result<()>); 11] = [
         ("modules", &|| modules::check(project)),
         ("fmt", &|| {
             process::run(cargo(project).args(["fmt", "--all", "--check"]))
@@ -30,6 +37,11 @@ pub fn run(project: &Project) -> bool {
                     .env("CARGO_TARGET_DIR", project.target.join("fuzz")),
             )
         }),
+        ("cargo deny", &|| {
+            ignored.borrow_mut().extend(supply::check_crates(project)?);
+            Ok(())
+        }),
+        ("npm licences", &|| supply::check_npm(project)),
         ("clippy", &|| {
             process::run(
                 cargo(project)
@@ -47,19 +59,32 @@ pub fn run(project: &Project) -> bool {
             )
         }),
     ];
+    if let Some(unknown) = names
+        .iter()
+        .find(|&name| !checks.iter().any(|(known, _)| known == name))
+    {
+        let known = checks.map(|(name, _)| name).join(", ");
+        bail!("no check is called {unknown}; they are: {known}");
+    }
     let mut failed = Vec::new();
     for (name, check) in checks {
+        if !names.is_empty() && !names.iter().any(|chosen| chosen == name) {
+            continue;
+        }
         if let Err(error) = check() {
             eprintln!("error: {error:#}");
             failed.push(name);
         }
+    }
+    for what in ignored.take() {
+        println!("ignored: {what}");
     }
     if failed.is_empty() {
         println!("lint: ok");
     } else {
         println!("lint: FAILED: {}", failed.join(", "));
     }
-    failed.is_empty()
+    Ok(failed.is_empty())
 }
 
 /// Checks the format of a workspace of its own.

@@ -20,6 +20,7 @@ mod runner_output;
 mod serve;
 mod split;
 mod suite;
+mod supply;
 mod toolchain;
 mod tools;
 mod wasm;
@@ -61,8 +62,12 @@ enum Command {
         #[arg(value_name = "STEP")]
         steps: Vec<suite::Step>,
     },
-    /// Check formatting, lints (native, wasm and TypeScript), documentation and module cycles
-    Lint,
+    /// Check formatting, lints (native, wasm and TypeScript), dependencies, documentation and module cycles
+    Lint {
+        /// Run only the checks of these names
+        #[arg(value_name = "CHECK")]
+        checks: Vec<String>,
+    },
     /// Build the wasm module and check its gzipped size against the budget
     Size,
     /// Count instructions, allocations and bytes of print files, and compare them with benches/counts.json
@@ -112,7 +117,7 @@ fn run(command: Command) -> Result<bool> {
             process::run(node::npm(&project)?.args(["run", "package"]))?;
         }
         Command::Test { steps } => return suite::run(&project, &steps),
-        Command::Lint => return Ok(lint::run(&project)),
+        Command::Lint { checks } => return lint::run(&project, &checks),
         Command::Size => {
             wasm::build(&project)?;
             return wasm::check_size(&project);

@@ -1,4 +1,4 @@
-//! Python: the cluster example, the peers of the tests, and their packages.
+//! Python: the cluster example, the peers of the tests, programs that are Python packages, and their lists.
 
 use std::{
     fs,
