@@ -12,6 +12,7 @@ import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
 import { rolldown, type OutputChunk, type Plugin } from "rolldown";
 import { anyLanguage } from "./any-language.js";
+import { bill, crateParts, noticesOf, npmParts } from "./bill.js";
 
 const root = fileURLToPath(new URL("..", import.meta.url));
 const out = join(root, "dist-package");
@@ -141,8 +142,16 @@ async function declare(): Promise<void> {
   }
 }
 
+/** The guide for those who have only the package: its links to other files of the checkout lead to that version in the repository, if it has one. */
+function withoutFiles(guide: string, repository: string | undefined): string {
+  return guide.replaceAll(/\[([^\]]*)\]\(([^)#:][^):]*)\)/g, (_link, text: string, file: string) =>
+    repository === undefined ? text : `[${text}](${new URL(file, `${repository}/docs/`).href})`,
+  );
+}
+
 async function describe(chunks: readonly OutputChunk[]): Promise<void> {
   const { version, license } = JSON.parse(await readFile(join(root, "package.json"), "utf8")) as Record<string, string>;
+  const repository = /^repository = "(.*)"$/m.exec(await readFile(join(root, "../Cargo.toml"), "utf8"))?.[1];
   const entry = (types: string, file: string): Record<string, string> => ({
     types: `./types/${types}.d.ts`,
     default: `./${file}.js`,
@@ -154,6 +163,7 @@ async function describe(chunks: readonly OutputChunk[]): Promise<void> {
     version,
     description: "Slices STL models for resin printers in the browser: layers as thin as the surface needs, and no thinner",
     license,
+    ...(repository === undefined ? {} : { repository: { type: "git", url: `git+${repository}.git` } }),
     type: "module",
     keywords: ["3d-printing", "slicer", "resin", "stl", "custom-element", "wasm"],
     exports: {
@@ -171,8 +181,17 @@ async function describe(chunks: readonly OutputChunk[]): Promise<void> {
     sideEffects: chunks.map(({ fileName }) => `./${fileName}`).filter((name) => !["./index.js", "./element-class.js"].includes(name)),
   };
   await writeFile(join(out, "package.json"), `${JSON.stringify(description, null, 2)}\n`);
-  await copyFile(join(root, "../docs/embed.md"), join(out, "README.md"));
+  const guide = await readFile(join(root, "../docs/embed.md"), "utf8");
+  await writeFile(join(out, "README.md"), withoutFiles(guide, repository === undefined ? undefined : `${repository}/blob/v${version}`));
   for (const name of ["LICENSE-APACHE", "LICENSE-MIT"]) await copyFile(join(root, "..", name), join(out, name));
+}
+
+/** Writes the bill of materials, and the notices of what it lists. */
+async function account(chunks: readonly OutputChunk[]): Promise<void> {
+  const { name, version, license } = JSON.parse(await readFile(join(out, "package.json"), "utf8")) as { name: string; version: string; license: string };
+  const parts = [...(await npmParts(root, chunks)), ...(await crateParts(root, MODULES.map(([, file]) => file)))];
+  await writeFile(join(out, "sbom.json"), bill({ name, version, license }, parts));
+  await writeFile(join(out, "NOTICES.txt"), noticesOf(parts));
 }
 
 /** Gzipped size of what a browser fetches: at once, with the 3-D view, which is three.js, and of the slicer when it is wanted. */
@@ -193,6 +212,7 @@ export async function main(): Promise<void> {
   for (const [folder, file] of MODULES) await copyFile(join(root, "pkg", folder, file), join(out, file));
   await declare();
   await describe(chunks);
+  await account(chunks);
   const { first, three, later, gpu, models } = await weigh(chunks);
   console.log(`gzipped ${first} bytes, ${three} of three for the 3-D view, ${later} of the slicer's later part, ${gpu} to drive a GPU, and ${models} to read models other than STL`);
   if (first > LIMIT_BYTES) throw new Error(`that is more than ${LIMIT_BYTES} bytes`);

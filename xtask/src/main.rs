@@ -6,12 +6,14 @@
 
 mod against;
 mod bench;
+mod bill;
 mod browser;
 mod counts;
 mod debian;
 mod lint;
 mod modules;
 mod node;
+mod package;
 mod process;
 mod project;
 mod python;
@@ -54,7 +56,7 @@ enum Command {
     },
     /// Build the wasm package (www/pkg) and the page (www/dist)
     Build,
-    /// Build the npm package (www/dist-package) and report its size
+    /// Build the npm package (www/dist-package) and the crate, and check what would be published: contents, sizes, links, documentation
     Package,
     /// Run every test: native, counts, peers, GPU, wasm in a browser, page, end to end, cluster
     Test {
@@ -112,10 +114,7 @@ fn run(command: Command) -> Result<bool> {
             serve::serve(&project, port)?;
         }
         Command::Build => build(&project)?,
-        Command::Package => {
-            wasm::build(&project)?;
-            process::run(node::npm(&project)?.args(["run", "package"]))?;
-        }
+        Command::Package => return Ok(package::run(&project)),
         Command::Test { steps } => return suite::run(&project, &steps),
         Command::Lint { checks } => return lint::run(&project, &checks),
         Command::Size => {

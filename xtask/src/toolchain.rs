@@ -27,6 +27,15 @@ const COMPILER_PACKAGES: [&str; 4] = ["rustc-web", "cargo-web", "rust-web-src", 
 const CLIPPY_PACKAGE: &str = "rust-web-clippy";
 const LINKER: &str = "wasm-ld-22";
 
+/// What rustup's cargo sets for xtask, and would mislead the cargo of another toolchain.
+pub const VARIABLES: [&str; 5] = [
+    "CARGO",
+    "RUSTC",
+    "RUSTDOC",
+    "RUSTUP_TOOLCHAIN",
+    "LD_LIBRARY_PATH",
+];
+
 /// A compiler with a standard library for [`WASM_TARGET`].
 pub enum Toolchain {
     /// The compiler on `PATH`.
@@ -124,14 +133,7 @@ impl Toolchain {
                     "PATH",
                     path_with([bin.as_path()].into_iter().chain(folders))?,
                 );
-                // Variables that rustup's cargo sets for xtask would mislead Debian's.
-                for name in [
-                    "CARGO",
-                    "RUSTC",
-                    "RUSTDOC",
-                    "RUSTUP_TOOLCHAIN",
-                    "LD_LIBRARY_PATH",
-                ] {
+                for name in VARIABLES {
                     command.env_remove(name);
                 }
                 command.env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", LINKER);

@@ -11,7 +11,7 @@ use anyhow::{Context, Result, bail};
 use flate2::{Compression, write::GzEncoder};
 
 use crate::{
-    browser, node,
+    bill, browser, node,
     process::{self, path_with},
     project::Project,
     split::{self, LaterExports},
@@ -89,6 +89,12 @@ impl Module {
         project.www.join(format!("{}{end}", self.files))
     }
 
+    /// The names of its WebAssembly files.
+    fn wasm_files(&self) -> Vec<String> {
+        let ends = self.parts().map(|(end, _)| end);
+        ends.map(|end| format!("{}{end}", self.name())).collect()
+    }
+
     /// The ends of the names of its WebAssembly files, with their budgets.
     fn parts(&self) -> impl Iterator<Item = (&'static str, usize)> {
         let later = self.later.map(|(_, budget)| (LATER_END, budget));
@@ -123,7 +129,10 @@ pub fn build(project: &Project) -> Result<()> {
     node::ensure_packages(project)?;
     MODULES
         .iter()
-        .try_for_each(|module| build_module(module, project, &toolchain, &tools))
+        .try_for_each(|module| build_module(module, project, &toolchain, &tools))?;
+    let rustc = process::output(process::command(toolchain.program("rustc")).arg("--version"))?;
+    let modules = MODULES.iter().map(|it| (it.package, it.wasm_files()));
+    bill::write_of_modules(project, WASM_TARGET, &rustc, modules)
 }
 
 fn build_module(
