@@ -55,6 +55,11 @@ pub fn is_debian() -> bool {
     Path::new("/etc/debian_version").exists() && which::which("apt-get").is_ok()
 }
 
+/// Whether a package that has a service can be installed without starting it, as in most containers.
+pub fn starts_no_services() -> bool {
+    Path::new("/usr/sbin/policy-rc.d").exists()
+}
+
 /// Whether packages can be installed without asking for permission.
 pub fn is_root() -> bool {
     process::output(command("id").arg("-u")).is_ok_and(|id| id == "0")

@@ -23,6 +23,9 @@ use crate::{
 /// A driver for machines without a GPU, and the loader that finds it.
 const VULKAN_PACKAGES: [&str; 2] = ["mesa-vulkan-drivers", "libvulkan1"];
 
+/// The web servers of docs/hosting.md.
+const SERVER_PACKAGES: [&str; 3] = ["nginx-light", "lighttpd", "lighttpd-mod-deflate"];
+
 /// The steps, in the order in which they run.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Step {
@@ -127,6 +130,7 @@ impl Step {
             Self::Unit => vitest(&mut node::npm(project)?, "test", scratch),
             Self::E2e => {
                 let chromium = browser::chromium()?;
+                ensure_servers();
                 // The shop verifies plans with it.
                 let cusp = build_cusp(project)?;
                 vitest(
@@ -232,6 +236,16 @@ fn build_cusp(project: &Project) -> Result<PathBuf> {
 pub fn ensure_vulkan() {
     if debian::is_debian()
         && let Err(error) = debian::ensure(&VULKAN_PACKAGES)
+    {
+        eprintln!("{error:#}");
+    }
+}
+
+/// Installs web servers on Debian, unless that would start them. Without one, its test shows as ignored.
+fn ensure_servers() {
+    if debian::is_debian()
+        && debian::starts_no_services()
+        && let Err(error) = debian::ensure(&SERVER_PACKAGES)
     {
         eprintln!("{error:#}");
     }
