@@ -71,6 +71,7 @@ pub fn run(project: &Project) -> bool {
             good = false;
         }
     };
+    judge("versions", same_versions(project));
     judge("npm package", npm_package(project));
     judge("crate", crate_package(project));
     if process::output(nightly(project, "rustc").arg("--version")).is_ok() {
@@ -80,6 +81,21 @@ pub fn run(project: &Project) -> bool {
     }
     println!("package: {}", if good { "ok" } else { "FAILED" });
     good
+}
+
+/// Checks that both packages have the same version: a server recomputes what a page has sent.
+fn same_versions(project: &Project) -> Result<()> {
+    let manifest = fs::read_to_string(project.root.join("Cargo.toml"))?;
+    let description = fs::read_to_string(project.www.join("package.json"))?;
+    let manifest: toml::Value = toml::from_str(&manifest).context("Cargo.toml")?;
+    let description: serde_json::Value = serde_json::from_str(&description)?;
+    let of_crate = manifest["package"]["version"].as_str();
+    let of_npm = description["version"].as_str();
+    ensure!(
+        of_crate.is_some() && of_crate == of_npm,
+        "Cargo.toml has {of_crate:?}, www/package.json {of_npm:?}"
+    );
+    Ok(())
 }
 
 /// What `npm publish --json` says of a package.
