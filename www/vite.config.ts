@@ -1,5 +1,7 @@
 import { defineConfig, type Plugin } from "vite";
+import { fileURLToPath } from "node:url";
 import { anyLanguage } from "./package/any-language.js";
+import { crateParts, noticesOf, npmParts } from "./package/bill.js";
 
 /**
  * The policy that makes "your model never leaves this computer" a promise the browser keeps: scripts, workers and
@@ -69,10 +71,25 @@ function offlineFiles(): Plugin {
   };
 }
 
+/** Puts the licences of what is bundled beside the page. Added last: nobody needs them without a network. */
+function notices(): Plugin {
+  return {
+    name: "cusp:notices",
+    apply: "build",
+    enforce: "post",
+    async generateBundle(_options, bundle) {
+      const root = fileURLToPath(new URL(".", import.meta.url));
+      const chunks = Object.values(bundle).filter((it) => it.type === "chunk");
+      const parts = [...(await npmParts(root, chunks)), ...(await crateParts(root))];
+      this.emitFile({ type: "asset", fileName: "NOTICES.txt", source: noticesOf(parts) });
+    },
+  };
+}
+
 export default defineConfig({
   // Relative addresses, so that the folder works under any path of any host.
   base: "./",
-  plugins: [contentSecurityPolicy(), leanTemplates(), offlineFiles(), anyLanguage],
+  plugins: [contentSecurityPolicy(), leanTemplates(), offlineFiles(), notices(), anyLanguage],
   // What the development server bundles beforehand passes by the plugin.
   optimizeDeps: { exclude: ["uplot"] },
   worker: { format: "es" },

@@ -1,4 +1,4 @@
-/** The package's bill of materials and notices, of the package as it is packed. */
+/** The npm package's bill of materials, and the notices of package and page. */
 import { existsSync } from "node:fs";
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
@@ -28,6 +28,13 @@ test("the bill names what is bundled, where it is, and the notices repeat the li
   const notices = await read("NOTICES.txt");
   expect(notices).toContain("Copyright (c) 2017 Google LLC");
   for (const { purl } of components) expect(notices).toContain(decodeURIComponent(purl).replace(/^pkg:[a-z]+\/(.*)@/, "$1 "));
+});
+
+test("the page has the notices of its own modules too, and keeps none of them for later", async () => {
+  const read = (file: string): Promise<string> => readFile(join(www, "dist", file), "utf8");
+  const notices = await read("NOTICES.txt");
+  for (const part of ["lit 3.", "three 0.", "comlink 4.", "uplot 1.", "wgpu 3", "png 0.", "zip "]) expect(notices).toContain(part);
+  expect(await read("service-worker.js")).not.toContain("NOTICES");
 });
 
 test("a tool is not bundled unnoticed", async () => {

@@ -1,5 +1,5 @@
 /**
- * The package's bill of materials, and the notices of what is bundled into it: crates, which xtask lists in `pkg/crates.json`, and
+ * The npm package's bill of materials, and the notices of what is bundled into it and into the page: crates, which xtask lists in `pkg/crates.json`, and
  * npm packages, which are those of the bundled files.
  */
 import { readdir, readFile } from "node:fs/promises";
@@ -70,16 +70,17 @@ async function notices(folder: string): Promise<string[]> {
   return Promise.all(names.map(async (name) => (await readFile(join(folder, name), "utf8")).replaceAll("\r", "").trim()));
 }
 
-/** @param files of the package: a module that is not among them is of the page alone */
-export async function crateParts(root: string, files: readonly string[]): Promise<Part[]> {
+/** @param only the modules of a package: what is in no other is left out. If absent, all modules, which are the page's */
+export async function crateParts(root: string, only?: readonly string[]): Promise<Part[]> {
   const { rustc, crates } = JSON.parse(await readFile(join(root, "pkg/crates.json"), "utf8")) as { rustc: string; crates: Crate[] };
+  const files = only ?? [...new Set(crates.flatMap(({ files }) => files))];
   const parts = crates.map(({ name, version, license, checksum, notices, ...crate }): Part => ({
     ...{ name, version, license, notices },
     purl: `pkg:cargo/${name}@${version}`,
     hash: { alg: "SHA-256", content: checksum },
     files: crate.files.filter((file) => files.includes(file)),
   }));
-  return [standardLibrary(rustc, files.filter((file) => file.endsWith(".wasm"))), ...parts.filter((part) => part.files.length > 0)];
+  return [standardLibrary(rustc, files), ...parts.filter((part) => part.files.length > 0)];
 }
 
 /** Rust's own, which comes with the compiler. */
@@ -112,5 +113,5 @@ export function noticesOf(parts: readonly Part[]): string {
     }
   }
   const sections = [...byText].map(([text, names]) => `${names.join(", ")}\n\n${text}\n`);
-  return ["This package contains the following; sbom.json lists it.\n", ...sections].join(`\n${"-".repeat(80)}\n\n`);
+  return ["Cusp contains the following, under the licences of their authors.\n", ...sections].join(`\n${"-".repeat(80)}\n\n`);
 }
