@@ -43,11 +43,12 @@ export interface Compiled {
   module: WebAssembly.Module | null;
 }
 
-/** A running worker. `fate` rejects when the worker is terminated, so that no call waits for ever. */
+/** A running worker. */
 export interface Life<Held> {
   readonly handle: WorkerHandle;
   readonly booted: Promise<unknown>;
-  readonly fate: Promise<never>;
+  /** Settles as `answer` does, but rejects when the worker is terminated, so that no call waits for ever. */
+  within<T>(answer: Promise<T>): Promise<T>;
   end(reason: unknown): void;
   /** What the client knows of what the worker holds. */
   readonly held: Held;
@@ -111,7 +112,7 @@ export class Calls<Held> {
         if (signal?.aborted !== true) onProgress?.(stage, fraction, done);
       });
       try {
-        return await Promise.race([life.booted.then(() => task(life, needs, progress)), life.fate]);
+        return await life.within(life.booted.then(() => task(life, needs, progress)));
       } catch (error) {
         throw this.#understand(error, life, signal);
       } finally {
@@ -138,15 +139,22 @@ export class Calls<Held> {
   #live(): Life<Held> {
     if (this.#life !== null) return this.#life;
     const handle = this.#spawn();
-    let end: (reason: unknown) => void = () => undefined;
-    const fate = new Promise<never>((_, reject) => {
-      end = (reason) => {
-        handle.terminate();
-        if (this.#life?.handle === handle) this.#life = null;
-        reject(reason);
-      };
-    });
-    fate.catch(() => undefined);
+    // Not a race with one promise: that would hold every answer, which may be large, for as long as the worker lives.
+    const waiting = new Set<(reason: unknown) => void>();
+    let ended: { reason: unknown } | null = null;
+    const end = (reason: unknown): void => {
+      handle.terminate();
+      if (this.#life?.handle === handle) this.#life = null;
+      ended ??= { reason };
+      for (const reject of waiting) reject(ended.reason);
+      waiting.clear();
+    };
+    const within = <T>(answer: Promise<T>): Promise<T> =>
+      new Promise((resolve, reject) => {
+        if (ended !== null) reject(ended.reason as Error);
+        waiting.add(reject);
+        answer.then(resolve, reject).finally(() => waiting.delete(reject));
+      });
     let started = false;
     handle.onBroken((message) => end(broke(started ? "crash" : "start-failed", message)));
     const booted = handle.remote.boot(this.#compiled.module).then(
@@ -159,7 +167,7 @@ export class Calls<Held> {
       },
     );
     booted.catch(() => undefined);
-    this.#life = { handle, booted, fate, end, held: this.#empty() };
+    this.#life = { handle, booted, within, end, held: this.#empty() };
     return this.#life;
   }
 }

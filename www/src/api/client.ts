@@ -138,7 +138,7 @@ export class Client {
       });
       try {
         await life.handle.remote.archive(progress, Comlink.transfer(port2, [port2]), this.#helpers, Comlink.proxy(this.#help));
-        await Promise.race([ended, life.fate]);
+        await life.within(ended);
       } finally {
         port1.close();
       }
