@@ -1,9 +1,10 @@
 //! Greedy planners, for comparison. They look no further than the next layer, so they may exceed the tolerance or use more
 //! layers than the optimal planner.
 
+use super::optimal::layers_above;
 use super::segment::{Segment, Segments, boundaries_below};
 use super::{Limits, Plan, PlanError};
-use crate::profile::LayerErrors;
+use crate::profile::{LayerErrors, Reach};
 
 /// What a greedy planner sees.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,10 +48,13 @@ pub fn plan(
 }
 
 fn thickest_within(errors: &LayerErrors, segment: &Segment, plane: u32, tolerance: u64) -> u32 {
-    let lower = segment.boundary(plane);
-    let greatest = *segment.thickness.end();
-    let is_within =
-        |&units: &u32| errors.steps_between(lower, lower + units * segment.unit) <= tolerance;
+    // None is thicker than what is left of the segment.
+    let greatest = (*segment.thickness.end()).min(segment.units - plane);
+    let mut layers = layers_above(errors, segment, plane, tolerance);
+    let is_within = |&units: &u32| {
+        let top = segment.boundary(plane + units);
+        matches!(layers.up_to(top), Reach::Within(_))
+    };
     (1..=greatest).take_while(is_within).last().unwrap_or(0)
 }
 
@@ -79,7 +83,7 @@ fn nearest_that_fits(segment: &Segment, plane: u32, wanted: u32) -> u32 {
     let (least, greatest) = (*segment.thickness.start(), *segment.thickness.end());
     let wanted = wanted.clamp(least, greatest);
     let fits = |units: &u32| *units <= rest && segment.can_fill(rest - units);
-    let below = (least..=wanted).rev().find(fits);
+    let below = (least..=wanted.min(rest)).rev().find(fits);
     // Since the segment can be filled, one of these exists.
     below
         .or_else(|| (wanted..=greatest).find(fits))
