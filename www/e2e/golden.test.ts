@@ -169,7 +169,11 @@ for (const [look, options] of Object.entries(LOOKS)) {
     const page = await start(`?backend=cpu${query}`, { ...options, reducedMotion: "reduce" });
     const fonts = await page.evaluate(widths);
     if (isRecording) await recordFonts(fonts);
-    else if (fonts !== (await goldenFonts())) return context.skip("the goldens were recorded with other fonts than are here");
+    else if (fonts !== (await goldenFonts())) {
+      const reason = "the goldens were recorded with other fonts than are here";
+      Object.assign(context.task.meta, { reason });
+      return context.skip(reason);
+    }
     for (const [name, reach] of Object.entries(states)) {
       await reach(page);
       await compare(page, `${name}-${look}`);
