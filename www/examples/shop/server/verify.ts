@@ -31,12 +31,20 @@ export interface Verifier {
 /** Room for what it prints: up to a hundred findings of each kind, and the area of every layer. */
 const MOST_ANSWER_BYTES = 16e6;
 
-/** The file that a message is about, by the name that it begins with. */
-const BLAME: readonly (readonly [file: string, code: RefusalCode, subject: string])[] = [
-  [FILES.plan, "plan-refused", "The plan was refused"],
-  [FILES.model, "model-refused", "The model was refused"],
-  [FILES.print, "print-refused", "The print file was refused"],
-];
+/** What `cusp verify --json` prints if it fails. */
+interface Failed {
+  error: { code: string; message: string; detail?: unknown; file?: string };
+}
+
+/** What it is to be refused for, by the file that a failure is about. The program runs in the folder, so files have no path. */
+const BLAME: Readonly<Record<string, readonly [code: RefusalCode, subject: string]>> = {
+  [FILES.plan]: ["plan-refused", "The plan was refused"],
+  [FILES.model]: ["model-refused", "The model was refused"],
+  [FILES.print]: ["print-refused", "The print file was refused"],
+};
+
+/** Bounds of one verification. A plan may ask for more than any order is worth. */
+const BOUNDS = ["--max-memory", "2GB", "--max-cpu-time", "120"];
 
 /** What the shop accepts, and what it asks. */
 export interface Terms {
@@ -52,13 +60,13 @@ const TERMS = { limits: "limits.json", prices: "prices.json" };
 export async function verify(folder: string, terms: Terms, { cusp, limit_ms }: Verifier, signal: AbortSignal): Promise<Verified> {
   for (const name of ["limits", "prices"] as const) await writeFile(join(folder, TERMS[name]), `${JSON.stringify(terms[name], null, 2)}\n`);
   const call = ["verify", FILES.plan, FILES.model, "--print", FILES.print, "--json"];
-  call.push("--limits", TERMS.limits, "--prices", TERMS.prices, "--copies", String(terms.copies));
+  call.push("--limits", TERMS.limits, "--prices", TERMS.prices, "--copies", String(terms.copies), ...BOUNDS);
   const verified = await new Promise<Verified>((resolve, reject) => {
-    execFile(cusp, call, { cwd: folder, maxBuffer: MOST_ANSWER_BYTES, timeout: limit_ms, killSignal: "SIGKILL", signal }, (error, stdout, stderr) => {
+    execFile(cusp, call, { cwd: folder, maxBuffer: MOST_ANSWER_BYTES, timeout: limit_ms, killSignal: "SIGKILL", signal }, (error, stdout) => {
       if (error === null) resolve(JSON.parse(stdout) as Verified);
       else if (signal.aborted) reject(error);
       else if (error.killed === true) reject(new Refusal("took-too-long", "Checking this model takes longer than we can wait."));
-      else if (error.code === 1) reject(stdout === "" ? refused(stderr) : rejected(JSON.parse(stdout) as Verified));
+      else if (error.code === 1) reject(answered(JSON.parse(stdout) as Verified | Failed));
       else reject(error);
     });
   });
@@ -73,11 +81,11 @@ function rejected({ printability }: Verified): Refusal {
   return new Refusal("not-printable", `The model cannot be printed like this: ${[...codes].join(", ")}.`);
 }
 
-/** The program's own message. It names its file without a path, because the program runs in the folder. */
-function refused(stderr: string): Refusal {
-  const said = stderr.split("\n").findLast((line) => line.startsWith("cusp: "))?.slice("cusp: ".length) ?? "";
-  for (const [file, code, subject] of BLAME) {
-    if (said.startsWith(`${file}: `)) return new Refusal(code, `${subject}: ${said.slice(file.length + 2)}.`);
-  }
-  return new Refusal("plan-refused", `The order was refused: ${said}.`);
+/** What the program answers to an order that it does not accept: why it failed, or what will fail when it is printed. */
+function answered(answer: Verified | Failed): Refusal {
+  if (!("error" in answer)) return rejected(answer);
+  const { code, message, file } = answer.error;
+  if (code === "time-bound" || code === "memory-bound") return new Refusal("took-too-long", "Checking this model takes more than we can spend.");
+  const [refusal, subject] = BLAME[file ?? ""] ?? ["plan-refused", "The order was refused"];
+  return new Refusal(refusal, `${subject}: ${message}.`);
 }
