@@ -96,8 +96,12 @@ impl Quantity {
     pub fn range(self) -> [f64; 2] {
         match self {
             Self::Pitch => [1e-6, 1e6],
-            Self::Bin | Self::Step => [1e-6, 1e3],
-            Self::Layer | Self::FirstLayer | Self::LayerMin | Self::LayerMax => [1e-6, 1e3],
+            Self::Bin
+            | Self::Step
+            | Self::Layer
+            | Self::FirstLayer
+            | Self::LayerMin
+            | Self::LayerMax => [1e-6, 1e3],
             // An upright prism has no error, so the smallest tolerance that allows so many layers may be 0.
             Self::Tolerance => [0.0, 1e9],
             Self::ResinLayer => [1e-4, 10.0],

@@ -55,7 +55,7 @@ fn an_honest_plan_passes_and_a_lie_anywhere_is_found() {
         let mut sent = honest.clone();
         change(&mut sent);
         match verify(&sent, &model) {
-            Err(VerifyError::Differs { key, .. }) => key,
+            Err(VerifyError::Differs { key, .. } | VerifyError::Contradicts { key }) => key,
             other => panic!("{other:?}"),
         }
     };

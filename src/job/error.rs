@@ -53,6 +53,17 @@ pub enum Error {
         /// Bytes that it may take.
         allowed_bytes: u64,
     },
+    /// The job takes more processor time than it may.
+    #[error(
+        "this takes about {needed_s} s of processor time, and {allowed_s} are allowed; allow more, or choose larger bins or fewer thicknesses"
+    )]
+    #[serde(rename = "time-bound")]
+    TimeBound {
+        /// Seconds that it takes, of all processors together.
+        needed_s: f64,
+        /// Seconds that it may take.
+        allowed_s: f64,
+    },
     /// The options contradict each other or cannot be read.
     #[error(transparent)]
     #[serde(untagged)]

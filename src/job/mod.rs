@@ -28,6 +28,8 @@ mod slicer;
 mod stage;
 mod tolerances;
 mod verify;
+#[cfg(not(target_arch = "wasm32"))]
+mod work;
 
 pub use calibration::{Calibration, Section};
 #[cfg(feature = "read")]

@@ -9,8 +9,6 @@ use web_time::Instant;
 use super::facet_shapes::{Extra, shapes_of};
 use super::groups::{ENCODED_SHARE, LayerGroups};
 use super::measured::Measured;
-#[cfg(not(target_arch = "wasm32"))]
-use super::memory::Memory;
 use super::parts::{Job, Layering, Output, Sampling};
 use super::planned::{Planned, PlannedModel};
 use super::planning::Planning;
@@ -19,6 +17,8 @@ use super::report::{Origin, odd_size, report_of};
 use super::sampled::{Sampled, Sampler};
 use super::stage::{Stage, StageProgress, ms_since, report};
 use super::{Error, MeshInfo, Options, Preview, Report, Timings, Tradeoff};
+#[cfg(not(target_arch = "wasm32"))]
+use super::{memory::Memory, work};
 use crate::archive::layer_profile::{self, LayeredModel};
 use crate::archive::{Look, MaskSource};
 use crate::grid::Bins;
@@ -45,6 +45,8 @@ pub struct Slicer {
     pub(super) painted: Option<Vec<f32>>,
     load_ms: f64,
     sampler: Sampler,
+    /// Seconds of processor time that a plan may take, if that is bounded.
+    cpu_time_s: Option<f64>,
     /// The surface for orientation searches, and the pose to whose height it is scaled, if it has one.
     pub(super) surface: Option<(Option<Pose>, Surface)>,
     sampled: Option<Arc<Sampled>>,
@@ -90,6 +92,7 @@ impl Slicer {
             painted: None,
             load_ms: ms_since(clock),
             sampler: Sampler::default(),
+            cpu_time_s: None,
             surface: None,
             sampled: None,
             measured: None,
@@ -110,6 +113,15 @@ impl Slicer {
     #[must_use]
     pub fn with_memory(mut self, bytes: u64) -> Self {
         self.sampler.set_memory(Memory::of(bytes));
+        self
+    }
+
+    /// Plans nothing from now on that is certain to take more processor time than this, in seconds: see [`Error::TimeBound`]. Whoever
+    /// must keep to it also cancels by progress.
+    #[cfg(not(target_arch = "wasm32"))]
+    #[must_use]
+    pub fn with_cpu_time(mut self, seconds: f64) -> Self {
+        self.cpu_time_s = Some(seconds);
         self
     }
 
@@ -327,6 +339,10 @@ impl Slicer {
         let measured = self.measure(&job, &mut timings, progress).await?;
 
         report(progress, Stage::Plan, 0.0)?;
+        #[cfg(not(target_arch = "wasm32"))]
+        if let Some(allowed_s) = self.cpu_time_s {
+            work::check(measured.shapes.bins(), &job.layering, allowed_s)?;
+        }
         let holds = |Current { planned, .. }: &Current| {
             Arc::ptr_eq(planned.first(), &measured) && planned.layering == job.layering
         };

@@ -52,6 +52,12 @@ pub enum VerifyError {
         "it was made with other weights of facets; give the file of weights that it was made with"
     )]
     OtherWeights,
+    /// The plan has lists of wrong lengths, or heights that do not ascend, so no model and options give it.
+    #[error("it contradicts itself: {key} does not go with the rest")]
+    Contradicts {
+        /// Path of what does not, such as `z_mm[3]`.
+        key: String,
+    },
     /// The model and the options give another plan.
     #[error(
         "it is not what the model and its options give: {key} is {}, but should be {}",
@@ -184,6 +190,7 @@ impl Claim {
                 .files()
                 .try_for_each(|(file, model)| check(file, model)),
         }?;
+        check_itself(&report)?;
         Ok(Self {
             report,
             options,
@@ -259,6 +266,39 @@ fn read(json: &str) -> Result<Value, VerifyError> {
     } else {
         Err(VerifyError::OtherSchema { found })
     }
+}
+
+/// Checks what needs no work, before any is done: lists have a value for each layer, and heights ascend from the plate by the
+/// thicknesses.
+fn check_itself(report: &Value) -> Result<(), VerifyError> {
+    let contradicts = |key: &str| VerifyError::Contradicts {
+        key: key.to_owned(),
+    };
+    let layers = report["layers"].as_u64();
+    let layers = layers.ok_or_else(|| contradicts("layers"))? as usize;
+    let list = |key: &str, length: usize| match &report[key] {
+        Value::Array(items) if items.len() == length => Ok(items),
+        _ => Err(contradicts(key)),
+    };
+    let heights_mm = list("z_mm", layers.saturating_add(1))?;
+    let thicknesses_mm = list("thickness_mm", layers)?;
+    list("exposure_s", layers)?;
+    if !report["layer_files"].is_null() {
+        list("layer_files", layers)?;
+    }
+    let number = |value: &Value| value.as_f64().unwrap_or(f64::NAN);
+    if number(&heights_mm[0]) != 0.0 {
+        return Err(contradicts("z_mm[0]"));
+    }
+    for (layer, (ends, thickness_mm)) in heights_mm.windows(2).zip(thicknesses_mm).enumerate() {
+        let [bottom_mm, top_mm] = [&ends[0], &ends[1]].map(number);
+        let apart_mm = (top_mm - bottom_mm - number(thickness_mm)).abs();
+        // Heights are rounded to the picometre. What is no number compares as neither.
+        if !(top_mm > bottom_mm && apart_mm < 1e-6) {
+            return Err(contradicts(&format!("z_mm[{}]", layer + 1)));
+        }
+    }
+    Ok(())
 }
 
 /// Finds the first difference between two values. 5 and 5.0 are equal, and so are an absent value and null.

@@ -206,3 +206,84 @@ fn an_interrupted_batch_leaves_whole_files_alone() {
     let files: Vec<_> = files.map(|file| file.unwrap().file_name()).collect();
     assert_eq!(files, ["small.zip"]);
 }
+
+/// Work that does not report progress, and would take hours.
+const HOURS: [&str; 12] = [
+    "--metric",
+    "volume",
+    "--max-layers",
+    "1000",
+    "--bin",
+    "0.00002",
+    "--layer-min",
+    "0.00002",
+    "--layer-max",
+    "1000",
+    "--pitch",
+    "0.3",
+];
+
+#[test]
+#[cfg(target_os = "linux")]
+fn an_interrupt_stops_a_planner() {
+    let folder = TempDir::new().unwrap();
+    let cube = model(&folder, "cube.stl", &binary_stl(&solids::cube(20.0)));
+    let mut child = with_default_signals()
+        .args(["plan", &cube, "--backend", "cpu"])
+        .args(HOURS)
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    wait_for_its_handler(&mut child);
+    // Into the planner.
+    std::thread::sleep(Duration::from_millis(500));
+    interrupt(&child);
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "cusp: cancelled\n");
+    assert_eq!(output.status.code(), Some(130));
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn where_a_hang_up_is_ignored_an_end_still_tidies_up() {
+    let folder = TempDir::new().unwrap();
+    let cube = model(&folder, "cube.stl", &binary_stl(&solids::cube(20.0)));
+    let zip = folder.path().join("out.zip").display().to_string();
+    let mut child = Command::new("env")
+        .args([
+            "--default-signal",
+            "--ignore-signal=HUP",
+            env!("CARGO_BIN_EXE_cusp"),
+        ])
+        .args(["slice", &cube, "-o", &zip, "--backend", "cpu"])
+        .args([
+            "--planner",
+            "uniform",
+            "--layer",
+            "0.0005",
+            "--bin",
+            "0.0005",
+            "--layer-min",
+            "0.0005",
+        ])
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let clock = Instant::now();
+    while names(&folder).len() < 2 {
+        assert!(clock.elapsed() < Duration::from_mins(2), "never wrote");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    let process = child.id().to_string();
+    for (signal, ends) in [("-HUP", false), ("-TERM", true)] {
+        let kill = Command::new("kill").args([signal, &process]).status();
+        assert!(kill.unwrap().success());
+        if !ends {
+            std::thread::sleep(Duration::from_millis(300));
+            assert_eq!(child.try_wait().unwrap(), None, "a hang-up ended it");
+        }
+    }
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130));
+    assert_eq!(names(&folder), ["cube.stl"]);
+}

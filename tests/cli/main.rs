@@ -3,6 +3,7 @@
 #![cfg(not(target_arch = "wasm32"))]
 
 mod batch;
+mod bounds;
 mod calibrate;
 mod check;
 #[path = "../common/mod.rs"]

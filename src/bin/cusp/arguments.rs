@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use bytesize::ByteSize;
 use clap::{Args, ValueEnum};
 use cusp_slicer::filament::USUAL_NOZZLE_MM;
 use cusp_slicer::format::Format;
@@ -16,6 +15,7 @@ use cusp_slicer::printer::PrinterChoice;
 use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::resin::Resin;
 
+use crate::budget::Budget;
 use crate::config::{self, SettingsFile};
 use crate::files::{Failure, WeightsFile, load_painted, read_json};
 use crate::plate::Places;
@@ -45,15 +45,14 @@ pub struct Slicing {
     /// Write a plug for each drain hole, to print and glue in once the resin is out: an .stl
     #[arg(long, value_name = "FILE", value_parser = stl_file, help_heading = "Model")]
     pub plugs: Option<PathBuf>,
-    /// Take about this much memory at most, as 1GB or 512MiB; hits that do not fit are found anew, and files stay the same
-    #[arg(long, value_name = "SIZE")]
-    pub max_memory: Option<ByteSize>,
+    #[command(flatten)]
+    pub budget: Budget,
     #[command(flatten)]
     pub choices: Choices,
 }
 
 impl Slicing {
-    /// Loads a model that takes its share of the memory, of which `workers` take some at a time.
+    /// Loads a model that takes its share of the budget, of which `workers` take some at a time.
     pub fn load(
         &self,
         model: &Path,
@@ -61,10 +60,7 @@ impl Slicing {
         workers: usize,
     ) -> Result<Slicer, Failure> {
         let slicer = load_painted(model, settings.weights.as_ref())?;
-        Ok(match self.max_memory {
-            Some(ByteSize(bytes)) => slicer.with_memory(bytes / workers as u64),
-            None => slicer,
-        })
+        Ok(self.budget.bound(slicer, workers))
     }
 }
 

@@ -12,9 +12,10 @@ use cusp_slicer::warning::Warning;
 use serde::Serialize;
 
 use crate::files::{Failure, Problem, is_standard};
-use crate::terminal::{Bar, is_interrupted, print, print_json, say, stop_on_interrupt};
+use crate::terminal::{Bar, print, print_json, say};
 use crate::usage::wrong_usage;
 use crate::visible::visible;
+use crate::watch::{is_stopped, stop_on_interrupt};
 
 /// Bytes of models that may be in work at a time. A larger model is in work alone.
 const BYTES_IN_WORK: u64 = 64 << 20;
@@ -103,7 +104,7 @@ impl Batch<'_> {
             Ok::<(), Failure>(())
         })?;
         drop(bar);
-        if is_interrupted() {
+        if is_stopped() {
             return Err(Failure::interrupted());
         }
         self.repeat(failed)
@@ -123,7 +124,7 @@ impl Batch<'_> {
             };
             let bytes = std::fs::metadata(model).map_or(0, |file| file.len());
             let _room = shared.in_work.take(bytes);
-            if is_interrupted() {
+            if is_stopped() {
                 return;
             }
             let mut done = 0.0;
@@ -167,7 +168,7 @@ impl Batch<'_> {
                     // The line has the model.
                     Some(problem) if self.is_json => Outcome::Error(Problem {
                         file: None,
-                        ..problem
+                        ..*problem
                     }),
                     _ => return Ok(()),
                 }

@@ -9,9 +9,10 @@ use serde::Serialize;
 
 use crate::arguments::{Target, read_resin};
 use crate::files::{Failure, Output};
-use crate::terminal::{Bar, duration, print, print_json, stop_on_interrupt};
+use crate::terminal::{Bar, duration, print, print_json};
 use crate::usage::check_json;
 use crate::values::{length, measured, positive};
+use crate::watch::stop_on_interrupt;
 
 #[derive(Subcommand)]
 pub enum Calibrating {

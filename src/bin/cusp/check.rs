@@ -11,7 +11,8 @@ use serde::Serialize;
 use crate::arguments::Studying;
 use crate::files::{Failure, in_file, load_painted, read_json};
 use crate::slice::make_plan;
-use crate::terminal::{Bar, print, print_json, stop_on_interrupt, warn};
+use crate::terminal::{Bar, print, print_json, warn};
+use crate::watch::stop_on_interrupt;
 
 /// A model, and what a shop accepts.
 #[derive(Args)]

@@ -13,8 +13,9 @@ use cusp_slicer::progress::Cancelled;
 use crate::arguments::Studying;
 use crate::files::{Failure, Output, Writer, load_painted};
 use crate::slice::make_plan;
-use crate::terminal::{Bar, print, print_json, stop_on_interrupt, warn};
+use crate::terminal::{Bar, print, print_json, warn};
 use crate::values::not_negative;
+use crate::watch::stop_on_interrupt;
 
 /// A model, how to slice it, and where to write its contours.
 #[derive(Args)]

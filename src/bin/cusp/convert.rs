@@ -12,10 +12,11 @@ use serde::Serialize;
 
 use crate::arguments::{printer_choice, read_resin};
 use crate::files::{Failure, Output, in_file, read};
-use crate::terminal::{Bar, duration, print, print_json, stop_on_interrupt, warn};
+use crate::terminal::{Bar, duration, print, print_json, warn};
 use crate::usage::check_json;
 use crate::values::PrinterName;
 use crate::visible::visible;
+use crate::watch::stop_on_interrupt;
 
 /// A print file, and what to make of it.
 #[derive(Args)]

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use cusp_slicer::Error;
 use cusp_slicer::job::Slicer;
+use cusp_slicer::model::read::{HEAD_BYTES, identify};
 use cusp_slicer::model::weights::{self, WeightsError};
 use cusp_slicer::progress::Cancelled;
 use serde::Serialize;
@@ -16,6 +17,10 @@ use tempfile::NamedTempFile;
 
 use crate::terminal::{is_on_terminal, take_stdout};
 use crate::visible::{visible, visible_detail};
+use crate::watch::note_temporary;
+
+/// The exit code of a command that was interrupted.
+const INTERRUPTED: u8 = 130;
 
 /// Why a command failed.
 pub struct Failure {
@@ -23,7 +28,7 @@ pub struct Failure {
     /// The message for the user; `None` if it has already been shown.
     pub message: Option<String>,
     /// The same for programs.
-    pub problem: Option<Problem>,
+    pub problem: Option<Box<Problem>>,
 }
 
 /// What failed, for programs.
@@ -54,12 +59,12 @@ impl From<String> for Failure {
     fn from(message: String) -> Self {
         Self {
             exit_code: 1,
-            problem: Some(Problem {
+            problem: Some(Box::new(Problem {
                 code: "file".to_owned(),
                 message: visible(&message).into_owned(),
                 detail: Value::Null,
                 file: None,
-            }),
+            })),
             message: Some(message),
         }
     }
@@ -83,34 +88,41 @@ impl Failure {
         Self {
             exit_code: 1,
             message: Some(in_file(path, error)),
-            problem: Some(Problem {
+            problem: Some(Box::new(Problem {
                 code: typed["code"].as_str().unwrap_or_default().to_owned(),
                 message: visible(&error.to_string()).into_owned(),
                 detail,
-                file: Some(visible(&path.to_string_lossy()).into_owned()),
-            }),
+                file: (path != Path::new(""))
+                    .then(|| visible(&path.to_string_lossy()).into_owned()),
+            })),
         }
     }
 
     pub fn interrupted() -> Self {
         Self {
-            exit_code: 130,
+            exit_code: INTERRUPTED,
             message: Some(Cancelled.to_string()),
             problem: None,
         }
     }
 
-    /// The same for programs; `None` if it has already been shown.
+    /// A bound that the command has exceeded.
+    pub fn bound(error: &cusp_slicer::Error) -> Self {
+        Self {
+            message: Some(error.to_string()),
+            ..Self::of(Path::new(""), error)
+        }
+    }
+
+    pub fn is_interrupt(&self) -> bool {
+        self.exit_code == INTERRUPTED
+    }
+
+    /// The same for programs; `None` if it has already been shown, and for an interrupt, which the exit code tells.
     pub fn told(self) -> Option<Failed> {
-        let cancelled = || Problem {
-            code: "cancelled".to_owned(),
-            message: Cancelled.to_string(),
-            detail: Value::Null,
-            file: None,
-        };
-        let is_cancelled = self.exit_code == Self::interrupted().exit_code;
-        let error = self.problem.or_else(|| is_cancelled.then(cancelled))?;
-        Some(Failed { error })
+        Some(Failed {
+            error: *self.problem?,
+        })
     }
 
     /// Bad input that has already been reported.
@@ -151,9 +163,29 @@ pub fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     Ok(bytes.map_err(|error| in_file(path, &error))?)
 }
 
+/// Reads a model. A file that is none is refused by its first bytes.
 pub fn load(model: &Path) -> Result<Slicer, Failure> {
+    if !is_standard(model) {
+        let head = head_of(model).map_err(|error| in_file(model, &error))?;
+        if let Some((head, length)) = head {
+            let identified = identify(&head, length).map_err(Error::from);
+            identified.map_err(|error| Failure::in_file(model, &error))?;
+        }
+    }
     let bytes = read(model)?;
     Slicer::load(&bytes).map_err(|error| Failure::in_file(model, &error))
+}
+
+/// The first bytes and the length of a regular file. A pipe can be opened only once.
+fn head_of(path: &Path) -> io::Result<Option<(Vec<u8>, u64)>> {
+    let about = fs::metadata(path)?;
+    if !about.is_file() {
+        return Ok(None);
+    }
+    let mut head = Vec::new();
+    let file = fs::File::open(path)?;
+    file.take(HEAD_BYTES as u64).read_to_end(&mut head)?;
+    Ok(Some((head, about.len())))
 }
 
 /// A file of weights, not yet matched to a model.
@@ -361,6 +393,7 @@ fn file_beside(place: &Path) -> io::Result<NamedTempFile> {
         let usual = fs::Permissions::from_mode(0o666);
         builder.permissions(old.clone().unwrap_or(usual));
         let file = builder.tempfile_in(parent(place))?;
+        note_temporary(file.path());
         if let Some(old) = old {
             // The umask may have removed some.
             file.as_file().set_permissions(old)?;
@@ -368,5 +401,9 @@ fn file_beside(place: &Path) -> io::Result<NamedTempFile> {
         Ok(file)
     }
     #[cfg(not(unix))]
-    NamedTempFile::new_in(parent(place))
+    {
+        let file = NamedTempFile::new_in(parent(place))?;
+        note_temporary(file.path());
+        Ok(file)
+    }
 }

@@ -6,9 +6,10 @@ use clap::Args;
 use cusp_slicer::archive::read::{About, Inspection, PrintFile, inspect as look_through};
 
 use crate::files::{Failure, Output, in_file, read};
-use crate::terminal::{Bar, duration, print, print_json, stop_on_interrupt, warn};
+use crate::terminal::{Bar, duration, print, print_json, warn};
 use crate::usage::check_json;
 use crate::visible::visible;
+use crate::watch::stop_on_interrupt;
 
 /// A print file, and perhaps one of its layers.
 #[derive(Args)]

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod batch;
+mod budget;
 mod calibrate;
 mod check;
 mod config;
@@ -25,9 +26,11 @@ mod usage;
 mod values;
 mod verify;
 mod visible;
+mod watch;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{Parser, Subcommand};
 
@@ -36,6 +39,7 @@ use calibrate::Calibrating;
 use check::Checking;
 use contours::Contouring;
 use convert::Converting;
+use files::Failure;
 use inspect::Inspecting;
 use orient::Orienting;
 use plate::Plating;
@@ -158,6 +162,28 @@ enum Command {
     },
 }
 
+/// Whether a program reads what is printed.
+static IS_JSON: AtomicBool = AtomicBool::new(false);
+
+/// Says why a command failed, once, and returns its exit code.
+fn tell(failure: Failure) -> u8 {
+    static IS_TOLD: AtomicBool = AtomicBool::new(false);
+    let exit_code = failure.exit_code;
+    if IS_TOLD.swap(true, Ordering::Relaxed) {
+        return exit_code;
+    }
+    if let Some(message) = &failure.message {
+        say(message);
+    }
+    if IS_JSON.load(Ordering::Relaxed)
+        && let Some(failed) = failure.told()
+    {
+        // It has been said on stderr.
+        let _ = print_json(&failed);
+    }
+    exit_code
+}
+
 impl Command {
     /// Whether a program reads what is printed.
     fn is_json(&self) -> bool {
@@ -184,7 +210,7 @@ impl Command {
 
 fn main() -> ExitCode {
     let command = Cli::parse().command;
-    let is_json = command.is_json();
+    IS_JSON.store(command.is_json(), Ordering::Relaxed);
     let result = match command {
         Command::Slice { slicing, output } => slice::slice(&slicing, &output),
         Command::Plan { slicing } => slice::plan(&slicing),
@@ -212,16 +238,6 @@ fn main() -> ExitCode {
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => {
-            if let Some(message) = &failure.message {
-                say(message);
-            }
-            let exit_code = failure.exit_code;
-            if let Some(failed) = failure.told().filter(|_| is_json) {
-                // It has been said on stderr.
-                let _ = print_json(&failed);
-            }
-            ExitCode::from(exit_code)
-        }
+        Err(failure) => ExitCode::from(tell(watch::reason(failure))),
     }
 }

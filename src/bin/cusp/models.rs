@@ -11,8 +11,9 @@ use serde::Serialize;
 
 use crate::batch::{Batch, check_inputs, workers};
 use crate::files::{Failure, Output, load};
-use crate::terminal::{Bar, print, print_json, stop_on_interrupt};
+use crate::terminal::{Bar, print, print_json};
 use crate::usage::check_json;
+use crate::watch::stop_on_interrupt;
 
 pub fn info(models: &[PathBuf], json: bool) -> Result<(), Failure> {
     check_inputs("info", models);

@@ -16,9 +16,10 @@ use crate::arguments::{Choices, Settings};
 use crate::batch::check_inputs;
 use crate::export::write_stl;
 use crate::files::{Failure, Output, WeightsFile, in_file, load_painted};
-use crate::terminal::{Bar, duration, is_interrupted, print, say, stop_on_interrupt, to_json};
+use crate::terminal::{Bar, duration, print, say, to_json};
 use crate::usage::check_json;
 use crate::values::{fraction, shard};
+use crate::watch::{is_stopped, stop_on_interrupt};
 
 /// The options of the orientation search.
 #[derive(Args)]
@@ -108,7 +109,7 @@ pub fn orient(orienting: &Orienting) -> Result<(), Failure> {
     stop_on_interrupt();
     let mut is_any_bad = false;
     for model in &orienting.models {
-        if is_interrupted() {
+        if is_stopped() {
             return Err(Failure::interrupted());
         }
         match task.answer(orienting, model) {

@@ -3,7 +3,6 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use bytesize::ByteSize;
 use clap::Args;
 use cusp_slicer::arrange::Arranging;
 use cusp_slicer::job::{Backend, PlatesReport};
@@ -12,11 +11,10 @@ use crate::arguments::{Choices, Slicing};
 use crate::files::{Failure, Output, in_file, is_standard};
 use crate::job_file::{Job, JobFile, JobModel, job_file, path_from, read_job};
 use crate::slice::is_folder;
-use crate::terminal::{
-    Bar, duration, open_gpu_of_plate, print, print_json, stop_on_interrupt, warn,
-};
+use crate::terminal::{Bar, duration, open_gpu_of_plate, print, print_json, warn};
 use crate::usage::{check_json, wrong_usage};
 use crate::values::not_negative;
+use crate::watch::stop_on_interrupt;
 
 /// How models are arranged.
 #[derive(Args)]
@@ -78,9 +76,7 @@ pub fn job(command: &str, slicing: &Slicing) -> Result<Option<Job>, Failure> {
     if slicing.arrange {
         job.options.placements.clear();
     }
-    if let Some(ByteSize(bytes)) = slicing.max_memory {
-        job.plate = std::mem::take(&mut job.plate).with_memory(bytes);
-    }
+    job.plate = slicing.budget.bound_plate(std::mem::take(&mut job.plate));
     Ok(Some(job))
 }
 

@@ -14,7 +14,8 @@ use crate::files::{Failure, in_file, load_painted, read_json};
 use crate::job_file::{JobFile, job_file, read_job, with_copies};
 use crate::plate::Places;
 use crate::slice::make_plan;
-use crate::terminal::{Bar, print, print_json, stop_on_interrupt, warn};
+use crate::terminal::{Bar, print, print_json, warn};
+use crate::watch::stop_on_interrupt;
 
 /// Models, and the prices of a shop.
 #[derive(Args)]

@@ -10,8 +10,9 @@ use cusp_slicer::simulation::{
 };
 
 use crate::files::{Failure, in_file};
-use crate::terminal::{Bar, print, print_json, stop_on_interrupt};
+use crate::terminal::{Bar, print, print_json};
 use crate::values::{length, rotation};
+use crate::watch::stop_on_interrupt;
 
 /// A model and a print file of it.
 #[derive(Args)]

@@ -13,10 +13,12 @@ use crate::batch::{Batch, check_inputs, outputs_in, workers};
 use crate::export::{export, export_plugs};
 use crate::files::{Failure, Output, in_file, is_standard, load_painted};
 use crate::plate;
-use crate::terminal::{Bar, duration, open_gpu, print, print_json, stop_on_interrupt, warn};
+use crate::terminal::{Bar, duration, open_gpu, print, print_json, warn};
 use crate::usage::{check_json, wrong_usage};
+use crate::watch::{keep_within, stop_on_interrupt};
 
 pub fn slice(slicing: &Slicing, output: &Path) -> Result<(), Failure> {
+    keep_within(&slicing.budget);
     slicing.choices.check("slice");
     check_inputs("slice", &slicing.models);
     check_meshes("slice", slicing);
@@ -44,6 +46,7 @@ pub fn slice(slicing: &Slicing, output: &Path) -> Result<(), Failure> {
 }
 
 pub fn plan(slicing: &Slicing) -> Result<(), Failure> {
+    keep_within(&slicing.budget);
     slicing.choices.check("plan");
     check_inputs("plan", &slicing.models);
     check_meshes("plan", slicing);

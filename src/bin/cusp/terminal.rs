@@ -1,4 +1,4 @@
-//! Terminal output, progress and Ctrl-C.
+//! Terminal output and progress.
 
 use std::borrow::Cow;
 use std::fmt::Display;
@@ -11,9 +11,7 @@ use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use serde::Serialize;
 
 use crate::visible::{visible, visible_lines};
-
-/// Set by Ctrl-C; stages check it whenever they report progress.
-static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+use crate::watch::{is_stopped, note_progress};
 
 /// Whether standard output carries a file, so that nothing else may go there.
 static STDOUT_IS_TAKEN: AtomicBool = AtomicBool::new(false);
@@ -94,14 +92,6 @@ pub fn duration(seconds: f64) -> String {
     }
 }
 
-/// From here on, Ctrl-C sets a flag instead of killing the process, so that temporary files are removed.
-///
-/// An interrupt or hang-up that is already ignored, as under `nohup`, stays ignored. That is why this uses `try`, and why a
-/// failure is harmless.
-pub fn stop_on_interrupt() {
-    let _ = ctrlc::try_set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed));
-}
-
 /// Searches for the GPU that the next plan uses if `backend` asks for one, and silences drivers meanwhile. Mesa, for example, complains about a
 /// missing display although nothing is displayed. The plan reports what the search found.
 pub fn open_gpu(slicer: &mut Slicer, backend: Backend) {
@@ -145,10 +135,6 @@ impl Drop for Silence {
     }
 }
 
-pub fn is_interrupted() -> bool {
-    INTERRUPTED.load(Ordering::Relaxed)
-}
-
 /// A progress bar on a terminal, hidden elsewhere. Clears its line when dropped.
 pub struct Bar {
     bar: ProgressBar,
@@ -185,7 +171,8 @@ impl Bar {
         self.bar.set_message(name);
         let steps = self.bar.length().unwrap_or_default() as f64;
         self.bar.set_position((done * steps) as u64);
-        if is_interrupted() {
+        note_progress(done);
+        if is_stopped() {
             ControlFlow::Break(())
         } else {
             ControlFlow::Continue(())

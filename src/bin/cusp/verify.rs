@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use bytesize::ByteSize;
 use clap::Args;
 use cusp_slicer::inspect::{Limits, Printability, Verdict};
 use cusp_slicer::job::{Backend, Claim, ModelPrintability, Report, Slicer, VerifyError};
@@ -10,14 +11,15 @@ use cusp_slicer::price::{Price, PriceItem};
 use cusp_slicer::warning::Warning;
 use serde::Serialize;
 
+use crate::budget::Budget;
 use crate::check::{read_limits, verdict_name};
 use crate::files::{Failure, WeightsFile, in_file, load_painted};
 use crate::job_file::{JobFile, job_file};
 use crate::price::Order;
-use crate::terminal::{
-    Bar, open_gpu, open_gpu_of_plate, print, print_json, stop_on_interrupt, warn,
-};
+use crate::terminal::{Bar, open_gpu, open_gpu_of_plate, print, print_json, warn};
 use crate::usage::wrong_usage;
+use crate::values::positive;
+use crate::watch::{keep_within, stop_on_interrupt};
 
 /// A plan, what it was made from, and what a shop accepts.
 #[derive(Args)]
@@ -38,6 +40,12 @@ pub struct Verifying {
     /// Say what it costs, by the prices of this file
     #[arg(long, value_name = "FILE.json")]
     prices: Option<PathBuf>,
+    /// Take about this much memory at most, as 1GB or 512MiB: a plan may ask for more than it is worth
+    #[arg(long, value_name = "SIZE", default_value = "4GB")]
+    max_memory: ByteSize,
+    /// Take this much processor time at most, in seconds of all cores together
+    #[arg(long, value_name = "S", value_parser = positive, default_value_t = 600.0)]
+    max_cpu_time: f64,
     /// Copies to price, each with its whole print time [default: 1; for plates, those of the plan]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), requires = "prices")]
     copies: Option<u32>,
@@ -56,6 +64,10 @@ struct Shop<'a> {
 }
 
 impl Verifying {
+    fn budget(&self) -> Budget {
+        Budget::of(self.max_memory, self.max_cpu_time)
+    }
+
     fn shop(&self) -> Result<Shop<'_>, Failure> {
         let order = self.prices.as_deref();
         let order = order.map(|path| Order::read(path, self.finish.as_deref()));
@@ -177,7 +189,8 @@ fn verify_plates(verifying: &Verifying, text: &str, job: &JobFile) -> Result<(),
         wrong_usage("verify", message);
     }
     let shop = verifying.shop()?;
-    let mut plate = job.read_models(path.parent())?.plate;
+    let plate = job.read_models(path.parent())?.plate;
+    let mut plate = verifying.budget().bound_plate(plate);
     let files: Vec<_> = plate.models().iter().map(Slicer::model_file).collect();
     let claims = Claim::read_plates(text, &files).map_err(|error| Failure::of(plan, &error))?;
     let sent = match verifying.print.as_deref() {
@@ -262,6 +275,8 @@ fn same_print(is_same: bool) -> &'static str {
 
 pub fn verify(verifying: &Verifying) -> Result<(), Failure> {
     let (plan, model) = (&*verifying.plan, &*verifying.model);
+    let budget = verifying.budget();
+    keep_within(&budget);
     let text = fs::read_to_string(plan).map_err(|error| in_file(plan, &error))?;
     if let Some(job) = job_file(&[model.to_owned()])? {
         if verifying.weights.is_some() {
@@ -273,7 +288,7 @@ pub fn verify(verifying: &Verifying) -> Result<(), Failure> {
     let shop = verifying.shop()?;
     let weights = verifying.weights.as_deref();
     let weights = weights.map(WeightsFile::read).transpose()?;
-    let mut slicer = load_painted(model, weights.as_ref())?;
+    let mut slicer = budget.bound(load_painted(model, weights.as_ref())?, 1);
     let claim =
         Claim::read(&text, slicer.model_file()).map_err(|error| Failure::of(plan, &error))?;
     stop_on_interrupt();

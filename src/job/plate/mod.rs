@@ -25,6 +25,8 @@ use super::report::{Origin, SCHEMA, report_of};
 use super::sampled::Sampler;
 use super::slicer::positions_of;
 use super::stage::{Stage, StageProgress, ms_since, report as tell};
+#[cfg(not(target_arch = "wasm32"))]
+use super::work;
 use super::{Error, Options, OptionsError, Slicer, Timings};
 use crate::arrange::{ArrangeError, Place};
 use crate::ldi::gpu::Gpu;
@@ -41,6 +43,8 @@ pub struct Plate {
     sampler: Sampler,
     /// What may be taken, if that is bounded.
     memory: Option<Memory>,
+    /// Seconds of processor time that the plan of a plate may take, if that is bounded.
+    cpu_time_s: Option<f64>,
     /// The models with their supports, if they have some: before turns, in the order of models.
     prepared: Vec<Arc<Prepared>>,
     shapes: Vec<Shape>,
@@ -68,6 +72,14 @@ impl Plate {
     #[must_use]
     pub fn with_memory(mut self, bytes: u64) -> Self {
         self.memory = Some(Memory::of(bytes));
+        self
+    }
+
+    /// Plans nothing from now on that is certain to take more processor time than this for a plate: see [`Slicer::with_cpu_time`].
+    #[cfg(not(target_arch = "wasm32"))]
+    #[must_use]
+    pub fn with_cpu_time(mut self, seconds: f64) -> Self {
+        self.cpu_time_s = Some(seconds);
         self
     }
 
@@ -199,6 +211,11 @@ impl Plate {
             let planned = if let Some(kept) = kept {
                 Arc::clone(kept)
             } else {
+                #[cfg(not(target_arch = "wasm32"))]
+                if let Some(allowed_s) = self.cpu_time_s {
+                    let bins = standing[0].0.measured.shapes.bins();
+                    work::check(bins, &layering, allowed_s)?;
+                }
                 let mut within = |fraction| {
                     progress(
                         Stage::Plan,

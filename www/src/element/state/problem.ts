@@ -102,6 +102,7 @@ const KINDS: Readonly<Record<ErrorCode, Kind>> = {
   "too-many-facets": "tooFine",
   "out-of-memory": "tooFine",
   "memory-bound": "tooFine",
+  "time-bound": "tooFine",
   "model-too-large": "tooLarge",
   "model-too-high": "tooHigh",
   "plate-empty": "plate",

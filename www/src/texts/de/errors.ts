@@ -156,6 +156,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "no-plan": () => "Es gibt noch keinen Plan; erstellen Sie zuerst einen.",
   "memory-bound": ({ needed_bytes, allowed_bytes }) =>
     `Das braucht etwa ${count(needed_bytes)} Byte Speicher, und ${count(allowed_bytes)} sind erlaubt; erlauben Sie mehr, oder wählen Sie größere Pixel.`,
+  "time-bound": ({ needed_s, allowed_s }) => `Dies braucht etwa ${count(needed_s)}\u00a0s Rechenzeit, und ${count(allowed_s)} sind erlaubt; erlauben Sie mehr oder wählen Sie größere Höhenstufen oder weniger Dicken.`,
   "no-layer": ({ layer, layers }) => `Es gibt keine Schicht ${count(layer)}; der Plan hat ${count(layers)}, gezählt ab 0.`,
   "no-hits": ({ pitch_mm }) =>
     `Kein Pixel von ${mm(pitch_mm)} trifft das Modell, das dafür zu klein oder zu dünn ist; wählen Sie kleinere Pixel.`,

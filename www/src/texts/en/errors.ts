@@ -156,6 +156,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "no-plan": () => "There is no plan yet; make one first.",
   "memory-bound": ({ needed_bytes, allowed_bytes }) =>
     `This takes about ${count(needed_bytes)} bytes of memory, and ${count(allowed_bytes)} are allowed; allow more, or choose larger pixels.`,
+  "time-bound": ({ needed_s, allowed_s }) => `This takes about ${count(needed_s)}\u00a0s of processor time, and ${count(allowed_s)} are allowed; allow more, or choose larger bins or fewer thicknesses.`,
   "no-layer": ({ layer, layers }) => `There is no layer ${count(layer)}; the plan has ${count(layers)}, from 0.`,
   "no-hits": ({ pitch_mm }) =>
     `No pixel of ${mm(pitch_mm)} meets the model, which is too small or too thin for them; choose smaller pixels.`,

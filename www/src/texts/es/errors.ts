@@ -156,6 +156,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "no-plan": () => "Aún no hay plan; haga uno primero.",
   "memory-bound": ({ needed_bytes, allowed_bytes }) =>
     `Esto ocupa unos ${count(needed_bytes)} bytes de memoria, y se permiten ${count(allowed_bytes)}; permita más o elija píxeles mayores.`,
+  "time-bound": ({ needed_s, allowed_s }) => `Esto requiere unos ${count(needed_s)}\u00a0s de procesador y se permiten ${count(allowed_s)}; permita más o elija intervalos más grandes o menos espesores.`,
   "no-layer": ({ layer, layers }) => `No hay capa ${count(layer)}; el plan tiene ${count(layers)}, desde 0.`,
   "no-hits": ({ pitch_mm }) =>
     `Ningún píxel de ${mm(pitch_mm)} toca el modelo, que es demasiado pequeño o fino para ellos; elija píxeles más pequeños.`,

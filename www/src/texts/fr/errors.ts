@@ -156,6 +156,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "no-plan": () => "Il n’y a pas encore de plan ; faites-en un d’abord.",
   "memory-bound": ({ needed_bytes, allowed_bytes }) =>
     `Cela demande environ ${count(needed_bytes)} octets de mémoire, et ${count(allowed_bytes)} sont permis ; permettez-en plus, ou choisissez des pixels plus grands.`,
+  "time-bound": ({ needed_s, allowed_s }) => `Cela prend environ ${count(needed_s)}\u00a0s de processeur, et ${count(allowed_s)} sont permises ; permettez-en plus, ou choisissez des tranches plus grandes ou moins d’épaisseurs.`,
   "no-layer": ({ layer, layers }) => `Il n’y a pas de couche ${count(layer)} ; le plan en a ${count(layers)}, à partir de 0.`,
   "no-hits": ({ pitch_mm }) =>
     `Aucun pixel de ${mm(pitch_mm)} ne touche le modèle, trop petit ou trop fin pour eux ; choisissez des pixels plus petits.`,

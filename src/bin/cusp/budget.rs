@@ -1,0 +1,58 @@
+//! How much memory and processor time a command may take.
+
+use bytesize::ByteSize;
+use clap::Args;
+use cusp_slicer::job::{Plate, Slicer};
+
+use crate::values::positive;
+
+/// Bounds of a command.
+#[derive(Debug, Clone, Copy, Args)]
+pub struct Budget {
+    /// Take about this much memory at most, as 1GB or 512MiB; hits that do not fit are found anew, and files stay the same
+    #[arg(long, value_name = "SIZE")]
+    max_memory: Option<ByteSize>,
+    /// Take this much processor time at most, in seconds of all cores together
+    #[arg(long, value_name = "S", value_parser = positive)]
+    max_cpu_time: Option<f64>,
+}
+
+impl Budget {
+    /// So much memory and time, in seconds.
+    pub fn of(ByteSize(bytes): ByteSize, max_cpu_time: f64) -> Self {
+        Self {
+            max_memory: Some(ByteSize(bytes)),
+            max_cpu_time: Some(max_cpu_time),
+        }
+    }
+
+    pub fn memory_bytes(&self) -> Option<u64> {
+        self.max_memory.map(|ByteSize(bytes)| bytes)
+    }
+
+    pub fn cpu_time_s(&self) -> Option<f64> {
+        self.max_cpu_time
+    }
+
+    /// A slicer with its share, of which `workers` take some at a time.
+    pub fn bound(&self, mut slicer: Slicer, workers: usize) -> Slicer {
+        if let Some(bytes) = self.memory_bytes() {
+            slicer = slicer.with_memory(bytes / workers as u64);
+        }
+        if let Some(seconds) = self.max_cpu_time {
+            slicer = slicer.with_cpu_time(seconds);
+        }
+        slicer
+    }
+
+    /// A plate that keeps to it.
+    pub fn bound_plate(&self, mut plate: Plate) -> Plate {
+        if let Some(bytes) = self.memory_bytes() {
+            plate = plate.with_memory(bytes);
+        }
+        if let Some(seconds) = self.max_cpu_time {
+            plate = plate.with_cpu_time(seconds);
+        }
+        plate
+    }
+}

@@ -1,0 +1,182 @@
+//! Watches over a command while it works: interrupts, and the processor time and memory that it takes.
+//!
+//! Stages stop by themselves when they next report progress. What does not report in time is ended here, with its temporary files.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, LazyLock, Mutex, OnceLock, PoisonError};
+use std::thread;
+use std::time::Duration;
+#[cfg(not(unix))]
+use std::time::Instant;
+
+use cusp_slicer::Error;
+
+use crate::budget::Budget;
+use crate::files::Failure;
+use crate::tell;
+
+/// Set by an interrupt; stages ask whenever they report progress.
+static INTERRUPTED: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
+/// The bound that the command has exceeded, if any.
+static EXCEEDED: OnceLock<Error> = OnceLock::new();
+/// The fraction of the work that is done, as bits of a double.
+static DONE: AtomicU64 = AtomicU64::new(0);
+/// Files that are written beside their places.
+static TEMPORARY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// How often to look.
+const PERIOD: Duration = Duration::from_millis(20);
+/// How long a stage may take until it reports progress, and the command until it has tidied up after that.
+const GRACE: Duration = Duration::from_millis(70);
+
+/// From here on, an interrupt sets a flag instead of killing the process, so that temporary files are removed.
+pub fn stop_on_interrupt() {
+    static ONCE: OnceLock<()> = OnceLock::new();
+    ONCE.get_or_init(|| {
+        handle_signals();
+        thread::spawn(|| {
+            loop {
+                thread::sleep(PERIOD);
+                if is_stopped() {
+                    thread::sleep(GRACE);
+                    end();
+                }
+            }
+        });
+    });
+}
+
+/// Interrupts, requests to end and hang-ups, but for those that are ignored, as a hang-up is under `nohup` and an interrupt is for
+/// commands that a shell runs in the background: these stay ignored.
+#[cfg(target_os = "linux")]
+fn handle_signals() {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let ignored = status
+        .lines()
+        .find_map(|line| line.strip_prefix("SigIgn:"))
+        .and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok())
+        .unwrap_or(0);
+    for signal in [SIGHUP, SIGINT, SIGTERM] {
+        if ignored >> (signal - 1) & 1 == 0 {
+            // Without a handler it ends the process, as it always did.
+            let _ = signal_hook::flag::register(signal, Arc::clone(&INTERRUPTED));
+        }
+    }
+}
+
+/// Elsewhere nothing tells which signals are ignored: if any is, none is handled.
+#[cfg(not(target_os = "linux"))]
+fn handle_signals() {
+    let _ = ctrlc::try_set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed));
+}
+
+/// From here on, what exceeds the budget stops the command.
+pub fn keep_within(budget: &Budget) {
+    let (cpu_time_s, memory_bytes) = (budget.cpu_time_s(), budget.memory_bytes());
+    if cpu_time_s.is_none() && memory_bytes.is_none() {
+        return;
+    }
+    stop_on_interrupt();
+    thread::spawn(move || {
+        while EXCEEDED.get().is_none() {
+            thread::sleep(PERIOD);
+            if let Some(error) = exceeded(cpu_time_s, memory_bytes) {
+                let _ = EXCEEDED.set(error);
+            }
+        }
+    });
+}
+
+fn exceeded(cpu_time_s: Option<f64>, memory_bytes: Option<u64>) -> Option<Error> {
+    let done = f64::from_bits(DONE.load(Ordering::Relaxed));
+    if let Some(allowed_s) = cpu_time_s {
+        let taken_s = taken_cpu_s();
+        if taken_s > allowed_s {
+            // At least what it has taken.
+            let needed_s = if done > 0.0 { taken_s / done } else { taken_s };
+            return Some(Error::TimeBound {
+                needed_s: needed_s.ceil(),
+                allowed_s,
+            });
+        }
+    }
+    if let Some(allowed_bytes) = memory_bytes {
+        let needed_bytes = resident_bytes();
+        // What the library estimates is not exact.
+        if needed_bytes > allowed_bytes + allowed_bytes / 8 + (64 << 20) {
+            return Some(Error::MemoryBound {
+                needed_bytes,
+                allowed_bytes,
+            });
+        }
+    }
+    None
+}
+
+/// Processor time of all threads, in seconds.
+#[cfg(unix)]
+fn taken_cpu_s() -> f64 {
+    let taken = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
+    taken.tv_sec as f64 + taken.tv_nsec as f64 / 1e9
+}
+
+/// Elsewhere the time since the command began to work.
+#[cfg(not(unix))]
+fn taken_cpu_s() -> f64 {
+    static START: LazyLock<Instant> = LazyLock::new(Instant::now);
+    START.elapsed().as_secs_f64()
+}
+
+/// The memory that is in use, where the system tells; 0 elsewhere.
+fn resident_bytes() -> u64 {
+    let pages = fs::read_to_string("/proc/self/statm").ok();
+    let pages = pages.and_then(|text| text.split(' ').nth(1)?.parse::<u64>().ok());
+    pages.unwrap_or(0) * page_bytes()
+}
+
+#[cfg(unix)]
+fn page_bytes() -> u64 {
+    rustix::param::page_size() as u64
+}
+
+#[cfg(not(unix))]
+fn page_bytes() -> u64 {
+    0
+}
+
+/// Notes the fraction of the work that is done.
+pub fn note_progress(done: f64) {
+    DONE.store(done.to_bits(), Ordering::Relaxed);
+}
+
+/// Whether work should stop.
+pub fn is_stopped() -> bool {
+    INTERRUPTED.load(Ordering::Relaxed) || EXCEEDED.get().is_some()
+}
+
+/// Why a command was stopped, in place of its own failure if it exceeded a bound.
+pub fn reason(failure: Failure) -> Failure {
+    match EXCEEDED.get() {
+        Some(error) if failure.is_interrupt() => Failure::bound(error),
+        _ => failure,
+    }
+}
+
+/// Removes a temporary file should the command be ended.
+pub fn note_temporary(path: &Path) {
+    let mut files = TEMPORARY.lock().unwrap_or_else(PoisonError::into_inner);
+    files.push(path.to_owned());
+}
+
+/// Ends the process with its temporary files.
+fn end() -> ! {
+    let files = TEMPORARY.lock().unwrap_or_else(PoisonError::into_inner);
+    for file in files.iter() {
+        // Most are gone by now, or in their places.
+        let _ = fs::remove_file(file);
+    }
+    std::process::exit(i32::from(tell(reason(Failure::interrupted()))))
+}
