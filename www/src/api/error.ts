@@ -1,6 +1,7 @@
 /** Failures as data: a code for programs, a sentence for people, and typed details. */
 import type { CoreError } from "../../pkg/cusp_slicer.js";
 import type { ModelError } from "../../pkg/models/cusp_models.js";
+import { visible } from "./visible.js";
 
 /** Errors raised on this side of the worker, with their details. As with the core's, a published code keeps its meaning. */
 interface OwnDetails {
@@ -84,7 +85,7 @@ export function ofCore(value: unknown): SlicerError | null {
   const { code, message, detail } = value as Record<string, unknown>;
   if (typeof code !== "string" || typeof message !== "string") return null;
   // The core's types tie the detail to the code.
-  return new SlicerError(code as "no-plan", message, (detail ?? null) as null);
+  return new SlicerError(code as "no-plan", visible(message) as string, visible(detail ?? null) as null);
 }
 
 /** Any thrown value as a `SlicerError`; an unknown one becomes a `crash`. */
