@@ -26,23 +26,23 @@ fn resin_refusal(set: impl FnOnce(&mut Resin)) -> String {
 fn numbers_of_layers_are_refused_by_name_bound_and_unit() {
     assert_eq!(
         refusal(|options| options.bin_mm = Some(0.0)),
-        "the bin height must be from 0.000001 to 1000 mm, not 0 mm"
+        "the bin height must be from 0.000001 to 1000000 mm, not 0 mm"
     );
     assert_eq!(
         refusal(|options| options.layer_min_mm = Some(-0.05)),
-        "the minimum layer thickness must be from 0.000001 to 1000 mm, not -0.05 mm"
+        "the minimum layer thickness must be from 0.000001 to 1000000 mm, not -0.05 mm"
     );
     assert_eq!(
         refusal(|options| options.layer_max_mm = Some(f64::INFINITY)),
-        "the maximum layer thickness must be from 0.000001 to 1000 mm, not inf mm"
+        "the maximum layer thickness must be from 0.000001 to 1000000 mm, not inf mm"
     );
     assert_eq!(
         refusal(|options| options.step_mm = Some(0.0)),
-        "the motor step must be from 0.000001 to 1000 mm, not 0 mm"
+        "the motor step must be from 0.000001 to 1000000 mm, not 0 mm"
     );
     assert_eq!(
         refusal(|options| options.planner = Planner::Uniform { layer_mm: 0.0 }),
-        "the layer thickness must be from 0.000001 to 1000 mm, not 0 mm"
+        "the layer thickness must be from 0.000001 to 1000000 mm, not 0 mm"
     );
     assert_eq!(
         refusal(|options| options.tolerance = Some(-1.0)),
