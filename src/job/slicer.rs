@@ -46,6 +46,7 @@ pub struct Slicer {
     load_ms: f64,
     sampler: Sampler,
     /// Seconds of processor time that a plan may take, if that is bounded.
+    #[cfg(not(target_arch = "wasm32"))]
     cpu_time_s: Option<f64>,
     /// The surface for orientation searches, and the pose to whose height it is scaled, if it has one.
     pub(super) surface: Option<(Option<Pose>, Surface)>,
@@ -92,6 +93,7 @@ impl Slicer {
             painted: None,
             load_ms: ms_since(clock),
             sampler: Sampler::default(),
+            #[cfg(not(target_arch = "wasm32"))]
             cpu_time_s: None,
             surface: None,
             sampled: None,

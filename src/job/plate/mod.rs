@@ -44,6 +44,7 @@ pub struct Plate {
     /// What may be taken, if that is bounded.
     memory: Option<Memory>,
     /// Seconds of processor time that the plan of a plate may take, if that is bounded.
+    #[cfg(not(target_arch = "wasm32"))]
     cpu_time_s: Option<f64>,
     /// The models with their supports, if they have some: before turns, in the order of models.
     prepared: Vec<Arc<Prepared>>,
