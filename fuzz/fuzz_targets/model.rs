@@ -1,13 +1,3 @@
-//! No bytes make the readers of models panic.
-
 #![no_main]
 
-use cusp_slicer::model::Mesh;
-use cusp_slicer::model::read::read;
-use libfuzzer_sys::fuzz_target;
-
-fuzz_target!(|bytes: &[u8]| {
-    if let Ok(contents) = read(bytes) {
-        let _ = Mesh::from_triangles(&contents.triangles);
-    }
-});
+libfuzzer_sys::fuzz_target!(init: cusp_fuzz::work_here(), |bytes: &[u8]| cusp_fuzz::readers::model(bytes));
