@@ -4,6 +4,7 @@
 pub mod input;
 pub mod inspect;
 pub mod readers;
+pub mod settings;
 
 use std::ops::ControlFlow;
 use std::sync::LazyLock;
@@ -15,11 +16,13 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 pub type Target = fn(&[u8]);
 
 /// All targets by their names, which are those of the files in `fuzz_targets/` and of the folders in `seeds/`.
-pub const TARGETS: [(&str, Target); 5] = [
+pub const TARGETS: [(&str, Target); 7] = [
     ("inspect", inspect::inspect),
     ("model", readers::model),
     ("packed", readers::packed),
+    ("plan", settings::plan),
     ("print_file", readers::print_file),
+    ("settings", settings::settings),
     ("weights", readers::weights),
 ];
 
