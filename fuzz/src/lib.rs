@@ -1,8 +1,11 @@
 //! The fuzz targets: each is a function of bytes that panics if a promise is broken. `fuzz_targets/` gives them to libFuzzer, and
 //! tests/fuzz.rs, which includes this file, replays the seeds on any compiler.
 
+pub mod further;
 pub mod input;
 pub mod inspect;
+pub mod pipeline;
+pub mod promises;
 pub mod readers;
 pub mod settings;
 
@@ -16,10 +19,11 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 pub type Target = fn(&[u8]);
 
 /// All targets by their names, which are those of the files in `fuzz_targets/` and of the folders in `seeds/`.
-pub const TARGETS: [(&str, Target); 7] = [
+pub const TARGETS: [(&str, Target); 8] = [
     ("inspect", inspect::inspect),
     ("model", readers::model),
     ("packed", readers::packed),
+    ("pipeline", pipeline::pipeline),
     ("plan", settings::plan),
     ("print_file", readers::print_file),
     ("settings", settings::settings),
