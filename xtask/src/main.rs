@@ -10,6 +10,7 @@ mod bill;
 mod browser;
 mod counts;
 mod debian;
+mod fuzz;
 mod lint;
 mod modules;
 mod node;
@@ -74,6 +75,14 @@ enum Command {
     Size,
     /// Count instructions, allocations and bytes of print files, and compare them with benches/counts.json
     Counts,
+    /// Feed random input to the readers and the whole path for so many minutes (nightly compiler)
+    Fuzz {
+        /// Minutes for all targets together
+        minutes: f64,
+        /// Run only these targets
+        #[arg(value_name = "TARGET")]
+        targets: Vec<String>,
+    },
     /// Take the documentation's screenshots in a browser
     Screenshots,
     /// Run all benchmarks, or one; `gpu` also makes a folder that runs on other machines, and
@@ -122,6 +131,7 @@ fn run(command: Command) -> Result<bool> {
             return wasm::check_size(&project);
         }
         Command::Counts => return suite::run(&project, &[suite::Step::Counts]),
+        Command::Fuzz { minutes, targets } => return fuzz::run(&project, minutes, &targets),
         Command::Screenshots => {
             build(&project)?;
             let chromium = browser::chromium()?;
