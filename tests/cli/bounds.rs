@@ -182,22 +182,15 @@ fn text_from_outside_is_shown_and_does_not_act() {
 fn json_that_nobody_can_read_is_a_failure() {
     let folder = TempDir::new().unwrap();
     let ball = sphere(&folder);
-    for redirected in [">&-", "| true"] {
-        // The status of the command itself, also in a pipe.
-        let script = format!(
-            "{{ \"$0\" plan \"$1\" --backend cpu --pitch 0.3 --json; echo $? >&2; }} {redirected}"
-        );
-        let output = Command::new("sh")
-            .args(["-c", &script, env!("CARGO_BIN_EXE_cusp"), &ball])
-            .output()
-            .unwrap();
-        let said = String::from_utf8(output.stderr).unwrap();
-        assert!(
-            said.starts_with("cusp: standard output: "),
-            "{redirected}: {said}"
-        );
-        assert!(said.ends_with("1\n"), "{redirected}: {said}");
-    }
+    // The status of the command itself, in a pipe that is closed by the time it prints.
+    let script = "{ \"$0\" plan \"$1\" --backend cpu --pitch 0.3 --json; echo $? >&2; } | true";
+    let output = Command::new("sh")
+        .args(["-c", script, env!("CARGO_BIN_EXE_cusp"), &ball])
+        .output()
+        .unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(said.starts_with("cusp: standard output: "), "{said}");
+    assert!(said.ends_with("1\n"), "{said}");
 }
 
 #[test]

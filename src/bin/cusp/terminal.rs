@@ -60,26 +60,7 @@ fn write_line(text: &str) -> io::Result<()> {
         let _ = writeln!(io::stderr(), "{text}");
         return Ok(());
     }
-    if is_stdout_closed() {
-        return Err(io::Error::other("it is closed"));
-    }
     writeln!(io::stdout(), "{text}")
-}
-
-/// Whether standard output was closed when the program began, as by `>&-`. Rust has then opened the null device in its place, for
-/// reading as well, and what is written there is lost without an error.
-#[cfg(unix)]
-fn is_stdout_closed() -> bool {
-    use rustix::fs::{OFlags, fcntl_getfl, fstat, stat};
-    let stdout = io::stdout();
-    let is_for_both = fcntl_getfl(&stdout).is_ok_and(|flags| flags.contains(OFlags::RDWR));
-    let devices = [fstat(&stdout), stat("/dev/null")].map(|found| found.map(|it| it.st_rdev));
-    is_for_both && matches!(devices, [Ok(one), Ok(other)] if one == other)
-}
-
-#[cfg(not(unix))]
-fn is_stdout_closed() -> bool {
-    false
 }
 
 /// A duration for people: seconds below a minute, else hours and minutes.
