@@ -454,7 +454,16 @@ fn tidy(value: f64) -> f64 {
 
 /// Formats a number to at most three decimals, without trailing zeros.
 fn thousandths(value: f64) -> String {
-    let text = format!("{value:.3}");
+    decimals(value, 3)
+}
+
+/// The same to at most six decimals: thicknesses, whose errors would add up over all layers.
+fn millionths(value: f64) -> String {
+    decimals(value, 6)
+}
+
+fn decimals(value: f64, most: usize) -> String {
+    let text = format!("{value:.most$}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text.is_empty() || text == "-0" {
         "0".to_owned()

@@ -160,6 +160,23 @@ fn every_format_has_every_height_exposure_and_pixel() {
 }
 
 #[test]
+fn a_thickness_between_micrometres_is_not_rounded() {
+    // SL1 has a thickness and no heights, so a rounded one adds up over all layers.
+    let options = Options {
+        printer: Some(own(Format::Sl1, None)),
+        height_mm: Some(2.0),
+        bin_mm: Some(0.0125),
+        planner: Planner::Uniform { layer_mm: 0.0375 },
+        backend: Backend::Cpu,
+        ..Options::default()
+    };
+    let ball = solids::sphere(1.0, 4);
+    let (files, report) = slice(&ball, &options, &[Format::Png, Format::Sl1]);
+    let png = PrintFile::open(&*files[0]).unwrap();
+    check(&files[1], &png, Format::Sl1, &report, "ball");
+}
+
+#[test]
 fn every_version_and_byte_order_can_be_read() {
     let ball = solids::sphere(1.0, 4);
     for version in [516, 517, 518] {

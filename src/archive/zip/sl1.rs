@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::{Container, File, LayerEntry};
-use crate::archive::{ArchiveError, PrintJob, thousandths};
+use crate::archive::{ArchiveError, PrintJob, millionths, thousandths};
 
 pub struct Sl1;
 
@@ -72,13 +72,13 @@ fn config(job: &PrintJob<'_>, layers: &[LayerEntry]) -> String {
         ),
         ("hollow", "0".to_owned()),
         ("jobDir", JOB.to_owned()),
-        ("layerHeight", thousandths(layer_mm)),
+        ("layerHeight", millionths(layer_mm)),
         ("materialName", name),
         // No transition layers: all bottom layers have the same exposure.
         ("numFade", "0".to_owned()),
         ("numFast", (layers.len() - slow).to_string()),
         ("numSlow", slow.to_string()),
-        ("printProfile", format!("{} mm", thousandths(layer_mm))),
+        ("printProfile", format!("{} mm", millionths(layer_mm))),
         ("printTime", thousandths(job.print_time_s())),
         ("printerModel", model.to_owned()),
         ("printerProfile", profile.to_owned()),
@@ -110,8 +110,8 @@ fn prusaslicer(job: &PrintJob<'_>, layers: &[LayerEntry]) -> String {
             "display_orientation",
             if is_portrait { "portrait" } else { "landscape" }.to_owned(),
         ),
-        ("layer_height", thousandths(layer_mm)),
-        ("initial_layer_height", thousandths(layers[0].thickness_mm)),
+        ("layer_height", millionths(layer_mm)),
+        ("initial_layer_height", millionths(layers[0].thickness_mm)),
         ("exposure_time", thousandths(job.resin.exposure_s(layer_mm))),
         (
             "initial_exposure_time",
