@@ -95,8 +95,8 @@ impl Quantity {
     /// over all layers overflows.
     pub fn range(self) -> [f64; 2] {
         match self {
-            Self::Pitch => [1e-6, 1e6],
-            Self::Bin
+            Self::Pitch
+            | Self::Bin
             | Self::Step
             | Self::Layer
             | Self::FirstLayer
