@@ -223,10 +223,5 @@ fn out_of_range(quantity: Quantity, value: f64) -> String {
     let [least, most] = quantity.range();
     let (noun, unit) = (quantity.noun(), quantity.unit().symbol());
     let gap = if unit.is_empty() { "" } else { " " };
-    let value = if value.abs() < 1e15 {
-        value.to_string()
-    } else {
-        format!("{value:e}")
-    };
     format!("{noun} must be from {least} to {most}{gap}{unit}, not {value}{gap}{unit}")
 }

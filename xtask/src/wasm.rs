@@ -56,7 +56,7 @@ const MODULES: [Module; 4] = [
     Module {
         package: "cusp-slicer",
         files: "pkg/cusp_slicer",
-        budget: 400_000,
+        budget: 405_000,
         later: Some((LATER, 177_000)),
     },
     Module {
