@@ -151,7 +151,7 @@ export class Calls<Held> {
     };
     const within = <T>(answer: Promise<T>): Promise<T> =>
       new Promise((resolve, reject) => {
-        if (ended !== null) reject(ended.reason as Error);
+        if (ended !== null) reject(ended.reason);
         waiting.add(reject);
         answer.then(resolve, reject).finally(() => waiting.delete(reject));
       });
