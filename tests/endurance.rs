@@ -8,8 +8,8 @@ use common::{binary_stl, quiet, solids};
 use cusp_slicer::job::{Backend, Options, Slicer};
 use cusp_slicer::profile::Metric;
 
-/// Jobs, each of the next model in turn. `CUSP_JOBS` asks for more.
-const JOBS: usize = 400;
+/// Jobs, each of the next model in turn.
+const JOBS: usize = 2000;
 /// After so many jobs all that is made once exists.
 const WARM: usize = 40;
 
@@ -34,11 +34,9 @@ fn models() -> Vec<Vec<u8>> {
 
 #[test]
 fn the_memory_of_many_jobs_is_that_of_a_few() {
-    let asked = std::env::var("CUSP_JOBS").ok();
-    let jobs = asked.map_or(JOBS, |jobs| jobs.parse().unwrap());
     let models = models();
     let mut warm_bytes = 0.0;
-    for job in 0..jobs {
+    for job in 0..JOBS {
         let options = Options {
             rays: 128,
             backend: Backend::Cpu,
@@ -55,7 +53,7 @@ fn the_memory_of_many_jobs_is_that_of_a_few() {
     }
     let bytes = resident_bytes();
     println!(
-        "{:.1} MB after {WARM} jobs, {:.1} MB after {jobs}",
+        "{:.1} MB after {WARM} jobs, {:.1} MB after {JOBS}",
         warm_bytes / 1e6,
         bytes / 1e6
     );
