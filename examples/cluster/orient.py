@@ -63,7 +63,8 @@ class Measured:
             return ""
         if part.returncode == 1:
             self.refused[model] = part.stderr
-        elif part.returncode != 0:
+            return ""
+        if part.returncode != 0:
             raise Stop(part.returncode, part.stderr)
         return part.stdout
 

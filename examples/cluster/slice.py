@@ -91,11 +91,11 @@ class Batch:
 
     def tell(self, model: str, called: CompletedProcess[str], sliced: Sliced | None = None) -> None:
         """Tells what cusp said of a model."""
-        if not called.stdout:
+        line = json.loads(called.stdout) if called.stdout else {}
+        if "model" not in line:
             # It is wrong for every model.
             raise Stop(called.returncode, called.stderr)
         sys.stderr.write(called.stderr)
-        line = json.loads(called.stdout)
         line["model"] = model
         line.pop("output", None)
         if called.returncode == 0 and sliced is not None:

@@ -109,9 +109,10 @@ class Orient(Example):
         for wrong in ["--layer-min=0.2", f"--weights={self.wedge}", f"--resin={self.folder}/absent.json"]:
             batch = [self.wedge, self.spire, *self.options, wrong]
             native = self.cusp(*batch)
-            self.assertEqual((native.returncode, native.stdout, native.stderr.count("\n")), (1, "", 1))
+            self.assertEqual((native.returncode, native.stderr.count("\n")), (1, 1))
+            self.assertEqual(json.loads(native.stdout)["error"]["code"], "file")
             found = self.finish(self.start("--workers=2", f"--cusp={CUSP}", *batch))
-            self.assertEqual(found, (1, "", native.stderr))
+            self.assertEqual(found, (1, native.stdout, native.stderr))
 
         missing = self.folder / "no-cusp"
         code, output, messages = self.finish(self.start("--workers=1", f"--cusp={missing}", self.wedge, self.spire))
