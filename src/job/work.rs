@@ -3,6 +3,7 @@
 use super::parts::{Layering, Target, Thicknesses};
 use super::{Error, Minimize, Planner};
 use crate::grid::Bins;
+use crate::plan::timed::MOST_BOTTOM_LAYERS;
 use crate::profile::Metric;
 
 /// Layers whose errors a processor measures in a second, at most.
@@ -52,7 +53,7 @@ fn layers_to_measure(bins: Bins, layering: &Layering) -> f64 {
     };
     // What a layer costs depends on how many bottom layers are below it.
     let of_bottom = if is_by_time {
-        layering.resin.bottom_layers.min(100) as f64 + 1.0
+        layering.resin.bottom_layers.min(MOST_BOTTOM_LAYERS) as f64 + 1.0
     } else {
         1.0
     };

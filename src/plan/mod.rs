@@ -11,7 +11,7 @@ pub mod optimal;
 pub mod preferred;
 pub mod segment;
 pub mod thicknesses;
-mod timed;
+pub(crate) mod timed;
 pub mod tradeoff;
 pub mod uniform;
 

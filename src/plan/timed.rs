@@ -8,7 +8,7 @@ use crate::profile::{LayerErrors, Reach};
 use crate::resin::Resin;
 
 /// Bottom layers that are told apart; any more of them cost as much as layers above.
-const MOST_BOTTOM_LAYERS: usize = 100;
+pub(crate) const MOST_BOTTOM_LAYERS: usize = 100;
 
 /// Plans up to the planes of a segment, by the layers below.
 struct Tables {

@@ -19,9 +19,9 @@ pub struct Budget {
 
 impl Budget {
     /// So much memory and time, in seconds.
-    pub fn of(ByteSize(bytes): ByteSize, max_cpu_time: f64) -> Self {
+    pub fn of(max_memory: ByteSize, max_cpu_time: f64) -> Self {
         Self {
-            max_memory: Some(ByteSize(bytes)),
+            max_memory: Some(max_memory),
             max_cpu_time: Some(max_cpu_time),
         }
     }

@@ -83,23 +83,20 @@ pub fn calibrate(calibrating: &Calibrating) -> Result<(), Failure> {
     let (Calibrating::Layers { output, .. }
     | Calibrating::Exposure { output, .. }
     | Calibrating::Resin { output, .. }) = calibrating;
-    check_json("calibrate", Some(output), calibrating.is_json());
+    let json = calibrating.is_json();
+    check_json("calibrate", Some(output), json);
     let output = &Output::new(output, None, "")?;
     match calibrating {
-        Calibrating::Layers { target, json, .. } => layers(target, output, *json),
+        Calibrating::Layers { target, .. } => layers(target, output, json),
         Calibrating::Exposure {
             thicknesses,
             exposures,
             target,
-            json,
             ..
-        } => exposure(target, thicknesses, exposures, output, *json),
+        } => exposure(target, thicknesses, exposures, output, json),
         Calibrating::Resin {
-            measured,
-            resin,
-            json,
-            ..
-        } => resin_file(measured, resin.as_deref(), output, *json),
+            measured, resin, ..
+        } => resin_file(measured, resin.as_deref(), output, json),
     }
 }
 

@@ -47,6 +47,21 @@ pub struct Problem {
     pub file: Option<String>,
 }
 
+impl Problem {
+    /// A typed failure that concerns no file.
+    fn of(error: &(impl Display + Serialize)) -> Self {
+        let mut typed = serde_json::to_value(error).unwrap_or_default();
+        let mut detail = typed["detail"].take();
+        visible_detail(&mut detail);
+        Self {
+            code: typed["code"].as_str().unwrap_or_default().to_owned(),
+            message: visible(&error.to_string()).into_owned(),
+            detail,
+            file: None,
+        }
+    }
+}
+
 /// What a command prints in JSON when it fails.
 #[derive(Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -82,18 +97,12 @@ impl Failure {
 
     /// A typed failure that concerns a file.
     pub fn of(path: &Path, error: &(impl Display + Serialize)) -> Self {
-        let mut typed = serde_json::to_value(error).unwrap_or_default();
-        let mut detail = typed["detail"].take();
-        visible_detail(&mut detail);
         Self {
             exit_code: 1,
             message: Some(in_file(path, error)),
             problem: Some(Box::new(Problem {
-                code: typed["code"].as_str().unwrap_or_default().to_owned(),
-                message: visible(&error.to_string()).into_owned(),
-                detail,
-                file: (path != Path::new(""))
-                    .then(|| visible(&path.to_string_lossy()).into_owned()),
+                file: Some(visible(&path.to_string_lossy()).into_owned()),
+                ..Problem::of(error)
             })),
         }
     }
@@ -109,8 +118,9 @@ impl Failure {
     /// A bound that the command has exceeded.
     pub fn bound(error: &cusp_slicer::Error) -> Self {
         Self {
+            exit_code: 1,
             message: Some(error.to_string()),
-            ..Self::of(Path::new(""), error)
+            problem: Some(Box::new(Problem::of(error))),
         }
     }
 
@@ -262,7 +272,9 @@ impl<'a> Output<'a> {
     ) -> Result<T, Failure> {
         // Created before the work, so that a folder without write permission fails at once.
         let sink = match &self.place {
-            Some(place) => file_beside(place).map(Sink::File),
+            Some(place) => file_beside(place)
+                .inspect(|file| note_temporary(file.path()))
+                .map(Sink::File),
             None => Ok(Sink::Standard(io::stdout())),
         };
         let sink = sink.map_err(|error| self.failed(&error))?;
@@ -393,7 +405,6 @@ fn file_beside(place: &Path) -> io::Result<NamedTempFile> {
         let usual = fs::Permissions::from_mode(0o666);
         builder.permissions(old.clone().unwrap_or(usual));
         let file = builder.tempfile_in(parent(place))?;
-        note_temporary(file.path());
         if let Some(old) = old {
             // The umask may have removed some.
             file.as_file().set_permissions(old)?;
@@ -401,9 +412,5 @@ fn file_beside(place: &Path) -> io::Result<NamedTempFile> {
         Ok(file)
     }
     #[cfg(not(unix))]
-    {
-        let file = NamedTempFile::new_in(parent(place))?;
-        note_temporary(file.path());
-        Ok(file)
-    }
+    NamedTempFile::new_in(parent(place))
 }

@@ -16,7 +16,7 @@ use crate::arguments::{Choices, Settings};
 use crate::batch::check_inputs;
 use crate::export::write_stl;
 use crate::files::{Failure, Output, WeightsFile, in_file, load_painted};
-use crate::terminal::{Bar, duration, print, say, to_json};
+use crate::terminal::{Bar, duration, print, print_json_line, say, to_json};
 use crate::usage::check_json;
 use crate::values::{fraction, shard};
 use crate::watch::{is_stopped, stop_on_interrupt};
@@ -107,12 +107,15 @@ pub fn orient(orienting: &Orienting) -> Result<(), Failure> {
         target,
     };
     stop_on_interrupt();
+    // What a shard measured is for a program, too.
+    let is_json = orienting.json || orienting.shard.is_some();
     let mut is_any_bad = false;
     for model in &orienting.models {
         if is_stopped() {
             return Err(Failure::interrupted());
         }
         match task.answer(orienting, model) {
+            Ok(answer) if is_json => print_json_line(&answer)?,
             Ok(answer) => print(&answer)?,
             // A bad model does not affect the rest of the batch.
             Err(Failure {

@@ -44,7 +44,12 @@ pub fn to_json(value: &impl Serialize) -> Result<String, String> {
 
 /// Prints a line of JSON. Who reads it must have all of it: a closed pipe is an error here.
 pub fn print_json(value: &impl Serialize) -> Result<(), String> {
-    write_line(&to_json(value)?).map_err(|error| format!("standard output: {error}"))
+    print_json_line(&to_json(value)?)
+}
+
+/// The same of what [`to_json`] has made.
+pub fn print_json_line(json: &str) -> Result<(), String> {
+    write_line(json).map_err(|error| format!("standard output: {error}"))
 }
 
 /// Prints lines for people. A reader that has closed the pipe, such as `head`, is not an error.
