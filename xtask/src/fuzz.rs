@@ -4,7 +4,6 @@ use std::{
     fmt::Write as _,
     fs::{self, File},
     path::{Path, PathBuf},
-    process::Command,
     time::{Duration, Instant},
 };
 
@@ -13,7 +12,8 @@ use anyhow::{Context, Result, bail, ensure};
 use crate::{
     process::{self, command},
     project::Project,
-    python, toolchain,
+    python,
+    toolchain::nightly,
 };
 
 /// The target that takes longest for each input, and the part of the time that it gets, in shares of the others.
@@ -90,16 +90,6 @@ fn targets(folder: &Path) -> Result<Vec<String>> {
     Ok(names)
 }
 
-/// A command on the nightly compiler.
-fn nightly(program: impl AsRef<std::ffi::OsStr>) -> Command {
-    let mut command = command(program);
-    for name in toolchain::VARIABLES {
-        command.env_remove(name);
-    }
-    command.env("RUSTUP_TOOLCHAIN", "nightly");
-    command
-}
-
 /// Builds a target. Returns its program.
 fn build(project: &Project, target: &str) -> Result<PathBuf> {
     let version = process::output(nightly("rustc").arg("-vV")).unwrap_or_default();
@@ -133,10 +123,8 @@ fn cargo_fuzz(project: &Project) -> Result<PathBuf> {
     if let Ok(installed) = which::which("cargo-fuzz") {
         return Ok(installed);
     }
-    let python = python::ensure_environment(project, &project.root.join("xtask/cargo-fuzz"));
-    let python = python.context("cargo-fuzz is missing: get it with `cargo install cargo-fuzz`")?;
-    let name = format!("cargo-fuzz{}", std::env::consts::EXE_SUFFIX);
-    Ok(python.with_file_name(name))
+    python::program(project, "cargo-fuzz")
+        .context("cargo-fuzz is missing: get it with `cargo install cargo-fuzz`")
 }
 
 /// Runs one target. Its corpus is kept for the next time, beside what it prints.

@@ -4,7 +4,6 @@ use std::{
     collections::BTreeMap,
     fs,
     path::{Path, PathBuf},
-    process::Command,
 };
 
 use anyhow::{Context, Result, ensure};
@@ -12,9 +11,10 @@ use serde::Deserialize;
 
 use crate::{
     bill, node,
-    process::{self, cargo, command},
+    process::{self, cargo},
     project::Project,
-    toolchain, wasm,
+    toolchain::nightly,
+    wasm,
 };
 
 /// What a package may consist of, by the first folder or, with at most one `*`, the name. Each must be there.
@@ -74,7 +74,7 @@ pub fn run(project: &Project) -> bool {
     judge("versions", same_versions(project));
     judge("npm package", npm_package(project));
     judge("crate", crate_package(project));
-    if process::output(nightly(project, "rustc").arg("--version")).is_ok() {
+    if process::output(nightly("rustc").arg("--version")).is_ok() {
         judge("documentation", document(project));
     } else {
         println!("ignored: documentation as docs.rs builds it — no nightly toolchain");
@@ -236,23 +236,13 @@ fn document(project: &Project) -> Result<()> {
     let manifest = fs::read_to_string(project.root.join("Cargo.toml"))?;
     let features = docs_features(&manifest)?.join(",");
     process::run(
-        nightly(project, "cargo")
+        nightly("cargo")
+            .current_dir(&project.root)
             .args(["rustdoc", "--locked", "--lib", "--package", "cusp-slicer"])
             .args(["--no-default-features", "--features", &features])
             .args(["--", "--cfg", "docsrs", "-D", "warnings"])
             .env("CARGO_TARGET_DIR", project.target.join("docsrs")),
     )
-}
-
-/// A program of the toolchain that docs.rs has.
-fn nightly(project: &Project, program: &str) -> Command {
-    let mut rustup = command("rustup");
-    rustup.current_dir(&project.root);
-    for name in toolchain::VARIABLES {
-        rustup.env_remove(name);
-    }
-    rustup.args(["run", "nightly", program]);
-    rustup
 }
 
 /// The features of `[package.metadata.docs.rs]`.

