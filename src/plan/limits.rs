@@ -5,7 +5,9 @@ use std::ops::RangeInclusive;
 use serde::{Deserialize, Serialize};
 
 use super::PlanError;
+use crate::disjoint;
 use crate::grid::Bins;
+use crate::order::ascending;
 use crate::quantity::Quantity;
 
 /// The limits that every plan must respect.
@@ -54,23 +56,46 @@ impl HeightRange {
             .collect();
         ends.sort_unstable_by(f64::total_cmp);
         ends.dedup();
-        let between = ends.windows(2).filter_map(|ends| {
-            let meeting = ranges
-                .iter()
-                .filter(|range| range.from_mm <= ends[0] && ends[1] <= range.to_mm);
-            let all = meeting.copied().reduce(|all, range| Self {
-                layer_min_mm: all.layer_min_mm.max(range.layer_min_mm),
-                layer_max_mm: all.layer_max_mm.min(range.layer_max_mm),
-                ..all
-            });
-            all.map(|all| Self {
+        let covering = |order: Vec<usize>| first_to_cover(&ends, ranges, order);
+        // Those that demand most come first.
+        let thickest_first = ascending(ranges.iter().map(|range| -range.layer_min_mm));
+        let thinnest_first = ascending(ranges.iter().map(|range| range.layer_max_mm));
+        let limits = covering(thickest_first)
+            .into_iter()
+            .zip(covering(thinnest_first));
+        let between = ends.windows(2).zip(limits);
+        let joined = between.filter_map(|(ends, (least, greatest))| {
+            Some(Self {
                 from_mm: ends[0],
                 to_mm: ends[1],
-                ..all
+                layer_min_mm: ranges[least?].layer_min_mm,
+                layer_max_mm: ranges[greatest?].layer_max_mm,
             })
         });
-        between.collect()
+        joined.collect()
     }
+}
+
+/// For each interval between ends, the first range of `order` that covers it.
+fn first_to_cover(ends: &[f64], ranges: &[HeightRange], order: Vec<usize>) -> Vec<Option<usize>> {
+    let mut covering = vec![None; ends.len().saturating_sub(1)];
+    // The next interval that nothing covers yet, from each interval on.
+    let mut uncovered: Vec<u32> = (0..ends.len() as u32).collect();
+    let interval_at = |mm: f64| ends.partition_point(|&end| end < mm);
+    for place in order {
+        let range = &ranges[place];
+        let to = interval_at(range.to_mm);
+        let mut interval = interval_at(range.from_mm);
+        loop {
+            interval = disjoint::find(&mut uncovered, interval as u32) as usize;
+            if interval >= to {
+                break;
+            }
+            covering[interval] = Some(place);
+            uncovered[interval] += 1;
+        }
+    }
+    covering
 }
 
 impl Limits {

@@ -9,6 +9,7 @@ pub mod least_sum;
 mod limits;
 pub mod optimal;
 pub mod preferred;
+mod reachable;
 pub mod segment;
 pub mod thicknesses;
 pub(crate) mod timed;

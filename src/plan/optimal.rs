@@ -1,10 +1,15 @@
 //! The fewest layers within tolerance, or the shortest print time, by dynamic programming (Procedure 1).
 
-use super::preferred::{Preferred, SnapPlanes};
+use std::ops::RangeInclusive;
+
+use super::preferred::{ByHeight, Preferred, SnapPlanes};
 use super::segment::{Segment, Segments, boundaries_below};
-use super::{Limits, Plan, PlanError, timed, tradeoff};
-use crate::profile::{LayerErrors, LayersAbove, Reach};
+use super::{Limits, Plan, PlanError, reachable, timed, tradeoff};
+use crate::profile::{ErrorSum, LayerErrors, LayersAbove, Reach};
 use crate::resin::Resin;
+
+/// Candidates that no layer can begin at any more, before they leave the queue.
+const PASSED: usize = 512;
 
 /// What a plan minimises.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -82,13 +87,14 @@ pub fn within(
 ) -> Result<Result<Plan, Blocked>, PlanError> {
     let bins = errors.bins();
     let segments = Segments::new(bins, limits, &[])?.segments;
+    let snap_planes = &snap_planes.by_height();
     let filled = match objective {
         Objective::Layers => fewest(errors, &segments, snap_planes, tolerance),
         Objective::Time(resin) => timed::quickest(errors, &segments, snap_planes, resin, tolerance),
     };
     Ok(match filled {
         Ok(boundaries) => {
-            let kept = kept(&segments, snap_planes.planes, &boundaries);
+            let kept = kept(&segments, snap_planes, &boundaries);
             Ok(Plan::new(bins, &segments, boundaries, kept))
         }
         Err(Stuck { segment, reached }) => {
@@ -104,12 +110,12 @@ pub fn within(
 }
 
 /// The snap planes that are among the boundaries of a plan, in ascending order.
-fn kept(segments: &[Segment], snap_planes: &[u32], boundaries: &[u32]) -> Vec<u32> {
+fn kept(segments: &[Segment], snap_planes: &ByHeight, boundaries: &[u32]) -> Vec<u32> {
     let mut kept: Vec<u32> = segments
         .iter()
         .flat_map(|segment| {
-            let within = |&plane| Some(segment.boundary(segment.plane_within(plane)?));
-            snap_planes.iter().filter_map(within)
+            let planes = snap_planes.within(segment);
+            planes.map(|(plane, _)| segment.boundary(plane))
         })
         .filter(|plane| boundaries.binary_search(plane).is_ok())
         .collect();
@@ -128,21 +134,14 @@ pub(super) struct Stuck {
 fn fewest(
     errors: &LayerErrors,
     segments: &[Segment],
-    snap_planes: SnapPlanes<'_>,
+    snap_planes: &ByHeight,
     tolerance: u64,
 ) -> Result<Vec<u32>, Stuck> {
     let mut boundaries = boundaries_below(segments);
     for (index, segment) in segments.iter().enumerate() {
         let preferred = Preferred::within(segment, snap_planes, 1);
         let table = match errors {
-            // A plane's sum is looked up once, not for each layer that it may bound.
-            LayerErrors::Sum(errors) => fill_fewest_by(
-                |boundary| errors.steps_below(boundary),
-                |lower, upper| upper - lower,
-                segment,
-                &preferred,
-                tolerance,
-            ),
+            LayerErrors::Sum(errors) => fill_fewest_up(errors, segment, &preferred, tolerance),
             errors if errors.is_monotone() => fill_fewest(
                 |lower, upper| errors.steps_between(lower, upper),
                 segment,
@@ -271,11 +270,44 @@ pub fn fill_fewest(
     tolerance: u64,
 ) -> Table {
     let itself = |boundary| boundary;
-    fill_fewest_by(itself, error_between, segment, preferred, tolerance)
+    let all = [0..=segment.units];
+    fill_fewest_at(&all, itself, error_between, segment, preferred, tolerance)
 }
 
-/// [`fill_fewest`] for errors that are made from a mark of each boundary.
-fn fill_fewest_by<Mark: Copy>(
+/// [`fill_fewest`] as far as the best plan up to the top needs it.
+fn fill_fewest_up(
+    errors: &ErrorSum,
+    segment: &Segment,
+    preferred: &Preferred,
+    tolerance: u64,
+) -> Table {
+    let fill = |planes: &[RangeInclusive<u32>]| {
+        // A plane's sum is looked up once, not for each layer that it may bound.
+        let sum = |boundary| errors.steps_below(boundary);
+        let between = |lower, upper| upper - lower;
+        fill_fewest_at(planes, sum, between, segment, preferred, tolerance)
+    };
+    // With snap planes, a plan of more layers may cost less.
+    if preferred.is_empty() {
+        let is_within = |lower, upper| {
+            let [lower, upper] = [lower, upper].map(|plane| segment.boundary(plane));
+            errors.steps_between(lower, upper) <= tolerance
+        };
+        if let Some(planes) = reachable::by_layers(segment, &is_within) {
+            let table = fill(&planes);
+            if table.cost.last() == Some(&(planes.len() as u64 - 1)) {
+                return table;
+            }
+        }
+    }
+    fill(&[0..=segment.units])
+}
+
+/// [`fill_fewest`] at the planes of some ranges, which ascend, for errors that are made from a mark of each boundary. The other planes
+/// stay unreached.
+#[inline(never)]
+fn fill_fewest_at<Mark: Copy>(
+    ranges: &[RangeInclusive<u32>],
     mark_of: impl Fn(u32) -> Mark,
     error_between: impl Fn(Mark, Mark) -> u64,
     segment: &Segment,
@@ -286,57 +318,73 @@ fn fill_fewest_by<Mark: Copy>(
     let (least, greatest) = (*segment.thickness.start(), *segment.thickness.end());
     let mut queue: Vec<Candidate<Mark>> = Vec::new();
     let (mut front, mut best) = (0, 0);
-    for plane in least..=segment.units {
-        let highest = plane - least;
-        let [layers, missed, worst] = table.at(highest);
-        if layers != Table::NO_PLAN {
-            let [price, weight] = preferred.above(highest);
-            let cost = [layers + price, missed + weight];
-            while queue.len() > front
-                && queue
-                    .last()
-                    .is_some_and(|last| (last.cost, last.worst) >= (cost, worst))
+    // Planes that have not been queued.
+    let (mut unqueued, mut later) = (0..0, ranges.iter());
+    for range in ranges {
+        for plane in least.max(*range.start())..=*range.end() {
+            while unqueued.start <= plane - least {
+                let Some(highest) = unqueued.next() else {
+                    let Some(range) = later.next() else { break };
+                    unqueued = *range.start()..*range.end() + 1;
+                    continue;
+                };
+                let [layers, missed, worst] = table.at(highest);
+                if layers == Table::NO_PLAN {
+                    continue;
+                }
+                let [price, weight] = preferred.above(highest);
+                let cost = [layers + price, missed + weight];
+                while queue.len() > front
+                    && queue
+                        .last()
+                        .is_some_and(|last| (last.cost, last.worst) >= (cost, worst))
+                {
+                    queue.pop();
+                }
+                if best >= queue.len() {
+                    best = queue.len().saturating_sub(1).max(front);
+                }
+                queue.push(Candidate {
+                    plane: highest,
+                    cost,
+                    worst,
+                    mark: mark_of(segment.boundary(highest)),
+                });
+            }
+            let top = mark_of(segment.boundary(plane));
+            let error_from = |below: &Candidate<Mark>| error_between(below.mark, top);
+            while queue.get(front).is_some_and(|below| {
+                plane - below.plane > greatest || error_from(below) > tolerance
+            }) {
+                front += 1;
+            }
+            best = best.max(front);
+            let Some(least_cost) = queue.get(front).map(|below| below.cost) else {
+                continue;
+            };
+            while queue
+                .get(best + 1)
+                .is_some_and(|next| next.cost == least_cost && next.worst <= error_from(next))
             {
-                queue.pop();
+                best += 1;
             }
-            if best >= queue.len() {
-                best = queue.len().saturating_sub(1).max(front);
+            let worst_over = |below: &Candidate<Mark>| below.worst.max(error_from(below));
+            let mut chosen = (worst_over(&queue[best]), queue[best].plane);
+            if let Some(next) = queue.get(best + 1)
+                && next.cost == least_cost
+                && worst_over(next) < chosen.0
+            {
+                chosen = (worst_over(next), next.plane);
             }
-            queue.push(Candidate {
-                plane: highest,
-                cost,
-                worst,
-                mark: mark_of(segment.boundary(highest)),
-            });
+            let [cost, missed] = preferred.below(least_cost, plane);
+            table.set(plane, [cost + 1, missed, chosen.0], chosen.1);
+            // So that the queue stays in the cache.
+            if front >= PASSED {
+                queue.drain(..front);
+                best -= front;
+                front = 0;
+            }
         }
-        let top = mark_of(segment.boundary(plane));
-        let error_from = |below: &Candidate<Mark>| error_between(below.mark, top);
-        while queue
-            .get(front)
-            .is_some_and(|below| plane - below.plane > greatest || error_from(below) > tolerance)
-        {
-            front += 1;
-        }
-        best = best.max(front);
-        let Some(least_cost) = queue.get(front).map(|below| below.cost) else {
-            continue;
-        };
-        while queue
-            .get(best + 1)
-            .is_some_and(|next| next.cost == least_cost && next.worst <= error_from(next))
-        {
-            best += 1;
-        }
-        let worst_over = |below: &Candidate<Mark>| below.worst.max(error_from(below));
-        let mut chosen = (worst_over(&queue[best]), queue[best].plane);
-        if let Some(next) = queue.get(best + 1)
-            && next.cost == least_cost
-            && worst_over(next) < chosen.0
-        {
-            chosen = (worst_over(next), next.plane);
-        }
-        let [cost, missed] = preferred.below(least_cost, plane);
-        table.set(plane, [cost + 1, missed, chosen.0], chosen.1);
     }
     table
 }

@@ -1,6 +1,7 @@
 //! Planes that a plan prefers, and what it costs to do without one.
 
 use super::segment::Segment;
+use crate::order::ascending;
 
 /// Heights that deserve a plane.
 #[derive(Debug, Clone, Copy)]
@@ -26,6 +27,36 @@ impl SnapPlanes<'_> {
         planes: &[],
         price: Price::Nothing,
     };
+
+    /// In the order in which segments meet them.
+    pub(super) fn by_height(&self) -> ByHeight {
+        let order = ascending(self.planes.iter().map(|&plane| f64::from(plane))).into_iter();
+        ByHeight {
+            planes: order.map(|rank| (self.planes[rank], rank as u64)).collect(),
+            price: self.price,
+        }
+    }
+}
+
+/// Snap planes by height.
+#[derive(Debug)]
+pub(super) struct ByHeight {
+    /// Boundaries of bins, each with how many are more important, in ascending order.
+    planes: Vec<(u32, u64)>,
+    price: Price,
+}
+
+impl ByHeight {
+    /// The planes of a segment nearest to those within it, in ascending order, each with how many snap planes are more important.
+    pub fn within(&self, segment: &Segment) -> impl Iterator<Item = (u32, u64)> {
+        let (lower, upper) = (segment.lower, segment.upper() + segment.unit);
+        let from = self
+            .planes
+            .partition_point(|(plane, _)| plane + segment.unit < lower);
+        let near = self.planes[from..].iter();
+        let near = near.take_while(move |&&(plane, _)| plane <= upper);
+        near.filter_map(|&(plane, rank)| Some((segment.plane_within(plane)?, rank)))
+    }
 }
 
 /// The snap planes within a segment.
@@ -38,25 +69,20 @@ pub struct Preferred {
 impl Preferred {
     /// The snap planes within `segment`, each at this price. Of plans of the same cost the one that does without fewer is better; of
     /// those with as many, the one that keeps the more important.
-    pub(super) fn within(segment: &Segment, snap_planes: SnapPlanes<'_>, layer_price: u64) -> Self {
+    pub(super) fn within(segment: &Segment, snap_planes: &ByHeight, layer_price: u64) -> Self {
         let price = match snap_planes.price {
             Price::Layer => layer_price,
             Price::Nothing => 0,
         };
         let count = snap_planes.planes.len() as u64;
         let mut from = Vec::new();
-        for (&plane, rank) in snap_planes.planes.iter().zip(0..) {
-            let Some(plane) = segment.plane_within(plane) else {
-                continue;
-            };
+        for (plane, rank) in snap_planes.within(segment) {
             if from.is_empty() {
                 from = vec![[0; 2]; segment.units as usize + 1];
             }
             let slot: &mut [u64; 2] = &mut from[plane as usize];
-            // Several may be rounded to the same step: the first is the most important.
-            if *slot == [0; 2] {
-                *slot = [price, count * count + count - rank];
-            }
+            // Several may be rounded to the same step: the most important counts.
+            *slot = [price, slot[1].max(count * count + count - rank)];
         }
         for plane in (1..from.len()).rev() {
             let above = from[plane];
@@ -64,6 +90,11 @@ impl Preferred {
             *below = [below[0] + above[0], below[1] + above[1]];
         }
         Self { from }
+    }
+
+    /// Whether there are none.
+    pub(super) fn is_empty(&self) -> bool {
+        self.from.is_empty()
     }
 
     /// Price and weight of the snap planes from `plane` upward.

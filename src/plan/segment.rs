@@ -217,8 +217,9 @@ impl Layout {
     }
 
     fn thickness_above(&self, plane: u32) -> RangeInclusive<u32> {
-        let inside = |range: &&(u32, u32, _)| (range.0..range.1).contains(&plane);
-        let range = self.ranges.iter().find(inside);
+        let begun = self.ranges.partition_point(|range| range.0 <= plane);
+        let range = self.ranges[..begun].last();
+        let range = range.filter(|range| plane < range.1);
         range.map_or(&self.thickness, |range| &range.2).clone()
     }
 

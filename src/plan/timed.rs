@@ -2,7 +2,7 @@
 //! what a layer costs depends on how many are below it.
 
 use super::optimal::{Stuck, Table, layers_above, tops};
-use super::preferred::{Preferred, SnapPlanes};
+use super::preferred::{ByHeight, Preferred};
 use super::segment::{Segment, boundaries_below};
 use crate::profile::{LayerErrors, Reach};
 use crate::resin::Resin;
@@ -22,7 +22,7 @@ struct Tables {
 pub(super) fn quickest(
     errors: &LayerErrors,
     segments: &[Segment],
-    snap_planes: SnapPlanes<'_>,
+    snap_planes: &ByHeight,
     resin: &Resin,
     tolerance: u64,
 ) -> Result<Vec<u32>, Stuck> {

@@ -73,6 +73,58 @@ fn planes_and_ranges_are_kept() {
 }
 
 #[test]
+fn where_ranges_meet_the_limits_of_all_hold() {
+    let mut random = fastrand::Rng::with_seed(24);
+    for round in 0..300 {
+        // Small numbers, so that many ends and limits are equal; some ranges are empty or upside down.
+        let ranges: Vec<HeightRange> = (0..random.usize(..12))
+            .map(|_| HeightRange {
+                from_mm: f64::from(random.u32(..10)),
+                to_mm: f64::from(random.u32(..12)),
+                layer_min_mm: f64::from(random.u32(1..5)) / 100.0,
+                layer_max_mm: f64::from(random.u32(1..9)) / 100.0,
+            })
+            .collect();
+        let joined = HeightRange::joined(&ranges);
+        assert!(joined.windows(2).all(|two| two[0].to_mm <= two[1].from_mm));
+        for half in (1..24).step_by(2) {
+            let z_mm = f64::from(half) / 2.0;
+            let is_in = |range: &&HeightRange| range.from_mm < z_mm && z_mm < range.to_mm;
+            let limits = |found: &[HeightRange]| {
+                let of_all = found.iter().filter(is_in);
+                of_all.fold((0.0, f64::INFINITY), |(least, greatest): (f64, f64), it| {
+                    (least.max(it.layer_min_mm), greatest.min(it.layer_max_mm))
+                })
+            };
+            assert_eq!(
+                limits(&joined),
+                limits(&ranges),
+                "round {round}, {z_mm} mm: {ranges:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn many_ranges_that_all_meet_are_joined() {
+    // Each comparison of two would be one of 10 billion.
+    let count = 100_000;
+    let ranges: Vec<HeightRange> = (0..count)
+        .map(|place| HeightRange {
+            from_mm: f64::from(place),
+            to_mm: f64::from(2 * count - place),
+            layer_min_mm: 1.0 + f64::from(place),
+            layer_max_mm: 1e6 - f64::from(place),
+        })
+        .collect();
+    let joined = HeightRange::joined(&ranges);
+    assert_eq!(joined.len(), 2 * count as usize - 1);
+    let innermost = joined[count as usize - 1];
+    assert_eq!(innermost.layer_min_mm, f64::from(count));
+    assert_eq!(joined[0].layer_max_mm, 1e6);
+}
+
+#[test]
 fn heights_are_multiples_of_the_motor_step() {
     // 1.234 mm is not a multiple of the step, and a step of 0.01 mm is not a whole number of bins of 0.004 mm.
     let density = vec![0.3f32; 1111];

@@ -89,6 +89,75 @@ fn the_linear_planner_has_the_least_largest_error_of_all_plans_as_short() {
 }
 
 #[test]
+fn a_plan_from_few_planes_is_that_from_all_of_them() {
+    let mut random = fastrand::Rng::with_seed(44);
+    let (mut planned, mut stuck) = (0, 0);
+    for round in 0..4000 {
+        let count = random.usize(1..=300);
+        let mut density = random.f32();
+        let density: Vec<f32> = (0..count)
+            .map(|_| {
+                // Like a surface, which changes little by little and now and then at once.
+                density = match random.u8(0..20) {
+                    0 => random.f32(),
+                    _ => (density + 0.1 * (random.f32() - 0.5)).clamp(0.0, 1.0),
+                };
+                if round % 3 == 0 {
+                    density.round()
+                } else {
+                    density
+                }
+            })
+            .collect();
+        let least = random.u32(1..=12);
+        let greatest = least + random.u32(0..=25);
+        let errors = error_sum(&density);
+        let all = LayerErrors::Sum(errors.clone());
+        let limits = limits(f64::from(least), f64::from(greatest), random.f64() * 12.0);
+        let tolerance = all.to_steps(limits.tolerance);
+        let found = optimal::within(
+            &all,
+            &limits,
+            SnapPlanes::NONE,
+            Objective::Layers,
+            tolerance,
+        );
+        // Without a multiple of the thicknesses nearby, there is nothing to compare.
+        let Ok(found) = found else {
+            continue;
+        };
+        // The top may move by less than half a layer.
+        let segment = match &found {
+            Ok(plan) => segment(plan.boundaries[plan.layers()] as usize, (least, greatest)),
+            Err(blocked) => blocked.segment.clone(),
+        };
+        let table = fill_fewest(between(&errors), &segment, &Preferred::default(), tolerance);
+        match found {
+            Ok(plan) => {
+                let mut boundaries = vec![segment.units];
+                while let Some(&plane @ 1..) = boundaries.last() {
+                    boundaries.push(table.below[plane as usize]);
+                }
+                boundaries.reverse();
+                assert_eq!(plan.boundaries, boundaries, "{density:?} {limits:?}");
+                planned += 1;
+            }
+            Err(blocked) => {
+                assert_eq!(
+                    table.cost.last(),
+                    Some(&Table::NO_PLAN),
+                    "{density:?} {limits:?}"
+                );
+                let reached = table.cost.iter().rposition(|&cost| cost != Table::NO_PLAN);
+                assert_eq!(blocked.reached, reached.unwrap_or(0) as u32);
+                stuck += 1;
+            }
+        }
+    }
+    assert!(planned > 500 && stuck > 500, "{planned} {stuck}");
+}
+
+#[test]
 fn no_set_of_planes_is_better() {
     let without_bottom = resin(1.0, 1.0, 2.0, 3.0);
     let mut random = fastrand::Rng::with_seed(3);
