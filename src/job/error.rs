@@ -55,10 +55,14 @@ pub enum Error {
     },
     /// The job takes more processor time than it may.
     #[error(
-        "this takes about {needed_s} s of processor time, and {allowed_s} are allowed; allow more, or choose larger bins or fewer thicknesses"
+        "{} takes about {needed_s} s of processor time, and {allowed_s} are allowed; allow more{}",
+        work.noun(),
+        work.way()
     )]
     #[serde(rename = "time-bound")]
     TimeBound {
+        /// What takes it.
+        work: Work,
         /// Seconds that it takes, of all processors together.
         needed_s: f64,
         /// Seconds that it may take.
@@ -117,6 +121,42 @@ pub enum Error {
     #[error(transparent)]
     #[serde(untagged)]
     Merge(#[from] MergeError),
+}
+
+/// What takes processor time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum Work {
+    /// Hits of rays, which are as many as pixels that facets cover.
+    Hits,
+    /// Errors of layers: bins times thicknesses.
+    Layers,
+    /// Saliency: vertices times the cells within reach of them.
+    Saliency,
+    /// Everything together, where no part of it alone is certain to take too long.
+    All,
+}
+
+impl Work {
+    fn noun(self) -> &'static str {
+        match self {
+            Self::Hits => "sampling the model",
+            Self::Layers => "planning",
+            Self::Saliency => "saliency",
+            Self::All => "this",
+        }
+    }
+
+    fn way(self) -> &'static str {
+        match self {
+            Self::Hits => ", or choose larger pixels",
+            Self::Layers => ", or choose larger bins or fewer thicknesses",
+            Self::Saliency => ", do without saliency, or give the model fewer facets",
+            Self::All => "",
+        }
+    }
 }
 
 impl Error {

@@ -71,13 +71,13 @@ impl Planning<'_> {
     fn least_maximum(&self, limits: &Limits, layers: usize) -> Result<Plan, PlanError> {
         let goal = Goal::Layers(layers);
         let resin = &self.layering.resin;
-        let tolerance = tradeoff::tolerance_for(&self.errors, limits, resin, goal)?;
+        let tolerance = tradeoff::tolerance_for(self.errors(), limits, resin, goal)?;
         let limits = Limits {
             tolerance,
             ..limits.clone()
         };
         let objective = Objective::Layers;
-        optimal::plan(&self.errors, &limits, SnapPlanes::NONE, objective)
+        optimal::plan(self.errors(), &limits, SnapPlanes::NONE, objective)
     }
 }
 

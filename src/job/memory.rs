@@ -38,6 +38,12 @@ const OFFSET_BYTES: u64 = 4;
 /// Bytes that masks of a slab take at least.
 const LEAST_SLAB_BYTES: u64 = 1 << 20;
 
+/// How many hits rays find, nearly.
+pub(super) fn hits_of(mesh: &Mesh, rays: &Grid) -> f64 {
+    let seen_mm2 = (0..mesh.facets.len()).map(|facet| mesh.projected_mm2(facet));
+    seen_mm2.sum::<f64>() / rays.pixel_mm2()
+}
+
 impl Memory {
     /// These bytes for one model.
     #[cfg(not(target_arch = "wasm32"))]
@@ -54,8 +60,7 @@ impl Memory {
     /// # Errors
     /// [`Error::MemoryBound`] if that does not fit either.
     pub fn bound(self, mesh: &Mesh, rays: &Grid, samples: Samples) -> Result<Option<Bound>, Error> {
-        let seen_mm2 = (0..mesh.facets.len()).map(|facet| mesh.projected_mm2(facet));
-        let hits = seen_mm2.sum::<f64>() / rays.pixel_mm2();
+        let hits = hits_of(mesh, rays);
         let pixels = rays.pixels() as u64;
         let facets = mesh.facets.len() as u64;
         let read_bytes = PROGRAM_BYTES + FACET_BYTES * facets;

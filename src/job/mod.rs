@@ -34,7 +34,7 @@ mod work;
 pub use calibration::{Calibration, Section};
 #[cfg(feature = "read")]
 pub use convert::{Conversion, ConvertError, Loss, Target};
-pub use error::Error;
+pub use error::{Error, Work};
 pub use groups::LayerGroups;
 pub use options::*;
 pub use options_error::OptionsError;

@@ -49,10 +49,10 @@ pub struct Planning<'a> {
     pub(super) parts: Vec<Part<'a>>,
     pub(super) layering: &'a Layering,
     height_mm: f64,
-    /// Errors of layers under the metric, from the source that plans are made from.
-    pub(super) errors: LayerErrors,
-    /// Errors of layers under the metric, from the exact shape, for reports.
+    /// Errors of layers under the metric, from the exact shape.
     exact: LayerErrors,
+    /// The same from rays, if plans are made from them.
+    sampled: Option<LayerErrors>,
     snap_planes: Vec<u32>,
     /// The tolerance that the options give or ask to find, or the error if none can be found.
     tolerance: Result<f64, PlanError>,
@@ -88,10 +88,11 @@ impl<'a> Planning<'a> {
     pub fn new(parts: Vec<Part<'a>>, layering: &'a Layering) -> Self {
         let of = |source| errors_of(&parts, layering, layering.metric, source);
         let exact = of(Source::Exact);
-        let errors = match layering.source {
-            Source::Exact => exact.clone(),
-            Source::Sampled => of(Source::Sampled),
+        let sampled = match layering.source {
+            Source::Exact => None,
+            Source::Sampled => Some(of(Source::Sampled)),
         };
+        let errors = sampled.as_ref().unwrap_or(&exact);
         let snap_planes = match layering.snap_mm2 {
             None => Vec::new(),
             Some(area_mm2) => {
@@ -110,12 +111,17 @@ impl<'a> Planning<'a> {
         Self {
             height_mm: heights_mm.fold(0.0, f64::max),
             parts,
-            tolerance: tolerance(&errors, layering),
+            tolerance: tolerance(errors, layering),
             layering,
-            errors,
             exact,
+            sampled,
             snap_planes,
         }
+    }
+
+    /// Errors of layers under the metric, from the source that plans are made from.
+    pub(super) fn errors(&self) -> &LayerErrors {
+        self.sampled.as_ref().unwrap_or(&self.exact)
     }
 
     /// The errors of layers under another metric, without weights and without tolerances of models' own.
@@ -180,8 +186,8 @@ impl<'a> Planning<'a> {
                 parts: Vec::new(),
                 layering: self.layering,
                 height_mm: self.height_mm,
-                errors: errors.clone(),
                 exact: errors.clone(),
+                sampled: None,
                 snap_planes: Vec::new(),
                 tolerance: Ok(sharing.tolerance),
             };
@@ -204,7 +210,7 @@ impl<'a> Planning<'a> {
     }
 
     fn plan_as_asked(&self, progress: &mut Progress<'_>) -> Result<Plan, Error> {
-        let errors = &self.errors;
+        let errors = self.errors();
         let limits = || self.limits();
         Ok(match &self.layering.thicknesses {
             Thicknesses::Any => self.plan_freely()?,
@@ -227,7 +233,7 @@ impl<'a> Planning<'a> {
     }
 
     fn plan_by(&self, planner: Planner) -> Result<Plan, PlanError> {
-        let (errors, snap_planes) = (&self.errors, &self.snap_planes);
+        let (errors, snap_planes) = (self.errors(), &self.snap_planes);
         let bins = errors.bins();
         let greedily = |sight| greedy::plan(errors, &self.limits()?, snap_planes, sight);
         match planner {
@@ -265,21 +271,21 @@ impl<'a> Planning<'a> {
     }
 
     fn uniform(&self, layer_mm: f64) -> Result<Plan, PlanError> {
-        let bins = self.errors.bins();
+        let bins = self.errors().bins();
         let first_layer = self.layering.limits(0.0).first_layer(bins)?;
         uniform::plan(bins, self.height_mm, layer_mm, first_layer)
     }
 
     pub(super) fn best_uniform(&self) -> Option<UniformLayers> {
-        let bins = self.errors.bins();
+        let bins = self.errors().bins();
         let limits = self.limits().ok()?;
         let unit = limits.unit(bins).ok()?;
         let range = limits.thickness(bins, limits.layer_min_mm, limits.layer_max_mm);
-        let steps = self.errors.to_steps(limits.tolerance);
+        let steps = self.errors().to_steps(limits.tolerance);
         range.ok()?.rev().find_map(|units| {
             let layer_mm = bins.boundary_mm(units * unit);
             let plan = self.uniform(layer_mm).ok()?;
-            (plan.max_error_steps(&self.errors) <= steps).then(|| UniformLayers {
+            (plan.max_error_steps(self.errors()) <= steps).then(|| UniformLayers {
                 layer_mm,
                 layers: plan.layers(),
             })
@@ -320,9 +326,9 @@ impl<'a> Planning<'a> {
         };
         let max_error = self.max_error(plan);
         let mut warnings = Vec::new();
-        let planned_steps = plan.max_error_steps(&self.errors);
-        if planned_steps > self.errors.to_steps(tolerance) {
-            let planned = self.errors.to_value(planned_steps);
+        let planned_steps = plan.max_error_steps(self.errors());
+        if planned_steps > self.errors().to_steps(tolerance) {
+            let planned = self.errors().to_value(planned_steps);
             warnings.push(Warning::ToleranceExceeded {
                 planner: layering.planner.name().to_owned(),
                 metric: layering.metric,
@@ -389,7 +395,7 @@ impl<'a> Planning<'a> {
 
     pub fn tradeoff(&self, points: usize) -> Result<Vec<TradeoffPoint>, PlanError> {
         tradeoff::curve(
-            &self.errors,
+            self.errors(),
             &self.layering.limits(0.0),
             self.snap_planes(),
             self.layering.objective(),

@@ -8,6 +8,8 @@ use super::memory::{Bound, Memory};
 use super::parts::Sampling;
 use super::prepared::{PREPARING_SHARE, Prepared, Supported};
 use super::stage::{Stage, StageProgress, ms_since};
+#[cfg(not(target_arch = "wasm32"))]
+use super::work;
 use super::{Backend, Error, GpuMethod, Timings};
 use crate::grid::Grid;
 use crate::inspect::{Held, Limits};
@@ -74,6 +76,9 @@ pub struct Sampler {
     is_given: bool,
     /// What may be taken, if that is bounded.
     memory: Option<Memory>,
+    /// Seconds of processor time that a job may take, if that is bounded.
+    #[cfg(not(target_arch = "wasm32"))]
+    cpu_time_s: Option<f64>,
 }
 
 impl Sampler {
@@ -86,6 +91,18 @@ impl Sampler {
     /// Keeps no hits from now on where they, and the masks made of them, would take more than `memory`.
     pub fn set_memory(&mut self, memory: Memory) {
         self.memory = Some(memory);
+    }
+
+    /// Samples nothing from now on that is certain to take more processor time than this, in seconds.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn set_cpu_time(&mut self, seconds: f64) {
+        self.cpu_time_s = Some(seconds);
+    }
+
+    /// What was set by [`Self::set_cpu_time`], which holds for the other stages of a job as well.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn cpu_time_s(&self) -> Option<f64> {
+        self.cpu_time_s
     }
 
     /// Searches for a GPU, emulated or not, unless a search has already been made.
@@ -126,6 +143,10 @@ impl Sampler {
         let mut ldi_progress = |fraction| progress(Stage::Ldi, begun + (1.0 - begun) * fraction);
         let rays = grid.refined(sampling.samples.rays()).around_model(&printed);
         rays.check_rays()?;
+        #[cfg(not(target_arch = "wasm32"))]
+        if let Some(allowed_s) = self.cpu_time_s {
+            work::check_hits(mesh, &rays, allowed_s)?;
+        }
         let bound = match self.memory {
             Some(memory) => memory.bound(mesh, &rays, sampling.samples)?,
             None => None,

@@ -45,9 +45,6 @@ pub struct Slicer {
     pub(super) painted: Option<Vec<f32>>,
     load_ms: f64,
     sampler: Sampler,
-    /// Seconds of processor time that a plan may take, if that is bounded.
-    #[cfg(not(target_arch = "wasm32"))]
-    cpu_time_s: Option<f64>,
     /// The surface for orientation searches, and the pose to whose height it is scaled, if it has one.
     pub(super) surface: Option<(Option<Pose>, Surface)>,
     sampled: Option<Arc<Sampled>>,
@@ -93,8 +90,6 @@ impl Slicer {
             painted: None,
             load_ms: ms_since(clock),
             sampler: Sampler::default(),
-            #[cfg(not(target_arch = "wasm32"))]
-            cpu_time_s: None,
             surface: None,
             sampled: None,
             measured: None,
@@ -123,7 +118,7 @@ impl Slicer {
     #[cfg(not(target_arch = "wasm32"))]
     #[must_use]
     pub fn with_cpu_time(mut self, seconds: f64) -> Self {
-        self.cpu_time_s = Some(seconds);
+        self.sampler.set_cpu_time(seconds);
         self
     }
 
@@ -229,14 +224,17 @@ impl Slicer {
     /// The saliency of each facet of the surface, 0 to 1: how much it stands out. It is the same in every pose.
     ///
     /// # Errors
-    /// [`Error::Ldi`] if `progress` cancels.
+    /// [`Error::Ldi`] if `progress` cancels; [`Error::TimeBound`].
     pub fn saliency(&mut self, progress: &mut StageProgress<'_>) -> Result<&[f32], Error> {
-        let saliency = match self.saliency.take() {
-            Some(saliency) => saliency,
-            None => saliency::saliency(&self.model, &mut |fraction| {
-                progress(Stage::Saliency, fraction)
-            })
-            .map_err(LdiError::from)?,
+        let saliency = if let Some(saliency) = self.saliency.take() {
+            saliency
+        } else {
+            #[cfg(not(target_arch = "wasm32"))]
+            if let Some(allowed_s) = self.sampler.cpu_time_s() {
+                work::check_saliency(&self.model, allowed_s)?;
+            }
+            let mut within = |fraction| progress(Stage::Saliency, fraction);
+            saliency::saliency(&self.model, &mut within).map_err(LdiError::from)?
         };
         Ok(self.saliency.insert(saliency))
     }
@@ -342,8 +340,8 @@ impl Slicer {
 
         report(progress, Stage::Plan, 0.0)?;
         #[cfg(not(target_arch = "wasm32"))]
-        if let Some(allowed_s) = self.cpu_time_s {
-            work::check(measured.shapes.bins(), &job.layering, allowed_s)?;
+        if let Some(allowed_s) = self.sampler.cpu_time_s() {
+            work::check_plan(measured.shapes.bins(), &job.layering, allowed_s)?;
         }
         let holds = |Current { planned, .. }: &Current| {
             Arc::ptr_eq(planned.first(), &measured) && planned.layering == job.layering

@@ -1,26 +1,55 @@
-//! How much work a plan is, before it is made.
+//! How much work a job is, before it is done. Estimates divide what is cheap to count by a rate that no processor exceeds, so whatever is
+//! refused would indeed have taken too long.
 
+use super::memory::hits_of;
 use super::parts::{Layering, Target, Thicknesses};
-use super::{Error, Minimize, Planner};
-use crate::grid::Bins;
+use super::{Error, Minimize, Planner, Work};
+use crate::grid::{Bins, Grid};
+use crate::model::{Mesh, saliency};
 use crate::plan::timed::MOST_BOTTOM_LAYERS;
 use crate::profile::Metric;
 
+/// Hits that a processor finds in a second, at most.
+const HITS_PER_S: f64 = 1e8;
+/// Cells that a processor looks up in a second, at most.
+const CELLS_PER_S: f64 = 2e8;
 /// Layers whose errors a processor measures in a second, at most.
 const LAYERS_PER_S: f64 = 1e9;
 /// Plans that a search for a tolerance comes to, without those that end early.
 const SEARCHES: f64 = 20.0;
 
+/// Checks that the rays of a mesh take no more than this processor time.
+///
+/// # Errors
+/// [`Error::TimeBound`].
+pub fn check_hits(mesh: &Mesh, rays: &Grid, allowed_s: f64) -> Result<(), Error> {
+    check(Work::Hits, hits_of(mesh, rays) / HITS_PER_S, allowed_s)
+}
+
+/// Checks that the saliency of a mesh takes no more than this processor time.
+///
+/// # Errors
+/// [`Error::TimeBound`].
+pub fn check_saliency(mesh: &Mesh, allowed_s: f64) -> Result<(), Error> {
+    let cells = (mesh.vertices.len() * saliency::CELLS_WITHIN_REACH) as f64;
+    check(Work::Saliency, cells / CELLS_PER_S, allowed_s)
+}
+
 /// Checks that a plan in these bins takes no more than this processor time.
 ///
 /// # Errors
 /// [`Error::TimeBound`].
-pub fn check(bins: Bins, layering: &Layering, allowed_s: f64) -> Result<(), Error> {
-    let needed_s = layers_to_measure(bins, layering) / LAYERS_PER_S;
+pub fn check_plan(bins: Bins, layering: &Layering, allowed_s: f64) -> Result<(), Error> {
+    let layers = layers_to_measure(bins, layering);
+    check(Work::Layers, layers / LAYERS_PER_S, allowed_s)
+}
+
+fn check(work: Work, needed_s: f64, allowed_s: f64) -> Result<(), Error> {
     if needed_s <= allowed_s {
         return Ok(());
     }
     Err(Error::TimeBound {
+        work,
         needed_s: needed_s.ceil(),
         allowed_s,
     })

@@ -20,6 +20,9 @@ const SCALES: [usize; 5] = [2, 3, 4, 5, 6];
 const AVERAGES: [usize; 8] = [12, 10, 8, 6, 5, 4, 3, 2];
 /// Radius of an average, as a multiple of its scale.
 const REACH: f64 = 2.0;
+/// Cells within reach of a vertex, of all scales together: each is as wide as its scale.
+#[cfg(not(target_arch = "wasm32"))]
+pub(crate) const CELLS_WITHIN_REACH: usize = AVERAGES.len() * 5 * 5 * 5;
 /// Differences of curvature, relative to the curvature, that are rounding.
 const NOISE: f64 = 1e-9;
 /// Number of vertices that a thread processes at a time.

@@ -5,7 +5,7 @@ use cusp_slicer::format::Format;
 use cusp_slicer::grid::{Bins, Grid};
 use cusp_slicer::growth::Growth;
 use cusp_slicer::job::{
-    Backend, ModelOptions, Options, Planner, Plate, PlateOptions, Report, Slicer,
+    Backend, ModelOptions, Options, Planner, Plate, PlateOptions, Report, Slicer, Work,
 };
 use cusp_slicer::ldi::visibility::visibility;
 use cusp_slicer::ldi::{Anew, RayImage, Survey, cpu};
@@ -227,4 +227,61 @@ fn rays_found_anew_are_those_of_the_ldi() {
         };
         assert_eq!(told(RayImage::Kept(&ldi)), told(scanned));
     }
+}
+
+/// What takes longer than a job may, and how long.
+#[track_caller]
+fn bound_by<T: std::fmt::Debug>(found: Result<T, Error>, allowed: f64) -> Work {
+    match found {
+        Err(Error::TimeBound {
+            work,
+            needed_s,
+            allowed_s,
+        }) => {
+            assert_eq!(allowed_s, allowed);
+            assert!(needed_s > allowed_s);
+            work
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn what_takes_too_long_is_named_before_it_is_done() {
+    let ball = solids::sphere(8.0, 4);
+    let bounded = |seconds| load(&ball).with_cpu_time(seconds);
+    let salient = Options {
+        saliency: true,
+        ..options()
+    };
+    let long = Options {
+        metric: Metric::Volume,
+        max_layers: Some(20),
+        bin_mm: Some(0.0001),
+        layer_max_mm: Some(8.0),
+        ..options()
+    };
+    assert_eq!(
+        bound_by(plan(&mut bounded(1e-4), &options()), 1e-4),
+        Work::Hits
+    );
+    assert_eq!(
+        bound_by(plan(&mut bounded(1e-4), &salient), 1e-4),
+        Work::Saliency
+    );
+    assert_eq!(
+        bound_by(plan(&mut bounded(60.0), &long), 60.0),
+        Work::Layers
+    );
+    let plates = |options: Options| {
+        let mut plate = Plate::new(vec![load(&ball)]).with_cpu_time(1e-4);
+        let options = PlateOptions {
+            options,
+            ..PlateOptions::default()
+        };
+        pollster::block_on(plate.plan(&options, &mut quiet)).map(|_| ())
+    };
+    assert_eq!(bound_by(plates(options()), 1e-4), Work::Hits);
+    assert_eq!(bound_by(plates(salient), 1e-4), Work::Saliency);
+    plan(&mut bounded(60.0), &options()).unwrap();
 }

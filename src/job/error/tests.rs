@@ -3,7 +3,7 @@
 use serde::Serialize;
 use serde_json::Value;
 
-use super::Error;
+use super::{Error, Work};
 use crate::archive::ArchiveError;
 use crate::arrange::ArrangeError;
 use crate::format::Format;
@@ -303,7 +303,7 @@ fn errors() -> Vec<Error> {
     let mut errors = one_of_each!(Error except [Options, Read, Mesh, Grid, Weights, Ldi, Plan, Arrange, Archive, Limits, Search, Price, Merge]:
         NoLayer { layer: 12, layers: 10 },
         MemoryBound { needed_bytes: 2_000_000_000, allowed_bytes: 1_000_000_000 },
-        TimeBound { needed_s: 3600.0, allowed_s: 300.0 },
+        TimeBound { work: Work::Layers, needed_s: 3600.0, allowed_s: 300.0 },
         NoPlan {},
     );
     errors.extend(options_errors().into_iter().map(Error::from));

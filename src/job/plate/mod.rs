@@ -43,9 +43,6 @@ pub struct Plate {
     sampler: Sampler,
     /// What may be taken, if that is bounded.
     memory: Option<Memory>,
-    /// Seconds of processor time that the plan of a plate may take, if that is bounded.
-    #[cfg(not(target_arch = "wasm32"))]
-    cpu_time_s: Option<f64>,
     /// The models with their supports, if they have some: before turns, in the order of models.
     prepared: Vec<Arc<Prepared>>,
     shapes: Vec<Shape>,
@@ -80,7 +77,9 @@ impl Plate {
     #[cfg(not(target_arch = "wasm32"))]
     #[must_use]
     pub fn with_cpu_time(mut self, seconds: f64) -> Self {
-        self.cpu_time_s = Some(seconds);
+        self.sampler.set_cpu_time(seconds);
+        let models = std::mem::take(&mut self.models).into_iter();
+        self.models = models.map(|it| it.with_cpu_time(seconds)).collect();
         self
     }
 
@@ -213,9 +212,9 @@ impl Plate {
                 Arc::clone(kept)
             } else {
                 #[cfg(not(target_arch = "wasm32"))]
-                if let Some(allowed_s) = self.cpu_time_s {
+                if let Some(allowed_s) = self.sampler.cpu_time_s() {
                     let bins = standing[0].0.measured.shapes.bins();
-                    work::check(bins, &layering, allowed_s)?;
+                    work::check_plan(bins, &layering, allowed_s)?;
                 }
                 let mut within = |fraction| {
                     progress(

@@ -52,7 +52,7 @@ const sentencesOf = (code: LanguageCode): { format: Format; errors: Sentences; w
 /** Details that offers show, or that readers do not need. */
 const UNSAID = ["least_tolerance", "largest_layer_min_mm", "planner"];
 /** Words that a catalogue translates. */
-const TRANSLATED = ["kind", "expected", "quantity", "fault", "feature", "metric", "unit", "stated", "given"];
+const TRANSLATED = ["work", "kind", "expected", "quantity", "fault", "feature", "metric", "unit", "stated", "given"];
 
 /** Whether a sentence contains a number as the language writes it, or a name unchanged. */
 function says(sentence: string, value: unknown, format: Format): boolean {

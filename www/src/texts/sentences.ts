@@ -1,7 +1,7 @@
 /** What the catalogues say about failures and warnings: a sentence for each code, made from its details. */
 import type { ErrorCode, ErrorDetails } from "../api/error.js";
 import type { WarningCode, WarningDetails } from "../api/warning.js";
-import type { FileKind, GpuFault, Metric, Quantity, StlExpected } from "../api/wire.js";
+import type { FileKind, GpuFault, Metric, Quantity, StlExpected, Work } from "../api/wire.js";
 
 /** The compiler requires every code in every catalogue. `metric` is that of tolerances without a unit. */
 export type ErrorSentences = { readonly [Code in ErrorCode]: (detail: ErrorDetails[Code], metric: Metric) => string };
@@ -10,6 +10,8 @@ export type WarningSentences = { readonly [Code in WarningCode]: (detail: Warnin
 /** Nouns with their article, at the beginning of a sentence. */
 export type QuantityNouns = Readonly<Record<Quantity, string>>;
 export type GpuFaults = Readonly<Record<GpuFault, string>>;
+/** What takes time as the subject of a sentence, and what to do about it as its end. */
+export type WorkWords = Readonly<Record<Work, readonly [subject: string, way: string]>>;
 export type StlNouns = Readonly<Record<StlExpected, string>>;
 
 /** Names of the kinds of file, the same in every language. */

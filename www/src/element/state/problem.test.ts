@@ -246,3 +246,8 @@ test("whether a printer that the page has fixed was ever tried is not the custom
   ]);
   expect(advise([untried], languageOf("en"), new Set(["printer"]))).toEqual([]);
 });
+
+test("a name from outside cannot turn its line around", () => {
+  const problem = explain(failed("no-hits", { pitch_mm: 1 }), "cat\u202egnp.stl\n", DEFAULT_SETTINGS);
+  expect(problem.title).toContain("cat\\u{202e}gnp.stl\\u{a}");
+});

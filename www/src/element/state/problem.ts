@@ -8,6 +8,7 @@ import { allowed, bestUniform, type Offer } from "./advice.js";
 import { METRICS } from "./metric.js";
 import * as round from "./round.js";
 import { parse, withTolerance, type Field, type Settings } from "./settings.js";
+import { shown } from "../../api/visible.js";
 
 export interface Problem {
   code: ErrorCode;
@@ -193,7 +194,7 @@ function describe(failure: Failure, language: Language, texts: ProblemTexts, fix
   const isOfPrinter = error.code === "bad-options" && typeof settings.printer === "object";
   const kind = isOfPrinter ? "badPrinter" : KINDS[error.code];
   const text = sentenceOf(error, settings, texts);
-  const problem = { code: error.code, title: texts.headings[kind](name), field: FIELDS[kind] ?? null };
+  const problem = { code: error.code, title: texts.headings[kind](shown(name)), field: FIELDS[kind] ?? null };
   if (error.code === "infeasible") return { ...problem, ...waysOut(error, text, settings, language, texts, fixed) };
   return { ...problem, text, offers: offersFor(kind, error, failure, language) };
 }

@@ -1,6 +1,6 @@
 import type { UniformLayers } from "../../api/wire.js";
 import type { Format } from "../format.js";
-import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type QuantityNouns, type StlNouns } from "../sentences.js";
+import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type QuantityNouns, type StlNouns, type WorkWords } from "../sentences.js";
 import { FACETS, FAULTS } from "./nouns.js";
 import { readers } from "./readers.js";
 
@@ -22,6 +22,13 @@ const QUANTITIES: QuantityNouns = {
   "lift-speed": "Die Hubgeschwindigkeit",
   "return-speed": "Die Rückfahrgeschwindigkeit",
   density: "Die Dichte des Harzes",
+};
+
+const WORK: WorkWords = {
+  hits: ["Das Abtasten des Modells", ", oder wählen Sie größere Pixel"],
+  layers: ["Die Planung", ", oder wählen Sie größere Höhenstufen oder weniger Dicken"],
+  saliency: ["Die Suche nach Auffälligem", ", verzichten Sie darauf, oder geben Sie dem Modell weniger Dreiecke"],
+  all: ["Dies", ""],
 };
 
 const EXPECTED: StlNouns = {
@@ -156,7 +163,10 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "no-plan": () => "Es gibt noch keinen Plan; erstellen Sie zuerst einen.",
   "memory-bound": ({ needed_bytes, allowed_bytes }) =>
     `Das braucht etwa ${count(needed_bytes)} Byte Speicher, und ${count(allowed_bytes)} sind erlaubt; erlauben Sie mehr, oder wählen Sie größere Pixel.`,
-  "time-bound": ({ needed_s, allowed_s }) => `Dies braucht etwa ${count(needed_s)}\u00a0s Rechenzeit, und ${count(allowed_s)} sind erlaubt; erlauben Sie mehr oder wählen Sie größere Höhenstufen oder weniger Dicken.`,
+  "time-bound": ({ work, needed_s, allowed_s }) => {
+    const [subject, way] = WORK[work];
+    return `${subject} braucht etwa ${count(needed_s)}\u00a0s Rechenzeit, und ${count(allowed_s)} sind erlaubt; erlauben Sie mehr${way}.`;
+  },
   "no-layer": ({ layer, layers }) => `Es gibt keine Schicht ${count(layer)}; der Plan hat ${count(layers)}, gezählt ab 0.`,
   "no-hits": ({ pitch_mm }) =>
     `Kein Pixel von ${mm(pitch_mm)} trifft das Modell, das dafür zu klein oder zu dünn ist; wählen Sie kleinere Pixel.`,

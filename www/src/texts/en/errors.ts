@@ -1,7 +1,7 @@
 /** Sentences on failures, as the command line says them. */
 import type { UniformLayers } from "../../api/wire.js";
 import type { Format } from "../format.js";
-import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type QuantityNouns, type StlNouns } from "../sentences.js";
+import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type QuantityNouns, type StlNouns, type WorkWords } from "../sentences.js";
 import { FACETS, FAULTS } from "./nouns.js";
 import { readers } from "./readers.js";
 
@@ -23,6 +23,13 @@ const QUANTITIES: QuantityNouns = {
   "lift-speed": "The lift speed",
   "return-speed": "The return speed",
   density: "The resin density",
+};
+
+const WORK: WorkWords = {
+  hits: ["Sampling the model", ", or choose larger pixels"],
+  layers: ["Planning", ", or choose larger bins or fewer thicknesses"],
+  saliency: ["Finding what stands out", ", do without it, or give the model fewer facets"],
+  all: ["This", ""],
 };
 
 const EXPECTED: StlNouns = {
@@ -156,7 +163,10 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "no-plan": () => "There is no plan yet; make one first.",
   "memory-bound": ({ needed_bytes, allowed_bytes }) =>
     `This takes about ${count(needed_bytes)} bytes of memory, and ${count(allowed_bytes)} are allowed; allow more, or choose larger pixels.`,
-  "time-bound": ({ needed_s, allowed_s }) => `This takes about ${count(needed_s)}\u00a0s of processor time, and ${count(allowed_s)} are allowed; allow more, or choose larger bins or fewer thicknesses.`,
+  "time-bound": ({ work, needed_s, allowed_s }) => {
+    const [subject, way] = WORK[work];
+    return `${subject} takes about ${count(needed_s)}\u00a0s of processor time, and ${count(allowed_s)} are allowed; allow more${way}.`;
+  },
   "no-layer": ({ layer, layers }) => `There is no layer ${count(layer)}; the plan has ${count(layers)}, from 0.`,
   "no-hits": ({ pitch_mm }) =>
     `No pixel of ${mm(pitch_mm)} meets the model, which is too small or too thin for them; choose smaller pixels.`,

@@ -1,6 +1,6 @@
 import type { UniformLayers } from "../../api/wire.js";
 import type { Format } from "../format.js";
-import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type QuantityNouns, type StlNouns } from "../sentences.js";
+import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type QuantityNouns, type StlNouns, type WorkWords } from "../sentences.js";
 import { FACETS, FAULTS } from "./nouns.js";
 import { readers } from "./readers.js";
 
@@ -22,6 +22,13 @@ const QUANTITIES: QuantityNouns = {
   "lift-speed": "La velocidad de elevación",
   "return-speed": "La velocidad de retorno",
   density: "La densidad de la resina",
+};
+
+const WORK: WorkWords = {
+  hits: ["El muestreo del modelo", " o elija píxeles mayores"],
+  layers: ["La planificación", " o elija intervalos más grandes o menos espesores"],
+  saliency: ["Hallar lo que destaca", ", prescinda de ello o use un modelo con menos facetas"],
+  all: ["Esto", ""],
 };
 
 const EXPECTED: StlNouns = {
@@ -156,7 +163,10 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "no-plan": () => "Aún no hay plan; haga uno primero.",
   "memory-bound": ({ needed_bytes, allowed_bytes }) =>
     `Esto ocupa unos ${count(needed_bytes)} bytes de memoria, y se permiten ${count(allowed_bytes)}; permita más o elija píxeles mayores.`,
-  "time-bound": ({ needed_s, allowed_s }) => `Esto requiere unos ${count(needed_s)}\u00a0s de procesador y se permiten ${count(allowed_s)}; permita más o elija intervalos más grandes o menos espesores.`,
+  "time-bound": ({ work, needed_s, allowed_s }) => {
+    const [subject, way] = WORK[work];
+    return `${subject} requiere unos ${count(needed_s)}\u00a0s de procesador y se permiten ${count(allowed_s)}; permita más${way}.`;
+  },
   "no-layer": ({ layer, layers }) => `No hay capa ${count(layer)}; el plan tiene ${count(layers)}, desde 0.`,
   "no-hits": ({ pitch_mm }) =>
     `Ningún píxel de ${mm(pitch_mm)} toca el modelo, que es demasiado pequeño o fino para ellos; elija píxeles más pequeños.`,

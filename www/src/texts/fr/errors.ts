@@ -1,6 +1,6 @@
 import type { UniformLayers } from "../../api/wire.js";
 import type { Format } from "../format.js";
-import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type QuantityNouns, type StlNouns } from "../sentences.js";
+import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type QuantityNouns, type StlNouns, type WorkWords } from "../sentences.js";
 import { FACETS, FAULTS } from "./nouns.js";
 import { readers } from "./readers.js";
 
@@ -22,6 +22,13 @@ const QUANTITIES: QuantityNouns = {
   "lift-speed": "La vitesse de levée",
   "return-speed": "La vitesse de retour",
   density: "La densité de la résine",
+};
+
+const WORK: WorkWords = {
+  hits: ["L’échantillonnage du modèle", ", ou choisissez des pixels plus grands"],
+  layers: ["La planification", ", ou choisissez des tranches plus grandes ou moins d’épaisseurs"],
+  saliency: ["La recherche de ce qui ressort", ", passez-vous-en, ou prenez un modèle de moins de facettes"],
+  all: ["Cela", ""],
 };
 
 const EXPECTED: StlNouns = {
@@ -156,7 +163,10 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "no-plan": () => "Il n’y a pas encore de plan ; faites-en un d’abord.",
   "memory-bound": ({ needed_bytes, allowed_bytes }) =>
     `Cela demande environ ${count(needed_bytes)} octets de mémoire, et ${count(allowed_bytes)} sont permis ; permettez-en plus, ou choisissez des pixels plus grands.`,
-  "time-bound": ({ needed_s, allowed_s }) => `Cela prend environ ${count(needed_s)}\u00a0s de processeur, et ${count(allowed_s)} sont permises ; permettez-en plus, ou choisissez des tranches plus grandes ou moins d’épaisseurs.`,
+  "time-bound": ({ work, needed_s, allowed_s }) => {
+    const [subject, way] = WORK[work];
+    return `${subject} prend environ ${count(needed_s)}\u00a0s de processeur, et ${count(allowed_s)} sont permises ; permettez-en plus${way}.`;
+  },
   "no-layer": ({ layer, layers }) => `Il n’y a pas de couche ${count(layer)} ; le plan en a ${count(layers)}, à partir de 0.`,
   "no-hits": ({ pitch_mm }) =>
     `Aucun pixel de ${mm(pitch_mm)} ne touche le modèle, trop petit ou trop fin pour eux ; choisissez des pixels plus petits.`,

@@ -1,6 +1,6 @@
 import type { UniformLayers } from "../../api/wire.js";
 import type { Format } from "../format.js";
-import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type QuantityNouns, type StlNouns } from "../sentences.js";
+import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type QuantityNouns, type StlNouns, type WorkWords } from "../sentences.js";
 import { FAULTS } from "./nouns.js";
 import { readers } from "./readers.js";
 
@@ -22,6 +22,13 @@ const QUANTITIES: QuantityNouns = {
   "lift-speed": "抬升速度",
   "return-speed": "回程速度",
   density: "树脂密度",
+};
+
+const WORK: WorkWords = {
+  hits: ["对模型采样", "，或选用更大的像素"],
+  layers: ["规划", "，或选择更大的高度区间或更少的层厚"],
+  saliency: ["找出显眼之处", "，或不用它，或减少模型的三角形"],
+  all: ["这", ""],
 };
 
 const EXPECTED: StlNouns = {
@@ -150,7 +157,10 @@ export const errors = ({ count, exact, mm, measure, error, either }: Format): Er
   "no-plan": () => "还没有方案；请先制定一个。",
   "memory-bound": ({ needed_bytes, allowed_bytes }) =>
     `这约需 ${count(needed_bytes)} 字节内存，而只允许 ${count(allowed_bytes)} 字节；请允许更多，或选用更大的像素。`,
-  "time-bound": ({ needed_s, allowed_s }) => `这约需 ${count(needed_s)}\u00a0秒处理器时间，而允许的是 ${count(allowed_s)} 秒；请允许更多时间，或选择更大的高度区间或更少的层厚。`,
+  "time-bound": ({ work, needed_s, allowed_s }) => {
+    const [subject, way] = WORK[work];
+    return `${subject}约需 ${count(needed_s)}\u00a0秒处理器时间，而允许的是 ${count(allowed_s)} 秒；请允许更多时间${way}。`;
+  },
   "no-layer": ({ layer, layers }) => `没有第 ${count(layer)} 层；方案有 ${count(layers)} 层，从 0 数起。`,
   "no-hits": ({ pitch_mm }) => `没有 ${mm(pitch_mm)} 的像素碰到模型，模型对它们来说太小或太薄；请选择更小的像素。`,
   "too-many-facets": ({ facets, most }) => `${count(facets)} 个三角面过多；至多可切 ${count(most)} 个。`,
