@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use tempfile::TempDir;
 
 use crate::common::{binary_stl, solids};
-use crate::{cusp, json, model, on_cpu, sphere};
+use crate::{cusp, json, model, names, on_cpu, sphere};
 
 /// The error that a command printed in JSON.
 fn error(output: &Output) -> Value {
@@ -54,7 +54,8 @@ fn every_command_that_prints_for_programs_says_failures_to_them() {
     let absent = folder.path().join("absent").display().to_string();
     let out = folder.path().join("out").display().to_string();
     let svg = folder.path().join("out.svg").display().to_string();
-    let calls: [&[&str]; 12] = [
+    let calls: [&[&str]; 13] = [
+        &["orient", &absent],
         &["slice", &absent, "-o", &out],
         &["plan", &absent],
         &["contours", &absent, "-o", &svg],
@@ -72,6 +73,26 @@ fn every_command_that_prints_for_programs_says_failures_to_them() {
         let found = error(&cusp(&[call, &["--json"]].concat()));
         assert!(found["message"].is_string(), "{call:?}: {found}");
     }
+}
+
+#[test]
+fn of_several_models_to_orient_those_that_fail_say_so_in_their_lines() {
+    let folder = TempDir::new().unwrap();
+    let ball = sphere(&folder);
+    let absent = folder.path().join("absent.stl").display().to_string();
+    let output = on_cpu(&["orient", &absent, &ball, "--directions", "20", "--json"]);
+    assert_eq!(output.status.code(), Some(1));
+    let text = String::from_utf8(output.stdout).unwrap();
+    let lines: Vec<Value> = text
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect();
+    assert_eq!(lines.len(), 2);
+    assert_eq!(
+        (&lines[0]["error"]["code"], &lines[0]["error"]["file"]),
+        (&json!("file"), &json!(absent))
+    );
+    assert!(lines[1]["best"].is_array());
 }
 
 /// What is changed in a plan, and the path that is then named.
@@ -133,8 +154,16 @@ fn what_would_take_too_long_is_refused_before_it_is_planned() {
     let call = ["plan", &cube, "--json", "--max-cpu-time", "60"];
     let found = error(&on_cpu(&[&call, &hours[..]].concat()));
     assert_eq!(found["code"], "time-bound");
+    assert_eq!(found["detail"]["work"], "layers");
     assert_eq!(found["detail"]["allowed_s"], 60.0);
     assert!(found["detail"]["needed_s"].as_f64().unwrap() > 3600.0);
+
+    // 350 million hits.
+    let call = ["plan", &cube, "--json", "--max-cpu-time", "2"];
+    let found = error(&on_cpu(&[&call, &["--pitch", "0.0015"][..]].concat()));
+    assert_eq!(found["code"], "time-bound");
+    assert_eq!(found["detail"]["work"], "hits");
+    assert!(found["detail"]["needed_s"].as_f64().unwrap() > 2.0);
 }
 
 #[test]
@@ -151,11 +180,12 @@ fn what_takes_longer_than_allowed_is_ended() {
         "--bin",
         "0.0005",
         "--layer-max",
-        "5",
+        "2",
     ];
     let call = ["slice", &cube, "-o", &zip, "--json", "--max-cpu-time", "1"];
     let found = error(&on_cpu(&[&call, &long[..]].concat()));
     assert_eq!(found["code"], "time-bound");
+    assert_eq!(found["detail"]["work"], "all");
     assert_eq!(crate::names(&folder), ["cube.stl"]);
 }
 
@@ -208,4 +238,43 @@ fn a_large_file_that_is_no_model_is_refused_by_its_first_bytes() {
             .unwrap()
             .contains("large.stl: ")
     );
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn whatever_addresses_are_left_a_file_is_whole_or_none() {
+    let folder = TempDir::new().unwrap();
+    let ball = model(&folder, "ball.stl", &binary_stl(&solids::sphere(20.0, 5)));
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let slice = |zip: &str, limit_kb: u32| {
+        Command::new("sh")
+            .args(["-c", &format!("ulimit -v {limit_kb}; exec \"$0\" \"$@\"")])
+            .args([env!("CARGO_BIN_EXE_cusp"), "slice", &ball, "-o", &path(zip)])
+            .args(["--printer", "saturn-3-ultra", "--backend", "cpu"])
+            .output()
+            .unwrap()
+    };
+    let whole = slice("whole.goo", 100_000_000);
+    assert!(whole.status.success(), "{whole:?}");
+    let expected = std::fs::read(path("whole.goo")).unwrap();
+    let (mut written, mut refused) = (0, 0);
+    for limit_kb in (100_000..1_000_000).step_by(60_000) {
+        let output = slice("out.goo", limit_kb);
+        if output.status.success() {
+            assert!(
+                std::fs::read(path("out.goo")).unwrap() == expected,
+                "{limit_kb}"
+            );
+            std::fs::remove_file(path("out.goo")).unwrap();
+            written += 1;
+        } else {
+            assert!(!output.stderr.is_empty());
+            refused += 1;
+        }
+        // Not a signal's 134, and not a shell's 126 or 127 for a program that cannot start.
+        let code = output.status.code().unwrap();
+        assert!([0, 1].contains(&code), "{limit_kb}: {output:?}");
+        assert_eq!(names(&folder), ["ball.stl", "whole.goo"]);
+    }
+    assert!(written > 0 && refused > 0, "{written} {refused}");
 }

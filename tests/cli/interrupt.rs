@@ -23,6 +23,18 @@ fn with_default_signals() -> Command {
     }
 }
 
+/// Options of tens of thousands of layers, which take many seconds to write.
+const MANY_LAYERS: [&str; 8] = [
+    "--planner",
+    "uniform",
+    "--layer",
+    "0.0005",
+    "--bin",
+    "0.0005",
+    "--layer-min",
+    "0.0005",
+];
+
 /// Interrupts a process, as a terminal does.
 fn interrupt(child: &Child) {
     let process = child.id().to_string();
@@ -144,40 +156,48 @@ fn an_interrupt_stops_long_work_that_writes_nothing() {
     assert!(!Path::new(&copy).exists());
 }
 
+/// Whether a process has begun to write a file in a folder, which need not have a name yet.
+fn is_writing(child: &Child, folder: &TempDir) -> bool {
+    let open = format!("/proc/{}/fd", child.id());
+    // Elsewhere it has a name.
+    let place = if Path::new(&open).exists() {
+        Path::new(&open)
+    } else {
+        folder.path()
+    };
+    std::fs::read_dir(place).is_ok_and(|mut files| {
+        files.any(|file| {
+            let path = file.unwrap().path();
+            let target = path.read_link().unwrap_or_else(|_| path.clone());
+            let is_output = target.starts_with(folder.path())
+                && target.extension().is_none_or(|it| it != "stl");
+            is_output && std::fs::metadata(&path).is_ok_and(|file| file.len() > 0)
+        })
+    })
+}
+
+fn wait_until_it_writes(child: &mut Child, folder: &TempDir) {
+    let clock = Instant::now();
+    while !is_writing(child, folder) {
+        assert!(clock.elapsed() < Duration::from_mins(2), "never wrote");
+        assert_eq!(child.try_wait().unwrap(), None, "ended before it wrote");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+}
+
 #[test]
 fn an_interrupt_leaves_the_old_file_and_no_other() {
     let folder = TempDir::new().unwrap();
     let ball = model(&folder, "ball.stl", &binary_stl(&solids::sphere(10.0, 4)));
     let zip = model(&folder, "out.zip", b"precious");
-    // Writing tens of thousands of layers takes many seconds.
     let mut child = with_default_signals()
         .args(["slice", &ball, "-o", &zip, "--backend", "cpu"])
-        .args([
-            "--planner",
-            "uniform",
-            "--layer",
-            "0.0005",
-            "--bin",
-            "0.0005",
-        ])
-        .args(["--layer-min", "0.0005"])
+        .args(MANY_LAYERS)
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    let is_writing = || {
-        std::fs::read_dir(folder.path()).unwrap().any(|entry| {
-            let entry = entry.unwrap();
-            let is_new = entry.path() != Path::new(&ball) && entry.path() != Path::new(&zip);
-            is_new && entry.metadata().is_ok_and(|file| file.len() > 0)
-        })
-    };
-    let clock = Instant::now();
-    while !is_writing() {
-        assert!(clock.elapsed() < Duration::from_mins(2), "never wrote");
-        assert_eq!(child.try_wait().unwrap(), None, "ended before it wrote");
-        std::thread::sleep(Duration::from_millis(2));
-    }
+    wait_until_it_writes(&mut child, &folder);
     interrupt(&child);
     let output = child.wait_with_output().unwrap();
     assert_eq!(String::from_utf8_lossy(&output.stderr), "cusp: cancelled\n");
@@ -199,15 +219,8 @@ fn an_interrupted_batch_leaves_whole_files_alone() {
         .args(["slice", &small, &ball, &other, "--json", "--backend", "cpu"])
         .arg("-o")
         .arg(&prints)
-        .args([
-            "--planner",
-            "uniform",
-            "--layer",
-            "0.0005",
-            "--bin",
-            "0.0005",
-        ])
-        .args(["--layer-min", "0.0005", "--pitch", "0.02"])
+        .args(MANY_LAYERS)
+        .args(["--pitch", "0.02"])
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
@@ -239,24 +252,11 @@ fn where_a_hang_up_is_ignored_an_end_still_tidies_up() {
             env!("CARGO_BIN_EXE_cusp"),
         ])
         .args(["slice", &cube, "-o", &zip, "--backend", "cpu"])
-        .args([
-            "--planner",
-            "uniform",
-            "--layer",
-            "0.0005",
-            "--bin",
-            "0.0005",
-            "--layer-min",
-            "0.0005",
-        ])
+        .args(MANY_LAYERS)
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    let clock = Instant::now();
-    while names(&folder).len() < 2 {
-        assert!(clock.elapsed() < Duration::from_mins(2), "never wrote");
-        std::thread::sleep(Duration::from_millis(2));
-    }
+    wait_until_it_writes(&mut child, &folder);
     let process = child.id().to_string();
     for (signal, ends) in [("-HUP", false), ("-TERM", true)] {
         let kill = Command::new("kill").args([signal, &process]).status();
@@ -269,4 +269,23 @@ fn where_a_hang_up_is_ignored_an_end_still_tidies_up() {
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130));
     assert_eq!(names(&folder), ["cube.stl"]);
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn nothing_is_left_of_a_command_that_is_killed() {
+    let folder = TempDir::new().unwrap();
+    let cube = model(&folder, "cube.stl", &binary_stl(&solids::cube(20.0)));
+    let zip = model(&folder, "out.zip", b"precious");
+    let mut child = Command::new(env!("CARGO_BIN_EXE_cusp"))
+        .args(["slice", &cube, "-o", &zip, "--backend", "cpu"])
+        .args(MANY_LAYERS)
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    wait_until_it_writes(&mut child, &folder);
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert_eq!(names(&folder), ["cube.stl", "out.zip"]);
+    assert_eq!(std::fs::read(&zip).unwrap(), b"precious");
 }

@@ -1,10 +1,15 @@
 //! How much memory and processor time a command may take.
 
+#[cfg(target_os = "linux")]
+use std::sync::OnceLock;
+
 use bytesize::ByteSize;
 use clap::Args;
 use cusp_slicer::job::{Plate, Slicer};
 
 use crate::values::positive;
+#[cfg(target_os = "linux")]
+use crate::watch::memory_taken_bytes;
 
 /// Bounds of a command.
 #[derive(Debug, Clone, Copy, Args)]
@@ -26,8 +31,10 @@ impl Budget {
         }
     }
 
+    /// What is asked for, or what the system leaves if that is less.
     pub fn memory_bytes(&self) -> Option<u64> {
-        self.max_memory.map(|ByteSize(bytes)| bytes)
+        let asked = self.max_memory.map(|ByteSize(bytes)| bytes);
+        asked.into_iter().chain(address_bytes()).min()
     }
 
     pub fn cpu_time_s(&self) -> Option<f64> {
@@ -55,4 +62,27 @@ impl Budget {
         }
         plate
     }
+}
+
+/// Addresses that each thread's allocator reserves.
+#[cfg(target_os = "linux")]
+const ARENA_BYTES: u64 = 64 << 20;
+
+/// The bytes that a limit on addresses (`ulimit -v`) leaves to allocate, if there is one: what exceeds it cannot be reported.
+#[cfg(target_os = "linux")]
+fn address_bytes() -> Option<u64> {
+    static LEFT: OnceLock<Option<u64>> = OnceLock::new();
+    *LEFT.get_or_init(|| {
+        let limit = rustix::process::getrlimit(rustix::process::Resource::As);
+        let threads = std::thread::available_parallelism().map_or(1, usize::from);
+        let [taken_bytes, _] = memory_taken_bytes();
+        let arenas_bytes = ARENA_BYTES * (threads as u64 + 1);
+        let left = |bytes: u64| bytes.saturating_sub(taken_bytes + arenas_bytes);
+        limit.current.map(left)
+    })
+}
+
+#[cfg(not(target_os = "linux"))]
+fn address_bytes() -> Option<u64> {
+    None
 }

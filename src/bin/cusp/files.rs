@@ -13,11 +13,10 @@ use cusp_slicer::progress::Cancelled;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
-use tempfile::NamedTempFile;
 
 use crate::terminal::{is_on_terminal, take_stdout};
+use crate::unfinished::Unfinished;
 use crate::visible::{visible, visible_detail};
-use crate::watch::note_temporary;
 
 /// The exit code of a command that was interrupted.
 const INTERRUPTED: u8 = 130;
@@ -272,16 +271,14 @@ impl<'a> Output<'a> {
     ) -> Result<T, Failure> {
         // Created before the work, so that a folder without write permission fails at once.
         let sink = match &self.place {
-            Some(place) => file_beside(place)
-                .inspect(|file| note_temporary(file.path()))
-                .map(Sink::File),
+            Some(place) => Unfinished::beside(place).map(Sink::File),
             None => Ok(Sink::Standard(io::stdout())),
         };
         let sink = sink.map_err(|error| self.failed(&error))?;
         let (writer, result) = write(BufWriter::new(sink))?;
         let sink = writer.into_inner().map_err(|error| self.failed(&error))?;
         let kept = match (sink, &self.place) {
-            (Sink::File(file), Some(place)) => file.persist(place).map_err(|it| it.error).map(drop),
+            (Sink::File(file), Some(place)) => file.persist(place),
             (mut sink, _) => sink.flush(),
         };
         kept.map_err(|error| self.failed(&error))?;
@@ -334,7 +331,7 @@ pub type Writer = BufWriter<Sink>;
 
 /// Where an output goes first.
 pub enum Sink {
-    File(NamedTempFile),
+    File(Unfinished),
     Standard(io::Stdout),
 }
 
@@ -387,30 +384,10 @@ fn place_for(output: &Path, input: Option<&Path>, noun: &str) -> Result<PathBuf,
     }
 }
 
-fn parent(path: &Path) -> &Path {
+/// The folder that a path is in.
+pub fn parent(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     }
-}
-
-/// A temporary file beside `place`, to be renamed once complete. It has the permissions of the file it replaces, or those that
-/// the umask gives a new one.
-fn file_beside(place: &Path) -> io::Result<NamedTempFile> {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        let mut builder = tempfile::Builder::new();
-        let old = fs::metadata(place).ok().map(|old| old.permissions());
-        let usual = fs::Permissions::from_mode(0o666);
-        builder.permissions(old.clone().unwrap_or(usual));
-        let file = builder.tempfile_in(parent(place))?;
-        if let Some(old) = old {
-            // The umask may have removed some.
-            file.as_file().set_permissions(old)?;
-        }
-        Ok(file)
-    }
-    #[cfg(not(unix))]
-    NamedTempFile::new_in(parent(place))
 }

@@ -22,6 +22,7 @@ mod schemas;
 mod simulate;
 mod slice;
 mod terminal;
+mod unfinished;
 mod usage;
 mod values;
 mod verify;

@@ -12,6 +12,7 @@ use std::time::Duration;
 use std::time::Instant;
 
 use cusp_slicer::Error;
+use cusp_slicer::job::Work;
 
 use crate::budget::Budget;
 use crate::files::Failure;
@@ -52,13 +53,15 @@ pub fn stop_on_interrupt() {
 /// commands that a shell runs in the background: these stay ignored.
 #[cfg(target_os = "linux")]
 fn handle_signals() {
-    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    use signal_hook::consts::{SIGABRT, SIGHUP, SIGINT, SIGTERM};
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let ignored = status
         .lines()
         .find_map(|line| line.strip_prefix("SigIgn:"))
         .and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok())
         .unwrap_or(0);
+    // Memory that cannot be had ends the process with a message. It fails like any other command then.
+    let _ = signal_hook::flag::register_conditional_shutdown(SIGABRT, 1, Arc::new(true.into()));
     for signal in [SIGHUP, SIGINT, SIGTERM] {
         if ignored >> (signal - 1) & 1 == 0 {
             // Without a handler it ends the process, as it always did.
@@ -98,13 +101,14 @@ fn exceeded(cpu_time_s: Option<f64>, memory_bytes: Option<u64>) -> Option<Error>
             // At least what it has taken.
             let needed_s = if done > 0.0 { taken_s / done } else { taken_s };
             return Some(Error::TimeBound {
+                work: Work::All,
                 needed_s: needed_s.ceil(),
                 allowed_s,
             });
         }
     }
     if let Some(allowed_bytes) = memory_bytes {
-        let needed_bytes = resident_bytes();
+        let [_, needed_bytes] = memory_taken_bytes();
         // What the library estimates is not exact.
         if needed_bytes > allowed_bytes + allowed_bytes / 8 + (64 << 20) {
             return Some(Error::MemoryBound {
@@ -130,11 +134,11 @@ fn taken_cpu_s() -> f64 {
     START.elapsed().as_secs_f64()
 }
 
-/// The memory that is in use, where the system tells; 0 elsewhere.
-fn resident_bytes() -> u64 {
-    let pages = fs::read_to_string("/proc/self/statm").ok();
-    let pages = pages.and_then(|text| text.split(' ').nth(1)?.parse::<u64>().ok());
-    pages.unwrap_or(0) * page_bytes()
+/// Addresses that are taken and memory that is in use, where the system tells; 0 elsewhere.
+pub fn memory_taken_bytes() -> [u64; 2] {
+    let text = fs::read_to_string("/proc/self/statm").unwrap_or_default();
+    let mut pages = text.split(' ').map(|pages| pages.parse().unwrap_or(0));
+    [(); 2].map(|()| pages.next().unwrap_or(0) * page_bytes())
 }
 
 #[cfg(unix)]
