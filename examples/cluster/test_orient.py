@@ -92,8 +92,11 @@ class Orient(Example):
         batch = [poem, self.wedge, absent, self.spire, poem, *self.options]
         native = self.cusp(*batch)
         # Two lines of answers, three of errors.
+        lines = [json.loads(line) for line in native.stdout.splitlines()]
+        self.assertEqual(["error" in line for line in lines], [True, False, True, False, True])
+        answers = [line for line in native.stdout.splitlines(keepends=True) if "error" not in json.loads(line)]
         good = self.in_one_process(self.wedge, self.spire, *self.options)
-        self.assertEqual((native.stdout, native.stderr.count("\n")), (good, 3))
+        self.assertEqual(("".join(answers), native.stderr.count("\n")), (good, 3))
         found = self.finish(self.start("--workers=2", f"--cusp={CUSP}", *batch))
         self.assertEqual(found, (1, native.stdout, native.stderr))
 
@@ -125,10 +128,12 @@ class Orient(Example):
 
         text = self.folder / "text.stl"
         text.write_text("no model\n")
-        code, output, messages = self.finish(self.start("--workers=1", f"--cusp={CUSP}", text, *self.options))
-        self.assertEqual((code, output, messages), (1, "", self.cusp(text, *self.options).stderr))
-        # The message names the given file, not a worker's copy.
-        self.assertIn(str(text), messages)
+        native = self.cusp(text, *self.options)
+        found = self.finish(self.start("--workers=1", f"--cusp={CUSP}", text, *self.options))
+        self.assertEqual(found, (1, native.stdout, native.stderr))
+        # The messages name the given file, not a worker's copy.
+        self.assertEqual(json.loads(native.stdout)["error"]["file"], str(text))
+        self.assertIn(str(text), native.stderr)
 
     def test_merging_notices_gaps_and_duplicates(self) -> None:
         parts = []
@@ -144,7 +149,8 @@ class Orient(Example):
             ([first, second, third, second], "was measured twice, in shards 2/3 and 2/3"),
         ]:
             merged = self.cusp(self.wedge, *self.options, "--merge", *given)
-            self.assertEqual((merged.returncode, merged.stdout), (1, ""))
+            self.assertEqual(merged.returncode, 1)
+            self.assertIn(message, json.loads(merged.stdout)["error"]["message"])
             self.assertIn(message, merged.stderr)
         merged = self.cusp(self.wedge, *self.options, "--merge", third, first, second)
         self.assertEqual(merged.stdout, self.in_one_process(self.wedge, *self.options))

@@ -183,11 +183,27 @@ fn a_bad_model_does_not_stop_the_others_of_a_batch() {
     }
 }
 
-/// Asserts that a batch writes `stdout` and reports exactly these bad models, each with an error that contains the text
-/// beside it.
+/// Asserts that a batch writes `stdout`, beside the lines of failures, and reports exactly these bad models, each with an error that
+/// contains the text beside it.
 #[track_caller]
 fn assert_only_bad(output: &Output, stdout: &str, bad: &[(&str, &str)]) {
-    assert_eq!(String::from_utf8_lossy(&output.stdout), stdout);
+    let printed = String::from_utf8_lossy(&output.stdout);
+    let is_failure = |line: &&str| line.starts_with("{\"error\":");
+    let failures = printed.lines().filter(is_failure);
+    let failures: Vec<Value> = failures
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect();
+    if !failures.is_empty() {
+        let models = failures
+            .iter()
+            .map(|line| line["error"]["file"].as_str().unwrap());
+        assert!(models.eq(bad.iter().map(|(model, _)| *model)), "{printed}");
+    }
+    let others: Vec<&str> = printed
+        .split_inclusive('\n')
+        .filter(|line| !is_failure(line))
+        .collect();
+    assert_eq!(others.concat(), stdout);
     let stderr = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{stderr}");
     let lines: Vec<&str> = stderr.lines().collect();

@@ -16,7 +16,7 @@ use crate::arguments::{Choices, Settings};
 use crate::batch::check_inputs;
 use crate::export::write_stl;
 use crate::files::{Failure, Output, WeightsFile, in_file, load_painted};
-use crate::terminal::{Bar, duration, print, print_json_line, say, to_json};
+use crate::terminal::{Bar, duration, print, print_json, print_json_line, say, to_json};
 use crate::usage::check_json;
 use crate::values::{fraction, shard};
 use crate::watch::{is_stopped, stop_on_interrupt};
@@ -118,12 +118,16 @@ pub fn orient(orienting: &Orienting) -> Result<(), Failure> {
             Ok(answer) if is_json => print_json_line(&answer)?,
             Ok(answer) => print(&answer)?,
             // A bad model does not affect the rest of the batch.
-            Err(Failure {
-                exit_code: 1,
-                message,
-                ..
-            }) => {
-                say(&message.unwrap_or_default());
+            Err(failure) if failure.exit_code == 1 => {
+                say(failure.message.as_deref().unwrap_or_default());
+                // Parts that are merged hold nothing else.
+                if orienting.json
+                    && orienting.shard.is_none()
+                    && let Some(mut failed) = failure.told()
+                {
+                    failed.error.file = Some(model.display().to_string());
+                    print_json(&failed)?;
+                }
                 is_any_bad = true;
             }
             Err(failure) => return Err(failure),
