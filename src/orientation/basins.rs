@@ -112,7 +112,7 @@ impl Basins {
 
     /// Finds the basins of the surface along a direction. `low` are the facets that reach down to the first mask, and maybe others, in
     /// ascending order.
-    pub fn find(&self, along: &Along<'_>, low: impl Iterator<Item = u32>) -> Found {
+    pub fn find(&self, along: &Along<'_>, low: &[u32]) -> Found {
         let &Along {
             heights_mm,
             middles_mm,
@@ -285,7 +285,7 @@ impl Basins {
     }
 
     /// The areas of the holes of the first layer together, which these facets reach down to.
-    fn cups_on_plate_mm2(&self, along: &Along<'_>, low: impl Iterator<Item = u32>) -> f64 {
+    fn cups_on_plate_mm2(&self, along: &Along<'_>, low: &[u32]) -> f64 {
         let Some(&level_mm) = along.middles_mm.first() else {
             return 0.0;
         };
@@ -303,7 +303,7 @@ impl Basins {
             from + (to - from) * part
         };
         let mut pieces: Vec<Piece> = Vec::new();
-        for facet in low {
+        for &facet in low {
             let [a, b, c] = self.facets[facet as usize];
             let above = [a, b, c].map(is_above);
             if above == [true; 3] || above == [false; 3] {

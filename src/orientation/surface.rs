@@ -1,11 +1,10 @@
 //! The surface of a model, prepared for measuring many directions: what does not depend on the direction is computed once.
 
-use std::ops::Range;
-
 use glam::{DVec3, Vec3};
 
 use super::basins::{Along, Basins, Found};
 use super::directions::{about_z, lattice, unit, upright};
+use super::extents::Points;
 use super::supports::Estimate;
 use super::{Exclusion, Metrics};
 use crate::grid::Bins;
@@ -35,17 +34,14 @@ const TOLD_APART: usize = 64;
 /// −`n_z` above which a facet needs support: it faces down at less than 45° from level.
 const OVERHANG: f32 = std::f32::consts::FRAC_1_SQRT_2;
 
-/// Vertices that are looked at together.
-const BLOCK: usize = 512;
-
-/// The range of no numbers.
-const NOTHING: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
+/// Sums that are made side by side.
+const LANES: usize = 4;
 
 /// Bytes per facet that a search takes on one thread: in the mesh, the surface, and the current placement.
 const FACET_BYTES: usize = 148;
 
 /// Bytes per vertex that a search takes on one thread.
-const VERTEX_BYTES: usize = 141;
+const VERTEX_BYTES: usize = 165;
 
 /// Peak memory of an orientation search on one thread, in bytes. tests/memory.rs measures it.
 pub(crate) fn search_bytes(mesh: &Mesh) -> usize {
@@ -57,8 +53,8 @@ pub(crate) fn search_bytes(mesh: &Mesh) -> usize {
 pub(crate) struct Surface {
     /// For each facet, its index in the mesh. Neighbouring facets are close together, so that their data is in the cache.
     order: Vec<usize>,
-    /// Coordinates of the vertices of the surface, one list per axis.
-    vertices_mm: [Vec<f64>; 3],
+    /// The vertices of the surface.
+    vertices: Points,
     /// Unit normals of facets, one list per axis.
     normals: [Vec<f32>; 3],
     areas_mm2: Vec<f32>,
@@ -129,7 +125,7 @@ impl Surface {
         }
         Self {
             order,
-            vertices_mm,
+            vertices: Points::new(vertices_mm),
             normals,
             total_mm2: areas_mm2.iter().copied().map(f64::from).sum(),
             areas_mm2,
@@ -216,13 +212,11 @@ impl Surface {
     fn turned(&self, rotation: [f64; 4]) -> (Placement, Bounds) {
         // No quaternion of this module is 0, so there is always a matrix.
         let matrix = rotation_matrix(rotation).unwrap_or_default();
-        let [x, y] = [0, 1].map(|axis| self.extent_along(matrix.row(axis)));
-        let upward = self.places_along(matrix.row(2), 0..self.vertices_mm[0].len());
-        let upward: Vec<f64> = upward.collect();
-        let z = range(&upward);
+        let [x, y, z] = [0, 1, 2].map(|axis| self.vertices.extent_along(matrix.row(axis)));
         let min = DVec3::new(x[0], y[0], z[0]);
         let max = DVec3::new(x[1], y[1], z[1]);
-        let heights_mm = upward.iter().map(|z| (z - min.z) as f32).collect();
+        let heights = self.vertices.along(matrix.row(2), 0..self.vertices.count());
+        let heights_mm = heights.map(|z| (z - min.z) as f32).collect();
         let size = max - min;
         let round = |length_mm: f64| (length_mm * 1e6).round() / 1e6;
         let placement = Placement {
@@ -237,31 +231,6 @@ impl Surface {
             heights_mm,
         };
         (placement, Bounds { min, max })
-    }
-
-    /// Coordinates along an axis of the vertices in a range.
-    fn places_along(&self, axis: DVec3, vertices: Range<usize>) -> impl Iterator<Item = f64> {
-        let [x, y, z] = self
-            .vertices_mm
-            .each_ref()
-            .map(|list| &list[vertices.clone()]);
-        let vertices = x.iter().zip(y).zip(z);
-        vertices.map(move |((x, y), z)| axis.x * x + axis.y * y + axis.z * z)
-    }
-
-    /// The least and the greatest coordinate along an axis.
-    fn extent_along(&self, axis: DVec3) -> [f64; 2] {
-        let count = self.vertices_mm[0].len();
-        // By blocks, which stay in the cache.
-        let mut places = Vec::with_capacity(BLOCK);
-        let blocks = (0..count).step_by(BLOCK).map(|first| {
-            places.clear();
-            places.extend(self.places_along(axis, first..count.min(first + BLOCK)));
-            range(&places)
-        });
-        blocks.fold(NOTHING, |all, block| {
-            [all[0].min(block[0]), all[1].max(block[1])]
-        })
     }
 
     /// `n_z` of the unit normals of facets.
@@ -311,58 +280,65 @@ impl Surface {
         let rough: Vec<f32> = squares
             .map(|&square| roughness::density_of(square))
             .collect();
-        let (mut overhang_mm2, mut roughness) = (0.0, 0.0);
+        // In lanes, as each sum of a single chain would wait for the one before.
+        let (mut overhangs_mm2, mut roughness) = ([0.0; LANES], [0.0; LANES]);
         let mut supports = Estimate::new(profile);
         let bin_mm = facet_bins.bins.size_mm;
+        // Where masks are taken.
+        let middles_mm: Vec<f32> = plan
+            .boundaries
+            .windows(2)
+            .map(|pair| f64::midpoint(f64::from(pair[0]), f64::from(pair[1])))
+            .map(|bins| (bins * bin_mm) as f32)
+            .collect();
+        let low = facet_bins.bins.of(f64::from(middles_mm[0])) as u32;
+        // The facets that reach down to the first of them.
+        let mut lowest = Vec::new();
         let facets = facet_bins.spans.iter().zip(&rough);
         let facets = facets.zip(&placement.n_z).zip(&self.areas_mm2);
         for (facet, (((&[first, last], &rough), &n_z), &area_mm2)) in facets.enumerate() {
             let area_mm2 = f64::from(area_mm2);
             let is_overhang = n_z < -OVERHANG && last >= plate;
             // No branch, as nobody can predict it.
-            overhang_mm2 += area_mm2 * f64::from(u8::from(is_overhang));
+            overhangs_mm2[facet % LANES] += area_mm2 * f64::from(u8::from(is_overhang));
             if supports.counts(n_z, last >= plate) {
                 let middle_mm = f64::from((first + last) as i32 + 1) / 2.0 * bin_mm;
                 let weight = weights.map_or(1.0, |weights| f64::from(weights[facet]));
                 supports.add(f64::from(n_z), area_mm2, middle_mm, weight);
             }
+            if first <= low {
+                lowest.push(facet as u32);
+            }
             let end = last + 1;
             let bins = sums[end as usize] - sums[first as usize];
             let thickness = bins / f64::from((end - first) as i32);
-            roughness += area_mm2 * thickness * f64::from(rough);
+            roughness[facet % LANES] += area_mm2 * thickness * f64::from(rough);
         }
-        // Where masks are taken.
-        let middles_mm: Vec<f32> = plan
-            .boundaries
-            .windows(2)
-            .map(|pair| f64::midpoint(f64::from(pair[0]), f64::from(pair[1])))
-            .map(|bins| (bins * facet_bins.bins.size_mm) as f32)
-            .collect();
-        let low = facet_bins.bins.of(f64::from(middles_mm[0])) as u32;
-        let spans = facet_bins.spans.iter().zip(0u32..);
-        let surface = spans.filter(|([first, _], _)| *first <= low);
-        let surface = surface.map(|(_, facet)| facet);
-        let caps = facet_bins.spans.len() as u32..self.basins.facets().len() as u32;
+        lowest.extend(facet_bins.spans.len() as u32..self.basins.facets().len() as u32);
         let along = Along {
             up: placement.up,
             height_mm: placement.size_mm[2] as f32,
             heights_mm: &placement.heights_mm,
             middles_mm: &middles_mm,
         };
-        let Found { islands, cups_mm2 } = self.basins.find(&along, surface.chain(caps));
+        let Found { islands, cups_mm2 } = self.basins.find(&along, &lowest);
         let [support_ml, contact_mm2] = supports.of_islands(islands);
         Metrics {
             layers: plan.layers(),
             print_time_s,
             max_error,
-            roughness_mm: roughness / self.total_mm2 * facet_bins.bins.size_mm,
-            overhang_mm2,
+            roughness_mm: total(roughness) / self.total_mm2 * facet_bins.bins.size_mm,
+            overhang_mm2: total(overhangs_mm2),
             islands,
             cups_mm2,
             support_ml,
             contact_mm2,
         }
     }
+}
+
+fn total([a, b, c, d]: [f64; LANES]) -> f64 {
+    (a + b) + (c + d)
 }
 
 /// Indices of the surface facets of a mesh along a space-filling curve (Morton order).
@@ -380,29 +356,4 @@ fn neighbours_together(mesh: &Mesh) -> Vec<usize> {
         f64::from(spread(cell.x) | spread(cell.y) << 1 | spread(cell.z) << 2)
     });
     ascending(keys)
-}
-
-/// The minimum and maximum of some numbers.
-fn range(numbers: &[f64]) -> [f64; 2] {
-    // By hand, because `min` and `max` are library calls in wasm; in lanes, because each comparison in a single chain would
-    // wait for the one before.
-    let mut least = [f64::INFINITY; 4];
-    let mut greatest = [f64::NEG_INFINITY; 4];
-    let lanes = numbers.chunks_exact(4);
-    let rest = lanes.remainder();
-    for lane in lanes.chain(std::iter::once(rest)) {
-        for (i, &number) in lane.iter().enumerate() {
-            if number < least[i] {
-                least[i] = number;
-            }
-            if number > greatest[i] {
-                greatest[i] = number;
-            }
-        }
-    }
-    let all = least.into_iter().zip(greatest);
-    let (least, greatest) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |all, one| {
-        (all.0.min(one.0), all.1.max(one.1))
-    });
-    [least, greatest]
 }
