@@ -20,7 +20,8 @@ use crate::ldi::gpu;
 use crate::mask::LayerRuns;
 use crate::model::read::{self, HEAD_BYTES};
 use crate::model::{FacetClass, FileFacts, weights};
-use crate::orientation::{Candidate, Search, SearchOptions, Task, TaskResult};
+use crate::orientation::packed::{pack, unpack};
+use crate::orientation::{Search, SearchOptions, Task, TaskResult};
 use crate::prepare;
 use crate::price::{PriceItem, Prices};
 use crate::printer::PRINTERS;
@@ -142,7 +143,8 @@ pub struct OrientationSearch {
 
 #[wasm_bindgen]
 impl OrientationSearch {
-    /// A search whose candidates are already measured. It rates them again and refines the best.
+    /// A search whose candidates are already measured, as numbers: see [`packed`](crate::orientation::packed). It rates them again and
+    /// refines the best.
     ///
     /// # Errors
     /// Throws a `CuspError`.
@@ -152,10 +154,10 @@ impl OrientationSearch {
     )]
     pub fn of_measured(
         search: Ts<SearchOptions>,
-        candidates: Vec<Ts<Candidate>>,
+        candidates: &[f64],
     ) -> Result<OrientationSearch, JsValue> {
         let options = search.to_rust().map_err(throw_conversion)?;
-        let search = Search::of_measured(options, to_rust(&candidates)?);
+        let search = Search::of_measured(options, unpack(candidates));
         search.map(|search| Self { search }).map_err(throw)
     }
 
@@ -175,18 +177,14 @@ impl OrientationSearch {
         to_js(&self.search.next_tasks(most))
     }
 
-    /// Accepts the candidates of a task, one per direction. Tasks may be accepted in any order.
+    /// Accepts the candidates of a task, one per direction, as [`Slicer::evaluate`] returns them. Tasks may be accepted in any order.
     ///
     /// # Errors
     /// Throws a `CuspError`.
-    #[expect(
-        clippy::needless_pass_by_value,
-        reason = "values from JavaScript come by value"
-    )]
-    pub fn accept(&mut self, task: usize, candidates: Vec<Ts<Candidate>>) -> Result<(), JsValue> {
+    pub fn accept(&mut self, task: usize, candidates: &[f64]) -> Result<(), JsValue> {
         let result = TaskResult {
             number: task,
-            candidates: to_rust(&candidates)?,
+            candidates: unpack(candidates),
         };
         self.search.accept(result).map_err(throw)
     }
@@ -196,24 +194,16 @@ impl OrientationSearch {
         self.search.progress()
     }
 
-    /// The candidate of each direction, null until it is measured. Energies are relative to the candidates measured so far.
-    #[wasm_bindgen(unchecked_return_type = "(Candidate | null)[]")]
-    pub fn rated(&self) -> JsValue {
-        to_js(&self.search.rated())
+    /// The candidate of each direction, as numbers. Energies are relative to the candidates measured so far.
+    pub fn rated(&self) -> Vec<f64> {
+        pack(self.search.rated().iter().map(Option::as_ref))
     }
 
-    /// Up to three candidates, best first and at least 20° apart. Null until all tasks are done.
-    #[wasm_bindgen(unchecked_return_type = "Candidate[] | null")]
-    pub fn best(&self) -> JsValue {
-        to_js(&self.search.best())
+    /// Up to three candidates, best first and at least 20° apart, as numbers. Undefined until all tasks are done.
+    pub fn best(&self) -> Option<Vec<f64>> {
+        let best = self.search.best()?;
+        Some(pack(best.iter().map(Some)))
     }
-}
-
-fn to_rust(candidates: &[Ts<Candidate>]) -> Result<Vec<Candidate>, JsValue> {
-    let candidates = candidates.iter().map(Ts::to_rust);
-    candidates
-        .collect::<Result<_, _>>()
-        .map_err(throw_conversion)
 }
 
 impl Slicer {
@@ -350,7 +340,7 @@ impl Slicer {
             .map_err(throw)
     }
 
-    /// Measures the directions of a task, three numbers each, and returns their candidates.
+    /// Measures the directions of a task, three numbers each, and returns their candidates as numbers.
     ///
     /// # Errors
     /// Throws a `CuspError`.
@@ -358,12 +348,11 @@ impl Slicer {
         clippy::needless_pass_by_value,
         reason = "values from JavaScript come by value"
     )]
-    #[wasm_bindgen(unchecked_return_type = "Candidate[]")]
     pub fn evaluate(
         &mut self,
         options: Ts<Options>,
         directions: &[f64],
-    ) -> Result<JsValue, JsValue> {
+    ) -> Result<Vec<f64>, JsValue> {
         let options = options.to_rust().map_err(throw_conversion)?;
         let (directions, _) = directions.as_chunks::<3>();
         let task = Task {
@@ -371,7 +360,7 @@ impl Slicer {
             directions: directions.to_vec(),
         };
         let result = self.slicer.evaluate(&options, task).map_err(throw)?;
-        Ok(to_js(&result.candidates))
+        Ok(pack(result.candidates.iter().map(Some)))
     }
 
     /// The profile of the last preview, in the same form as [`Self::profile`].

@@ -3,7 +3,8 @@ import type { WorkerHandle } from "./calls.js";
 import { fakePlate } from "./fake-plate.js";
 import { createSlicer, type OrientCall, type Slicer } from "./index.js";
 import { workersFor } from "./pool.js";
-import type { Candidate, MeshInfo, Preview, Profiled, Report, SearchResult, SearchStep, Task, TaskResult } from "./wire.js";
+import { packed, unpackedMeasured } from "./candidates.js";
+import type { Candidate, MeshInfo, Preview, Profiled, Report, SearchStep, Task, TaskResult } from "./wire.js";
 
 const COUNT = 100;
 const FACETS = 12;
@@ -62,7 +63,8 @@ class FakeSearch {
   }
 
   advance(results: readonly TaskResult[], most: number, rateFrom: number): SearchStep {
-    for (const { number, candidates } of results) {
+    for (const { number, candidates: numbers } of results) {
+      const candidates = unpackedMeasured(numbers);
       this.#out -= 1;
       if (number >= REFINING) this.#refined.push(...this.#rated(candidates, 0.5));
       else for (const candidate of candidates) this.#found[candidate.direction[0]] = candidate;
@@ -73,12 +75,12 @@ class FakeSearch {
     const measured = this.#measured();
     const isDone = this.#out === 0 && this.#waiting.length === 0;
     const rated = this.#found.map((candidate) => (candidate === null ? null : (this.#rated([candidate])[0] ?? null)));
-    const result: SearchResult = {
-      best: this.#refined.toSorted((a, b) => (a.energy ?? 0) - (b.energy ?? 0)).slice(0, 3),
-      candidates: rated.flatMap((candidate) => candidate ?? []),
+    const result: SearchStep["result"] = {
+      best: packed(this.#refined.toSorted((a, b) => (a.energy ?? 0) - (b.energy ?? 0)).slice(0, 3)),
+      candidates: packed(rated),
     };
     const progress = isDone ? 1 : (0.8 * measured) / this.#found.length;
-    return { tasks, measured, progress, rated: measured >= rateFrom ? rated : null, result: isDone ? result : null };
+    return { tasks, measured, progress, rated: measured >= rateFrom ? packed(rated) : null, result: isDone ? result : null };
   }
 
   #measured(): number {
@@ -124,7 +126,7 @@ function faked({ workers, slowness = () => 0, hangs, fails, within = 4 }: Setup)
       },
       setWeights: (weights) => void log.push(`${number}: setWeights ${weights?.join() ?? "none"}`),
       startSearch: (_options, { directions = COUNT }, measured) => {
-        search = new FakeSearch(directions, within, measured);
+        search = new FakeSearch(directions, within, measured === null ? null : unpackedMeasured(measured));
         return Float64Array.from({ length: 3 * directions }, (_, i) => (i % 3 === 0 ? i / 3 : 0));
       },
       advanceSearch: (results, most, rateFrom) =>
@@ -134,7 +136,7 @@ function faked({ workers, slowness = () => 0, hangs, fails, within = 4 }: Setup)
         }),
       evaluate: (_options, tasks) => {
         const call = tasks.some(({ number }) => number < REFINING) ? "measure" : "refine";
-        return work(call, () => tasks.map(({ number, directions }) => ({ number, candidates: directions.map(candidateAt) })));
+        return work(call, () => tasks.map(({ number, directions }) => ({ number, candidates: packed(directions.map(candidateAt)) })));
       },
       plan: async () => ({ report: {} as Report, profile: new Float32Array() }),
       preview: () => ({}) as Profiled<Preview>,

@@ -1,4 +1,5 @@
 /** The orientation search, which the core drives: one worker of the pool holds it, and all run its tasks. */
+import { packed, unpacked, unpackedMeasured } from "./candidates.js";
 import type { Watch } from "./calls.js";
 import type { About } from "./client.js";
 import type { Pool } from "./pool.js";
@@ -26,7 +27,7 @@ const RATINGS = 12;
 export function measure(pool: Pool, about: About, options: Options, direction: Readonly<Candidate["direction"]>, call: Watch): Promise<Candidate> {
   return pool.run(about, call, async (team) => {
     const results = await team.ask((remote) => remote.evaluate(options, [{ number: 0, directions: [[...direction]] }]));
-    const candidate = results[0]?.candidates[0];
+    const [candidate] = unpackedMeasured(results[0]?.candidates ?? new Float64Array());
     if (candidate === undefined) throw new Error("the direction was not measured");
     return candidate;
   });
@@ -36,18 +37,20 @@ export function orient(pool: Pool, about: About, options: Options, search: Searc
   const { onProgress, onCandidates } = call;
   return pool.run(about, call, async (team) => {
     onProgress?.("orientation", 0, 0);
-    const directions = await team.ask((remote) => remote.startSearch(options, search, call.measured ?? null));
+    const measured = call.measured === undefined ? null : packed(call.measured);
+    const directions = await team.ask((remote) => remote.startSearch(options, search, measured));
     const count = directions.length / 3;
     let rateFrom = onCandidates === undefined ? Infinity : 1;
-    return team.share({
+    const { candidates, best } = await team.share({
       exchange: (remote, results: TaskResult[], most) => remote.advanceSearch(results, most, rateFrom),
       run: (remote, tasks: Task[]) => remote.evaluate(options, tasks),
       onStep: ({ progress, measured, rated }: SearchStep) => {
         onProgress?.("orientation", progress, progress);
         if (rated === null) return;
         rateFrom = measured === count ? Infinity : Math.min(count, measured + count / RATINGS);
-        onCandidates?.({ directions, candidates: rated });
+        onCandidates?.({ directions, candidates: unpacked(rated) });
       },
     });
+    return { candidates: unpackedMeasured(candidates), best: unpackedMeasured(best) };
   });
 }

@@ -84,11 +84,14 @@ export interface ProfiledPlates {
   supports?: Float32Array[];
 }
 
-/** The result of a task: a candidate for each of its directions, in their order. */
+/** The result of a task: a candidate for each of its directions, in their order, as {@link PackedCandidates}. */
 export interface TaskResult {
   number: number;
-  candidates: Candidate[];
+  candidates: PackedCandidates;
 }
+
+/** Candidates as the core packs them: see `candidates.ts`. */
+export type PackedCandidates = Float64Array;
 
 /** The result of a search. */
 export interface SearchResult {
@@ -106,10 +109,10 @@ export interface SearchStep {
   measured: number;
   /** 0 to 1. */
   progress: number;
-  /** One per direction, null until it is measured; null as a whole if no rating was requested. */
-  rated: (Candidate | null)[] | null;
+  /** One per direction; null if no rating was requested. */
+  rated: PackedCandidates | null;
   /** Null until the search is done. */
-  result: SearchResult | null;
+  result: { candidates: PackedCandidates; best: PackedCandidates } | null;
 }
 
 /** The worker's interface through comlink. Everything it throws is an `Error` or a plain `CuspError`. */
@@ -154,7 +157,7 @@ export interface SlicerWorker extends PlateWorker {
    * Starts a search, which this worker holds until the next one; `measured` are the candidates of an earlier search to reuse.
    * Returns its directions: unit vectors in the file's frame, three numbers each.
    */
-  startSearch(options: Options, search: SearchOptions, measured: readonly Candidate[] | null): Float64Array;
+  startSearch(options: Options, search: SearchOptions, measured: PackedCandidates | null): Float64Array;
   /** Delivers results and takes up to `most` new tasks. Rates candidates once `rateFrom` directions are measured. */
   advanceSearch(results: TaskResult[], most: number, rateFrom: number): SearchStep;
   /** Runs tasks of a search that this or another worker holds. */

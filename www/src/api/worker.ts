@@ -9,7 +9,7 @@ import { encodeGroups, isLong } from "./encode-groups.js";
 import { said } from "./error.js";
 import { ring } from "./ring.js";
 import { stlOf } from "./stl.js";
-import type { Candidate, Help, KnownPrinter, OnProgress, Options, PlateWorker, Remote } from "./wire.js";
+import type { Help, KnownPrinter, OnProgress, Options, PackedCandidates, PlateWorker, Remote, SearchStep } from "./wire.js";
 
 /** Chunks of a print file are merged into a Blob at this many bytes; the browser may keep that on disk. */
 const BLOB_PART_BYTES = 8 << 20;
@@ -293,7 +293,7 @@ const api: Remote = {
     return Comlink.transfer(weights, [weights.buffer]);
   }),
   startSearch: withLater((options, wanted, measured) => {
-    const started = measured === null ? current().search(options, wanted) : OrientationSearch.of_measured(wanted, [...measured]);
+    const started = measured === null ? current().search(options, wanted) : OrientationSearch.of_measured(wanted, measured);
     search?.free();
     search = started;
     const directions = search.directions();
@@ -306,12 +306,14 @@ const api: Remote = {
     const measured = search.measured();
     const rated = measured >= rateFrom ? search.rated() : null;
     const best = search.best();
-    const result = best === null ? null : { best, candidates: search.rated().filter((candidate) => candidate !== null) };
-    return { tasks, measured, progress: search.progress(), rated, result };
+    const result = best === undefined ? null : { best, candidates: search.rated() };
+    const step: SearchStep = { tasks, measured, progress: search.progress(), rated, result };
+    return Comlink.transfer(step, [rated, result?.candidates, best].flatMap((numbers) => numbers?.buffer ?? []));
   },
   evaluate: withLater((options, tasks) => {
-    const measure = (directions: [number, number, number][]): Candidate[] => current().evaluate(options, Float64Array.from(directions.flat()));
-    return tasks.map(({ number, directions }) => ({ number, candidates: measure(directions) }));
+    const measure = (directions: [number, number, number][]): PackedCandidates => current().evaluate(options, Float64Array.from(directions.flat()));
+    const results = tasks.map(({ number, directions }) => ({ number, candidates: measure(directions) }));
+    return Comlink.transfer(results, results.map(({ candidates }) => candidates.buffer));
   }),
   calibrateLayers: withLater(async (options, progress) => {
     const sink = new BlobSink();

@@ -1,19 +1,34 @@
 import { readFile } from "node:fs/promises";
-import { expect, test } from "vitest";
+import { beforeAll, expect, test } from "vitest";
 import { initSync, later_arrived, OrientationSearch, type Candidate, type SearchOptions } from "../../../pkg/cusp_slicer.js";
+import { packed, unpacked } from "../../api/candidates.js";
 import { DEFAULT_AIMS } from "./orientation.js";
 
-test("the initial aims of the panel are the core's defaults", async () => {
+beforeAll(async () => {
   const read = (part: string): Promise<Buffer> => readFile(new URL(`../../../pkg/cusp_slicer_${part}.wasm`, import.meta.url));
   const first = initSync({ module: await read("bg") });
   await WebAssembly.instantiate(await read("later"), { first: { ...first } });
   later_arrived();
+});
+
+test("candidates come through the core as they are", () => {
+  const metrics = { layers: 10, print_time_s: 20, max_error: 0.5, roughness_mm: 0.25, overhang_mm2: 30, islands: 4, cups_mm2: 5, support_ml: 0.5, contact_mm2: 2 };
+  const candidate = (changed: Partial<Candidate>): Candidate => ({ direction: [0, 0.6, 0.8], rotation: [0.1, 0.2, 0.3, 0.9], size_mm: [1, 2, 3], excluded: null, metrics, energy: null, ...changed });
+  // What a direction is excluded for by its metrics depends on the limits of the search.
+  const given = [candidate({}), ...(["too-large", "too-high", "no-plan"] as const).map((excluded) => candidate({ excluded, metrics: null }))];
+  const through = (search: SearchOptions): unknown => unpacked(OrientationSearch.of_measured(search, packed(given)).rated());
+  expect(through({})).toEqual(given.map((it) => ({ ...it, energy: it.excluded === null ? 1 : null })));
+  const limits = { overhang: { most_overhang_mm2: 1 }, islands: { most_islands: 1 }, cups: { most_cups_mm2: 1 } } as const;
+  for (const [excluded, limit] of Object.entries(limits)) expect(through(limit)).toEqual(given.map((it) => ({ ...it, excluded: it.excluded ?? excluded })));
+});
+
+test("the initial aims of the panel are the core's defaults", () => {
   // Any other aims give two candidates with metrics like these different energies.
   const candidates = [1, 2].map((part): Candidate => {
     const metrics = { layers: 10, print_time_s: 10 * part, max_error: 1 / part, roughness_mm: 1 / part ** 2, overhang_mm2: 1 / part ** 3, islands: 0, cups_mm2: 0, support_ml: 0, contact_mm2: 0 };
     return { direction: [0, 0, 1], rotation: [0, 0, 0, 1], size_mm: [1, 1, 1], excluded: null, metrics, energy: null };
   });
-  const energies = (search: SearchOptions): unknown => OrientationSearch.of_measured(search, candidates).rated().map((it) => it?.energy);
+  const energies = (search: SearchOptions): unknown => unpacked(OrientationSearch.of_measured(search, packed(candidates)).rated()).map((it) => it?.energy);
   expect(energies(DEFAULT_AIMS)).toEqual(energies({}));
   for (const other of [{ alpha: 0.4 }, { cost: "time" }, { quality: "roughness" }, { quality: "overhang" }] as const) {
     expect(energies({ ...DEFAULT_AIMS, ...other })).not.toEqual(energies({}));
