@@ -6,6 +6,7 @@
  */
 import * as Comlink from "comlink";
 import { isAbort, ofCore, said, SlicerError } from "./error.js";
+import { listenTo, told, untold } from "./told.js";
 import type { OnProgress, Remote, SlicerWorker } from "./wire.js";
 
 export type { Remote };
@@ -28,6 +29,7 @@ export interface Watch {
 
 export function spawnWorker(): WorkerHandle {
   const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module", name: "cusp-slicer" });
+  listenTo(worker);
   return {
     remote: Comlink.wrap<SlicerWorker>(worker),
     terminate: () => worker.terminate(),
@@ -37,6 +39,9 @@ export function spawnWorker(): WorkerHandle {
     },
   };
 }
+
+/** For calls whose progress nobody wants to know. */
+export const silent: OnProgress = told(() => undefined);
 
 /** Holds the compiled module, which all clients share. */
 export interface Compiled {
@@ -107,7 +112,7 @@ export class Calls<Held> {
       const life = this.#live();
       const abort = (): void => life.end(signal?.reason);
       signal?.addEventListener("abort", abort, { once: true });
-      const progress = Comlink.proxy<OnProgress>((stage, fraction, done) => {
+      const progress = told<OnProgress>((stage, fraction, done) => {
         // Ignore progress that arrives after an abort.
         if (signal?.aborted !== true) onProgress?.(stage, fraction, done);
       });
@@ -117,6 +122,7 @@ export class Calls<Held> {
         throw this.#understand(error, life, signal);
       } finally {
         signal?.removeEventListener("abort", abort);
+        untold(progress);
       }
     });
     // The next call waits for this one to settle. The queue does not hold the result, which may be large.

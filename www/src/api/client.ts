@@ -5,9 +5,10 @@
  * its subject and options, and replayed when a fresh worker is asked for its masks.
  */
 import * as Comlink from "comlink";
-import { Calls, spawnWorker, type Compiled, type Life, type Remote, type Watch, type WorkerHandle } from "./calls.js";
+import { Calls, silent, spawnWorker, type Compiled, type Life, type Remote, type Watch, type WorkerHandle } from "./calls.js";
 import { SlicerError } from "./error.js";
 import { priceItems, type Ordered } from "./price.js";
+import { told, untold } from "./told.js";
 import type { Comparison, Format, Help, KnownPrinter, Limits, OnProgress, Opened, Options, Price, Prices, Printability, Profiled, Report, Tradeoff, Written } from "./wire.js";
 
 /** What a worker holds: a file, the weights of its facets, and a plan. */
@@ -42,8 +43,6 @@ export interface Planned {
 
 /** The plan to export: one for these options; null: the last one. */
 export type Wanted = { about: About; options: Options } | null;
-
-const silent: OnProgress = () => undefined;
 
 export class Client {
   readonly #calls: Calls<Held>;
@@ -129,18 +128,11 @@ export class Client {
   archiveTo(wanted: Wanted, take: (chunk: Uint8Array) => void, watch: Watch): Promise<void> {
     return this.#calls.run(watch, wanted?.about ?? null, async (life, subject, progress) => {
       await this.#planFor(life, subject, wanted?.options, progress);
-      const { port1, port2 } = new MessageChannel();
-      const ended = new Promise<void>((resolve) => {
-        port1.onmessage = ({ data }: MessageEvent<Uint8Array | null>): void => {
-          if (data === null) resolve();
-          else take(data);
-        };
-      });
+      const chunks = told((chunk: Uint8Array) => take(chunk));
       try {
-        await life.handle.remote.archive(progress, Comlink.transfer(port2, [port2]), this.#helpers, Comlink.proxy(this.#help));
-        await life.within(ended);
+        await life.handle.remote.archive(progress, chunks, this.#helpers, Comlink.proxy(this.#help));
       } finally {
-        port1.close();
+        untold(chunks);
       }
     });
   }
@@ -194,7 +186,7 @@ export class Client {
   async #bring(life: Life<Held>, { file, weights }: Subject): Promise<void> {
     const { remote } = life.handle;
     if (life.held.file !== file) {
-      await remote.open(file, Comlink.proxy(silent));
+      await remote.open(file, silent);
       life.held.file = file;
       life.held.weights = null;
       life.held.planned = null;
@@ -210,7 +202,7 @@ export class Client {
     if (planned === null) throw new SlicerError("no-plan", "plan the layers first");
     if (life.held.planned === planned) return planned;
     await this.#bring(life, planned.subject);
-    await life.handle.remote.plan(planned.options, Comlink.proxy(progress));
+    await life.handle.remote.plan(planned.options, progress);
     life.held.planned = planned;
     return planned;
   }

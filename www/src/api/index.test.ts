@@ -43,10 +43,10 @@ function faked(): { slicer: Slicer; log: string[] } {
         return { verdict: "review", findings: [], counts: [], bodies: 1, peel: {} as Printability["peel"] };
       },
       mask: () => new Uint8Array(4),
-      archive: (_progress, port) => {
+      archive: (_progress, take) => {
         say("archive");
-        for (const chunk of [Uint8Array.of(1), Uint8Array.of(2, 3), null]) port?.postMessage(chunk);
-        return port === null ? new Blob(["zip"]) : null;
+        for (const chunk of [Uint8Array.of(1), Uint8Array.of(2, 3)]) take?.(chunk);
+        return take === null ? new Blob(["zip"]) : null;
       },
       encodeGroup: () => new Uint8Array(1),
       plugs: () => new Uint8Array(84),

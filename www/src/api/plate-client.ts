@@ -4,8 +4,7 @@
  * Each call carries its models, with their weights, as they were when it was made. The last successful plan is kept with its models
  * and options, and replayed when a fresh worker is asked for its masks.
  */
-import * as Comlink from "comlink";
-import { Calls, spawnWorker, type Compiled, type Life, type Watch, type WorkerHandle } from "./calls.js";
+import { Calls, silent, spawnWorker, type Compiled, type Life, type Watch, type WorkerHandle } from "./calls.js";
 import type { Weights } from "./client.js";
 import { SlicerError } from "./error.js";
 import { priceItems, type OrderedPlates } from "./price.js";
@@ -35,8 +34,6 @@ interface Held {
   /** The plan that the core holds; null if there is none or it is unknown. */
   planned: PlannedPlates | null;
 }
-
-const silent: OnProgress = () => undefined;
 
 export class PlateClient {
   readonly #calls: Calls<Held>;
@@ -135,7 +132,7 @@ export class PlateClient {
     }
     for (const { id, file } of models.slice(held.models.length)) {
       held.planned = null;
-      await remote.addToPlate(file, Comlink.proxy(silent));
+      await remote.addToPlate(file, silent);
       held.models.push({ id, weights: null });
     }
     for (const [place, { weights }] of models.entries()) {
@@ -152,7 +149,7 @@ export class PlateClient {
     if (planned === null) throw new SlicerError("no-plan", "plan the layers first");
     if (life.held.planned === planned) return planned;
     await this.#bring(life, planned.models);
-    await life.handle.remote.planPlate(planned.options, Comlink.proxy(progress));
+    await life.handle.remote.planPlate(planned.options, progress);
     life.held.planned = planned;
     return planned;
   }

@@ -47,6 +47,7 @@ export type {
   Unit,
   Verdict,
   Warning,
+  Work,
 } from "../../pkg/cusp_slicer.js";
 export type { ThreeMfFeature, XmlFault } from "../../pkg/models/cusp_models.js";
 
@@ -139,8 +140,8 @@ export interface SlicerWorker extends PlateWorker {
   inspect(limits: Limits, progress: OnProgress): Printability;
   /** One bit per pixel, rows from the top, most significant bit first, ⌈width / 8⌉ bytes per row. */
   mask(layer: number): Uint8Array;
-  /** The print file of the last plan as a Blob. With a port, posts its chunks there, then null, and returns null. As many `helpers` encode some of its layers. */
-  archive(progress: OnProgress, port: MessagePort | null, helpers: number, help: Help): Blob | null | Promise<Blob | null>;
+  /** The print file of the last plan as a Blob. With `take`, passes its chunks there instead, and returns null. As many `helpers` encode some of its layers. */
+  archive(progress: OnProgress, take: ((chunk: Uint8Array) => void) | null, helpers: number, help: Help): Blob | null | Promise<Blob | null>;
   /** Encodes a group of layers for another worker. Needs no model. */
   encodeGroup(format: Format, canvas: Uint32Array, runs: Uint32Array): Uint8Array;
   /** A binary STL of a plug for each drain hole of the last plan. */

@@ -9,6 +9,8 @@ import { encodeGroups, isLong } from "./encode-groups.js";
 import { said } from "./error.js";
 import { ring } from "./ring.js";
 import { stlOf } from "./stl.js";
+import "./told.js";
+import { endUpperHalves } from "./vectors.js";
 import type { Help, KnownPrinter, OnProgress, Options, PackedCandidates, PlateWorker, Remote, SearchStep } from "./wire.js";
 
 /** Chunks of a print file are merged into a Blob at this many bytes; the browser may keep that on disk. */
@@ -82,13 +84,6 @@ async function openGpu(hardware: boolean): Promise<OpenGpu> {
   const gpu = await import("../../pkg/gpu/cusp_gpu.js");
   await gpu.default({ module_or_path: new URL("../../pkg/gpu/cusp_gpu_bg.wasm", import.meta.url) });
   return gpu.OpenGpu.open(hardware);
-}
-
-/** Wraps a callback for the core in a plain function: the one from comlink is a proxy, which has every property. */
-function plain(progress: OnProgress): OnProgress {
-  return (stage, fraction, done) => {
-    progress(stage, fraction, done);
-  };
 }
 
 /** Bytes that can be transferred: a view of the core's memory, or of a larger buffer, is copied. */
@@ -183,7 +178,7 @@ const plateApi: Pick<Remote, keyof PlateWorker> = {
   plateProblems: withLater((options) => onPlate().problems(options)),
   planPlate: withLater(async (options, progress) => {
     const plate = onPlate();
-    const report = await plate.plan(options, plain(progress));
+    const report = await plate.plan(options, progress);
     const profiles = report.plates.map(({ metric, source }, number) => plate.profile(number, metric, source));
     const isSupported = report.plates.some(({ supported }) => supported !== undefined);
     const supports = isSupported ? (options.models ?? []).map((_, model) => plate.supports(model)) : [];
@@ -196,7 +191,7 @@ const plateApi: Pick<Remote, keyof PlateWorker> = {
   }),
   archivePlate: withLater((number, progress) => {
     const sink = new BlobSink();
-    onPlate().archive(number, sink.take, plain(progress));
+    onPlate().archive(number, sink.take, progress);
     return sink.finish();
   }),
 };
@@ -204,6 +199,7 @@ const plateApi: Pick<Remote, keyof PlateWorker> = {
 const api: Remote = {
   ...plateApi,
   async boot(module) {
+    endUpperHalves();
     // Bundlers recognise this exact form and emit the file.
     const compiled = module ?? (await compile(new URL("../../pkg/cusp_slicer_bg.wasm", import.meta.url)));
     first = await init({ module_or_path: compiled });
@@ -228,7 +224,7 @@ const api: Remote = {
   },
   async plan(options, progress) {
     await fetchFor(options);
-    const report = await current().plan(options, plain(progress));
+    const report = await current().plan(options, progress);
     const profile = current().profile(report.metric, report.source);
     const supports = report.supported === undefined ? {} : { supports: current().supports() };
     const voids = report.hollowed === undefined ? {} : { voids: current().voids() };
@@ -237,28 +233,23 @@ const api: Remote = {
   },
   async tradeoff(options, points, progress) {
     await fetchFor(options);
-    return current().tradeoff(options, points, plain(progress));
+    return current().tradeoff(options, points, progress);
   },
-  compare: withLater((options, progress) => current().compare(options, plain(progress))),
-  inspect: withLater((limits, progress) => current().inspect(limits, plain(progress))),
+  compare: withLater((options, progress) => current().compare(options, progress)),
+  inspect: withLater((limits, progress) => current().inspect(limits, progress)),
   mask(layer) {
     const bits = current().mask(layer);
     return Comlink.transfer(bits, [bits.buffer]);
   },
-  async archive(progress, port, helpers, help) {
-    const encoded = helpers === 0 ? null : await encodedBy(helpers, help, plain(progress));
-    if (port === null) {
-      const sink = new BlobSink();
-      current().archive(encoded, sink.take, plain(progress));
-      return sink.finish();
+  async archive(progress, take, helpers, help) {
+    const encoded = helpers === 0 ? null : await encodedBy(helpers, help, progress);
+    if (take !== null) {
+      current().archive(encoded, (chunk) => take(own(chunk)), progress);
+      return null;
     }
-    const take = (chunk: Uint8Array): void => {
-      const bytes = own(chunk);
-      port.postMessage(bytes, [bytes.buffer]);
-    };
-    current().archive(encoded, take, plain(progress));
-    port.postMessage(null);
-    return null;
+    const sink = new BlobSink();
+    current().archive(encoded, sink.take, progress);
+    return sink.finish();
   },
   encodeGroup(format, canvas, runs) {
     const bytes = encode_group(format, canvas, runs);
@@ -278,7 +269,7 @@ const api: Remote = {
     return Comlink.transfer({ report, profile }, [profile.buffer]);
   },
   saliency(progress) {
-    const saliency = current().saliency(plain(progress));
+    const saliency = current().saliency(progress);
     return Comlink.transfer(saliency, [saliency.buffer]);
   },
   setWeights(weights) {
@@ -317,7 +308,7 @@ const api: Remote = {
   }),
   calibrateLayers: withLater(async (options, progress) => {
     const sink = new BlobSink();
-    const report = await calibrate_layers(options, sink.take, plain(progress));
+    const report = await calibrate_layers(options, sink.take, progress);
     return { blob: sink.finish(), report };
   }),
   // The core fills in what its list leaves out.

@@ -1,6 +1,7 @@
 /** Opens a print file in a worker of its own, and decodes it. */
 import * as Comlink from "comlink";
 import type { Mask } from "../api/index.js";
+import { listenTo, told, untold } from "../api/told.js";
 import type { PrintFileError, Read, ReaderWorker } from "./wire.js";
 
 /** What can go wrong on this side of the reader. */
@@ -22,6 +23,8 @@ export interface Print extends Read {
  */
 export async function openPrint(file: File, signal: AbortSignal, progress: (fraction: number) => void): Promise<Print> {
   const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module", name: "cusp-reader" });
+  listenTo(worker);
+  const heard = told((fraction: number) => progress(fraction));
   const remote = Comlink.wrap<ReaderWorker>(worker);
   const broken = new Promise<never>((_, reject) => {
     worker.addEventListener("error", ({ message }) => reject(crash(message)));
@@ -29,7 +32,7 @@ export async function openPrint(file: File, signal: AbortSignal, progress: (frac
   });
   try {
     signal.throwIfAborted();
-    const read = await Promise.race([remote.read(file, Comlink.proxy(progress)), broken]);
+    const read = await Promise.race([remote.read(file, heard), broken]);
     const [width, height] = read.pixels;
     const mask = async (layer: number): Promise<Mask | null> => {
       const bits = await Promise.resolve(remote.mask(layer)).catch(() => null);
@@ -39,6 +42,8 @@ export async function openPrint(file: File, signal: AbortSignal, progress: (frac
   } catch (error) {
     worker.terminate();
     throw isCoded(error) || signal.aborted ? error : crash(error instanceof Error ? error.message : String(error));
+  } finally {
+    untold(heard);
   }
 }
 

@@ -2,11 +2,14 @@
 import * as Comlink from "comlink";
 import init, { PrintReader } from "../../pkg/reader/cusp_reader.js";
 import { bytesOf } from "../api/bytes.js";
+import "../api/told.js";
+import { endUpperHalves } from "../api/vectors.js";
 import type { Picture, ReaderWorker } from "./wire.js";
 
 let reader: PrintReader | null = null;
 
 async function start(): Promise<void> {
+  endUpperHalves();
   // Bundlers recognise this exact form and emit the file.
   await init({ module_or_path: new URL("../../pkg/reader/cusp_reader_bg.wasm", import.meta.url) });
 }
@@ -24,10 +27,7 @@ const api: ReaderWorker = {
     reader = null;
     const opened = new PrintReader(await bytesOf(file));
     reader = opened;
-    const inspection = opened.inspect((fraction: number) => {
-      // The function from comlink is a proxy, which has every property: the core gets a plain one.
-      progress(fraction);
-    });
+    const inspection = opened.inspect(progress);
     const [width = 0, height = 0] = opened.pixels();
     const [x_mm = 0, y_mm = 0] = opened.pixel_mm();
     const surface = opened.surface();

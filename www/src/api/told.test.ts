@@ -1,0 +1,57 @@
+import * as Comlink from "comlink";
+import { afterEach, beforeEach, expect, test, vi } from "vitest";
+import { listenTo, told, untold } from "./told.js";
+
+/** What a worker posts arrives at this end of it; what it hands over is gone at its own. */
+let worker: EventTarget;
+
+beforeEach(() => {
+  worker = new EventTarget();
+  vi.stubGlobal("postMessage", (data: unknown, options: { transfer: ArrayBuffer[] }) => {
+    worker.dispatchEvent(new MessageEvent("message", { data: structuredClone(data, options) }));
+  });
+  listenTo(worker as Worker);
+});
+
+afterEach(() => vi.unstubAllGlobals());
+
+/** What a worker gets in place of a function. */
+function sent<L>(listener: L): L {
+  const handler = Comlink.transferHandlers.get("told");
+  if (handler?.canHandle(listener) !== true) throw new Error("it cannot be sent");
+  const [number, transferred] = handler.serialize(listener);
+  expect(transferred).toEqual([]);
+  return handler.deserialize(structuredClone(number)) as L;
+}
+
+test("a function is called while the worker has not returned, and no more once the call is over", () => {
+  const heard: unknown[] = [];
+  const progress = told((stage: string, fraction: number) => void heard.push([stage, fraction]));
+  const other = told(() => void heard.push("other"));
+  const [remote, remoteOther] = [sent(progress), sent(other)];
+  remote("ldi", 0.5);
+  remoteOther();
+  remote("plan", 1);
+  expect(heard).toEqual([["ldi", 0.5], "other", ["plan", 1]]);
+  untold(progress);
+  remote("late", 1);
+  expect(heard).toHaveLength(3);
+  // The same function may be used again.
+  told(progress);
+  remote("again", 0);
+  expect(heard).toHaveLength(4);
+});
+
+test("bytes are handed over, not copied", () => {
+  const chunks: Uint8Array[] = [];
+  const take = told((chunk: Uint8Array) => void chunks.push(chunk));
+  const bytes = Uint8Array.of(1, 2, 3);
+  sent(take)(bytes);
+  expect(chunks).toEqual([Uint8Array.of(1, 2, 3)]);
+  expect(bytes.buffer.byteLength).toBe(0);
+});
+
+test("other messages of the worker, and functions that nobody told of, are left alone", () => {
+  for (const data of [null, { id: "1" }, { listener: 1e9, what: [] }]) worker.dispatchEvent(new MessageEvent("message", { data }));
+  expect(Comlink.transferHandlers.get("told")?.canHandle(() => undefined)).toBe(false);
+});

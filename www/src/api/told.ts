@@ -1,0 +1,55 @@
+/**
+ * Functions that a worker calls while it computes.
+ *
+ * The calls cross as messages of the worker itself. Comlink's proxies have a port each, and Firefox keeps what is sent through a port that came
+ * with a call until that call is over.
+ */
+import * as Comlink from "comlink";
+
+type Listener = (...what: never[]) => void;
+
+/** A call of a listener, as a message. */
+interface Telling {
+  listener: number;
+  what: unknown[];
+}
+
+const numbers = new WeakMap<Listener, number>();
+const listeners = new Map<number, Listener>();
+let last = 0;
+
+/** Has workers call a function while they compute. Everything it is given must be cloneable; bytes are handed over. */
+export function told<L extends Listener>(listener: L): L {
+  if (!numbers.has(listener)) numbers.set(listener, ++last);
+  listeners.set(numbers.get(listener) ?? 0, listener);
+  return listener;
+}
+
+/** Calls a function no more. */
+export function untold(listener: Listener): void {
+  listeners.delete(numbers.get(listener) ?? 0);
+}
+
+/** Has the functions called that this worker calls. */
+export function listenTo(worker: Worker): void {
+  worker.addEventListener("message", ({ data }: MessageEvent<Partial<Telling> | null>) => {
+    if (data?.listener !== undefined) listeners.get(data.listener)?.(...((data.what ?? []) as never[]));
+  });
+}
+
+const isListener = (value: unknown): value is Listener => typeof value === "function" && numbers.has(value as Listener);
+
+const tell = (listener: number): ((...what: unknown[]) => void) => {
+  return (...what) => {
+    const telling: Telling = { listener, what };
+    const bytes = what.filter((it) => it instanceof Uint8Array);
+    globalThis.postMessage(telling, { transfer: bytes.map(({ buffer }) => buffer as ArrayBuffer) });
+  };
+};
+
+// Both ends import this module.
+Comlink.transferHandlers.set("told", {
+  canHandle: isListener,
+  serialize: (listener: Listener) => [numbers.get(listener) ?? 0, []],
+  deserialize: tell,
+});
