@@ -25,6 +25,7 @@ import type { Problem } from "./state/problem.js";
 import { ownHeight, type Result } from "./state/result.js";
 import type { Session } from "./state/session.js";
 import { quaternion, type Settings } from "./state/settings.js";
+import { shown } from "../api/visible.js";
 
 /** @param problem a failure that one of the settings caused, to be shown beside that setting */
 export function settingsPanel({ session, language, saveTowers }: Facts, problem: Problem | null, fields: Fields = "all"): TemplateResult {
@@ -182,7 +183,7 @@ export function announcement({ session, language }: Facts): TemplateResult {
 
 function announced({ busy, result, notice, earlier }: Session, language: Facts["language"]): string {
   const { texts, format } = language;
-  if (busy !== null) return busy.task === "open" ? texts.open.opening(busy.name) : texts.progress[busy.stage];
+  if (busy !== null) return busy.task === "open" ? texts.open.opening(shown(busy.name)) : texts.progress[busy.stage];
   if (notice !== null) return texts.notices[notice];
   if (result === null || earlier) return "";
   const { layers, print_time_s, print_file } = result.report;

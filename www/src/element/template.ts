@@ -26,6 +26,7 @@ import { problemBox } from "./parts/problem-box.js";
 import { progressBar } from "./parts/progress.js";
 import { MODEL_FILES } from "./state/choice.js";
 import type { Result } from "./state/result.js";
+import { shown } from "../api/visible.js";
 
 interface Drawn extends Facts {
   /** Whether there is room for settings beside the results. */
@@ -61,7 +62,7 @@ function start({ session, language, panels, picked }: Drawn): TemplateResult {
   return html`<section class="start" aria-label=${texts.open.region}>
     ${busy !== null
       ? html`<div class="card waiting">
-          <h2>${busy.name}</h2>
+          <h2>${shown(busy.name)}</h2>
           ${progressBar(busy, language, () => session.cancel())}
         </div>`
       : panels.has("open")

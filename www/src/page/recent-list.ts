@@ -14,6 +14,7 @@ import { isKeeping, setKeeping } from "./keeping.js";
 import { MOST_BYTES, MOST_MODELS, PICTURE_PX, recentModels, watchRecent, type RecentModel, type RecentModels } from "./recent-models.js";
 import { visitWords } from "./texts/visit/index.js";
 import { visitStyles } from "./visit-styles.js";
+import { shown } from "../api/visible.js";
 
 const PROPERTIES = {
   language: given<Language>(languageOf()),
@@ -105,7 +106,8 @@ export class CuspRecent extends elementWith(PROPERTIES) {
   }
 
   #row(model: RecentModel, models: RecentModels): TemplateResult {
-    const { name, bytes, opened_ms, id } = model;
+    const { bytes, opened_ms, id } = model;
+    const name = shown(model.name);
     const { recent: words } = visitWords(this.language);
     const date = new Intl.DateTimeFormat(this.language.locale, { dateStyle: "medium" }).format(opened_ms);
     return html`<li>
@@ -126,14 +128,14 @@ export class CuspRecent extends elementWith(PROPERTIES) {
       this.dispatchEvent(new CustomEvent<File[]>("cusp-files", { detail: [file] }));
       return;
     }
-    this.said = visitWords(this.language).recent.gone(model.name);
+    this.said = visitWords(this.language).recent.gone(shown(model.name));
     await models.delete(model);
   }
 
   async #delete(model: RecentModel, models: RecentModels): Promise<void> {
     const place = this.list.indexOf(model);
     await models.delete(model);
-    this.said = visitWords(this.language).recent.deleted(model.name);
+    this.said = visitWords(this.language).recent.deleted(shown(model.name));
     await this.#read();
     await this.updateComplete;
     // The button is gone, and the focus with it: to the next model, or the switch.

@@ -20,6 +20,7 @@ import { factsOf } from "./facts.js";
 import { isCoded, openPrint, type Print, type ReadError } from "./open-print.js";
 import { textsOf } from "./texts/index.js";
 import type { PrintFileError } from "./wire.js";
+import { shown } from "../api/visible.js";
 
 type State =
   | { is: "reading"; done: number }
@@ -157,7 +158,7 @@ export class CuspPrint extends elementWith(PROPERTIES) {
     const { words, error } = textsOf(this.language);
     return html`<section aria-label=${words.region} aria-busy=${state.is === "reading"}>
       <header>
-        <h2 tabindex="-1">${file?.name ?? ""}</h2>
+        <h2 tabindex="-1">${shown(file?.name ?? "")}</h2>
         <div class="buttons">
           <label class="button small">
             <input class="visually-hidden" type="file" @change=${this.#picked} />
@@ -169,8 +170,8 @@ export class CuspPrint extends elementWith(PROPERTIES) {
       ${state.is === "reading"
         ? html`<div class="card progress">
             <div>
-              <div class="line"><span class="words">${words.reading(file?.name ?? "")}</span></div>
-              <progress aria-label=${words.reading(file?.name ?? "")} max="1" .value=${state.done}></progress>
+              <div class="line"><span class="words">${words.reading(shown(file?.name ?? ""))}</span></div>
+              <progress aria-label=${words.reading(shown(file?.name ?? ""))} max="1" .value=${state.done}></progress>
             </div>
           </div>`
         : state.is === "failed"

@@ -28,6 +28,7 @@ import { path, stepPanel } from "./path.js";
 import { ANSWERS, isStep, needsModel, SHEETS, type AnswerPanel, type Sheet, type Step } from "./places.js";
 import { tabs } from "./tabs.js";
 import { workbenchWords } from "./texts/index.js";
+import { shown } from "../api/visible.js";
 
 /** What the workbench itself remembers: which panels are open, and where the chart's plot is. */
 export interface Bench {
@@ -80,7 +81,7 @@ function start({ session, language: { texts }, picked }: Facts, { isWide }: Benc
           <span class="drop-title">${texts.open.drop}</span>
           <span class="button primary">${texts.open.choose}</span>
         </label>`
-      : html`<h2 class="opening">${session.busy.name}</h2>`}
+      : html`<h2 class="opening">${shown(session.busy.name)}</h2>`}
     <slot name="start"></slot>
     ${isWide ? nothing : html`<slot name="empty"></slot>`}
   </div>`;
@@ -88,7 +89,7 @@ function start({ session, language: { texts }, picked }: Facts, { isWide }: Benc
 
 function view(facts: Facts, { isWide, plot, placed }: Bench): TemplateResult {
   const { session, language } = facts;
-  return html`${isWide ? nothing : html`<h2 class="model-name" tabindex="-1">${session.model?.name}</h2>`}
+  return html`${isWide ? nothing : html`<h2 class="model-name" tabindex="-1">${shown(session.model?.name ?? "")}</h2>`}
     <div class="view" part="view">${modelPanel(facts)}</div>
     <cusp-layer-slider
       .shown=${session.shown}

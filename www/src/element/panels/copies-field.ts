@@ -3,6 +3,7 @@ import { html, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
 import { MOST_COPIES, type Entry } from "../state/plate.js";
 import type { Language } from "../../texts/index.js";
+import { shown } from "../../api/visible.js";
 
 export function copiesField({ copies, model }: Entry, language: Language, changed: (copies: number) => void): TemplateResult {
   const words = language.texts.plate;
@@ -15,7 +16,7 @@ export function copiesField({ copies, model }: Entry, language: Language, change
   };
   const step = (name: string, sign: string, by: number): TemplateResult => html`<button
     class="small step"
-    aria-label=${`${name}: ${words.copiesOf(model.name)}`}
+    aria-label=${`${name}: ${words.copiesOf(shown(model.name))}`}
     ?disabled=${copies + by < 1 || copies + by > MOST_COPIES}
     @click=${() => changed(copies + by)}
   >
@@ -26,7 +27,7 @@ export function copiesField({ copies, model }: Entry, language: Language, change
     <input
       type="text"
       inputmode="numeric"
-      aria-label=${words.copiesOf(model.name)}
+      aria-label=${words.copiesOf(shown(model.name))}
       .value=${live(String(copies))}
       @change=${typed}
     />

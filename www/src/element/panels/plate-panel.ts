@@ -13,6 +13,7 @@ import { copiesStyles } from "../styles/copies-styles.js";
 import { shared } from "../styles/shared.js";
 import { copiesField } from "./copies-field.js";
 import { fetchPictures } from "../parts/pictures.js";
+import { shown } from "../../api/visible.js";
 
 /** Side of a thumbnail, CSS pixels. */
 const THUMBNAIL_PX = 40;
@@ -170,9 +171,9 @@ export class CuspPlate extends elementWith(PROPERTIES) {
     const share = planned?.plates.flatMap(({ report }) => report.plate?.models ?? []).find(({ model }) => model === place);
     return html`<li class=${isSelected ? "selected" : ""}>
       <canvas width=${2 * THUMBNAIL_PX} height=${2 * THUMBNAIL_PX} data-place=${place} aria-hidden="true"></canvas>
-      <button class="name" aria-pressed=${isSelected ? "true" : "false"} @click=${() => plate.select(place)}>${entry.model.name}</button>
+      <button class="name" aria-pressed=${isSelected ? "true" : "false"} @click=${() => plate.select(place)}>${shown(entry.model.name)}</button>
       ${entries.length > 1
-        ? html`<button class="small remove" aria-label=${words.remove(entry.model.name)} @click=${() => plate.remove(place)}>×</button>`
+        ? html`<button class="small remove" aria-label=${words.remove(shown(entry.model.name))} @click=${() => plate.remove(place)}>×</button>`
         : nothing}
       <div class="amount">
         ${copiesField(entry, language, (count) => plate.setCopies(place, count))}
