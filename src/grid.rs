@@ -367,10 +367,12 @@ impl Bins {
     pub fn of(&self, z_mm: f64) -> usize {
         let bins = z_mm / self.size_mm;
         let position = bins - height_slack(bins);
-        // Rounded up by hand: `ceil` is a library call on x86-64 without SSE 4.1.
-        let below = position as usize;
-        let bin = below + usize::from(position > below as f64);
-        bin.clamp(1, self.count) - 1
+        let most = self.count as f64;
+        let position = if position < most { position } else { most };
+        // Rounded up by hand: `ceil` is a library call on x86-64 without SSE 4.1. Numbers of 32 bits make vectors.
+        let below = position as i32;
+        let bin = below + i32::from(position > f64::from(below));
+        (bin.max(1) - 1) as usize
     }
 
     /// The boundary nearest to height `z_mm`.

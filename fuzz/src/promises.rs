@@ -13,6 +13,8 @@ use super::quiet;
 const SLACK_BINS: f64 = 2e-3;
 /// The greatest side of a model.
 const MOST_MM: f64 = 6.0;
+/// The least longest side of a model with supports, whose feet have a size of their own: pixels that are a part of the model would be many.
+const LEAST_SUPPORTED_MM: f64 = 0.5;
 /// Room for the rounding of an error.
 const ROOM: f64 = 1e-6;
 
@@ -40,7 +42,7 @@ pub fn check(model: &[[Vec3; 3]], options: &Options, further: Further) {
     let Ok(mut slicer) = Slicer::of_triangles(model, FACTS) else {
         return;
     };
-    if is_large(model, options) {
+    if takes_long(model, options) {
         return;
     }
     let planned = planned(&mut slicer, options);
@@ -51,15 +53,19 @@ pub fn check(model: &[[Vec3; 3]], options: &Options, further: Further) {
     further::check(further, model, options, slicer, planned);
 }
 
-/// Whether the model is large on the plate: one that is low may be scaled to any size by its height. Its rays only take longer.
-fn is_large(model: &[[Vec3; 3]], options: &Options) -> bool {
+/// Whether the model is large on the plate, as one that is low may be scaled to any size by its height, or far smaller than its supports.
+/// Its rays and pixels only take longer.
+fn takes_long(model: &[[Vec3; 3]], options: &Options) -> bool {
     let pose = Pose {
         rotation: options.rotation,
         height_mm: options.height_mm,
         unit: options.unit,
     };
     let posed = Mesh::from_triangles(model).and_then(|mesh| mesh.on_plate(&pose));
-    posed.is_ok_and(|mesh| mesh.bounds().size().max_element() > MOST_MM)
+    posed.is_ok_and(|mesh| {
+        let longest_mm = mesh.bounds().size().max_element();
+        longest_mm > MOST_MM || (options.supports.is_some() && longest_mm < LEAST_SUPPORTED_MM)
+    })
 }
 
 /// The report without times and the plan, or what the error says.

@@ -16,7 +16,7 @@ use crate::mask::{LEVELS, LayerRuns, Run, RunReader, RunSource};
 use crate::parallel;
 use crate::printer::{Printer, PrinterChoice};
 use crate::progress::Progress;
-use crate::quantity::QuantityError;
+use crate::quantity::{Quantity, QuantityError};
 use crate::resin::Resin;
 
 /// What to make of a print file. What is absent stays as it is.
@@ -209,6 +209,9 @@ impl<'a> Conversion<'a> {
             },
             ..screen
         };
+        for side_mm in screen.pitch_mm {
+            Quantity::Pitch.check(side_mm)?;
+        }
         if let Some(printer) = &printer {
             check_printer(printer, &screen, file.layers())?;
         }
