@@ -1,11 +1,11 @@
 /** What an accessibility checker finds in each state of the page, light and dark. */
 import { expect, test } from "vitest";
 import { broken } from "./axe.js";
-import { drop, openPanel, settled, state } from "./browser.js";
+import { drop, openPanel, settled, SOFTWARE_GL, state } from "./browser.js";
 import { pages } from "./pages.js";
 import { sphere } from "./solids.js";
 
-const start = pages();
+const start = pages(SOFTWARE_GL);
 
 test.each(["light", "dark"] as const)("nothing is amiss in any state: %s", async (colorScheme) => {
   const page = await start("", { colorScheme, reducedMotion: "reduce" });

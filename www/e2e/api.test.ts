@@ -3,7 +3,7 @@ import type { Browser, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, beforeEach, expect, test } from "vitest";
 import type * as Api from "../src/api/index.js";
 import { binaryStl, exampleTriangles } from "../src/page/example.js";
-import { launch } from "./browser.js";
+import { launch, SOFTWARE_GL } from "./browser.js";
 import { serveApi } from "./packed.js";
 import type { Served } from "./serve.js";
 import { sphere } from "./solids.js";
@@ -28,7 +28,7 @@ const complaints: string[] = [];
 
 beforeAll(async () => {
   served = await serveApi({ "ball.stl": ball, "heavy.stl": heavy, "goblet.stl": goblet, "bad.stl": "no" });
-  browser = await launch();
+  browser = await launch(SOFTWARE_GL);
 }, 120_000);
 
 afterAll(async () => {

@@ -1,14 +1,12 @@
 /** A real headless Chromium, and the actions of a user on the page. */
-import { existsSync } from "node:fs";
 import { readFile } from "node:fs/promises";
-import { delimiter, join } from "node:path";
 import { chromium, type Browser, type BrowserContextOptions, type Download, type Page } from "playwright-core";
 import type { CuspWorkbench } from "../src/workbench/cusp-workbench.js";
+import { program } from "./program.js";
 
 /** The page's element, or that of a shop. */
 const ELEMENT = ":is(cusp-workbench, cusp-slicer)";
 
-/** A software adapter provides WebGPU, so that the page works as on a machine with a GPU. */
 const FLAGS = [
   "--no-sandbox",
   "--disable-quic",
@@ -16,31 +14,29 @@ const FLAGS = [
   "--disable-background-networking",
   "--disable-component-update",
   "--disable-sync",
-  "--enable-unsafe-webgpu",
-  "--use-webgpu-adapter=swiftshader",
 ];
 
 /**
- * Lets WebGL draw in software, without a GPU. The rest of the page needs no such thing: put together by the same software GPU
- * (`--use-angle=swiftshader`), it would cost more than what WebGL draws.
+ * Without any of the flags below there is no software GPU: it would put the page together as well, which takes more than half of the
+ * time of a plan.
  */
+const NO_GPU = "--disable-software-rasterizer";
+
+/** A software adapter provides WebGPU, so that the page works as on a machine with a GPU. */
+export const SOFTWARE_GPU = ["--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader"];
+
+/** Lets WebGL draw in software, without a GPU. */
 export const SOFTWARE_GL = ["--enable-unsafe-swiftshader"];
 
 /** The browser named by CHROMIUM, or the first of its usual names on PATH. */
 function executable(): string {
-  const named = process.env["CHROMIUM"];
-  if (named !== undefined && named !== "") return named;
-  const folders = (process.env["PATH"] ?? "").split(delimiter);
-  for (const name of ["chromium", "chromium-browser", "google-chrome"]) {
-    for (const folder of folders) {
-      if (existsSync(join(folder, name))) return join(folder, name);
-    }
-  }
-  throw new Error("no Chromium on PATH: install one, or name it in the variable CHROMIUM");
+  const found = program(["chromium", "chromium-browser", "google-chrome"], "CHROMIUM");
+  if (found === null) throw new Error("no Chromium on PATH: install one, or name it in the variable CHROMIUM");
+  return found;
 }
 
 /** @param flags for the browser, in addition to those that all tests need */
-export function launch(flags: readonly string[] = []): Promise<Browser> {
+export function launch(flags: readonly string[] = [NO_GPU]): Promise<Browser> {
   return chromium.launch({ executablePath: executable(), headless: true, args: [...FLAGS, ...flags] });
 }
 

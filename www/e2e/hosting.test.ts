@@ -1,12 +1,12 @@
 /** The page behind the web servers of docs/hosting.md, with the configurations that are written there, below a path. */
 import { execFileSync, spawn, type ChildProcess } from "node:child_process";
-import { existsSync } from "node:fs";
 import { cp, mkdir, mkdtemp, readdir, readFile, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
-import { delimiter, join } from "node:path";
+import { join } from "node:path";
 import { afterEach, expect, test } from "vitest";
 import { drop, launch, layers, open, state } from "./browser.js";
 import { www } from "./package-apps.js";
+import { program } from "./program.js";
 import { freePort } from "./serve.js";
 import { sphere } from "./solids.js";
 
@@ -65,12 +65,6 @@ function block(server: string): string {
   return found;
 }
 
-/** A program that administrators have: their folders are not always on PATH. */
-function program(name: string): string | undefined {
-  const folders = [...(process.env["PATH"] ?? "").split(delimiter), "/usr/sbin", "/usr/local/sbin"];
-  return folders.map((folder) => join(folder, name)).find((path) => existsSync(path));
-}
-
 /** Starts a server with the page in `cusp/`, and returns the page's address. */
 async function serve(path: string, { start }: Server): Promise<string> {
   const folder = await mkdtemp(join(tmpdir(), "cusp-hosting-"));
@@ -106,8 +100,8 @@ async function builtPolicy(): Promise<string> {
 
 for (const [name, server] of Object.entries(SERVERS)) {
   test(`${name}, as the guide has it, serves the page below a path`, async (context) => {
-    const path = program(name);
-    if (path === undefined) {
+    const path = program([name]);
+    if (path === null) {
       const reason = `no ${name} on this machine`;
       Object.assign(context.task.meta, { reason });
       return context.skip(reason);

@@ -58,7 +58,7 @@ test("without it a plan with supports says so, one without is made, and so is th
   await fetches(page, () => isOffline);
   await drop(page, ball);
   await state(page, "error");
-  expect(await words(page)).toContain("could not be loaded: slicer-later");
+  await expect.poll(() => words(page)).toContain("could not be loaded: slicer-later");
   await ask(page, "supports=none");
   await settled(page);
   isOffline = false;

@@ -9,7 +9,7 @@ import { readFile } from "node:fs/promises";
 import { basename } from "node:path";
 import type { JSHandle } from "playwright-core";
 import type { InitOutput, Options } from "../pkg/cusp_slicer.js";
-import { launch, open } from "./browser.js";
+import { launch, SOFTWARE_GPU, open } from "./browser.js";
 import { serve } from "./serve.js";
 
 const ROUNDS = 5;
@@ -24,7 +24,7 @@ export async function main([file, height = "60", grid = "2048", more = "{}"]: st
   const model = await readFile(file);
   const options: Options = { height_mm: Number(height), backend: "cpu", ...pixels(grid), ...(JSON.parse(more) as Options) };
   const served = await serve();
-  const browser = await launch();
+  const browser = await launch(SOFTWARE_GPU);
   try {
     const { page } = await open(browser, served.address);
     await page.route(`${served.address}core/**`, async (route) => {

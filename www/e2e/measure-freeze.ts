@@ -1,5 +1,5 @@
 /** Measures how long a model of a million facets blocks the page's own thread: `npm run measure-freeze [-- FACETS]`. */
-import { launch, open } from "./browser.js";
+import { launch, SOFTWARE_GPU, open } from "./browser.js";
 import { journey, LARGE_FACETS, line, longestWork_ms, torus, TRACED } from "./freeze.js";
 import { serve } from "./serve.js";
 
@@ -7,7 +7,7 @@ export async function main([facets = String(LARGE_FACETS)]: string[]): Promise<v
   const across = Math.round(Math.sqrt(Number(facets) / 4));
   const stl = torus(2 * across, across);
   const served = await serve();
-  const browser = await launch();
+  const browser = await launch(SOFTWARE_GPU);
   try {
     const { page } = await open(browser, served.address);
     await browser.startTracing(page, { categories: TRACED });

@@ -9,17 +9,17 @@
  * With `--against DIR`, the `dist` folder of another build, rounds of both alternate. A table then has their medians, and how many times
  * as much the other takes: the median over the pairs of rounds, so that a machine that becomes slower meanwhile slows down both.
  */
-import { existsSync } from "node:fs";
 import { readFile, readdir } from "node:fs/promises";
 import { basename, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
 import { gzipSync } from "node:zlib";
 import type { Browser } from "playwright-core";
-import { drop, launch, layers, open, SOFTWARE_GL, state, USUAL, visit, type DroppedFile } from "./browser.js";
+import { drop, launch, layers, open, SOFTWARE_GL, SOFTWARE_GPU, state, USUAL, visit, type DroppedFile } from "./browser.js";
 import { beforeView, whole } from "./loaded.js";
 import { serve } from "./serve.js";
 import { sphere } from "./solids.js";
+import { resident } from "./usage.js";
 
 const USAGE = "usage: npm run measure -- FILE.stl|FACETS [HEIGHT_MM [RAYS [BACKEND]]] [--against DIR] [--rounds N] [--after SECONDS]";
 /** The longest run that is waited for, on a machine with other work. */
@@ -159,7 +159,7 @@ async function round(browser: Browser, address: string, { file, query, after_ms 
       ...looked,
       layers: await layers(page),
       zip_ms: await moment("zip"),
-      megabytes: await megabytes(browser),
+      megabytes: inMegabytes(await resident(browser, "VmHWM")),
       timings: (await page.locator("details.quiet").first().evaluate((it) => it.textContent)).replace(/\s+/g, " ").trim(),
     };
   } finally {
@@ -208,20 +208,6 @@ async function look(browser: Browser, address: string, file: DroppedFile, after_
   }
 }
 
-/** The most memory that the browser's processes for pages have held, their workers included. Linux alone says. */
-async function megabytes(browser: Browser): Promise<number | undefined> {
-  const session = await browser.newBrowserCDPSession();
-  const { processInfo } = await session.send("SystemInfo.getProcessInfo");
-  await session.detach();
-  let sum = 0;
-  for (const { type, id } of processInfo) {
-    const status = `/proc/${id}/status`;
-    if (type !== "renderer" || !existsSync(status)) continue;
-    sum += Number(/^VmHWM:\s+(\d+) kB$/m.exec(await readFile(status, "utf8"))?.[1] ?? 0) / 1e3;
-  }
-  return sum === 0 ? undefined : sum;
-}
-
 /** The gzipped size of each module of a built page, in kilobytes, by its name. */
 async function wasmSizes(folder: string): Promise<Map<string, number>> {
   const assets = join(folder, "assets");
@@ -235,7 +221,7 @@ async function wasmSizes(folder: string): Promise<Map<string, number>> {
 
 /** What the page loads before its 3-D view, in kilobytes: in another language than English, whose texts come with the rest. */
 async function loads(address: string, file: DroppedFile): Promise<number> {
-  const browser = await launch();
+  const browser = await launch(SOFTWARE_GPU);
   try {
     const { page } = await open(browser, address, { locale: "de-DE" });
     const sizes = await beforeView(page);
@@ -262,6 +248,8 @@ function median(values: readonly (number | undefined)[]): number | undefined {
   const sorted = values.filter((it) => it !== undefined).sort((a, b) => a - b);
   return sorted[Math.floor(sorted.length / 2)];
 }
+
+const inMegabytes = (bytes: number | undefined): number | undefined => (bytes === undefined ? undefined : bytes / 1e6);
 
 const ratio = (before?: number, now?: number): number | undefined =>
   before === undefined || now === undefined ? undefined : before / now;

@@ -33,7 +33,7 @@ test("without the readers' module a 3MF says so, and opens once it can be fetche
   await fetches(page, () => isOffline);
   await drop(page, { name: "ball.3mf", bytes: threeMf });
   await state(page, "error", 60_000);
-  expect(await words(page)).toContain("could not be loaded: models");
+  await expect.poll(() => words(page)).toContain("could not be loaded: models");
   isOffline = false;
   await drop(page, { name: "again.3mf", bytes: threeMf });
   await state(page, "done", 60_000);
@@ -43,5 +43,5 @@ test("damage in a 3MF is told with its part", async () => {
   const page = await start("?rays=256");
   await drop(page, { name: "cut.3mf", bytes: threeMf.slice(0, threeMf.length / 2) });
   await state(page, "error", 60_000);
-  expect(await words(page)).toContain("3MF");
+  await expect.poll(() => words(page)).toContain("3MF");
 });

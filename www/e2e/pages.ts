@@ -8,7 +8,7 @@ import { Tabs } from "./tabs.js";
 export type Start = (query?: string, options?: BrowserContextOptions, isOwn?: boolean) => Promise<Page>;
 
 /** Call once at the top of a test file; returns a function that opens a page there. */
-export function pages(flags: readonly string[] = []): Start {
+export function pages(flags?: readonly string[]): Start {
   let browser: Browser;
   let opened: Opened[] = [];
   const tabs = new Tabs();

@@ -3,14 +3,14 @@ import type { Locator, Page } from "playwright-core";
 import { expect, test } from "vitest";
 import type { CuspView } from "../src/view/cusp-view.js";
 import { broken } from "./axe.js";
-import { downloaded, drop, openPanel, settled, state, words } from "./browser.js";
+import { downloaded, drop, openPanel, settled, SOFTWARE_GL, state, words } from "./browser.js";
 import { pages } from "./pages.js";
 import { prism, sphere } from "./solids.js";
 
 const ballFile = { name: "ball.stl", bytes: sphere(10, 48).bytes };
 const blockFile = { name: "block.stl", bytes: prism(12, 8).bytes };
 
-const start = pages();
+const start = pages(SOFTWARE_GL);
 
 /** The names in the list of models. */
 const listed = (page: Page): Promise<string[]> => page.locator("cusp-plate .name").allInnerTexts();

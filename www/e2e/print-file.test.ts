@@ -3,13 +3,13 @@ import type { Locator, Page } from "playwright-core";
 import { unzipSync, zipSync } from "fflate";
 import { expect, test } from "vitest";
 import { broken } from "./axe.js";
-import { downloaded, drop, layers, state, words } from "./browser.js";
+import { downloaded, drop, layers, SOFTWARE_GL, state, words } from "./browser.js";
 import { pages } from "./pages.js";
 import { sphere } from "./solids.js";
 
 const ballFile = { name: "ball.stl", bytes: sphere(10, 96).bytes };
 
-const start = pages();
+const start = pages(SOFTWARE_GL);
 
 /** The view of the print file, once it has read it. */
 async function opened(page: Page): Promise<Locator> {
@@ -98,7 +98,7 @@ test("what is neither a print file nor a model gets the slicer's advice", async 
   const page = await start();
   await drop(page, { name: "model.zip", bytes: zipSync({ "model.stl": ballFile.bytes }) });
   await state(page, "error");
-  expect(await words(page)).toContain("unpack it, and open the model inside");
+  await expect.poll(() => words(page)).toContain("unpack it, and open the model inside");
   await page.locator("cusp-print").waitFor({ state: "detached" });
   // A model by any other name is a model.
   await drop(page, { name: "ball", bytes: ballFile.bytes });

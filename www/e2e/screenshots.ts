@@ -2,7 +2,7 @@
 import { mkdir, stat } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
 import type { BrowserContextOptions, Page } from "playwright-core";
-import { downloaded, drop, launch, open, openPanel, state } from "./browser.js";
+import { downloaded, drop, launch, open, SOFTWARE_GL, openPanel, state } from "./browser.js";
 import { serve } from "./serve.js";
 
 /** Everyone who clones the repository fetches its pictures. */
@@ -69,7 +69,7 @@ export async function main([folder]: string[]): Promise<void> {
   const into = folder ?? fileURLToPath(new URL("../../docs/", import.meta.url));
   await mkdir(into, { recursive: true });
   const served = await serve();
-  const browser = await launch();
+  const browser = await launch(SOFTWARE_GL);
   try {
     for (const { name, query = "", options, take = whole } of SHOTS) {
       const { page } = await open(browser, served.address + query, { reducedMotion: "reduce", ...options });

@@ -11,7 +11,7 @@ import type { Order } from "../examples/shop/server/store.js";
 import type { Options } from "../src/api/index.js";
 import { binaryStl, exampleTriangles } from "../src/page/example.js";
 import { broken } from "./axe.js";
-import { launch, state } from "./browser.js";
+import { launch, SOFTWARE_GL, state } from "./browser.js";
 import { freePort } from "./serve.js";
 import { prism, sealed } from "./solids.js";
 import { expectNoLeftovers, orders, printer, resin, shops } from "./shop-open.js";
@@ -25,7 +25,7 @@ const pages: Page[] = [];
 const children: ChildProcess[] = [];
 
 beforeAll(async () => {
-  browser = await launch();
+  browser = await launch(SOFTWARE_GL);
 });
 
 afterEach(async () => {

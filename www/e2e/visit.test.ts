@@ -3,11 +3,11 @@ import { readFile } from "node:fs/promises";
 import type { Locator, Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { broken } from "./axe.js";
-import { drop, layers, settled, state } from "./browser.js";
+import { drop, layers, settled, SOFTWARE_GL, state } from "./browser.js";
 import { pages } from "./pages.js";
 import { sphere } from "./solids.js";
 
-const start = pages();
+const start = pages(SOFTWARE_GL);
 
 const ball = { name: "ball.stl", bytes: sphere(10, 48).bytes };
 const cube = { name: "small ball.stl", bytes: sphere(5, 24).bytes };
