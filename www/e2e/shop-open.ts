@@ -5,6 +5,7 @@ import { join } from "node:path";
 import { afterAll, afterEach, beforeAll, expect } from "vitest";
 import { PRINTERS, RESINS, type ShopPrinter, type ShopResin } from "../examples/shop/catalogue.js";
 import { createShop, type Limits, type Shop } from "../examples/shop/server/shop.js";
+import type { Order } from "../examples/shop/server/store.js";
 import { builtShop } from "./built.js";
 
 /** The resin and the printer of test orders. */
@@ -61,6 +62,29 @@ export function shops(): Shops {
       return path;
     },
   };
+}
+
+/** What the shop answers: an order, or why it is refused. */
+export interface Answer extends Partial<Order> {
+  status: number;
+  code?: string;
+  message?: string;
+}
+
+export interface Sent {
+  key: string;
+  parts: Readonly<Record<string, string | Blob>>;
+  headers?: Readonly<Record<string, string>>;
+  signal?: AbortSignal;
+}
+
+/** Posts an order without a browser. */
+export async function send(address: string, { key, parts, headers = {}, signal }: Sent): Promise<Answer> {
+  const form = new FormData();
+  for (const [name, part] of Object.entries(parts)) form.set(name, part);
+  const init = { method: "POST", body: form, headers: { "idempotency-key": key, ...headers }, signal: signal ?? null };
+  const response = await fetch(`${address}orders`, init);
+  return { status: response.status, ...((await response.json()) as object) };
 }
 
 /** Numbers of the orders that were taken. */

@@ -14,7 +14,7 @@ export function findCusp(): string | null {
   return [...built, ...onPath].find(isProgram) ?? null;
 }
 
-function isProgram(path: string): boolean {
+export function isProgram(path: string): boolean {
   try {
     accessSync(path, constants.X_OK);
     return true;

@@ -3,7 +3,7 @@ import { mkdtemp } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { buildCore, buildPage } from "./build.js";
-import { createShop } from "./server/shop.js";
+import { createShop, type Setup } from "./server/shop.js";
 
 const PORT = 8090;
 
@@ -11,8 +11,14 @@ export async function main([folder]: string[]): Promise<void> {
   const cusp = buildCore();
   const pages = await buildPage();
   const orders = folder === undefined ? await mkdtemp(join(tmpdir(), "cusp-shop-")) : resolve(folder);
-  const shop = await createShop({ folder: orders, pages, cusp });
-  const address = await shop.listen(Number(process.env["PORT"] ?? PORT));
+  const address = await run({ folder: orders, pages, cusp }, Number(process.env["PORT"] ?? PORT));
   console.log(`shop    ${address}\norders  ${orders}\ncusp    ${cusp}`);
+}
+
+/** Opens the shop until the process is asked to end. Returns the address. */
+export async function run(setup: Setup, port: number): Promise<string> {
+  const shop = await createShop(setup);
+  const address = await shop.listen(port);
   for (const signal of ["SIGINT", "SIGTERM"] as const) process.once(signal, () => void shop.close());
+  return address;
 }

@@ -174,9 +174,13 @@ function drain(request: IncomingMessage, most_bytes: number, signal: AbortSignal
   if (request.complete || request.destroyed || signal.aborted) return Promise.resolve(request.complete);
   return new Promise((resolve) => {
     let bytes = 0;
-    const done = (): void => resolve(request.complete);
+    const done = (): void => {
+      // The signal lives as long as the server.
+      signal.removeEventListener("abort", done);
+      resolve(request.complete);
+    };
     request.once("end", done).once("close", done).once("error", done);
-    signal.addEventListener("abort", done, { once: true });
+    signal.addEventListener("abort", done);
     request.on("data", (chunk: Buffer) => {
       bytes += chunk.length;
       if (bytes <= most_bytes) return;

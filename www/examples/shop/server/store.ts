@@ -1,6 +1,6 @@
 /** Orders as folders of files. An order exists as a whole or not at all. */
 import { createHash } from "node:crypto";
-import { mkdir, mkdtemp, readFile, rename, rm, writeFile } from "node:fs/promises";
+import { mkdir, mkdtemp, open, readdir, readFile, rename, rm, writeFile } from "node:fs/promises";
 import { join, resolve } from "node:path";
 import type { Price } from "cusp-slicer";
 import type { Verified } from "./verify.js";
@@ -63,9 +63,25 @@ export class Store {
   async keep(folder: string, key: string, order: Omit<Order, "id" | "placed_at">): Promise<Order> {
     const placed: Order = { id: idOf(key), placed_at: new Date().toISOString(), ...order };
     await writeFile(join(folder, "order.json"), `${JSON.stringify(placed, null, 2)}\n`);
+    // On the disk before it is an order, and an order before the customer is told: no power failure takes it back.
+    for (const name of await readdir(folder)) await sync(join(folder, name), "r+");
+    await sync(folder);
     // This fails if there already is an order, since its folder is not empty.
     await rename(folder, join(this.#orders, placed.id));
+    await sync(this.#orders);
     return placed;
+  }
+}
+
+/** Waits until the disk has the content of a file, or the names in a folder. */
+async function sync(path: string, flags = "r"): Promise<void> {
+  // Windows keeps names by itself, and opens no folders.
+  if (flags === "r" && process.platform === "win32") return;
+  const file = await open(path, flags);
+  try {
+    await file.sync();
+  } finally {
+    await file.close();
   }
 }
 

@@ -61,15 +61,15 @@ export async function verify(folder: string, terms: Terms, { cusp, limit_ms }: V
   for (const name of ["limits", "prices"] as const) await writeFile(join(folder, TERMS[name]), `${JSON.stringify(terms[name], null, 2)}\n`);
   const call = ["verify", FILES.plan, FILES.model, "--print", FILES.print, "--json"];
   call.push("--limits", TERMS.limits, "--prices", TERMS.prices, "--copies", String(terms.copies), ...BOUNDS);
-  const verified = await new Promise<Verified>((resolve, reject) => {
+  const output = await new Promise<string>((resolve, reject) => {
     execFile(cusp, call, { cwd: folder, maxBuffer: MOST_ANSWER_BYTES, timeout: limit_ms, killSignal: "SIGKILL", signal }, (error, stdout) => {
-      if (error === null) resolve(JSON.parse(stdout) as Verified);
+      if (error === null) resolve(stdout);
       else if (signal.aborted) reject(error);
       else if (error.killed === true) reject(new Refusal("took-too-long", "Checking this model takes longer than we can wait."));
-      else if (error.code === 1) reject(answered(JSON.parse(stdout) as Verified | Failed));
-      else reject(error);
+      else reject((error.code === 1 ? answered(stdout) : null) ?? error);
     });
   });
+  const verified = JSON.parse(output) as Verified;
   if (!verified.print_is_same) throw new Refusal("print-refused", "The print file was refused.");
   if (verified.printability.verdict === "reject") throw rejected(verified);
   return verified;
@@ -81,11 +81,24 @@ function rejected({ printability }: Verified): Refusal {
   return new Refusal("not-printable", `The model cannot be printed like this: ${[...codes].join(", ")}.`);
 }
 
-/** What the program answers to an order that it does not accept: why it failed, or what will fail when it is printed. */
-function answered(answer: Verified | Failed): Refusal {
+/**
+ * What the program answers to an order that it does not accept: why it failed, or what will fail when it is printed. Null if it
+ * did not get as far as an answer, for which the order is not to blame.
+ */
+function answered(output: string): Refusal | null {
+  const answer = parsed(output);
+  if (answer === null) return null;
   if (!("error" in answer)) return rejected(answer);
   const { code, message, file } = answer.error;
   if (code === "time-bound" || code === "memory-bound") return new Refusal("took-too-long", "Checking this model takes more than we can spend.");
   const [refusal, subject] = BLAME[file ?? ""] ?? ["plan-refused", "The order was refused"];
   return new Refusal(refusal, `${subject}: ${message}.`);
+}
+
+function parsed(output: string): Verified | Failed | null {
+  try {
+    return JSON.parse(output) as Verified | Failed;
+  } catch {
+    return null;
+  }
 }
