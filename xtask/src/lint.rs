@@ -1,8 +1,11 @@
 //! `cargo xtask lint`: static checks.
 
-use std::cell::RefCell;
+use std::{
+    cell::RefCell,
+    thread::{self, ScopedJoinHandle},
+};
 
-use anyhow::{Result, bail};
+use anyhow::{Result, anyhow, bail};
 
 use crate::{
     modules, node,
@@ -11,6 +14,9 @@ use crate::{
     supply, wasm,
 };
 
+/// The check that needs the WebAssembly package.
+const OXLINT: &str = "oxlint";
+
 /// Runs the checks of the given names, or all, each regardless of the others. Returns `false` if one failed; a check that cannot
 /// run has failed, but for those that need another machine, which are named.
 ///
@@ -18,6 +24,20 @@ use crate::{
 ///
 /// Fails if no check has one of the names.
 pub fn run(project: &Project, names: &[String]) -> Result<bool> {
+    thread::scope(|scope| {
+        // A module is linked by one thread, which takes minutes: the other checks run beside it.
+        let build = is_chosen(OXLINT, names).then(|| scope.spawn(|| wasm::build(project)));
+        check(project, names, &RefCell::new(build))
+    })
+}
+
+fn is_chosen(name: &str, names: &[String]) -> bool {
+    names.is_empty() || names.iter().any(|chosen| chosen == name)
+}
+
+type Build<'a> = RefCell<Option<ScopedJoinHandle<'a, Result<()>>>>;
+
+fn check(project: &Project, names: &[String], build: &Build<'_>) -> Result<bool> {
     let ignored = RefCell::new(Vec::new());
     let checks: [(&str, &dyn Fn() -> Result<()>); 11] = [
         ("modules", &|| modules::check(project)),
@@ -49,8 +69,6 @@ pub fn run(project: &Project, names: &[String]) -> Result<bool> {
                     .args(["--", "-D", "warnings"]),
             )
         }),
-        ("clippy for wasm", &|| wasm::clippy(project)),
-        ("oxlint", &|| oxlint(project)),
         ("doc", &|| {
             process::run(
                 cargo(project)
@@ -58,6 +76,9 @@ pub fn run(project: &Project, names: &[String]) -> Result<bool> {
                     .env("RUSTDOCFLAGS", "-D warnings"),
             )
         }),
+        (OXLINT, &|| oxlint(project, build.take())),
+        // In the target folder of that package, so after it.
+        ("clippy for wasm", &|| wasm::clippy(project)),
     ];
     if let Some(unknown) = names
         .iter()
@@ -68,7 +89,7 @@ pub fn run(project: &Project, names: &[String]) -> Result<bool> {
     }
     let mut failed = Vec::new();
     for (name, check) in checks {
-        if !names.is_empty() && !names.iter().any(|chosen| chosen == name) {
+        if !is_chosen(name, names) {
             continue;
         }
         if let Err(error) = check() {
@@ -94,7 +115,9 @@ fn format_apart(project: &Project, manifest: &str) -> Result<()> {
 
 /// Lints the TypeScript. Its rules know types, and without those that the wasm
 /// package declares they would report every value of them.
-fn oxlint(project: &Project) -> Result<()> {
-    wasm::build(project)?;
+fn oxlint(project: &Project, build: Option<ScopedJoinHandle<'_, Result<()>>>) -> Result<()> {
+    if let Some(build) = build {
+        build.join().map_err(|_| anyhow!("the build panicked"))??;
+    }
     process::run(node::npm(project)?.args(["run", "--silent", "lint"]))
 }
