@@ -50,6 +50,15 @@ pub fn ensure(packages: &[&str]) -> Result<()> {
     .with_context(|| format!("cannot install {list}"))
 }
 
+/// Installs packages where that is possible, and says why it is not on a Debian where it is not.
+pub fn try_ensure(packages: &[&str]) {
+    if is_debian()
+        && let Err(error) = ensure(packages)
+    {
+        eprintln!("{error:#}");
+    }
+}
+
 /// Whether this machine has Debian's package manager.
 pub fn is_debian() -> bool {
     Path::new("/etc/debian_version").exists() && which::which("apt-get").is_ok()

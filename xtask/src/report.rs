@@ -62,6 +62,21 @@ pub fn judge(status: ExitStatus, tally: Result<Tally>) -> (Verdict, Tally) {
     (verdict, tally)
 }
 
+/// Like [`judge`], for tests of what not every machine has: where all of them are
+/// ignored, so is the step.
+pub fn judge_optional(status: ExitStatus, tally: Result<Tally>) -> (Verdict, Tally) {
+    match tally {
+        Ok(tally)
+            if status.success()
+                && tally.passed + tally.failed == 0
+                && !tally.ignored.is_empty() =>
+        {
+            (Verdict::Skipped("all tests were ignored".into()), tally)
+        }
+        tally => judge(status, tally),
+    }
+}
+
 /// Whether nothing failed.
 pub fn is_good(records: &[Record]) -> bool {
     records.iter().all(|record| record.failed() == 0)
@@ -214,5 +229,26 @@ mod tests {
             verdict(good, Err(anyhow::anyhow!("odd"))),
             Verdict::Failed(_)
         ));
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn a_step_whose_tests_were_all_ignored_is_skipped() {
+        use std::os::unix::process::ExitStatusExt;
+        let (good, bad) = (ExitStatus::from_raw(0), ExitStatus::from_raw(256));
+        let verdict = |status, passed, failed, ignored: &[&str]| {
+            let mut tally = tally(passed, failed);
+            tally.ignored.extend(ignored.iter().map(|&name| Ignored {
+                name: name.into(),
+                reason: "no Firefox".into(),
+            }));
+            judge_optional(status, Ok(tally)).0
+        };
+        let named = ["firefox.test.ts: Firefox"];
+        assert!(matches!(verdict(good, 0, 0, &named), Verdict::Skipped(_)));
+        assert_eq!(verdict(good, 1, 0, &named), Verdict::Passed);
+        assert!(matches!(verdict(bad, 0, 0, &named), Verdict::Failed(_)));
+        assert!(matches!(verdict(good, 0, 1, &named), Verdict::Failed(_)));
+        assert!(matches!(verdict(good, 0, 0, &[]), Verdict::Failed(_)));
     }
 }

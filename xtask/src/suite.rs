@@ -3,7 +3,7 @@
 use std::{
     fs,
     path::{Path, PathBuf},
-    process::Command,
+    process::{Command, ExitStatus},
     time::Instant,
 };
 
@@ -15,7 +15,7 @@ use crate::{
     browser, counts, debian, node, process,
     project::Project,
     python,
-    report::{self, Record, Verdict, judge},
+    report::{self, Record, Verdict, judge, judge_optional},
     runner_output::{self, Tally},
     wasm,
 };
@@ -25,6 +25,9 @@ const VULKAN_PACKAGES: [&str; 2] = ["mesa-vulkan-drivers", "libvulkan1"];
 
 /// The web servers of docs/hosting.md.
 const SERVER_PACKAGES: [&str; 3] = ["nginx-light", "lighttpd", "lighttpd-mod-deflate"];
+
+/// Browsers of engines other than Chromium's, and a screen in memory for them.
+const ENGINE_PACKAGES: [&str; 3] = ["firefox-esr", "webkit2gtk-driver", "xvfb"];
 
 /// The steps, in the order in which they run.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -47,6 +50,8 @@ pub enum Step {
     Unit,
     /// The built page in a headless browser
     E2e,
+    /// The main paths over the built page in browsers of other engines
+    Engines,
     /// Orientation searches and batches on several worker processes (examples/cluster)
     Cluster,
 }
@@ -72,7 +77,7 @@ pub fn run(project: &Project, steps: &[Step]) -> Result<bool> {
             .to_owned();
         println!("\n=== {name} ===");
         let started = Instant::now();
-        let needs_build = matches!(step, Step::Check | Step::E2e);
+        let needs_build = matches!(step, Step::Check | Step::E2e | Step::Engines);
         let (verdict, tally) = if needs_build && build_failed {
             (
                 Verdict::Failed("not run: the build failed".into()),
@@ -127,7 +132,7 @@ impl Step {
                 process::run(node::npm(project)?.args(["run", "check"]))?;
                 Ok((Verdict::Passed, Tally::default()))
             }
-            Self::Unit => vitest(&mut node::npm(project)?, "test", scratch),
+            Self::Unit => vitest(&mut node::npm(project)?, "test", scratch, judge),
             Self::E2e => {
                 let chromium = browser::chromium()?;
                 ensure_servers();
@@ -139,7 +144,16 @@ impl Step {
                         .env("CUSP", cusp),
                     "e2e",
                     scratch,
+                    judge,
                 )
+            }
+            Self::Engines => {
+                // Where they are missing all the same, their tests show as ignored.
+                debian::try_ensure(&ENGINE_PACKAGES);
+                // Files are compared with those that it writes.
+                let cusp = build_cusp(project)?;
+                let mut npm = node::npm(project)?;
+                vitest(npm.env("CUSP", cusp), "engines", scratch, judge_optional)
             }
             Self::Cluster => cluster(project),
         }
@@ -154,7 +168,12 @@ fn cargo_test(command: &mut Command, scratch: &Path) -> Result<(Verdict, Tally)>
 }
 
 /// Runs an npm script that calls vitest, and counts its tests.
-fn vitest(npm: &mut Command, script: &str, scratch: &Path) -> Result<(Verdict, Tally)> {
+fn vitest(
+    npm: &mut Command,
+    script: &str,
+    scratch: &Path,
+    judge: fn(ExitStatus, Result<Tally>) -> (Verdict, Tally),
+) -> Result<(Verdict, Tally)> {
     let file = scratch.join(format!("{script}.json"));
     let mut to_file = std::ffi::OsString::from("--outputFile.json=");
     to_file.push(&file);
@@ -234,19 +253,12 @@ fn build_cusp(project: &Project) -> Result<PathBuf> {
 /// Installs a Vulkan driver on Debian. Elsewhere the machine's own is used;
 /// without one, the GPU tests show as ignored.
 pub fn ensure_vulkan() {
-    if debian::is_debian()
-        && let Err(error) = debian::ensure(&VULKAN_PACKAGES)
-    {
-        eprintln!("{error:#}");
-    }
+    debian::try_ensure(&VULKAN_PACKAGES);
 }
 
 /// Installs web servers on Debian, unless that would start them. Without one, its test shows as ignored.
 fn ensure_servers() {
-    if debian::is_debian()
-        && debian::starts_no_services()
-        && let Err(error) = debian::ensure(&SERVER_PACKAGES)
-    {
-        eprintln!("{error:#}");
+    if debian::starts_no_services() {
+        debian::try_ensure(&SERVER_PACKAGES);
     }
 }

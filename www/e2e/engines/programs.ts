@@ -1,0 +1,57 @@
+/** Programs that a browser runs as, and beside it; all of them end with the tests. */
+import { spawn, type ChildProcess } from "node:child_process";
+import type { Readable } from "node:stream";
+import { program } from "../program.js";
+
+export const xvfb = (): string | null => program(["Xvfb"], "XVFB");
+
+export class Programs {
+  readonly #children: ChildProcess[] = [];
+
+  constructor() {
+    // Where the tests are cut off.
+    process.once("exit", () => this.#kill());
+  }
+
+  /** Starts a program in a process group of its own, since what it starts shall end with it. */
+  start(path: string, args: readonly string[], env: Record<string, string | undefined> = {}): ChildProcess {
+    const child = spawn(path, args, { env: { ...process.env, ...env }, stdio: ["ignore", "pipe", "pipe"], detached: true });
+    // A pipe that nobody reads fills up, and its program waits.
+    child.stdout.resume();
+    child.stderr.resume();
+    this.#children.push(child);
+    return child;
+  }
+
+  /** A screen in memory, by its name: without one, WebKitGTK does not start, and Firefox has no WebGL. */
+  async screen(): Promise<string> {
+    const child = this.start(xvfb() ?? "Xvfb", ["-displayfd", "1", "-screen", "0", "1400x1000x24", "-nolisten", "tcp"]);
+    return `:${await said(child, child.stdout, /^(\d+)\n/)}`;
+  }
+
+  async end(): Promise<void> {
+    const ends = this.#children.filter(isAlive).map((child) => new Promise((resolve) => child.once("exit", resolve)));
+    this.#kill();
+    await Promise.all(ends);
+  }
+
+  #kill(): void {
+    for (const { pid } of this.#children.filter(isAlive)) if (pid !== undefined) process.kill(-pid, "SIGKILL");
+  }
+}
+
+const isAlive = ({ pid, exitCode, signalCode }: ChildProcess): boolean => pid !== undefined && exitCode === null && signalCode === null;
+
+/** What the first group matches in what a program says. */
+export function said(child: ChildProcess, stream: Readable | null, wanted: RegExp): Promise<string> {
+  return new Promise((resolve, reject) => {
+    let text = "";
+    stream?.on("data", (bytes: Buffer) => {
+      text += bytes.toString();
+      const found = wanted.exec(text)?.[1];
+      if (found !== undefined) resolve(found);
+    });
+    child.once("error", reject);
+    child.once("exit", (code) => reject(new Error(`${child.spawnfile} ended with ${code}: ${text}`)));
+  });
+}
