@@ -2,6 +2,7 @@
 //!
 //! A planner sees limits and the errors of layers, and nothing else of the model.
 
+mod by_layers;
 mod few;
 pub mod gradual;
 pub mod greedy;
@@ -9,7 +10,6 @@ pub mod least_sum;
 mod limits;
 pub mod optimal;
 pub mod preferred;
-mod reachable;
 pub mod segment;
 pub mod thicknesses;
 pub(crate) mod timed;

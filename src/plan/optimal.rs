@@ -1,11 +1,9 @@
 //! The fewest layers within tolerance, or the shortest print time, by dynamic programming (Procedure 1).
 
-use std::ops::RangeInclusive;
-
 use super::preferred::{ByHeight, Preferred, SnapPlanes};
 use super::segment::{Segment, Segments, boundaries_below};
-use super::{Limits, Plan, PlanError, reachable, timed, tradeoff};
-use crate::profile::{ErrorSum, LayerErrors, LayersAbove, Reach};
+use super::{Limits, Plan, PlanError, by_layers, timed, tradeoff};
+use crate::profile::{LayerErrors, LayersAbove, Reach};
 use crate::resin::Resin;
 
 /// Candidates that no layer can begin at any more, before they leave the queue.
@@ -140,8 +138,23 @@ fn fewest(
     let mut boundaries = boundaries_below(segments);
     for (index, segment) in segments.iter().enumerate() {
         let preferred = Preferred::within(segment, snap_planes, 1);
+        // With snap planes, a plan of more layers may cost less.
+        if preferred.is_empty()
+            && let LayerErrors::Sum(errors) = errors
+            && let Some(planes) = by_layers::fewest(errors, segment, tolerance)
+        {
+            boundaries.extend(planes.into_iter().map(|plane| segment.boundary(plane)));
+            continue;
+        }
         let table = match errors {
-            LayerErrors::Sum(errors) => fill_fewest_up(errors, segment, &preferred, tolerance),
+            // A plane's sum is looked up once, not for each layer that it may bound.
+            LayerErrors::Sum(errors) => fill_fewest_by(
+                |boundary| errors.steps_below(boundary),
+                |lower, upper| upper - lower,
+                segment,
+                &preferred,
+                tolerance,
+            ),
             errors if errors.is_monotone() => fill_fewest(
                 |lower, upper| errors.steps_between(lower, upper),
                 segment,
@@ -270,44 +283,11 @@ pub fn fill_fewest(
     tolerance: u64,
 ) -> Table {
     let itself = |boundary| boundary;
-    let all = [0..=segment.units];
-    fill_fewest_at(&all, itself, error_between, segment, preferred, tolerance)
+    fill_fewest_by(itself, error_between, segment, preferred, tolerance)
 }
 
-/// [`fill_fewest`] as far as the best plan up to the top needs it.
-fn fill_fewest_up(
-    errors: &ErrorSum,
-    segment: &Segment,
-    preferred: &Preferred,
-    tolerance: u64,
-) -> Table {
-    let fill = |planes: &[RangeInclusive<u32>]| {
-        // A plane's sum is looked up once, not for each layer that it may bound.
-        let sum = |boundary| errors.steps_below(boundary);
-        let between = |lower, upper| upper - lower;
-        fill_fewest_at(planes, sum, between, segment, preferred, tolerance)
-    };
-    // With snap planes, a plan of more layers may cost less.
-    if preferred.is_empty() {
-        let is_within = |lower, upper| {
-            let [lower, upper] = [lower, upper].map(|plane| segment.boundary(plane));
-            errors.steps_between(lower, upper) <= tolerance
-        };
-        if let Some(planes) = reachable::by_layers(segment, &is_within) {
-            let table = fill(&planes);
-            if table.cost.last() == Some(&(planes.len() as u64 - 1)) {
-                return table;
-            }
-        }
-    }
-    fill(&[0..=segment.units])
-}
-
-/// [`fill_fewest`] at the planes of some ranges, which ascend, for errors that are made from a mark of each boundary. The other planes
-/// stay unreached.
-#[inline(never)]
-fn fill_fewest_at<Mark: Copy>(
-    ranges: &[RangeInclusive<u32>],
+/// [`fill_fewest`] for errors that are made from a mark of each boundary.
+fn fill_fewest_by<Mark: Copy>(
     mark_of: impl Fn(u32) -> Mark,
     error_between: impl Fn(Mark, Mark) -> u64,
     segment: &Segment,
@@ -318,72 +298,62 @@ fn fill_fewest_at<Mark: Copy>(
     let (least, greatest) = (*segment.thickness.start(), *segment.thickness.end());
     let mut queue: Vec<Candidate<Mark>> = Vec::new();
     let (mut front, mut best) = (0, 0);
-    // Planes that have not been queued.
-    let (mut unqueued, mut later) = (0..0, ranges.iter());
-    for range in ranges {
-        for plane in least.max(*range.start())..=*range.end() {
-            while unqueued.start <= plane - least {
-                let Some(highest) = unqueued.next() else {
-                    let Some(range) = later.next() else { break };
-                    unqueued = *range.start()..*range.end() + 1;
-                    continue;
-                };
-                let [layers, missed, worst] = table.at(highest);
-                if layers == Table::NO_PLAN {
-                    continue;
-                }
-                let [price, weight] = preferred.above(highest);
-                let cost = [layers + price, missed + weight];
-                while queue.len() > front
-                    && queue
-                        .last()
-                        .is_some_and(|last| (last.cost, last.worst) >= (cost, worst))
-                {
-                    queue.pop();
-                }
-                if best >= queue.len() {
-                    best = queue.len().saturating_sub(1).max(front);
-                }
-                queue.push(Candidate {
-                    plane: highest,
-                    cost,
-                    worst,
-                    mark: mark_of(segment.boundary(highest)),
-                });
-            }
-            let top = mark_of(segment.boundary(plane));
-            let error_from = |below: &Candidate<Mark>| error_between(below.mark, top);
-            while queue.get(front).is_some_and(|below| {
-                plane - below.plane > greatest || error_from(below) > tolerance
-            }) {
-                front += 1;
-            }
-            best = best.max(front);
-            let Some(least_cost) = queue.get(front).map(|below| below.cost) else {
-                continue;
-            };
-            while queue
-                .get(best + 1)
-                .is_some_and(|next| next.cost == least_cost && next.worst <= error_from(next))
+    for plane in least..=segment.units {
+        let highest = plane - least;
+        let [layers, missed, worst] = table.at(highest);
+        if layers != Table::NO_PLAN {
+            let [price, weight] = preferred.above(highest);
+            let cost = [layers + price, missed + weight];
+            while queue.len() > front
+                && queue
+                    .last()
+                    .is_some_and(|last| (last.cost, last.worst) >= (cost, worst))
             {
-                best += 1;
+                queue.pop();
             }
-            let worst_over = |below: &Candidate<Mark>| below.worst.max(error_from(below));
-            let mut chosen = (worst_over(&queue[best]), queue[best].plane);
-            if let Some(next) = queue.get(best + 1)
-                && next.cost == least_cost
-                && worst_over(next) < chosen.0
-            {
-                chosen = (worst_over(next), next.plane);
+            if best >= queue.len() {
+                best = queue.len().saturating_sub(1).max(front);
             }
-            let [cost, missed] = preferred.below(least_cost, plane);
-            table.set(plane, [cost + 1, missed, chosen.0], chosen.1);
-            // So that the queue stays in the cache.
-            if front >= PASSED {
-                queue.drain(..front);
-                best -= front;
-                front = 0;
-            }
+            queue.push(Candidate {
+                plane: highest,
+                cost,
+                worst,
+                mark: mark_of(segment.boundary(highest)),
+            });
+        }
+        let top = mark_of(segment.boundary(plane));
+        let error_from = |below: &Candidate<Mark>| error_between(below.mark, top);
+        while queue
+            .get(front)
+            .is_some_and(|below| plane - below.plane > greatest || error_from(below) > tolerance)
+        {
+            front += 1;
+        }
+        best = best.max(front);
+        let Some(least_cost) = queue.get(front).map(|below| below.cost) else {
+            continue;
+        };
+        while queue
+            .get(best + 1)
+            .is_some_and(|next| next.cost == least_cost && next.worst <= error_from(next))
+        {
+            best += 1;
+        }
+        let worst_over = |below: &Candidate<Mark>| below.worst.max(error_from(below));
+        let mut chosen = (worst_over(&queue[best]), queue[best].plane);
+        if let Some(next) = queue.get(best + 1)
+            && next.cost == least_cost
+            && worst_over(next) < chosen.0
+        {
+            chosen = (worst_over(next), next.plane);
+        }
+        let [cost, missed] = preferred.below(least_cost, plane);
+        table.set(plane, [cost + 1, missed, chosen.0], chosen.1);
+        // So that the queue stays in the cache.
+        if front >= PASSED {
+            queue.drain(..front);
+            best -= front;
+            front = 0;
         }
     }
     table

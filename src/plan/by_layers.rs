@@ -1,0 +1,188 @@
+//! The fewest layers where no plane is preferred, layer by layer: only those planes are looked at that a plan of as few can have.
+
+use std::ops::RangeInclusive;
+
+use super::segment::Segment;
+use crate::profile::ErrorSum;
+
+/// The planes that the layers of a number may end at.
+type Ends = RangeInclusive<u32>;
+
+/// The maximum error up to a plane that no plan reaches: ∞.
+const NO_PLAN: u64 = u64::MAX;
+
+/// The planes of the plan of the fewest layers within tolerance, and among those of the smallest maximum error, in ascending order without
+/// plane 0. It is the plan that [`fill_fewest`](super::optimal::fill_fewest) finds. `None` if as few layers as the heights that they
+/// can reach would allow do not do.
+pub(super) fn fewest(errors: &ErrorSum, segment: &Segment, tolerance: u64) -> Option<Vec<u32>> {
+    let is_within = |lower, upper| {
+        let [lower, upper] = [lower, upper].map(|plane| segment.boundary(plane));
+        errors.steps_between(lower, upper) <= tolerance
+    };
+    let ends = ends_of_layers(segment, is_within)?;
+    let count_of = |ends: &Ends| (ends.end() - ends.start()) as usize + 1;
+    // For each plane of each number of layers but 0, the plane below in the best plan.
+    let mut below = Vec::with_capacity(ends[1..].iter().map(count_of).sum());
+    let widest = ends.iter().map(count_of).max().unwrap_or(1);
+    let (mut worst, mut worst_on_top) = (Vec::with_capacity(widest), Vec::with_capacity(widest));
+    worst.push(0);
+    let mut queue = Vec::new();
+    for pair in ends.windows(2) {
+        let layer = Layer {
+            errors,
+            segment,
+            starts: &pair[0],
+            worst: &worst,
+            tolerance,
+        };
+        worst_on_top.clear();
+        queue.clear();
+        for (worst, start) in layer.best_up_to(&pair[1], &mut queue) {
+            worst_on_top.push(worst);
+            below.push(start);
+        }
+        std::mem::swap(&mut worst, &mut worst_on_top);
+    }
+    if worst.last() == Some(&NO_PLAN) {
+        return None;
+    }
+    let mut planes = Vec::with_capacity(ends.len() - 1);
+    let mut plane = segment.units;
+    for ends in ends[1..].iter().rev() {
+        planes.push(plane);
+        let first = below.len() - count_of(ends);
+        plane = below[first + (plane - ends.start()) as usize];
+        below.truncate(first);
+    }
+    planes.reverse();
+    Some(planes)
+}
+
+/// A layer, by its number.
+struct Layer<'a> {
+    errors: &'a ErrorSum,
+    segment: &'a Segment,
+    /// Where it may begin.
+    starts: &'a Ends,
+    /// For each of these planes, the smallest maximum error of the layers below, in steps.
+    worst: &'a [u64],
+    /// In steps.
+    tolerance: u64,
+}
+
+/// A plane that may be the best one below some later plane.
+#[derive(Clone, Copy)]
+struct Start {
+    plane: u32,
+    /// The smallest maximum error of the layers below, in steps.
+    worst: u64,
+    /// That of everything below.
+    sum: u64,
+}
+
+impl Layer<'_> {
+    /// For each plane at which the layer may end, the smallest maximum error of the plans up to it, and where the layer begins in the best
+    /// one. The queue is empty at first.
+    ///
+    /// It is that of `fill_fewest`, for planes that all have as many layers below. From its front on, errors below increase and those
+    /// of the layer decrease; the best start is where the two cross, and that place only moves up.
+    fn best_up_to(&self, ends: &Ends, queue: &mut Vec<Start>) -> impl Iterator<Item = (u64, u32)> {
+        let (least, greatest) = (
+            *self.segment.thickness.start(),
+            *self.segment.thickness.end(),
+        );
+        let sum = |plane| self.errors.steps_below(self.segment.boundary(plane));
+        let mut starts = self.starts.clone().zip(self.worst).peekable();
+        let (mut front, mut best) = (0, 0);
+        ends.clone().map(move |plane| {
+            while let Some((start, &worst)) = starts.next_if(|&(start, _)| start + least <= plane) {
+                if worst == NO_PLAN {
+                    continue;
+                }
+                while queue.len() > front && queue.last().is_some_and(|last| last.worst >= worst) {
+                    queue.pop();
+                }
+                if best >= queue.len() {
+                    best = queue.len().saturating_sub(1).max(front);
+                }
+                queue.push(Start {
+                    plane: start,
+                    worst,
+                    sum: sum(start),
+                });
+            }
+            let top = sum(plane);
+            while queue.get(front).is_some_and(|start| {
+                plane - start.plane > greatest || top - start.sum > self.tolerance
+            }) {
+                front += 1;
+            }
+            best = best.max(front);
+            while queue
+                .get(best + 1)
+                .is_some_and(|next| next.worst <= top - next.sum)
+            {
+                best += 1;
+            }
+            let up_to = |start: &Start| (start.worst.max(top - start.sum), start.plane);
+            match (queue.get(best).map(up_to), queue.get(best + 1).map(up_to)) {
+                (Some(chosen), Some(next)) if next.0 < chosen.0 => next,
+                (chosen, _) => chosen.unwrap_or((NO_PLAN, 0)),
+            }
+        })
+    }
+}
+
+/// For each number of layers, from 0 up to the least that may fill a segment, the planes at which that many may end and fewer may not:
+/// those that the layers below may reach, and from which the layers above may reach the top. `is_within` tells whether the layer between two planes is
+/// within tolerance; if one is, every layer within it is too.
+///
+/// No plan has fewer layers. One that has as many has only these planes; there need not be one. `None` if it is certain that none
+/// reaches the top.
+fn ends_of_layers(segment: &Segment, is_within: impl Fn(u32, u32) -> bool) -> Option<Vec<Ends>> {
+    let (least, greatest) = (*segment.thickness.start(), *segment.thickness.end());
+    let (mut plane, mut highest) = (0, vec![0]);
+    while plane < segment.units {
+        let most = segment.units.min(plane + greatest);
+        let end = first_of(plane + least..=most, |top| !is_within(plane, top));
+        if most < plane + least {
+            // A layer that begins lower may end at the top.
+            plane = segment.units;
+        } else if end == plane + least {
+            return None;
+        } else {
+            plane = end - 1;
+        }
+        highest.push(plane);
+    }
+    let mut planes = Vec::with_capacity(highest.len());
+    for layers in (0..highest.len()).rev() {
+        let beyond_fewer = layers.checked_sub(1).map_or(0, |fewer| highest[fewer] + 1);
+        planes.push(plane.max(beyond_fewer)..=highest[layers]);
+        let lowest = plane.saturating_sub(greatest);
+        plane = plane.checked_sub(least).map_or(0, |most| {
+            first_of(lowest..=most, |below| is_within(below, plane))
+        });
+    }
+    planes.reverse();
+    Some(planes)
+}
+
+/// The first number of a range that is so, if all after it are, or the one after the range.
+#[inline]
+fn first_of(range: RangeInclusive<u32>, is_so: impl Fn(u32) -> bool) -> u32 {
+    // That many numbers from `first` on may be it, and the one after them. Both halves are as large, so that no branch depends on
+    // the answer, which nobody can predict.
+    let mut first = *range.start();
+    let mut count = (*range.end() + 1).saturating_sub(first);
+    while count > 0 {
+        let half = count.div_ceil(2);
+        first = if is_so(first + half - 1) {
+            first
+        } else {
+            first + half
+        };
+        count -= half;
+    }
+    first
+}
