@@ -21,6 +21,9 @@ const HEIGHT_SLACK: f64 = 1.0 / (1 << 23) as f64;
 /// Absolute error, in bins, of a quotient of lengths.
 const ROUNDING_SLACK: f64 = 1e-9;
 
+/// 2⁵²: from here on double precision has integers only, and the next 2³² have the same high bits.
+const INTEGERS: f64 = (1u64 << 52) as f64;
+
 /// Why pixels or bins cannot be laid out.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
@@ -369,6 +372,12 @@ impl Bins {
         let position = bins - height_slack(bins);
         let most = self.count as f64;
         let position = if position < most { position } else { most };
+        if cfg!(target_arch = "wasm32") {
+            let above = position.ceil();
+            let bin = if above > 1.0 { above - 1.0 } else { 0.0 };
+            // Browsers turn one number at a time into an integer. Of one this large, the low bits are the integer.
+            return (bin + INTEGERS).to_bits() as u32 as usize;
+        }
         // Rounded up by hand: `ceil` is a library call on x86-64 without SSE 4.1. Numbers of 32 bits make vectors.
         let below = position as i32;
         let bin = below + i32::from(position > f64::from(below));

@@ -40,6 +40,11 @@ impl<'a> Estimate<'a> {
         }
     }
 
+    /// The component along z of a facet's normal below which it may need contacts.
+    pub fn least_n_z(&self) -> f32 {
+        self.least_n_z
+    }
+
     /// Whether a facet needs contacts.
     pub fn counts(&self, n_z: f32, is_above_plate: bool) -> bool {
         n_z < self.least_n_z && (is_above_plate || self.profile.lift_mm > 0.0)

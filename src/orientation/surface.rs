@@ -34,8 +34,11 @@ const TOLD_APART: usize = 64;
 /// −`n_z` above which a facet needs support: it faces down at less than 45° from level.
 const OVERHANG: f32 = std::f32::consts::FRAC_1_SQRT_2;
 
-/// Sums that are made side by side.
+/// Sums that are made side by side, as each sum of a single chain would wait for the one before.
 const LANES: usize = 4;
+
+/// Facets that are looked at together.
+const BLOCK: usize = 16 * LANES;
 
 /// Bytes per facet that a search takes on one thread: in the mesh, the surface, and the current placement.
 const FACET_BYTES: usize = 148;
@@ -276,13 +279,6 @@ impl Surface {
         }
         sums.resize(facet_bins.bins.count + 1, sum);
         let plate = plan.boundaries[1];
-        let squares = facet_bins.n_z_squared.iter();
-        let rough: Vec<f32> = squares
-            .map(|&square| roughness::density_of(square))
-            .collect();
-        // In lanes, as each sum of a single chain would wait for the one before.
-        let (mut overhangs_mm2, mut roughness) = ([0.0; LANES], [0.0; LANES]);
-        let mut supports = Estimate::new(profile);
         let bin_mm = facet_bins.bins.size_mm;
         // Where masks are taken.
         let middles_mm: Vec<f32> = plan
@@ -294,25 +290,38 @@ impl Surface {
         let low = facet_bins.bins.of(f64::from(middles_mm[0])) as u32;
         // The facets that reach down to the first of them.
         let mut lowest = Vec::new();
-        let facets = facet_bins.spans.iter().zip(&rough);
-        let facets = facets.zip(&placement.n_z).zip(&self.areas_mm2);
-        for (facet, (((&[first, last], &rough), &n_z), &area_mm2)) in facets.enumerate() {
-            let area_mm2 = f64::from(area_mm2);
-            let is_overhang = n_z < -OVERHANG && last >= plate;
-            // No branch, as nobody can predict it.
-            overhangs_mm2[facet % LANES] += area_mm2 * f64::from(u8::from(is_overhang));
-            if supports.counts(n_z, last >= plate) {
-                let middle_mm = f64::from((first + last) as i32 + 1) / 2.0 * bin_mm;
-                let weight = weights.map_or(1.0, |weights| f64::from(weights[facet]));
-                supports.add(f64::from(n_z), area_mm2, middle_mm, weight);
+        let (mut overhang_mm2, mut roughness) = (0.0, [0.0; LANES]);
+        let mut supports = Estimate::new(profile);
+        let facing_down = supports.least_n_z().max(-OVERHANG);
+        // Block by block, as most have no facet that faces down or reaches so far, and what all need is a short loop of its own.
+        let blocks = facet_bins
+            .spans
+            .chunks(BLOCK)
+            .zip(facet_bins.n_z_squared.chunks(BLOCK));
+        let blocks = blocks
+            .zip(placement.n_z.chunks(BLOCK))
+            .zip(self.areas_mm2.chunks(BLOCK));
+        for (block, (((spans, squares), n_z), areas_mm2)) in blocks.enumerate() {
+            add_roughness(&mut roughness, &sums, spans, squares, areas_mm2);
+            let first_facet = block * BLOCK;
+            for &place in which(n_z, |&n_z| n_z < facing_down).iter() {
+                let place = usize::from(place);
+                let (n_z, area_mm2) = (n_z[place], f64::from(areas_mm2[place]));
+                let [first, last] = spans[place];
+                let is_above_plate = last >= plate;
+                if n_z < -OVERHANG && is_above_plate {
+                    overhang_mm2 += area_mm2;
+                }
+                if supports.counts(n_z, is_above_plate) {
+                    let middle_mm = f64::from((first + last) as i32 + 1) / 2.0 * bin_mm;
+                    let weight =
+                        weights.map_or(1.0, |weights| f64::from(weights[first_facet + place]));
+                    supports.add(f64::from(n_z), area_mm2, middle_mm, weight);
+                }
             }
-            if first <= low {
-                lowest.push(facet as u32);
+            for &place in which(spans, |[first, _]| *first <= low).iter() {
+                lowest.push((first_facet + usize::from(place)) as u32);
             }
-            let end = last + 1;
-            let bins = sums[end as usize] - sums[first as usize];
-            let thickness = bins / f64::from((end - first) as i32);
-            roughness[facet % LANES] += area_mm2 * thickness * f64::from(rough);
         }
         lowest.extend(facet_bins.spans.len() as u32..self.basins.facets().len() as u32);
         let along = Along {
@@ -328,11 +337,71 @@ impl Surface {
             print_time_s,
             max_error,
             roughness_mm: total(roughness) / self.total_mm2 * facet_bins.bins.size_mm,
-            overhang_mm2: total(overhangs_mm2),
+            overhang_mm2,
             islands,
             cups_mm2,
             support_ml,
             contact_mm2,
+        }
+    }
+}
+
+/// Places in a block, in ascending order.
+struct Places {
+    places: [u8; BLOCK],
+    count: usize,
+}
+
+impl Places {
+    fn iter(&self) -> std::slice::Iter<'_, u8> {
+        self.places[..self.count].iter()
+    }
+}
+
+/// The places of a block at which something is so.
+#[inline]
+fn which<T>(block: &[T], is_so: impl Fn(&T) -> bool) -> Places {
+    let mut found = Places {
+        places: [0; BLOCK],
+        count: 0,
+    };
+    // In most blocks there are none, and a loop that only looks for any is vectorised.
+    if block.iter().fold(false, |any, it| any | is_so(it)) {
+        for (place, it) in (0..).zip(block) {
+            // No branch, as nobody can predict it.
+            found.places[found.count % BLOCK] = place;
+            found.count += usize::from(is_so(it));
+        }
+    }
+    found
+}
+
+/// Adds the area of each facet of a block times its roughness, for layers whose thicknesses have these running sums.
+fn add_roughness(
+    lanes: &mut [f64; LANES],
+    sums: &[f64],
+    spans: &[[u32; 2]],
+    squares: &[f32],
+    areas_mm2: &[f32],
+) {
+    // One after the other, so that the compiler can vectorise all but the first. What is beyond the last facet adds nothing.
+    let mut thicknesses = [0.0; BLOCK];
+    for (thickness, &[first, last]) in thicknesses.iter_mut().zip(spans) {
+        *thickness = sums[last as usize + 1] - sums[first as usize];
+    }
+    for (thickness, &[first, last]) in thicknesses.iter_mut().zip(spans) {
+        *thickness /= f64::from((last - first + 1) as i32);
+    }
+    for (thickness, &area_mm2) in thicknesses.iter_mut().zip(areas_mm2) {
+        *thickness *= f64::from(area_mm2);
+    }
+    for (thickness, &square) in thicknesses.iter_mut().zip(squares) {
+        *thickness *= f64::from(roughness::density_of(square));
+    }
+    let (groups, _) = thicknesses.as_chunks::<LANES>();
+    for group in groups {
+        for (lane, product) in lanes.iter_mut().zip(group) {
+            *lane += product;
         }
     }
 }
