@@ -1,13 +1,13 @@
 /** The number of copies of a model: typed, or stepped. */
 import { html, type TemplateResult } from "lit";
-import { live } from "lit/directives/live.js";
+import { typed } from "../parts/typed.js";
 import { MOST_COPIES, type Entry } from "../state/plate.js";
 import type { Language } from "../../texts/index.js";
 import { shown } from "../../api/visible.js";
 
 export function copiesField({ copies, model }: Entry, language: Language, changed: (copies: number) => void): TemplateResult {
   const words = language.texts.plate;
-  const typed = ({ target }: Event): void => {
+  const entered = ({ target }: Event): void => {
     const input = target as HTMLInputElement;
     const count = Math.round(Number(input.value.trim()));
     if (count >= 1 && count <= MOST_COPIES) changed(count);
@@ -28,8 +28,8 @@ export function copiesField({ copies, model }: Entry, language: Language, change
       type="text"
       inputmode="numeric"
       aria-label=${words.copiesOf(shown(model.name))}
-      .value=${live(String(copies))}
-      @change=${typed}
+      .value=${typed(String(copies))}
+      @change=${entered}
     />
     ${step(words.more, "+", 1)}
   </span>`;

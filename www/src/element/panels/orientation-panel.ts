@@ -16,6 +16,7 @@ import { fetchPictures } from "../parts/pictures.js";
 import { progressBar, progressStyles, type Busy } from "../parts/progress.js";
 import { rotationText } from "../state/settings.js";
 import { styled } from "../parts/styled.js";
+import { typed } from "../parts/typed.js";
 import { shared } from "../styles/shared.js";
 import { elementWith, given, own } from "../../view/properties.js";
 
@@ -153,7 +154,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
         type="number"
         min="0"
         step=${name === "islands" ? "1" : "any"}
-        .value=${live(String(aims[field] ?? ""))}
+        .value=${typed(String(aims[field] ?? ""))}
         @change=${({ target }: Event) => {
           const input = target as HTMLInputElement;
           // What the field refuses is left as it was.

@@ -9,6 +9,7 @@ import type { PointDetail } from "../../view/events.js";
 import type { Tool } from "../../view/scene/keys.js";
 import { iconButton, stepButtons } from "../parts/icon-button.js";
 import { saveMade } from "../parts/save-file.js";
+import { typed } from "../parts/typed.js";
 import {
   added,
   automatic,
@@ -154,7 +155,7 @@ export class PointEditor {
   }
 
   #length(name: string, mm: number, { format }: Language, isPossible: boolean, set: (mm: number) => void): TemplateResult {
-    const typed = ({ target }: Event): void => {
+    const changed = ({ target }: Event): void => {
       const field = target as HTMLInputElement;
       const { value } = read(field.value, "mm", format.decimal);
       if (value !== null && value >= LEAST_MM && value <= MOST_MM) set(value);
@@ -167,8 +168,8 @@ export class PointEditor {
         inputmode="decimal"
         autocomplete="off"
         ?disabled=${!isPossible}
-        .value=${live(localised(String(mm), format.decimal))}
-        @change=${typed}
+        .value=${typed(localised(String(mm), format.decimal))}
+        @change=${changed}
       />
     </label>`;
   }

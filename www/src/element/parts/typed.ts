@@ -1,0 +1,36 @@
+/** Text fields that are drawn again while a person types. */
+import { noChange } from "lit";
+import { setCommittedValue } from "lit/directive-helpers.js";
+import { directive, Directive, PartType, type PartInfo, type PropertyPart } from "lit/directive.js";
+
+class Typed extends Directive {
+  #field: HTMLInputElement | null = null;
+  #isTyping = false;
+
+  constructor(part: PartInfo) {
+    super(part);
+    if (part.type !== PartType.PROPERTY) throw new Error("only a property can be typed");
+  }
+
+  render(text: string): unknown {
+    return text;
+  }
+
+  override update(part: PropertyPart, [text]: [string]): unknown {
+    this.#listen(part);
+    if (this.#isTyping || this.#field?.value === text) return noChange;
+    // What the field had before does not count: a person may have changed it.
+    setCommittedValue(part);
+    return text;
+  }
+
+  #listen({ element }: PropertyPart): void {
+    if (this.#field !== null) return;
+    this.#field = element as HTMLInputElement;
+    element.addEventListener("input", () => (this.#isTyping = true));
+    for (const end of ["change", "blur"]) element.addEventListener(end, () => (this.#isTyping = false));
+  }
+}
+
+/** The `value` of a text field, which is left alone from the first letter that is typed until that counts or the field is left. */
+export const typed = directive(Typed);
