@@ -54,7 +54,7 @@ export class Copies {
   readonly #supported = new Map<Float32Array, BufferGeometry>();
 
   /**
-   * @param uniforms of the model, whose colours the copies share as long as they show layers or resin
+   * @param uniforms of the model, whose colours by layers and of resin the copies share
    * @param ofSupports the material of the model's supports
    */
   constructor(uniforms: Record<string, IUniform>, ofSupports: RawShaderMaterial) {
@@ -64,7 +64,7 @@ export class Copies {
         vertexShader: MODEL_VERTEX,
         fragmentShader: MODEL_FRAGMENT,
         side: DoubleSide,
-        uniforms: { ...uniforms, byHeat: { value: false }, byDistance: { value: false }, ...own },
+        uniforms: { ...uniforms, ...own },
       });
     this.#plain = material({});
     this.#crowded = material({ byThickness: { value: false }, resin: { value: new Vector3(0.8, 0.2, 0.2) } });

@@ -1,5 +1,5 @@
 import { expect, it } from "vitest";
-import { layerAt, packBoundaries, ROW, rowsFor } from "./lookup.js";
+import { CELLS, layerAt, packBoundaries, ROW, rowsFor } from "./lookup.js";
 
 /** Boundaries of layers whose thickness cycles from 30 to 100 µm. */
 function plan(layers: number): number[] {
@@ -30,14 +30,30 @@ it("clamps to the first and the last layer beyond the ends", () => {
   expect(layerAt(plan(5), 100)).toBe(4);
 });
 
-it.each([2, ROW, ROW + 1, 5000])("packs %i boundaries into rows and finds the same layers", (count) => {
-  const boundaries = plan(count - 1);
-  const packed = new Float32Array(ROW * rowsFor(count));
-  packBoundaries(boundaries, packed);
-  expect([...packed.subarray(0, count)]).toEqual(boundaries.map(Math.fround));
-  expect(packed.at(-1)).toBe(Math.fround(boundaries.at(-1) ?? 0));
-  for (let layer = 0; layer < count - 1; layer++) {
-    const middle = ((boundaries[layer] ?? 0) + (boundaries[layer + 1] ?? 0)) / 2;
-    expect(layerAt(packed.subarray(0, count), middle)).toBe(layer);
+/** `layerAt` as the shader has it, on the texture. Returns the steps that it took as well. */
+function shaded(texture: Float32Array, layers: number, cellsPerMm: number, z: number): [layer: number, steps: number] {
+  const cell = Math.min(Math.max(Math.trunc(Math.fround(Math.fround(z) * Math.fround(cellsPerMm))), 0), CELLS * layers - 1);
+  const first = texture[layers + 1 + cell] ?? NaN;
+  let layer = first;
+  while (layer < layers - 1 && (texture[layer + 1] ?? NaN) <= Math.fround(z)) layer++;
+  return [layer, layer - first];
+}
+
+it.each([1, ROW - 1, ROW, 5000, 100_000])("packs %i layers into rows, in which the shader finds each in few steps", (layers) => {
+  const boundaries = plan(layers);
+  const packed = new Float32Array(ROW * rowsFor(boundaries.length));
+  const cellsPerMm = packBoundaries(boundaries, packed);
+  const single = boundaries.map(Math.fround);
+  expect([...packed.subarray(0, layers + 1)]).toEqual(single);
+  const step = Math.ceil(layers / 5000);
+  for (let layer = 0; layer < layers; layer += step) {
+    const [bottom = 0, top = 0] = single.slice(layer, layer + 2);
+    for (const z of [bottom, (bottom + top) / 2, top - 1e-3]) {
+      const [found, steps] = shaded(packed, layers, cellsPerMm, z);
+      expect(found).toBe(layer);
+      expect(steps).toBeLessThanOrEqual(3);
+    }
   }
+  expect(shaded(packed, layers, cellsPerMm, -1)[0]).toBe(0);
+  expect(shaded(packed, layers, cellsPerMm, 1e6)[0]).toBe(layers - 1);
 });

@@ -1,10 +1,17 @@
 /**
- * Finds the layer at a height, on the CPU and in the shader. The two searches match step by step; a test runs the search
+ * Finds the layer at a height, on the CPU and in the shader. The shader starts from the bottom of one of many equal cells, whose layers
+ * are known, since WebGL in software looks up a texel in about the time of all else that it does for a pixel. A test runs its search
  * on the packed texture.
  */
 
-/** Texels per row of the texture of boundaries. Every WebGL 2 supports this width; 1024 rows hold a million layers. */
+/** Texels per row of the texture of boundaries. Every WebGL 2 supports this width; 1024 rows hold a third of a million layers. */
 export const ROW = 1024;
+
+/** Cells per layer: few hold more than one boundary, however uneven the layers are. */
+export const CELLS = 2;
+
+/** What no rounding of a height in cells exceeds, in single precision. */
+const SLACK_CELLS = 0.1;
 
 /** The layer whose range [bottom, top) contains the height; the first layer below all ranges, the last above. */
 export function layerAt(boundaries_mm: ArrayLike<number>, z_mm: number): number {
@@ -18,29 +25,38 @@ export function layerAt(boundaries_mm: ArrayLike<number>, z_mm: number): number 
   return low;
 }
 
-/** Rows of a texture that holds `count` boundaries. */
-export const rowsFor = (count: number): number => Math.max(1, Math.ceil(count / ROW));
+/** Rows of a texture that holds `count` boundaries and the cells. */
+export const rowsFor = (count: number): number => Math.max(1, Math.ceil(((1 + CELLS) * count) / ROW));
 
-/** Writes the boundaries into `into`, which holds whole rows; the last height fills the rest. */
-export function packBoundaries(boundaries_mm: ArrayLike<number>, into: Float32Array): void {
-  const last = boundaries_mm[boundaries_mm.length - 1] ?? 0;
-  for (let i = 0; i < into.length; i++) into[i] = boundaries_mm[i] ?? last;
+/**
+ * Writes the boundaries into `into`, which holds whole rows, and after them the layer at the bottom of each cell.
+ *
+ * @returns cells per millimetre
+ */
+export function packBoundaries(boundaries_mm: ArrayLike<number>, into: Float32Array): number {
+  const count = boundaries_mm.length;
+  const last_mm = boundaries_mm[count - 1] ?? 0;
+  into.set(Array.from(boundaries_mm));
+  const cells = CELLS * Math.max(0, count - 1);
+  const perMm = last_mm > 0 ? cells / last_mm : 0;
+  let layer = 0;
+  for (let cell = 0; cell < cells; cell++) {
+    while (layer < count - 2 && (boundaries_mm[layer + 1] ?? 0) * perMm <= cell - SLACK_CELLS) layer++;
+    into[count + cell] = layer;
+  }
+  return perMm;
 }
 
-/** `layerAt` for a shader that has `uniform sampler2D boundaries` and `uniform int layers`. */
+/** `layerAt` for a shader that has `uniform sampler2D boundaries`, `uniform int layers` and `uniform float cellsPerMm`. */
 export const LAYER_AT_GLSL = /* glsl */ `
 float boundary(int i) {
   return texelFetch(boundaries, ivec2(i % ${ROW}, i / ${ROW}), 0).r;
 }
 
 int layerAt(float z) {
-  int low = 0;
-  int high = layers - 1;
-  while (low < high) {
-    int middle = (low + high + 1) >> 1;
-    if (boundary(middle) <= z) low = middle;
-    else high = middle - 1;
-  }
-  return low;
+  int cell = clamp(int(z * cellsPerMm), 0, ${CELLS} * layers - 1);
+  int layer = int(boundary(layers + 1 + cell));
+  while (layer < layers - 1 && boundary(layer + 1) <= z) layer++;
+  return layer;
 }
 `;

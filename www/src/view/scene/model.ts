@@ -119,14 +119,13 @@ export class Model {
       uniforms: {
         boundaries: { value: this.#boundaries },
         layers: { value: 1 },
+        cellsPerMm: { value: 0 },
         palette: { value: this.#palette },
         limits: { value: new Vector2(0, 0) },
         byThickness: { value: false },
         heat: { value: this.#heat },
         heatPalette: { value: this.#heatPalette },
-        byHeat: { value: false },
         greatest: { value: 1 },
-        byDistance: { value: false },
         resin: { value: new Vector3(0.75, 0.77, 0.8) },
         band: { value: new Vector2(...NO_BAND) },
         opacity: { value: 1 },
@@ -234,7 +233,7 @@ export class Model {
       this.#boundaries.dispose();
       this.#boundaries = boundariesTexture(rows);
     }
-    packBoundaries(z_mm, this.#boundaries.image.data as Float32Array);
+    this.#set("cellsPerMm", packBoundaries(z_mm, this.#boundaries.image.data as Float32Array));
     this.#boundaries.needsUpdate = true;
     this.#set("boundaries", this.#boundaries);
     this.#set("layers", Math.max(1, z_mm.length - 1));
@@ -350,9 +349,18 @@ export class Model {
     this.#material.transparent = this.voids.visible;
     this.#set("opacity", this.voids.visible ? SEE_THROUGH : 1);
     this.#set("byThickness", this.#look === "thickness" && this.#hasPlan && !this.voids.visible);
-    this.#set("byHeat", this.#look === "weights");
-    this.#set("byDistance", this.#look === "distance" && this.#hasDistances);
-    this.wallColours.show(this.#look === "walls" && this.#hasWalls);
+    if (this.#look === "weights") this.#define("BY_HEAT");
+    else if (this.#look === "distance" && this.#hasDistances) this.#define("BY_DISTANCE");
+    else if (this.#look === "walls" && this.#hasWalls) this.#define("BY_WALLS");
+    else this.#define(null);
+  }
+
+  /** Has the shader show something else than layers or resin. three.js keeps the programs of both. */
+  #define(name: "BY_HEAT" | "BY_DISTANCE" | "BY_WALLS" | null): void {
+    const defines: Record<string, boolean> = name === null ? {} : { [name]: true };
+    if (String(Object.keys(defines)) === String(Object.keys(this.#material.defines))) return;
+    this.#material.defines = defines;
+    this.#material.needsUpdate = true;
   }
 }
 

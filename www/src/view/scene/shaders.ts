@@ -18,17 +18,29 @@ in vec3 position;
 `;
 
 export const MODEL_VERTEX = /* glsl */ `${HEAD}${MATRICES}
-in float away;
 out vec3 world;
 out vec3 eye;
-out float apart;
-out vec3 corners;
+#if defined(BY_HEAT) || defined(BY_WALLS)
 flat out int facet;
+#endif
+#ifdef BY_WALLS
+out vec3 corners;
+#endif
+#ifdef BY_DISTANCE
+in float away;
+out float apart;
+#endif
 void main() {
+#if defined(BY_HEAT) || defined(BY_WALLS)
   facet = gl_VertexID / 3;
+#endif
+#ifdef BY_WALLS
   int corner = gl_VertexID % 3;
   corners = vec3(corner == 0, corner == 1, corner == 2);
+#endif
+#ifdef BY_DISTANCE
   apart = away;
+#endif
   vec4 at = modelMatrix * vec4(position, 1.0);
   world = at.xyz;
   at = viewMatrix * at;
@@ -38,31 +50,27 @@ void main() {
 `;
 
 /**
- * A pixel shows the mean thickness of the layers that it covers, as in the chart: layers thinner than a pixel blend
- * instead of flickering, and the shader looks up only boundaries.
+ * Shows resin, or by layers: a pixel shows the mean thickness of those that it covers, as in the chart, so layers thinner than a pixel
+ * blend instead of flickering, and the shader looks up only boundaries.
+ *
+ * With one of `BY_HEAT`, `BY_DISTANCE` and `BY_WALLS` defined it shows that instead. They are apart because WebGL in software runs every
+ * branch for every pixel.
  */
 export const MODEL_FRAGMENT = /* glsl */ `${HEAD}
 uniform mat4 viewMatrix;
 uniform sampler2D boundaries;
 uniform int layers;
+uniform float cellsPerMm;
 uniform sampler2D palette;
 uniform vec2 limits;
 uniform bool byThickness;
-uniform sampler2D heat;
-uniform sampler2D heatPalette;
-uniform bool byHeat;
-uniform float greatest;
-uniform bool byDistance;
 uniform vec3 resin;
 uniform vec2 band;
 uniform float opacity;
 in vec3 world;
 in vec3 eye;
-in float apart;
-in vec3 corners;
-flat in int facet;
 out vec4 colour;
-${LAYER_AT_GLSL}${HEAT_GLSL}
+${LAYER_AT_GLSL}
 vec3 linear(vec3 srgb) {
   return mix(srgb / 12.92, pow((srgb + 0.055) / 1.055, vec3(2.4)), step(0.04045, srgb));
 }
@@ -108,18 +116,40 @@ vec3 ofPlan(float width, float upwards) {
   return linear(base) * (1.0 - (first == last ? 0.45 : 0.0) * seam);
 }
 
+#if defined(BY_HEAT) || defined(BY_DISTANCE) || defined(BY_WALLS)
+uniform sampler2D heatPalette;
+
 /** The palette's first entry is the greatest heat, as it is the thinnest layer. */
 vec3 ofHeat(float heat) {
   return linear(texelFetch(heatPalette, ivec2(int((1.0 - heat) * ${(PALETTE_SIZE - 1).toFixed(1)} + 0.5), 0), 0).rgb);
 }
 
+#endif
+#if defined(BY_WALLS)
+flat in int facet;
+in vec3 corners;
 ${WALLS_GLSL}
 vec3 base(float width, float upwards) {
-  if (byWalls) return ofWall(wallAt(facet, corners));
-  if (byHeat) return ofHeat(heatAt(facet));
-  if (byDistance) return ofHeat(clamp(apart / greatest, 0.0, 1.0));
+  return ofWall(wallAt(facet, corners));
+}
+#elif defined(BY_HEAT)
+flat in int facet;
+uniform sampler2D heat;
+${HEAT_GLSL}
+vec3 base(float width, float upwards) {
+  return ofHeat(heatAt(facet));
+}
+#elif defined(BY_DISTANCE)
+in float apart;
+uniform float greatest;
+vec3 base(float width, float upwards) {
+  return ofHeat(clamp(apart / greatest, 0.0, 1.0));
+}
+#else
+vec3 base(float width, float upwards) {
   return byThickness ? ofPlan(width, upwards) : linear(resin);
 }
+#endif
 
 void main() {
   // The range of heights that this pixel covers.

@@ -46,7 +46,6 @@ export class WallColours {
       wallThickness: { value: this.#thickness },
       wallScale: { value: 0 },
       wallLeast: { value: 0 },
-      byWalls: { value: false },
     };
   }
 
@@ -62,10 +61,6 @@ export class WallColours {
   setScale({ least_mm, full_mm }: WallScale, scale: number): void {
     this.#put("wallScale", scale / full_mm);
     this.#put("wallLeast", least_mm / full_mm);
-  }
-
-  show(isOn: boolean): void {
-    this.#put("byWalls", isOn);
   }
 
   dispose(): void {
@@ -88,7 +83,6 @@ uniform highp usampler2D wallGrids;
 uniform sampler2D wallThickness;
 uniform float wallScale;
 uniform float wallLeast;
-uniform bool byWalls;
 
 float wallSample(int cell) {
   return texelFetch(wallThickness, ivec2(cell % ${ROW}, cell / ${ROW}), 0).r;
