@@ -12,8 +12,8 @@ type Ends = RangeInclusive<u32>;
 const NO_PLAN: u64 = u64::MAX;
 
 /// The planes of the plan of the fewest layers within tolerance, and among those of the smallest maximum error, in ascending order without
-/// plane 0. It is the plan that [`fill_fewest`](super::optimal::fill_fewest) finds. `None` if as few layers as the heights that they
-/// can reach would allow do not do.
+/// plane 0. It is the plan that [`fill_fewest`](super::optimal::fill_fewest) finds. `None` if it takes more layers than the heights that
+/// they reach suggest.
 pub(super) fn fewest(errors: &ErrorSum, segment: &Segment, tolerance: u64) -> Option<Vec<u32>> {
     let is_within = |lower, upper| {
         let [lower, upper] = [lower, upper].map(|plane| segment.boundary(plane));
@@ -171,8 +171,8 @@ fn ends_of_layers(segment: &Segment, is_within: impl Fn(u32, u32) -> bool) -> Op
 /// The first number of a range that is so, if all after it are, or the one after the range.
 #[inline]
 fn first_of(range: RangeInclusive<u32>, is_so: impl Fn(u32) -> bool) -> u32 {
-    // That many numbers from `first` on may be it, and the one after them. Both halves are as large, so that no branch depends on
-    // the answer, which nobody can predict.
+    // It is one of `count` numbers from `first` on, or the one after them. Whatever is so, as many are left, and nothing has to be
+    // predicted.
     let mut first = *range.start();
     let mut count = (*range.end() + 1).saturating_sub(first);
     while count > 0 {
