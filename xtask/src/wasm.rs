@@ -56,8 +56,8 @@ const MODULES: [Module; 4] = [
     Module {
         package: "cusp-slicer",
         files: "pkg/cusp_slicer",
-        budget: 407_000,
-        later: Some((LATER, 176_000)),
+        budget: 408_000,
+        later: Some((LATER, 177_000)),
     },
     Module {
         package: "cusp-gpu",
