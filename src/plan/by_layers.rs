@@ -2,6 +2,7 @@
 
 use std::ops::RangeInclusive;
 
+use super::queue::{Candidate, Queue};
 use super::segment::Segment;
 use crate::profile::ErrorSum;
 
@@ -26,7 +27,7 @@ pub(super) fn fewest(errors: &ErrorSum, segment: &Segment, tolerance: u64) -> Op
     let widest = ends.iter().map(count_of).max().unwrap_or(1);
     let (mut worst, mut worst_on_top) = (Vec::with_capacity(widest), Vec::with_capacity(widest));
     worst.push(0);
-    let mut queue = Vec::new();
+    let mut queue = Queue::new();
     for pair in ends.windows(2) {
         let layer = Layer {
             errors,
@@ -37,10 +38,10 @@ pub(super) fn fewest(errors: &ErrorSum, segment: &Segment, tolerance: u64) -> Op
         };
         worst_on_top.clear();
         queue.clear();
-        for (worst, start) in layer.best_up_to(&pair[1], &mut queue) {
+        queue = layer.extend(&pair[1], queue, |worst, start| {
             worst_on_top.push(worst);
             below.push(start);
-        }
+        });
         std::mem::swap(&mut worst, &mut worst_on_top);
     }
     if worst.last() == Some(&NO_PLAN) {
@@ -70,66 +71,44 @@ struct Layer<'a> {
     tolerance: u64,
 }
 
-/// A plane that may be the best one below some later plane.
-#[derive(Clone, Copy)]
-struct Start {
-    plane: u32,
-    /// The smallest maximum error of the layers below, in steps.
-    worst: u64,
-    /// That of everything below.
-    sum: u64,
-}
-
 impl Layer<'_> {
-    /// For each plane at which the layer may end, the smallest maximum error of the plans up to it, and where the layer begins in the best
-    /// one. The queue is empty at first.
-    ///
-    /// It is that of `fill_fewest`, for planes that all have as many layers below. From its front on, errors below increase and those
-    /// of the layer decrease; the best start is where the two cross, and that place only moves up.
-    fn best_up_to(&self, ends: &Ends, queue: &mut Vec<Start>) -> impl Iterator<Item = (u64, u32)> {
+    /// Tells, for each plane at which the layer may end, the smallest maximum error of the plans up to it, and where the layer begins in
+    /// the best one. Takes an empty queue and returns it, not by reference, so that its places stay in registers. All its planes have
+    /// as many layers below.
+    fn extend(
+        &self,
+        ends: &Ends,
+        mut queue: Queue<(), u64>,
+        mut tell: impl FnMut(u64, u32),
+    ) -> Queue<(), u64> {
         let (least, greatest) = (
             *self.segment.thickness.start(),
             *self.segment.thickness.end(),
         );
         let sum = |plane| self.errors.steps_below(self.segment.boundary(plane));
         let mut starts = self.starts.clone().zip(self.worst).peekable();
-        let (mut front, mut best) = (0, 0);
-        ends.clone().map(move |plane| {
+        for plane in ends.clone() {
             while let Some((start, &worst)) = starts.next_if(|&(start, _)| start + least <= plane) {
-                if worst == NO_PLAN {
-                    continue;
+                if worst != NO_PLAN {
+                    queue.push(Candidate {
+                        plane: start,
+                        cost: (),
+                        worst,
+                        mark: sum(start),
+                    });
                 }
-                while queue.len() > front && queue.last().is_some_and(|last| last.worst >= worst) {
-                    queue.pop();
-                }
-                if best >= queue.len() {
-                    best = queue.len().saturating_sub(1).max(front);
-                }
-                queue.push(Start {
-                    plane: start,
-                    worst,
-                    sum: sum(start),
-                });
             }
             let top = sum(plane);
-            while queue.get(front).is_some_and(|start| {
-                plane - start.plane > greatest || top - start.sum > self.tolerance
-            }) {
-                front += 1;
+            let error_from = |start: &Candidate<_, _>| top - start.mark;
+            let is_passed = |start: &Candidate<_, _>| {
+                plane - start.plane > greatest || error_from(start) > self.tolerance
+            };
+            match queue.best(is_passed, error_from) {
+                Some(((), start, worst)) => tell(worst, start),
+                None => tell(NO_PLAN, 0),
             }
-            best = best.max(front);
-            while queue
-                .get(best + 1)
-                .is_some_and(|next| next.worst <= top - next.sum)
-            {
-                best += 1;
-            }
-            let up_to = |start: &Start| (start.worst.max(top - start.sum), start.plane);
-            match (queue.get(best).map(up_to), queue.get(best + 1).map(up_to)) {
-                (Some(chosen), Some(next)) if next.0 < chosen.0 => next,
-                (chosen, _) => chosen.unwrap_or((NO_PLAN, 0)),
-            }
-        })
+        }
+        queue
     }
 }
 

@@ -10,6 +10,7 @@ pub mod least_sum;
 mod limits;
 pub mod optimal;
 pub mod preferred;
+mod queue;
 pub mod segment;
 pub mod thicknesses;
 pub(crate) mod timed;

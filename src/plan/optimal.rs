@@ -1,13 +1,11 @@
 //! The fewest layers within tolerance, or the shortest print time, by dynamic programming (Procedure 1).
 
 use super::preferred::{ByHeight, Preferred, SnapPlanes};
+use super::queue::{Candidate, Queue};
 use super::segment::{Segment, Segments, boundaries_below};
 use super::{Limits, Plan, PlanError, by_layers, timed, tradeoff};
 use crate::profile::{LayerErrors, LayersAbove, Reach};
 use crate::resin::Resin;
-
-/// Candidates that no layer can begin at any more, before they leave the queue.
-const PASSED: usize = 512;
 
 /// What a plan minimises.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -255,27 +253,10 @@ impl Table {
     }
 }
 
-/// A plane that may be the best one below some later plane.
-#[derive(Clone, Copy)]
-struct Candidate<Mark> {
-    plane: u32,
-    /// Layers and weight of missed snap planes, with the prices and weights of all snap planes above. A layer on top then costs 1,
-    /// less what is above it.
-    cost: [u64; 2],
-    worst: u64,
-    /// What errors of layers on top are made from.
-    mark: Mark,
-}
-
 /// Lines 1 to 7 of Procedure 1 for errors that never shrink as a layer grows: the fewest layers up to every plane, and among
 /// those plans the smallest maximum error. `error_between` is the error of the layer between two boundaries, in steps.
 ///
-/// A queue replaces the inner loop. Errors grow with the layer, so the lowest plane within tolerance only moves up. A plane is
-/// obsolete once a higher one has neither a higher cost nor, at equal cost, a larger error. The candidates that
-/// remain increase upward in cost, then in error.
-///
-/// Among the candidates of the least cost, the error below the candidate increases upward and that of the layer on
-/// top decreases. The best candidate is where the two cross, and that place also only moves up.
+/// A queue of planes replaces the inner loop.
 pub fn fill_fewest(
     error_between: impl Fn(u32, u32) -> u64,
     segment: &Segment,
@@ -296,64 +277,28 @@ fn fill_fewest_by<Mark: Copy>(
 ) -> Table {
     let mut table = Table::new(segment.units);
     let (least, greatest) = (*segment.thickness.start(), *segment.thickness.end());
-    let mut queue: Vec<Candidate<Mark>> = Vec::new();
-    let (mut front, mut best) = (0, 0);
+    let mut queue = Queue::new();
     for plane in least..=segment.units {
         let highest = plane - least;
         let [layers, missed, worst] = table.at(highest);
         if layers != Table::NO_PLAN {
+            // With the prices and weights of all snap planes above: a layer on top costs 1, less what is above it.
             let [price, weight] = preferred.above(highest);
-            let cost = [layers + price, missed + weight];
-            while queue.len() > front
-                && queue
-                    .last()
-                    .is_some_and(|last| (last.cost, last.worst) >= (cost, worst))
-            {
-                queue.pop();
-            }
-            if best >= queue.len() {
-                best = queue.len().saturating_sub(1).max(front);
-            }
             queue.push(Candidate {
                 plane: highest,
-                cost,
+                cost: [layers + price, missed + weight],
                 worst,
                 mark: mark_of(segment.boundary(highest)),
             });
         }
         let top = mark_of(segment.boundary(plane));
-        let error_from = |below: &Candidate<Mark>| error_between(below.mark, top);
-        while queue
-            .get(front)
-            .is_some_and(|below| plane - below.plane > greatest || error_from(below) > tolerance)
-        {
-            front += 1;
-        }
-        best = best.max(front);
-        let Some(least_cost) = queue.get(front).map(|below| below.cost) else {
-            continue;
+        let error_from = |below: &Candidate<_, Mark>| error_between(below.mark, top);
+        let is_passed = |below: &Candidate<_, Mark>| {
+            plane - below.plane > greatest || error_from(below) > tolerance
         };
-        while queue
-            .get(best + 1)
-            .is_some_and(|next| next.cost == least_cost && next.worst <= error_from(next))
-        {
-            best += 1;
-        }
-        let worst_over = |below: &Candidate<Mark>| below.worst.max(error_from(below));
-        let mut chosen = (worst_over(&queue[best]), queue[best].plane);
-        if let Some(next) = queue.get(best + 1)
-            && next.cost == least_cost
-            && worst_over(next) < chosen.0
-        {
-            chosen = (worst_over(next), next.plane);
-        }
-        let [cost, missed] = preferred.below(least_cost, plane);
-        table.set(plane, [cost + 1, missed, chosen.0], chosen.1);
-        // So that the queue stays in the cache.
-        if front >= PASSED {
-            queue.drain(..front);
-            best -= front;
-            front = 0;
+        if let Some((least_cost, below, worst)) = queue.best(is_passed, error_from) {
+            let [cost, missed] = preferred.below(least_cost, plane);
+            table.set(plane, [cost + 1, missed, worst], below);
         }
     }
     table
