@@ -85,15 +85,8 @@ pub mod contour;
 pub mod orientation;
 
 pub mod job;
-#[cfg(target_arch = "wasm32")]
-pub mod js;
 #[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
 pub mod simulation;
-#[cfg(all(
-    target_arch = "wasm32",
-    not(any(feature = "gpu", feature = "models", feature = "read"))
-))]
-mod wasm;
 
 pub use job::{Error, Options, Report, Slicer, Stage};
 pub use warning::Warning;

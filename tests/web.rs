@@ -1,11 +1,9 @@
 //! The same results natively and in the browser: each test runs in both, against the same recorded
 //! fingerprints.
 
-mod common;
-
 #[cfg(target_arch = "wasm32")]
-use common::shifted_grid;
-use common::{binary_stl, fingerprint, on_plate, quiet, solids};
+use crate::common::shifted_grid;
+use crate::common::{binary_stl, fingerprint, on_plate, quiet, solids};
 use cusp_slicer::format::Format;
 use cusp_slicer::grid::Grid;
 use cusp_slicer::growth::Growth;
@@ -27,9 +25,6 @@ use cusp_slicer::progress::silent;
 #[cfg(target_arch = "wasm32")]
 use cusp_slicer::warning::Warning;
 use wasm_bindgen_test::wasm_bindgen_test;
-
-#[cfg(target_arch = "wasm32")]
-wasm_bindgen_test::wasm_bindgen_test_configure!(run_in_dedicated_worker);
 
 fn options() -> Options {
     Options {

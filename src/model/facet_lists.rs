@@ -47,7 +47,6 @@ impl FacetLists {
     }
 
     /// The facets of all lists, one list after the other, as a GPU takes them.
-    #[cfg(any(feature = "gpu", not(target_arch = "wasm32")))]
     pub fn all(&self) -> &[u32] {
         &self.facets
     }

@@ -77,7 +77,6 @@ impl ModelUnit {
     }
 
     /// The unit of that name.
-    #[cfg(any(feature = "models", feature = "read"))]
     pub(crate) fn named(name: &[u8]) -> Option<Self> {
         let mut all = Self::ALL.into_iter();
         all.find(|unit| unit.name().as_bytes() == name)

@@ -13,15 +13,7 @@ mod error;
 mod extents;
 mod minima;
 mod overlaps;
-// What the slicer's own module needs.
-#[cfg(any(
-    test,
-    all(
-        target_arch = "wasm32",
-        not(any(feature = "gpu", feature = "models", feature = "read"))
-    )
-))]
-pub(crate) mod packed;
+pub mod packed;
 mod refine;
 mod search;
 pub mod shard;

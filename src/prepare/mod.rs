@@ -7,12 +7,6 @@ mod columns;
 mod drain;
 mod hollow;
 mod lattice;
-// As `crate::wasm`: in the slicer's module, not in the others.
-#[cfg(all(
-    target_arch = "wasm32",
-    not(any(feature = "gpu", feature = "models", feature = "read"))
-))]
-mod later;
 mod lengths;
 mod nets;
 mod pits;
@@ -23,19 +17,8 @@ mod support;
 mod surface;
 
 pub use drain::{AutoDrain, Drain};
-pub use hollow::{Hollowing, Infill, Void};
+pub use hollow::{Hollowing, Infill, Void, hollow};
 pub(crate) use lengths::BadLength;
 pub use plug::plugs;
 pub use shell::Shell;
-pub use support::{SupportPoint, SupportProfile, SupportStrength, Supporting, Supports};
-
-#[cfg(all(
-    target_arch = "wasm32",
-    not(any(feature = "gpu", feature = "models", feature = "read"))
-))]
-pub use later::{arrive, hollow, support};
-#[cfg(not(all(
-    target_arch = "wasm32",
-    not(any(feature = "gpu", feature = "models", feature = "read"))
-)))]
-pub use {hollow::hollow, support::support};
+pub use support::{SupportPoint, SupportProfile, SupportStrength, Supporting, Supports, support};

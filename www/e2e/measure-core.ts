@@ -15,7 +15,6 @@ import { serve } from "./serve.js";
 const ROUNDS = 5;
 
 type Core = typeof import("../pkg/cusp_slicer.js");
-type Models = typeof import("../pkg/models/cusp_models.js");
 
 export async function main([file, height = "60", grid = "2048", more = "{}"]: string[]): Promise<void> {
   if (file === undefined) {
@@ -35,21 +34,13 @@ export async function main([file, height = "60", grid = "2048", more = "{}"]: st
     });
     // As text, because import() in a function would be rewritten for Node.
     const module: JSHandle<Core> = await page.evaluateHandle(`import("${served.address}core/cusp_slicer.js")`);
-    const models: JSHandle<Models> = await page.evaluateHandle(`import("${served.address}core/models/cusp_models.js")`);
     const measured = await page.evaluate(
-      async ([core, models, address, options, rounds]) => {
+      async ([core, address, options, rounds]) => {
         const { memory }: InitOutput = await core.default();
-        await models.default();
         const bytes = new Uint8Array(await (await fetch(`${address}core/model`)).arrayBuffer());
         const timings: string[] = [];
         const quiet = (): void => undefined;
-        const read = (): InstanceType<Core["Slicer"]> => {
-          if (core.identify(bytes.slice(0, core.head_bytes()), bytes.length) === "stl") return new core.Slicer(bytes);
-          const model = new models.ModelRead(bytes);
-          const [coordinates, facts] = [model.coordinates(), model.facts()];
-          model.free();
-          return core.Slicer.of_triangles(coordinates, facts);
-        };
+        const read = (): InstanceType<Core["Slicer"]> => new core.Slicer(bytes);
         let zip = "";
         for (let round = 0; round < rounds; round++) {
           const clock = performance.now();
@@ -72,7 +63,7 @@ export async function main([file, height = "60", grid = "2048", more = "{}"]: st
         }
         return { timings, zip, megabytes: Math.round(memory.buffer.byteLength / 1e6) };
       },
-      [module, models, served.address, options, ROUNDS] as const,
+      [module, served.address, options, ROUNDS] as const,
     );
     console.log(`${basename(file)}, ${height} mm high, ${grid}, ${more}, wasm on the CPU`);
     for (const line of [...measured.timings, measured.zip]) console.log(line);

@@ -1,17 +1,23 @@
 /**
- * The npm package's bill of materials, and the notices of what is bundled into it and into the page: crates, which xtask lists in `pkg/crates.json`, and
+ * The npm package's bill of materials, and the notices of what is bundled into it and into the page: crates, which cargo names, and
  * npm packages, which are those of the bundled files.
  */
+import { execFileSync } from "node:child_process";
 import { readdir, readFile } from "node:fs/promises";
-import { join } from "node:path";
+import { dirname, join } from "node:path";
 
+/** The WebAssembly modules, with the features of `wasm/` that each is built with. */
+const MODULES: Readonly<Record<string, readonly string[]>> = {
+  "cusp_slicer_bg.wasm": [],
+  "cusp_reader_bg.wasm": ["--features", "reader"],
+};
+
+/** A package as `cargo metadata` describes it. */
 interface Crate {
   name: string;
   version: string;
-  license: string;
-  checksum: string;
-  files: string[];
-  notices: string[];
+  license: string | null;
+  manifest_path: string;
 }
 
 interface Locked {
@@ -59,28 +65,57 @@ export async function npmParts(root: string, chunks: readonly Bundled[]): Promis
       ...{ name, version, license, files },
       purl: `pkg:npm/${name.replace("@", "%40")}@${version}`,
       hash: { alg: "SHA-512", content: Buffer.from(integrity.replace("sha512-", ""), "base64").toString("hex") },
-      notices: await notices(join(root, "node_modules", name)),
+      notices: await notices(join(root, "node_modules", name), ""),
     };
   });
   return Promise.all(parts);
 }
 
-async function notices(folder: string): Promise<string[]> {
-  const names = (await readdir(folder)).filter((name) => /^(licen[cs]e|copying|notice)/i.test(name)).sort();
+/** Starts of the names of files that licences ask to pass on. */
+const NOTICE = /^(licen[cs]e|copying|copyright|notice|unlicense)/i;
+/** Files of the licences that a crate offers beside MIT's. */
+const OTHER_LICENCE = /apache|zlib|unlicense|0bsd/i;
+
+/** The texts that whoever ships a package must repeat. Of those of several licences to choose from, MIT's alone. */
+async function notices(folder: string, license: string): Promise<string[]> {
+  const entries = await readdir(folder, { withFileTypes: true });
+  const all = entries.filter((entry) => entry.isFile() && NOTICE.test(entry.name)).map(({ name }) => name).sort();
+  const isChoice = license.includes(" OR ") && all.some((name) => /mit/i.test(name));
+  const names = isChoice ? all.filter((name) => !OTHER_LICENCE.test(name)) : all;
   return Promise.all(names.map(async (name) => (await readFile(join(folder, name), "utf8")).replaceAll("\r", "").trim()));
 }
 
-/** @param only the modules of a package: what is in no other is left out. If absent, all modules, which are the page's */
-export async function crateParts(root: string, only?: readonly string[]): Promise<Part[]> {
-  const { rustc, crates } = JSON.parse(await readFile(join(root, "pkg/crates.json"), "utf8")) as { rustc: string; crates: Crate[] };
-  const files = only ?? [...new Set(crates.flatMap(({ files }) => files))];
-  const parts = crates.map(({ name, version, license, checksum, notices, ...crate }): Part => ({
-    ...{ name, version, license, notices },
-    purl: `pkg:cargo/${name}@${version}`,
-    hash: { alg: "SHA-256", content: checksum },
-    files: crate.files.filter((file) => files.includes(file)),
-  }));
-  return [standardLibrary(rustc, files), ...parts.filter((part) => part.files.length > 0)];
+/** @param files the modules of a package; the page's are all of them */
+export async function crateParts(root: string, files: readonly string[] = Object.keys(MODULES)): Promise<Part[]> {
+  const cargo = (...given: string[]): string => execFileSync("cargo", given, { cwd: join(root, ".."), encoding: "utf8", maxBuffer: 1 << 26 });
+  const linked = new Map(files.map((file) => [file, linkedCrates(cargo(...TREE, ...(MODULES[file] ?? [])))]));
+  const { packages } = JSON.parse(cargo("metadata", "--locked", "--format-version", "1", "--filter-platform", TARGET)) as { packages: Crate[] };
+  const lock = await readFile(join(root, "../Cargo.lock"), "utf8");
+  const found = packages.map(async ({ name, version, license, manifest_path }): Promise<Part | null> => {
+    const own = files.filter((file) => linked.get(file)?.has(`${name} ${version}`));
+    if (own.length === 0) return null;
+    const checksum = new RegExp(`^name = "${name}"\nversion = "${version.replaceAll(".", "\\.")}"\nsource = .*\nchecksum = "(.*)"`, "m").exec(lock)?.[1];
+    if (license === null || checksum === undefined) throw new Error(`cargo knows no licence or no checksum of ${name} ${version}`);
+    // Older manifests write a choice so.
+    const expression = license.replaceAll("/", " OR ");
+    return {
+      ...{ name, version, license: expression, files: own },
+      purl: `pkg:cargo/${name}@${version}`,
+      hash: { alg: "SHA-256", content: checksum },
+      notices: await notices(dirname(manifest_path), expression),
+    };
+  });
+  const parts = (await Promise.all(found)).filter((part) => part !== null);
+  if (parts.length === 0) throw new Error("cargo tree names no crates");
+  return [standardLibrary(execFileSync("rustc", ["--version"], { cwd: join(root, ".."), encoding: "utf8" }), files), ...parts];
+}
+
+const TARGET = "wasm32-unknown-unknown";
+const TREE = ["tree", "--locked", "--target", TARGET, "--package", "cusp-wasm", "--edges", "normal,no-proc-macro", "--prefix", "none", "--format", "{p}"];
+
+/** Names and versions of the crates of others in the output of `cargo tree`: behind our own are their folders. */
+export function linkedCrates(tree: string): ReadonlySet<string> {
+  return new Set(tree.split("\n").flatMap((line) => /^(\S+) v(\S+)(?: \(\*\))?$/.exec(line)?.slice(1).join(" ") ?? []));
 }
 
 /** Rust's own, which comes with the compiler. */

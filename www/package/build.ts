@@ -17,7 +17,7 @@ import { bill, crateParts, noticesOf, npmParts } from "./bill.js";
 const root = fileURLToPath(new URL("..", import.meta.url));
 const out = join(root, "dist-package");
 
-/** Limit of everything except three.js and the parts of the slicer that are fetched when they are wanted, gzipped. */
+/** Limit of everything except three.js, gzipped. */
 const LIMIT_BYTES = 690_000;
 
 const ENTRIES = {
@@ -39,16 +39,13 @@ const FRAMEWORKS = {
 } as const;
 
 const WASM = "cusp_slicer_bg.wasm";
-/** What is fetched when it is wanted, by folder: the slicer's later part, and modules for a GPU and for a model that is no STL. */
-const FETCHED = { later: ["", "cusp_slicer_later.wasm"], gpu: ["gpu/", "cusp_gpu_bg.wasm"], models: ["models/", "cusp_models_bg.wasm"] } as const;
-const MODULES = [["", WASM], ...Object.values(FETCHED)] as const;
 
 /** Rewrites addresses for a package whose files lie in one folder. */
 const flatAddresses: Plugin = {
   name: "cusp:flat-addresses",
   transform: {
     filter: { id: /src\/api\/(calls|worker)\.ts$/ },
-    handler: (code) => MODULES.reduce((text, [folder, file]) => text.replace(`"../../pkg/${folder}${file}"`, `"./${file}"`), code.replace(`"./worker.ts"`, `"./worker.js"`)),
+    handler: (code) => code.replace(`"../../pkg/${WASM}"`, `"./${WASM}"`).replace(`"./worker.ts"`, `"./worker.js"`),
   },
 };
 
@@ -124,12 +121,10 @@ async function declare(): Promise<void> {
     cwd: root,
     stdio: "inherit",
   });
-  await mkdir(join(types, "pkg/models"), { recursive: true });
-  for (const name of ["pkg/cusp_slicer.d.ts", "pkg/models/cusp_models.d.ts"]) {
-    const declarations = await readFile(join(root, name), "utf8");
-    // The type library of a host may not have `Symbol.dispose` yet.
-    await writeFile(join(types, name), declarations.replaceAll(/^.*\[Symbol\.dispose\].*\n/gm, ""));
-  }
+  const declarations = await readFile(join(root, "pkg/cusp_slicer.d.ts"), "utf8");
+  await mkdir(join(types, "pkg"), { recursive: true });
+  // The type library of a host may not have `Symbol.dispose` yet.
+  await writeFile(join(types, "pkg/cusp_slicer.d.ts"), declarations.replaceAll(/^.*\[Symbol\.dispose\].*\n/gm, ""));
   await copyFile(join(root, "package/lit.d.ts"), join(types, "lit.d.ts"));
   await cp(join(root, "package/types"), types, { recursive: true });
   for (const name of await readdir(types, { recursive: true })) {
@@ -172,7 +167,7 @@ async function describe(chunks: readonly OutputChunk[]): Promise<void> {
       "./element-class": entry("src/element/index", "element-class"),
       ...Object.fromEntries(Object.keys(FRAMEWORKS).map((name) => [`./${name}`, entry(name, "element")])),
       "./worker.js": "./worker.js",
-      ...Object.fromEntries(MODULES.map(([, file]) => [`./${file}`, `./${file}`])),
+      [`./${WASM}`]: `./${WASM}`,
       "./package.json": "./package.json",
     },
     peerDependencies: Object.fromEntries(peers.map((name) => [name, "*"])),
@@ -189,19 +184,17 @@ async function describe(chunks: readonly OutputChunk[]): Promise<void> {
 /** Writes the bill of materials, and the notices of what it lists. */
 async function account(chunks: readonly OutputChunk[]): Promise<void> {
   const { name, version, license } = JSON.parse(await readFile(join(out, "package.json"), "utf8")) as { name: string; version: string; license: string };
-  const parts = [...(await npmParts(root, chunks)), ...(await crateParts(root, MODULES.map(([, file]) => file)))];
+  const parts = [...(await npmParts(root, chunks)), ...(await crateParts(root, [WASM]))];
   await writeFile(join(out, "sbom.json"), bill({ name, version, license }, parts));
   await writeFile(join(out, "NOTICES.txt"), noticesOf(parts));
 }
 
-/** Gzipped size of what a browser fetches: at once, with the 3-D view, which is three.js, and of the slicer when it is wanted. */
-async function weigh(chunks: readonly OutputChunk[]): Promise<Record<"first" | "three" | keyof typeof FETCHED, number>> {
+/** Gzipped size of what a browser fetches: at once, and with the 3-D view, which is three.js. */
+async function weigh(chunks: readonly OutputChunk[]): Promise<Record<"first" | "three", number>> {
   const gzipped = (bytes: string | Uint8Array): number => gzipSync(bytes, { level: 9 }).length;
   const sum = (some: readonly OutputChunk[]): number => some.reduce((total, { code }) => total + gzipped(code), 0);
   const three = sum(chunks.filter(({ name }) => name === "three"));
-  const size = async (file: string): Promise<number> => gzipped(await readFile(join(out, file)));
-  const [first, later, gpu, models] = await Promise.all([size(WASM), size(FETCHED.later[1]), size(FETCHED.gpu[1]), size(FETCHED.models[1])]);
-  return { first: sum(chunks) - three + first, three, later, gpu, models };
+  return { first: sum(chunks) - three + gzipped(await readFile(join(out, WASM))), three };
 }
 
 export async function main(): Promise<void> {
@@ -209,12 +202,12 @@ export async function main(): Promise<void> {
   const chunks = [...(await bundle(ENTRIES)), ...(await bundle(WORKER, true))];
   const loaded = loadedAtOnce(chunks);
   if (chunks.some(({ name, fileName }) => name === "three" && loaded.has(fileName))) throw new Error("three is loaded before it is needed");
-  for (const [folder, file] of MODULES) await copyFile(join(root, "pkg", folder, file), join(out, file));
+  await copyFile(join(root, "pkg", WASM), join(out, WASM));
   await declare();
   await describe(chunks);
   await account(chunks);
-  const { first, three, later, gpu, models } = await weigh(chunks);
-  console.log(`gzipped ${first} bytes, ${three} of three for the 3-D view, ${later} of the slicer's later part, ${gpu} to drive a GPU, and ${models} to read models other than STL`);
+  const { first, three } = await weigh(chunks);
+  console.log(`gzipped ${first} bytes, and ${three} of three for the 3-D view`);
   if (first > LIMIT_BYTES) throw new Error(`that is more than ${LIMIT_BYTES} bytes`);
   const packed = execFileSync("npm", ["pack", "--json", "--loglevel=error"], { cwd: out, encoding: "utf8" });
   const [tarball] = JSON.parse(packed) as { filename: string; size: number }[];

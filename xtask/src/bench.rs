@@ -26,10 +26,6 @@ const LOADERS: [&str; 4] = [
 ];
 
 /// Runs the bench with this name, or all.
-///
-/// # Errors
-///
-/// Fails when a bench cannot be built, or reports failure.
 pub fn run(project: &Project, name: Option<&str>, arguments: &[String]) -> Result<()> {
     if name == Some(ALL) {
         let words =
@@ -55,10 +51,6 @@ pub fn run(project: &Project, name: Option<&str>, arguments: &[String]) -> Resul
 }
 
 /// Builds a bench, with this cargo command, and returns the path of its executable.
-///
-/// # Errors
-///
-/// Fails when the build fails.
 pub fn executable(cargo: &mut Command, name: &str) -> Result<PathBuf> {
     cargo
         .args(["--bench", name, "--message-format=json"])

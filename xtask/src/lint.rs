@@ -1,72 +1,56 @@
-//! `cargo xtask lint`: static checks.
+//! `cargo xtask lint`: every check that reads the sources.
 
-use std::{
-    cell::RefCell,
-    thread::{self, ScopedJoinHandle},
-};
+use std::{cell::RefCell, thread};
 
-use anyhow::{Result, anyhow, bail};
+use anyhow::{Result, bail};
 
 use crate::{
     modules, node,
-    process::{self, cargo},
+    process::{self, cargo, command},
     project::Project,
-    supply, wasm,
+    python, wasm,
 };
 
-/// The check that needs the WebAssembly package.
+/// The workspaces, with what cargo-deny checks of each. Only the first one is shipped, so only there it matters what is compiled twice.
+const WORKSPACES: [(&str, &[&str]); 3] = [
+    ("Cargo.toml", &["bans", "licenses", "sources"]),
+    ("fuzz/Cargo.toml", &["licenses", "sources"]),
+    ("tests/interop/Cargo.toml", &["licenses", "sources"]),
+];
+
+/// Lints the TypeScript. Its rules know types, and without those of the built modules they would report every value of them.
 const OXLINT: &str = "oxlint";
 
-/// Runs the checks of the given names, or all, each regardless of the others. Returns `false` if one failed; a check that cannot
+/// Runs the checks with these names, or all, each regardless of the others. Returns `false` if one failed; a check that cannot
 /// run has failed, but for those that need another machine, which are named.
-///
-/// # Errors
-///
-/// Fails if no check has one of the names.
 pub fn run(project: &Project, names: &[String]) -> Result<bool> {
-    thread::scope(|scope| {
-        // A module is linked by one thread, which takes minutes: the other checks run beside it.
-        let build = is_chosen(OXLINT, names).then(|| scope.spawn(|| wasm::build(project)));
-        check(project, names, &RefCell::new(build))
-    })
-}
-
-fn is_chosen(name: &str, names: &[String]) -> bool {
-    names.is_empty() || names.iter().any(|chosen| chosen == name)
-}
-
-type Build<'a> = RefCell<Option<ScopedJoinHandle<'a, Result<()>>>>;
-
-fn check(project: &Project, names: &[String], build: &Build<'_>) -> Result<bool> {
     let ignored = RefCell::new(Vec::new());
-    let checks: [(&str, &dyn Fn() -> Result<()>); 11] = [
+    let checks: [(&str, &dyn Fn() -> Result<()>); 9] = [
         ("modules", &|| modules::check(project)),
         ("fmt", &|| {
-            process::run(cargo(project).args(["fmt", "--all", "--check"]))
+            process::run(cargo(project).args(["fmt", "--all", "--check"]))?;
+            // Clippy would have to compile all that their tests need a second time.
+            WORKSPACES[1..].iter().try_for_each(|(manifest, _)| {
+                process::run(cargo(project).args(["fmt", "--check", "--manifest-path", manifest]))
+            })
         }),
-        // Clippy would have to compile all that its tests need a second time.
-        ("fmt of peers", &|| {
-            format_apart(project, "peers/Cargo.toml")
-        }),
-        ("fmt of fuzz", &|| format_apart(project, "fuzz/Cargo.toml")),
-        // Nothing else compiles it: it needs a nightly compiler to run.
-        ("check of fuzz", &|| {
-            process::run(
-                cargo(project)
-                    .args(["check", "--manifest-path", "fuzz/Cargo.toml"])
-                    .env("CARGO_TARGET_DIR", project.target.join("fuzz")),
-            )
-        }),
-        ("cargo deny", &|| {
-            ignored.borrow_mut().extend(supply::check_crates(project)?);
+        ("deny", &|| {
+            ignored.borrow_mut().extend(deny(project)?);
             Ok(())
         }),
-        ("npm licences", &|| supply::check_npm(project)),
         ("clippy", &|| {
             process::run(
                 cargo(project)
                     .args(["clippy", "--workspace", "--all-targets"])
                     .args(["--", "-D", "warnings"]),
+            )
+        }),
+        // Nothing else compiles it: it needs a nightly compiler to run.
+        ("fuzz", &|| {
+            process::run(
+                cargo(project)
+                    .args(["check", "--manifest-path", "fuzz/Cargo.toml"])
+                    .env("CARGO_TARGET_DIR", project.target.join("fuzz")),
             )
         }),
         ("doc", &|| {
@@ -76,9 +60,15 @@ fn check(project: &Project, names: &[String], build: &Build<'_>) -> Result<bool>
                     .env("RUSTDOCFLAGS", "-D warnings"),
             )
         }),
-        (OXLINT, &|| oxlint(project, build.take())),
-        // In the target folder of that package, so after it.
-        ("clippy for wasm", &|| wasm::clippy(project)),
+        ("wasm", &|| wasm::clippy(project)),
+        (OXLINT, &|| {
+            wasm::build(project)?;
+            process::run(node::npm(project)?.args(["run", "--silent", "lint"]))
+        }),
+        ("types", &|| {
+            wasm::build(project)?;
+            process::run(node::npm(project)?.args(["run", "--silent", "check"]))
+        }),
     ];
     if let Some(unknown) = names
         .iter()
@@ -87,16 +77,24 @@ fn check(project: &Project, names: &[String], build: &Build<'_>) -> Result<bool>
         let known = checks.map(|(name, _)| name).join(", ");
         bail!("no check is called {unknown}; they are: {known}");
     }
-    let mut failed = Vec::new();
-    for (name, check) in checks {
-        if !is_chosen(name, names) {
-            continue;
+    let is_chosen = |name: &str| names.is_empty() || names.iter().any(|chosen| chosen == name);
+    let failed = thread::scope(|scope| {
+        // A module is linked by one thread, which takes a minute: the other checks run beside it. A failure shows in the check.
+        if is_chosen(OXLINT) {
+            scope.spawn(|| wasm::build(project));
         }
-        if let Err(error) = check() {
-            eprintln!("error: {error:#}");
-            failed.push(name);
+        let mut failed = Vec::new();
+        for (name, check) in checks {
+            if !is_chosen(name) {
+                continue;
+            }
+            if let Err(error) = check() {
+                eprintln!("error: {error:#}");
+                failed.push(name);
+            }
         }
-    }
+        failed
+    });
     for what in ignored.take() {
         println!("ignored: {what}");
     }
@@ -108,16 +106,35 @@ fn check(project: &Project, names: &[String], build: &Build<'_>) -> Result<bool>
     Ok(failed.is_empty())
 }
 
-/// Checks the format of a workspace of its own.
-fn format_apart(project: &Project, manifest: &str) -> Result<()> {
-    process::run(cargo(project).args(["fmt", "--manifest-path", manifest, "--check"]))
-}
-
-/// Lints the TypeScript. Its rules know types, and without those that the wasm
-/// package declares they would report every value of them.
-fn oxlint(project: &Project, build: Option<ScopedJoinHandle<'_, Result<()>>>) -> Result<()> {
-    if let Some(build) = build {
-        build.join().map_err(|_| anyhow!("the build panicked"))??;
+/// Checks the crates of all workspaces: licences, sources, duplicates and advisories. Returns what could not be checked here, and why.
+fn deny(project: &Project) -> Result<Vec<String>> {
+    let program = python::program(project, "cargo-deny")?;
+    let call = |manifest: &str| {
+        let mut command = command(&program);
+        command
+            .current_dir(&project.root)
+            .args(["--locked", "--log-level", "warn"])
+            .args(["--config", "deny.toml", "--manifest-path", manifest]);
+        command
+    };
+    for (manifest, checks) in WORKSPACES {
+        process::run(
+            call(manifest)
+                .args(["check", "--hide-inclusion-graph", "-D", "warnings"])
+                .args(checks),
+        )?;
     }
-    process::run(node::npm(project)?.args(["run", "--silent", "lint"]))
+    if let Err(error) = process::output(call("Cargo.toml").args(["fetch", "db"])) {
+        let error = format!("{error:#}");
+        let why = error.lines().last().unwrap_or_default();
+        return Ok(vec![format!("advisories — no database: {why}")]);
+    }
+    for (manifest, _) in WORKSPACES {
+        process::run(
+            call(manifest)
+                .args(["--offline", "check", "--hide-inclusion-graph"])
+                .arg("advisories"),
+        )?;
+    }
+    Ok(Vec::new())
 }

@@ -6,7 +6,6 @@
 
 mod against;
 mod bench;
-mod bill;
 mod browser;
 mod counts;
 mod debian;
@@ -18,16 +17,10 @@ mod package;
 mod process;
 mod project;
 mod python;
-mod report;
-mod runner_output;
 mod serve;
-mod split;
 mod suite;
-mod supply;
-mod toolchain;
-mod tools;
+mod tally;
 mod wasm;
-mod wasm_std;
 
 use std::process::ExitCode;
 
@@ -59,7 +52,7 @@ enum Command {
     Build,
     /// Build the npm package (www/dist-package) and the crate, and check what would be published: contents, sizes, links, documentation
     Package,
-    /// Run every test: native, counts, peers, GPU, wasm in a browser, page, end to end, cluster
+    /// Run every test: native, counts, interop, GPU, wasm in a browser, page, end to end, other engines
     Test {
         /// Run only these steps
         #[arg(value_name = "STEP")]
@@ -71,7 +64,7 @@ enum Command {
         #[arg(value_name = "CHECK")]
         checks: Vec<String>,
     },
-    /// Build the wasm module and check its gzipped size against the budget
+    /// Build the wasm modules and check their gzipped sizes against the budgets
     Size,
     /// Count instructions, allocations and bytes of print files, and compare them with benches/counts.json
     Counts,
@@ -119,10 +112,10 @@ fn run(command: Command) -> Result<bool> {
     let project = Project::here()?;
     match command {
         Command::Start { port } => {
-            build(&project)?;
+            serve::build(&project)?;
             serve::serve(&project, port)?;
         }
-        Command::Build => build(&project)?,
+        Command::Build => serve::build(&project)?,
         Command::Package => return Ok(package::run(&project)),
         Command::Test { steps } => return suite::run(&project, &steps),
         Command::Lint { checks } => return lint::run(&project, &checks),
@@ -133,7 +126,7 @@ fn run(command: Command) -> Result<bool> {
         Command::Counts => return suite::run(&project, &[suite::Step::Counts]),
         Command::Fuzz { minutes, targets } => return fuzz::run(&project, minutes, &targets),
         Command::Screenshots => {
-            build(&project)?;
+            serve::build(&project)?;
             let chromium = browser::chromium()?;
             let mut npm = node::npm(&project)?;
             process::run(npm.args(["run", "screenshots"]).env("CHROMIUM", chromium))?;
@@ -143,9 +136,4 @@ fn run(command: Command) -> Result<bool> {
         }
     }
     Ok(true)
-}
-
-fn build(project: &Project) -> Result<()> {
-    wasm::build(project)?;
-    node::build_page(project)
 }

@@ -1,4 +1,4 @@
-//! Runs other programs, with their output shown, captured, or both.
+//! Other programs, with their output shown, captured, or both.
 
 use std::{
     env,
@@ -20,8 +20,7 @@ pub fn command(program: impl AsRef<OsStr>) -> Command {
     command
 }
 
-/// The cargo that started xtask, in the project's root, with the same target
-/// folder.
+/// The cargo that started xtask, in the project's root, with the same target folder.
 pub fn cargo(project: &Project) -> Command {
     let mut command = command(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command
@@ -30,33 +29,34 @@ pub fn cargo(project: &Project) -> Command {
     command
 }
 
+/// A program of rustup's nightly toolchain.
+pub fn nightly(program: impl AsRef<OsStr>) -> Command {
+    let mut rustup = command("rustup");
+    // What rustup's cargo sets for xtask would mislead the other toolchain.
+    for name in ["CARGO", "RUSTC", "RUSTDOC", "RUSTUP_TOOLCHAIN"] {
+        rustup.env_remove(name);
+    }
+    rustup.args(["run", "nightly"]).arg(program);
+    rustup
+}
+
 /// Runs to completion with all output on standard error: standard output is for
 /// xtask's own result.
-///
-/// # Errors
-///
-/// Fails when the program cannot be started or reports failure.
 pub fn run(command: &mut Command) -> Result<()> {
     show(command.stdout(io::stderr()))
 }
 
 /// Runs to completion with the output where the program writes it.
-///
-/// # Errors
-///
-/// As [`run`].
 pub fn show(command: &mut Command) -> Result<()> {
     announce(command);
     let status = command.status().with_context(|| not_started(command))?;
-    check(command, status)
+    if !status.success() {
+        bail!("{} failed ({status})", describe(command));
+    }
+    Ok(())
 }
 
 /// Runs to completion and returns standard output, trimmed; shows nothing.
-///
-/// # Errors
-///
-/// Fails if the program cannot be started or reports failure; the error then
-/// includes its standard error.
 pub fn output(command: &mut Command) -> Result<String> {
     let output = command.output().with_context(|| not_started(command))?;
     if !output.status.success() {
@@ -68,10 +68,6 @@ pub fn output(command: &mut Command) -> Result<String> {
 
 /// Runs to completion with the output shown, and returns a copy: standard output
 /// and standard error in one stream, in the order they were written.
-///
-/// # Errors
-///
-/// Fails when the program cannot be started; its own failure is in the status.
 pub fn tee(command: &mut Command) -> Result<(ExitStatus, String)> {
     announce(command);
     let (reader, writer) = io::pipe()?;
@@ -97,33 +93,9 @@ pub fn tee(command: &mut Command) -> Result<(ExitStatus, String)> {
     Ok((child.wait()?, text))
 }
 
-/// `PATH` with some folders before it.
-///
-/// # Errors
-///
-/// Fails when a folder's name cannot be part of `PATH`.
-pub fn path_with<'a>(
-    first: impl IntoIterator<Item = &'a Path>,
-) -> Result<std::ffi::OsString, env::JoinPathsError> {
-    let path = env::var_os("PATH").unwrap_or_default();
-    env::join_paths(
-        first
-            .into_iter()
-            .map(Path::to_path_buf)
-            .chain(env::split_paths(&path)),
-    )
-}
-
 /// Prints the command to standard error, as one would type it.
 fn announce(command: &Command) {
     eprintln!("$ {}", describe(command));
-}
-
-fn check(command: &Command, status: ExitStatus) -> Result<()> {
-    if !status.success() {
-        bail!("{} failed ({status})", describe(command));
-    }
-    Ok(())
 }
 
 fn not_started(command: &Command) -> String {
@@ -139,16 +111,4 @@ fn describe(command: &Command) -> String {
         words.push(argument);
     }
     words.to_string_lossy().into_owned()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn describe_leaves_the_folder_out() {
-        let mut command = command("/usr/bin/cargo");
-        command.args(["test", "--doc"]);
-        assert_eq!(describe(&command), "cargo test --doc");
-    }
 }

@@ -1,8 +1,9 @@
 //! Paths in the checkout.
 
 use std::{
-    env,
+    env, fs,
     path::{Path, PathBuf},
+    time::SystemTime,
 };
 
 use anyhow::{Context, Result};
@@ -20,10 +21,6 @@ pub struct Project {
 
 impl Project {
     /// The project that this xtask was started from.
-    ///
-    /// # Errors
-    ///
-    /// Fails when the manifest's folder has no parent.
     pub fn here() -> Result<Self> {
         // The variable that cargo sets at run time is correct even if a target
         // folder was moved with its checkout; the built-in one is not.
@@ -42,47 +39,25 @@ impl Project {
     }
 
     /// The version of a package that Cargo.lock pins.
-    ///
-    /// # Errors
-    ///
-    /// Fails when the lock file cannot be read or does not name the package.
     pub fn locked_version(&self, package: &str) -> Result<String> {
-        let path = self.root.join("Cargo.lock");
-        let lock = std::fs::read_to_string(&path)
-            .with_context(|| format!("cannot read {}", path.display()))?;
-        locked_version(&lock, package)
+        let lock = fs::read_to_string(self.root.join("Cargo.lock")).context("no Cargo.lock")?;
+        let name = format!("name = \"{package}\"");
+        // The line after a name is its version.
+        let line = lock.lines().skip_while(|line| *line != name).nth(1);
+        line.and_then(|line| line.strip_prefix("version = \"")?.strip_suffix('"'))
             .with_context(|| format!("Cargo.lock does not name {package}"))
             .map(str::to_owned)
     }
 }
 
-/// Cargo writes one `name` line and right after it one `version` line a package.
-fn locked_version<'a>(lock: &'a str, package: &str) -> Option<&'a str> {
-    let name = format!("name = \"{package}\"");
-    let mut lines = lock.lines();
-    lines.find(|line| *line == name)?;
-    lines
-        .next()?
-        .strip_prefix("version = \"")?
-        .strip_suffix('"')
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn locked_version_takes_the_whole_name() {
-        let lock = "\
-[[package]]
-name = \"wasm-bindgen-test\"
-version = \"0.3.80\"
-
-[[package]]
-name = \"wasm-bindgen\"
-version = \"0.2.130\"
-";
-        assert_eq!(locked_version(lock, "wasm-bindgen"), Some("0.2.130"));
-        assert_eq!(locked_version(lock, "wasm"), None);
+/// The time of the latest change of a file, or of anything in a folder; none if it does not exist.
+pub fn modified(path: &Path) -> Option<SystemTime> {
+    let data = fs::metadata(path).ok()?;
+    let mut latest = data.modified().ok()?;
+    if data.is_dir() {
+        for entry in fs::read_dir(path).ok()?.flatten() {
+            latest = modified(&entry.path()).map_or(latest, |time| time.max(latest));
+        }
     }
+    Some(latest)
 }

@@ -3,10 +3,8 @@
 use serde::Serialize;
 
 use super::kind::FileKind;
-#[cfg(feature = "models")]
 use super::obj::ObjError;
 use super::stl::StlError;
-#[cfg(feature = "models")]
 use super::threemf::ThreeMfError;
 
 /// Why a file could not be read as a model.
@@ -37,11 +35,9 @@ pub enum ReadError {
     /// A 3MF that is damaged, or holds what is not read.
     #[error(transparent)]
     #[serde(untagged)]
-    #[cfg(feature = "models")]
     ThreeMf(#[from] ThreeMfError),
     /// An OBJ that is damaged, or holds what is not read.
     #[error(transparent)]
     #[serde(untagged)]
-    #[cfg(feature = "models")]
     Obj(#[from] ObjError),
 }

@@ -3,11 +3,9 @@
 mod error;
 mod format;
 pub mod kind;
-#[cfg(feature = "models")]
 pub mod obj;
 pub mod stl;
 mod text;
-#[cfg(feature = "models")]
 pub mod threemf;
 
 use glam::Vec3;
@@ -46,19 +44,15 @@ impl Contents {
     }
 }
 
-/// Reads a model. Without the feature `models`, only STL is read.
+/// Reads a model.
 ///
 /// # Errors
 /// [`ReadError`], with the byte offset, or the line and the part, where reading failed.
 pub fn read(bytes: &[u8]) -> Result<Contents, ReadError> {
     match identify(head_of(bytes), bytes.len() as u64)? {
         ModelFormat::Stl => Ok(Contents::without_unit(stl::read(bytes)?)),
-        #[cfg(feature = "models")]
         ModelFormat::ThreeMf => threemf::read(bytes),
-        #[cfg(feature = "models")]
         ModelFormat::Obj => Ok(obj::read(bytes)?),
-        #[cfg(not(feature = "models"))]
-        ModelFormat::ThreeMf | ModelFormat::Obj => Err(ReadError::UnknownKind),
     }
 }
 

@@ -8,7 +8,6 @@ pub fn quoted(word: &[u8]) -> String {
 }
 
 /// A name or an address as errors show it: its first 160 characters.
-#[cfg(feature = "models")]
 pub fn named(name: &[u8]) -> String {
     shown(name, 160)
 }

@@ -1,15 +1,12 @@
 import { readFile } from "node:fs/promises";
 import { beforeAll, expect, test } from "vitest";
-import { default_arranging, defaults, initSync, later_arrived, Slicer } from "../../pkg/cusp_slicer.js";
+import { default_arranging, defaults, initSync, Slicer } from "../../pkg/cusp_slicer.js";
 import { CONTACT_MM, DRAIN_MM } from "../element/state/hand-points.js";
 import { binaryStl, exampleTriangles } from "../page/example.js";
 import { DEFAULTS, nozzleLayers, usualOf, type Options, type Report } from "./wire.js";
 
 beforeAll(async () => {
-  const read = (part: string): Promise<Buffer> => readFile(new URL(`../../pkg/cusp_slicer_${part}.wasm`, import.meta.url));
-  const first = initSync({ module: await read("bg") });
-  await WebAssembly.instantiate(await read("later"), { first: { ...first } });
-  later_arrived();
+  initSync({ module: await readFile(new URL("../../pkg/cusp_slicer_bg.wasm", import.meta.url)) });
 });
 
 test("the defaults that forms show match the core's", async () => {

@@ -1,6 +1,5 @@
 /** Failures as data: a code for programs, a sentence for people, and typed details. */
 import type { CoreError } from "../../pkg/cusp_slicer.js";
-import type { ModelError } from "../../pkg/models/cusp_models.js";
 import { visible } from "./visible.js";
 
 /** Errors raised on this side of the worker, with their details. As with the core's, a published code keeps its meaning. */
@@ -33,7 +32,7 @@ interface SystemDetail {
 type DetailOf<E> = E extends { detail: infer Detail } ? (Detail extends undefined ? null : Detail) : null;
 
 /** Every code with its details. Lengths are in mm. The core's are generated from its own types. */
-export type ErrorDetails = { [E in CoreError | ModelError as E["code"]]: DetailOf<E> } & OwnDetails;
+export type ErrorDetails = { [E in CoreError as E["code"]]: DetailOf<E> } & OwnDetails;
 
 export type ErrorCode = keyof ErrorDetails;
 

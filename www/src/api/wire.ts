@@ -42,14 +42,15 @@ export type {
   StlExpected,
   SupportPoint,
   SupportStrength,
+  ThreeMfFeature,
   TradeoffPoint,
   UniformLayers,
   Unit,
   Verdict,
   Warning,
   Work,
+  XmlFault,
 } from "../../pkg/cusp_slicer.js";
-export type { ThreeMfFeature, XmlFault } from "../../pkg/models/cusp_models.js";
 
 /** A printer that is known by name. Its description is complete, except for `machine` and `file_version`, which few have. */
 export type KnownPrinter = Printer & Required<Omit<Printer, "machine" | "file_version">>;

@@ -1,17 +1,14 @@
 /** The worker: the only file that imports the WebAssembly package. One model is open at a time, and there is one plate. */
 import * as Comlink from "comlink";
-import init, { calibrate_layers, encode_group, head_bytes, identify, later_arrived, open_gpus_by, OrientationSearch, Plate, price, printers, Slicer, type InitOutput } from "../../pkg/cusp_slicer.js";
-import type { OpenGpu } from "../../pkg/gpu/cusp_gpu.js";
-import type { ModelRead } from "../../pkg/models/cusp_models.js";
+import init, { calibrate_layers, encode_group, head_bytes, identify, OrientationSearch, Plate, price, printers, Slicer, type InitOutput } from "../../pkg/cusp_slicer.js";
 import { acceptCompatible } from "./adapters.js";
 import { bytesOf } from "./bytes.js";
 import { encodeGroups, isLong } from "./encode-groups.js";
-import { said } from "./error.js";
 import { ring } from "./ring.js";
 import { stlOf } from "./stl.js";
 import "./told.js";
 import { endUpperHalves } from "./vectors.js";
-import type { Help, KnownPrinter, OnProgress, Options, PackedCandidates, PlateWorker, Remote, SearchStep } from "./wire.js";
+import type { Help, KnownPrinter, OnProgress, PackedCandidates, PlateWorker, Remote, SearchStep } from "./wire.js";
 
 /** Chunks of a print file are merged into a Blob at this many bytes; the browser may keep that on disk. */
 const BLOB_PART_BYTES = 8 << 20;
@@ -23,10 +20,8 @@ const REHEARSED_RAYS = 128;
 let slicer: Slicer | null = null;
 let plate: Plate | null = null;
 let search: OrientationSearch | null = null;
-/** The exports of the core's first part. */
-let first: InitOutput | null = null;
-/** The arrival of its later part, once somebody has asked for it. */
-let later: Promise<void> | null = null;
+/** The exports of the core. */
+let core: InitOutput | null = null;
 
 /** The open model. The client opens one before any call that needs it. */
 function current(): Slicer {
@@ -42,53 +37,9 @@ async function compile(address: URL): Promise<WebAssembly.Module> {
   return typed ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
 }
 
-/** That a part of the core could not be fetched. An instance of a class would lose its code on the way to the page. */
-function partFailed(part: string, error: unknown): { code: "part-failed"; message: string; detail: { part: string; system: string } } {
-  const system = said(error);
-  return { code: "part-failed", message: `a part of the slicer could not be loaded: ${part} (${system})`, detail: { part, system } };
-}
-
-/**
- * Fetches the core's later part, which has what a plan and its print file can do without. xtask/src/wasm.rs lists the exports that
- * are in it. After a failure the next call fetches it again.
- */
-function fetchLater(): Promise<void> {
-  later ??= addLater().catch((error: unknown) => {
-    later = null;
-    throw partFailed("slicer-later", error);
-  });
-  return later;
-}
-
-async function addLater(): Promise<void> {
-  const part = await compile(new URL("../../pkg/cusp_slicer_later.wasm", import.meta.url));
-  await WebAssembly.instantiate(part, { first: { ...first } });
-  later_arrived();
-}
-
-/** A call that needs the later part. */
-function withLater<Given extends unknown[], Result>(call: (...given: Given) => Result | Promise<Result>): (...given: Given) => Promise<Result> {
-  return async (...given) => {
-    await fetchLater();
-    return call(...given);
-  };
-}
-
-/** Fetches the later part if a model is hollowed or supported. */
-async function fetchFor({ hollow, supports }: Options): Promise<void> {
-  if (hollow !== undefined || supports !== undefined) await fetchLater();
-}
-
-/** Opens a GPU, once the core wants one: what drives it is a module of its own. */
-async function openGpu(hardware: boolean): Promise<OpenGpu> {
-  const gpu = await import("../../pkg/gpu/cusp_gpu.js");
-  await gpu.default({ module_or_path: new URL("../../pkg/gpu/cusp_gpu_bg.wasm", import.meta.url) });
-  return gpu.OpenGpu.open(hardware);
-}
-
 /** Bytes that can be transferred: a view of the core's memory, or of a larger buffer, is copied. */
 function own(bytes: Uint8Array): Uint8Array<ArrayBuffer> {
-  const isShared = bytes.buffer === first?.memory.buffer || bytes.byteLength !== bytes.buffer.byteLength;
+  const isShared = bytes.buffer === core?.memory.buffer || bytes.byteLength !== bytes.buffer.byteLength;
   return isShared ? bytes.slice() : (bytes as Uint8Array<ArrayBuffer>);
 }
 
@@ -119,27 +70,10 @@ class BlobSink {
 /** The plate, empty at first. */
 const onPlate = (): Plate => (plate ??= new Plate());
 
-/** Fetches what reads other formats than STL: a module of its own. */
-async function fetchModels(): Promise<typeof ModelRead> {
-  try {
-    const models = await import("../../pkg/models/cusp_models.js");
-    await models.default({ module_or_path: new URL("../../pkg/models/cusp_models_bg.wasm", import.meta.url) });
-    return models.ModelRead;
-  } catch (error) {
-    throw partFailed("models", error);
-  }
-}
-
 /** Reads a model; a file that is none is rejected before all of it is read. */
 async function read(file: Blob): Promise<Slicer> {
-  const format = identify(await bytesOf(file.slice(0, head_bytes())), file.size);
-  if (format === "stl") return new Slicer(await bytesOf(file));
-  const Reader = await fetchModels();
-  const model = new Reader(await bytesOf(file));
-  const coordinates = model.coordinates();
-  const facts = model.facts();
-  model.free();
-  return Slicer.of_triangles(coordinates, facts);
+  identify(await bytesOf(file.slice(0, head_bytes())), file.size);
+  return new Slicer(await bytesOf(file));
 }
 
 /** Hands out the layers of the print file once helpers have encoded them, and forgets each; null if it is written sooner without. */
@@ -159,24 +93,23 @@ async function encodedBy(helpers: number, help: Help, progress: OnProgress): Pro
   }
 }
 
-/** All of the plate is in the later part. */
 const plateApi: Pick<Remote, keyof PlateWorker> = {
-  addToPlate: withLater(async (file, progress) => {
+  async addToPlate(file, progress) {
     progress("load", 0, 0);
     const model = await read(file);
     const info = model.info();
     onPlate().add(model);
     return info;
-  }),
-  removeFromPlate: withLater((model) => onPlate().remove(model)),
-  platePositions: withLater((model) => {
+  },
+  removeFromPlate: (model) => onPlate().remove(model),
+  platePositions(model) {
     const positions = onPlate().positions(model);
     return Comlink.transfer(positions, [positions.buffer]);
-  }),
-  setPlateWeights: withLater((model, weights) => onPlate().set_weights(model, weights)),
-  arrangePlate: withLater((options) => onPlate().arrange(options)),
-  plateProblems: withLater((options) => onPlate().problems(options)),
-  planPlate: withLater(async (options, progress) => {
+  },
+  setPlateWeights: (model, weights) => onPlate().set_weights(model, weights),
+  arrangePlate: (options) => onPlate().arrange(options),
+  plateProblems: (options) => onPlate().problems(options),
+  async planPlate(options, progress) {
     const plate = onPlate();
     const report = await plate.plan(options, progress);
     const profiles = report.plates.map(({ metric, source }, number) => plate.profile(number, metric, source));
@@ -184,16 +117,16 @@ const plateApi: Pick<Remote, keyof PlateWorker> = {
     const supports = isSupported ? (options.models ?? []).map((_, model) => plate.supports(model)) : [];
     const buffers = [...profiles, ...supports].map(({ buffer }) => buffer);
     return Comlink.transfer({ report, profiles, ...(isSupported && { supports }) }, buffers);
-  }),
-  plateMask: withLater((number, layer) => {
+  },
+  plateMask(number, layer) {
     const bits = onPlate().mask(number, layer);
     return Comlink.transfer(bits, [bits.buffer]);
-  }),
-  archivePlate: withLater((number, progress) => {
+  },
+  archivePlate(number, progress) {
     const sink = new BlobSink();
     onPlate().archive(number, sink.take, progress);
     return sink.finish();
-  }),
+  },
 };
 
 const api: Remote = {
@@ -202,8 +135,7 @@ const api: Remote = {
     endUpperHalves();
     // Bundlers recognise this exact form and emit the file.
     const compiled = module ?? (await compile(new URL("../../pkg/cusp_slicer_bg.wasm", import.meta.url)));
-    first = await init({ module_or_path: compiled });
-    open_gpus_by(openGpu);
+    core = await init({ module_or_path: compiled });
     return compiled;
   },
   async rehearse() {
@@ -223,7 +155,6 @@ const api: Remote = {
     return Comlink.transfer({ info, positions }, [positions.buffer]);
   },
   async plan(options, progress) {
-    await fetchFor(options);
     const report = await current().plan(options, progress);
     const profile = current().profile(report.metric, report.source);
     const supports = report.supported === undefined ? {} : { supports: current().supports() };
@@ -231,12 +162,9 @@ const api: Remote = {
     const plan = { report, profile, ...supports, ...voids };
     return Comlink.transfer(plan, [profile, supports.supports, voids.voids].flatMap((it) => it?.buffer ?? []));
   },
-  async tradeoff(options, points, progress) {
-    await fetchFor(options);
-    return current().tradeoff(options, points, progress);
-  },
-  compare: withLater((options, progress) => current().compare(options, progress)),
-  inspect: withLater((limits, progress) => current().inspect(limits, progress)),
+  tradeoff: (options, points, progress) => current().tradeoff(options, points, progress),
+  compare: (options, progress) => current().compare(options, progress),
+  inspect: (limits, progress) => current().inspect(limits, progress),
   mask(layer) {
     const bits = current().mask(layer);
     return Comlink.transfer(bits, [bits.buffer]);
@@ -255,10 +183,10 @@ const api: Remote = {
     const bytes = encode_group(format, canvas, runs);
     return Comlink.transfer(bytes, [bytes.buffer]);
   },
-  plugs: withLater(() => {
+  plugs() {
     const file = stlOf(current().plugs());
     return Comlink.transfer(file, [file.buffer]);
-  }),
+  },
   positions() {
     const positions = current().positions();
     return Comlink.transfer(positions, [positions.buffer]);
@@ -275,21 +203,21 @@ const api: Remote = {
   setWeights(weights) {
     current().set_weights(weights);
   },
-  weightsFile: withLater((weights) => {
+  weightsFile(weights) {
     const bytes = own(current().weights_file(weights));
     return Comlink.transfer(bytes, [bytes.buffer]);
-  }),
-  readWeights: withLater(async (file) => {
+  },
+  async readWeights(file) {
     const weights = current().read_weights(await bytesOf(file));
     return Comlink.transfer(weights, [weights.buffer]);
-  }),
-  startSearch: withLater((options, wanted, measured) => {
+  },
+  startSearch(options, wanted, measured) {
     const started = measured === null ? current().search(options, wanted) : OrientationSearch.of_measured(wanted, measured);
     search?.free();
     search = started;
     const directions = search.directions();
     return Comlink.transfer(directions, [directions.buffer]);
-  }),
+  },
   advanceSearch(results, most, rateFrom) {
     if (search === null) throw new Error("no search was started");
     for (const { number, candidates } of results) search.accept(number, candidates);
@@ -301,19 +229,19 @@ const api: Remote = {
     const step: SearchStep = { tasks, measured, progress: search.progress(), rated, result };
     return Comlink.transfer(step, [rated, result?.candidates, best].flatMap((numbers) => numbers?.buffer ?? []));
   },
-  evaluate: withLater((options, tasks) => {
+  evaluate(options, tasks) {
     const measure = (directions: [number, number, number][]): PackedCandidates => current().evaluate(options, Float64Array.from(directions.flat()));
     const results = tasks.map(({ number, directions }) => ({ number, candidates: measure(directions) }));
     return Comlink.transfer(results, results.map(({ candidates }) => candidates.buffer));
-  }),
-  calibrateLayers: withLater(async (options, progress) => {
+  },
+  async calibrateLayers(options, progress) {
     const sink = new BlobSink();
     const report = await calibrate_layers(options, sink.take, progress);
     return { blob: sink.finish(), report };
-  }),
+  },
   // The core fills in what its list leaves out.
   printers: () => printers() as KnownPrinter[],
-  price: (prices, items, finish) => {
+  price(prices, items, finish) {
     const numbers = items.flatMap(({ copies, resin_ml, print_time_s }) => [copies, resin_ml, print_time_s]);
     return price(prices, Float64Array.from(numbers), finish);
   },

@@ -1,6 +1,6 @@
 /** The worker that reads print files: the only file that imports the reader's WebAssembly. */
 import * as Comlink from "comlink";
-import init, { PrintReader } from "../../pkg/reader/cusp_reader.js";
+import init, { PrintReader } from "../../pkg/cusp_reader.js";
 import { bytesOf } from "../api/bytes.js";
 import "../api/told.js";
 import { endUpperHalves } from "../api/vectors.js";
@@ -11,7 +11,7 @@ let reader: PrintReader | null = null;
 async function start(): Promise<void> {
   endUpperHalves();
   // Bundlers recognise this exact form and emit the file.
-  await init({ module_or_path: new URL("../../pkg/reader/cusp_reader_bg.wasm", import.meta.url) });
+  await init({ module_or_path: new URL("../../pkg/cusp_reader_bg.wasm", import.meta.url) });
 }
 
 /** The largest preview that can be read. */

@@ -1,14 +1,11 @@
 import { readFile } from "node:fs/promises";
 import { beforeAll, expect, test } from "vitest";
-import { initSync, later_arrived, OrientationSearch, type Candidate, type SearchOptions } from "../../../pkg/cusp_slicer.js";
+import { initSync, OrientationSearch, type Candidate, type SearchOptions } from "../../../pkg/cusp_slicer.js";
 import { packed, unpacked } from "../../api/candidates.js";
 import { DEFAULT_AIMS } from "./orientation.js";
 
 beforeAll(async () => {
-  const read = (part: string): Promise<Buffer> => readFile(new URL(`../../../pkg/cusp_slicer_${part}.wasm`, import.meta.url));
-  const first = initSync({ module: await read("bg") });
-  await WebAssembly.instantiate(await read("later"), { first: { ...first } });
-  later_arrived();
+  initSync({ module: await readFile(new URL("../../../pkg/cusp_slicer_bg.wasm", import.meta.url)) });
 });
 
 test("candidates come through the core as they are", () => {

@@ -1,5 +1,5 @@
 /** The texts of the view of print files: a catalogue for each language, fetched with the view. */
-import type { Finding, LayerFault, PrintFileError } from "../../../pkg/reader/cusp_reader.js";
+import type { Finding, LayerFault, PrintFileError } from "../../../pkg/cusp_reader.js";
 import type { Format } from "../../texts/format.js";
 import type { Language, LanguageCode } from "../../texts/index.js";
 import type { ReadError } from "../open-print.js";

@@ -1,14 +1,14 @@
 //! Several models in one job, in the browser.
 
+use cusp_slicer::arrange::Arranging;
+use cusp_slicer::job::{self, Placement, PlateOptions};
+use cusp_slicer::profile::{Metric, Source};
 use js_sys::Function;
 use tsify::Ts;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use super::{Chunks, Slicer, progress_to, throw, throw_conversion};
-use crate::arrange::Arranging;
-use crate::job::{self, Placement, PlateOptions};
 use crate::js::to_js;
-use crate::profile::{Metric, Source};
 
 /// How copies are arranged if nothing else is asked for.
 #[wasm_bindgen(unchecked_return_type = "Required<Arranging>")]

@@ -2,8 +2,8 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::super::tiles::Region;
-use super::super::{Adapters, Method};
+use super::tiles::Region;
+use super::{Adapters, Method};
 use crate::ldi::layout::Tile;
 use crate::ldi::projection::STEPS;
 use crate::ldi::{GpuFault, LdiError};

@@ -1,31 +1,27 @@
-//! The library in the browser: the only module that exports to it.
-//!
-//! Errors are thrown as `{ code, message, detail }`; see [`crate::job::Error`].
+//! The slicer in the browser. Errors are those of [`cusp_slicer::job::Error`].
 
 mod plate;
 
 use std::io::{self, BufWriter, Write};
 use std::ops::ControlFlow;
 
+use cusp_slicer::archive::{self, ArchiveError, Canvas};
+use cusp_slicer::format::Format;
+use cusp_slicer::inspect::Limits;
+use cusp_slicer::job::{self, Calibration, Error, Options, OptionsError, Stage};
+use cusp_slicer::mask::LayerRuns;
+use cusp_slicer::model::read::{self, HEAD_BYTES};
+use cusp_slicer::model::{FacetClass, weights};
+use cusp_slicer::orientation::packed::{pack, unpack};
+use cusp_slicer::orientation::{Search, SearchOptions, Task, TaskResult};
+use cusp_slicer::price::{PriceItem, Prices};
+use cusp_slicer::printer::PRINTERS;
+use cusp_slicer::profile::{Metric, Source};
 use js_sys::{Function, Uint8Array};
 use tsify::Ts;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
-use crate::archive::{self, ArchiveError, Canvas};
-use crate::format::Format;
-use crate::inspect::Limits;
-use crate::job::{self, Calibration, Error, Options, OptionsError, Stage};
 use crate::js::{thrown, to_js};
-use crate::ldi::gpu;
-use crate::mask::LayerRuns;
-use crate::model::read::{self, HEAD_BYTES};
-use crate::model::{FacetClass, FileFacts, weights};
-use crate::orientation::packed::{pack, unpack};
-use crate::orientation::{Search, SearchOptions, Task, TaskResult};
-use crate::prepare;
-use crate::price::{PriceItem, Prices};
-use crate::printer::PRINTERS;
-use crate::profile::{Metric, Source};
 
 /// What every function here throws: the code and the typed details of an [`Error`], and one sentence that says what to do.
 ///
@@ -87,41 +83,6 @@ pub fn head_bytes() -> usize {
     HEAD_BYTES
 }
 
-/// A GPU that the module for GPUs has opened, and the function that opens one.
-#[wasm_bindgen(typescript_custom_section)]
-const OPEN_GPU: &str = r"
-export interface OpenGpu {
-  name(): string;
-  peels(): boolean;
-  is_emulated(): boolean;
-  find(
-    vertices: Float32Array,
-    vertices_of: Uint32Array,
-    grid: Float64Array,
-    side: number,
-    peels: boolean,
-    progress: (fraction: number) => boolean,
-  ): Promise<Uint32Array[]>;
-}
-";
-
-/// Opens GPUs by `open` from now on: the module that does is fetched when a plan wants a GPU. It is told whether the GPU must
-/// be hardware, and rejects with a `CuspError`.
-#[wasm_bindgen]
-pub fn open_gpus_by(
-    #[wasm_bindgen(unchecked_param_type = "(hardware: boolean) => Promise<OpenGpu>")]
-    open: Function,
-) {
-    gpu::open_by(open);
-}
-
-/// Has plans hollow and support models from now on. The module's later part, which this export belongs to, has what that takes: call
-/// it once that part is there, and fetch it before a plan with `hollow` or `supports`.
-#[wasm_bindgen]
-pub fn later_arrived() {
-    prepare::arrive();
-}
-
 /// The printers known by name.
 #[wasm_bindgen(unchecked_return_type = "Printer[]")]
 pub fn printers() -> JsValue {
@@ -143,7 +104,7 @@ pub struct OrientationSearch {
 
 #[wasm_bindgen]
 impl OrientationSearch {
-    /// A search whose candidates are already measured, as numbers: see [`packed`](crate::orientation::packed). It rates them again and
+    /// A search whose candidates are already measured, as numbers: see [`packed`](cusp_slicer::orientation::packed). It rates them again and
     /// refines the best.
     ///
     /// # Errors
@@ -206,39 +167,19 @@ impl OrientationSearch {
     }
 }
 
-impl Slicer {
-    fn of(slicer: job::Slicer) -> Self {
-        Self {
-            slicer,
-            preview_density: Vec::new(),
-        }
-    }
-}
-
 #[wasm_bindgen]
 impl Slicer {
-    /// Reads an STL, binary or ASCII.
+    /// Reads an STL, a 3MF or an OBJ.
     ///
     /// # Errors
-    /// Throws a `CuspError` if the bytes are not a usable STL.
+    /// Throws a `CuspError` if the bytes are not a usable model.
     #[wasm_bindgen(constructor)]
-    pub fn new(stl: &[u8]) -> Result<Slicer, JsValue> {
-        job::Slicer::load(stl).map(Self::of).map_err(throw)
-    }
-
-    /// A model that the module for other formats has read: nine coordinates per triangle, and what else its file tells.
-    ///
-    /// # Errors
-    /// Throws a `CuspError` if the triangles are no usable model.
-    #[expect(
-        clippy::needless_pass_by_value,
-        reason = "values from JavaScript come by value"
-    )]
-    pub fn of_triangles(coordinates: &[f32], facts: Ts<FileFacts>) -> Result<Slicer, JsValue> {
-        let facts = facts.to_rust().map_err(throw_conversion)?;
-        let (triangles, _) = coordinates.as_chunks::<9>();
-        let slicer = job::Slicer::of_triangles(bytemuck::cast_slice(triangles), facts);
-        slicer.map(Self::of).map_err(throw)
+    pub fn new(file: &[u8]) -> Result<Slicer, JsValue> {
+        let slicer = job::Slicer::load(file).map_err(throw)?;
+        Ok(Self {
+            slicer,
+            preview_density: Vec::new(),
+        })
     }
 
     /// Vertex positions of the surface facets, nine numbers per facet, in millimetres, in the file's frame.
@@ -578,7 +519,9 @@ pub fn encode_group(format: Ts<Format>, canvas: &[u32], runs: &[u32]) -> Result<
     let format = format.to_rust().map_err(throw_conversion)?;
     let given = (canvas, LayerRuns::of_words(runs));
     let (&[columns, rows, antialias], Some(runs)) = given else {
-        return Err(throw(ArchiveError::write("the runs of layers were cut")));
+        return Err(throw(ArchiveError::from(io::Error::other(
+            "the runs of layers were cut",
+        ))));
     };
     let canvas = Canvas {
         pixels: [columns, rows],

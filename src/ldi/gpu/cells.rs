@@ -1,7 +1,7 @@
 //! The cells of a tile: squares of rays, each with a list of the facets over it. Depth peeling draws cell by cell, so each
 //! is drawn only as often as its own deepest ray needs.
 
-use super::super::tiles::Region;
+use super::tiles::Region;
 use crate::ldi::layout::{CELL_FACETS, Cell};
 use crate::ldi::projection::Projection;
 use crate::model::FacetLists;

@@ -1,7 +1,7 @@
 //! The rows of a tile: hits counted for each ray, and the prefix sum (shaders/scan.wgsl) that turns them into offsets.
 
-use super::super::tiles::Region;
 use super::device::{Gpu, WORD};
+use super::tiles::Region;
 use crate::ldi::LdiError;
 use crate::ldi::layout::SCAN_BLOCK;
 
@@ -64,7 +64,7 @@ impl Scan {
     pub fn new(gpu: &Gpu) -> Self {
         let module = gpu
             .device
-            .create_shader_module(wgpu::include_wgsl!("../../../../shaders/scan.wgsl"));
+            .create_shader_module(wgpu::include_wgsl!("../../../shaders/scan.wgsl"));
         Self(
             ["scan_blocks", "scan_totals", "add_totals"]
                 .map(|step| gpu.compute_pipeline(&module, step)),

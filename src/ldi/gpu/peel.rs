@@ -7,12 +7,12 @@
 
 use rustc_hash::FxHashMap;
 
-use super::super::failed;
-use super::super::tiles::{Meetings, Region};
 use super::cells::{Cells, LEAST_SIDE};
 use super::device::{Gpu, WORD};
+use super::failed;
 use super::layers::{ALL, FACET_BYTES, Layers, clear, render_pipeline};
 use super::scan::{Rows, Scan};
+use super::tiles::{Meetings, Region};
 use crate::ldi::layout::{COLLECT, Cell};
 use crate::ldi::projection::Projection;
 use crate::ldi::{GpuFault, LdiError};
@@ -47,7 +47,7 @@ impl<'a> Peeler<'a> {
             .filter(|&facet| projection.outline(facet).is_some());
         let collect = gpu
             .device
-            .create_shader_module(wgpu::include_wgsl!("../../../../shaders/collect.wgsl"));
+            .create_shader_module(wgpu::include_wgsl!("../../../shaders/collect.wgsl"));
         Self {
             gpu,
             projection,

@@ -1,8 +1,8 @@
 //! The textures that depth peeling draws on (shaders/peel.wgsl): two layers of a tile, which passes read and write in turn.
 
-use super::super::tiles::Region;
 use super::cells::Cells;
 use super::device::Gpu;
+use super::tiles::Region;
 use crate::ldi::layout::PEEL;
 use crate::ldi::projection::Projection;
 

@@ -1,9 +1,9 @@
 //! Samples one tile in two passes over the mesh (shaders/fill.wgsl), with a prefix sum between them.
 
-use super::super::failed;
-use super::super::tiles::{Meetings, Region};
 use super::device::{Gpu, WORD};
+use super::failed;
 use super::scan::{Rows, Scan};
+use super::tiles::{Meetings, Region};
 use crate::ldi::layout::FILL;
 use crate::ldi::projection::Projection;
 use crate::ldi::{GpuFault, LdiError};

@@ -1,6 +1,6 @@
 //! Cuts a grid into tiles.
 
-use super::super::tiles::Region;
+use super::tiles::Region;
 use crate::grid::Grid;
 
 impl Region {

@@ -1,4 +1,4 @@
-//! Values and errors as JavaScript has them, for all WebAssembly modules.
+//! Values and errors as JavaScript has them.
 
 use std::fmt::Display;
 

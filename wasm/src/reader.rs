@@ -1,15 +1,12 @@
-//! Print files in the browser: a module of its own, which the page fetches when somebody opens one.
-//!
-//! Errors are thrown as `{ code, message, detail }`.
-
-#![cfg(target_arch = "wasm32")]
+//! Print files in the browser. The page fetches this module when somebody opens one.
 
 use std::ops::ControlFlow;
 
 use cusp_slicer::archive::read::{Inspection, Mask, Preview, PrintFile, inspect_masks, surface};
-use cusp_slicer::js::{thrown, to_js};
 use js_sys::{Function, Reflect, Uint8ClampedArray};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
+
+use crate::js::{thrown, to_js};
 
 /// What every function here throws.
 #[wasm_bindgen(typescript_custom_section)]
