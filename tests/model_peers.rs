@@ -18,7 +18,10 @@ use libtest_mimic::{Arguments, Completion, Failed, Trial};
 use serde_json::Value;
 use tempfile::TempDir;
 
-const WRITER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/peers/python/models.py");
+const WRITER: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/tests/interop/python/models.py"
+);
 const PRUSA_SLICER: &str = "prusa-slicer";
 
 type Test = fn() -> Result<(), Failed>;

@@ -20,7 +20,10 @@ use cusp_slicer::progress::silent;
 use libtest_mimic::{Arguments, Completion, Failed, Trial};
 use serde_json::json;
 
-const SCRIPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/peers/python/printability.py");
+const SCRIPT: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/tests/interop/python/printability.py"
+);
 
 /// Pixels of the longer side of a solid.
 const PIXELS: f64 = 60.0;

@@ -45,8 +45,8 @@ fn check(project: &Project, names: &[String], build: &Build<'_>) -> Result<bool>
             process::run(cargo(project).args(["fmt", "--all", "--check"]))
         }),
         // Clippy would have to compile all that its tests need a second time.
-        ("fmt of peers", &|| {
-            format_apart(project, "peers/Cargo.toml")
+        ("fmt of interop", &|| {
+            format_apart(project, "tests/interop/Cargo.toml")
         }),
         ("fmt of fuzz", &|| format_apart(project, "fuzz/Cargo.toml")),
         // Nothing else compiles it: it needs a nightly compiler to run.

@@ -59,7 +59,7 @@ enum Command {
     Build,
     /// Build the npm package (www/dist-package) and the crate, and check what would be published: contents, sizes, links, documentation
     Package,
-    /// Run every test: native, counts, peers, GPU, wasm in a browser, page, end to end, cluster
+    /// Run every test: native, counts, interop, GPU, wasm in a browser, page, end to end, cluster
     Test {
         /// Run only these steps
         #[arg(value_name = "STEP")]

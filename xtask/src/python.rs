@@ -23,7 +23,7 @@ pub fn example(project: &Project) -> PathBuf {
 
 /// The folder of the peers that are in Python.
 pub fn peers(project: &Project) -> PathBuf {
-    project.root.join("peers/python")
+    project.root.join("tests/interop/python")
 }
 
 /// The Python of a virtual environment with exactly the packages that the

@@ -36,8 +36,8 @@ pub enum Step {
     Native,
     /// Instructions, allocations and bytes of print files, against benches/counts.json
     Counts,
-    /// Print files, read by the crates of others (peers/)
-    Peers,
+    /// Print files, read by the crates of others (tests/interop/)
+    Interop,
     /// The GPU tests once more, on the Vulkan driver that Chromium ships
     Gpu,
     /// Build the wasm package and the page
@@ -117,7 +117,7 @@ impl Step {
                 cargo_test(&mut cargo, scratch)
             }
             Self::Counts => counts::run(project, scratch),
-            Self::Peers => cargo_test(&mut peers(project), scratch),
+            Self::Interop => cargo_test(&mut interop(project), scratch),
             Self::Gpu => {
                 ensure_vulkan();
                 gpu_on_swiftshader(project, scratch)
@@ -188,12 +188,12 @@ fn vitest(
 
 /// A workspace of its own, so its features and profiles differ, and what it builds
 /// is kept apart.
-fn peers(project: &Project) -> Command {
+fn interop(project: &Project) -> Command {
     let mut cargo = process::cargo(project);
     cargo
         .args(["test", "--no-fail-fast", "--manifest-path"])
-        .arg(project.root.join("peers/Cargo.toml"))
-        .env("CARGO_TARGET_DIR", project.target.join("peers"));
+        .arg(project.root.join("tests/interop/Cargo.toml"))
+        .env("CARGO_TARGET_DIR", project.target.join("interop"));
     cargo
 }
 

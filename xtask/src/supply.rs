@@ -20,7 +20,7 @@ const RULES: &str = "deny.toml";
 const WORKSPACES: [(&str, &[&str]); 3] = [
     ("Cargo.toml", &["bans", "licenses", "sources"]),
     ("fuzz/Cargo.toml", &["licenses", "sources"]),
-    ("peers/Cargo.toml", &["licenses", "sources"]),
+    ("tests/interop/Cargo.toml", &["licenses", "sources"]),
 ];
 
 /// npm packages that build and test, of which nothing is shipped, with licences that no other package may have.
