@@ -1,12 +1,8 @@
 //! The LDI on the CPU: closed forms, a naive intersector, symmetries, and rays that do not close.
 
-#![cfg(not(target_arch = "wasm32"))]
-
-mod common;
-
 use std::ops::ControlFlow;
 
-use common::{assert_near, on_plate, oracle, sample, solids};
+use crate::common::{assert_near, on_plate, oracle, sample, solids};
 use cusp_slicer::grid::{Bins, Grid};
 use cusp_slicer::ldi::visibility::visibility;
 use cusp_slicer::ldi::{Hit, Ldi, LdiError, RayImage, Survey, cpu, model_ranges, printed_ranges};

@@ -11,8 +11,8 @@ use cusp_slicer::progress::silent;
 use cusp_slicer::resin::Resin;
 use glam::Vec3;
 
+use super::read_back::{greys, kept, own, slice};
 use crate::common::{assert_near, solids};
-use crate::read_back::{greys, kept, own, slice};
 
 fn to(format: Format) -> Target {
     Target {

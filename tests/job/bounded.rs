@@ -17,8 +17,8 @@ use cusp_slicer::progress::silent;
 use cusp_slicer::resin::Resin;
 use glam::Vec3;
 
+use super::{load, plan};
 use crate::common::{on_plate, quiet, solids};
-use crate::{load, plan};
 
 /// Fine enough for several slabs within the least memory.
 fn options() -> Options {

@@ -7,7 +7,7 @@ use cusp_slicer::warning::Warning;
 use glam::Vec3;
 use std::io::Cursor;
 
-use crate::{code, load, options, plan};
+use super::{code, load, options, plan};
 
 #[test]
 fn output_that_would_be_black_is_an_error() {

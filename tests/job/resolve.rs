@@ -6,7 +6,7 @@ use cusp_slicer::job::{Minimize, Options, OptionsError, Planner};
 use cusp_slicer::plan::{HeightRange, PlanError};
 use std::ops::ControlFlow;
 
-use crate::{code, load, options, plan};
+use super::{code, load, options, plan};
 
 #[test]
 fn options_that_no_model_could_make_good_are_refused_before_sampling() {

@@ -5,8 +5,8 @@ use cusp_slicer::job::{Options, Slicer};
 use cusp_slicer::orientation::{Exclusion, Metrics, Quality, Search, SearchOptions};
 use glam::{DVec3, Quat, Vec3};
 
-use super::common::{assert_near, quiet};
 use super::{few, measure, metrics, options, slicer, solids, turned};
+use crate::common::{assert_near, quiet};
 
 /// A square vessel on z = 0, open at the top.
 fn vessel(side: f32, height: f32, wall: f32) -> solids::Triangles {

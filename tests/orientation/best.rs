@@ -8,7 +8,7 @@ use cusp_slicer::orientation::{
 use glam::{DVec3, Quat, Vec3};
 use std::ops::ControlFlow;
 
-use crate::{
+use super::{
     bean, degrees_between, degrees_off, few, measure, options, orient, slicer, tilt, turned,
 };
 

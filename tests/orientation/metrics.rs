@@ -7,7 +7,7 @@ use cusp_slicer::prepare::{SupportStrength, Supporting};
 use cusp_slicer::profile::Metric;
 use glam::{DQuat, DVec3, Vec3};
 
-use crate::{bean, few, measure, metrics, options, orient, slicer};
+use super::{bean, few, measure, metrics, options, orient, slicer};
 
 #[test]
 fn candidates_are_what_a_preview_in_their_pose_shows() {

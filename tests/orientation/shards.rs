@@ -5,7 +5,7 @@ use cusp_slicer::Error;
 use cusp_slicer::job::{Options, OrientationPart, OrientationReport};
 use cusp_slicer::orientation::shard::{MergeError, Shard};
 
-use crate::{bean, few, options, orient, slicer};
+use super::{bean, few, options, orient, slicer};
 
 fn parts(model: &solids::Triangles, count: usize) -> Vec<OrientationPart> {
     (1..=count)

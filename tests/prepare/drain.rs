@@ -7,8 +7,8 @@ use cusp_slicer::prepare::{AutoDrain, Drain, Hollowing, plugs};
 use cusp_slicer::warning::Warning;
 use glam::Vec3;
 
+use super::{hollowed, plan, slicer};
 use crate::common::{assert_near, quiet, solids};
-use crate::{hollowed, plan, slicer};
 
 /// A hole of 3 mm into the side of a cube of 20 mm.
 const SIDE: Drain = Drain {

@@ -10,8 +10,8 @@ use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::warning::Warning;
 use glam::Vec3;
 
+use super::{hollowed, plan, slicer};
 use crate::common::{assert_near, quiet, solids};
-use crate::{hollowed, plan, slicer};
 
 #[test]
 fn a_hollow_model_has_the_planes_of_the_solid_one() {

@@ -11,8 +11,8 @@ use cusp_slicer::progress::silent;
 use cusp_slicer::warning::Warning;
 use glam::{DVec3, Vec3};
 
+use super::{plan, slicer};
 use crate::common::{assert_near, on_plate, quiet, solids};
-use crate::{plan, slicer};
 
 fn supported(supporting: Supporting) -> Options {
     Options {

@@ -6,9 +6,9 @@ use cusp_slicer::profile::Metric;
 use cusp_slicer::simulation::{Knowledge, Simulation};
 use glam::Vec3;
 
+use super::measured;
 use crate::common::solids::{self, Triangles};
 use crate::common::{binary_stl, quiet};
-use crate::measured;
 
 fn options() -> Options {
     Options {

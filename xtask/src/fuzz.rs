@@ -207,7 +207,7 @@ fn table(outcomes: &[Outcome]) -> String {
         };
         match found {
             Some(path) => line(format_args!(
-                "failed: {target}: {}\n  Put it into fuzz/seeds/{target}/ and `cargo test --test fuzz` replays it.",
+                "failed: {target}: {}\n  Put it into fuzz/seeds/{target}/ and `cargo test --test main fuzz::` replays it.",
                 path.display()
             )),
             None => line(format_args!("failed: {target}: {failure}")),

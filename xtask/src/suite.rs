@@ -209,7 +209,7 @@ fn gpu_on_swiftshader(project: &Project, scratch: &Path) -> Result<(Verdict, Tal
     };
     cargo_test(
         process::cargo(project)
-            .args(["test", "--workspace", "--test", "gpu"])
+            .args(["test", "--workspace", "--test", "external", "gpu::"])
             // The loader's older and newer name for the same thing.
             .env("VK_ICD_FILENAMES", &driver)
             .env("VK_DRIVER_FILES", &driver),

@@ -1,11 +1,7 @@
 //! Planners, against closed forms and naive oracles.
 
-#![cfg(not(target_arch = "wasm32"))]
-
 mod baselines;
 mod cases;
-#[path = "../common/mod.rs"]
-mod common;
 mod gradual;
 mod largest;
 mod least_sum;

@@ -1,14 +1,10 @@
 //! Several models in one job: arranging, planning for all, and masks of copies, against the models alone and naive oracles.
 
-#![cfg(not(target_arch = "wasm32"))]
-
 mod arranging;
-#[path = "../common/mod.rs"]
-mod common;
 mod masks;
 mod sharing;
 
-use common::{binary_stl, quiet, solids};
+use crate::common::{binary_stl, quiet, solids};
 use cusp_slicer::Error;
 use cusp_slicer::job::{Backend, ModelOptions, Options, Plate, PlateOptions, PlatesReport, Slicer};
 use cusp_slicer::prepare::{SupportProfile, SupportStrength, Supporting};

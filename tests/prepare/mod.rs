@@ -1,7 +1,5 @@
 //! Hollowing and drain holes against closed forms, naive distances and the checks.
 
-#[path = "../common/mod.rs"]
-mod common;
 mod drain;
 mod hollow;
 mod jobs;
@@ -11,7 +9,7 @@ use cusp_slicer::job::{Options, Report, Slicer};
 use cusp_slicer::prepare::Hollowing;
 use glam::Vec3;
 
-use common::{quiet, solids};
+use crate::common::{quiet, solids};
 
 /// Options that hollow a model, with pixels of 0.1 mm.
 fn hollowed(hollow: Hollowing) -> Options {
