@@ -20,7 +20,7 @@ fn searches_and_bounded_jobs_take_the_memory_that_they_say() {
 /// Within the least memory that it says it can do with, and within more, where it holds more layers at a time.
 fn a_job_takes_no_more_memory_than_it_may() {
     let stl = binary_stl(&solids::sphere(20.0, 7));
-    for (pixels, antialias) in [(4000, 1), (1500, 4)] {
+    for (pixels, antialias) in [(3000, 1), (1000, 4)] {
         let options = Options {
             pixels: Some([pixels; 2]),
             pitch_mm: Some(50.0 / f64::from(pixels)),

@@ -187,7 +187,7 @@ fn pillars_keep_clear_of_the_model() {
         let contacts = supports.points.iter().chain(&supports.unreached);
         let contacts: Vec<DVec3> = contacts.map(|it| DVec3::from_array(it.at_mm)).collect();
         let mut nearest_mm = f64::INFINITY;
-        for &vertex in supports.shell.vertices.iter().step_by(3) {
+        for &vertex in supports.shell.vertices.iter().step_by(7) {
             let vertex = vertex.as_dvec3();
             let is_tip = |at: &DVec3| at.distance(vertex) < profile.tip_mm + profile.pillar_mm;
             if !contacts.iter().any(is_tip) {

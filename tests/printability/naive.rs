@@ -168,7 +168,7 @@ fn random_hollows(rng: &mut fastrand::Rng, pitch_mm: [f64; 2]) -> solids::Triang
 #[test]
 pub fn random_hollows_have_the_findings_of_brute_force() {
     let mut escapes = 0;
-    for seed in 0..200 {
+    for seed in 0..100 {
         let rng = &mut fastrand::Rng::with_seed(seed);
         let (masks, plan) = random_masks(rng, random_hollows);
         let pitch_mm = masks.grid.pitch_mm;
@@ -181,7 +181,7 @@ pub fn random_hollows_have_the_findings_of_brute_force() {
         let found = inspect(&masks, &plan, &limits, &Held::default(), &mut silent).unwrap();
         escapes += super::of_code(&found, Code::SmallEscape).len();
     }
-    assert!(escapes > 50, "{escapes} small escapes in all");
+    assert!(escapes > 25, "{escapes} small escapes in all");
 }
 
 #[test]
