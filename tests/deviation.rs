@@ -1,7 +1,7 @@
 //! The deviation: its definition against a naive oracle, its bound against distances that are measured, and normal cones against
 //! closed forms.
 
-use crate::common::{assert_near, binary_stl, on_plate, quiet, solids};
+use crate::common::{assert_near, binary_stl, bins, on_plate, quiet, solids};
 use cusp_slicer::grid::Bins;
 use cusp_slicer::job::{Backend, Options, Slicer};
 use cusp_slicer::plan::optimal::{Objective, fill_cheapest};
@@ -13,14 +13,6 @@ use cusp_slicer::profile::facet_bins::FacetBins;
 use cusp_slicer::profile::normal_cones::{cones, maxima};
 use cusp_slicer::profile::{LayerErrors, Metric, Reach, Source, steepest};
 use glam::{DVec2, Vec3};
-
-/// Bins of 1 mm.
-fn bins(count: usize) -> Bins {
-    Bins {
-        count,
-        size_mm: 1.0,
-    }
-}
 
 fn errors(steepest: &[f32]) -> LayerErrors {
     LayerErrors::Deviation(DeviationError::new(steepest, bins(steepest.len())))

@@ -15,12 +15,25 @@ use std::env;
 use std::ops::ControlFlow;
 use std::process::Command;
 
-use cusp_slicer::grid::Grid;
-use cusp_slicer::job::Stage;
+use cusp_slicer::grid::{Bins, Grid};
+use cusp_slicer::job::{Slicer, Stage};
 use cusp_slicer::ldi::{Ldi, cpu};
 use cusp_slicer::model::{Mesh, Pose};
 use cusp_slicer::progress::silent;
 use glam::Vec3;
+
+/// A slicer of the model that a file of these triangles has.
+pub fn load(triangles: &[[Vec3; 3]]) -> Slicer {
+    Slicer::load(&binary_stl(triangles)).unwrap()
+}
+
+/// Bins of 1 mm.
+pub fn bins(count: usize) -> Bins {
+    Bins {
+        count,
+        size_mm: 1.0,
+    }
+}
 
 /// A mesh of these triangles, on the plate.
 pub fn on_plate(triangles: &[[Vec3; 3]]) -> Mesh {

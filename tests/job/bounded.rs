@@ -17,8 +17,8 @@ use cusp_slicer::progress::silent;
 use cusp_slicer::resin::Resin;
 use glam::Vec3;
 
-use super::{load, plan};
-use crate::common::{on_plate, quiet, solids};
+use super::plan;
+use crate::common::{load, on_plate, quiet, solids};
 
 /// Fine enough for several slabs within the least memory.
 fn options() -> Options {
@@ -149,7 +149,7 @@ fn metrics_of_areas_and_weights_are_measured_anew() {
 #[test]
 fn a_plate_of_models_and_copies_is_the_same() {
     let models = [crowd(), solids::cube(6.0)];
-    let plate = || Plate::new(models.iter().map(load).collect());
+    let plate = || Plate::new(models.iter().map(|it| load(it)).collect());
     let job = PlateOptions {
         options: Options {
             pixels: Some([2400, 1200]),

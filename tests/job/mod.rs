@@ -5,7 +5,7 @@ mod numbers;
 mod promises;
 mod resolve;
 
-use crate::common::{binary_stl, quiet, solids};
+use crate::common::{binary_stl, load, quiet, solids};
 use cusp_slicer::Error;
 use cusp_slicer::format::Format;
 use cusp_slicer::job::{Backend, Options, Report, Slicer, Stage};
@@ -19,10 +19,6 @@ fn options() -> Options {
         backend: Backend::Cpu,
         ..Options::default()
     }
-}
-
-fn load(triangles: &solids::Triangles) -> Slicer {
-    Slicer::load(&binary_stl(triangles)).unwrap()
 }
 
 fn plan(slicer: &mut Slicer, options: &Options) -> Result<Report, Error> {

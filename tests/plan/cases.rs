@@ -4,7 +4,8 @@ use cusp_slicer::plan::segment::Segments;
 use cusp_slicer::plan::{HeightRange, Limits, Plan, PlanError};
 use cusp_slicer::profile::LayerErrors;
 
-use super::{bins, limits, random_errors};
+use super::{limits, random_errors};
+use crate::common::bins;
 use crate::common::oracle::Rules;
 
 /// A model of bins of 1 mm with limits.

@@ -6,8 +6,8 @@ use cusp_slicer::plan::PlanError;
 use cusp_slicer::profile::{Metric, Source};
 use glam::Vec3;
 
-use super::{job, load, options, plan, plate};
-use crate::common::{assert_near, quiet, solids};
+use super::{job, options, plan, plate};
+use crate::common::{assert_near, load, quiet, solids};
 
 #[test]
 fn copies_cost_the_rays_of_one() {

@@ -7,9 +7,8 @@ mod support;
 
 use cusp_slicer::job::{Options, Report, Slicer};
 use cusp_slicer::prepare::Hollowing;
-use glam::Vec3;
 
-use crate::common::{quiet, solids};
+use crate::common::quiet;
 
 /// Options that hollow a model, with pixels of 0.1 mm.
 fn hollowed(hollow: Hollowing) -> Options {
@@ -18,10 +17,6 @@ fn hollowed(hollow: Hollowing) -> Options {
         pitch_mm: Some(0.1),
         ..Options::default()
     }
-}
-
-fn slicer(triangles: &[[Vec3; 3]]) -> Slicer {
-    Slicer::load(&solids::binary_stl(triangles)).unwrap()
 }
 
 fn plan(slicer: &mut Slicer, options: &Options) -> Report {
